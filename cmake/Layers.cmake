@@ -1,0 +1,29 @@
+# One static library per folder. The folder is the registry of its units: every .cpp in it is built.
+
+add_library(dotek_options INTERFACE)
+target_compile_options(dotek_options INTERFACE
+  -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Werror -ffp-contract=off)
+target_include_directories(dotek_options INTERFACE ${CMAKE_SOURCE_DIR})
+if(DOTEK_SANITIZE)
+  target_compile_options(dotek_options INTERFACE
+    -O1 -fno-omit-frame-pointer -fsanitize=address,undefined -fno-sanitize-recover=all)
+  target_link_options(dotek_options INTERFACE -fsanitize=address,undefined)
+endif()
+if(DOTEK_FUZZ)
+  target_compile_options(dotek_options INTERFACE -fsanitize=fuzzer-no-link)
+endif()
+
+# dotek_layer(<folder> LINK <public>... PRIVATE_LINK <private>... SOURCES <generated>...)
+function(dotek_layer folder)
+  cmake_parse_arguments(ARG "" "" "LINK;PRIVATE_LINK;SOURCES" ${ARGN})
+  string(REPLACE "/" "_" name ${folder})
+  file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/${folder}/[A-Za-z]*.cpp)
+  set(sources ${sources} ${ARG_SOURCES})
+  if(sources)
+    add_library(dotek_${name} STATIC ${sources})
+    target_link_libraries(dotek_${name} PUBLIC ${ARG_LINK} PRIVATE dotek_options ${ARG_PRIVATE_LINK})
+  else()
+    add_library(dotek_${name} INTERFACE)
+    target_link_libraries(dotek_${name} INTERFACE ${ARG_LINK})
+  endif()
+endfunction()

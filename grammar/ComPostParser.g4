@@ -1,0 +1,3 @@
+parser grammar ComPostParser;
+options { tokenVocab = ComPostLexer; }
+item : ANY ;

@@ -1,0 +1,3 @@
+parser grammar GibbsMacroParser;
+options { tokenVocab = GibbsMacroLexer; }
+item : ANY ;

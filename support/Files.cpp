@@ -1,0 +1,103 @@
+#include "support/Files.h"
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <system_error>
+#include <unistd.h>
+
+namespace dotek {
+
+namespace fs = std::filesystem;
+
+std::optional<std::string> readBytes(const std::string& path, const Limits& limits, Diagnostics& diagnostics) {
+  std::error_code error;
+  const fs::file_status status = fs::status(path, error);
+  if (!fs::exists(status)) {
+    diagnostics.report<diag::FileNotFound>({}, path);
+    return std::nullopt;
+  }
+  if (fs::is_directory(status)) {
+    diagnostics.report<diag::FileNotReadable>({}, path, "it is a folder");
+    return std::nullopt;
+  }
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"), &std::fclose);
+  if (!file) {
+    diagnostics.report<diag::FileNotReadable>({}, path, std::strerror(errno));
+    return std::nullopt;
+  }
+  std::string bytes;
+  char buffer[65536];
+  while (const std::size_t n = std::fread(buffer, 1, sizeof buffer, file.get())) {
+    bytes.append(buffer, n);
+    if (bytes.size() > limits.inputBytes) {
+      diagnostics.report<diag::FileTooLarge>({}, path, limits.inputBytes);
+      return std::nullopt;
+    }
+  }
+  if (std::ferror(file.get()) != 0) {
+    diagnostics.report<diag::FileNotReadable>({}, path, std::strerror(errno));
+    return std::nullopt;
+  }
+  return bytes;
+}
+
+std::optional<FileId> readText(const std::string& path, Encoding fallback, std::optional<Encoding> forced,
+                               const Limits& limits, SourceMap& sources, Diagnostics& diagnostics) {
+  std::optional<std::string> bytes = readBytes(path, limits, diagnostics);
+  if (!bytes) return std::nullopt;
+  return addText(path, std::move(*bytes), fallback, forced, sources, diagnostics);
+}
+
+std::optional<FileId> addText(std::string name, std::string bytes, Encoding fallback,
+                              std::optional<Encoding> forced, SourceMap& sources, Diagnostics& diagnostics) {
+  if (bytes.starts_with("\xFF\xFE") || bytes.starts_with("\xFE\xFF")) {
+    const FileId id = sources.add(SourceFile(std::move(name), "", Encoding::Utf8));
+    diagnostics.report<diag::Utf16Input>({id, 0, 0});
+    return std::nullopt;
+  }
+  const Encoding encoding = forced ? *forced : isUtf8(bytes) ? Encoding::Utf8 : fallback;
+  const std::size_t nul = bytes.find('\0');
+  const FileId id = sources.add(SourceFile(std::move(name), std::move(bytes), encoding));
+  if (nul != std::string::npos) {
+    const std::string& text = sources.file(id).bytes();
+    const auto at = static_cast<std::uint32_t>(text.find('\0'));
+    // Every second byte NUL is UTF-16 without its mark.
+    const bool wide = text.size() > 3 && (text[1] == '\0' || text[0] == '\0') && (text[3] == '\0' || text[2] == '\0');
+    if (wide) diagnostics.report<diag::Utf16Input>({id, 0, 0});
+    else diagnostics.report<diag::NulByte>({id, at, at + 1});
+    return std::nullopt;
+  }
+  if (encoding == Encoding::Utf8 && !isUtf8(sources.file(id).bytes())) {
+    diagnostics.report<diag::NotUtf8>({id, 0, 0});
+    return std::nullopt;
+  }
+  return id;
+}
+
+bool writeAtomically(const std::string& path, const std::string& bytes, Diagnostics& diagnostics) {
+  const std::string temporary = path + ".dotek-" + std::to_string(getpid());
+  {
+    std::ofstream out(temporary, std::ios::binary);
+    out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+    out.flush();
+    if (!out) {
+      diagnostics.report<diag::FileNotWritable>({}, path, std::strerror(errno));
+      std::remove(temporary.c_str());
+      return false;
+    }
+  }
+  std::error_code error;
+  fs::rename(temporary, path, error);
+  if (error) {
+    diagnostics.report<diag::FileNotWritable>({}, path, error.message());
+    std::remove(temporary.c_str());
+    return false;
+  }
+  return true;
+}
+
+} // namespace dotek

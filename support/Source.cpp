@@ -1,0 +1,72 @@
+#include "support/Source.h"
+
+#include <algorithm>
+
+namespace dotek {
+
+SourceRange spanning(SourceRange a, SourceRange b) {
+  if (!a.hasPlace()) return b;
+  if (!b.hasPlace()) return a;
+  return {a.file, std::min(a.begin, b.begin), std::max(a.end, b.end)};
+}
+
+SourceFile::SourceFile(std::string name, std::string bytes, Encoding encoding)
+    : name_(std::move(name)), bytes_(std::move(bytes)), encoding_(encoding) {
+  if (bytes_.starts_with("\xEF\xBB\xBF")) bytes_.erase(0, 3);
+  lineStarts_.push_back(0);
+  for (std::size_t i = 0; i < bytes_.size(); ++i) {
+    const bool crlf = bytes_[i] == '\r' && i + 1 < bytes_.size() && bytes_[i + 1] == '\n';
+    if (bytes_[i] == '\n' || (bytes_[i] == '\r' && !crlf))
+      lineStarts_.push_back(static_cast<std::uint32_t>(i + 1));
+  }
+}
+
+std::uint32_t SourceFile::lineOf(std::uint32_t offset) const {
+  const auto next = std::upper_bound(lineStarts_.begin(), lineStarts_.end(), offset);
+  return static_cast<std::uint32_t>(next - lineStarts_.begin());
+}
+
+std::uint32_t SourceFile::lineStart(std::uint32_t line) const { return lineStarts_.at(line - 1); }
+
+std::string_view SourceFile::line(std::uint32_t line) const {
+  const std::uint32_t begin = lineStart(line);
+  const std::size_t end = line < lineCount() ? lineStarts_[line] : bytes_.size();
+  std::string_view text = std::string_view(bytes_).substr(begin, end - begin);
+  while (text.ends_with('\n') || text.ends_with('\r')) text.remove_suffix(1);
+  return text;
+}
+
+LineColumn SourceFile::place(std::uint32_t offset) const {
+  const std::uint32_t at = std::min(offset, static_cast<std::uint32_t>(bytes_.size()));
+  const std::uint32_t line = lineOf(at);
+  const std::uint32_t begin = lineStart(line);
+  const std::string_view before = std::string_view(bytes_).substr(begin, at - begin);
+  std::size_t column = before.size();
+  if (encoding_ == Encoding::Utf8) {
+    const std::string text = toUtf8(before, encoding_);
+    column = static_cast<std::size_t>(
+        std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xC0) != 0x80; }));
+  }
+  return {line, static_cast<std::uint32_t>(column + 1)};
+}
+
+FileId SourceMap::add(SourceFile file) {
+  files_.push_back(std::move(file));
+  return size() - 1;
+}
+
+std::string_view SourceMap::text(SourceRange range) const {
+  if (!range.hasPlace()) return {};
+  return std::string_view(file(range.file).bytes()).substr(range.begin, range.end - range.begin);
+}
+
+std::string SourceMap::textUtf8(SourceRange range) const {
+  if (!range.hasPlace()) return {};
+  return toUtf8(text(range), file(range.file).encoding());
+}
+
+std::uint32_t SourceMap::line(SourceRange range) const {
+  return range.hasPlace() ? file(range.file).lineOf(range.begin) : 0;
+}
+
+} // namespace dotek
