@@ -16,11 +16,13 @@ public:
   void sync(antlr4::Parser*) override {}
 
   void recover(antlr4::Parser* parser, std::exception_ptr) override {
+    if (staysEmpty(parser)) return;
     antlr4::TokenStream* input = parser->getTokenStream();
     while (input->LA(1) != antlr4::Token::EOF && !isStop(input->LA(1))) parser->consume();
   }
 
   void reportError(antlr4::Parser* parser, const antlr4::RecognitionException& error) override {
+    if (staysEmpty(parser)) return;
     antlr4::Token* offending = error.getOffendingToken();
     // A prediction that failed far ahead points at its first token; the furthest one is what does not fit.
     if (offending == nullptr) offending = parser->getCurrentToken();
@@ -34,6 +36,9 @@ public:
 
   bool singleTokenInsertion(antlr4::Parser* parser) override {
     const antlr4::misc::IntervalSet expected = getExpectedTokens(parser);
+    const std::vector<size_t>& anywhere = language_.insertableAnywhere;
+    if (std::any_of(anywhere.begin(), anywhere.end(), [&](size_t type) { return expected.contains(type); }))
+      return true;
     return std::any_of(language_.insertable.begin(), language_.insertable.end(), [&](size_t type) {
       return expected.contains(type) && isStop(parser->getTokenStream()->LA(1));
     });
@@ -43,6 +48,12 @@ private:
   bool isStop(size_t type) const {
     return type == antlr4::Token::EOF ||
            std::find(language_.unitStops.begin(), language_.unitStops.end(), type) != language_.unitStops.end();
+  }
+
+  bool staysEmpty(antlr4::Parser* parser) const {
+    if (parser->getContext() == nullptr) return false;
+    const std::vector<size_t>& rules = language_.emptyOnError;
+    return std::find(rules.begin(), rules.end(), parser->getContext()->getRuleIndex()) != rules.end();
   }
 
   void report(antlr4::Parser* parser, const antlr4::Token& offending) {
@@ -106,6 +117,7 @@ ParseSession::Unit ParseSession::runErased(const std::function<antlr4::ParserRul
   } catch (const antlr4::ParseCancellationException&) {
     diagnostics_.report<diag::NestingTooDeep>(rangeOf(file_, *input.LT(1)), limits_.nesting);
     strategy_->failed = true;
+    parser_.setContext(nullptr);
     strategy_->recover(&parser_, nullptr);
   }
   unit.failed = strategy_->failed;

@@ -44,6 +44,11 @@ struct Language {
   std::vector<size_t> unitStops;
   // Tokens that recovery may conjure (`isConjured` tells); the builder reports them, the shell does not.
   std::vector<size_t> insertable;
+  // Tokens that recovery may conjure before whatever stands there (a closing bracket).
+  std::vector<size_t> insertableAnywhere;
+  // Rules that, where they do not match, stay empty and consume nothing: the builder sees the missing part
+  // and reports it, the shell does not.
+  std::vector<size_t> emptyOnError;
   // Brackets and block keywords, counted before any parser runs.
   std::vector<size_t> opening;
   std::vector<size_t> closing;
@@ -73,8 +78,11 @@ public:
   antlr4::CommonTokenStream& stream() { return *stream_; }
   // All tokens that were kept, hidden ones too, in order; the last is EOF.
   const std::vector<const antlr4::Token*>& all() const { return all_; }
+  // Stretches whose tokens were dropped; each was reported.
+  const std::vector<SourceRange>& dropped() const { return dropped_; }
 
 private:
+  std::vector<SourceRange> dropped_;
   std::vector<const antlr4::Token*> all_;
   std::unique_ptr<antlr4::ListTokenSource> source_;
   std::unique_ptr<antlr4::CommonTokenStream> stream_;

@@ -82,20 +82,26 @@ TokenBuffer::TokenBuffer(antlr4::Lexer& lexer, FileId file, const SourceMap& sou
       dropping = false;
       depth = 0;
     }
-    if (dropping) continue;
+    if (dropping) {
+      dropped_.back().end = range.end;
+      continue;
+    }
     if (token->getChannel() == antlr4::Token::DEFAULT_CHANNEL) {
       const std::uint32_t here = source.lineOf(range.begin);
       onLine = here == line ? onLine + 1 : 1;
       line = here;
       if (onLine > limits.lineTokens) {
-        diagnostics.report<diag::TooManyTokens>(range, limits.lineTokens);
+        // A stop on the same line is dropped again, without a second message.
+        if (onLine == limits.lineTokens + 1) diagnostics.report<diag::TooManyTokens>(range, limits.lineTokens);
         dropping = true;
+        dropped_.push_back(range);
         continue;
       }
       if (contains(language.depthResets, type)) depth = 0;
       if (contains(language.opening, type) && ++depth > limits.nesting) {
         diagnostics.report<diag::NestingTooDeep>(range, limits.nesting);
         dropping = true;
+        dropped_.push_back(range);
         continue;
       }
       if (contains(language.closing, type) && depth > 0) --depth;

@@ -1,0 +1,143 @@
+#include "frontend/compost/Repair.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <set>
+#include <string>
+
+namespace dotek::frontend::compost {
+
+namespace {
+
+using Ids = std::set<std::string>;
+
+std::optional<Ids> cycleIdsOf(const Condition& condition);
+
+std::optional<Ids> cycleIdsOf(const ConditionTerm& term) {
+  if (!term.nots.empty()) return std::nullopt;
+  if (const auto* inner = std::get_if<std::unique_ptr<Condition>>(&term.operand)) return cycleIdsOf(**inner);
+  const auto* word = std::get_if<Word>(&term.operand);
+  if (word == nullptr || word->kind != WordKind::Boolean || word->name != "CycleType" ||
+      word->arguments.size() != 1)
+    return std::nullopt;
+  return Ids{word->arguments.front().text};
+}
+
+// The cycles for which the condition can hold; nothing where it does not depend on the cycle.
+std::optional<Ids> cycleIdsOf(const Condition& condition) {
+  const bool anyOr = std::find(condition.connectives.begin(), condition.connectives.end(), Connective::Or) !=
+                     condition.connectives.end();
+  std::optional<Ids> result;
+  for (const ConditionTerm& term : condition.terms) {
+    const std::optional<Ids> ids = cycleIdsOf(term);
+    if (anyOr && !ids) return std::nullopt;
+    if (!ids) continue;
+    if (!result)
+      result = ids;
+    else if (anyOr)
+      result->insert(ids->begin(), ids->end());
+  }
+  return result;
+}
+
+// The first IF on another cycle than `own` directly in `body`: as an inner branch it would never run.
+const If* otherCycle(const std::vector<Statement>& body, const Ids& own) {
+  for (const Statement& statement : body) {
+    const auto* inner = std::get_if<std::unique_ptr<If>>(&statement);
+    if (inner == nullptr) continue;
+    const std::optional<Ids> ids = cycleIdsOf((*inner)->condition);
+    if (!ids) continue;
+    const bool shared =
+        std::any_of(ids->begin(), ids->end(), [&](const std::string& id) { return own.contains(id); });
+    if (!shared) return inner->get();
+  }
+  return nullptr;
+}
+
+// The IF before which the END may belong as well as at the end of the routine.
+const If* rivalOf(const If& open) {
+  const std::optional<Ids> own = cycleIdsOf(open.condition);
+  if (!own) return nullptr;
+  if (const If* inner = otherCycle(open.thenBody, *own)) return inner;
+  const If* inner = otherCycle(open.elseBody, *own);
+  // Last in ELSE, it runs for the same operations wherever the END stands.
+  if (inner != nullptr && std::get_if<std::unique_ptr<If>>(&open.elseBody.back()) != nullptr &&
+      std::get<std::unique_ptr<If>>(open.elseBody.back()).get() == inner)
+    return nullptr;
+  return inner;
+}
+
+std::string lineEndOf(const SourceFile& source) {
+  const std::size_t at = source.bytes().find_first_of("\r\n");
+  if (at == std::string::npos || source.bytes()[at] == '\n') return "\n";
+  return source.bytes().compare(at, 2, "\r\n") == 0 ? "\r\n" : "\r";
+}
+
+Fix insertion(std::string_view keyword, const RoutineEnd& end, const SourceFile& source, FileId file) {
+  const std::uint32_t at = end.insertionPoint;
+  const std::uint32_t line = source.lineOf(at);
+  const bool lineStart = source.lineStart(line) == at;
+  std::string text(keyword);
+  std::string title;
+  if (at == source.bytes().size()) {
+    text = (lineStart ? "" : lineEndOf(source)) + text + lineEndOf(source);
+    title = fmt::format("insert {} at the end of the file", keyword);
+  } else if (lineStart) {
+    text += lineEndOf(source);
+    title = fmt::format("insert {} before line {}", keyword, line);
+  } else {
+    text += ' ';
+    title = fmt::format("insert {} in line {} before {}", keyword, line,
+                        end.at == RoutineEnd::At::Return ? "RETURN" : "the label");
+  }
+  return {Fix::Applicability::Display, std::move(title), {Edit{{file, at, at}, std::move(text)}}};
+}
+
+} // namespace
+
+std::vector<Diagnostic> reportMissingEnds(const Routine& routine, const std::vector<const If*>& openIfs,
+                                          const RoutineEnd& end, std::optional<SourceRange> strayEnd,
+                                          const SourceMap& sources) {
+  const FileId file = routine.range.file;
+  const SourceFile& source = sources.file(file);
+  std::vector<Diagnostic> found;
+  const std::uint32_t endLine = source.lineOf(end.range.begin);
+  const std::string what =
+      end.at == RoutineEnd::At::Return ? fmt::format("`RETURN` in line {}", endLine)
+      : end.at == RoutineEnd::At::Label
+          ? fmt::format("the label `{}` in line {}", sources.textUtf8(end.range), endLine)
+          : std::string("the end of the file");
+  for (const If* open : openIfs) {
+    Diagnostic diagnostic = makeDiagnostic<diag::OpenIfAtReturn>(open->ifRange, what);
+    diagnostic.note(end.range, end.at == RoutineEnd::At::Return  ? "the routine returns here"
+                               : end.at == RoutineEnd::At::Label ? "the next routine begins here"
+                                                                 : "the file ends here");
+    if (strayEnd) {
+      diagnostic.note(
+          *strayEnd,
+          "an `END` or `ELSE` stands behind the `RETURN`: the `RETURN` may be meant to leave the routine "
+          "early, which is not known to work; no repair is offered");
+    } else if (const If* rival = rivalOf(*open)) {
+      const bool inThen = !open->elseRange || rival->ifRange.begin < open->elseRange->begin;
+      diagnostic.note(
+          rival->ifRange,
+          fmt::format("with `END` at the end of the routine, this `IF` on another cycle {}; the `END` may "
+                      "belong before line {}; no repair is offered",
+                      inThen ? "stands inside the open one and is never reached"
+                             : "and all behind it run in the `ELSE` part only",
+                      source.lineOf(rival->ifRange.begin)));
+    } else {
+      diagnostic.fix = insertion("END", end, source, file);
+    }
+    found.push_back(std::move(diagnostic));
+  }
+  if (end.at != RoutineEnd::At::Return) {
+    Diagnostic diagnostic =
+        makeDiagnostic<diag::MissingReturn>(routine.nameRange, sources.textUtf8(routine.nameRange), what);
+    diagnostic.fix = insertion("RETURN", end, source, file);
+    found.push_back(std::move(diagnostic));
+  }
+  return found;
+}
+
+} // namespace dotek::frontend::compost
