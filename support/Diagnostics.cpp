@@ -31,6 +31,13 @@ std::span<const MessageInfo> messageTable() {
 }
 
 Diagnostic& Diagnostics::add(Diagnostic diagnostic) {
+  const std::size_t hash = std::hash<std::string_view>{}(diagnostic.code) ^
+                           std::hash<std::string>{}(diagnostic.message) * 31 ^
+                           (std::size_t{diagnostic.range.begin} << 20) * 0x9E3779B97F4A7C15u;
+  if (seen_.insert(hash).second) {
+    items_.push_back(std::move(diagnostic));
+    return items_.back();
+  }
   const auto same = std::find_if(items_.begin(), items_.end(), [&](const Diagnostic& other) {
     return other.code == diagnostic.code && other.range == diagnostic.range &&
            other.message == diagnostic.message;

@@ -9,6 +9,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <unordered_set>
 #include <utility>
 #include <vector>
 
@@ -97,6 +98,7 @@ public:
 
 private:
   std::vector<Diagnostic> items_;
+  std::unordered_set<std::size_t> seen_; // hashes of what was added: most are new, and searching is slow
 };
 
 // Text form: `file:line:column: severity: message [code]`, the line, a caret. At most `maxErrors` errors

@@ -17,8 +17,9 @@ Builder::Builder(FileId file, const SourceMap& sources, TokenFindings findings, 
 }
 
 bool Builder::losesText(SourceRange range) const {
-  return std::any_of(findings_.lost.begin(), findings_.lost.end(),
-                     [&](SourceRange lost) { return lost.end > routineBegin_ && lost.begin <= range.begin; });
+  const auto behind = std::upper_bound(findings_.lost.begin(), findings_.lost.end(), range.begin,
+                                       [](std::uint32_t at, SourceRange lost) { return at < lost.begin; });
+  return behind != findings_.lost.begin() && std::prev(behind)->end > routineBegin_;
 }
 
 void Builder::item(const ParseSession::Unit& unit, antlr4::TokenStream& stream) {
@@ -145,10 +146,7 @@ void Builder::loose(Parser::LooseContext& context) {
         "a colon stands alone, so no routine begins here; the colon of a label stands directly behind the "
         "name, `name:`");
   if (findings_.typographicLines.contains(lineOf(range))) return;
-  const bool lost = std::any_of(findings_.lost.begin(), findings_.lost.end(), [&](SourceRange part) {
-    return part.begin < range.end && part.end >= routineBegin_;
-  });
-  if (lost) return; // the label may have stood in what was dropped
+  if (losesText({file_, range.end, range.end})) return; // the label may have stood in what was dropped
   const SourceRange first = rangeOf(*context.getStart());
   diagnostics_.report<diag::StatementOutsideRoutine>(first);
 }

@@ -52,7 +52,7 @@ private:
   }
 
   void statement(int depth, const Literal& literal) {
-    line(depth, literal.range, "literal " + text(literal.range));
+    line(depth, literal.range, fmt::format("literal {}", text(literal.range)));
   }
 
   void statement(int depth, const Word& word) {
@@ -60,7 +60,7 @@ private:
     std::string what =
         fmt::format("{} {}", kKinds[static_cast<std::size_t>(word.kind)], text(word.nameRange));
     for (const Literal& argument : word.arguments)
-      what += " " + text(argument.range);
+      what += fmt::format(" {}", text(argument.range));
     line(depth, word.range, what);
   }
 

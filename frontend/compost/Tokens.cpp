@@ -87,6 +87,7 @@ Language language() {
 TokenFindings checkTokens(const TokenBuffer& tokens, FileId file, const SourceMap& sources,
                           const Limits& limits, Diagnostics& diagnostics) {
   TokenFindings found;
+  std::set<std::uint32_t> brokenLines;
   const SourceFile& source = sources.file(file);
   found.lost = tokens.dropped();
   for (std::uint32_t line = 1; line <= source.lineCount(); ++line) {
@@ -99,6 +100,7 @@ TokenFindings checkTokens(const TokenBuffer& tokens, FileId file, const SourceMa
 
   const auto typographic = [&](SourceRange range) {
     found.broken = true;
+    brokenLines.insert(source.lineOf(range.begin));
     if (found.typographicLines.insert(source.lineOf(range.begin)).second)
       diagnostics.report<diag::TypographicQuote>(range);
   };
@@ -115,6 +117,7 @@ TokenFindings checkTokens(const TokenBuffer& tokens, FileId file, const SourceMa
         break;
       }
       found.broken = true;
+      brokenLines.insert(source.lineOf(range.begin));
       if (found.typographicLines.contains(source.lineOf(range.begin))) break;
       Diagnostic& diagnostic = diagnostics.report<diag::UnterminatedText>(range, "apostrophe");
       const std::uint32_t start = source.lineStart(source.lineOf(range.begin));
@@ -140,6 +143,15 @@ TokenFindings checkTokens(const TokenBuffer& tokens, FileId file, const SourceMa
     default: break;
     }
   }
+  // With quotes out of step, texts of the same line may have swallowed ends too.
+  for (const antlr4::Token* token : tokens.all()) {
+    if (token->getType() != Lexer::LITERAL && token->getType() != Lexer::TYPOGRAPHIC_TEXT) continue;
+    const SourceRange range = rangeOf(file, *token);
+    if (brokenLines.contains(source.lineOf(range.begin)) && holdsBlockEnd(sources.text(range)))
+      found.lost.push_back(range);
+  }
+  std::sort(found.lost.begin(), found.lost.end(),
+            [](SourceRange a, SourceRange b) { return a.begin < b.begin; });
   return found;
 }
 

@@ -29,7 +29,7 @@ Language language();
 // What can be said of the text before it is parsed.
 struct TokenFindings {
   std::set<std::uint32_t> typographicLines; // further syntax errors there are consequences
-  std::vector<SourceRange> lost;            // text in which ENDs and RETURNs may have been lost
+  std::vector<SourceRange> lost;            // text in which ENDs and RETURNs may have been lost, by place
   bool broken = false;                      // an error was reported
 };
 
