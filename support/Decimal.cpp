@@ -9,7 +9,8 @@ namespace dotek {
 namespace {
 
 void trim(Decimal& d) {
-  while (d.digits.ends_with('0')) d.digits.pop_back();
+  while (d.digits.ends_with('0'))
+    d.digits.pop_back();
   const std::size_t leading = std::min(d.digits.find_first_not_of('0'), d.digits.size());
   d.digits.erase(0, leading);
   d.point -= static_cast<int>(leading);
@@ -23,7 +24,8 @@ Decimal Decimal::of(double value) {
   if (value == 0.0) return d;
   d.negative = value < 0;
   char buffer[64];
-  const auto end = std::to_chars(buffer, buffer + sizeof buffer, std::fabs(value), std::chars_format::scientific).ptr;
+  const auto end =
+      std::to_chars(buffer, buffer + sizeof buffer, std::fabs(value), std::chars_format::scientific).ptr;
   const std::string_view text(buffer, static_cast<std::size_t>(end - buffer));
   const std::size_t e = text.find('e');
   for (const char c : text.substr(0, e)) {
@@ -53,7 +55,8 @@ std::string Decimal::integerPart() const {
 std::string Decimal::fractionPart() const {
   if (isZero()) return "";
   if (point <= 0) return std::string(static_cast<std::size_t>(-point), '0') + digits;
-  return static_cast<std::size_t>(point) < digits.size() ? digits.substr(static_cast<std::size_t>(point)) : "";
+  return static_cast<std::size_t>(point) < digits.size() ? digits.substr(static_cast<std::size_t>(point))
+                                                         : "";
 }
 
 Decimal Decimal::rounded(int places) const {
@@ -66,7 +69,8 @@ Decimal Decimal::rounded(int places) const {
   d.digits.resize(count);
   if (up) {
     std::size_t i = count;
-    while (i > 0 && d.digits[i - 1] == '9') d.digits[--i] = '0';
+    while (i > 0 && d.digits[i - 1] == '9')
+      d.digits[--i] = '0';
     if (i > 0) {
       ++d.digits[i - 1];
     } else {
@@ -99,8 +103,8 @@ std::string fixedText(double value, int places) {
 std::optional<double> parseNumber(std::string_view text) {
   std::string_view body = text;
   if (body.starts_with('-') || body.starts_with('+')) body.remove_prefix(1);
-  const std::size_t digits =
-      static_cast<std::size_t>(std::count_if(body.begin(), body.end(), [](char c) { return c >= '0' && c <= '9'; }));
+  const std::size_t digits = static_cast<std::size_t>(
+      std::count_if(body.begin(), body.end(), [](char c) { return c >= '0' && c <= '9'; }));
   const std::size_t points = static_cast<std::size_t>(std::count(body.begin(), body.end(), '.'));
   if (digits == 0 || points > 1 || digits + points != body.size()) return std::nullopt;
   double value = 0;

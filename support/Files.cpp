@@ -13,7 +13,8 @@ namespace dotek {
 
 namespace fs = std::filesystem;
 
-std::optional<std::string> readBytes(const std::string& path, const Limits& limits, Diagnostics& diagnostics) {
+std::optional<std::string> readBytes(const std::string& path, const Limits& limits,
+                                     Diagnostics& diagnostics) {
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
   if (!fs::exists(status)) {
@@ -66,9 +67,12 @@ std::optional<FileId> addText(std::string name, std::string bytes, Encoding fall
     const std::string& text = sources.file(id).bytes();
     const auto at = static_cast<std::uint32_t>(text.find('\0'));
     // Every second byte NUL is UTF-16 without its mark.
-    const bool wide = text.size() > 3 && (text[1] == '\0' || text[0] == '\0') && (text[3] == '\0' || text[2] == '\0');
-    if (wide) diagnostics.report<diag::Utf16Input>({id, 0, 0});
-    else diagnostics.report<diag::NulByte>({id, at, at + 1});
+    const bool wide =
+        text.size() > 3 && (text[1] == '\0' || text[0] == '\0') && (text[3] == '\0' || text[2] == '\0');
+    if (wide)
+      diagnostics.report<diag::Utf16Input>({id, 0, 0});
+    else
+      diagnostics.report<diag::NulByte>({id, at, at + 1});
     return std::nullopt;
   }
   if (encoding == Encoding::Utf8 && !isUtf8(sources.file(id).bytes())) {

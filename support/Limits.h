@@ -9,10 +9,10 @@ namespace dotek {
 
 // X(member, name, default, what it bounds)
 #define DOTEK_LIMITS(X)                                                                                      \
-  X(inputBytes, "input-bytes", 4u << 20, "size of one input file, in bytes")                                \
+  X(inputBytes, "input-bytes", 4u << 20, "size of one input file, in bytes")                                 \
   X(lineBytes, "line-bytes", 16384, "length of one line of a macro, a dialog or a Prog, in bytes")           \
   X(lineTokens, "line-tokens", 1000, "tokens on one line of a macro, a dialog or a Prog")                    \
-  X(nesting, "nesting", 64, "depth of brackets and of IF and FOR blocks")                                     \
+  X(nesting, "nesting", 64, "depth of brackets and of IF and FOR blocks")                                    \
   X(includeDepth, "include-depth", 16, "depth of #INCLUDE")                                                  \
   X(callDepth, "call-depth", 32, "depth of macro and routine calls when a program is run")                   \
   X(steps, "steps", 1000000, "statements that one run may execute")                                          \

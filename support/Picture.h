@@ -24,8 +24,8 @@ public:
   enum class Fit : std::uint8_t { Exact, LosesDecimals, DoesNotFit };
   struct Printed {
     Fit fit = Fit::Exact;
-    std::string text;   // "" where it does not fit
-    Decimal value;      // what `text` stands for
+    std::string text; // "" where it does not fit
+    Decimal value;    // what `text` stands for
   };
   // `value` is finite. Rounds half away from zero on the shortest decimal text, or to the step.
   Printed print(double value) const;

@@ -11,7 +11,8 @@ Json place(SourceRange range, const SourceMap& sources) {
   Json out;
   if (!range.hasPlace()) {
     out["file"] = "";
-    for (const char* key : {"line", "column", "endLine", "endColumn"}) out[key] = 1;
+    for (const char* key : {"line", "column", "endLine", "endColumn"})
+      out[key] = 1;
     return out;
   }
   const SourceFile& file = sources.file(range.file);

@@ -17,7 +17,8 @@ std::size_t byteOf(std::string_view utf8, std::size_t count) {
   std::size_t at = 0;
   while (at < utf8.size() && count > 0) {
     ++at;
-    while (at < utf8.size() && (utf8[at] & 0xC0) == 0x80) ++at;
+    while (at < utf8.size() && (utf8[at] & 0xC0) == 0x80)
+      ++at;
     --count;
   }
   return at;
@@ -28,9 +29,12 @@ std::string printable(std::string_view utf8) {
   std::string out;
   for (const char c : utf8) {
     const auto byte = static_cast<unsigned char>(c);
-    if (c == '\t') out += ' ';
-    else if (byte < 0x20 || byte == 0x7F) out += '?';
-    else out += c;
+    if (c == '\t')
+      out += ' ';
+    else if (byte < 0x20 || byte == 0x7F)
+      out += '?';
+    else
+      out += c;
   }
   return out;
 }
@@ -55,11 +59,11 @@ void appendExcerpt(std::string& out, SourceRange range, const SourceMap& sources
   std::size_t width = 1;
   if (range.end > range.begin) {
     const LineColumn end = file.place(range.end);
-    width = end.line == begin.line ? end.column - begin.column
-                                   : (length > column ? length - column : 1);
+    width = end.line == begin.line ? end.column - begin.column : (length > column ? length - column : 1);
   }
   width = std::max<std::size_t>(width, 1);
-  const std::size_t from = column > kShownColumns / 2 && length > kShownColumns ? column - kShownColumns / 2 : 0;
+  const std::size_t from =
+      column > kShownColumns / 2 && length > kShownColumns ? column - kShownColumns / 2 : 0;
   const bool cutEnd = length > from + kShownColumns;
   const std::size_t first = byteOf(text, from);
   text = text.substr(first, byteOf(std::string_view(text).substr(first), kShownColumns));
@@ -68,7 +72,8 @@ void appendExcerpt(std::string& out, SourceRange range, const SourceMap& sources
     text.insert(0, "...");
     column += 3;
   }
-  width = std::min(width, std::max<std::size_t>(characters(text) > column ? characters(text) - column : 1, 1));
+  width =
+      std::min(width, std::max<std::size_t>(characters(text) > column ? characters(text) - column : 1, 1));
   if (cutEnd) text += "...";
   out += "  " + text + "\n  " + std::string(column, ' ') + "^" + std::string(width - 1, '~') + "\n";
 }
@@ -97,7 +102,8 @@ std::string renderText(const Diagnostics& diagnostics, const SourceMap& sources,
       out += fmt::format("fix: {}\n", printable(d.fix->title));
     }
   }
-  if (left > 0) out += fmt::format("dotek: note: {} more errors are not shown; --max-errors 0 shows all\n", left);
+  if (left > 0)
+    out += fmt::format("dotek: note: {} more errors are not shown; --max-errors 0 shows all\n", left);
   return out;
 }
 

@@ -26,13 +26,16 @@ std::uint32_t SourceFile::lineOf(std::uint32_t offset) const {
   return static_cast<std::uint32_t>(next - lineStarts_.begin());
 }
 
-std::uint32_t SourceFile::lineStart(std::uint32_t line) const { return lineStarts_.at(line - 1); }
+std::uint32_t SourceFile::lineStart(std::uint32_t line) const {
+  return lineStarts_.at(line - 1);
+}
 
 std::string_view SourceFile::line(std::uint32_t line) const {
   const std::uint32_t begin = lineStart(line);
   const std::size_t end = line < lineCount() ? lineStarts_[line] : bytes_.size();
   std::string_view text = std::string_view(bytes_).substr(begin, end - begin);
-  while (text.ends_with('\n') || text.ends_with('\r')) text.remove_suffix(1);
+  while (text.ends_with('\n') || text.ends_with('\r'))
+    text.remove_suffix(1);
   return text;
 }
 

@@ -34,8 +34,10 @@ void compare(const fs::path& file, const std::string& actual, const std::string&
   if (actual == expected) return;
   if (settings().update && !isReference(file)) {
     ++settings().rewritten;
-    if (actual == absent) fs::remove(file);
-    else std::ofstream(file, std::ios::binary) << actual;
+    if (actual == absent)
+      fs::remove(file);
+    else
+      std::ofstream(file, std::ios::binary) << actual;
     return;
   }
   CHECK_MESSAGE(actual == expected, file.string());

@@ -28,7 +28,9 @@ CommandResult runDotek(const std::vector<std::string>& arguments, const fs::path
   return result;
 }
 
-fs::path root() { return DOTEK_ROOT; }
+fs::path root() {
+  return DOTEK_ROOT;
+}
 
 std::optional<fs::path> corpus() {
   const char* named = std::getenv("DOTEK_CORPUS");

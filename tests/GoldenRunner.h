@@ -27,8 +27,8 @@ struct CommandResult {
 // Runs dotek in this process, in `folder`.
 CommandResult runDotek(const std::vector<std::string>& arguments, const std::filesystem::path& folder);
 
-std::filesystem::path root();                    // of the repository
-std::optional<std::filesystem::path> corpus();   // nothing: not on this machine
+std::filesystem::path root();                  // of the repository
+std::optional<std::filesystem::path> corpus(); // nothing: not on this machine
 // true: the corpus is there, `folder` is set. false: counted as skipped.
 bool haveCorpus(std::filesystem::path& folder);
 std::string readAll(const std::filesystem::path& path);

@@ -102,7 +102,7 @@ TokenFindings checkTokens(const TokenBuffer& tokens, FileId file, const SourceMa
     found.broken = true;
     brokenLines.insert(source.lineOf(range.begin));
     if (found.typographicLines.insert(source.lineOf(range.begin)).second)
-      diagnostics.report<diag::TypographicQuote>(range);
+      diagnostics.report<diag::TypographicQuote>(range, "`'`");
   };
   for (const antlr4::Token* token : tokens.all()) {
     const SourceRange range = rangeOf(file, *token);

@@ -105,7 +105,7 @@ bool Lines::reportBadTokens() {
   const SourceFile& source = sources().file(file_);
   for (std::size_t i = line_.first; i < line_.last; ++i) {
     if (!isTypographic(*tokens()[i], source)) continue;
-    report<diag::TypographicQuote>(rangeOf(*tokens()[i]));
+    report<diag::TypographicQuote>(rangeOf(*tokens()[i]), "`\"`");
     return true;
   }
   for (std::size_t i = line_.first; i < line_.last; ++i) {

@@ -1,0 +1,229 @@
+#include "frontend/compost/Post.h"
+
+#include "frontend/compost/PostRun.h"
+#include "support/Decimal.h"
+
+#include <algorithm>
+
+namespace dotek::frontend::compost {
+
+const Routine* findRoutine(const Program& program, std::string_view name) {
+  for (const Item& item : program.items) {
+    const auto* routine = std::get_if<Routine>(&item);
+    if (routine != nullptr && routine->name == name) return routine;
+  }
+  return nullptr;
+}
+
+PostRun::Impl::Impl(const Program& programIn, const PostSettings& settingsIn, Diagnostics& diagnosticsIn)
+    : program(programIn), settings(settingsIn), diagnostics(diagnosticsIn),
+      sequence(settingsIn.sequenceStart) {
+  std::map<std::uint32_t, const PictureDefinition*> defined;
+  for (const Item& item : program.items) {
+    if (const auto* routine = std::get_if<Routine>(&item)) routines.emplace(routine->name, routine);
+    if (const auto* picture = std::get_if<PictureDefinition>(&item))
+      defined.emplace(picture->number, picture);
+  }
+  for (const auto& [keyword, entry] : settings.form.numerics) {
+    auto parsed = Picture::parse(entry.picture);
+    if (auto* picture = std::get_if<Picture>(&parsed))
+      pictures.insert_or_assign(keyword, std::move(*picture));
+  }
+  for (const Item& item : program.items) {
+    const auto* format = std::get_if<FormatDirective>(&item);
+    if (format == nullptr) continue;
+    const auto found = defined.find(format->number);
+    if (found == defined.end()) continue; // reported by check
+    auto parsed = Picture::parse(found->second->picture.text);
+    if (auto* picture = std::get_if<Picture>(&parsed))
+      pictures.insert_or_assign(format->name, std::move(*picture));
+  }
+}
+
+PostRun::PostRun(const Program& program, const PostSettings& settings, Diagnostics& diagnostics)
+    : impl_(std::make_unique<Impl>(program, settings, diagnostics)) {}
+PostRun::~PostRun() = default;
+
+void PostRun::run(const Routine& routine, const Operation& operation) {
+  impl_->operation = &operation;
+  impl_->call(routine, routine.nameRange);
+  impl_->operation = nullptr;
+}
+
+std::size_t PostRun::lineCount() const {
+  return impl_->lines.size() + (impl_->line.empty() ? 0 : 1);
+}
+
+std::vector<PostedLine> PostRun::finish() {
+  if (!impl_->line.empty()) {
+    impl_->diagnostics.report<diag::UnfinishedLine>(impl_->lineRange, impl_->line);
+    impl_->endLine(impl_->lineRange);
+  }
+  return std::move(impl_->lines);
+}
+
+bool PostRun::Impl::step(SourceRange where) {
+  if (stopped) return false;
+  if (++steps > settings.limits.steps) {
+    diagnostics.report<diag::PostRunsForever>(where, settings.limits.steps);
+    stopped = true;
+  }
+  return !stopped;
+}
+
+void PostRun::Impl::call(const Routine& routine, SourceRange where) {
+  if (stopped) return;
+  if (depth >= settings.limits.callDepth) {
+    diagnostics.report<diag::CallsTooDeep>(where, routine.name, settings.limits.callDepth);
+    stopped = true;
+    return;
+  }
+  ++depth;
+  body(routine.body);
+  --depth;
+}
+
+void PostRun::Impl::body(const std::vector<Statement>& statements) {
+  for (const Statement& statement : statements) {
+    if (const auto* literal = std::get_if<Literal>(&statement)) {
+      if (!step(literal->range)) return;
+      print(literal->text, literal->range);
+    } else if (const auto* keyword = std::get_if<Word>(&statement)) {
+      if (!step(keyword->range)) return;
+      word(*keyword);
+    } else if (const auto* eol = std::get_if<EndOfLine>(&statement)) {
+      if (!step(eol->range)) return;
+      endLine(eol->range);
+    } else if (const auto* branch = std::get_if<std::unique_ptr<If>>(&statement)) {
+      if (!step((*branch)->ifRange)) return;
+      body(holds((*branch)->condition) ? (*branch)->thenBody : (*branch)->elseBody);
+    }
+    if (stopped) return;
+  }
+}
+
+void PostRun::Impl::print(std::string_view text, SourceRange where) {
+  if (text.empty()) return;
+  bytes += text.size();
+  if (bytes > settings.limits.outputBytes) {
+    diagnostics.report<diag::OutputTooLarge>(where, settings.limits.outputBytes);
+    stopped = true;
+    return;
+  }
+  lineRange = line.empty() ? where : spanning(lineRange, where);
+  line += text;
+}
+
+void PostRun::Impl::endLine(SourceRange where) {
+  if (line.empty()) {
+    diagnostics.report<diag::EmptyBlock>(where);
+    return;
+  }
+  lines.push_back({std::move(line), spanning(lineRange, where)});
+  line.clear();
+}
+
+void PostRun::Impl::word(const Word& word) {
+  switch (word.kind) {
+  case WordKind::Command: command(word); return;
+  case WordKind::Numeric: numeric(word); return;
+  case WordKind::Boolean: diagnostics.report<diag::BooleanAsStatement>(word.range, word.name); return;
+  }
+}
+
+void PostRun::Impl::command(const Word& word) {
+  if (word.name == kSetFlagKeyword || word.name == kClearFlagKeyword) {
+    if (word.arguments.size() != 1) {
+      diagnostics.report<diag::FlagNeedsName>(word.range, word.name);
+      return;
+    }
+    flags[word.arguments.front().text] = word.name == kSetFlagKeyword;
+    return;
+  }
+  if (word.arguments.empty()) {
+    if (const auto routine = routines.find(word.name); routine != routines.end()) {
+      call(*routine->second, word.nameRange);
+      return;
+    }
+    const auto& form = settings.form;
+    if (const auto entry = form.sequences.find(word.name); entry != form.sequences.end()) {
+      print(entry->second.text + std::to_string(sequence), word.range);
+      sequence += settings.sequenceStep;
+      return;
+    }
+    if (const auto entry = form.commands.find(word.name); entry != form.commands.end()) {
+      print(entry->second.text, word.range);
+      if (entry->second.value.empty()) return;
+      auto parsed = Picture::parse(entry->second.picture);
+      const std::optional<double> value = host(entry->second.value, word.range);
+      if (const auto* numberPicture = std::get_if<Picture>(&parsed); numberPicture != nullptr && value)
+        printValue(*value, *numberPicture, word.name, word.range);
+      return;
+    }
+  }
+  diagnostics.report<diag::CommandNotInForm>(word.nameRange, word.name, settings.form.name,
+                                             settings.form.origin);
+}
+
+const Picture* PostRun::Impl::picture(const std::string& keyword, SourceRange where) {
+  const auto found = pictures.find(keyword);
+  if (found == pictures.end()) {
+    diagnostics.report<diag::NoPicture>(where, keyword, settings.form.name, settings.form.origin);
+    return nullptr;
+  }
+  if (!found->second.prefix().empty()) {
+    diagnostics.report<diag::PicturePrefixUnverified>(where, found->second.text(), found->second.prefix());
+    return nullptr;
+  }
+  return &found->second;
+}
+
+std::optional<double> PostRun::Impl::host(const std::string& name, SourceRange where) {
+  const auto found = operation->hosts.find(name);
+  if (found != operation->hosts.end()) return found->second;
+  const std::string flag = name == "clearance" ? "--clearance Z" : "--host " + name + "=VALUE";
+  diagnostics.report<diag::HostInputNeeded>(where, name, flag);
+  return std::nullopt;
+}
+
+void PostRun::Impl::numeric(const Word& word) {
+  std::optional<double> value;
+  std::string what = word.name + "#";
+  if (word.name == kFieldKeyword) {
+    if (word.arguments.size() != 1) {
+      diagnostics.report<diag::FieldNeedsName>(word.range);
+      return;
+    }
+    what = word.arguments.front().text;
+    value = operation->field(what, word.range);
+  } else {
+    const auto entry = settings.form.numerics.find(word.name);
+    if (entry == settings.form.numerics.end() || entry->second.value.empty()) {
+      diagnostics.report<diag::NumericNotInForm>(word.nameRange, word.name, settings.form.name,
+                                                 settings.form.origin);
+      return;
+    }
+    value = host(entry->second.value, word.range);
+  }
+  const Picture* numberPicture = picture(word.name, word.range);
+  if (value && numberPicture != nullptr) printValue(*value, *numberPicture, what, word.range);
+}
+
+void PostRun::Impl::printValue(double value, const Picture& picture, std::string_view what,
+                               SourceRange where) {
+  const Picture::Printed printed = picture.print(value);
+  switch (printed.fit) {
+  case Picture::Fit::DoesNotFit:
+    diagnostics.report<diag::ValueDoesNotFit>(where, numberText(value), what, picture.text());
+    return;
+  case Picture::Fit::LosesDecimals:
+    diagnostics.report<diag::LostDecimals>(where, what, numberText(value), picture.text(),
+                                           numberText(printed.value.value()));
+    break;
+  case Picture::Fit::Exact: break;
+  }
+  if (printed.text.empty()) diagnostics.report<diag::BareAddress>(where, what, picture.text());
+  print(printed.text, where);
+}
+
+} // namespace dotek::frontend::compost

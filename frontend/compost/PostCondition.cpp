@@ -1,0 +1,103 @@
+#include "frontend/compost/PostRun.h"
+
+#include <algorithm>
+
+namespace dotek::frontend::compost {
+namespace {
+
+Truth both(Truth a, Truth b) {
+  if ((a && !*a) || (b && !*b)) return false;
+  if (!a || !b) return std::nullopt;
+  return true;
+}
+
+Truth either(Truth a, Truth b) {
+  if ((a && *a) || (b && *b)) return true;
+  if (!a || !b) return std::nullopt;
+  return false;
+}
+
+Truth leftToRight(const std::vector<Truth>& terms, const std::vector<Connective>& connectives) {
+  Truth result = terms.front();
+  for (std::size_t i = 0; i < connectives.size(); ++i)
+    result = connectives[i] == Connective::And ? both(result, terms[i + 1]) : either(result, terms[i + 1]);
+  return result;
+}
+
+Truth andBeforeOr(const std::vector<Truth>& terms, const std::vector<Connective>& connectives) {
+  Truth result = false;
+  Truth group = terms.front();
+  for (std::size_t i = 0; i < connectives.size(); ++i) {
+    if (connectives[i] == Connective::And) {
+      group = both(group, terms[i + 1]);
+    } else {
+      result = either(result, group);
+      group = terms[i + 1];
+    }
+  }
+  return either(result, group);
+}
+
+} // namespace
+
+bool PostRun::Impl::holds(const Condition& condition) {
+  const std::size_t before = diagnostics.all().size();
+  const Truth result = truth(condition);
+  // An operand that decides nothing may stay unknown; one that decides was reported by truth().
+  if (!result && diagnostics.all().size() == before)
+    diagnostics.report<diag::ConditionUnknown>(condition.range);
+  return result.value_or(false);
+}
+
+Truth PostRun::Impl::truth(const Condition& condition) {
+  std::vector<Truth> terms;
+  terms.reserve(condition.terms.size());
+  for (const ConditionTerm& term : condition.terms)
+    terms.push_back(truth(term));
+  if (terms.empty()) return std::nullopt;
+  const Truth plain = leftToRight(terms, condition.connectives);
+  const Truth grouped = andBeforeOr(terms, condition.connectives);
+  Truth result = plain;
+  if (plain != grouped) {
+    if (settings.assumptions.contains("and-before-or")) {
+      result = grouped;
+    } else if (!settings.assumptions.contains("left-to-right")) {
+      diagnostics.report<diag::AndOrOrder>(condition.range);
+      return std::nullopt;
+    }
+  }
+  if (result) return result;
+  for (const ConditionTerm& term : condition.terms) {
+    const auto* word = std::get_if<Word>(&term.operand);
+    if (word != nullptr && !truth(*word))
+      diagnostics.report<diag::BooleanUnknown>(word->range, word->name, settings.form.origin);
+  }
+  return std::nullopt;
+}
+
+Truth PostRun::Impl::truth(const ConditionTerm& term) {
+  Truth result;
+  if (const auto* word = std::get_if<Word>(&term.operand)) result = truth(*word);
+  if (const auto* inner = std::get_if<std::unique_ptr<Condition>>(&term.operand)) result = truth(**inner);
+  if (result && term.nots.size() % 2 == 1) result = !*result;
+  return result;
+}
+
+Truth PostRun::Impl::truth(const Word& boolean) {
+  if (boolean.kind != WordKind::Boolean) return std::nullopt;
+  if (boolean.name == kCycleKeyword && boolean.arguments.size() == 1)
+    return boolean.arguments.front().text == operation->cycle;
+  if (boolean.name == kFlagKeyword && boolean.arguments.size() == 1) {
+    // A flag that was never set reads false (compost.md 4.5, inferred).
+    const auto flag = flags.find(boolean.arguments.front().text);
+    return flag != flags.end() && flag->second;
+  }
+  if (!boolean.arguments.empty()) return std::nullopt;
+  if (settings.assumptions.contains(boolean.name + "?=yes")) return true;
+  if (settings.assumptions.contains(boolean.name + "?=no")) return false;
+  const auto known = settings.form.booleans.find(boolean.name);
+  if (known != settings.form.booleans.end()) return known->second.value;
+  return std::nullopt;
+}
+
+} // namespace dotek::frontend::compost
