@@ -1,5 +1,7 @@
 #include "frontend/compost/Repair.h"
 
+#include "frontend/compost/Summary.h"
+
 #include <algorithm>
 #include <fmt/format.h>
 #include <set>
@@ -11,41 +13,12 @@ namespace {
 
 using Ids = std::set<std::string>;
 
-std::optional<Ids> cycleIdsOf(const Condition& condition);
-
-std::optional<Ids> cycleIdsOf(const ConditionTerm& term) {
-  if (!term.nots.empty()) return std::nullopt;
-  if (const auto* inner = std::get_if<std::unique_ptr<Condition>>(&term.operand)) return cycleIdsOf(**inner);
-  const auto* word = std::get_if<Word>(&term.operand);
-  if (word == nullptr || word->kind != WordKind::Boolean || word->name != "CycleType" ||
-      word->arguments.size() != 1)
-    return std::nullopt;
-  return Ids{word->arguments.front().text};
-}
-
-// The cycles for which the condition can hold; nothing where it does not depend on the cycle.
-std::optional<Ids> cycleIdsOf(const Condition& condition) {
-  const bool anyOr = std::find(condition.connectives.begin(), condition.connectives.end(), Connective::Or) !=
-                     condition.connectives.end();
-  std::optional<Ids> result;
-  for (const ConditionTerm& term : condition.terms) {
-    const std::optional<Ids> ids = cycleIdsOf(term);
-    if (anyOr && !ids) return std::nullopt;
-    if (!ids) continue;
-    if (!result)
-      result = ids;
-    else if (anyOr)
-      result->insert(ids->begin(), ids->end());
-  }
-  return result;
-}
-
 // The first IF on another cycle than `own` directly in `body`: as an inner branch it would never run.
 const If* otherCycle(const std::vector<Statement>& body, const Ids& own) {
   for (const Statement& statement : body) {
     const auto* inner = std::get_if<std::unique_ptr<If>>(&statement);
     if (inner == nullptr) continue;
-    const std::optional<Ids> ids = cycleIdsOf((*inner)->condition);
+    const std::optional<Ids> ids = cyclesOf((*inner)->condition);
     if (!ids) continue;
     const bool shared =
         std::any_of(ids->begin(), ids->end(), [&](const std::string& id) { return own.contains(id); });
@@ -56,7 +29,7 @@ const If* otherCycle(const std::vector<Statement>& body, const Ids& own) {
 
 // The IF before which the END may belong as well as at the end of the routine.
 const If* rivalOf(const If& open) {
-  const std::optional<Ids> own = cycleIdsOf(open.condition);
+  const std::optional<Ids> own = cyclesOf(open.condition);
   if (!own) return nullptr;
   if (const If* inner = otherCycle(open.thenBody, *own)) return inner;
   const If* inner = otherCycle(open.elseBody, *own);
