@@ -62,7 +62,7 @@ sameButForTheList() {
   cut -f2 "$scratch/numbered" >"$scratch/recorded"
   normalised <"$out" >"$scratch/posted"
   diff --old-line-format='-%dn %L' --new-line-format='+%L' --unchanged-line-format='' \
-    "$scratch/recorded" "$scratch/posted" >"$scratch/diff" || true
+    "$scratch/recorded" "$scratch/posted" >"$scratch/diff" || :
   # diff counts in the cut-out: put the line numbers of the file back.
   awk -F'\t' 'NR == FNR { line[FNR] = $1; next }
     /^-/ { at = substr($0, 2); sub(/ .*/, "", at); rest = $0; sub(/^-[0-9]+ /, "", rest); print "-" line[at] " " rest; next }

@@ -1,0 +1,128 @@
+// Every message is produced by some test and keeps to the wording of docs/diagnostics.md.
+#include "support/Diagnostics.h"
+#include "tests/policy/Tree.h"
+
+#include <algorithm>
+#include <cctype>
+#include <doctest/doctest.h>
+#include <map>
+#include <set>
+
+using namespace dotek;
+using namespace dotek::tests;
+
+namespace {
+
+// Codes that no test can produce, each with its reason.
+const std::map<std::string, std::string, std::less<>>& exemptions() {
+  static const std::map<std::string, std::string, std::less<>> kExemptions = {
+      {"file-not-readable", "the tests may run as a user whom the system refuses nothing"},
+  };
+  return kExemptions;
+}
+
+struct Message {
+  std::string id;
+  std::string code;
+  std::string format;
+};
+
+// The string literal that begins at or behind `at`; `at` moves behind it.
+std::string literal(const std::string& text, std::size_t& at) {
+  std::string out;
+  at = text.find('"', at) + 1;
+  for (; at < text.size() && text[at] != '"'; ++at) {
+    if (text[at] == '\\') ++at;
+    out += text[at];
+  }
+  ++at;
+  return out;
+}
+
+std::vector<Message> messages() {
+  std::vector<Message> out;
+  for (const TreeFile& file : tree()) {
+    if (file.path != "support/Diagnostics.def") continue;
+    const std::string start = "\nDOTEK_DIAGNOSTIC(";
+    for (std::size_t at = file.text.find(start); at != std::string::npos; at = file.text.find(start, at)) {
+      at += start.size();
+      Message message;
+      message.id = file.text.substr(at, file.text.find(',', at) - at);
+      message.code = literal(file.text, at);
+      message.format = literal(file.text, at);
+      for (std::size_t next = file.text.find_first_not_of(" \n", at); file.text[next] == '"';
+           next = file.text.find_first_not_of(" \n", at))
+        message.format += literal(file.text, at);
+      out.push_back(message);
+    }
+  }
+  return out;
+}
+
+std::set<std::string> producedCodes(const std::vector<Message>& all) {
+  std::string goldens;
+  std::string units;
+  for (const TreeFile& file : tree()) {
+    if (file.below("tests/golden") && (file.path.ends_with("/stdout") || file.path.ends_with("/stderr")))
+      goldens += file.text;
+    if (file.below("tests/unit")) units += file.text;
+  }
+  std::set<std::string> out;
+  for (const Message& message : all) {
+    const bool found = goldens.find("[" + message.code + "]") != std::string::npos ||
+                       goldens.find("\"code\": \"" + message.code + "\"") != std::string::npos ||
+                       units.find("\"" + message.code + "\"") != std::string::npos ||
+                       units.find("[" + message.code + "]") != std::string::npos ||
+                       units.find("diag::" + message.id + "::code") != std::string::npos;
+    if (found) out.insert(message.code);
+  }
+  return out;
+}
+
+} // namespace
+
+TEST_CASE("policy: the table of messages is read whole") {
+  const auto all = messages();
+  REQUIRE(all.size() == messageTable().size());
+  std::set<std::string> codes;
+  for (const Message& message : all)
+    CHECK_MESSAGE(codes.insert(message.code).second, message.code << " stands twice");
+  for (const MessageInfo& info : messageTable()) {
+    CHECK(codes.contains(std::string(info.code)));
+    CHECK_MESSAGE(info.explanation.size() > 20, info.code << " is not explained");
+  }
+}
+
+TEST_CASE("policy: some test produces every message") {
+  const auto all = messages();
+  const auto produced = producedCodes(all);
+  for (const Message& message : all) {
+    const bool exempt = exemptions().contains(message.code);
+    CHECK_MESSAGE(produced.contains(message.code) != exempt,
+                  message.code << (exempt ? " is exempt, but a test names it"
+                                          : ": no golden and no unit test names it"));
+  }
+  for (const auto& [code, reason] : exemptions()) {
+    CHECK_MESSAGE(
+        std::any_of(all.begin(), all.end(), [&, &c = code](const Message& m) { return m.code == c; }),
+        code << " is exempt, but is no message");
+  }
+}
+
+TEST_CASE("policy: wording of messages") {
+  for (const Message& message : messages()) {
+    INFO(message.code << ": " << message.format);
+    for (const char c : message.code)
+      CHECK((std::islower(static_cast<unsigned char>(c)) != 0 ||
+             std::isdigit(static_cast<unsigned char>(c)) != 0 || c == '-'));
+    REQUIRE(!message.format.empty());
+    // A capital begins only a word of a language, such as FOR, or a name, such as UTF-16.
+    const bool capital = std::isupper(static_cast<unsigned char>(message.format[0])) != 0;
+    CHECK((!capital ||
+           (message.format.size() > 1 && std::islower(static_cast<unsigned char>(message.format[1])) == 0)));
+    CHECK(!message.format.ends_with('.'));
+    const std::string text = lowerCase(message.format);
+    for (const char* word : {"illegal", "invalid", "must", "please", "sorry"})
+      CHECK_MESSAGE(findWord(text, word) == std::string::npos, word);
+  }
+}
