@@ -25,13 +25,15 @@ struct DataFile {
   std::string name;   // the stem
   std::string origin; // "built in", or the path of the file
   std::string_view text;
+
+  bool builtIn() const { return origin == "built in"; }
 };
 
 class DataFiles {
 public:
   DataFiles(); // the embedded files
   // Adds every DIR/<folder>/<name>.toml; one of an embedded name replaces it. false with diagnostics where
-  // the folder cannot be read.
+  // the folder cannot be read. Files that would be passed over in silence are warnings.
   bool addFolder(const std::string& path, const Limits& limits, Diagnostics& diagnostics);
 
   const DataFile* find(std::string_view folder, std::string_view name) const; // nullptr: none

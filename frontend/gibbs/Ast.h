@@ -35,8 +35,8 @@ struct NumberLiteral {
 };
 
 struct TextLiteral {
-  std::string text; // bytes between the quotes
-  char quote = '"'; // `'` is unverified
+  std::string text; // bytes between the quotes, a doubled quote as written
+  char quote = '"'; // `'` is unverified; 0: a caption of a dialog that stands without quotes
 };
 
 struct VariableRef {
@@ -74,7 +74,8 @@ struct ErrorExpression {};
 
 struct Expression {
   SourceRange range;
-  std::variant<NumberLiteral, TextLiteral, VariableRef, FunctionCall, Unary, Binary, Bracketed, ErrorExpression>
+  std::variant<NumberLiteral, TextLiteral, VariableRef, FunctionCall, Unary, Binary, Bracketed,
+               ErrorExpression>
       node;
 };
 
@@ -82,7 +83,8 @@ enum class Relation : std::uint8_t { Equal, NotEqual, Less, Greater, LessEqual, 
 
 struct Comparison {
   SourceRange range;
-  std::vector<SourceRange> nots; // unverified
+  std::vector<SourceRange> nots;     // unverified
+  std::vector<SourceRange> brackets; // around the whole comparison; unverified
   ExpressionPtr left;
   Relation relation = Relation::Equal;
   SourceRange relationRange;
@@ -113,7 +115,7 @@ struct If {
   Condition condition;
   std::optional<SourceRange> commaBeforeThen;
   SourceRange thenRange;
-  StatementPtr then;              // one-line form
+  StatementPtr then; // one-line form
   // Block form `[` ... `]` on lines of their own, with an optional ELSE: unverified.
   std::vector<Line> thenBlock;
   std::optional<SourceRange> elseRange;
@@ -175,8 +177,8 @@ struct ErrorStatement {};
 
 struct Statement {
   SourceRange range;
-  std::variant<Assignment, If, For, Next, Continue, Goto, CallMacro, Args, Declaration, Include, OnError, Command,
-               std::unique_ptr<GeometryBlock>, ErrorStatement>
+  std::variant<Assignment, If, For, Next, Continue, Goto, CallMacro, Args, Declaration, Include, OnError,
+               Command, std::unique_ptr<GeometryBlock>, ErrorStatement>
       node;
 };
 
@@ -217,7 +219,8 @@ struct Box {
 struct Control {
   SourceRange range;
   Name kind;
-  std::vector<ExpressionPtr> arguments; // all, as written
+  std::vector<ExpressionPtr> arguments; // all, as written; of SET_STATE those behind the condition
+  std::optional<Comparison> condition;  // of SET_STATE
   std::optional<Box> box;               // of the controls that have one
   std::optional<std::string> text;      // caption or label text, bytes
   std::optional<Name> variable;         // INPUT, CHECK, RADIO, BUTTON, DROPDOWN_NEW

@@ -10,6 +10,7 @@ constexpr std::size_t kMaxSymbol = 200; // bytes; longer names of unknowns are r
 std::string_view whatIs(std::string_view assumption) {
   if (assumption == "and-or") return "a condition of several comparisons";
   if (assumption == "not") return "NOT";
+  if (assumption == "comparison-brackets") return "a comparison in brackets";
   if (assumption == "block-if") return "an IF with a block";
   if (assumption == "else") return "ELSE";
   if (assumption == "next-without-name") return "NEXT without a name";
@@ -83,9 +84,8 @@ std::optional<Value> Machine::evaluate(State& state, const Expression& e) {
       return std::nullopt;
     }
     std::string text = literal->text;
-    for (std::size_t at = text.find("\"\""); at != std::string::npos; at = text.find("\"\"", at + 1)) {
+    for (std::size_t at = text.find(doubled); at != std::string::npos; at = text.find(doubled, at + 1))
       text.erase(at, 1);
-    }
     return Value(std::move(text));
   }
   if (const auto* variable = std::get_if<VariableRef>(&e.node)) return read(state, *variable);
@@ -145,9 +145,9 @@ std::optional<Value> Machine::binary(State& state, const Binary& node, SourceRan
   if (form) return form;
   constexpr const char* kSigns[] = {"+", "-", "*", "/"};
   const Unknown& unknown = *unknownIn(a == nullptr ? *left : *right);
-  return opaque(
-      state, "(" + canonical(*left) + ")" + kSigns[static_cast<int>(node.op)] + "(" + canonical(*right) + ")",
-      {*left, *right}, unknown.reason, false);
+  const std::string symbol =
+      fmt::format("({}){}({})", canonical(*left), kSigns[static_cast<int>(node.op)], canonical(*right));
+  return opaque(state, symbol, {*left, *right}, unknown.reason, false);
 }
 
 // ---- variables ------------------------------------------------------------------------------------------
@@ -255,6 +255,8 @@ std::optional<bool> Machine::decide(State& state, const Condition& condition) {
 
 std::optional<bool> Machine::decide(State& state, const Comparison& comparison) {
   if (!comparison.nots.empty() && !assumes("not", comparison.nots.front())) return std::nullopt;
+  if (!comparison.brackets.empty() && !assumes("comparison-brackets", comparison.brackets.front()))
+    return std::nullopt;
   if (!comparison.left || !comparison.right) {
     fault<diag::CannotRun>(comparison.range, false, "the condition is broken");
     return std::nullopt;

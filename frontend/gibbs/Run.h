@@ -35,19 +35,19 @@ struct RunContext {
 
 // A MESSAGE or STOP that was shown, or a return code that was set, before the values were turned away.
 struct Rejection {
-  SourceRange range;  // of the statement
-  std::string text;   // of the message, UTF-8; "" where none was shown
+  SourceRange range; // of the statement
+  std::string text;  // of the message, UTF-8; "" where none was shown
 };
 
 struct ChecksResult {
   enum class Verdict : std::uint8_t {
-    Passes,    // the dialog would be left with OK
-    Rejected,  // it is shown again, a STOP is met, or callback_returncode is not 0 at the end
-    Depends,   // on host inputs that are not known
-    NotRun,    // could not be run: reported
+    Passes,   // the dialog would be left with OK
+    Rejected, // it is shown again, a STOP is met, or callback_returncode is not 0 at the end
+    Depends,  // on host inputs that are not known
+    NotRun,   // could not be run: reported
   };
   Verdict verdict = Verdict::Passes;
-  std::vector<Rejection> rejections;  // of the paths that reject, in source order
+  std::vector<Rejection> rejections;    // of the paths that reject, in source order
   std::vector<std::string> neededHosts; // for Depends: what to give
   // Fields whose value the macro changes after the dialog, by folded name (only where all paths agree).
   std::map<std::string, double> changed;
@@ -66,7 +66,8 @@ ChecksResult runChecks(const Macro& cycleData, RunContext& context);
 struct PathMove {
   enum class Kind : std::uint8_t { Feed, FeedX, FeedY, FeedZ };
   Kind kind = Kind::Feed;
-  double x = 0, y = 0, z = 0; // written words: all three for Feed, one otherwise; the others are carried along
+  double x = 0, y = 0,
+         z = 0; // written words: all three for Feed, one otherwise; the others are carried along
   SourceRange range;
 };
 

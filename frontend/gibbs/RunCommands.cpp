@@ -88,7 +88,7 @@ Machine::Flow Machine::showMessage(State& state, const Command& c, SourceRange r
     text += known != nullptr && range.hasPlace()
                 ? toUtf8(*known, context_.sources.file(range.file).encoding())
             : known != nullptr ? *known
-                               : "<" + context_.sources.textUtf8(argument->range) + ">";
+                               : fmt::format("<{}>", context_.sources.textUtf8(argument->range));
   }
   messageBytes_ += text.size() + sizeof(ShownMessage);
   if (messageBytes_ > context_.limits.outputBytes) {

@@ -23,7 +23,10 @@ TEST_CASE("columns count characters") {
 }
 
 TEST_CASE("a byte order mark is no text") {
-  const SourceFile file("f", "\xEF\xBB\xBF" "a", Encoding::Utf8);
+  const SourceFile file("f",
+                        "\xEF\xBB\xBF"
+                        "a",
+                        Encoding::Utf8);
   CHECK(file.bytes() == "a");
 }
 

@@ -1,0 +1,130 @@
+#include "stdlib/DataFiles.h"
+
+#include "stdlib/EmbeddedData.h"
+#include "support/Files.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <system_error>
+
+namespace dotek::stdlib {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view kKinds[] = {"controls", "cycles", "forms", "keywords", "macrob", "macros"};
+constexpr std::string_view kReads = "`controls/*.toml`, `cycles/*.toml`, `forms/*.toml`, `keywords/*.toml`, "
+                                    "`macrob/*.toml` and `macros/*.toml`";
+
+// Entries of a folder in byte order; false with a diagnostic where it cannot be read.
+bool listFolder(const fs::path& folder, const Limits& limits, std::vector<fs::path>& out,
+                Diagnostics& diagnostics) {
+  std::error_code error;
+  fs::directory_iterator entries(folder, error);
+  for (; !error && entries != fs::directory_iterator(); entries.increment(error)) {
+    if (out.size() == limits.files) {
+      diagnostics.report<diag::FileNotReadable>({}, folder.string(),
+                                                "it holds more files than `--limit files=N` allows");
+      return false;
+    }
+    out.push_back(entries->path());
+  }
+  if (error) {
+    diagnostics.report<diag::FileNotReadable>({}, folder.string(), error.message());
+    return false;
+  }
+  std::sort(out.begin(), out.end());
+  return true;
+}
+
+bool before(const DataFile& file, std::string_view folder, std::string_view name) {
+  return file.folder != folder ? file.folder < folder : file.name < name;
+}
+
+bool isDataFile(const fs::path& path) {
+  std::error_code error;
+  return path.extension() == ".toml" && !path.stem().empty() && !fs::is_directory(path, error);
+}
+
+} // namespace
+
+DataFiles::DataFiles() {
+  for (const EmbeddedFile& file : embeddedFiles()) {
+    const std::size_t slash = file.path.find('/');
+    const std::string_view name = file.path.substr(slash + 1);
+    files_.push_back({std::string(file.path.substr(0, slash)), std::string(name.substr(0, name.rfind('.'))),
+                      "built in", file.text});
+  }
+  std::sort(files_.begin(), files_.end(),
+            [](const DataFile& a, const DataFile& b) { return before(a, b.folder, b.name); });
+}
+
+bool DataFiles::addFolder(const std::string& path, const Limits& limits, Diagnostics& diagnostics) {
+  std::error_code error;
+  const fs::path root(path);
+  if (!fs::exists(root, error)) {
+    diagnostics.report<diag::FileNotFound>({}, path);
+    return false;
+  }
+  if (!fs::is_directory(root, error)) {
+    diagnostics.report<diag::FileNotReadable>({}, path, "it is no folder");
+    return false;
+  }
+  std::vector<fs::path> folders;
+  if (!listFolder(root, limits, folders, diagnostics)) return false;
+
+  bool ok = true;
+  bool any = false;
+  for (const fs::path& folder : folders) {
+    if (isDataFile(folder)) diagnostics.report<diag::DataFolderUnused>({}, folder.string(), kReads);
+    if (!fs::is_directory(folder, error)) continue;
+    const std::string kind = folder.filename().string();
+    const bool known = std::find(std::begin(kKinds), std::end(kKinds), kind) != std::end(kKinds);
+    std::vector<fs::path> paths;
+    if (!listFolder(folder, limits, paths, diagnostics)) {
+      ok = false;
+      continue;
+    }
+    for (const fs::path& file : paths) {
+      if (!isDataFile(file)) continue;
+      any = true;
+      if (!known) {
+        diagnostics.report<diag::DataFolderUnused>({}, file.string(), kReads);
+        continue;
+      }
+      std::optional<std::string> bytes = readBytes(file.string(), limits, diagnostics);
+      if (!bytes) {
+        ok = false;
+        continue;
+      }
+      loaded_.push_back(std::make_unique<std::string>(std::move(*bytes)));
+      const std::string name = file.stem().string();
+      const auto at = std::lower_bound(files_.begin(), files_.end(), 0,
+                                       [&](const DataFile& other, int) { return before(other, kind, name); });
+      if (at == files_.end() || at->folder != kind || at->name != name) {
+        files_.insert(at, {kind, name, file.string(), *loaded_.back()});
+      } else {
+        at->origin = file.string();
+        at->text = *loaded_.back();
+      }
+    }
+  }
+  if (ok && !any) diagnostics.report<diag::DataFolderEmpty>({}, path, kReads);
+  return ok;
+}
+
+const DataFile* DataFiles::find(std::string_view folder, std::string_view name) const {
+  const auto at = std::lower_bound(files_.begin(), files_.end(), 0,
+                                   [&](const DataFile& file, int) { return before(file, folder, name); });
+  return at != files_.end() && at->folder == folder && at->name == name ? &*at : nullptr;
+}
+
+std::vector<const DataFile*> DataFiles::list(std::string_view folder) const {
+  std::vector<const DataFile*> out;
+  for (const DataFile& file : files_) {
+    if (file.folder == folder) out.push_back(&file);
+  }
+  return out;
+}
+
+} // namespace dotek::stdlib

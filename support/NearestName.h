@@ -1,0 +1,42 @@
+// The nearest known name, for messages about unknown ones.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+namespace dotek {
+
+// Damerau-Levenshtein distance without case: letters changed, lost, added, or two neighbours swapped.
+// Above `limit` it gives limit + 1.
+std::size_t nameDistance(std::string_view a, std::string_view b, std::size_t limit);
+
+// Keeps the nearest of the names it is offered, within a third of the length of `name`; of equally near
+// ones the first in byte order, so that the order of offering does not matter.
+class NearestName {
+public:
+  explicit NearestName(std::string_view name) : name_(name), limit_(name.size() / 3) {}
+
+  void offer(std::string_view candidate);
+  // "" where none is near.
+  const std::string& result() const { return best_; }
+
+private:
+  std::string_view name_;
+  std::size_t limit_;
+  std::string best_;
+};
+
+// The nearest of a range of names (or of pairs whose first is the name).
+template <class Names> std::string nearestName(std::string_view name, const Names& names) {
+  NearestName nearest(name);
+  for (const auto& candidate : names) {
+    if constexpr (requires { candidate.first; })
+      nearest.offer(candidate.first);
+    else
+      nearest.offer(candidate);
+  }
+  return nearest.result();
+}
+
+} // namespace dotek
