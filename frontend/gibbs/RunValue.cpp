@@ -1,0 +1,162 @@
+#include "frontend/gibbs/RunValue.h"
+
+#include "support/Decimal.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace dotek::frontend::gibbs {
+namespace {
+
+constexpr std::size_t kMaxTerms = 8;
+
+// terms += factor * value's terms; the constant part is returned.
+double addTerms(std::map<std::string, double>& terms, const Value& value, double factor) {
+  if (const double* number = std::get_if<double>(&value)) return *number * factor;
+  const Unknown* unknown = unknownIn(value);
+  if (unknown == nullptr) return 0;
+  for (const auto& [symbol, own] : unknown->terms) {
+    double& sum = terms[symbol];
+    sum += own * factor;
+    if (sum == 0) terms.erase(symbol);
+  }
+  return unknown->constant * factor;
+}
+
+std::string termsText(const std::map<std::string, double>& terms, double scale) {
+  std::string text;
+  for (const auto& [symbol, factor] : terms) {
+    if (!text.empty()) text += " + ";
+    if (factor / scale != 1) text += numberText(factor / scale) + "*";
+    text += symbol;
+  }
+  return text;
+}
+
+Relation mirrored(Relation relation) {
+  switch (relation) {
+  case Relation::Less: return Relation::Greater;
+  case Relation::Greater: return Relation::Less;
+  case Relation::LessEqual: return Relation::GreaterEqual;
+  case Relation::GreaterEqual: return Relation::LessEqual;
+  default: return relation;
+  }
+}
+
+} // namespace
+
+const Unknown* unknownIn(const Value& value) {
+  const UnknownPtr* pointer = std::get_if<UnknownPtr>(&value);
+  return pointer != nullptr ? pointer->get() : nullptr;
+}
+
+bool isTextValue(const Value& value) {
+  const Unknown* unknown = unknownIn(value);
+  return unknown != nullptr ? unknown->text : std::holds_alternative<std::string>(value);
+}
+
+Value hostValue(const std::string& host) {
+  return std::make_shared<const Unknown>(Unknown{{{host, 1.0}}, 0, {host}, host, false});
+}
+
+Value opaqueValue(const std::string& symbol, std::set<std::string> hosts, std::string reason, bool text) {
+  return std::make_shared<const Unknown>(
+      Unknown{{{symbol, 1.0}}, 0, std::move(hosts), std::move(reason), text});
+}
+
+std::string canonical(const Value& value) {
+  if (const double* number = std::get_if<double>(&value)) return numberText(*number);
+  if (const std::string* text = std::get_if<std::string>(&value)) return '"' + *text + '"';
+  const Unknown& unknown = *unknownIn(value);
+  std::string text = termsText(unknown.terms, 1);
+  if (unknown.constant != 0) text += " + " + numberText(unknown.constant);
+  return text;
+}
+
+std::optional<Value> linear(const Value& a, double factorA, const Value& b, double factorB) {
+  Unknown sum;
+  const double partA = addTerms(sum.terms, a, factorA);
+  sum.constant = partA + addTerms(sum.terms, b, factorB);
+  if (!std::isfinite(sum.constant)) return std::nullopt;
+  for (const auto& [symbol, factor] : sum.terms) {
+    if (!std::isfinite(factor)) return std::nullopt;
+  }
+  if (sum.terms.empty()) return Value(sum.constant == 0 ? 0.0 : sum.constant);
+  if (sum.terms.size() > kMaxTerms) return std::nullopt;
+  sum.hosts = hostsOf({a, b});
+  for (const Value* part : {&a, &b}) {
+    const Unknown* unknown = unknownIn(*part);
+    if (unknown != nullptr && (sum.reason.empty() || sum.hosts.empty())) sum.reason = unknown->reason;
+  }
+  return Value(std::make_shared<const Unknown>(std::move(sum)));
+}
+
+std::set<std::string> hostsOf(const std::vector<Value>& values) {
+  std::set<std::string> hosts;
+  for (const Value& value : values) {
+    const Unknown* unknown = unknownIn(value);
+    if (unknown != nullptr) hosts.insert(unknown->hosts.begin(), unknown->hosts.end());
+  }
+  return hosts;
+}
+
+std::string unknownText(const Unknown& unknown) {
+  return unknown.hosts.empty() ? unknown.reason : *unknown.hosts.begin();
+}
+
+Relation opposite(Relation relation) {
+  switch (relation) {
+  case Relation::Equal: return Relation::NotEqual;
+  case Relation::NotEqual: return Relation::Equal;
+  case Relation::Less: return Relation::GreaterEqual;
+  case Relation::Greater: return Relation::LessEqual;
+  case Relation::LessEqual: return Relation::Greater;
+  case Relation::GreaterEqual: return Relation::Less;
+  }
+  return relation;
+}
+
+bool holds(double left, Relation relation, double right) {
+  switch (relation) {
+  case Relation::Equal: return left == right;
+  case Relation::NotEqual: return left != right;
+  case Relation::Less: return left < right;
+  case Relation::Greater: return left > right;
+  case Relation::LessEqual: return left <= right;
+  case Relation::GreaterEqual: return left >= right;
+  }
+  return false;
+}
+
+bool Range::restrict(Relation relation, double bound) {
+  const bool fromBelow =
+      relation == Relation::Greater || relation == Relation::GreaterEqual || relation == Relation::Equal;
+  const bool fromAbove =
+      relation == Relation::Less || relation == Relation::LessEqual || relation == Relation::Equal;
+  const bool open = relation == Relation::Less || relation == Relation::Greater;
+  if (relation == Relation::NotEqual) excluded_.push_back(bound);
+  if (fromBelow && (!low_ || bound > *low_ || (bound == *low_ && open))) {
+    low_ = bound;
+    lowOpen_ = open;
+  }
+  if (fromAbove && (!high_ || bound < *high_ || (bound == *high_ && open))) {
+    high_ = bound;
+    highOpen_ = open;
+  }
+  if (!low_ || !high_ || *low_ < *high_) return true;
+  return *low_ == *high_ && !lowOpen_ && !highOpen_ &&
+         std::find(excluded_.begin(), excluded_.end(), *low_) == excluded_.end();
+}
+
+Question questionOf(const Unknown& difference, Relation relation, SourceRange range) {
+  const double scale = difference.terms.begin()->second;
+  const double bound = difference.constant == 0 ? 0.0 : -difference.constant / scale;
+  return {termsText(difference.terms, scale),
+          scale < 0 ? mirrored(relation) : relation,
+          bound,
+          difference.hosts,
+          difference.reason,
+          range};
+}
+
+} // namespace dotek::frontend::gibbs

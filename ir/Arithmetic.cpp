@@ -1,0 +1,110 @@
+#include "ir/Arithmetic.h"
+
+#include <cmath>
+#include <numbers>
+
+namespace dotek::ir {
+namespace {
+
+Computed finite(double value) {
+  if (!std::isfinite(value)) return {0, ArithmeticError::Overflow};
+  return {value == 0 ? 0.0 : value, ArithmeticError::None}; // no -0
+}
+
+Computed domain() {
+  return {0, ArithmeticError::Domain};
+}
+
+double toRadians(double angle, AngleUnit unit) {
+  return unit == AngleUnit::Degrees ? angle * std::numbers::pi / 180.0 : angle;
+}
+
+Computed fromRadians(double angle, AngleUnit unit) {
+  return finite(unit == AngleUnit::Degrees ? angle * 180.0 / std::numbers::pi : angle);
+}
+
+// Quarter turns 0..3 where a degree angle is a multiple of 90, else -1.
+int quarterTurns(double angle, AngleUnit unit) {
+  if (unit != AngleUnit::Degrees) return -1;
+  const double rest = std::fmod(angle, 360.0);
+  const double quarters = (rest < 0 ? rest + 360.0 : rest) / 90.0;
+  return quarters == std::floor(quarters) ? static_cast<int>(quarters) % 4 : -1;
+}
+
+} // namespace
+
+Computed add(double a, double b) {
+  return finite(a + b);
+}
+
+Computed subtract(double a, double b) {
+  return finite(a - b);
+}
+
+Computed multiply(double a, double b) {
+  return finite(a * b);
+}
+
+Computed divide(double a, double b) {
+  if (b == 0) return {0, ArithmeticError::DivisionByZero};
+  return finite(a / b);
+}
+
+Computed absolute(double a) {
+  return finite(std::fabs(a));
+}
+
+Computed truncate(double a) {
+  return finite(std::trunc(a));
+}
+
+Computed squareRoot(double a) {
+  return a < 0 ? domain() : finite(std::sqrt(a));
+}
+
+Computed sine(double angle, AngleUnit unit) {
+  constexpr double kExact[] = {0, 1, 0, -1};
+  const int quarters = quarterTurns(angle, unit);
+  return finite(quarters >= 0 ? kExact[quarters] : std::sin(toRadians(angle, unit)));
+}
+
+Computed cosine(double angle, AngleUnit unit) {
+  constexpr double kExact[] = {1, 0, -1, 0};
+  const int quarters = quarterTurns(angle, unit);
+  return finite(quarters >= 0 ? kExact[quarters] : std::cos(toRadians(angle, unit)));
+}
+
+Computed tangent(double angle, AngleUnit unit) {
+  const int quarters = quarterTurns(angle, unit);
+  if (quarters == 1 || quarters == 3) return domain();
+  return finite(quarters >= 0 ? 0.0 : std::tan(toRadians(angle, unit)));
+}
+
+Computed arcSine(double a, AngleUnit unit) {
+  return std::fabs(a) > 1 ? domain() : fromRadians(std::asin(a), unit);
+}
+
+Computed arcCosine(double a, AngleUnit unit) {
+  return std::fabs(a) > 1 ? domain() : fromRadians(std::acos(a), unit);
+}
+
+Computed arcTangent(double a, AngleUnit unit) {
+  return fromRadians(std::atan(a), unit);
+}
+
+Computed direction(double x, double y, AngleUnit unit) {
+  if (x == 0 && y == 0) return domain();
+  return fromRadians(std::atan2(y == 0 ? 0.0 : y, x), unit);
+}
+
+std::string_view describe(ArithmeticError error) {
+  switch (error) {
+  case ArithmeticError::None: return "";
+  case ArithmeticError::DivisionByZero: return "a division by zero";
+  case ArithmeticError::Domain: return "a value that the function has no result for";
+  case ArithmeticError::Overflow: return "a result that is too large";
+  }
+  return "";
+}
+
+} // namespace dotek::ir
