@@ -15,7 +15,7 @@ using Reader = std::function<void(const TomlDocument&)>;
 
 std::string dataError(
     const std::string& text, const Reader& read = [](const TomlDocument&) {}) {
-  const DataFile file{"forms", "x", "built in", text};
+  const DataFile file{"forms", "x", "forms/x.toml", text};
   try {
     const TomlDocument document = TomlDocument::parse(file);
     read(document);
