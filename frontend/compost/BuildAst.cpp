@@ -92,7 +92,7 @@ std::vector<Literal> Builder::arguments(Parser::ArgumentsContext& context) {
   }
   if (!closed) {
     program_.hasErrorNodes = true;
-    if (!unterminated && !quiet(bracket))
+    if (!unterminated && !quiet(bracket) && !cutShort(rangeOf(context)))
       syntaxError(bracket, "the bracket that opens here is not closed; write `)` behind the argument");
   }
   return result;
@@ -154,12 +154,12 @@ ConditionTerm Builder::term(Parser::TermContext& context, SourceRange before) {
   } else if (auto* bracket = dynamic_cast<Parser::BracketOperandContext*>(context.operand())) {
     const SourceRange open = rangeOf(*bracket->LPAREN()->getSymbol());
     result.operand = std::make_unique<Condition>(condition(*bracket->condition(), open));
-    if (isConjured(*bracket->RPAREN()->getSymbol()) && !quiet(open))
+    if (isConjured(*bracket->RPAREN()->getSymbol()) && !quiet(open) && !cutShort(rangeOf(*bracket)))
       syntaxError(open, "the bracket that opens here is not closed; write `)` behind the condition");
   } else {
     result.range = result.nots.empty() ? SourceRange{file_, before.end, before.end} : result.range;
     result.operand = ConditionError{};
-    if (!quiet(before))
+    if (!quiet(before) && !cutShort(before))
       syntaxError(before,
                   fmt::format("no condition follows `{}`; write a boolean keyword such as `Flag?('NAME')`",
                               sources_.textUtf8(withoutColon(before, sources_))));
