@@ -108,9 +108,13 @@ std::optional<Literal> Builder::argument(Parser::ArgumentContext& context, bool&
     unterminated = true; // reported with the tokens
     return std::nullopt;
   }
-  if (!quiet(range)) {
+  if (!quiet(range) && !cutShort(range)) {
     const std::string text = sources_.textUtf8(range);
-    syntaxError(range, fmt::format("the argument `{0}` stands without apostrophes; write `('{0}')`", text));
+    if (text.find_first_of("()'\r\n") == std::string::npos && text.size() <= 40)
+      syntaxError(range, fmt::format("the argument `{0}` stands without apostrophes; write `('{0}')`", text));
+    else
+      syntaxError(rangeOf(*context.getStart()),
+                  "the argument that begins here stands without apostrophes; write `('NAME')`");
   }
   return Literal{range, std::string(sources_.text(range))};
 }

@@ -26,7 +26,8 @@ bool Builder::cutShort(SourceRange range) const {
   const auto next = std::lower_bound(findings_.lost.begin(), findings_.lost.end(), range.end,
                                      [](SourceRange lost, std::uint32_t at) { return lost.begin < at; });
   if (next == findings_.lost.end()) return false;
-  return sources_.text({file_, range.end, next->begin}).find_first_not_of(" \t\r\n") == std::string_view::npos;
+  return sources_.text({file_, range.end, next->begin}).find_first_not_of(" \t\r\n") ==
+         std::string_view::npos;
 }
 
 void Builder::item(const ParseSession::Unit& unit, antlr4::TokenStream& stream) {
