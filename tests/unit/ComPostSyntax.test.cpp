@@ -223,6 +223,13 @@ TEST_CASE("statements outside a routine, doubled routines") {
   CHECK(blank.only() == "1:3 syntax-error");
 }
 
+TEST_CASE("the grammar decides everything by one token, so it cannot be ambiguous") {
+  const std::string parser =
+      readAll(std::filesystem::path(DOTEK_GENERATED) / "grammar/ComPost/ComPostParser.cpp");
+  REQUIRE(parser.find("ComPostParser::routine()") != std::string::npos);
+  CHECK(parser.find("adaptivePredict") == std::string::npos);
+}
+
 TEST_CASE("tokens are printed one a line") {
   SourceMap sources;
   Diagnostics diagnostics;
