@@ -192,8 +192,10 @@ Program parse(FileId file, const SourceMap& sources, const Limits& limits, Diagn
   Builder builder(file, sources, checkTokens(tokens, file, sources, limits, diagnostics), diagnostics);
   Parser parser(&tokens.stream());
   ParseSession session(parser, file, compost, limits, diagnostics);
-  while (!session.atEnd())
+  while (!session.atEnd()) {
     builder.item(session.run([&] { return parser.item(); }), tokens.stream());
+    parser.getTreeTracker().reset(); // trees are large, and this one is built
+  }
   return builder.finish(tokens);
 }
 
