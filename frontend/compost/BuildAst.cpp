@@ -92,7 +92,7 @@ std::vector<Literal> Builder::arguments(Parser::ArgumentsContext& context) {
   }
   if (!closed) {
     program_.hasErrorNodes = true;
-    if (!unterminated && !quiet(bracket))
+    if (!unterminated && !quiet(bracket) && !cutShort(rangeOf(context)))
       syntaxError(bracket, "the bracket that opens here is not closed; write `)` behind the argument");
   }
   return result;
@@ -108,9 +108,13 @@ std::optional<Literal> Builder::argument(Parser::ArgumentContext& context, bool&
     unterminated = true; // reported with the tokens
     return std::nullopt;
   }
-  if (!quiet(range)) {
+  if (!quiet(range) && !cutShort(range)) {
     const std::string text = sources_.textUtf8(range);
-    syntaxError(range, fmt::format("the argument `{0}` stands without apostrophes; write `('{0}')`", text));
+    if (text.find_first_of("()'\r\n") == std::string::npos && text.size() <= 40)
+      syntaxError(range, fmt::format("the argument `{0}` stands without apostrophes; write `('{0}')`", text));
+    else
+      syntaxError(rangeOf(*context.getStart()),
+                  "the argument that begins here stands without apostrophes; write `('NAME')`");
   }
   return Literal{range, std::string(sources_.text(range))};
 }
@@ -154,12 +158,12 @@ ConditionTerm Builder::term(Parser::TermContext& context, SourceRange before) {
   } else if (auto* bracket = dynamic_cast<Parser::BracketOperandContext*>(context.operand())) {
     const SourceRange open = rangeOf(*bracket->LPAREN()->getSymbol());
     result.operand = std::make_unique<Condition>(condition(*bracket->condition(), open));
-    if (isConjured(*bracket->RPAREN()->getSymbol()) && !quiet(open))
+    if (isConjured(*bracket->RPAREN()->getSymbol()) && !quiet(open) && !cutShort(rangeOf(*bracket)))
       syntaxError(open, "the bracket that opens here is not closed; write `)` behind the condition");
   } else {
     result.range = result.nots.empty() ? SourceRange{file_, before.end, before.end} : result.range;
     result.operand = ConditionError{};
-    if (!quiet(before))
+    if (!quiet(before) && !cutShort(before))
       syntaxError(before,
                   fmt::format("no condition follows `{}`; write a boolean keyword such as `Flag?('NAME')`",
                               sources_.textUtf8(withoutColon(before, sources_))));

@@ -33,6 +33,8 @@ private:
   bool quiet(SourceRange range) const;
   // Text was dropped before `range`, in the same routine: ends may be missing for that reason.
   bool losesText(SourceRange range) const;
+  // Text was dropped right behind `range`.
+  bool cutShort(SourceRange range) const;
   void syntaxError(SourceRange range, std::string message);
   // Place of a flow keyword, without the colon that is reported.
   SourceRange keyword(const antlr4::Token& token);

@@ -22,6 +22,14 @@ bool Builder::losesText(SourceRange range) const {
   return behind != findings_.lost.begin() && std::prev(behind)->end > routineBegin_;
 }
 
+bool Builder::cutShort(SourceRange range) const {
+  const auto next = std::lower_bound(findings_.lost.begin(), findings_.lost.end(), range.end,
+                                     [](SourceRange lost, std::uint32_t at) { return lost.begin < at; });
+  if (next == findings_.lost.end()) return false;
+  return sources_.text({file_, range.end, next->begin}).find_first_not_of(" \t\r\n") ==
+         std::string_view::npos;
+}
+
 void Builder::item(const ParseSession::Unit& unit, antlr4::TokenStream& stream) {
   if (auto* part = dynamic_cast<Parser::LooseItemContext*>(unit.tree)) return loose(*part->loose());
   flushEnds(std::nullopt);
@@ -184,8 +192,10 @@ Program parse(FileId file, const SourceMap& sources, const Limits& limits, Diagn
   Builder builder(file, sources, checkTokens(tokens, file, sources, limits, diagnostics), diagnostics);
   Parser parser(&tokens.stream());
   ParseSession session(parser, file, compost, limits, diagnostics);
-  while (!session.atEnd())
+  while (!session.atEnd()) {
     builder.item(session.run([&] { return parser.item(); }), tokens.stream());
+    parser.getTreeTracker().reset(); // trees are large, and this one is built
+  }
   return builder.finish(tokens);
 }
 

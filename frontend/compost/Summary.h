@@ -30,6 +30,9 @@ struct FieldRef {
 // The routine of that name, exactly as spelt; the first of several; nullptr for none.
 const Routine* findRoutine(const Program& program, std::string_view name);
 
+// The cycle that the operand tests, NOTs before it aside; nullptr for another operand.
+const std::string* cycleTested(const ConditionTerm& term);
+
 // The cycles for which the condition can hold; nothing where it does not depend on the cycle alone that way.
 std::optional<std::set<std::string>> cyclesOf(const Condition& condition);
 
