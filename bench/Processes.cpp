@@ -126,6 +126,43 @@ void writeMacro(const fs::path& path, int lines) {
   }
 }
 
+std::vector<fs::path> sortedEntries(const fs::path& folder) {
+  std::vector<fs::path> out;
+  if (fs::is_directory(folder)) {
+    for (const auto& entry : fs::directory_iterator(folder))
+      out.push_back(entry.path());
+  }
+  std::sort(out.begin(), out.end());
+  return out;
+}
+
+// Cycles of the corpus that post with their default values, under numbers: names of a shop stand in its
+// data only.
+void addCorpus(std::vector<Case>& out, const std::string& dotek, const fs::path& corpus) {
+  const std::vector<fs::path> posts = sortedEntries(corpus / "compost");
+  if (posts.empty()) return;
+  int number = 0;
+  for (const fs::path& folder : sortedEntries(corpus / "gibbs")) {
+    ++number;
+    const Command post = {dotek,
+                          "post",
+                          folder.string(),
+                          "--prog",
+                          posts.front().string(),
+                          "--recover",
+                          "--seq",
+                          "90:10",
+                          "--clearance",
+                          "5",
+                          "--assume",
+                          "missing-field-zero"};
+    if (runOnce(post).status == 0)
+      out.push_back({fmt::format("post, corpus cycle {}", number), post, {0}, 12, 30});
+    out.push_back(
+        {fmt::format("lint, corpus cycle {}", number), {dotek, "lint", folder.string()}, {0, 1}, {}, {}});
+  }
+}
+
 std::vector<Case> cases(const std::string& dotek, const std::string& corpus, const fs::path& scratch) {
   std::vector<Case> out;
   out.push_back({"list limits (nothing parsed)", {dotek, "list", "limits"}, {0}, {}, {}});
@@ -136,28 +173,7 @@ std::vector<Case> cases(const std::string& dotek, const std::string& corpus, con
                  12,
                  30});
   out.push_back({"lint, example folder", {dotek, "lint", "examples/surface-x"}, {0, 1}, {}, {}});
-  if (fs::is_directory(corpus)) {
-    const std::string prog = corpus + "/compost/probe-routines.txt";
-    out.push_back({"post, one axis (corpus)",
-                   {dotek, "post", corpus + "/gibbs/MERENI.OSA.X", "--prog", prog, "--routine",
-                    "defProbeCycle", "--recover", "--seq", "90:10", "--clearance", "5", "--set", "X=10"},
-                   {0},
-                   12,
-                   30});
-    out.push_back({"post, three axes (corpus)",
-                   {dotek,           "post",        corpus + "/gibbs/MERENI.OSA.XYZ",
-                    "--prog",        prog,          "--routine",
-                    "defProbeCycle", "--recover",   "--seq",
-                    "90:10",         "--clearance", "5",
-                    "--set",         "IB=10",       "--set",
-                    "JB=-10",        "--set",       "IC=10",
-                    "--set",         "JC=10"},
-                   {0},
-                   12,
-                   30});
-    out.push_back(
-        {"lint, three axes (corpus)", {dotek, "lint", corpus + "/gibbs/MERENI.OSA.XYZ"}, {0, 1}, {}, {}});
-  }
+  addCorpus(out, dotek, corpus);
   writeProg(scratch / "long-post.txt", 4000);
   writeMacro(scratch / "long.mac", 4000);
   out.push_back(

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cctype>
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 
 namespace fs = std::filesystem;
 using namespace dotek::tests;
@@ -66,7 +67,7 @@ std::vector<std::string> differences(const std::vector<Block>& recorded, const s
       ++r;
       ++c;
     } else if (c == columns || (r < rows && common[r + 1][c] >= common[r][c + 1])) {
-      out.push_back("-" + std::to_string(recorded[r].line) + " " + recorded[r].text);
+      out.push_back(fmt::format("-{} {}", recorded[r].line, recorded[r].text));
       ++r;
     } else {
       out.push_back("+" + posted[c].text);
@@ -94,7 +95,7 @@ std::vector<std::string> listed(const std::string& cycle) {
       at = next;
     }
     if (cells.size() != 6 || cells[0] != cycle) continue;
-    if (cells[3] != "none") out.push_back("-" + cells[2] + " " + cells[3]);
+    if (cells[3] != "none") out.push_back(fmt::format("-{} {}", cells[2], cells[3]));
     if (cells[4] != "none") out.push_back("+" + cells[4]);
   }
   std::sort(out.begin(), out.end());
@@ -102,8 +103,8 @@ std::vector<std::string> listed(const std::string& cycle) {
 }
 
 struct CorpusCycle {
-  const char* name;
-  const char* recorded;
+  std::string name;
+  std::string recorded;
   std::size_t first;
   std::size_t last;
   std::vector<std::string> values;
