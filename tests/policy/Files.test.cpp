@@ -57,7 +57,8 @@ TEST_CASE("policy: no unfinished work outside tests") {
   for (const TreeFile& file : tree()) {
     if (!isOurText(file) || file.below("tests") || isMarkdown(file)) continue;
     const std::string text = lowerCase(file.text);
-    for (const char* mark : {"todo", "fixme", "xxx", "hack", "not implemented", "unimplemented", "stub"}) {
+    for (const std::string mark :
+         {"todo", "fixme", "xxx", "hack", "not implemented", "unimplemented", "stub"}) {
       const std::size_t at = findWord(text, mark);
       CHECK_MESSAGE(at == std::string::npos,
                     file.path << ":" << lineAt(text, at == std::string::npos ? 0 : at) << ": " << mark);
@@ -68,8 +69,8 @@ TEST_CASE("policy: no unfinished work outside tests") {
 TEST_CASE("policy: no path of a machine") {
   for (const TreeFile& file : tree()) {
     if (!isOurText(file) || isCase(file)) continue;
-    for (const char* folder : {"work", "farm", "root", "home", "tmp", "opt"}) {
-      const std::string start = std::string("/") + folder + "/";
+    for (const std::string folder : {"work", "farm", "root", "home", "tmp", "opt"}) {
+      const std::string start = "/" + folder + "/";
       for (std::size_t at = file.text.find(start); at != std::string::npos;
            at = file.text.find(start, at + 1)) {
         const char before = at == 0 ? ' ' : file.text[at - 1];
@@ -84,10 +85,10 @@ TEST_CASE("policy: no path of a machine") {
 TEST_CASE("policy: every test can fail") {
   for (const TreeFile& file : tree()) {
     if (!file.below("tests") || !(file.isSource() || file.path.ends_with(".sh"))) continue;
-    for (const char* macro : {"CHECK", "REQUIRE", "WARN", "CHECK_MESSAGE", "REQUIRE_MESSAGE"}) {
-      for (const char* argument : {"true", "1", "!false"}) {
-        for (const char* end : {")", ","}) {
-          const std::string text = std::string(macro) + "(" + argument + end;
+    for (const std::string macro : {"CHECK", "REQUIRE", "WARN", "CHECK_MESSAGE", "REQUIRE_MESSAGE"}) {
+      for (const std::string argument : {"true", "1", "!false"}) {
+        for (const std::string end : {")", ","}) {
+          const std::string text = macro + "(" + argument + end;
           CHECK_MESSAGE(file.text.find(text) == std::string::npos, file.path << " has " << text);
         }
       }
@@ -100,7 +101,7 @@ TEST_CASE("policy: every test can fail") {
 }
 
 TEST_CASE("policy: what a newcomer looks for is there") {
-  for (const char* name :
+  for (const std::string name :
        {"README.md", "CHANGELOG.md", "LICENSE", "dev", ".ci/run", "docs/architecture.md", "docs/cli.md",
         "docs/testing.md", "docs/diagnostics.md", "docs/performance.md", "docs/post-differences.md"})
     CHECK_MESSAGE(fs::exists(root() / name), name);
@@ -108,7 +109,7 @@ TEST_CASE("policy: what a newcomer looks for is there") {
   CHECK(readme.find("./dev demo") != std::string::npos);
   CHECK(readme.find("./dev test") != std::string::npos);
   CHECK(readAll(root() / ".ci/run").find("./dev test") != std::string::npos);
-  for (const char* name : {"dev", ".ci/run"})
+  for (const std::string name : {"dev", ".ci/run"})
     CHECK_MESSAGE((fs::status(root() / name).permissions() & fs::perms::owner_exec) != fs::perms::none, name);
 }
 

@@ -179,7 +179,7 @@ TEST_CASE("policy: no cycles among headers or folders") {
 // A library stays in the room that needs it: a header that brings it is included from there only.
 TEST_CASE("policy: libraries do not leak") {
   struct Library {
-    const char* name;
+    std::string name;
     std::function<bool(const std::string&)> is;
     std::vector<std::string> folders; // where it may be included
     std::string shared;               // folder within which headers may bring it

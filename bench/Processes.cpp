@@ -1,0 +1,235 @@
+// Time and memory of whole processes: median of some runs, largest resident set, ratio to /bin/true.
+//   bench_processes --dotek PROGRAM [--corpus DIR] [--runs N] [--check]
+// Run from the root of the repository. --check exits with 1 where a figure is above its bound.
+#include <algorithm>
+#include <chrono>
+#include <cstdlib>
+#include <cstring>
+#include <fcntl.h>
+#include <filesystem>
+#include <fmt/format.h>
+#include <fstream>
+#include <optional>
+#include <spawn.h>
+#include <string>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+#include <vector>
+
+extern char** environ;
+
+namespace fs = std::filesystem;
+
+namespace {
+
+using Command = std::vector<std::string>;
+
+struct Run {
+  double milliseconds = 0;
+  double megabytes = 0;
+  int status = 0; // -1: could not be started, or died
+};
+
+struct Figures {
+  double median = 0;
+  double megabytes = 0; // the largest
+  int status = 0;       // of the last run
+};
+
+struct Case {
+  std::string name;
+  Command command;
+  std::vector<int> statuses; // that mean the work was done
+  std::optional<double> mostMilliseconds;
+  std::optional<double> mostMegabytes;
+};
+
+Run runOnce(const Command& command) {
+  std::vector<char*> arguments;
+  for (const std::string& argument : command)
+    arguments.push_back(const_cast<char*>(argument.c_str()));
+  arguments.push_back(nullptr);
+  posix_spawn_file_actions_t actions;
+  posix_spawn_file_actions_init(&actions);
+  posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
+  posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
+
+  Run run;
+  pid_t child = 0;
+  const auto begin = std::chrono::steady_clock::now();
+  const int failed =
+      posix_spawn(&child, command.front().c_str(), &actions, nullptr, arguments.data(), environ);
+  posix_spawn_file_actions_destroy(&actions);
+  if (failed != 0) {
+    run.status = -1;
+    return run;
+  }
+  int status = 0;
+  rusage usage{};
+  wait4(child, &status, 0, &usage);
+  const auto end = std::chrono::steady_clock::now();
+  run.milliseconds = std::chrono::duration<double, std::milli>(end - begin).count();
+  run.megabytes = static_cast<double>(usage.ru_maxrss) / 1024.0; // Linux counts KiB
+  run.status = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  return run;
+}
+
+Figures measure(const Command& command, int runs) {
+  runOnce(command); // files into the cache
+  std::vector<double> times;
+  Figures figures;
+  for (int i = 0; i < runs; ++i) {
+    const Run run = runOnce(command);
+    times.push_back(run.milliseconds);
+    figures.megabytes = std::max(figures.megabytes, run.megabytes);
+    figures.status = run.status;
+  }
+  std::sort(times.begin(), times.end());
+  const std::size_t half = times.size() / 2;
+  figures.median = times.size() % 2 == 1 ? times[half] : (times[half - 1] + times[half]) / 2;
+  return figures;
+}
+
+// A Prog of about `lines` lines: one routine with a branch for each of many cycles.
+void writeProg(const fs::path& path, int lines) {
+  std::ofstream out(path);
+  out << "FORMAT(OpFieldData#,10)\n#10 = '###.##;0'\n\n";
+  int written = 3;
+  for (int routine = 0; written < lines; ++routine) {
+    out << "routine" << routine << ":\n";
+    ++written;
+    for (int branch = 0; branch < 20 && written < lines; ++branch) {
+      out << "IF CycleType?('CYCLE." << routine << "." << branch << "')\n"
+          << " ' (CYCLE " << branch << ")' EOL\n"
+          << " SeqC ' G65 P9770 Z'OpFieldData#('Zb')'' EOL\n"
+          << " IF Flag?('Wide') AND RigidTap?\n"
+          << "  SeqC ' G65 P9023 D'OpFieldData#('D')' S'OpFieldData#('G')' I'OpFieldData#('X')'' EOL\n"
+          << " ELSE\n"
+          << "  SeqC ' #550=#138' EOL {result}\n"
+          << " END\n"
+          << "END\n";
+      written += 9;
+    }
+    out << "RETURN\n\n";
+    written += 2;
+  }
+}
+
+// As writeProg, for a macro file.
+void writeMacro(const fs::path& path, int lines) {
+  std::ofstream out(path);
+  for (int line = 0; line < lines; line += 4) {
+    out << "depth" << line << " = (Zb - retract) * 2 + abs(a) ! approach\n"
+        << "if depth" << line << " > 10 then a = a + 1\n"
+        << "for k = 1 to 3\nnext k\n";
+  }
+}
+
+std::vector<fs::path> sortedEntries(const fs::path& folder) {
+  std::vector<fs::path> out;
+  if (fs::is_directory(folder)) {
+    for (const auto& entry : fs::directory_iterator(folder))
+      out.push_back(entry.path());
+  }
+  std::sort(out.begin(), out.end());
+  return out;
+}
+
+// Cycles of the corpus that post with their default values, under numbers: names of a shop stand in its
+// data only.
+void addCorpus(std::vector<Case>& out, const std::string& dotek, const fs::path& corpus) {
+  const std::vector<fs::path> posts = sortedEntries(corpus / "compost");
+  if (posts.empty()) return;
+  int number = 0;
+  for (const fs::path& folder : sortedEntries(corpus / "gibbs")) {
+    ++number;
+    const Command post = {dotek,
+                          "post",
+                          folder.string(),
+                          "--prog",
+                          posts.front().string(),
+                          "--recover",
+                          "--seq",
+                          "90:10",
+                          "--clearance",
+                          "5",
+                          "--assume",
+                          "missing-field-zero"};
+    if (runOnce(post).status == 0)
+      out.push_back({fmt::format("post, corpus cycle {}", number), post, {0}, 12, 30});
+    out.push_back(
+        {fmt::format("lint, corpus cycle {}", number), {dotek, "lint", folder.string()}, {0, 1}, {}, {}});
+  }
+}
+
+std::vector<Case> cases(const std::string& dotek, const std::string& corpus, const fs::path& scratch) {
+  std::vector<Case> out;
+  out.push_back({"list limits (nothing parsed)", {dotek, "list", "limits"}, {0}, {}, {}});
+  out.push_back({"post, example cycle",
+                 {dotek, "post", "examples/surface-x", "--prog", "examples/post.txt", "--routine", "probe",
+                  "--seq", "10:10", "--clearance", "5", "--set", "G=54"},
+                 {0},
+                 12,
+                 30});
+  out.push_back({"lint, example folder", {dotek, "lint", "examples/surface-x"}, {0, 1}, {}, {}});
+  addCorpus(out, dotek, corpus);
+  writeProg(scratch / "long-post.txt", 4000);
+  writeMacro(scratch / "long.mac", 4000);
+  out.push_back(
+      {"lint, Prog of 4,000 lines", {dotek, "lint", (scratch / "long-post.txt").string()}, {0, 1}, 60, {}});
+  out.push_back(
+      {"lint, macro of 4,000 lines", {dotek, "lint", (scratch / "long.mac").string()}, {0, 1}, {}, {}});
+  return out;
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+  std::string dotek = "build/release/dotek";
+  std::string corpus;
+  int runs = 20;
+  bool check = false;
+  for (int i = 1; i < argc; ++i) {
+    const std::string flag = argv[i];
+    const bool more = i + 1 < argc;
+    if (flag == "--dotek" && more)
+      dotek = argv[++i];
+    else if (flag == "--corpus" && more)
+      corpus = argv[++i];
+    else if (flag == "--runs" && more)
+      runs = std::max(1, std::atoi(argv[++i]));
+    else if (flag == "--check")
+      check = true;
+    else {
+      fmt::print(stderr, "bench_processes --dotek PROGRAM [--corpus DIR] [--runs N] [--check]\n");
+      return 2;
+    }
+  }
+  const fs::path scratch = fs::path(dotek).parent_path() / "bench";
+  fs::create_directories(scratch);
+
+  const Figures base = measure({"/bin/true"}, runs);
+  fmt::print("median of {} runs, whole processes\n\n", runs);
+  fmt::print("| work | ms | x /bin/true | MB | bound |\n|---|---|---|---|---|\n");
+  fmt::print("| /bin/true | {:.2f} | 1.0 | {:.1f} | |\n", base.median, base.megabytes);
+  bool missed = false;
+  bool broken = false;
+  for (const Case& one : cases(dotek, corpus, scratch)) {
+    const Figures figures = measure(one.command, runs);
+    if (std::find(one.statuses.begin(), one.statuses.end(), figures.status) == one.statuses.end()) {
+      fmt::print("| {} | exit status {}: not measured | | | |\n", one.name, figures.status);
+      broken = true;
+      continue;
+    }
+    std::string bound;
+    if (one.mostMilliseconds) bound += fmt::format("{} ms", *one.mostMilliseconds);
+    if (one.mostMegabytes) bound += fmt::format(", {} MB", *one.mostMegabytes);
+    const bool over = (one.mostMilliseconds && figures.median > *one.mostMilliseconds) ||
+                      (one.mostMegabytes && figures.megabytes > *one.mostMegabytes);
+    missed = missed || over;
+    fmt::print("| {} | {:.2f} | {:.1f} | {:.1f} | {}{} |\n", one.name, figures.median,
+               figures.median / base.median, figures.megabytes, bound, over ? " MISSED" : "");
+  }
+  return broken || (check && missed) ? 1 : 0;
+}

@@ -1,0 +1,90 @@
+// Reading inputs and writing results: what is refused, and how it is told.
+#include "support/Files.h"
+
+#include "tests/GoldenRunner.h"
+
+#include <doctest/doctest.h>
+#include <filesystem>
+#include <fstream>
+#include <unistd.h>
+
+namespace fs = std::filesystem;
+using namespace dotek;
+
+namespace {
+
+// A folder of its own, gone at the end.
+struct Scratch {
+  Scratch() : folder(fs::temp_directory_path() / ("dotek-files-" + std::to_string(getpid()))) {
+    fs::create_directories(folder);
+  }
+  ~Scratch() { fs::remove_all(folder); }
+  Scratch(const Scratch&) = delete;
+  Scratch& operator=(const Scratch&) = delete;
+  std::string path(const std::string& name) const { return (folder / name).string(); }
+
+  fs::path folder;
+};
+
+// The code of the only finding for these bytes; "" where they are a text.
+std::string codeFor(const std::string& bytes, std::optional<Encoding> forced = std::nullopt) {
+  SourceMap sources;
+  Diagnostics diagnostics;
+  const auto file = addText("f", bytes, Encoding::Cp1250, forced, sources, diagnostics);
+  CHECK(file.has_value() == diagnostics.empty());
+  REQUIRE(diagnostics.all().size() <= 1);
+  return diagnostics.empty() ? "" : std::string(diagnostics.all().front().code);
+}
+
+} // namespace
+
+TEST_CASE("a file that cannot be read is one finding") {
+  const Scratch scratch;
+  std::ofstream(scratch.path("large")) << std::string(101, 'x');
+  Limits limits;
+  limits.inputBytes = 100;
+  const auto codeOf = [&](const std::string& path) {
+    Diagnostics diagnostics;
+    CHECK_FALSE(readBytes(path, limits, diagnostics).has_value());
+    REQUIRE(diagnostics.all().size() == 1);
+    return std::string(diagnostics.all().front().code);
+  };
+  CHECK(codeOf(scratch.path("none")) == "file-not-found");
+  CHECK(codeOf(scratch.path("large")) == "file-too-large");
+  CHECK(codeOf(scratch.folder.string()) == "file-not-readable");
+}
+
+TEST_CASE("a file of exactly the limit is read") {
+  const Scratch scratch;
+  std::ofstream(scratch.path("f")) << std::string(100, 'x');
+  Limits limits;
+  limits.inputBytes = 100;
+  Diagnostics diagnostics;
+  CHECK(readBytes(scratch.path("f"), limits, diagnostics).value_or("").size() == 100);
+  CHECK(diagnostics.empty());
+}
+
+TEST_CASE("texts that no control reads are refused") {
+  using namespace std::string_literals;
+  CHECK(codeFor("\xFF\xFE"s + "G\0"s) == "utf16-input");
+  CHECK(codeFor("\xFE\xFF"s + "\0G"s) == "utf16-input");
+  CHECK(codeFor("G\0 \0=\0"s) == "utf16-input"); // without its mark
+  CHECK(codeFor("G = 5\0 4\n"s) == "nul-byte");
+  CHECK(codeFor("\xE9", Encoding::Utf8) == "not-utf8");
+  CHECK(codeFor("\xE9").empty());
+  CHECK(codeFor("").empty());
+}
+
+TEST_CASE("a result is written whole or not at all") {
+  const Scratch scratch;
+  Diagnostics diagnostics;
+  CHECK(writeAtomically(scratch.path("out"), "N10\n", diagnostics));
+  CHECK(writeAtomically(scratch.path("out"), "N20\n", diagnostics));
+  CHECK(tests::readAll(scratch.path("out")) == "N20\n");
+  CHECK(diagnostics.empty());
+  CHECK_FALSE(writeAtomically(scratch.path("none/out"), "N10\n", diagnostics));
+  REQUIRE(diagnostics.all().size() == 1);
+  CHECK(diagnostics.all().front().code == "file-not-writable");
+  // Nothing is left beside it.
+  CHECK(std::distance(fs::directory_iterator(scratch.folder), fs::directory_iterator()) == 1);
+}
