@@ -13,9 +13,9 @@ namespace dotek::stdlib {
 class DataFiles;
 
 struct FormEntry {
-  std::string text;    // printed as it stands, leading blank included
-  std::string value;   // host input printed behind the text ("clearance"), "" for none
-  std::string picture; // of the value
+  std::string text;      // printed as it stands, leading blank included
+  std::string value;     // host input printed behind the text ("clearance"), "" for none
+  std::string picture;   // of the value
   bool observed = false; // seen in real output; else assumed
   std::string source;
 };
@@ -30,9 +30,11 @@ struct Form {
   std::string name;
   std::string origin; // "built in", or the file: what messages tell to extend
   std::map<std::string, FormEntry, std::less<>> commands; // SpinOff, ZCP1, ...
-  std::map<std::string, FormEntry, std::less<>> numerics; // keyword without `#`: its picture, and the host input it prints
-  std::map<std::string, FormBoolean, std::less<>> booleans; // keyword without `?`: what holds for a probe operation
-  std::map<std::string, FormEntry, std::less<>> sequences;  // SeqC, SeqLabC: the text before the digits
+  std::map<std::string, FormEntry, std::less<>>
+      numerics; // keyword without `#`: its picture, and the host input it prints
+  std::map<std::string, FormBoolean, std::less<>>
+      booleans; // keyword without `?`: what holds for a probe operation
+  std::map<std::string, FormEntry, std::less<>> sequences; // SeqC, SeqLabC: the text before the digits
 
   // Throws DataError where the file has a defect. nullopt: no such form.
   static std::optional<Form> load(const DataFiles& files, std::string_view name);

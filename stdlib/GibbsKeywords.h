@@ -14,6 +14,8 @@ namespace dotek::stdlib {
 
 class DataFiles;
 
+inline constexpr std::uint32_t kNoBound = UINT32_MAX;
+
 // One argument of a command, as the signature language of gibbs-commands.toml gives it.
 struct ArgumentSpec {
   enum class Kind : std::uint8_t {
@@ -28,7 +30,8 @@ struct ArgumentSpec {
   Type type = Type::Number;
   bool array = false;
   bool optional = false;
-  std::uint32_t repeat = 1; // how often it may stand
+  std::uint32_t repeat = 1; // how often it may stand; kNoBound: any number
+  bool geometry = false;    // takes P1, L8, C25 too
   std::string name;
   std::vector<std::string> keywords; // Choice, upper case
   std::string family;                // Parameter
@@ -39,6 +42,8 @@ struct CommandSignature {
   std::vector<ArgumentSpec> arguments;
   char grade = 'D'; // D documented, O observed, I inferred, U unknown
   std::string source;
+  bool unsure = false;       // number or kinds of arguments are not certain: no error for a mismatch
+  bool openKeywords = false; // other keywords than those of a Choice may exist
 };
 
 struct FunctionSpec {
@@ -47,6 +52,35 @@ struct FunctionSpec {
   char result = 'n';
   char grade = 'D';
   std::string source;
+  bool open = false; // the arguments are not known: any are accepted
+  std::string note;  // "" for none
+};
+
+enum class ParameterKind : std::uint8_t { Number, Text, Mixed, Keyword }; // Mixed: the sources do not say
+
+// A variable that GibbsCAM sets before it runs a macro of a custom drill cycle.
+struct CallbackVariable {
+  std::string name;
+  bool read = false;
+  bool write = false;
+  std::vector<std::string> where; // "CycleData.mac", ...
+  std::string note;
+  char grade = 'D';
+};
+
+// Names that walk a list. One of the commands `snapshot` has to run before any of them is read.
+struct CursorNames {
+  std::vector<std::string> snapshot; // upper case
+  std::string after;                 // a command that runs before the snapshot, "" for none
+  std::vector<std::string> names;
+  std::vector<std::string> advances; // each read of these moves on: do not repeat, drop or move it
+};
+
+// A macro that GibbsCAM starts by itself, by its file name.
+struct SystemMacro {
+  std::string event;
+  std::string when; // "at", "before", "after"
+  std::string file; // "" where the name is not known
 };
 
 class GibbsKeywords {
@@ -73,15 +107,40 @@ public:
   bool isSystemVariable(std::string_view name) const; // set by GibbsCAM or by commands; never undefined
   bool isConstant(std::string_view name) const;
 
+  // Commands, controls or variables of which only the beginning of the name is known.
+  bool hasCommandPrefix(std::string_view name) const;
+  bool hasVariablePrefix(std::string_view name) const;
+  // Remarks on a command or a control; empty for most.
+  std::vector<std::string_view> commandNotes(std::string_view name) const;
+  std::vector<std::string_view> controlNotes(std::string_view name) const;
+  // Controls whose shape is only guessed at: arguments are not checked.
+  bool isUnprovedControl(std::string_view name) const;
+  std::span<const std::string> requiredControls() const; // upper case: OK, CANCEL
+  std::string_view firstControl() const;                 // DIALOG
+  std::string_view imageSuffix() const;                  // "bmp"
+  // Nothing where the family does not know the name (an open family may still have it).
+  std::optional<ParameterKind> parameterKind(std::string_view family, std::string_view parameter) const;
+  bool isOpenFamily(std::string_view family) const; // its list is known to be incomplete
+  const CallbackVariable* callback(std::string_view name) const;
+  const CursorNames* cursor(std::string_view name) const;
+  bool readAdvances(std::string_view name) const; // a cursor name that moves on when it is read
+  // The version in which a system variable vanished.
+  std::optional<std::string_view> removedSince(std::string_view name) const;
+  // Names of DefineData.txt that switch fields of the standard drill dialog.
+  bool isReservedField(std::string_view name) const;
+  std::span<const SystemMacro> systemMacros() const;
+
   // Nearest known name within a third of its length, for messages; empty: none.
   std::string nearestCommand(std::string_view name) const;
   std::string nearestControl(std::string_view name) const;
+  std::string nearestVariable(std::string_view name) const; // system variables and constants
   std::string nearestFunction(std::string_view name) const;
   std::string nearestParameter(std::string_view family, std::string_view parameter) const;
 
+  struct Tables; // stdlib/GibbsTables.h, private to the loader
+
 private:
   GibbsKeywords();
-  struct Tables;
   std::unique_ptr<Tables> tables_;
 };
 

@@ -74,7 +74,7 @@ TEST_CASE("toml: a reader takes what it knows") {
           const auto operations = root.value("op").tables();
           REQUIRE(operations.size() == 2);
           CHECK(operations[0].value("cycle").text() == "u");
-    CHECK(operations[1].require("cycle", "a name").text() == "v");
+          CHECK(operations[1].require("cycle", "a name").text() == "v");
         }) == "");
 }
 
