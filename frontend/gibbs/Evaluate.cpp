@@ -68,10 +68,6 @@ std::optional<Value> Machine::evaluate(State& state, const Expression& e) {
       if (!assumes("doubled-quote", e.range)) return std::nullopt;
       text.erase(at, 1);
     }
-    if (text.size() > context_.limits.textLength) {
-      fault<diag::TextTooLong>(e.range, false, context_.limits.textLength);
-      return std::nullopt;
-    }
     return Value(std::move(text));
   }
   if (const auto* variable = std::get_if<VariableRef>(&e.node)) return read(state, *variable);
@@ -108,7 +104,7 @@ std::optional<Value> Machine::binary(State& state, const Binary& node, SourceRan
       return opaque(state, canonical(*left) + "&" + canonical(*right), {*left, *right}, unknown.reason, true);
     }
     if (a->size() + b->size() <= context_.limits.textLength) return Value(*a + *b);
-    fault<diag::TextTooLong>(range, false, context_.limits.textLength);
+    fault<diag::TextOverflow>(range, false, context_.limits.textLength);
     return std::nullopt;
   }
   const double* a = std::get_if<double>(&*left);
@@ -203,7 +199,7 @@ bool Machine::write(State& state, const VariableRef& ref, Value value) {
   if (!key) return false;
   if (const auto* text = std::get_if<std::string>(&value);
       text != nullptr && text->size() > context_.limits.textLength) {
-    fault<diag::TextTooLong>(ref.name.range, false, context_.limits.textLength);
+    fault<diag::TextOverflow>(ref.name.range, false, context_.limits.textLength);
     return false;
   }
   Frame& frame = state.frames.back();

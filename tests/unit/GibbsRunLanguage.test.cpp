@@ -180,7 +180,7 @@ TEST_CASE("numbers and texts do not mix") {
   CHECK(value("1 + \"x\"") == "kind-mismatch-run@\"x\"");
   CHECK(value("1", "IF \"x\" = 1 THEN a = 1") == "kind-mismatch-run@\"x\" = 1");
   CHECK(value("1", "IF \"x\" < \"y\" THEN a = 1") == "cannot-run@\"x\" < \"y\"");
-  CHECK(value("1", "a$ = \"" + std::string(1001, 'x') + "\"").starts_with("text-too-long@"));
+  CHECK(value("1", "a$ = \"" + std::string(1001, 'x') + "\"").starts_with("text-overflow@"));
 }
 
 TEST_CASE("names of the CAM") {
