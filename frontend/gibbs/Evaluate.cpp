@@ -1,3 +1,4 @@
+#include "frontend/gibbs/Assumptions.h"
 #include "frontend/gibbs/RunMachine.h"
 
 #include <cmath>
@@ -7,38 +8,22 @@ namespace {
 
 constexpr std::size_t kMaxSymbol = 200; // bytes; longer names of unknowns are replaced by a number
 
-std::string_view whatIs(std::string_view assumption) {
-  if (assumption == "and-or") return "a condition of several comparisons";
-  if (assumption == "not") return "NOT";
-  if (assumption == "comparison-brackets") return "a comparison in brackets";
-  if (assumption == "block-if") return "an IF with a block";
-  if (assumption == "else") return "ELSE";
-  if (assumption == "next-without-name") return "NEXT without a name";
-  if (assumption == "negative-step") return "a loop that counts down";
-  if (assumption == "array-round") return "an array element in round brackets";
-  if (assumption == "array-square") return "an array element in square brackets";
-  if (assumption == "text-join") return "joining texts with `+`";
-  if (assumption == "single-quotes") return "a text in single quotes";
-  if (assumption == "doubled-quote") return "a doubled quote in a text";
-  if (assumption == "exponent") return "a number with an exponent";
-  if (assumption == "bare-fraction") return "a number that begins or ends with its point";
-  if (assumption == "text-case") return "comparing texts that differ in upper and lower case only";
-  if (assumption == "for-end-at-entry") return "a loop whose end or step changes while it runs";
-  return "this construct";
-}
+// Characters of a name, without `$`.
+constexpr std::size_t kMaxName = 32;
 
 } // namespace
 
 bool Machine::assumes(std::string_view assumption, SourceRange range) {
   if (context_.assumptions.contains(std::string(assumption))) return true;
-  fault<diag::UnverifiedConstructRun>(range, false, whatIs(assumption), assumption);
+  const Assumption* entry = findAssumption(assumption);
+  fault<diag::UnverifiedConstructRun>(range, false, entry != nullptr ? entry->construct : "this", assumption);
   return false;
 }
 
 Value Machine::opaque(State& state, const std::string& symbol, const std::vector<Value>& from,
                       const std::string& reason, bool text) {
   std::string name = symbol;
-  if (name.empty() || name.size() > kMaxSymbol) name = "?" + std::to_string(++state.fresh);
+  if (name.empty() || name.size() > kMaxSymbol) name = fmt::format("?{}", ++state.fresh);
   return opaqueValue(name, hostsOf(from), reason, text);
 }
 
@@ -77,15 +62,12 @@ std::optional<Value> Machine::evaluate(State& state, const Expression& e) {
   }
   if (const auto* literal = std::get_if<TextLiteral>(&e.node)) {
     if (literal->quote == '\'' && !assumes("single-quotes", e.range)) return std::nullopt;
-    if (literal->text.find("\"\"") != std::string::npos && !assumes("doubled-quote", e.range))
-      return std::nullopt;
-    if (literal->text.size() > context_.limits.textLength) {
-      fault<diag::TextTooLong>(e.range, false, context_.limits.textLength);
-      return std::nullopt;
-    }
     std::string text = literal->text;
-    for (std::size_t at = text.find(doubled); at != std::string::npos; at = text.find(doubled, at + 1))
+    for (std::size_t at = text.find("\"\""); literal->quote == '"' && at != std::string::npos;
+         at = text.find("\"\"", at + 1)) {
+      if (!assumes("doubled-quote", e.range)) return std::nullopt;
       text.erase(at, 1);
+    }
     return Value(std::move(text));
   }
   if (const auto* variable = std::get_if<VariableRef>(&e.node)) return read(state, *variable);
@@ -122,7 +104,7 @@ std::optional<Value> Machine::binary(State& state, const Binary& node, SourceRan
       return opaque(state, canonical(*left) + "&" + canonical(*right), {*left, *right}, unknown.reason, true);
     }
     if (a->size() + b->size() <= context_.limits.textLength) return Value(*a + *b);
-    fault<diag::TextTooLong>(range, false, context_.limits.textLength);
+    fault<diag::TextOverflow>(range, false, context_.limits.textLength);
     return std::nullopt;
   }
   const double* a = std::get_if<double>(&*left);
@@ -154,6 +136,9 @@ std::optional<Value> Machine::binary(State& state, const Binary& node, SourceRan
 
 std::optional<std::string> Machine::keyOf(State& state, const VariableRef& ref) {
   std::string key = foldCase(ref.name.text);
+  if (key.size() > kMaxName + (ref.name.isText() ? 1 : 0) && !assumes("long-name", ref.name.range)) {
+    return std::nullopt;
+  }
   if (!ref.index) return key;
   if (!assumes(ref.bracket == '[' ? "array-square" : "array-round", ref.name.range)) return std::nullopt;
   const auto index = evaluateNumber(state, *ref.index);
@@ -214,7 +199,7 @@ bool Machine::write(State& state, const VariableRef& ref, Value value) {
   if (!key) return false;
   if (const auto* text = std::get_if<std::string>(&value);
       text != nullptr && text->size() > context_.limits.textLength) {
-    fault<diag::TextTooLong>(ref.name.range, false, context_.limits.textLength);
+    fault<diag::TextOverflow>(ref.name.range, false, context_.limits.textLength);
     return false;
   }
   Frame& frame = state.frames.back();
@@ -255,7 +240,7 @@ std::optional<bool> Machine::decide(State& state, const Condition& condition) {
 
 std::optional<bool> Machine::decide(State& state, const Comparison& comparison) {
   if (!comparison.nots.empty() && !assumes("not", comparison.nots.front())) return std::nullopt;
-  if (!comparison.brackets.empty() && !assumes("comparison-brackets", comparison.brackets.front()))
+  if (!comparison.brackets.empty() && !assumes("condition-brackets", comparison.brackets.front()))
     return std::nullopt;
   if (!comparison.left || !comparison.right) {
     fault<diag::CannotRun>(comparison.range, false, "the condition is broken");
@@ -285,7 +270,7 @@ std::optional<bool> Machine::compare(State& state, const Value& left, Relation r
     const auto* a = std::get_if<std::string>(&left);
     const auto* b = std::get_if<std::string>(&right);
     if (a != nullptr && b != nullptr) {
-      if (*a != *b && foldCase(*a) == foldCase(*b) && !assumes("text-case", range)) return std::nullopt;
+      if (*a != *b && foldCase(*a) == foldCase(*b) && !assumes("text-comparison", range)) return std::nullopt;
       return (*a == *b) == (relation == Relation::Equal);
     }
     const std::string leftText = canonical(left);

@@ -59,8 +59,8 @@ std::optional<Value> Machine::function(State& state, const FunctionCall& call, S
     }
   }
   if (isAngleFunction(name) && !state.angles) {
-    const bool degrees = context_.assumptions.contains("degrees");
-    if (degrees == context_.assumptions.contains("radians")) {
+    const bool degrees = context_.assumptions.contains("angle-degrees");
+    if (degrees == context_.assumptions.contains("angle-radians")) {
       fault<diag::AngleUnitOpen>(call.name.range, false, call.name.text);
       return std::nullopt;
     }

@@ -117,14 +117,17 @@ Machine::Flow Machine::jump(State& state, std::size_t target, SourceRange range)
       around.push_back(loop);
     }
   }
-  const bool inside = around.size() <= frame.loops.size() &&
-                      std::equal(around.rbegin(), around.rend(), frame.loops.begin(),
-                                 [](std::size_t index, const LoopRun& run) { return run.index == index; });
-  if (!inside) {
-    fault<diag::CannotRun>(range, false, "the jump leads into a FOR from outside");
-    return Flow::Failed;
+  std::reverse(around.begin(), around.end());
+  std::size_t running = 0; // loops around the target that run
+  while (running < std::min(around.size(), frame.loops.size()) &&
+         frame.loops[running].index == around[running]) {
+    ++running;
   }
-  frame.loops.resize(around.size());
+  if (running < around.size() && !assumes("goto-into-for", range)) return Flow::Failed;
+  frame.loops.resize(running);
+  for (std::size_t i = running; i < around.size(); ++i) {
+    if (!enterLoop(state, around[i])) return Flow::Failed;
+  }
   frame.at = target;
   return Flow::Jumped;
 }
@@ -170,23 +173,29 @@ Machine::Flow Machine::step(State& state, const ForStep& s, SourceRange range) {
     return Flow::Failed;
   }
   const auto from = evaluateNumber(state, *s.loop->from);
-  const auto end = from ? evaluateNumber(state, *s.loop->to) : std::nullopt;
-  if (!end) return Flow::Failed;
+  if (!from || !enterLoop(state, s.index)) return Flow::Failed;
+  return write(state, {s.loop->variable, nullptr, 0}, *from) ? Flow::Next : Flow::Failed;
+}
+
+bool Machine::enterLoop(State& state, std::size_t index) {
+  Frame& frame = state.frames.back();
+  const For& loop = *frame.program->loops[index].statement;
+  const auto end = evaluateNumber(state, *loop.to);
+  if (!end) return false;
   double size = 1;
-  if (s.loop->step) {
-    const auto given = evaluateNumber(state, *s.loop->step);
-    if (!given) return Flow::Failed;
+  if (loop.step) {
+    const auto given = evaluateNumber(state, *loop.step);
+    if (!given) return false;
     const double* number = std::get_if<double>(&*given);
     if (number == nullptr) {
-      fault<diag::UnknownValue>(s.loop->step->range, false, unknownText(*unknownIn(*given)));
-      return Flow::Failed;
+      fault<diag::UnknownValue>(loop.step->range, false, unknownText(*unknownIn(*given)));
+      return false;
     }
     size = *number;
-    if (size < 0 && !assumes("negative-step", s.loop->step->range)) return Flow::Failed;
+    if (size < 0 && !assumes("negative-step", loop.step->range)) return false;
   }
-  if (!write(state, {s.loop->variable, nullptr, 0}, *from)) return Flow::Failed;
-  state.frames.back().loops.push_back({s.index, *end, size});
-  return Flow::Next;
+  frame.loops.push_back({index, *end, size});
+  return true;
 }
 
 std::optional<bool> Machine::loopGoesOn(State& state, const Value& value, const Value& end, double step,
@@ -240,6 +249,7 @@ Machine::Flow Machine::step(State& state, const NextStep& s, SourceRange range) 
 // ---- calls and declarations -----------------------------------------------------------------------------
 
 Machine::Flow Machine::step(State& state, const CallStep& s, SourceRange range) {
+  if (!s.call->macro && !assumes("bare-file", s.call->macroRange)) return Flow::Failed;
   std::string name = s.call->bareName;
   if (s.call->macro) {
     const auto text = evaluateText(state, *s.call->macro);

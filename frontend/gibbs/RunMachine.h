@@ -116,6 +116,8 @@ private:
   Flow step(State& state, const CommandStep& s, SourceRange range);
   Flow step(State& state, const UnverifiedStep& s, SourceRange range);
   Flow step(State& state, const RefuseStep& s, SourceRange range);
+  // Takes end and step of a FOR of the running macro.
+  bool enterLoop(State& state, std::size_t index);
   std::optional<bool> loopGoesOn(State& state, const Value& value, const Value& end, double step,
                                  SourceRange range);
 
