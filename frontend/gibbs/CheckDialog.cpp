@@ -110,7 +110,7 @@ private:
     for (const char c : name)
       accent = accent || static_cast<unsigned char>(c) > 127;
     const std::string shown =
-        "`" + context_.sources.textUtf8({range.file, range.begin + 1, range.end - 1}) + "`";
+        fmt::format("`{}`", context_.sources.textUtf8({range.file, range.begin + 1, range.end - 1}));
     if (!matches)
       context_.diagnostics.report<diag::ImageName>(
           range, shown + " is no .bmp file; IMAGE shows nothing else; convert the picture");
