@@ -3,6 +3,10 @@
 add_library(dotek_options INTERFACE)
 target_compile_options(dotek_options INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Werror -ffp-contract=off)
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
+  # GCC 12 warns of overlaps inside std::string's own operator+ (GCC bug 105329).
+  target_compile_options(dotek_options INTERFACE -Wno-restrict)
+endif()
 target_include_directories(dotek_options INTERFACE ${CMAKE_SOURCE_DIR})
 if(DOTEK_SANITIZE)
   target_compile_options(dotek_options INTERFACE

@@ -91,12 +91,12 @@ private:
     entry.value = value.text();
     entry.picture = picture.text();
     if (value && !isHostInput(entry.value)) {
-      const std::string nearest = nearestName(entry.value, kHostInputs);
-      document_.fail(
-          value.range(),
-          nearest.empty()
-              ? fmt::format("`{}` is no host input; known: `{}`", entry.value, fmt::join(kHostInputs, "`, `"))
-              : fmt::format("`{}` is no host input; the nearest is `{}`", entry.value, nearest));
+      const std::string nearest = nearestName(entry.value, hostInputNames());
+      document_.fail(value.range(),
+                     nearest.empty()
+                         ? fmt::format("`{}` is no host input; known: `{}`", entry.value,
+                                       fmt::join(hostInputNames(), "`, `"))
+                         : fmt::format("`{}` is no host input; the nearest is `{}`", entry.value, nearest));
     }
     if (value && !picture)
       document_.fail(value.range(), fmt::format("`{}` has no `picture` to be printed in", entry.value));

@@ -5,18 +5,39 @@
 #include <algorithm>
 #include <iterator>
 #include <string_view>
+#include <vector>
 
 namespace dotek::stdlib {
 
-inline constexpr std::string_view kHostInputs[] = {
-    "clearance", // main clearance plane, the CP1 of a Prog
-    "overtravel",  "retract",     "return_feed", "start_x", "start_y", "start_z",
-    "tool_number", // pocket or program number of the tool; jobs give it as tool.number
-    "tool_offset", "tool_radius",
+struct HostInput {
+  std::string_view name;
+  std::string_view meaning; // with unit and frame
 };
 
+inline constexpr HostInput kHostInputs[] = {
+    {"clearance", "Z of clearance plane 1 (the CP1 of a Prog), mm, active work system"},
+    {"retract", "Z of the retract plane of the operation, mm; Z of a GibbsCAM path counts from it"},
+    {"start_x", "X of the operation's point, mm, active work system"},
+    {"start_y", "Y of the operation's point, mm, active work system"},
+    {"start_z", "Z where the cycle begins, mm, active work system"},
+    {"tool_radius", "radius of the stylus ball, mm"},
+    {"tool_number", "number of the tool"},
+    {"tool_offset", "number of the tool offset"},
+    {"overtravel", "distance that a measuring move goes on behind the expected surface, mm"},
+    {"return_feed", "feed of the way back after a contact, mm/min"},
+};
+
+// The names alone, in the order of the table.
+inline std::vector<std::string_view> hostInputNames() {
+  std::vector<std::string_view> out;
+  for (const HostInput& host : kHostInputs)
+    out.push_back(host.name);
+  return out;
+}
+
 constexpr bool isHostInput(std::string_view name) {
-  return std::find(std::begin(kHostInputs), std::end(kHostInputs), name) != std::end(kHostInputs);
+  return std::any_of(std::begin(kHostInputs), std::end(kHostInputs),
+                     [&](const HostInput& host) { return host.name == name; });
 }
 
 } // namespace dotek::stdlib

@@ -18,7 +18,8 @@ public:
   void recover(antlr4::Parser* parser, std::exception_ptr) override {
     if (staysEmpty(parser)) return;
     antlr4::TokenStream* input = parser->getTokenStream();
-    while (input->LA(1) != antlr4::Token::EOF && !isStop(input->LA(1))) parser->consume();
+    while (input->LA(1) != antlr4::Token::EOF && !isStop(input->LA(1)))
+      parser->consume();
   }
 
   void reportError(antlr4::Parser* parser, const antlr4::RecognitionException& error) override {
@@ -46,8 +47,8 @@ public:
 
 private:
   bool isStop(size_t type) const {
-    return type == antlr4::Token::EOF ||
-           std::find(language_.unitStops.begin(), language_.unitStops.end(), type) != language_.unitStops.end();
+    return type == antlr4::Token::EOF || std::find(language_.unitStops.begin(), language_.unitStops.end(),
+                                                   type) != language_.unitStops.end();
   }
 
   bool staysEmpty(antlr4::Parser* parser) const {
@@ -60,7 +61,8 @@ private:
     if (failed) return;
     failed = true;
     const size_t rule = parser->getContext() == nullptr ? 0 : parser->getContext()->getRuleIndex();
-    diagnostics_.report<diag::SyntaxError>(rangeOf(file_, offending), language_.explain(rule, offending, *parser));
+    diagnostics_.report<diag::SyntaxError>(rangeOf(file_, offending),
+                                           language_.explain(rule, offending, *parser));
   }
 
   FileId file_;
@@ -88,20 +90,25 @@ private:
   std::uint32_t limit_;
 };
 
-ParseSession::ParseSession(antlr4::Parser& parser, FileId file, const Language& language, const Limits& limits,
-                           Diagnostics& diagnostics)
+ParseSession::ParseSession(antlr4::Parser& parser, FileId file, const Language& language,
+                           const Limits& limits, Diagnostics& diagnostics)
     : parser_(parser), file_(file), language_(language), limits_(limits), diagnostics_(diagnostics),
       strategy_(std::make_shared<Strategy>(file, language, diagnostics)),
       guard_(std::make_unique<DepthGuard>(limits.nesting * 8 + 40)) {
   parser_.removeErrorListeners();
   parser_.setErrorHandler(strategy_);
   parser_.addParseListener(guard_.get());
-  parser_.getInterpreter<antlr4::atn::ParserATNSimulator>()->setPredictionMode(antlr4::atn::PredictionMode::SLL);
+  parser_.getInterpreter<antlr4::atn::ParserATNSimulator>()->setPredictionMode(
+      antlr4::atn::PredictionMode::SLL);
 }
 
-ParseSession::~ParseSession() { parser_.removeParseListener(guard_.get()); }
+ParseSession::~ParseSession() {
+  parser_.removeParseListener(guard_.get());
+}
 
-bool ParseSession::atEnd() const { return parser_.getTokenStream()->LA(1) == antlr4::Token::EOF; }
+bool ParseSession::atEnd() const {
+  return parser_.getTokenStream()->LA(1) == antlr4::Token::EOF;
+}
 
 ParseSession::Unit ParseSession::runErased(const std::function<antlr4::ParserRuleContext*()>& rule) {
   antlr4::TokenStream& input = *parser_.getTokenStream();

@@ -56,7 +56,8 @@ struct Language {
   std::vector<size_t> depthResets;
   // The message for a syntax error: `rule` is the parser's rule index, `offending` the token that does not
   // fit. In the field's words; never a token set.
-  std::function<std::string(size_t rule, const antlr4::Token& offending, const antlr4::Parser& parser)> explain;
+  std::function<std::string(size_t rule, const antlr4::Token& offending, const antlr4::Parser& parser)>
+      explain;
 };
 
 SourceRange rangeOf(FileId file, const antlr4::Token& token);

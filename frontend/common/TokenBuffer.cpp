@@ -15,15 +15,20 @@ size_t ByteStream::LA(ssize_t i) {
   return static_cast<unsigned char>(bytes_[static_cast<size_t>(at)]);
 }
 
-void ByteStream::seek(size_t index) { position_ = std::min(index, bytes_.size()); }
+void ByteStream::seek(size_t index) {
+  position_ = std::min(index, bytes_.size());
+}
 
 std::string ByteStream::getText(const antlr4::misc::Interval& interval) {
-  if (interval.a < 0 || interval.b < interval.a || interval.a >= static_cast<ssize_t>(bytes_.size())) return "";
+  if (interval.a < 0 || interval.b < interval.a || interval.a >= static_cast<ssize_t>(bytes_.size()))
+    return "";
   const auto begin = static_cast<size_t>(interval.a);
   return bytes_.substr(begin, static_cast<size_t>(interval.b) - begin + 1);
 }
 
-bool isConjured(const antlr4::Token& token) { return token.getTokenIndex() == INVALID_INDEX; }
+bool isConjured(const antlr4::Token& token) {
+  return token.getTokenIndex() == INVALID_INDEX;
+}
 
 SourceRange rangeOf(FileId file, const antlr4::Token& token) {
   const auto begin = static_cast<std::uint32_t>(token.getStartIndex());
@@ -36,7 +41,8 @@ SourceRange rangeOf(FileId file, const antlr4::ParserRuleContext& context) {
   const antlr4::Token* stop = const_cast<antlr4::ParserRuleContext&>(context).getStop();
   if (start == nullptr) return {file, 0, 0};
   const SourceRange first = rangeOf(file, *start);
-  if (stop == nullptr || stop->getTokenIndex() < start->getTokenIndex()) return {file, first.begin, first.begin};
+  if (stop == nullptr || stop->getTokenIndex() < start->getTokenIndex())
+    return {file, first.begin, first.begin};
   return spanning(first, rangeOf(file, *stop));
 }
 
@@ -61,8 +67,8 @@ bool contains(const std::vector<size_t>& types, size_t type) {
 
 } // namespace
 
-TokenBuffer::TokenBuffer(antlr4::Lexer& lexer, FileId file, const SourceMap& sources, const Language& language,
-                         const Limits& limits, Diagnostics& diagnostics) {
+TokenBuffer::TokenBuffer(antlr4::Lexer& lexer, FileId file, const SourceMap& sources,
+                         const Language& language, const Limits& limits, Diagnostics& diagnostics) {
   lexer.removeErrorListeners();
   const SourceFile& source = sources.file(file);
   std::vector<std::unique_ptr<antlr4::Token>> kept;
@@ -92,7 +98,8 @@ TokenBuffer::TokenBuffer(antlr4::Lexer& lexer, FileId file, const SourceMap& sou
       line = here;
       if (onLine > limits.lineTokens) {
         // A stop on the same line is dropped again, without a second message.
-        if (onLine == limits.lineTokens + 1) diagnostics.report<diag::TooManyTokens>(range, limits.lineTokens);
+        if (onLine == limits.lineTokens + 1)
+          diagnostics.report<diag::TooManyTokens>(range, limits.lineTokens);
         dropping = true;
         dropped_.push_back(range);
         continue;
@@ -109,7 +116,8 @@ TokenBuffer::TokenBuffer(antlr4::Lexer& lexer, FileId file, const SourceMap& sou
     kept.push_back(std::move(token));
   }
   all_.reserve(kept.size());
-  for (const auto& token : kept) all_.push_back(token.get());
+  for (const auto& token : kept)
+    all_.push_back(token.get());
   source_ = std::make_unique<antlr4::ListTokenSource>(std::move(kept));
   stream_ = std::make_unique<antlr4::CommonTokenStream>(source_.get());
 }

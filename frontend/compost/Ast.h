@@ -43,7 +43,8 @@ struct ConditionError {};
 struct ConditionTerm {
   SourceRange range;
   std::vector<SourceRange> nots;
-  std::variant<Word, std::unique_ptr<Condition>, ConditionError> operand; // Condition: in brackets, unverified
+  std::variant<Word, std::unique_ptr<Condition>, ConditionError>
+      operand; // Condition: in brackets, unverified
 };
 
 enum class Connective : std::uint8_t { And, Or }; // Or is unverified
@@ -64,8 +65,8 @@ struct If;
 using Statement = std::variant<Literal, Word, EndOfLine, std::unique_ptr<If>, ErrorStatement>;
 
 struct If {
-  SourceRange range;     // IF to END, or to the end of the last statement where END is missing
-  SourceRange ifRange;   // the word IF
+  SourceRange range;   // IF to END, or to the end of the last statement where END is missing
+  SourceRange ifRange; // the word IF
   Condition condition;
   std::vector<Statement> thenBody;
   std::optional<SourceRange> elseRange; // the word ELSE

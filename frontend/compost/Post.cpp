@@ -7,14 +7,6 @@
 
 namespace dotek::frontend::compost {
 
-const Routine* findRoutine(const Program& program, std::string_view name) {
-  for (const Item& item : program.items) {
-    const auto* routine = std::get_if<Routine>(&item);
-    if (routine != nullptr && routine->name == name) return routine;
-  }
-  return nullptr;
-}
-
 PostRun::Impl::Impl(const Program& programIn, const PostSettings& settingsIn, Diagnostics& diagnosticsIn)
     : program(programIn), settings(settingsIn), diagnostics(diagnosticsIn),
       sequence(settingsIn.sequenceStart) {

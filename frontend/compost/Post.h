@@ -62,7 +62,4 @@ private:
   std::unique_ptr<Impl> impl_;
 };
 
-// The routine of this name, nullptr if there is none.
-const Routine* findRoutine(const Program& program, std::string_view name);
-
 } // namespace dotek::frontend::compost

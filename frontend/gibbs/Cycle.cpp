@@ -109,7 +109,7 @@ private:
   bool broken() const {
     const auto bad = [](const auto& file) { return file && file->hasErrorNodes; };
     const auto anyBad = [](const auto& files) {
-      return std::any_of(files.begin(), files.end(), [](const auto& file) { return file.hasErrorNodes; });
+      return std::any_of(files.begin(), files.end(), [](const auto* file) { return file->hasErrorNodes; });
     };
     return bad(cycle_.defineData) || bad(cycle_.dialog) || bad(cycle_.cycleData) || bad(cycle_.toolPath) ||
            anyBad(cycle_.others) || anyBad(cycle_.otherDialogs);
@@ -124,11 +124,11 @@ private:
     for (const Macro* macro :
          {cycle_.cycleData ? &*cycle_.cycleData : nullptr, cycle_.toolPath ? &*cycle_.toolPath : nullptr})
       if (macro != nullptr) names_.collect(*macro, true);
-    for (const Macro& macro : cycle_.others)
-      names_.collect(macro, true);
+    for (const Macro* macro : cycle_.others)
+      names_.collect(*macro, true);
     if (cycle_.dialog) collect(*cycle_.dialog);
-    for (const Dialog& dialog : cycle_.otherDialogs)
-      collect(dialog);
+    for (const Dialog* dialog : cycle_.otherDialogs)
+      collect(*dialog);
   }
 
   void collect(const Dialog& dialog) {

@@ -19,8 +19,9 @@ struct Cycle {
   std::optional<Macro> cycleData;
   std::optional<Macro> toolPath;
   // Macros that #INCLUDE and CALL bring in, and dialogs beside CycleData.dlg, as far as they were found.
-  std::vector<Macro> others;
-  std::vector<Dialog> otherDialogs;
+  // They outlive the cycle.
+  std::vector<const Macro*> others;
+  std::vector<const Dialog*> otherDialogs;
   // Names of all files in the folder, upper case; empty where they are not known.
   std::set<std::string> files;
 };

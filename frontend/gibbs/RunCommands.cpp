@@ -176,7 +176,7 @@ std::optional<double> Machine::coordinate(State& state, const Expression& e) {
   if (unknown.hosts.empty()) {
     fault<diag::UnknownValue>(e.range, false, unknownText(unknown));
   } else {
-    fault<diag::UnknownHost>(e.range, false, unknownText(unknown));
+    fault<diag::HostInputUnknown>(e.range, false, unknownText(unknown));
   }
   return std::nullopt;
 }

@@ -9,7 +9,7 @@ void reportQuestion(Machine& machine, const Question& question) {
   if (question.hosts.empty()) {
     machine.reportOnce(makeDiagnostic<diag::UnknownValue>(question.range, question.reason));
   } else {
-    machine.reportOnce(makeDiagnostic<diag::UnknownHost>(question.range, *question.hosts.begin()));
+    machine.reportOnce(makeDiagnostic<diag::HostInputUnknown>(question.range, *question.hosts.begin()));
   }
 }
 

@@ -1,0 +1,269 @@
+#include "cli/Arguments.h"
+
+#include "cli/Cli.h"
+#include "driver/InputKind.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <filesystem>
+#include <ostream>
+#include <sstream>
+
+namespace dotek::cli {
+namespace {
+
+class UsageError : public std::runtime_error {
+public:
+  using std::runtime_error::runtime_error;
+};
+
+// What CLI11 fills; turned into Arguments afterwards.
+struct Raw {
+  std::vector<std::string> inputs;
+  std::vector<std::string> set, field, host, assume, limit, data;
+  std::string job, encoding, from, prog, routine, cycle, clearance, sequence, output;
+  std::string form = "thesis-a";
+  std::string format = "text";
+  std::string select, ignore;
+  std::string failOn = "warning";
+  std::string stage = "ast";
+  std::uint32_t maxErrors = 50;
+  bool recover = false;
+};
+
+std::pair<std::string, std::string> splitPair(const std::string& flag, const std::string& text) {
+  const std::size_t at = text.find('=');
+  if (at == std::string::npos || at == 0) throw UsageError(flag + " takes NAME=VALUE, not `" + text + "`");
+  return {text.substr(0, at), text.substr(at + 1)};
+}
+
+std::optional<std::uint64_t> wholeNumber(std::string_view text) {
+  std::uint64_t value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  return value;
+}
+
+std::set<std::string> codes(const std::string& text) {
+  std::set<std::string> out;
+  std::istringstream in(text);
+  for (std::string code; std::getline(in, code, ',');) {
+    if (!code.empty()) out.insert(code);
+  }
+  for (const std::string& code : out) {
+    const auto table = messageTable();
+    if (std::none_of(table.begin(), table.end(), [&](const MessageInfo& m) { return m.code == code; }))
+      throw UsageError("no message or rule `" + code + "`; `dotek list rules` prints them");
+  }
+  return out;
+}
+
+void applyLimit(const std::string& text, Limits& limits) {
+  const auto [name, value] = splitPair("--limit", text);
+  const std::optional<std::uint64_t> number = wholeNumber(value);
+  const auto table = limitTable();
+  const auto found = std::find_if(table.begin(), table.end(),
+                                  [&, &key = name](const LimitInfo& l) { return l.name == key; });
+  if (found == table.end()) throw UsageError("no limit `" + name + "`; `dotek list limits` prints them");
+  if (!number || *number == 0 || *number > 1u << 30)
+    throw UsageError("--limit " + name + " takes a whole number from 1 to 1073741824, not `" + value + "`");
+  limits.*found->member = static_cast<std::uint32_t>(*number);
+}
+
+driver::CommonOptions commonOf(const Raw& raw) {
+  driver::CommonOptions out;
+  if (!raw.job.empty()) out.job = raw.job;
+  for (const std::string& text : raw.set)
+    out.set.push_back(splitPair("--set", text));
+  for (const std::string& text : raw.field)
+    out.field.push_back(splitPair("--field", text));
+  for (const std::string& text : raw.host)
+    out.host.push_back(splitPair("--host", text));
+  if (!raw.clearance.empty()) out.host.emplace_back("clearance", raw.clearance);
+  out.assume.insert(raw.assume.begin(), raw.assume.end());
+  out.recover = raw.recover;
+  if (!raw.encoding.empty()) {
+    out.encoding = encodingByName(raw.encoding);
+    if (!out.encoding)
+      throw UsageError("--encoding takes utf-8, cp1250 or cp852, not `" + raw.encoding + "`");
+  }
+  for (const std::string& text : raw.limit)
+    applyLimit(text, out.limits);
+  out.data = raw.data;
+  if (!raw.from.empty()) {
+    if (!driver::kindByName(raw.from))
+      throw UsageError("--from takes prog, mac, dlg or define, not `" + raw.from + "`");
+    out.from = raw.from;
+  }
+  return out;
+}
+
+void fill(const Raw& raw, Arguments& parsed) {
+  parsed.inputs = raw.inputs;
+  parsed.common = commonOf(raw);
+  if (!raw.prog.empty()) parsed.source.prog = raw.prog;
+  if (!raw.routine.empty()) parsed.source.routine = raw.routine;
+  if (!raw.cycle.empty()) parsed.source.cycle = raw.cycle;
+  parsed.source.form = raw.form;
+  parsed.output = raw.output;
+  parsed.maxErrors = raw.maxErrors;
+  if (!raw.sequence.empty()) {
+    const std::size_t colon = raw.sequence.find(':');
+    const auto start = wholeNumber(std::string_view(raw.sequence).substr(0, colon));
+    const auto step = colon == std::string::npos
+                          ? std::nullopt
+                          : wholeNumber(std::string_view(raw.sequence).substr(colon + 1));
+    if (!start || !step || *step == 0 || *start > 99999999 || *step > 99999)
+      throw UsageError("--seq takes START:STEP, two whole numbers such as 90:10, not `" + raw.sequence + "`");
+    parsed.sequence = {*start, *step};
+  }
+  parsed.json = raw.format == "json";
+  if (!raw.select.empty() && raw.select != "all") parsed.select = codes(raw.select);
+  parsed.ignore = codes(raw.ignore);
+  if (raw.failOn == "never")
+    parsed.failOn.reset();
+  else
+    parsed.failOn = raw.failOn == "note"    ? Severity::Note
+                    : raw.failOn == "error" ? Severity::Error
+                                            : Severity::Warning;
+  parsed.stage = raw.stage == "tokens" ? driver::Stage::Tokens
+                 : raw.stage == "path" ? driver::Stage::Path
+                                       : driver::Stage::Ast;
+}
+
+void addCommon(CLI::App& app, Raw& raw) {
+  app.add_option("--encoding", raw.encoding, "utf-8, cp1250 or cp852 instead of the recognised encoding");
+  app.add_option("--from", raw.from, "kind of the inputs: prog, mac, dlg or define");
+  app.add_option("--max-errors", raw.maxErrors, "print at most N errors; 0 prints all")->type_name("N");
+  app.add_option("--limit", raw.limit, "set a limit (see `dotek list limits`)")
+      ->type_name("NAME=N")
+      ->allow_extra_args(false);
+  app.add_option("--data", raw.data, "folder whose data files are added or replace built-in ones")
+      ->type_name("DIR")
+      ->allow_extra_args(false);
+}
+
+void addValues(CLI::App& app, Raw& raw) {
+  app.add_option("--set", raw.set, "value of a field")->type_name("NAME=VALUE")->allow_extra_args(false);
+  app.add_option("--host", raw.host, "value that the CAM knows of the operation (see `dotek list hosts`)")
+      ->type_name("NAME=VALUE")
+      ->allow_extra_args(false);
+  app.add_option("--clearance", raw.clearance, "short for --host clearance=Z")->type_name("Z");
+  app.add_option("--assume", raw.assume, "name the reading of a construct that is not documented")
+      ->type_name("NAME")
+      ->allow_extra_args(false);
+}
+
+void addPost(CLI::App& app, Raw& raw) {
+  CLI::App* post =
+      app.add_subcommand("post", "run the Prog for a cycle and print the NC blocks the CAM would print");
+  post->add_option("FOLDER", raw.inputs, "folders of the cycles");
+  post->add_option("--prog", raw.prog, "the Prog (text of the ComPost post)")->type_name("PROG.txt");
+  post->add_option("--form", raw.form, "what the post's Form decides, as data")->type_name("NAME");
+  post->add_option("--routine", raw.routine, "routine to run for an operation");
+  post->add_option("--cycle", raw.cycle, "name of the cycle, if it is not the folder's");
+  post->add_option("--job", raw.job, "a whole program as a list of operations")->type_name("JOB.toml");
+  post->add_option("--field", raw.field, "the post's field FIELD is the macro's variable VARIABLE")
+      ->type_name("FIELD=VARIABLE")
+      ->allow_extra_args(false);
+  addValues(*post, raw);
+  post->add_flag("--recover", raw.recover, "accept the repairs that diagnostics offer");
+  post->add_option("--seq", raw.sequence, "first sequence number and step (10:10)")->type_name("START:STEP");
+  post->add_option("-o", raw.output, "write the program to a file")->type_name("OUT");
+  addCommon(*post, raw);
+}
+
+void addLint(CLI::App& app, Raw& raw) {
+  CLI::App* lint = app.add_subcommand("lint", "check macros, dialogs, cycle folders and posts");
+  lint->add_option("PATH", raw.inputs, "files and folders");
+  lint->add_option("--format", raw.format, "text or json")->check(CLI::IsMember({"text", "json"}));
+  lint->add_option("--select", raw.select, "only these codes, separated by commas, or all")
+      ->type_name("CODES");
+  lint->add_option("--ignore", raw.ignore, "not these codes")->type_name("CODES");
+  lint->add_option("--fail-on", raw.failOn, "exit with 1 from this severity on (warning)")
+      ->check(CLI::IsMember({"note", "warning", "error", "never"}));
+  addCommon(*lint, raw);
+}
+
+void addDump(CLI::App& app, Raw& raw) {
+  CLI::App* dump = app.add_subcommand("dump", "print what a stage makes of an input");
+  dump->add_option("INPUT", raw.inputs, "files, or folders of cycles");
+  dump->add_option("--stage", raw.stage, "tokens, ast, or path: the moves of ToolPath.mac")
+      ->check(CLI::IsMember({"tokens", "ast", "path"}));
+  addValues(*dump, raw);
+  addCommon(*dump, raw);
+}
+
+// `--set A=1 B=2` means `--set A=1 --set B=2`: pairs that follow a flag of pairs belong to it.
+std::vector<std::string> spreadPairs(const std::vector<std::string>& arguments) {
+  constexpr std::array<std::string_view, 3> kPairFlags = {"--set", "--field", "--host"};
+  std::vector<std::string> out;
+  std::string flag;
+  bool first = false;
+  for (const std::string& argument : arguments) {
+    const bool isFlag = std::find(kPairFlags.begin(), kPairFlags.end(), argument) != kPairFlags.end();
+    const std::size_t equals = argument.find('=');
+    const bool isPair = equals != std::string::npos && equals > 0 && !argument.starts_with('-') &&
+                        argument.find_first_of("/\\.") >= equals;
+    if (isFlag) {
+      flag = argument;
+      first = true;
+    } else if (!flag.empty() && !first && isPair && !std::filesystem::exists(argument)) {
+      out.push_back(flag);
+    } else if (!first) {
+      flag.clear();
+    } else {
+      first = false;
+    }
+    out.push_back(argument);
+  }
+  return out;
+}
+
+} // namespace
+
+std::optional<int> parseArguments(const std::vector<std::string>& arguments, Arguments& parsed,
+                                  std::ostream& out, std::ostream& err) {
+  Raw raw;
+  CLI::App app("Dotek, a compiler for the languages of CNC probing", "dotek");
+  app.set_version_flag("--version", "dotek 0.1.0");
+  app.require_subcommand(1);
+  addPost(app, raw);
+  addLint(app, raw);
+  addDump(app, raw);
+  CLI::App* explain = app.add_subcommand("explain", "say what a message means and what to do");
+  explain->add_option("CODE", raw.inputs, "the name in brackets behind a message")->required()->expected(1);
+  CLI::App* list = app.add_subcommand("list", "print a table");
+  list->add_option("WHAT", raw.inputs, "cycles, controls, macros, forms, rules, targets, hosts or limits")
+      ->required()
+      ->expected(1);
+  addCommon(*list, raw);
+  try {
+    std::vector<std::string> reversed = spreadPairs(arguments);
+    std::reverse(reversed.begin(), reversed.end());
+    app.parse(reversed);
+    const std::string command = app.get_subcommands().front()->get_name();
+    parsed.command = command == "post"      ? Command::Post
+                     : command == "lint"    ? Command::Lint
+                     : command == "dump"    ? Command::Dump
+                     : command == "explain" ? Command::Explain
+                                            : Command::List;
+    fill(raw, parsed);
+    return std::nullopt;
+  } catch (const CLI::Success& success) {
+    std::ostringstream text;
+    app.exit(success, text, text);
+    out << text.str();
+    return kDone;
+  } catch (const CLI::ParseError& error) {
+    err << "dotek: error: " << error.what() << "; `dotek --help` prints the commands\n";
+    return kUsage;
+  } catch (const UsageError& error) {
+    err << "dotek: error: " << error.what() << "\n";
+    return kUsage;
+  }
+}
+
+} // namespace dotek::cli

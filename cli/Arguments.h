@@ -1,0 +1,35 @@
+// The arguments of a command line, taken apart. The only user of CLI11.
+#pragma once
+
+#include "driver/Driver.h"
+
+#include <iosfwd>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace dotek::cli {
+
+enum class Command : unsigned char { Post, Lint, Dump, Explain, List };
+
+struct Arguments {
+  Command command = Command::Post;
+  std::vector<std::string> inputs;
+  driver::CommonOptions common;
+  driver::SourceOptions source;
+  std::optional<std::pair<std::uint64_t, std::uint64_t>> sequence;
+  std::string output; // -o
+  bool json = false;
+  std::optional<Severity> failOn = Severity::Warning; // nothing: never
+  std::optional<std::set<std::string>> select;
+  std::set<std::string> ignore;
+  driver::Stage stage = driver::Stage::Ast;
+  std::uint32_t maxErrors = 50;
+};
+
+// Fills `parsed`. A status where nothing is left to do: help, version, or wrong arguments.
+std::optional<int> parseArguments(const std::vector<std::string>& arguments, Arguments& parsed,
+                                  std::ostream& out, std::ostream& err);
+
+} // namespace dotek::cli

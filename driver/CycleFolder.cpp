@@ -1,0 +1,263 @@
+#include "driver/CycleFolder.h"
+
+#include <algorithm>
+#include <array>
+
+namespace dotek::driver {
+
+namespace fs = std::filesystem;
+namespace gibbs = frontend::gibbs;
+
+namespace {
+
+constexpr std::array<std::string_view, 4> kFiles = {"DefineData.txt", "CycleData.dlg", "CycleData.mac",
+                                                    "ToolPath.mac"};
+
+bool sameName(std::string_view a, std::string_view b) {
+  return gibbs::foldCase(std::string(a)) == gibbs::foldCase(std::string(b));
+}
+
+// The entry of `folder` with this name; case does not matter on the CAM's file system.
+std::optional<fs::path> findEntry(const fs::path& folder, std::string_view name) {
+  std::error_code error;
+  if (fs::path exact = folder / name; fs::exists(exact, error)) return exact;
+  std::vector<fs::path> found;
+  for (const auto& entry : fs::directory_iterator(folder, error)) {
+    if (sameName(entry.path().filename().string(), name)) found.push_back(entry.path());
+  }
+  if (found.empty()) return std::nullopt;
+  return *std::min_element(found.begin(), found.end());
+}
+
+gibbs::ParseContext contextOf(Session& session) {
+  return {session.sources(), session.gibbsKeywords(), session.limits(), session.diagnostics()};
+}
+
+} // namespace
+
+MacroLoader::MacroLoader(Session& session, fs::path folder) : session_(session), folder_(std::move(folder)) {}
+
+std::optional<fs::path> MacroLoader::find(const std::string& name, const std::string& suffix) const {
+  std::string local = name;
+  std::replace(local.begin(), local.end(), '\\', '/'); // the CAM runs on Windows
+  const fs::path relative(local);
+  const fs::path folder = relative.is_absolute() ? relative.parent_path() : folder_ / relative.parent_path();
+  std::error_code error;
+  if (!fs::is_directory(folder, error)) return std::nullopt;
+  const std::string file = relative.filename().string();
+  if (file.empty()) return std::nullopt;
+  if (auto found = findEntry(folder, file); found && fs::is_regular_file(*found, error)) return found;
+  return findEntry(folder, file + suffix);
+}
+
+const gibbs::Macro* MacroLoader::macro(const std::string& name, SourceRange where) {
+  const std::optional<fs::path> path = find(name, ".mac");
+  if (!path) {
+    session_.diagnostics().report<diag::MacroNotFound>(where, name, folder_.generic_string());
+    return nullptr;
+  }
+  const std::string key = path->generic_string();
+  if (const auto known = macros_.find(key); known != macros_.end()) return known->second;
+  const gibbs::Macro* parsed = nullptr;
+  if (const std::optional<FileId> id = session_.read(key, Encoding::Cp1250))
+    parsed = &ownMacros_.emplace_back(gibbs::parseMacro(*id, contextOf(session_)));
+  macros_.emplace(key, parsed);
+  return parsed;
+}
+
+const gibbs::Dialog* MacroLoader::dialog(const std::string& name, SourceRange where) {
+  const std::optional<fs::path> path = find(name, ".dlg");
+  if (!path) {
+    session_.diagnostics().report<diag::DialogNotFound>(where, name, folder_.generic_string());
+    return nullptr;
+  }
+  const std::string key = path->generic_string();
+  if (const auto known = dialogs_.find(key); known != dialogs_.end()) return known->second;
+  const gibbs::Dialog* parsed = nullptr;
+  if (const std::optional<FileId> id = session_.read(key, Encoding::Cp1250))
+    parsed = &ownDialogs_.emplace_back(gibbs::parseDialog(*id, contextOf(session_)));
+  dialogs_.emplace(key, parsed);
+  return parsed;
+}
+
+void MacroLoader::know(const std::string& path, const gibbs::Macro& macro) {
+  macros_.emplace(path, &macro);
+}
+
+void MacroLoader::know(const std::string& path, const gibbs::Dialog& dialog) {
+  dialogs_.emplace(path, &dialog);
+}
+
+std::vector<const gibbs::Macro*> MacroLoader::included(const gibbs::Macro& macro) {
+  std::vector<FileId> open{macro.file};
+  std::vector<const gibbs::Macro*> out;
+  collect(macro, open, out);
+  return out;
+}
+
+void MacroLoader::collect(const gibbs::Macro& macro, std::vector<FileId>& open,
+                          std::vector<const gibbs::Macro*>& out) {
+  for (const gibbs::Line& line : macro.lines) {
+    if (!line.statement) continue;
+    const auto* include = std::get_if<gibbs::Include>(&line.statement->node);
+    if (include == nullptr) continue;
+    if (open.size() > session_.limits().includeDepth) {
+      session_.diagnostics().report<diag::IncludeTooDeep>(include->fileRange, session_.limits().includeDepth);
+      continue;
+    }
+    const gibbs::Macro* found = this->macro(include->file, include->fileRange);
+    if (found == nullptr) continue;
+    if (std::find(open.begin(), open.end(), found->file) != open.end()) {
+      session_.diagnostics().report<diag::IncludeLoop>(include->fileRange, include->file);
+      continue;
+    }
+    if (std::find(out.begin(), out.end(), found) == out.end()) out.push_back(found);
+    open.push_back(found->file);
+    collect(*found, open, out);
+    open.pop_back();
+  }
+}
+
+namespace {
+
+// What one statement calls or shows, if it names a file by a plain text.
+struct Callee {
+  std::string name;
+  SourceRange range;
+  bool dialog = false;
+};
+
+std::optional<Callee> calleeOf(const gibbs::Statement& statement) {
+  if (const auto* call = std::get_if<gibbs::CallMacro>(&statement.node)) {
+    if (call->macro == nullptr) return Callee{call->bareName, call->macroRange, false};
+    if (const auto* text = std::get_if<gibbs::TextLiteral>(&call->macro->node))
+      return Callee{text->text, call->macroRange, false};
+  }
+  if (const auto* command = std::get_if<gibbs::Command>(&statement.node)) {
+    if (gibbs::foldCase(command->name.text) != "DIALOG" || command->arguments.size() != 1)
+      return std::nullopt;
+    if (const auto* text = std::get_if<gibbs::TextLiteral>(&command->arguments.front()->node))
+      return Callee{text->text, command->arguments.front()->range, true};
+  }
+  return std::nullopt;
+}
+
+void collectCallees(const gibbs::Statement& statement, std::vector<Callee>& out) {
+  if (std::optional<Callee> callee = calleeOf(statement)) out.push_back(std::move(*callee));
+  const auto* branch = std::get_if<gibbs::If>(&statement.node);
+  if (branch == nullptr) return;
+  if (branch->then) collectCallees(*branch->then, out);
+  if (branch->elseStatement) collectCallees(*branch->elseStatement, out);
+  for (const auto* block : {&branch->thenBlock, &branch->elseBlock}) {
+    for (const gibbs::Line& line : *block) {
+      if (line.statement) collectCallees(*line.statement, out);
+    }
+  }
+}
+
+template <class File> void addOnce(std::vector<const File*>& files, const File* file) {
+  if (file != nullptr && std::find(files.begin(), files.end(), file) == files.end()) files.push_back(file);
+}
+
+// Checks a macro and, once each, the macros that it includes or calls; they become files of the cycle.
+void checkWithCallees(const gibbs::Macro& macro, CycleFolder& folder, const gibbs::ParseContext& context) {
+  gibbs::Cycle& cycle = *folder.cycle;
+  std::vector<const gibbs::Macro*> waiting{&macro};
+  std::vector<const gibbs::Macro*> done;
+  while (!waiting.empty()) {
+    const gibbs::Macro* next = waiting.back();
+    waiting.pop_back();
+    if (std::find(done.begin(), done.end(), next) != done.end()) continue;
+    done.push_back(next);
+    const auto included = folder.loader->included(*next);
+    gibbs::checkMacro(*next, included, context);
+    std::vector<Callee> callees;
+    for (const gibbs::Line& line : next->lines) {
+      if (line.statement) collectCallees(*line.statement, callees);
+    }
+    for (const Callee& callee : callees) {
+      if (callee.dialog) {
+        const gibbs::Dialog* dialog = folder.loader->dialog(callee.name, callee.range);
+        if (!cycle.dialog || dialog != &*cycle.dialog) addOnce(cycle.otherDialogs, dialog);
+      } else if (const gibbs::Macro* called = folder.loader->macro(callee.name, callee.range)) {
+        waiting.push_back(called);
+      }
+    }
+    for (const gibbs::Macro* one : included) {
+      addOnce(cycle.others, one);
+      waiting.push_back(one);
+    }
+    if (next != &macro) addOnce(cycle.others, next);
+  }
+}
+
+} // namespace
+
+bool isCycleFolder(const fs::path& path) {
+  std::error_code error;
+  if (!fs::is_directory(path, error)) return false;
+  return std::any_of(kFiles.begin(), kFiles.end(),
+                     [&](std::string_view name) { return findEntry(path, name).has_value(); });
+}
+
+CycleFolder loadCycleFolder(const std::string& path, Session& session) {
+  CycleFolder folder;
+  std::error_code error;
+  fs::path real(path);
+  if (!fs::exists(real, error)) {
+    session.diagnostics().report<diag::FileNotFound>({}, path);
+    return folder;
+  }
+  if (!fs::is_directory(real, error)) {
+    session.diagnostics().report<diag::NotAFolder>({}, path);
+    return folder;
+  }
+  if (!real.has_filename()) real = real.parent_path();
+  folder.name = real.filename().string();
+  if (folder.name == "." || folder.name == "..") folder.name = fs::canonical(real, error).filename().string();
+  folder.place = session.sources().add(SourceFile(path, "", Encoding::Utf8));
+  folder.complete = true;
+
+  std::array<std::optional<FileId>, 4> ids;
+  for (std::size_t i = 0; i < kFiles.size(); ++i) {
+    const std::optional<fs::path> file = findEntry(real, kFiles[i]);
+    if (!file) {
+      session.diagnostics().report<diag::CycleFileMissing>({folder.place, 0, 0}, path, kFiles[i]);
+      folder.complete = false;
+      continue;
+    }
+    ids[i] = session.read(file->generic_string(), Encoding::Cp1250);
+    if (!ids[i]) folder.complete = false;
+  }
+  folder.cycle = std::make_unique<gibbs::Cycle>();
+  gibbs::Cycle& cycle = *folder.cycle;
+  cycle.name = folder.name;
+  cycle.folder = path;
+  for (const auto& entry : fs::directory_iterator(real, error))
+    cycle.files.insert(gibbs::foldCase(entry.path().filename().string()));
+  folder.loader = std::make_unique<MacroLoader>(session, real);
+  const gibbs::ParseContext context = contextOf(session);
+  const auto pathOf = [&](FileId id) { return session.sources().file(id).name(); };
+  if (ids[0]) cycle.defineData = gibbs::parseDefineData(*ids[0], context);
+  if (ids[1]) {
+    cycle.dialog = gibbs::parseDialog(*ids[1], context);
+    folder.loader->know(pathOf(*ids[1]), *cycle.dialog);
+  }
+  if (ids[2]) {
+    cycle.cycleData = gibbs::parseMacro(*ids[2], context);
+    folder.loader->know(pathOf(*ids[2]), *cycle.cycleData);
+  }
+  if (ids[3]) {
+    cycle.toolPath = gibbs::parseMacro(*ids[3], context);
+    folder.loader->know(pathOf(*ids[3]), *cycle.toolPath);
+  }
+  if (cycle.defineData) gibbs::checkDefineData(*cycle.defineData, context);
+  if (cycle.dialog) gibbs::checkDialog(*cycle.dialog, context);
+  for (const auto* macro : {&cycle.cycleData, &cycle.toolPath}) {
+    if (*macro) checkWithCallees(**macro, folder, context);
+  }
+  gibbs::checkCycle(cycle, context);
+  return folder;
+}
+
+} // namespace dotek::driver

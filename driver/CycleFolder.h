@@ -1,0 +1,59 @@
+// A cycle folder on disk: finds and parses its four files, and the macros they call.
+#pragma once
+
+#include "driver/Session.h"
+#include "frontend/gibbs/Ast.h"
+#include "frontend/gibbs/Cycle.h"
+#include "frontend/gibbs/Parse.h"
+
+#include <deque>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+
+namespace dotek::driver {
+
+// Macros and dialogs of one folder, parsed once each. Names in CALL, #INCLUDE and DIALOG are taken relative
+// to the folder; case does not matter, `.mac` may be left out.
+class MacroLoader {
+public:
+  MacroLoader(Session& session, std::filesystem::path folder);
+
+  const frontend::gibbs::Macro* macro(const std::string& name, SourceRange where);
+  const frontend::gibbs::Dialog* dialog(const std::string& name, SourceRange where);
+  // Makes a tree that was parsed elsewhere known under its file's path.
+  void know(const std::string& path, const frontend::gibbs::Macro& macro);
+  void know(const std::string& path, const frontend::gibbs::Dialog& dialog);
+  // Macros that #INCLUDE lines of `macro` bring in, deeply; a loop is reported.
+  std::vector<const frontend::gibbs::Macro*> included(const frontend::gibbs::Macro& macro);
+
+private:
+  std::optional<std::filesystem::path> find(const std::string& name, const std::string& suffix) const;
+  void collect(const frontend::gibbs::Macro& macro, std::vector<FileId>& open,
+               std::vector<const frontend::gibbs::Macro*>& out);
+
+  Session& session_;
+  std::filesystem::path folder_;
+  std::deque<frontend::gibbs::Macro> ownMacros_;
+  std::deque<frontend::gibbs::Dialog> ownDialogs_;
+  std::map<std::string, const frontend::gibbs::Macro*> macros_; // by path; nullptr: cannot be read
+  std::map<std::string, const frontend::gibbs::Dialog*> dialogs_;
+};
+
+struct CycleFolder {
+  std::string name;       // of the folder: the cycle's name
+  FileId place = kNoFile; // the folder itself, for messages about files that are not there
+  std::unique_ptr<frontend::gibbs::Cycle> cycle;
+  std::unique_ptr<MacroLoader> loader;
+  bool complete = false; // all four files are there and could be read
+};
+
+// true: `path` is a folder that holds at least one of the four files.
+bool isCycleFolder(const std::filesystem::path& path);
+
+// Reads, parses and checks the folder. Missing and unreadable files are reported.
+CycleFolder loadCycleFolder(const std::string& path, Session& session);
+
+} // namespace dotek::driver

@@ -1,0 +1,89 @@
+// The public library of Dotek: one function per command. Nothing here prints, exits or throws.
+#pragma once
+
+#include "support/Diagnostics.h"
+#include "support/Limits.h"
+#include "support/Source.h"
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace dotek::driver {
+
+// NAME=VALUE of a repeated flag, in the order given.
+using NamedTexts = std::vector<std::pair<std::string, std::string>>;
+
+// Flags of every command that reads an input.
+struct CommonOptions {
+  std::optional<std::string> job;
+  NamedTexts set;   // a field's value, mm and degrees
+  NamedTexts field; // the post's field = the macro's variable
+  NamedTexts host;  // host inputs, mm and mm/min
+  std::set<std::string> assume;
+  bool recover = false;
+  std::optional<Encoding> encoding;
+  Limits limits;
+  std::vector<std::string> data;   // folders of data files
+  std::optional<std::string> from; // kind of the inputs
+};
+
+// Flags that say where the post stands.
+struct SourceOptions {
+  std::optional<std::string> prog;
+  std::string form = "thesis-a";
+  std::optional<std::string> routine;
+  std::optional<std::string> cycle;
+};
+
+struct PostOptions {
+  std::vector<std::string> folders;
+  CommonOptions common;
+  SourceOptions source;
+  std::optional<std::pair<std::uint64_t, std::uint64_t>> sequence; // start, step
+};
+
+enum class LintFormat : std::uint8_t { Text, Json };
+
+struct LintOptions {
+  std::vector<std::string> paths;
+  CommonOptions common;
+  SourceOptions source;
+  std::optional<std::set<std::string>> select; // codes; nothing: all
+  std::set<std::string> ignore;
+};
+
+enum class Stage : std::uint8_t { Tokens, Ast, Path };
+
+struct DumpOptions {
+  std::vector<std::string> inputs;
+  Stage stage = Stage::Ast;
+  CommonOptions common;
+  SourceOptions source;
+};
+
+// What a command gives. `status` is 0, 1 or 2 as docs/cli.md says; with a status other than 0 of post,
+// `output` is empty.
+struct Outcome {
+  int status = 0;
+  std::string output;
+  SourceMap sources;
+  Diagnostics diagnostics; // sorted
+};
+
+Outcome post(const PostOptions& options);
+// The diagnostics are the result; status is 2 where a file could not be read, else 0 (cli looks at the
+// severities, for --fail-on).
+Outcome lint(const LintOptions& options);
+Outcome dump(const DumpOptions& options);
+// The text of one message or rule; status 2 for an unknown code.
+Outcome explain(const std::string& code);
+// `what`: cycles, controls, macros, forms, rules, targets, hosts, limits.
+Outcome list(const std::string& what, const CommonOptions& options);
+
+} // namespace dotek::driver

@@ -1,0 +1,132 @@
+#include "driver/CycleFolder.h"
+#include "driver/Driver.h"
+#include "driver/Fields.h"
+#include "driver/Hosts.h"
+#include "driver/InputKind.h"
+#include "driver/PostProgram.h"
+#include "driver/Session.h"
+#include "frontend/compost/Parse.h"
+#include "frontend/gibbs/Run.h"
+#include "support/Decimal.h"
+#include "support/Files.h"
+
+#include <filesystem>
+
+namespace dotek::driver {
+
+namespace fs = std::filesystem;
+namespace gibbs = frontend::gibbs;
+namespace compost = frontend::compost;
+
+namespace {
+
+class DumpCommand {
+public:
+  DumpCommand(const DumpOptions& options, Session& session) : options_(options), session_(session) {}
+
+  Outcome run() {
+    if (options_.inputs.empty())
+      session_.diagnostics().report<diag::MissingOption>({}, "dump", "INPUT",
+                                                         "a file or the folder of a cycle");
+    for (const std::string& input : options_.inputs)
+      one(input);
+    return session_.finish(std::move(out_), true);
+  }
+
+private:
+  void one(const std::string& input) {
+    std::error_code error;
+    if (options_.stage == Stage::Path)
+      path(input);
+    else if (!fs::is_directory(input, error))
+      file(input);
+    else
+      folder(input);
+  }
+
+  void folder(const std::string& input) {
+    for (const char* name : {"DefineData.txt", "CycleData.dlg", "CycleData.mac", "ToolPath.mac"})
+      file((fs::path(input) / name).generic_string());
+  }
+
+  void file(const std::string& input) {
+    std::optional<InputKind> kind;
+    if (options_.common.from) {
+      kind = kindByName(*options_.common.from);
+    } else {
+      const std::optional<std::string> bytes = readBytes(input, session_.limits(), session_.diagnostics());
+      if (!bytes) return;
+      kind = recognise(input, *bytes);
+    }
+    if (!kind) {
+      session_.diagnostics().report<diag::UnknownKind>({}, input);
+      return;
+    }
+    const std::optional<FileId> id = session_.read(input, Encoding::Cp1250);
+    if (!id) return;
+    const gibbs::ParseContext context{session_.sources(), session_.gibbsKeywords(), session_.limits(),
+                                      session_.diagnostics()};
+    if (options_.stage == Stage::Tokens) {
+      out_ += *kind == InputKind::Prog
+                  ? compost::dumpTokens(*id, session_.sources(), session_.limits(), session_.diagnostics())
+                  : gibbs::dumpTokens(*id, context);
+      return;
+    }
+    switch (*kind) {
+    case InputKind::Prog:
+      out_ +=
+          compost::dumpAst(compost::parse(*id, session_.sources(), session_.limits(), session_.diagnostics()),
+                           session_.sources());
+      break;
+    case InputKind::Macro: out_ += gibbs::dumpAst(gibbs::parseMacro(*id, context), session_.sources()); break;
+    case InputKind::Dialog:
+      out_ += gibbs::dumpAst(gibbs::parseDialog(*id, context), session_.sources());
+      break;
+    case InputKind::DefineData:
+      out_ += gibbs::dumpAst(gibbs::parseDefineData(*id, context), session_.sources());
+      break;
+    }
+  }
+
+  // The moves that ToolPath.mac writes for the given values: a dry run outside the CAM.
+  void path(const std::string& input) {
+    const CycleFolder folder = loadCycleFolder(input, session_);
+    if (!folder.complete || session_.diagnostics().hasErrors()) return;
+    FieldTable fields(folder, {}, session_);
+    for (const auto& [name, text] : options_.common.set) {
+      const std::optional<double> value = parseNumber(text);
+      if (!value) {
+        session_.diagnostics().report<diag::NotANumber>({}, "--set", name, text);
+      } else if (!fields.set(name, *value, {})) {
+        const std::string near = fields.nearest(name);
+        session_.diagnostics().report<diag::NoSuchField>(
+            {}, name, folder.name, near.empty() ? "" : "; did you mean `" + near + "`?");
+      }
+    }
+    gibbs::RunContext context{
+        session_.sources(),
+        session_.gibbsKeywords(),
+        session_.limits(),
+        session_.diagnostics(),
+        fields.macroValues(),
+        parseHosts(options_.common.host, session_.diagnostics()),
+        options_.common.assume,
+        [&](const std::string& name, SourceRange where) { return folder.loader->macro(name, where); },
+        [&](const std::string& name, SourceRange where) { return folder.loader->dialog(name, where); }};
+    if (session_.diagnostics().hasErrors()) return;
+    if (const auto moves = gibbs::runToolPath(*folder.cycle->toolPath, context))
+      out_ += gibbs::pathText(*moves);
+  }
+
+  const DumpOptions& options_;
+  Session& session_;
+  std::string out_;
+};
+
+} // namespace
+
+Outcome dump(const DumpOptions& options) {
+  return guarded(options.common, [&](Session& session) { return DumpCommand(options, session).run(); });
+}
+
+} // namespace dotek::driver

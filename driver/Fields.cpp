@@ -1,0 +1,133 @@
+#include "driver/Fields.h"
+
+#include "frontend/gibbs/Labels.h"
+#include "support/Decimal.h"
+#include "support/NearestName.h"
+
+#include <algorithm>
+
+namespace dotek::driver {
+
+namespace gibbs = frontend::gibbs;
+
+FieldTable::FieldTable(const CycleFolder& folder, std::vector<std::string> printed, Session& session)
+    : folder_(folder), session_(session), printed_(std::move(printed)) {
+  for (const gibbs::Field& field : gibbs::declaredFields(*folder.cycle))
+    entries_.push_back({field.name.text, field.value});
+}
+
+const FieldTable::Entry* FieldTable::declared(const std::string& name) const {
+  const std::string folded = gibbs::foldCase(name);
+  const auto found = std::find_if(entries_.begin(), entries_.end(),
+                                  [&](const Entry& e) { return gibbs::foldCase(e.name) == folded; });
+  return found == entries_.end() ? nullptr : &*found;
+}
+
+FieldTable::Entry* FieldTable::declared(const std::string& name) {
+  return const_cast<Entry*>(std::as_const(*this).declared(name));
+}
+
+bool FieldTable::set(const std::string& name, double value, SourceRange where) {
+  if (Entry* entry = declared(name)) {
+    entry->value = value;
+    return true;
+  }
+  if (std::find(printed_.begin(), printed_.end(), name) == printed_.end()) return false;
+  postOnly_.insert_or_assign(name, value);
+  session_.diagnostics().report<diag::SetKnownToPostOnly>(where, name, folder_.name);
+  return true;
+}
+
+bool FieldTable::map(const std::string& postField, const std::string& variable) {
+  if (std::find(printed_.begin(), printed_.end(), postField) == printed_.end()) {
+    const std::string near = nearestName(postField, printed_);
+    session_.diagnostics().report<diag::UnknownName>({}, "--field", postField,
+                                                     "field that the post prints for `" + folder_.name + "`",
+                                                     near.empty() ? "" : "; did you mean `" + near + "`?");
+    return false;
+  }
+  const Entry* entry = declared(variable);
+  if (entry == nullptr) {
+    std::vector<std::string> names;
+    for (const Entry& e : entries_)
+      names.push_back(e.name);
+    const std::string near = nearestName(variable, names);
+    session_.diagnostics().report<diag::UnknownName>({}, "--field", variable,
+                                                     "variable of the macro `" + folder_.name + "`",
+                                                     near.empty() ? "" : "; did you mean `" + near + "`?");
+    return false;
+  }
+  if (!mapped_.emplace(postField, entry->name).second) {
+    session_.diagnostics().report<diag::GivenTwice>({}, "--field", postField);
+    return false;
+  }
+  return true;
+}
+
+std::string FieldTable::nearest(const std::string& name) const {
+  std::vector<std::string> names = printed_;
+  for (const Entry& entry : entries_)
+    names.push_back(entry.name);
+  return nearestName(name, names);
+}
+
+// The remedy for a field that no file declares: the variable whose input the dialog labels with its name.
+std::string FieldTable::proposal(const std::string& name) const {
+  if (folder_.cycle->dialog) {
+    for (const gibbs::InputLabel& label : gibbs::inputLabels(*folder_.cycle->dialog)) {
+      if (label.name != name || gibbs::foldCase(label.variable.text) == gibbs::foldCase(name)) continue;
+      return fmt::format(
+          "give `--field {}={}` (the dialog labels the input of `{}` with `{}`) or `--set {}=VALUE`", name,
+          label.variable.text, label.variable.text, name, name);
+    }
+  }
+  return fmt::format("give `--set {}=VALUE`, or `--field {}=VARIABLE` with a variable of the macro", name,
+                     name);
+}
+
+std::optional<double> FieldTable::value(const std::string& name, SourceRange where) {
+  Diagnostics& diagnostics = session_.diagnostics();
+  const auto mapped = mapped_.find(name);
+  const std::string wanted = mapped == mapped_.end() ? name : mapped->second;
+  if (mapped == mapped_.end()) {
+    if (const auto given = postOnly_.find(name); given != postOnly_.end()) return given->second;
+  }
+  if (const Entry* entry = declared(wanted)) {
+    if (entry->name != wanted) diagnostics.report<diag::FieldCase>(where, name, entry->name, folder_.name);
+    if (!entry->value) diagnostics.report<diag::FieldWithoutValue>(where, entry->name, folder_.name);
+    return entry->value;
+  }
+  const std::string defineData = folder_.cycle->defineData
+                                     ? session_.sources().file(folder_.cycle->defineData->file).name()
+                                     : folder_.name;
+  if (session_.options().assume.contains("missing-field-zero")) {
+    diagnostics.report<diag::MissingFieldZero>(where, name, defineData);
+    return 0.0;
+  }
+  Diagnostic& missing = diagnostics.report<diag::MissingField>(
+      where, name, session_.sources().file(where.file).name(), defineData, proposal(name));
+  if (folder_.cycle->defineData && missing.notes.empty()) {
+    std::string names;
+    for (const Entry& entry : entries_)
+      names += (names.empty() ? "`" : ", `") + entry.name + "`";
+    missing.note({folder_.cycle->defineData->file, 0, 0},
+                 "the macro declares " + (names.empty() ? "nothing" : names));
+  }
+  return std::nullopt;
+}
+
+std::map<std::string, double> FieldTable::macroValues() const {
+  std::map<std::string, double> out;
+  for (const Entry& entry : entries_) {
+    if (entry.value) out.emplace(gibbs::foldCase(entry.name), *entry.value);
+  }
+  return out;
+}
+
+void FieldTable::change(const std::string& folded, double value) {
+  for (Entry& entry : entries_) {
+    if (gibbs::foldCase(entry.name) == folded) entry.value = value;
+  }
+}
+
+} // namespace dotek::driver

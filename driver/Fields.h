@@ -1,0 +1,52 @@
+// Which value a field of the post gets: the macro's defaults, `--set`, `--field`.
+#pragma once
+
+#include "driver/CycleFolder.h"
+#include "driver/Session.h"
+#include "frontend/compost/Ast.h"
+
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace dotek::driver {
+
+class FieldTable {
+public:
+  // `printed` are the fields that the post's branch of this cycle prints, as spelt there.
+  FieldTable(const CycleFolder& folder, std::vector<std::string> printed, Session& session);
+
+  // Takes a value of --set or of the job. false: neither the macro nor the branch knows the name.
+  bool set(const std::string& name, double value, SourceRange where);
+  // Takes --field POSTFIELD=VARIABLE. Reports and returns false where one of the names is not known.
+  bool map(const std::string& postField, const std::string& variable);
+  // The name of the macro or of the branch that is nearest to `name`; "" for none.
+  std::string nearest(const std::string& name) const;
+
+  // Value of a field that the Prog prints at `where`; reports why there is none.
+  std::optional<double> value(const std::string& name, SourceRange where);
+  // What the macro sees, by folded name.
+  std::map<std::string, double> macroValues() const;
+  // A value that the macro changes after its dialog.
+  void change(const std::string& folded, double value);
+
+private:
+  struct Entry {
+    std::string name; // as the macro spells it
+    std::optional<double> value;
+  };
+  const Entry* declared(const std::string& name) const;
+  Entry* declared(const std::string& name);
+  std::string proposal(const std::string& name) const;
+
+  const CycleFolder& folder_;
+  Session& session_;
+  std::vector<std::string> printed_;
+  std::vector<Entry> entries_;                // in the order of declaration
+  std::map<std::string, double> postOnly_;    // --set of names that the macro does not declare
+  std::map<std::string, std::string> mapped_; // post field -> macro variable
+};
+
+} // namespace dotek::driver

@@ -1,0 +1,30 @@
+#include "driver/Hosts.h"
+
+#include "stdlib/HostInputs.h"
+#include "support/Decimal.h"
+#include "support/NearestName.h"
+
+namespace dotek::driver {
+
+std::string nearestHost(const std::string& name) {
+  return nearestName(name, stdlib::hostInputNames());
+}
+
+std::map<std::string, double> parseHosts(const NamedTexts& given, Diagnostics& diagnostics) {
+  std::map<std::string, double> out;
+  for (const auto& [name, text] : given) {
+    if (!stdlib::isHostInput(name)) {
+      const std::string near = nearestHost(name);
+      diagnostics.report<diag::UnknownHost>({}, name, near.empty() ? "" : "; did you mean `" + near + "`?");
+      continue;
+    }
+    const std::optional<double> value = parseNumber(text);
+    if (!value)
+      diagnostics.report<diag::NotANumber>({}, "--host", name, text);
+    else if (!out.emplace(name, *value).second)
+      diagnostics.report<diag::GivenTwice>({}, "--host", name);
+  }
+  return out;
+}
+
+} // namespace dotek::driver

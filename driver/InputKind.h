@@ -1,0 +1,19 @@
+// What an input is: recognised by its content, then by its name.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace dotek::driver {
+
+enum class InputKind : unsigned char { Prog, Macro, Dialog, DefineData };
+
+// "prog", "mac", "dlg", "define": what --from takes.
+std::string_view kindName(InputKind kind);
+std::optional<InputKind> kindByName(std::string_view name);
+// nullopt: neither content nor name tells.
+std::optional<InputKind> recognise(std::string_view fileName, std::string_view bytes);
+
+} // namespace dotek::driver

@@ -1,0 +1,37 @@
+// The job file: a whole program as a list of operations (docs/cli.md, "Job file").
+#pragma once
+
+#include "driver/Driver.h"
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace dotek::driver {
+
+struct JobOperation {
+  std::string cycle; // name of a FOLDER of the command line
+  SourceRange cycleRange;
+  std::vector<std::pair<double, double>> at; // points of the operation, mm; empty: one run, no point
+  std::map<std::string, double> hosts;       // retract and other host inputs of this operation
+  std::vector<std::pair<std::string, double>> set;
+  SourceRange range;
+};
+
+struct Job {
+  FileId file = kNoFile;
+  std::optional<std::uint64_t> number; // O number
+  std::optional<std::string> title;
+  std::optional<std::pair<std::uint64_t, std::uint64_t>> sequence; // start, step
+  std::optional<std::string> startRoutine, operationRoutine, endRoutine;
+  SourceRange startRange, operationRange, endRange;
+  std::map<std::string, double> hosts; // [host] and [tool]
+  std::vector<JobOperation> operations;
+};
+
+// nullopt where the file cannot be read or has an error: reported.
+std::optional<Job> loadJob(const std::string& path, const Limits& limits, SourceMap& sources,
+                           Diagnostics& diagnostics);
+
+} // namespace dotek::driver

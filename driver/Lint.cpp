@@ -1,0 +1,121 @@
+#include "driver/CycleFolder.h"
+#include "driver/Driver.h"
+#include "driver/InputKind.h"
+#include "driver/PostProgram.h"
+#include "driver/Session.h"
+#include "support/Files.h"
+
+#include <algorithm>
+#include <filesystem>
+
+namespace dotek::driver {
+
+namespace fs = std::filesystem;
+namespace gibbs = frontend::gibbs;
+
+namespace {
+
+class LintCommand {
+public:
+  LintCommand(const LintOptions& options, Session& session) : options_(options), session_(session) {}
+
+  Outcome run() {
+    if (options_.paths.empty())
+      session_.diagnostics().report<diag::MissingOption>({}, "lint", "PATH", "a file or a folder");
+    for (const std::string& path : options_.paths)
+      visit(path, true);
+    select();
+    Outcome outcome = session_.finish("", true);
+    // Findings are the result of lint, not its failure.
+    if (outcome.status == 1) outcome.status = 0;
+    return outcome;
+  }
+
+private:
+  void visit(const std::string& path, bool named) {
+    std::error_code error;
+    if (!fs::is_directory(path, error)) {
+      file(path, named);
+      return;
+    }
+    const bool cycle = isCycleFolder(path);
+    // The folder's loader owns the trees of sub-macros; they are linted below as files of their own.
+    if (cycle) loadCycleFolder(path, session_);
+    std::vector<fs::path> entries;
+    for (const auto& entry : fs::directory_iterator(path, error))
+      entries.push_back(entry.path());
+    if (error) session_.diagnostics().report<diag::FileNotReadable>({}, path, error.message());
+    std::sort(entries.begin(), entries.end());
+    for (const fs::path& entry : entries) {
+      const std::string name = entry.filename().string();
+      if (name.starts_with('.') || (cycle && isUnitFile(name))) continue;
+      visit(entry.generic_string(), false);
+    }
+  }
+
+  static bool isUnitFile(const std::string& name) {
+    const std::string folded = gibbs::foldCase(name);
+    return folded == "DEFINEDATA.TXT" || folded == "CYCLEDATA.DLG" || folded == "CYCLEDATA.MAC" ||
+           folded == "TOOLPATH.MAC";
+  }
+
+  static bool mayBeSource(const fs::path& path) {
+    const std::string suffix = gibbs::foldCase(path.extension().string());
+    return suffix == ".TXT" || suffix == ".MAC" || suffix == ".DLG";
+  }
+
+  void file(const std::string& path, bool named) {
+    if (!named && !mayBeSource(path)) return;
+    std::optional<InputKind> kind;
+    if (options_.common.from) {
+      kind = kindByName(*options_.common.from);
+    } else {
+      Diagnostics ignored;
+      const std::optional<std::string> bytes =
+          readBytes(path, session_.limits(), named ? session_.diagnostics() : ignored);
+      if (!bytes) return;
+      kind = recognise(path, *bytes);
+    }
+    if (!kind) {
+      if (named) session_.diagnostics().report<diag::UnknownKind>({}, path);
+      return;
+    }
+    if (*kind == InputKind::Prog) {
+      loadProg(path, session_);
+      return;
+    }
+    const std::optional<FileId> id = session_.read(path, Encoding::Cp1250);
+    if (!id) return;
+    const gibbs::ParseContext context{session_.sources(), session_.gibbsKeywords(), session_.limits(),
+                                      session_.diagnostics()};
+    if (*kind == InputKind::Macro) {
+      const gibbs::Macro macro = gibbs::parseMacro(*id, context);
+      MacroLoader loader(session_, fs::path(path).parent_path());
+      gibbs::checkMacro(macro, loader.included(macro), context);
+    } else if (*kind == InputKind::Dialog) {
+      gibbs::checkDialog(gibbs::parseDialog(*id, context), context);
+    } else {
+      gibbs::checkDefineData(gibbs::parseDefineData(*id, context), context);
+    }
+  }
+
+  void select() {
+    auto& all = session_.diagnostics().all();
+    std::erase_if(all, [&](const Diagnostic& d) {
+      if (isUsageCode(d.code)) return false;
+      const std::string code(d.code);
+      return (options_.select && !options_.select->contains(code)) || options_.ignore.contains(code);
+    });
+  }
+
+  const LintOptions& options_;
+  Session& session_;
+};
+
+} // namespace
+
+Outcome lint(const LintOptions& options) {
+  return guarded(options.common, [&](Session& session) { return LintCommand(options, session).run(); });
+}
+
+} // namespace dotek::driver

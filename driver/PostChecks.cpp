@@ -1,0 +1,91 @@
+#include "driver/PostChecks.h"
+
+#include "frontend/gibbs/Labels.h"
+#include "frontend/gibbs/Run.h"
+#include "support/Decimal.h"
+
+#include <algorithm>
+
+namespace dotek::driver {
+
+namespace gibbs = frontend::gibbs;
+
+namespace {
+
+std::string joined(const std::vector<std::string>& names) {
+  std::string out;
+  for (const std::string& name : names)
+    out += (out.empty() ? "" : ", ") + name;
+  return out;
+}
+
+bool boundByDialog(const CycleFolder& folder, const std::string& folded) {
+  if (!folder.cycle->dialog) return false;
+  const auto& controls = folder.cycle->dialog->controls;
+  return std::any_of(controls.begin(), controls.end(), [&](const gibbs::Control& control) {
+    return control.variable && gibbs::foldCase(control.variable->text) == folded;
+  });
+}
+
+// The CAM stores a variable as the macro leaves it. That is certain enough where the user cannot type the
+// value; where he can, which of the two is stored is not known.
+void takeChanges(const gibbs::ChecksResult& result, const CycleFolder& folder, FieldTable& fields,
+                 Session& session) {
+  std::size_t at = 0;
+  for (const auto& [name, value] : result.changed) {
+    const SourceRange where =
+        at < result.changedAt.size() ? result.changedAt[at] : SourceRange{folder.place, 0, 0};
+    ++at;
+    const auto before = fields.macroValues();
+    const auto given = before.find(name);
+    const std::string was = given == before.end() ? "nothing" : numberText(given->second);
+    if (!boundByDialog(folder, name) || session.options().assume.contains("changed-field=macro")) {
+      session.diagnostics().report<diag::FieldComputed>(where, name, numberText(value), was);
+      fields.change(name, value);
+    } else if (!session.options().assume.contains("changed-field=given")) {
+      session.diagnostics().report<diag::FieldChangedByChecks>(where, name, was, numberText(value));
+    }
+  }
+}
+
+} // namespace
+
+void runCycleChecks(const CycleFolder& folder, FieldTable& fields, const std::map<std::string, double>& hosts,
+                    Session& session) {
+  if (!folder.cycle->cycleData) return;
+  Diagnostics& diagnostics = session.diagnostics();
+  gibbs::RunContext context{
+      session.sources(),
+      session.gibbsKeywords(),
+      session.limits(),
+      diagnostics,
+      fields.macroValues(),
+      hosts,
+      session.options().assume,
+      [&](const std::string& name, SourceRange where) { return folder.loader->macro(name, where); },
+      [&](const std::string& name, SourceRange where) { return folder.loader->dialog(name, where); }};
+  const gibbs::ChecksResult result = gibbs::runChecks(*folder.cycle->cycleData, context);
+  switch (result.verdict) {
+  case gibbs::ChecksResult::Verdict::Rejected:
+    if (result.rejections.empty())
+      diagnostics.report<diag::ValuesRejected>({folder.cycle->cycleData->file, 0, 0}, folder.name,
+                                               "no message");
+    for (const gibbs::Rejection& rejection : result.rejections)
+      diagnostics.report<diag::ValuesRejected>(
+          rejection.range, folder.name, rejection.text.empty() ? "no message" : "`" + rejection.text + "`");
+    return;
+  case gibbs::ChecksResult::Verdict::Depends: {
+    const SourceRange where = result.rejections.empty() ? SourceRange{folder.cycle->cycleData->file, 0, 0}
+                                                        : result.rejections.front().range;
+    diagnostics.report<diag::ChecksDepend>(where, folder.name, joined(result.neededHosts));
+    break;
+  }
+  case gibbs::ChecksResult::Verdict::NotRun: return;
+  case gibbs::ChecksResult::Verdict::Passes: break;
+  }
+  for (const gibbs::Rejection& shown : result.shown)
+    diagnostics.report<diag::MessageInChecks>(shown.range, folder.name, shown.text);
+  takeChanges(result, folder, fields, session);
+}
+
+} // namespace dotek::driver

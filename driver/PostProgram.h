@@ -1,0 +1,22 @@
+// Private to Post*.cpp: the Prog of a post, read, checked and repaired.
+#pragma once
+
+#include "driver/Session.h"
+#include "frontend/compost/Ast.h"
+
+#include <optional>
+#include <string>
+
+namespace dotek::driver {
+
+// Reads, parses and checks the Prog. Under --recover its repairable errors become warnings that state the
+// reading. nullopt where the file could not be read.
+std::optional<frontend::compost::Program> loadProg(const std::string& path, Session& session);
+
+// The routine that posts `cycle`: `named` if given, else the only one whose branch for the cycle prints
+// something. nullptr where there is none or several: reported.
+const frontend::compost::Routine* chooseRoutine(const frontend::compost::Program& program,
+                                                const std::optional<std::string>& named, SourceRange namedAt,
+                                                const std::string& cycle, Session& session);
+
+} // namespace dotek::driver
