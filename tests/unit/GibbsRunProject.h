@@ -1,10 +1,10 @@
 // A macro project in memory, for tests that run macros.
 #pragma once
 
-#include "tests/GoldenRunner.h"
 #include "frontend/gibbs/Parse.h"
 #include "frontend/gibbs/Run.h"
 #include "stdlib/DataFiles.h"
+#include "tests/GoldenRunner.h"
 
 #include <fstream>
 #include <map>
