@@ -215,6 +215,7 @@ bool Machine::write(State& state, const VariableRef& ref, Value value) {
     return false;
   }
   if (isReturnCode) state.returnCodeSet = place_;
+  if (context_.fields.contains(*key)) state.fieldSet[*key] = place_;
   state.globals[*key] = std::move(value);
   return true;
 }

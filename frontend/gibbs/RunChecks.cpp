@@ -113,7 +113,10 @@ private:
         return PathEnd::Failed;
       }
       const double* number = std::get_if<double>(&value);
-      if (number != nullptr && *number != given) changed[field] = *number;
+      if (number == nullptr || *number == given) continue;
+      changed[field] = *number;
+      if (const auto set = state.fieldSet.find(field); set != state.fieldSet.end())
+        changedAt_[field] = set->second;
     }
     if (passing_ == 1) {
       changed_ = std::move(changed);
@@ -132,6 +135,8 @@ private:
     sortByPlace(shown_);
     result.rejections = std::move(rejections_);
     result.shown = std::move(shown_);
+    for (const auto& [field, value] : changed_)
+      result.changedAt.push_back(changedAt_[field]);
     result.changed = std::move(changed_);
     if (rejecting_ == 0) return result;
     result.verdict = ChecksResult::Verdict::Rejected;
@@ -155,6 +160,7 @@ private:
   std::vector<Rejection> rejections_;
   std::vector<Rejection> shown_;
   std::map<std::string, double> changed_;
+  std::map<std::string, SourceRange> changedAt_;
 };
 
 } // namespace

@@ -1,5 +1,7 @@
 #include "frontend/gibbs/RunMachine.h"
 
+#include "support/Decimal.h"
+
 #include <algorithm>
 #include <array>
 
@@ -83,12 +85,15 @@ Machine::Flow Machine::showMessage(State& state, const Command& c, SourceRange r
   for (const ExpressionPtr& argument : c.arguments) {
     const auto value = evaluate(state, *argument);
     if (!value) return Flow::Failed;
-    const std::string* known = std::get_if<std::string>(&*value);
     if (!text.empty()) text += ' ';
-    text += known != nullptr && range.hasPlace()
-                ? toUtf8(*known, context_.sources.file(range.file).encoding())
-            : known != nullptr ? *known
-                               : fmt::format("<{}>", context_.sources.textUtf8(argument->range));
+    if (const std::string* known = std::get_if<std::string>(&*value)) {
+      text +=
+          toUtf8(*known, range.hasPlace() ? context_.sources.file(range.file).encoding() : Encoding::Utf8);
+    } else if (const double* number = std::get_if<double>(&*value)) {
+      text += numberText(*number);
+    } else {
+      text += fmt::format("<{}>", context_.sources.textUtf8(argument->range));
+    }
   }
   messageBytes_ += text.size() + sizeof(ShownMessage);
   if (messageBytes_ > context_.limits.outputBytes) {

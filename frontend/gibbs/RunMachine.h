@@ -48,7 +48,8 @@ struct State {
   std::set<std::string> dialogs;          // shown
   SourceRange jumped;                     // last GOTO
   SourceRange returnCodeSet;
-  std::size_t fresh = 0; // unknowns without a name of their own
+  std::map<std::string, SourceRange> fieldSet; // last assignment to each field
+  std::size_t fresh = 0;                       // unknowns without a name of their own
 };
 
 struct ShownMessage {

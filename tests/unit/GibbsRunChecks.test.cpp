@@ -112,6 +112,18 @@ TEST_CASE("changed fields") {
             .starts_with("not run field-open@"));
 }
 
+TEST_CASE("a changed field knows where, a message prints its numbers") {
+  GibbsProject project;
+  project.files["main"] = "get_part_data part_name, part$\ndialog \"d\"\nw = 2\nmessage w\nmessage part$\n";
+  project.fields = {{"w", 1}};
+  const gibbs::ChecksResult result = project.checks();
+  REQUIRE(result.changedAt.size() == 1);
+  CHECK(project.sources.text(result.changedAt[0]) == "w = 2");
+  REQUIRE(result.shown.size() == 2);
+  CHECK(result.shown[0].text == "2");
+  CHECK(result.shown[1].text == "<part$>");
+}
+
 TEST_CASE("an unknown radius leaves the verdict open, or not") {
   const std::string macro = kRadius + ":again\ndialog \"d\"\ncode = 0\nif g < 54 then code = 1\n"
                                       "if abs(a) < r then code = 2\nif code = 1 then message \"g\"\n"
