@@ -154,8 +154,9 @@ TEST_CASE("policy: included files exist") {
   for (const TreeFile* file : productSources()) {
     for (const Include& include : includesOf(*file)) {
       if (!include.quoted || isAntlr(include.name)) continue;
-      CHECK_MESSAGE(paths.contains(include.name), file->path << ":" << include.line << ": " << include.name
-                                                             << " is not written from the root");
+      CHECK_MESSAGE(paths.contains(include.name), file->path
+                                                      << ":" << include.line << ": " << include.name
+                                                      << " is no file; includes are written from the root");
     }
   }
 }
