@@ -87,7 +87,8 @@ TokenBuffer::TokenBuffer(antlr4::Lexer& lexer, FileId file, const SourceMap& sou
       const std::uint32_t here = source.lineOf(range.begin);
       onLine = here == line ? onLine + 1 : 1;
       line = here;
-      if (onLine > limits.lineTokens) {
+      // The end of the unit itself is kept, or the next line would be lost with this one.
+      if (onLine > limits.lineTokens && !contains(language.unitStops, type)) {
         diagnostics.report<diag::TooManyTokens>(range, limits.lineTokens);
         dropping = true;
         continue;
