@@ -96,7 +96,9 @@ TokenBuffer::TokenBuffer(antlr4::Lexer& lexer, FileId file, const SourceMap& sou
       const std::uint32_t here = source.lineOf(range.begin);
       onLine = here == line ? onLine + 1 : 1;
       line = here;
-      if (onLine > limits.lineTokens) {
+      // The end of a line is kept, or the next line would be lost with this one.
+      const char first = source.bytes()[range.begin];
+      if (onLine > limits.lineTokens && first != '\n' && first != '\r') {
         // A stop on the same line is dropped again, without a second message.
         if (onLine == limits.lineTokens + 1)
           diagnostics.report<diag::TooManyTokens>(range, limits.lineTokens);

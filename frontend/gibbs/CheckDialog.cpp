@@ -102,7 +102,7 @@ private:
     const auto* file = std::get_if<TextLiteral>(&control.arguments[4]->node);
     if (file == nullptr) return;
     const SourceRange range = control.arguments[4]->range;
-    const std::string suffix = "." + std::string(context_.keywords.imageSuffix());
+    const std::string suffix = fmt::format(".{}", context_.keywords.imageSuffix());
     const std::string& name = file->text;
     const bool matches =
         name.size() > suffix.size() && foldCase(name.substr(name.size() - suffix.size())) == foldCase(suffix);

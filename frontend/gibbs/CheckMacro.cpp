@@ -60,9 +60,12 @@ private:
   void check(const Statement& statement) {
     for (const Unverified& found : unverifiedIn(statement, context_.keywords))
       note(found);
+    const std::size_t before = context_.diagnostics.all().size();
     ownExpressions(statement,
                    [&](const Expression& expression) { checkExpression(expression, arrays_, context_); });
-    if (const auto* assign = std::get_if<Assignment>(&statement.node)) checkAssignment(*assign);
+    const bool sound = context_.diagnostics.all().size() == before;
+    if (const auto* assign = std::get_if<Assignment>(&statement.node); assign != nullptr && sound)
+      checkAssignment(*assign);
     if (const auto* branch = std::get_if<If>(&statement.node)) checkIf(*branch);
     if (const auto* loop = std::get_if<For>(&statement.node)) checkFor(*loop);
     if (const auto* call = std::get_if<CallMacro>(&statement.node))

@@ -1,9 +1,14 @@
 // `dump --stage ast`: one node a line, indented, each with its place.
 #include "frontend/gibbs/Parse.h"
 
+#include <algorithm>
+
 namespace dotek::frontend::gibbs {
 
 namespace {
+
+// Long sums nest as deep as they are long; indentation stops there.
+constexpr std::size_t kDeepest = 40;
 
 const char* operatorText(BinaryOperator op) {
   switch (op) {
@@ -35,7 +40,8 @@ public:
 
   void line(SourceRange range, const std::string& text) {
     const LineColumn place = sources_.file(range.file).place(range.begin);
-    out_ += fmt::format("{:>{}}{} @{}:{}\n", "", depth_ * 2, text, place.line, place.column);
+    out_ +=
+        fmt::format("{:>{}}{} @{}:{}\n", "", std::min(depth_, kDeepest) * 2, text, place.line, place.column);
   }
 
   void lines(const std::vector<Line>& all) {
