@@ -85,7 +85,8 @@ private:
       context_.diagnostics.report<diag::UnverifiedName>(range, textOf(argument), name_.text, list);
       return;
     }
-    NearestName nearest(keywordText(*arguments_[argument], context_.sources));
+    const std::string word = keywordText(*arguments_[argument], context_.sources);
+    NearestName nearest(word);
     for (const std::string& word : known)
       nearest.offer(word);
     const std::string tail =
