@@ -85,9 +85,10 @@ private:
       context_.diagnostics.report<diag::UnverifiedName>(range, textOf(argument), name_.text, list);
       return;
     }
-    NearestName nearest(keywordText(*arguments_[argument], context_.sources));
-    for (const std::string& word : known)
-      nearest.offer(word);
+    const std::string word = keywordText(*arguments_[argument], context_.sources);
+    NearestName nearest(word);
+    for (const std::string& each : known)
+      nearest.offer(each);
     const std::string tail =
         nearest.result().empty() ? "; here stands one of " + list : didYouMean(nearest.result());
     context_.diagnostics.report<diag::UnknownParameter>(range, name_.text, textOf(argument), tail);
