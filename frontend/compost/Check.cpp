@@ -257,7 +257,7 @@ private:
     std::sort(unverified_.begin(), unverified_.end(),
               [](const auto& a, const auto& b) { return a.second.begin < b.second.begin; });
     Diagnostic& diagnostic =
-        diagnostics_.report<diag::UnverifiedCondition>(unverified_.front().second, unverified_.front().first);
+        diagnostics_.report<diag::UnverifiedInProg>(unverified_.front().second, unverified_.front().first);
     for (std::size_t i = 1; i < unverified_.size(); ++i)
       diagnostic.note(unverified_[i].second, fmt::format("likewise {}", unverified_[i].first));
   }

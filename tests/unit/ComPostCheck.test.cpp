@@ -60,11 +60,11 @@ TEST_CASE("case, suffix and argument of known words") {
 }
 
 TEST_CASE("unverified constructs are one note a file") {
-  CHECK(findings("IF NOT Drilling? OR (RigidTap?) END IF NOT RigidTap? END") == "2:4 unverified-construct");
-  CHECK(findings("#1 = '##' FORMAT(ToolOffset#,1)") == "2:1 unverified-construct");
-  CHECK(findings("IF Drilling? AND RigidTap? END Drilling?") == "2:32 unverified-construct");
+  CHECK(findings("IF NOT Drilling? OR (RigidTap?) END IF NOT RigidTap? END") == "2:4 unverified-in-prog");
+  CHECK(findings("#1 = '##' FORMAT(ToolOffset#,1)") == "2:1 unverified-in-prog");
+  CHECK(findings("IF Drilling? AND RigidTap? END Drilling?") == "2:32 unverified-in-prog");
   Checked letter("progStart: m\xC4\x9B\xC5\x99 RETURN m\xC4\x9B\xC5\x99: RETURN");
-  CHECK(letter.only() == "1:23 unverified-construct");
+  CHECK(letter.only() == "1:23 unverified-in-prog");
 }
 
 TEST_CASE("pictures and their use") {
@@ -81,7 +81,7 @@ TEST_CASE("pictures and their use") {
   CHECK(bad.at(0).code == "bad-picture");
   CHECK(bad.sources.line(bad.at(0).range) == 2);
   CHECK(bad.at(0).range.begin > 25);
-  CHECK(only("FORMAT(ToolOffset#,1)\n#1='###^##'") == "2:4 unverified-construct");
+  CHECK(only("FORMAT(ToolOffset#,1)\n#1='###^##'") == "2:4 unverified-in-prog");
 }
 
 TEST_CASE("flags, calls, names of keywords") {

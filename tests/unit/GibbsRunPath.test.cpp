@@ -167,14 +167,14 @@ TEST_CASE("a path that hangs on a host input names its flag") {
   GibbsProject project("get_custom_drill_cycle_data retract_plane, rp\n"
                        "add_custom_drill_cycle_path feed_z, 10-rp\n");
   CHECK(project.path() == "");
-  CHECK(project.findings() == "unknown-host@10-rp");
+  CHECK(project.findings() == "host-input-unknown@10-rp");
   CHECK(project.diagnostics.all()[0].message.find("--host retract=VALUE") != std::string::npos);
 
   GibbsProject branch("get_op_data callback_op, tool_num, t\n"
                       "get_tool_data t, mtool_radius, r\n"
                       "if r > 2 then add_custom_drill_cycle_path feed_z, 1\n");
   CHECK(branch.path() == "");
-  CHECK(branch.findings() == "unknown-host@r > 2");
+  CHECK(branch.findings() == "host-input-unknown@r > 2");
 
   GibbsProject length("get_op_data callback_op, tool_num, t\n"
                       "get_tool_data t, mtool_length, l\n"
