@@ -83,6 +83,7 @@ bool PostCommand::load() {
     }
   }
   program_ = loadProg(*options_.source.prog, session_);
+  if (program_) leaveFindingsToLint(session_);
   return program_ && !diagnostics.hasErrors();
 }
 
@@ -135,17 +136,19 @@ void PostCommand::operation(const JobOperation& operation, compost::PostRun& run
                                                                     : options_.source.routine;
   const SourceRange namedAt = !options_.source.routine && job_ ? job_->operationRange : SourceRange{};
   const compost::Routine* routine = chooseRoutine(*program_, named, namedAt, folder->name, session_);
-  if (routine == nullptr) return;
+  if (routine == nullptr) {
+    for (const auto& set : sets_)
+      usedSets_.insert(set.first); // one finding for one cause
+    return;
+  }
 
   std::map<std::string, double> hosts = flagHosts_;
   hosts.insert(operation.hosts.begin(), operation.hosts.end());
   if (job_) hosts.insert(job_->hosts.begin(), job_->hosts.end());
 
   std::vector<std::string> printed;
-  for (const compost::BranchRef& branch : compost::branchesOf(*program_, folder->name)) {
-    for (const compost::FieldRef& field : compost::fieldsPrinted(*program_, branch, folder->name))
-      printed.push_back(field.name);
-  }
+  for (const compost::FieldRef& field : compost::fieldsPrinted(*program_, *routine, folder->name))
+    printed.push_back(field.name);
   FieldTable fields(*folder, std::move(printed), session_);
   applySets(operation, fields, *folder);
   for (const auto& [postField, variable] : options_.common.field)

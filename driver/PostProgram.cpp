@@ -5,6 +5,8 @@
 #include "frontend/compost/Summary.h"
 #include "support/NearestName.h"
 
+#include <algorithm>
+
 namespace dotek::driver {
 
 namespace compost = frontend::compost;
@@ -21,13 +23,19 @@ void acceptRepairs(FileId prog, Session& session) {
   }
 }
 
-std::string routineNames(const compost::Program& program) {
+std::string quotedList(const std::vector<std::string>& names) {
   std::string out;
+  for (const std::string& name : names)
+    out += (out.empty() ? "`" : ", `") + name + "`";
+  return out;
+}
+
+std::string routineNames(const compost::Program& program) {
+  std::vector<std::string> names;
   for (const compost::Item& item : program.items) {
-    if (const auto* routine = std::get_if<compost::Routine>(&item))
-      out += (out.empty() ? "`" : ", `") + routine->name + "`";
+    if (const auto* routine = std::get_if<compost::Routine>(&item)) names.push_back(routine->name);
   }
-  return out.empty() ? "none" : out;
+  return names.empty() ? "none" : quotedList(names);
 }
 
 } // namespace
@@ -45,30 +53,49 @@ const compost::Routine* chooseRoutine(const compost::Program& program,
                                       const std::optional<std::string>& named, SourceRange namedAt,
                                       const std::string& cycle, Session& session) {
   Diagnostics& diagnostics = session.diagnostics();
+  const compost::Routine* chosen = nullptr;
   if (named) {
-    const compost::Routine* routine = compost::findRoutine(program, *named);
-    if (routine == nullptr) {
+    chosen = compost::findRoutine(program, *named);
+    if (chosen == nullptr) {
       diagnostics.report<diag::NoSuchRoutine>(namedAt, *named, session.sources().file(program.file).name(),
                                               routineNames(program));
+      return nullptr;
     }
-    return routine;
   }
+  const std::vector<std::string> ids = compost::cycleIds(program);
+  const bool known = std::find(ids.begin(), ids.end(), cycle) != ids.end();
+  // A Prog that tells cycles apart and does not know this one was not made for it.
+  if (chosen != nullptr && (known || ids.empty() || cycle.empty())) return chosen;
   const auto found = compost::printingRoutines(program, session.compostKeywords(), cycle);
-  if (found.size() == 1) return found.front();
-  if (found.empty()) {
-    std::string ids;
-    for (const std::string& id : compost::cycleIds(program))
-      ids += (ids.empty() ? "`" : ", `") + id + "`";
-    diagnostics.report<diag::NoRoutineForCycle>({program.file, 0, 0}, cycle, ids.empty() ? "no cycle" : ids);
+  if (chosen != nullptr || found.empty()) {
+    const std::string near = nearestName(cycle, ids);
+    diagnostics.report<diag::NoRoutineForCycle>({program.file, 0, 0}, cycle,
+                                                ids.empty() ? "no cycle" : quotedList(ids),
+                                                near.empty() ? "" : "; did you mean `--cycle " + near + "`?");
     return nullptr;
   }
-  std::string names;
+  if (found.size() == 1) return found.front();
+  std::vector<std::string> names;
   for (const compost::Routine* routine : found)
-    names += (names.empty() ? "`" : ", `") + routine->name + "`";
-  Diagnostic& several = diagnostics.report<diag::SeveralRoutines>(found.front()->nameRange, cycle, names);
+    names.push_back(routine->name);
+  Diagnostic& several =
+      diagnostics.report<diag::SeveralRoutines>(found.front()->nameRange, cycle, quotedList(names));
   for (const compost::Routine* routine : found)
     several.note(routine->nameRange, "`" + routine->name + "` prints for it");
   return nullptr;
+}
+
+void leaveFindingsToLint(Session& session) {
+  auto& all = session.diagnostics().all();
+  const auto isFinding = [](const Diagnostic& d) {
+    return d.severity != Severity::Error && d.code != diag::OpenIfAtReturn::code &&
+           d.code != diag::MissingReturn::code && d.code != diag::UnverifiedInProg::code;
+  };
+  const auto warnings = std::count_if(all.begin(), all.end(), [&](const Diagnostic& d) {
+    return isFinding(d) && d.severity == Severity::Warning;
+  });
+  std::erase_if(all, isFinding);
+  if (warnings > 0) session.diagnostics().report<diag::WarningsLeftToLint>({}, warnings);
 }
 
 } // namespace dotek::driver

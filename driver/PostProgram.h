@@ -19,4 +19,8 @@ const frontend::compost::Routine* chooseRoutine(const frontend::compost::Program
                                                 const std::optional<std::string>& named, SourceRange namedAt,
                                                 const std::string& cycle, Session& session);
 
+// Drops the notes and warnings of the front ends, which say how the inputs are written, so that what is said
+// of this run stands out; a note counts the warnings. Repairs and unverified readings stay.
+void leaveFindingsToLint(Session& session);
+
 } // namespace dotek::driver

@@ -1,6 +1,7 @@
 #include "support/NearestName.h"
 
 #include <algorithm>
+#include <utility>
 #include <vector>
 
 namespace dotek {
@@ -41,7 +42,10 @@ void NearestName::offer(std::string_view candidate) {
   if (distance > limit_) return;
   // From the first hit on, limit_ is the distance of best_.
   const bool nearer = best_.empty() || distance < limit_;
-  if (!nearer && candidate >= best_) return;
+  const auto gap = [this](std::string_view other) {
+    return other.size() > name_.size() ? other.size() - name_.size() : name_.size() - other.size();
+  };
+  if (!nearer && std::pair(gap(candidate), candidate) >= std::pair(gap(best_), std::string_view(best_))) return;
   best_ = candidate;
   limit_ = distance;
 }

@@ -1,6 +1,7 @@
 // The nearest known name, for messages about unknown ones.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <string>
 #include <string_view>
@@ -11,11 +12,12 @@ namespace dotek {
 // Above `limit` it gives limit + 1.
 std::size_t nameDistance(std::string_view a, std::string_view b, std::size_t limit);
 
-// Keeps the nearest of the names it is offered, within a third of the length of `name`; of equally near
-// ones the first in byte order, so that the order of offering does not matter.
+// Keeps the nearest of the names it is offered, within a third of the length of `name` (one letter for names
+// of two); of equally near
+// ones that of the same length, then the first in byte order, so that the order of offering does not matter.
 class NearestName {
 public:
-  explicit NearestName(std::string_view name) : name_(name), limit_(name.size() / 3) {}
+  explicit NearestName(std::string_view name) : name_(name), limit_(name.size() < 2 ? 0 : std::max<std::size_t>(1, name.size() / 3)) {}
 
   void offer(std::string_view candidate);
   // "" where none is near.

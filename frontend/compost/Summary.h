@@ -56,4 +56,8 @@ std::vector<const Routine*> printingRoutines(const Program& program, const stdli
 std::vector<FieldRef> fieldsPrinted(const Program& program, const BranchRef& branch,
                                     std::string_view cycleId);
 
+// The same for all that a routine prints while the cycle is posted.
+std::vector<FieldRef> fieldsPrinted(const Program& program, const Routine& routine,
+                                    std::string_view cycleId);
+
 } // namespace dotek::frontend::compost
