@@ -1,7 +1,6 @@
 #include "support/NearestName.h"
 
 #include <algorithm>
-#include <utility>
 #include <vector>
 
 namespace dotek {
@@ -37,15 +36,20 @@ std::size_t nameDistance(std::string_view a, std::string_view b, std::size_t lim
   return std::min(last[b.size()], limit + 1);
 }
 
+std::tuple<std::size_t, std::size_t, std::string_view> NearestName::rank(std::string_view other) const {
+  std::size_t common = 0;
+  while (common < std::min(name_.size(), other.size()) && lower(name_[common]) == lower(other[common]))
+    ++common;
+  const std::size_t gap = std::max(name_.size(), other.size()) - std::min(name_.size(), other.size());
+  return {name_.size() - common, gap, other};
+}
+
 void NearestName::offer(std::string_view candidate) {
   const std::size_t distance = nameDistance(name_, candidate, limit_);
   if (distance > limit_) return;
   // From the first hit on, limit_ is the distance of best_.
   const bool nearer = best_.empty() || distance < limit_;
-  const auto gap = [this](std::string_view other) {
-    return other.size() > name_.size() ? other.size() - name_.size() : name_.size() - other.size();
-  };
-  if (!nearer && std::pair(gap(candidate), candidate) >= std::pair(gap(best_), std::string_view(best_))) return;
+  if (!nearer && rank(candidate) >= rank(best_)) return;
   best_ = candidate;
   limit_ = distance;
 }

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <string>
 #include <string_view>
+#include <tuple>
 
 namespace dotek {
 
@@ -14,16 +15,21 @@ std::size_t nameDistance(std::string_view a, std::string_view b, std::size_t lim
 
 // Keeps the nearest of the names it is offered, within a third of the length of `name` (one letter for names
 // of two); of equally near
-// ones that of the same length, then the first in byte order, so that the order of offering does not matter.
+// ones that with the longest common beginning, then of the nearest length, then the first in byte order, so
+// that the order of offering does not matter.
 class NearestName {
 public:
-  explicit NearestName(std::string_view name) : name_(name), limit_(name.size() < 2 ? 0 : std::max<std::size_t>(1, name.size() / 3)) {}
+  explicit NearestName(std::string_view name)
+      : name_(name), limit_(name.size() < 2 ? 0 : std::max<std::size_t>(1, name.size() / 3)) {}
+  explicit NearestName(std::string&&) = delete; // the name is kept as a view
 
   void offer(std::string_view candidate);
   // "" where none is near.
   const std::string& result() const { return best_; }
 
 private:
+  std::tuple<std::size_t, std::size_t, std::string_view> rank(std::string_view other) const;
+
   std::string_view name_;
   std::size_t limit_;
   std::string best_;
