@@ -83,7 +83,7 @@ Outcome lint(const LintOptions& options);
 Outcome dump(const DumpOptions& options);
 // The text of one message or rule; status 2 for an unknown code.
 Outcome explain(const std::string& code);
-// `what`: cycles, controls, macros, forms, rules, targets, hosts, limits.
+// `what`: cycles, controls, macros, forms, rules, targets, hosts, limits, assumptions.
 Outcome list(const std::string& what, const CommonOptions& options);
 
 } // namespace dotek::driver

@@ -1,3 +1,4 @@
+#include "driver/Assumptions.h"
 #include "driver/Driver.h"
 #include "driver/Session.h"
 #include "stdlib/HostInputs.h"
@@ -67,6 +68,8 @@ Outcome list(const std::string& what, const CommonOptions& options) {
     } else if (what == "hosts") {
       for (const stdlib::HostInput& host : stdlib::kHostInputs)
         rows.emplace_back(host.name, host.meaning);
+    } else if (what == "assumptions") {
+      rows = assumptionTable();
     } else if (what == "rules") {
       for (const MessageInfo& info : messageTable())
         rows.emplace_back(info.code, severityName(info.severity));

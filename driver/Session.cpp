@@ -1,5 +1,6 @@
 #include "driver/Session.h"
 
+#include "driver/Assumptions.h"
 #include "support/Files.h"
 
 #include <algorithm>
@@ -8,6 +9,7 @@
 namespace dotek::driver {
 
 Session::Session(const CommonOptions& options) : options_(options) {
+  checkAssumptions(options.assume, diagnostics_);
   for (const std::string& folder : options.data)
     data_.addFolder(folder, options.limits, diagnostics_);
 }
@@ -62,12 +64,12 @@ Outcome Session::finish(std::string output, bool keepOutput) {
 
 bool isUsageCode(std::string_view code) {
   constexpr std::array kCodes = {
-      diag::FileNotFound::code, diag::FileNotReadable::code, diag::FileNotWritable::code,
-      diag::FileTooLarge::code, diag::TooManyFiles::code,    diag::UnknownForm::code,
-      diag::UnknownHost::code,  diag::NotANumber::code,      diag::GivenTwice::code,
-      diag::UnknownName::code,  diag::MissingOption::code,   diag::DataFileDefect::code,
-      diag::UnknownKind::code,  diag::UnknownCode::code,     diag::UnknownList::code,
-      diag::NoSuchField::code,
+      diag::FileNotFound::code,   diag::FileNotReadable::code,   diag::FileNotWritable::code,
+      diag::FileTooLarge::code,   diag::TooManyFiles::code,      diag::UnknownForm::code,
+      diag::UnknownHost::code,    diag::UnknownAssumption::code, diag::NotANumber::code,
+      diag::GivenTwice::code,     diag::UnknownName::code,       diag::MissingOption::code,
+      diag::DataFileDefect::code, diag::UnknownKind::code,       diag::UnknownCode::code,
+      diag::UnknownList::code,    diag::NoSuchField::code,
   };
   return std::find(kCodes.begin(), kCodes.end(), code) != kCodes.end();
 }

@@ -14,7 +14,7 @@ struct Assumption {
   bool runsOnly = false;      // no construct of the text, only a question that running raises
 };
 
-inline constexpr std::array<Assumption, 26> kAssumptions{{
+inline constexpr std::array<Assumption, 24> kAssumptions{{
     {"and-or", "AND or OR between comparisons", "AND: both hold; OR: one holds; AND binds tighter"},
     {"not", "NOT before a comparison", "the comparison does not hold"},
     {"condition-brackets", "brackets around a comparison", "they change nothing"},
@@ -38,12 +38,10 @@ inline constexpr std::array<Assumption, 26> kAssumptions{{
     {"field-value", "a field of DefineData.txt that is no number", "the right side is computed once"},
     {"loose-caption", "a caption without quotes", "it is the text as it stands"},
     {"unset-zero", "a variable that is read before it is set", "it is 0, or an empty text", true},
-    {"cancel-ends", "CANCEL of a dialog", "it ends the macro", true},
     {"for-end-at-entry", "a FOR whose end or step changes while it runs", "both are taken once, at the FOR",
      true},
     {"angle-radians", "the unit of angles", "radians, until DEGREES stands", true},
     {"angle-degrees", "the unit of angles", "degrees, until RADIANS stands", true},
-    {"integer-toward-zero", "INT of a negative number", "it is rounded toward zero", true},
 }};
 
 // nullptr: no such assumption.

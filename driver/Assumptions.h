@@ -1,0 +1,19 @@
+// The names that `--assume` takes: readings of what no source documents.
+#pragma once
+
+#include "support/Diagnostics.h"
+
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace dotek::driver {
+
+// Name and reading of every assumption, sorted by name. `Word?=yes` and `Word?=no` stand for all words.
+std::vector<std::pair<std::string, std::string>> assumptionTable();
+
+// A name outside the table is a usage error: a misspelt assumption would silently assume nothing.
+void checkAssumptions(const std::set<std::string>& given, Diagnostics& diagnostics);
+
+} // namespace dotek::driver
