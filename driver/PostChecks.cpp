@@ -12,10 +12,10 @@ namespace gibbs = frontend::gibbs;
 
 namespace {
 
-std::string joined(const std::vector<std::string>& names) {
+std::string flags(const std::vector<std::string>& hosts) {
   std::string out;
-  for (const std::string& name : names)
-    out += (out.empty() ? "" : ", ") + name;
+  for (const std::string& name : hosts)
+    out += (out.empty() ? "`--host " : " and `--host ") + name + "=VALUE`";
   return out;
 }
 
@@ -77,7 +77,7 @@ void runCycleChecks(const CycleFolder& folder, FieldTable& fields, const std::ma
   case gibbs::ChecksResult::Verdict::Depends: {
     const SourceRange where = result.rejections.empty() ? SourceRange{folder.cycle->cycleData->file, 0, 0}
                                                         : result.rejections.front().range;
-    diagnostics.report<diag::ChecksDepend>(where, folder.name, joined(result.neededHosts));
+    diagnostics.report<diag::ChecksDepend>(where, folder.name, flags(result.neededHosts));
     break;
   }
   case gibbs::ChecksResult::Verdict::NotRun: return;
