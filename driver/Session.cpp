@@ -50,7 +50,8 @@ Outcome Session::finish(std::string output, bool keepOutput) {
   Outcome outcome;
   const auto& all = diagnostics_.all();
   const bool usage = std::any_of(all.begin(), all.end(), [](const Diagnostic& d) {
-    return d.severity == Severity::Error && isUsageCode(d.code);
+    // What stands in a file is an error of that input, not of the command line.
+    return d.severity == Severity::Error && isUsageCode(d.code) && !d.range.hasPlace();
   });
   outcome.status = usage ? 2 : diagnostics_.hasErrors() ? 1 : 0;
   if (outcome.status == 0 || keepOutput) outcome.output = std::move(output);
@@ -67,7 +68,8 @@ bool isUsageCode(std::string_view code) {
       diag::UnknownHost::code,  diag::NotANumber::code,      diag::GivenTwice::code,
       diag::UnknownName::code,  diag::MissingOption::code,   diag::DataFileDefect::code,
       diag::UnknownKind::code,  diag::UnknownCode::code,     diag::UnknownList::code,
-      diag::NoSuchField::code,
+      diag::NoSuchField::code,  diag::HostInputRange::code,  diag::UnknownAssumption::code,
+      diag::NotAFolder::code,
   };
   return std::find(kCodes.begin(), kCodes.end(), code) != kCodes.end();
 }

@@ -29,6 +29,9 @@ public:
   // Reads a text file in the language's default encoding, once per path: the second time gives the same id.
   std::optional<FileId> read(const std::string& path, Encoding fallback);
 
+  // Reports each `--assume` that no message asks for.
+  void checkAssumptions();
+
   // Hands over what the command found. The status is 1 with errors, 2 with errors of the command line or of
   // reading and writing files; `output` is dropped with either unless `keepOutput`.
   Outcome finish(std::string output, bool keepOutput = false);
@@ -50,6 +53,8 @@ bool isUsageCode(std::string_view code);
 template <class Command> Outcome guarded(const CommonOptions& options, const Command& command) {
   try {
     Session session(options);
+    session.checkAssumptions();
+    if (session.diagnostics().hasErrors()) return session.finish("");
     return command(session);
   } catch (const stdlib::DataError& error) {
     Outcome outcome;

@@ -56,4 +56,7 @@ std::vector<const Routine*> printingRoutines(const Program& program, const stdli
 std::vector<FieldRef> fieldsPrinted(const Program& program, const BranchRef& branch,
                                     std::string_view cycleId);
 
+// The same for all that the routine prints for the cycle, outside its branches too.
+std::vector<FieldRef> fieldsPrinted(const Program& program, const Routine& routine, std::string_view cycleId);
+
 } // namespace dotek::frontend::compost

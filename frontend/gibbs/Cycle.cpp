@@ -229,15 +229,25 @@ private:
   std::set<std::string> bound_;
 };
 
-// A plain number with or without signs.
+// The literal of a plain number, with at most one sign before it; nullptr for anything else.
+const NumberLiteral* plainNumber(const Expression& expression) {
+  const auto* unary = std::get_if<Unary>(&expression.node);
+  return std::get_if<NumberLiteral>(unary != nullptr ? &unary->operand->node : &expression.node);
+}
+
 std::optional<double> constant(const Expression& expression) {
-  if (const auto* number = std::get_if<NumberLiteral>(&expression.node)) return number->value;
-  if (const auto* unary = std::get_if<Unary>(&expression.node)) {
-    const std::optional<double> inner = constant(*unary->operand);
-    if (!inner) return std::nullopt;
-    return unary->op == UnaryOperator::Minus && *inner != 0 ? -*inner : *inner;
-  }
-  return std::nullopt;
+  const NumberLiteral* number = plainNumber(expression);
+  if (number == nullptr) return std::nullopt;
+  const auto* unary = std::get_if<Unary>(&expression.node);
+  const bool minus = unary != nullptr && unary->op == UnaryOperator::Minus;
+  return minus && number->value != 0 ? -number->value : number->value;
+}
+
+std::string_view assumptionOf(const Expression& expression) {
+  const NumberLiteral* number = plainNumber(expression);
+  if (number == nullptr || number->text.empty()) return {};
+  if (number->text.find_first_of("eE") != std::string::npos) return "exponent";
+  return number->text.front() == '.' || number->text.back() == '.' ? "bare-fraction" : std::string_view{};
 }
 
 } // namespace
@@ -260,11 +270,13 @@ std::vector<Field> declaredFields(const Cycle& cycle) {
   };
   if (cycle.defineData)
     for (const Definition& definition : cycle.defineData->definitions)
-      add({definition.name, definition.number, definition.valueRange, false, std::nullopt});
+      add({definition.name, constant(*definition.value), definition.valueRange, false, std::nullopt,
+           assumptionOf(*definition.value)});
   for (const InputLabel& label : labels) {
     if (label.input->initial == nullptr) continue;
     if (const std::optional<double> value = constant(*label.input->initial))
-      add({label.variable, value, label.input->initial->range, true, std::nullopt});
+      add({label.variable, value, label.input->initial->range, true, std::nullopt,
+           assumptionOf(*label.input->initial)});
   }
   return fields;
 }
