@@ -129,14 +129,17 @@ std::optional<double> FieldTable::value(const std::string& name, SourceRange whe
     if (const auto given = postOnly_.find(name); given != postOnly_.end()) return given->second;
   }
   if (const Entry* entry = declared(wanted)) {
-    if (entry->name != wanted) diagnostics.report<diag::FieldCase>(where, name, entry->name, folder_.name);
+    if (entry->name != wanted && told_.insert(name).second)
+      diagnostics.report<diag::FieldCase>(where, name, entry->name, folder_.name);
     if (!entry->value) diagnostics.report<diag::FieldWithoutValue>(where, entry->name, folder_.name);
     return entry->value;
   }
+  const bool zero = session_.options().assume.contains("missing-field-zero");
+  if (!told_.insert(name).second) return zero ? std::optional(0.0) : std::nullopt;
   const std::string defineData = folder_.cycle->defineData
                                      ? session_.sources().file(folder_.cycle->defineData->file).name()
                                      : folder_.name;
-  if (session_.options().assume.contains("missing-field-zero")) {
+  if (zero) {
     diagnostics.report<diag::MissingFieldZero>(where, name, defineData);
     return 0.0;
   }

@@ -53,6 +53,7 @@ private:
   std::vector<Entry> entries_;                // in the order of declaration
   std::map<std::string, double> postOnly_;    // --set of names that the macro does not declare
   std::map<std::string, std::string> mapped_; // post field -> macro variable
+  std::set<std::string> told_;                // post fields of which a finding was reported
 };
 
 } // namespace dotek::driver

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <array>
+#include <set>
+#include <tuple>
 
 namespace dotek::driver {
 
@@ -48,7 +50,18 @@ std::optional<FileId> Session::read(const std::string& path, Encoding fallback) 
 
 Outcome Session::finish(std::string output, bool keepOutput) {
   Outcome outcome;
-  const auto& all = diagnostics_.all();
+  auto& all = diagnostics_.all();
+  // A run that stopped at a construct has said all that the note says.
+  std::set<SourceRange, bool (*)(const SourceRange&, const SourceRange&)> stopped(
+      [](const SourceRange& a, const SourceRange& b) {
+        return std::tie(a.file, a.begin, a.end) < std::tie(b.file, b.begin, b.end);
+      });
+  for (const Diagnostic& d : all) {
+    if (d.code == diag::UnverifiedConstructRun::code) stopped.insert(d.range);
+  }
+  std::erase_if(all, [&](const Diagnostic& d) {
+    return d.code == diag::UnverifiedConstruct::code && stopped.contains(d.range);
+  });
   const bool usage = std::any_of(all.begin(), all.end(), [](const Diagnostic& d) {
     // What stands in a file is an error of that input, not of the command line.
     return d.severity == Severity::Error && isUsageCode(d.code) && !d.range.hasPlace();

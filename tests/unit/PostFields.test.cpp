@@ -177,3 +177,24 @@ TEST_CASE("a program number is found with the zeros before it, and only as the f
   CHECK(warned("O200"));
   CHECK(warned("(SEE O20)"));
 }
+
+TEST_CASE("an input that opens with another value than its field is a warning") {
+  Project project;
+  project.options.common.field = {{"L", "a"}};
+  project.file("DefineData.txt", "a = 7\nb = 8\n");
+  const auto warned = [&](const std::string& initial) {
+    project.file("CycleData.dlg",
+                 "dialog \"t\", 0, 0, 400, 400\ninput 80, 20, 50, 20, a" + initial +
+                     "\ninput 80, 60, 50, 20, b, B\nok 1, 300, 50, 20\ncancel 80, 300, 50, 20\n");
+    const driver::Outcome outcome = project.post();
+    CHECK(outcome.output == "N10 X7.\n");
+    const auto& all = outcome.diagnostics.all();
+    return std::any_of(all.begin(), all.end(),
+                       [](const Diagnostic& d) { return d.code == "input-opens-with-other"; });
+  };
+  CHECK_FALSE(warned(""));
+  CHECK_FALSE(warned(", A"));
+  CHECK_FALSE(warned(", 7.0"));
+  CHECK(warned(", 25"));
+  CHECK(warned(", b"));
+}
