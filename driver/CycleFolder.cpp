@@ -177,6 +177,12 @@ void checkWithCallees(const gibbs::Macro& macro, CycleFolder& folder, const gibb
     }
     for (const Callee& callee : callees) {
       if (callee.dialog) {
+        // checkCycle reports a plain name that the folder does not hold.
+        const bool plain = callee.name.find_first_of("/\\") == std::string::npos;
+        const std::string key = gibbs::foldCase(callee.name);
+        if (cycle.cycleData && next == &*cycle.cycleData && plain && !cycle.files.contains(key) &&
+            !cycle.files.contains(key + ".DLG"))
+          continue;
         const gibbs::Dialog* dialog = folder.loader->dialog(callee.name, callee.range);
         if (!cycle.dialog || dialog != &*cycle.dialog) addOnce(cycle.otherDialogs, dialog);
       } else if (const gibbs::Macro* called = folder.loader->macro(callee.name, callee.range)) {
@@ -192,6 +198,10 @@ void checkWithCallees(const gibbs::Macro& macro, CycleFolder& folder, const gibb
 }
 
 } // namespace
+
+std::optional<fs::path> cycleFile(const fs::path& folder, std::string_view name) {
+  return findEntry(folder, name);
+}
 
 bool isCycleFolder(const fs::path& path) {
   std::error_code error;

@@ -50,6 +50,9 @@ struct CycleFolder {
   bool complete = false; // all four files are there and could be read
 };
 
+// The file of a cycle's folder by its fixed name, in whatever case; nothing where there is none.
+std::optional<std::filesystem::path> cycleFile(const std::filesystem::path& folder, std::string_view name);
+
 // true: `path` is a folder that holds at least one of the four files.
 bool isCycleFolder(const std::filesystem::path& path);
 

@@ -46,7 +46,7 @@ private:
 
   void folder(const std::string& input) {
     for (const char* name : {"DefineData.txt", "CycleData.dlg", "CycleData.mac", "ToolPath.mac"})
-      file((fs::path(input) / name).generic_string());
+      file(cycleFile(input, name).value_or(fs::path(input) / name).generic_string());
   }
 
   void file(const std::string& input) {
@@ -59,7 +59,7 @@ private:
       kind = recognise(input, *bytes);
     }
     if (!kind) {
-      session_.diagnostics().report<diag::UnknownKind>({}, input);
+      if (session_.read(input, Encoding::Cp1250)) session_.diagnostics().report<diag::UnknownKind>({}, input);
       return;
     }
     const std::optional<FileId> id = session_.read(input, Encoding::Cp1250);

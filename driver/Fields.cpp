@@ -1,5 +1,6 @@
 #include "driver/Fields.h"
 
+#include "frontend/gibbs/Assumptions.h"
 #include "frontend/gibbs/Labels.h"
 #include "support/Decimal.h"
 #include "support/NearestName.h"
@@ -13,7 +14,7 @@ namespace gibbs = frontend::gibbs;
 FieldTable::FieldTable(const CycleFolder& folder, std::vector<std::string> printed, Session& session)
     : folder_(folder), session_(session), printed_(std::move(printed)) {
   for (const gibbs::Field& field : gibbs::declaredFields(*folder.cycle))
-    entries_.push_back({field.name.text, field.value});
+    entries_.push_back({field.name.text, field.value, field.valueRange, field.assumption});
 }
 
 const FieldTable::Entry* FieldTable::declared(const std::string& name) const {
@@ -30,6 +31,7 @@ FieldTable::Entry* FieldTable::declared(const std::string& name) {
 bool FieldTable::set(const std::string& name, double value, SourceRange where) {
   if (Entry* entry = declared(name)) {
     entry->value = value;
+    entry->assumption = {};
     return true;
   }
   if (std::find(printed_.begin(), printed_.end(), name) == printed_.end()) return false;
@@ -57,11 +59,34 @@ bool FieldTable::map(const std::string& postField, const std::string& variable) 
                                                      near.empty() ? "" : "; did you mean `" + near + "`?");
     return false;
   }
+  const auto& sets = session_.options().set;
+  if (postOnly_.contains(postField) &&
+      std::any_of(sets.begin(), sets.end(), [&](const auto& given) { return given.first == postField; })) {
+    session_.diagnostics().report<diag::GivenTwice>({}, "--field beside --set", postField);
+    return false;
+  }
   if (!mapped_.emplace(postField, entry->name).second) {
     session_.diagnostics().report<diag::GivenTwice>({}, "--field", postField);
     return false;
   }
   return true;
+}
+
+bool FieldTable::certain() const {
+  bool all = true;
+  for (const Entry& entry : entries_) {
+    if (!entry.value && !entry.name.ends_with('$')) {
+      session_.diagnostics().report<diag::FieldWithoutValue>(entry.valueRange, entry.name, folder_.name);
+      all = false;
+    } else if (!entry.assumption.empty() &&
+               !session_.options().assume.contains(std::string(entry.assumption))) {
+      const gibbs::Assumption* reading = gibbs::findAssumption(entry.assumption);
+      session_.diagnostics().report<diag::UnverifiedConstructRun>(
+          entry.valueRange, reading != nullptr ? reading->construct : "the value", entry.assumption);
+      all = false;
+    }
+  }
+  return all;
 }
 
 std::string FieldTable::nearest(const std::string& name) const {
@@ -73,16 +98,27 @@ std::string FieldTable::nearest(const std::string& name) const {
 
 // The remedy for a field that no file declares: the variable whose input the dialog labels with its name.
 std::string FieldTable::proposal(const std::string& name) const {
+  std::vector<std::string> variables;
   if (folder_.cycle->dialog) {
     for (const gibbs::InputLabel& label : gibbs::inputLabels(*folder_.cycle->dialog)) {
-      if (label.name != name || gibbs::foldCase(label.variable.text) == gibbs::foldCase(name)) continue;
-      return fmt::format(
-          "give `--field {}={}` (the dialog labels the input of `{}` with `{}`) or `--set {}=VALUE`", name,
-          label.variable.text, label.variable.text, name, name);
+      const std::string& variable = label.variable.text;
+      if (label.name != name || gibbs::foldCase(variable) == gibbs::foldCase(name)) continue;
+      if (std::find(variables.begin(), variables.end(), variable) == variables.end())
+        variables.push_back(variable);
     }
   }
-  return fmt::format("give `--set {}=VALUE`, or `--field {}=VARIABLE` with a variable of the macro", name,
-                     name);
+  if (variables.empty())
+    return fmt::format("give `--set {}=VALUE`, or `--field {}=VARIABLE` with a variable of the macro", name,
+                       name);
+  std::string flags;
+  std::string inputs;
+  for (const std::string& variable : variables) {
+    flags += fmt::format("`--field {}={}`{}", name, variable, variables.size() > 1 ? " or " : " ");
+    inputs += fmt::format("{}`{}`", inputs.empty() ? "" : " and of ", variable);
+  }
+  if (variables.size() > 1) flags.resize(flags.size() - 3);
+  return fmt::format("give {}(the dialog labels the input of {} with `{}`) or `--set {}=VALUE`", flags,
+                     inputs, name, name);
 }
 
 std::optional<double> FieldTable::value(const std::string& name, SourceRange where) {
@@ -93,14 +129,17 @@ std::optional<double> FieldTable::value(const std::string& name, SourceRange whe
     if (const auto given = postOnly_.find(name); given != postOnly_.end()) return given->second;
   }
   if (const Entry* entry = declared(wanted)) {
-    if (entry->name != wanted) diagnostics.report<diag::FieldCase>(where, name, entry->name, folder_.name);
+    if (entry->name != wanted && told_.insert(name).second)
+      diagnostics.report<diag::FieldCase>(where, name, entry->name, folder_.name);
     if (!entry->value) diagnostics.report<diag::FieldWithoutValue>(where, entry->name, folder_.name);
     return entry->value;
   }
+  const bool zero = session_.options().assume.contains("missing-field-zero");
+  if (!told_.insert(name).second) return zero ? std::optional(0.0) : std::nullopt;
   const std::string defineData = folder_.cycle->defineData
                                      ? session_.sources().file(folder_.cycle->defineData->file).name()
                                      : folder_.name;
-  if (session_.options().assume.contains("missing-field-zero")) {
+  if (zero) {
     diagnostics.report<diag::MissingFieldZero>(where, name, defineData);
     return 0.0;
   }

@@ -22,6 +22,10 @@ public:
   bool set(const std::string& name, double value, SourceRange where);
   // Takes --field POSTFIELD=VARIABLE. Reports and returns false where one of the names is not known.
   bool map(const std::string& postField, const std::string& variable);
+  // Whether the macro declares the name, in whatever case.
+  bool declares(const std::string& name) const { return declared(name) != nullptr; }
+  // Reports the fields whose first value nobody overrides and no source lets us read. false: there are some.
+  bool certain() const;
   // The name of the macro or of the branch that is nearest to `name`; "" for none.
   std::string nearest(const std::string& name) const;
 
@@ -36,6 +40,8 @@ private:
   struct Entry {
     std::string name; // as the macro spells it
     std::optional<double> value;
+    SourceRange valueRange;
+    std::string_view assumption; // that reading the first value needs; "" for none
   };
   const Entry* declared(const std::string& name) const;
   Entry* declared(const std::string& name);
@@ -47,6 +53,7 @@ private:
   std::vector<Entry> entries_;                // in the order of declaration
   std::map<std::string, double> postOnly_;    // --set of names that the macro does not declare
   std::map<std::string, std::string> mapped_; // post field -> macro variable
+  std::set<std::string> told_;                // post fields of which a finding was reported
 };
 
 } // namespace dotek::driver

@@ -21,6 +21,8 @@ std::map<std::string, double> parseHosts(const NamedTexts& given, Diagnostics& d
     const std::optional<double> value = parseNumber(text);
     if (!value)
       diagnostics.report<diag::NotANumber>({}, "--host", name, text);
+    else if (const std::string_view wanted = stdlib::hostInputRefuses(name, *value); !wanted.empty())
+      diagnostics.report<diag::HostInputRange>({}, name, text, wanted);
     else if (!out.emplace(name, *value).second)
       diagnostics.report<diag::GivenTwice>({}, "--host", name);
   }

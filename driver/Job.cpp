@@ -33,10 +33,18 @@ void readRoutine(const TomlTable& table, std::string_view key, std::optional<std
   range = value.range();
 }
 
+void takeHost(const TomlDocument& document, const std::string& host, const TomlValue& value,
+              std::map<std::string, double>& out) {
+  const double number = value.number();
+  const std::string_view wanted = stdlib::hostInputRefuses(host, number);
+  if (value.isNumber() && !wanted.empty()) document.fail(value.range(), std::string(wanted) + " is expected");
+  out.insert_or_assign(host, number);
+}
+
 void readHosts(const TomlDocument& document, const TomlTable& table, std::map<std::string, double>& out) {
   for (const TomlEntry& entry : table.entries()) {
     if (stdlib::isHostInput(entry.key)) {
-      out.insert_or_assign(entry.key, entry.value.number());
+      takeHost(document, entry.key, entry.value, out);
       continue;
     }
     const std::string near = nearestHost(entry.key);
@@ -45,9 +53,9 @@ void readHosts(const TomlDocument& document, const TomlTable& table, std::map<st
   }
 }
 
-void readTool(const TomlTable& table, Job& job) {
+void readTool(const TomlDocument& document, const TomlTable& table, Job& job) {
   const auto take = [&](std::string_view key, const char* host) {
-    if (const TomlValue value = table.value(key)) job.hosts.insert_or_assign(host, value.number());
+    if (const TomlValue value = table.value(key)) takeHost(document, host, value, job.hosts);
   };
   take("number", "tool_number");
   take("offset", "tool_offset");
@@ -61,8 +69,10 @@ JobOperation readOperation(const TomlDocument& document, const TomlTable& table)
   const TomlValue cycle = table.require("cycle", "the name of a cycle's folder");
   out.cycle = cycle.text();
   out.cycleRange = cycle ? cycle.range() : out.range;
+  if (table.value("at").isArray() && table.value("at").items().empty())
+    document.fail(table.value("at").range(), "`at` holds no point; write [[x, y]], or leave `at` out");
   for (const TomlValue& point : table.value("at").items()) {
-    const std::vector<double> numbers = point.numbers();
+    const std::vector<double> numbers = point.isArray() ? point.numbers() : std::vector<double>{};
     if (numbers.size() == 2)
       out.at.emplace_back(numbers[0], numbers[1]);
     else
@@ -93,7 +103,7 @@ std::optional<Job> loadJob(const std::string& path, const Limits& limits, Source
   readRoutine(routines, "operation", job.operationRoutine, job.operationRange);
   readRoutine(routines, "end", job.endRoutine, job.endRange);
   readHosts(*document, root.value("host").table(), job.hosts);
-  readTool(root.value("tool").table(), job);
+  readTool(*document, root.value("tool").table(), job);
   for (const TomlTable& operation : root.value("operation").tables())
     job.operations.push_back(readOperation(*document, operation));
   if (job.operations.empty())

@@ -77,7 +77,9 @@ private:
       kind = recognise(path, *bytes);
     }
     if (!kind) {
-      if (named) session_.diagnostics().report<diag::UnknownKind>({}, path);
+      // Reading says why, where the file is no text.
+      if (named && session_.read(path, Encoding::Cp1250))
+        session_.diagnostics().report<diag::UnknownKind>({}, path);
       return;
     }
     if (*kind == InputKind::Prog) {

@@ -20,6 +20,15 @@ namespace compost = frontend::compost;
 
 namespace {
 
+// An operation with all that the Prog and the macro need to run.
+struct Prepared {
+  const JobOperation* operation;
+  const CycleFolder* folder;
+  const compost::Routine* routine;
+  std::map<std::string, double> hosts;
+  FieldTable fields;
+};
+
 // One command: the parts that every operation needs.
 class PostCommand {
 public:
@@ -29,7 +38,8 @@ public:
 
 private:
   bool load();
-  void operation(const JobOperation& operation, compost::PostRun& run);
+  void prepare(const JobOperation& operation);
+  void post(Prepared& prepared, compost::PostRun& run);
   void boundary(const std::optional<std::string>& name, SourceRange where, compost::PostRun& run);
   std::vector<JobOperation> operations() const;
   const CycleFolder* folderOf(const JobOperation& operation);
@@ -47,6 +57,7 @@ private:
   std::optional<stdlib::Form> form_;
   std::optional<compost::Program> program_;
   std::vector<CycleFolder> folders_;
+  std::vector<Prepared> prepared_;
 };
 
 bool PostCommand::load() {
@@ -112,7 +123,17 @@ const CycleFolder* PostCommand::folderOf(const JobOperation& operation) {
 }
 
 void PostCommand::applySets(const JobOperation& operation, FieldTable& fields, const CycleFolder& folder) {
+  const auto once = [&](std::set<std::string>& seen, const std::string& name, SourceRange where,
+                        std::string_view flag) {
+    const std::string key = fields.declares(name) ? frontend::gibbs::foldCase(name) : name;
+    if (!seen.insert(key).second) session_.diagnostics().report<diag::GivenTwice>(where, flag, name);
+  };
+  std::set<std::string> inJob;
+  std::set<std::string> inFlags;
+  for (const auto& [name, value] : sets_)
+    once(inFlags, name, {}, "--set");
   for (const auto& [name, value] : operation.set) {
+    once(inJob, name, operation.range, "set");
     const bool flagWins =
         std::any_of(sets_.begin(), sets_.end(), [&, &key = name](const auto& s) { return s.first == key; });
     if (flagWins || fields.set(name, value, operation.range)) continue;
@@ -128,7 +149,8 @@ void PostCommand::applySets(const JobOperation& operation, FieldTable& fields, c
   }
 }
 
-void PostCommand::operation(const JobOperation& operation, compost::PostRun& run) {
+// Looks up all that an operation needs, so that what the command line got wrong is said before any run.
+void PostCommand::prepare(const JobOperation& operation) {
   const CycleFolder* folder = folderOf(operation);
   if (folder == nullptr) return;
   const std::optional<std::string>& named = options_.source.routine ? options_.source.routine
@@ -153,24 +175,32 @@ void PostCommand::operation(const JobOperation& operation, compost::PostRun& run
   applySets(operation, fields, *folder);
   for (const auto& [postField, variable] : options_.common.field)
     fields.map(postField, variable);
+  if (fields.certain())
+    prepared_.push_back({&operation, folder, routine, std::move(hosts), std::move(fields)});
+}
 
-  std::vector<std::pair<double, double>> points = operation.at;
+void PostCommand::post(Prepared& prepared, compost::PostRun& run) {
+  std::vector<std::pair<double, double>> points = prepared.operation->at;
   const bool anywhere = points.empty();
   if (anywhere) points.emplace_back(0.0, 0.0);
+  std::map<std::string, double>& hosts = prepared.hosts;
   for (const auto& [x, y] : points) {
     if (!anywhere) {
       hosts.insert_or_assign("start_x", flagHosts_.contains("start_x") ? flagHosts_.at("start_x") : x);
       hosts.insert_or_assign("start_y", flagHosts_.contains("start_y") ? flagHosts_.at("start_y") : y);
     }
-    runCycleChecks(*folder, fields, hosts, session_);
+    // The macro of the dialog runs once for an operation: what it changes does not add up over the points.
+    FieldTable fields = prepared.fields;
+    runCycleChecks(*prepared.folder, fields, hosts, session_);
     compost::Operation now;
-    now.cycle = folder->name;
+    now.cycle = prepared.folder->name;
     now.hosts = hosts;
     now.field = [&fields](const std::string& name, SourceRange where) { return fields.value(name, where); };
     const std::size_t before = run.lineCount();
-    run.run(*routine, now);
+    run.run(*prepared.routine, now);
     if (run.lineCount() == before && !session_.diagnostics().hasErrors())
-      session_.diagnostics().report<diag::NothingPosted>(routine->nameRange, routine->name, folder->name);
+      session_.diagnostics().report<diag::NothingPosted>(prepared.routine->nameRange, prepared.routine->name,
+                                                         prepared.folder->name);
   }
 }
 
@@ -203,14 +233,16 @@ void PostCommand::reportUnknownSets() {
 // The job states the O number, the Prog prints it: a difference is a program stored under a wrong number.
 void PostCommand::checkProgramNumber(const std::vector<compost::PostedLine>& lines) {
   if (!job_ || !job_->number) return;
-  const std::string word = "O" + std::to_string(*job_->number);
+  const std::string number = std::to_string(*job_->number);
   const bool printed = std::any_of(lines.begin(), lines.end(), [&](const compost::PostedLine& line) {
-    const std::size_t at = line.text.find(word);
-    if (at == std::string::npos) return false;
-    const char next = at + word.size() < line.text.size() ? line.text[at + word.size()] : ' ';
-    return next < '0' || next > '9';
+    const std::size_t o = line.text.find_first_not_of(" ");
+    if (o == std::string::npos || (line.text[o] != 'O' && line.text[o] != ':')) return false;
+    const std::size_t digits = std::min(line.text.find_first_not_of('0', o + 1), line.text.size());
+    const std::size_t end = std::min(line.text.find_first_not_of("0123456789", digits), line.text.size());
+    return line.text.substr(digits, end - digits) == number;
   });
-  if (!printed) session_.diagnostics().report<diag::ProgramNumberNotPrinted>({job_->file, 0, 0}, word);
+  if (!printed)
+    session_.diagnostics().report<diag::ProgramNumberNotPrinted>({job_->file, 0, 0}, "O" + number);
 }
 
 Outcome PostCommand::run() {
@@ -221,12 +253,16 @@ Outcome PostCommand::run() {
     settings.sequenceStart = sequence->first;
     settings.sequenceStep = sequence->second;
   }
+  const std::vector<JobOperation> all = operations();
+  for (const JobOperation& one : all)
+    prepare(one);
+  if (prepared_.size() == all.size()) reportUnknownSets();
+  if (session_.diagnostics().hasErrors()) return session_.finish("");
   compost::PostRun run(*program_, settings, session_.diagnostics());
   if (job_) boundary(job_->startRoutine, job_->startRange, run);
-  for (const JobOperation& one : operations())
-    operation(one, run);
+  for (Prepared& one : prepared_)
+    post(one, run);
   if (job_) boundary(job_->endRoutine, job_->endRange, run);
-  reportUnknownSets();
   const std::vector<compost::PostedLine> lines = run.finish();
   checkProgramNumber(lines);
   std::string out;

@@ -77,7 +77,9 @@ void runCycleChecks(const CycleFolder& folder, FieldTable& fields, const std::ma
   case gibbs::ChecksResult::Verdict::Depends: {
     const SourceRange where = result.rejections.empty() ? SourceRange{folder.cycle->cycleData->file, 0, 0}
                                                         : result.rejections.front().range;
-    diagnostics.report<diag::ChecksDepend>(where, folder.name, flags(result.neededHosts));
+    // Where no host input decides it, the conditions that stay open are named one by one.
+    if (!result.neededHosts.empty())
+      diagnostics.report<diag::ChecksDepend>(where, folder.name, flags(result.neededHosts));
     break;
   }
   case gibbs::ChecksResult::Verdict::NotRun: return;

@@ -43,6 +43,10 @@ std::string routineNames(const compost::Program& program) {
 std::optional<compost::Program> loadProg(const std::string& path, Session& session) {
   const std::optional<FileId> id = session.read(path, Encoding::Cp1250);
   if (!id) return std::nullopt;
+  if (session.sources().file(*id).bytes().empty()) {
+    session.diagnostics().report<diag::EmptyProg>({*id, 0, 0}, path);
+    return std::nullopt;
+  }
   compost::Program program = compost::parse(*id, session.sources(), session.limits(), session.diagnostics());
   compost::check(program, session.compostKeywords(), session.sources(), session.diagnostics());
   if (session.options().recover) acceptRepairs(*id, session);
@@ -71,7 +75,9 @@ const compost::Routine* chooseRoutine(const compost::Program& program,
     const std::string near = nearestName(cycle, ids);
     diagnostics.report<diag::NoRoutineForCycle>({program.file, 0, 0}, cycle,
                                                 ids.empty() ? "no cycle" : quotedList(ids),
-                                                near.empty() ? "" : "; did you mean `--cycle " + near + "`?");
+                                                ids.empty()    ? "; `--routine NAME` names the routine"
+                                                : near.empty() ? ""
+                                                               : "; did you mean `--cycle " + near + "`?");
     return nullptr;
   }
   if (found.size() == 1) return found.front();

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <array>
+#include <set>
+#include <tuple>
 
 namespace dotek::driver {
 
@@ -50,9 +52,21 @@ std::optional<FileId> Session::read(const std::string& path, Encoding fallback) 
 
 Outcome Session::finish(std::string output, bool keepOutput) {
   Outcome outcome;
-  const auto& all = diagnostics_.all();
+  auto& all = diagnostics_.all();
+  // A run that stopped at a construct has said all that the note says.
+  std::set<SourceRange, bool (*)(const SourceRange&, const SourceRange&)> stopped(
+      [](const SourceRange& a, const SourceRange& b) {
+        return std::tie(a.file, a.begin, a.end) < std::tie(b.file, b.begin, b.end);
+      });
+  for (const Diagnostic& d : all) {
+    if (d.code == diag::UnverifiedConstructRun::code) stopped.insert(d.range);
+  }
+  std::erase_if(all, [&](const Diagnostic& d) {
+    return d.code == diag::UnverifiedConstruct::code && stopped.contains(d.range);
+  });
   const bool usage = std::any_of(all.begin(), all.end(), [](const Diagnostic& d) {
-    return d.severity == Severity::Error && isUsageCode(d.code);
+    // What stands in a file is an error of that input, not of the command line.
+    return d.severity == Severity::Error && isUsageCode(d.code) && !d.range.hasPlace();
   });
   outcome.status = usage ? 2 : diagnostics_.hasErrors() ? 1 : 0;
   if (outcome.status == 0 || keepOutput) outcome.output = std::move(output);
@@ -64,12 +78,13 @@ Outcome Session::finish(std::string output, bool keepOutput) {
 
 bool isUsageCode(std::string_view code) {
   constexpr std::array kCodes = {
-      diag::FileNotFound::code,   diag::FileNotReadable::code,   diag::FileNotWritable::code,
-      diag::FileTooLarge::code,   diag::TooManyFiles::code,      diag::UnknownForm::code,
-      diag::UnknownHost::code,    diag::UnknownAssumption::code, diag::NotANumber::code,
-      diag::GivenTwice::code,     diag::UnknownName::code,       diag::MissingOption::code,
-      diag::DataFileDefect::code, diag::UnknownKind::code,       diag::UnknownCode::code,
-      diag::UnknownList::code,    diag::NoSuchField::code,
+      diag::FileNotFound::code, diag::FileNotReadable::code, diag::FileNotWritable::code,
+      diag::FileTooLarge::code, diag::TooManyFiles::code,    diag::UnknownForm::code,
+      diag::UnknownHost::code,  diag::NotANumber::code,      diag::GivenTwice::code,
+      diag::UnknownName::code,  diag::MissingOption::code,   diag::DataFileDefect::code,
+      diag::UnknownKind::code,  diag::UnknownCode::code,     diag::UnknownList::code,
+      diag::NoSuchField::code,  diag::HostInputRange::code,  diag::UnknownAssumption::code,
+      diag::NotAFolder::code,
   };
   return std::find(kCodes.begin(), kCodes.end(), code) != kCodes.end();
 }

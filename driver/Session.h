@@ -50,6 +50,7 @@ bool isUsageCode(std::string_view code);
 template <class Command> Outcome guarded(const CommonOptions& options, const Command& command) {
   try {
     Session session(options);
+    if (session.diagnostics().hasErrors()) return session.finish("");
     return command(session);
   } catch (const stdlib::DataError& error) {
     Outcome outcome;

@@ -40,4 +40,16 @@ constexpr bool isHostInput(std::string_view name) {
                      [&](const HostInput& host) { return host.name == name; });
 }
 
+// What a host input has to be where `value` cannot be meant ("a number above 0"); "" for a value that can.
+constexpr std::string_view hostInputRefuses(std::string_view name, double value) {
+  if (name == "tool_radius" || name == "return_feed") return value > 0 ? "" : "a number above 0";
+  if (name == "overtravel") return value >= 0 ? "" : "0 or more";
+  if (name == "tool_number" || name == "tool_offset") {
+    const bool whole =
+        value >= 0 && value <= 99999999 && value == static_cast<double>(static_cast<long>(value));
+    return whole ? "" : "a whole number, 0 or more";
+  }
+  return "";
+}
+
 } // namespace dotek::stdlib

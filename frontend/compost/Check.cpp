@@ -52,6 +52,16 @@ bool isAscii(std::string_view text) {
   return std::all_of(text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < 0x80; });
 }
 
+// What ComPost writes instead of a flow word of other languages; "" for no such word.
+std::string_view foreignFlow(std::string_view word) {
+  const std::string folded = lower(word);
+  if (folded == "elseif" || folded == "elsif" || folded == "elif")
+    return "; ComPost is not known to have it: write an IF with its own END inside ELSE";
+  if (folded == "endif" || folded == "fi") return "; an IF ends with `END`";
+  if (folded == "then") return "; a condition of ComPost has no THEN";
+  return "";
+}
+
 class Checker {
 public:
   Checker(const Program& program, const stdlib::ComPostKeywords& keywords, const SourceMap& sources,
@@ -82,7 +92,14 @@ private:
   // ---- words ---------------------------------------------------------------------------------------------
 
   void statements(const std::vector<Statement>& body) {
+    const Literal* before = nullptr;
     for (const Statement& statement : body) {
+      const auto* literal = std::get_if<Literal>(&statement);
+      if (literal != nullptr && before != nullptr && before->range.end == literal->range.begin &&
+          !literal->text.empty() && !before->text.empty())
+        unverified("an apostrophe doubled inside a text, read as two texts",
+                   {literal->range.file, before->range.end - 1, literal->range.begin + 1});
+      before = literal;
       if (const auto* used = std::get_if<Word>(&statement)) {
         word(*used);
         if (used->kind == WordKind::Boolean) unverified("a boolean keyword outside a condition", used->range);
@@ -127,7 +144,7 @@ private:
       return;
     }
     const ComPostKeyword* keyword = name(used.name, used.kind, used.nameRange);
-    if (keyword == nullptr) return;
+    if (keyword == nullptr || program_.hasErrorNodes) return; // the argument may be among what was lost
     if (keyword->argument == used.arguments.empty())
       diagnostics_.report<diag::KeywordArgument>(used.nameRange, text(used.nameRange),
                                                  keyword->argument
@@ -166,6 +183,10 @@ private:
       for (const auto& routine : routines_)
         nearest.offer(routine.first);
     std::string hint = nearest.result();
+    if (const std::string_view foreign = foreignFlow(spelt); !foreign.empty() && kind == WordKind::Command) {
+      diagnostics_.report<diag::UnknownKeyword>(range, text(range), kindName(kind), foreign);
+      return nullptr;
+    }
     if (const ComPostKeyword* other = keywords_.find(hint)) hint += suffixOf(wordKindOf(*other));
     diagnostics_.report<diag::UnknownKeyword>(
         range, text(range), kindName(kind),

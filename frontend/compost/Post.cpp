@@ -6,13 +6,36 @@
 #include <algorithm>
 
 namespace dotek::frontend::compost {
+namespace {
+
+void collectSetters(const std::vector<Statement>& body, const Routine& routine,
+                    std::map<std::string, const Routine*, std::less<>>& setters) {
+  for (const Statement& statement : body) {
+    if (const auto* word = std::get_if<Word>(&statement)) {
+      if (word->name == kSetFlagKeyword && word->arguments.size() == 1)
+        setters.emplace(word->arguments.front().text, &routine);
+    } else if (const auto* branch = std::get_if<std::unique_ptr<If>>(&statement)) {
+      collectSetters((*branch)->thenBody, routine, setters);
+      collectSetters((*branch)->elseBody, routine, setters);
+    }
+  }
+}
+
+bool isPrintableAscii(std::string_view text) {
+  return std::all_of(text.begin(), text.end(), [](char c) { return c >= ' ' && c <= '~'; });
+}
+
+} // namespace
 
 PostRun::Impl::Impl(const Program& programIn, const PostSettings& settingsIn, Diagnostics& diagnosticsIn)
     : program(programIn), settings(settingsIn), diagnostics(diagnosticsIn),
       sequence(settingsIn.sequenceStart) {
   std::map<std::uint32_t, const PictureDefinition*> defined;
   for (const Item& item : program.items) {
-    if (const auto* routine = std::get_if<Routine>(&item)) routines.emplace(routine->name, routine);
+    if (const auto* routine = std::get_if<Routine>(&item)) {
+      routines.emplace(routine->name, routine);
+      collectSetters(routine->body, *routine, flagSetters);
+    }
     if (const auto* picture = std::get_if<PictureDefinition>(&item))
       defined.emplace(picture->number, picture);
   }
@@ -24,6 +47,8 @@ PostRun::Impl::Impl(const Program& programIn, const PostSettings& settingsIn, Di
   for (const Item& item : program.items) {
     const auto* format = std::get_if<FormatDirective>(&item);
     if (format == nullptr) continue;
+    if (format->kind == WordKind::Command) commandFormats.emplace(format->name, format->nameRange);
+    if (format->kind != WordKind::Numeric) continue; // another keyword than the number's
     const auto found = defined.find(format->number);
     if (found == defined.end()) continue; // reported by check
     auto parsed = Picture::parse(found->second->picture.text);
@@ -47,7 +72,7 @@ std::size_t PostRun::lineCount() const {
 }
 
 std::vector<PostedLine> PostRun::finish() {
-  if (!impl_->line.empty()) {
+  if (!impl_->line.empty() && !impl_->stopped) {
     impl_->diagnostics.report<diag::UnfinishedLine>(impl_->lineRange, impl_->line);
     impl_->endLine(impl_->lineRange);
   }
@@ -79,6 +104,7 @@ void PostRun::Impl::body(const std::vector<Statement>& statements) {
   for (const Statement& statement : statements) {
     if (const auto* literal = std::get_if<Literal>(&statement)) {
       if (!step(literal->range)) return;
+      if (!isPrintableAscii(literal->text)) diagnostics.report<diag::TextNotAscii>(literal->range);
       print(literal->text, literal->range);
     } else if (const auto* keyword = std::get_if<Word>(&statement)) {
       if (!step(keyword->range)) return;
@@ -102,15 +128,19 @@ void PostRun::Impl::print(std::string_view text, SourceRange where) {
     stopped = true;
     return;
   }
+  numberOnly = false;
   lineRange = line.empty() ? where : spanning(lineRange, where);
   line += text;
 }
 
 void PostRun::Impl::endLine(SourceRange where) {
   if (line.empty()) {
-    diagnostics.report<diag::EmptyBlock>(where);
+    if (!diagnostics.hasErrors())
+      diagnostics.report<diag::EmptyBlock>(where); // else what was refused is missing
     return;
   }
+  if (numberOnly) diagnostics.report<diag::BlockNumberAlone>(lineRange, line);
+  numberOnly = false;
   lines.push_back({std::move(line), spanning(lineRange, where)});
   line.clear();
 }
@@ -139,13 +169,19 @@ void PostRun::Impl::command(const Word& word) {
     }
     const auto& form = settings.form;
     if (const auto entry = form.sequences.find(word.name); entry != form.sequences.end()) {
+      const bool first = line.empty();
       print(entry->second.text + std::to_string(sequence), word.range);
+      numberOnly = first;
       sequence += settings.sequenceStep;
       return;
     }
     if (const auto entry = form.commands.find(word.name); entry != form.commands.end()) {
       print(entry->second.text, word.range);
       if (entry->second.value.empty()) return;
+      if (const auto format = commandFormats.find(word.name); format != commandFormats.end()) {
+        diagnostics.report<diag::FormatOfCommand>(format->second, word.name, settings.form.name);
+        return;
+      }
       auto parsed = Picture::parse(entry->second.picture);
       const std::optional<double> value = host(entry->second.value, word.range);
       if (const auto* numberPicture = std::get_if<Picture>(&parsed); numberPicture != nullptr && value)
@@ -153,8 +189,9 @@ void PostRun::Impl::command(const Word& word) {
       return;
     }
   }
-  diagnostics.report<diag::CommandNotInForm>(word.nameRange, word.name, settings.form.name,
-                                             settings.form.origin);
+  if (told.insert(word.name).second)
+    diagnostics.report<diag::CommandNotInForm>(word.nameRange, word.name, settings.form.name,
+                                               settings.form.origin);
 }
 
 const Picture* PostRun::Impl::picture(const std::string& keyword, SourceRange where) {
@@ -173,6 +210,7 @@ const Picture* PostRun::Impl::picture(const std::string& keyword, SourceRange wh
 std::optional<double> PostRun::Impl::host(const std::string& name, SourceRange where) {
   const auto found = operation->hosts.find(name);
   if (found != operation->hosts.end()) return found->second;
+  if (!told.insert("host " + name).second) return std::nullopt;
   const std::string flag = name == "clearance" ? "--clearance Z" : "--host " + name + "=VALUE";
   diagnostics.report<diag::HostInputNeeded>(where, name, flag);
   return std::nullopt;
@@ -182,7 +220,7 @@ void PostRun::Impl::numeric(const Word& word) {
   std::optional<double> value;
   std::string what = word.name + "#";
   if (word.name == kFieldKeyword) {
-    if (word.arguments.size() != 1) {
+    if (word.arguments.size() != 1 || word.arguments.front().text.empty()) {
       diagnostics.report<diag::FieldNeedsName>(word.range);
       return;
     }

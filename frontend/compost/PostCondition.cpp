@@ -41,11 +41,9 @@ Truth andBeforeOr(const std::vector<Truth>& terms, const std::vector<Connective>
 } // namespace
 
 bool PostRun::Impl::holds(const Condition& condition) {
-  const std::size_t before = diagnostics.all().size();
   const Truth result = truth(condition);
   // An operand that decides nothing may stay unknown; one that decides was reported by truth().
-  if (!result && diagnostics.all().size() == before)
-    diagnostics.report<diag::ConditionUnknown>(condition.range);
+  if (!result && !diagnostics.hasErrors()) diagnostics.report<diag::ConditionUnknown>(condition.range);
   return result.value_or(false);
 }
 
@@ -89,8 +87,12 @@ Truth PostRun::Impl::truth(const Word& boolean) {
     return boolean.arguments.front().text == operation->cycle;
   if (boolean.name == kFlagKeyword && boolean.arguments.size() == 1) {
     // A flag that was never set reads false (compost.md 4.5, inferred).
-    const auto flag = flags.find(boolean.arguments.front().text);
-    return flag != flags.end() && flag->second;
+    const std::string& name = boolean.arguments.front().text;
+    const auto flag = flags.find(name);
+    if (flag != flags.end()) return flag->second;
+    if (const auto setter = flagSetters.find(name); setter != flagSetters.end())
+      diagnostics.report<diag::FlagSetElsewhere>(boolean.range, name, setter->second->name);
+    return false;
   }
   if (!boolean.arguments.empty()) return std::nullopt;
   if (settings.assumptions.contains(boolean.name + "?=yes")) return true;

@@ -21,6 +21,8 @@ struct PostRun::Impl {
   std::map<std::string, const Routine*, std::less<>> routines;
   std::map<std::string, Picture, std::less<>> pictures; // by keyword: FORMAT, else the form
   std::map<std::string, bool, std::less<>> flags;
+  std::map<std::string, const Routine*, std::less<>> flagSetters; // first routine that sets the flag
+  std::map<std::string, SourceRange, std::less<>> commandFormats; // FORMAT of a command
   const Operation* operation = nullptr;
   std::uint64_t sequence = 0;
   std::uint64_t steps = 0;
@@ -28,6 +30,8 @@ struct PostRun::Impl {
   std::uint32_t depth = 0;
   bool stopped = false; // a limit was hit
   std::string line;
+  std::set<std::string, std::less<>> told; // words that the form lacks, host inputs that nobody gave
+  bool numberOnly = false;                 // nothing but a block number is in `line`
   SourceRange lineRange;
   std::vector<PostedLine> lines;
 

@@ -132,19 +132,19 @@ std::vector<const Routine*> printingRoutines(const Program& program, const stdli
   return routines;
 }
 
-std::vector<FieldRef> fieldsPrinted(const Program& program, const BranchRef& branch,
-                                    std::string_view cycleId) {
-  Seen seen{branch.routine};
-  std::vector<FieldRef> fields;
-  collectFields(branch.body(), program, cycleId, seen, fields);
-  return fields;
-}
-
 std::vector<FieldRef> fieldsPrinted(const Program& program, const Routine& routine,
                                     std::string_view cycleId) {
   Seen seen{&routine};
   std::vector<FieldRef> fields;
   collectFields(routine.body, program, cycleId, seen, fields);
+  return fields;
+}
+
+std::vector<FieldRef> fieldsPrinted(const Program& program, const BranchRef& branch,
+                                    std::string_view cycleId) {
+  Seen seen{branch.routine};
+  std::vector<FieldRef> fields;
+  collectFields(branch.body(), program, cycleId, seen, fields);
   return fields;
 }
 

@@ -93,6 +93,20 @@ private:
   const ParseContext& context_;
 };
 
+// The literal of a plain number, with at most one sign before it; nullptr for anything else.
+const NumberLiteral* plainNumber(const Expression& expression) {
+  const auto* unary = std::get_if<Unary>(&expression.node);
+  return std::get_if<NumberLiteral>(unary != nullptr ? &unary->operand->node : &expression.node);
+}
+
+std::optional<double> constant(const Expression& expression) {
+  const NumberLiteral* number = plainNumber(expression);
+  if (number == nullptr) return std::nullopt;
+  const auto* unary = std::get_if<Unary>(&expression.node);
+  const bool minus = unary != nullptr && unary->op == UnaryOperator::Minus;
+  return minus && number->value != 0 ? -number->value : number->value;
+}
+
 class CycleCheck {
 public:
   CycleCheck(const Cycle& cycle, const ParseContext& context)
@@ -182,6 +196,7 @@ private:
       for (const Control& control : cycle_.dialog->controls) {
         if (!control.variable || foldCase(control.kind.text) == "BUTTON") continue;
         const std::string key = foldCase(control.variable->text);
+        if (fields_.count(key) != 0) checkInitial(control);
         if (fields_.count(key) != 0 || !reported.insert(key).second) continue;
         NearestName nearest(key);
         for (const Definition& definition : cycle_.defineData->definitions)
@@ -198,6 +213,24 @@ private:
               !context_.keywords.isReservedField(definition.name.text))
             context_.diagnostics.report<diag::FieldWithoutInput>(definition.name.range, definition.name.text);
     }
+  }
+
+  // The default of an input on a field: the field itself, or its first value.
+  void checkInitial(const Control& control) {
+    if (control.initial == nullptr) return;
+    const std::string key = foldCase(control.variable->text);
+    if (const auto* reference = std::get_if<VariableRef>(&control.initial->node)) {
+      const std::string other = foldCase(reference->name.text);
+      if (reference->index != nullptr || other == key || fields_.count(other) == 0) return;
+    } else {
+      const std::optional<double> value = constant(*control.initial);
+      if (!value) return;
+      for (const Definition& definition : cycle_.defineData->definitions)
+        if (foldCase(definition.name.text) == key && constant(*definition.value) == value) return;
+    }
+    context_.diagnostics.report<diag::InputOpensWithOther>(
+        control.initial->range, control.variable->text,
+        "`" + context_.sources.textUtf8(control.initial->range) + "`");
   }
 
   void checkDialogs() {
@@ -229,15 +262,11 @@ private:
   std::set<std::string> bound_;
 };
 
-// A plain number with or without signs.
-std::optional<double> constant(const Expression& expression) {
-  if (const auto* number = std::get_if<NumberLiteral>(&expression.node)) return number->value;
-  if (const auto* unary = std::get_if<Unary>(&expression.node)) {
-    const std::optional<double> inner = constant(*unary->operand);
-    if (!inner) return std::nullopt;
-    return unary->op == UnaryOperator::Minus && *inner != 0 ? -*inner : *inner;
-  }
-  return std::nullopt;
+std::string_view assumptionOf(const Expression& expression) {
+  const NumberLiteral* number = plainNumber(expression);
+  if (number == nullptr || number->text.empty()) return {};
+  if (number->text.find_first_of("eE") != std::string::npos) return "exponent";
+  return number->text.front() == '.' || number->text.back() == '.' ? "bare-fraction" : std::string_view{};
 }
 
 } // namespace
@@ -260,11 +289,13 @@ std::vector<Field> declaredFields(const Cycle& cycle) {
   };
   if (cycle.defineData)
     for (const Definition& definition : cycle.defineData->definitions)
-      add({definition.name, definition.number, definition.valueRange, false, std::nullopt});
+      add({definition.name, constant(*definition.value), definition.valueRange, false, std::nullopt,
+           assumptionOf(*definition.value)});
   for (const InputLabel& label : labels) {
     if (label.input->initial == nullptr) continue;
     if (const std::optional<double> value = constant(*label.input->initial))
-      add({label.variable, value, label.input->initial->range, true, std::nullopt});
+      add({label.variable, value, label.input->initial->range, true, std::nullopt,
+           assumptionOf(*label.input->initial)});
   }
   return fields;
 }

@@ -37,6 +37,8 @@ struct Field {
   SourceRange valueRange;
   bool fromDialog = false;         // DefineData.txt lacks it: the dialog's input gives the default
   std::optional<InputLabel> label; // of the first input that writes the field
+  // Reading that the way the value is written asks for (`exponent`, `bare-fraction`); "" for none.
+  std::string_view assumption = {};
 };
 
 // Definitions of DefineData.txt in their order, then dialog inputs with a constant default that it lacks.

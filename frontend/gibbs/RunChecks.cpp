@@ -91,7 +91,8 @@ private:
 
   void reject(const State& state, SourceRange place, PathEnd end) {
     ++rejecting_;
-    const auto messages = machine_.messagesSince(state, state.messageBefore);
+    auto messages = machine_.messagesSince(state, state.messageBefore);
+    if (messages.empty() && end == PathEnd::Ended) messages = machine_.messagesSince(state, kNoMessage);
     if (!messages.empty() && end == PathEnd::Ended) return addOnce(rejections_, messages.back());
     for (const Rejection& message : messages)
       addOnce(rejections_, message);
