@@ -20,6 +20,19 @@ namespace compost = frontend::compost;
 
 namespace {
 
+// true: what the routine prints stands in branches of other cycles, whatever the values are.
+bool testsOtherCyclesOnly(const compost::Program& program, const compost::Routine& routine,
+                          const std::string& cycle) {
+  if (!compost::branchesOf(program, cycle).empty()) return false;
+  return !routine.body.empty() &&
+         std::all_of(routine.body.begin(), routine.body.end(), [&](const compost::Statement& statement) {
+           const auto* branch = std::get_if<std::unique_ptr<compost::If>>(&statement);
+           if (branch == nullptr || !(*branch)->elseBody.empty()) return false;
+           const auto cycles = compost::cyclesOf((*branch)->condition);
+           return cycles && !cycles->contains(cycle);
+         });
+}
+
 // An operation with all that the Prog and the macro need to run.
 struct Prepared {
   const JobOperation* operation;
@@ -161,6 +174,11 @@ void PostCommand::prepare(const JobOperation& operation) {
   if (routine == nullptr) {
     for (const auto& set : sets_)
       usedSets_.insert(set.first); // one finding for one cause
+    return;
+  }
+
+  if (testsOtherCyclesOnly(*program_, *routine, folder->name)) {
+    session_.diagnostics().report<diag::NothingPosted>(routine->nameRange, routine->name, folder->name);
     return;
   }
 

@@ -198,3 +198,13 @@ TEST_CASE("an input that opens with another value than its field is a warning") 
   CHECK(warned(", 25"));
   CHECK(warned(", b"));
 }
+
+TEST_CASE("a routine of other cycles only is said before its fields are missed") {
+  Project project;
+  project.options.source.routine = "main";
+  project.options.source.cycle = "plug";
+  project.options.common.set = {{"L", "1"}};
+  const driver::Outcome outcome = project.post();
+  CHECK(errors(outcome) == Codes{"nothing-posted"});
+  CHECK(outcome.status == 1);
+}
