@@ -178,7 +178,8 @@ void PostCommand::prepare(const JobOperation& operation) {
   }
 
   if (testsOtherCyclesOnly(*program_, *routine, folder->name)) {
-    session_.diagnostics().report<diag::NothingPosted>(routine->nameRange, routine->name, folder->name);
+    session_.diagnostics().report<diag::NothingPosted>(routine->nameRange, routine->name, folder->name,
+                                                       testedCycles(*program_, folder->name));
     return;
   }
 
@@ -218,7 +219,8 @@ void PostCommand::post(Prepared& prepared, compost::PostRun& run) {
     run.run(*prepared.routine, now);
     if (run.lineCount() == before && !session_.diagnostics().hasErrors())
       session_.diagnostics().report<diag::NothingPosted>(prepared.routine->nameRange, prepared.routine->name,
-                                                         prepared.folder->name);
+                                                         prepared.folder->name,
+                                                         testedCycles(*program_, prepared.folder->name));
   }
 }
 

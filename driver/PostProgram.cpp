@@ -6,6 +6,7 @@
 #include "support/NearestName.h"
 
 #include <algorithm>
+#include <array>
 
 namespace dotek::driver {
 
@@ -40,6 +41,14 @@ std::string routineNames(const compost::Program& program) {
 
 } // namespace
 
+std::string testedCycles(const compost::Program& program, const std::string& cycle) {
+  const std::vector<std::string> ids = compost::cycleIds(program);
+  if (ids.empty()) return "the Prog tests for no cycle";
+  const std::string near = nearestName(cycle, ids);
+  return "the Prog tests for " + quotedList(ids) +
+         (near.empty() ? "" : "; did you mean `--cycle " + near + "`?");
+}
+
 std::optional<compost::Program> loadProg(const std::string& path, Session& session) {
   const std::optional<FileId> id = session.read(path, Encoding::Cp1250);
   if (!id) return std::nullopt;
@@ -57,27 +66,17 @@ const compost::Routine* chooseRoutine(const compost::Program& program,
                                       const std::optional<std::string>& named, SourceRange namedAt,
                                       const std::string& cycle, Session& session) {
   Diagnostics& diagnostics = session.diagnostics();
-  const compost::Routine* chosen = nullptr;
   if (named) {
-    chosen = compost::findRoutine(program, *named);
+    const compost::Routine* chosen = compost::findRoutine(program, *named);
     if (chosen == nullptr) {
       diagnostics.report<diag::NoSuchRoutine>(namedAt, *named, session.sources().file(program.file).name(),
                                               routineNames(program));
-      return nullptr;
     }
+    return chosen;
   }
-  const std::vector<std::string> ids = compost::cycleIds(program);
-  const bool known = std::find(ids.begin(), ids.end(), cycle) != ids.end();
-  // A Prog that tells cycles apart and does not know this one was not made for it.
-  if (chosen != nullptr && (known || ids.empty() || cycle.empty())) return chosen;
   const auto found = compost::printingRoutines(program, session.compostKeywords(), cycle);
-  if (chosen != nullptr || found.empty()) {
-    const std::string near = nearestName(cycle, ids);
-    diagnostics.report<diag::NoRoutineForCycle>({program.file, 0, 0}, cycle,
-                                                ids.empty() ? "no cycle" : quotedList(ids),
-                                                ids.empty()    ? "; `--routine NAME` names the routine"
-                                                : near.empty() ? ""
-                                                               : "; did you mean `--cycle " + near + "`?");
+  if (found.empty()) {
+    diagnostics.report<diag::NoRoutineForCycle>({program.file, 0, 0}, cycle, testedCycles(program, cycle));
     return nullptr;
   }
   if (found.size() == 1) return found.front();
@@ -93,9 +92,11 @@ const compost::Routine* chooseRoutine(const compost::Program& program,
 
 void leaveFindingsToLint(Session& session) {
   auto& all = session.diagnostics().all();
-  const auto isFinding = [](const Diagnostic& d) {
-    return d.severity != Severity::Error && d.code != diag::OpenIfAtReturn::code &&
-           d.code != diag::MissingReturn::code && d.code != diag::UnverifiedInProg::code;
+  // These change what is posted: a repair, a reading, a value that the user would see differ.
+  constexpr std::array kKept = {diag::OpenIfAtReturn::code, diag::MissingReturn::code,
+                                diag::UnverifiedInProg::code, diag::InputOpensWithOther::code};
+  const auto isFinding = [&](const Diagnostic& d) {
+    return d.severity != Severity::Error && std::find(kKept.begin(), kKept.end(), d.code) == kKept.end();
   };
   const auto warnings = std::count_if(all.begin(), all.end(), [&](const Diagnostic& d) {
     return isFinding(d) && d.severity == Severity::Warning;

@@ -13,6 +13,9 @@ namespace dotek::driver {
 // reading. nullopt where the file could not be read.
 std::optional<frontend::compost::Program> loadProg(const std::string& path, Session& session);
 
+// For messages: which cycles the Prog tells apart, and which of them `cycle` may have meant.
+std::string testedCycles(const frontend::compost::Program& program, const std::string& cycle);
+
 // The routine that posts `cycle`: `named` if given, else the only one whose branch for the cycle prints
 // something. nullptr where there is none or several: reported.
 const frontend::compost::Routine* chooseRoutine(const frontend::compost::Program& program,

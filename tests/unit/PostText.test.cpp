@@ -118,7 +118,9 @@ TEST_CASE("a condition that stays open is an error beside any warning") {
 
 TEST_CASE("flow words of other languages are told apart") {
   Project project;
-  const driver::Outcome outcome = project.post(" SeqC ' A' EOL IF AbsValue? THEN ENDIF");
+  driver::LintOptions lint;
+  lint.paths = {project.write("prog.txt", "main:\n SeqC ' A' EOL IF AbsValue? THEN ENDIF\nRETURN\n")};
+  const driver::Outcome outcome = driver::lint(lint);
   std::string all;
   for (const Diagnostic& d : outcome.diagnostics.all())
     all += d.message + "\n";
