@@ -41,7 +41,8 @@ std::optional<fs::path> MacroLoader::find(const std::string& name, const std::st
   std::string local = name;
   std::replace(local.begin(), local.end(), '\\', '/'); // the CAM runs on Windows
   const fs::path relative(local);
-  const fs::path folder = relative.is_absolute() ? relative.parent_path() : folder_ / relative.parent_path();
+  fs::path folder = relative.is_absolute() ? relative.parent_path() : folder_ / relative.parent_path();
+  if (folder.empty()) folder = ".";
   std::error_code error;
   if (!fs::is_directory(folder, error)) return std::nullopt;
   const std::string file = relative.filename().string();
@@ -50,10 +51,18 @@ std::optional<fs::path> MacroLoader::find(const std::string& name, const std::st
   return findEntry(folder, file + suffix);
 }
 
+bool MacroLoader::hasDialog(const std::string& name) const {
+  return find(name, ".dlg").has_value();
+}
+
+std::string MacroLoader::folderName() const {
+  return folder_.empty() ? "." : folder_.generic_string();
+}
+
 const gibbs::Macro* MacroLoader::macro(const std::string& name, SourceRange where) {
   const std::optional<fs::path> path = find(name, ".mac");
   if (!path) {
-    session_.diagnostics().report<diag::MacroNotFound>(where, name, folder_.generic_string());
+    session_.diagnostics().report<diag::MacroNotFound>(where, name, folderName());
     return nullptr;
   }
   const std::string key = path->generic_string();
@@ -68,7 +77,7 @@ const gibbs::Macro* MacroLoader::macro(const std::string& name, SourceRange wher
 const gibbs::Dialog* MacroLoader::dialog(const std::string& name, SourceRange where) {
   const std::optional<fs::path> path = find(name, ".dlg");
   if (!path) {
-    session_.diagnostics().report<diag::DialogNotFound>(where, name, folder_.generic_string());
+    session_.diagnostics().report<diag::DialogNotFound>(where, name, folderName());
     return nullptr;
   }
   const std::string key = path->generic_string();
@@ -177,6 +186,9 @@ void checkWithCallees(const gibbs::Macro& macro, CycleFolder& folder, const gibb
     }
     for (const Callee& callee : callees) {
       if (callee.dialog) {
+        // A dialog that is missing from the folder is told by the check of the cycle.
+        const bool outside = callee.name.find_first_of("/\\") != std::string::npos;
+        if (!outside && !folder.loader->hasDialog(callee.name)) continue;
         const gibbs::Dialog* dialog = folder.loader->dialog(callee.name, callee.range);
         if (!cycle.dialog || dialog != &*cycle.dialog) addOnce(cycle.otherDialogs, dialog);
       } else if (const gibbs::Macro* called = folder.loader->macro(callee.name, callee.range)) {
@@ -219,22 +231,28 @@ CycleFolder loadCycleFolder(const std::string& path, Session& session) {
   folder.complete = true;
 
   std::array<std::optional<FileId>, 4> ids;
+  std::string missing;
   for (std::size_t i = 0; i < kFiles.size(); ++i) {
     const std::optional<fs::path> file = findEntry(real, kFiles[i]);
     if (!file) {
-      session.diagnostics().report<diag::CycleFileMissing>({folder.place, 0, 0}, path, kFiles[i]);
+      missing += (missing.empty() ? "`" : ", `") + std::string(kFiles[i]) + "`";
       folder.complete = false;
       continue;
     }
     ids[i] = session.read(file->generic_string(), Encoding::Cp1250);
     if (!ids[i]) folder.complete = false;
   }
+  if (!missing.empty())
+    session.diagnostics().report<diag::CycleFileMissing>({folder.place, 0, 0}, path, missing);
   folder.cycle = std::make_unique<gibbs::Cycle>();
   gibbs::Cycle& cycle = *folder.cycle;
   cycle.name = folder.name;
   cycle.folder = path;
   for (const auto& entry : fs::directory_iterator(real, error))
     cycle.files.insert(gibbs::foldCase(entry.path().filename().string()));
+  // Told already where it is missing.
+  for (const std::string_view name : kFiles)
+    cycle.files.insert(gibbs::foldCase(std::string(name)));
   folder.loader = std::make_unique<MacroLoader>(session, real);
   const gibbs::ParseContext context = contextOf(session);
   const auto pathOf = [&](FileId id) { return session.sources().file(id).name(); };

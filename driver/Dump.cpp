@@ -1,3 +1,4 @@
+#include "driver/Assume.h"
 #include "driver/CycleFolder.h"
 #include "driver/Driver.h"
 #include "driver/Fields.h"
@@ -113,6 +114,7 @@ private:
         options_.common.assume,
         [&](const std::string& name, SourceRange where) { return folder.loader->macro(name, where); },
         [&](const std::string& name, SourceRange where) { return folder.loader->dialog(name, where); }};
+    checkAssumptions(options_.common.assume, session_.diagnostics());
     if (session_.diagnostics().hasErrors()) return;
     if (const auto moves = gibbs::runToolPath(*folder.cycle->toolPath, context))
       out_ += gibbs::pathText(*moves);

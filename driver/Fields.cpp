@@ -94,16 +94,18 @@ std::optional<double> FieldTable::value(const std::string& name, SourceRange whe
   }
   if (const Entry* entry = declared(wanted)) {
     if (entry->name != wanted) diagnostics.report<diag::FieldCase>(where, name, entry->name, folder_.name);
-    if (!entry->value) diagnostics.report<diag::FieldWithoutValue>(where, entry->name, folder_.name);
+    if (!entry->value && told_.insert(entry->name).second)
+      diagnostics.report<diag::FieldWithoutValue>(where, entry->name, folder_.name);
     return entry->value;
   }
   const std::string defineData = folder_.cycle->defineData
                                      ? session_.sources().file(folder_.cycle->defineData->file).name()
                                      : folder_.name;
   if (session_.options().assume.contains("missing-field-zero")) {
-    diagnostics.report<diag::MissingFieldZero>(where, name, defineData);
+    if (told_.insert(name).second) diagnostics.report<diag::MissingFieldZero>(where, name, defineData);
     return 0.0;
   }
+  if (!told_.insert(name).second) return std::nullopt;
   Diagnostic& missing = diagnostics.report<diag::MissingField>(
       where, name, session_.sources().file(where.file).name(), defineData, proposal(name));
   if (folder_.cycle->defineData && missing.notes.empty()) {

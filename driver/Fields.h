@@ -46,6 +46,7 @@ private:
   std::vector<std::string> printed_;
   std::vector<Entry> entries_;                // in the order of declaration
   std::map<std::string, double> postOnly_;    // --set of names that the macro does not declare
+  std::set<std::string> told_;                // fields that are missing: one finding each
   std::map<std::string, std::string> mapped_; // post field -> macro variable
 };
 

@@ -1,4 +1,5 @@
 #include "frontend/compost/Post.h"
+#include "driver/Assume.h"
 #include "driver/CycleFolder.h"
 #include "driver/Driver.h"
 #include "driver/Fields.h"
@@ -19,6 +20,11 @@ namespace dotek::driver {
 namespace compost = frontend::compost;
 
 namespace {
+
+// Whether names of macro variables compare equal.
+bool sameField(const std::string& a, const std::string& b) {
+  return frontend::gibbs::foldCase(a) == frontend::gibbs::foldCase(b);
+}
 
 // One command: the parts that every operation needs.
 class PostCommand {
@@ -47,7 +53,17 @@ private:
   std::optional<stdlib::Form> form_;
   std::optional<compost::Program> program_;
   std::vector<CycleFolder> folders_;
+  bool everyFolderRan_ = true;
 };
+
+// What is worth knowing of a source, but not of this run of it.
+void leaveToLint(Diagnostics& diagnostics) {
+  std::erase_if(diagnostics.all(), [](const Diagnostic& d) {
+    return d.code == diag::RoutineNeverCalled::code || d.code == diag::PictureUnused::code ||
+           d.code == diag::UnknownKeyword::code || d.code == diag::FieldWithoutInput::code ||
+           d.code == diag::CommaBeforeThen::code;
+  });
+}
 
 bool PostCommand::load() {
   Diagnostics& diagnostics = session_.diagnostics();
@@ -56,7 +72,7 @@ bool PostCommand::load() {
   for (const auto& [name, text] : common.set) {
     const std::optional<double> value = parseNumber(text);
     const bool twice =
-        std::any_of(sets_.begin(), sets_.end(), [&](const auto& s) { return s.first == name; });
+        std::any_of(sets_.begin(), sets_.end(), [&](const auto& s) { return sameField(s.first, name); });
     if (!value)
       diagnostics.report<diag::NotANumber>({}, "--set", name, text);
     else if (twice)
@@ -69,6 +85,13 @@ bool PostCommand::load() {
   if (!options_.source.prog)
     diagnostics.report<diag::MissingOption>({}, "post", "--prog PROG.txt",
                                             "the Prog whose routine prints the cycle");
+  for (const auto& [postField, variable] : common.field) {
+    const bool alsoSet = std::any_of(sets_.begin(), sets_.end(),
+                                     [&, &key = postField](const auto& s) { return s.first == key; });
+    if (alsoSet && postField != variable)
+      diagnostics.report<diag::GivenTwice>({}, "--set beside --field", postField);
+  }
+  checkAssumptions(common.assume, diagnostics);
   if (options_.source.cycle && options_.folders.size() > 1) diagnostics.report<diag::CycleWithSeveral>({});
   if (common.job) job_ = loadJob(*common.job, common.limits, session_.sources(), diagnostics);
   form_ = session_.form(options_.source.form);
@@ -83,6 +106,7 @@ bool PostCommand::load() {
     }
   }
   program_ = loadProg(*options_.source.prog, session_);
+  leaveToLint(diagnostics);
   return program_ && !diagnostics.hasErrors();
 }
 
@@ -111,12 +135,12 @@ const CycleFolder* PostCommand::folderOf(const JobOperation& operation) {
 }
 
 void PostCommand::applySets(const JobOperation& operation, FieldTable& fields, const CycleFolder& folder) {
-  for (const auto& [name, value] : operation.set) {
-    const bool flagWins =
-        std::any_of(sets_.begin(), sets_.end(), [&, &key = name](const auto& s) { return s.first == key; });
-    if (flagWins || fields.set(name, value, operation.range)) continue;
+  for (const auto& [name, value, where] : operation.set) {
+    const bool flagWins = std::any_of(sets_.begin(), sets_.end(),
+                                      [&, &key = name](const auto& s) { return sameField(s.first, key); });
+    if (flagWins || fields.set(name, value, where)) continue;
     const std::string near = fields.nearest(name);
-    session_.diagnostics().report<diag::NoSuchField>(operation.range, name, folder.name,
+    session_.diagnostics().report<diag::NoSuchField>(where, name, folder.name,
                                                      near.empty() ? "" : "; did you mean `" + near + "`?");
   }
   for (const auto& [name, value] : sets_) {
@@ -129,6 +153,8 @@ void PostCommand::applySets(const JobOperation& operation, FieldTable& fields, c
 
 void PostCommand::operation(const JobOperation& operation, compost::PostRun& run) {
   const CycleFolder* folder = folderOf(operation);
+  const bool before = everyFolderRan_;
+  everyFolderRan_ = false;
   if (folder == nullptr) return;
   const std::optional<std::string>& named = options_.source.routine ? options_.source.routine
                                             : job_                  ? job_->operationRoutine
@@ -142,14 +168,15 @@ void PostCommand::operation(const JobOperation& operation, compost::PostRun& run
   if (job_) hosts.insert(job_->hosts.begin(), job_->hosts.end());
 
   std::vector<std::string> printed;
-  for (const compost::BranchRef& branch : compost::branchesOf(*program_, folder->name)) {
-    for (const compost::FieldRef& field : compost::fieldsPrinted(*program_, branch, folder->name))
-      printed.push_back(field.name);
-  }
+  for (const compost::FieldRef& field : compost::fieldsPrinted(*program_, *routine, folder->name))
+    printed.push_back(field.name);
   FieldTable fields(*folder, std::move(printed), session_);
   applySets(operation, fields, *folder);
+  bool mapped = true;
   for (const auto& [postField, variable] : options_.common.field)
-    fields.map(postField, variable);
+    mapped = fields.map(postField, variable) && mapped;
+  if (!mapped) return;
+  everyFolderRan_ = before;
 
   std::vector<std::pair<double, double>> points = operation.at;
   const bool anywhere = points.empty();
@@ -164,9 +191,9 @@ void PostCommand::operation(const JobOperation& operation, compost::PostRun& run
     now.cycle = folder->name;
     now.hosts = hosts;
     now.field = [&fields](const std::string& name, SourceRange where) { return fields.value(name, where); };
-    const std::size_t before = run.lineCount();
+    const std::size_t lines = run.lineCount();
     run.run(*routine, now);
-    if (run.lineCount() == before && !session_.diagnostics().hasErrors())
+    if (run.lineCount() == lines && !session_.diagnostics().hasErrors())
       session_.diagnostics().report<diag::NothingPosted>(routine->nameRange, routine->name, folder->name);
   }
 }
@@ -186,6 +213,7 @@ void PostCommand::boundary(const std::optional<std::string>& name, SourceRange w
 }
 
 void PostCommand::reportUnknownSets() {
+  if (!everyFolderRan_) return; // the operation that could know the name did not get so far
   for (const auto& [name, value] : sets_) {
     if (usedSets_.contains(name)) continue;
     std::string cycles;
@@ -200,18 +228,22 @@ void PostCommand::reportUnknownSets() {
 // The job states the O number, the Prog prints it: a difference is a program stored under a wrong number.
 void PostCommand::checkProgramNumber(const std::vector<compost::PostedLine>& lines) {
   if (!job_ || !job_->number) return;
-  const std::string word = "O" + std::to_string(*job_->number);
+  const std::string digits = std::to_string(*job_->number);
   const bool printed = std::any_of(lines.begin(), lines.end(), [&](const compost::PostedLine& line) {
-    const std::size_t at = line.text.find(word);
+    std::size_t at = line.text.find('O');
     if (at == std::string::npos) return false;
-    const char next = at + word.size() < line.text.size() ? line.text[at + word.size()] : ' ';
-    return next < '0' || next > '9';
+    at = std::min(line.text.find_first_not_of('0', at + 1), line.text.size());
+    const std::size_t end = std::min(line.text.find_first_not_of("0123456789", at), line.text.size());
+    return std::string_view(line.text).substr(at, end - at) == digits;
   });
-  if (!printed) session_.diagnostics().report<diag::ProgramNumberNotPrinted>({job_->file, 0, 0}, word);
+  if (!printed) session_.diagnostics().report<diag::ProgramNumberNotPrinted>(job_->numberRange, "O" + digits);
 }
 
 Outcome PostCommand::run() {
-  if (!load()) return session_.finish("");
+  if (!load()) {
+    keepStrongest(session_.diagnostics());
+    return session_.finish("");
+  }
   compost::PostSettings settings{session_.sources(), *form_, session_.limits(), options_.common.assume};
   const auto sequence = options_.sequence ? options_.sequence : job_ ? job_->sequence : options_.sequence;
   if (sequence) {
@@ -226,6 +258,7 @@ Outcome PostCommand::run() {
   reportUnknownSets();
   const std::vector<compost::PostedLine> lines = run.finish();
   checkProgramNumber(lines);
+  keepStrongest(session_.diagnostics());
   std::string out;
   for (const compost::PostedLine& line : lines)
     out += line.text + "\n";

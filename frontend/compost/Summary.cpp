@@ -140,4 +140,12 @@ std::vector<FieldRef> fieldsPrinted(const Program& program, const BranchRef& bra
   return fields;
 }
 
+std::vector<FieldRef> fieldsPrinted(const Program& program, const Routine& routine,
+                                    std::string_view cycleId) {
+  Seen seen{&routine};
+  std::vector<FieldRef> fields;
+  collectFields(routine.body, program, cycleId, seen, fields);
+  return fields;
+}
+
 } // namespace dotek::frontend::compost

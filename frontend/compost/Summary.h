@@ -55,5 +55,7 @@ std::vector<const Routine*> printingRoutines(const Program& program, const stdli
 // reaching them; inner branches on other cycles are left out. A field occurs as often as it is printed.
 std::vector<FieldRef> fieldsPrinted(const Program& program, const BranchRef& branch,
                                     std::string_view cycleId);
+// The same for a whole routine: branches on other cycles alone are left out.
+std::vector<FieldRef> fieldsPrinted(const Program& program, const Routine& routine, std::string_view cycleId);
 
 } // namespace dotek::frontend::compost

@@ -34,7 +34,12 @@ public:
     for (const Misfit& misfit : match.misfits) {
       if (misfit.kind == Misfit::Kind::Count) {
         // A word that is no keyword, or one argument too many: one of them is the cause.
-        if (match.misfits.size() == 1 || !hasChoice(match)) reportCount(*match.signature);
+        // Too few for every form is a line cut off, whatever its word.
+        const bool cutOff = std::all_of(signatures.begin(), signatures.end(), [&](const auto* signature) {
+          return arguments_.size() < countOf(*signature).least;
+        });
+        if (match.misfits.size() == 1 || !hasChoice(match) || (cutOff && match.signature->openKeywords))
+          reportCount(*match.signature);
       } else if (misfit.kind == Misfit::Kind::Choice) {
         reportChoice(match, misfit.argument, signatures);
       } else if (misfit.kind == Misfit::Kind::Parameter) {

@@ -213,7 +213,7 @@ private:
       if (cycle_.files.count(foldCase(file->text)) == 0) {
         NearestName nearest(file->text);
         for (const std::string& name : cycle_.files)
-          nearest.offer(name == "CYCLEDATA.DLG" ? "CycleData.dlg" : name);
+          if (name.ends_with(".DLG")) nearest.offer(name == "CYCLEDATA.DLG" ? "CycleData.dlg" : name);
         const std::string remedy =
             nearest.result().empty() ? std::string() : fmt::format("; did you mean `{}`?", nearest.result());
         context_.diagnostics.report<diag::DialogFileMissing>(
@@ -262,9 +262,10 @@ std::vector<Field> declaredFields(const Cycle& cycle) {
     for (const Definition& definition : cycle.defineData->definitions)
       add({definition.name, definition.number, definition.valueRange, false, std::nullopt});
   for (const InputLabel& label : labels) {
-    if (label.input->initial == nullptr) continue;
-    if (const std::optional<double> value = constant(*label.input->initial))
-      add({label.variable, value, label.input->initial->range, true, std::nullopt});
+    const Expression* initial = label.input->initial;
+    const std::optional<double> value = initial == nullptr ? std::nullopt : constant(*initial);
+    add({label.variable, value, initial == nullptr ? label.variable.range : initial->range, true,
+         std::nullopt});
   }
   return fields;
 }
