@@ -42,13 +42,16 @@ std::optional<fs::path> MacroLoader::find(const std::string& name, const std::st
   std::replace(local.begin(), local.end(), '\\', '/'); // the CAM runs on Windows
   const fs::path relative(local);
   fs::path folder = relative.is_absolute() ? relative.parent_path() : folder_ / relative.parent_path();
-  if (folder.empty()) folder = ".";
+  const bool here = folder.empty();
+  if (here) folder = ".";
   std::error_code error;
   if (!fs::is_directory(folder, error)) return std::nullopt;
   const std::string file = relative.filename().string();
   if (file.empty()) return std::nullopt;
-  if (auto found = findEntry(folder, file); found && fs::is_regular_file(*found, error)) return found;
-  return findEntry(folder, file + suffix);
+  std::optional<fs::path> found = findEntry(folder, file);
+  if (!found || !fs::is_regular_file(*found, error)) found = findEntry(folder, file + suffix);
+  // One spelling a file: the command line says `a.mac`, not `./a.mac`.
+  return found && here ? found->filename() : found;
 }
 
 bool MacroLoader::hasDialog(const std::string& name) const {

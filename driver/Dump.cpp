@@ -31,6 +31,7 @@ public:
                                                          "a file or the folder of a cycle");
     for (const std::string& input : options_.inputs)
       one(input);
+    if (options_.stage == Stage::Path) keepStrongest(session_.diagnostics());
     return session_.finish(std::move(out_), true);
   }
 

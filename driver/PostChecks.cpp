@@ -59,8 +59,7 @@ void rejected(const gibbs::ChecksResult& result, const CycleFolder& folder, Diag
   Diagnostic& finding = diagnostics.report<diag::ValuesRejected>(first.range, folder.name, shown(first.text));
   for (std::size_t i = 1; i < result.rejections.size(); ++i) {
     const gibbs::Rejection& further = result.rejections[i];
-    finding.note(further.range, (result.neededHosts.empty() ? "further: " : "or, with other host inputs: ") +
-                                    shown(further.text));
+    finding.note(further.range, "it may show this, too: " + shown(further.text));
   }
 }
 

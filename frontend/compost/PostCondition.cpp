@@ -49,12 +49,8 @@ Truth andBeforeOr(const std::vector<Truth>& terms, const std::vector<Connective>
 } // namespace
 
 bool PostRun::Impl::holds(const Condition& condition) {
-  const std::size_t before = diagnostics.all().size();
-  const Truth result = truth(condition);
   // An operand that decides nothing may stay unknown; one that decides was reported by truth().
-  if (!result && diagnostics.all().size() == before && !diagnostics.hasErrors())
-    diagnostics.report<diag::ConditionUnknown>(condition.range);
-  return result.value_or(false);
+  return truth(condition).value_or(false);
 }
 
 Truth PostRun::Impl::truth(const Condition& condition) {
