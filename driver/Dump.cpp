@@ -100,9 +100,7 @@ private:
       if (!value) {
         session_.diagnostics().report<diag::NotANumber>({}, "--set", name, text);
       } else if (!fields.set(name, *value, {})) {
-        const std::string near = fields.nearest(name);
-        session_.diagnostics().report<diag::NoSuchField>(
-            {}, name, folder.name, near.empty() ? "" : "; did you mean `" + near + "`?");
+        session_.diagnostics().report<diag::NoSuchField>({}, name, folder.name, fields.hint(name));
       }
     }
     gibbs::RunContext context{

@@ -64,11 +64,21 @@ bool FieldTable::map(const std::string& postField, const std::string& variable) 
   return true;
 }
 
-std::string FieldTable::nearest(const std::string& name) const {
-  std::vector<std::string> names = printed_;
+std::string FieldTable::hint(const std::string& name) const {
+  std::vector<std::string> names;
   for (const Entry& entry : entries_)
     names.push_back(entry.name);
-  return nearestName(name, names);
+  for (const std::string& field : printed_) {
+    if (std::find(names.begin(), names.end(), field) == names.end()) names.push_back(field);
+  }
+  if (const std::string near = nearestName(name, names); !near.empty())
+    return "; did you mean `" + near + "`?";
+  constexpr std::size_t kMost = 20;
+  std::string known;
+  for (std::size_t i = 0; i < std::min(names.size(), kMost); ++i)
+    known += (known.empty() ? "`" : ", `") + names[i] + "`";
+  if (names.size() > kMost) known += " and others";
+  return known.empty() ? "" : "; known: " + known;
 }
 
 // The remedy for a field that no file declares: the variable whose input the dialog labels with its name.

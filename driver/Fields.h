@@ -22,8 +22,8 @@ public:
   bool set(const std::string& name, double value, SourceRange where);
   // Takes --field POSTFIELD=VARIABLE. Reports and returns false where one of the names is not known.
   bool map(const std::string& postField, const std::string& variable);
-  // The name of the macro or of the branch that is nearest to `name`; "" for none.
-  std::string nearest(const std::string& name) const;
+  // The end of a message about an unknown name: the nearest of macro and post, or what there is.
+  std::string hint(const std::string& name) const;
 
   // Value of a field that the Prog prints at `where`; reports why there is none.
   std::optional<double> value(const std::string& name, SourceRange where);

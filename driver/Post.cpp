@@ -48,7 +48,7 @@ private:
   std::map<std::string, double> flagHosts_;
   std::vector<std::pair<std::string, double>> sets_;
   std::set<std::string> usedSets_;
-  std::map<std::string, std::string> nearSets_;
+  std::map<std::string, std::string> hints_; // of --set names that a cycle does not know
   std::optional<Job> job_;
   std::optional<stdlib::Form> form_;
   std::optional<compost::Program> program_;
@@ -139,15 +139,13 @@ void PostCommand::applySets(const JobOperation& operation, FieldTable& fields, c
     const bool flagWins = std::any_of(sets_.begin(), sets_.end(),
                                       [&, &key = name](const auto& s) { return sameField(s.first, key); });
     if (flagWins || fields.set(name, value, where)) continue;
-    const std::string near = fields.nearest(name);
-    session_.diagnostics().report<diag::NoSuchField>(where, name, folder.name,
-                                                     near.empty() ? "" : "; did you mean `" + near + "`?");
+    session_.diagnostics().report<diag::NoSuchField>(where, name, folder.name, fields.hint(name));
   }
   for (const auto& [name, value] : sets_) {
     if (fields.set(name, value, {}))
       usedSets_.insert(name);
-    else if (const std::string near = fields.nearest(name); !near.empty())
-      nearSets_.emplace(name, near);
+    else
+      hints_.emplace(name, fields.hint(name));
   }
 }
 
@@ -193,6 +191,7 @@ void PostCommand::operation(const JobOperation& operation, compost::PostRun& run
     now.field = [&fields](const std::string& name, SourceRange where) { return fields.value(name, where); };
     const std::size_t lines = run.lineCount();
     run.run(*routine, now);
+    if (run.lineCount() == lines) everyFolderRan_ = false;
     if (run.lineCount() == lines && !session_.diagnostics().hasErrors())
       session_.diagnostics().report<diag::NothingPosted>(routine->nameRange, routine->name, folder->name);
   }
@@ -219,9 +218,9 @@ void PostCommand::reportUnknownSets() {
     std::string cycles;
     for (const CycleFolder& folder : folders_)
       cycles += (cycles.empty() ? "" : ", ") + folder.name;
-    const auto near = nearSets_.find(name);
-    session_.diagnostics().report<diag::NoSuchField>(
-        SourceRange{}, name, cycles, near == nearSets_.end() ? "" : "; did you mean `" + near->second + "`?");
+    const auto hint = hints_.find(name);
+    session_.diagnostics().report<diag::NoSuchField>(SourceRange{}, name, cycles,
+                                                     hint == hints_.end() ? "" : hint->second);
   }
 }
 

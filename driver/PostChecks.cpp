@@ -83,6 +83,7 @@ void runCycleChecks(const CycleFolder& folder, FieldTable& fields, const std::ma
   switch (result.verdict) {
   case gibbs::ChecksResult::Verdict::Rejected: rejected(result, folder, diagnostics); return;
   case gibbs::ChecksResult::Verdict::Depends: {
+    if (result.neededHosts.empty()) break; // no flag helps; what is unknown has been told
     const SourceRange where = result.rejections.empty() ? SourceRange{folder.cycle->cycleData->file, 0, 0}
                                                         : result.rejections.front().range;
     diagnostics.report<diag::ChecksDepend>(where, folder.name, joined(result.neededHosts));
