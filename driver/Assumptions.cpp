@@ -8,11 +8,10 @@
 namespace dotek::driver {
 namespace {
 
-// Word?=yes or Word?=no
+// Word?=yes, Word?(name)=no
 bool answersCondition(const std::string& name) {
-  const std::size_t mark = name.find("?=");
-  return mark != std::string::npos && mark > 0 &&
-         (name.substr(mark + 2) == "yes" || name.substr(mark + 2) == "no");
+  const std::size_t mark = name.find('?');
+  return mark != std::string::npos && mark > 0 && (name.ends_with("=yes") || name.ends_with("=no"));
 }
 
 } // namespace

@@ -41,19 +41,31 @@ std::optional<fs::path> MacroLoader::find(const std::string& name, const std::st
   std::string local = name;
   std::replace(local.begin(), local.end(), '\\', '/'); // the CAM runs on Windows
   const fs::path relative(local);
-  const fs::path folder = relative.is_absolute() ? relative.parent_path() : folder_ / relative.parent_path();
+  fs::path folder = relative.is_absolute() ? relative.parent_path() : folder_ / relative.parent_path();
+  const bool here = folder.empty();
+  if (here) folder = ".";
   std::error_code error;
   if (!fs::is_directory(folder, error)) return std::nullopt;
   const std::string file = relative.filename().string();
   if (file.empty()) return std::nullopt;
-  if (auto found = findEntry(folder, file); found && fs::is_regular_file(*found, error)) return found;
-  return findEntry(folder, file + suffix);
+  std::optional<fs::path> found = findEntry(folder, file);
+  if (!found || !fs::is_regular_file(*found, error)) found = findEntry(folder, file + suffix);
+  // One spelling a file: the command line says `a.mac`, not `./a.mac`.
+  return found && here ? found->filename() : found;
+}
+
+bool MacroLoader::hasDialog(const std::string& name) const {
+  return find(name, ".dlg").has_value();
+}
+
+std::string MacroLoader::folderName() const {
+  return folder_.empty() ? "." : folder_.generic_string();
 }
 
 const gibbs::Macro* MacroLoader::macro(const std::string& name, SourceRange where) {
   const std::optional<fs::path> path = find(name, ".mac");
   if (!path) {
-    session_.diagnostics().report<diag::MacroNotFound>(where, name, folder_.generic_string());
+    session_.diagnostics().report<diag::MacroNotFound>(where, name, folderName());
     return nullptr;
   }
   const std::string key = path->generic_string();
@@ -68,7 +80,7 @@ const gibbs::Macro* MacroLoader::macro(const std::string& name, SourceRange wher
 const gibbs::Dialog* MacroLoader::dialog(const std::string& name, SourceRange where) {
   const std::optional<fs::path> path = find(name, ".dlg");
   if (!path) {
-    session_.diagnostics().report<diag::DialogNotFound>(where, name, folder_.generic_string());
+    session_.diagnostics().report<diag::DialogNotFound>(where, name, folderName());
     return nullptr;
   }
   const std::string key = path->generic_string();
@@ -229,22 +241,28 @@ CycleFolder loadCycleFolder(const std::string& path, Session& session) {
   folder.complete = true;
 
   std::array<std::optional<FileId>, 4> ids;
+  std::string missing;
   for (std::size_t i = 0; i < kFiles.size(); ++i) {
     const std::optional<fs::path> file = findEntry(real, kFiles[i]);
     if (!file) {
-      session.diagnostics().report<diag::CycleFileMissing>({folder.place, 0, 0}, path, kFiles[i]);
+      missing += (missing.empty() ? "`" : ", `") + std::string(kFiles[i]) + "`";
       folder.complete = false;
       continue;
     }
     ids[i] = session.read(file->generic_string(), Encoding::Cp1250);
     if (!ids[i]) folder.complete = false;
   }
+  if (!missing.empty())
+    session.diagnostics().report<diag::CycleFileMissing>({folder.place, 0, 0}, path, missing);
   folder.cycle = std::make_unique<gibbs::Cycle>();
   gibbs::Cycle& cycle = *folder.cycle;
   cycle.name = folder.name;
   cycle.folder = path;
   for (const auto& entry : fs::directory_iterator(real, error))
     cycle.files.insert(gibbs::foldCase(entry.path().filename().string()));
+  // Told already where it is missing.
+  for (const std::string_view name : kFiles)
+    cycle.files.insert(gibbs::foldCase(std::string(name)));
   folder.loader = std::make_unique<MacroLoader>(session, real);
   const gibbs::ParseContext context = contextOf(session);
   const auto pathOf = [&](FileId id) { return session.sources().file(id).name(); };

@@ -23,6 +23,7 @@ public:
 
   const frontend::gibbs::Macro* macro(const std::string& name, SourceRange where);
   const frontend::gibbs::Dialog* dialog(const std::string& name, SourceRange where);
+  bool hasDialog(const std::string& name) const;
   // Makes a tree that was parsed elsewhere known under its file's path.
   void know(const std::string& path, const frontend::gibbs::Macro& macro);
   void know(const std::string& path, const frontend::gibbs::Dialog& dialog);
@@ -30,6 +31,7 @@ public:
   std::vector<const frontend::gibbs::Macro*> included(const frontend::gibbs::Macro& macro);
 
 private:
+  std::string folderName() const;
   std::optional<std::filesystem::path> find(const std::string& name, const std::string& suffix) const;
   void collect(const frontend::gibbs::Macro& macro, std::vector<FileId>& open,
                std::vector<const frontend::gibbs::Macro*>& out);

@@ -30,6 +30,7 @@ public:
                                                          "a file or the folder of a cycle");
     for (const std::string& input : options_.inputs)
       one(input);
+    if (options_.stage == Stage::Path) keepStrongest(session_.diagnostics());
     return session_.finish(std::move(out_), true);
   }
 
@@ -98,9 +99,7 @@ private:
       if (!value) {
         session_.diagnostics().report<diag::NotANumber>({}, "--set", name, text);
       } else if (!fields.set(name, *value, {})) {
-        const std::string near = fields.nearest(name);
-        session_.diagnostics().report<diag::NoSuchField>(
-            {}, name, folder.name, near.empty() ? "" : "; did you mean `" + near + "`?");
+        session_.diagnostics().report<diag::NoSuchField>({}, name, folder.name, fields.hint(name));
       }
     }
     gibbs::RunContext context{

@@ -89,11 +89,21 @@ bool FieldTable::certain() const {
   return all;
 }
 
-std::string FieldTable::nearest(const std::string& name) const {
-  std::vector<std::string> names = printed_;
+std::string FieldTable::hint(const std::string& name) const {
+  std::vector<std::string> names;
   for (const Entry& entry : entries_)
     names.push_back(entry.name);
-  return nearestName(name, names);
+  for (const std::string& field : printed_) {
+    if (std::find(names.begin(), names.end(), field) == names.end()) names.push_back(field);
+  }
+  if (const std::string near = nearestName(name, names); !near.empty())
+    return "; did you mean `" + near + "`?";
+  constexpr std::size_t kMost = 20;
+  std::string known;
+  for (std::size_t i = 0; i < std::min(names.size(), kMost); ++i)
+    known += (known.empty() ? "`" : ", `") + names[i] + "`";
+  if (names.size() > kMost) known += " and others";
+  return known.empty() ? "" : "; known: " + known;
 }
 
 // The remedy for a field that no file declares: the variable whose input the dialog labels with its name.
@@ -131,7 +141,8 @@ std::optional<double> FieldTable::value(const std::string& name, SourceRange whe
   if (const Entry* entry = declared(wanted)) {
     if (entry->name != wanted && told_.insert(name).second)
       diagnostics.report<diag::FieldCase>(where, name, entry->name, folder_.name);
-    if (!entry->value) diagnostics.report<diag::FieldWithoutValue>(where, entry->name, folder_.name);
+    if (!entry->value && told_.insert(entry->name).second)
+      diagnostics.report<diag::FieldWithoutValue>(where, entry->name, folder_.name);
     return entry->value;
   }
   const bool zero = session_.options().assume.contains("missing-field-zero");

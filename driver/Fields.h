@@ -26,8 +26,8 @@ public:
   bool declares(const std::string& name) const { return declared(name) != nullptr; }
   // Reports the fields whose first value nobody overrides and no source lets us read. false: there are some.
   bool certain() const;
-  // The name of the macro or of the branch that is nearest to `name`; "" for none.
-  std::string nearest(const std::string& name) const;
+  // The end of a message about an unknown name: the nearest of macro and post, or what there is.
+  std::string hint(const std::string& name) const;
 
   // Value of a field that the Prog prints at `where`; reports why there is none.
   std::optional<double> value(const std::string& name, SourceRange where);

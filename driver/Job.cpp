@@ -15,8 +15,10 @@ using stdlib::TomlValue;
 namespace {
 
 void readProgram(const TomlTable& table, Job& job) {
-  if (table.has("number"))
-    job.number = static_cast<std::uint64_t>(table.value("number").integer(0, 1, 99999999));
+  if (const TomlValue number = table.value("number")) {
+    job.number = static_cast<std::uint64_t>(number.integer(0, 1, 99999999));
+    job.numberRange = number.range();
+  }
   if (table.has("title")) job.title = table.value("title").text();
   if (table.has("sequence")) {
     const TomlTable sequence = table.value("sequence").table();
@@ -75,14 +77,14 @@ JobOperation readOperation(const TomlDocument& document, const TomlTable& table)
     const std::vector<double> numbers = point.isArray() ? point.numbers() : std::vector<double>{};
     if (numbers.size() == 2)
       out.at.emplace_back(numbers[0], numbers[1]);
-    else
+    else if (!numbers.empty() || document.ok()) // else it was no list of numbers, which is told
       document.fail(point.range(), "a point is [x, y], two numbers in mm");
   }
   if (table.has("host")) readHosts(document, table.value("host").table(), out.hosts);
   if (const TomlValue retract = table.value("retract"))
     out.hosts.insert_or_assign("retract", retract.number());
   for (const TomlEntry& entry : table.value("set").table().entries())
-    out.set.emplace_back(entry.key, entry.value.number());
+    out.set.push_back({entry.key, entry.value.number(), entry.keyRange});
   return out;
 }
 

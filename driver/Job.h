@@ -10,18 +10,25 @@
 
 namespace dotek::driver {
 
+struct JobValue {
+  std::string name;
+  double value = 0.0;
+  SourceRange range; // of the name
+};
+
 struct JobOperation {
   std::string cycle; // name of a FOLDER of the command line
   SourceRange cycleRange;
   std::vector<std::pair<double, double>> at; // points of the operation, mm; empty: one run, no point
   std::map<std::string, double> hosts;       // retract and other host inputs of this operation
-  std::vector<std::pair<std::string, double>> set;
+  std::vector<JobValue> set;
   SourceRange range;
 };
 
 struct Job {
   FileId file = kNoFile;
   std::optional<std::uint64_t> number; // O number
+  SourceRange numberRange;
   std::optional<std::string> title;
   std::optional<std::pair<std::uint64_t, std::uint64_t>> sequence; // start, step
   std::optional<std::string> startRoutine, operationRoutine, endRoutine;

@@ -1,12 +1,15 @@
 #include "driver/CycleFolder.h"
 #include "driver/Driver.h"
 #include "driver/InputKind.h"
+#include "driver/Job.h"
 #include "driver/PostProgram.h"
 #include "driver/Session.h"
+#include "frontend/compost/Summary.h"
 #include "support/Files.h"
 
 #include <algorithm>
 #include <filesystem>
+#include <set>
 
 namespace dotek::driver {
 
@@ -24,7 +27,9 @@ public:
       session_.diagnostics().report<diag::MissingOption>({}, "lint", "PATH", "a file or a folder");
     for (const std::string& path : options_.paths)
       visit(path, true);
+    acceptEntryPoints();
     select();
+    keepStrongest(session_.diagnostics());
     Outcome outcome = session_.finish("", true);
     // Findings are the result of lint, not its failure.
     if (outcome.status == 1) outcome.status = 0;
@@ -65,6 +70,7 @@ private:
   }
 
   void file(const std::string& path, bool named) {
+    if (!options_.common.from && path.ends_with(".toml") && job(path)) return;
     if (!named && !mayBeSource(path)) return;
     std::optional<InputKind> kind;
     if (options_.common.from) {
@@ -77,13 +83,23 @@ private:
       kind = recognise(path, *bytes);
     }
     if (!kind) {
-      // Reading says why, where the file is no text.
-      if (named && session_.read(path, Encoding::Cp1250))
+      // A text that cannot be read says why; another one is none of ours.
+      const std::optional<FileId> id = session_.read(path, Encoding::Cp1250);
+      if (!named || !id) return;
+      if (session_.sources().file(*id).bytes().empty())
+        session_.diagnostics().report<diag::EmptyFile>({*id, 0, 0}, path);
+      else
         session_.diagnostics().report<diag::UnknownKind>({}, path);
       return;
     }
     if (*kind == InputKind::Prog) {
-      loadProg(path, session_);
+      const auto program = loadProg(path, session_);
+      if (!program) return;
+      for (const std::string& cycle : frontend::compost::cycleIds(*program)) {
+        for (const auto* routine :
+             frontend::compost::printingRoutines(*program, session_.compostKeywords(), cycle))
+          entryPoints_.insert(routine->name);
+      }
       return;
     }
     const std::optional<FileId> id = session_.read(path, Encoding::Cp1250);
@@ -101,6 +117,30 @@ private:
     }
   }
 
+  // A routine that prints for a cycle is called for its operations; others are named by a job.
+  void acceptEntryPoints() {
+    std::erase_if(session_.diagnostics().all(), [&](const Diagnostic& d) {
+      return d.code == diag::RoutineNeverCalled::code &&
+             entryPoints_.contains(std::string(session_.sources().text(d.range)));
+    });
+  }
+
+  // A job in TOML: a file with operations.
+  bool job(const std::string& path) {
+    Diagnostics ignored;
+    const std::optional<std::string> bytes = readBytes(path, session_.limits(), ignored);
+    const bool isJob = bytes && (bytes->starts_with("operation") || bytes->starts_with("[[operation]]") ||
+                                 bytes->find("\noperation") != std::string::npos ||
+                                 bytes->find("\n[[operation]]") != std::string::npos);
+    if (!isJob) return false;
+    const auto loaded = loadJob(path, session_.limits(), session_.sources(), session_.diagnostics());
+    if (!loaded) return true;
+    for (const auto& routine : {loaded->startRoutine, loaded->operationRoutine, loaded->endRoutine}) {
+      if (routine) entryPoints_.insert(*routine);
+    }
+    return true;
+  }
+
   void select() {
     auto& all = session_.diagnostics().all();
     std::erase_if(all, [&](const Diagnostic& d) {
@@ -112,6 +152,7 @@ private:
 
   const LintOptions& options_;
   Session& session_;
+  std::set<std::string> entryPoints_; // routines that run without a call in the Prog
 };
 
 } // namespace

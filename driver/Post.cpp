@@ -42,6 +42,11 @@ struct Prepared {
   FieldTable fields;
 };
 
+// Whether names of macro variables compare equal.
+bool sameField(const std::string& a, const std::string& b) {
+  return frontend::gibbs::foldCase(a) == frontend::gibbs::foldCase(b);
+}
+
 // One command: the parts that every operation needs.
 class PostCommand {
 public:
@@ -65,7 +70,7 @@ private:
   std::map<std::string, double> flagHosts_;
   std::vector<std::pair<std::string, double>> sets_;
   std::set<std::string> usedSets_;
-  std::map<std::string, std::string> nearSets_;
+  std::map<std::string, std::string> hints_; // of --set names that a cycle does not know
   std::optional<Job> job_;
   std::optional<stdlib::Form> form_;
   std::optional<compost::Program> program_;
@@ -80,7 +85,7 @@ bool PostCommand::load() {
   for (const auto& [name, text] : common.set) {
     const std::optional<double> value = parseNumber(text);
     const bool twice =
-        std::any_of(sets_.begin(), sets_.end(), [&](const auto& s) { return s.first == name; });
+        std::any_of(sets_.begin(), sets_.end(), [&](const auto& s) { return sameField(s.first, name); });
     if (!value)
       diagnostics.report<diag::NotANumber>({}, "--set", name, text);
     else if (twice)
@@ -93,6 +98,12 @@ bool PostCommand::load() {
   if (!options_.source.prog)
     diagnostics.report<diag::MissingOption>({}, "post", "--prog PROG.txt",
                                             "the Prog whose routine prints the cycle");
+  for (const auto& [postField, variable] : common.field) {
+    const bool alsoSet = std::any_of(sets_.begin(), sets_.end(),
+                                     [&, &key = postField](const auto& s) { return s.first == key; });
+    if (alsoSet && postField != variable)
+      diagnostics.report<diag::GivenTwice>({}, "--set beside --field", postField);
+  }
   if (options_.source.cycle && options_.folders.size() > 1) diagnostics.report<diag::CycleWithSeveral>({});
   if (common.job) job_ = loadJob(*common.job, common.limits, session_.sources(), diagnostics);
   form_ = session_.form(options_.source.form);
@@ -145,20 +156,18 @@ void PostCommand::applySets(const JobOperation& operation, FieldTable& fields, c
   std::set<std::string> inFlags;
   for (const auto& [name, value] : sets_)
     once(inFlags, name, {}, "--set");
-  for (const auto& [name, value] : operation.set) {
-    once(inJob, name, operation.range, "set");
-    const bool flagWins =
-        std::any_of(sets_.begin(), sets_.end(), [&, &key = name](const auto& s) { return s.first == key; });
-    if (flagWins || fields.set(name, value, operation.range)) continue;
-    const std::string near = fields.nearest(name);
-    session_.diagnostics().report<diag::NoSuchField>(operation.range, name, folder.name,
-                                                     near.empty() ? "" : "; did you mean `" + near + "`?");
+  for (const auto& [name, value, where] : operation.set) {
+    once(inJob, name, where, "set");
+    const bool flagWins = std::any_of(sets_.begin(), sets_.end(),
+                                      [&, &key = name](const auto& s) { return sameField(s.first, key); });
+    if (flagWins || fields.set(name, value, where)) continue;
+    session_.diagnostics().report<diag::NoSuchField>(where, name, folder.name, fields.hint(name));
   }
   for (const auto& [name, value] : sets_) {
     if (fields.set(name, value, {}))
       usedSets_.insert(name);
-    else if (const std::string near = fields.nearest(name); !near.empty())
-      nearSets_.emplace(name, near);
+    else
+      hints_.emplace(name, fields.hint(name));
   }
 }
 
@@ -192,9 +201,10 @@ void PostCommand::prepare(const JobOperation& operation) {
     printed.push_back(field.name);
   FieldTable fields(*folder, std::move(printed), session_);
   applySets(operation, fields, *folder);
+  bool mapped = true;
   for (const auto& [postField, variable] : options_.common.field)
-    fields.map(postField, variable);
-  if (fields.certain())
+    mapped = fields.map(postField, variable) && mapped;
+  if (mapped && fields.certain())
     prepared_.push_back({&operation, folder, routine, std::move(hosts), std::move(fields)});
 }
 
@@ -244,9 +254,9 @@ void PostCommand::reportUnknownSets() {
     std::string cycles;
     for (const CycleFolder& folder : folders_)
       cycles += (cycles.empty() ? "" : ", ") + folder.name;
-    const auto near = nearSets_.find(name);
-    session_.diagnostics().report<diag::NoSuchField>(
-        SourceRange{}, name, cycles, near == nearSets_.end() ? "" : "; did you mean `" + near->second + "`?");
+    const auto hint = hints_.find(name);
+    session_.diagnostics().report<diag::NoSuchField>(SourceRange{}, name, cycles,
+                                                     hint == hints_.end() ? "" : hint->second);
   }
 }
 
@@ -261,12 +271,14 @@ void PostCommand::checkProgramNumber(const std::vector<compost::PostedLine>& lin
     const std::size_t end = std::min(line.text.find_first_not_of("0123456789", digits), line.text.size());
     return line.text.substr(digits, end - digits) == number;
   });
-  if (!printed)
-    session_.diagnostics().report<diag::ProgramNumberNotPrinted>({job_->file, 0, 0}, "O" + number);
+  if (!printed) session_.diagnostics().report<diag::ProgramNumberNotPrinted>(job_->numberRange, "O" + number);
 }
 
 Outcome PostCommand::run() {
-  if (!load()) return session_.finish("");
+  if (!load()) {
+    keepStrongest(session_.diagnostics());
+    return session_.finish("");
+  }
   compost::PostSettings settings{session_.sources(), *form_, session_.limits(), options_.common.assume};
   const auto sequence = options_.sequence ? options_.sequence : job_ ? job_->sequence : options_.sequence;
   if (sequence) {
@@ -285,6 +297,7 @@ Outcome PostCommand::run() {
   if (job_) boundary(job_->endRoutine, job_->endRange, run);
   const std::vector<compost::PostedLine> lines = run.finish();
   checkProgramNumber(lines);
+  keepStrongest(session_.diagnostics());
   std::string out;
   for (const compost::PostedLine& line : lines)
     out += line.text + "\n";

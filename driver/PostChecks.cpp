@@ -48,6 +48,21 @@ void takeChanges(const gibbs::ChecksResult& result, const CycleFolder& folder, F
   }
 }
 
+// One finding, however many messages the macro shows.
+void rejected(const gibbs::ChecksResult& result, const CycleFolder& folder, Diagnostics& diagnostics) {
+  const auto shown = [](const std::string& text) { return text.empty() ? "no message" : "`" + text + "`"; };
+  if (result.rejections.empty()) {
+    diagnostics.report<diag::ValuesRejected>({folder.cycle->cycleData->file, 0, 0}, folder.name, shown(""));
+    return;
+  }
+  const gibbs::Rejection& first = result.rejections.front();
+  Diagnostic& finding = diagnostics.report<diag::ValuesRejected>(first.range, folder.name, shown(first.text));
+  for (std::size_t i = 1; i < result.rejections.size(); ++i) {
+    const gibbs::Rejection& further = result.rejections[i];
+    finding.note(further.range, "it may show this, too: " + shown(further.text));
+  }
+}
+
 } // namespace
 
 void runCycleChecks(const CycleFolder& folder, FieldTable& fields, const std::map<std::string, double>& hosts,
@@ -66,15 +81,9 @@ void runCycleChecks(const CycleFolder& folder, FieldTable& fields, const std::ma
       [&](const std::string& name, SourceRange where) { return folder.loader->dialog(name, where); }};
   const gibbs::ChecksResult result = gibbs::runChecks(*folder.cycle->cycleData, context);
   switch (result.verdict) {
-  case gibbs::ChecksResult::Verdict::Rejected:
-    if (result.rejections.empty())
-      diagnostics.report<diag::ValuesRejected>({folder.cycle->cycleData->file, 0, 0}, folder.name,
-                                               "no message");
-    for (const gibbs::Rejection& rejection : result.rejections)
-      diagnostics.report<diag::ValuesRejected>(
-          rejection.range, folder.name, rejection.text.empty() ? "no message" : "`" + rejection.text + "`");
-    return;
+  case gibbs::ChecksResult::Verdict::Rejected: rejected(result, folder, diagnostics); return;
   case gibbs::ChecksResult::Verdict::Depends: {
+    if (result.neededHosts.empty()) break; // no flag helps; what is unknown has been told
     const SourceRange where = result.rejections.empty() ? SourceRange{folder.cycle->cycleData->file, 0, 0}
                                                         : result.rejections.front().range;
     // Where no host input decides it, the conditions that stay open are named one by one.

@@ -57,6 +57,10 @@ std::optional<compost::Program> loadProg(const std::string& path, Session& sessi
     return std::nullopt;
   }
   compost::Program program = compost::parse(*id, session.sources(), session.limits(), session.diagnostics());
+  if (session.sources().file(*id).bytes().find_first_not_of(" \t\r\n") == std::string::npos) {
+    session.diagnostics().report<diag::EmptyFile>({*id, 0, 0}, path);
+    return std::nullopt;
+  }
   compost::check(program, session.compostKeywords(), session.sources(), session.diagnostics());
   if (session.options().recover) acceptRepairs(*id, session);
   return program;

@@ -76,15 +76,29 @@ Outcome Session::finish(std::string output, bool keepOutput) {
   return outcome;
 }
 
+void keepStrongest(Diagnostics& diagnostics) {
+  std::map<std::pair<FileId, std::uint32_t>, Severity> strongest;
+  // An empty range at the beginning stands for the whole file.
+  const auto narrow = [](const Diagnostic& d) { return d.range.hasPlace() && d.range.end > d.range.begin; };
+  for (const Diagnostic& d : diagnostics.all()) {
+    if (!narrow(d)) continue;
+    const auto [at, added] = strongest.try_emplace({d.range.file, d.range.begin}, d.severity);
+    if (!added) at->second = std::max(at->second, d.severity);
+  }
+  std::erase_if(diagnostics.all(), [&](const Diagnostic& d) {
+    return narrow(d) && d.severity < strongest.at({d.range.file, d.range.begin});
+  });
+}
+
 bool isUsageCode(std::string_view code) {
   constexpr std::array kCodes = {
-      diag::FileNotFound::code, diag::FileNotReadable::code, diag::FileNotWritable::code,
-      diag::FileTooLarge::code, diag::TooManyFiles::code,    diag::UnknownForm::code,
-      diag::UnknownHost::code,  diag::NotANumber::code,      diag::GivenTwice::code,
-      diag::UnknownName::code,  diag::MissingOption::code,   diag::DataFileDefect::code,
-      diag::UnknownKind::code,  diag::UnknownCode::code,     diag::UnknownList::code,
-      diag::NoSuchField::code,  diag::HostInputRange::code,  diag::UnknownAssumption::code,
-      diag::NotAFolder::code,
+      diag::FileNotFound::code,     diag::FileNotReadable::code, diag::FileNotWritable::code,
+      diag::FileTooLarge::code,     diag::TooManyFiles::code,    diag::UnknownForm::code,
+      diag::UnknownHost::code,      diag::NotANumber::code,      diag::GivenTwice::code,
+      diag::UnknownName::code,      diag::MissingOption::code,   diag::DataFileDefect::code,
+      diag::UnknownKind::code,      diag::UnknownCode::code,     diag::UnknownList::code,
+      diag::NoSuchField::code,      diag::HostInputRange::code,  diag::UnknownAssumption::code,
+      diag::CycleWithSeveral::code, diag::CycleNameTwice::code,  diag::NotAFolder::code,
   };
   return std::find(kCodes.begin(), kCodes.end(), code) != kCodes.end();
 }

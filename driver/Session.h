@@ -46,6 +46,10 @@ private:
 // Codes that mean wrong arguments, or a file that cannot be read or written: status 2.
 bool isUsageCode(std::string_view code);
 
+// Of findings that begin at one place, keeps those of the highest severity: the others tell of the same
+// cause.
+void keepStrongest(Diagnostics& diagnostics);
+
 // Runs a command: a defect of the data files that `--data` names becomes a diagnostic.
 template <class Command> Outcome guarded(const CommonOptions& options, const Command& command) {
   try {

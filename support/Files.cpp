@@ -1,5 +1,6 @@
 #include "support/Files.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -46,6 +47,24 @@ std::optional<std::string> readBytes(const std::string& path, const Limits& limi
   return bytes;
 }
 
+namespace {
+
+// In the first line that is no UTF-8: its first byte outside ASCII.
+std::size_t firstBadLetter(std::string_view bytes) {
+  for (std::size_t at = 0; at < bytes.size();) {
+    const std::size_t end = std::min(bytes.find('\n', at), bytes.size());
+    const std::string_view line = bytes.substr(at, end - at);
+    if (!isUtf8(line)) {
+      const auto letter = std::find_if(line.begin(), line.end(), [](char c) { return (c & 0x80) != 0; });
+      return at + static_cast<std::size_t>(letter - line.begin());
+    }
+    at = end + 1;
+  }
+  return 0;
+}
+
+} // namespace
+
 std::optional<FileId> readText(const std::string& path, Encoding fallback, std::optional<Encoding> forced,
                                const Limits& limits, SourceMap& sources, Diagnostics& diagnostics) {
   std::optional<std::string> bytes = readBytes(path, limits, diagnostics);
@@ -55,28 +74,29 @@ std::optional<FileId> readText(const std::string& path, Encoding fallback, std::
 
 std::optional<FileId> addText(std::string name, std::string bytes, Encoding fallback,
                               std::optional<Encoding> forced, SourceMap& sources, Diagnostics& diagnostics) {
-  if (bytes.starts_with("\xFF\xFE") || bytes.starts_with("\xFE\xFF")) {
+  // Every second byte NUL is UTF-16 without its mark.
+  const auto nulAt = [&bytes](std::size_t i) { return bytes[i] == '\0'; };
+  const bool wide = bytes.size() > 3 && (nulAt(0) || nulAt(1)) && (nulAt(2) || nulAt(3));
+  if (wide || bytes.starts_with("\xFF\xFE") || bytes.starts_with("\xFE\xFF")) {
     const FileId id = sources.add(SourceFile(std::move(name), "", Encoding::Utf8));
     diagnostics.report<diag::Utf16Input>({id, 0, 0});
     return std::nullopt;
   }
   const Encoding encoding = forced ? *forced : isUtf8(bytes) ? Encoding::Utf8 : fallback;
   const std::size_t nul = bytes.find('\0');
-  const FileId id = sources.add(SourceFile(std::move(name), std::move(bytes), encoding));
+  const bool decodes = encoding != Encoding::Utf8 || isUtf8(bytes);
+  const std::size_t bad = decodes ? 0 : firstBadLetter(bytes);
+  // Shown in an encoding that knows every byte.
+  const FileId id =
+      sources.add(SourceFile(std::move(name), std::move(bytes), decodes ? encoding : Encoding::Cp1250));
   if (nul != std::string::npos) {
-    const std::string& text = sources.file(id).bytes();
-    const auto at = static_cast<std::uint32_t>(text.find('\0'));
-    // Every second byte NUL is UTF-16 without its mark.
-    const bool wide =
-        text.size() > 3 && (text[1] == '\0' || text[0] == '\0') && (text[3] == '\0' || text[2] == '\0');
-    if (wide)
-      diagnostics.report<diag::Utf16Input>({id, 0, 0});
-    else
-      diagnostics.report<diag::NulByte>({id, at, at + 1});
+    const auto at = static_cast<std::uint32_t>(nul);
+    diagnostics.report<diag::NulByte>({id, at, at + 1});
     return std::nullopt;
   }
-  if (encoding == Encoding::Utf8 && !isUtf8(sources.file(id).bytes())) {
-    diagnostics.report<diag::NotUtf8>({id, 0, 0});
+  if (!decodes) {
+    const auto at = static_cast<std::uint32_t>(bad);
+    diagnostics.report<diag::NotUtf8>({id, at, at + 1});
     return std::nullopt;
   }
   return id;

@@ -54,6 +54,7 @@ void appendExcerpt(std::string& out, SourceRange range, const SourceMap& sources
   const SourceFile& file = sources.file(range.file);
   const LineColumn begin = file.place(range.begin);
   std::string text = printable(file.lineUtf8(begin.line));
+  if (text.empty()) return; // nothing to point at
   const std::size_t length = characters(text);
   std::size_t column = begin.column - 1;
   std::size_t width = 1;

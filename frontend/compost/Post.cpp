@@ -4,6 +4,7 @@
 #include "support/Decimal.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace dotek::frontend::compost {
 namespace {
@@ -73,10 +74,15 @@ std::size_t PostRun::lineCount() const {
 
 std::vector<PostedLine> PostRun::finish() {
   if (!impl_->line.empty() && !impl_->stopped) {
-    impl_->diagnostics.report<diag::UnfinishedLine>(impl_->lineRange, impl_->line);
+    if (!impl_->diagnostics.hasErrors())
+      impl_->diagnostics.report<diag::UnfinishedLine>(impl_->lineRange, impl_->line);
     impl_->endLine(impl_->lineRange);
   }
   return std::move(impl_->lines);
+}
+
+bool PostRun::Impl::tell(std::string_view code, std::string_view cause) {
+  return told.insert(std::string(code) + ' ' + std::string(cause)).second;
 }
 
 bool PostRun::Impl::step(SourceRange where) {
@@ -135,8 +141,8 @@ void PostRun::Impl::print(std::string_view text, SourceRange where) {
 
 void PostRun::Impl::endLine(SourceRange where) {
   if (line.empty()) {
-    if (!diagnostics.hasErrors())
-      diagnostics.report<diag::EmptyBlock>(where); // else what was refused is missing
+    // What a refused word would have printed is no empty block.
+    if (!diagnostics.hasErrors()) diagnostics.report<diag::EmptyBlock>(where);
     return;
   }
   if (numberOnly) diagnostics.report<diag::BlockNumberAlone>(lineRange, line);
@@ -189,19 +195,21 @@ void PostRun::Impl::command(const Word& word) {
       return;
     }
   }
-  if (told.insert(word.name).second)
-    diagnostics.report<diag::CommandNotInForm>(word.nameRange, word.name, settings.form.name,
-                                               settings.form.origin);
+  if (!tell(diag::CommandNotInForm::code, word.name)) return;
+  diagnostics.report<diag::CommandNotInForm>(word.nameRange, word.name, settings.form.name,
+                                             settings.form.origin);
 }
 
 const Picture* PostRun::Impl::picture(const std::string& keyword, SourceRange where) {
   const auto found = pictures.find(keyword);
   if (found == pictures.end()) {
-    diagnostics.report<diag::NoPicture>(where, keyword, settings.form.name, settings.form.origin);
+    if (tell(diag::NoPicture::code, keyword))
+      diagnostics.report<diag::NoPicture>(where, keyword, settings.form.name, settings.form.origin);
     return nullptr;
   }
   if (!found->second.prefix().empty()) {
-    diagnostics.report<diag::PicturePrefixUnverified>(where, found->second.text(), found->second.prefix());
+    if (tell(diag::PicturePrefixUnverified::code, keyword))
+      diagnostics.report<diag::PicturePrefixUnverified>(where, found->second.text(), found->second.prefix());
     return nullptr;
   }
   return &found->second;
@@ -210,7 +218,7 @@ const Picture* PostRun::Impl::picture(const std::string& keyword, SourceRange wh
 std::optional<double> PostRun::Impl::host(const std::string& name, SourceRange where) {
   const auto found = operation->hosts.find(name);
   if (found != operation->hosts.end()) return found->second;
-  if (!told.insert("host " + name).second) return std::nullopt;
+  if (!tell(diag::HostInputNeeded::code, name)) return std::nullopt;
   const std::string flag = name == "clearance" ? "--clearance Z" : "--host " + name + "=VALUE";
   diagnostics.report<diag::HostInputNeeded>(where, name, flag);
   return std::nullopt;
@@ -229,8 +237,9 @@ void PostRun::Impl::numeric(const Word& word) {
   } else {
     const auto entry = settings.form.numerics.find(word.name);
     if (entry == settings.form.numerics.end() || entry->second.value.empty()) {
-      diagnostics.report<diag::NumericNotInForm>(word.nameRange, word.name, settings.form.name,
-                                                 settings.form.origin);
+      if (tell(diag::NumericNotInForm::code, word.name))
+        diagnostics.report<diag::NumericNotInForm>(word.nameRange, word.name, settings.form.name,
+                                                   settings.form.origin);
       return;
     }
     value = host(entry->second.value, word.range);
@@ -244,7 +253,8 @@ void PostRun::Impl::printValue(double value, const Picture& picture, std::string
   const Picture::Printed printed = picture.print(value);
   switch (printed.fit) {
   case Picture::Fit::DoesNotFit:
-    diagnostics.report<diag::ValueDoesNotFit>(where, numberText(value), what, picture.text());
+    diagnostics.report<diag::ValueDoesNotFit>(where, what, numberText(value), picture.text(),
+                                              value == std::trunc(value) ? "" : " once it is rounded");
     return;
   case Picture::Fit::LosesDecimals:
     diagnostics.report<diag::LostDecimals>(where, what, numberText(value), picture.text(),

@@ -17,6 +17,14 @@ Truth either(Truth a, Truth b) {
   return false;
 }
 
+// What `--assume` calls the condition: `Word?`, with an argument `Word?(name)`.
+std::string assumed(const Word& boolean) {
+  std::string out = boolean.name + "?";
+  for (std::size_t i = 0; i < boolean.arguments.size(); ++i)
+    out += (i == 0 ? "(" : ",") + boolean.arguments[i].text;
+  return boolean.arguments.empty() ? out : out + ")";
+}
+
 Truth leftToRight(const std::vector<Truth>& terms, const std::vector<Connective>& connectives) {
   Truth result = terms.front();
   for (std::size_t i = 0; i < connectives.size(); ++i)
@@ -41,10 +49,8 @@ Truth andBeforeOr(const std::vector<Truth>& terms, const std::vector<Connective>
 } // namespace
 
 bool PostRun::Impl::holds(const Condition& condition) {
-  const Truth result = truth(condition);
   // An operand that decides nothing may stay unknown; one that decides was reported by truth().
-  if (!result && !diagnostics.hasErrors()) diagnostics.report<diag::ConditionUnknown>(condition.range);
-  return result.value_or(false);
+  return truth(condition).value_or(false);
 }
 
 Truth PostRun::Impl::truth(const Condition& condition) {
@@ -67,8 +73,11 @@ Truth PostRun::Impl::truth(const Condition& condition) {
   if (result) return result;
   for (const ConditionTerm& term : condition.terms) {
     const auto* word = std::get_if<Word>(&term.operand);
-    if (word != nullptr && !truth(*word))
-      diagnostics.report<diag::BooleanUnknown>(word->range, word->name, settings.form.origin);
+    if (word == nullptr || truth(*word)) continue;
+    if (word->name == kCycleKeyword || word->name == kFlagKeyword)
+      diagnostics.report<diag::FlagNeedsName>(word->range, word->name + "?");
+    else if (tell(diag::BooleanUnknown::code, assumed(*word)))
+      diagnostics.report<diag::BooleanUnknown>(word->range, assumed(*word), settings.form.origin);
   }
   return std::nullopt;
 }
@@ -94,9 +103,9 @@ Truth PostRun::Impl::truth(const Word& boolean) {
       diagnostics.report<diag::FlagSetElsewhere>(boolean.range, name, setter->second->name);
     return false;
   }
+  if (settings.assumptions.contains(assumed(boolean) + "=yes")) return true;
+  if (settings.assumptions.contains(assumed(boolean) + "=no")) return false;
   if (!boolean.arguments.empty()) return std::nullopt;
-  if (settings.assumptions.contains(boolean.name + "?=yes")) return true;
-  if (settings.assumptions.contains(boolean.name + "?=no")) return false;
   const auto known = settings.form.booleans.find(boolean.name);
   if (known != settings.form.booleans.end()) return known->second.value;
   return std::nullopt;

@@ -28,10 +28,10 @@ struct PostRun::Impl {
   std::uint64_t steps = 0;
   std::uint64_t bytes = 0;
   std::uint32_t depth = 0;
-  bool stopped = false; // a limit was hit
+  bool stopped = false;                    // a limit was hit
+  std::set<std::string, std::less<>> told; // causes: one word that many lines use is one finding
   std::string line;
-  std::set<std::string, std::less<>> told; // words that the form lacks, host inputs that nobody gave
-  bool numberOnly = false;                 // nothing but a block number is in `line`
+  bool numberOnly = false; // nothing but a block number is in `line`
   SourceRange lineRange;
   std::vector<PostedLine> lines;
 
@@ -48,6 +48,8 @@ struct PostRun::Impl {
   bool step(SourceRange where);
   const Picture* picture(const std::string& keyword, SourceRange where);
   std::optional<double> host(const std::string& name, SourceRange where);
+  // true the first time: the cause, such as a word that the form lacks, is to be reported.
+  bool tell(std::string_view code, std::string_view cause);
 
   bool holds(const Condition& condition);
   Truth truth(const Condition& condition);

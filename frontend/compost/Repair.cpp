@@ -99,7 +99,7 @@ std::vector<Diagnostic> reportMissingEnds(const Routine& routine, const std::vec
                       inThen ? "stands inside the open one and is never reached"
                              : "and all behind it run in the `ELSE` part only",
                       source.lineOf(rival->ifRange.begin)));
-    } else {
+    } else if (end.at != RoutineEnd::At::EndOfFile) {
       diagnostic.fix = insertion("END", end, source, file);
     }
     found.push_back(std::move(diagnostic));
@@ -107,7 +107,14 @@ std::vector<Diagnostic> reportMissingEnds(const Routine& routine, const std::vec
   if (end.at != RoutineEnd::At::Return) {
     Diagnostic diagnostic =
         makeDiagnostic<diag::MissingReturn>(routine.nameRange, sources.textUtf8(routine.nameRange), what);
-    diagnostic.fix = insertion("RETURN", end, source, file);
+    // A file that ends inside a branch or a line may be a part of the file that was meant.
+    const bool cutOff =
+        end.at == RoutineEnd::At::EndOfFile &&
+        (!openIfs.empty() || source.bytes().find_last_of("\r\n") + 1 != source.bytes().size());
+    if (cutOff)
+      diagnostic.note(end.range, "the file ends here and may be cut off; no repair is offered");
+    else
+      diagnostic.fix = insertion("RETURN", end, source, file);
     found.push_back(std::move(diagnostic));
   }
   return found;

@@ -57,7 +57,6 @@ std::vector<FieldRef> fieldsPrinted(const Program& program, const BranchRef& bra
                                     std::string_view cycleId);
 
 // The same for all that a routine prints while the cycle is posted.
-std::vector<FieldRef> fieldsPrinted(const Program& program, const Routine& routine,
-                                    std::string_view cycleId);
+std::vector<FieldRef> fieldsPrinted(const Program& program, const Routine& routine, std::string_view cycleId);
 
 } // namespace dotek::frontend::compost

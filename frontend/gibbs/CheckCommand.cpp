@@ -30,6 +30,10 @@ public:
     if (match.signature == nullptr) return;
     checkUnits(match);
     if (match.signature->unsure) return;
+    if (isCutOff(signatures)) {
+      context_.diagnostics.report<diag::CutOff>(range_, name_.text, signatureText(*match.signature));
+      return;
+    }
     bool kindReported = false;
     for (const Misfit& misfit : match.misfits) {
       if (misfit.kind == Misfit::Kind::Count) {
@@ -47,6 +51,13 @@ public:
   }
 
 private:
+  // The file ends behind the command, without a line end, and no form has so few arguments.
+  bool isCutOff(const std::vector<const CommandSignature*>& signatures) const {
+    if (range_.end < context_.sources.file(range_.file).bytes().size()) return false;
+    return std::all_of(signatures.begin(), signatures.end(),
+                       [&](const auto* signature) { return arguments_.size() < countOf(*signature).least; });
+  }
+
   static bool hasChoice(const Match& match) {
     return std::any_of(match.misfits.begin(), match.misfits.end(),
                        [](const Misfit& m) { return m.kind == Misfit::Kind::Choice; });

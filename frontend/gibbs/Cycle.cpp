@@ -246,7 +246,7 @@ private:
       if (cycle_.files.count(foldCase(file->text)) == 0) {
         NearestName nearest(file->text);
         for (const std::string& name : cycle_.files)
-          nearest.offer(name == "CYCLEDATA.DLG" ? "CycleData.dlg" : name);
+          if (name.ends_with(".DLG")) nearest.offer(name == "CYCLEDATA.DLG" ? "CycleData.dlg" : name);
         const std::string remedy =
             nearest.result().empty() ? std::string() : fmt::format("; did you mean `{}`?", nearest.result());
         context_.diagnostics.report<diag::DialogFileMissing>(
@@ -292,10 +292,10 @@ std::vector<Field> declaredFields(const Cycle& cycle) {
       add({definition.name, constant(*definition.value), definition.valueRange, false, std::nullopt,
            assumptionOf(*definition.value)});
   for (const InputLabel& label : labels) {
-    if (label.input->initial == nullptr) continue;
-    if (const std::optional<double> value = constant(*label.input->initial))
-      add({label.variable, value, label.input->initial->range, true, std::nullopt,
-           assumptionOf(*label.input->initial)});
+    const Expression* initial = label.input->initial;
+    const std::optional<double> value = initial == nullptr ? std::nullopt : constant(*initial);
+    add({label.variable, value, initial == nullptr ? label.variable.range : initial->range, true,
+         std::nullopt, initial == nullptr ? std::string_view() : assumptionOf(*initial)});
   }
   return fields;
 }

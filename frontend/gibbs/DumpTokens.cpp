@@ -16,7 +16,8 @@ std::string dumpTokens(FileId file, const ParseContext& context) {
     const LineColumn place = source.place(range.begin);
     out += fmt::format("{}:{} {}", place.line, place.column,
                        lexer.getVocabulary().getSymbolicName(token->getType()));
-    if (token->getType() != grammar::GibbsMacroLexer::EOL) out += fmt::format(" {}", context.sources.textUtf8(range));
+    if (token->getType() != grammar::GibbsMacroLexer::EOL)
+      out += fmt::format(" {}", context.sources.textUtf8(range));
     out += "\n";
   }
   return out;

@@ -202,9 +202,16 @@ TEST_CASE("a missing RETURN") {
   CHECK(label.only() == "1:1 missing-return");
   CHECK(label.fixed(label.at(0)) == "a:\n 'x' EOL\n\nRETURN\nb: RETURN\n");
   CHECK(!label.program.hasErrorNodes);
-  Prog end("a: 'x' EOL");
+  Prog end("a: 'x' EOL\n");
   CHECK(end.fixed(end.at(0)) == "a: 'x' EOL\nRETURN\n");
   CHECK(Prog(end.fixed(end.at(0))).diagnostics.empty());
+  // A line or a branch that the file's end cuts off has no one reading.
+  Prog cutLine("a: 'x' EO");
+  CHECK(cutLine.only() == "1:1 missing-return");
+  CHECK(!cutLine.at(0).fix);
+  Prog cutBranch("a:\nIF A? 'x' EOL\n");
+  CHECK(cutBranch.only() == "1:1 missing-return, 2:1 open-if-at-return");
+  CHECK((!cutBranch.at(0).fix && !cutBranch.at(1).fix));
   Prog empty("a:");
   CHECK(empty.only() == "1:1 missing-return");
   Prog directive("a: 'x' EOL\n#1 = '#'\nFORMAT(N#,1)\nb: RETURN");

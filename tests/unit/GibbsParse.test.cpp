@@ -28,7 +28,8 @@ TEST_CASE("gibbs: statements of the core") {
   CHECK(ast("FOR k = 1 TO n STEP 2\nCONTINUE\nNEXT k") ==
         "for k @1:1\n  number 1 @1:9\n  variable n @1:14\n  step @1:21\n    number 2 @1:21\ncontinue "
         "@2:1\nnext k @3:1\n");
-  CHECK(ast(":again\r\nagain2:\r\n  goto AGAIN\r\n") == "label again @1:2\nlabel again2 @2:1\ngoto AGAIN @3:3\n");
+  CHECK(ast(":again\r\nagain2:\r\n  goto AGAIN\r\n") ==
+        "label again @1:2\nlabel again2 @2:1\ngoto AGAIN @3:3\n");
   CHECK(ast("if abs(q) <= 2.5, then message \"low ! no comment\" ! tail") ==
         "if @1:1\n  compare <= @1:4\n    function abs @1:4\n      variable q @1:8\n    number 2.5 @1:14\n  "
         "then @1:19\n"

@@ -1,0 +1,143 @@
+// What cannot stand in a golden case: results in files, and inputs too large to keep.
+#include "DataFolder.h"
+#include "tests/GoldenRunner.h"
+
+#include <doctest/doctest.h>
+#include <string>
+#include <vector>
+
+namespace fs = std::filesystem;
+using namespace dotek::tests;
+
+namespace {
+
+std::string example(const std::string& name) {
+  return (root() / "examples" / name).string();
+}
+
+std::size_t filesIn(const std::string& folder) {
+  return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder), fs::directory_iterator()));
+}
+
+// A copy of an example cycle in which one file is replaced.
+std::string damagedCycle(const DataFolder& folder, const std::string& file, const std::string& text) {
+  fs::copy(example("surface-x"), folder.path() + "/surface-x");
+  return folder.write("surface-x/" + file, text);
+}
+
+std::string repeated(const std::string& text, std::size_t count) {
+  std::string out;
+  for (std::size_t i = 0; i < count; ++i)
+    out += text;
+  return out;
+}
+
+// lint and post both refuse a cycle in which `file` has `text`; one finding `code`, at `place`, and little
+// text.
+void refusedAt(const std::string& file, const std::string& text, const std::string& place,
+               const std::string& code) {
+  INFO(file << " " << place << " " << code);
+  const DataFolder folder;
+  const std::string path = damagedCycle(folder, file, text);
+  const std::string cycle = folder.path() + "/surface-x";
+  const CommandResult lint = runDotek({"lint", cycle, "--select", code}, folder.path());
+  CHECK(lint.status == 1);
+  CHECK(lint.out.starts_with(path + ":" + place + ": error: "));
+  CHECK(lint.out.find("[" + code + "]") == lint.out.rfind("[" + code + "]"));
+  CHECK(lint.out.size() < 2000);
+  const CommandResult post =
+      runDotek({"post", cycle, "--prog", example("post.txt"), "--clearance", "5"}, folder.path());
+  CHECK(post.status == 1);
+  CHECK(post.out.empty());
+  CHECK(post.err.find("[" + code + "]") != std::string::npos);
+}
+
+} // namespace
+
+TEST_CASE("post -o writes what it would print, whole or not at all") {
+  const DataFolder folder;
+  const std::vector<std::string> base = {
+      "post", example("surface-x"), "--prog", example("post.txt"), "--clearance", "5"};
+  const auto with = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), base.begin(), base.end());
+    return runDotek(more, folder.path());
+  };
+  const CommandResult printed = with({"--set", "G=54"});
+  REQUIRE(printed.status == 0);
+  const std::string out = folder.path() + "/x.nc";
+
+  // A refusal creates nothing.
+  CHECK(with({"--set", "G=5", "-o", out}).status == 1);
+  CHECK(filesIn(folder.path()) == 0);
+
+  const CommandResult written = with({"--set", "G=54", "-o", out});
+  CHECK(written.status == 0);
+  CHECK(written.out.empty());
+  CHECK(readAll(out) == printed.out);
+  CHECK(filesIn(folder.path()) == 1);
+
+  // A refusal leaves the last result as it is.
+  CHECK(with({"--set", "G=5", "-o", out}).status == 1);
+  CHECK(readAll(out) == printed.out);
+
+  const CommandResult nowhere = with({"--set", "G=54", "-o", folder.path() + "/none/x.nc"});
+  CHECK(nowhere.status == 2);
+  CHECK(nowhere.out.empty());
+  CHECK(nowhere.err.find("[file-not-writable]") != std::string::npos);
+  const CommandResult onFolder = with({"--set", "G=54", "-o", folder.path()});
+  CHECK(onFolder.status == 2);
+  CHECK(filesIn(folder.path()) == 1);
+}
+
+TEST_CASE("a line of 1 MB is one finding at that line") {
+  const std::string long1 = "x = 1" + std::string(1000000, ' ') + "+ 1\n";
+  refusedAt("CycleData.mac", "y = 1\n" + long1 + "z = 1\n", "2:1", "line-too-long");
+  refusedAt("ToolPath.mac", "! " + std::string(1000000, 'x'), "1:1", "line-too-long");
+  refusedAt("DefineData.txt", "X = 1\n\nY = " + std::string(1000000, '1'), "3:1", "line-too-long");
+  refusedAt("CycleData.dlg", "dialog \"" + std::string(1000000, 'x') + "\", 0, 0, 1, 1\nok 1, 1, 1, 1\n",
+            "1:1", "line-too-long");
+}
+
+TEST_CASE("100,000 nested brackets are one finding") {
+  const std::string open(100000, '(');
+  const std::string close(100000, ')');
+  const std::vector<std::string> lines = {"x = " + open + "1" + close + "\n", "if " + open + "1\n",
+                                          "x = " + repeated("abs(", 25000) + "\n"};
+  for (const std::string& line : lines) {
+    const DataFolder folder;
+    damagedCycle(folder, "CycleData.mac", "y = 1\n" + line);
+    const CommandResult lint =
+        runDotek({"lint", folder.path() + "/surface-x", "--fail-on", "error"}, folder.path());
+    CHECK(lint.status == 1);
+    CHECK(lint.out.find("CycleData.mac:2:") != std::string::npos);
+    CHECK(lint.out.find("error: ") == lint.out.rfind("error: "));
+    CHECK(lint.out.size() < 20000);
+    // The same within the limits of length: the depth is what is told.
+    const CommandResult deep = runDotek({"lint", folder.path() + "/surface-x", "--fail-on", "error",
+                                         "--limit", "line-bytes=1000000", "--limit", "line-tokens=1000000"},
+                                        folder.path());
+    CHECK(deep.status == 1);
+    CHECK(deep.out.find("[nesting-too-deep]") != std::string::npos);
+    CHECK(deep.out.find("error: ") == deep.out.rfind("error: "));
+  }
+}
+
+TEST_CASE("a Prog with 100,000 nested brackets, IFs or blanks is refused at its line") {
+  const DataFolder folder;
+  const std::vector<std::pair<std::string, std::string>> progs = {
+      {"IF " + std::string(100000, '(') + "Drilling?" + std::string(100000, ')') + " 'x' END\n",
+       "prog.txt:2:"},
+      {repeated("IF Drilling?\n", 100000) + repeated("END\n", 100000), "prog.txt:"},
+      {"'x'" + std::string(1000000, ' ') + "EOL\n", "prog.txt:2:"},
+      {"'" + std::string(1000000, 'x') + "' EOL\n", "prog.txt:2:"}};
+  for (const auto& [text, place] : progs) {
+    const std::string prog = folder.write("prog.txt", "probe:\n" + text + "RETURN\n");
+    const CommandResult post =
+        runDotek({"post", example("surface-z"), "--prog", prog, "--routine", "probe"}, folder.path());
+    CHECK(post.status == 1);
+    CHECK(post.out.empty());
+    CHECK(post.err.find(place) != std::string::npos);
+    CHECK(post.err.find("error: ") == post.err.rfind("error: "));
+    CHECK(post.err.size() < 3000);
+  }
+}
