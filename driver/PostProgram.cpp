@@ -100,13 +100,15 @@ void leaveFindingsToLint(Session& session) {
   constexpr std::array kKept = {diag::OpenIfAtReturn::code, diag::MissingReturn::code,
                                 diag::UnverifiedInProg::code, diag::InputOpensWithOther::code};
   const auto isFinding = [&](const Diagnostic& d) {
-    return d.severity != Severity::Error && std::find(kKept.begin(), kKept.end(), d.code) == kKept.end();
+    return d.severity != Severity::Error && d.range.hasPlace() &&
+           std::find(kKept.begin(), kKept.end(), d.code) == kKept.end();
   };
   const auto warnings = std::count_if(all.begin(), all.end(), [&](const Diagnostic& d) {
     return isFinding(d) && d.severity == Severity::Warning;
   });
   std::erase_if(all, isFinding);
-  if (warnings > 0) session.diagnostics().report<diag::WarningsLeftToLint>({}, warnings);
+  if (warnings > 0 && !session.diagnostics().hasErrors())
+    session.diagnostics().report<diag::WarningsLeftToLint>({}, warnings);
 }
 
 } // namespace dotek::driver
