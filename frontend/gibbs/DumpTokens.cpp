@@ -5,7 +5,7 @@ namespace dotek::frontend::gibbs {
 // Lines over the limit are reported and blanked; all else is shown as the lexer splits it, blanks left out.
 std::string dumpTokens(FileId file, const ParseContext& context) {
   ByteStream bytes = openBytes(file, context.sources, context.limits, context.diagnostics);
-  grammar::GibbsMacroLexer lexer(&bytes);
+  WordReader lexer(&bytes);
   lexer.removeErrorListeners();
   std::string out;
   const SourceFile& source = context.sources.file(file);
@@ -16,7 +16,8 @@ std::string dumpTokens(FileId file, const ParseContext& context) {
     const LineColumn place = source.place(range.begin);
     out += fmt::format("{}:{} {}", place.line, place.column,
                        lexer.getVocabulary().getSymbolicName(token->getType()));
-    if (token->getType() != grammar::GibbsMacroLexer::EOL) out += fmt::format(" {}", context.sources.textUtf8(range));
+    if (token->getType() != grammar::GibbsMacroLexer::EOL)
+      out += fmt::format(" {}", context.sources.textUtf8(range));
     out += "\n";
   }
   return out;
