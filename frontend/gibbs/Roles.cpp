@@ -168,6 +168,7 @@ private:
       words_[i]->setType(Lexer::COMMAND);
       expectValue(false, true);
       break;
+    case Lexer::KW_CONTINUE: place_ = Place::BehindValue; break;
     case Lexer::KW_NEXT:
       if (type(i + 1) == Lexer::KW_ELSE && beginsStatement(i + 2))
         place_ = Place::BehindValue;
