@@ -32,9 +32,9 @@ COMMENT : '{' ~[}]* '}' -> channel(HIDDEN) ;
 // a comment that is never closed: to the end of the file, reported
 UNTERMINATED_COMMENT : '{' ~[}]* -> channel(HIDDEN) ;
 // blanks separate nothing but names (T:3633)
-BLANK : [ \t\u000B\u000C]+ -> channel(HIDDEN) ;
-// a line end ends no statement (T:3920); kept for places
-NEWLINE : ('\r\n' | '\r' | '\n') -> channel(HIDDEN) ;
+BLANK : [ \t\u000B\u000C]+ -> skip ;
+// a line end ends no statement (T:3920)
+NEWLINE : ('\r\n' | '\r' | '\n') -> skip ;
 
 // a word with what marks its kind: `#`, `?` or `:` directly behind it (T:3511, T:3497, T:3531). The token source
 // makes one of the tokens above of it.

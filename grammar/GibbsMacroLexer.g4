@@ -39,7 +39,7 @@ tokens {
 // `!` to the end of the line (T 6.2); kept for the output
 COMMENT : '!' ~[\r\n]* -> channel(HIDDEN) ;
 // Blanks have no meaning (M1, M2)
-BLANK : [ \t\f\u000B]+ -> channel(HIDDEN) ;
+BLANK : [ \t\f\u000B]+ -> skip ;
 // One statement a line; LF, CR LF and CR (all listings)
 EOL : '\r'? '\n' | '\r' ;
 

@@ -79,11 +79,10 @@ relation : EQUAL | NOT_EQUAL | LESS | GREATER | LESS_EQUAL | GREATER_EQUAL ;
 sum : product ((PLUS | MINUS) product)* ;
 // Binds tighter than a sum (W-lang)
 product : factor ((STAR | SLASH) factor)* ;
-// A sign before a value (T 6.5)
-factor : (PLUS | MINUS) factor | primary ;
-
-primary
-    : NUMBER                                        # numberValue
+// A value, or a sign before one (T 6.5)
+factor
+    : (PLUS | MINUS) factor                         # signedValue
+    | NUMBER                                        # numberValue
     | textLiteral                                   # textValue
     | NAME arguments?                               # nameValue
     | LEFT_ROUND sum RIGHT_ROUND                    # bracketValue

@@ -37,6 +37,7 @@ std::size_t nameDistance(std::string_view a, std::string_view b, std::size_t lim
 }
 
 void NearestName::offer(std::string_view candidate) {
+  if (++offers_ > kMostOffers) return;
   const std::size_t distance = nameDistance(name_, candidate, limit_);
   if (distance > limit_) return;
   // From the first hit on, limit_ is the distance of best_.

@@ -12,9 +12,12 @@ namespace dotek {
 std::size_t nameDistance(std::string_view a, std::string_view b, std::size_t limit);
 
 // Keeps the nearest of the names it is offered, within a third of the length of `name`; of equally near
-// ones the first in byte order, so that the order of offering does not matter.
+// ones the first in byte order, so that the order of offering does not matter. Names beyond the first
+// kMostOffers are not looked at: a hint is not worth seconds in a huge file.
 class NearestName {
 public:
+  static constexpr std::size_t kMostOffers = 4000;
+
   explicit NearestName(std::string_view name) : name_(name), limit_(name.size() / 3) {}
 
   void offer(std::string_view candidate);
@@ -24,6 +27,7 @@ public:
 private:
   std::string_view name_;
   std::size_t limit_;
+  std::size_t offers_ = 0;
   std::string best_;
 };
 

@@ -188,7 +188,7 @@ std::string dumpTokens(FileId file, const SourceMap& sources, const Limits& limi
   std::string out;
   for (const antlr4::Token* token : tokens.all()) {
     const size_t type = token->getType();
-    if (type == antlr4::Token::EOF || type == Lexer::BLANK || type == Lexer::NEWLINE) continue;
+    if (type == antlr4::Token::EOF) continue;
     const SourceRange range = rangeOf(file, *token);
     const LineColumn place = sources.file(file).place(range.begin);
     std::string text;

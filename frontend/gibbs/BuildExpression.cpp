@@ -73,12 +73,6 @@ ExpressionPtr TreeBuilder::product(MacroParser::ProductContext& tree) {
   return left;
 }
 
-ExpressionPtr TreeBuilder::factor(MacroParser::FactorContext& tree) {
-  if (tree.primary() != nullptr) return primary(*tree.primary());
-  return make(at(tree), Unary{tree.PLUS() != nullptr ? UnaryOperator::Plus : UnaryOperator::Minus,
-                              factor(*tree.factor())});
-}
-
 ExpressionPtr TreeBuilder::number(const antlr4::Token& token) {
   const SourceRange range = lines_.rangeOf(token);
   NumberLiteral literal{0, lines_.textOf(range)};
@@ -109,7 +103,10 @@ ExpressionPtr TreeBuilder::named(MacroParser::NameValueContext& tree) {
   return make(at(tree), FunctionCall{called, std::move(arguments)});
 }
 
-ExpressionPtr TreeBuilder::primary(MacroParser::PrimaryContext& tree) {
+ExpressionPtr TreeBuilder::factor(MacroParser::FactorContext& tree) {
+  if (auto* value = dynamic_cast<MacroParser::SignedValueContext*>(&tree))
+    return make(at(tree), Unary{value->PLUS() != nullptr ? UnaryOperator::Plus : UnaryOperator::Minus,
+                                factor(*value->factor())});
   if (auto* value = dynamic_cast<MacroParser::NumberValueContext*>(&tree))
     return number(*value->NUMBER()->getSymbol());
   if (auto* value = dynamic_cast<MacroParser::TextValueContext*>(&tree)) return text(*value->textLiteral());

@@ -28,7 +28,6 @@ public:
 private:
   ExpressionPtr product(MacroParser::ProductContext& tree);
   ExpressionPtr factor(MacroParser::FactorContext& tree);
-  ExpressionPtr primary(MacroParser::PrimaryContext& tree);
   ExpressionPtr number(const antlr4::Token& token);
   ExpressionPtr text(MacroParser::TextLiteralContext& tree);
   ExpressionPtr named(MacroParser::NameValueContext& tree);

@@ -174,6 +174,7 @@ private:
   }
 
   void reportUndefined(const Name& name, const std::set<std::string>& foreign) {
+    if (context_.diagnostics.full(diag::UndefinedLabel::code, name.range.file)) return;
     NearestName nearest(name.text);
     for (const auto& [key, place] : labels_)
       nearest.offer(place.name.text);

@@ -11,7 +11,6 @@ std::string dumpTokens(FileId file, const ParseContext& context) {
   const SourceFile& source = context.sources.file(file);
   for (std::unique_ptr<antlr4::Token> token = lexer.nextToken(); token->getType() != antlr4::Token::EOF;
        token = lexer.nextToken()) {
-    if (token->getType() == grammar::GibbsMacroLexer::BLANK) continue;
     const SourceRange range = rangeOf(file, *token);
     const LineColumn place = source.place(range.begin);
     out += fmt::format("{}:{} {}", place.line, place.column,

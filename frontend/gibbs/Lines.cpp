@@ -173,7 +173,8 @@ std::string Lines::explain(const antlr4::Token& offending) const {
     if (token.getType() == Lexer::COMMENT) comment = sources().textUtf8(rangeOf(token));
     if (!isVisible(token)) continue;
     if (i >= offending.getTokenIndex() && at == SIZE_MAX) at = words.size();
-    const bool touches = i + 1 < line_.last && isVisible(*tokens()[i + 1]);
+    const bool touches = i + 1 < line_.last && isVisible(*tokens()[i + 1]) &&
+                         tokens()[i + 1]->getStartIndex() == token.getStopIndex() + 1;
     const SourceRange range = rangeOf(token);
     words.push_back(
         {typeWithoutRole(token.getType(), sources().text(range)), sources().textUtf8(range), touches});
