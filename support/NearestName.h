@@ -21,6 +21,7 @@ public:
   explicit NearestName(std::string_view name) : name_(name), limit_(name.size() / 3) {}
 
   void offer(std::string_view candidate);
+  bool full() const { return offers_ >= kMostOffers; }
   // "" where none is near.
   const std::string& result() const { return best_; }
 
@@ -35,6 +36,7 @@ private:
 template <class Names> std::string nearestName(std::string_view name, const Names& names) {
   NearestName nearest(name);
   for (const auto& candidate : names) {
+    if (nearest.full()) break;
     if constexpr (requires { candidate.first; })
       nearest.offer(candidate.first);
     else

@@ -164,8 +164,8 @@ private:
     NearestName nearest(spelt);
     nearest.offer(keywords_.nearest(spelt));
     if (kind == WordKind::Command)
-      for (const auto& routine : routines_)
-        nearest.offer(routine.first);
+      for (auto routine = routines_.begin(); routine != routines_.end() && !nearest.full(); ++routine)
+        nearest.offer(routine->first);
     std::string hint = nearest.result();
     if (const ComPostKeyword* other = keywords_.find(hint)) hint += suffixOf(wordKindOf(*other));
     diagnostics_.report<diag::UnknownKeyword>(
