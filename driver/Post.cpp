@@ -56,7 +56,7 @@ bool PostCommand::load() {
   for (const auto& [name, text] : common.set) {
     const std::optional<double> value = parseNumber(text);
     const bool twice =
-        std::any_of(sets_.begin(), sets_.end(), [&](const auto& s) { return s.first == name; });
+        std::any_of(sets_.begin(), sets_.end(), [&, &key = name](const auto& s) { return s.first == key; });
     if (!value)
       diagnostics.report<diag::NotANumber>({}, "--set", name, text);
     else if (twice)
