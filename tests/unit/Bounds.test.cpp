@@ -53,3 +53,18 @@ TEST_CASE("an error that is not listed leaves an error behind") {
     if (d.code == diag::SyntaxError::code) d.severity = Severity::Warning;
   CHECK(diagnostics.hasErrors());
 }
+
+TEST_CASE("FORs within one another are bounded") {
+  std::string text;
+  for (int i = 0; i < 65; ++i)
+    text += "for k" + std::to_string(i) + " = 1 to 2\n";
+  GibbsHarness deep;
+  deep.checked(text + "goto nowhere\n");
+  CHECK(deep.codes() == "nesting-too-deep@65:1");
+  std::string level = text.substr(0, text.rfind("for "));
+  for (int i = 63; i >= 0; --i)
+    level += "next k" + std::to_string(i) + "\n";
+  GibbsHarness allowed;
+  allowed.checked(level);
+  CHECK(allowed.codes() == "");
+}
