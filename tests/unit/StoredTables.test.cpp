@@ -1,6 +1,6 @@
 // The keyword tables that the build stored are those of the TOML files.
-#include "stdlib/DataFiles.h"
 #include "stdlib/StoredTables.h"
+#include "stdlib/DataFiles.h"
 
 #include <doctest/doctest.h>
 #include <optional>
