@@ -10,3 +10,14 @@ function(dotek_embed_data folder output)
     DEPENDS ${files} ${CMAKE_SOURCE_DIR}/cmake/EmbedScript.cmake
     VERBATIM COMMENT "Embedding data files")
 endfunction()
+
+# dotek_store_tables(<output.cpp>): the keyword tables in a form that needs no parser. The tool runs at build.
+function(dotek_store_tables output)
+  add_executable(dotek_store ${CMAKE_SOURCE_DIR}/stdlib/store/Main.cpp $<TARGET_OBJECTS:dotek_stdlib_objects>)
+  target_link_libraries(dotek_store PRIVATE dotek_support dotek_options)
+  add_custom_command(
+    OUTPUT ${output}
+    COMMAND dotek_store ${output}
+    DEPENDS dotek_store
+    VERBATIM COMMENT "Storing keyword tables")
+endfunction()

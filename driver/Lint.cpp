@@ -144,7 +144,7 @@ private:
   void select() {
     auto& all = session_.diagnostics().all();
     std::erase_if(all, [&](const Diagnostic& d) {
-      if (isUsageCode(d.code)) return false;
+      if (isUsageCode(d.code) || d.code == diag::TooManyFindings::code) return false;
       const std::string code(d.code);
       return (options_.select && !options_.select->contains(code)) || options_.ignore.contains(code);
     });

@@ -84,8 +84,8 @@ bool PostCommand::load() {
   flagHosts_ = parseHosts(common.host, diagnostics);
   for (const auto& [name, text] : common.set) {
     const std::optional<double> value = parseNumber(text);
-    const bool twice =
-        std::any_of(sets_.begin(), sets_.end(), [&](const auto& s) { return sameField(s.first, name); });
+    const bool twice = std::any_of(sets_.begin(), sets_.end(),
+                                   [&, &key = name](const auto& s) { return sameField(s.first, key); });
     if (!value)
       diagnostics.report<diag::NotANumber>({}, "--set", name, text);
     else if (twice)

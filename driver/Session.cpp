@@ -27,7 +27,7 @@ const stdlib::ComPostKeywords& Session::compostKeywords() {
 }
 
 std::optional<stdlib::Form> Session::form(const std::string& name) {
-  std::optional<stdlib::Form> form = stdlib::Form::load(data_, name);
+  std::optional<stdlib::Form> form = stdlib::Form::load(data_, name, compostKeywords());
   if (!form) {
     std::string known;
     for (const stdlib::DataFile* file : data_.list("forms"))

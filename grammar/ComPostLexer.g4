@@ -2,46 +2,43 @@
 // Sources: T:n = line of the thesis text, W1 = vendor's page; see docs/compost.md.
 lexer grammar ComPostLexer;
 
-// An opening bracket where no argument and no condition can begin; the token source renames it.
-tokens { STRAY_LPAREN }
+// Tokens that the token source tells apart (frontend/compost/Tokens.cpp), which keeps the automaton small.
+tokens {
+  // an opening bracket where no argument and no condition can begin
+  STRAY_LPAREN,
+  // The colon behind a keyword is a slip that is reported; as a label, `ELSE:` would name a routine.
+  // begins a conditional, begins its other branch, closes it (T:3487)
+  KW_IF, KW_ELSE, KW_END,
+  // ends a routine (T:3511)
+  KW_RETURN,
+  // both conditions hold (T:3890)
+  KW_AND,
+  // either condition holds, the condition does not hold: unverified
+  KW_OR, KW_NOT,
+  // ends the NC line (T:3523)
+  KW_EOL,
+  // ties a picture to a numeric keyword (T:3576)
+  KW_FORMAT,
+  // name: of a routine (T:3511); the colon stands directly behind the name
+  LABEL,
+  // numeric keyword (T:3531), boolean keyword (T:3497)
+  NUMERIC, BOOLEAN,
+  // command keyword or name of a routine (T:3513)
+  NAME
+}
 
 // { text }, over several lines too; not compiled (W1, T:3711)
 COMMENT : '{' ~[}]* '}' -> channel(HIDDEN) ;
 // a comment that is never closed: to the end of the file, reported
 UNTERMINATED_COMMENT : '{' ~[}]* -> channel(HIDDEN) ;
 // blanks separate nothing but names (T:3633)
-BLANK : [ \t\u000B\u000C]+ -> channel(HIDDEN) ;
-// a line end ends no statement (T:3920); kept for places
-NEWLINE : ('\r\n' | '\r' | '\n') -> channel(HIDDEN) ;
+BLANK : [ \t\u000B\u000C]+ -> skip ;
+// a line end ends no statement (T:3920)
+NEWLINE : ('\r\n' | '\r' | '\n') -> skip ;
 
-// The colon behind a keyword is a slip that is reported; without it here, `ELSE:` would name a routine.
-// begins a conditional (T:3487)
-KW_IF : 'IF' ':'? ;
-// begins its other branch (T:3487)
-KW_ELSE : 'ELSE' ':'? ;
-// closes IF (T:3487)
-KW_END : 'END' ':'? ;
-// ends a routine (T:3511)
-KW_RETURN : 'RETURN' ':'? ;
-// both conditions hold (T:3890)
-KW_AND : 'AND' ;
-// either condition holds: unverified
-KW_OR : 'OR' ;
-// the condition does not hold: unverified
-KW_NOT : 'NOT' ;
-// ends the NC line (T:3523)
-KW_EOL : 'EOL' ':'? ;
-// ties a picture to a numeric keyword (T:3576)
-KW_FORMAT : 'FORMAT' ':'? ;
-
-// name: of a routine (T:3511); the colon stands directly behind the name
-LABEL : Name ':' ;
-// numeric keyword (T:3531)
-NUMERIC : Name '#' ;
-// boolean keyword (T:3497)
-BOOLEAN : Name '?' ;
-// command keyword or name of a routine (T:3513)
-NAME : Name ;
+// a word with what marks its kind: `#`, `?` or `:` directly behind it (T:3511, T:3497, T:3531). The token source
+// makes one of the tokens above of it.
+WORD : Letter (Letter | [0-9])* [#?:]? ;
 // number of a picture that is being defined (T:3582)
 PICTURE_NUMBER : '#' [ \t]* [0-9]+ ;
 // number of a picture in FORMAT (T:3576)
@@ -66,7 +63,6 @@ ODD_CHARACTER : [\u00C2-\u00DF] Tail | [\u00E0-\u00EF] Tail Tail | [\u00F0-\u00F
 // anything else
 ANY : . ;
 
-fragment Name : Letter (Letter | [0-9])* ;
 // Letters outside A to Z are unverified: two bytes of UTF-8, or one of CP1250.
 fragment Letter
   : [A-Za-z_]

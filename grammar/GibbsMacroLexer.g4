@@ -3,45 +3,52 @@
 // the vendor's command list, T x.y thesis, M1 and M2 public macros, G editor grammar. "(U)": no source proves it.
 lexer grammar GibbsMacroLexer;
 
+tokens {
+  // Words that a table tells apart (frontend/gibbs/Words.cpp), which keeps the automaton small.
+  // Statement words (C:3-35). Only IF, THEN and NOT are no names elsewhere
+  KW_IF, KW_THEN,
+  // (U) neither in the vendor's list nor in the editor grammar
+  KW_ELSE,
+  KW_FOR, KW_TO, KW_STEP, KW_NEXT, KW_CONTINUE, KW_GOTO, KW_CALL, KW_ARGS, KW_GLOBAL, KW_LOCAL, KW_PERMANENT,
+  // Error handler, followed by GOTO (C:2571)
+  KW_ON_ERROR,
+  // (U) no evidence of logical operators
+  KW_AND, KW_OR, KW_NOT,
+  // Ends in `_`: may be the first half of a word with a stray blank, `feed_ x` (T 6.2.4)
+  OPEN_NAME,
+  // Any other word, without and with `$`
+  ID, TEXT_NAME,
+
+  // What a word is at its place (frontend/gibbs/Roles.cpp). There are no reserved words, the place decides
+  // (reference 2.2); with the place decided before, the parser needs no lookahead.
+  // Variable, function, array, label that is jumped to
+  NAME,
+  // First word of a statement or of a control that is none of the statement words
+  COMMAND,
+  // A label where it stands
+  LABEL_NAME,
+  // Piece of a file name without quotes
+  FILE_PART,
+  // Piece of a caption without quotes
+  LOOSE_TEXT,
+  // `(` around a comparison
+  CONDITION_ROUND
+}
+
+
 // `!` to the end of the line (T 6.2); kept for the output
 COMMENT : '!' ~[\r\n]* -> channel(HIDDEN) ;
 // Blanks have no meaning (M1, M2)
-BLANK : [ \t\f\u000B]+ -> channel(HIDDEN) ;
+BLANK : [ \t\f\u000B]+ -> skip ;
 // One statement a line; LF, CR LF and CR (all listings)
 EOL : '\r'? '\n' | '\r' ;
 
 // The only word that begins with # (C:30)
-HASH_INCLUDE : '#' [ \t]* I N C L U D E ;
+HASH_INCLUDE : '#' [ \t]* [iI] [nN] [cC] [lL] [uU] [dD] [eE] ;
 
-// Statement words (C:3-35). Only IF, THEN and NOT are no names elsewhere
-KW_IF : I F ;
-KW_THEN : T H E N ;
-// (U) neither in the vendor's list nor in the editor grammar
-KW_ELSE : E L S E ;
-KW_FOR : F O R ;
-KW_TO : T O ;
-KW_STEP : S T E P ;
-KW_NEXT : N E X T ;
-KW_CONTINUE : C O N T I N U E ;
-KW_GOTO : G O T O ;
-KW_CALL : C A L L ;
-KW_ARGS : A R G S ;
-KW_GLOBAL : G L O B A L ;
-KW_LOCAL : L O C A L ;
-KW_PERMANENT : P E R M A N E N T ;
-// Error handler, followed by GOTO (C:2571)
-KW_ON_ERROR : O N '_' E R R O R ;
-// (U) no evidence of logical operators
-KW_AND : A N D ;
-KW_OR : O R ;
-KW_NOT : N O T ;
-
-// Letter, then letters, digits, underscores (W-lang). One that ends in `_` may be the first half of a word
-// with a stray blank, `feed_ x` (T 6.2.4)
-OPEN_NAME : NAME_START NAME_PART* '_' ;
-ID : NAME_START NAME_PART* ;
-// A name of a text ends in `$`, which is part of it (W-lang)
-TEXT_NAME : NAME_START NAME_PART* '$' ;
+// Letter, then letters, digits, underscores (W-lang); case does not matter. A name of a text ends in `$`, which
+// is part of it (W-lang). The token source says which of the words below it is.
+WORD : [a-zA-Z] [a-zA-Z0-9_]* '$'? ;
 
 // 54, 3.42 (W-lang, T); `.5`, `5.` and exponents (U)
 NUMBER : DIGIT+ ('.' DIGIT*)? EXPONENT? | '.' DIGIT+ EXPONENT? ;
@@ -86,26 +93,5 @@ WIDE_CHARACTER : [\u00C2-\u00F4] [\u0080-\u00BF]+ ;
 // Anything else: reported by the front end
 OTHER : . ;
 
-fragment NAME_START : [a-zA-Z] ;
-fragment NAME_PART : [a-zA-Z0-9_] ;
 fragment DIGIT : [0-9] ;
 fragment EXPONENT : [eE] [+\-]? [0-9]+ ;
-fragment A : [aA] ;
-fragment B : [bB] ;
-fragment C : [cC] ;
-fragment D : [dD] ;
-fragment E : [eE] ;
-fragment F : [fF] ;
-fragment G : [gG] ;
-fragment H : [hH] ;
-fragment I : [iI] ;
-fragment L : [lL] ;
-fragment M : [mM] ;
-fragment N : [nN] ;
-fragment O : [oO] ;
-fragment P : [pP] ;
-fragment R : [rR] ;
-fragment S : [sS] ;
-fragment T : [tT] ;
-fragment U : [uU] ;
-fragment X : [xX] ;

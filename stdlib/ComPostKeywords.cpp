@@ -1,6 +1,7 @@
 #include "stdlib/ComPostKeywords.h"
 
 #include "stdlib/DataFiles.h"
+#include "stdlib/StoredTables.h"
 #include "stdlib/Toml.h"
 #include "support/NearestName.h"
 
@@ -28,7 +29,7 @@ char suffixOf(KeywordKind kind) {
 
 } // namespace
 
-ComPostKeywords ComPostKeywords::load(const DataFiles& files) {
+ComPostKeywords TableStore::readComPost(const DataFiles& files) {
   const DataFile* file = files.find("keywords", "compost");
   if (file == nullptr) throw DataError("keywords/compost.toml is missing");
   const TomlDocument document = TomlDocument::parse(*file);

@@ -38,6 +38,7 @@ public:
   bool isEntryPoint(std::string_view name) const;
 
 private:
+  friend struct TableStore;
   std::map<std::string, ComPostKeyword, std::less<>> keywords_;
   std::set<std::string, std::less<>> entryPoints_;
 };

@@ -167,10 +167,10 @@ private:
 
 } // namespace
 
-std::optional<Form> Form::load(const DataFiles& files, std::string_view name) {
+std::optional<Form> Form::load(const DataFiles& files, std::string_view name,
+                               const ComPostKeywords& keywords) {
   const DataFile* file = files.find("forms", name);
   if (file == nullptr) return std::nullopt;
-  const ComPostKeywords keywords = ComPostKeywords::load(files);
   const TomlDocument document = TomlDocument::parse(*file);
   const FormReader reader(document, keywords);
   Form form;
@@ -182,6 +182,10 @@ std::optional<Form> Form::load(const DataFiles& files, std::string_view name) {
   reader.sequences(form);
   document.finish();
   return form;
+}
+
+std::optional<Form> Form::load(const DataFiles& files, std::string_view name) {
+  return load(files, name, ComPostKeywords::load(files));
 }
 
 } // namespace dotek::stdlib

@@ -11,6 +11,7 @@
 namespace dotek::stdlib {
 
 class DataFiles;
+class ComPostKeywords;
 
 struct FormEntry {
   std::string text;      // printed as it stands, leading blank included
@@ -37,6 +38,8 @@ struct Form {
   std::map<std::string, FormEntry, std::less<>> sequences; // SeqC, SeqLabC: the text before the digits
 
   // Throws DataError where the file has a defect. nullopt: no such form.
+  static std::optional<Form> load(const DataFiles& files, std::string_view name,
+                                  const ComPostKeywords& keywords);
   static std::optional<Form> load(const DataFiles& files, std::string_view name);
 };
 

@@ -140,6 +140,7 @@ public:
   struct Tables; // stdlib/GibbsTables.h, private to the loader
 
 private:
+  friend struct TableStore;
   GibbsKeywords();
   std::unique_ptr<Tables> tables_;
 };

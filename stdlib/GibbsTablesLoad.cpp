@@ -2,6 +2,7 @@
 #include "stdlib/GibbsTables.h"
 #include "stdlib/HostInputs.h"
 #include "stdlib/Signature.h"
+#include "stdlib/StoredTables.h"
 #include "stdlib/Toml.h"
 #include "support/NearestName.h"
 
@@ -345,7 +346,7 @@ void loadSystemMacros(const DataFiles& files, Tables& tables) {
 
 } // namespace
 
-GibbsKeywords GibbsKeywords::load(const DataFiles& files) {
+GibbsKeywords TableStore::readGibbs(const DataFiles& files) {
   GibbsKeywords keywords;
   keywords.tables_ = std::make_unique<Tables>();
   loadParameters(files, *keywords.tables_); // the commands name families, the variables name commands

@@ -30,21 +30,50 @@ std::span<const MessageInfo> messageTable() {
   return kTable;
 }
 
+namespace {
+
+std::size_t alikeKey(std::string_view code, FileId file) {
+  return std::hash<std::string_view>{}(code) ^ (std::size_t{file} + 1) * 0x9E3779B97F4A7C15u;
+}
+
+bool same(const Diagnostic& a, const Diagnostic& b) {
+  return a.code == b.code && a.range == b.range && a.message == b.message;
+}
+
+} // namespace
+
 Diagnostic& Diagnostics::add(Diagnostic diagnostic) {
   const std::size_t hash = std::hash<std::string_view>{}(diagnostic.code) ^
                            std::hash<std::string>{}(diagnostic.message) * 31 ^
                            (std::size_t{diagnostic.range.begin} << 20) * 0x9E3779B97F4A7C15u;
-  if (seen_.insert(hash).second) {
-    items_.push_back(std::move(diagnostic));
-    return items_.back();
+  const auto [at, isNew] = seen_.try_emplace(hash, items_.size());
+  if (!isNew) {
+    if (at->second < items_.size() && same(items_[at->second], diagnostic)) return items_[at->second];
+    // all() was sorted or thinned out, or two hashes are alike.
+    const auto found = std::find_if(items_.begin(), items_.end(),
+                                    [&](const Diagnostic& other) { return same(other, diagnostic); });
+    if (found != items_.end()) return *found;
   }
-  const auto same = std::find_if(items_.begin(), items_.end(), [&](const Diagnostic& other) {
-    return other.code == diagnostic.code && other.range == diagnostic.range &&
-           other.message == diagnostic.message;
-  });
-  if (same != items_.end()) return *same;
+  std::uint32_t& number = alike_[alikeKey(diagnostic.code, diagnostic.range.file)];
+  if (number >= kMostAlike) {
+    seen_.erase(hash);
+    const bool error = diagnostic.severity == Severity::Error;
+    dropped_ = std::move(diagnostic);
+    if (number == kMostAlike) {
+      items_.push_back(makeDiagnostic<diag::TooManyFindings>(dropped_.range, kMostAlike, dropped_.code));
+      if (error) items_.back().severity = Severity::Error;
+    }
+    number = kMostAlike + 1;
+    return dropped_;
+  }
+  ++number;
   items_.push_back(std::move(diagnostic));
   return items_.back();
+}
+
+bool Diagnostics::full(std::string_view code, FileId file) const {
+  const auto at = alike_.find(alikeKey(code, file));
+  return at != alike_.end() && at->second > kMostAlike;
 }
 
 bool Diagnostics::hasErrors() const {

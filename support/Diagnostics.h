@@ -9,7 +9,7 @@
 #include <span>
 #include <string>
 #include <string_view>
-#include <unordered_set>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -80,14 +80,21 @@ template <class Id, class... Args> Diagnostic makeDiagnostic(SourceRange range, 
   return Diagnostic{Id::code, Id::severity, range, fmt::format(format, args...), {}, std::nullopt};
 }
 
-// Collects the diagnostics of one command. Equal ones (code, place, message) are kept once.
+// Collects the diagnostics of one command. Equal ones (code, place, message) are kept once. Of one code in
+// one file kMostAlike are kept; `too-many-findings` stands for the rest, as an error if an error is among
+// them.
 class Diagnostics {
 public:
+  static constexpr std::uint32_t kMostAlike = 1000;
+
   template <class Id, class... Args> Diagnostic& report(SourceRange range, const Args&... args) {
     return add(makeDiagnostic<Id>(range, args...));
   }
   // The reference is good until the next call.
   Diagnostic& add(Diagnostic diagnostic);
+
+  // Nothing more of `code` is kept for this file: a caller may spare the work.
+  bool full(std::string_view code, FileId file) const;
 
   const std::vector<Diagnostic>& all() const { return items_; }
   std::vector<Diagnostic>& all() { return items_; }
@@ -98,7 +105,9 @@ public:
 
 private:
   std::vector<Diagnostic> items_;
-  std::unordered_set<std::size_t> seen_; // hashes of what was added: most are new, and searching is slow
+  std::unordered_map<std::size_t, std::size_t> seen_;    // hash of what was added, to its index
+  std::unordered_map<std::size_t, std::uint32_t> alike_; // number by code and file
+  Diagnostic dropped_;                                   // what add() gives for one that is not kept
 };
 
 // Text form: `file:line:column: severity: message [code]`, the line, a caret. At most `maxErrors` errors

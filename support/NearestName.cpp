@@ -37,14 +37,19 @@ std::size_t nameDistance(std::string_view a, std::string_view b, std::size_t lim
 }
 
 std::tuple<std::size_t, std::size_t, std::string_view> NearestName::rank(std::string_view other) const {
-  std::size_t common = 0;
-  while (common < std::min(name_.size(), other.size()) && lower(name_[common]) == lower(other[common]))
-    ++common;
+  const std::size_t most = std::min(name_.size(), other.size());
+  std::size_t head = 0;
+  while (head < most && lower(name_[head]) == lower(other[head]))
+    ++head;
+  std::size_t tail = 0;
+  while (head + tail < most && lower(name_[name_.size() - 1 - tail]) == lower(other[other.size() - 1 - tail]))
+    ++tail;
   const std::size_t gap = std::max(name_.size(), other.size()) - std::min(name_.size(), other.size());
-  return {name_.size() - common, gap, other};
+  return {name_.size() - head - tail, gap, other};
 }
 
 void NearestName::offer(std::string_view candidate) {
+  if (++offers_ > kMostOffers) return;
   const std::size_t distance = nameDistance(name_, candidate, limit_);
   if (distance > limit_) return;
   // From the first hit on, limit_ is the distance of best_.

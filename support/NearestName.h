@@ -13,17 +13,20 @@ namespace dotek {
 // Above `limit` it gives limit + 1.
 std::size_t nameDistance(std::string_view a, std::string_view b, std::size_t limit);
 
-// Keeps the nearest of the names it is offered, within a third of the length of `name` (one letter for names
-// of two); of equally near
-// ones that with the longest common beginning, then of the nearest length, then the first in byte order, so
-// that the order of offering does not matter.
+// Keeps the nearest of the names it is offered, within a third of the length of `name` (one letter for
+// names of two); of equally near ones that with the longest common beginning and end, then of the nearest
+// length, then the first in byte order, so that the order of offering does not matter. Names beyond the
+// first kMostOffers are not looked at: a hint is not worth seconds in a huge file.
 class NearestName {
 public:
+  static constexpr std::size_t kMostOffers = 4000;
+
   explicit NearestName(std::string_view name)
       : name_(name), limit_(name.size() < 2 ? 0 : std::max<std::size_t>(1, name.size() / 3)) {}
   explicit NearestName(std::string&&) = delete; // the name is kept as a view
 
   void offer(std::string_view candidate);
+  bool full() const { return offers_ >= kMostOffers; }
   // "" where none is near.
   const std::string& result() const { return best_; }
 
@@ -32,6 +35,7 @@ private:
 
   std::string_view name_;
   std::size_t limit_;
+  std::size_t offers_ = 0;
   std::string best_;
 };
 
@@ -39,6 +43,7 @@ private:
 template <class Names> std::string nearestName(std::string_view name, const Names& names) {
   NearestName nearest(name);
   for (const auto& candidate : names) {
+    if (nearest.full()) break;
     if constexpr (requires { candidate.first; })
       nearest.offer(candidate.first);
     else

@@ -73,6 +73,8 @@ public:
     for (const Item& item : program_.items) {
       if (const auto* routine = std::get_if<Routine>(&item)) {
         routines_.try_emplace(routine->name, routine->nameRange);
+        std::string& first = routineCases_.try_emplace(lower(routine->name), routine->name).first->second;
+        first = std::min(first, routine->name);
         lastRoutine = routine->range;
         if (!isAscii(routine->name)) unverified("a letter outside A to Z in a name", routine->nameRange);
       } else if (lastRoutine.hasPlace()) {
@@ -164,14 +166,13 @@ private:
       return nullptr;
     }
     if (!reported_.insert(std::string(spelt) + std::string(suffixOf(kind))).second) return nullptr;
+    if (diagnostics_.full(diag::UnknownKeyword::code, range.file)) return nullptr;
     std::string variant = keywords_.caseVariant(spelt);
     if (const ComPostKeyword* other = keywords_.find(variant)) {
       variant += suffixOf(wordKindOf(*other));
     } else if (kind == WordKind::Command) {
-      const auto same = std::find_if(routines_.begin(), routines_.end(), [&](const auto& routine) {
-        return lower(routine.first) == lower(spelt);
-      });
-      if (same != routines_.end()) variant = same->first;
+      const auto same = routineCases_.find(lower(spelt));
+      if (same != routineCases_.end()) variant = same->second;
     }
     if (!variant.empty()) {
       diagnostics_.report<diag::KeywordCase>(range, text(range), variant);
@@ -180,8 +181,8 @@ private:
     NearestName nearest(spelt);
     nearest.offer(keywords_.nearest(spelt));
     if (kind == WordKind::Command)
-      for (const auto& routine : routines_)
-        nearest.offer(routine.first);
+      for (auto routine = routines_.begin(); routine != routines_.end() && !nearest.full(); ++routine)
+        nearest.offer(routine->first);
     std::string hint = nearest.result();
     if (const std::string_view foreign = foreignFlow(spelt); !foreign.empty() && kind == WordKind::Command) {
       diagnostics_.report<diag::UnknownKeyword>(range, text(range), kindName(kind), foreign);
@@ -246,6 +247,7 @@ private:
   void flags() {
     for (const auto& [flag, range] : flagsRead_) {
       if (flagsSet_.contains(flag)) continue;
+      if (diagnostics_.full(diag::FlagNeverSet::code, range.file)) break;
       std::string hint = nearestName(flag, flagsSet_);
       if (!hint.empty()) hint = fmt::format("; the nearest flag that is set is `{}`", hint);
       diagnostics_.report<diag::FlagNeverSet>(
@@ -293,6 +295,7 @@ private:
   Diagnostics& diagnostics_;
 
   std::map<std::string, SourceRange, std::less<>> routines_; // first of each name
+  std::map<std::string, std::string> routineCases_;          // lower case to the first spelling
   std::set<std::string, std::less<>> called_;
   std::set<std::string> reported_; // spellings
   // By name, at the first use.

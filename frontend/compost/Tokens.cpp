@@ -30,6 +30,28 @@ bool takesBracket(size_t type) {
   }
 }
 
+struct Keyword {
+  std::string_view text;
+  size_t type = 0;
+  bool mayHaveColon = false; // a slip
+};
+
+constexpr Keyword kKeywords[] = {
+    {"IF", Lexer::KW_IF, true},         {"ELSE", Lexer::KW_ELSE, true}, {"END", Lexer::KW_END, true},
+    {"RETURN", Lexer::KW_RETURN, true}, {"AND", Lexer::KW_AND, false},  {"OR", Lexer::KW_OR, false},
+    {"NOT", Lexer::KW_NOT, false},      {"EOL", Lexer::KW_EOL, true},   {"FORMAT", Lexer::KW_FORMAT, true},
+};
+
+size_t wordType(std::string_view word) {
+  const bool colon = word.ends_with(':');
+  const std::string_view name = word.substr(0, word.size() - (colon ? 1 : 0));
+  for (const Keyword& keyword : kKeywords)
+    if (name == keyword.text && (!colon || keyword.mayHaveColon)) return keyword.type;
+  if (colon) return Lexer::LABEL;
+  if (word.ends_with('#')) return Lexer::NUMERIC;
+  return word.ends_with('?') ? Lexer::BOOLEAN : Lexer::NAME;
+}
+
 bool hasTypographicQuote(std::string_view text, Encoding encoding) {
   if (encoding != Encoding::Utf8)
     return text.find_first_of("\x82\x84\x91\x92\x93\x94") != std::string_view::npos;
@@ -63,8 +85,9 @@ bool holdsBlockEnd(std::string_view text) {
 std::unique_ptr<antlr4::Token> TokenReader::nextToken() {
   std::unique_ptr<antlr4::Token> next = ComPostLexer::nextToken();
   if (next->getChannel() != antlr4::Token::DEFAULT_CHANNEL) return next;
-  if (next->getType() == LPAREN && !takesBracket(previous_))
-    dynamic_cast<antlr4::WritableToken&>(*next).setType(STRAY_LPAREN);
+  auto& writable = static_cast<antlr4::CommonToken&>(*next);
+  if (next->getType() == WORD) writable.setType(wordType(next->getText()));
+  if (next->getType() == LPAREN && !takesBracket(previous_)) writable.setType(STRAY_LPAREN);
   previous_ = next->getType();
   return next;
 }
@@ -165,7 +188,7 @@ std::string dumpTokens(FileId file, const SourceMap& sources, const Limits& limi
   std::string out;
   for (const antlr4::Token* token : tokens.all()) {
     const size_t type = token->getType();
-    if (type == antlr4::Token::EOF || type == Lexer::BLANK || type == Lexer::NEWLINE) continue;
+    if (type == antlr4::Token::EOF) continue;
     const SourceRange range = rangeOf(file, *token);
     const LineColumn place = sources.file(file).place(range.begin);
     std::string text;

@@ -13,8 +13,8 @@
 
 namespace dotek::frontend::compost {
 
-// Renames an opening bracket that can begin neither an argument nor a condition, so that the grammar needs
-// no lookahead.
+// Tells words apart, and renames an opening bracket that can begin neither an argument nor a condition, so
+// that the grammar needs no lookahead.
 class TokenReader final : public grammar::ComPostLexer {
 public:
   using ComPostLexer::ComPostLexer;

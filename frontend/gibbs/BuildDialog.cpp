@@ -56,12 +56,14 @@ std::optional<Control> buildControl(MacroParser::ControlContext& tree, Lines& li
   TreeBuilder build(lines);
   Control control;
   control.range = lines.rangeOf(tree);
-  control.kind = build.name(*tree.name());
+  control.kind = build.name(*tree.COMMAND());
   for (MacroParser::ControlArgumentContext* each : tree.controlArgument()) {
     const SourceRange range = lines.rangeOf(*each);
-    if (auto* value = dynamic_cast<MacroParser::ValueArgumentContext*>(each)) {
-      control.arguments.push_back(build.sum(*value->sum()));
-    } else if (auto* test = dynamic_cast<MacroParser::ConditionArgumentContext*>(each)) {
+    if (auto* test = dynamic_cast<MacroParser::ValueArgumentContext*>(each)) {
+      if (test->relation() == nullptr) {
+        control.arguments.push_back(build.sum(*test->sum(0)));
+        continue;
+      }
       if (foldCase(control.kind.text) != "SET_STATE" || each != tree.controlArgument(0)) {
         lines.report<diag::SyntaxError>(range,
                                         "a comparison stands only in SET_STATE, as its first argument");

@@ -33,8 +33,8 @@ std::size_t tokenType(antlr4::tree::ParseTree* tree) {
 
 } // namespace
 
-Name TreeBuilder::name(antlr4::ParserRuleContext& tree) {
-  const SourceRange range = at(tree);
+Name TreeBuilder::name(antlr4::tree::TerminalNode& node) {
+  const SourceRange range = lines_.rangeOf(*node.getSymbol());
   std::string text;
   bool blank = false;
   for (const char c : lines_.textOf(range)) {
@@ -73,12 +73,6 @@ ExpressionPtr TreeBuilder::product(MacroParser::ProductContext& tree) {
   return left;
 }
 
-ExpressionPtr TreeBuilder::factor(MacroParser::FactorContext& tree) {
-  if (tree.primary() != nullptr) return primary(*tree.primary());
-  return make(at(tree), Unary{tree.PLUS() != nullptr ? UnaryOperator::Plus : UnaryOperator::Minus,
-                              factor(*tree.factor())});
-}
-
 ExpressionPtr TreeBuilder::number(const antlr4::Token& token) {
   const SourceRange range = lines_.rangeOf(token);
   NumberLiteral literal{0, lines_.textOf(range)};
@@ -96,35 +90,37 @@ ExpressionPtr TreeBuilder::text(MacroParser::TextLiteralContext& tree) {
   return make(range, TextLiteral{whole.substr(1, whole.size() - 2), whole[0]});
 }
 
-ExpressionPtr TreeBuilder::call(MacroParser::CallValueContext& tree) {
-  const Name called = name(*tree.variableName());
+ExpressionPtr TreeBuilder::named(MacroParser::NameValueContext& tree) {
+  const Name called = name(*tree.NAME());
+  if (tree.arguments() == nullptr) return make(at(tree), VariableRef{called, nullptr, 0});
   std::vector<ExpressionPtr> arguments;
-  for (MacroParser::SumContext* argument : tree.sum())
+  for (MacroParser::SumContext* argument : tree.arguments()->sum())
     arguments.push_back(sum(*argument));
+  if (tree.arguments()->LEFT_SQUARE() != nullptr)
+    return make(at(tree), VariableRef{called, std::move(arguments[0]), '['});
   if (lines_.context().keywords.function(called.text) == nullptr && arguments.size() == 1)
     return make(at(tree), VariableRef{called, std::move(arguments[0]), '('});
   return make(at(tree), FunctionCall{called, std::move(arguments)});
 }
 
-ExpressionPtr TreeBuilder::primary(MacroParser::PrimaryContext& tree) {
+ExpressionPtr TreeBuilder::factor(MacroParser::FactorContext& tree) {
+  if (auto* value = dynamic_cast<MacroParser::SignedValueContext*>(&tree))
+    return make(at(tree), Unary{value->PLUS() != nullptr ? UnaryOperator::Plus : UnaryOperator::Minus,
+                                factor(*value->factor())});
   if (auto* value = dynamic_cast<MacroParser::NumberValueContext*>(&tree))
     return number(*value->NUMBER()->getSymbol());
   if (auto* value = dynamic_cast<MacroParser::TextValueContext*>(&tree)) return text(*value->textLiteral());
-  if (auto* value = dynamic_cast<MacroParser::PlainValueContext*>(&tree))
-    return make(at(tree), VariableRef{name(*value->variableName()), nullptr, 0});
-  if (auto* value = dynamic_cast<MacroParser::CallValueContext*>(&tree)) return call(*value);
-  if (auto* value = dynamic_cast<MacroParser::ElementValueContext*>(&tree))
-    return make(at(tree), VariableRef{name(*value->variableName()), sum(*value->sum()), '['});
+  if (auto* value = dynamic_cast<MacroParser::NameValueContext*>(&tree)) return named(*value);
   if (auto* value = dynamic_cast<MacroParser::BracketValueContext*>(&tree))
     return make(at(tree), Bracketed{sum(*value->sum())});
   return make(at(tree), ErrorExpression{});
 }
 
 VariableRef TreeBuilder::variable(MacroParser::VariableContext& tree) {
-  VariableRef made{name(*tree.variableName()), nullptr, 0};
-  if (tree.sum() != nullptr) {
-    made.index = sum(*tree.sum());
-    made.bracket = tree.LEFT_ROUND() != nullptr ? '(' : '[';
+  VariableRef made{name(*tree.NAME()), nullptr, 0};
+  if (MacroParser::IndexContext* index = tree.index()) {
+    made.index = sum(*index->sum());
+    made.bracket = index->LEFT_ROUND() != nullptr ? '(' : '[';
   }
   return made;
 }

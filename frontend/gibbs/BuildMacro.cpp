@@ -102,7 +102,7 @@ private:
   void addLabel(MacroParser::LabelledContext& tree) {
     MacroParser::LabelContext& label = *tree.label();
     Line line;
-    line.label = Label{build_.name(*label.name()), label.getStart()->getType() == Lexer::COLON};
+    line.label = Label{build_.name(*label.LABEL_NAME()), label.getStart()->getType() == Lexer::COLON};
     if (geometry() != nullptr) {
       lines_.report<diag::SyntaxError>(lines_.range(), notAnElement());
       return;

@@ -68,7 +68,7 @@ Include TreeBuilder::include(MacroParser::IncludeStatementContext& tree) {
     made.file = whole.substr(1, whole.size() - 2);
     return made;
   }
-  made.fileRange = tree.fileWord() != nullptr ? at(*tree.fileWord()) : at(*tree.bareFile());
+  made.fileRange = at(*tree.bareFile());
   made.file = bareName(made.fileRange);
   return made;
 }
@@ -88,16 +88,16 @@ StatementPtr TreeBuilder::statement(MacroParser::StatementContext& tree) {
   }
   if (auto* loop = tree.forStatement()) {
     const std::vector<MacroParser::SumContext*> sums = loop->sum();
-    return make(range, For{name(*loop->name()), sum(*sums[0]), sum(*sums[1]),
+    return make(range, For{name(*loop->NAME()), sum(*sums[0]), sum(*sums[1]),
                            sums.size() > 2 ? sum(*sums[2]) : nullptr});
   }
   if (auto* next = tree.nextStatement()) {
     Next made;
-    if (next->name() != nullptr) made.variable = name(*next->name());
+    if (next->NAME() != nullptr) made.variable = name(*next->NAME());
     return make(range, std::move(made));
   }
   if (tree.continueStatement() != nullptr) return make(range, Continue{});
-  if (auto* jump = tree.gotoStatement()) return make(range, Goto{name(*jump->name())});
+  if (auto* jump = tree.gotoStatement()) return make(range, Goto{name(*jump->NAME())});
   if (auto* call = tree.callStatement()) return make(range, callMacro(*call));
   if (auto* args = tree.argsStatement()) {
     Args made;
@@ -115,10 +115,10 @@ StatementPtr TreeBuilder::statement(MacroParser::StatementContext& tree) {
     return make(range, std::move(made));
   }
   if (auto* included = tree.includeStatement()) return make(range, include(*included));
-  if (auto* handler = tree.onErrorStatement()) return make(range, OnError{name(*handler->name())});
+  if (auto* handler = tree.onErrorStatement()) return make(range, OnError{name(*handler->NAME())});
   if (auto* command = tree.command()) {
     Command made;
-    made.name = name(*command->commandName());
+    made.name = name(*command->COMMAND());
     for (antlr4::tree::ParseTree* child : command->children)
       if (command->children.size() > 1 && child == command->children[1])
         if (auto* node = dynamic_cast<antlr4::tree::TerminalNode*>(child))

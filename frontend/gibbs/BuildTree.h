@@ -18,7 +18,7 @@ public:
   Comparison comparison(MacroParser::SumContext& left, MacroParser::RelationContext& relation,
                         MacroParser::SumContext& right);
   VariableRef variable(MacroParser::VariableContext& tree);
-  Name name(antlr4::ParserRuleContext& tree);
+  Name name(antlr4::tree::TerminalNode& node);
 
   // ---- BuildStatement.cpp
   // One line of .mac; an IF with nothing behind THEN has no `then`.
@@ -28,10 +28,9 @@ public:
 private:
   ExpressionPtr product(MacroParser::ProductContext& tree);
   ExpressionPtr factor(MacroParser::FactorContext& tree);
-  ExpressionPtr primary(MacroParser::PrimaryContext& tree);
   ExpressionPtr number(const antlr4::Token& token);
   ExpressionPtr text(MacroParser::TextLiteralContext& tree);
-  ExpressionPtr call(MacroParser::CallValueContext& tree);
+  ExpressionPtr named(MacroParser::NameValueContext& tree);
   void addComparison(MacroParser::ComparisonContext& tree, Condition& condition,
                      std::vector<SourceRange> nots, std::vector<SourceRange> brackets);
 

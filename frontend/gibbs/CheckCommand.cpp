@@ -108,6 +108,7 @@ private:
   void reportParameter(const ArgumentSpec& spec, std::size_t argument) {
     const std::string word = keywordText(*arguments_[argument], context_.sources);
     if (!context_.keywords.hasFamily(spec.family)) return;
+    if (context_.diagnostics.full(diag::UnknownParameter::code, range_.file)) return;
     const std::string nearest = context_.keywords.nearestParameter(spec.family, word);
     if (context_.keywords.isOpenFamily(spec.family)) {
       context_.diagnostics.report<diag::UnverifiedName>(
@@ -151,6 +152,7 @@ private:
 void checkFunction(const FunctionCall& call, SourceRange range, const ParseContext& context) {
   const stdlib::FunctionSpec* spec = context.keywords.function(call.name.text);
   if (spec == nullptr) {
+    if (context.diagnostics.full(diag::UnknownFunction::code, range.file)) return;
     context.diagnostics.report<diag::UnknownFunction>(
         call.name.range, call.name.text, didYouMean(context.keywords.nearestFunction(call.name.text)));
     return;
@@ -211,6 +213,7 @@ void checkCommand(const Command& command, SourceRange range,
     return;
   }
   if (context.keywords.isCommand(key) || context.keywords.hasCommandPrefix(key)) return;
+  if (context.diagnostics.full(diag::UnknownCommand::code, range.file)) return;
   std::string remedy;
   const std::string foreign = explainForeignWord(key);
   if (!foreign.empty())
@@ -242,6 +245,7 @@ void checkExpression(const Expression& expression, const std::set<std::string>& 
       if (element->index == nullptr || element->bracket != '(' ||
           arrays.count(foldCase(element->name.text)) != 0)
         return;
+      if (context.diagnostics.full(diag::UnknownFunction::code, each.range.file)) return;
       const std::string nearest = context.keywords.nearestFunction(element->name.text);
       context.diagnostics.report<diag::UnknownFunction>(
           element->name.range, element->name.text,

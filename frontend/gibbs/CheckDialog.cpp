@@ -58,7 +58,8 @@ private:
           .note(place->second->kind.range, "the first one");
     const auto signatures = context_.keywords.dialogControls(key);
     if (signatures.empty()) {
-      if (!context_.keywords.isUnprovedControl(key))
+      if (!context_.keywords.isUnprovedControl(key) &&
+          !context_.diagnostics.full(diag::UnknownControl::code, control.range.file))
         context_.diagnostics.report<diag::UnknownControl>(control.kind.range, control.kind.text,
                                                           didYouMean(context_.keywords.nearestControl(key)));
     } else if (!context_.keywords.isUnprovedControl(key)) {

@@ -19,6 +19,7 @@ public:
   void run(const Macro& macro, const std::vector<const Macro*>& included) {
     readBroken(macro);
     visit(macro.lines);
+    if (tooDeep_) return;
     for (const Open& open : open_)
       if (!broken_["NEXT"]) context_.diagnostics.report<diag::ForWithoutNext>(open.range, open.variable.text);
     std::size_t includes = 0;
@@ -85,7 +86,13 @@ private:
   }
 
   void visit(const Statement& statement) {
+    if (tooDeep_) return;
     if (const auto* loop = std::get_if<For>(&statement.node)) {
+      if (open_.size() >= context_.limits.nesting) {
+        context_.diagnostics.report<diag::NestingTooDeep>(statement.range, context_.limits.nesting);
+        tooDeep_ = true;
+        return;
+      }
       open_.push_back({nextId_++, spanning(statement.range, loop->variable.range), loop->variable});
     } else if (const auto* next = std::get_if<Next>(&statement.node)) {
       endLoop(*next, statement.range);
@@ -174,6 +181,7 @@ private:
   }
 
   void reportUndefined(const Name& name, const std::set<std::string>& foreign) {
+    if (context_.diagnostics.full(diag::UndefinedLabel::code, name.range.file)) return;
     NearestName nearest(name.text);
     for (const auto& [key, place] : labels_)
       nearest.offer(place.name.text);
@@ -188,6 +196,7 @@ private:
   std::vector<SourceRange>& intoFor_;
   std::map<std::string, bool> broken_;
   std::vector<Open> open_;
+  bool tooDeep_ = false; // FORs within one another: each place keeps those around it
   std::size_t nextId_ = 0;
   std::map<std::string, Place> labels_;
   std::vector<Place> jumps_;

@@ -178,6 +178,7 @@ private:
           context_.keywords.cursor(key) != nullptr || context_.keywords.callback(key) != nullptr)
         continue;
       if (!reported.insert(key).second) continue;
+      if (context_.diagnostics.full(diag::UndefinedVariable::code, name->range.file)) continue;
       NearestName nearest(key);
       for (const auto& [folded, text] : names_.spelt)
         nearest.offer(text);
@@ -198,6 +199,7 @@ private:
         const std::string key = foldCase(control.variable->text);
         if (fields_.count(key) != 0) checkInitial(control);
         if (fields_.count(key) != 0 || !reported.insert(key).second) continue;
+        if (context_.diagnostics.full(diag::InputNotDeclared::code, control.range.file)) break;
         NearestName nearest(key);
         for (const Definition& definition : cycle_.defineData->definitions)
           nearest.offer(definition.name.text);

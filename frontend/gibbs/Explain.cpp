@@ -1,7 +1,7 @@
 #include "frontend/gibbs/Explain.h"
 
 #include "frontend/gibbs/Ast.h"
-#include "frontend/gibbs/Lines.h"
+#include "frontend/gibbs/Words.h"
 
 #include <algorithm>
 #include <array>
@@ -16,15 +16,11 @@ namespace {
 
 constexpr const char* kIfForm = "write `IF value < value THEN statement`";
 
-bool isName(std::size_t type) {
-  return type == Lexer::ID || type == Lexer::OPEN_NAME || type == Lexer::TEXT_NAME ||
-         (type >= Lexer::KW_ELSE && type <= Lexer::KW_OR);
-}
 bool isWord(std::size_t type) {
-  return isName(type) || (type >= Lexer::KW_IF && type <= Lexer::KW_NOT);
+  return isNameType(type) || (type >= Lexer::KW_IF && type <= Lexer::KW_NOT);
 }
 bool isValue(std::size_t type) {
-  return isName(type) || type == Lexer::NUMBER || type == Lexer::TEXT || type == Lexer::SINGLE_TEXT;
+  return isNameType(type) || type == Lexer::NUMBER || type == Lexer::TEXT || type == Lexer::SINGLE_TEXT;
 }
 bool isRelation(std::size_t type) {
   return type >= Lexer::NOT_EQUAL && type <= Lexer::EQUAL;
@@ -193,7 +189,7 @@ private:
     if (first == Lexer::KW_ARGS || first == Lexer::KW_GLOBAL || first == Lexer::KW_LOCAL ||
         first == Lexer::KW_PERMANENT)
       return text(0) + " takes names separated by commas: `" + text(0) + " a, b$`";
-    if (isName(first) && type(1) == Lexer::EQUAL && at_ > 1) {
+    if (isNameType(first) && type(1) == Lexer::EQUAL && at_ > 1) {
       if (here() == Lexer::EQUAL) return "a second `=` in an assignment; a comparison stands only behind IF";
       if (here() == Lexer::COMMA) return "an assignment takes one value; a decimal point is written `.`";
     }
@@ -206,7 +202,7 @@ private:
 
   std::optional<std::string> forForm() const {
     const std::string form = "write `FOR i = 1 TO 10` and, further down, `NEXT i`";
-    if (!isName(type(1))) return "the variable of FOR is missing; " + form;
+    if (!isNameType(type(1))) return "the variable of FOR is missing; " + form;
     if (type(2) != Lexer::EQUAL) return "`=` is missing behind the variable of FOR; " + form;
     if (!has(Lexer::KW_TO)) return "TO is missing in FOR; " + form;
     return std::nullopt;
@@ -217,7 +213,7 @@ private:
     const bool value = isValue(here()) || here() == Lexer::LEFT_ROUND;
     const bool after = isValue(before()) || before() == Lexer::RIGHT_ROUND;
     if (!value || !after) return std::nullopt;
-    if (before() == Lexer::NUMBER && isName(here()) && words_[at_ - 1].touchesNext)
+    if (before() == Lexer::NUMBER && isNameType(here()) && words_[at_ - 1].touchesNext)
       return "a name begins with a letter; between " + quoted(text(at_ - 1)) + " and " + quoted(text(at_)) +
              " an operator or a comma is missing";
     const bool assignment = kind_ == FileKind::Macro && type(1) == Lexer::EQUAL;

@@ -1,6 +1,7 @@
 #include "frontend/gibbs/Labels.h"
 
 #include <algorithm>
+#include <unordered_set>
 
 namespace dotek::frontend::gibbs {
 
@@ -73,7 +74,7 @@ std::vector<InputLabel> inputLabels(const Dialog& dialog) {
     if (foldCase(control.kind.text) == "LABEL" && control.box && control.text) labels.push_back(&control);
 
   std::vector<InputLabel> found;
-  std::vector<const Control*> names;
+  std::unordered_set<const Control*> names;
   for (const Control& input : dialog.controls) {
     if (!isInput(input)) continue;
     InputLabel made;
@@ -86,7 +87,7 @@ std::vector<InputLabel> inputLabels(const Dialog& dialog) {
         nearest.offer(*label, input.box->left - label->box->left, rows);
     }
     if (const Control* label = nearest.best()) {
-      names.push_back(label);
+      names.insert(label);
       splitUnit(*label->text, made);
       made.nameRange = textRange(*label);
     }
@@ -96,7 +97,7 @@ std::vector<InputLabel> inputLabels(const Dialog& dialog) {
     const Box& box = *each.input->box;
     Nearest nearest;
     for (const Control* label : labels) {
-      if (std::find(names.begin(), names.end(), label) != names.end()) continue;
+      if (names.contains(label)) continue;
       const int rows = sharedRows(*label->box, box);
       const int distance = label->box->left - (box.left + box.width);
       if (rows > 0 && distance >= 0) nearest.offer(*label, distance, rows);

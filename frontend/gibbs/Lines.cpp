@@ -38,7 +38,7 @@ bool isTypographic(const antlr4::Token& token, const SourceFile& source) {
 Lines::Lines(FileId file, FileKind kind, const ParseContext& context)
     : file_(file), kind_(kind), context_(context) {
   language_.unitStops = {Lexer::EOL};
-  language_.opening = {Lexer::LEFT_ROUND, Lexer::LEFT_SQUARE};
+  language_.opening = {Lexer::LEFT_ROUND, Lexer::CONDITION_ROUND, Lexer::LEFT_SQUARE};
   language_.closing = {Lexer::RIGHT_ROUND, Lexer::RIGHT_SQUARE};
   language_.depthResets = {Lexer::EOL};
   language_.explain = [this](std::size_t, const antlr4::Token& offending, const antlr4::Parser&) {
@@ -46,7 +46,7 @@ Lines::Lines(FileId file, FileKind kind, const ParseContext& context)
   };
   bytes_ = std::make_unique<ByteStream>(openBytes(file, context.sources, context.limits, problems_));
   errors_ = static_cast<std::uint32_t>(problems_.all().size());
-  lexer_ = std::make_unique<Lexer>(bytes_.get());
+  lexer_ = std::make_unique<RoleReader>(bytes_.get(), kind);
   buffer_ =
       std::make_unique<TokenBuffer>(*lexer_, file, context.sources, language_, context.limits, problems_);
   for (std::size_t i = errors_; i < problems_.all().size(); ++i)
@@ -173,8 +173,11 @@ std::string Lines::explain(const antlr4::Token& offending) const {
     if (token.getType() == Lexer::COMMENT) comment = sources().textUtf8(rangeOf(token));
     if (!isVisible(token)) continue;
     if (i >= offending.getTokenIndex() && at == SIZE_MAX) at = words.size();
-    const bool touches = i + 1 < line_.last && isVisible(*tokens()[i + 1]);
-    words.push_back({token.getType(), sources().textUtf8(rangeOf(token)), touches});
+    const bool touches = i + 1 < line_.last && isVisible(*tokens()[i + 1]) &&
+                         tokens()[i + 1]->getStartIndex() == token.getStopIndex() + 1;
+    const SourceRange range = rangeOf(token);
+    words.push_back(
+        {typeWithoutRole(token.getType(), sources().text(range)), sources().textUtf8(range), touches});
   }
   return explainLine(kind_, words, std::min(at, words.size()), comment);
 }

@@ -5,8 +5,8 @@
 #include "frontend/common/ParseSession.h"
 #include "frontend/gibbs/Explain.h"
 #include "frontend/gibbs/Parse.h"
+#include "frontend/gibbs/Words.h"
 
-#include "GibbsMacroLexer.h"
 #include "GibbsMacroParser.h"
 
 #include <memory>
@@ -66,7 +66,7 @@ private:
   Diagnostics problems_;
   Language language_;
   std::unique_ptr<ByteStream> bytes_;
-  std::unique_ptr<grammar::GibbsMacroLexer> lexer_;
+  std::unique_ptr<RoleReader> lexer_;
   std::unique_ptr<TokenBuffer> buffer_;
   std::unique_ptr<grammar::GibbsMacroParser> parser_;
   std::unique_ptr<ParseSession> session_;
