@@ -189,12 +189,11 @@ void checkWithCallees(const gibbs::Macro& macro, CycleFolder& folder, const gibb
     }
     for (const Callee& callee : callees) {
       if (callee.dialog) {
-        // checkCycle reports a plain name that the folder does not hold.
+        // A file of the folder that is missing was told; checkCycle tells what CycleData.mac misses.
         const bool plain = callee.name.find_first_of("/\\") == std::string::npos;
-        const std::string key = gibbs::foldCase(callee.name);
-        if (cycle.cycleData && next == &*cycle.cycleData && plain && !cycle.files.contains(key) &&
-            !cycle.files.contains(key + ".DLG"))
-          continue;
+        const bool told =
+            gibbs::foldCase(callee.name) == "CYCLEDATA.DLG" || (cycle.cycleData && next == &*cycle.cycleData);
+        if (plain && told && !folder.loader->hasDialog(callee.name)) continue;
         const gibbs::Dialog* dialog = folder.loader->dialog(callee.name, callee.range);
         if (!cycle.dialog || dialog != &*cycle.dialog) addOnce(cycle.otherDialogs, dialog);
       } else if (const gibbs::Macro* called = folder.loader->macro(callee.name, callee.range)) {
