@@ -77,7 +77,7 @@ JobOperation readOperation(const TomlDocument& document, const TomlTable& table)
     const std::vector<double> numbers = point.isArray() ? point.numbers() : std::vector<double>{};
     if (numbers.size() == 2)
       out.at.emplace_back(numbers[0], numbers[1]);
-    else if (!numbers.empty() || document.ok()) // else it was no list of numbers, which is told
+    else
       document.fail(point.range(), "a point is [x, y], two numbers in mm");
   }
   if (table.has("host")) readHosts(document, table.value("host").table(), out.hosts);

@@ -42,7 +42,7 @@ printsSomething() { [[ -s $out ]] || { printf 'standard output is empty\n'; cat 
 says() {
   local text
   for text in "$@"; do
-    cat "$out" "$err" | grep -qF -- "$text" || { printf 'nowhere: %s\n' "$text"; cat "$out" "$err"; return 1; }
+    grep -qF -- "$text" <(cat "$out" "$err") || { printf 'nowhere: %s\n' "$text"; cat "$out" "$err"; return 1; }
   done
 }
 
