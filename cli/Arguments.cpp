@@ -236,7 +236,8 @@ std::optional<int> parseArguments(const std::vector<std::string>& arguments, Arg
   CLI::App* explain = app.add_subcommand("explain", "say what a message means and what to do");
   explain->add_option("CODE", raw.inputs, "the name in brackets behind a message")->required()->expected(1);
   CLI::App* list = app.add_subcommand("list", "print a table");
-  list->add_option("WHAT", raw.inputs, "cycles, controls, macros, forms, rules, targets, hosts, limits or assumptions")
+  list->add_option("WHAT", raw.inputs,
+                   "cycles, controls, macros, forms, rules, targets, hosts, limits or assumptions")
       ->required()
       ->expected(1);
   addCommon(*list, raw);

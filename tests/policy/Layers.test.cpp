@@ -215,13 +215,14 @@ TEST_CASE("policy: libraries do not leak") {
         }
       }
     }
-    for (const auto& [path, list] : includes) {
+    for (const auto& entry : includes) {
+      const auto& path = entry.first;
+      const auto& list = entry.second;
       for (const Include& include : list) {
         const std::string unit = unitOf(path);
         if (library.is(include.name)) {
-          const bool allowed =
-              std::any_of(library.folders.begin(), library.folders.end(),
-                          [&, &p = path](const std::string& f) { return p.starts_with(f + "/"); });
+          const bool allowed = std::any_of(library.folders.begin(), library.folders.end(),
+                                           [&](const std::string& f) { return path.starts_with(f + "/"); });
           CHECK_MESSAGE(allowed, path << ":" << include.line << " includes " << library.name);
         } else if (carriers.contains(include.name) && unit != unitOf(include.name)) {
           const bool shared = !library.shared.empty() && unit.starts_with(library.shared + "/") &&
