@@ -2,6 +2,7 @@
 
 #include "cli/Cli.h"
 #include "driver/InputKind.h"
+#include "support/NearestName.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -196,6 +197,19 @@ void addDump(CLI::App& app, Raw& raw) {
   addCommon(*dump, raw);
 }
 
+// CLI11 would only say that a command is missing.
+void checkCommand(const CLI::App& app, const std::vector<std::string>& arguments) {
+  if (arguments.empty() || arguments.front().starts_with('-')) return;
+  std::vector<std::string> known;
+  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
+    known.push_back(command->get_name());
+  if (std::find(known.begin(), known.end(), arguments.front()) != known.end()) return;
+  const std::string near = nearestName(arguments.front(), known);
+  throw UsageError("no command `" + arguments.front() + "`" +
+                   (near.empty() ? "" : "; did you mean `" + near + "`?") +
+                   "; `dotek --help` prints the commands");
+}
+
 // `--set A=1 B=2` means `--set A=1 --set B=2`: pairs that follow a flag of pairs belong to it.
 std::vector<std::string> spreadPairs(const std::vector<std::string>& arguments) {
   constexpr std::array<std::string_view, 3> kPairFlags = {"--set", "--field", "--host"};
@@ -242,6 +256,7 @@ std::optional<int> parseArguments(const std::vector<std::string>& arguments, Arg
       ->expected(1);
   addCommon(*list, raw);
   try {
+    checkCommand(app, arguments);
     std::vector<std::string> reversed = spreadPairs(arguments);
     std::reverse(reversed.begin(), reversed.end());
     app.parse(reversed);

@@ -22,6 +22,7 @@ std::vector<std::pair<std::string, std::string>> assumptionTable() {
       {"changed-field=macro",
        "a field that the macro changes behind its dialog: the macro's value is stored"},
       {"changed-field=given", "a field that the macro changes behind its dialog: the given value is stored"},
+      {"unchecked", "checks of CycleData.mac that cannot be made: the values pass"},
       {"and-before-or", "AND beside OR in a Prog: AND binds tighter"},
       {"left-to-right", "AND beside OR in a Prog: read from left to right"},
       {"Word?=yes", "a condition of a Prog that only the CAM can answer: it holds"},

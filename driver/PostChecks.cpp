@@ -91,7 +91,10 @@ void runCycleChecks(const CycleFolder& folder, FieldTable& fields, const std::ma
       diagnostics.report<diag::ChecksDepend>(where, folder.name, flags(result.neededHosts));
     break;
   }
-  case gibbs::ChecksResult::Verdict::NotRun: return;
+  case gibbs::ChecksResult::Verdict::NotRun:
+    if (!diagnostics.hasErrors() && !session.options().assume.contains("unchecked"))
+      diagnostics.report<diag::ChecksNotRun>({folder.cycle->cycleData->file, 0, 0}, folder.name);
+    return;
   case gibbs::ChecksResult::Verdict::Passes: break;
   }
   for (const gibbs::Rejection& shown : result.shown)

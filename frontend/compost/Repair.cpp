@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <optional>
 #include <set>
 #include <string>
 
@@ -38,6 +39,40 @@ const If* rivalOf(const If& open) {
       std::get<std::unique_ptr<If>>(open.elseBody.back()).get() == inner)
     return nullptr;
   return inner;
+}
+
+// Blanks before a word that begins its line; nothing where other words stand before it.
+std::optional<std::string_view> indentOf(SourceRange word, const SourceFile& source) {
+  const std::uint32_t begin = source.lineStart(source.lineOf(word.begin));
+  const std::string_view before = std::string_view(source.bytes()).substr(begin, word.begin - begin);
+  if (before.find_first_not_of(" \t") != std::string_view::npos) return std::nullopt;
+  return before;
+}
+
+// An inner IF whose END is laid out as that of the open IF: then the END of the inner one is missing, and
+// what follows it would move from one branch to the other.
+const If* borrowerOf(const std::vector<Statement>& body, std::string_view openIndent,
+                     const SourceFile& source) {
+  for (const Statement& statement : body) {
+    const auto* inner = std::get_if<std::unique_ptr<If>>(&statement);
+    if (inner == nullptr) continue;
+    if ((*inner)->endRange) {
+      const auto own = indentOf((*inner)->ifRange, source);
+      const auto end = indentOf(*(*inner)->endRange, source);
+      if (own && end && *own != openIndent && *end == openIndent) return inner->get();
+    }
+    for (const auto* part : {&(*inner)->thenBody, &(*inner)->elseBody}) {
+      if (const If* found = borrowerOf(*part, openIndent, source)) return found;
+    }
+  }
+  return nullptr;
+}
+
+const If* borrowerOf(const If& open, const SourceFile& source) {
+  const auto indent = indentOf(open.ifRange, source);
+  if (!indent) return nullptr;
+  const If* found = borrowerOf(open.thenBody, *indent, source);
+  return found != nullptr ? found : borrowerOf(open.elseBody, *indent, source);
 }
 
 std::string lineEndOf(const SourceFile& source) {
@@ -99,6 +134,12 @@ std::vector<Diagnostic> reportMissingEnds(const Routine& routine, const std::vec
                       inThen ? "stands inside the open one and is never reached"
                              : "and all behind it run in the `ELSE` part only",
                       source.lineOf(rival->ifRange.begin)));
+    } else if (const If* borrower = borrowerOf(*open, source)) {
+      diagnostic.note(
+          *borrower->endRange,
+          fmt::format("this `END` closes the `IF` in line {}, but is laid out as that of the open one; "
+                      "the `END` of line {} may be missing instead; no repair is offered",
+                      source.lineOf(borrower->ifRange.begin), source.lineOf(borrower->ifRange.begin)));
     } else if (end.at != RoutineEnd::At::EndOfFile) {
       diagnostic.fix = insertion("END", end, source, file);
     }
