@@ -95,11 +95,8 @@ private:
     if (*kind == InputKind::Prog) {
       const auto program = loadProg(path, session_);
       if (!program) return;
-      for (const std::string& cycle : frontend::compost::cycleIds(*program)) {
-        for (const auto* routine :
-             frontend::compost::printingRoutines(*program, session_.compostKeywords(), cycle))
-          entryPoints_.insert(routine->name);
-      }
+      for (const auto* routine : frontend::compost::cycleRoutines(*program, session_.compostKeywords()))
+        entryPoints_.insert(routine->name);
       return;
     }
     const std::optional<FileId> id = session_.read(path, Encoding::Cp1250);

@@ -122,6 +122,41 @@ bool prints(const std::vector<Statement>& statements, const Program& program,
   return prints(statements, program, keywords, seen);
 }
 
+namespace {
+
+// Prints by itself or calls a routine that may.
+bool acts(const std::vector<Statement>& statements, const stdlib::ComPostKeywords& keywords) {
+  return std::any_of(statements.begin(), statements.end(), [&](const Statement& statement) {
+    if (const auto* literal = std::get_if<Literal>(&statement)) return !literal->text.empty();
+    if (const auto* branch = std::get_if<std::unique_ptr<If>>(&statement))
+      return acts((*branch)->thenBody, keywords) || acts((*branch)->elseBody, keywords);
+    const auto* word = std::get_if<Word>(&statement);
+    if (word == nullptr) return std::holds_alternative<EndOfLine>(statement);
+    if (word->kind != WordKind::Command) return word->kind == WordKind::Numeric;
+    const stdlib::ComPostKeyword* keyword = keywords.find(word->name);
+    return keyword == nullptr || keyword->prints != stdlib::Prints::No;
+  });
+}
+
+} // namespace
+
+std::vector<const Routine*> cycleRoutines(const Program& program, const stdlib::ComPostKeywords& keywords) {
+  std::vector<const Routine*> found;
+  for (const Item& item : program.items) {
+    const auto* routine = std::get_if<Routine>(&item);
+    if (routine == nullptr) continue;
+    bool runs = false;
+    eachIf(routine->body, [&](const If& branch) {
+      if (runs) return;
+      bool tested = false;
+      eachCycleTest(branch.condition, false, [&](const std::string&, bool) { tested = true; });
+      runs = tested && (acts(branch.thenBody, keywords) || acts(branch.elseBody, keywords));
+    });
+    if (runs) found.push_back(routine);
+  }
+  return found;
+}
+
 std::vector<const Routine*> printingRoutines(const Program& program, const stdlib::ComPostKeywords& keywords,
                                              std::string_view cycleId) {
   std::vector<const Routine*> routines;

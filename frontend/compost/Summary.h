@@ -51,6 +51,10 @@ bool prints(const std::vector<Statement>& statements, const Program& program,
 std::vector<const Routine*> printingRoutines(const Program& program, const stdlib::ComPostKeywords& keywords,
                                              std::string_view cycleId);
 
+// The routines with a branch for some cycle that prints or calls something, in one pass over the Prog: the
+// post engine runs them for an operation, so that nothing in the Prog need call them.
+std::vector<const Routine*> cycleRoutines(const Program& program, const stdlib::ComPostKeywords& keywords);
+
 // The fields that the branch prints for the cycle, those of called routines included, in the order of
 // reaching them; inner branches on other cycles are left out. A field occurs as often as it is printed.
 std::vector<FieldRef> fieldsPrinted(const Program& program, const BranchRef& branch,

@@ -141,6 +141,17 @@ TEST_CASE("fields of a branch, those of called routines included") {
   CHECK(prog.sources.text(first.range) == "'q'");
 }
 
+TEST_CASE("routines that the engine runs for some cycle") {
+  const Prog prog("flags: IF CycleType?('a') SetFlag('f') END RETURN\n"
+                  "text: IF CycleType?('a') IF Drilling? 'x' END END RETURN\n"
+                  "calls: IF NOT CycleType?('b') SetFlag('f') ELSE text END RETURN\n"
+                  "plain: 'y' EOL RETURN\n");
+  std::string names;
+  for (const Routine* routine : cycleRoutines(prog.program, keywords()))
+    names += routine->name + " ";
+  CHECK(names == "text calls ");
+}
+
 TEST_CASE("the corpus gives one error and no finding on its words") {
   std::filesystem::path folder;
   if (!haveCorpus(folder)) return;
