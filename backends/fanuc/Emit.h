@@ -1,0 +1,53 @@
+// Writes a cycle as a Fanuc macro program that is called with G65.
+#pragma once
+
+#include "ir/Cycle.h"
+#include "stdlib/Control.h"
+#include "stdlib/MacroSet.h"
+#include "support/Diagnostics.h"
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace dotek::backends::fanuc {
+
+enum class Defaults : std::uint8_t { Alarm, Use };
+enum class ProbePowerMode : std::uint8_t { Source, Macro };
+
+struct EmitOptions {
+  const stdlib::Control& control;
+  const stdlib::MacroSet& macros;
+  const stdlib::Control& sourceControl; // opaque blocks are copied to the same control only
+  std::uint32_t programNumber = 0;
+  Defaults defaults = Defaults::Alarm;
+  ProbePowerMode probePower = ProbePowerMode::Source;
+  std::map<std::string, char> letters; // --arg, by name of the parameter or host input
+  std::map<std::string, double> fixed; // what --set, --host or the job fixed: named in the header
+};
+
+struct EmittedLine {
+  std::string text;                // ASCII, without line end
+  std::vector<SourceRange> ranges; // empty: made up
+  std::string reason;
+};
+
+// The argument of a parameter or host input in a call of the program.
+struct Argument {
+  ir::VariableId variable = 0;
+  char letter = 0;
+  std::uint32_t local = 0; // #n
+};
+
+// Letters for the parameters and host inputs that `cycle` still uses (docs/convert.md, "Letters"). Reports
+// letters that are not allowed or given twice, and more names than letters (with the list); nullopt then.
+std::optional<std::vector<Argument>> assignLetters(const ir::Cycle& cycle, const EmitOptions& options,
+                                                   Diagnostics& diagnostics);
+
+// The program, `%` lines included. nullopt where the control or the macro set cannot say something: reported.
+std::optional<std::vector<EmittedLine>> emit(const ir::Cycle& cycle, const EmitOptions& options,
+                                             const SourceMap& sources, Diagnostics& diagnostics);
+
+} // namespace dotek::backends::fanuc

@@ -1,0 +1,91 @@
+// One NC block, words with holes allowed. A hole is a value that the text does not hold: a field that a post
+// prints there.
+#pragma once
+
+#include "ir/Expression.h"
+#include "support/Picture.h"
+#include "support/Source.h"
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace dotek::frontend::nc {
+
+// What fills a hole, and the picture that prints it (not owned; nullptr: printed in full with a point).
+struct Hole {
+  ir::ExpressionPtr value;
+  const Picture* picture = nullptr;
+  std::string name; // for messages: "field `D`", "host input `clearance`"
+};
+
+// Text of a block in pieces.
+struct TextPiece {
+  std::string text;  // bytes
+  SourceRange range; // of exactly these bytes
+};
+struct HolePiece {
+  Hole hole;
+  SourceRange range;
+};
+using Piece = std::variant<TextPiece, HolePiece>;
+
+// ---- parsed
+// ------------------------------------------------------------------------------------------------
+
+struct Expression;
+using ExpressionPtr = std::unique_ptr<Expression>;
+
+struct Number {
+  std::string digits; // as written, without sign: "10", "0.5", "5."
+  double value = 0;   // of the digits as written
+  bool point = false;
+};
+struct VariableRef { // #5, #[..]
+  ExpressionPtr number;
+};
+struct Negated {
+  ExpressionPtr operand;
+};
+struct Operation { // + - * / MOD AND OR XOR
+  std::string op;
+  ExpressionPtr left, right;
+};
+struct FunctionCall { // SIN[..]; ATAN[y]/[x] has two arguments
+  std::string name;
+  std::vector<ExpressionPtr> arguments;
+};
+struct Expression {
+  SourceRange range;
+  std::variant<Number, Hole, VariableRef, Negated, Operation, FunctionCall> node;
+};
+
+struct Word {
+  char address = 0;
+  SourceRange range;
+  ExpressionPtr value; // null: the address stands bare
+};
+struct Assignment {       // #550=#138
+  ExpressionPtr variable; // its number
+  ExpressionPtr value;
+  SourceRange range;
+};
+struct Comment {
+  std::string text; // bytes between the brackets
+  SourceRange range;
+};
+
+struct Block {
+  SourceRange range;
+  bool blockDelete = false;
+  std::optional<std::uint64_t> sequenceNumber;
+  std::vector<Word> words;
+  std::vector<Assignment> assignments;
+  std::vector<Comment> comments;
+  bool programMark = false; // % alone
+};
+
+} // namespace dotek::frontend::nc

@@ -1,0 +1,133 @@
+// Expressions and conditions of the IR. Nodes are immutable and shared: substitution copies pointers.
+// Lengths are mm, angles degrees, feeds mm/min.
+#pragma once
+
+#include "ir/Kind.h"
+#include "support/Source.h"
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <variant>
+
+namespace dotek::ir {
+
+struct Expression;
+using ExpressionPtr = std::shared_ptr<const Expression>; // never null unless a member says so
+
+using VariableId = std::uint32_t; // index in Cycle::variables
+using LabelId = std::uint32_t;    // index in Cycle::labels
+
+struct Constant {
+  double value = 0;   // finite
+  std::string digits; // as the source writes it, sign included; "" where it was computed
+};
+// The value of a variable that nobody set (Macro B #0). Only in Assign, ValueOr and as a word's value.
+struct NullValue {};
+struct VariableUse {
+  VariableId variable = 0;
+};
+// A variable of the machine, by number: #550. Kind Number.
+struct MachineVariable {
+  ExpressionPtr number;
+};
+// What the last measurement that was carried out left behind. `Documented` ones are defined by the macro set;
+// Main is "the result" of a set that does not say what it holds (EasyProbe #138).
+enum class ResultName : std::uint8_t { Main, PositionX, PositionY, PositionZ, Size };
+struct MeasuredResult {
+  ResultName name = ResultName::Main;
+};
+
+enum class UnaryOp : std::uint8_t {
+  Negate,
+  Absolute,
+  Truncate, // toward zero (Macro B FIX, GibbsCAM INT)
+  RoundUp,  // away from zero (FUP)
+  Round,    // to the nearest integer, half away from zero
+  SquareRoot,
+  Sine, // angles in degrees, as for all below
+  Cosine,
+  Tangent,
+  ArcSine,
+  ArcCosine,
+  ArcTangent, // -90 to 90
+  Logarithm,
+  Exponential,
+  NullAsZero, // null becomes 0; anything else stays
+};
+enum class BinaryOp : std::uint8_t {
+  Add,
+  Subtract,
+  Multiply,
+  Divide,
+  Modulo,
+  Direction, // angle of (x = right, y = left), above -180 up to 180
+  BitAnd,
+  BitOr,
+  BitXor,
+  ValueOr, // left, or right where left is null
+};
+struct Unary {
+  UnaryOp op = UnaryOp::Negate;
+  ExpressionPtr operand;
+};
+struct Binary {
+  BinaryOp op = BinaryOp::Add;
+  ExpressionPtr left, right;
+};
+
+struct Expression {
+  SourceRange range; // no place where it was made up
+  std::variant<Constant, NullValue, VariableUse, MachineVariable, MeasuredResult, Unary, Binary> node;
+};
+
+ExpressionPtr constant(double value, SourceRange range = {}, std::string digits = "");
+ExpressionPtr variable(VariableId id, SourceRange range = {});
+ExpressionPtr unary(UnaryOp op, ExpressionPtr operand, SourceRange range = {});
+ExpressionPtr binary(BinaryOp op, ExpressionPtr left, ExpressionPtr right, SourceRange range = {});
+// The constant's value; nullptr for any other node.
+const double* constantValue(const ExpressionPtr& expression);
+// Same tree, ranges and digits aside.
+bool equal(const ExpressionPtr& a, const ExpressionPtr& b);
+
+// ---- conditions -------------------------------------------------------------------------------------------
+
+struct Condition;
+using ConditionPtr = std::shared_ptr<const Condition>;
+
+enum class Relation : std::uint8_t { Equal, NotEqual, Less, Greater, LessEqual, GreaterEqual };
+// Equal with NotEqual, Less with GreaterEqual, Greater with LessEqual: exact, as no value is a NaN.
+Relation opposite(Relation relation);
+
+struct Comparison {
+  Relation relation = Relation::Equal;
+  ExpressionPtr left, right; // neither is null at run time
+};
+struct IsNull {
+  ExpressionPtr value;
+};
+struct Not {
+  ConditionPtr inner;
+};
+enum class Connective : std::uint8_t { And, Or };
+struct Junction {
+  Connective op = Connective::And;
+  ConditionPtr left, right;
+};
+struct Truth {
+  bool value = true;
+};
+
+struct Condition {
+  SourceRange range;
+  std::variant<Comparison, IsNull, Not, Junction, Truth> node;
+};
+
+ConditionPtr compare(Relation relation, ExpressionPtr left, ExpressionPtr right, SourceRange range = {});
+ConditionPtr isNull(ExpressionPtr value, SourceRange range = {});
+// Pushes the negation inward: no Not in the result except around IsNull.
+ConditionPtr negate(const ConditionPtr& condition);
+ConditionPtr join(Connective op, ConditionPtr left, ConditionPtr right, SourceRange range = {});
+ConditionPtr truth(bool value, SourceRange range = {});
+
+} // namespace dotek::ir

@@ -1,0 +1,152 @@
+// Statements of the IR. A body is a flat list; labels and jumps are the base form of control flow.
+#pragma once
+
+#include "ir/Expression.h"
+
+#include <array>
+#include <optional>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace dotek::ir {
+
+// `value` in `frame`. Work: `system` is the G number of the work system, null pointer: the active one.
+struct Coordinate {
+  ExpressionPtr value;
+  Frame frame = Frame::Work;
+  ExpressionPtr system;
+};
+
+// variable = value. Parameters and hosts may be assigned, too: the source's macro may change its fields.
+struct Assign {
+  VariableId variable = 0;
+  ExpressionPtr value;
+};
+// Writes a machine variable: #550 = value.
+struct Store {
+  ExpressionPtr number;
+  ExpressionPtr value;
+};
+struct Label {
+  LabelId label = 0;
+};
+struct Jump {
+  LabelId target = 0;
+};
+// Jumps where the condition holds, else goes on.
+struct Branch {
+  ConditionPtr condition;
+  LabelId target = 0;
+};
+// End of the cycle. Falling off the end of the body is the same.
+struct Return {};
+
+enum class Motion : std::uint8_t { Rapid, Feed, Protected };
+// Straight move to the axes that are given; the others keep their position. A protected move stops with an
+// alarm on contact.
+struct Move {
+  Motion motion = Motion::Rapid;
+  std::array<std::optional<Coordinate>, 3> axes; // by Axis
+  ExpressionPtr feed;                            // mm/min; null pointer: the one in force
+  ProbePoint point = ProbePoint::Centre;
+};
+
+// The system gets, along each measured axis that has a nominal, the zero that gives the measured point the
+// coordinate `nominal`.
+struct OffsetSetting {
+  ExpressionPtr system;                 // G number, 54 to 59
+  std::array<ExpressionPtr, 3> nominal; // by Axis; null pointer: axis not set
+};
+enum class Feature : std::uint8_t { Surface, Bore };
+// Touches a feature and comes back to where it began.
+struct Measure {
+  Feature feature = Feature::Surface;
+  Axis axis = Axis::X;                  // of a surface
+  std::optional<Coordinate> target;     // of a surface: expected contact point along `axis`, signed
+  ExpressionPtr diameter;               // of a bore; its expected centre is where the probe stands
+  std::optional<OffsetSetting> setting; // nothing: only measures
+};
+
+struct ProbePower {
+  bool on = true;
+};
+struct Spindle {
+  enum class State : std::uint8_t { Off, Clockwise, CounterClockwise };
+  State state = State::Off;
+  ExpressionPtr speed; // rev/min; null pointer: not stated
+};
+struct Coolant {
+  enum class State : std::uint8_t { Off, Flood, Mist };
+  State state = State::Off;
+};
+// A modal function without motion: G90, G54, G94. `system` for WorkSystem: its G number, may be computed.
+enum class Mode : std::uint8_t {
+  Absolute,
+  Incremental,
+  FeedPerMinute,
+  FeedPerRevolution,
+  PlaneXY,
+  PlaneZX,
+  PlaneYZ,
+  CutterCompOff,
+  CannedCycleOff,
+  WorkSystem,
+  RapidMotion,
+  FeedMotion
+};
+struct SetMode {
+  Mode mode = Mode::Absolute;
+  ExpressionPtr system;
+};
+struct Dwell {
+  ExpressionPtr seconds;
+};
+// Waits for the operator (M0, M1).
+struct Stop {
+  bool optional = false;
+  std::string message; // UTF-8
+};
+// Ends the program with a message.
+struct Alarm {
+  std::string message; // UTF-8; "" where the source gives none
+};
+struct Comment {
+  std::string text; // UTF-8, without the target's brackets
+};
+// A word of an opaque block: address and number, or address and expression.
+struct Word {
+  char address = 0;
+  ExpressionPtr value;
+  SourceRange range;
+};
+// A block whose meaning is not known: read as words, copied to the source's own control only. It is taken to
+// change every modal group and the position.
+struct OpaqueBlock {
+  std::vector<Word> words;
+};
+
+// Where a statement comes from.
+struct Origin {
+  std::vector<SourceRange> ranges; // first: what messages point at
+  std::string reason;              // "" or what made it: "argument omitted", "mode restored"
+  std::uint32_t block = 0;         // statements lifted from one NC block share a number; 0: from none
+  std::string addresses;           // letters of that block in the order written: layout only
+  // Letters of a macro call that a variable fills directly: they name the arguments of the result.
+  std::vector<std::pair<char, VariableId>> arguments;
+
+  SourceRange range() const { return ranges.empty() ? SourceRange{} : ranges.front(); }
+};
+
+struct Statement {
+#define DOTEK_STATEMENT(Type, text) Type,
+  std::variant<
+#include "ir/Nodes.def"
+      std::monostate>
+#undef DOTEK_STATEMENT
+      node;
+  Origin origin;
+};
+
+} // namespace dotek::ir

@@ -1,0 +1,132 @@
+// A control with its options, as data: stdlib/controls/<name>.toml (DESIGN 5).
+#pragma once
+
+#include "ir/Kind.h"
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace dotek::stdlib {
+
+class DataFiles;
+
+// How a number without a decimal point is read where the address counts a length or an angle.
+enum class DecimalMode : std::uint8_t { Increment, Calculator };
+
+// What a G or M function does, as far as Dotek translates it. X(id, name in the data)
+#define DOTEK_FUNCTIONS(X)                                                                                   \
+  X(Other, "other") /* known to the control, not translated: an opaque block */                              \
+  X(Rapid, "rapid")                                                                                          \
+  X(Feed, "feed")                                                                                            \
+  X(Dwell, "dwell")                                                                                          \
+  X(Skip, "skip")                                                                                            \
+  X(PlaneXY, "plane-xy")                                                                                     \
+  X(PlaneZX, "plane-zx")                                                                                     \
+  X(PlaneYZ, "plane-yz")                                                                                     \
+  X(Inch, "inch")                                                                                            \
+  X(Metric, "metric")                                                                                        \
+  X(CutterCompOff, "cutter-comp-off")                                                                        \
+  X(ToolLengthPlus, "tool-length-plus")                                                                      \
+  X(ToolLengthMinus, "tool-length-minus")                                                                    \
+  X(ToolLengthOff, "tool-length-off")                                                                        \
+  X(ScalingOn, "scaling-on")                                                                                 \
+  X(ScalingOff, "scaling-off")                                                                               \
+  X(LocalShift, "local-shift")                                                                               \
+  X(MachineCoordinates, "machine-coordinates")                                                               \
+  X(WorkSystem, "work-system") /* G54 to G59: the code is the system */                                      \
+  X(ExtendedWorkSystem, "extended-work-system")                                                              \
+  X(MacroCall, "macro-call")                                                                                 \
+  X(RotationOn, "rotation-on")                                                                               \
+  X(RotationOff, "rotation-off")                                                                             \
+  X(CannedCycleOff, "canned-cycle-off")                                                                      \
+  X(Absolute, "absolute")                                                                                    \
+  X(Incremental, "incremental")                                                                              \
+  X(FeedPerMinute, "feed-per-minute")                                                                        \
+  X(FeedPerRevolution, "feed-per-revolution")                                                                \
+  X(Stop, "stop")                                                                                            \
+  X(OptionalStop, "optional-stop")                                                                           \
+  X(ProgramEnd, "program-end")                                                                               \
+  X(SpindleClockwise, "spindle-clockwise")                                                                   \
+  X(SpindleCounterClockwise, "spindle-counter-clockwise")                                                    \
+  X(SpindleOff, "spindle-off")                                                                               \
+  X(CoolantMist, "coolant-mist")                                                                             \
+  X(CoolantFlood, "coolant-flood")                                                                           \
+  X(CoolantOff, "coolant-off")                                                                               \
+  X(ProbeOn, "probe-on")                                                                                     \
+  X(ProbeOff, "probe-off")                                                                                   \
+  X(SubprogramCall, "subprogram-call")                                                                       \
+  X(Return, "return")
+
+enum class Function : std::uint8_t {
+#define DOTEK_FUNCTION(id, name) id,
+  DOTEK_FUNCTIONS(DOTEK_FUNCTION)
+#undef DOTEK_FUNCTION
+};
+std::string_view functionName(Function function);
+
+struct CodeInfo {
+  char letter = 'G';
+  std::uint32_t tenths = 0; // code times ten: G54.1 is 541
+  Function function = Function::Other;
+  std::optional<int> group; // modal group; nothing: one-shot, or not known
+  std::string title;        // what lists print
+  std::string grade;        // "documented", "observed", "inferred"
+  std::string source;
+};
+
+// Where the control keeps its state; nothing: it has no such variable, or no source gives it.
+struct SystemVariables {
+  std::optional<int> modalFirst;  // of group 0: group g stands at modalFirst + g
+  std::optional<int> modalFeed;   // F in force
+  std::optional<int> blockEnd;    // X of the end point of the previous block, work coordinates; Y, Z follow
+  std::optional<int> machine;     // X of the machine position
+  std::optional<int> position;    // X of the position, work coordinates
+  std::optional<int> skip;        // X of the skip position, work coordinates
+  std::optional<int> externalX;   // external work offset; the next axis is externalX + axisStep
+  std::optional<int> workOffsetX; // X of G54
+  int systemStep = 0;             // from G54 to G55
+  int axisStep = 0;               // from X to Y
+};
+
+struct VariableRange {
+  std::uint32_t first = 0, last = 0;
+  bool kept = false; // at power off
+};
+
+struct Control {
+  std::string name;   // of the file
+  std::string title;  // what lists print
+  std::string origin; // "built in", or the file
+  DecimalMode decimal = DecimalMode::Calculator;
+  std::string decimalGrade;      // "observed", "assumed"
+  double increment = 0.001;      // mm, least input increment
+  int decimals = 3;              // most digits behind the point of a word, mm
+  int integerDigits = 5;         // most digits before the point
+  bool ifThen = true;            // IF [..] THEN statement
+  bool joinedConditions = false; // [[..] AND [..]]
+  std::uint32_t bracketDepth = 5;
+  std::uint32_t locals = 33;
+  std::uint32_t macroLevels = 4;
+  std::vector<VariableRange> common;
+  std::set<std::string> functions;               // SIN, ATAN, ...
+  std::uint32_t alarmFirst = 0, alarmLast = 200; // n of #3000=n
+  std::uint32_t alarmLength = 26;                // characters of a message
+  std::uint32_t programLast = 9999;              // greatest O number
+  std::uint32_t sequenceLast = 9999;             // greatest N number of a GOTO
+  SystemVariables variables;
+  std::vector<CodeInfo> codes; // G and M, in the order of the file; each letter and code once
+
+  const CodeInfo* find(char letter, std::uint32_t tenths) const; // nullptr: not in the table
+  const CodeInfo* find(Function function) const;                 // the first with that meaning
+  bool isCommon(std::uint32_t number) const;
+
+  // Throws DataError where the file has a defect. nullopt: no such control.
+  static std::optional<Control> load(const DataFiles& files, std::string_view name);
+};
+
+} // namespace dotek::stdlib
