@@ -3,8 +3,11 @@
 
 #include "ir/Statement.h"
 
+#include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 namespace dotek::ir {
@@ -45,8 +48,13 @@ struct Cycle {
   SourceRange range;
 
   VariableId add(Variable variable);
+  // A name that is taken gets a number: "next", "next_2".
   LabelId addLabel(LabelName label);
   const Variable& variable(VariableId id) const { return variables[id]; }
+
+  // Of addLabel() alone: names that are taken, with the number to try next; how many labels they cover.
+  std::unordered_map<std::string, std::uint32_t> labelNames;
+  std::size_t labelsSeen = 0;
 };
 
 enum class LengthUnit : std::uint8_t { Millimetre, Inch };
