@@ -3,6 +3,7 @@
 #include "ir/Fold.h"
 #include "ir/Linear.h"
 #include "ir/Print.h"
+#include "ir/Verify.h"
 #include "tests/unit/IrHelper.h"
 
 #include <doctest/doctest.h>
@@ -155,6 +156,7 @@ TEST_CASE("ir: folded checks end as the checks do") {
   std::size_t passes = 0;
   for (int i = 0; i < 5000; ++i) {
     const Cycle cycle = randomChecks(random);
+    CHECK(verify(cycle).empty());
     const Environment environment = random.environment(true);
     std::map<VariableId, double> some;
     for (VariableId id = 0; id < kVariables; ++id)
@@ -164,6 +166,7 @@ TEST_CASE("ir: folded checks end as the checks do") {
     for (const bool unroll : {false, true}) {
       Cycle folded = cycle;
       fold(folded, some, {unroll, 500});
+      CHECK(verify(folded).empty());
       const CheckRun after = runChecks(folded, environment, 2000);
       // A counter that nobody reads is dropped, though it would overflow in the end.
       if (before.end == End::Failed && after.end == End::Endless) continue;
