@@ -177,8 +177,8 @@ TEST_CASE("gibbs lower: shapes that show a touch") {
     CHECK(text.find("touch-not-shown") == std::string::npos);
   }
   SUBCASE("FOR over as many touches as a field says") {
-    const std::string text = path("n = 0\nfor i = 1 to b\nn = n + 1\nif n > 400 then goto out\nz Z-plane\n"
-                                  "if a > 0 then x a-r\nx 0\nz h-plane\nnext i\n:out\n");
+    const std::string text = path(down + "n = 0\nfor i = 1 to b\nn = n + 1\nif n > 400 then goto out\n"
+                                         "if a > 0 then x a-r\nx 0\nnext i\n:out\nz h-plane\n");
     CHECK(text.find("measure X S a\n") != std::string::npos);
     CHECK(text.find("move X") == std::string::npos);
   }
