@@ -22,7 +22,7 @@ struct Variable {
   std::string name; // as the source spells it, UTF-8; of a host its name in the table
   Kind kind = Kind::Number;
   Role role = Role::Local;
-  bool optional = false;              // may be null
+  bool optional = false; // the caller may leave it out; without a default a parameter is null then
   std::optional<double> defaultValue; // of a parameter
   std::string defaultDigits;          // as the source writes it
   std::string unit;                   // as the dialog says: "mm"; "" for none

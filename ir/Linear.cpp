@@ -112,7 +112,7 @@ public:
     if (const auto* use = std::get_if<VariableUse>(&expression->node))
       return LinearForm{0, {{names_.variable(use->variable), 1}}};
     if (const auto* node = std::get_if<Unary>(&expression->node)) {
-      if (node->op == UnaryOp::Negate) return sum({}, form(node->operand), -1);
+      if (node->op == UnaryOp::Negate) return sum(LinearForm{}, form(node->operand), -1);
     } else if (const auto* pair = std::get_if<Binary>(&expression->node)) {
       if (pair->op == BinaryOp::Add) return sum(form(pair->left), form(pair->right), 1);
       if (pair->op == BinaryOp::Subtract) return sum(form(pair->left), form(pair->right), -1);

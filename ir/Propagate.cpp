@@ -147,12 +147,23 @@ std::vector<Statement> specialised(const std::vector<Statement>& list, const Con
   std::vector<Statement> out;
   Environment environment = constants.entry;
   bool reached = true;
+  bool inRest = false;              // `environment` began as atOthers
+  std::vector<VariableId> assigned; // since the last label
   for (std::size_t i = 0; i < list.size(); ++i) {
     const Statement& statement = list[i];
     if (std::holds_alternative<Label>(statement.node)) {
       const auto entry = constants.atLabel.find(i);
       reached = constants.atOthers || entry != constants.atLabel.end();
-      if (reached) environment = constants.atOthers ? *constants.atOthers : entry->second;
+      if (constants.atOthers) {
+        // Copying the whole each time would cost labels times variables.
+        if (!inRest) environment = *constants.atOthers;
+        for (const VariableId id : assigned)
+          environment[id] = (*constants.atOthers)[id];
+        inRest = true;
+      } else if (reached) {
+        environment = entry->second;
+      }
+      assigned.clear();
     }
     if (!reached) continue;
     if (const auto* branch = std::get_if<Branch>(&statement.node)) {
@@ -170,7 +181,10 @@ std::vector<Statement> specialised(const std::vector<Statement>& list, const Con
       continue;
     }
     out.push_back(specialisedStatement(statement, environment));
-    if (const auto* set = std::get_if<Assign>(&statement.node)) assign(*set, environment);
+    if (const auto* set = std::get_if<Assign>(&statement.node)) {
+      assign(*set, environment);
+      if (set->variable < environment.size()) assigned.push_back(set->variable);
+    }
     if (std::holds_alternative<Jump>(statement.node) || std::holds_alternative<Return>(statement.node) ||
         std::holds_alternative<Alarm>(statement.node))
       reached = false;

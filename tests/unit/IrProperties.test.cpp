@@ -1,7 +1,9 @@
 // Properties of the IR on random expressions, conditions and cycles. The seed is fixed: a failure repeats.
 #include "ir/Evaluate.h"
 #include "ir/Fold.h"
+#include "ir/Linear.h"
 #include "ir/Print.h"
+#include "ir/Verify.h"
 #include "tests/unit/IrHelper.h"
 
 #include <doctest/doctest.h>
@@ -154,6 +156,7 @@ TEST_CASE("ir: folded checks end as the checks do") {
   std::size_t passes = 0;
   for (int i = 0; i < 5000; ++i) {
     const Cycle cycle = randomChecks(random);
+    CHECK(verify(cycle).empty());
     const Environment environment = random.environment(true);
     std::map<VariableId, double> some;
     for (VariableId id = 0; id < kVariables; ++id)
@@ -163,6 +166,7 @@ TEST_CASE("ir: folded checks end as the checks do") {
     for (const bool unroll : {false, true}) {
       Cycle folded = cycle;
       fold(folded, some, {unroll, 500});
+      CHECK(verify(folded).empty());
       const CheckRun after = runChecks(folded, environment, 2000);
       // A counter that nobody reads is dropped, though it would overflow in the end.
       if (before.end == End::Failed && after.end == End::Endless) continue;
@@ -174,4 +178,26 @@ TEST_CASE("ir: folded checks end as the checks do") {
   }
   CHECK(alarms > 500);
   CHECK(passes > 250);
+}
+
+TEST_CASE("ir: a linear proof never contradicts the values") {
+  Random random(4);
+  std::size_t proofs = 0;
+  const Cycle cycle = declared();
+  for (int i = 0; i < 3000; ++i) {
+    // Close relatives, so that many are equal: sums of the same few terms in another order.
+    ExpressionPtr a = random.expression(1, false);
+    ExpressionPtr b = random.expression(1, false);
+    const auto left = binary(BinaryOp::Add, binary(BinaryOp::Subtract, a, b), b);
+    const auto right = random.once(2) ? a : binary(BinaryOp::Add, b, binary(BinaryOp::Subtract, b, a));
+    if (!provenEqual(left, right, cycle)) continue;
+    ++proofs;
+    const Environment environment = random.environment(true);
+    const Scalar one = evaluate(*left, environment);
+    const Scalar two = evaluate(*right, environment);
+    if (!one.known() || !two.known()) continue;
+    CHECK_MESSAGE(one.value == doctest::Approx(two.value), print(*left, cycle)
+                                                               << " and " << print(*right, cycle));
+  }
+  CHECK(proofs > 500);
 }
