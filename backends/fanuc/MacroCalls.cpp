@@ -33,7 +33,7 @@ void order(std::vector<CallWord>& arguments, const std::string& addresses) {
 
 void writeCall(State& state, const stdlib::MacroSignature& signature, std::vector<CallWord> arguments,
                const ir::Origin& origin) {
-  order(arguments, origin.addresses);
+  order(arguments, state.options.foreignMacros ? "" : origin.addresses);
   std::string text = "G65 P" + std::to_string(signature.program);
   for (const CallWord& argument : arguments)
     text += " " + argument.text;

@@ -154,7 +154,8 @@ void Walk::computeLiveness() {
 void Walk::follow(WalkState state) {
   for (;;) {
     if (++steps_ > maxSteps_) return;
-    if (joins_[state.at] && !isNew(state)) return;
+    if (joins_[state.at] && !state.answered && !isNew(state)) return;
+    state.answered = false;
     result_.reached[state.at] = true;
     if (!step(state)) return;
   }
@@ -337,6 +338,8 @@ bool Walk::step(WalkState& state, const FlatBranch& s) {
     WalkState other = state;
     learn(other, *question_, opposite(question_->relation));
     learn(state, *question_, question_->relation);
+    ++states_;
+    state.answered = other.answered = options_.facts;
     if (!options_.facts) {
       // Nothing is learnt, so the question would come again.
       result_.jumps[here] = result_.falls[here] = true;

@@ -52,6 +52,7 @@ struct WalkState {
   Facts facts;
   std::set<std::size_t> messages; // steps that showed one, not yet past
   std::size_t codeAt = kNowhere;  // step that set the return code
+  bool answered = false;          // a question of the step at `at` has been answered; it is the same visit
   Track track;
 };
 

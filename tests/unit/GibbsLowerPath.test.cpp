@@ -182,6 +182,13 @@ TEST_CASE("gibbs lower: shapes that show a touch") {
     CHECK(text.find("measure X S a\n") != std::string::npos);
     CHECK(text.find("move X") == std::string::npos);
   }
+  SUBCASE("behind a loop of many rounds, a condition at the head of the next") {
+    // The second loop is reached with so many values of b that its counter is no longer followed one by one.
+    const std::string text =
+        path(down + "i = 0\nfor j = 1 to b\ni = 0\nnext j\nfor j = 1 to 3\n"
+                    "if c <> 2+i then i = 5\nif b < 0 then x b+r\nx 0\nnext j\nz h-plane\n");
+    CHECK(text.find("measure X S b\n") != std::string::npos);
+  }
   SUBCASE("the way back on all axes") {
     CHECK(path(down + "if a > 0 then x a-r\nto 0, 0, Z-plane\nz h-plane\n") ==
           "move Z W Z\na<=0 -> L1\nmeasure X S a\nL1:\nmove Z W h\n");
