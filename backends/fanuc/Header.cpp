@@ -80,7 +80,10 @@ private:
   std::string title() const {
     const std::string& given = state_.cycle.title.empty() ? state_.cycle.name : state_.cycle.title;
     const auto lines = wrapWords(headerText(given), kTitleWidth);
-    return lines.empty() ? "PROBE CYCLE" : lines.front();
+    std::string out = lines.empty() ? "" : lines.front();
+    while (!out.empty() && std::string_view(" ,-.:/").find(out.back()) != std::string_view::npos)
+      out.pop_back(); // where it was cut
+    return out.empty() ? "PROBE CYCLE" : out;
   }
 
   std::string meaning(const ir::Variable& variable) const {
