@@ -248,6 +248,7 @@ std::optional<LoweredCycle> Lowering::run(std::set<std::string>& usedSets) {
   out_.cycle = gibbs::declareCycle(*folder_.cycle, session_.sources());
   for (ir::VariableId id = 0; id < cycle().variables.size(); ++id)
     parameters_.emplace(gibbs::foldCase(cycle().variable(id).name), id);
+  if (folder_.cycle->defineData) cycle().range = {folder_.cycle->defineData->file, 0, 0};
   const compost::Routine* routine = nullptr;
   std::vector<std::string> printed;
   if (inputs_.program) {
