@@ -76,12 +76,12 @@ private:
                                                 fmt::format("{}", fmt::join(known, ", ")));
       return false;
     }
-    if (inputs_->job && !inputs_->job->operations.empty())
-      diagnostics.report<diag::JobOperationsUnused>(inputs_->job->operations.front().range);
     for (const std::string& path : options_.inputs)
       folders_.push_back(loadCycleFolder(path, session_));
     if (options_.source.cycle) folders_.front().name = *options_.source.cycle;
     leaveFindingsToLint(session_);
+    if (inputs_->job && !inputs_->job->operations.empty())
+      diagnostics.report<diag::JobOperationsUnused>(inputs_->job->operations.front().range);
     return !diagnostics.hasErrors() && numbersDiffer();
   }
 

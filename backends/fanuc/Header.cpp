@@ -45,6 +45,7 @@ public:
   Sheet write() {
     out_.add("%", origin("begin of the file"));
     out_.add("O" + number() + "(" + title() + ")", origin("program number"));
+    if (!state_.cycle.title.empty()) say("CYCLE " + state_.cycle.name);
     say("FOR " + state_.control.title + ", MACROS OF " + state_.macros.title);
     if (!state_.cycle.measurementStated)
       say("THE SOURCE STATES A PATH ONLY: NO OFFSET IS SET BY THIS PROGRAM");
