@@ -72,6 +72,7 @@ private:
       std::vector<std::string> known;
       for (const stdlib::MacroSet& set : inputs_->macroSets)
         known.push_back(set.name);
+      leaveFindingsToLint(session_);
       diagnostics.report<diag::UnknownMacroSet>({}, *options_.probeMacros,
                                                 fmt::format("{}", fmt::join(known, ", ")));
       return false;
