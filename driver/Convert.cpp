@@ -2,6 +2,7 @@
 #include "driver/Driver.h"
 #include "driver/Lowering.h"
 #include "driver/PostProgram.h"
+#include "driver/Targets.h"
 
 #include "backends/fanuc/Emit.h"
 #include "frontend/gibbs/Ast.h"
@@ -11,7 +12,6 @@
 #include "support/NearestName.h"
 
 #include <algorithm>
-#include <array>
 #include <set>
 
 namespace dotek::driver {
@@ -21,7 +21,6 @@ namespace fanuc = backends::fanuc;
 namespace {
 
 constexpr std::uint32_t kFirstProgram = 8000;
-constexpr std::array<std::string_view, 1> kTargets = {"fanuc"};
 
 class ConvertCommand {
 public:
