@@ -2,6 +2,8 @@
 
 #include "frontend/gibbs/Ast.h"
 #include "ir/Evaluate.h"
+#include "ir/Flow.h"
+#include "ir/Fold.h"
 #include "ir/Rewrite.h"
 #include "support/Decimal.h"
 
@@ -24,9 +26,7 @@ public:
       : folder_(folder), lowered_(lowered), session_(session) {}
 
   void settle() {
-    ir::Environment fixed = environment(false);
-    const ir::CheckRun run = tried(fixed);
-    if (run.end == ir::CheckRun::End::Alarm) return rejected(*run.at);
+    if (const std::optional<ir::Statement> alarm = certainAlarm()) return rejected(*alarm);
     const ir::CheckRun defaults = tried(environment(true));
     if (defaults.end != ir::CheckRun::End::Alarm) return;
     const std::vector<ir::VariableId> found = culprits();
@@ -61,6 +61,32 @@ private:
         out[id] = {ir::Scalar::State::Known, *variable.defaultValue};
     }
     return out;
+  }
+
+  // Where the fixed values leave no way through the checks, whatever the rest is: an alarm that they end in.
+  std::optional<ir::Statement> certainAlarm() const {
+    if (lowered_.fixed.empty()) return std::nullopt;
+    std::optional<ir::Statement> alarm;
+    for (const auto& [radius, place] : hostValues()) {
+      ir::Cycle trial = cycle();
+      trial.body.clear();
+      std::map<ir::VariableId, double> values = lowered_.fixed;
+      for (ir::VariableId id = 0; id < trial.variables.size(); ++id) {
+        if (trial.variable(id).role == ir::Role::Host)
+          values.emplace(id, trial.variable(id).name == "tool_radius" ? radius : place);
+      }
+      ir::fold(trial, values);
+      const std::vector<bool> reached = ir::reachable(trial.checks);
+      const auto next = ir::successors(trial.checks);
+      bool passes = trial.checks.empty();
+      for (std::size_t i = 0; i < trial.checks.size(); ++i) {
+        if (!reached[i]) continue;
+        passes = passes || std::find(next[i].begin(), next[i].end(), trial.checks.size()) != next[i].end();
+        if (!alarm && std::holds_alternative<ir::Alarm>(trial.checks[i].node)) alarm = trial.checks[i];
+      }
+      if (passes) return std::nullopt;
+    }
+    return alarm;
   }
 
   // Ends in an alarm only where every value of the host inputs does.

@@ -8,6 +8,7 @@
 #include "frontend/compost/Summary.h"
 #include "frontend/gibbs/Lower.h"
 #include "ir/Evaluate.h"
+#include "ir/Flow.h"
 #include "ir/InferKinds.h"
 #include "ir/Rewrite.h"
 #include "ir/Verify.h"
@@ -157,6 +158,12 @@ bool Lowering::branch(const compost::Routine& routine, FieldTable& fields) {
     return false;
   }
   cycle().body = std::move(lowered->body);
+  const std::vector<bool> reached = ir::reachable(cycle().body);
+  for (std::size_t i = 0; i < reached.size(); ++i) {
+    if (reached[i] || std::holds_alternative<ir::Label>(cycle().body[i].node)) continue;
+    session_.diagnostics().report<diag::BehindAlarm>(cycle().body[i].origin.range());
+    break;
+  }
   out_.macros = lowered->macros;
   return true;
 }

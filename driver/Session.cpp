@@ -88,6 +88,8 @@ void keepStrongest(Diagnostics& diagnostics) {
     if (!added) at->second = std::max(at->second, d.severity);
   }
   std::erase_if(diagnostics.all(), [&](const Diagnostic& d) {
+    // Tells of another thing than the warning about the digits that stand there.
+    if (d.code == diag::PictureDecimals::code) return false;
     return narrow(d) && d.severity < strongest.at({d.range.file, d.range.begin});
   });
 }

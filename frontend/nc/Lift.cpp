@@ -88,6 +88,9 @@ bool Lifter::assignments() {
     message += (message.empty() ? "" : " ") + toUtf8(comment.text, context_.encoding);
   if (*number == kAlarmVariable) {
     add(ir::Alarm{message});
+    const double* given = ir::constantValue(read);
+    context_.diagnostics.report<diag::AlarmRenumbered>(assignment.range,
+                                                       given == nullptr ? "" : numberText(*given));
     return true;
   }
   if (*number == kMessageVariable) {

@@ -40,6 +40,7 @@ struct LiftContext {
   const stdlib::MacroSignature* measured = nullptr;    // the last measurement; its results stand in variables
   std::set<std::uint32_t> stored = {};                 // variables that were assigned since the last call
   std::set<std::string, std::less<>> pictureTold = {}; // holes whose picture was noted
+  std::set<std::string, std::less<>> zeroTold = {};    // the same for pictures that print nothing for 0
 };
 
 // Appends the statements of the block to `out`: comments, modes, probe, spindle and coolant, dwell, motion or

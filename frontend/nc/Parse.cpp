@@ -92,6 +92,8 @@ bool BlockParser::item(Block& block) {
     return syntax(here, "{} is printed where a word has to begin; put its address before it",
                   in_.hole().hole.name);
   }
+  if (c == '/')
+    return syntax(here, "`/` stands behind something; a control skips a block only where it begins with `/`");
   if (c >= 'a' && c <= 'z') {
     diagnostics_.report<diag::LowerCaseAddress>(here, c, static_cast<char>(c - 'a' + 'A'));
     return false;
