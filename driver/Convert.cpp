@@ -141,7 +141,8 @@ private:
         lowered->fixedByName.erase(lowered->cycle.variable(id).name);
     }
     ir::fold(lowered->cycle, lowered->fixed);
-    fanuc::EmitOptions emit{*inputs_->control, *macros, *inputs_->sourceControl};
+    fanuc::EmitOptions emit{*inputs_->control, *macros, *inputs_->sourceControl, 0, {}, {}, {}, {}};
+    emit.plainMessages = options_.common.assume.contains("plain-messages");
     emit.programNumber = numberOf(index);
     emit.defaults = options_.useDefaults ? fanuc::Defaults::Use : fanuc::Defaults::Alarm;
     emit.probePower = options_.switchProbe ? fanuc::ProbePowerMode::Macro : fanuc::ProbePowerMode::Source;

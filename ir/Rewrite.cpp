@@ -1,19 +1,11 @@
 #include "ir/Rewrite.h"
 
+#include "ir/Walk.h"
+
 namespace dotek::ir {
 namespace {
 
 template <class... Types> struct Cases : Types... { using Types::operator()...; };
-
-void rewriteAll(const std::vector<ExpressionPtr*>& roots, const Rewriter& rewriter) {
-  for (ExpressionPtr* root : roots) {
-    if (*root != nullptr) *root = rewrite(*root, rewriter);
-  }
-}
-
-void rewriteCoordinate(std::optional<Coordinate>& coordinate, const Rewriter& rewriter) {
-  if (coordinate) rewriteAll({&coordinate->value, &coordinate->system}, rewriter);
-}
 
 } // namespace
 
@@ -56,34 +48,9 @@ ConditionPtr rewrite(const ConditionPtr& condition, const Rewriter& rewriter) {
 }
 
 void rewrite(Statement& statement, const Rewriter& rewriter) {
-  std::visit(Cases{[&](Assign& s) { rewriteAll({&s.value}, rewriter); },
-                   [&](Store& s) {
-                     rewriteAll({&s.number, &s.value}, rewriter);
-                   },
-                   [&](Branch& s) { s.condition = rewrite(s.condition, rewriter); },
-                   [&](Move& s) {
-                     for (std::optional<Coordinate>& axis : s.axes)
-                       rewriteCoordinate(axis, rewriter);
-                     rewriteAll({&s.feed}, rewriter);
-                   },
-                   [&](Measure& s) {
-                     rewriteCoordinate(s.target, rewriter);
-                     rewriteAll({&s.diameter}, rewriter);
-                     if (!s.setting) return;
-                     rewriteAll({&s.setting->system}, rewriter);
-                     for (ExpressionPtr& nominal : s.setting->nominal)
-                       rewriteAll({&nominal}, rewriter);
-                   },
-                   [&](Spindle& s) { rewriteAll({&s.speed}, rewriter); },
-                   [&](SetMode& s) { rewriteAll({&s.system}, rewriter); },
-                   [&](Dwell& s) { rewriteAll({&s.seconds}, rewriter); },
-                   [&](OpaqueBlock& s) {
-                     for (Word& word : s.words)
-                       rewriteAll({&word.value}, rewriter);
-                   },
-                   [](Label&) {}, [](Jump&) {}, [](Return&) {}, [](ProbePower&) {}, [](Coolant&) {},
-                   [](Stop&) {}, [](Alarm&) {}, [](Comment&) {}, [](std::monostate&) {}},
-             statement.node);
+  eachSlot(statement, [&](ExpressionPtr& slot) { slot = rewrite(slot, rewriter); });
+  if (auto* branch = std::get_if<Branch>(&statement.node))
+    branch->condition = rewrite(branch->condition, rewriter);
 }
 
 void rename(std::vector<Statement>& list, const std::map<VariableId, VariableId>& names) {
@@ -103,12 +70,10 @@ void rename(std::vector<Statement>& list, const std::map<VariableId, VariableId>
 
 std::set<double> constantsOf(const std::vector<Statement>& list) {
   std::set<double> out;
-  const Rewriter collect = [&](const ExpressionPtr& expression) {
-    if (const double* value = constantValue(expression)) out.insert(*value);
-    return expression;
-  };
-  for (Statement statement : list)
-    rewrite(statement, collect);
+  for (const Statement& statement : list)
+    eachNode(statement, [&](const Expression& node) {
+      if (const auto* constant = std::get_if<Constant>(&node.node)) out.insert(constant->value);
+    });
   return out;
 }
 

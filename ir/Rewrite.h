@@ -1,4 +1,4 @@
-// Rewriting and visiting expressions inside statements.
+// Rewriting expressions inside statements; visiting them is Walk.h.
 #pragma once
 
 #include "ir/Cycle.h"
