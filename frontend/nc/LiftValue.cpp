@@ -4,7 +4,6 @@
 
 #include <array>
 #include <cmath>
-#include <fmt/format.h>
 
 namespace dotek::frontend::nc {
 namespace {
@@ -140,8 +139,11 @@ ir::ExpressionPtr Lifter::holeValue(const Expression& at, const Hole& hole, Read
   if (!reading.increments) return out;
   const bool counts = context_.control.decimal == stdlib::DecimalMode::Increment;
   if (fixedValue(hole) != 0.0) {
-    const std::string times = digits == 1 ? "its value" : fmt::format("{} times its value", digits);
-    const std::string small = fmt::format("{} of {}", times, numberText(context_.control.increment));
+    const auto timesValue = [](double factor) {
+      return factor == 1 ? std::string("its value") : numberText(factor) + " times its value";
+    };
+    const std::string times = timesValue(digits);
+    const std::string small = timesValue(increments(digits));
     context_.diagnostics.report<diag::DecimalPoint>(
         at.range, "what is printed for " + hole.name, context_.control.name, counts ? small : times,
         otherMode(context_.control.decimal), counts ? times : small);

@@ -87,6 +87,19 @@ TEST_CASE("a picture without a point prints increments where the control counts 
         "rapid X=work:((a*100)/1000)\n[picture-decimals], [decimal-point]");
 }
 
+TEST_CASE("the warning of a hole without a point says both factors") {
+  Nc nc("fanuc-6m");
+  nc.lift("G0 X{a|###^00}");
+  REQUIRE(nc.diagnostics.all().size() == 2);
+  CHECK(nc.diagnostics.all()[1].message ==
+        "what is printed for the field `a` has no decimal point; the control `fanuc-6m` reads 0.1 times its "
+        "value, with `decimal = \"calculator\"` it would be 100 times its value; write the point");
+  Nc zero;
+  zero.fixed["a"] = 0;
+  zero.lift("G0 X{a|##0}");
+  CHECK(zero.codes() == "[picture-decimals]"); // 0 is 0 either way
+}
+
 TEST_CASE("a value that does not fit its picture is an error where it is fixed") {
   Nc nc;
   nc.fixed["a"] = 12345;
