@@ -21,11 +21,11 @@ unsigned candidates(const char* p) {
   const auto upTo = [](__m128i v, char c) { return _mm_cmpeq_epi8(_mm_min_epu8(v, _mm_set1_epi8(c)), v); };
   const auto either = [](__m128i a, __m128i b) { return _mm_or_si128(a, b); };
   const __m128i here = load(p), next = load(p + 1);
-  const __m128i low = either(here, _mm_set1_epi8(0x20)), lowNext = either(next, _mm_set1_epi8(0x20));
+  const __m128i low = either(here, _mm_set1_epi8(0x20));
   const __m128i letter = upTo(_mm_sub_epi8(low, _mm_set1_epi8('a')), 25);
-  const __m128i letterNext = upTo(_mm_sub_epi8(lowNext, _mm_set1_epi8('a')), 25);
+  const __m128i number = upTo(_mm_sub_epi8(next, _mm_set1_epi8('+')), '9' - '+'); // signs, point, digits
   const __m128i marks = either(either(is(here, '#'), is(here, '[')), either(is(here, '('), is(here, '<')));
-  const __m128i words = _mm_and_si128(letter, either(letterNext, upTo(next, ' ')));
+  const __m128i words = _mm_andnot_si128(number, letter);
   const __m128i calls = _mm_and_si128(either(is(low, 'g'), is(low, 'm')),
                                       either(is(next, '0'), either(is(next, '6'), is(next, '9'))));
   return static_cast<unsigned>(_mm_movemask_epi8(either(marks, either(words, calls))));

@@ -55,14 +55,15 @@ inline ShortNumber readShortNumber(const char* p, std::size_t length) {
   // A digit becomes its value. The number moves to the top: the bytes below are leading zeros.
   const std::uint64_t d = (bytes ^ kOnes * '0') << ((64 - count * 8) & 63);
   const std::uint64_t noDigits = ((d + kOnes * 0x76) | d) & kHigh;
+  // The lowest byte that is a point, certainly; above it a second one counts as odd, true or not.
   const std::uint64_t x = d ^ kOnes * ('.' ^ '0');
-  const std::uint64_t points = ~(((x & ~kHigh) + ~kHigh) | x | ~kHigh);
+  const std::uint64_t points = (x - kOnes) & ~x & kHigh;
   const std::uint64_t none = points == 0 ? 1 : 0;
   out.point = none ^ 1;
   // 1 to 8 bytes, nothing but digits and one point, a digit beside it.
-  out.odd = (noDigits ^ points) | (points & (points - 1)) | ((count - 1) & ~std::uint64_t{7}) |
-            (count == 1 ? points : 0);
-  out.places = static_cast<std::uint64_t>(std::countl_zero(points | none << 63)) / 8;
+  out.odd = (noDigits ^ points) | (points & (points - 1)) |
+            (((count - 1) | (count - 1 - out.point)) & ~std::uint64_t{7});
+  out.places = static_cast<std::uint64_t>(__builtin_clzll(points | none << 63)) / 8; // never of 0
   // What stands before the point moves up into its place.
   const std::uint64_t front = d & ((points >> 7) - 1);
   const std::uint64_t back = d & ~((points << 1) - 1);
