@@ -137,15 +137,10 @@ bool Machine::executeLong(const NcWords& w) {
   }
   if (trace_ != nullptr) trace_->at(w.line);
   if ((w.marks & NcWords::ProgramMark) != 0) {
-    if (blocks_ == 0) return true;
-    end_.ending = Ending::TextEnd;
-    return false;
+    return blocks_ == 0 || stop(Ending::TextEnd);
   }
   if ((w.marks & NcWords::ProgramName) != 0) {
-    if (blocks_ != 0) {
-      end_.ending = Ending::TextEnd;
-      return false;
-    }
+    if (blocks_ != 0) return stop(Ending::TextEnd);
     if (w.has('O')) {
       if (!(w.of('O') >= 0 && w.of('O') <= control_.programLast))
         return inconclusive(fmt::format("its programs have numbers up to {}", control_.programLast), 'O');
@@ -159,9 +154,9 @@ bool Machine::executeLong(const NcWords& w) {
   if ((w.marks & NcWords::TooManyCodes) != 0)
     return inconclusive(fmt::format("more than {} codes in one block", NcWords::kMostCodes));
   if (!readCodes(w) || !checkWords(w)) return false;
-  const bool good = runBlock(w);
+  if (!runBlock(w)) return false;
   long_ = (modes_[kCanned] | modes_[kUnits]) != 0 || uncertain_ != 0 ? 1 : 0;
-  return good;
+  return true;
 }
 
 bool Machine::runBlock(const NcWords& w) {
@@ -227,12 +222,7 @@ bool Machine::readCodes(const NcWords& w) {
       return inconclusive("what it does here is not known to Dotek", 'M', i);
     if (code.function == Function::SubprogramCall) block_.call = 1;
   }
-  if (block_.call != 0) {
-    end_.ending = Ending::Call;
-    end_.line = w.line;
-    return false;
-  }
-  return true;
+  return block_.call == 0 || stop(Ending::Call);
 }
 
 // Every word is for something that the block does; one that is left over ends the run.
@@ -266,24 +256,29 @@ bool Machine::checkWords(const NcWords& w) {
   return true;
 }
 
+bool Machine::stop(Ending ending) {
+  end_.ending = ending;
+  end_.line = stack_.back().line;
+  long_ = 1;
+  return false;
+}
+
 bool Machine::raise(Alarm alarm, char letter) {
   const stdlib::AlarmInfo* info = control_.find(alarm);
-  end_.ending = Ending::Alarm;
+  stop(Ending::Alarm);
   end_.number = info != nullptr ? info->number : 0;
   end_.text = info != nullptr ? info->text : std::string(stdlib::alarmName(alarm));
   end_.letter = letter;
-  end_.line = stack_.back().line;
   end_.stack = stack_;
   if (trace_ != nullptr) trace_->begin("alarm").text(std::to_string(end_.number)).text(end_.text).end();
   return false;
 }
 
 bool Machine::raise(std::uint32_t n, std::string_view text) {
-  end_.ending = Ending::Alarm;
+  stop(Ending::Alarm);
   end_.number = 3000 + n;
   end_.text = text;
   end_.letter = 0;
-  end_.line = stack_.back().line;
   end_.stack = stack_;
   if (trace_ != nullptr) trace_->begin("alarm").text(std::to_string(end_.number)).text(end_.text).end();
   return false;
@@ -294,11 +289,10 @@ void Machine::message(std::string_view text) {
 }
 
 bool Machine::inconclusive(std::string why, char letter, std::uint32_t which) {
-  end_.ending = Ending::Inconclusive;
+  stop(Ending::Inconclusive);
   end_.text = std::move(why);
   end_.letter = letter;
   end_.which = which;
-  end_.line = stack_.back().line;
   end_.stack = stack_;
   return false;
 }

@@ -122,6 +122,7 @@ private:
     double wear = 0, geometry = 0;
   };
 
+  bool stop(Ending ending); // false
   bool executeLong(const ir::NcWords& words);
   bool runBlock(const ir::NcWords& words);
   bool readCodes(const ir::NcWords& words);
@@ -169,7 +170,7 @@ private:
 
   // What the short way of execute() reads, together.
   std::array<std::uint8_t, kSlots> modes_{};
-  std::uint32_t long_ = 0;      // not 0: every block goes the long way
+  std::uint32_t long_ = 0;      // not 0: every block goes the long way, also when the run has ended
   std::uint32_t uncertain_ = 0; // part of that
   std::uint32_t shown_ = 7;
   std::uint32_t needPoint_ = 0; // letters that count increments without a point

@@ -131,10 +131,9 @@ bool Machine::stops(const NcWords& w) {
       break;
     case Function::ProgramEnd:
     case Function::Return:
-      end_.ending = table_.m(w.m[i]).function == Function::Return ? Ending::Return : Ending::ProgramEnd;
-      end_.line = w.line;
-      if (trace_ != nullptr && end_.ending == Ending::ProgramEnd) trace_->begin("end").end();
-      return false;
+      if (table_.m(w.m[i]).function == Function::Return) return stop(Ending::Return);
+      if (trace_ != nullptr) trace_->begin("end").end();
+      return stop(Ending::ProgramEnd);
     default: break;
     }
   }

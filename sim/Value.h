@@ -1,4 +1,5 @@
-// The value of a macro variable: a double, or null as one pattern of NaN that no arithmetic gives.
+// The value of a macro variable: a double, or null as one pattern of NaN. Arithmetic on it would keep the
+// pattern, so whoever computes reads it as 0 first.
 #pragma once
 
 #include <bit>
