@@ -175,6 +175,7 @@ bool Machine::runBlock(const NcWords& w) {
 // Puts the modal codes of the block in force and notes the others.
 bool Machine::readCodes(const NcWords& w) {
   block_ = {};
+  block_.before = modes_;
   for (std::uint32_t i = 0; i < w.gCount; ++i) {
     const Code& code = table_.g(w.g[i]);
     if ((code.flags & Code::Unknown) != 0)

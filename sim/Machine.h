@@ -185,7 +185,9 @@ private:
   std::array<double, 26> modalWords_{}; // B D F H M N O S T; others unused
   double speed_ = 0;
   std::uint8_t spindle_ = 0; // 0 off, 1 clockwise, 2 counterclockwise
-  Position offset_{};        // sum of what lies between work and machine, tool length aside
+  std::uint8_t shownSpindle_ = 0;
+  double shownSpeed_ = 0;
+  Position offset_{}; // sum of what lies between work and machine, tool length aside
   Position external_{}, local_{}, shift_{};
   std::array<Position, 6> systems_{};
   std::vector<Position> extended_;
@@ -209,8 +211,9 @@ private:
   struct BlockCodes {
     stdlib::Function oneShot = stdlib::Function::Other;
     bool hasOneShot = false;
-    std::uint32_t slots = 0; // bit by Slot
-    std::uint32_t call = 0;  // not 0: a call or a return stands in the block
+    std::uint32_t slots = 0;                   // bit by Slot
+    std::array<std::uint8_t, kSlots> before{}; // modes before the block
+    std::uint32_t call = 0;                    // not 0: a call or a return stands in the block
   } block_;
 };
 

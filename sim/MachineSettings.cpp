@@ -70,7 +70,7 @@ bool Machine::settings(const NcWords& w) {
     toolNumber_ = *tool;
     if (trace_ != nullptr) trace_->begin("tool").text(std::to_string(toolNumber_)).end();
   }
-  if (trace_ != nullptr && (block_.slots >> kComp & 1) != 0) {
+  if (trace_ != nullptr && modes_[kComp] != block_.before[kComp]) {
     static constexpr std::string_view kNames[] = {"off", "left", "right"};
     trace_->begin("comp").text(kNames[modes_[kComp]]);
     if (modes_[kComp] != 0) trace_->text(fmt::format("D{:.0f}", modalWords_[slotOf('D')]));
@@ -112,7 +112,9 @@ bool Machine::miscellaneous(const NcWords& w) {
     }
     if (trace_ != nullptr && !action.empty()) trace_->begin(action).text(state).end();
   }
-  if (spindle && trace_ != nullptr) {
+  if (spindle && trace_ != nullptr && (spindle_ != shownSpindle_ || speed_ != shownSpeed_)) {
+    shownSpindle_ = spindle_;
+    shownSpeed_ = speed_;
     static constexpr std::string_view kNames[] = {"off", "cw", "ccw"};
     trace_->begin("spindle").text(kNames[spindle_]).word("S", speed_).end();
   }
@@ -153,15 +155,17 @@ void Machine::updateOffsets() {
 
 bool Machine::changeSystem(const NcWords& w) {
   if ((block_.slots >> kSystem & 1) == 0) return true;
+  bool changed = modes_[kSystem] != block_.before[kSystem];
   if (modes_[kSystem] == kExtended) {
     const std::optional<std::uint32_t> number = w.has('P') ? whole(w, 'P') : std::optional<std::uint32_t>(1);
     if (!number || *number == 0 || *number >= extended_.size())
       return inconclusive(fmt::format("additional systems are P1 to P{}", extended_.size() - 1),
                           w.has('P') ? 'P' : 'G');
+    changed = changed || *number != extendedNow_;
     extendedNow_ = *number;
   }
   updateOffsets();
-  if (trace_ != nullptr) {
+  if (trace_ != nullptr && changed) {
     trace_->begin("system").text(modes_[kSystem] == kExtended ? fmt::format("54.1 P{}", extendedNow_)
                                                               : std::to_string(54 + modes_[kSystem]));
     trace_->position(work_, shown_).end();
@@ -186,9 +190,10 @@ bool Machine::changeToolLength(const NcWords& w) {
   }
   // Whether the machine or its coordinates move by the difference depends on a parameter; the next absolute Z
   // settles it.
+  const bool changed = length != toolLength_ || modes_[kLength] != block_.before[kLength];
   if (length != toolLength_) uncertain_ |= 1u << 2;
   toolLength_ = length;
-  if (trace_ != nullptr) {
+  if (trace_ != nullptr && changed) {
     static constexpr std::string_view kNames[] = {"off", "+", "-"};
     trace_->begin("tool-length").text(kNames[modes_[kLength]]);
     if (modes_[kLength] != 0) trace_->text(fmt::format("H{:.0f}", modalWords_[slotOf('H')]));

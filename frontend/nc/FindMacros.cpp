@@ -1,5 +1,6 @@
 // Whether a text holds macro statements or calls: one pass at the speed of memory.
 #include "frontend/nc/Scan.h"
+#include "frontend/nc/ScanNumber.h"
 
 #include <bit>
 #include <cstring>
@@ -53,7 +54,7 @@ Finding look(const char* p) {
   ++p;
   while (*p == ' ' || *p == '\t')
     ++p;
-  if (isLetter(*p)) return Finding::Macro;
+  if (isLetter(*p)) return beginsMacroWord(letter, *p) ? Finding::Macro : Finding::Nothing;
   if (letter != 'G' && letter != 'M') return Finding::Nothing;
   while (*p == '0' || *p == '+')
     ++p;

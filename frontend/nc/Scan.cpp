@@ -42,6 +42,13 @@ const char* skipBlanks(const char* p) {
     ++p;
   return p;
 }
+// Behind the character, of which UTF-8 may need several bytes.
+const char* behindCharacter(const char* p) {
+  const bool leads = (*p & 0xC0) == 0xC0;
+  for (++p; leads && (*p & 0xC0) == 0x80;)
+    ++p;
+  return p;
+}
 bool isLineEnd(char c) {
   return c == '\n' || c == '\r';
 }
@@ -144,7 +151,7 @@ Scanner::Result Scanner::careful(NcWords& words) {
       }
       case kColon: kind = kO; break;
       case kMacro: return fail(ScanFault::MacroText, p, p + 1);
-      default: return fail(ScanFault::BadCharacter, p, p + 1);
+      default: return fail(ScanFault::BadCharacter, p, behindCharacter(p));
       }
     }
     const char* const address = p++;
@@ -157,7 +164,8 @@ Scanner::Result Scanner::careful(NcWords& words) {
           ++rest;
         return fail(ScanFault::BadNumber, address, rest);
       }
-      if (classOf(*rest) < 26 || classOf(*rest) == kMacro) { // GOTO, X#1
+      if (classOf(*rest) == kMacro ||
+          (classOf(*rest) < 26 && beginsMacroWord(*address, *rest))) { // GOTO, X#1
         const char* stop = rest;
         while (classOf(*stop) < 26)
           ++stop;

@@ -77,4 +77,13 @@ inline ShortNumber readShortNumber(const char* p, std::size_t length) {
   return out;
 }
 
+// Whether a word of the macro language begins with these two letters: GOTO, IF, WHILE, DO, END, THEN, POPEN,
+// PCLOS, DPRNT, BPRNT, SETVN. Two letters that are none of them are an address without its number.
+inline bool beginsMacroWord(char first, char second) {
+  constexpr char kBegins[][3] = {"GO", "IF", "WH", "DO", "EN", "TH", "PO", "PC", "DP", "BP", "SE"};
+  for (const char* const begin : kBegins)
+    if ((first & 0x5F) == begin[0] && (second & 0x5F) == begin[1]) return true;
+  return false;
+}
+
 } // namespace dotek::frontend::nc

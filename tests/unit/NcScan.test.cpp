@@ -149,7 +149,7 @@ TEST_CASE("nc scan: defects stand at their place") {
       {"% X1", ScanFault::LateMark, 1, 2, 4},
       {"G1 X1,5", ScanFault::BadCharacter, 1, 5, 6},
       {"G1 X1)", ScanFault::BadCharacter, 1, 5, 6},
-      {"G1 \xC5\x99", ScanFault::BadCharacter, 1, 3, 4},
+      {"G1 \xC5\x99", ScanFault::BadCharacter, 1, 3, 5},
       {"G1;X1", ScanFault::BadCharacter, 1, 2, 3},
       {"X#1", ScanFault::MacroText, 1, 0, 2},
       {"X1 #1=2", ScanFault::MacroText, 1, 3, 4},
@@ -298,7 +298,10 @@ TEST_CASE("nc scan: the first pass finds macro statements and calls, outside of 
                                "%\nO1 (A#)\n(G65)G1(M98)\n",
                                "<MAIN_M98#>\nG1",
                                "G1X1\r\nM30\r\n",
-                               "G165 G650 G5 X6"};
+                               "G165 G650 G5 X6",
+                               "G1 X Y5",
+                               "X\nY1",
+                               "GX"};
   for (const char* text : plain) {
     CAPTURE(text);
     CHECK_FALSE(macros(text));
