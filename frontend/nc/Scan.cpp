@@ -1,7 +1,9 @@
 #include "frontend/nc/Scan.h"
 
+#include "frontend/nc/ScanCodes.h"
 #include "frontend/nc/ScanMasks.h"
 #include "frontend/nc/ScanNumber.h"
+#include "frontend/nc/ScanWide.h"
 
 #include <algorithm>
 #include <array>
@@ -53,18 +55,10 @@ bool isLineEnd(char c) {
   return c == '\n' || c == '\r';
 }
 
-constexpr unsigned kG = 'G' - 'A', kO = 'O' - 'A';
-
-std::uint32_t gCode(std::uint64_t digits, std::uint64_t places, bool minus) {
-  if (minus || places > 1 || digits > 99999) return NcWords::kNoCode;
-  return static_cast<std::uint32_t>(digits) * (places == 0 ? 10 : 1);
-}
-std::uint32_t mCode(std::uint64_t digits, bool point, bool minus) {
-  if (minus || point || digits > 99'999'999) return NcWords::kNoCode;
-  return static_cast<std::uint32_t>(digits);
-}
-
 } // namespace
+
+Scanner::Scanner(LineChunks& chunks, Way way)
+    : chunks_(chunks), wide_(way == Way::Fastest && canReadWide()), quick_(way != Way::Careful) {}
 
 bool Scanner::refill() {
   if (stopped_) return false;
@@ -181,7 +175,7 @@ Scanner::Result Scanner::careful(NcWords& words) {
     pointed |= number.point ? bit : 0;
     mostPlaces = std::max(mostPlaces, number.places);
     words.value[kind] = number.value;
-    if ((ir::addressBits("GM") & bit) == 0) continue;
+    if ((kCodeBits & bit) == 0) continue;
     if (kind == kG)
       words.g[gCount++ % NcWords::kMostCodes] = gCode(number.digits, number.places, number.minus);
     else
@@ -198,7 +192,7 @@ Scanner::Result Scanner::careful(NcWords& words) {
     marks |= NcWords::ProgramName;
   words.present = present;
   words.pointed = pointed;
-  words.repeated = repeated & ~ir::addressBits("GM");
+  words.repeated = repeated & ~kCodeBits;
   words.mostPlaces = mostPlaces;
   words.gCount = gCount;
   words.mCount = mCount;
@@ -235,7 +229,7 @@ bool Scanner::quick(NcWords& words) {
     pointed |= static_cast<std::uint32_t>(number.point) << kind;
     mostPlaces = std::max(mostPlaces, number.places);
     words.value[kind] = number.value;
-    if ((ir::addressBits("GM") & bit) == 0) continue;
+    if ((kCodeBits & bit) == 0) continue;
     if (kind == kG)
       words.g[gCount++ % NcWords::kMostCodes] = gCode(number.digits, number.places, number.minus != 0);
     else
@@ -249,7 +243,7 @@ bool Scanner::quick(NcWords& words) {
   ++line_;
   words.present = present;
   words.pointed = pointed;
-  words.repeated = repeated & ~ir::addressBits("GM");
+  words.repeated = repeated & ~kCodeBits;
   words.mostPlaces = static_cast<std::uint32_t>(mostPlaces);
   words.gCount = gCount;
   words.mCount = mCount;
@@ -265,8 +259,16 @@ Scanner::Result Scanner::next(NcWords& words) {
       if (!refill()) return error_.fault == ScanFault::None ? Result::End : Result::Error;
       continue;
     }
+    if (wide_) {
+      if (const unsigned bytes = readLineWide(at_, words); bytes != 0) [[likely]] {
+        lineStart_ = at_;
+        at_ += bytes;
+        words.line = ++line_;
+        return Result::Block;
+      }
+    }
     if constexpr (kHasLineMasks) {
-      if (quick(words)) return Result::Block;
+      if (quick_ && quick(words)) return Result::Block;
     }
     const Result result = careful(words);
     if (result == Result::Error || words.present != 0 || words.marks != 0) return result;

@@ -35,7 +35,13 @@ struct ScanError {
 
 class Scanner {
 public:
-  explicit Scanner(LineChunks& chunks) : chunks_(chunks) {}
+  // All ways read the same; the others are for tests.
+  enum class Way : std::uint8_t {
+    Fastest,  // what the processor can do
+    Portable, // what every processor can do
+    Careful,  // byte by byte
+  };
+  explicit Scanner(LineChunks& chunks, Way way = Way::Fastest);
 
   enum class Result : std::uint8_t { Block, End, Error };
   // The next block that is not empty. After an error the line is skipped: reading may go on, except after
@@ -59,6 +65,7 @@ private:
   const char* lineStart_ = nullptr;
   std::uint64_t line_ = 0;
   bool stopped_ = false;
+  bool wide_, quick_;
   ScanError error_;
 };
 

@@ -22,9 +22,10 @@ struct Read {
   std::string line; // of the error
 };
 
-Read scan(std::string_view text, std::size_t buffer = LineChunks::kBuffer) {
+Read scan(std::string_view text, std::size_t buffer = LineChunks::kBuffer,
+          Scanner::Way way = Scanner::Way::Fastest) {
   LineChunks chunks(text, buffer);
-  Scanner scanner(chunks);
+  Scanner scanner(chunks, way);
   Read out;
   NcWords words;
   Scanner::Result result;
@@ -199,11 +200,15 @@ TEST_CASE("nc scan: a number equals strtod of its text") {
   const auto check = [&](const std::string& number) {
     // With a word behind it, at the end of a line, and behind a comment, which is read by other code.
     for (const std::string& text : {"Q" + number + " X1", "Q" + number, "()Q" + number + "X1"}) {
-      CAPTURE(text);
-      const NcWords w = one(text);
-      const double expected = std::strtod(number.c_str(), nullptr);
-      CHECK(w.of('Q') == expected);
-      CHECK(((w.pointed >> ('Q' - 'A')) & 1) == (number.find('.') != std::string::npos ? 1 : 0));
+      for (const Scanner::Way way : {Scanner::Way::Fastest, Scanner::Way::Portable}) {
+        CAPTURE(text);
+        const Read read = scan(text, LineChunks::kBuffer, way);
+        REQUIRE(read.blocks.size() == 1);
+        const NcWords& w = read.blocks.front();
+        const double expected = std::strtod(number.c_str(), nullptr);
+        REQUIRE(w.of('Q') == expected);
+        REQUIRE(((w.pointed >> ('Q' - 'A')) & 1) == (number.find('.') != std::string::npos ? 1 : 0));
+      }
     }
   };
   for (int i = 0; i < 20000; ++i) {
@@ -223,7 +228,7 @@ TEST_CASE("nc scan: a number equals strtod of its text") {
     check(number);
 }
 
-TEST_CASE("nc scan: the quick way and the careful way read the same") {
+TEST_CASE("nc scan: all ways read the same") {
   std::mt19937 random(7);
   const auto below = [&](unsigned n) { return static_cast<unsigned>(random() % n); };
   int read = 0;
@@ -235,17 +240,19 @@ TEST_CASE("nc scan: the quick way and the careful way read the same") {
       if (below(16) != 0) line += std::to_string(below(2000) / 10.0).substr(0, 1 + below(5));
       if (below(3) == 0) line += ' ';
     }
-    const Read quick = scan(line);
-    const Read careful = scan(" \t " + line); // blanks at the begin: never quick
-    CAPTURE(line);
-    REQUIRE(quick.error.fault == careful.error.fault);
-    REQUIRE(quick.blocks.size() == careful.blocks.size());
-    if (quick.error.fault != ScanFault::None) {
-      CHECK(quick.error.begin + 3 == careful.error.begin);
-      CHECK(quick.error.end + 3 == careful.error.end);
-    } else if (!quick.blocks.empty()) {
-      ++read;
-      CHECK(shown(quick.blocks[0]) == shown(careful.blocks[0]));
+    const Read careful = scan(line, LineChunks::kBuffer, Scanner::Way::Careful);
+    for (const Scanner::Way way : {Scanner::Way::Fastest, Scanner::Way::Portable}) {
+      const Read quick = scan(line, LineChunks::kBuffer, way);
+      CAPTURE(line);
+      REQUIRE(quick.error.fault == careful.error.fault);
+      REQUIRE(quick.blocks.size() == careful.blocks.size());
+      if (quick.error.fault != ScanFault::None) {
+        CHECK(quick.error.begin == careful.error.begin);
+        CHECK(quick.error.end == careful.error.end);
+      } else if (!quick.blocks.empty()) {
+        ++read;
+        REQUIRE(shown(quick.blocks[0]) == shown(careful.blocks[0]));
+      }
     }
   }
   CHECK(read > 1000);

@@ -186,7 +186,8 @@ public:
     default: add('G', below(2)); break;
     }
     if (state.motion() >= 2 && out.empty()) add('G', 1);
-    if (!out.empty() && out.front().first == 'G' && out.front().second > 3 && state.motion() >= 2 && !state.canned())
+    if (!out.empty() && out.front().first == 'G' && out.front().second > 3 && state.motion() >= 2 &&
+        !state.canned())
       return out;
     axes(60);
     if (below(8) == 0) add('F', 1 + below(1000));
