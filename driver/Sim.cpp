@@ -5,7 +5,6 @@
 #include "sim/Machine.h"
 #include "stdlib/Control.h"
 #include "support/Decimal.h"
-#include "support/Files.h"
 #include "support/LineChunks.h"
 
 #include <charconv>
@@ -29,7 +28,7 @@ public:
     // What cannot be read twice, a pipe, is kept; so its size is bounded.
     std::optional<std::string> kept;
     if (!chunks->rewind()) {
-      kept = readBytes(options_.program, session_.limits(), diagnostics());
+      kept = readAll(*chunks);
       if (!kept) return session_.finish("");
       chunks = std::make_unique<LineChunks>(*kept);
     }
@@ -42,6 +41,24 @@ public:
 
 private:
   Diagnostics& diagnostics() { return session_.diagnostics(); }
+
+  // nullopt with a diagnostic where it is too large or cannot be read.
+  std::optional<std::string> readAll(LineChunks& chunks) {
+    std::string out;
+    for (;;) {
+      const LineChunks::State state = chunks.next();
+      if (state == LineChunks::State::End) return out;
+      if (state == LineChunks::State::Failed) {
+        diagnostics().report<diag::FileNotReadable>({}, options_.program, chunks.error());
+        return std::nullopt;
+      }
+      out.append(chunks.begin(), chunks.end());
+      if (out.size() > session_.limits().inputBytes) {
+        diagnostics().report<diag::FileTooLarge>({}, options_.program, session_.limits().inputBytes);
+        return std::nullopt;
+      }
+    }
+  }
 
   std::optional<stdlib::Control> loadControl() {
     const std::string name(options_.control.empty() ? kFirstControl : std::string_view(options_.control));
