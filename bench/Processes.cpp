@@ -1,41 +1,22 @@
 // Time and memory of whole processes: median of some runs, largest resident set, ratio to /bin/true.
 //   bench_processes --dotek PROGRAM [--corpus DIR] [--runs N] [--check]
 // Run from the root of the repository. --check exits with 1 where a figure is above its bound.
+#include "bench/Process.h"
+
 #include <algorithm>
-#include <chrono>
 #include <cstdlib>
 #include <cstring>
-#include <fcntl.h>
 #include <filesystem>
 #include <fmt/format.h>
 #include <fstream>
 #include <optional>
-#include <spawn.h>
 #include <string>
-#include <sys/resource.h>
-#include <sys/wait.h>
-#include <unistd.h>
 #include <vector>
 
-extern char** environ;
-
 namespace fs = std::filesystem;
+using namespace bench;
 
 namespace {
-
-using Command = std::vector<std::string>;
-
-struct Run {
-  double milliseconds = 0;
-  double megabytes = 0;
-  int status = 0; // -1: could not be started, or died
-};
-
-struct Figures {
-  double median = 0;
-  double megabytes = 0; // the largest
-  int status = 0;       // of the last run
-};
 
 struct Case {
   std::string name;
@@ -44,52 +25,6 @@ struct Case {
   std::optional<double> mostMilliseconds;
   std::optional<double> mostMegabytes;
 };
-
-Run runOnce(const Command& command) {
-  std::vector<char*> arguments;
-  for (const std::string& argument : command)
-    arguments.push_back(const_cast<char*>(argument.c_str()));
-  arguments.push_back(nullptr);
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
-  posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
-
-  Run run;
-  pid_t child = 0;
-  const auto begin = std::chrono::steady_clock::now();
-  const int failed =
-      posix_spawn(&child, command.front().c_str(), &actions, nullptr, arguments.data(), environ);
-  posix_spawn_file_actions_destroy(&actions);
-  if (failed != 0) {
-    run.status = -1;
-    return run;
-  }
-  int status = 0;
-  rusage usage{};
-  wait4(child, &status, 0, &usage);
-  const auto end = std::chrono::steady_clock::now();
-  run.milliseconds = std::chrono::duration<double, std::milli>(end - begin).count();
-  run.megabytes = static_cast<double>(usage.ru_maxrss) / 1024.0; // Linux counts KiB
-  run.status = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-  return run;
-}
-
-Figures measure(const Command& command, int runs) {
-  runOnce(command); // files into the cache
-  std::vector<double> times;
-  Figures figures;
-  for (int i = 0; i < runs; ++i) {
-    const Run run = runOnce(command);
-    times.push_back(run.milliseconds);
-    figures.megabytes = std::max(figures.megabytes, run.megabytes);
-    figures.status = run.status;
-  }
-  std::sort(times.begin(), times.end());
-  const std::size_t half = times.size() / 2;
-  figures.median = times.size() % 2 == 1 ? times[half] : (times[half - 1] + times[half]) / 2;
-  return figures;
-}
 
 // A Prog of about `lines` lines: one routine with a branch for each of many cycles.
 void writeProg(const fs::path& path, int lines) {

@@ -34,6 +34,9 @@ struct Raw {
   std::string to, control, probeMacros, programNumber, outputFolder, mapFile;
   std::string defaultsMode = "alarm";
   std::string probePower = "source";
+  std::vector<std::string> variables;
+  std::string traceFile;
+  bool json = false, quiet = false;
   std::uint32_t maxErrors = 50;
   bool recover = false;
 };
@@ -147,7 +150,13 @@ void fill(const Raw& raw, Arguments& parsed) {
       throw UsageError("--seq takes START:STEP, two whole numbers such as 90:10, not `" + raw.sequence + "`");
     parsed.sequence = {*start, *step};
   }
-  parsed.json = raw.format == "json";
+  parsed.json = raw.format == "json" || raw.json;
+  parsed.quiet = raw.quiet;
+  parsed.traceFile = raw.traceFile;
+  parsed.sim.control = raw.control;
+  parsed.sim.json = raw.json;
+  for (const std::string& text : raw.variables)
+    parsed.sim.variables.push_back(splitPair("--var", text));
   if (!raw.select.empty() && raw.select != "all") parsed.select = codes(raw.select);
   parsed.ignore = codes(raw.ignore);
   if (raw.failOn == "never")
@@ -275,6 +284,19 @@ void addDump(CLI::App& app, Raw& raw) {
   addCommon(*dump, raw);
 }
 
+void addSim(CLI::App& app, Raw& raw) {
+  CLI::App* sim = app.add_subcommand("sim", "run an NC program on a machine and print what it does");
+  sim->add_option("PROGRAM", raw.inputs, "the program")->expected(1);
+  addTarget(*sim, raw);
+  sim->add_option("--var", raw.variables, "value of a variable before the program begins")
+      ->type_name("N=VALUE")
+      ->allow_extra_args(false);
+  sim->add_flag("--quiet", raw.quiet, "no trace");
+  sim->add_flag("--json", raw.json, "print how the run ended as JSON, and no trace");
+  sim->add_option("--trace", raw.traceFile, "write the trace to a file")->type_name("OUT");
+  addCommon(*sim, raw);
+}
+
 // CLI11 would only say that a command is missing.
 void checkCommand(const CLI::App& app, const std::vector<std::string>& arguments) {
   if (arguments.empty() || arguments.front().starts_with('-')) return;
@@ -290,7 +312,8 @@ void checkCommand(const CLI::App& app, const std::vector<std::string>& arguments
 
 // `--set A=1 B=2` means `--set A=1 --set B=2`: pairs that follow a flag of pairs belong to it.
 std::vector<std::string> spreadPairs(const std::vector<std::string>& arguments) {
-  constexpr std::array<std::string_view, 5> kPairFlags = {"--set", "--field", "--host", "--default", "--arg"};
+  constexpr std::array<std::string_view, 6> kPairFlags = {"--set",     "--field", "--host",
+                                                          "--default", "--arg",   "--var"};
   std::vector<std::string> out;
   std::string flag;
   bool first = false;
@@ -326,6 +349,7 @@ std::optional<int> parseArguments(const std::vector<std::string>& arguments, Arg
   addConvert(app, raw);
   addLint(app, raw);
   addDump(app, raw);
+  addSim(app, raw);
   CLI::App* explain = app.add_subcommand("explain", "say what a message means and what to do");
   explain->add_option("CODE", raw.inputs, "the name in brackets behind a message")->required()->expected(1);
   CLI::App* list = app.add_subcommand("list", "print a table");
@@ -345,6 +369,7 @@ std::optional<int> parseArguments(const std::vector<std::string>& arguments, Arg
                      : command == "lint"    ? Command::Lint
                      : command == "dump"    ? Command::Dump
                      : command == "explain" ? Command::Explain
+                     : command == "sim"     ? Command::Sim
                                             : Command::List;
     fill(raw, parsed);
     return std::nullopt;

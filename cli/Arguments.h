@@ -11,7 +11,7 @@
 
 namespace dotek::cli {
 
-enum class Command : unsigned char { Post, Convert, Lint, Dump, Explain, List };
+enum class Command : unsigned char { Post, Convert, Lint, Dump, Explain, List, Sim };
 
 struct Arguments {
   Command command = Command::Post;
@@ -27,6 +27,9 @@ struct Arguments {
   driver::ConvertOptions convert; // inputs, common and source aside
   std::string outputFolder;       // -d
   std::string mapFile;            // --map
+  driver::SimOptions sim;         // common aside
+  std::string traceFile;          // --trace
+  bool quiet = false;
   driver::Stage stage = driver::Stage::Ast;
   std::uint32_t maxErrors = 50;
 };

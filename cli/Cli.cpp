@@ -7,6 +7,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <exception>
+#include <memory>
 #include <ostream>
 
 namespace dotek::cli {
@@ -56,6 +57,26 @@ public:
     return kDone;
   }
 
+  // The trace goes to standard output while the program runs, or to `--trace`; what stops the run is no
+  // defect of the trace.
+  int simulation(driver::SimOptions& options, const Arguments& arguments) {
+    Diagnostics writing;
+    std::unique_ptr<AtomicFile> file;
+    if (!arguments.traceFile.empty()) {
+      file = AtomicFile::create(arguments.traceFile, writing);
+      if (file) options.trace = [&](std::string_view text) { file->write(text); };
+    } else if (!arguments.quiet && !options.json) {
+      options.trace = [&](std::string_view text) { out_ << text; };
+    }
+    driver::Outcome outcome;
+    if (writing.empty()) outcome = driver::sim(options);
+    out_ << outcome.output;
+    err_ << renderText(outcome.diagnostics, outcome.sources, maxErrors_);
+    if (file && outcome.status != 2) file->commit(writing);
+    err_ << renderText(writing, SourceMap(), maxErrors_);
+    return writing.hasErrors() ? kUsage : outcome.status;
+  }
+
   // Findings are the result.
   int findings(const driver::Outcome& outcome, bool json, std::optional<Severity> failOn) {
     out_ << (json ? renderJson(outcome.diagnostics, outcome.sources)
@@ -97,6 +118,10 @@ int runCommand(Arguments& arguments, std::ostream& out, std::ostream& err) {
     return printer.result(driver::dump({arguments.inputs, arguments.stage, arguments.common, arguments.source,
                                         arguments.convert.control}),
                           "");
+  case Command::Sim:
+    arguments.sim.program = arguments.inputs.empty() ? "" : arguments.inputs.front();
+    arguments.sim.common = arguments.common;
+    return printer.simulation(arguments.sim, arguments);
   case Command::Explain: return printer.result(driver::explain(arguments.inputs.front()), "");
   case Command::List: return printer.result(driver::list(arguments.inputs.front(), arguments.common), "");
   }

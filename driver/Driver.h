@@ -6,11 +6,13 @@
 #include "support/Source.h"
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
 #include <set>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -83,6 +85,16 @@ struct DumpOptions {
   std::string control; // Ir: as of convert
 };
 
+struct SimOptions {
+  std::string program; // path
+  CommonOptions common;
+  std::string control;  // "": the first
+  NamedTexts variables; // --var N=VALUE
+  bool json = false;    // the output is the summary as JSON
+  // Takes the trace while the program runs, in pieces of whole lines. Empty: no trace is made.
+  std::function<void(std::string_view)> trace;
+};
+
 // One file of a result that may have several; `output` holds them one behind the other.
 struct OutputFile {
   std::string name; // "O8000.nc"
@@ -107,6 +119,9 @@ Outcome convert(const ConvertOptions& options);
 // severities, for --fail-on).
 Outcome lint(const LintOptions& options);
 Outcome dump(const DumpOptions& options);
+// Runs a program on a machine. The status is 0 where it came to its end; the trace and the summary are given
+// up to the place where it did not.
+Outcome sim(const SimOptions& options);
 // The text of one message or rule; status 2 for an unknown code.
 Outcome explain(const std::string& code);
 // `what`: cycles, controls, macros, forms, rules, targets, hosts, limits, assumptions.

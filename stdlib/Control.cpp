@@ -17,6 +17,12 @@ constexpr std::string_view kFunctionNames[] = {
 #undef DOTEK_FUNCTION
 };
 
+constexpr std::string_view kAlarmNames[] = {
+#define DOTEK_ALARM(id, name) name,
+    DOTEK_ALARMS(DOTEK_ALARM)
+#undef DOTEK_ALARM
+};
+
 // What macro statements can compute; ATAN in the forms that exist.
 constexpr std::string_view kMacroFunctions[] = {
     "ABS", "ACOS", "ADP", "ASIN", "ATAN", "ATAN[y]", "ATAN[y]/[x]", "ATAN[y,x]", "BCD", "BIN", "COS", "EXP",
@@ -36,8 +42,13 @@ enum class Family : std::uint8_t {
   ToolLength,
   Scaling,
   System,
+  Mirror,
+  Polar,
   Rotation,
   Canned,
+  ReturnLevel,
+  SurfaceSpeed,
+  ModalCall,
   Distance,
   Feed
 };
@@ -45,23 +56,39 @@ enum class Family : std::uint8_t {
 Family familyOf(Function function) {
   switch (function) {
   case Function::Rapid:
+  case Function::ArcClockwise:
+  case Function::ArcCounterClockwise:
   case Function::Feed: return Family::Motion;
   case Function::PlaneXY:
   case Function::PlaneZX:
   case Function::PlaneYZ: return Family::Plane;
   case Function::Inch:
   case Function::Metric: return Family::Unit;
+  case Function::CutterCompLeft:
+  case Function::CutterCompRight:
   case Function::CutterCompOff: return Family::CutterComp;
   case Function::ToolLengthPlus:
   case Function::ToolLengthMinus:
   case Function::ToolLengthOff: return Family::ToolLength;
   case Function::ScalingOn:
   case Function::ScalingOff: return Family::Scaling;
+  case Function::MirrorOn:
+  case Function::MirrorOff: return Family::Mirror;
+  case Function::PolarOn:
+  case Function::PolarOff: return Family::Polar;
   case Function::WorkSystem:
   case Function::ExtendedWorkSystem: return Family::System;
   case Function::RotationOn:
   case Function::RotationOff: return Family::Rotation;
+  case Function::CannedCycle:
+  case Function::BackBoring:
   case Function::CannedCycleOff: return Family::Canned;
+  case Function::ReturnInitial:
+  case Function::ReturnR: return Family::ReturnLevel;
+  case Function::SurfaceSpeedOn:
+  case Function::SurfaceSpeedOff: return Family::SurfaceSpeed;
+  case Function::ModalCall:
+  case Function::ModalCallOff: return Family::ModalCall;
   case Function::Absolute:
   case Function::Incremental: return Family::Distance;
   case Function::FeedPerMinute:
@@ -96,6 +123,8 @@ public:
     programs();
     for (const TomlTable& table : root_.require("codes", "tables of G and M codes").tables())
       codes(table);
+    motion();
+    alarms();
     variables();
     return std::move(control_);
   }
@@ -293,6 +322,57 @@ private:
     }
   }
 
+  void motion() {
+    const TomlValue value = root_.value("motion");
+    if (!value) return;
+    const TomlTable table = value.table();
+    origin(table);
+    if (const TomlValue tolerance = table.value("arc_tolerance")) {
+      control_.arcTolerance = tolerance.number();
+      if (*control_.arcTolerance <= 0) document_.fail(tolerance.range(), "`arc_tolerance` is a length in mm");
+    }
+    if (const TomlValue letter = table.value("repeat"))
+      control_.repeatLetter = letter.choice({"K", "L"}, "K").front();
+  }
+
+  // "no-feed 11: NO FEEDRATE COMMANDED"
+  void alarms() {
+    for (const TomlTable& table : root_.value("alarms").tables()) {
+      const Origin origin = ControlReader::origin(table);
+      for (const TomlValue& item : table.require("list", "a list of alarms").items()) {
+        const std::string text = item.text();
+        const std::size_t blank = text.find(' '), colon = text.find(": ");
+        std::uint32_t number = 0;
+        bool good =
+            blank < colon && colon != std::string::npos && colon + 2 < text.size() && colon - blank < 6;
+        for (std::size_t i = blank + 1; good && i < colon; ++i) {
+          good = text[i] >= '0' && text[i] <= '9';
+          number = number * 10 + static_cast<std::uint32_t>(text[i] - '0');
+        }
+        if (!good || number == 0) {
+          document_.fail(
+              item.range(),
+              fmt::format("`{}` is no alarm; `no-feed 11: NO FEEDRATE COMMANDED` is the form", text));
+          continue;
+        }
+        const std::string name = text.substr(0, blank);
+        const auto at = std::find(std::begin(kAlarmNames), std::end(kAlarmNames), name);
+        if (at == std::end(kAlarmNames)) {
+          const std::string near = nearestName(
+              name, std::vector<std::string_view>(std::begin(kAlarmNames), std::end(kAlarmNames)));
+          document_.fail(item.range(), fmt::format("`{}` is no alarm that Dotek raises{}", name,
+                                                   near.empty() ? "" : "; the nearest is `" + near + "`"));
+          continue;
+        }
+        const Alarm alarm = static_cast<Alarm>(at - std::begin(kAlarmNames));
+        if (control_.find(alarm) != nullptr)
+          document_.fail(item.range(), fmt::format("`{}` is given twice", name));
+        else
+          control_.alarms.push_back({alarm, number, text.substr(colon + 2), origin.grade, origin.source});
+      }
+    }
+  }
+
   void variables() {
     const TomlTable table = section("variables", "system variables");
     origin(table);
@@ -310,6 +390,18 @@ private:
     v.skip = number("skip");
     v.externalX = number("external_x");
     v.workOffsetX = number("work_offset_x");
+    v.extendedX = number("extended_x");
+    v.extendedStep = static_cast<int>(table.value("extended_step").integer(0, 1, 9999));
+    v.extendedCount = static_cast<int>(table.value("extended_count").integer(0, 1, 300));
+    v.toolWear = number("tool_wear");
+    v.toolGeometry = number("tool_geometry");
+    v.toolCount = static_cast<int>(table.value("tool_count").integer(0, 1, 999));
+    v.modalWords = number("modal_words");
+    v.toolLength = number("tool_length");
+    v.alarm = number("alarm");
+    v.timer = number("timer");
+    v.hours = number("hours");
+    v.message = number("message");
     v.systemStep = static_cast<int>(table.value("system_step").integer(0, 1, 9999));
     v.axisStep = static_cast<int>(table.value("axis_step").integer(0, 1, 9999));
     if (v.workOffsetX && v.systemStep == 0)
@@ -317,6 +409,12 @@ private:
     if ((v.workOffsetX || v.externalX) && v.axisStep == 0)
       document_.fail(table.value(v.workOffsetX ? "work_offset_x" : "external_x").range(),
                      "an offset of X stands without `axis_step`");
+    if (v.extendedX && (v.extendedStep == 0 || v.extendedCount == 0))
+      document_.fail(table.value("extended_x").range(),
+                     "`extended_x` stands without `extended_step` and `extended_count`");
+    if ((v.toolWear || v.toolGeometry) && v.toolCount == 0)
+      document_.fail(table.value(v.toolWear ? "tool_wear" : "tool_geometry").range(),
+                     "tool offsets stand without `tool_count`");
     std::vector<std::pair<std::string_view, int>> blocks;
     const auto add = [&](std::string_view key, std::optional<int> first, int count, int step = 1) {
       for (int i = 0; first && i < count; ++i)
@@ -330,6 +428,16 @@ private:
     add("external_x", v.externalX, 3, v.axisStep);
     for (int system = 0; v.workOffsetX && system < 6; ++system)
       add("work_offset_x", *v.workOffsetX + system * v.systemStep, 3, v.axisStep);
+    for (int system = 0; v.extendedX && system < v.extendedCount; ++system)
+      add("extended_x", *v.extendedX + system * v.extendedStep, 3, v.axisStep);
+    add("tool_wear", v.toolWear ? std::optional<int>(*v.toolWear + 1) : std::nullopt, v.toolCount);
+    add("tool_geometry", v.toolGeometry ? std::optional<int>(*v.toolGeometry + 1) : std::nullopt,
+        v.toolCount);
+    add("tool_length", v.toolLength, 3);
+    add("alarm", v.alarm, 1);
+    add("timer", v.timer, 1);
+    add("hours", v.hours, 1);
+    add("message", v.message, 1);
     if (v.modalFirst) {
       for (const CodeInfo& code : control_.codes)
         if (code.group) blocks.emplace_back("modal_first", *v.modalFirst + *code.group);
@@ -365,6 +473,16 @@ private:
 
 std::string_view functionName(Function function) {
   return kFunctionNames[static_cast<std::size_t>(function)];
+}
+
+std::string_view alarmName(Alarm alarm) {
+  return kAlarmNames[static_cast<std::size_t>(alarm)];
+}
+
+const AlarmInfo* Control::find(Alarm alarm) const {
+  const auto at =
+      std::find_if(alarms.begin(), alarms.end(), [&](const AlarmInfo& info) { return info.alarm == alarm; });
+  return at == alarms.end() ? nullptr : &*at;
 }
 
 const CodeInfo* Control::find(char letter, std::uint32_t tenths) const {

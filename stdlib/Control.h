@@ -23,6 +23,8 @@ enum class DecimalMode : std::uint8_t { Increment, Calculator };
   X(Other, "other") /* known to the control, not translated: an opaque block */                              \
   X(Rapid, "rapid")                                                                                          \
   X(Feed, "feed")                                                                                            \
+  X(ArcClockwise, "arc-clockwise")                                                                           \
+  X(ArcCounterClockwise, "arc-counter-clockwise")                                                            \
   X(Dwell, "dwell")                                                                                          \
   X(Skip, "skip")                                                                                            \
   X(PlaneXY, "plane-xy")                                                                                     \
@@ -31,23 +33,42 @@ enum class DecimalMode : std::uint8_t { Increment, Calculator };
   X(Inch, "inch")                                                                                            \
   X(Metric, "metric")                                                                                        \
   X(CutterCompOff, "cutter-comp-off")                                                                        \
+  X(CutterCompLeft, "cutter-comp-left")                                                                      \
+  X(CutterCompRight, "cutter-comp-right")                                                                    \
   X(ToolLengthPlus, "tool-length-plus")                                                                      \
   X(ToolLengthMinus, "tool-length-minus")                                                                    \
   X(ToolLengthOff, "tool-length-off")                                                                        \
   X(ScalingOn, "scaling-on")                                                                                 \
   X(ScalingOff, "scaling-off")                                                                               \
+  X(MirrorOn, "mirror-on")                                                                                   \
+  X(MirrorOff, "mirror-off")                                                                                 \
+  X(PolarOn, "polar-on")                                                                                     \
+  X(PolarOff, "polar-off")                                                                                   \
   X(LocalShift, "local-shift")                                                                               \
+  X(SetPosition, "set-position") /* G92: the position gets these coordinates */                              \
   X(MachineCoordinates, "machine-coordinates")                                                               \
   X(WorkSystem, "work-system") /* G54 to G59: the code is the system */                                      \
   X(ExtendedWorkSystem, "extended-work-system")                                                              \
+  X(DataInput, "data-input") /* G10 */                                                                       \
+  X(ReferenceReturn, "reference-return")                                                                     \
+  X(SecondReferenceReturn, "second-reference-return") /* 2nd, 3rd, 4th reference position */                 \
   X(MacroCall, "macro-call")                                                                                 \
+  X(ModalCall, "modal-call") /* G66 */                                                                       \
+  X(ModalCallOff, "modal-call-off")                                                                          \
   X(RotationOn, "rotation-on")                                                                               \
   X(RotationOff, "rotation-off")                                                                             \
+  X(CannedCycle, "canned-cycle") /* ends at level R or at the initial level */                               \
+  X(BackBoring, "back-boring")   /* ends at the initial level */                                             \
   X(CannedCycleOff, "canned-cycle-off")                                                                      \
+  X(ReturnInitial, "return-initial") /* of canned cycles */                                                  \
+  X(ReturnR, "return-r")                                                                                     \
   X(Absolute, "absolute")                                                                                    \
   X(Incremental, "incremental")                                                                              \
   X(FeedPerMinute, "feed-per-minute")                                                                        \
   X(FeedPerRevolution, "feed-per-revolution")                                                                \
+  X(SurfaceSpeedOn, "surface-speed-on")                                                                      \
+  X(SurfaceSpeedOff, "surface-speed-off")                                                                    \
+  X(PathMode, "path-mode") /* how a path is followed or watched: no effect on where it ends */               \
   X(Stop, "stop")                                                                                            \
   X(OptionalStop, "optional-stop")                                                                           \
   X(ProgramEnd, "program-end")                                                                               \
@@ -57,6 +78,8 @@ enum class DecimalMode : std::uint8_t { Increment, Calculator };
   X(CoolantMist, "coolant-mist")                                                                             \
   X(CoolantFlood, "coolant-flood")                                                                           \
   X(CoolantOff, "coolant-off")                                                                               \
+  X(ToolChange, "tool-change")                                                                               \
+  X(Auxiliary, "auxiliary") /* M: moves no axis, changes no modal state */                                   \
   X(ProbeOn, "probe-on")                                                                                     \
   X(ProbeOff, "probe-off")                                                                                   \
   X(SubprogramCall, "subprogram-call")                                                                       \
@@ -68,6 +91,46 @@ enum class Function : std::uint8_t {
 #undef DOTEK_FUNCTION
 };
 std::string_view functionName(Function function);
+
+// Alarms of a control that Dotek raises. X(id, name in the data)
+#define DOTEK_ALARMS(X)                                                                                      \
+  X(TooManyDigits, "too-many-digits")                                                                        \
+  X(NoFeed, "no-feed")                                                                                       \
+  X(ArcRadius, "arc-radius") /* the end point does not lie on the arc */                                     \
+  X(NoProgramNumber, "no-program-number")                                                                    \
+  X(SubprogramDepth, "subprogram-depth")                                                                     \
+  X(NoSuchProgram, "no-such-program")                                                                        \
+  X(IntegerOverflow, "integer-overflow")                                                                     \
+  X(Overflow, "overflow")                                                                                    \
+  X(DivideByZero, "divide-by-zero")                                                                          \
+  X(ImproperCommand, "improper-command")                                                                     \
+  X(ExpressionFormat, "expression-format")                                                                   \
+  X(NoSuchVariable, "no-such-variable")                                                                      \
+  X(WriteProtected, "write-protected")                                                                       \
+  X(BracketDepth, "bracket-depth")                                                                           \
+  X(ArgumentRange, "argument-range")                                                                         \
+  X(MacroDepth, "macro-depth")                                                                               \
+  X(MissingEnd, "missing-end")                                                                               \
+  X(StatementFormat, "statement-format")                                                                     \
+  X(LoopNumber, "loop-number")                                                                               \
+  X(MixedBlock, "mixed-block")                                                                               \
+  X(NoSuchSequence, "no-such-sequence")                                                                      \
+  X(GArgument, "g-argument")
+
+enum class Alarm : std::uint8_t {
+#define DOTEK_ALARM(id, name) id,
+  DOTEK_ALARMS(DOTEK_ALARM)
+#undef DOTEK_ALARM
+};
+std::string_view alarmName(Alarm alarm);
+
+struct AlarmInfo {
+  Alarm alarm{};
+  std::uint32_t number = 0;
+  std::string text; // as the control shows it
+  std::string grade;
+  std::string source;
+};
 
 struct CodeInfo {
   char letter = 'G';
@@ -90,8 +153,21 @@ struct SystemVariables {
   std::optional<int> skip;        // X of the skip position, work coordinates
   std::optional<int> externalX;   // external work offset; the next axis is externalX + axisStep
   std::optional<int> workOffsetX; // X of G54
-  int systemStep = 0;             // from G54 to G55
-  int axisStep = 0;               // from X to Y
+  std::optional<int> extendedX;   // X of G54.1 P1; the next axis is extendedX + axisStep
+  int extendedStep = 0;           // from P1 to P2
+  int extendedCount = 0;          // greatest P
+  std::optional<int>
+      toolWear; // of offset 0: offset n stands at toolWear + n; the whole length where there is no geometry
+  std::optional<int> toolGeometry;
+  int toolCount = 0;             // greatest offset number
+  std::optional<int> modalWords; // words in force: + 2 B, 7 D, 9 F, 11 H, 13 M, 14 N, 15 O, 19 S, 20 T
+  std::optional<int> toolLength; // X of the tool offset in force
+  std::optional<int> alarm;      // #3000
+  std::optional<int> timer;      // #3001, milliseconds
+  std::optional<int> hours;      // #3002
+  std::optional<int> message;    // #3006
+  int systemStep = 0;            // from G54 to G55
+  int axisStep = 0;              // from X to Y
 };
 
 struct VariableRange {
@@ -121,10 +197,14 @@ struct Control {
   std::uint32_t programLast = 9999;              // greatest O number
   std::uint32_t sequenceLast = 9999;             // greatest N number of a GOTO
   SystemVariables variables;
-  std::vector<CodeInfo> codes; // G and M, in the order of the file; each letter and code once
+  std::optional<double> arcTolerance; // mm, between the radii of an arc's ends; nothing: not known
+  char repeatLetter = 0;              // of canned cycles; 0: not known
+  std::vector<AlarmInfo> alarms;      // each alarm once
+  std::vector<CodeInfo> codes;        // G and M, in the order of the file; each letter and code once
 
   const CodeInfo* find(char letter, std::uint32_t tenths) const; // nullptr: not in the table
   const CodeInfo* find(Function function) const;                 // the first with that meaning
+  const AlarmInfo* find(Alarm alarm) const;                      // nullptr: its number is not known
   bool isCommon(std::uint32_t number) const;
 
   // Throws DataError where the file has a defect. nullopt: no such control.

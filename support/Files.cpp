@@ -159,4 +159,32 @@ bool writeAllAtomically(const std::vector<std::pair<std::string, const std::stri
   return good;
 }
 
+std::unique_ptr<AtomicFile> AtomicFile::create(const std::string& path, Diagnostics& diagnostics) {
+  std::FILE* file = std::fopen(temporaryOf(path).c_str(), "wb");
+  if (file == nullptr) {
+    diagnostics.report<diag::FileNotWritable>({}, path, std::strerror(errno));
+    return nullptr;
+  }
+  return std::unique_ptr<AtomicFile>(new AtomicFile(path, file));
+}
+
+AtomicFile::~AtomicFile() {
+  if (file_ == nullptr) return;
+  std::fclose(file_);
+  std::remove(temporaryOf(path_).c_str());
+}
+
+void AtomicFile::write(std::string_view bytes) {
+  good_ = good_ && std::fwrite(bytes.data(), 1, bytes.size(), file_) == bytes.size();
+}
+
+bool AtomicFile::commit(Diagnostics& diagnostics) {
+  const bool closed = std::fclose(file_) == 0;
+  file_ = nullptr;
+  if (good_ && closed) return rename(path_, diagnostics);
+  diagnostics.report<diag::FileNotWritable>({}, path_, std::strerror(errno));
+  std::remove(temporaryOf(path_).c_str());
+  return false;
+}
+
 } // namespace dotek

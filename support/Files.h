@@ -5,8 +5,11 @@
 #include "support/Limits.h"
 #include "support/Source.h"
 
+#include <cstdio>
+#include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -31,5 +34,23 @@ bool writeAtomically(const std::string& path, const std::string& bytes, Diagnost
 // where it is missing ("": none).
 bool writeAllAtomically(const std::vector<std::pair<std::string, const std::string*>>& files,
                         const std::string& folder, Diagnostics& diagnostics);
+
+// A result that is written piece by piece, complete or absent like that of writeAtomically.
+class AtomicFile {
+public:
+  // nullptr with a diagnostic where the file cannot be made.
+  static std::unique_ptr<AtomicFile> create(const std::string& path, Diagnostics& diagnostics);
+  ~AtomicFile(); // removes what was not committed
+  AtomicFile(const AtomicFile&) = delete;
+  AtomicFile& operator=(const AtomicFile&) = delete;
+  void write(std::string_view bytes);
+  bool commit(Diagnostics& diagnostics);
+
+private:
+  AtomicFile(std::string path, std::FILE* file) : path_(std::move(path)), file_(file) {}
+  std::string path_;
+  std::FILE* file_;
+  bool good_ = true;
+};
 
 } // namespace dotek

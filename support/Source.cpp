@@ -10,8 +10,8 @@ SourceRange spanning(SourceRange a, SourceRange b) {
   return {a.file, std::min(a.begin, b.begin), std::max(a.end, b.end)};
 }
 
-SourceFile::SourceFile(std::string name, std::string bytes, Encoding encoding)
-    : name_(std::move(name)), bytes_(std::move(bytes)), encoding_(encoding) {
+SourceFile::SourceFile(std::string name, std::string bytes, Encoding encoding, std::uint32_t firstLine)
+    : name_(std::move(name)), bytes_(std::move(bytes)), encoding_(encoding), firstLine_(firstLine) {
   if (bytes_.starts_with("\xEF\xBB\xBF")) bytes_.erase(0, 3);
   lineStarts_.push_back(0);
   for (std::size_t i = 0; i < bytes_.size(); ++i) {
@@ -23,16 +23,17 @@ SourceFile::SourceFile(std::string name, std::string bytes, Encoding encoding)
 
 std::uint32_t SourceFile::lineOf(std::uint32_t offset) const {
   const auto next = std::upper_bound(lineStarts_.begin(), lineStarts_.end(), offset);
-  return static_cast<std::uint32_t>(next - lineStarts_.begin());
+  return static_cast<std::uint32_t>(next - lineStarts_.begin()) + firstLine_ - 1;
 }
 
 std::uint32_t SourceFile::lineStart(std::uint32_t line) const {
-  return lineStarts_.at(line - 1);
+  return lineStarts_.at(line - firstLine_);
 }
 
 std::string_view SourceFile::line(std::uint32_t line) const {
   const std::uint32_t begin = lineStart(line);
-  const std::size_t end = line < lineCount() ? lineStarts_[line] : bytes_.size();
+  const std::size_t next = line - firstLine_ + 1;
+  const std::size_t end = next < lineStarts_.size() ? lineStarts_[next] : bytes_.size();
   std::string_view text = std::string_view(bytes_).substr(begin, end - begin);
   while (text.ends_with('\n') || text.ends_with('\r'))
     text.remove_suffix(1);

@@ -45,8 +45,9 @@ struct LineColumn {
 // One input, immutable. Line ends are LF, CR LF or CR.
 class SourceFile {
 public:
-  // A UTF-8 byte order mark is dropped. `name` is printed as given.
-  SourceFile(std::string name, std::string bytes, Encoding encoding);
+  // A UTF-8 byte order mark is dropped. `name` is printed as given. Of a file that is too large to keep,
+  // `bytes` may be some lines; `firstLine` is the number of the first.
+  SourceFile(std::string name, std::string bytes, Encoding encoding, std::uint32_t firstLine = 1);
 
   const std::string& name() const { return name_; }
   const std::string& bytes() const { return bytes_; }
@@ -64,6 +65,7 @@ private:
   std::string name_;
   std::string bytes_;
   Encoding encoding_;
+  std::uint32_t firstLine_;
   std::vector<std::uint32_t> lineStarts_;
 };
 

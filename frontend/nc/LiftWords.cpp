@@ -92,19 +92,6 @@ bool Lifter::function(const Code& code, Plan& plan) {
   case Function::ProgramEnd:
   case Function::Return: return refuse<diag::EndInBranch>(code.word->range, wordText(*code.word));
   case Function::SubprogramCall: return foreign(true);
-  case Function::MacroCall: // handled before
-  case Function::Other:
-  case Function::Skip:
-  case Function::ToolLengthPlus:
-  case Function::ToolLengthMinus:
-  case Function::ToolLengthOff:
-  case Function::ScalingOn:
-  case Function::ScalingOff:
-  case Function::LocalShift:
-  case Function::MachineCoordinates:
-  case Function::ExtendedWorkSystem:
-  case Function::RotationOn:
-  case Function::RotationOff: return foreign(false);
   case Function::Stop:
   case Function::OptionalStop:
   case Function::SpindleClockwise:
@@ -115,8 +102,9 @@ bool Lifter::function(const Code& code, Plan& plan) {
   case Function::CoolantOff:
   case Function::ProbeOn:
   case Function::ProbeOff: return miscellaneous(code, plan);
+  // Known to the control, and to the simulator perhaps; not translated.
+  default: return foreign(false);
   }
-  return false;
 }
 
 bool Lifter::miscellaneous(const Code& code, Plan& plan) {

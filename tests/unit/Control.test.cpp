@@ -66,14 +66,22 @@ TEST_CASE("what every built-in control has: the functions that a probing program
     CHECK(function(control, 'G', 21) == Function::Metric);
     CHECK(function(control, 'G', 31) == Function::Skip);
     CHECK(function(control, 'G', 40) == Function::CutterCompOff);
-    CHECK(function(control, 'G', 41) == Function::Other);
+    CHECK(function(control, 'G', 41) == Function::CutterCompLeft);
+    CHECK(function(control, 'G', 2) == Function::ArcClockwise);
+    CHECK(function(control, 'G', 28) == Function::ReferenceReturn);
+    CHECK(function(control, 'G', 92) == Function::SetPosition);
+    CHECK(function(control, 'G', 10) == Function::DataInput);
     CHECK(function(control, 'G', 43) == Function::ToolLengthPlus);
     CHECK(function(control, 'G', 49) == Function::ToolLengthOff);
     CHECK(function(control, 'G', 52) == Function::LocalShift);
     CHECK(function(control, 'G', 56) == Function::WorkSystem);
     CHECK(function(control, 'G', 65) == Function::MacroCall);
     CHECK(function(control, 'G', 80) == Function::CannedCycleOff);
-    CHECK(function(control, 'G', 81) == Function::Other);
+    CHECK(function(control, 'G', 81) == Function::CannedCycle);
+    CHECK(function(control, 'G', 87) == Function::BackBoring);
+    CHECK(function(control, 'G', 99) == Function::ReturnR);
+    CHECK(function(control, 'M', 6) == Function::ToolChange);
+    CHECK(function(control, 'G', 27) == Function::Other);
     CHECK(function(control, 'G', 90) == Function::Absolute);
     CHECK(function(control, 'G', 91) == Function::Incremental);
     CHECK(function(control, 'M', 5) == Function::SpindleOff);
@@ -125,7 +133,16 @@ TEST_CASE("the 0i-MD: facts of the reference") {
   CHECK(group(c, 'G', 501) == 22);
   CHECK(group(c, 'G', 160) == 17);
   CHECK(c.find('G', 541)->function == Function::ExtendedWorkSystem);
-  CHECK(c.find('G', 501)->function == Function::Other);
+  CHECK(c.find('G', 501)->function == Function::MirrorOff);
+  CHECK(c.find('G', 71)->function == Function::Other);
+  CHECK(c.variables.extendedX == 7001);
+  CHECK(c.variables.extendedCount == 48);
+  CHECK(c.variables.toolWear == 2000);
+  CHECK(c.repeatLetter == 'K');
+  CHECK(c.arcTolerance == 0.03);
+  CHECK(c.find(Alarm::WriteProtected)->number == 116);
+  CHECK(c.find(Alarm::WriteProtected)->text == "WRITE PROTECTED VARIABLE");
+  CHECK(c.find(Alarm::NoFeed)->number == 11);
   CHECK(c.find(Function::ProbeOn)->letter == 'M');
   CHECK(c.find(Function::ProbeOn)->tenths == 310);
   CHECK(c.find(Function::ProbeOff)->tenths == 320);
@@ -309,6 +326,32 @@ TEST_CASE("defects of a control, with line and column: variables") {
   CHECK(changed("skip=5061", "skip=500").ends_with("`skip` is 500; 1000 to 999999 is expected"));
   CHECK(changed("modal_first=4000", "modal_first=4998").find("#5001 is a variable of") != std::string::npos);
   CHECK(changed("last=531", "last=5061").ends_with("#5001 is a common variable"));
+}
+
+TEST_CASE("defects of a control, with line and column: motion and alarms") {
+  const auto with = [](const std::string& text) {
+    return controlError(own("codes = [", text + "\ncodes = ["));
+  };
+  const std::string origin = "grade='assumed',source='x'";
+  CHECK(with("motion = {arc_tolerance=0.02,repeat='L'," + origin + "}") == "");
+  CHECK(with("motion = {arc_tolerance=0," + origin + "}") == "11:25: `arc_tolerance` is a length in mm");
+  CHECK(with("motion = {repeat='P'," + origin + "}").starts_with("11:18: `repeat` is \"P\""));
+  CHECK(with("motion = {repeat='K'}").find("`grade` is missing") != std::string::npos);
+  const auto alarm = [&](const std::string& list) {
+    return with("alarms = [{" + origin + ",list=[" + list + "]}]");
+  };
+  CHECK(alarm("'no-feed 11: NO FEED','arc-radius 20: RADIUS'") == "");
+  CHECK(
+      alarm("'no-feed: NO FEED'").ends_with("is no alarm; `no-feed 11: NO FEEDRATE COMMANDED` is the form"));
+  CHECK(alarm("'no-feed 1x: NO FEED'").find("is no alarm") != std::string::npos);
+  CHECK(alarm("'no-feed 0: NO FEED'").find("is no alarm") != std::string::npos);
+  CHECK(alarm("'no-fead 11: NO FEED'") ==
+        "11:45: `no-fead` is no alarm that Dotek raises; the nearest is `no-feed`");
+  CHECK(alarm("'no-feed 11: A','no-feed 12: B'").ends_with("`no-feed` is given twice"));
+  CHECK(changed("axis_step=1,", "axis_step=1,extended_x=7001,")
+            .ends_with("`extended_x` stands without `extended_step` and `extended_count`"));
+  CHECK(changed("axis_step=1,", "axis_step=1,tool_wear=2000,")
+            .ends_with("tool offsets stand without `tool_count`"));
 }
 
 TEST_CASE("defects of a control, with line and column: codes") {

@@ -1,0 +1,132 @@
+#include "driver/Driver.h"
+#include "driver/Session.h"
+#include "driver/SimReport.h"
+#include "frontend/nc/Scan.h"
+#include "sim/Machine.h"
+#include "stdlib/Control.h"
+#include "support/Decimal.h"
+#include "support/LineChunks.h"
+
+#include <charconv>
+
+namespace dotek::driver {
+namespace {
+
+constexpr std::string_view kFirstControl = "fanuc-0i-md";
+
+class SimCommand {
+public:
+  SimCommand(const SimOptions& options, Session& session) : options_(options), session_(session) {}
+
+  Outcome run() {
+    if (options_.program.empty())
+      diagnostics().report<diag::MissingOption>({}, "sim", "PROGRAM", "an NC program");
+    control_ = loadControl();
+    if (diagnostics().hasErrors()) return session_.finish("");
+    std::unique_ptr<LineChunks> chunks = LineChunks::open(options_.program, diagnostics());
+    if (!chunks) return session_.finish("");
+    // What cannot be read twice, a pipe, is kept; so its size is bounded.
+    std::optional<std::string> kept;
+    if (!chunks->rewind()) {
+      kept = readAll(*chunks);
+      if (!kept) return session_.finish("");
+      chunks = std::make_unique<LineChunks>(*kept);
+    }
+    sim::Machine machine(*control_);
+    if (!setVariables(machine)) return session_.finish("");
+    if (frontend::nc::mayHoldMacros(*chunks)) return runLoaded();
+    chunks->rewind();
+    return runStreamed(*chunks, machine);
+  }
+
+private:
+  Diagnostics& diagnostics() { return session_.diagnostics(); }
+
+  // nullopt with a diagnostic where it is too large or cannot be read.
+  std::optional<std::string> readAll(LineChunks& chunks) {
+    std::string out;
+    for (;;) {
+      const LineChunks::State state = chunks.next();
+      if (state == LineChunks::State::End) return out;
+      if (state == LineChunks::State::Failed) {
+        diagnostics().report<diag::FileNotReadable>({}, options_.program, chunks.error());
+        return std::nullopt;
+      }
+      out.append(chunks.begin(), chunks.end());
+      if (out.size() > session_.limits().inputBytes) {
+        diagnostics().report<diag::FileTooLarge>({}, options_.program, session_.limits().inputBytes);
+        return std::nullopt;
+      }
+    }
+  }
+
+  std::optional<stdlib::Control> loadControl() {
+    const std::string name(options_.control.empty() ? kFirstControl : std::string_view(options_.control));
+    std::optional<stdlib::Control> control = stdlib::Control::load(session_.data(), name);
+    if (!control) {
+      std::string known;
+      for (const stdlib::DataFile* file : session_.data().list("controls"))
+        known += (known.empty() ? "" : ", ") + file->name;
+      diagnostics().report<diag::UnknownProfile>({}, name, known);
+    }
+    return control;
+  }
+
+  bool setVariables(sim::Machine& machine) {
+    for (const auto& [name, text] : options_.variables) {
+      const std::string flag = name + "=" + text;
+      const std::string_view digits = name.starts_with('#') ? std::string_view(name).substr(1) : name;
+      std::uint32_t number = 0;
+      const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
+      const std::optional<double> value = parseNumber(text);
+      if (error != std::errc() || end != digits.data() + digits.size() || number == 0) {
+        diagnostics().report<diag::VariableFlag>({}, flag, "it takes NUMBER=VALUE");
+      } else if (!value) {
+        diagnostics().report<diag::VariableFlag>({}, flag, "the value is no number");
+      } else if (!machine.write(number, *value)) {
+        diagnostics().report<diag::VariableFlag>(
+            {}, flag, fmt::format("`{}` has no such variable that a program could set", control_->name));
+        return false;
+      }
+    }
+    return !diagnostics().hasErrors();
+  }
+
+  // A program with macro statements, calls or jumps.
+  Outcome runLoaded() {
+    diagnostics().report<diag::MacroProgram>({});
+    return session_.finish("");
+  }
+
+  // A program of plain blocks: block by block, in constant memory.
+  Outcome runStreamed(LineChunks& chunks, sim::Machine& machine) {
+    std::optional<sim::Trace> trace;
+    if (options_.trace) machine.setTrace(&trace.emplace(options_.trace));
+    frontend::nc::Scanner scanner(chunks);
+    ir::NcWords words;
+    using Result = frontend::nc::Scanner::Result;
+    Result result = Result::Block;
+    while ((result = scanner.next(words)) == Result::Block) {
+      if (!machine.execute(words)) break;
+    }
+    machine.setTrace(nullptr);
+    trace.reset();
+    if (result == Result::Error)
+      reportScanError(options_.program, scanner, chunks, session_);
+    else
+      reportEnd(options_.program, scanner, machine, session_);
+    return session_.finish(options_.json ? summary(machine, *control_, session_) : "", true);
+  }
+
+  const SimOptions& options_;
+  Session& session_;
+  std::optional<stdlib::Control> control_;
+};
+
+} // namespace
+
+Outcome sim(const SimOptions& options) {
+  return guarded(options.common, [&](Session& session) { return SimCommand(options, session).run(); });
+}
+
+} // namespace dotek::driver

@@ -1,0 +1,154 @@
+#include "driver/SimReport.h"
+
+#include "support/Decimal.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace dotek::driver {
+namespace {
+
+using frontend::nc::ScanFault;
+using sim::Ending;
+
+// The line as a file of its own, since the program itself is not kept.
+FileId addLine(const std::string& path, std::string_view line, std::uint64_t number, Session& session) {
+  const Encoding encoding = isUtf8(line) ? Encoding::Utf8 : Encoding::Cp1250;
+  return session.sources().add(
+      SourceFile(path, std::string(line), encoding, static_cast<std::uint32_t>(number == 0 ? 1 : number)));
+}
+
+// Of the block without blanks around it and without its end.
+SourceRange wholeLine(FileId file, std::string_view line) {
+  std::size_t begin = 0, end = line.size();
+  while (begin < end && (line[begin] == ' ' || line[begin] == '\t'))
+    ++begin;
+  while (end > begin && (line[end - 1] == ' ' || line[end - 1] == '\t'))
+    --end;
+  return {file, static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end)};
+}
+
+std::string where(const sim::RunEnd& end) {
+  std::string out;
+  for (auto frame = end.stack.rbegin(); frame != end.stack.rend(); ++frame) {
+    std::string one;
+    if (frame->program != 0) one += fmt::format("O{:04}", frame->program);
+    if (frame->sequence != 0) one += fmt::format("{}N{}", one.empty() ? "" : " ", frame->sequence);
+    if (!one.empty()) out += (out.empty() ? "" : ", called by ") + one;
+  }
+  return out.empty() ? "" : " (" + out + ")";
+}
+
+std::string_view endingName(const sim::Machine& machine, bool stoppedByText) {
+  if (stoppedByText) return "not-read";
+  switch (machine.end().ending) {
+  case Ending::ProgramEnd: return "program-end";
+  case Ending::Return: return "return";
+  case Ending::Alarm: return "alarm";
+  case Ending::Inconclusive: return "inconclusive";
+  case Ending::Call: return "call";
+  case Ending::Running:
+  case Ending::TextEnd: break;
+  }
+  return "text-end";
+}
+
+std::string positionText(const sim::Position& position, std::uint32_t shown) {
+  std::string out;
+  for (std::size_t i = 0; i < sim::kAxes; ++i) {
+    if (i >= 3 && (shown >> i & 1) == 0) continue;
+    out +=
+        fmt::format("{}\"{}\": {}", out.empty() ? "" : ", ", sim::kAxisLetters[i], fixedText(position[i], 6));
+  }
+  return "{" + out + "}";
+}
+
+} // namespace
+
+void reportScanError(const std::string& path, const frontend::nc::Scanner& scanner, const LineChunks& chunks,
+                     Session& session) {
+  const frontend::nc::ScanError& error = scanner.error();
+  Diagnostics& diagnostics = session.diagnostics();
+  if (error.fault == ScanFault::Reading) {
+    diagnostics.report<diag::FileNotReadable>({}, path, chunks.error());
+    return;
+  }
+  const FileId file = addLine(path, scanner.lineText(), error.line, session);
+  const SourceRange range{file, error.begin, error.end};
+  const std::string text = session.sources().textUtf8(range);
+  switch (error.fault) {
+  case ScanFault::BadCharacter:
+    if (text == std::string(1, '\0'))
+      diagnostics.report<diag::NulByte>(range);
+    else
+      diagnostics.report<diag::BlockCharacter>(range, text);
+    break;
+  case ScanFault::NoNumber: diagnostics.report<diag::AddressWithoutNumber>(range, text); break;
+  case ScanFault::BadNumber: diagnostics.report<diag::NumberNotRead>(range, text); break;
+  case ScanFault::OpenComment: diagnostics.report<diag::CommentOpen>(range); break;
+  case ScanFault::LateDelete: diagnostics.report<diag::LateBlockDelete>(range); break;
+  case ScanFault::LateMark: diagnostics.report<diag::LateProgramMark>(range); break;
+  case ScanFault::LineTooLong: diagnostics.report<diag::BlockTooLong>(range, LineChunks::kBuffer); break;
+  case ScanFault::MacroText:
+  case ScanFault::Reading:
+  case ScanFault::None: diagnostics.report<diag::MacroProgram>(range); break;
+  }
+}
+
+void reportEnd(const std::string& path, const frontend::nc::Scanner& scanner, const sim::Machine& machine,
+               Session& session) {
+  const sim::RunEnd& end = machine.end();
+  if (end.ending != Ending::Alarm && end.ending != Ending::Inconclusive && end.ending != Ending::Call &&
+      end.ending != Ending::Return)
+    return;
+  const std::string_view line = scanner.lineText();
+  const FileId file = addLine(path, line, scanner.line(), session);
+  SourceRange range = wholeLine(file, line);
+  if (end.letter != 0) {
+    if (const auto word = frontend::nc::findWord(line, end.letter, end.which))
+      range = {file, word->begin, word->end};
+  }
+  Diagnostics& diagnostics = session.diagnostics();
+  if (end.ending == Ending::Alarm)
+    diagnostics.report<diag::ControlAlarm>(range, end.number, end.text, where(end));
+  else if (end.ending == Ending::Inconclusive)
+    diagnostics.report<diag::RunInconclusive>(range, session.sources().textUtf8(range), end.text);
+  else
+    diagnostics.report<diag::MacroProgram>(range);
+}
+
+std::string summary(sim::Machine& machine, const stdlib::Control& control, Session& session) {
+  const sim::RunEnd& end = machine.end();
+  const bool notRead = end.ending == Ending::Running && session.diagnostics().hasErrors();
+  std::string out = "{\n";
+  out += fmt::format("  \"ending\": \"{}\",\n", endingName(machine, notRead));
+  out += fmt::format("  \"control\": {},\n", nlohmann::json(control.name).dump());
+  out += fmt::format("  \"blocks\": {},\n", machine.blocks());
+  out += fmt::format("  \"position\": {},\n", positionText(machine.position(), machine.movedAxes()));
+  out += fmt::format("  \"machine\": {},\n", positionText(machine.machinePosition(), machine.movedAxes()));
+  std::string unknown;
+  for (std::size_t i = 0; i < sim::kAxes; ++i)
+    if ((machine.uncertain() >> i & 1) != 0)
+      unknown += fmt::format("{}\"{}\"", unknown.empty() ? "" : ", ", sim::kAxisLetters[i]);
+  out += fmt::format("  \"unknownAxes\": [{}],\n", unknown);
+  out += fmt::format("  \"feed\": {},\n", fixedText(machine.feed(), 6));
+  out += fmt::format("  \"dwellSeconds\": {},\n", fixedText(machine.seconds(), 6));
+  if (end.ending == Ending::Alarm) {
+    std::string stack;
+    for (const sim::Frame& frame : end.stack)
+      stack += fmt::format("{}{{\"program\": {}, \"sequence\": {}, \"line\": {}}}", stack.empty() ? "" : ", ",
+                           frame.program, frame.sequence, frame.line);
+    out += fmt::format(
+        "  \"alarm\": {{\"number\": {}, \"text\": {}, \"line\": {}, \"stack\": [{}]}},\n", end.number,
+        nlohmann::json(end.text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace), end.line,
+        stack);
+  } else {
+    out += "  \"alarm\": null,\n";
+  }
+  std::string diagnostics = renderJson(session.diagnostics(), session.sources());
+  while (diagnostics.ends_with('\n'))
+    diagnostics.pop_back();
+  return out + "  \"diagnostics\": " + diagnostics + "\n}\n";
+}
+
+} // namespace dotek::driver

@@ -1,0 +1,220 @@
+// A virtual machine tool with its control: what the blocks of a program do to modal state, position, offsets
+// and variables. A scanner of plain text and a running macro program drive the same object. What the machine
+// does not know ends the run as inconclusive; it never skips a word or a code.
+#pragma once
+
+#include "ir/NcWords.h"
+#include "sim/CodeTable.h"
+#include "sim/Trace.h"
+#include "sim/Value.h"
+#include "stdlib/Control.h"
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace dotek::sim {
+
+enum class Ending : std::uint8_t {
+  Running,
+  ProgramEnd,   // M2, M30
+  TextEnd,      // `%` behind the blocks, or the next program begins
+  Return,       // M99
+  Alarm,        // of the control, or #3000
+  Inconclusive, // Dotek does not know what the control would do
+  Call,         // G65, G66, M98: the caller runs it
+};
+
+// Where a program stands, for alarms.
+struct Frame {
+  std::uint32_t program = 0;  // O number; 0: none
+  std::uint32_t sequence = 0; // last N number; 0: none
+  std::uint64_t line = 0;
+  bool macro = false; // called with arguments, so with locals of its own
+};
+
+// Why and where a run ended.
+struct RunEnd {
+  Ending ending = Ending::Running;
+  std::uint32_t number = 0; // of an alarm, as the control shows it; 0: its number is not known
+  std::string text;         // of an alarm what the control shows; else what Dotek does not know
+  char letter = 0;          // the word that the text speaks of; 0: the block
+  std::uint32_t which = 0;  // of several words with this letter, from 0
+  std::uint64_t line = 0;
+  std::vector<Frame> stack; // the outermost first
+};
+
+// A straight move that asks for the probe's contact.
+struct SkipMove {
+  Position from, to;               // of the active work system
+  Position machineFrom, machineTo; // of the machine, tool length included
+  double feed = 0;                 // as programmed
+};
+class SkipSignal {
+public:
+  virtual ~SkipSignal() = default;
+  // The share of the way, 0 to 1, at which the signal comes; nothing: it does not come.
+  virtual std::optional<double> contact(const SkipMove& move) = 0;
+};
+
+struct PlaneAxes;
+
+class Machine {
+public:
+  // `control` outlives the machine. Nothing else is needed; the trace and the signal may be added.
+  explicit Machine(const stdlib::Control& control);
+
+  void setTrace(Trace* trace) { trace_ = trace; }            // nullptr: quiet
+  void setSkipSignal(SkipSignal* signal) { skip_ = signal; } // nullptr: G31 ends the run as inconclusive
+  void setBlockDelete(std::uint32_t levels) { deleteLevels_ = levels; } // bit n: the switch of `/n` is on
+
+  // Runs one block. false: the run has ended, end() says how; blocks after that do nothing.
+  bool execute(const ir::NcWords& words);
+  const RunEnd& end() const { return end_; }
+  bool running() const { return end_.ending == Ending::Running; }
+  std::uint64_t blocks() const { return blocks_; }
+
+  // ---- state
+  const Position& position() const { return work_; } // of the active work system, mm and degrees
+  Position machinePosition() const;                  // the tool's length included
+  const Position& skipPosition() const { return skipped_; }
+  std::uint8_t mode(Slot slot) const { return modes_[slot]; }
+  // Code in force of a modal group, times ten; 0: none was given and none is in force at the start.
+  std::uint32_t modalCode(std::uint32_t group) const { return group < kGroups ? groups_[group] : 0; }
+  double feed() const { return feed_; } // mm/min or mm per revolution
+  double spindleSpeed() const { return speed_; }
+  // Axes (bits in the order of kAxisLetters) whose position is not known, since what moved them is not.
+  std::uint32_t uncertain() const { return uncertain_; }
+  std::uint32_t movedAxes() const { return shown_; }
+  double seconds() const { return seconds_; }
+
+  // ---- variables of macros
+  // The value (kNull: null). nullopt: the run has ended, with alarm 115 or as inconclusive.
+  std::optional<double> read(std::uint32_t number);
+  // false: the run has ended (115, 116, or inconclusive). #3000 and #3006 are `raise` and `message`.
+  bool write(std::uint32_t number, double value);
+  double local(std::uint32_t number) const {
+    return locals_[level_ * kLocals + number];
+  } // 1 to control.locals
+  void setLocal(std::uint32_t number, double value) { locals_[level_ * kLocals + number] = value; }
+  std::uint32_t level() const { return level_; } // of macro calls, 0 in the main program
+
+  // ---- calls; the caller finds the program and runs it
+  // A call with arguments gets a level of its own, its locals are null. false: too deep, an alarm.
+  bool enter(const Frame& callee);
+  void leave();
+  Frame& frame() { return stack_.back(); }
+
+  // ---- ends
+  bool raise(stdlib::Alarm alarm, char letter = 0);                             // false
+  bool raise(std::uint32_t n, std::string_view text);                           // #3000 = n (text); false
+  void message(std::string_view text);                                          // #3006
+  bool inconclusive(std::string why, char letter = 0, std::uint32_t which = 0); // false
+  // Time goes by: #3001, #3002. Dwells do it by themselves; moves take no time.
+  void advance(double seconds) { seconds_ += seconds; }
+
+private:
+  static constexpr std::uint32_t kLocals = 100;
+  struct ToolOffset {
+    double wear = 0, geometry = 0;
+  };
+
+  bool stop(Ending ending); // false
+  bool executeLong(const ir::NcWords& words);
+  bool runBlock(const ir::NcWords& words);
+  bool readCodes(const ir::NcWords& words);
+  bool checkWords(const ir::NcWords& words);
+  bool settings(const ir::NcWords& words);
+  bool miscellaneous(const ir::NcWords& words);
+  bool stops(const ir::NcWords& words);
+  bool oneShot(const ir::NcWords& words);
+  bool changeToolLength(const ir::NcWords& words);
+  bool changeSystem(const ir::NcWords& words);
+
+  bool dwell(const ir::NcWords& words);
+  bool dataInput(const ir::NcWords& words);
+  bool localShift(const ir::NcWords& words);
+  bool setPosition(const ir::NcWords& words);
+  bool machineMove(const ir::NcWords& words);
+  bool reference(const ir::NcWords& words, bool first);
+  bool skipMove(const ir::NcWords& words);
+  bool move(const ir::NcWords& words);
+  bool cannedCycle(const ir::NcWords& words);
+  bool arc(const ir::NcWords& words, const Position& end);
+  bool plainArc(const ir::NcWords& words, const PlaneAxes& plane, const Position& end) const;
+
+  // End point of the axes in the block; false where an axis is not known or the value does not fit.
+  bool target(const ir::NcWords& words, Position& end);
+  double lengthOf(const ir::NcWords& words,
+                  char letter) const; // mm or degrees, rounded to the least increment
+  double rounded(double value, int places) const;
+  void updateOffsets();
+  void traceMove(std::string_view action, const Position& end, bool feed);
+  const Position& systemOffset() const {
+    return modes_[kSystem] == kExtended ? extended_[extendedNow_] : systems_[modes_[kSystem]];
+  }
+
+  struct Place; // what a system variable stands for
+  bool find(std::uint32_t number, Place& place) const;
+  std::optional<double> readSystem(std::uint32_t number, const Place& place);
+  std::size_t commonIndex(std::uint32_t number) const; // SIZE_MAX: none
+
+  const stdlib::Control& control_;
+  CodeTable table_;
+  Trace* trace_ = nullptr;
+  SkipSignal* skip_ = nullptr;
+  std::uint32_t deleteLevels_ = 0;
+
+  // What the short way of execute() reads, together.
+  std::array<std::uint8_t, kSlots> modes_{};
+  std::uint32_t long_ = 0;      // not 0: every block goes the long way, also when the run has ended
+  std::uint32_t uncertain_ = 0; // part of that
+  std::uint32_t shown_ = 7;
+  std::uint32_t needPoint_ = 0; // letters that count increments without a point
+  std::uint32_t mostPlaces_ = 3;
+  double widest_ = 1e5; // a word of this size has too many digits
+  double feed_ = 0;
+  double arcTolerance_ = -1; // negative: not known
+  std::uint64_t blocks_ = 0;
+  Position work_{};
+
+  std::array<std::uint32_t, kGroups> groups_{};
+  std::array<double, 26> modalWords_{}; // B D F H M N O S T; others unused
+  double speed_ = 0;
+  std::uint8_t spindle_ = 0; // 0 off, 1 clockwise, 2 counterclockwise
+  std::uint8_t shownSpindle_ = 0;
+  double shownSpeed_ = 0;
+  Position offset_{}; // sum of what lies between work and machine, tool length aside
+  Position external_{}, local_{}, shift_{};
+  std::array<Position, 6> systems_{};
+  std::vector<Position> extended_;
+  std::size_t extendedNow_ = 0;
+  double toolLength_ = 0; // added to Z
+  std::uint32_t toolNumber_ = 0;
+  std::vector<ToolOffset> tools_;
+  Position skipped_{};
+  // Canned cycles: the level at the cycle's begin, and what stays in force within it.
+  double initialLevel_ = 0, cycleR_ = 0, cycleDepth_ = 0;
+  bool hasR_ = false, hasDepth_ = false;
+  double seconds_ = 0, timerBase_ = 0, hoursBase_ = 0;
+
+  std::vector<double> common_;
+  std::vector<double> locals_;
+  std::uint32_t level_ = 0;
+  std::vector<Frame> stack_;
+  RunEnd end_;
+
+  // Of the block that runs the long way.
+  struct BlockCodes {
+    stdlib::Function oneShot = stdlib::Function::Other;
+    bool hasOneShot = false;
+    std::uint32_t slots = 0;                   // bit by Slot
+    std::array<std::uint8_t, kSlots> before{}; // modes before the block
+    std::uint32_t call = 0;                    // not 0: a call or a return stands in the block
+  } block_;
+};
+
+} // namespace dotek::sim

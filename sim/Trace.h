@@ -1,0 +1,48 @@
+// The canonical trace of a run: one line an action, numbers with six decimals, never "-0", lengths in mm. No
+// line of it depends on the spelling of the program, so that two programs which do the same have the same
+// trace.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <string_view>
+
+namespace dotek::sim {
+
+inline constexpr std::size_t kAxes = 9;
+inline constexpr char kAxisLetters[kAxes + 1] = "XYZABCUVW";
+using Position = std::array<double, kAxes>; // mm and degrees, in the order of kAxisLetters
+
+class Trace {
+public:
+  // `sink` takes the text in pieces of whole lines, also when this object ends. With `lines` each line begins
+  // with the line of the program.
+  explicit Trace(std::function<void(std::string_view)> sink, bool lines = false);
+  ~Trace();
+  Trace(const Trace&) = delete;
+  Trace& operator=(const Trace&) = delete;
+
+  void at(std::uint64_t line) { line_ = line; }
+  // Begins a line with its action, adds to it, ends it.
+  Trace& begin(std::string_view action);
+  Trace& word(std::string_view name, double value); // " X1.500000"
+  Trace& text(std::string_view text);               // " flood"
+  // X, Y, Z, and of the other axes those that the run has moved (`shown`, bits in the order of the axes).
+  Trace& position(const Position& position, std::uint32_t shown);
+  void end();
+  void flush();
+
+private:
+  std::function<void(std::string_view)> sink_;
+  bool lines_;
+  std::uint64_t line_ = 0;
+  std::string text_;
+};
+
+// Six decimals, half away from zero on the shortest decimal text, no "-0".
+void appendFixed6(std::string& out, double value);
+
+} // namespace dotek::sim

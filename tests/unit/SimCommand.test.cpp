@@ -1,0 +1,88 @@
+// `dotek sim` as a command: files, pipes, sizes.
+#include "DataFolder.h"
+#include "tests/GoldenRunner.h"
+
+#include <doctest/doctest.h>
+#include <filesystem>
+#include <fmt/format.h>
+#include <fstream>
+#include <string>
+#include <sys/stat.h>
+#include <thread>
+
+namespace fs = std::filesystem;
+using namespace dotek::tests;
+
+TEST_CASE("sim command: the trace file is complete or absent") {
+  const DataFolder folder;
+  folder.write("good.nc", "G0 X1.\nM30\n");
+  folder.write("alarm.nc", "G0 X1.\nG1 X2.\n");
+  const fs::path trace = fs::path(folder.path()) / "out.trace";
+  CommandResult result = runDotek({"sim", "good.nc", "--trace", "out.trace"}, folder.path());
+  CHECK(result.status == 0);
+  CHECK(result.out.empty());
+  CHECK(readAll(trace) == "rapid X1.000000 Y0.000000 Z0.000000\nend\n");
+  // What stops the program belongs to its trace.
+  result = runDotek({"sim", "alarm.nc", "--trace", "out.trace", "--json"}, folder.path());
+  CHECK(result.status == 1);
+  CHECK(readAll(trace) == "rapid X1.000000 Y0.000000 Z0.000000\nalarm 11 NO FEEDRATE COMMANDED\n");
+  CHECK(result.out.find("\"ending\": \"alarm\"") != std::string::npos);
+  // Wrong arguments leave the file as it was.
+  result = runDotek({"sim", "none.nc", "--trace", "out.trace"}, folder.path());
+  CHECK(result.status == 2);
+  CHECK(readAll(trace).starts_with("rapid"));
+  result = runDotek({"sim", "good.nc", "--trace", "no/such/folder/out"}, folder.path());
+  CHECK(result.status == 2);
+  CHECK(result.err.find("[file-not-writable]") != std::string::npos);
+  int files = 0;
+  for (const auto& entry : fs::directory_iterator(folder.path()))
+    files += entry.path().string().find(".dotek-") != std::string::npos ? 1 : 0;
+  CHECK(files == 0);
+}
+
+TEST_CASE("sim command: a line that no buffer holds") {
+  const DataFolder folder;
+  folder.write("long.nc", "G0 X1.\n(" + std::string(300'000, 'x') + ")\nM30\n");
+  const CommandResult result = runDotek({"sim", "long.nc", "--quiet"}, folder.path());
+  CHECK(result.status == 1);
+  CHECK(result.err.find("long.nc:2:1: error: the line is longer than 262144 bytes") != std::string::npos);
+  CHECK(result.err.find("[block-too-long]") != std::string::npos);
+}
+
+TEST_CASE("sim command: a defect far into a long program has its line") {
+  const DataFolder folder;
+  std::string text;
+  for (int i = 0; i < 100'000; ++i)
+    text += fmt::format("N{} G1 X{}.5 F100\n", i, i % 1000);
+  folder.write("big.nc", text + "G1 X1. E5\n");
+  const CommandResult result = runDotek({"sim", "big.nc", "--quiet"}, folder.path());
+  CHECK(result.status == 1);
+  CHECK(result.out.empty());
+  CHECK(result.err ==
+        "big.nc:100001:8: error: `E5`: nothing in the block takes it; the run ends here as inconclusive "
+        "[run-inconclusive]\n  G1 X1. E5\n         ^~\n");
+}
+
+TEST_CASE("sim command: a pipe is read once") {
+  const DataFolder folder;
+  const std::string pipe = folder.path() + "/pipe.nc";
+  REQUIRE(mkfifo(pipe.c_str(), 0600) == 0);
+  std::thread writer([&] {
+    std::ofstream out(pipe);
+    out << "G0 X7.\nM30\n";
+  });
+  const CommandResult result = runDotek({"sim", "pipe.nc"}, folder.path());
+  writer.join();
+  CHECK(result.status == 0);
+  CHECK(result.out == "rapid X7.000000 Y0.000000 Z0.000000\nend\n");
+}
+
+TEST_CASE("sim command: an empty program and binary data") {
+  const DataFolder folder;
+  folder.write("empty.nc", "");
+  folder.write("binary.nc", std::string("G0 X1.\n\0\x01\x02", 10));
+  CHECK(runDotek({"sim", "empty.nc"}, folder.path()).status == 0);
+  const CommandResult result = runDotek({"sim", "binary.nc", "--quiet"}, folder.path());
+  CHECK(result.status == 1);
+  CHECK(result.err.find("binary.nc:2:1: error: the file holds a byte 0") != std::string::npos);
+}
