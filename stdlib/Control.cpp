@@ -304,6 +304,7 @@ private:
     };
     v.modalFirst = number("modal_first");
     v.modalFeed = number("modal_feed");
+    v.messageStop = number("message_stop");
     v.blockEnd = number("block_end");
     v.machine = number("machine");
     v.position = number("position");
@@ -323,6 +324,7 @@ private:
         blocks.emplace_back(key, *first + i * step);
     };
     add("modal_feed", v.modalFeed, 1);
+    add("message_stop", v.messageStop, 1);
     add("block_end", v.blockEnd, 3);
     add("machine", v.machine, 3);
     add("position", v.position, 3);

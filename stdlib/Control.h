@@ -20,7 +20,9 @@ enum class DecimalMode : std::uint8_t { Increment, Calculator };
 
 // What a G or M function does, as far as Dotek translates it. X(id, name in the data)
 #define DOTEK_FUNCTIONS(X)                                                                                   \
-  X(Other, "other") /* known to the control, not translated: an opaque block */                              \
+  X(Other, "other")     /* known to the control, not translated: an opaque block */                          \
+  X(Mode, "mode")       /* not translated; modal, and a bare code of its group puts it back */               \
+  X(Lasting, "lasting") /* not translated; stays behind its block, and no group tells */                     \
   X(Rapid, "rapid")                                                                                          \
   X(Feed, "feed")                                                                                            \
   X(Dwell, "dwell")                                                                                          \
@@ -84,6 +86,7 @@ struct CodeInfo {
 struct SystemVariables {
   std::optional<int> modalFirst;  // of group 0: group g stands at modalFirst + g
   std::optional<int> modalFeed;   // F in force
+  std::optional<int> messageStop; // #n=1(TEXT) stops with a message
   std::optional<int> blockEnd;    // X of the end point of the previous block, work coordinates; Y, Z follow
   std::optional<int> machine;     // X of the machine position
   std::optional<int> position;    // X of the position, work coordinates

@@ -94,6 +94,8 @@ bool Lifter::function(const Code& code, Plan& plan) {
   case Function::SubprogramCall: return foreign(true);
   case Function::MacroCall: // handled before
   case Function::Other:
+  case Function::Mode:
+  case Function::Lasting:
   case Function::Skip:
   case Function::ToolLengthPlus:
   case Function::ToolLengthMinus:
