@@ -50,6 +50,15 @@ void readSets(LoweringInputs& inputs, Session& session) {
   }
 }
 
+bool countsFromRetract(const ir::Cycle& cycle) {
+  return std::any_of(cycle.body.begin(), cycle.body.end(), [](const ir::Statement& statement) {
+    const auto* move = std::get_if<ir::Move>(&statement.node);
+    return move != nullptr && std::any_of(move->axes.begin(), move->axes.end(), [](const auto& axis) {
+             return axis && axis->frame == ir::Frame::Retract;
+           });
+  });
+}
+
 // One cycle on its way to the IR.
 class Lowering {
 public:
@@ -186,7 +195,9 @@ bool Lowering::path() {
   if (!folder_.cycle->toolPath) return false;
   gibbs::LowerContext context = gibbsContext();
   context.touches = touchLines(session_.sources(), session_.options().assume, session_.diagnostics());
-  return gibbs::lowerToolPath(*folder_.cycle->toolPath, cycle(), context);
+  if (!gibbs::lowerToolPath(*folder_.cycle->toolPath, cycle(), context)) return false;
+  if (countsFromRetract(cycle())) host("retract"); // also where the macro does not ask for the plane
+  return true;
 }
 
 bool Lowering::checks() {

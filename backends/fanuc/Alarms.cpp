@@ -47,14 +47,9 @@ std::uint32_t nextNumber(State& state, SourceRange range) {
   return number;
 }
 
-AlarmText messageOf(State& state, const ir::Statement& statement, const std::string& message) {
-  const SourceRange range = statement.origin.range();
+// `otherwise` where nothing is left to show.
+AlarmText shownText(State& state, const std::string& message, std::string_view otherwise, SourceRange range) {
   AlarmText out;
-  if (message.find_first_not_of(" \t") == std::string::npos) {
-    out.shown = "VALUES REFUSED";
-    if (range.hasPlace()) out.shown += " LINE " + std::to_string(state.sources.line(range));
-    return out;
-  }
   const PlainText plain = plainText(message);
   std::string text;
   std::string unknown;
@@ -67,11 +62,22 @@ AlarmText messageOf(State& state, const ir::Statement& statement, const std::str
   if ((plain.changed || !unknown.empty()) && !state.options.plainMessages)
     state.refuse<diag::MessageCharacters>(range, state.control.title, squeezed(text));
   text = squeezed(text);
-  if (text.empty()) text = "VALUES REFUSED";
+  if (text.empty()) text = otherwise;
   out.shown = cut(text, state.control.alarmLength);
   if (out.shown != text)
     state.diagnostics.report<diag::MessageCut>(range, state.control.alarmLength, out.shown);
-  if (out.shown != text || plain.changed || !unknown.empty()) out.full = headerText(message);
+  // What cannot be shown cannot stand in a comment either.
+  if (out.shown != text) out.full = plain.changed || !unknown.empty() ? text : headerText(message);
+  return out;
+}
+
+AlarmText messageOf(State& state, const ir::Statement& statement, const std::string& message) {
+  const SourceRange range = statement.origin.range();
+  if (message.find_first_not_of(" \t") != std::string::npos)
+    return shownText(state, message, "VALUES REFUSED", range);
+  AlarmText out;
+  out.shown = "VALUES REFUSED";
+  if (range.hasPlace()) out.shown += " LINE " + std::to_string(state.sources.line(range));
   return out;
 }
 
@@ -117,6 +123,12 @@ void collectAlarms(State& state) {
       state.alarms.push_back(std::move(text));
       if (state.failed) return;
     }
+}
+
+std::string stopText(State& state, const std::string& message, const ir::Origin& origin) {
+  const AlarmText text = shownText(state, message, "STOP", origin.range());
+  if (!text.full.empty()) state.sheet.comment(text.full, origin);
+  return "#" + std::to_string(*state.control.variables.message) + "=1(" + text.shown + ")";
 }
 
 std::string sourceAlarm(State& state, const ir::Statement& statement) {

@@ -117,6 +117,11 @@ private:
   }
 
   void setStop(const ir::Stop& stop, const ir::Origin& origin) {
+    if (!stop.message.empty() && !stop.optional && state_.control.variables.message) {
+      const std::string text = stopText(state_, stop.message, origin);
+      state_.sheet.add(text, origin);
+      return;
+    }
     if (!stop.message.empty())
       state_.sheet.comment(commentText(state_, stop.message, origin.range()), origin);
     code(stop.optional ? Function::OptionalStop : Function::Stop, "a stop", origin);
@@ -167,6 +172,11 @@ private:
             Form::Length, origin);
     }
     value('F', move.feed, Form::Length, origin);
+    if (move.motion == ir::Motion::Feed && move.feed == nullptr && !state_.body->feed[state_.at]) {
+      state_.diagnostics.report<diag::FeedNotStated>(origin.range());
+      if (state_.reported.insert("feed of a move").second)
+        state_.remarks.push_back("A FEED MOVE STATES NO FEED: IT TAKES THE ONE IN FORCE");
+    }
   }
 
   // The source's order of addresses.

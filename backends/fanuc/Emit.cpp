@@ -12,6 +12,8 @@ namespace dotek::backends::fanuc {
 namespace {
 
 constexpr double kFirstSystem = 1000; // the first variable that is the control's own
+// Programs that parameters give to G, M and T codes.
+constexpr std::uint32_t kFirstOfCodes = 9000, kLastOfCodes = 9029;
 
 ir::Origin made(std::string reason) {
   ir::Origin out;
@@ -69,10 +71,19 @@ void checkMachineVariables(State& state) {
 }
 
 bool fits(const EmitOptions& options, SourceRange range, Diagnostics& diagnostics) {
-  if (options.programNumber >= 1 && options.programNumber <= options.control.programLast) return true;
-  diagnostics.report<diag::ProgramNumber>(range, options.programNumber, options.control.programLast,
-                                          options.control.title);
-  return false;
+  const std::uint32_t number = options.programNumber;
+  if (number < 1 || number > options.control.programLast) {
+    diagnostics.report<diag::ProgramNumber>(range, number, options.control.programLast,
+                                            options.control.title);
+    return false;
+  }
+  if (options.macros.calls(number)) {
+    diagnostics.report<diag::ProgramNumberTaken>(range, number, options.macros.title);
+    return false;
+  }
+  if (number >= kFirstOfCodes && number <= kLastOfCodes)
+    diagnostics.report<diag::ProgramNumberOfCode>(range, number);
+  return true;
 }
 
 } // namespace
@@ -87,6 +98,7 @@ std::optional<std::vector<EmittedLine>> emit(const ir::Cycle& cycle, const EmitO
   state.moving = movingVariables(state.cycle);
   checkMachineVariables(state);
   collectAlarms(state);
+  state.copied = findCopiedModes(state);
   const auto saved = planModes(state);
   if (state.failed) return std::nullopt;
 

@@ -27,7 +27,7 @@ bool setsWorkSystem(const ir::Cycle& cycle) {
 std::vector<SavedMode> planModes(State& state) {
   std::vector<Function> groups = {Function::Rapid, Function::PlaneXY, Function::Absolute,
                                   Function::FeedPerMinute};
-  if (setsWorkSystem(state.cycle)) groups.push_back(Function::WorkSystem);
+  if (setsWorkSystem(state.cycle) || state.copied.workSystem) groups.push_back(Function::WorkSystem);
   std::vector<SavedMode> out;
   const auto take = [&](const stdlib::CodeInfo* code) {
     const std::uint32_t local = state.pool.take();
@@ -36,8 +36,11 @@ std::vector<SavedMode> planModes(State& state) {
     out.push_back({code, local});
   };
   std::string lost;
-  for (const Function function : groups) {
-    const auto* code = state.control.find(function);
+  std::vector<const stdlib::CodeInfo*> codes;
+  for (const Function function : groups)
+    codes.push_back(state.control.find(function));
+  codes.insert(codes.end(), state.copied.groups.begin(), state.copied.groups.end());
+  for (const auto* code : codes) {
     if (code == nullptr) continue; // no such group
     if (code->group && state.control.variables.modalFirst)
       take(code);

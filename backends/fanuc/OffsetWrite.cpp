@@ -30,6 +30,8 @@ std::string obstacle(const State& state) {
   if (state.guards.scaling == Guard::Unchecked) return "a scaling may be active";
   if (state.guards.shift == Guard::Unchecked) return "a local shift may be active";
   if (state.guards.extended == Guard::Unchecked) return "an extended work system may be active";
+  if (!state.copied.inForce.empty() && !state.copied.inForce[state.at].empty())
+    return "`" + state.copied.inForce[state.at] + "` of a copied block may be in force";
   return "";
 }
 

@@ -3,6 +3,7 @@
 #include "backends/fanuc/Uses.h"
 #include "ir/Flow.h"
 
+#include <algorithm>
 #include <deque>
 
 namespace dotek::backends::fanuc {
@@ -12,6 +13,7 @@ namespace {
 struct Facts {
   Distance distance = Distance::Absolute;
   std::array<bool, 3> start{};
+  bool feed = false;
   bool reached = false;
 };
 
@@ -24,6 +26,10 @@ bool merge(Facts& into, const Facts& from) {
   bool changed = false;
   if (into.distance != from.distance && into.distance != Distance::Unknown) {
     into.distance = Distance::Unknown;
+    changed = true;
+  }
+  if (into.feed && !from.feed) {
+    into.feed = false;
     changed = true;
   }
   for (std::size_t i = 0; i < 3; ++i) {
@@ -44,6 +50,15 @@ Facts behind(const ir::Statement& statement, Facts facts) {
   } else if (std::holds_alternative<ir::OpaqueBlock>(statement.node)) {
     facts.distance = Distance::Unknown;
     facts.start = {true, true, true};
+  }
+  if (const auto* move = std::get_if<ir::Move>(&statement.node)) {
+    const bool macro = move->motion == ir::Motion::Protected;
+    facts.feed = !macro && (facts.feed || move->feed != nullptr);
+  } else if (std::holds_alternative<ir::Measure>(statement.node)) {
+    facts.feed = false;
+  } else if (const auto* block = std::get_if<ir::OpaqueBlock>(&statement.node)) {
+    facts.feed = facts.feed || std::any_of(block->words.begin(), block->words.end(),
+                                           [](const ir::Word& word) { return word.address == 'F'; });
   }
   return facts;
 }
@@ -81,6 +96,7 @@ Body findBody(const State& state) {
   }
   for (const Facts& fact : facts) {
     out.distance.push_back(fact.distance);
+    out.feed.push_back(fact.feed);
     out.staleStart.push_back(fact.start);
   }
   return out;

@@ -48,9 +48,19 @@ struct Body {
   std::vector<ir::Position> positions;
   std::vector<const ir::Measure*> last;
   std::vector<Distance> distance;
+  std::vector<bool> feed; // stated since the beginning, and since the last call of a macro
   // An offset was set since entry: the start point is no coordinate of the active system any more.
   std::vector<std::array<bool, 3>> staleStart;
   std::map<std::pair<const ir::Measure*, ir::ResultName>, std::uint32_t> kept; // results kept in locals
+};
+
+// What copied blocks change.
+struct CopiedModes {
+  bool workSystem = false;                     // one of G54 to G59 may be another one
+  std::vector<const stdlib::CodeInfo*> groups; // a member of each further group that a bare code puts back
+  // Before each statement of the body, a code that a copied block may have left in force, beside what a bare
+  // code puts back: "G68"; "" for none. Empty where nothing is copied.
+  std::vector<std::string> inForce;
 };
 
 struct State {
@@ -93,6 +103,7 @@ struct State {
   std::vector<AlarmText> alarms;
   std::map<const ir::Statement*, std::size_t> sourceAlarms; // index in `alarms`
   Guards guards;
+  CopiedModes copied;
   std::vector<ir::ExpressionPtr> systems; // work systems to be checked at entry
   std::vector<std::string> remarks;       // of the header
   std::set<std::string> reported;         // what is said once for the whole program
@@ -147,6 +158,8 @@ void doIf(State& state, const ir::ConditionPtr& condition, const std::string& st
 void collectAlarms(State& state);
 // `#3000=n(TEXT)` of an alarm statement of the source; its full text goes to the sheet as a comment.
 std::string sourceAlarm(State& state, const ir::Statement& statement);
+// `#3006=1(TEXT)`, where the control has that; the full text goes to the sheet where it is cut.
+std::string stopText(State& state, const std::string& message, const ir::Origin& origin);
 // An alarm of our own where the condition holds.
 void alarmIf(State& state, const ir::ConditionPtr& condition, std::string_view text,
              const ir::Origin& origin);
@@ -219,6 +232,11 @@ void writeStarts(State& state);
 void writeRequirements(State& state);
 // The argument may be omitted: it has a default that moves nothing, or may be null.
 bool mayBeOmitted(const State& state, ir::VariableId id);
+
+// ---- Copied.cpp ----
+
+// Refuses what stays in force at the end and cannot be put back.
+CopiedModes findCopiedModes(State& state);
 
 // ---- Modes.cpp ----
 

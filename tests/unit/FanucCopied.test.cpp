@@ -1,0 +1,191 @@
+// What copied blocks leave in force, program numbers, feeds, stops and the retract plane of the Fanuc back
+// end.
+#include "FanucHelper.h"
+
+using namespace dotek;
+using namespace dotek::tests;
+
+namespace {
+
+using Codes = std::set<std::string>;
+using Lines = std::vector<std::string>;
+
+// "G68 X0. R30."
+ir::OpaqueBlock copied(const std::string& text) {
+  ir::OpaqueBlock out;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = std::min(text.find(' ', at), text.size());
+    const std::string digits = text.substr(at + 1, end - at - 1);
+    out.words.push_back({text[at], ir::constant(std::stod(digits), {}, digits), {}});
+    at = end + 1;
+  }
+  return out;
+}
+
+Emission emitCopied(const Lines& blocks) {
+  Maker cycle;
+  for (const std::string& block : blocks)
+    cycle.add(copied(block));
+  return Target().emit(cycle.cycle);
+}
+
+Codes codesOf(const Lines& blocks) {
+  return emitCopied(blocks).codes();
+}
+
+std::string restored(const Emission& emission) {
+  const std::size_t at = emission.find("G#");
+  REQUIRE(at < emission.texts().size());
+  return emission.texts()[at];
+}
+
+} // namespace
+
+TEST_CASE("fanuc copied: what a bare code cannot put back is refused") {
+  const Codes refused = {"mode-not-restored"};
+  CHECK(codesOf({"G49"}) == refused);
+  CHECK(codesOf({"G43 H2."}) == refused);
+  CHECK(codesOf({"H3"}) == refused);
+  CHECK(codesOf({"G41 D1"}) == refused);
+  CHECK(codesOf({"G68 X0. Y0. R30."}) == refused);
+  CHECK(codesOf({"G51 X0. Y0. P2000"}) == refused);
+  CHECK(codesOf({"G52 Y5."}) == refused);
+  CHECK(codesOf({"G92 X0."}) == refused);
+  CHECK(codesOf({"G81 Z-5. R2."}) == refused);
+  CHECK(codesOf({"G51.1 X0."}) == refused);
+  CHECK(codesOf({"G0 G90 G40 G49 G80", "T5 M6"}) == refused);
+  // The message names the way out.
+  CHECK(emitCopied({"G68 X0. Y0. R30."}).all().find("write `G69`") != std::string::npos);
+}
+
+TEST_CASE("fanuc copied: what ends as the caller provides it is not refused") {
+  CHECK(codesOf({"G68 X0. Y0. R30.", "G69"}).empty());
+  CHECK(codesOf({"G51 X0. Y0. P2000", "G50"}).empty());
+  CHECK(codesOf({"G41 D1", "G40"}).empty());
+  CHECK(codesOf({"G81 Z-5. R2.", "G80"}).empty());
+  CHECK(codesOf({"G40 G80 G69 G50"}).empty());
+  CHECK(codesOf({"G52 X5. Y5.", "G52 X0. Y0."}).empty());
+  CHECK(codesOf({"G52 X5. Y5.", "G52 X0."}) == Codes{"mode-not-restored"}); // Y stays
+  CHECK(codesOf({"G69", "G68 R30."}) == Codes{"mode-not-restored"});
+  CHECK(codesOf({"G28 Z0.", "G10 L2 P1 X0. H1"}).empty());
+  Maker cycle;
+  cycle.add(copied("G41 D1"));
+  cycle.add(ir::SetMode{ir::Mode::CutterCompOff, nullptr});
+  CHECK(Target().emit(cycle.cycle).codes().empty());
+}
+
+TEST_CASE("fanuc copied: one way through the branch is enough to refuse") {
+  Maker cycle;
+  const VariableId a = cycle.field("a", 1);
+  const ir::LabelId over = cycle.cycle.addLabel({"over", {}});
+  cycle.add(copied("G68 R30."));
+  cycle.add(ir::Branch{ir::compare(Relation::Less, use(a), number(0)), over});
+  cycle.add(copied("G69"));
+  cycle.add(ir::Label{over});
+  cycle.move(ir::Motion::Rapid, ir::Axis::X, use(a));
+  CHECK(Target().emit(cycle.cycle).codes() == Codes{"mode-not-restored"});
+}
+
+TEST_CASE("fanuc copied: groups that a bare code puts back are kept") {
+  const auto words = [](const std::string& line) { return std::count(line.begin(), line.end(), '#'); };
+  const auto plain = words(restored(emitCopied({"G30 Z0."}))); // motion, plane, distance, feed mode, F
+  CHECK(plain == 5);
+  const Emission out = emitCopied({"G55 G61 G98", "G64"});
+  CHECK(words(restored(out)) == plain + 3); // work system, 15, 10; a group once
+  CHECK(out.holds("=#4014"));
+  CHECK(out.holds("=#4015"));
+  CHECK(out.holds("=#4010"));
+  CHECK(words(restored(emitCopied({"G18 G91 G95 G2 X1. R5."}))) == plain);
+  // The caller stands in G54 to G59, which an alarm makes sure.
+  const Emission extended = emitCopied({"G54.1 P2"});
+  CHECK(extended.holds("=#4014"));
+  CHECK(extended.codes().empty());
+}
+
+TEST_CASE("fanuc copied: what nothing is known of is said") {
+  const Emission out = emitCopied({"T5 M6", "M98 P100", "M77"});
+  CHECK(out.has("(CHANGES THAT ARE NOT PUT BACK: M6 M98 M77)"));
+  CHECK(out.holds("=#4014"));
+  CHECK(out.codes().empty());
+  CHECK_FALSE(emitCopied({"G30 Z0. M8"}).holds("NOT PUT BACK"));
+  const Emission unknown = emitCopied({"G123", "G123"});
+  CHECK(unknown.codes() == Codes{"copied-code-unknown"});
+  CHECK(unknown.diagnostics.all().size() == 1);
+}
+
+TEST_CASE("fanuc copied: no offset is written while a copied code may be in force") {
+  const auto measured = [](const Lines& blocks) {
+    Maker cycle;
+    for (const std::string& block : blocks)
+      cycle.add(copied(block));
+    cycle.move(ir::Motion::Protected, ir::Axis::X, number(-10), number(500));
+    cycle.surface(ir::Axis::X, number(10), number(56), number(1)); // the target is not the nominal
+    cycle.add(copied("G69"));
+    return Target("inspection-plus").emit(cycle.cycle).codes();
+  };
+  CHECK(measured({}) == Codes{"probe-not-switched"});
+  CHECK(measured({"G68 R30.", "G69"}) == Codes{"probe-not-switched"});
+  CHECK(measured({"G68 R30."}).contains("offset-write-unsafe"));
+  CHECK(measured({"M98 P100"}).contains("offset-write-unsafe"));
+}
+
+TEST_CASE("fanuc: a program takes the number of no macro") {
+  const SurfaceCycle cycle;
+  const auto codes = [&](std::uint32_t given, std::string_view set) {
+    Target target(set);
+    target.options.programNumber = given;
+    return target.emit(cycle.cycle).codes();
+  };
+  CHECK(codes(9023, "easyprobe") == Codes{"program-number-taken"});
+  CHECK(codes(9770, "easyprobe") == Codes{"program-number-taken"});
+  CHECK(codes(9811, "inspection-plus") == Codes{"program-number-taken"});
+  CHECK_FALSE(codes(9811, "easyprobe").contains("program-number-taken"));
+  CHECK(codes(9000, "easyprobe").contains("program-number-of-code"));
+  CHECK(codes(9029, "easyprobe").contains("program-number-of-code"));
+  CHECK_FALSE(codes(8999, "easyprobe").contains("program-number-of-code"));
+  CHECK_FALSE(codes(9030, "easyprobe").contains("program-number-of-code"));
+}
+
+TEST_CASE("fanuc: a feed move without a feed is told of") {
+  Maker cycle;
+  cycle.move(ir::Motion::Feed, ir::Axis::X, number(1));
+  const Emission out = Target().emit(cycle.cycle);
+  CHECK(out.codes() == Codes{"feed-not-stated"});
+  CHECK(out.holds("A FEED MOVE STATES NO FEED"));
+  Maker stated;
+  stated.move(ir::Motion::Rapid, ir::Axis::X, number(0), number(500));
+  stated.move(ir::Motion::Feed, ir::Axis::X, number(1));
+  CHECK(Target().emit(stated.cycle).codes().empty());
+  // A macro leaves another feed behind.
+  stated.move(ir::Motion::Protected, ir::Axis::Z, number(1), number(200));
+  stated.move(ir::Motion::Feed, ir::Axis::X, number(2));
+  CHECK(Target().emit(stated.cycle).codes() == Codes{"feed-not-stated", "probe-not-switched"});
+}
+
+TEST_CASE("fanuc: a stop with a message shows it") {
+  Maker cycle;
+  cycle.add(ir::Stop{false, "Look (here)"});
+  cycle.add(ir::Stop{false, ""});
+  CHECK(Target().emit(cycle.cycle).body() == Lines{"#3006=1(LOOK HERE)", "M0"});
+  Target without;
+  without.control.variables.message.reset();
+  CHECK(without.emit(cycle.cycle).body() == Lines{"M0", "M0"});
+  CHECK(without.emit(cycle.cycle).has("(Look here)"));
+  Maker longer;
+  longer.add(ir::Stop{false, "Clean the stylus and the surface"});
+  const Emission cut = Target().emit(longer.cycle);
+  CHECK(cut.body() == Lines{"#3006=1(CLEAN THE STYLUS AND THE)"});
+  CHECK(cut.codes() == Codes{"message-cut"});
+}
+
+TEST_CASE("fanuc alarms: the header shows no letter that was dropped") {
+  Maker cycle;
+  const VariableId a = cycle.field("a", 1);
+  cycle.move(ir::Motion::Rapid, ir::Axis::X, use(a));
+  cycle.refuseIf(ir::compare(Relation::Less, use(a), number(0)), "a < 0");
+  Target target;
+  target.options.plainMessages = true;
+  const Emission out = target.emit(cycle.cycle);
+  CHECK(out.has("(ALARM 100 A 0)"));
+  CHECK_FALSE(out.holds("<"));
+}
