@@ -1,6 +1,8 @@
 #include "ir/Arithmetic.h"
 
 #include <cmath>
+#include <cstdint>
+#include <limits>
 #include <numbers>
 
 namespace dotek::ir {
@@ -13,6 +15,15 @@ Computed finite(double value) {
 
 Computed domain() {
   return {0, ArithmeticError::Domain};
+}
+
+template <class Operation> Computed bits(double a, double b, Operation operation) {
+  const auto whole = [](double value) {
+    return value == std::trunc(value) && value >= std::numeric_limits<std::int32_t>::min() &&
+           value <= std::numeric_limits<std::int32_t>::max();
+  };
+  if (!whole(a) || !whole(b)) return domain();
+  return finite(operation(static_cast<std::int32_t>(a), static_cast<std::int32_t>(b)));
 }
 
 double toRadians(double angle, AngleUnit unit) {
@@ -56,6 +67,39 @@ Computed absolute(double a) {
 
 Computed truncate(double a) {
   return finite(std::trunc(a));
+}
+
+Computed roundUp(double a) {
+  return finite(a < 0 ? std::floor(a) : std::ceil(a));
+}
+
+Computed roundNearest(double a) {
+  return finite(std::round(a));
+}
+
+Computed modulo(double a, double b) {
+  if (b == 0) return {0, ArithmeticError::DivisionByZero};
+  return finite(std::fmod(a, b));
+}
+
+Computed logarithm(double a) {
+  return a > 0 ? finite(std::log(a)) : domain();
+}
+
+Computed exponential(double a) {
+  return finite(std::exp(a));
+}
+
+Computed bitAnd(double a, double b) {
+  return bits(a, b, [](std::int32_t x, std::int32_t y) { return x & y; });
+}
+
+Computed bitOr(double a, double b) {
+  return bits(a, b, [](std::int32_t x, std::int32_t y) { return x | y; });
+}
+
+Computed bitXor(double a, double b) {
+  return bits(a, b, [](std::int32_t x, std::int32_t y) { return x ^ y; });
 }
 
 Computed squareRoot(double a) {
@@ -103,6 +147,7 @@ std::string_view describe(ArithmeticError error) {
   case ArithmeticError::DivisionByZero: return "a division by zero";
   case ArithmeticError::Domain: return "a value that the function has no result for";
   case ArithmeticError::Overflow: return "a result that is too large";
+  case ArithmeticError::NoValue: return "arithmetic with a value that nothing sets";
   }
   return "";
 }

@@ -12,6 +12,7 @@ enum class ArithmeticError : std::uint8_t {
   DivisionByZero,
   Domain,   // square root of a negative number, arc sine of 2, direction of no length
   Overflow, // larger than a double holds
+  NoValue,  // an operand that nothing sets
 };
 
 // `value` is finite where `error` is None, else 0.
@@ -30,6 +31,12 @@ Computed divide(double a, double b);
 Computed absolute(double a);
 // Integer part, toward zero: -1.5 gives -1.
 Computed truncate(double a);
+// Away from zero: -1.2 gives -2.
+Computed roundUp(double a);
+// To the nearest integer, half away from zero.
+Computed roundNearest(double a);
+// Remainder of the division, with the sign of `a`.
+Computed modulo(double a, double b);
 Computed squareRoot(double a);
 // Angles in `unit`. Multiples of 90 degrees give exact results.
 Computed sine(double angle, AngleUnit unit);
@@ -38,6 +45,13 @@ Computed tangent(double angle, AngleUnit unit);
 Computed arcSine(double a, AngleUnit unit);
 Computed arcCosine(double a, AngleUnit unit);
 Computed arcTangent(double a, AngleUnit unit);
+// Natural; of numbers above 0.
+Computed logarithm(double a);
+Computed exponential(double a);
+// Of whole numbers of 32 bits, two's complement; anything else is a domain error.
+Computed bitAnd(double a, double b);
+Computed bitOr(double a, double b);
+Computed bitXor(double a, double b);
 // Angle of the direction (x, y), above -180 up to 180 degrees; (0, 0) is a domain error.
 Computed direction(double x, double y, AngleUnit unit);
 

@@ -3,8 +3,11 @@
 
 #include "ir/Statement.h"
 
+#include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 namespace dotek::ir {
@@ -19,7 +22,7 @@ struct Variable {
   std::string name; // as the source spells it, UTF-8; of a host its name in the table
   Kind kind = Kind::Number;
   Role role = Role::Local;
-  bool optional = false;              // may be null
+  bool optional = false; // the caller may leave it out; without a default a parameter is null then
   std::optional<double> defaultValue; // of a parameter
   std::string defaultDigits;          // as the source writes it
   std::string unit;                   // as the dialog says: "mm"; "" for none
@@ -45,8 +48,13 @@ struct Cycle {
   SourceRange range;
 
   VariableId add(Variable variable);
+  // A name that is taken gets a number: "next", "next_2".
   LabelId addLabel(LabelName label);
   const Variable& variable(VariableId id) const { return variables[id]; }
+
+  // Of addLabel() alone: names that are taken, with the number to try next; how many labels they cover.
+  std::unordered_map<std::string, std::uint32_t> labelNames;
+  std::size_t labelsSeen = 0;
 };
 
 enum class LengthUnit : std::uint8_t { Millimetre, Inch };

@@ -4,34 +4,42 @@
 #include "ir/Arithmetic.h"
 #include "ir/Cycle.h"
 
-#include <functional>
+#include <cstdint>
 #include <optional>
 #include <vector>
 
 namespace dotek::ir {
 
-// Null is std::nullopt inside; Unknown says that the value is not given.
+// Unknown says that the value is not given.
 struct Scalar {
   enum class State : std::uint8_t { Known, Null, Unknown, Failed };
   State state = State::Unknown;
   double value = 0;
   ArithmeticError error = ArithmeticError::None; // of Failed
   bool known() const { return state == State::Known; }
+
+  static Scalar of(double number) { return {State::Known, number, ArithmeticError::None}; }
+  static Scalar null() { return {State::Null, 0, ArithmeticError::None}; }
+  static Scalar failed(ArithmeticError why) { return {State::Failed, 0, why}; }
 };
 
 // By VariableId; shorter than the cycle's variables: the rest is unknown.
 using Environment = std::vector<Scalar>;
 
-// Machine variables and measured results are unknown.
+// Machine variables and measured results are unknown. Null in arithmetic fails (NoValue); what fails
+// outweighs what is unknown.
 Scalar evaluate(const Expression& expression, const Environment& environment);
-// nullopt: it hangs on something unknown or failed.
+// A side that is known decides AND and OR, whatever the other one is. nullopt: it hangs on something unknown
+// or failed; Null in a comparison fails.
 std::optional<bool> holds(const Condition& condition, const Environment& environment);
 
-// How the checks end for the values.
+// How the checks end for the values. Unknown: at a branch that hangs on an unknown value, or at a block whose
+// meaning is not known. Failed: at a branch or an assignment whose arithmetic fails. Endless: more than
+// `maxSteps` statements.
 struct CheckRun {
   enum class End : std::uint8_t { Passes, Alarm, Unknown, Failed, Endless };
   End end = End::Passes;
-  const Statement* at = nullptr; // the alarm, or what could not be decided
+  const Statement* at = nullptr; // in cycle.checks: the alarm, or what could not be decided
 };
 CheckRun runChecks(const Cycle& cycle, Environment environment, std::uint32_t maxSteps);
 

@@ -81,13 +81,17 @@ struct Expression {
   std::variant<Constant, NullValue, VariableUse, MachineVariable, MeasuredResult, Unary, Binary> node;
 };
 
+// -0 becomes 0.
 ExpressionPtr constant(double value, SourceRange range = {}, std::string digits = "");
+ExpressionPtr nullValue(SourceRange range = {});
 ExpressionPtr variable(VariableId id, SourceRange range = {});
+ExpressionPtr machineVariable(ExpressionPtr number, SourceRange range = {});
+ExpressionPtr result(ResultName name, SourceRange range = {});
 ExpressionPtr unary(UnaryOp op, ExpressionPtr operand, SourceRange range = {});
 ExpressionPtr binary(BinaryOp op, ExpressionPtr left, ExpressionPtr right, SourceRange range = {});
 // The constant's value; nullptr for any other node.
 const double* constantValue(const ExpressionPtr& expression);
-// Same tree, ranges and digits aside.
+// Same tree, ranges and digits aside. Null pointers are equal to each other alone.
 bool equal(const ExpressionPtr& a, const ExpressionPtr& b);
 
 // ---- conditions -------------------------------------------------------------------------------------------
@@ -129,5 +133,7 @@ ConditionPtr isNull(ExpressionPtr value, SourceRange range = {});
 ConditionPtr negate(const ConditionPtr& condition);
 ConditionPtr join(Connective op, ConditionPtr left, ConditionPtr right, SourceRange range = {});
 ConditionPtr truth(bool value, SourceRange range = {});
+// Same tree, ranges and digits aside.
+bool equal(const ConditionPtr& a, const ConditionPtr& b);
 
 } // namespace dotek::ir

@@ -1,6 +1,7 @@
 // Kinds of values, frames of coordinates, axes: the vocabulary of the IR.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string_view>
 

@@ -16,11 +16,17 @@ struct LinearForm {
   bool operator==(const LinearForm&) const = default;
 };
 
-// Symbol of a subtree that is not linear: its text, so that equal subtrees cancel. nullopt where arithmetic
-// fails. Coefficients are compared exactly: a proof never holds by rounding.
+// Symbol of a variable: its name as print() writes it; of a subtree that is not linear: its text, so that
+// equal subtrees cancel. nullopt where arithmetic fails or a coefficient is no exact decimal: numbers count
+// as the decimals that people write (0.1 + 0.2 is 0.3), and a proof never holds by rounding.
 std::optional<LinearForm> linear(const ExpressionPtr& expression, const Cycle& cycle);
-LinearForm add(const LinearForm& a, const LinearForm& b, double factorOfB = 1);
-// Equal for all values of the variables. false: not proved.
+// a + factorOfB * b; nullopt where that rounds.
+std::optional<LinearForm> add(const LinearForm& a, const LinearForm& b, double factorOfB = 1);
+// Equal for all values of the variables, if it has a value at all. false: not proved.
 bool provenEqual(const ExpressionPtr& a, const ExpressionPtr& b, const Cycle& cycle);
+
+// Sum and product of the shortest decimals of both; nullopt where a double does not hold it.
+std::optional<double> exactSum(double a, double b);
+std::optional<double> exactProduct(double a, double b);
 
 } // namespace dotek::ir

@@ -8,21 +8,26 @@
 
 namespace dotek::ir {
 
-// One axis. Work: coordinate `value` in the active work system. Start: entry position plus `value`. Unknown
-// where paths disagree, or an opaque block or a variable that changed since stands between.
+// One axis. Work: `point` stands at coordinate `value` of the active work system. Start: entry position plus
+// `value`. Unknown where paths disagree, or where an opaque block or a variable that changed since stands
+// between. `point` is Centre or, along Z, Lowest; of a Start position that only relative travels reached it
+// is Centre whatever point the caller placed.
 struct AxisPosition {
   enum class State : std::uint8_t { Unknown, Work, Start };
   State state = State::Start;
   ExpressionPtr value; // null pointer for Unknown
+  ProbePoint point = ProbePoint::Centre;
 };
 using Position = std::array<AxisPosition, 3>; // by Axis
 
 // One entry for each statement of `cycle.body`: before it. Unreachable statements: Unknown. A measurement
-// comes back to where it began. A change of the work system, the machine frame and the retract frame give
-// Unknown (Z of a retract move: Unknown, the axes beside it stay).
+// comes back to where it began; where it may set the active work system, the axes that it sets become
+// Unknown. A change of the work system makes all axes Unknown; a coordinate in the machine's or the retract
+// frame, in another work system, of the contact point or read from a machine variable makes its axis Unknown.
 std::vector<Position> positions(const Cycle& cycle);
 
-// The last measurement before each statement of the body, on every path; nullptr: none, or paths disagree.
+// The last measurement before each statement of the body, on every path; nullptr: none, paths disagree, or an
+// opaque block, which may measure, stands between. Points into `cycle.body`.
 std::vector<const Measure*> lastMeasurements(const Cycle& cycle);
 
 } // namespace dotek::ir

@@ -1,3 +1,4 @@
+#include "frontend/gibbs/CommandShape.h"
 #include "frontend/gibbs/RunMachine.h"
 
 #include "support/Decimal.h"
@@ -6,53 +7,8 @@
 #include <array>
 
 namespace dotek::frontend::gibbs {
-namespace {
-
 using stdlib::ArgumentSpec;
 using stdlib::CommandSignature;
-
-// Commands that wait for the user or hand over to another program.
-constexpr std::array kAsksUser = {"INPUT",   "YESNO",         "FILE_DIALOG_SHOW", "RUN_EXE",
-                                  "RUN_CMD", "EXIT_GIBBSCAM", "RUN_REPORTER",     "RUN_POST"};
-
-// The specification of the argument at `index`; nullptr: the signature has no such argument.
-const ArgumentSpec* specAt(const CommandSignature& signature, std::size_t index) {
-  for (const ArgumentSpec& spec : signature.arguments) {
-    if (index < spec.repeat) return &spec;
-    index -= spec.repeat;
-  }
-  return nullptr;
-}
-
-// The word that stands as argument; "" for anything but a bare name.
-std::string bareWord(const Expression& e) {
-  const VariableRef* ref = std::get_if<VariableRef>(&e.node);
-  return ref != nullptr && !ref->index ? foldCase(ref->name.text) : "";
-}
-
-bool fits(const CommandSignature& signature, const Command& c) {
-  std::size_t least = 0;
-  for (const ArgumentSpec& spec : signature.arguments) {
-    if (!spec.optional) ++least;
-  }
-  if (c.arguments.size() < least) return false;
-  for (std::size_t i = 0; i < c.arguments.size(); ++i) {
-    const ArgumentSpec* spec = specAt(signature, i);
-    if (spec == nullptr) return false;
-    if (spec->kind != ArgumentSpec::Kind::Choice) continue;
-    if (std::find(spec->keywords.begin(), spec->keywords.end(), bareWord(*c.arguments[i])) ==
-        spec->keywords.end()) {
-      return false;
-    }
-  }
-  return true;
-}
-
-bool isWritten(const ArgumentSpec& spec) {
-  return spec.kind == ArgumentSpec::Kind::Result || spec.kind == ArgumentSpec::Kind::ReadWrite;
-}
-
-} // namespace
 
 Machine::Flow Machine::command(State& state, const Command& c, SourceRange range) {
   std::string name = foldCase(c.name.text);
@@ -68,7 +24,7 @@ Machine::Flow Machine::command(State& state, const Command& c, SourceRange range
   }
   if (name == "SWAP_VALUES") return swapValues(state, c, range);
   if (name == "ADD_CUSTOM_DRILL_CYCLE_PATH" && purpose_ == Purpose::ToolPath) return addMove(state, c, range);
-  if (std::find(kAsksUser.begin(), kAsksUser.end(), name) != kAsksUser.end()) return needsUser(c, name);
+  if (asksUser(name)) return needsUser(c, name);
   if (!context_.keywords.isCommand(name)) return unknownCommand(state, c, name);
   return tableCommand(state, c, name);
 }

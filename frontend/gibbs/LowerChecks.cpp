@@ -1,0 +1,93 @@
+#include "frontend/gibbs/Lower.h"
+#include "frontend/gibbs/LowerEmit.h"
+#include "frontend/gibbs/LowerFlatten.h"
+
+namespace dotek::frontend::gibbs {
+
+ir::Cycle declareCycle(const Cycle& source, const SourceMap& sources) {
+  ir::Cycle cycle;
+  cycle.name = source.name;
+  const auto utf8 = [&](const std::string& bytes) {
+    return source.dialog ? toUtf8(bytes, sources.file(source.dialog->file).encoding()) : bytes;
+  };
+  if (source.dialog) {
+    for (const Control& control : source.dialog->controls) {
+      if (foldCase(control.kind.text) != "DIALOG" || !control.text) continue;
+      cycle.title = utf8(*control.text);
+      break;
+    }
+  }
+  for (const Field& field : declaredFields(source)) {
+    ir::Variable parameter;
+    parameter.name = field.name.text;
+    parameter.role = ir::Role::Parameter;
+    parameter.defaultValue = field.value;
+    // Digits that only an assumption makes a number are no layout to keep.
+    if (field.value && field.assumption.empty()) parameter.defaultDigits = sources.textUtf8(field.valueRange);
+    if (field.label) {
+      parameter.unit = utf8(field.label->unit);
+      parameter.meaning = utf8(field.label->meaning);
+    }
+    parameter.range = field.name.range;
+    cycle.add(std::move(parameter));
+  }
+  for (const auto* macro :
+       {source.toolPath ? &*source.toolPath : nullptr, source.cycleData ? &*source.cycleData : nullptr})
+    if (macro != nullptr && !cycle.range.hasPlace()) cycle.range = {macro->file, 0, 0};
+  return cycle;
+}
+
+namespace {
+
+// Reports what cannot be translated; false where something is.
+bool report(const WalkResult& walk, LowerContext& context) {
+  for (const Diagnostic& refusal : walk.refusals)
+    context.diagnostics.add(refusal);
+  return walk.refusals.empty();
+}
+
+} // namespace
+
+bool lowerChecks(const Macro& cycleData, ir::Cycle& cycle, LowerContext& context) {
+  const Flat flat = Flattener(cycle, context, Purpose::Checks).flatten(cycleData);
+  WalkOptions options;
+  options.unsetZero = context.assumptions.contains("unset-zero");
+  WalkResult walk = Walk(flat, cycle, context.limits, options).run();
+  if (!walk.complete) {
+    // Too many ways with all that the conditions tell; the values that the macro sets are often enough.
+    options.facts = false;
+    walk = Walk(flat, cycle, context.limits, options).run();
+  }
+  if (!walk.complete) {
+    context.diagnostics.report<diag::TooManyPaths>({cycleData.file, 0, 0}, context.limits.paths);
+    return false;
+  }
+  if (!report(walk, context)) return false;
+  bool ok = true;
+  for (const auto& [at, ends] : walk.behind) {
+    if (!ends.passes) options.alarms.insert(at);
+    if (!ends.passes || !ends.rejects) continue;
+    context.diagnostics.report<diag::MessagePaths>(flat.steps[at].range);
+    ok = false;
+  }
+  if (!ok) return false;
+  // Once more with alarms that nothing gets past: what is left is what the control can reach.
+  walk = Walk(flat, cycle, context.limits, options).run();
+  if (const std::size_t endless = endlessStep(flat, walk, options.alarms); endless != kNowhere) {
+    context.diagnostics.report<diag::GoesRoundForEver>(flat.steps[endless].range);
+    return false;
+  }
+  for (const auto& [at, ends] : walk.behind) {
+    const auto& message = std::get<FlatMessage>(flat.steps[at].step);
+    const SourceRange range = flat.steps[at].range;
+    if (!options.alarms.contains(at)) {
+      context.diagnostics.report<diag::MessageInforms>(range, message.text);
+    } else if (message.computed) {
+      context.diagnostics.report<diag::MessageComputed>(range, message.text);
+    }
+  }
+  cycle.checks = emitStatements(flat, walk, {options.alarms, options.unsetZero, nullptr}, cycle);
+  return true;
+}
+
+} // namespace dotek::frontend::gibbs

@@ -1,0 +1,364 @@
+#include "frontend/gibbs/LowerWalk.h"
+
+#include "frontend/gibbs/LowerTerms.h"
+
+#include <algorithm>
+
+namespace dotek::frontend::gibbs {
+namespace {
+
+constexpr std::size_t kMaxSteps = 300'000;
+constexpr std::size_t kStatesAPath = 16;     // states that may be kept for each path that the limit allows
+constexpr std::size_t kMaxLive = 20'000'000; // places times variables
+constexpr std::size_t kWiden = 64;           // states at one place before changing variables count as unknown
+
+} // namespace
+
+std::vector<std::size_t> followers(const Flat& flat, std::size_t at) {
+  const auto& step = flat.steps[at].step;
+  if (std::holds_alternative<FlatEnd>(step) || std::holds_alternative<FlatReturn>(step) ||
+      std::holds_alternative<FlatRefuse>(step))
+    return {};
+  if (const auto* jump = std::get_if<FlatJump>(&step)) return {jump->target};
+  if (const auto* branch = std::get_if<FlatBranch>(&step)) return {at + 1, branch->target};
+  return {at + 1};
+}
+
+CycleChanges changesAround(const Flat& flat, std::size_t head) {
+  const std::size_t size = flat.steps.size();
+  std::vector<std::vector<std::size_t>> back(size);
+  for (std::size_t at = 0; at < size; ++at) {
+    for (const std::size_t next : followers(flat, at))
+      if (next < size) back[next].push_back(at);
+  }
+  const auto spread = [&](const auto& neighbours) {
+    std::vector<bool> found(size, false);
+    std::vector<std::size_t> open = {head};
+    while (!open.empty()) {
+      const std::size_t at = open.back();
+      open.pop_back();
+      for (const std::size_t next : neighbours(at)) {
+        if (next >= size || found[next]) continue;
+        found[next] = true;
+        open.push_back(next);
+      }
+    }
+    return found;
+  };
+  const auto ahead = spread([&](std::size_t at) { return followers(flat, at); });
+  const auto behind = spread([&](std::size_t at) { return back[at]; });
+  CycleChanges changes;
+  for (std::size_t at = 0; at < size; ++at) {
+    if (!ahead[at] || !behind[at]) continue;
+    if (const auto* assign = std::get_if<FlatAssign>(&flat.steps[at].step))
+      changes.variables.insert(assign->variable);
+    if (const auto* unset = std::get_if<FlatUnset>(&flat.steps[at].step))
+      changes.variables.insert(unset->variable);
+    const auto* move = std::get_if<FlatMove>(&flat.steps[at].step);
+    for (std::size_t axis = 0; move != nullptr && axis < 3; ++axis)
+      changes.axes[axis] = changes.axes[axis] || move->axes[axis] != nullptr;
+  }
+  return changes;
+}
+
+std::string symbolOf(ir::VariableId variable) {
+  return fmt::format("v{}", variable);
+}
+
+Walk::Walk(const Flat& flat, const ir::Cycle& cycle, const Limits& limits, WalkOptions options)
+    : flat_(flat), cycle_(cycle), options_(std::move(options)),
+      maxStates_(std::size_t{std::min(limits.paths, 1u << 16)} * kStatesAPath),
+      maxSteps_(std::min<std::size_t>(limits.steps, kMaxSteps)) {}
+
+WalkResult Walk::run() {
+  start();
+  result_.complete = true;
+  while (!waiting_.empty()) {
+    WalkState state = std::move(waiting_.back());
+    waiting_.pop_back();
+    follow(std::move(state));
+    if (steps_ <= maxSteps_ && states_ + waiting_.size() <= maxStates_) continue;
+    result_.complete = false;
+    break;
+  }
+  return std::move(result_);
+}
+
+void Walk::start() {
+  const std::size_t size = flat_.steps.size();
+  result_.reached.assign(size, false);
+  result_.jumps.assign(size, false);
+  result_.falls.assign(size, false);
+  joins_.assign(size, false);
+  for (const FlatStep& each : flat_.steps) {
+    if (const auto* jump = std::get_if<FlatJump>(&each.step)) joins_[jump->target] = true;
+    if (const auto* branch = std::get_if<FlatBranch>(&each.step)) joins_[branch->target] = true;
+  }
+  computeLiveness();
+  WalkState first;
+  first.values.resize(cycle_.variables.size());
+  for (ir::VariableId id = 0; id < cycle_.variables.size(); ++id) {
+    if (cycle_.variables[id].role == ir::Role::Local) continue;
+    const auto known = options_.values.find(id);
+    const std::string symbol = symbolOf(id);
+    first.values[id] =
+        known != options_.values.end() ? Value(known->second) : opaqueValue(symbol, {symbol}, symbol, false);
+  }
+  first.track.at = {Value(0.0), Value(0.0), std::nullopt};
+  if (size > 0) waiting_.push_back(std::move(first));
+}
+
+void Walk::computeLiveness() {
+  const std::size_t size = flat_.steps.size();
+  const std::size_t variables = cycle_.variables.size();
+  if (!options_.forget || size * variables > kMaxLive) return;
+  live_.assign(size, std::vector<bool>(variables, false));
+  for (bool changed = true; changed;) {
+    changed = false;
+    for (std::size_t at = size; at-- > 0;) {
+      std::vector<bool> now(variables, false);
+      for (const std::size_t next : followers(flat_, at)) {
+        if (next >= size) continue;
+        for (std::size_t id = 0; id < variables; ++id)
+          if (live_[next][id]) now[id] = true;
+      }
+      std::set<ir::VariableId> read;
+      const auto& step = flat_.steps[at].step;
+      if (const auto* assign = std::get_if<FlatAssign>(&step)) {
+        now[assign->variable] = false;
+        collectVariables(assign->value, read);
+      }
+      if (const auto* unset = std::get_if<FlatUnset>(&step)) now[unset->variable] = false;
+      if (const auto* branch = std::get_if<FlatBranch>(&step)) collectVariables(branch->condition, read);
+      if (const auto* end = std::get_if<FlatReturn>(&step)) read.insert(end->code);
+      if (const auto* move = std::get_if<FlatMove>(&step)) {
+        for (const ir::ExpressionPtr& axis : move->axes)
+          collectVariables(axis, read);
+      }
+      for (const ir::VariableId id : read)
+        now[id] = true;
+      if (now == live_[at]) continue;
+      live_[at] = std::move(now);
+      changed = true;
+    }
+  }
+}
+
+// ---- states ---------------------------------------------------------------------------------------------
+
+void Walk::follow(WalkState state) {
+  for (;;) {
+    if (++steps_ > maxSteps_) return;
+    if (joins_[state.at] && !isNew(state)) return;
+    result_.reached[state.at] = true;
+    if (!step(state)) return;
+  }
+}
+
+bool Walk::isNew(WalkState& state) {
+  if (seen_[state.at].size() >= kWiden) widen(state);
+  forget(state);
+  if (!seen_[state.at].insert(keyOf(state)).second) return false;
+  ++states_;
+  return true;
+}
+
+// Facts that no later condition can ask for: one of their symbols is in no value that is read again.
+void Walk::forget(WalkState& state) const {
+  if (!options_.forget || state.facts.empty()) return;
+  std::set<std::string> symbols;
+  const auto add = [&](const std::optional<Value>& value) {
+    const Unknown* unknown = value ? unknownIn(*value) : nullptr;
+    if (unknown != nullptr) symbols.insert(unknown->hosts.begin(), unknown->hosts.end());
+  };
+  for (ir::VariableId id = 0; id < state.values.size(); ++id)
+    if (live(state.at, id)) add(state.values[id]);
+  for (const auto& axis : state.track.at)
+    add(axis);
+  for (const auto* leg : {&state.track.before, &state.track.last}) {
+    if (!*leg) continue;
+    add((*leg)->begin);
+    add((*leg)->target);
+  }
+  std::erase_if(state.facts, [&](const auto& fact) {
+    return !std::includes(symbols.begin(), symbols.end(), fact.second.symbols.begin(),
+                          fact.second.symbols.end());
+  });
+}
+
+std::string Walk::keyOf(const WalkState& state) const {
+  std::string key;
+  const auto add = [&](const std::optional<Value>& value) { key += (value ? canonical(*value) : "-") + ";"; };
+  for (ir::VariableId id = 0; id < state.values.size(); ++id)
+    if (live(state.at, id)) add(state.values[id]);
+  for (const auto& [quantity, fact] : state.facts) {
+    key += quantity;
+    for (const auto& [relation, bound] : fact.learnt)
+      key += fmt::format(" {}{}", static_cast<int>(relation), bound);
+    key += ';';
+  }
+  for (const std::size_t message : state.messages)
+    key += fmt::format("m{}", message);
+  key += fmt::format("c{};", state.codeAt);
+  if (options_.observer == nullptr) return key;
+  for (const auto& axis : state.track.at)
+    add(axis);
+  for (const auto* leg : {&state.track.before, &state.track.last}) {
+    key += '|';
+    if (!*leg) continue;
+    key += fmt::format("{}/{}/{}/{}/{}", (*leg)->step, (*leg)->sign, (*leg)->forced, (*leg)->exempt,
+                       static_cast<int>((*leg)->axis));
+    add((*leg)->begin);
+    add((*leg)->target);
+  }
+  return key + fmt::format("r{}", state.track.run);
+}
+
+// The place was visited so often that what changes between two visits counts as unknown.
+void Walk::widen(WalkState& state) {
+  auto known = changes_.find(state.at);
+  if (known == changes_.end()) known = changes_.emplace(state.at, changesAround(flat_, state.at)).first;
+  const CycleChanges& changes = known->second;
+  const std::string prefix = fmt::format("w{}:", state.at);
+  std::size_t made = 0;
+  // An unknown of an earlier visit is not the one of this visit.
+  const auto stale = [&](const std::optional<Value>& value) {
+    const Unknown* unknown = value ? unknownIn(*value) : nullptr;
+    return unknown != nullptr &&
+           std::any_of(unknown->hosts.begin(), unknown->hosts.end(),
+                       [&](const std::string& symbol) { return symbol.starts_with(prefix); });
+  };
+  const auto fresh = [&](const std::string& name) {
+    const std::string symbol = prefix + name;
+    ++made;
+    return opaqueValue(symbol, {symbol}, symbol, false);
+  };
+  for (ir::VariableId id = 0; id < state.values.size(); ++id) {
+    if (state.values[id] && (changes.variables.contains(id) || stale(state.values[id])))
+      state.values[id] = fresh(std::to_string(id));
+  }
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (state.track.at[axis] && (changes.axes[axis] || stale(state.track.at[axis])))
+      state.track.at[axis] = fresh(fmt::format("at{}", axis));
+  }
+  const bool moves = changes.axes[0] || changes.axes[1] || changes.axes[2];
+  int number = 0;
+  for (auto* leg : {&state.track.before, &state.track.last}) {
+    ++number;
+    if (!*leg || !(moves || stale((*leg)->begin) || stale((*leg)->target))) continue;
+    (*leg)->begin.reset();
+    (*leg)->target = fresh(fmt::format("leg{}", number));
+  }
+  if (made == 0) return;
+  std::erase_if(state.facts, [&](const auto& fact) {
+    return std::any_of(fact.second.symbols.begin(), fact.second.symbols.end(),
+                       [&](const std::string& symbol) { return symbol.starts_with(prefix); });
+  });
+}
+
+// ---- steps ----------------------------------------------------------------------------------------------
+
+bool Walk::step(WalkState& state) {
+  const FlatStep& here = flat_.steps[state.at];
+  if (const auto* s = std::get_if<FlatAssign>(&here.step)) return step(state, *s);
+  if (const auto* s = std::get_if<FlatBranch>(&here.step)) return step(state, *s);
+  if (const auto* s = std::get_if<FlatMove>(&here.step)) return step(state, *s);
+  if (const auto* s = std::get_if<FlatReturn>(&here.step)) return step(state, *s);
+  if (const auto* s = std::get_if<FlatJump>(&here.step)) {
+    state.at = s->target;
+    return true;
+  }
+  if (const auto* s = std::get_if<FlatEnd>(&here.step)) {
+    if (s->rejects) result_.codes[state.at];
+    ended(state, s->rejects);
+    return false;
+  }
+  if (const auto* s = std::get_if<FlatRefuse>(&here.step)) {
+    result_.refusals.push_back(s->diagnostic);
+    return false;
+  }
+  if (std::holds_alternative<FlatMessage>(here.step)) {
+    result_.behind[state.at];
+    if (options_.alarms.contains(state.at)) return false;
+    state.messages.insert(state.at);
+  }
+  // What was shown before the dialog does not turn away what is typed into it.
+  if (std::holds_alternative<FlatDialog>(here.step)) {
+    for (const std::size_t message : state.messages)
+      result_.behind[message].passes = true;
+    state.messages.clear();
+  }
+  if (const auto* s = std::get_if<FlatUnset>(&here.step)) state.values[s->variable].reset();
+  ++state.at;
+  return true;
+}
+
+bool Walk::step(WalkState& state, const FlatAssign& s) {
+  auto value = evaluate(state, s.value);
+  if (!value) return false;
+  if (s.variable == flat_.returnCode) state.codeAt = state.at;
+  state.values[s.variable] = std::move(*value);
+  ++state.at;
+  return true;
+}
+
+bool Walk::step(WalkState& state, const FlatBranch& s) {
+  const std::size_t here = state.at;
+  const auto truth = decide(state, s.condition);
+  if (!truth) {
+    if (failed_) return false;
+    WalkState other = state;
+    learn(other, *question_, opposite(question_->relation));
+    learn(state, *question_, question_->relation);
+    if (!options_.facts) {
+      // Nothing is learnt, so the question would come again.
+      result_.jumps[here] = result_.falls[here] = true;
+      state.at = s.target;
+      ++other.at;
+    }
+    waiting_.push_back(std::move(other));
+    return true;
+  }
+  (*truth ? result_.jumps : result_.falls)[here] = true;
+  state.at = *truth ? s.target : here + 1;
+  return true;
+}
+
+bool Walk::step(WalkState& state, const FlatMove& s) {
+  std::array<std::optional<Value>, 3> targets;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (!s.axes[axis]) continue;
+    targets[axis] = evaluate(state, s.axes[axis]);
+    if (!targets[axis]) return false;
+  }
+  if (options_.observer != nullptr) options_.observer->move(state, state.at, targets);
+  ++state.at;
+  return true;
+}
+
+bool Walk::step(WalkState& state, const FlatReturn& s) {
+  const std::optional<Value> code = state.values[s.code];
+  std::optional<bool> rejects = false;
+  if (code) {
+    rejects = compare(state, *code, Relation::NotEqual, 0.0);
+  } else {
+    result_.unset.insert(s.code);
+  }
+  for (const bool way : {false, true}) {
+    if (rejects && *rejects != way) continue;
+    (way ? result_.ends[state.at].rejects : result_.ends[state.at].passes) = true;
+    if (way) result_.codes[state.at].insert(state.codeAt);
+    ended(state, way);
+  }
+  return false;
+}
+
+void Walk::ended(const WalkState& state, bool rejects) {
+  for (const std::size_t message : state.messages)
+    (rejects ? result_.behind[message].rejects : result_.behind[message].passes) = true;
+  if (options_.observer == nullptr) return;
+  WalkState last = state;
+  options_.observer->end(last);
+}
+
+} // namespace dotek::frontend::gibbs

@@ -1,0 +1,157 @@
+// Ways through flat code with symbolic values: what can be reached, how it ends behind each message, what a
+// way knows where a move begins. Everything that is not proved impossible is taken as possible.
+#pragma once
+
+#include "frontend/gibbs/LowerFlat.h"
+#include "frontend/gibbs/RunProgram.h"
+#include "frontend/gibbs/RunValue.h"
+#include "ir/Arithmetic.h"
+#include "support/Limits.h"
+
+#include <array>
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace dotek::frontend::gibbs {
+
+// What a way has learnt of one quantity, by conditions that it has passed.
+struct Fact {
+  Range range;
+  std::set<std::pair<Relation, double>> learnt;
+  std::set<std::string> symbols;
+};
+using Facts = std::map<std::string, Fact>;
+
+// A move along one axis whose follower is not judged yet.
+struct Leg {
+  std::size_t step = 0;
+  ir::Axis axis = ir::Axis::X;
+  std::optional<Value> begin; // nothing: not known
+  Value target = 0.0;
+  int sign = 0; // of the way to the contact, where the code shows a touch; else 0
+  bool forced = false;
+  bool exempt = false; // the first positioning, from wherever the cycle begins
+};
+
+// Where the probe stands; X and Y from the entry, Z from the retract plane.
+struct Track {
+  std::array<std::optional<Value>, 3> at; // nothing: not known
+  std::optional<Leg> before;              // `last` is its follower, along the same axis
+  std::optional<Leg> last;
+  std::size_t run = 0; // step of the first move of the moves along one axis
+};
+
+struct WalkState {
+  std::size_t at = 0;
+  std::vector<std::optional<Value>> values; // by variable; nothing: not set
+  Facts facts;
+  std::set<std::size_t> messages; // steps that showed one, not yet past
+  std::size_t codeAt = kNowhere;  // step that set the return code
+  Track track;
+};
+
+class MoveObserver {
+public:
+  virtual ~MoveObserver() = default;
+  // Before the move; sets the track. `target` as written, nothing where the axis is not.
+  virtual void move(WalkState& state, std::size_t step,
+                    const std::array<std::optional<Value>, 3>& target) = 0;
+  virtual void end(WalkState& state) = 0;
+};
+
+struct WalkOptions {
+  bool facts = true;  // learn from conditions
+  bool forget = true; // drop what no later condition can ask for
+  bool unsetZero = false;
+  std::set<std::size_t> alarms;            // messages that nothing gets past
+  std::map<ir::VariableId, double> values; // parameters and hosts that are known
+  MoveObserver* observer = nullptr;
+};
+
+struct WalkResult {
+  struct Ends {
+    bool passes = false;
+    bool rejects = false;
+  };
+  bool complete = false; // false: too many ways
+  std::vector<bool> reached;
+  std::vector<bool> jumps, falls;                     // of branches: both answers are possible
+  std::map<std::size_t, Ends> behind;                 // of messages: how the ways end
+  std::map<std::size_t, Ends> ends;                   // of Return steps
+  std::map<std::size_t, std::set<std::size_t>> codes; // steps that set the code a Return rejects with
+  std::vector<Diagnostic> refusals;
+  std::set<ir::VariableId> unset; // read before they are set
+};
+
+// What the code can change between two visits of `head`.
+struct CycleChanges {
+  std::set<ir::VariableId> variables;
+  std::array<bool, 3> axes{};
+};
+
+class Walk {
+public:
+  Walk(const Flat& flat, const ir::Cycle& cycle, const Limits& limits, WalkOptions options);
+  WalkResult run();
+
+private:
+  void start();
+  void follow(WalkState state);
+  // false: the way ends here.
+  bool step(WalkState& state);
+  bool step(WalkState& state, const FlatAssign& s);
+  bool step(WalkState& state, const FlatBranch& s);
+  bool step(WalkState& state, const FlatMove& s);
+  bool step(WalkState& state, const FlatReturn& s);
+  void ended(const WalkState& state, bool rejects);
+  bool isNew(WalkState& state);
+  void forget(WalkState& state) const;
+  std::string keyOf(const WalkState& state) const;
+  void widen(WalkState& state);
+  void computeLiveness();
+  bool live(std::size_t at, ir::VariableId variable) const { return live_.empty() || live_[at][variable]; }
+
+  std::optional<Value> evaluate(WalkState& state, const ir::ExpressionPtr& e);
+  std::optional<Value> evaluate(WalkState& state, const ir::Unary& node);
+  std::optional<Value> evaluate(WalkState& state, const ir::Binary& node);
+  std::optional<Value> read(WalkState& state, ir::VariableId variable, SourceRange range);
+  Value opaque(const std::string& text, const std::vector<Value>& from);
+  std::optional<bool> decide(WalkState& state, const ir::ConditionPtr& condition);
+  std::optional<bool> decide(WalkState& state, const ir::Comparison& comparison);
+  std::optional<bool> compare(const WalkState& state, const Value& left, Relation relation,
+                              const Value& right);
+  void learn(WalkState& state, const Question& question, Relation relation) const;
+
+  const Flat& flat_;
+  const ir::Cycle& cycle_;
+  WalkOptions options_;
+  std::size_t maxStates_, maxSteps_;
+  std::size_t steps_ = 0;
+  WalkResult result_;
+  std::vector<WalkState> waiting_;
+  std::vector<bool> joins_; // steps that something jumps to
+  std::map<std::size_t, std::set<std::string>> seen_;
+  std::size_t states_ = 0;
+  std::map<std::size_t, CycleChanges> changes_; // by place
+  std::vector<std::vector<bool>> live_;         // by step and variable; empty: all
+  std::map<std::string, std::size_t> interned_;
+  std::optional<Question> question_;
+  bool failed_ = false; // an evaluation found no value, and question_ does not say why
+};
+
+// Successors by place; Ends and Refuses have none.
+std::vector<std::size_t> followers(const Flat& flat, std::size_t at);
+CycleChanges changesAround(const Flat& flat, std::size_t head);
+
+// Symbol of a parameter or host input as linear forms name it.
+std::string symbolOf(ir::VariableId variable);
+bool provenAbove(const Facts& facts, const Value& value); // value > 0
+bool provenBelow(const Facts& facts, const Value& value);
+bool provenZero(const Facts& facts, const Value& value);
+
+} // namespace dotek::frontend::gibbs

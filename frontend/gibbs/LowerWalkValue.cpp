@@ -1,0 +1,212 @@
+#include "frontend/gibbs/LowerWalk.h"
+
+#include <algorithm>
+
+namespace dotek::frontend::gibbs {
+namespace {
+
+Relation relationOf(ir::Relation relation) {
+  switch (relation) {
+  case ir::Relation::Equal: return Relation::Equal;
+  case ir::Relation::NotEqual: return Relation::NotEqual;
+  case ir::Relation::Less: return Relation::Less;
+  case ir::Relation::Greater: return Relation::Greater;
+  case ir::Relation::LessEqual: return Relation::LessEqual;
+  case ir::Relation::GreaterEqual: return Relation::GreaterEqual;
+  }
+  return Relation::Equal;
+}
+
+ir::Computed compute(ir::UnaryOp op, double a) {
+  constexpr auto kDegrees = ir::AngleUnit::Degrees;
+  switch (op) {
+  case ir::UnaryOp::Absolute: return ir::absolute(a);
+  case ir::UnaryOp::Truncate: return ir::truncate(a);
+  case ir::UnaryOp::SquareRoot: return ir::squareRoot(a);
+  case ir::UnaryOp::Sine: return ir::sine(a, kDegrees);
+  case ir::UnaryOp::Cosine: return ir::cosine(a, kDegrees);
+  case ir::UnaryOp::Tangent: return ir::tangent(a, kDegrees);
+  case ir::UnaryOp::ArcSine: return ir::arcSine(a, kDegrees);
+  case ir::UnaryOp::ArcCosine: return ir::arcCosine(a, kDegrees);
+  case ir::UnaryOp::ArcTangent: return ir::arcTangent(a, kDegrees);
+  default: return ir::subtract(0, a);
+  }
+}
+
+// Whether the facts leave only values of `value` that stand in `relation` to 0.
+bool proven(const Facts& facts, const Value& value, Relation relation) {
+  if (const double* number = std::get_if<double>(&value)) return holds(*number, relation, 0);
+  const Question question = questionOf(*unknownIn(value), relation, {});
+  const auto known = facts.find(question.key);
+  return known != facts.end() && !known->second.range.canBe(opposite(question.relation), question.bound);
+}
+
+} // namespace
+
+bool provenAbove(const Facts& facts, const Value& value) {
+  return proven(facts, value, Relation::Greater);
+}
+bool provenBelow(const Facts& facts, const Value& value) {
+  return proven(facts, value, Relation::Less);
+}
+bool provenZero(const Facts& facts, const Value& value) {
+  return proven(facts, value, Relation::Equal) ||
+         (proven(facts, value, Relation::LessEqual) && proven(facts, value, Relation::GreaterEqual));
+}
+
+// Equal texts are equal values.
+Value Walk::opaque(const std::string& text, const std::vector<Value>& from) {
+  const std::size_t number = interned_.emplace(text, interned_.size()).first->second;
+  return opaqueValue(fmt::format("?{}", number), hostsOf(from), "", false);
+}
+
+std::optional<Value> Walk::read(WalkState& state, ir::VariableId variable, SourceRange range) {
+  const std::optional<Value>& value = state.values[variable];
+  if (value) return value;
+  result_.unset.insert(variable);
+  if (options_.unsetZero) return Value(0.0);
+  result_.refusals.push_back(makeDiagnostic<diag::ReadBeforeSet>(range, cycle_.variables[variable].name));
+  failed_ = true;
+  return std::nullopt;
+}
+
+std::optional<Value> Walk::evaluate(WalkState& state, const ir::ExpressionPtr& e) {
+  if (const auto* constant = std::get_if<ir::Constant>(&e->node)) return Value(constant->value);
+  if (const auto* use = std::get_if<ir::VariableUse>(&e->node)) return read(state, use->variable, e->range);
+  if (const auto* unary = std::get_if<ir::Unary>(&e->node)) return evaluate(state, *unary);
+  if (const auto* binary = std::get_if<ir::Binary>(&e->node)) return evaluate(state, *binary);
+  failed_ = true;
+  return std::nullopt;
+}
+
+std::optional<Value> Walk::evaluate(WalkState& state, const ir::Unary& node) {
+  const auto operand = evaluate(state, node.operand);
+  if (!operand) return std::nullopt;
+  if (const double* known = std::get_if<double>(&*operand)) {
+    const ir::Computed result = compute(node.op, *known);
+    if (result.ok()) return Value(result.value);
+    failed_ = true; // the control stops here with an alarm
+    return std::nullopt;
+  }
+  if (node.op == ir::UnaryOp::Negate) {
+    if (const auto form = linear(*operand, -1, 0.0, 0)) return form;
+  }
+  return opaque(fmt::format("{}({})", static_cast<int>(node.op), canonical(*operand)), {*operand});
+}
+
+std::optional<Value> Walk::evaluate(WalkState& state, const ir::Binary& node) {
+  const auto left = evaluate(state, node.left);
+  if (!left) return std::nullopt;
+  const auto right = evaluate(state, node.right);
+  if (!right) return std::nullopt;
+  const double* a = std::get_if<double>(&*left);
+  const double* b = std::get_if<double>(&*right);
+  std::optional<Value> form;
+  std::optional<ir::Computed> known;
+  const bool both = a != nullptr && b != nullptr;
+  switch (node.op) {
+  case ir::BinaryOp::Add:
+    if (both)
+      known = ir::add(*a, *b);
+    else
+      form = linear(*left, 1, *right, 1);
+    break;
+  case ir::BinaryOp::Subtract:
+    if (both)
+      known = ir::subtract(*a, *b);
+    else
+      form = linear(*left, 1, *right, -1);
+    break;
+  case ir::BinaryOp::Multiply:
+    if (both)
+      known = ir::multiply(*a, *b);
+    else if (a != nullptr)
+      form = linear(*right, *a, 0.0, 0);
+    else if (b != nullptr)
+      form = linear(*left, *b, 0.0, 0);
+    break;
+  case ir::BinaryOp::Divide:
+    if (both || (b != nullptr && *b == 0))
+      known = ir::divide(a != nullptr ? *a : 1, *b);
+    else if (b != nullptr)
+      form = linear(*left, 1 / *b, 0.0, 0);
+    break;
+  case ir::BinaryOp::Direction:
+    if (both) known = ir::direction(*a, *b, ir::AngleUnit::Degrees);
+    break;
+  default: break;
+  }
+  if (known) {
+    if (known->ok()) return Value(known->value);
+    failed_ = true;
+    return std::nullopt;
+  }
+  if (form) return form;
+  return opaque(fmt::format("({}){}({})", canonical(*left), static_cast<int>(node.op), canonical(*right)),
+                {*left, *right});
+}
+
+std::optional<bool> Walk::decide(WalkState& state, const ir::ConditionPtr& condition) {
+  question_.reset();
+  failed_ = false;
+  if (const auto* truth = std::get_if<ir::Truth>(&condition->node)) return truth->value;
+  if (const auto* comparison = std::get_if<ir::Comparison>(&condition->node))
+    return decide(state, *comparison);
+  if (const auto* inverted = std::get_if<ir::Not>(&condition->node)) {
+    const auto inner = decide(state, inverted->inner);
+    return inner ? std::optional(!*inner) : std::nullopt;
+  }
+  const auto* junction = std::get_if<ir::Junction>(&condition->node);
+  if (junction == nullptr) {
+    failed_ = true;
+    return std::nullopt;
+  }
+  const bool decisive = junction->op == ir::Connective::Or;
+  const auto left = decide(state, junction->left);
+  if (!left && failed_) return std::nullopt;
+  const auto open = question_;
+  if (left && *left == decisive) return decisive;
+  const auto right = decide(state, junction->right);
+  if (!right && failed_) return std::nullopt;
+  if (right && *right == decisive) return decisive;
+  if (left && right) return !decisive;
+  if (open) question_ = open;
+  return std::nullopt;
+}
+
+std::optional<bool> Walk::decide(WalkState& state, const ir::Comparison& comparison) {
+  const auto left = evaluate(state, comparison.left);
+  const auto right = left ? evaluate(state, comparison.right) : std::nullopt;
+  if (!right) return std::nullopt;
+  return compare(state, *left, relationOf(comparison.relation), *right);
+}
+
+std::optional<bool> Walk::compare(const WalkState& state, const Value& left, Relation relation,
+                                  const Value& right) {
+  const double* a = std::get_if<double>(&left);
+  const double* b = std::get_if<double>(&right);
+  if (a != nullptr && b != nullptr) return holds(*a, relation, *b);
+  const auto form = linear(left, 1, right, -1);
+  const Value difference = form ? *form : opaque(canonical(left) + "-" + canonical(right), {left, right});
+  const Unknown* unknown = unknownIn(difference);
+  if (unknown == nullptr) return holds(std::get<double>(difference), relation, 0);
+  Question question = questionOf(*unknown, relation, {});
+  const auto learnt = state.facts.find(question.key);
+  if (learnt != state.facts.end()) {
+    const Range& known = learnt->second.range;
+    if (!known.canBe(opposite(question.relation), question.bound)) return true;
+    if (!known.canBe(question.relation, question.bound)) return false;
+  }
+  question_ = std::move(question);
+  return std::nullopt;
+}
+
+void Walk::learn(WalkState& state, const Question& question, Relation relation) const {
+  if (!options_.facts) return;
+  Fact& fact = state.facts[question.key];
+  fact.range.restrict(relation, question.bound);
+  fact.learnt.insert({relation, question.bound});
+  fact.symbols = question.hosts;
+}
+
+} // namespace dotek::frontend::gibbs

@@ -1,0 +1,42 @@
+// Facts that hold before each statement of a list on every path to it.
+#pragma once
+
+#include "ir/Flow.h"
+
+#include <cstddef>
+#include <optional>
+#include <set>
+#include <utility>
+#include <vector>
+
+namespace dotek::ir {
+
+// The fact before each statement; nothing where no path leads. `transfer(index, fact)` gives the fact behind
+// a statement, `meet(into, other)` what holds on both paths and whether `into` changed. A fact may change a
+// bounded number of times only.
+template <class Fact, class Transfer, class Meet>
+std::vector<std::optional<Fact>> factsBefore(const std::vector<Statement>& list, Fact entry,
+                                             const Transfer& transfer, const Meet& meet) {
+  const auto next = successors(list);
+  std::vector<std::optional<Fact>> facts(list.size());
+  if (list.empty()) return facts;
+  std::set<std::size_t> open{0};
+  facts[0] = std::move(entry);
+  while (!open.empty()) {
+    const std::size_t at = *open.begin();
+    open.erase(open.begin());
+    for (const std::size_t to : next[at]) {
+      if (to >= list.size()) continue;
+      Fact behind = transfer(at, to, *facts[at]);
+      bool changed = !facts[to];
+      if (changed)
+        facts[to] = behind;
+      else
+        changed = meet(*facts[to], behind);
+      if (changed) open.insert(to);
+    }
+  }
+  return facts;
+}
+
+} // namespace dotek::ir

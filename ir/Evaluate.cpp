@@ -1,0 +1,195 @@
+#include "ir/Evaluate.h"
+
+#include <unordered_map>
+#include <utility>
+
+namespace dotek::ir {
+namespace {
+
+using State = Scalar::State;
+
+Scalar scalar(Computed computed) {
+  return computed.ok() ? Scalar::of(computed.value) : Scalar::failed(computed.error);
+}
+
+Computed compute(UnaryOp op, double a) {
+  constexpr auto kDegrees = AngleUnit::Degrees;
+  switch (op) {
+  case UnaryOp::Negate: return subtract(0, a);
+  case UnaryOp::Absolute: return absolute(a);
+  case UnaryOp::Truncate: return truncate(a);
+  case UnaryOp::RoundUp: return roundUp(a);
+  case UnaryOp::Round: return roundNearest(a);
+  case UnaryOp::SquareRoot: return squareRoot(a);
+  case UnaryOp::Sine: return sine(a, kDegrees);
+  case UnaryOp::Cosine: return cosine(a, kDegrees);
+  case UnaryOp::Tangent: return tangent(a, kDegrees);
+  case UnaryOp::ArcSine: return arcSine(a, kDegrees);
+  case UnaryOp::ArcCosine: return arcCosine(a, kDegrees);
+  case UnaryOp::ArcTangent: return arcTangent(a, kDegrees);
+  case UnaryOp::Logarithm: return logarithm(a);
+  case UnaryOp::Exponential: return exponential(a);
+  case UnaryOp::NullAsZero: return {a, ArithmeticError::None};
+  }
+  return {0, ArithmeticError::Domain};
+}
+
+Computed compute(BinaryOp op, double a, double b) {
+  switch (op) {
+  case BinaryOp::Add: return add(a, b);
+  case BinaryOp::Subtract: return subtract(a, b);
+  case BinaryOp::Multiply: return multiply(a, b);
+  case BinaryOp::Divide: return divide(a, b);
+  case BinaryOp::Modulo: return modulo(a, b);
+  case BinaryOp::Direction: return direction(a, b, AngleUnit::Degrees);
+  case BinaryOp::BitAnd: return bitAnd(a, b);
+  case BinaryOp::BitOr: return bitOr(a, b);
+  case BinaryOp::BitXor: return bitXor(a, b);
+  case BinaryOp::ValueOr: return {a, ArithmeticError::None};
+  }
+  return {0, ArithmeticError::Domain};
+}
+
+// The operand of arithmetic: Null fails.
+Scalar operand(const Scalar& value) {
+  return value.state == State::Null ? Scalar::failed(ArithmeticError::NoValue) : value;
+}
+
+Scalar evaluateUnary(const Unary& node, const Environment& environment) {
+  const Scalar value = evaluate(*node.operand, environment);
+  if (node.op == UnaryOp::NullAsZero && value.state == State::Null) return Scalar::of(0);
+  const Scalar a = operand(value);
+  return a.known() ? scalar(compute(node.op, a.value)) : a;
+}
+
+Scalar evaluateBinary(const Binary& node, const Environment& environment) {
+  const Scalar left = evaluate(*node.left, environment);
+  if (node.op == BinaryOp::ValueOr)
+    return left.state == State::Null ? evaluate(*node.right, environment) : left;
+  const Scalar a = operand(left);
+  if (a.state == State::Failed) return a;
+  const Scalar b = operand(evaluate(*node.right, environment));
+  if (b.state == State::Failed || !b.known()) return b;
+  return a.known() ? scalar(compute(node.op, a.value, b.value)) : a;
+}
+
+// Unknown outweighs Failed: the unknown side may still decide.
+enum class Verdict : std::uint8_t { False, True, Unknown, Failed };
+
+bool compareNumbers(Relation relation, double a, double b) {
+  switch (relation) {
+  case Relation::Equal: return a == b;
+  case Relation::NotEqual: return a != b;
+  case Relation::Less: return a < b;
+  case Relation::Greater: return a > b;
+  case Relation::LessEqual: return a <= b;
+  case Relation::GreaterEqual: return a >= b;
+  }
+  return false;
+}
+
+Verdict decide(const Condition& condition, const Environment& environment);
+
+Verdict decideComparison(const Comparison& node, const Environment& environment) {
+  const Scalar a = operand(evaluate(*node.left, environment));
+  const Scalar b = operand(evaluate(*node.right, environment));
+  if (a.state == State::Failed || b.state == State::Failed) return Verdict::Failed;
+  if (!a.known() || !b.known()) return Verdict::Unknown;
+  return compareNumbers(node.relation, a.value, b.value) ? Verdict::True : Verdict::False;
+}
+
+Verdict decideNull(const IsNull& node, const Environment& environment) {
+  switch (evaluate(*node.value, environment).state) {
+  case State::Known: return Verdict::False;
+  case State::Null: return Verdict::True;
+  case State::Unknown: return Verdict::Unknown;
+  case State::Failed: return Verdict::Failed;
+  }
+  return Verdict::Unknown;
+}
+
+Verdict decideJunction(const Junction& node, const Environment& environment) {
+  const Verdict deciding = node.op == Connective::And ? Verdict::False : Verdict::True;
+  const Verdict left = decide(*node.left, environment);
+  if (left == deciding) return left;
+  const Verdict right = decide(*node.right, environment);
+  if (right == deciding) return right;
+  for (const Verdict open : {Verdict::Unknown, Verdict::Failed})
+    if (left == open || right == open) return open;
+  return left;
+}
+
+Verdict decide(const Condition& condition, const Environment& environment) {
+  if (const auto* comparison = std::get_if<Comparison>(&condition.node))
+    return decideComparison(*comparison, environment);
+  if (const auto* null = std::get_if<IsNull>(&condition.node)) return decideNull(*null, environment);
+  if (const auto* junction = std::get_if<Junction>(&condition.node))
+    return decideJunction(*junction, environment);
+  if (const auto* negated = std::get_if<Not>(&condition.node)) {
+    const Verdict inner = decide(*negated->inner, environment);
+    if (inner == Verdict::True) return Verdict::False;
+    return inner == Verdict::False ? Verdict::True : inner;
+  }
+  return std::get<Truth>(condition.node).value ? Verdict::True : Verdict::False;
+}
+
+} // namespace
+
+Scalar evaluate(const Expression& expression, const Environment& environment) {
+  if (const auto* constant = std::get_if<Constant>(&expression.node)) return Scalar::of(constant->value);
+  if (const auto* use = std::get_if<VariableUse>(&expression.node))
+    return use->variable < environment.size() ? environment[use->variable] : Scalar{};
+  if (const auto* node = std::get_if<Unary>(&expression.node)) return evaluateUnary(*node, environment);
+  if (const auto* node = std::get_if<Binary>(&expression.node)) return evaluateBinary(*node, environment);
+  return std::holds_alternative<NullValue>(expression.node) ? Scalar::null() : Scalar{};
+}
+
+std::optional<bool> holds(const Condition& condition, const Environment& environment) {
+  const Verdict verdict = decide(condition, environment);
+  if (verdict == Verdict::Unknown || verdict == Verdict::Failed) return std::nullopt;
+  return verdict == Verdict::True;
+}
+
+CheckRun runChecks(const Cycle& cycle, Environment environment, std::uint32_t maxSteps) {
+  using End = CheckRun::End;
+  const std::vector<Statement>& list = cycle.checks;
+  std::unordered_map<LabelId, std::size_t> places;
+  for (std::size_t i = 0; i < list.size(); ++i)
+    if (const auto* label = std::get_if<Label>(&list[i].node)) places.try_emplace(label->label, i);
+  if (environment.size() < cycle.variables.size()) environment.resize(cycle.variables.size());
+
+  std::size_t at = 0;
+  for (std::uint32_t steps = 0; at < list.size(); ++steps) {
+    const Statement& statement = list[at];
+    if (steps >= maxSteps) return {End::Endless, &statement};
+    std::optional<LabelId> target;
+    if (const auto* assign = std::get_if<Assign>(&statement.node)) {
+      const Scalar value = evaluate(*assign->value, environment);
+      if (value.state == State::Failed) return {End::Failed, &statement};
+      if (assign->variable < environment.size()) environment[assign->variable] = value;
+    } else if (const auto* branch = std::get_if<Branch>(&statement.node)) {
+      const Verdict verdict = decide(*branch->condition, environment);
+      if (verdict == Verdict::Unknown) return {End::Unknown, &statement};
+      if (verdict == Verdict::Failed) return {End::Failed, &statement};
+      if (verdict == Verdict::True) target = branch->target;
+    } else if (const auto* jump = std::get_if<Jump>(&statement.node)) {
+      target = jump->target;
+    } else if (std::holds_alternative<Alarm>(statement.node)) {
+      return {End::Alarm, &statement};
+    } else if (std::holds_alternative<Return>(statement.node)) {
+      return {End::Passes, nullptr};
+    } else if (std::holds_alternative<OpaqueBlock>(statement.node)) {
+      return {End::Unknown, &statement};
+    }
+    if (!target) {
+      ++at;
+      continue;
+    }
+    const auto place = places.find(*target);
+    if (place == places.end()) return {End::Failed, &statement}; // verify() tells
+    at = place->second;
+  }
+  return {};
+}
+
+} // namespace dotek::ir

@@ -1,0 +1,28 @@
+// Kinds of expressions: what operators demand and give, what statements require.
+#pragma once
+
+#include "ir/Cycle.h"
+
+#include <functional>
+
+namespace dotek::ir {
+
+// The result is of the operand's kind: absolute value, rounding.
+bool keepsKind(UnaryOp op);
+// Of operators that do not: Angle for sine, cosine and tangent; Number: any.
+Kind operandKind(UnaryOp op);
+// Angle for the arc functions; Number for the rest.
+Kind resultKind(UnaryOp op);
+// Both sides and the result are of one kind.
+bool addsKinds(BinaryOp op);
+
+// The expressions of the statement that have to be of a kind.
+void eachRequirement(const Statement& statement,
+                     const std::function<void(const ExpressionPtr&, Kind)>& visit);
+
+// Number where no kind is known; of a mixture the first. `mixed` is called with each expression that is added
+// to, or compared with, one of another kind.
+using Mixed = std::function<void(const Expression& whole, Kind left, Kind right)>;
+Kind kindOf(const ExpressionPtr& expression, const Cycle& cycle, const Mixed& mixed);
+
+} // namespace dotek::ir

@@ -1,0 +1,176 @@
+#include "ir/Positions.h"
+
+#include "ir/Dataflow.h"
+#include "ir/Linear.h"
+#include "ir/Walk.h"
+
+#include <utility>
+
+namespace dotek::ir {
+namespace {
+
+using State = AxisPosition::State;
+
+// Travels that are added up before a position counts as unknown: keeps expressions small.
+constexpr std::uint32_t kMostTravels = 100;
+
+struct Fact {
+  Position position;
+  std::array<std::uint32_t, 3> travels{};
+  ExpressionPtr system; // active work system; null pointer: not known
+};
+
+void forget(AxisPosition& axis) {
+  axis = {State::Unknown, nullptr, ProbePoint::Centre};
+}
+
+bool sameAxis(const AxisPosition& a, const AxisPosition& b) {
+  return a.state == b.state && a.point == b.point && equal(a.value, b.value);
+}
+
+template <class Test> bool anyNode(const ExpressionPtr& expression, const Test& test) {
+  bool found = false;
+  if (expression) eachNode(expression, [&](const Expression& node) { found = found || test(node); });
+  return found;
+}
+
+// Forgets positions whose value holds a node for which `test` is true.
+template <class Test> void forgetValues(Fact& fact, const Test& test) {
+  for (AxisPosition& axis : fact.position)
+    if (anyNode(axis.value, test)) forget(axis);
+  if (anyNode(fact.system, test)) fact.system = nullptr;
+}
+
+bool readsMachine(const Expression& node) {
+  return std::holds_alternative<MachineVariable>(node.node);
+}
+
+bool readsResult(const Expression& node) {
+  return std::holds_alternative<MeasuredResult>(node.node);
+}
+
+ExpressionPtr sum(const ExpressionPtr& value, const ExpressionPtr& travel) {
+  const double* a = constantValue(value);
+  const double* b = constantValue(travel);
+  if (a && *a == 0) return travel;
+  if (b && *b == 0) return value;
+  if (a && b)
+    if (const auto whole = exactSum(*a, *b)) return constant(*whole, travel->range);
+  return binary(BinaryOp::Add, value, travel, travel->range);
+}
+
+void moveAxis(Fact& fact, std::size_t index, const Coordinate& target, ProbePoint point) {
+  AxisPosition& axis = fact.position[index];
+  // The lowest point lies below the centre: along X and Y they are one.
+  if (point == ProbePoint::Lowest && index != indexOf(Axis::Z)) point = ProbePoint::Centre;
+  const bool lasting = !anyNode(target.value, readsMachine); // the machine changes its variables on its own
+  if (target.frame == Frame::Here) {
+    if (axis.state == State::Unknown) return;
+    if (!lasting || ++fact.travels[index] > kMostTravels) return forget(axis);
+    axis.value = sum(axis.value, target.value);
+    return;
+  }
+  fact.travels[index] = 0;
+  const bool active = !target.system || (fact.system && equal(target.system, fact.system));
+  const bool told = (target.frame == Frame::Work && active) || target.frame == Frame::Start;
+  if (!told || !lasting || point == ProbePoint::Contact) return forget(axis);
+  axis = {target.frame == Frame::Work ? State::Work : State::Start, target.value, point};
+}
+
+// Whether `set` may be the active system.
+bool mayBeActive(const ExpressionPtr& set, const Fact& fact) {
+  const double* a = constantValue(set);
+  const double* b = constantValue(fact.system);
+  return !a || !b || *a == *b;
+}
+
+Fact behind(const Statement& statement, Fact fact) {
+  if (const auto* move = std::get_if<Move>(&statement.node)) {
+    for (const Axis axis : kAxes)
+      if (const auto& target = move->axes[indexOf(axis)]) moveAxis(fact, indexOf(axis), *target, move->point);
+  } else if (const auto* measure = std::get_if<Measure>(&statement.node)) {
+    // An offset that changes moves the coordinates of the place where the probe stands.
+    if (measure->setting && mayBeActive(measure->setting->system, fact))
+      for (const Axis axis : kAxes)
+        if (measure->setting->nominal[indexOf(axis)]) forget(fact.position[indexOf(axis)]);
+    forgetValues(fact, readsResult);
+  } else if (const auto* mode = std::get_if<SetMode>(&statement.node)) {
+    if (mode->mode != Mode::WorkSystem) return fact;
+    for (AxisPosition& axis : fact.position)
+      forget(axis);
+    fact.system = anyNode(mode->system, readsMachine) ? nullptr : mode->system;
+  } else if (const auto* set = std::get_if<Assign>(&statement.node)) {
+    forgetValues(fact, [&](const Expression& node) {
+      const auto* use = std::get_if<VariableUse>(&node.node);
+      return use && use->variable == set->variable;
+    });
+  } else if (std::holds_alternative<OpaqueBlock>(statement.node)) {
+    for (AxisPosition& axis : fact.position)
+      forget(axis);
+    fact.system = nullptr;
+  }
+  return fact;
+}
+
+bool meet(Fact& into, const Fact& other) {
+  bool changed = false;
+  for (std::size_t i = 0; i < into.position.size(); ++i) {
+    if (into.travels[i] < other.travels[i]) into.travels[i] = other.travels[i];
+    AxisPosition& axis = into.position[i];
+    if (axis.state == State::Unknown || sameAxis(axis, other.position[i])) continue;
+    forget(axis);
+    changed = true;
+  }
+  if (into.system && !equal(into.system, other.system)) {
+    into.system = nullptr;
+    changed = true;
+  }
+  return changed;
+}
+
+} // namespace
+
+std::vector<Position> positions(const Cycle& cycle) {
+  Fact entry;
+  for (AxisPosition& axis : entry.position)
+    axis = {State::Start, constant(0), ProbePoint::Centre};
+  const auto facts = factsBefore(
+      cycle.body, std::move(entry),
+      [&](std::size_t at, std::size_t, const Fact& fact) { return behind(cycle.body[at], fact); }, meet);
+  std::vector<Position> out;
+  out.reserve(facts.size());
+  for (const auto& fact : facts) {
+    Position position;
+    for (std::size_t i = 0; i < position.size(); ++i) {
+      if (fact)
+        position[i] = fact->position[i];
+      else
+        forget(position[i]);
+    }
+    out.push_back(std::move(position));
+  }
+  return out;
+}
+
+std::vector<const Measure*> lastMeasurements(const Cycle& cycle) {
+  const auto facts = factsBefore<const Measure*>(
+      cycle.body, nullptr,
+      [&](std::size_t at, std::size_t, const Measure* last) -> const Measure* {
+        const auto& node = cycle.body[at].node;
+        if (std::holds_alternative<OpaqueBlock>(node)) return nullptr;
+        const auto* measure = std::get_if<Measure>(&node);
+        return measure ? measure : last;
+      },
+      [](const Measure*& into, const Measure* other) {
+        if (!into || into == other) return false;
+        into = nullptr;
+        return true;
+      });
+  std::vector<const Measure*> out;
+  out.reserve(facts.size());
+  for (const auto& fact : facts)
+    out.push_back(fact ? *fact : nullptr);
+  return out;
+}
+
+} // namespace dotek::ir

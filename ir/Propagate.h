@@ -1,0 +1,36 @@
+// Constants along the control flow of a statement list.
+#pragma once
+
+#include "ir/Evaluate.h"
+
+#include <cstddef>
+#include <optional>
+#include <unordered_map>
+#include <vector>
+
+namespace dotek::ir {
+
+// What is known of the variables at the entry of a list, at each label that is reached, and at its end.
+// Entries are Known, Null or Unknown ("it varies").
+struct Constants {
+  Environment entry;
+  std::unordered_map<std::size_t, Environment>
+      atLabel;                      // by index of the Label statement; absent: unreachable
+  std::optional<Environment> atEnd; // nothing: no path ends there
+  // Of a list too large to follow its paths: holds at every label, and each counts as reached.
+  std::optional<Environment> atOthers;
+};
+Constants propagate(const std::vector<Statement>& list, Environment entry);
+
+// The list under these constants: what is known put in, decided branches and unreachable statements gone.
+std::vector<Statement> specialised(const std::vector<Statement>& list, const Constants& constants);
+
+// The statements in the order in which they run from `entry`, if each branch is decided and the list ends
+// within `maxSteps`; labels and jumps are left out.
+struct Unrolled {
+  std::vector<Statement> statements;
+  std::optional<Environment> atEnd; // nothing: it ends in an alarm
+};
+std::optional<Unrolled> unroll(const std::vector<Statement>& list, Environment entry, std::uint32_t maxSteps);
+
+} // namespace dotek::ir

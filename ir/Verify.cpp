@@ -1,0 +1,212 @@
+#include "ir/Verify.h"
+
+#include "ir/Kinds.h"
+#include "ir/Names.h"
+#include "ir/Nulls.h"
+#include "ir/VerifyShape.h"
+#include "ir/Walk.h"
+
+#include <unordered_map>
+#include <unordered_set>
+#include <utility>
+
+namespace dotek::ir {
+namespace {
+
+class Verifier {
+public:
+  explicit Verifier(const Cycle& cycle) : cycle_(cycle), names_(cycle) {}
+
+  std::vector<Violation> run() {
+    declarations();
+    shapes(cycle_.checks);
+    shapes(cycle_.body);
+    for (const Statement& statement : cycle_.checks)
+      if (const std::string_view what = notInChecks(statement); !what.empty())
+        report(statement.origin.range(), "the checks hold " + std::string(what));
+    if (broken_) return std::move(out_);
+    labels(cycle_.checks);
+    labels(cycle_.body);
+    const Nulls nulls = findNulls(cycle_);
+    meanings(cycle_.checks, nulls.checks);
+    meanings(cycle_.body, nulls.body);
+    return std::move(out_);
+  }
+
+private:
+  void report(SourceRange range, std::string message, bool mixedKinds = false) {
+    out_.push_back({range, std::move(message), mixedKinds});
+  }
+  // The narrowest place that is known.
+  static SourceRange place(SourceRange inner, const Statement& statement) {
+    return inner.hasPlace() ? inner : statement.origin.range();
+  }
+  std::string text(const Expression& expression) const {
+    std::string out = "`";
+    write(expression, names_, out);
+    return out + "`";
+  }
+
+  void declarations() {
+    std::unordered_set<std::string_view> seen;
+    for (const LabelName& label : cycle_.labels)
+      if (!seen.insert(label.name).second)
+        report(label.range, "two labels have the name `" + label.name + "`");
+    for (const Variable& variable : cycle_.variables)
+      if (variable.defaultValue && !isFinite(*variable.defaultValue))
+        report(variable.range, "the default of `" + variable.name + "` is no finite number");
+  }
+
+  void shapes(const std::vector<Statement>& list) {
+    for (const Statement& statement : list) {
+      for (ShapeFault& fault : shapeFaults(statement, cycle_)) {
+        report(place(fault.range, statement), std::move(fault.message));
+        broken_ |= fault.breaks;
+      }
+    }
+  }
+
+  void labels(const std::vector<Statement>& list) {
+    std::unordered_set<LabelId> placed;
+    for (const Statement& statement : list) {
+      const auto* label = std::get_if<Label>(&statement.node);
+      if (label && !placed.insert(label->label).second)
+        report(statement.origin.range(), "label `" + names_.label(label->label) + "` is placed twice");
+    }
+    for (const Statement& statement : list) {
+      const auto* jump = std::get_if<Jump>(&statement.node);
+      const auto* branch = std::get_if<Branch>(&statement.node);
+      if (!jump && !branch) continue;
+      const LabelId target = jump ? jump->target : branch->target;
+      if (!placed.contains(target))
+        report(statement.origin.range(),
+               "a jump goes to label `" + names_.label(target) + "`, which its list does not hold");
+    }
+  }
+
+  void meanings(const std::vector<Statement>& list, const std::vector<std::set<VariableId>>& nulls) {
+    for (std::size_t i = 0; i < list.size(); ++i) {
+      kinds(list[i]);
+      nullsOf(list[i], nulls[i]);
+    }
+  }
+
+  // ---- kinds ----------------------------------------------------------------------------------------------
+
+  Kind kindOf(const ExpressionPtr& expression, const Statement& statement) {
+    return ir::kindOf(expression, cycle_, [&](const Expression& whole, Kind left, Kind right) {
+      mixed(whole.range, text(whole), left, right, statement);
+    });
+  }
+
+  void mixed(SourceRange range, const std::string& what, Kind left, Kind right, const Statement& statement) {
+    report(place(range, statement),
+           what + " mixes the kinds " + std::string(kindName(left)) + " and " + std::string(kindName(right)),
+           true);
+  }
+
+  static bool differ(Kind a, Kind b) { return a != b && a != Kind::Number && b != Kind::Number; }
+
+  void kinds(const Statement& statement) {
+    if (const auto* branch = std::get_if<Branch>(&statement.node)) return kinds(branch->condition, statement);
+    if (const auto* set = std::get_if<Assign>(&statement.node)) {
+      const Kind value = kindOf(set->value, statement);
+      const Kind variable = cycle_.variables[set->variable].kind;
+      if (differ(value, variable))
+        mixed(set->value->range, "`" + names_.variable(set->variable) + "` = " + text(*set->value), variable,
+              value, statement);
+      return;
+    }
+    std::set<const Expression*> required;
+    eachRequirement(statement, [&](const ExpressionPtr& expression, Kind wanted) {
+      required.insert(expression.get());
+      const Kind kind = kindOf(expression, statement);
+      if (!differ(kind, wanted)) return;
+      report(place(expression->range, statement),
+             text(*expression) + " is of the kind " + std::string(kindName(kind)) + "; the kind " +
+                 std::string(kindName(wanted)) + " is needed here",
+             true);
+    });
+    eachSlot(statement, [&](const ExpressionPtr& slot) {
+      if (!required.contains(slot.get())) kindOf(slot, statement);
+    });
+  }
+
+  void kinds(const ConditionPtr& condition, const Statement& statement) {
+    if (const auto* comparison = std::get_if<Comparison>(&condition->node)) {
+      const Kind left = kindOf(comparison->left, statement);
+      const Kind right = kindOf(comparison->right, statement);
+      if (!differ(left, right)) return;
+      std::string what = "`";
+      write(*condition, names_, what);
+      mixed(condition->range, what + "`", left, right, statement);
+    } else if (const auto* null = std::get_if<IsNull>(&condition->node)) {
+      kindOf(null->value, statement);
+    } else if (const auto* negated = std::get_if<Not>(&condition->node)) {
+      kinds(negated->inner, statement);
+    } else if (const auto* junction = std::get_if<Junction>(&condition->node)) {
+      kinds(junction->left, statement);
+      kinds(junction->right, statement);
+    }
+  }
+
+  // ---- null -----------------------------------------------------------------------------------------------
+
+  void nullsOf(const Statement& statement, const std::set<VariableId>& nulls) {
+    if (const auto* branch = std::get_if<Branch>(&statement.node))
+      return nullsOf(branch->condition, statement, nulls);
+    const bool free =
+        std::holds_alternative<Assign>(statement.node) || std::holds_alternative<OpaqueBlock>(statement.node);
+    eachSlot(statement, [&](const ExpressionPtr& slot) { nullsOf(slot, free, statement, nulls); });
+  }
+
+  // `free`: the value itself may be null.
+  void nullsOf(const ExpressionPtr& expression, bool free, const Statement& statement,
+               const std::set<VariableId>& nulls) {
+    if (!free && mayBeNull(expression, nulls))
+      report(place(expression->range, statement),
+             text(*expression) + " may be null where a number is needed");
+    if (const auto* machine = std::get_if<MachineVariable>(&expression->node)) {
+      nullsOf(machine->number, false, statement, nulls);
+    } else if (const auto* one = std::get_if<Unary>(&expression->node)) {
+      nullsOf(one->operand, one->op == UnaryOp::NullAsZero, statement, nulls);
+    } else if (const auto* two = std::get_if<Binary>(&expression->node)) {
+      // Whether ValueOr as a whole may be null was looked at above.
+      const bool valueOr = two->op == BinaryOp::ValueOr;
+      nullsOf(two->left, valueOr, statement, nulls);
+      nullsOf(two->right, valueOr, statement, nulls);
+    }
+  }
+
+  void nullsOf(const ConditionPtr& condition, const Statement& statement, const std::set<VariableId>& nulls) {
+    if (const auto* comparison = std::get_if<Comparison>(&condition->node)) {
+      nullsOf(comparison->left, false, statement, nulls);
+      nullsOf(comparison->right, false, statement, nulls);
+    } else if (const auto* null = std::get_if<IsNull>(&condition->node)) {
+      nullsOf(null->value, true, statement, nulls);
+    } else if (const auto* negated = std::get_if<Not>(&condition->node)) {
+      nullsOf(negated->inner, statement, nulls);
+    } else if (const auto* junction = std::get_if<Junction>(&condition->node)) {
+      nullsOf(junction->left, statement, nulls);
+      // `x is not null and x < 5`: the right side is looked at where x is a number.
+      bool isNot = false; // of the test: `is not null`
+      const auto* use = nullTest(junction->left, isNot);
+      std::set<VariableId> rest = nulls;
+      if (use && isNot == (junction->op == Connective::And)) rest.erase(use->variable);
+      nullsOf(junction->right, statement, rest);
+    }
+  }
+
+  const Cycle& cycle_;
+  Names names_;
+  std::vector<Violation> out_;
+  bool broken_ = false; // expressions cannot be walked
+};
+
+} // namespace
+
+std::vector<Violation> verify(const Cycle& cycle) {
+  return Verifier(cycle).run();
+}
+
+} // namespace dotek::ir

@@ -1,0 +1,102 @@
+// Constructors, equality and negation; control flow; names of labels.
+#include "ir/Evaluate.h"
+#include "ir/Flow.h"
+#include "tests/unit/IrHelper.h"
+
+#include <cmath>
+#include <doctest/doctest.h>
+
+using namespace dotek;
+using namespace dotek::ir;
+using namespace dotek::tests;
+
+TEST_CASE("ir: equality is of trees, not of spelling") {
+  const auto a = binary(BinaryOp::Add, variable(0), constant(5, {0, 1, 2}, "5."));
+  CHECK(equal(a, binary(BinaryOp::Add, variable(0), constant(5))));
+  CHECK_FALSE(equal(a, binary(BinaryOp::Add, variable(1), constant(5))));
+  CHECK_FALSE(equal(a, binary(BinaryOp::Add, variable(0), constant(6))));
+  CHECK_FALSE(equal(a, binary(BinaryOp::Subtract, variable(0), constant(5))));
+  CHECK_FALSE(equal(a, variable(0)));
+  CHECK(equal(nullValue(), nullValue()));
+  CHECK(equal(machineVariable(constant(5)), machineVariable(constant(5))));
+  CHECK_FALSE(equal(machineVariable(constant(5)), machineVariable(constant(6))));
+  CHECK_FALSE(equal(result(ResultName::Main), result(ResultName::Size)));
+  CHECK_FALSE(equal(unary(UnaryOp::Sine, variable(0)), unary(UnaryOp::Cosine, variable(0))));
+  CHECK(equal(ExpressionPtr(), ExpressionPtr()));
+  CHECK_FALSE(equal(a, ExpressionPtr()));
+
+  const auto c = compare(Relation::Less, variable(0), constant(1));
+  CHECK(equal(c, compare(Relation::Less, variable(0), constant(1), {0, 4, 5})));
+  CHECK_FALSE(equal(c, compare(Relation::Greater, variable(0), constant(1))));
+  CHECK(equal(join(Connective::And, c, truth(true)), join(Connective::And, c, truth(true))));
+  CHECK_FALSE(equal(join(Connective::And, c, truth(true)), join(Connective::Or, c, truth(true))));
+  CHECK_FALSE(equal(join(Connective::And, c, truth(true)), join(Connective::And, c, truth(false))));
+  CHECK_FALSE(equal(isNull(variable(0)), isNull(variable(1))));
+}
+
+TEST_CASE("ir: a constant is never -0") {
+  CHECK_FALSE(std::signbit(*constantValue(constant(-0.0))));
+  CHECK(constantValue(variable(0)) == nullptr);
+}
+
+TEST_CASE("ir: a negation goes inward") {
+  const auto less = compare(Relation::Less, variable(0), constant(1), {3, 4, 5});
+  const auto null = isNull(variable(0));
+  const auto negated = negate(join(Connective::And, less, null));
+  const auto* junction = std::get_if<Junction>(&negated->node);
+  REQUIRE(junction != nullptr);
+  CHECK(junction->op == Connective::Or);
+  CHECK(equal(junction->left, compare(Relation::GreaterEqual, variable(0), constant(1))));
+  CHECK(junction->left->range == SourceRange{3, 4, 5});
+  const auto* outside = std::get_if<Not>(&junction->right->node);
+  REQUIRE(outside != nullptr);
+  CHECK(equal(outside->inner, null));
+  CHECK(equal(negate(negated), join(Connective::And, less, null)));
+  CHECK(equal(negate(truth(true)), truth(false)));
+}
+
+TEST_CASE("ir: relations have opposites") {
+  for (const Relation relation : {Relation::Equal, Relation::NotEqual, Relation::Less, Relation::Greater,
+                                  Relation::LessEqual, Relation::GreaterEqual}) {
+    CHECK(opposite(opposite(relation)) == relation);
+    for (const double value : {-1.0, 0.0, 1.0}) {
+      const auto with = [&](Relation it) { return holds(*compare(it, constant(value), constant(0)), {}); };
+      CHECK(with(relation).value() != with(opposite(relation)).value());
+    }
+  }
+}
+
+TEST_CASE("ir: names of labels are unique") {
+  Cycle cycle;
+  cycle.labels.push_back({"next", {}}); // by hand
+  CHECK(cycle.labels[cycle.addLabel({"next", {}})].name == "next_2");
+  CHECK(cycle.labels[cycle.addLabel({"next_3", {}})].name == "next_3");
+  CHECK(cycle.labels[cycle.addLabel({"next", {}})].name == "next_4");
+  CHECK(cycle.labels[cycle.addLabel({"other", {}})].name == "other");
+}
+
+TEST_CASE("ir: flow") {
+  const auto condition = compare(Relation::Less, variable(0), constant(1));
+  const std::vector<Statement> list = {
+      statement(Branch{condition, 0}), // 0: to 1 or 3
+      statement(Jump{1}),              // 1: to 5
+      statement(Comment{"nobody"}),    // 2
+      statement(Label{0}),             // 3
+      statement(Alarm{"end"}),         // 4
+      statement(Label{1}),             // 5
+      statement(Return{}),             // 6
+      statement(Jump{9}),              // 7: nowhere
+  };
+  using Next = std::vector<std::size_t>;
+  const auto next = successors(list);
+  REQUIRE(next.size() == list.size());
+  CHECK(next[0] == Next{1, 3});
+  CHECK(next[1] == Next{5});
+  CHECK(next[2] == Next{3});
+  CHECK(next[4].empty());
+  CHECK(next[6] == Next{8});
+  CHECK(next[7].empty());
+  CHECK(reachable(list) == std::vector<bool>{true, true, false, true, true, true, true, false});
+  CHECK(successors({statement(Branch{condition, 0}), statement(Label{0})})[0] == Next{1});
+  CHECK(reachable({}).empty());
+}
