@@ -22,6 +22,10 @@ constexpr std::string_view kMacroFunctions[] = {
     "ABS", "ACOS", "ADP", "ASIN", "ATAN", "ATAN[y]", "ATAN[y]/[x]", "ATAN[y,x]", "BCD", "BIN", "COS", "EXP",
     "FIX", "FUP",  "LN",  "MOD",  "POW",  "ROUND",   "SIN",         "SQRT",      "TAN", "AND", "OR",  "XOR"};
 
+// More than any control has; checks compare each with each.
+constexpr std::size_t kMostCodes = 2000;
+constexpr std::size_t kMostRanges = 100;
+
 // Functions that one modal group holds together, and no group holds two of: contradictions show here.
 enum class Family : std::uint8_t {
   None,
@@ -88,6 +92,7 @@ public:
     words();
     language();
     common();
+    readOnly();
     alarm();
     programs();
     for (const TomlTable& table : root_.require("codes", "tables of G and M codes").tables())
@@ -139,6 +144,8 @@ private:
     origin(table);
     control_.ifThen = table.require("if_then", "true or false").flag();
     control_.joinedConditions = table.require("joined_conditions", "true or false").flag();
+    control_.thenGoto = table.value("then_goto").flag();
+    control_.bareFunctions = table.value("bare_functions").flag();
     control_.bracketDepth = whole(table, "bracket_depth", "how deep brackets nest", 1, 99);
     control_.locals = whole(table, "locals", "the greatest number of a local variable", 1, 99);
     control_.macroLevels = whole(table, "macro_levels", "how deep G65 nests", 1, 99);
@@ -164,6 +171,8 @@ private:
   void common() {
     for (const TomlTable& table : root_.require("common", "tables of common variables").tables()) {
       origin(table);
+      if (control_.common.size() == kMostRanges)
+        document_.fail(table.range(), fmt::format("more than {} ranges", kMostRanges));
       VariableRange range;
       range.first = whole(table, "first", "a variable number", 1, 999999);
       range.last = whole(table, "last", "a variable number", 1, 999999);
@@ -178,6 +187,20 @@ private:
                                                     other.first, other.last));
       }
       control_.common.push_back(range);
+    }
+  }
+
+  void readOnly() {
+    for (const TomlTable& table : root_.value("read_only").tables()) {
+      origin(table);
+      if (control_.readOnly.size() == kMostRanges)
+        document_.fail(table.range(), fmt::format("more than {} ranges", kMostRanges));
+      VariableRange range;
+      range.first = whole(table, "first", "a variable number", 1000, 999999);
+      range.last = whole(table, "last", "a variable number", 1000, 999999);
+      if (range.first > range.last)
+        document_.fail(table.range(), fmt::format("#{} to #{} is no range", range.first, range.last));
+      control_.readOnly.push_back(range);
     }
   }
 
@@ -204,6 +227,8 @@ private:
     std::optional<int> group;
     if (const TomlValue value = table.value("group")) group = static_cast<int>(value.integer(1, 1, 99));
     for (const TomlValue& item : table.require("list", "a list of codes").items()) {
+      if (control_.codes.size() == kMostCodes)
+        document_.fail(item.range(), fmt::format("more than {} codes", kMostCodes));
       std::optional<CodeInfo> code = parseCode(item);
       if (!code) continue;
       code->group = group;
@@ -285,11 +310,6 @@ private:
     }
   }
 
-  struct Taken {
-    std::string_view key;
-    int number;
-  };
-
   void variables() {
     const TomlTable table = section("variables", "system variables");
     origin(table);
@@ -314,11 +334,10 @@ private:
     if ((v.workOffsetX || v.externalX) && v.axisStep == 0)
       document_.fail(table.value(v.workOffsetX ? "work_offset_x" : "external_x").range(),
                      "an offset of X stands without `axis_step`");
-
-    std::vector<Taken> blocks;
+    std::vector<std::pair<std::string_view, int>> blocks;
     const auto add = [&](std::string_view key, std::optional<int> first, int count, int step = 1) {
       for (int i = 0; first && i < count; ++i)
-        blocks.push_back({key, *first + i * step});
+        blocks.emplace_back(key, *first + i * step);
     };
     add("modal_feed", v.modalFeed, 1);
     add("block_end", v.blockEnd, 3);
@@ -330,21 +349,23 @@ private:
       add("work_offset_x", *v.workOffsetX + system * v.systemStep, 3, v.axisStep);
     if (v.modalFirst) {
       for (const CodeInfo& code : control_.codes)
-        if (code.group) blocks.push_back({"modal_first", *v.modalFirst + *code.group});
+        if (code.group) blocks.emplace_back("modal_first", *v.modalFirst + *code.group);
     }
     overlaps(table, blocks);
   }
 
-  void overlaps(const TomlTable& table, const std::vector<Taken>& blocks) const {
+  void overlaps(const TomlTable& table, const std::vector<std::pair<std::string_view, int>>& blocks) const {
     std::map<int, std::string_view> taken;
-    for (const Taken& block : blocks) {
-      const auto [at, added] = taken.try_emplace(block.number, block.key);
-      const bool shared = block.key == "modal_first" && at->second == block.key; // one group, many codes
+    for (const auto& [key, number] : blocks) {
+      const auto [at, added] = taken.try_emplace(number, key);
+      const bool shared = key == "modal_first" && at->second == key; // one group, many codes
       if (!added && !shared)
-        document_.fail(table.value(block.key).range(), fmt::format("#{} is a variable of `{}` and of `{}`",
-                                                                   block.number, at->second, block.key));
-      if (control_.isCommon(static_cast<std::uint32_t>(block.number)))
-        document_.fail(table.value(block.key).range(), fmt::format("#{} is a common variable", block.number));
+        document_.fail(
+            table.value(key).range(),
+            fmt::format("#{} is a variable of `{}` {}", number, at->second,
+                        at->second == key ? "twice: its steps meet" : fmt::format("and of `{}`", key)));
+      if (control_.isCommon(static_cast<std::uint32_t>(number)))
+        document_.fail(table.value(key).range(), fmt::format("#{} is a common variable", number));
     }
   }
 
@@ -378,6 +399,12 @@ const CodeInfo* Control::find(Function function) const {
 
 bool Control::isCommon(std::uint32_t number) const {
   return std::any_of(common.begin(), common.end(), [&](const VariableRange& range) {
+    return range.first <= number && number <= range.last;
+  });
+}
+
+bool Control::isReadOnly(std::uint32_t number) const {
+  return std::any_of(readOnly.begin(), readOnly.end(), [&](const VariableRange& range) {
     return range.first <= number && number <= range.last;
   });
 }

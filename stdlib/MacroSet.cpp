@@ -18,6 +18,9 @@ constexpr std::string_view kIntentNames[] = {
 constexpr std::string_view kRoles[] = {"target", "feed", "diameter", "nominal", "system"};
 constexpr std::string_view kResults[] = {"main", "position-x", "position-y", "position-z", "size"};
 constexpr std::string_view kNoArgument = "GLNOP";
+// More than any pack has; checks compare each with each.
+constexpr std::size_t kMostSignatures = 2000;
+constexpr std::size_t kMostRanges = 100;
 
 template <class Id, std::size_t N> Id named(const std::string& name, const std::string_view (&names)[N]) {
   const auto at = std::find(std::begin(names), std::end(names), name);
@@ -67,6 +70,8 @@ private:
     };
     const std::uint32_t first = number("first");
     const std::uint32_t last = number("last");
+    if (set_.scratch.size() == kMostRanges)
+      document_.fail(table.range(), fmt::format("more than {} ranges", kMostRanges));
     if (first > last) document_.fail(table.range(), fmt::format("#{} to #{} is no range", first, last));
     for (const auto& [otherFirst, otherLast] : set_.scratch) {
       if (first <= otherLast && otherFirst <= last)
@@ -77,6 +82,8 @@ private:
   }
 
   void signature(const TomlTable& table) {
+    if (set_.signatures.size() == kMostSignatures)
+      document_.fail(table.range(), fmt::format("more than {} signatures", kMostSignatures));
     MacroSignature out;
     const TomlValue program = table.require("program", "the number behind P");
     out.program = static_cast<std::uint32_t>(program.integer(1, 1, 99999999));
