@@ -32,8 +32,8 @@ bool isTextLetter(char c) {
 class Splitter {
 public:
   Splitter(FileId file, const SourceMap& sources, const Limits& limits, Diagnostics& diagnostics)
-      : file_(file), source_(sources.file(file)), limits_(limits), diagnostics_(diagnostics) {
-    out_.bytes = source_.bytes();
+      : file_(file), limits_(limits), diagnostics_(diagnostics) {
+    out_.bytes = sources.file(file).bytes();
   }
 
   Lines run() {
@@ -303,7 +303,6 @@ private:
   }
 
   FileId file_;
-  const SourceFile& source_;
   const Limits& limits_;
   Diagnostics& diagnostics_;
   Lines out_;
@@ -315,6 +314,10 @@ private:
 };
 
 } // namespace
+
+Lines splitLines(FileId file, const SourceMap& sources, const Limits& limits, Diagnostics& diagnostics) {
+  return Splitter(file, sources, limits, diagnostics).run();
+}
 
 std::uint32_t argumentVariable(char letter) {
   switch (letter) {

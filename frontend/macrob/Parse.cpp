@@ -77,7 +77,7 @@ public:
     const bool dropped = line.dropped.begin < line.dropped.end ||
                          std::any_of(buffer_.dropped().begin(), buffer_.dropped().end(), cut);
     if (dropped) {
-      unread(block, line);
+      unread(block, line, tokens);
       return block;
     }
     const std::set<std::uint32_t>* used = nullptr;
@@ -87,7 +87,7 @@ public:
     });
     std::optional<Diagnostic> error = parse(tokens, block, line.range.end);
     if (error) {
-      unread(block, line);
+      unread(block, line, tokens);
     } else {
       block.repaired = line.reported || !misprints.found.empty();
       for (Diagnostic& remark : misprints.remarks)
@@ -123,11 +123,16 @@ private:
     return out;
   }
 
-  void unread(Block& block, const Line& line) {
+  // Its number is kept: jumps may go there.
+  void unread(Block& block, const Line& line, const std::vector<Tok>& tokens) {
     block = Block{};
     block.body =
         Unread{line.range, std::string(source_.substr(line.range.begin, line.range.end - line.range.begin))};
-    block.repaired = false;
+    if (tokens.size() < 2 || tokens[0].type != Lexer::ADDRESS_N || tokens[1].type != Lexer::NUMBER) return;
+    const std::string& digits = tokens[1].text;
+    if (digits.size() > 15 || digits.find('.') != std::string::npos) return;
+    block.sequenceNumber =
+        SequenceNumber{{file_, tokens[0].begin, tokens[1].end}, digits, std::stoull(digits)};
   }
 
   std::optional<Diagnostic> parse(const std::vector<Tok>& tokens, Block& block, std::uint32_t end) {
