@@ -143,6 +143,7 @@ private:
     ir::fold(lowered->cycle, lowered->fixed);
     fanuc::EmitOptions emit{*inputs_->control, *macros, *inputs_->sourceControl, 0, {}, {}, {}, {}};
     emit.plainMessages = options_.common.assume.contains("plain-messages");
+    emit.foreignMacros = macros != lowered->macros;
     emit.programNumber = numberOf(index);
     emit.defaults = options_.useDefaults ? fanuc::Defaults::Use : fanuc::Defaults::Alarm;
     emit.probePower = options_.switchProbe ? fanuc::ProbePowerMode::Macro : fanuc::ProbePowerMode::Source;
@@ -191,17 +192,21 @@ private:
       for (const auto& field : frontend::gibbs::declaredFields(*folder.cycle))
         names.push_back(field.name.text);
     }
-    const auto unknown = [&](std::string_view, const std::string& name) {
+    const auto unknown = [&](const std::string& name) {
       const std::string near = nearestName(name, names);
       session_.diagnostics().report<diag::NoSuchField>({}, name, cycles,
                                                        near.empty() ? "" : "; did you mean `" + near + "`?");
     };
     for (const auto& [name, value] : inputs_->sets)
-      if (!usedSets_.contains(name)) unknown("--set", name);
+      if (!usedSets_.contains(name)) unknown(name);
     for (const auto& [name, text] : options_.defaults)
-      if (!usedDefaults_.contains(name)) unknown("--default", name);
-    for (const auto& [name, letter] : letters_)
-      if (!usedLetters_.contains(name) && !session_.diagnostics().hasErrors()) unknown("--arg", name);
+      if (!usedDefaults_.contains(name)) unknown(name);
+    for (const auto& [name, letter] : letters_) {
+      if (usedLetters_.contains(name) || session_.diagnostics().hasErrors()) continue;
+      const std::string near = nearestName(name, names);
+      session_.diagnostics().report<diag::ArgumentUnknown>(
+          {}, name, near.empty() ? "" : "; did you mean `" + near + "`?");
+    }
   }
 
   const ConvertOptions& options_;

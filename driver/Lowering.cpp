@@ -84,7 +84,6 @@ ir::VariableId Lowering::host(const std::string& name) {
   ir::Variable variable;
   variable.name = name;
   variable.role = ir::Role::Host;
-  variable.optional = true;
   variable.kind = name == "return_feed"   ? ir::Kind::Feed
                   : name == "tool_number" ? ir::Kind::Count
                   : name == "tool_offset" ? ir::Kind::ToolOffset

@@ -102,7 +102,8 @@ bool isUsageCode(std::string_view code) {
       diag::NoSuchField::code,      diag::HostInputRange::code,  diag::UnknownAssumption::code,
       diag::CycleWithSeveral::code, diag::CycleNameTwice::code,  diag::NotAFolder::code,
       diag::UnknownTarget::code,    diag::UnknownProfile::code,  diag::UnknownMacroSet::code,
-      diag::LetterNotAllowed::code, diag::OutputForOne::code,
+      diag::LetterNotAllowed::code, diag::OutputForOne::code,    diag::ArgumentUnknown::code,
+      diag::LetterTwice::code,
   };
   return std::find(kCodes.begin(), kCodes.end(), code) != kCodes.end();
 }

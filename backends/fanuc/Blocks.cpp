@@ -146,6 +146,7 @@ private:
   }
 
   void plainMove(const ir::Move& move, const ir::Origin& origin) {
+    if (isOfContact(state_, move, origin)) return;
     const bool moves = std::any_of(move.axes.begin(), move.axes.end(), [](const auto& axis) { return axis; });
     const bool machine = moves && all(move, ir::Frame::Machine);
     const bool travel = moves && all(move, ir::Frame::Here) &&

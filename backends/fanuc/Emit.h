@@ -26,8 +26,10 @@ struct EmitOptions {
   ProbePowerMode probePower = ProbePowerMode::Source;
   std::map<std::string, char> letters; // --arg, by name of the parameter or host input
   std::map<std::string, double> fixed; // what --set, --host or the job fixed: named in the header
-  bool plainMessages =
-      false; // accents of messages are dropped (--assume plain-messages); else they are refused
+  // Accents of messages are dropped (--assume plain-messages); else they are refused.
+  bool plainMessages = false;
+  // The source calls another set: calls are written in the order of the signature, not of the source's block.
+  bool foreignMacros = false;
 };
 
 struct EmittedLine {

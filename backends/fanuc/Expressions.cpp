@@ -205,6 +205,11 @@ bool isVariable(const ir::ExpressionPtr& expression) {
          std::holds_alternative<ir::MachineVariable>(expression->node);
 }
 
+// "#28"
+bool isLocal(std::string_view text) {
+  return text.starts_with('#') && text.find_first_not_of("0123456789", 1) == std::string_view::npos;
+}
+
 // MOD of what may be no whole number is refused once, wherever it stands.
 void checkModulo(State& state, const ir::ExpressionPtr& expression, const ir::Origin& origin) {
   if (const auto* unary = std::get_if<ir::Unary>(&expression->node))
@@ -347,7 +352,9 @@ std::string word(State& state, char address, const ir::ExpressionPtr& given, For
     if (isSigned) text += '-';
     text += textOf(state, isSigned ? unary->operand : value, inner, origin, depthOf(state));
   } else {
-    text += "[" + textOf(state, value, inner, origin, depthOf(state) - 1) + "]";
+    const std::string inside = textOf(state, value, inner, origin, depthOf(state) - 1);
+    // A helper holds it all: bare, so that a null still leaves the word out.
+    text += isLocal(inside) ? inside : "[" + inside + "]";
   }
   state.inWord = before;
   return text;

@@ -104,7 +104,8 @@ void takeDirect(Assignment& out) {
     for (const ir::Statement& statement : *list)
       for (const auto& [given, id] : statement.origin.arguments) {
         const char letter = upper(given);
-        if (kOrder.find(letter) == std::string_view::npos || !out.needs(id) || out.taken.contains(letter))
+        if (kOrder.find(letter) == std::string_view::npos || !out.needs(id) || out.taken.contains(letter) ||
+            out.cycle.variable(id).role != ir::Role::Parameter)
           continue;
         out.give(id, letter);
       }

@@ -29,10 +29,6 @@ std::uint32_t Locals::take() {
   return local;
 }
 
-void Locals::give(std::uint32_t local) {
-  free_.push_back(local);
-}
-
 State::State(const ir::Cycle& given, const EmitOptions& emitOptions, const SourceMap& sourceMap,
              Diagnostics& report, std::vector<Argument> letters)
     : cycle(given), options(emitOptions), control(emitOptions.control), macros(emitOptions.macros),
@@ -53,15 +49,22 @@ std::string State::local(ir::VariableId id) {
 }
 
 std::uint32_t State::helper() {
-  const std::uint32_t taken = pool.take();
+  std::uint32_t taken = 0;
+  if (freeHelpers.empty()) {
+    taken = pool.take();
+  } else {
+    taken = freeHelpers.back();
+    freeHelpers.pop_back();
+  }
   if (taken != 0) helpers.push_back(taken);
   return taken;
 }
 
 void State::releaseHelpers() {
-  // Back in the order in which they were taken, so that the next statement takes the same ones.
+  // Not back to the pool: a loop may run this statement again while another value stands there. The first
+  // taken is the next taken.
   for (; !helpers.empty(); helpers.pop_back())
-    pool.give(helpers.back());
+    freeHelpers.push_back(helpers.back());
 }
 
 std::optional<ir::VariableId> State::findHost(std::string_view name) const {

@@ -33,7 +33,7 @@ void order(std::vector<CallWord>& arguments, const std::string& addresses) {
 
 void writeCall(State& state, const stdlib::MacroSignature& signature, std::vector<CallWord> arguments,
                const ir::Origin& origin) {
-  order(arguments, origin.addresses);
+  order(arguments, state.options.foreignMacros ? "" : origin.addresses);
   std::string text = "G65 P" + std::to_string(signature.program);
   for (const CallWord& argument : arguments)
     text += " " + argument.text;
@@ -72,6 +72,10 @@ public:
       : state_(state), measure_(measure), signature_(signature), origin_(origin) {}
 
   void write() {
+    for (const ir::Axis axis : ir::kAxes)
+      if (measure_.setting && nominal(axis) != nullptr && !isMeasured(axis))
+        state_.refuse<diag::MacroSetCannot>(origin_.range(), state_.macros.title,
+                                            "an offset of an axis that it does not measure");
     setByCall_ = findRule();
     if (measure_.setting) guardSystem(state_, measure_.setting->system, origin_);
     std::vector<CallWord> arguments;
@@ -110,6 +114,11 @@ private:
   std::vector<ir::Axis> measured() const {
     if (measure_.feature == ir::Feature::Bore) return {ir::Axis::X, ir::Axis::Y};
     return {measure_.axis};
+  }
+
+  bool isMeasured(ir::Axis axis) const {
+    const auto all = measured();
+    return std::find(all.begin(), all.end(), axis) != all.end();
   }
 
   // Where the source expects the feature, work coordinates; nullptr: not known.
@@ -166,6 +175,7 @@ private:
 
 void writeProtectedMove(State& state, const ir::Move& move, const ir::Origin& origin) {
   warnIfOff(state, origin);
+  if (isOfContact(state, move, origin)) return;
   const auto* signature =
       signatureFor(state, stdlib::Intent::ProtectedMove, ir::Axis::X, "a protected move", origin.range());
   if (signature == nullptr) return;

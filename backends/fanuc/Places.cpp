@@ -11,7 +11,7 @@ namespace {
 
 struct Facts {
   Distance distance = Distance::Absolute;
-  std::array<bool, 3> here{}, start{};
+  std::array<bool, 3> start{};
   bool reached = false;
 };
 
@@ -27,8 +27,7 @@ bool merge(Facts& into, const Facts& from) {
     changed = true;
   }
   for (std::size_t i = 0; i < 3; ++i) {
-    changed = changed || (from.here[i] && !into.here[i]) || (from.start[i] && !into.start[i]);
-    into.here[i] = into.here[i] || from.here[i];
+    changed = changed || (from.start[i] && !into.start[i]);
     into.start[i] = into.start[i] || from.start[i];
   }
   return changed;
@@ -38,18 +37,13 @@ Facts behind(const ir::Statement& statement, Facts facts) {
   if (const auto* mode = std::get_if<ir::SetMode>(&statement.node)) {
     if (mode->mode == ir::Mode::Absolute) facts.distance = Distance::Absolute;
     if (mode->mode == ir::Mode::Incremental) facts.distance = Distance::Incremental;
-    if (mode->mode == ir::Mode::WorkSystem) facts.here = facts.start = {true, true, true};
-  } else if (const auto* move = std::get_if<ir::Move>(&statement.node)) {
-    for (const ir::Axis axis : ir::kAxes) {
-      const auto& coordinate = move->axes[ir::indexOf(axis)];
-      if (coordinate && coordinate->frame == ir::Frame::Work) facts.here[ir::indexOf(axis)] = false;
-    }
+    if (mode->mode == ir::Mode::WorkSystem) facts.start = {true, true, true};
   } else if (const auto* measure = std::get_if<ir::Measure>(&statement.node)) {
     for (std::size_t i = 0; measure->setting && i < 3; ++i)
-      if (measure->setting->nominal[i] != nullptr) facts.here[i] = facts.start[i] = true;
+      if (measure->setting->nominal[i] != nullptr) facts.start[i] = true;
   } else if (std::holds_alternative<ir::OpaqueBlock>(statement.node)) {
     facts.distance = Distance::Unknown;
-    facts.here = facts.start = {true, true, true};
+    facts.start = {true, true, true};
   }
   return facts;
 }
@@ -87,17 +81,21 @@ Body findBody(const State& state) {
   }
   for (const Facts& fact : facts) {
     out.distance.push_back(fact.distance);
-    out.staleHere.push_back(fact.here);
     out.staleStart.push_back(fact.start);
   }
   return out;
 }
 
+bool isOfContact(State& state, const ir::Move& move, const ir::Origin& origin) {
+  if (move.point != ir::ProbePoint::Contact) return false;
+  state.refuse<diag::FrameRefused>(origin.range(), "a move", "coordinates of the contact point");
+  return true;
+}
+
 ir::ExpressionPtr workPosition(State& state, ir::Axis axis) {
   const std::size_t i = ir::indexOf(axis);
   const ir::AxisPosition& position = state.body->positions[state.at][i];
-  if (position.state == ir::AxisPosition::State::Unknown || state.body->staleHere[state.at][i])
-    return nullptr;
+  if (position.state == ir::AxisPosition::State::Unknown) return nullptr;
   if (position.state == ir::AxisPosition::State::Work) return position.value;
   const ir::ExpressionPtr start = state.start(axis);
   return position.value == nullptr ? start : sum(start, position.value);

@@ -10,6 +10,9 @@ namespace dotek::backends::fanuc {
 
 namespace {
 
+// Beyond this, every result is kept.
+constexpr std::size_t kMostStatements = 2000;
+
 std::string_view describe(ir::ResultName name) {
   switch (name) {
   case ir::ResultName::Main: return "the result";
@@ -61,6 +64,7 @@ bool callsMacro(const State& state, const ir::Statement& statement) {
 
 // Whether a call of a macro may stand between the measurement and the use.
 bool overwritten(const State& state, std::size_t measure, std::size_t use) {
+  if (state.cycle.body.size() > kMostStatements) return true;
   auto next = ir::successors(state.cycle.body);
   const auto first = next[measure];
   next[measure].clear(); // through it the result is another one

@@ -16,7 +16,6 @@ public:
   Locals(std::uint32_t count, const std::vector<Argument>& arguments);
   // 0: none is left.
   std::uint32_t take();
-  void give(std::uint32_t local);
 
 private:
   std::vector<std::uint32_t> free_; // the last is taken next
@@ -49,9 +48,8 @@ struct Body {
   std::vector<ir::Position> positions;
   std::vector<const ir::Measure*> last;
   std::vector<Distance> distance;
-  // An offset was set since the axis was placed, or since entry: what is known of its position, or of the
-  // start point, is no coordinate of the active system any more.
-  std::vector<std::array<bool, 3>> staleHere, staleStart;
+  // An offset was set since entry: the start point is no coordinate of the active system any more.
+  std::vector<std::array<bool, 3>> staleStart;
   std::map<std::pair<const ir::Measure*, ir::ResultName>, std::uint32_t> kept; // results kept in locals
 };
 
@@ -85,8 +83,8 @@ struct State {
   std::vector<Argument> arguments;
   Locals pool;
   std::map<ir::VariableId, std::uint32_t> locals;
-  std::vector<std::uint32_t> helpers;
-  Sheet sheet; // the part that is being written
+  std::vector<std::uint32_t> helpers, freeHelpers; // in use by this statement; by others before
+  Sheet sheet;                                     // the part that is being written
   Mark nextMark = 0;
   bool failed = false;
   bool inWord = false; // an address stands before what is printed: ROUND means something else there
@@ -173,6 +171,8 @@ Body findBody(const State& state);
 // `coordinate` along `axis`, counted from `wanted` (Work, or Here); nullptr: refused.
 ir::ExpressionPtr place(State& state, const ir::Coordinate& coordinate, ir::Axis axis, ir::Frame wanted,
                         SourceRange range);
+// A move of the contact point, which depends on direction and radius: refused.
+bool isOfContact(State& state, const ir::Move& move, const ir::Origin& origin);
 // Where the probe stands, work coordinates; nullptr: not known (nothing is reported).
 ir::ExpressionPtr workPosition(State& state, ir::Axis axis);
 

@@ -11,6 +11,9 @@ namespace {
 
 using Ids = std::set<ir::VariableId>;
 
+// Beyond this, every branch counts as one that decides on a move.
+constexpr std::size_t kMostStatements = 2000;
+
 template <class Tree> Ids idsOf(const Tree& tree) {
   Ids out;
   if (tree == nullptr) return out;
@@ -50,6 +53,7 @@ bool mayMove(const ir::Statement& statement) {
 // Whether the branch decides on a move, or on an assignment to one of `moving`.
 bool decides(const ir::Cycle& cycle, const std::vector<std::vector<std::size_t>>& next, std::size_t branch,
              const Ids& moving) {
+  if (cycle.body.size() > kMostStatements) return true;
   if (next[branch].size() < 2) return false;
   const auto first = reachableFrom(next, next[branch][0]);
   const auto second = reachableFrom(next, next[branch][1]);

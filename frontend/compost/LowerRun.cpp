@@ -101,6 +101,7 @@ void LowerRun::branch(const If& branch) {
     return;
   }
   for (const Diagnostic& one : findings.all()) {
+    if (failed_ && one.severity != Severity::Error) continue; // a refused condition may have set the flag
     failed_ = failed_ || one.severity == Severity::Error;
     diagnostics_->add(one);
   }
@@ -165,7 +166,7 @@ void LowerRun::grow(std::size_t bytes, SourceRange where) {
 void LowerRun::text(std::string_view bytes, SourceRange range) {
   if (bytes.empty()) return;
   grow(bytes.size(), range);
-  state_.line.push_back(nc::TextPiece{std::string(bytes), range});
+  state_.line.emplace_back(nc::TextPiece{std::string(bytes), range});
 }
 
 void LowerRun::hole(std::optional<ir::VariableId> variable, const Picture* picture, const std::string& what,
@@ -173,7 +174,7 @@ void LowerRun::hole(std::optional<ir::VariableId> variable, const Picture* pictu
   grow(1, range);
   if (!comparing_ && (!variable || picture == nullptr)) failed_ = true; // reported
   nc::Hole hole{variable ? ir::variable(*variable, range) : ir::constant(0, range), picture, what};
-  state_.line.push_back(nc::HolePiece{std::move(hole), range});
+  state_.line.emplace_back(nc::HolePiece{std::move(hole), range});
 }
 
 void LowerRun::endLine(SourceRange where) {

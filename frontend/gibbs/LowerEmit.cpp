@@ -15,7 +15,7 @@ public:
     for (const ir::VariableId id : walk_.unset) {
       if (options_.unsetZero || id == flat_.returnCode) zero(id, {});
     }
-    starts_.assign(size + 1, 0);
+    starts_.assign(3 * size + 1, 0); // steps, the end, two marks for each step
     for (std::size_t at = 0; at < size; ++at) {
       starts_[at] = out_.size();
       if (walk_.reached[at]) emit(at);
@@ -28,12 +28,12 @@ public:
 
 private:
   void add(decltype(ir::Statement::node) node, SourceRange range, std::size_t target = kNowhere) {
-    out_.push_back({statementOf(std::move(node), range), target});
+    out_.push_back({statementOf(std::move(node), range), target, false});
   }
 
   void zero(ir::VariableId id, SourceRange range) {
-    out_.push_back(
-        {statementOf(ir::Assign{id, ir::constant(0, range, "0")}, range, "not set counts as 0"), kNowhere});
+    out_.push_back({statementOf(ir::Assign{id, ir::constant(0, range, "0")}, range, "not set counts as 0"),
+                    kNowhere, false});
   }
 
   void emit(std::size_t at) {
@@ -55,8 +55,12 @@ private:
         add(ir::Comment{s->text}, here.range);
     }
     if (const auto* s = std::get_if<FlatMove>(&here.step); s != nullptr && options_.move) {
-      for (Emitted& each : options_.move(at, *s))
-        out_.push_back(std::move(each));
+      for (Emitted& each : options_.move(at, *s)) {
+        if (each.mark)
+          starts_[each.target] = out_.size();
+        else
+          out_.push_back(std::move(each));
+      }
     }
     if (const auto* s = std::get_if<FlatEnd>(&here.step)) {
       if (s->rejects)
@@ -82,7 +86,7 @@ private:
       for (const std::size_t code : codes->second)
         if (code != kNowhere) alarm.origin.ranges.push_back(flat_.steps[code].range);
     }
-    out_.push_back({std::move(alarm), kNowhere});
+    out_.push_back({std::move(alarm), kNowhere, false});
   }
 
   // Where a jump to the step arrives in the end.

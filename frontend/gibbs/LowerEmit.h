@@ -8,10 +8,12 @@
 
 namespace dotek::frontend::gibbs {
 
-// A statement; `target` is the step that a jump or branch goes to, the number of steps for the end.
+// A statement; `target` is the step that a jump or branch goes to, the number of steps for the end. A mark is
+// no statement but the place `target`, above the number of steps: two for each step may be made.
 struct Emitted {
   ir::Statement statement;
   std::size_t target = kNowhere;
+  bool mark = false;
 };
 
 struct EmitOptions {

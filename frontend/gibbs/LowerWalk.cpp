@@ -90,9 +90,14 @@ void Walk::start() {
   result_.jumps.assign(size, false);
   result_.falls.assign(size, false);
   joins_.assign(size, false);
-  for (const FlatStep& each : flat_.steps) {
-    if (const auto* jump = std::get_if<FlatJump>(&each.step)) joins_[jump->target] = true;
-    if (const auto* branch = std::get_if<FlatBranch>(&each.step)) joins_[branch->target] = true;
+  heads_.assign(size, false);
+  for (std::size_t at = 0; at < size; ++at) {
+    const auto* jump = std::get_if<FlatJump>(&flat_.steps[at].step);
+    const auto* branch = std::get_if<FlatBranch>(&flat_.steps[at].step);
+    if (jump == nullptr && branch == nullptr) continue;
+    const std::size_t target = jump != nullptr ? jump->target : branch->target;
+    joins_[target] = true;
+    if (target <= at) heads_[target] = true;
   }
   computeLiveness();
   WalkState first;
@@ -149,14 +154,20 @@ void Walk::computeLiveness() {
 void Walk::follow(WalkState state) {
   for (;;) {
     if (++steps_ > maxSteps_) return;
-    if (joins_[state.at] && !isNew(state)) return;
+    if (joins_[state.at] && !state.answered && !isNew(state)) return;
+    state.answered = false;
     result_.reached[state.at] = true;
     if (!step(state)) return;
   }
 }
 
 bool Walk::isNew(WalkState& state) {
-  if (seen_[state.at].size() >= kWiden) widen(state);
+  if (heads_[state.at]) {
+    Head& head = circles_[state.at];
+    if (head.first.empty()) head.changes = changesAround(flat_, state.at);
+    compareVisit(head, state);
+    if (seen_[state.at].size() >= kWiden) widen(state, head);
+  }
   forget(state);
   if (!seen_[state.at].insert(keyOf(state)).second) return false;
   ++states_;
@@ -214,11 +225,24 @@ std::string Walk::keyOf(const WalkState& state) const {
   return key + fmt::format("r{}", state.track.run);
 }
 
+// What differs from the first visit of the place.
+void Walk::compareVisit(Head& head, const WalkState& state) const {
+  std::vector<std::string> now;
+  for (const auto& value : state.values)
+    now.push_back(value ? canonical(*value) : "");
+  for (const auto& value : state.track.at)
+    now.push_back(value ? canonical(*value) : "");
+  if (head.first.empty()) {
+    head.first = std::move(now);
+    head.varies.assign(head.first.size(), false);
+    return;
+  }
+  for (std::size_t i = 0; i < now.size(); ++i)
+    if (now[i] != head.first[i]) head.varies[i] = true;
+}
+
 // The place was visited so often that what changes between two visits counts as unknown.
-void Walk::widen(WalkState& state) {
-  auto known = changes_.find(state.at);
-  if (known == changes_.end()) known = changes_.emplace(state.at, changesAround(flat_, state.at)).first;
-  const CycleChanges& changes = known->second;
+void Walk::widen(WalkState& state, const Head& head) {
   const std::string prefix = fmt::format("w{}:", state.at);
   std::size_t made = 0;
   // An unknown of an earlier visit is not the one of this visit.
@@ -234,18 +258,22 @@ void Walk::widen(WalkState& state) {
     return opaqueValue(symbol, {symbol}, symbol, false);
   };
   for (ir::VariableId id = 0; id < state.values.size(); ++id) {
-    if (state.values[id] && (changes.variables.contains(id) || stale(state.values[id])))
+    if (state.values[id] &&
+        ((head.varies[id] && head.changes.variables.contains(id)) || stale(state.values[id])))
       state.values[id] = fresh(std::to_string(id));
   }
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    if (state.track.at[axis] && (changes.axes[axis] || stale(state.track.at[axis])))
+    const bool varies = head.changes.axes[axis] && head.varies[state.values.size() + axis];
+    if (state.track.at[axis] && (varies || stale(state.track.at[axis])))
       state.track.at[axis] = fresh(fmt::format("at{}", axis));
   }
-  const bool moves = changes.axes[0] || changes.axes[1] || changes.axes[2];
   int number = 0;
   for (auto* leg : {&state.track.before, &state.track.last}) {
     ++number;
-    if (!*leg || !(moves || stale((*leg)->begin) || stale((*leg)->target))) continue;
+    if (!*leg) continue;
+    const std::size_t axis = ir::indexOf((*leg)->axis);
+    const bool varies = head.changes.axes[axis] && head.varies[state.values.size() + axis];
+    if (!varies && !stale((*leg)->begin) && !stale((*leg)->target)) continue;
     (*leg)->begin.reset();
     (*leg)->target = fresh(fmt::format("leg{}", number));
   }
@@ -310,6 +338,8 @@ bool Walk::step(WalkState& state, const FlatBranch& s) {
     WalkState other = state;
     learn(other, *question_, opposite(question_->relation));
     learn(state, *question_, question_->relation);
+    ++states_;
+    state.answered = other.answered = options_.facts;
     if (!options_.facts) {
       // Nothing is learnt, so the question would come again.
       result_.jumps[here] = result_.falls[here] = true;

@@ -52,6 +52,7 @@ struct WalkState {
   Facts facts;
   std::set<std::size_t> messages; // steps that showed one, not yet past
   std::size_t codeAt = kNowhere;  // step that set the return code
+  bool answered = false;          // a question of the step at `at` has been answered; it is the same visit
   Track track;
 };
 
@@ -100,6 +101,12 @@ public:
   WalkResult run();
 
 private:
+  struct Head {
+    CycleChanges changes;
+    std::vector<std::string> first; // values when it was first reached: variables, axes
+    std::vector<bool> varies;       // since then
+  };
+
   void start();
   void follow(WalkState state);
   // false: the way ends here.
@@ -112,7 +119,8 @@ private:
   bool isNew(WalkState& state);
   void forget(WalkState& state) const;
   std::string keyOf(const WalkState& state) const;
-  void widen(WalkState& state);
+  void compareVisit(Head& head, const WalkState& state) const;
+  void widen(WalkState& state, const Head& head);
   void computeLiveness();
   bool live(std::size_t at, ir::VariableId variable) const { return live_.empty() || live_[at][variable]; }
 
@@ -135,10 +143,11 @@ private:
   WalkResult result_;
   std::vector<WalkState> waiting_;
   std::vector<bool> joins_; // steps that something jumps to
+  std::vector<bool> heads_; // of these, from further down: every circle has one
   std::map<std::size_t, std::set<std::string>> seen_;
   std::size_t states_ = 0;
-  std::map<std::size_t, CycleChanges> changes_; // by place
-  std::vector<std::vector<bool>> live_;         // by step and variable; empty: all
+  std::map<std::size_t, Head> circles_; // by place
+  std::vector<std::vector<bool>> live_; // by step and variable; empty: all
   std::map<std::string, std::size_t> interned_;
   std::optional<Question> question_;
   bool failed_ = false; // an evaluation found no value, and question_ does not say why

@@ -31,9 +31,7 @@ void noteModal(const Block& block, const stdlib::Control& control, std::map<int,
   for (const Word& word : block.words) {
     const std::optional<std::uint32_t> tenths = word.address == 'G' ? codeTenths(word) : std::nullopt;
     const stdlib::CodeInfo* info = tenths ? control.find('G', *tenths) : nullptr;
-    // Group 0 holds the one-shot codes.
-    if (info != nullptr && info->group && *info->group != 0)
-      modal.insert_or_assign(*info->group, wordText(word));
+    if (info != nullptr && info->group) modal.insert_or_assign(*info->group, wordText(word));
   }
 }
 
@@ -96,6 +94,7 @@ bool Lifter::assignments() {
     add(ir::Stop{false, message});
     return true;
   }
+  context_.stored.insert(*number);
   if (!message.empty()) add(ir::Comment{message});
   add(ir::Store{ir::constant(*number, assignment.variable->range), read});
   return true;
@@ -123,15 +122,8 @@ bool Lifter::readCodes(char address) {
 // The last of two codes of one group would win on some controls, on others it is an alarm.
 bool Lifter::onePerGroup() {
   std::map<int, const Code*> seen;
-  const Code* oneShot = nullptr; // takes the axis words for itself
   for (const Code& code : codes_) {
     if (code.word->address != 'G' || code.info == nullptr || !code.info->group) continue;
-    if (*code.info->group == 0) {
-      if (oneShot != nullptr)
-        return refuse<diag::TwoFunctions>(code.word->range, wordText(*oneShot->word), wordText(*code.word));
-      oneShot = &code;
-      continue;
-    }
     const auto [before, fresh] = seen.emplace(*code.info->group, &code);
     if (!fresh)
       return refuse<diag::TwoFunctions>(code.word->range, wordText(*before->second->word),

@@ -38,6 +38,7 @@ struct LiftContext {
   std::function<std::optional<double>(ir::VariableId)> fixed = {};
   Encoding encoding = Encoding::Utf8;                  // of comments
   const stdlib::MacroSignature* measured = nullptr;    // the last measurement; its results stand in variables
+  std::set<std::uint32_t> stored = {};                 // variables that were assigned since the last call
   std::set<std::string, std::less<>> pictureTold = {}; // holes whose picture was noted
 };
 
@@ -48,7 +49,8 @@ struct LiftContext {
 // number as written, whatever the decimal mode. Reads other numbers without a point under the control's
 // decimal mode; a literal that the other mode reads differently is a warning with both values. Reports
 // integer digits that do not fit a hole's picture where its value is fixed, and (once per hole name) a
-// picture with fewer decimals than the control. Block numbers and a feed alone make no statement.
+// picture with fewer decimals than the control. A macro call leaves motion and feed unknown. Block numbers
+// and a feed alone make no statement.
 bool lift(const Block& block, LiftContext& context, std::vector<ir::Statement>& out);
 
 // The programs that the block calls with G65, for choosing the macro set.

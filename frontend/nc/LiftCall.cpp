@@ -44,6 +44,10 @@ bool Lifter::call(std::uint32_t program, const Word& programWord) {
   if (context_.state.absolute != true && match.signature->intent != stdlib::Intent::ProbeOn &&
       match.signature->intent != stdlib::Intent::ProbeOff)
     return refuse<diag::CallUnderIncremental>(block_.range, program);
+  // The macro moves at a feed of its own and leaves its motion behind; G90 it restores.
+  context_.state.motion = std::nullopt;
+  context_.state.feed = nullptr;
+  context_.stored.clear();
   switch (match.signature->intent) {
   case stdlib::Intent::ProtectedMove: return protectedMove(*match.signature);
   case stdlib::Intent::Surface:
@@ -61,9 +65,7 @@ ir::ExpressionPtr Lifter::argument(const stdlib::MacroArgument& argument) {
   const bool measures =
       !argument.selector && (argument.kind == ir::Kind::Length || argument.kind == ir::Kind::Angle);
   if (argument.selector) reading.kind = ir::Kind::Number;
-  // D, E, F, H, M, S, T count whole units in a call; the rest least increments.
-  constexpr std::string_view kIncrementLetters = "ABCIJKQRUVWXYZ";
-  reading.increments = measures && kIncrementLetters.find(argument.letter) != std::string_view::npos;
+  reading.increments = measures && countsIncrements(argument.letter);
   const ir::ExpressionPtr out = value(word, reading);
   if (!out) return nullptr;
   if (const auto* use = std::get_if<ir::VariableUse>(&out->node))

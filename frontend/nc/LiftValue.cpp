@@ -4,7 +4,6 @@
 
 #include <array>
 #include <cmath>
-#include <fmt/format.h>
 
 namespace dotek::frontend::nc {
 namespace {
@@ -52,6 +51,10 @@ double power10(int exponent) {
 }
 
 } // namespace
+
+bool countsIncrements(char address) {
+  return std::string_view("ABCIJKQRUVWXYZ").find(address) != std::string_view::npos;
+}
 
 std::optional<double> literalOf(const Expression& value) {
   if (const auto* number = std::get_if<Number>(&value.node)) return number->value;
@@ -106,8 +109,9 @@ ir::ExpressionPtr Lifter::value(const Word& word, Reading reading) {
 }
 
 ir::ExpressionPtr Lifter::rawValue(const Word& word) {
-  if (!word.value) return nullptr;
-  return value(word, {});
+  // The control reads a literal as it stands; the target writes a value with a point.
+  const bool counts = !literalOf(*word.value) && countsIncrements(word.address);
+  return value(word, {ir::Kind::Number, counts});
 }
 
 ir::ExpressionPtr Lifter::literal(const Word& word, double value, const std::string& digits, bool point,
@@ -135,8 +139,11 @@ ir::ExpressionPtr Lifter::holeValue(const Expression& at, const Hole& hole, Read
   if (!reading.increments) return out;
   const bool counts = context_.control.decimal == stdlib::DecimalMode::Increment;
   if (fixedValue(hole) != 0.0) {
-    const std::string times = digits == 1 ? "its value" : fmt::format("{} times its value", digits);
-    const std::string small = fmt::format("{} of {}", times, numberText(context_.control.increment));
+    const auto timesValue = [](double factor) {
+      return factor == 1 ? std::string("its value") : numberText(factor) + " times its value";
+    };
+    const std::string times = timesValue(digits);
+    const std::string small = timesValue(increments(digits));
     context_.diagnostics.report<diag::DecimalPoint>(
         at.range, "what is printed for " + hole.name, context_.control.name, counts ? small : times,
         otherMode(context_.control.decimal), counts ? times : small);
@@ -192,7 +199,8 @@ ir::ExpressionPtr Lifter::formula(const Expression& expression, bool inWord) {
 }
 
 ir::ExpressionPtr Lifter::operation(const Expression& expression, const Operation& operation, bool inWord) {
-  if (operation.op == "MOD" && !context_.control.functions.contains("MOD")) {
+  const bool word = operation.op.size() > 1; // MOD, AND, OR, XOR
+  if (word && !context_.control.functions.contains(operation.op)) {
     refuse<diag::FunctionNotRead>(expression.range, operation.op,
                                   "the control `" + context_.control.name + "` has it not");
     return nullptr;
@@ -211,16 +219,17 @@ ir::ExpressionPtr Lifter::functionCall(const Expression& expression, const Funct
     refuse<diag::FunctionNotRead>(expression.range, call.name, why);
     return nullptr;
   };
-  if (!context_.control.functions.contains(call.name))
+  const bool one = call.name == "ATAN" && call.arguments.size() == 1;
+  if (!context_.control.functions.contains(one ? "ATAN[y]" : call.name))
     return notRead("the control `" + context_.control.name + "` has it not");
   if (call.name == "ASIN" || (call.name == "ATAN" && call.arguments.size() == 2))
     return notRead("the range of the angle that it gives hangs on a parameter of the control");
   if (call.name == "ROUND" && inWord)
     return notRead("in a word of NC it rounds to the least increment of the word on some controls");
-  for (const UnaryName& one : kUnary) {
-    if (one.name != call.name) continue;
+  for (const UnaryName& known : kUnary) {
+    if (known.name != call.name) continue;
     const ir::ExpressionPtr inner = operand(*call.arguments.front(), inWord);
-    return inner ? ir::unary(one.op, inner, expression.range) : nullptr;
+    return inner ? ir::unary(known.op, inner, expression.range) : nullptr;
   }
   return notRead("Dotek has no translation of it");
 }
@@ -252,7 +261,7 @@ ir::ExpressionPtr Lifter::variableValue(const Expression& expression, const Vari
   }
   if (context_.macros != nullptr) {
     for (const auto& [first, last] : context_.macros->scratch) {
-      if (*number < first || *number > last) continue;
+      if (*number < first || *number > last || context_.stored.contains(*number)) continue;
       context_.diagnostics.report<diag::ScratchRead>(
           expression.range, *number, context_.macros->name,
           context_.measured == nullptr ? "nothing was measured before" : "what it holds then is not known");

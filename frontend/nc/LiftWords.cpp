@@ -13,6 +13,8 @@ bool Lifter::words() {
     if (!function(code, plan)) return false;
   }
   leftOver(plan);
+  if (plan.dwell && plan.motion)
+    return refuse<diag::TwoFunctions>(block_.range, "G4", *plan.motion == ir::Motion::Rapid ? "G0" : "G1");
   if (plan.opaque.empty() && find('F') != nullptr && !plan.dwell) {
     bool perMinute = context_.state.feedPerMinute == true;
     for (const ir::SetMode& mode : plan.modes) {
@@ -58,7 +60,8 @@ bool Lifter::function(const Code& code, Plan& plan) {
     plan.anyEffect = plan.anyEffect || anyEffect;
     return true;
   };
-  if (code.info == nullptr) return foreign(true);
+  // A G code that the table lacks may be a macro of the builder; an M code goes to the machine's logic.
+  if (code.info == nullptr) return foreign(code.word->address == 'G');
   switch (code.info->function) {
   case Function::Rapid: plan.motion = ir::Motion::Rapid; return true;
   case Function::Feed: plan.motion = ir::Motion::Feed; return true;
@@ -73,6 +76,11 @@ bool Lifter::function(const Code& code, Plan& plan) {
   case Function::FeedPerMinute: return mode(ir::Mode::FeedPerMinute);
   case Function::FeedPerRevolution: return mode(ir::Mode::FeedPerRevolution);
   case Function::WorkSystem:
+    for (const Code& other : codes_) {
+      // The group is not known for every control.
+      if (other.word != code.word && other.info != nullptr && other.info->function == Function::WorkSystem)
+        return refuse<diag::TwoFunctions>(code.word->range, wordText(*other.word), wordText(*code.word));
+    }
     plan.modes.push_back({ir::Mode::WorkSystem, ir::constant(code.tenths / 10, code.word->range)});
     return true;
   case Function::Inch: return refuse<diag::InchInBranch>(code.word->range, wordText(*code.word));
@@ -239,12 +247,14 @@ bool Lifter::opaque(const Plan& plan) {
       if (word.address == 'F' && state.feedPerMinute == true) state.feed = word.value;
     }
   }
+  // An arc or a canned cycle takes the coordinates that follow, until G0 or G1 stands there.
   const stdlib::CodeInfo* rapid = context_.control.find(Function::Rapid);
+  const stdlib::CodeInfo* cycleOff = context_.control.find(Function::CannedCycleOff);
   for (const Code& code : codes_) {
-    // A code of the motion group that is not translated, such as an arc.
-    if (code.info != nullptr && rapid != nullptr && code.info->group && code.info->group == rapid->group &&
-        !plan.motion)
-      state.motion = std::nullopt;
+    if (code.info == nullptr || !code.info->group || code.info == cycleOff || plan.motion) continue;
+    for (const stdlib::CodeInfo* one : {rapid, cycleOff}) {
+      if (one != nullptr && one->group == code.info->group) state.motion = std::nullopt;
+    }
   }
   add(std::move(opaque));
   return true;

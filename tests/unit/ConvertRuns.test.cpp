@@ -48,6 +48,7 @@ struct Case {
   std::vector<std::pair<std::string, char>> letters; // every field of the cycle
   driver::NamedTexts mapped = {};
   bool recover = false;
+  std::vector<std::string> hosts = {"clearance", "tool_radius"}; // those that become arguments
 };
 
 void runs(const Case& one) {
@@ -60,14 +61,13 @@ void runs(const Case& one) {
   convert.common.field = one.mapped;
   convert.to = "fanuc";
   convert.control = one.control;
-  convert.letters = {{"clearance", "Q"}, {"tool_radius", "T"}};
   for (const auto& [name, letter] : one.letters)
     convert.letters.emplace_back(name, std::string(1, letter));
-  driver::Outcome converted = driver::convert(convert);
-  if (converted.status != 0) { // a cycle without a check on the ball has no argument for it
-    convert.letters.erase(convert.letters.begin() + 1);
-    converted = driver::convert(convert);
-  }
+  driver::NamedTexts hosts;
+  for (const auto& host : one.hosts)
+    hosts.emplace_back(host, host == "clearance" ? "Q" : "T");
+  convert.letters.insert(convert.letters.end(), hosts.begin(), hosts.end());
+  const driver::Outcome converted = driver::convert(convert);
   REQUIRE_MESSAGE(converted.status == 0, renderText(converted.diagnostics, converted.sources, 10));
 
   std::mt19937 random(4);
@@ -82,7 +82,9 @@ void runs(const Case& one) {
     post.common.recover = one.recover;
     post.common.field = one.mapped;
     post.common.host = {{"clearance", "15"}, {"tool_radius", "3"}};
-    std::map<char, double> arguments = {{'Q', 15.0}, {'T', 3.0}};
+    std::map<char, double> arguments;
+    for (const auto& [host, letter] : hosts)
+      arguments.emplace(letter[0], letter == "Q" ? 15.0 : 3.0);
     for (const auto& [name, letter] : one.letters) {
       const double value = name == "G" ? system(random) : place(random) / 100.0;
       post.common.set.emplace_back(name, numberText(value));
@@ -92,6 +94,7 @@ void runs(const Case& one) {
     MacroBRunner machine;
     presetMachine(machine);
     machine.run(converted.output, arguments);
+    std::erase(machine.blocks, "G53"); // waits for the motion before a position is read
     if (posted.status != 0) {
       CHECK(machine.alarm >= 100);
       CHECK(machine.blocks.empty());
@@ -161,7 +164,8 @@ TEST_CASE("a converted corpus cycle does what its post prints") {
           control,
           {{"d", 'D'}, {"C", 'C'}, {"Zb", 'Z'}, {"K", 'K'}, {"G", 'S'}},
           {{"Z", "d"}},
-          true});
+          true,
+          {"tool_radius"}});
   runs({folder("MERENI.STRED.OTVOR"),
         prog,
         "fanuc-0i-md",

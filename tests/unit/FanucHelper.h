@@ -179,7 +179,7 @@ struct Emission {
     std::vector<std::string> out;
     bool inside = false;
     for (const std::string& text : texts()) {
-      if (text.starts_with("G#")) break;
+      if (text.find("G#") != std::string::npos) break;
       if (inside && !text.starts_with("(")) out.push_back(text);
       inside = inside || text.starts_with("G90 G94");
     }

@@ -7,6 +7,8 @@
 #include "tests/unit/GibbsRunProject.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <filesystem>
 #include <random>
 
@@ -129,6 +131,110 @@ struct LowerProject : GibbsProject {
       out += '\n';
     }
     return out;
+  }
+
+  // Where the body takes the probe, as the interpreter tells it: positions from entry and retract plane,
+  // without repetition. "" where the body does not come to its end.
+  std::string bodyPath(const std::map<std::string, double>& values) {
+    ir::Environment environment(cycle.variables.size());
+    const auto given = [&](const std::string& name) {
+      const auto found = values.find(name);
+      return found == values.end() ? 0 : found->second;
+    };
+    for (ir::VariableId id = 0; id < cycle.variables.size(); ++id) {
+      if (cycle.variables[id].role != ir::Role::Local)
+        environment[id] = {ir::Scalar::State::Known, given(cycle.variables[id].name), {}};
+    }
+    std::array<double, 3> at{};
+    std::string out = positionText(at);
+    std::string last = out;
+    const auto visit = [&] {
+      if (positionText(at) != last) out += last = positionText(at);
+    };
+    const std::array<double, 3> origin = {given("start_x"), given("start_y"), given("retract")};
+    const auto valueOf = [&](const ir::Coordinate& c, std::size_t axis) {
+      return ir::evaluate(*c.value, environment).value - (c.frame == ir::Frame::Work ? origin[axis] : 0);
+    };
+    std::size_t place = 0;
+    const auto go = [&](ir::LabelId label) {
+      for (place = 0; place < cycle.body.size(); ++place) {
+        const auto* there = std::get_if<ir::Label>(&cycle.body[place].node);
+        if (there != nullptr && there->label == label) return;
+      }
+    };
+    for (int steps = 0; place < cycle.body.size() && steps < 10000; ++steps) {
+      const ir::Statement& each = cycle.body[place++];
+      if (const auto* s = std::get_if<ir::Assign>(&each.node))
+        environment[s->variable] = ir::evaluate(*s->value, environment);
+      if (const auto* s = std::get_if<ir::Jump>(&each.node)) go(s->target);
+      if (const auto* s = std::get_if<ir::Branch>(&each.node)) {
+        const auto holds = ir::holds(*s->condition, environment);
+        if (!holds) return "";
+        if (*holds) go(s->target);
+      }
+      if (const auto* s = std::get_if<ir::Move>(&each.node)) {
+        for (std::size_t axis = 0; axis < 3; ++axis)
+          if (s->axes[axis]) at[axis] = valueOf(*s->axes[axis], axis);
+        visit();
+      }
+      if (const auto* s = std::get_if<ir::Measure>(&each.node)) {
+        const std::array<double, 3> begin = at;
+        const std::size_t axis = ir::indexOf(s->axis);
+        const double contact = valueOf(*s->target, axis);
+        const double radius = s->axis == ir::Axis::Z ? 0 : given("tool_radius");
+        at[axis] = contact - (contact > at[axis] ? radius : -radius);
+        visit();
+        at = begin;
+        visit();
+      }
+    }
+    return out;
+  }
+  static std::string positionText(const std::array<double, 3>& at) {
+    std::string out;
+    for (const double value : at)
+      out += numberText(std::round(value * 1e6) / 1e6 + 0.0) + " ";
+    return out + "; ";
+  }
+
+  // The same of the interpreter.
+  std::string macroPath(const std::map<std::string, double>& values) {
+    fields = values;
+    hosts.clear();
+    for (const char* name : {"tool_radius", "start_x", "start_y", "retract"})
+      if (const auto found = values.find(name); found != values.end()) hosts[name] = found->second;
+    hosts["tool_number"] = 1;
+    auto running = context();
+    const auto moves = gibbs::runToolPath(*load("ToolPath.mac"), running);
+    if (!moves) return "";
+    std::string out = positionText({0, 0, 0});
+    std::string last = out;
+    for (const gibbs::PathMove& move : *moves)
+      if (const std::string next = positionText({move.x, move.y, move.z}); next != last) out += last = next;
+    return out;
+  }
+
+  // Random values: the first on which body and macro lead the probe elsewhere; "" for none.
+  std::string comparePaths(int rounds = 200) {
+    std::mt19937 random(11);
+    std::uniform_int_distribution<int> pick(0, 3), small(-24, 24);
+    for (int i = 0; i < rounds; ++i) {
+      std::map<std::string, double> values = {{"tool_radius", 0.5 * (1 + pick(random))},
+                                              {"retract", small(random)},
+                                              {"start_x", small(random)},
+                                              {"start_y", small(random)}};
+      for (const ir::Variable& variable : cycle.variables)
+        if (variable.role == ir::Role::Parameter)
+          values[variable.name] = pick(random) == 0 ? 0 : small(random) / 2.0;
+      const std::string wanted = macroPath(values);
+      const std::string got = bodyPath(values);
+      if (!wanted.empty() && wanted == got) continue;
+      std::string at;
+      for (const auto& [name, value] : values)
+        at += name + "=" + numberText(value) + " ";
+      return "macro " + wanted + "\nbody  " + got + "\n" + at + findings();
+    }
+    return "";
   }
 
   // "" where the lowered checks and the interpreter agree on the values; hosts and fields by name.

@@ -1,0 +1,92 @@
+// Which moves of a path are touches: what each way through the path macro knows where a move begins, and
+// whether the path comes back behind it.
+#pragma once
+
+#include "frontend/gibbs/LowerWalk.h"
+
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace dotek::frontend::gibbs {
+
+// One value wherever a way arrives, or several.
+struct Seen {
+  std::optional<Value> value; // nothing: not seen, or not known
+  bool varies = false;
+  void add(const std::optional<Value>& next);
+
+private:
+  bool any_ = false;
+};
+
+// The ways on which a move is a touch towards one side.
+struct ShownTouch {
+  std::map<std::string, Value> forms; // way to the contact, by text: above 0 to one side, below to the other
+  Seen contact;                       // from the entry
+  std::vector<Facts> facts;           // what each way knows before the move
+};
+
+// A move over all ways that reach it.
+struct MoveNotes {
+  std::map<int, ShownTouch> shown; // by side: 1 and -1
+  std::vector<Facts> others;       // ways on which it is no touch
+  bool moves = false;              // on one of these it goes somewhere
+  bool returns = false;            // follows a touch and goes back to where that began
+  bool alwaysIdle = true;          // nowhere to go, touches counted as come back
+  bool oneAxis = true;
+  std::optional<ir::Axis> axis;    // of a move along one
+  Seen begin;                      // along the axis of a move along one axis
+  std::array<Seen, 3> target;      // as written
+  bool above = true, below = true; // on all ways the target lies above (below) the begin
+};
+
+class TouchNotes : public MoveObserver {
+public:
+  // `forced`: steps that are touches because the user says so. `radius`: of the ball; kNoVariable: no such.
+  TouchNotes(const Flat& flat, std::set<std::size_t> forced, ir::VariableId radius)
+      : flat_(&flat), forced_(std::move(forced)), radius_(radius) {}
+
+  void move(WalkState& state, std::size_t step, const std::array<std::optional<Value>, 3>& target) override;
+  void end(WalkState& state) override;
+
+  const MoveNotes& of(std::size_t step) const;
+  bool isForced(std::size_t step) const { return forced_.contains(step); }
+  // Moves that could be touches and are not shown, by the first move of their run along one axis. None of
+  // them leads to a touch on any way, nor lacks its way back.
+  std::map<std::size_t, std::set<std::size_t>> candidates() const;
+  // Moves that go to a contact as a touch does, but do not come back.
+  const std::set<std::size_t>& withoutReturn() const { return withoutReturn_; }
+  // Moves that go back from the touch.
+  std::set<std::size_t> returnsOf(std::size_t touch) const;
+
+private:
+  void judge(WalkState& state, const std::optional<Value>& next, std::size_t step, bool& consumed);
+  void note(WalkState& state, Leg& leg);
+
+  const Flat* flat_;
+  std::set<std::size_t> forced_;
+  ir::VariableId radius_;
+  std::map<std::size_t, MoveNotes> notes_;
+  std::map<std::size_t, std::set<std::size_t>> candidates_;
+  std::map<std::size_t, std::set<std::size_t>> returns_;
+  std::set<std::size_t> withoutReturn_;
+  std::set<std::size_t> approaches_; // moves behind which a touch follows
+};
+
+// Follows one way with known values: the moves behind which the path goes back along the same axis.
+class ReversalTrace : public MoveObserver {
+public:
+  ReversalTrace(const Flat& flat, std::set<std::size_t> forced) : flat_(flat), forced_(std::move(forced)) {}
+  void move(WalkState& state, std::size_t step, const std::array<std::optional<Value>, 3>& target) override;
+  void end(WalkState&) override {}
+  const std::set<std::size_t>& reversals() const { return reversals_; }
+
+private:
+  const Flat& flat_;
+  std::set<std::size_t> forced_;
+  std::set<std::size_t> reversals_;
+};
+
+} // namespace dotek::frontend::gibbs
