@@ -91,10 +91,13 @@ std::string conditionText(const Condition& condition, bool needed) {
     out = text(*comparison->left) + " " + comparison->op + " " + text(*comparison->right);
   } else {
     const auto& joined = std::get<JoinedConditions>(condition.node);
-    // Joined conditions stand in brackets each.
-    const auto* left = std::get_if<JoinedConditions>(&joined.left->node);
-    const bool chain = left != nullptr && levelOf(left->op) == levelOf(joined.op);
-    out = conditionText(*joined.left, !chain) + " " + joined.op + " " + conditionText(*joined.right, true);
+    // Each comparison stands in brackets; a join where the levels of AND and OR demand them.
+    const auto side = [&](const Condition& one, int least) {
+      const auto* join = std::get_if<JoinedConditions>(&one.node);
+      return conditionText(one, join == nullptr || levelOf(join->op) < least);
+    };
+    const int level = levelOf(joined.op);
+    out = side(*joined.left, level) + " " + joined.op + " " + side(*joined.right, level + 1);
   }
   return bracketed(std::move(out), condition.brackets > 0 ? condition.brackets : needed ? 1 : 0);
 }

@@ -47,6 +47,7 @@ public:
       : tokens_(tokens), file_(file), source_(source), uses_(uses) {}
 
   Misprints run() {
+    if (isText()) return {};
     spelling();
     splitJoined();
     for (std::size_t i = 0; i < tokens_.size(); ++i) {
@@ -94,6 +95,24 @@ private:
     Diagnostic one = makeDiagnostic<Id>(range, args...);
     if (!edits.empty()) one.fix = Fix{Fix::Applicability::Display, std::move(title), std::move(edits)};
     out_.found.push_back(std::move(one));
+  }
+
+  // Small letters and nothing that a block consists of: no misprint of a block.
+  bool isText() const {
+    bool small = false;
+    for (const Tok& tok : tokens_) {
+      switch (tok.type) {
+      case Lexer::NUMBER:
+      case Lexer::HASH:
+      case Lexer::LBRACKET:
+      case Lexer::EQUALS:
+      case Lexer::PRINT_TEXT: return false;
+      default: break;
+      }
+      for (const char c : textOf(rangeOf(tok)))
+        small = small || std::islower(static_cast<unsigned char>(c)) != 0;
+    }
+    return small;
   }
 
   // ---- spelling
@@ -322,10 +341,10 @@ private:
         ++end;
       if (close + 1 >= end || type(end - 1) != Lexer::RBRACKET || balance(i + 1, end) != -1) return;
       if (type(close + 1) != Lexer::RELATION && !isOperator(type(close + 1))) return;
-      const SourceRange range = rangeOf(tokens_[i + 1]);
-      report<diag::ConditionBracketMissing>(range, "open the condition", {{at(range.begin), "["}},
+      const std::uint32_t place = tokens_[i + 1].begin;
+      report<diag::ConditionBracketMissing>(rangeOf(tokens_[i]), "open the condition", {{at(place), "["}},
                                             tokens_[i].text);
-      insert(i + 1, Lexer::LBRACKET, range.begin);
+      insert(i + 1, Lexer::LBRACKET, place);
       return;
     }
   }

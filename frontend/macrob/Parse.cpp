@@ -50,6 +50,13 @@ void placeComments(Block& block, std::vector<Comment>&& comments) {
   }
 }
 
+// A list without tokens is refused by the runtime.
+std::vector<std::unique_ptr<antlr4::Token>> onlyEnd() {
+  std::vector<std::unique_ptr<antlr4::Token>> out;
+  out.push_back(std::make_unique<antlr4::CommonToken>(antlr4::Token::EOF));
+  return out;
+}
+
 // Reads the blocks that are not plain.
 class GrammarReader {
 public:
@@ -57,7 +64,7 @@ public:
                 Lines& lines)
       : file_(file), source_(sources.file(file).bytes()), diagnostics_(diagnostics), lines_(lines),
         language_(language()), bytes_(lines.bytes), lexer_(&bytes_),
-        buffer_(lexer_, file, sources, language_, limits, problems_), emptySource_({}),
+        buffer_(lexer_, file, sources, language_, limits, problems_), emptySource_(onlyEnd()),
         emptyStream_(&emptySource_), parser_(&emptyStream_),
         session_(parser_, file, language_, limits, ignored_) {
     language_.explain = [this](std::size_t, const antlr4::Token& offending, const antlr4::Parser&) {
@@ -150,12 +157,13 @@ private:
     add(antlr4::Token::EOF, end, end, "<EOF>");
     antlr4::ListTokenSource source(std::move(list));
     antlr4::CommonTokenStream stream(&source);
-    parser_.getTreeTracker().reset();
     parser_.setTokenStream(&stream);
+    // Frees the tree as well.
+    const auto release = [this](antlr4::TokenStream*) { parser_.setTokenStream(&emptyStream_); };
+    const std::unique_ptr<antlr4::TokenStream, decltype(release)> guard(&stream, release);
     ignored_ = Diagnostics();
     offending_ = tokens.size();
     const ParseSession::Unit unit = session_.run([this] { return parser_.block(); });
-    parser_.setTokenStream(&emptyStream_);
     if (unit.failed || unit.tree == nullptr)
       return explainBlock(tokens, std::min(offending_, tokens.size()), file_, source_, end);
     Builder builder(file_);
