@@ -34,6 +34,8 @@ public:
       const std::optional<Call> called = callOf(*words);
       if (called && called->kind <= CallKind::EachBlock)
         call(*called);
+      else if (const nc::Word* program = lostCall(*words))
+        context_.report<diag::CallWordsAlone>(program->range, wordText(*program));
       else
         plain(*words);
       if (called && called->kind == CallKind::Subprogram && called->program == nullptr)
@@ -57,6 +59,17 @@ private:
   }
 
   // ---- NC blocks
+
+  // P with the number of a builder's or vendor's macro, in a block without any code.
+  static const nc::Word* lostCall(const Words& words) {
+    const nc::Word* program = nullptr;
+    for (const nc::Word& word : words.words) {
+      if (word.address == 'G' || word.address == 'M') return nullptr;
+      const std::optional<double> number = literal(word);
+      if (word.address == 'P' && number && *number >= 9000 && *number <= 9999) program = &word;
+    }
+    return program;
+  }
 
   void plain(const Words& words) {
     for (const nc::Word& word : words.words) {

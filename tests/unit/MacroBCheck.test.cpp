@@ -187,6 +187,8 @@ TEST_CASE("macrob check: calls (1.8)") {
   CHECK(program("G65 A1. B2. P1000") == ""); // P and arguments in any order
   CHECK(program("G65 X1.") == "E 2:1 call-without-program");
   CHECK(program("M98 L2") == "E 2:1 call-without-program");
+  CHECK(program("P9810 D5. S55.") == "W 2:1 call-words-alone");
+  CHECK(program("G82 X5. P9500\nX6. P500") == "");
   CHECK(program("G65 P100 G90") == "E 2:10 no-argument");
   CHECK(program("G65 P100 N5") == "E 2:10 no-argument");
   CHECK(program("G66.1 P100 G1 X5.") == "");

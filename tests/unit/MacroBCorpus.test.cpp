@@ -108,6 +108,18 @@ TEST_CASE("macrob corpus: programs of a 6M from a book, one finding a misprint")
                  {"E 10:4 number-without-address", "W 16:4 word-without-point", "W 18:19 hash-missing"}}));
 }
 
+TEST_CASE("macrob corpus: programs of a 0i-MD") {
+  fs::path corpus;
+  if (!haveCorpus(corpus)) return;
+  for (const auto& entry : fs::directory_iterator(corpus / "fanuc")) {
+    // Its thesis prints G56 for G65 once, on a line of its own.
+    if (entry.path().filename() == "easyprobe-example.nc")
+      expect(entry.path(), "fanuc-0i-md", {"W 3:1 call-words-alone"});
+    else
+      expect(entry.path(), "fanuc-0i-md", {});
+  }
+}
+
 TEST_CASE("macrob corpus: a repair where it is certain") {
   fs::path corpus;
   if (!haveCorpus(corpus)) return;
