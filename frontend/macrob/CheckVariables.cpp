@@ -86,7 +86,7 @@ private:
                            : (number >= 100 && number <= 199) || (number >= 500 && number <= 999);
     if (known || !outOfRange_.insert(number).second) return;
     context_.report<diag::VariableOutOfRange>(
-        range, number, context_.control != nullptr ? "this control" : "no Fanuc control");
+        range, number, context_.control != nullptr ? "this control" : "a Fanuc control");
   }
 
   void written(const nc::Assignment& assignment) {

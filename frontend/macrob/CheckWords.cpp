@@ -76,7 +76,7 @@ private:
       if (word.value == nullptr) continue;
       const auto* number = std::get_if<nc::Number>(&word.value->node);
       if (isOneOf(word.address, "MST") && number != nullptr && number->point && word.value->brackets == 0)
-        context_.report<diag::CodeWithPoint>(word.range, print(*word.value));
+        context_.report<diag::CodeWithPoint>(word.range, wordText(word));
       if (countsIncrements() && isOneOf(word.address, kLengthWords)) {
         if (const nc::Number* digits = withoutPoint(word))
           context_.report<diag::WordWithoutPoint>(word.range, wordText(word), millimetres(*digits),
