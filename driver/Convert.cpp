@@ -2,6 +2,7 @@
 #include "driver/Driver.h"
 #include "driver/Lowering.h"
 #include "driver/PostProgram.h"
+#include "driver/Targets.h"
 
 #include "backends/fanuc/Emit.h"
 #include "frontend/gibbs/Ast.h"
@@ -11,7 +12,6 @@
 #include "support/NearestName.h"
 
 #include <algorithm>
-#include <array>
 #include <set>
 
 namespace dotek::driver {
@@ -21,7 +21,6 @@ namespace fanuc = backends::fanuc;
 namespace {
 
 constexpr std::uint32_t kFirstProgram = 8000;
-constexpr std::array<std::string_view, 1> kTargets = {"fanuc"};
 
 class ConvertCommand {
 public:
@@ -72,16 +71,17 @@ private:
       std::vector<std::string> known;
       for (const stdlib::MacroSet& set : inputs_->macroSets)
         known.push_back(set.name);
+      leaveFindingsToLint(session_);
       diagnostics.report<diag::UnknownMacroSet>({}, *options_.probeMacros,
                                                 fmt::format("{}", fmt::join(known, ", ")));
       return false;
     }
-    if (inputs_->job && !inputs_->job->operations.empty())
-      diagnostics.report<diag::JobOperationsUnused>(inputs_->job->operations.front().range);
     for (const std::string& path : options_.inputs)
       folders_.push_back(loadCycleFolder(path, session_));
     if (options_.source.cycle) folders_.front().name = *options_.source.cycle;
     leaveFindingsToLint(session_);
+    if (inputs_->job && !inputs_->job->operations.empty())
+      diagnostics.report<diag::JobOperationsUnused>(inputs_->job->operations.front().range);
     return !diagnostics.hasErrors() && numbersDiffer();
   }
 

@@ -106,24 +106,34 @@ private:
     return {out.begin(), out.end()};
   }
 
-  // Parameters of which another value alone lets the defaults pass; all with a default where there is none.
+  // Whether some other value of the parameter alone lets the rest pass.
+  bool cures(ir::VariableId id) const {
+    ir::Environment with = environment(true);
+    const std::vector<double> values = candidates();
+    return std::any_of(values.begin(), values.end(), [&](double value) {
+      with[id] = {ir::Scalar::State::Known, value};
+      return tried(with).end == ir::CheckRun::End::Passes;
+    });
+  }
+
+  // The defaults that are to blame: each of which another value lets the rest pass; all of them where no
+  // single one does. None where a fixed value is to blame.
   std::vector<ir::VariableId> culprits() const {
     std::vector<ir::VariableId> out;
     std::vector<ir::VariableId> all;
-    const std::vector<double> values = candidates();
+    bool fixedCures = false;
     for (ir::VariableId id = 0; id < cycle().variables.size(); ++id) {
       const ir::Variable& variable = cycle().variable(id);
-      if (variable.role != ir::Role::Parameter || !variable.defaultValue || lowered_.fixed.contains(id))
-        continue;
-      all.push_back(id);
-      ir::Environment with = environment(true);
-      const bool cures = std::any_of(values.begin(), values.end(), [&](double value) {
-        with[id] = {ir::Scalar::State::Known, value};
-        return tried(with).end == ir::CheckRun::End::Passes;
-      });
-      if (cures) out.push_back(id);
+      const bool fixed = lowered_.fixed.contains(id);
+      if (variable.role != ir::Role::Parameter || (!fixed && !variable.defaultValue)) continue;
+      if (!fixed) all.push_back(id);
+      if (!cures(id)) continue;
+      if (fixed)
+        fixedCures = true;
+      else
+        out.push_back(id);
     }
-    return out.empty() ? all : out;
+    return out.empty() && !fixedCures ? all : out;
   }
 
   static std::string messageOf(const ir::Statement& alarm) {

@@ -1,6 +1,7 @@
 #include "driver/Assumptions.h"
 #include "driver/Driver.h"
 #include "driver/Session.h"
+#include "driver/Targets.h"
 #include "stdlib/Control.h"
 #include "stdlib/HostInputs.h"
 #include "stdlib/MacroSet.h"
@@ -134,7 +135,8 @@ Outcome list(const std::string& what, const CommonOptions& options) {
       if (rows.empty())
         return session.finish("none in this release; a folder given with --data can add some\n");
     } else if (what == "targets") {
-      return session.finish("none in this release\n");
+      for (const std::string_view target : kTargets)
+        rows.emplace_back(target, "program that is called with G65");
     } else {
       session.diagnostics().report<diag::UnknownList>({}, what);
     }

@@ -7,6 +7,7 @@
 #include "frontend/compost/Lower.h"
 #include "frontend/compost/Summary.h"
 #include "frontend/gibbs/Lower.h"
+#include "ir/Evaluate.h"
 #include "ir/InferKinds.h"
 #include "ir/Rewrite.h"
 #include "ir/Verify.h"
@@ -61,6 +62,7 @@ private:
   bool branch(const compost::Routine& routine, FieldTable& fields);
   bool path();
   bool checks();
+  bool turnedAway();
   void fix(ir::VariableId id, const std::string& name, double value);
   void applySets(FieldTable& fields, std::set<std::string>& usedSets);
   std::optional<ir::VariableId> fieldVariable(FieldTable& fields, const std::string& name, SourceRange where);
@@ -190,6 +192,18 @@ bool Lowering::checks() {
   return gibbs::lowerChecks(*folder_.cycle->cycleData, cycle(), context);
 }
 
+bool Lowering::turnedAway() {
+  ir::Environment known(cycle().variables.size());
+  for (const auto& [id, value] : out_.fixed)
+    known[id] = ir::Scalar::of(value);
+  const ir::CheckRun run = ir::runChecks(cycle(), std::move(known), session_.limits().steps);
+  if (run.end != ir::CheckRun::End::Alarm) return false;
+  const std::string& text = std::get<ir::Alarm>(run.at->node).message;
+  session_.diagnostics().report<diag::ValuesRejected>(run.at->origin.range(), folder_.name,
+                                                      text.empty() ? "no message" : "`" + text + "`");
+  return true;
+}
+
 // Which value of a field the CAM stores is certain where the user cannot type it; else an assumption says it.
 bool Lowering::settleChangedFields() {
   const auto& assume = session_.options().assume;
@@ -248,6 +262,7 @@ std::optional<LoweredCycle> Lowering::run(std::set<std::string>& usedSets) {
   out_.cycle = gibbs::declareCycle(*folder_.cycle, session_.sources());
   for (ir::VariableId id = 0; id < cycle().variables.size(); ++id)
     parameters_.emplace(gibbs::foldCase(cycle().variable(id).name), id);
+  if (folder_.cycle->defineData) cycle().range = {folder_.cycle->defineData->file, 0, 0};
   const compost::Routine* routine = nullptr;
   std::vector<std::string> printed;
   if (inputs_.program) {
@@ -266,8 +281,10 @@ std::optional<LoweredCycle> Lowering::run(std::set<std::string>& usedSets) {
   for (const auto& [postField, variable] : session_.options().field)
     good = fields.map(postField, variable) && good;
   if (!good) return std::nullopt;
-  good = routine != nullptr ? branch(*routine, fields) : path();
-  good = checks() && good;
+  good = checks();
+  // What the dialog turns away is told before what its blocks would come to.
+  if (good && turnedAway()) return std::nullopt;
+  good = (routine != nullptr ? branch(*routine, fields) : path()) && good;
   if (!good || session_.diagnostics().hasErrors()) return std::nullopt;
   if (!settleChangedFields()) return std::nullopt;
   ir::inferKinds(cycle());

@@ -145,6 +145,11 @@ bool writeAllAtomically(const std::vector<std::pair<std::string, const std::stri
   while (written < files.size() && writeTemporary(files[written].first, *files[written].second, diagnostics))
     ++written;
   bool good = written == files.size();
+  for (std::size_t i = 0; good && i < written; ++i) {
+    if (!fs::is_directory(files[i].first, error)) continue;
+    diagnostics.report<diag::FileNotWritable>({}, files[i].first, std::strerror(EISDIR));
+    good = false;
+  }
   for (std::size_t i = 0; i < written; ++i) {
     if (good)
       good = rename(files[i].first, diagnostics);

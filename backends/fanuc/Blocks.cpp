@@ -230,7 +230,6 @@ void writeOpaque(State& state, const ir::OpaqueBlock& block, const ir::Origin& o
     state.refuse<diag::OpaqueBlockRefused>(origin.range(), text, state.options.sourceControl.title);
     return;
   }
-  state.diagnostics.report<diag::OpaqueCopied>(origin.range(), text);
   state.sheet.add(text, origin);
 }
 

@@ -45,6 +45,7 @@ public:
   Sheet write() {
     out_.add("%", origin("begin of the file"));
     out_.add("O" + number() + "(" + title() + ")", origin("program number"));
+    if (!state_.cycle.title.empty()) say("CYCLE " + state_.cycle.name);
     say("FOR " + state_.control.title + ", MACROS OF " + state_.macros.title);
     if (!state_.cycle.measurementStated)
       say("THE SOURCE STATES A PATH ONLY: NO OFFSET IS SET BY THIS PROGRAM");
@@ -80,7 +81,10 @@ private:
   std::string title() const {
     const std::string& given = state_.cycle.title.empty() ? state_.cycle.name : state_.cycle.title;
     const auto lines = wrapWords(headerText(given), kTitleWidth);
-    return lines.empty() ? "PROBE CYCLE" : lines.front();
+    std::string out = lines.empty() ? "" : lines.front();
+    while (!out.empty() && std::string_view(" ,-.:/").find(out.back()) != std::string_view::npos)
+      out.pop_back(); // where it was cut
+    return out.empty() ? "PROBE CYCLE" : out;
   }
 
   std::string meaning(const ir::Variable& variable) const {

@@ -8,7 +8,7 @@ namespace dotek::frontend::gibbs {
 namespace {
 
 constexpr std::size_t kMaxSteps = 300'000;
-constexpr std::size_t kStatesAPath = 16;     // states that may be kept for each path that the limit allows
+constexpr std::size_t kStatesAPath = 64;     // states that may be kept for each path that the limit allows
 constexpr std::size_t kMaxLive = 20'000'000; // places times variables
 constexpr std::size_t kWiden = 64;           // states at one place before changing variables count as unknown
 

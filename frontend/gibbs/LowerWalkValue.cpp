@@ -33,6 +33,12 @@ ir::Computed compute(ir::UnaryOp op, double a) {
   }
 }
 
+// 1: bounds from below; -1: from above.
+int sideOf(Relation relation) {
+  if (relation == Relation::Greater || relation == Relation::GreaterEqual) return 1;
+  return relation == Relation::Less || relation == Relation::LessEqual ? -1 : 0;
+}
+
 // Whether the facts leave only values of `value` that stand in `relation` to 0.
 bool proven(const Facts& facts, const Value& value, Relation relation) {
   if (const double* number = std::get_if<double>(&value)) return holds(*number, relation, 0);
@@ -205,6 +211,10 @@ void Walk::learn(WalkState& state, const Question& question, Relation relation) 
   if (!options_.facts) return;
   Fact& fact = state.facts[question.key];
   fact.range.restrict(relation, question.bound);
+  // What was open is narrower than what was known before on its side.
+  std::erase_if(fact.learnt, [&](const auto& known) {
+    return sideOf(known.first) != 0 && sideOf(known.first) == sideOf(relation);
+  });
   fact.learnt.insert({relation, question.bound});
   fact.symbols = question.hosts;
 }

@@ -8,6 +8,13 @@
 namespace dotek::frontend::nc {
 namespace {
 
+// These messages put the name between backticks themselves.
+std::string bareName(const Hole& hole) {
+  std::string out = hole.name;
+  std::erase(out, '`');
+  return out;
+}
+
 struct UnaryName {
   std::string_view name;
   ir::UnaryOp op;
@@ -159,10 +166,10 @@ bool Lifter::checkPicture(SourceRange where, const Hole& hole, Reading reading) 
   if (const std::optional<double> fixed = fixedValue(hole)) {
     const Picture::Printed printed = hole.picture->print(*fixed);
     if (printed.fit == Picture::Fit::DoesNotFit)
-      return refuse<diag::ValueDoesNotFit>(where, hole.name, numberText(*fixed), hole.picture->text(),
+      return refuse<diag::ValueDoesNotFit>(where, bareName(hole), numberText(*fixed), hole.picture->text(),
                                            *fixed == std::trunc(*fixed) ? "" : " once it is rounded");
     if (printed.text.empty())
-      context_.diagnostics.report<diag::BareAddress>(where, hole.name, hole.picture->text());
+      context_.diagnostics.report<diag::BareAddress>(where, bareName(hole), hole.picture->text());
   }
   if (reading.kind != ir::Kind::Length || hole.picture->decimals() >= context_.control.decimals) return true;
   if (context_.pictureTold.insert(hole.name).second)
@@ -262,6 +269,7 @@ ir::ExpressionPtr Lifter::variableValue(const Expression& expression, const Vari
   if (context_.macros != nullptr) {
     for (const auto& [first, last] : context_.macros->scratch) {
       if (*number < first || *number > last || context_.stored.contains(*number)) continue;
+      if (context_.diagnostics.hasErrors()) break; // the measurement before may be what was refused
       context_.diagnostics.report<diag::ScratchRead>(
           expression.range, *number, context_.macros->name,
           context_.measured == nullptr ? "nothing was measured before" : "what it holds then is not known");

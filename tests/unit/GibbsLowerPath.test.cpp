@@ -294,3 +294,76 @@ TEST_CASE("gibbs lower: touches that the user names") {
         "cannot-translate@add_custom_drill_cycle_path feed, a, b, Z-plane");
   CHECK(named("z Z-plane\n", {"TOOL_NUM"}) == "no-move-here@get_op_data op, TOOL_NUM, t");
 }
+
+TEST_CASE("gibbs lower: what the messages say") {
+  // The first finding of the checks, or of the path, its severity and its text.
+  const auto first = [](const std::string& macro, bool checks, const std::vector<std::string>& touches = {}) {
+    LowerProject project("a = 10\n", macro);
+    project.files["ToolPath.mac"] = macro;
+    project.touches = touches;
+    checks ? project.lowerChecks() : project.lowerPath();
+    REQUIRE_FALSE(project.diagnostics.empty());
+    return project.diagnostics.all().front();
+  };
+  struct Case {
+    const char* macro;
+    bool checks;
+    std::vector<std::string> touches;
+    const char* code;
+    Severity severity;
+    const char* part;
+  };
+  const std::vector<Case> cases = {
+      {"x(1) = 2\n:ask", true, {}, "unverified-construct-run", Severity::Error, "--assume array-round"},
+      {"goto far", true, {}, "cannot-translate", Severity::Error, "no label of this name"},
+      {"if callback_proc = 1 then stop", true, {}, "cam-value", Severity::Error, "CALLBACK_PROC"},
+      {":ask\ndialog \"d\"\nmessage \"m\"\nif a > 1 then goto ask",
+       true,
+       {},
+       "message-paths",
+       Severity::Error,
+       "some"},
+      {"dialog \"d\"\nmessage \"hint\"", true, {}, "message-informs", Severity::Warning, "`hint`"},
+      {"dialog \"d\"\nstop \"by\", a", true, {}, "message-computed", Severity::Note, "`by`"},
+      {":round\ngoto round", true, {}, "goes-round-for-ever", Severity::Error, "leads to the end"},
+      {"degrees", false, {"degrees"}, "no-move-here", Severity::Error, "holds no move"},
+      {"add_custom_drill_cycle_path feed_x, 5\nadd_custom_drill_cycle_path feed_x, 0",
+       false,
+       {},
+       "touch-not-shown",
+       Severity::Error,
+       "`--assume touch=ToolPath.mac:1`"},
+      {"add_custom_drill_cycle_path feed_x, 5", false, {}, "fields-without-move", Severity::Note, "`a`"},
+  };
+  for (const Case& each : cases) {
+    INFO(each.macro);
+    const Diagnostic found = first(each.macro, each.checks, each.touches);
+    CHECK(found.code == each.code);
+    CHECK(found.severity == each.severity);
+    CHECK_MESSAGE(found.message.find(each.part) != std::string::npos, found.message);
+  }
+}
+
+TEST_CASE("gibbs lower: seeds of the fuzz targets do no harm") {
+  int seeds = 0;
+  for (const char* name : {"gibbs-lower", "gibbs-macro"}) {
+    for (const auto& entry : fs::directory_iterator(root() / "tests" / "fuzz" / "seeds" / name)) {
+      LowerProject project;
+      project.readFolder(entry.path().parent_path());
+      const std::string text = project.files[entry.path().filename().string()];
+      ++seeds;
+      INFO(entry.path().filename().string());
+      project.files = {{"DefineData.txt", "a = 1\nb = 2\nZ = 3\n"},
+                       {"CycleData.mac", text.substr(std::min<std::size_t>(1, text.size()))},
+                       {"ToolPath.mac", text.substr(std::min<std::size_t>(1, text.size()))}};
+      const bool checks = project.lowerChecks();
+      CHECK((checks || project.diagnostics.hasErrors()));
+      CHECK(project.violations() == "");
+      project.diagnostics = {};
+      const bool moves = project.lowerPath();
+      CHECK((moves || project.diagnostics.hasErrors()));
+      CHECK(project.violations() == "");
+    }
+  }
+  CHECK(seeds > 0);
+}

@@ -3,6 +3,7 @@
 
 #include "frontend/gibbs/Lower.h"
 #include "ir/Evaluate.h"
+#include "ir/Verify.h"
 #include "support/Decimal.h"
 #include "tests/unit/GibbsRunProject.h"
 
@@ -81,6 +82,14 @@ struct LowerProject : GibbsProject {
       }
     }
     return gibbs::lowerToolPath(*macro, cycle, context);
+  }
+
+  // What does not hold of every cycle; "" for nothing.
+  std::string violations() const {
+    std::string out;
+    for (const ir::Violation& each : ir::verify(cycle))
+      out += "violation: " + each.message + "\n";
+    return out;
   }
 
   std::string text(const ir::ExpressionPtr& e) const {
@@ -216,6 +225,7 @@ struct LowerProject : GibbsProject {
 
   // Random values: the first on which body and macro lead the probe elsewhere; "" for none.
   std::string comparePaths(int rounds = 200) {
+    if (const std::string broken = violations(); !broken.empty()) return broken;
     std::mt19937 random(11);
     std::uniform_int_distribution<int> pick(0, 3), small(-24, 24);
     for (int i = 0; i < rounds; ++i) {
@@ -277,6 +287,7 @@ struct LowerProject : GibbsProject {
   // Random values for fields and tool radius, whole and halves around what checks compare with; the first
   // disagreement, or how the values were spread: "both ways".
   std::string compareOnValues(int rounds = 400, std::uint32_t seed = 7) {
+    if (const std::string broken = violations(); !broken.empty()) return broken;
     std::mt19937 random(seed);
     std::uniform_int_distribution<int> pick(0, 9), small(-14, 14), offset(52, 61), large(-200, 200);
     int passed = 0, rejected = 0;
