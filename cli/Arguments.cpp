@@ -102,7 +102,7 @@ driver::CommonOptions commonOf(const Raw& raw) {
   out.data = raw.data;
   if (!raw.from.empty()) {
     if (!driver::kindByName(raw.from))
-      throw UsageError("--from takes prog, mac, dlg or define, not `" + raw.from + "`");
+      throw UsageError("--from takes prog, mac, dlg, define or nc, not `" + raw.from + "`");
     out.from = raw.from;
   }
   return out;
@@ -173,7 +173,7 @@ void fill(const Raw& raw, Arguments& parsed) {
 
 void addCommon(CLI::App& app, Raw& raw) {
   app.add_option("--encoding", raw.encoding, "utf-8, cp1250 or cp852 instead of the recognised encoding");
-  app.add_option("--from", raw.from, "kind of the inputs: prog, mac, dlg or define");
+  app.add_option("--from", raw.from, "kind of the inputs: prog, mac, dlg, define or nc");
   app.add_option("--max-errors", raw.maxErrors, "print at most N errors; 0 prints all")->type_name("N");
   app.add_option("--limit", raw.limit, "set a limit (see `dotek list limits`)")
       ->type_name("NAME=N")
@@ -269,6 +269,7 @@ void addLint(CLI::App& app, Raw& raw) {
   lint->add_option("--ignore", raw.ignore, "not these codes")->type_name("CODES");
   lint->add_option("--fail-on", raw.failOn, "exit with 1 from this severity on (warning)")
       ->check(CLI::IsMember({"note", "warning", "error", "never"}));
+  addTarget(*lint, raw);
   addCommon(*lint, raw);
 }
 

@@ -110,8 +110,8 @@ int runCommand(Arguments& arguments, std::ostream& out, std::ostream& err) {
     return printer.programs(driver::convert(options), arguments);
   }
   case Command::Lint: {
-    const driver::LintOptions options{arguments.inputs, arguments.common, arguments.source, arguments.select,
-                                      arguments.ignore};
+    const driver::LintOptions options{arguments.inputs, arguments.common, arguments.source,
+                                      arguments.select, arguments.ignore, arguments.convert.control};
     return printer.findings(driver::lint(options), arguments.json, arguments.failOn);
   }
   case Command::Dump:

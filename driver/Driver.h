@@ -73,6 +73,7 @@ struct LintOptions {
   SourceOptions source;
   std::optional<std::set<std::string>> select; // codes; nothing: all
   std::set<std::string> ignore;
+  std::string control; // profile that programs are checked for; "": what holds on every control
 };
 
 enum class Stage : std::uint8_t { Tokens, Ast, Path, Ir };

@@ -8,6 +8,7 @@
 #include "driver/Session.h"
 #include "frontend/compost/Parse.h"
 #include "frontend/gibbs/Run.h"
+#include "frontend/macrob/Parse.h"
 #include "ir/Fold.h"
 #include "ir/Print.h"
 #include "support/Decimal.h"
@@ -20,6 +21,7 @@ namespace dotek::driver {
 namespace fs = std::filesystem;
 namespace gibbs = frontend::gibbs;
 namespace compost = frontend::compost;
+namespace macrob = frontend::macrob;
 
 namespace {
 
@@ -76,12 +78,21 @@ private:
     const gibbs::ParseContext context{session_.sources(), session_.gibbsKeywords(), session_.limits(),
                                       session_.diagnostics()};
     if (options_.stage == Stage::Tokens) {
+      if (*kind == InputKind::Nc) {
+        out_ += macrob::dumpTokens(*id, session_.sources(), session_.limits(), session_.diagnostics());
+        return;
+      }
       out_ += *kind == InputKind::Prog
                   ? compost::dumpTokens(*id, session_.sources(), session_.limits(), session_.diagnostics())
                   : gibbs::dumpTokens(*id, context);
       return;
     }
     switch (*kind) {
+    case InputKind::Nc:
+      out_ +=
+          macrob::dumpAst(macrob::parse(*id, session_.sources(), session_.limits(), session_.diagnostics()),
+                          session_.sources());
+      break;
     case InputKind::Prog:
       out_ +=
           compost::dumpAst(compost::parse(*id, session_.sources(), session_.limits(), session_.diagnostics()),

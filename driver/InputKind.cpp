@@ -39,6 +39,7 @@ struct Marks {
   int prog = 0;
   int macro = 0;
   int dialog = 0;
+  int nc = 0;
   int definition = 0;
   int lines = 0;
 };
@@ -88,11 +89,45 @@ void markMacro(std::string_view line, Marks& marks) {
   }
 }
 
+// `%`, program headers, macro statements, words of a letter and a number.
+void markNc(std::string_view line, Marks& marks) {
+  std::string text; // without blanks and comments
+  bool comment = false;
+  for (const char c : line) {
+    comment = comment || c == '(';
+    if (!comment && c != ' ' && c != '\t') text += c;
+    if (c == ')') comment = false;
+  }
+  std::string_view rest = text;
+  const auto at = [&](std::size_t i) { return i < rest.size() ? rest[i] : '\0'; };
+  const auto digit = [&](std::size_t i) { return std::isdigit(static_cast<unsigned char>(at(i))) != 0; };
+  const auto skipDigits = [&](std::size_t i) {
+    while (digit(i))
+      ++i;
+    return i;
+  };
+  if (rest == "%" || (at(0) == '<' && at(rest.size() - 1) == '>')) marks.nc += 3;
+  if ((at(0) == 'O' || at(0) == ':') && digit(1) && skipDigits(1) == rest.size()) marks.nc += 4;
+  if (at(0) == '/') rest.remove_prefix(1);
+  if (at(0) == 'N' && digit(1)) rest.remove_prefix(skipDigits(1));
+  if (at(0) == '#' &&
+      (at(1) == '[' || (digit(1) && at(skipDigits(1)) == '=' && at(skipDigits(1) + 1) != '\'')))
+    marks.nc += 3;
+  for (const std::string_view word : {"IF[", "WHILE[", "DPRNT[", "BPRNT[", "GOTO#", "GOTO["})
+    if (rest.starts_with(word)) marks.nc += 3;
+  for (const std::string_view word : {"GOTO", "END", "DO"})
+    if (rest.starts_with(word) && digit(word.size())) marks.nc += 3;
+  const bool value = digit(1) || at(1) == '#' || at(1) == '-' || at(1) == '.';
+  if (std::string_view("GMXYZTSF").find(at(0)) != std::string_view::npos && !rest.empty() && value)
+    marks.nc += 2;
+}
+
 std::optional<InputKind> byName(const std::string& name) {
   const auto ends = [&](std::string_view suffix) { return name.ends_with(suffix); };
   if (name == "DEFINEDATA.TXT") return InputKind::DefineData;
   if (ends(".MAC")) return InputKind::Macro;
   if (ends(".DLG")) return InputKind::Dialog;
+  if (ends(".NC")) return InputKind::Nc;
   return std::nullopt;
 }
 
@@ -104,12 +139,14 @@ std::string_view kindName(InputKind kind) {
   case InputKind::Macro: return "mac";
   case InputKind::Dialog: return "dlg";
   case InputKind::DefineData: return "define";
+  case InputKind::Nc: return "nc";
   }
   return "";
 }
 
 std::optional<InputKind> kindByName(std::string_view name) {
-  for (const InputKind kind : {InputKind::Prog, InputKind::Macro, InputKind::Dialog, InputKind::DefineData}) {
+  for (const InputKind kind :
+       {InputKind::Prog, InputKind::Macro, InputKind::Dialog, InputKind::DefineData, InputKind::Nc}) {
     if (kindName(kind) == name) return kind;
   }
   return std::nullopt;
@@ -127,6 +164,7 @@ std::optional<InputKind> recognise(std::string_view fileName, std::string_view b
     markProg(line, marks);
     markDialog(line, marks);
     markMacro(line, marks);
+    markNc(line, marks);
   }
   const std::size_t slash = fileName.find_last_of("/\\");
   const std::string name = upper(slash == std::string_view::npos ? fileName : fileName.substr(slash + 1));
@@ -134,6 +172,7 @@ std::optional<InputKind> recognise(std::string_view fileName, std::string_view b
   // A name that is fixed in GibbsCAM says more than a damaged content.
   if (named == InputKind::DefineData) return named;
   const int best = std::max({marks.prog, marks.macro, marks.dialog});
+  if (marks.nc > best || (named == InputKind::Nc && best < 2)) return InputKind::Nc;
   if (best >= 2) {
     if (marks.prog == best && marks.prog > marks.macro) return InputKind::Prog;
     if (marks.dialog == best && marks.dialog > marks.macro) return InputKind::Dialog;

@@ -2,9 +2,12 @@
 #include "driver/Driver.h"
 #include "driver/InputKind.h"
 #include "driver/Job.h"
+#include "driver/Lowering.h"
 #include "driver/PostProgram.h"
 #include "driver/Session.h"
 #include "frontend/compost/Summary.h"
+#include "frontend/macrob/Check.h"
+#include "frontend/macrob/Parse.h"
 #include "support/Files.h"
 
 #include <algorithm>
@@ -25,6 +28,7 @@ public:
   Outcome run() {
     if (options_.paths.empty())
       session_.diagnostics().report<diag::MissingOption>({}, "lint", "PATH", "a file or a folder");
+    if (!options_.control.empty()) control_ = loadControl(options_.control, session_);
     for (const std::string& path : options_.paths)
       visit(path, true);
     acceptEntryPoints();
@@ -66,7 +70,7 @@ private:
 
   static bool mayBeSource(const fs::path& path) {
     const std::string suffix = gibbs::foldCase(path.extension().string());
-    return suffix == ".TXT" || suffix == ".MAC" || suffix == ".DLG";
+    return suffix == ".TXT" || suffix == ".MAC" || suffix == ".DLG" || suffix == ".NC";
   }
 
   void file(const std::string& path, bool named) {
@@ -101,6 +105,13 @@ private:
     }
     const std::optional<FileId> id = session_.read(path, Encoding::Cp1250);
     if (!id) return;
+    if (*kind == InputKind::Nc) {
+      using namespace frontend;
+      const macrob::File program =
+          macrob::parse(*id, session_.sources(), session_.limits(), session_.diagnostics());
+      macrob::checkFile(program, control_ ? &*control_ : nullptr, session_.sources(), session_.diagnostics());
+      return;
+    }
     const gibbs::ParseContext context{session_.sources(), session_.gibbsKeywords(), session_.limits(),
                                       session_.diagnostics()};
     if (*kind == InputKind::Macro) {
@@ -149,7 +160,8 @@ private:
 
   const LintOptions& options_;
   Session& session_;
-  std::set<std::string> entryPoints_; // routines that run without a call in the Prog
+  std::optional<stdlib::Control> control_; // --control
+  std::set<std::string> entryPoints_;      // routines that run without a call in the Prog
 };
 
 } // namespace

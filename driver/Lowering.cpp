@@ -22,8 +22,6 @@ namespace dotek::driver {
 namespace compost = frontend::compost;
 namespace gibbs = frontend::gibbs;
 
-namespace {
-
 std::optional<stdlib::Control> loadControl(const std::string& name, Session& session) {
   std::optional<stdlib::Control> control = stdlib::Control::load(session.data(), name);
   if (!control) {
@@ -34,6 +32,8 @@ std::optional<stdlib::Control> loadControl(const std::string& name, Session& ses
   }
   return control;
 }
+
+namespace {
 
 void readSets(LoweringInputs& inputs, Session& session) {
   for (const auto& [name, text] : session.options().set) {

@@ -21,6 +21,9 @@ namespace dotek::driver {
 // Profile where no --control is given.
 inline constexpr std::string_view kDefaultControl = "fanuc-0i-md";
 
+// The control of this name. nullopt: there is none, reported.
+std::optional<stdlib::Control> loadControl(const std::string& name, Session& session);
+
 // What one command reads before its first cycle.
 struct LoweringInputs {
   std::optional<stdlib::Form> form;

@@ -6,6 +6,7 @@ namespace dotek::ir {
 namespace {
 
 template <class... Types> struct Cases : Types... { using Types::operator()...; };
+template <class... Types> Cases(Types...) -> Cases<Types...>; // clang 14 asks for it
 
 template <class Node> ExpressionPtr make(SourceRange range, Node node) {
   return std::make_shared<const Expression>(Expression{range, std::move(node)});

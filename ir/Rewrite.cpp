@@ -6,6 +6,7 @@ namespace dotek::ir {
 namespace {
 
 template <class... Types> struct Cases : Types... { using Types::operator()...; };
+template <class... Types> Cases(Types...) -> Cases<Types...>; // clang 14 asks for it
 
 } // namespace
 

@@ -4,6 +4,7 @@ namespace dotek::ir {
 namespace {
 
 template <class... Types> struct Cases : Types... { using Types::operator()...; };
+template <class... Types> Cases(Types...) -> Cases<Types...>; // clang 14 asks for it
 
 // `S` is Statement or const Statement.
 template <class S, class Visit> void slots(S& statement, const Visit& visit) {

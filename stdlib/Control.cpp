@@ -119,6 +119,7 @@ public:
     words();
     language();
     common();
+    readOnly();
     alarm();
     programs();
     for (const TomlTable& table : root_.require("codes", "tables of G and M codes").tables())
@@ -172,6 +173,8 @@ private:
     origin(table);
     control_.ifThen = table.require("if_then", "true or false").flag();
     control_.joinedConditions = table.require("joined_conditions", "true or false").flag();
+    control_.thenGoto = table.value("then_goto").flag();
+    control_.bareFunctions = table.value("bare_functions").flag();
     control_.bracketDepth = whole(table, "bracket_depth", "how deep brackets nest", 1, 99);
     control_.locals = whole(table, "locals", "the greatest number of a local variable", 1, 99);
     control_.macroLevels = whole(table, "macro_levels", "how deep G65 nests", 1, 99);
@@ -213,6 +216,20 @@ private:
                                                     other.first, other.last));
       }
       control_.common.push_back(range);
+    }
+  }
+
+  void readOnly() {
+    for (const TomlTable& table : root_.value("read_only").tables()) {
+      origin(table);
+      if (control_.readOnly.size() == kMostRanges)
+        document_.fail(table.range(), fmt::format("more than {} ranges", kMostRanges));
+      VariableRange range;
+      range.first = whole(table, "first", "a variable number", 1000, 999999);
+      range.last = whole(table, "last", "a variable number", 1000, 999999);
+      if (range.first > range.last)
+        document_.fail(table.range(), fmt::format("#{} to #{} is no range", range.first, range.last));
+      control_.readOnly.push_back(range);
     }
   }
 
@@ -500,6 +517,12 @@ const CodeInfo* Control::find(Function function) const {
 
 bool Control::isCommon(std::uint32_t number) const {
   return std::any_of(common.begin(), common.end(), [&](const VariableRange& range) {
+    return range.first <= number && number <= range.last;
+  });
+}
+
+bool Control::isReadOnly(std::uint32_t number) const {
+  return std::any_of(readOnly.begin(), readOnly.end(), [&](const VariableRange& range) {
     return range.first <= number && number <= range.last;
   });
 }

@@ -186,10 +186,13 @@ struct Control {
   int integerDigits = 5;         // most digits before the point
   bool ifThen = true;            // IF [..] THEN statement
   bool joinedConditions = false; // [[..] AND [..]]
+  bool thenGoto = false;         // IF [..] THEN GOTO n is known to run
+  bool bareFunctions = false;    // ABS#1 without brackets is known to run
   std::uint32_t bracketDepth = 5;
   std::uint32_t locals = 33;
   std::uint32_t macroLevels = 4;
   std::vector<VariableRange> common;
+  std::vector<VariableRange> readOnly; // system variables that no program writes (alarm 116)
   // SIN, ATAN, AND, ...; beside ATAN the forms that exist: "ATAN[y]" (-90 to 90), "ATAN[y]/[x]", "ATAN[y,x]".
   std::set<std::string> functions;
   std::uint32_t alarmFirst = 0, alarmLast = 200; // n of #3000=n
@@ -206,6 +209,7 @@ struct Control {
   const CodeInfo* find(Function function) const;                 // the first with that meaning
   const AlarmInfo* find(Alarm alarm) const;                      // nullptr: its number is not known
   bool isCommon(std::uint32_t number) const;
+  bool isReadOnly(std::uint32_t number) const;
 
   // Throws DataError where the file has a defect. nullopt: no such control.
   static std::optional<Control> load(const DataFiles& files, std::string_view name);

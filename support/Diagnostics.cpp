@@ -1,7 +1,6 @@
 #include "support/Diagnostics.h"
 
 #include <algorithm>
-#include <array>
 #include <tuple>
 
 namespace dotek {
@@ -16,8 +15,9 @@ std::string_view severityName(Severity severity) {
 }
 
 std::span<const MessageInfo> messageTable() {
-  static const auto kTable = [] {
-    std::array table = {
+  // No std::array: clang bounds its deduction at 256 elements.
+  static const std::vector<MessageInfo> kTable = [] {
+    std::vector<MessageInfo> table = {
 #define DOTEK_DIAGNOSTIC(Id, codeText, severityId, formatText, explanationText)                              \
   MessageInfo{codeText, Severity::severityId, explanationText},
 #include "support/Diagnostics.def"

@@ -57,10 +57,13 @@ struct Operation { // + - * / MOD AND OR XOR
 struct FunctionCall { // SIN[..]; ATAN[y]/[x] has two arguments
   std::string name;
   std::vector<ExpressionPtr> arguments;
+  bool bare = false;  // SIN#1: the argument stands without brackets
+  bool comma = false; // ATAN[y,x]
 };
 struct Expression {
   SourceRange range;
   std::variant<Number, Hole, VariableRef, Negated, Operation, FunctionCall> node;
+  std::uint32_t brackets = 0; // pairs written around it, beyond those that are part of the node
 };
 
 struct Word {

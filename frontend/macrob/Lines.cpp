@@ -1,0 +1,381 @@
+#include "frontend/macrob/Lines.h"
+
+#include "frontend/macrob/Keywords.h"
+
+#include <algorithm>
+#include <cctype>
+#include <utility>
+
+namespace dotek::frontend::macrob {
+namespace {
+
+// A comment that was broken in print goes over this many lines at most.
+constexpr int kMostCommentLines = 3;
+
+bool isBlank(char c) {
+  return c == ' ' || c == '\t' || c == '\v' || c == '\f';
+}
+bool isDigit(char c) {
+  return c >= '0' && c <= '9';
+}
+bool isEnd(char c) {
+  return c == '\n' || c == '\r';
+}
+bool isOperator(char c) {
+  return c == '*' || c == '/' || c == '+' || c == '-';
+}
+// Bytes above 127 are letters of texts.
+bool isTextLetter(char c) {
+  return std::isalpha(static_cast<unsigned char>(c)) != 0 || static_cast<unsigned char>(c) > 127;
+}
+
+class Splitter {
+public:
+  Splitter(FileId file, const SourceMap& sources, const Limits& limits, Diagnostics& diagnostics)
+      : file_(file), limits_(limits), diagnostics_(diagnostics) {
+    out_.bytes = sources.file(file).bytes();
+  }
+
+  Lines run() {
+    while (at_ < out_.bytes.size())
+      line();
+    marks();
+    return std::move(out_);
+  }
+
+private:
+  std::string& bytes() { return out_.bytes; }
+  SourceRange range(std::size_t begin, std::size_t end) const {
+    return {file_, static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end)};
+  }
+  void blank(std::size_t begin, std::size_t end) {
+    std::fill(bytes().begin() + static_cast<std::ptrdiff_t>(begin),
+              bytes().begin() + static_cast<std::ptrdiff_t>(end), ' ');
+  }
+  std::size_t endOfLine(std::size_t from) const {
+    return std::min(out_.bytes.find_first_of("\r\n", from), out_.bytes.size());
+  }
+  std::size_t nextLine(std::size_t end) const {
+    if (end >= out_.bytes.size()) return end;
+    return end +
+           (out_.bytes[end] == '\r' && end + 1 < out_.bytes.size() && out_.bytes[end + 1] == '\n' ? 2 : 1);
+  }
+  std::size_t skipBlanks(std::size_t from, std::size_t end) const {
+    while (from < end && isBlank(out_.bytes[from]))
+      ++from;
+    return from;
+  }
+
+  // ---- one block
+
+  void line() {
+    Line line;
+    std::size_t begin = at_;
+    std::size_t end = at_;
+    if (!tooLong(line, begin)) {
+      end = cut(line, begin);
+      begin = skipBlanks(begin, end);
+      while (end > begin && isBlank(bytes()[end - 1]))
+        --end;
+      line.range = range(begin, end);
+      if (begin < end && bytes()[begin] == '%') {
+        percents_.push_back(range(begin, begin + 1));
+        blank(begin, begin + 1);
+        begin = skipBlanks(begin + 1, end);
+        line.range = range(begin, end);
+      }
+      if (begin == end) return;
+      if (header(line)) headers_.push_back(out_.lines.size());
+      legend(line);
+      if (line.range.begin == line.range.end && !line.header) return;
+    }
+    line.end = static_cast<std::uint32_t>(at_);
+    out_.lines.push_back(std::move(line));
+  }
+
+  bool tooLong(Line& line, std::size_t begin) {
+    const std::size_t end = endOfLine(begin);
+    if (end - begin <= limits_.lineBytes) return false;
+    diagnostics_.report<diag::LineTooLong>(range(begin, begin + 1), end - begin, limits_.lineBytes);
+    blank(begin, end);
+    line.range = line.dropped = range(begin, end);
+    line.reported = true;
+    at_ = nextLine(end);
+    return true;
+  }
+
+  // Moves at_ behind the end of the block that begins at `begin`; gives where its text ends.
+  std::size_t cut(Line& line, std::size_t begin) {
+    std::size_t at = begin;
+    while (true) {
+      int open = 0;
+      std::size_t last = std::string::npos; // last byte that is neither blank nor comment
+      for (; at < bytes().size() && !isEnd(bytes()[at]) && bytes()[at] != ';'; ++at) {
+        const char c = bytes()[at];
+        if (c == '(') {
+          at = comment(line, at);
+          continue;
+        }
+        if (isBlank(c)) continue;
+        last = at;
+        open += c == '[' ? 1 : c == ']' ? -1 : 0;
+      }
+      if (at < bytes().size() && bytes()[at] == ';') {
+        at_ = at + 1;
+        return at;
+      }
+      at_ = nextLine(at);
+      if (open <= 0 || last == std::string::npos || !isOperator(bytes()[last]) ||
+          !joins(line, last, static_cast<std::size_t>(open)))
+        return at;
+    }
+  }
+
+  // Gives the place of the closing bracket (or of the last byte that belongs to the comment).
+  std::size_t comment(Line& line, std::size_t open) {
+    std::size_t end = endOfLine(open);
+    std::size_t close = bytes().find(')', open);
+    if (close < end) {
+      line.comments.push_back({range(open, close + 1), bytes().substr(open + 1, close - open - 1), 0});
+      return close;
+    }
+    const std::size_t firstEnd = end;
+    for (int i = 1; i < kMostCommentLines && end < bytes().size(); ++i) {
+      const std::size_t start = skipBlanks(nextLine(end), bytes().size());
+      end = endOfLine(start);
+      if (end - start > limits_.lineBytes || (start < end && bytes()[start] == '%')) break;
+      const std::size_t bracket = std::min(bytes().find_first_of("()", start), bytes().size());
+      if (bracket >= end) continue;
+      if (bytes()[bracket] == '(') break;
+      return brokenComment(line, open, firstEnd, bracket);
+    }
+    diagnostics_.report<diag::OpenComment>(range(open, open + 1));
+    line.reported = true;
+    blank(open, firstEnd);
+    return firstEnd - 1;
+  }
+
+  std::size_t brokenComment(Line& line, std::size_t open, std::size_t firstEnd, std::size_t close) {
+    Fix fix{Fix::Applicability::Display, "write the comment on one line", {}};
+    std::string text;
+    for (std::size_t at = open + 1; at < close; ++at) {
+      if (!isEnd(bytes()[at])) {
+        text += bytes()[at];
+        continue;
+      }
+      const std::size_t next = skipBlanks(nextLine(at), close);
+      while (!text.empty() && isBlank(text.back()))
+        text.pop_back();
+      text += ' ';
+      fix.edits.push_back({range(at, next), " "});
+      blank(at, next);
+      at = next - 1;
+    }
+    diagnostics_.report<diag::CommentOverLines>(range(open, firstEnd)).fix = std::move(fix);
+    line.comments.push_back({range(open, close + 1), std::move(text), 0});
+    return close;
+  }
+
+  // A block that was broken behind an operator, as books do: the next line closes its brackets.
+  bool joins(Line& line, std::size_t last, std::size_t open) {
+    const std::size_t start = skipBlanks(at_, bytes().size());
+    const std::size_t end = endOfLine(start);
+    if (start == end || bytes()[start] == '%' || end - start > limits_.lineBytes) return false;
+    std::int64_t balance = static_cast<std::int64_t>(open);
+    for (std::size_t at = start; at < end; ++at)
+      balance += bytes()[at] == '[' ? 1 : bytes()[at] == ']' ? -1 : 0;
+    if (balance != 0) return false;
+    const char op = bytes()[last];
+    const bool doubled = bytes()[start] == op;
+    const std::size_t behind = doubled ? skipBlanks(start + 1, end) : start;
+    diagnostics_.report<diag::BlockOverLines>(range(last, last + 1)).fix =
+        Fix{Fix::Applicability::Display, "write the block on one line", {{range(last + 1, behind), " "}}};
+    line.reported = true;
+    blank(last + 1, behind);
+    return true;
+  }
+
+  // ---- headers, texts of drawings
+
+  bool header(Line& line) {
+    const std::size_t end = line.range.end;
+    std::size_t at = line.range.begin;
+    ProgramName name;
+    const char first = bytes()[at];
+    if (first == '<') {
+      std::size_t close = at + 1;
+      while (close < end && (std::isalnum(static_cast<unsigned char>(bytes()[close])) != 0 ||
+                             std::string_view("+-._").find(bytes()[close]) != std::string_view::npos))
+        ++close;
+      if (close >= end || bytes()[close] != '>' || close == at + 1) return false;
+      name.kind = ProgramName::Kind::Name;
+      name.text = bytes().substr(at + 1, close - at - 1);
+      at = close + 1;
+    } else if (first == 'O' || first == ':') {
+      name.kind = first == 'O' ? ProgramName::Kind::Number : ProgramName::Kind::Colon;
+      std::size_t digits = skipBlanks(at + 1, end);
+      std::size_t behind = digits;
+      while (behind < end && isDigit(bytes()[behind]))
+        ++behind;
+      if (behind == digits || behind - digits > 12) return false;
+      name.text = bytes().substr(digits, behind - digits);
+      name.number = std::stoull(name.text);
+      at = behind;
+    } else {
+      return false;
+    }
+    name.range = range(line.range.begin, at);
+    blank(line.range.begin, at);
+    line.range = range(skipBlanks(at, end), end);
+    line.header = std::move(name);
+    return true;
+  }
+
+  std::string withoutComments(const Line& line) const {
+    std::string text = out_.bytes.substr(line.range.begin, line.range.end - line.range.begin);
+    for (const Comment& one : line.comments)
+      std::fill_n(text.begin() + (one.range.begin - line.range.begin), one.range.end - one.range.begin, ' ');
+    return text;
+  }
+
+  void legend(Line& line) {
+    const bool behindLegend = legendBefore_;
+    legendBefore_ = false;
+    if (!behindLegend && bytes().find('#', line.range.begin) >= line.range.end) return;
+    const std::string text = withoutComments(line);
+    std::size_t begin = findLegend(text);
+    if (begin == std::string::npos && behindLegend && isPlainText(text))
+      begin = text.find_first_not_of(" \t");
+    if (begin == std::string::npos) return;
+    legendBefore_ = true;
+    const std::size_t end = text.find_last_not_of(" \t") + 1;
+    const SourceRange where = range(line.range.begin + begin, line.range.begin + end);
+    diagnostics_.report<diag::LegendLine>(where);
+    out_.legends.push_back(where);
+    blank(where.begin, where.end);
+    // A line without anything else is no block.
+    if (!line.header && line.comments.empty() && text.find_first_not_of(" \t") == begin)
+      line.range.end = line.range.begin;
+  }
+
+  // Letters, and not only capitals.
+  static bool isPlainText(std::string_view text) {
+    bool lower = false;
+    for (const char c : text) {
+      if (!isTextLetter(c) && !isBlank(c) && c != '.') return false;
+      lower = lower || std::islower(static_cast<unsigned char>(c)) != 0;
+    }
+    return lower;
+  }
+
+  // ---- %
+
+  void marks() {
+    if (percents_.empty()) return;
+    std::vector<Line>& lines = out_.lines;
+    const std::uint32_t first = percents_.front().begin;
+    const auto behindFirst = static_cast<std::size_t>(
+        std::find_if(lines.begin(), lines.end(), [&](const Line& l) { return l.range.begin > first; }) -
+        lines.begin());
+    std::size_t next = 0; // the first mark that ends something
+    if (behindFirst < lines.size() && (headers_.empty() || headers_.front() >= behindFirst)) {
+      out_.markFirst = true;
+      next = 1;
+      if (behindFirst > 0) skipLeader(behindFirst);
+    }
+    for (; next < percents_.size(); ++next) {
+      const std::uint32_t place = percents_[next].begin;
+      if (lines.empty() || lines.back().range.begin < place) {
+        out_.markLast = true;
+      } else if (!std::exchange(told_, true)) {
+        // Two marks may meet where files were put together.
+        diagnostics_.report<diag::TextBehindEnd>(percents_[next]);
+      }
+    }
+  }
+
+  void skipLeader(std::size_t count) {
+    std::vector<Line>& lines = out_.lines;
+    out_.leader = spanning(lines.front().range, lines[count - 1].range);
+    diagnostics_.report<diag::TextBeforeStart>(out_.leader);
+    blank(out_.leader.begin, out_.leader.end);
+    lines.erase(lines.begin(), lines.begin() + static_cast<std::ptrdiff_t>(count));
+  }
+
+  FileId file_;
+  const Limits& limits_;
+  Diagnostics& diagnostics_;
+  Lines out_;
+  std::size_t at_ = 0;
+  bool legendBefore_ = false;
+  bool told_ = false;
+  std::vector<SourceRange> percents_;
+  std::vector<std::size_t> headers_; // lines with one
+};
+
+} // namespace
+
+Lines splitLines(FileId file, const SourceMap& sources, const Limits& limits, Diagnostics& diagnostics) {
+  return Splitter(file, sources, limits, diagnostics).run();
+}
+
+std::uint32_t argumentVariable(char letter) {
+  switch (letter) {
+  case 'A': return 1;
+  case 'B': return 2;
+  case 'C': return 3;
+  case 'D': return 7;
+  case 'E': return 8;
+  case 'F': return 9;
+  case 'H': return 11;
+  case 'I': return 4;
+  case 'J': return 5;
+  case 'K': return 6;
+  case 'M': return 13;
+  case 'Q': return 17;
+  case 'R': return 18;
+  case 'S': return 19;
+  case 'T': return 20;
+  case 'U': return 21;
+  case 'V': return 22;
+  case 'W': return 23;
+  case 'X': return 24;
+  case 'Y': return 25;
+  case 'Z': return 26;
+  default: return 0;
+  }
+}
+
+std::size_t findLegend(std::string_view line) {
+  const auto skip = [&](std::size_t at) {
+    while (at < line.size() && isBlank(line[at]))
+      ++at;
+    return at;
+  };
+  const std::size_t first = skip(0);
+  for (std::size_t at = first; at < line.size(); ++at) {
+    const std::uint32_t variable = argumentVariable(line[at]);
+    if (variable == 0) continue;
+    if (at != first && (at < 2 || !isBlank(line[at - 1]) || !isBlank(line[at - 2]))) continue;
+    std::size_t next = skip(at + 1);
+    if (next >= line.size() || line[next] != '#') continue;
+    next = skip(next + 1);
+    std::uint32_t number = 0;
+    const std::size_t digits = next;
+    while (next < line.size() && isDigit(line[next]) && next - digits < 4)
+      number = number * 10 + static_cast<std::uint32_t>(line[next++] - '0');
+    next = skip(next);
+    if (number != variable || next >= line.size() || line[next] != '=') continue;
+    // Words, not an expression.
+    for (++next; next < line.size();) {
+      std::string letters;
+      while (next < line.size() && isTextLetter(line[next]))
+        letters += line[next++];
+      if (!letters.empty() && !isExpressionWord(letters)) return at;
+      if (letters.empty()) ++next;
+    }
+  }
+  return std::string_view::npos;
+}
+
+} // namespace dotek::frontend::macrob

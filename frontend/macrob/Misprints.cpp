@@ -1,0 +1,407 @@
+#include "frontend/macrob/Misprints.h"
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <fmt/format.h>
+
+namespace dotek::frontend::macrob {
+
+using Lexer = grammar::MacroBLexer;
+
+namespace {
+
+bool isOperator(std::size_t type) {
+  switch (type) {
+  case Lexer::PLUS:
+  case Lexer::MINUS:
+  case Lexer::STAR:
+  case Lexer::SLASH:
+  case Lexer::KW_AND:
+  case Lexer::KW_OR:
+  case Lexer::KW_XOR:
+  case Lexer::KW_MOD: return true;
+  default: return false;
+  }
+}
+
+bool isAddress(std::size_t type) {
+  return type == Lexer::ADDRESS || type == Lexer::ADDRESS_N;
+}
+
+// A value may begin behind it.
+bool expectsValue(std::size_t type) {
+  return isOperator(type) || type == Lexer::LBRACKET || type == Lexer::EQUALS || type == Lexer::RELATION ||
+         type == Lexer::COMMA;
+}
+
+std::uint32_t wholeNumber(const std::string& digits) {
+  std::uint32_t value = UINT32_MAX;
+  std::from_chars(digits.data(), digits.data() + digits.size(), value);
+  return value;
+}
+
+class Repairer {
+public:
+  Repairer(std::vector<Tok>& tokens, FileId file, std::string_view source, const UsesVariable& uses)
+      : tokens_(tokens), file_(file), source_(source), uses_(uses) {}
+
+  Misprints run() {
+    if (isText()) return {};
+    spelling();
+    splitJoined();
+    for (std::size_t i = 0; i < tokens_.size(); ++i) {
+      degree(i);
+      gotoWithZero(i);
+      letterO(i);
+      decimalComma(i);
+    }
+    for (std::size_t i = 0; i < tokens_.size(); ++i) {
+      starForHash(i);
+      pointedVariable(i);
+      strayIf(i);
+    }
+    bracketedAssignment();
+    conditionBracket();
+    for (std::size_t i = 0; i < tokens_.size(); ++i)
+      wordBrackets(i);
+    const auto before = [](const Diagnostic& a, const Diagnostic& b) {
+      return a.range.begin < b.range.begin;
+    };
+    std::stable_sort(out_.found.begin(), out_.found.end(), before);
+    return std::move(out_);
+  }
+
+private:
+  std::size_t type(std::size_t i) const { return i < tokens_.size() ? tokens_[i].type : antlr4::Token::EOF; }
+  SourceRange rangeOf(const Tok& tok) const { return {file_, tok.begin, tok.end}; }
+  SourceRange at(std::uint32_t place) const { return {file_, place, place}; }
+  std::string textOf(SourceRange range) const {
+    return std::string(source_.substr(range.begin, range.end - range.begin));
+  }
+  bool adjacent(std::size_t i) const {
+    return i + 1 < tokens_.size() && tokens_[i].end == tokens_[i + 1].begin;
+  }
+  void erase(std::size_t first, std::size_t count = 1) {
+    const auto begin = tokens_.begin() + static_cast<std::ptrdiff_t>(first);
+    tokens_.erase(begin, begin + static_cast<std::ptrdiff_t>(count));
+  }
+  void insert(std::size_t before, std::size_t tokenType, std::uint32_t place) {
+    tokens_.insert(tokens_.begin() + static_cast<std::ptrdiff_t>(before),
+                   Tok{tokenType, place, place, tokenType == Lexer::LBRACKET ? "[" : "]"});
+  }
+  template <class Id, class... Args>
+  void report(SourceRange range, std::string title, std::vector<Edit> edits, const Args&... args) {
+    Diagnostic one = makeDiagnostic<Id>(range, args...);
+    if (!edits.empty()) one.fix = Fix{Fix::Applicability::Display, std::move(title), std::move(edits)};
+    out_.found.push_back(std::move(one));
+  }
+
+  // Small letters and nothing that a block consists of: no misprint of a block.
+  bool isText() const {
+    bool small = false;
+    for (const Tok& tok : tokens_) {
+      switch (tok.type) {
+      case Lexer::NUMBER:
+      case Lexer::HASH:
+      case Lexer::LBRACKET:
+      case Lexer::EQUALS:
+      case Lexer::PRINT_TEXT: return false;
+      default: break;
+      }
+      for (const char c : textOf(rangeOf(tok)))
+        small = small || std::islower(static_cast<unsigned char>(c)) != 0;
+    }
+    return small;
+  }
+
+  // ---- spelling
+
+  // Small letters and blanks inside numbers: one remark each.
+  void spelling() {
+    for (std::size_t i = 0; i < tokens_.size(); ++i) {
+      const Tok& tok = tokens_[i];
+      const std::string written = textOf(rangeOf(tok));
+      if (tok.type == Lexer::NUMBER && written.find_first_of(" \t") != std::string::npos)
+        out_.remarks.push_back(makeDiagnostic<diag::BlankInNumber>(rangeOf(tok), tok.text));
+      const auto isSmall = [](unsigned char c) { return std::islower(c) != 0; };
+      if (tok.type == Lexer::PRINT_TEXT || std::none_of(written.begin(), written.end(), isSmall)) continue;
+      SourceRange range = rangeOf(tok);
+      std::string capitals = tok.text;
+      while (i + 1 < tokens_.size() && adjacent(i)) {
+        const std::string next = textOf(rangeOf(tokens_[i + 1]));
+        if (std::none_of(next.begin(), next.end(), isSmall)) break;
+        capitals += tokens_[++i].text;
+        range.end = tokens_[i].end;
+      }
+      Diagnostic remark = makeDiagnostic<diag::SmallLetter>(range, textOf(range));
+      remark.fix = Fix{Fix::Applicability::Display, "write capitals", {{range, capitals}}};
+      out_.remarks.push_back(std::move(remark));
+    }
+  }
+
+  // `GO R5.`: letters that make OR or XOR between words.
+  void splitJoined() {
+    int depth = 0;
+    for (std::size_t i = 0; i < tokens_.size(); ++i) {
+      depth += type(i) == Lexer::LBRACKET ? 1 : type(i) == Lexer::RBRACKET ? -1 : 0;
+      if (type(i) == Lexer::EQUALS) return;
+      const bool exclusive = type(i) == Lexer::KW_XOR;
+      if (depth != 0 || (!exclusive && (type(i) != Lexer::KW_OR || i == 0 || !isAddress(type(i - 1)))))
+        continue;
+      const Tok whole = tokens_[i];
+      const std::string written = textOf(rangeOf(whole));
+      const auto o = static_cast<std::uint32_t>(whole.begin + written.find_first_of("Oo"));
+      tokens_[i] = Tok{Lexer::ADDRESS, whole.end - 1, whole.end, "R"};
+      tokens_.insert(tokens_.begin() + static_cast<std::ptrdiff_t>(i), Tok{Lexer::ADDRESS_O, o, o + 1, "O"});
+      if (exclusive)
+        tokens_.insert(tokens_.begin() + static_cast<std::ptrdiff_t>(i),
+                       Tok{Lexer::ADDRESS, whole.begin, whole.begin + 1, "X"});
+    }
+  }
+
+  void degree(std::size_t i) {
+    if (type(i) != Lexer::DEGREE || i == 0) return;
+    if (type(i - 1) != Lexer::NUMBER && type(i - 1) != Lexer::RBRACKET) return;
+    const SourceRange range = rangeOf(tokens_[i]);
+    report<diag::DegreeSign>(range, "leave the sign out", {{range, ""}});
+    erase(i);
+  }
+
+  // `G0TO 5`
+  void gotoWithZero(std::size_t i) {
+    if (i + 3 >= tokens_.size() || type(i) != Lexer::ADDRESS || tokens_[i].text != "G" || !adjacent(i) ||
+        tokens_[i + 1].text != "0" || !adjacent(i + 1) || tokens_[i + 2].text != "T" ||
+        type(i + 3) != Lexer::ADDRESS_O)
+      return;
+    const SourceRange zero = rangeOf(tokens_[i + 1]);
+    report<diag::ZeroForLetterO>(zero, "write `GOTO`", {{zero, "O"}});
+    tokens_[i] = Tok{Lexer::KW_GOTO, tokens_[i].begin, tokens_[i + 3].end, "GOTO"};
+    erase(i + 1, 3);
+  }
+
+  // `GO X5.`, `AO.`, `1O.`: O where a digit belongs.
+  void letterO(std::size_t i) {
+    if (type(i) != Lexer::ADDRESS_O || i == 0) return;
+    const bool behindNumber = type(i - 1) == Lexer::NUMBER && adjacent(i - 1);
+    if (!behindNumber && !isAddress(type(i - 1)) && !expectsValue(type(i - 1)) && type(i - 1) != Lexer::HASH)
+      return;
+    SourceRange letters = rangeOf(tokens_[i]);
+    std::vector<Edit> edits = {{letters, "0"}};
+    Tok number{Lexer::NUMBER, tokens_[i].begin, tokens_[i].end, "0"};
+    std::size_t first = i;
+    if (behindNumber) {
+      first = i - 1;
+      number.begin = tokens_[first].begin;
+      number.text = tokens_[first].text + "0";
+    }
+    std::size_t last = i;
+    bool digitsFollow = false;
+    while (last + 1 < tokens_.size()) {
+      const Tok& next = tokens_[last + 1];
+      const bool pointFree = number.text.find('.') == std::string::npos;
+      if (next.type == Lexer::ADDRESS_O && adjacent(last)) {
+        edits.push_back({rangeOf(next), "0"});
+        number.text += "0";
+      } else if (next.type == Lexer::NUMBER && adjacent(last) &&
+                 (pointFree || next.text.find('.') == std::string::npos)) {
+        digitsFollow = digitsFollow || next.text.front() != '.';
+        number.text += next.text;
+      } else if (next.type == Lexer::POINT && pointFree) {
+        number.text += ".";
+      } else {
+        break;
+      }
+      number.end = next.end;
+      ++last;
+    }
+    const std::string address =
+        isAddress(type(first - (first > 0))) && first > 0 ? tokens_[first - 1].text : "";
+    // `GO5` may be short for GOTO5 as well.
+    if (address == "G" && !behindNumber && digitsFollow) return;
+    const std::string word = address + number.text;
+    report<diag::LetterOForZero>(letters, fmt::format("write `{}`", word), edits, word);
+    erase(first + 1, last - first);
+    tokens_[first] = std::move(number);
+  }
+
+  // The function whose operands stand at `i`; empty: none.
+  std::string functionAround(std::size_t i) const {
+    int depth = 0;
+    while (i-- > 0) {
+      if (type(i) == Lexer::RBRACKET) ++depth;
+      if (type(i) != Lexer::LBRACKET || depth-- > 0) continue;
+      return i > 0 && type(i - 1) == Lexer::FUNCTION ? tokens_[i - 1].text : "";
+    }
+    return "";
+  }
+
+  void decimalComma(std::size_t i) {
+    if (type(i) != Lexer::COMMA || i == 0 || type(i - 1) != Lexer::NUMBER || type(i + 1) != Lexer::NUMBER)
+      return;
+    Tok& left = tokens_[i - 1];
+    const Tok& right = tokens_[i + 1];
+    if ((left.text + right.text).find('.') != std::string::npos) return;
+    const std::string function = functionAround(i);
+    if (function == "ATAN" || function == "POW") return;
+    const SourceRange range = rangeOf(tokens_[i]);
+    left.text += "." + right.text;
+    left.end = right.end;
+    report<diag::DecimalComma>(range, fmt::format("write `{}`", left.text), {{range, "."}}, left.text);
+    erase(i, 2);
+  }
+
+  // ---- expressions
+
+  // `*130` and `**100` where a variable belongs.
+  void starForHash(std::size_t i) {
+    if (type(i) != Lexer::STAR || i == 0 || !expectsValue(type(i - 1)) || type(i + 1) != Lexer::NUMBER)
+      return;
+    const std::string& digits = tokens_[i + 1].text;
+    if (digits.find('.') != std::string::npos || !uses_(wholeNumber(digits))) return;
+    const SourceRange range = rangeOf(tokens_[i]);
+    report<diag::StarForHash>(range, fmt::format("write `#{}`", digits), {{range, "#"}}, digits);
+    tokens_[i].type = Lexer::HASH;
+    tokens_[i].text = "#";
+  }
+
+  // `#54.` and `#106.`
+  void pointedVariable(std::size_t i) {
+    if (type(i) != Lexer::HASH || type(i + 1) != Lexer::NUMBER || !tokens_[i + 1].text.ends_with('.')) return;
+    Tok& number = tokens_[i + 1];
+    const std::uint32_t n = wholeNumber(number.text);
+    const SourceRange range = spanning(rangeOf(tokens_[i]), rangeOf(number));
+    if (n >= 34 && n <= 99) {
+      report<diag::VariableNumberForm>(range, fmt::format("write `{}`", number.text),
+                                       {{rangeOf(tokens_[i]), ""}}, number.text);
+      erase(i);
+    } else if (uses_(n)) {
+      report<diag::VariableNumberForm>(range, fmt::format("write `#{}`", n),
+                                       {{{file_, number.end - 1, number.end}, ""}}, number.text);
+      number.text.pop_back();
+    }
+  }
+
+  // `X5. IF #9` where F belongs.
+  void strayIf(std::size_t i) {
+    if (type(i) != Lexer::KW_IF || type(i + 1) != Lexer::HASH || type(i + 2) != Lexer::NUMBER) return;
+    const bool words = i > 0 && std::any_of(tokens_.begin(), tokens_.begin() + static_cast<std::ptrdiff_t>(i),
+                                            [](const Tok& tok) { return tok.type == Lexer::ADDRESS; });
+    if (!words || (type(i + 3) != antlr4::Token::EOF && !isAddress(type(i + 3)))) return;
+    const SourceRange range = rangeOf(tokens_[i]);
+    report<diag::StrayIf>(range, fmt::format("write `F#{}`", tokens_[i + 2].text), {{range, "F"}},
+                          tokens_[i + 2].text);
+    tokens_[i].type = Lexer::ADDRESS;
+    tokens_[i].text = "F";
+  }
+
+  // ---- brackets
+
+  // The bracket that closes the one at `open`; tokens_.size(): none.
+  std::size_t matching(std::size_t open) const {
+    int depth = 0;
+    for (std::size_t i = open; i < tokens_.size(); ++i) {
+      depth += type(i) == Lexer::LBRACKET ? 1 : type(i) == Lexer::RBRACKET ? -1 : 0;
+      if (depth == 0) return i;
+    }
+    return tokens_.size();
+  }
+  int balance(std::size_t first, std::size_t last) const {
+    int depth = 0;
+    for (std::size_t i = first; i < last; ++i)
+      depth += type(i) == Lexer::LBRACKET ? 1 : type(i) == Lexer::RBRACKET ? -1 : 0;
+    return depth;
+  }
+
+  // `[#1 = 2]`
+  void bracketedAssignment() {
+    std::size_t i = 0;
+    while (i < tokens_.size() &&
+           (type(i) == Lexer::ADDRESS_N || type(i) == Lexer::SLASH || type(i) == Lexer::NUMBER))
+      ++i;
+    if (type(i) != Lexer::LBRACKET || type(i + 1) != Lexer::HASH || type(i + 2) != Lexer::NUMBER ||
+        type(i + 3) != Lexer::EQUALS || matching(i) + 1 != tokens_.size())
+      return;
+    const SourceRange open = rangeOf(tokens_[i]);
+    const SourceRange close = rangeOf(tokens_.back());
+    report<diag::BracketedAssignment>(spanning(open, close), "leave the brackets out",
+                                      {{open, ""}, {close, ""}});
+    tokens_.pop_back();
+    erase(i);
+  }
+
+  // `IF [#1 AND 1] EQ 1] THEN`: the bracket behind IF stands once, two are closed.
+  void conditionBracket() {
+    for (std::size_t i = 0; i + 1 < tokens_.size(); ++i) {
+      if ((type(i) != Lexer::KW_IF && type(i) != Lexer::KW_WHILE) || type(i + 1) != Lexer::LBRACKET) continue;
+      const std::size_t close = matching(i + 1);
+      std::size_t end = i + 1;
+      while (end < tokens_.size() && type(end) != Lexer::KW_THEN && type(end) != Lexer::KW_GOTO &&
+             type(end) != Lexer::KW_DO)
+        ++end;
+      if (close + 1 >= end || type(end - 1) != Lexer::RBRACKET || balance(i + 1, end) != -1) return;
+      if (type(close + 1) != Lexer::RELATION && !isOperator(type(close + 1))) return;
+      const std::uint32_t place = tokens_[i + 1].begin;
+      report<diag::ConditionBracketMissing>(rangeOf(tokens_[i]), "open the condition", {{at(place), "["}},
+                                            tokens_[i].text);
+      insert(i + 1, Lexer::LBRACKET, place);
+      return;
+    }
+  }
+
+  // Behind the operand that begins at `i`; `i` itself: none does.
+  std::size_t behindOperand(std::size_t i) const {
+    if (type(i) == Lexer::NUMBER) return i + 1;
+    const std::size_t bracket = type(i) == Lexer::HASH ? i + 1 : i;
+    if (bracket > i && type(bracket) == Lexer::NUMBER) return bracket + 1;
+    if (type(bracket) != Lexer::LBRACKET) return i;
+    const std::size_t close = matching(bracket);
+    return close == tokens_.size() ? i : close + 1;
+  }
+
+  // `X[#1]/[#2]`: the value of a word is one bracket.
+  void wordBrackets(std::size_t i) {
+    if (!isAddress(type(i))) return;
+    std::size_t value = i + 1;
+    if (type(value) == Lexer::MINUS || type(value) == Lexer::PLUS) ++value;
+    const std::size_t behind = behindOperand(value);
+    if (behind == value || !isOperator(type(behind))) return;
+    // `/2` may be meant to skip the rest of the block.
+    if (type(behind) == Lexer::SLASH && type(behind + 1) == Lexer::NUMBER) return;
+    std::size_t end = behind;
+    while (end < tokens_.size() && !isAddress(type(end)) && type(end) != Lexer::ADDRESS_O &&
+           type(end) != Lexer::EQUALS && type(end) != Lexer::KW_IF && type(end) != Lexer::KW_GOTO)
+      ++end;
+    if (type(end) == Lexer::EQUALS || isOperator(type(end - 1))) return;
+    const int depth = balance(value, end);
+    const std::uint32_t open = tokens_[value].begin;
+    const std::uint32_t close = tokens_[end - 1].end;
+    const std::string address = tokens_[i].text;
+    const SourceRange range{file_, tokens_[behind].begin, close};
+    if (depth == 0) {
+      report<diag::WordNeedsBrackets>(range, "put the whole value into brackets",
+                                      {{at(open), "["}, {at(close), "]"}}, address);
+      insert(end, Lexer::RBRACKET, close);
+      insert(value, Lexer::LBRACKET, open);
+    } else if (depth == -1 && type(end - 1) == Lexer::RBRACKET) {
+      report<diag::WordNeedsBrackets>(range, "open the value with another bracket", {{at(open), "["}},
+                                      address);
+      insert(value, Lexer::LBRACKET, open);
+    }
+  }
+
+  std::vector<Tok>& tokens_;
+  FileId file_;
+  std::string_view source_;
+  const UsesVariable& uses_;
+  Misprints out_;
+};
+
+} // namespace
+
+Misprints repairMisprints(std::vector<Tok>& tokens, FileId file, std::string_view source,
+                          const UsesVariable& uses) {
+  return Repairer(tokens, file, source, uses).run();
+}
+
+} // namespace dotek::frontend::macrob

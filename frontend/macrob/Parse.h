@@ -1,0 +1,28 @@
+// Text of a file of programs to its syntax tree.
+#pragma once
+
+#include "frontend/macrob/Ast.h"
+#include "support/Diagnostics.h"
+#include "support/Limits.h"
+
+#include <cstdint>
+#include <string>
+
+namespace dotek::frontend::macrob {
+
+// Which reader takes the plain NC blocks. Both give the same tree and findings; tests compare.
+enum class Reader : std::uint8_t { Fast, GrammarOnly };
+
+// Parses one file of the map. Never fails: problems go to `diagnostics`, at most one error a block; blocks
+// that cannot be read become `Unread`. A misprint with one certain repair is reported with it, and the tree
+// is that of the repaired block.
+File parse(FileId file, const SourceMap& sources, const Limits& limits, Diagnostics& diagnostics,
+           Reader reader = Reader::Fast);
+
+// `dump --stage tokens`: one token a line: line:column, kind, text.
+std::string dumpTokens(FileId file, const SourceMap& sources, const Limits& limits, Diagnostics& diagnostics);
+
+// `dump --stage ast`: an indented tree, one node a line; with places unless told otherwise.
+std::string dumpAst(const File& file, const SourceMap& sources, bool places = true);
+
+} // namespace dotek::frontend::macrob

@@ -1,0 +1,214 @@
+// Checks of programs: each finding, and what looks like it and is right.
+#include "tests/unit/MacroBHelper.h"
+
+#include <doctest/doctest.h>
+
+using namespace dotek;
+using namespace dotek::tests;
+
+namespace {
+
+// Findings of a body inside a whole program, line 1 being its first line.
+std::string body(const std::string& text, const std::string& control = "") {
+  return told(text + "\nM99\n", control);
+}
+std::string program(const std::string& text, const std::string& control = "") {
+  return told("O1\n" + text + "\nM99\n", control);
+}
+
+constexpr const char* k31 = "fanuc-31i-b";
+constexpr const char* k0i = "fanuc-0i-md";
+constexpr const char* k6m = "fanuc-6m";
+
+} // namespace
+
+TEST_CASE("macrob check: loops (1.7, 1.11)") {
+  CHECK(program("WHILE[#1LE5]DO1\nDO2\n#1=#1+1\nEND2\nEND1\nDO1\nEND1") == "");
+  MacroFile bare("O1\nWHILE[#1LE#2]DO\n#1=#1+1\nEND3\nM99\n");
+  bare.check();
+  CHECK(bare.told() == "E 2:14 do-without-number");
+  CHECK(bare.fixed("do-without-number") == "O1\nWHILE[#1LE#2]DO3\n#1=#1+1\nEND3\nM99\n");
+  CHECK(program("DO1\nEND") == "E 3:1 end-without-number");
+  CHECK(program("DO4\nEND4") == "E 2:3 loop-number-range; E 3:4 loop-number-range");
+  CHECK(program("DO1\nDO1\nEND1\nEND1") == "E 3:3 loop-number-in-use");
+  CHECK(program("DO1\nDO2\nEND1\nEND2") == "E 4:1 loops-cross");
+  CHECK(program("END2") == "E 2:1 end-without-do");
+  CHECK(program("DO2\n#1=2") == "E 2:1 do-without-end");
+}
+
+TEST_CASE("macrob check: jumps (1.7, 1.11)") {
+  CHECK(program("IF[#1EQ1]GOTO5\nG0\nN005 G1") == "");
+  CHECK(program("GOTO5\nN6") == "E 2:5 goto-target-missing");
+  CHECK(program("GOTO#1\nGOTO[#2+1]") == "W 3:1 block-never-runs");
+  // Excerpts hold a part only.
+  CHECK(body("IF[#1EQ1]GOTO5") == "");
+  CHECK(told("O1\nIF[#1EQ1]GOTO5\nG0\n") == "");
+  CHECK(program("IF[#1EQ1]GOTO5\nN5 G0\nN5 G1") == "W 4:1 duplicate-target");
+  CHECK(program("N5 G0\nN5 G1") == ""); // nobody jumps there
+  CHECK(program("IF[#1EQ1]GOTO5\nDO1\nN5 #1=#1+1\nEND1") == "E 2:14 jump-into-loop");
+  CHECK(program("IF[#1EQ1]GOTO5\nDO1\n#1=#1+1\nN5 END1") == "E 2:14 jump-into-loop");
+  CHECK(program("IF[#1EQ1]GOTO5\nN5 DO1\n#1=#1+1\nEND1") == ""); // to the DO
+  CHECK(program("DO1\nIF[#1EQ1]GOTO5\n#1=#1+1\nN5 END1") == ""); // inside
+  CHECK(program("DO1\nIF[#1EQ1]GOTO5\nEND1\nN5 G0") == "");      // out of it
+}
+
+TEST_CASE("macrob check: blocks that never run") {
+  CHECK(program("GOTO9\n#1=2\nG0 X1.\nN9 G0") == "W 3:1 block-never-runs");
+  // Reached only from blocks that never run.
+  CHECK(program("GOTO9\nIF[#1EQ1]GOTO5\nG0\nN5 G1\nN9 G0") == "W 3:1 block-never-runs");
+  CHECK(program("IF[#2EQ1]GOTO5\nGOTO9\nN5 G1\nN9 G0") == "");
+  CHECK(program("/GOTO9\n#1=2\nN9 G0") == "");  // the operator decides
+  CHECK(program("GOTO#5\nN5 G1\nN9 G0") == ""); // may go to any number
+  CHECK(program("GOTO#5\nG0\nN9 G0") == "W 3:1 block-never-runs");
+  CHECK(program("GOTO9\n(NOTE)\nN9 G0") == "");
+  CHECK(program("DO1\nIF[#1EQ1]GOTO9\nGOTO8\nN8\nEND1\nN9 G0") == "");
+  CHECK(program("DO1\n#1=#1+1\nIF[#1EQ1]GOTO8\nGOTO9\nEND1\nN8\nN9") == "");
+}
+
+TEST_CASE("macrob check: numbers of variables (1.3, 1.11)") {
+  CHECK(program("#33=#100+#199+#500+#999+#5041") == "");
+  CHECK(program("#34=1\n#1=#34") == "E 2:1 variable-out-of-range");
+  CHECK(program("#1=#200") == "E 2:4 variable-out-of-range");
+  CHECK(program("#1=#150", k31) == "");
+  CHECK(program("#1=#150", k6m) == "E 2:4 variable-out-of-range");
+  CHECK(program("X#560", k6m) == "E 2:2 variable-out-of-range");
+  CHECK(program("#1=#559", k6m) == "");
+  CHECK(program("#0=1") == "E 2:1 null-written");
+  CHECK(program("IF[#1EQ#0]THEN#2=#0") == "");
+  CHECK(program("#4001=1", k31) == "E 2:1 read-only-written");
+  CHECK(program("#5041=1.", k0i) == "E 2:1 read-only-written");
+  CHECK(program("IF[#1EQ1]THEN#5061=1.", k31) == "E 2:14 read-only-written");
+  CHECK(program("#5041=1.") == ""); // which control is not known
+  CHECK(program("#5221=1.\n#3000=5(STOP)\n#1=#4001", k31) == "");
+}
+
+TEST_CASE("macrob check: a number of a variable taken for its value") {
+  MacroFile file("O1\n#[#20+#21]=5.\nIF[ABS[#20+#21]GT[#3]]GOTO5\n#4=SQRT[#20+#22]\nN5 M99\n");
+  file.check();
+  CHECK(file.told() == "W 3:8 subscript-as-value");
+  CHECK(file.fixed("subscript-as-value").find("IF[ABS[#[#20+#21]]GT[#3]]") != std::string::npos);
+  CHECK(program("#4=ABS[#20+#21]") == ""); // no such subscript
+  CHECK(program("#[#20+#21]=ABS[#[#20+#21]]") == "");
+  CHECK(program("#[700+#21]=ABS[700+#21]") == ""); // a number, not two variables
+}
+
+TEST_CASE("macrob check: a `#` at the wrong place") {
+  MacroFile base("O1\n#1=5.+[#2000+#7]\nM99\n");
+  base.check();
+  CHECK(base.told() == "W 2:8 table-base-read");
+  CHECK(base.fixed("table-base-read") == "O1\n#1=5.+#[2000+#7]\nM99\n");
+  CHECK(program("#1=5.+#[2000+#7]") == "");
+  CHECK(program("#1=[#2001+#7]") == "");
+  CHECK(program("#110=5.\n#1=#110*SIN[#2]\n#3=110*SIN[#2]") == "W 4:4 hash-missing");
+  CHECK(program("#110=5.\n#1=#2*110") == ""); // not repeated with the variable
+  CHECK(program("G1 X5. F#9\nG1 X6. F9") == "W 3:8 hash-missing");
+  CHECK(program("G1 X5. F#9\nG1 X6. F90") == "");
+  CHECK(program("G1 X5. F#9\nG1 X6. F9.") == "");
+  CHECK(program("M#13\nM13") == "");
+}
+
+TEST_CASE("macrob check: a zero point that is written twice") {
+  CHECK(program("#2502=#2501+5.\n#2502=#2601") == "W 3:1 offset-overwritten");
+  CHECK(program("#5221=1.\n(NOTE)\n#5222=2.\n#5221=3.") == "W 5:1 offset-overwritten");
+  CHECK(program("#2502=#2501+5.\n#2602=#2601") == "");
+  CHECK(program("#2502=#2501\n#2502=#2502+5.") == "");
+  CHECK(program("#2502=#2501\nG54 X0.\n#2502=#2601") == "");
+  CHECK(program("#2502=#2501\nIF[#1EQ1]THEN#2502=#2601") == "");
+  CHECK(program("#502=#501\n#502=#601") == "");
+}
+
+TEST_CASE("macrob check: depth of brackets (1.4)") {
+  CHECK(program("#1=SIN[[[#2+#3]*#4+#5]*#6]") == "");
+  CHECK(program("#1=[[[[[1]]]]]") == "");
+  CHECK(program("#1=[[[[[[1]]]]]]") == "E 2:9 brackets-too-deep");
+  CHECK(program("#1=2([[[[[[)") == "");
+  CHECK(program("IF[[[[[[#1]]]]]EQ1]GOTO5\nN5") == "");
+}
+
+TEST_CASE("macrob check: what a control can calculate (1.12)") {
+  CHECK(program("#1=ASIN[#2]\n#3=#4AND7\n#5=ATAN[1]/[2]", k31) == "");
+  CHECK(program("#1=ASIN[#2]\n#1=ASIN[#3]", k6m) == "E 2:4 function-unknown-here");
+  CHECK(program("#3=#4AND7", k6m) == "E 2:4 function-unknown-here");
+  CHECK(program("#1=ATAN[#2/#3]", k6m) == "");
+  CHECK(program("#1=ATAN[#2]/[#3]", k6m) == "E 2:4 function-unknown-here");
+  CHECK(program("IF[#1EQ2]THEN#3=4", k6m) == "E 2:1 then-unknown-here");
+  CHECK(program("IF[#1EQ2]THEN#3=4", k0i) == "");
+  CHECK(program("IF[#1EQ2]THENGOTO5\nN5", k31) == ""); // ran there
+  CHECK(program("IF[#1EQ2]THENGOTO5\nN5", k0i) == "W 2:10 then-goto");
+  CHECK(program("IF[[#1EQ2]AND[#2EQ3]]GOTO5\nN5", k31) == "");
+  CHECK(program("IF[[#1EQ2]OR[#2EQ3]]GOTO5\nN5", k6m) == "E 2:3 joined-unknown-here");
+  MacroFile bare("O1\n#1=ABS#2\nM99\n");
+  bare.check(k0i);
+  CHECK(bare.told() == "W 2:4 function-without-brackets");
+  CHECK(bare.fixed("function-without-brackets") == "O1\n#1=ABS[#2]\nM99\n");
+  CHECK(program("#1=ABS#2") == "W 2:4 function-without-brackets");
+  CHECK(program("#1=ABS#[#2+1]", k31) == "");
+  CHECK(program("#1=[SIN #2]", k6m) == "");
+}
+
+TEST_CASE("macrob check: conditions that do not depend on anything") {
+  CHECK(program("IF[[#1AND0]EQ0]GOTO5\nN5") == "W 2:3 constant-condition");
+  CHECK(program("IF[[#1AND1]EQ0]GOTO5\nN5") == "");
+  CHECK(program("IF[#1EQ#1]GOTO5\nN5") == "W 2:3 constant-condition");
+  CHECK(program("WHILE[1EQ1]DO1\nEND1") == "");
+  CHECK(program("IF[[#1*0]GT2]GOTO5\nN5") == "W 2:3 constant-condition");
+}
+
+TEST_CASE("macrob check: exact comparison of computed values (1.6)") {
+  CHECK(program("IF[#1/3EQ#2]GOTO5\nN5") == "W 2:3 equality-of-computed");
+  CHECK(program("IF[SIN[#1]NE0.5]GOTO5\nN5") == "W 2:3 equality-of-computed");
+  CHECK(program("#1=#1+0.1\nIF[#1EQ1.]GOTO5\nN5") == "W 3:3 equality-of-computed");
+  CHECK(program("#1=#1+0.25\nIF[#1EQ1.]GOTO5\nN5") == ""); // exact
+  CHECK(program("#1=#1+1\nIF[#1EQ10]GOTO5\nN5") == "");
+  CHECK(program("IF[FIX[#1/2]*2EQ#1]GOTO5\nN5") == "");
+  CHECK(program("IF[#1/3LT#2]GOTO5\nN5") == "");
+  CHECK(program("#1=FIX[#2*0.1]") == "N 2:4 fix-of-computed");
+  CHECK(program("#1=FIX[#2/3]") == "N 2:4 fix-of-computed");
+  CHECK(program("#1=FIX[#2]") == "");
+}
+
+TEST_CASE("macrob check: codes are whole numbers (1.6)") {
+  CHECK(program("M3.0") == "E 2:1 code-with-point");
+  CHECK(program("S1000. M3") == "E 2:1 code-with-point");
+  CHECK(program("M[3.5]\nG54.1 P2\nG65 P9810 M1. S1. T4.") == "");
+}
+
+TEST_CASE("macrob check: decimal points, where the control counts increments (1.8)") {
+  CHECK(program("G1 X10 F100") == "");
+  CHECK(program("G1 X10 F100", k31) == "");
+  CHECK(program("G1 X10 F100", k6m) == "W 2:4 word-without-point");
+  CHECK(program("G1 X0 Y5. Z#1 A-#2 B[5]", k6m) == "");
+  CHECK(program("G65P9811Y-1Q5", k31) == "");
+  CHECK(program("G65P9811Y-1Q5.", k6m) == "E 2:9 argument-without-point");
+  CHECK(program("G65 P10 D5 F20 T4 S1 H3 M1 E1 X0", k6m) == ""); // whole units
+}
+
+TEST_CASE("macrob check: calls (1.8)") {
+  CHECK(program("G65 A1. B2. P1000") == ""); // P and arguments in any order
+  CHECK(program("G65 X1.") == "E 2:1 call-without-program");
+  CHECK(program("M98 L2") == "E 2:1 call-without-program");
+  CHECK(program("P9810 D5. S55.") == "W 2:1 call-words-alone");
+  CHECK(program("G82 X5. P9500\nX6. P500") == "");
+  CHECK(program("G65 P100 G90") == "E 2:10 no-argument");
+  CHECK(program("G65 P100 N5") == "E 2:10 no-argument");
+  CHECK(program("G66.1 P100 G1 X5.") == "");
+  CHECK(program("X1. G65 P100") == "W 2:1 argument-before-call");
+  CHECK(program("G90 G65 P100") == "");
+  CHECK(program("G65 P100 I1. J2. K3. I4. J5.") == "");
+  CHECK(program("G65 P100 J1. I2.") == "W 2:14 argument-order");
+  // The manual's own example: #7 is 5.
+  CHECK(program("G65 A1.0 B2.0 I-3.0 I4.0 D5.0 P1000") == "W 2:26 argument-overwritten");
+  CHECK(program("G65 P100 A1. A2.") == "W 2:14 argument-overwritten");
+}
+
+TEST_CASE("macrob check: positions that are read too early (1.2)") {
+  CHECK(program("G1 X5. F100\n#1=#5041", k31) == "W 3:4 position-read-early");
+  CHECK(program("G1 X5. F100\n#2=1\nIF[#5061GT#3]GOTO5\nN5", k31) == "W 4:4 position-read-early");
+  CHECK(program("G1 X5. F100\n#1=#5041") == "");
+  CHECK(program("G31 X5. F100\n#1=#5061", k31) == "");
+  CHECK(program("G31 X5. F100\nG53\n#1=#5041", k31) == "");
+  CHECK(program("G1 X5. F100\nG4 P0\n#1=#5041", k31) == "");
+  CHECK(program("G1 X5. F100\nM5\n#1=#5041", k31) == "");
+  CHECK(program("G65 P9811 X5.\n#1=#5041", k31) == "");
+  CHECK(program("G1 X5. F100\n#1=#5001", k31) == ""); // end of the block, known beforehand
+}
