@@ -121,15 +121,20 @@ void TouchNotes::note(WalkState& state, Leg& leg) {
   if (!leg.forced && leg.axis != ir::Axis::Z && way && radius_ != kNoVariable) {
     const std::string symbol = symbolOf(radius_);
     const Value radius = opaqueValue(symbol, {symbol}, symbol, false);
+    const auto holds = [&](const Value& value) {
+      const Unknown* unknown = unknownIn(value);
+      return unknown != nullptr && unknown->terms.contains(symbol);
+    };
     for (const int sign : {1, -1}) {
+      // The radius stands in the target, and nowhere in the way from the begin to the contact.
+      const auto contact = linear(leg.target, 1, radius, sign);
       const auto form = linear(*way, 1, radius, sign);
-      const Unknown* unknown = form ? unknownIn(*form) : nullptr;
-      if (!form || (unknown != nullptr && unknown->terms.contains(symbol))) continue;
+      if (!contact || !form || holds(*contact) || holds(*form)) continue;
       if (!(sign > 0 ? provenAbove(state.facts, *form) : provenBelow(state.facts, *form))) continue;
       leg.sign = sign;
       ShownTouch& shown = notes.shown[sign];
       shown.forms.emplace(canonical(*form), *form);
-      shown.contact.add(linear(leg.target, 1, radius, sign));
+      shown.contact.add(contact);
       keep(shown.facts, state.facts);
       notes.alwaysIdle = false;
       return;
@@ -155,8 +160,9 @@ void TouchNotes::move(WalkState& state, std::size_t step, const std::array<std::
   if (const auto& last = state.track.last) {
     const std::size_t lastAxis = ir::indexOf(last->axis);
     const bool along = idle ? last->forced : axis == lastAxis;
-    // A move without a way, along the same axis or to the same point, is no follower.
-    if (last->forced || !idle || (written != kNowhere && written != lastAxis))
+    // A move without a way, along the same axis or to the same point, is no follower of a plain move. Behind
+    // a touch, which comes back by itself, it is none without a way.
+    if (last->forced || last->sign != 0 || !idle || (written != kNowhere && written != lastAxis))
       judge(state, along ? target[lastAxis] : std::nullopt, step, consumed);
   }
   // Behind a touch that came back there may be nowhere left to go.

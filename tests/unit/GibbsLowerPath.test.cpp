@@ -216,6 +216,10 @@ TEST_CASE("gibbs lower: what does not show a touch is refused where it could be 
   CHECK(path(down + "if a > 0 then x a-r\nz h-plane\n") == kRefusedX + "a-r");
   CHECK(path(down + "if a > 0 then x a-r\nx 1\nz h-plane\n") == kRefusedX + "a-r");
   CHECK(path(down + "if a > 0 then x a-r\nif b > 0 then x 0\nz h-plane\n") == kRefusedX + "a-r");
+  // Said twice, the measurement would have come back in between.
+  CHECK(path(down + "if a > 0 then goto on\ngoto out\n:on\nx a-r\nx a-r\n:out\n" + up) == kRefusedX + "a-r");
+  // The radius stands in the begin and not in the target.
+  CHECK(path(down + "x a-r\nif a > 0 then x 0\nx a-r\ny 5\nz h-plane\n").starts_with("touch-not-shown@"));
   // Down and up again without anything in between.
   CHECK(path("z Z-plane\nz h-plane\n") == "touch-not-shown@add_custom_drill_cycle_path feed_z, Z-plane");
   // A loop comes back by itself.
