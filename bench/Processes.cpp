@@ -158,6 +158,10 @@ void addCorpus(std::vector<Case>& out, const std::string& dotek, const fs::path&
                           "missing-field-zero"};
     if (runOnce(post).status == 0)
       out.push_back({fmt::format("post, corpus cycle {}", number), post, {0}, 12, 30});
+    const Command convert = {dotek,       "convert", folder.string(), "--prog",   posts.front().string(),
+                             "--recover", "--to",    "fanuc",         "--assume", "missing-field-zero"};
+    if (runOnce(convert).status == 0)
+      out.push_back({fmt::format("convert, corpus cycle {}", number), convert, {0}, 15, 30});
     out.push_back(
         {fmt::format("lint, corpus cycle {}", number), {dotek, "lint", folder.string()}, {0, 1}, {}, {}});
   }
@@ -171,6 +175,12 @@ std::vector<Case> cases(const std::string& dotek, const std::string& corpus, con
                   "--seq", "10:10", "--clearance", "5", "--set", "G=54"},
                  {0},
                  12,
+                 30});
+  out.push_back({"convert, example cycle",
+                 {dotek, "convert", "examples/surface-x", "--prog", "examples/post.txt", "--to", "fanuc",
+                  "--probe-macros", "inspection-plus"},
+                 {0},
+                 15,
                  30});
   out.push_back({"lint, example folder", {dotek, "lint", "examples/surface-x"}, {0, 1}, {}, {}});
   addCorpus(out, dotek, corpus);

@@ -30,6 +30,10 @@ struct Raw {
   std::string select, ignore;
   std::string failOn = "warning";
   std::string stage = "ast";
+  std::vector<std::string> letters, defaults;
+  std::string to, control, probeMacros, programNumber, outputFolder, mapFile;
+  std::string defaultsMode = "alarm";
+  std::string probePower = "source";
   std::uint32_t maxErrors = 50;
   bool recover = false;
 };
@@ -101,6 +105,26 @@ driver::CommonOptions commonOf(const Raw& raw) {
   return out;
 }
 
+driver::ConvertOptions convertOf(const Raw& raw) {
+  driver::ConvertOptions out;
+  out.to = raw.to;
+  out.control = raw.control;
+  if (!raw.probeMacros.empty()) out.probeMacros = raw.probeMacros;
+  if (!raw.programNumber.empty()) {
+    const auto number = wholeNumber(raw.programNumber);
+    if (!number || *number == 0 || *number > 99999999)
+      throw UsageError("--program-number takes a whole number such as 8010, not `" + raw.programNumber + "`");
+    out.programNumber = static_cast<std::uint32_t>(*number);
+  }
+  for (const std::string& text : raw.letters)
+    out.letters.push_back(splitPair("--arg", text));
+  for (const std::string& text : raw.defaults)
+    out.defaults.push_back(splitPair("--default", text));
+  out.useDefaults = raw.defaultsMode == "use";
+  out.switchProbe = raw.probePower == "macro";
+  return out;
+}
+
 void fill(const Raw& raw, Arguments& parsed) {
   parsed.inputs = raw.inputs;
   parsed.common = commonOf(raw);
@@ -108,6 +132,9 @@ void fill(const Raw& raw, Arguments& parsed) {
   if (!raw.routine.empty()) parsed.source.routine = raw.routine;
   if (!raw.cycle.empty()) parsed.source.cycle = raw.cycle;
   parsed.source.form = raw.form;
+  parsed.convert = convertOf(raw);
+  parsed.outputFolder = raw.outputFolder;
+  parsed.mapFile = raw.mapFile;
   parsed.output = raw.output;
   parsed.maxErrors = raw.maxErrors;
   if (!raw.sequence.empty()) {
@@ -131,6 +158,7 @@ void fill(const Raw& raw, Arguments& parsed) {
                                             : Severity::Warning;
   parsed.stage = raw.stage == "tokens" ? driver::Stage::Tokens
                  : raw.stage == "path" ? driver::Stage::Path
+                 : raw.stage == "ir"   ? driver::Stage::Ir
                                        : driver::Stage::Ast;
 }
 
@@ -157,23 +185,70 @@ void addValues(CLI::App& app, Raw& raw) {
       ->allow_extra_args(false);
 }
 
+// What says where the post stands.
+void addSource(CLI::App& app, Raw& raw) {
+  app.add_option("--prog", raw.prog, "the Prog (text of the ComPost post)")->type_name("PROG.txt");
+  app.add_option("--form", raw.form, "what the post's Form decides, as data")->type_name("NAME");
+  app.add_option("--routine", raw.routine, "routine to run for an operation");
+  app.add_option("--cycle", raw.cycle, "name of the cycle, if it is not the folder's");
+  app.add_option("--job", raw.job, "a whole program as a list of operations")->type_name("JOB.toml");
+  app.add_option("--field", raw.field, "the post's field FIELD is the macro's variable VARIABLE")
+      ->type_name("FIELD=VARIABLE")
+      ->allow_extra_args(false);
+  app.add_flag("--recover", raw.recover, "accept the repairs that diagnostics offer");
+}
+
+void addTarget(CLI::App& app, Raw& raw) {
+  app.add_option("--control", raw.control, "profile of the control (see `dotek list controls`)")
+      ->type_name("NAME");
+}
+
 void addPost(CLI::App& app, Raw& raw) {
   CLI::App* post =
       app.add_subcommand("post", "run the Prog for a cycle and print the NC blocks the CAM would print");
   post->add_option("FOLDER", raw.inputs, "folders of the cycles");
-  post->add_option("--prog", raw.prog, "the Prog (text of the ComPost post)")->type_name("PROG.txt");
-  post->add_option("--form", raw.form, "what the post's Form decides, as data")->type_name("NAME");
-  post->add_option("--routine", raw.routine, "routine to run for an operation");
-  post->add_option("--cycle", raw.cycle, "name of the cycle, if it is not the folder's");
-  post->add_option("--job", raw.job, "a whole program as a list of operations")->type_name("JOB.toml");
-  post->add_option("--field", raw.field, "the post's field FIELD is the macro's variable VARIABLE")
-      ->type_name("FIELD=VARIABLE")
-      ->allow_extra_args(false);
+  addSource(*post, raw);
   addValues(*post, raw);
-  post->add_flag("--recover", raw.recover, "accept the repairs that diagnostics offer");
   post->add_option("--seq", raw.sequence, "first sequence number and step (10:10)")->type_name("START:STEP");
   post->add_option("-o", raw.output, "write the program to a file")->type_name("OUT");
   addCommon(*post, raw);
+}
+
+void addConvert(CLI::App& app, Raw& raw) {
+  CLI::App* convert = app.add_subcommand(
+      "convert", "turn a cycle into a program that stays on the control and takes arguments");
+  convert->add_option("FOLDER", raw.inputs, "folders of the cycles");
+  convert->add_option("--to", raw.to, "language to write: fanuc")->type_name("TARGET");
+  addTarget(*convert, raw);
+  convert
+      ->add_option("--probe-macros", raw.probeMacros,
+                   "probing macros that the program calls (see `dotek list macros`)")
+      ->type_name("SET");
+  addSource(*convert, raw);
+  addValues(*convert, raw);
+  convert->add_option("--default", raw.defaults, "default of an argument that may be left out")
+      ->type_name("NAME=VALUE")
+      ->allow_extra_args(false);
+  convert
+      ->add_option("--defaults", raw.defaultsMode,
+                   "an omitted argument that moves the probe: alarm, or use its default")
+      ->check(CLI::IsMember({"alarm", "use"}));
+  convert->add_option("--arg", raw.letters, "letter of an argument")
+      ->type_name("NAME=LETTER")
+      ->allow_extra_args(false);
+  convert
+      ->add_option("--probe-power", raw.probePower,
+                   "the probe is switched where the source does it, or by the program itself")
+      ->check(CLI::IsMember({"source", "macro"}));
+  convert->add_option("--program-number", raw.programNumber, "O number of the program (8000)")
+      ->type_name("N");
+  convert->add_option("--map", raw.mapFile, "write which line comes from where, as JSON")->type_name("FILE");
+  CLI::Option* output =
+      convert->add_option("-o", raw.output, "write the program to a file")->type_name("OUT");
+  convert->add_option("-d", raw.outputFolder, "write each program to DIR/Onnnn.nc")
+      ->type_name("DIR")
+      ->excludes(output);
+  addCommon(*convert, raw);
 }
 
 void addLint(CLI::App& app, Raw& raw) {
@@ -191,8 +266,11 @@ void addLint(CLI::App& app, Raw& raw) {
 void addDump(CLI::App& app, Raw& raw) {
   CLI::App* dump = app.add_subcommand("dump", "print what a stage makes of an input");
   dump->add_option("INPUT", raw.inputs, "files, or folders of cycles");
-  dump->add_option("--stage", raw.stage, "tokens, ast, or path: the moves of ToolPath.mac")
-      ->check(CLI::IsMember({"tokens", "ast", "path"}));
+  dump->add_option("--stage", raw.stage,
+                   "tokens, ast, path: the moves of ToolPath.mac, or ir: what convert works on")
+      ->check(CLI::IsMember({"tokens", "ast", "path", "ir"}));
+  addSource(*dump, raw);
+  addTarget(*dump, raw);
   addValues(*dump, raw);
   addCommon(*dump, raw);
 }
@@ -212,7 +290,7 @@ void checkCommand(const CLI::App& app, const std::vector<std::string>& arguments
 
 // `--set A=1 B=2` means `--set A=1 --set B=2`: pairs that follow a flag of pairs belong to it.
 std::vector<std::string> spreadPairs(const std::vector<std::string>& arguments) {
-  constexpr std::array<std::string_view, 3> kPairFlags = {"--set", "--field", "--host"};
+  constexpr std::array<std::string_view, 5> kPairFlags = {"--set", "--field", "--host", "--default", "--arg"};
   std::vector<std::string> out;
   std::string flag;
   bool first = false;
@@ -245,6 +323,7 @@ std::optional<int> parseArguments(const std::vector<std::string>& arguments, Arg
   app.set_version_flag("--version", "dotek 0.1.0");
   app.require_subcommand(1);
   addPost(app, raw);
+  addConvert(app, raw);
   addLint(app, raw);
   addDump(app, raw);
   CLI::App* explain = app.add_subcommand("explain", "say what a message means and what to do");
@@ -262,6 +341,7 @@ std::optional<int> parseArguments(const std::vector<std::string>& arguments, Arg
     app.parse(reversed);
     const std::string command = app.get_subcommands().front()->get_name();
     parsed.command = command == "post"      ? Command::Post
+                     : command == "convert" ? Command::Convert
                      : command == "lint"    ? Command::Lint
                      : command == "dump"    ? Command::Dump
                      : command == "explain" ? Command::Explain

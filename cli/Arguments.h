@@ -11,7 +11,7 @@
 
 namespace dotek::cli {
 
-enum class Command : unsigned char { Post, Lint, Dump, Explain, List };
+enum class Command : unsigned char { Post, Convert, Lint, Dump, Explain, List };
 
 struct Arguments {
   Command command = Command::Post;
@@ -24,6 +24,9 @@ struct Arguments {
   std::optional<Severity> failOn = Severity::Warning; // nothing: never
   std::optional<std::set<std::string>> select;
   std::set<std::string> ignore;
+  driver::ConvertOptions convert; // inputs, common and source aside
+  std::string outputFolder;       // -d
+  std::string mapFile;            // --map
   driver::Stage stage = driver::Stage::Ast;
   std::uint32_t maxErrors = 50;
 };

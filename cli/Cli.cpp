@@ -35,6 +35,27 @@ public:
     return kUsage;
   }
 
+  // Programs to standard output, `-o` or `-d`; the map beside them.
+  int programs(const driver::Outcome& outcome, const Arguments& arguments) {
+    err_ << renderText(outcome.diagnostics, outcome.sources, maxErrors_);
+    if (outcome.status != 0) return outcome.status;
+    std::vector<std::pair<std::string, const std::string*>> writes;
+    if (!arguments.outputFolder.empty()) {
+      for (const driver::OutputFile& file : outcome.files)
+        writes.emplace_back(arguments.outputFolder + "/" + file.name, &file.text);
+    } else if (!arguments.output.empty()) {
+      writes.emplace_back(arguments.output, &outcome.output);
+    }
+    if (!arguments.mapFile.empty()) writes.emplace_back(arguments.mapFile, &outcome.map);
+    Diagnostics writing;
+    if (!writeAllAtomically(writes, arguments.outputFolder, writing)) {
+      err_ << renderText(writing, outcome.sources, maxErrors_);
+      return kUsage;
+    }
+    if (arguments.output.empty() && arguments.outputFolder.empty()) out_ << outcome.output;
+    return kDone;
+  }
+
   // Findings are the result.
   int findings(const driver::Outcome& outcome, bool json, std::optional<Severity> failOn) {
     out_ << (json ? renderJson(outcome.diagnostics, outcome.sources)
@@ -59,14 +80,23 @@ int runCommand(Arguments& arguments, std::ostream& out, std::ostream& err) {
     return printer.result(
         driver::post({arguments.inputs, arguments.common, arguments.source, arguments.sequence}),
         arguments.output);
+  case Command::Convert: {
+    driver::ConvertOptions& options = arguments.convert;
+    options.inputs = arguments.inputs;
+    options.common = arguments.common;
+    options.source = arguments.source;
+    options.oneFile = !arguments.output.empty();
+    return printer.programs(driver::convert(options), arguments);
+  }
   case Command::Lint: {
     const driver::LintOptions options{arguments.inputs, arguments.common, arguments.source, arguments.select,
                                       arguments.ignore};
     return printer.findings(driver::lint(options), arguments.json, arguments.failOn);
   }
   case Command::Dump:
-    return printer.result(
-        driver::dump({arguments.inputs, arguments.stage, arguments.common, arguments.source}), "");
+    return printer.result(driver::dump({arguments.inputs, arguments.stage, arguments.common, arguments.source,
+                                        arguments.convert.control}),
+                          "");
   case Command::Explain: return printer.result(driver::explain(arguments.inputs.front()), "");
   case Command::List: return printer.result(driver::list(arguments.inputs.front(), arguments.common), "");
   }

@@ -8,6 +8,15 @@
 namespace dotek::driver {
 namespace {
 
+constexpr std::string_view kTouch = "touch=";
+
+// touch=FILE:LINE
+bool namesTouch(const std::string& name) {
+  const std::size_t colon = name.rfind(':');
+  return name.starts_with(kTouch) && colon != std::string::npos && colon > kTouch.size() &&
+         colon + 1 < name.size() && name.find_first_not_of("0123456789", colon + 1) == std::string::npos;
+}
+
 // Word?=yes, Word?(name)=no
 bool answersCondition(const std::string& name) {
   const std::size_t mark = name.find('?');
@@ -23,6 +32,8 @@ std::vector<std::pair<std::string, std::string>> assumptionTable() {
        "a field that the macro changes behind its dialog: the macro's value is stored"},
       {"changed-field=given", "a field that the macro changes behind its dialog: the given value is stored"},
       {"unchecked", "checks of CycleData.mac that cannot be made: the values pass"},
+      {"touch=FILE:LINE", "a move of ToolPath.mac that could be a touch and does not show it: it is one"},
+      {"plain-messages", "a message that the control cannot show: accents and odd characters are dropped"},
       {"and-before-or", "AND beside OR in a Prog: AND binds tighter"},
       {"left-to-right", "AND beside OR in a Prog: read from left to right"},
       {"Word?=yes", "a condition of a Prog that only the CAM can answer: it holds"},
@@ -39,11 +50,34 @@ void checkAssumptions(const std::set<std::string>& given, Diagnostics& diagnosti
   for (const std::string& name : given) {
     const bool known =
         std::any_of(table.begin(), table.end(), [&](const auto& row) { return row.first == name; });
-    if (known || answersCondition(name)) continue;
+    if (known || answersCondition(name) || namesTouch(name)) continue;
     const std::string near = nearestName(name, table);
     diagnostics.report<diag::UnknownAssumption>({}, name,
                                                 near.empty() ? "" : "; did you mean `" + near + "`?");
   }
+}
+
+std::vector<SourceRange> touchLines(const SourceMap& sources, const std::set<std::string>& given,
+                                    Diagnostics& diagnostics) {
+  std::vector<SourceRange> out;
+  for (const std::string& name : given) {
+    if (!namesTouch(name)) continue;
+    const std::size_t colon = name.rfind(':');
+    const std::string file = name.substr(kTouch.size(), colon - kTouch.size());
+    const unsigned long line = std::stoul(name.substr(colon + 1, 9));
+    const std::size_t before = out.size();
+    for (FileId id = 0; id < sources.size(); ++id) {
+      const SourceFile& source = sources.file(id);
+      const bool same = source.name() == file || source.name().ends_with("/" + file);
+      if (!same || line == 0 || line > source.lineCount()) continue;
+      const std::uint32_t number = static_cast<std::uint32_t>(line);
+      const std::uint32_t begin = source.lineStart(number);
+      out.push_back({id, begin, begin + static_cast<std::uint32_t>(source.line(number).size())});
+    }
+    if (out.size() == before)
+      diagnostics.report<diag::UnknownName>({}, "--assume", name, "line in an input", "");
+  }
+  return out;
 }
 
 } // namespace dotek::driver

@@ -16,4 +16,8 @@ std::vector<std::pair<std::string, std::string>> assumptionTable();
 // A name outside the table is a usage error: a misspelt assumption would silently assume nothing.
 void checkAssumptions(const std::set<std::string>& given, Diagnostics& diagnostics);
 
+// The lines that `touch=FILE:LINE` names; FILE is a path as given, or its end.
+std::vector<SourceRange> touchLines(const SourceMap& sources, const std::set<std::string>& given,
+                                    Diagnostics& diagnostics);
+
 } // namespace dotek::driver

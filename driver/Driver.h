@@ -48,6 +48,21 @@ struct PostOptions {
   std::optional<std::pair<std::uint64_t, std::uint64_t>> sequence; // start, step
 };
 
+struct ConvertOptions {
+  std::vector<std::string> inputs; // folders of cycles
+  CommonOptions common;
+  SourceOptions source;
+  std::string to;
+  std::string control;                    // "": the target's first
+  std::optional<std::string> probeMacros; // nothing: the set that the source calls
+  std::optional<std::uint32_t> programNumber;
+  NamedTexts letters;       // --arg NAME=LETTER
+  NamedTexts defaults;      // --default NAME=VALUE
+  bool useDefaults = false; // --defaults use
+  bool switchProbe = false; // --probe-power macro
+  bool oneFile = false;     // -o: several inputs are an error
+};
+
 enum class LintFormat : std::uint8_t { Text, Json };
 
 struct LintOptions {
@@ -58,13 +73,20 @@ struct LintOptions {
   std::set<std::string> ignore;
 };
 
-enum class Stage : std::uint8_t { Tokens, Ast, Path };
+enum class Stage : std::uint8_t { Tokens, Ast, Path, Ir };
 
 struct DumpOptions {
   std::vector<std::string> inputs;
   Stage stage = Stage::Ast;
   CommonOptions common;
   SourceOptions source;
+  std::string control; // Ir: as of convert
+};
+
+// One file of a result that may have several; `output` holds them one behind the other.
+struct OutputFile {
+  std::string name; // "O8000.nc"
+  std::string text;
 };
 
 // What a command gives. `status` is 0, 1 or 2 as docs/cli.md says; with a status other than 0 of post,
@@ -72,11 +94,15 @@ struct DumpOptions {
 struct Outcome {
   int status = 0;
   std::string output;
+  std::vector<OutputFile> files; // of convert
+  std::string map;               // of convert: what --map writes
   SourceMap sources;
   Diagnostics diagnostics; // sorted
 };
 
 Outcome post(const PostOptions& options);
+// Each folder becomes a program; with a status other than 0 there is none.
+Outcome convert(const ConvertOptions& options);
 // The diagnostics are the result; status is 2 where a file could not be read, else 0 (cli looks at the
 // severities, for --fail-on).
 Outcome lint(const LintOptions& options);

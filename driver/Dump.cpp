@@ -3,10 +3,13 @@
 #include "driver/Fields.h"
 #include "driver/Hosts.h"
 #include "driver/InputKind.h"
+#include "driver/Lowering.h"
 #include "driver/PostProgram.h"
 #include "driver/Session.h"
 #include "frontend/compost/Parse.h"
 #include "frontend/gibbs/Run.h"
+#include "ir/Fold.h"
+#include "ir/Print.h"
 #include "support/Decimal.h"
 #include "support/Files.h"
 
@@ -28,6 +31,11 @@ public:
     if (options_.inputs.empty())
       session_.diagnostics().report<diag::MissingOption>({}, "dump", "INPUT",
                                                          "a file or the folder of a cycle");
+    if (options_.stage == Stage::Ir) {
+      ir();
+      keepStrongest(session_.diagnostics());
+      return session_.finish(std::move(out_));
+    }
     for (const std::string& input : options_.inputs)
       one(input);
     if (options_.stage == Stage::Path) keepStrongest(session_.diagnostics());
@@ -87,6 +95,27 @@ private:
       out_ += gibbs::dumpAst(gibbs::parseDefineData(*id, context), session_.sources());
       break;
     }
+  }
+
+  // What convert works on: fixed values are folded in.
+  void ir() {
+    const auto inputs = loadLoweringInputs(
+        options_.source, options_.control.empty() ? std::string(kDefaultControl) : options_.control,
+        session_);
+    if (!inputs || session_.diagnostics().hasErrors()) return;
+    ir::Module module;
+    std::set<std::string> usedSets;
+    for (const std::string& input : options_.inputs) {
+      CycleFolder folder = loadCycleFolder(input, session_);
+      if (options_.source.cycle && options_.inputs.size() == 1) folder.name = *options_.source.cycle;
+      leaveFindingsToLint(session_);
+      if (session_.diagnostics().hasErrors()) return;
+      std::optional<LoweredCycle> lowered = lowerCycle(folder, *inputs, usedSets, session_);
+      if (!lowered) return;
+      if (!lowered->fixed.empty()) ir::fold(lowered->cycle, lowered->fixed);
+      module.cycles.push_back(std::move(lowered->cycle));
+    }
+    out_ = ir::print(module, &session_.sources());
   }
 
   // The moves that ToolPath.mac writes for the given values: a dry run outside the CAM.

@@ -1,7 +1,10 @@
 #include "driver/Assumptions.h"
 #include "driver/Driver.h"
 #include "driver/Session.h"
+#include "driver/Targets.h"
+#include "stdlib/Control.h"
 #include "stdlib/HostInputs.h"
+#include "stdlib/MacroSet.h"
 #include "support/NearestName.h"
 
 #include <algorithm>
@@ -40,6 +43,55 @@ std::string table(const std::vector<std::pair<std::string, std::string>>& rows) 
   return out;
 }
 
+// "title: calculator (assumed), IF THEN, skip at #5061, common #100-#199 #500-#999, 104 codes"
+std::string facts(const stdlib::Control& control) {
+  std::string common;
+  for (const stdlib::VariableRange& range : control.common)
+    common += fmt::format(" #{}-#{}", range.first, range.last);
+  const std::string skip =
+      control.variables.skip ? fmt::format("skip at #{}", *control.variables.skip) : "no skip position";
+  return fmt::format("{}: {} ({}), {}, {}, common{}, {} codes", control.title,
+                     control.decimal == stdlib::DecimalMode::Calculator ? "calculator" : "increment",
+                     control.decimalGrade, control.ifThen ? "IF THEN" : "no IF THEN", skip, common,
+                     control.codes.size());
+}
+
+// "title: P9770 protected move; P9023 single surface along X, .."
+std::string facts(const stdlib::MacroSet& set) {
+  std::string out = set.title;
+  std::uint32_t program = 0;
+  for (const stdlib::MacroSignature& signature : set.signatures) {
+    const bool same = signature.program == program;
+    out += fmt::format("{}{}",
+                       same           ? ", "
+                       : program == 0 ? ": "
+                                      : "; ",
+                       same ? signature.title : fmt::format("P{} {}", signature.program, signature.title));
+    program = signature.program;
+  }
+  return out;
+}
+
+// Name, origin and facts of each file of the folder; a file with a defect is reported, and the others stand.
+template <class Thing>
+std::vector<std::pair<std::string, std::string>> loaded(Session& session, const std::string& folder) {
+  const std::vector<const stdlib::DataFile*> files = session.data().list(folder);
+  std::size_t width = 0;
+  for (const stdlib::DataFile* file : files)
+    width = std::max(width, file->origin.size());
+  std::vector<std::pair<std::string, std::string>> rows;
+  for (const stdlib::DataFile* file : files) {
+    try {
+      const std::optional<Thing> thing = Thing::load(session.data(), file->name);
+      rows.emplace_back(file->name, fmt::format("{:<{}}  {}", file->origin, width, facts(*thing)));
+    } catch (const stdlib::DataError& error) {
+      rows.emplace_back(file->name, fmt::format("{:<{}}  does not load", file->origin, width));
+      session.diagnostics().report<diag::DataFileDefect>({}, error.what());
+    }
+  }
+  return rows;
+}
+
 } // namespace
 
 Outcome explain(const std::string& code) {
@@ -73,17 +125,22 @@ Outcome list(const std::string& what, const CommonOptions& options) {
     } else if (what == "rules") {
       for (const MessageInfo& info : messageTable())
         rows.emplace_back(info.code, severityName(info.severity));
-    } else if (what == "forms" || what == "controls" || what == "macros" || what == "cycles") {
+    } else if (what == "controls") {
+      rows = loaded<stdlib::Control>(session, what);
+    } else if (what == "macros") {
+      rows = loaded<stdlib::MacroSet>(session, what);
+    } else if (what == "forms" || what == "cycles") {
       for (const stdlib::DataFile* file : session.data().list(what))
         rows.emplace_back(file->name, file->origin);
       if (rows.empty())
         return session.finish("none in this release; a folder given with --data can add some\n");
     } else if (what == "targets") {
-      return session.finish("none in this release\n");
+      for (const std::string_view target : kTargets)
+        rows.emplace_back(target, "program that is called with G65");
     } else {
       session.diagnostics().report<diag::UnknownList>({}, what);
     }
-    return session.finish(table(rows));
+    return session.finish(table(rows), true);
   });
 }
 

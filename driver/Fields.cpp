@@ -131,28 +131,29 @@ std::string FieldTable::proposal(const std::string& name) const {
                      inputs, name, name);
 }
 
-std::optional<double> FieldTable::value(const std::string& name, SourceRange where) {
+std::optional<FieldOrigin> FieldTable::origin(const std::string& name, SourceRange where) {
   Diagnostics& diagnostics = session_.diagnostics();
   const auto mapped = mapped_.find(name);
   const std::string wanted = mapped == mapped_.end() ? name : mapped->second;
   if (mapped == mapped_.end()) {
-    if (const auto given = postOnly_.find(name); given != postOnly_.end()) return given->second;
+    if (const auto given = postOnly_.find(name); given != postOnly_.end())
+      return FieldOrigin{"", given->second};
   }
   if (const Entry* entry = declared(wanted)) {
     if (entry->name != wanted && told_.insert(name).second)
       diagnostics.report<diag::FieldCase>(where, name, entry->name, folder_.name);
-    if (!entry->value && told_.insert(entry->name).second)
-      diagnostics.report<diag::FieldWithoutValue>(where, entry->name, folder_.name);
-    return entry->value;
+    return FieldOrigin{entry->name, std::nullopt};
   }
   const bool zero = session_.options().assume.contains("missing-field-zero");
-  if (!told_.insert(name).second) return zero ? std::optional(0.0) : std::nullopt;
+  const std::optional<FieldOrigin> nothing =
+      zero ? std::optional(FieldOrigin{"", 0.0}) : std::optional<FieldOrigin>();
+  if (!told_.insert(name).second) return nothing;
   const std::string defineData = folder_.cycle->defineData
                                      ? session_.sources().file(folder_.cycle->defineData->file).name()
                                      : folder_.name;
   if (zero) {
     diagnostics.report<diag::MissingFieldZero>(where, name, defineData);
-    return 0.0;
+    return nothing;
   }
   Diagnostic& missing = diagnostics.report<diag::MissingField>(
       where, name, session_.sources().file(where.file).name(), defineData, proposal(name));
@@ -163,7 +164,16 @@ std::optional<double> FieldTable::value(const std::string& name, SourceRange whe
     missing.note({folder_.cycle->defineData->file, 0, 0},
                  "the macro declares " + (names.empty() ? "nothing" : names));
   }
-  return std::nullopt;
+  return nothing;
+}
+
+std::optional<double> FieldTable::value(const std::string& name, SourceRange where) {
+  const std::optional<FieldOrigin> from = origin(name, where);
+  if (!from || from->number) return from ? from->number : std::nullopt;
+  const Entry* entry = declared(from->variable);
+  if (!entry->value && told_.insert(entry->name).second)
+    session_.diagnostics().report<diag::FieldWithoutValue>(where, entry->name, folder_.name);
+  return entry->value;
 }
 
 std::map<std::string, double> FieldTable::macroValues() const {

@@ -13,6 +13,12 @@
 
 namespace dotek::driver {
 
+// Where the value of a post's field comes from: a variable of the macro as it declares it, or a number.
+struct FieldOrigin {
+  std::string variable; // "" where `number` holds
+  std::optional<double> number;
+};
+
 class FieldTable {
 public:
   // `printed` are the fields that the post's branch of this cycle prints, as spelt there.
@@ -29,8 +35,12 @@ public:
   // The end of a message about an unknown name: the nearest of macro and post, or what there is.
   std::string hint(const std::string& name) const;
 
+  // What the field is that the Prog prints at `where`; reports why there is nothing.
+  std::optional<FieldOrigin> origin(const std::string& name, SourceRange where);
   // Value of a field that the Prog prints at `where`; reports why there is none.
   std::optional<double> value(const std::string& name, SourceRange where);
+  // Numbers that --set or the job gave for names that only the post knows.
+  const std::map<std::string, double>& postOnly() const { return postOnly_; }
   // What the macro sees, by folded name.
   std::map<std::string, double> macroValues() const;
   // A value that the macro changes after its dialog.

@@ -68,7 +68,9 @@ Outcome Session::finish(std::string output, bool keepOutput) {
     // What stands in a file is an error of that input, not of the command line.
     return d.severity == Severity::Error && isUsageCode(d.code) && !d.range.hasPlace();
   });
-  outcome.status = usage ? 2 : diagnostics_.hasErrors() ? 1 : 0;
+  const bool defect = std::any_of(all.begin(), all.end(),
+                                  [](const Diagnostic& d) { return d.code == diag::InternalDefect::code; });
+  outcome.status = defect ? 3 : usage ? 2 : diagnostics_.hasErrors() ? 1 : 0;
   if (outcome.status == 0 || keepOutput) outcome.output = std::move(output);
   outcome.sources = std::move(sources_);
   outcome.diagnostics = std::move(diagnostics_);
@@ -99,6 +101,9 @@ bool isUsageCode(std::string_view code) {
       diag::UnknownKind::code,      diag::UnknownCode::code,     diag::UnknownList::code,
       diag::NoSuchField::code,      diag::HostInputRange::code,  diag::UnknownAssumption::code,
       diag::CycleWithSeveral::code, diag::CycleNameTwice::code,  diag::NotAFolder::code,
+      diag::UnknownTarget::code,    diag::UnknownProfile::code,  diag::UnknownMacroSet::code,
+      diag::LetterNotAllowed::code, diag::OutputForOne::code,    diag::ArgumentUnknown::code,
+      diag::LetterTwice::code,
   };
   return std::find(kCodes.begin(), kCodes.end(), code) != kCodes.end();
 }

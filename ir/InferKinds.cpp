@@ -22,7 +22,14 @@ bool hasRequirements(const Statement& statement) {
 
 class Inference {
 public:
-  explicit Inference(Cycle& cycle) : cycle_(cycle), groupsOf_(cycle.variables.size()) {}
+  explicit Inference(Cycle& cycle)
+      : cycle_(cycle), groupsOf_(cycle.variables.size()), assigned_(cycle.variables.size()) {
+    for (const auto* list : {&cycle.checks, &cycle.body})
+      for (const Statement& statement : *list) {
+        const auto* set = std::get_if<Assign>(&statement.node);
+        if (set != nullptr && set->variable < assigned_.size()) ++assigned_[set->variable];
+      }
+  }
 
   void run() {
     for (const auto* list : {&cycle_.checks, &cycle_.body})
@@ -44,6 +51,12 @@ public:
   }
 
 private:
+  // A work variable that is set in several places may hold a length here and a number there: it stays a
+  // number.
+  bool holdsOneKind(VariableId id) const {
+    return id >= assigned_.size() || assigned_[id] < 2 || cycle_.variables[id].role != Role::Local;
+  }
+
   // The kind of the first declared variable of the group.
   bool adopt(Group& group) const {
     for (const VariableId id : group.variables) {
@@ -69,7 +82,7 @@ private:
   void read(const Statement& statement) {
     if (const auto* set = std::get_if<Assign>(&statement.node)) {
       Group group;
-      group.variables.push_back(set->variable);
+      if (holdsOneKind(set->variable)) group.variables.push_back(set->variable);
       collect(set->value, group);
       groups_.push_back(std::move(group));
     } else if (const auto* branch = std::get_if<Branch>(&statement.node)) {
@@ -107,7 +120,7 @@ private:
   // Puts the variables that are of the kind of the whole into `group`; the others form groups of their own.
   void collect(const ExpressionPtr& expression, Group& group) {
     if (const auto* use = std::get_if<VariableUse>(&expression->node)) {
-      group.variables.push_back(use->variable);
+      if (holdsOneKind(use->variable)) group.variables.push_back(use->variable);
     } else if (const auto* machine = std::get_if<MachineVariable>(&expression->node)) {
       add(machine->number, Kind::Number);
     } else if (const auto* one = std::get_if<Unary>(&expression->node)) {
@@ -145,7 +158,8 @@ private:
   Cycle& cycle_;
   std::vector<Group> groups_;
   std::vector<std::vector<std::size_t>> groupsOf_;
-  std::deque<std::size_t> open_; // groups whose kind is to be given to their variables
+  std::vector<std::size_t> assigned_; // number of assignments, by variable
+  std::deque<std::size_t> open_;      // groups whose kind is to be given to their variables
 };
 
 } // namespace

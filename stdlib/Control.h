@@ -73,9 +73,10 @@ struct CodeInfo {
   char letter = 'G';
   std::uint32_t tenths = 0; // code times ten: G54.1 is 541
   Function function = Function::Other;
-  std::optional<int> group; // modal group; nothing: one-shot, or not known
-  std::string title;        // what lists print
-  std::string grade;        // "documented", "observed", "inferred"
+  std::optional<int>
+      group;         // modal group, same for codes that end each other; nothing: one-shot, or not known
+  std::string title; // what lists print
+  std::string grade; // "documented", "observed", "inferred", "assumed"
   std::string source;
 };
 
@@ -103,7 +104,7 @@ struct Control {
   std::string title;  // what lists print
   std::string origin; // "built in", or the file
   DecimalMode decimal = DecimalMode::Calculator;
-  std::string decimalGrade;      // "observed", "assumed"
+  std::string decimalGrade;      // a grade, as of a code
   double increment = 0.001;      // mm, least input increment
   int decimals = 3;              // most digits behind the point of a word, mm
   int integerDigits = 5;         // most digits before the point
@@ -113,7 +114,8 @@ struct Control {
   std::uint32_t locals = 33;
   std::uint32_t macroLevels = 4;
   std::vector<VariableRange> common;
-  std::set<std::string> functions;               // SIN, ATAN, ...
+  // SIN, ATAN, AND, ...; beside ATAN the forms that exist: "ATAN[y]" (-90 to 90), "ATAN[y]/[x]", "ATAN[y,x]".
+  std::set<std::string> functions;
   std::uint32_t alarmFirst = 0, alarmLast = 200; // n of #3000=n
   std::uint32_t alarmLength = 26;                // characters of a message
   std::uint32_t programLast = 9999;              // greatest O number

@@ -176,6 +176,11 @@ std::optional<Form> Form::load(const DataFiles& files, std::string_view name,
   Form form;
   form.name = name;
   form.origin = file->origin;
+  const TomlValue control = document.root().value("control");
+  form.control = control.text();
+  if (control && files.find("controls", form.control) == nullptr)
+    document.fail(control.range(),
+                  fmt::format("no control `{}`; `dotek list controls` prints them", form.control));
   reader.commands(form);
   reader.numerics(form);
   reader.booleans(form);

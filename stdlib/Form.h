@@ -29,7 +29,8 @@ struct FormBoolean {
 
 struct Form {
   std::string name;
-  std::string origin; // "built in", or the file: what messages tell to extend
+  std::string origin;  // "built in", or the file: what messages tell to extend
+  std::string control; // profile of the machine that the post writes for (stdlib/controls); "" where not said
   std::map<std::string, FormEntry, std::less<>> commands; // SpinOff, ZCP1, ...
   std::map<std::string, FormEntry, std::less<>>
       numerics; // keyword without `#`: its picture, and the host input it prints

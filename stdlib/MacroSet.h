@@ -64,7 +64,7 @@ struct MacroArgument {
 struct MacroResult {
   ir::ResultName name = ir::ResultName::Main;
   std::uint32_t variable = 0;
-  bool documented = true; // what it holds is known
+  bool documented = true; // what it holds is known; never with Main
 };
 
 // One reading of a call. A program that measures in several ways has one signature for each.
@@ -100,12 +100,12 @@ struct MacroSet {
   static std::optional<MacroSet> load(const DataFiles& files, std::string_view name);
 };
 
-// How the letters of a call fit the signatures of its program.
+// How the letters of a call fit the signatures of its program. All empty: the set does not have the program.
 struct SignatureMatch {
   const MacroSignature* signature = nullptr; // the only one that fits; nullptr: see the rest
   char unknown = 0;                          // letter that no signature of the program has
-  std::string missing;                       // letters that the nearest signature needs: "S", "X or Y or Z"
-  bool ambiguous = false;
+  std::string missing;    // letters that the nearest signatures need: "S", "X or Y or Z", "S and I"
+  bool ambiguous = false; // every letter is known, and they belong to different readings: XY of one surface
 };
 SignatureMatch match(const MacroSet& set, std::uint32_t program, std::string_view letters);
 

@@ -102,26 +102,61 @@ std::optional<FileId> addText(std::string name, std::string bytes, Encoding fall
   return id;
 }
 
-bool writeAtomically(const std::string& path, const std::string& bytes, Diagnostics& diagnostics) {
-  const std::string temporary = path + ".dotek-" + std::to_string(getpid());
-  {
-    std::ofstream out(temporary, std::ios::binary);
-    out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-    out.flush();
-    if (!out) {
-      diagnostics.report<diag::FileNotWritable>({}, path, std::strerror(errno));
-      std::remove(temporary.c_str());
-      return false;
-    }
-  }
+namespace {
+
+std::string temporaryOf(const std::string& path) {
+  return path + ".dotek-" + std::to_string(getpid());
+}
+
+bool writeTemporary(const std::string& path, const std::string& bytes, Diagnostics& diagnostics) {
+  std::ofstream out(temporaryOf(path), std::ios::binary);
+  out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  out.flush();
+  if (out) return true;
+  diagnostics.report<diag::FileNotWritable>({}, path, std::strerror(errno));
+  std::remove(temporaryOf(path).c_str());
+  return false;
+}
+
+bool rename(const std::string& path, Diagnostics& diagnostics) {
   std::error_code error;
-  fs::rename(temporary, path, error);
+  fs::rename(temporaryOf(path), path, error);
+  if (!error) return true;
+  diagnostics.report<diag::FileNotWritable>({}, path, error.message());
+  std::remove(temporaryOf(path).c_str());
+  return false;
+}
+
+} // namespace
+
+bool writeAtomically(const std::string& path, const std::string& bytes, Diagnostics& diagnostics) {
+  return writeTemporary(path, bytes, diagnostics) && rename(path, diagnostics);
+}
+
+bool writeAllAtomically(const std::vector<std::pair<std::string, const std::string*>>& files,
+                        const std::string& folder, Diagnostics& diagnostics) {
+  std::error_code error;
+  if (!folder.empty()) fs::create_directories(folder, error);
   if (error) {
-    diagnostics.report<diag::FileNotWritable>({}, path, error.message());
-    std::remove(temporary.c_str());
+    diagnostics.report<diag::FileNotWritable>({}, folder, error.message());
     return false;
   }
-  return true;
+  std::size_t written = 0;
+  while (written < files.size() && writeTemporary(files[written].first, *files[written].second, diagnostics))
+    ++written;
+  bool good = written == files.size();
+  for (std::size_t i = 0; good && i < written; ++i) {
+    if (!fs::is_directory(files[i].first, error)) continue;
+    diagnostics.report<diag::FileNotWritable>({}, files[i].first, std::strerror(EISDIR));
+    good = false;
+  }
+  for (std::size_t i = 0; i < written; ++i) {
+    if (good)
+      good = rename(files[i].first, diagnostics);
+    else
+      std::remove(temporaryOf(files[i].first).c_str());
+  }
+  return good;
 }
 
 } // namespace dotek

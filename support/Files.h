@@ -7,6 +7,8 @@
 
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace dotek {
 
@@ -24,5 +26,10 @@ std::optional<FileId> addText(std::string name, std::string bytes, Encoding fall
 
 // Writes a temporary file beside `path` and renames it: the result is complete or absent.
 bool writeAtomically(const std::string& path, const std::string& bytes, Diagnostics& diagnostics);
+
+// The same for several files: all temporary files are written before the first is renamed. `folder` is made
+// where it is missing ("": none).
+bool writeAllAtomically(const std::vector<std::pair<std::string, const std::string*>>& files,
+                        const std::string& folder, Diagnostics& diagnostics);
 
 } // namespace dotek

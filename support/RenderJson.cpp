@@ -1,4 +1,5 @@
 #include "support/Diagnostics.h"
+#include "support/LineMap.h"
 
 #include <nlohmann/json.hpp>
 
@@ -59,6 +60,26 @@ std::string renderJson(const Diagnostics& diagnostics, const SourceMap& sources)
     array.push_back(std::move(one));
   }
   // Names and texts may hold any bytes: replace what is no UTF-8 instead of throwing.
+  return array.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::string renderLineMap(const std::vector<MappedResult>& results, const SourceMap& sources) {
+  Json array = Json::array();
+  for (const MappedResult& result : results) {
+    Json one;
+    one["name"] = result.name;
+    one["lines"] = Json::array();
+    for (const MappedLine& line : result.lines) {
+      Json row;
+      row["line"] = line.line;
+      row["sources"] = Json::array();
+      for (const SourceRange& range : line.ranges)
+        row["sources"].push_back(place(range, sources));
+      row["reason"] = line.reason;
+      one["lines"].push_back(std::move(row));
+    }
+    array.push_back(std::move(one));
+  }
   return array.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

@@ -26,6 +26,10 @@ struct EmitOptions {
   ProbePowerMode probePower = ProbePowerMode::Source;
   std::map<std::string, char> letters; // --arg, by name of the parameter or host input
   std::map<std::string, double> fixed; // what --set, --host or the job fixed: named in the header
+  // Accents of messages are dropped (--assume plain-messages); else they are refused.
+  bool plainMessages = false;
+  // The source calls another set: calls are written in the order of the signature, not of the source's block.
+  bool foreignMacros = false;
 };
 
 struct EmittedLine {
@@ -41,7 +45,8 @@ struct Argument {
   std::uint32_t local = 0; // #n
 };
 
-// Letters for the parameters and host inputs that `cycle` still uses (docs/convert.md, "Letters"). Reports
+// Letters for the parameters and host inputs that `cycle` still uses (docs/convert.md, "Letters"), parameters
+// in the order of declaration, then hosts. The start point is no argument where the control tells it. Reports
 // letters that are not allowed or given twice, and more names than letters (with the list); nullopt then.
 std::optional<std::vector<Argument>> assignLetters(const ir::Cycle& cycle, const EmitOptions& options,
                                                    Diagnostics& diagnostics);

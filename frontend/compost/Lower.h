@@ -37,7 +37,7 @@ struct Lowered {
   const stdlib::MacroSet* macros = nullptr; // the set that the blocks call; nullptr: none
 };
 
-// Appends to `cycle` what the routine prints for the cycle `cycleId`. nullopt where something has no single
+// What the routine prints for the cycle `cycleId`. nullopt where something has no single
 // meaning: reported. A condition that is not known is refused; where its two sides leave different modal G
 // codes in force the message says so.
 std::optional<Lowered> lowerRoutine(const Program& program, const Routine& routine,

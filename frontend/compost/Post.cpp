@@ -9,54 +9,15 @@
 namespace dotek::frontend::compost {
 namespace {
 
-void collectSetters(const std::vector<Statement>& body, const Routine& routine,
-                    std::map<std::string, const Routine*, std::less<>>& setters) {
-  for (const Statement& statement : body) {
-    if (const auto* word = std::get_if<Word>(&statement)) {
-      if (word->name == kSetFlagKeyword && word->arguments.size() == 1)
-        setters.emplace(word->arguments.front().text, &routine);
-    } else if (const auto* branch = std::get_if<std::unique_ptr<If>>(&statement)) {
-      collectSetters((*branch)->thenBody, routine, setters);
-      collectSetters((*branch)->elseBody, routine, setters);
-    }
-  }
-}
-
 bool isPrintableAscii(std::string_view text) {
   return std::all_of(text.begin(), text.end(), [](char c) { return c >= ' ' && c <= '~'; });
 }
 
 } // namespace
 
-PostRun::Impl::Impl(const Program& programIn, const PostSettings& settingsIn, Diagnostics& diagnosticsIn)
-    : program(programIn), settings(settingsIn), diagnostics(diagnosticsIn),
-      sequence(settingsIn.sequenceStart) {
-  std::map<std::uint32_t, const PictureDefinition*> defined;
-  for (const Item& item : program.items) {
-    if (const auto* routine = std::get_if<Routine>(&item)) {
-      routines.emplace(routine->name, routine);
-      collectSetters(routine->body, *routine, flagSetters);
-    }
-    if (const auto* picture = std::get_if<PictureDefinition>(&item))
-      defined.emplace(picture->number, picture);
-  }
-  for (const auto& [keyword, entry] : settings.form.numerics) {
-    auto parsed = Picture::parse(entry.picture);
-    if (auto* picture = std::get_if<Picture>(&parsed))
-      pictures.insert_or_assign(keyword, std::move(*picture));
-  }
-  for (const Item& item : program.items) {
-    const auto* format = std::get_if<FormatDirective>(&item);
-    if (format == nullptr) continue;
-    if (format->kind == WordKind::Command) commandFormats.emplace(format->name, format->nameRange);
-    if (format->kind != WordKind::Numeric) continue; // another keyword than the number's
-    const auto found = defined.find(format->number);
-    if (found == defined.end()) continue; // reported by check
-    auto parsed = Picture::parse(found->second->picture.text);
-    if (auto* picture = std::get_if<Picture>(&parsed))
-      pictures.insert_or_assign(format->name, std::move(*picture));
-  }
-}
+PostRun::Impl::Impl(const Program& program, const PostSettings& settingsIn, Diagnostics& diagnosticsIn)
+    : settings(settingsIn), diagnostics(diagnosticsIn), tables(program, settingsIn.form),
+      conditions(program, settingsIn.form, settingsIn.assumptions), sequence(settingsIn.sequenceStart) {}
 
 PostRun::PostRun(const Program& program, const PostSettings& settings, Diagnostics& diagnostics)
     : impl_(std::make_unique<Impl>(program, settings, diagnostics)) {}
@@ -64,6 +25,7 @@ PostRun::~PostRun() = default;
 
 void PostRun::run(const Routine& routine, const Operation& operation) {
   impl_->operation = &operation;
+  impl_->conditions.cycle = operation.cycle;
   impl_->call(routine, routine.nameRange);
   impl_->operation = nullptr;
 }
@@ -120,7 +82,9 @@ void PostRun::Impl::body(const std::vector<Statement>& statements) {
       endLine(eol->range);
     } else if (const auto* branch = std::get_if<std::unique_ptr<If>>(&statement)) {
       if (!step((*branch)->ifRange)) return;
-      body(holds((*branch)->condition) ? (*branch)->thenBody : (*branch)->elseBody);
+      // An operand that decides nothing may stay unknown; one that decides was reported.
+      body(conditions.truth((*branch)->condition, diagnostics).value_or(false) ? (*branch)->thenBody
+                                                                               : (*branch)->elseBody);
     }
     if (stopped) return;
   }
@@ -161,16 +125,12 @@ void PostRun::Impl::word(const Word& word) {
 
 void PostRun::Impl::command(const Word& word) {
   if (word.name == kSetFlagKeyword || word.name == kClearFlagKeyword) {
-    if (word.arguments.size() != 1) {
-      diagnostics.report<diag::FlagNeedsName>(word.range, word.name);
-      return;
-    }
-    flags[word.arguments.front().text] = word.name == kSetFlagKeyword;
+    conditions.setFlag(word, diagnostics);
     return;
   }
   if (word.arguments.empty()) {
-    if (const auto routine = routines.find(word.name); routine != routines.end()) {
-      call(*routine->second, word.nameRange);
+    if (const Routine* routine = tables.routine(word.name)) {
+      call(*routine, word.nameRange);
       return;
     }
     const auto& form = settings.form;
@@ -184,8 +144,8 @@ void PostRun::Impl::command(const Word& word) {
     if (const auto entry = form.commands.find(word.name); entry != form.commands.end()) {
       print(entry->second.text, word.range);
       if (entry->second.value.empty()) return;
-      if (const auto format = commandFormats.find(word.name); format != commandFormats.end()) {
-        diagnostics.report<diag::FormatOfCommand>(format->second, word.name, settings.form.name);
+      if (const SourceRange* format = tables.commandFormat(word.name)) {
+        diagnostics.report<diag::FormatOfCommand>(*format, word.name, settings.form.name);
         return;
       }
       auto parsed = Picture::parse(entry->second.picture);
@@ -198,21 +158,6 @@ void PostRun::Impl::command(const Word& word) {
   if (!tell(diag::CommandNotInForm::code, word.name)) return;
   diagnostics.report<diag::CommandNotInForm>(word.nameRange, word.name, settings.form.name,
                                              settings.form.origin);
-}
-
-const Picture* PostRun::Impl::picture(const std::string& keyword, SourceRange where) {
-  const auto found = pictures.find(keyword);
-  if (found == pictures.end()) {
-    if (tell(diag::NoPicture::code, keyword))
-      diagnostics.report<diag::NoPicture>(where, keyword, settings.form.name, settings.form.origin);
-    return nullptr;
-  }
-  if (!found->second.prefix().empty()) {
-    if (tell(diag::PicturePrefixUnverified::code, keyword))
-      diagnostics.report<diag::PicturePrefixUnverified>(where, found->second.text(), found->second.prefix());
-    return nullptr;
-  }
-  return &found->second;
 }
 
 std::optional<double> PostRun::Impl::host(const std::string& name, SourceRange where) {
@@ -244,7 +189,7 @@ void PostRun::Impl::numeric(const Word& word) {
     }
     value = host(entry->second.value, word.range);
   }
-  const Picture* numberPicture = picture(word.name, word.range);
+  const Picture* numberPicture = tables.picture(word.name, word.range, diagnostics);
   if (value && numberPicture != nullptr) printValue(*value, *numberPicture, what, word.range);
 }
 

@@ -1,28 +1,17 @@
 // Private to Post*.cpp: the state of a run.
 #pragma once
 
+#include "frontend/compost/Conditions.h"
 #include "frontend/compost/Post.h"
+#include "frontend/compost/ProgTables.h"
 
 namespace dotek::frontend::compost {
 
-inline constexpr std::string_view kFieldKeyword = "OpFieldData";
-inline constexpr std::string_view kCycleKeyword = "CycleType";
-inline constexpr std::string_view kFlagKeyword = "Flag";
-inline constexpr std::string_view kSetFlagKeyword = "SetFlag";
-inline constexpr std::string_view kClearFlagKeyword = "SetFlagF";
-
-// Truth of a condition; nothing: a keyword whose truth is not known decides it.
-using Truth = std::optional<bool>;
-
 struct PostRun::Impl {
-  const Program& program;
   const PostSettings& settings;
   Diagnostics& diagnostics;
-  std::map<std::string, const Routine*, std::less<>> routines;
-  std::map<std::string, Picture, std::less<>> pictures; // by keyword: FORMAT, else the form
-  std::map<std::string, bool, std::less<>> flags;
-  std::map<std::string, const Routine*, std::less<>> flagSetters; // first routine that sets the flag
-  std::map<std::string, SourceRange, std::less<>> commandFormats; // FORMAT of a command
+  ProgTables tables;
+  Conditions conditions;
   const Operation* operation = nullptr;
   std::uint64_t sequence = 0;
   std::uint64_t steps = 0;
@@ -35,7 +24,7 @@ struct PostRun::Impl {
   SourceRange lineRange;
   std::vector<PostedLine> lines;
 
-  Impl(const Program& programIn, const PostSettings& settingsIn, Diagnostics& diagnosticsIn);
+  Impl(const Program& program, const PostSettings& settingsIn, Diagnostics& diagnosticsIn);
 
   void call(const Routine& routine, SourceRange where);
   void body(const std::vector<Statement>& statements);
@@ -46,15 +35,9 @@ struct PostRun::Impl {
   void printValue(double value, const Picture& picture, std::string_view what, SourceRange where);
   void endLine(SourceRange where);
   bool step(SourceRange where);
-  const Picture* picture(const std::string& keyword, SourceRange where);
   std::optional<double> host(const std::string& name, SourceRange where);
   // true the first time: the cause, such as a word that the form lacks, is to be reported.
   bool tell(std::string_view code, std::string_view cause);
-
-  bool holds(const Condition& condition);
-  Truth truth(const Condition& condition);
-  Truth truth(const ConditionTerm& term);
-  Truth truth(const Word& boolean);
 };
 
 } // namespace dotek::frontend::compost

@@ -63,16 +63,20 @@ bool lowerChecks(const Macro& cycleData, ir::Cycle& cycle, LowerContext& context
     return false;
   }
   if (!report(walk, context)) return false;
+  // Nothing gets past an alarm, so that behind one fewer ways are left for the messages that follow.
+  for (bool found = true; found && walk.complete;) {
+    found = false;
+    for (const auto& [at, ends] : walk.behind)
+      if (!ends.passes && options.alarms.insert(at).second) found = true;
+    if (found) walk = Walk(flat, cycle, context.limits, options).run();
+  }
   bool ok = true;
   for (const auto& [at, ends] : walk.behind) {
-    if (!ends.passes) options.alarms.insert(at);
-    if (!ends.passes || !ends.rejects) continue;
+    if (options.alarms.contains(at) || !ends.rejects) continue;
     context.diagnostics.report<diag::MessagePaths>(flat.steps[at].range);
     ok = false;
   }
   if (!ok) return false;
-  // Once more with alarms that nothing gets past: what is left is what the control can reach.
-  walk = Walk(flat, cycle, context.limits, options).run();
   if (const std::size_t endless = endlessStep(flat, walk, options.alarms); endless != kNowhere) {
     context.diagnostics.report<diag::GoesRoundForEver>(flat.steps[endless].range);
     return false;

@@ -7,17 +7,22 @@
 #include "stdlib/MacroSet.h"
 #include "support/Diagnostics.h"
 
+#include <functional>
+#include <map>
 #include <optional>
+#include <set>
+#include <string>
 #include <vector>
 
 namespace dotek::frontend::nc {
 
-// Modal state along the blocks. Nothing: not known; G90 is taken to hold at the start of a cycle because
-// `convert` sets it (docs/convert.md).
+// Modal state along the blocks. Nothing: not known; G90 and G94 are taken to hold at the start of a cycle
+// because `convert` sets them (docs/convert.md).
 struct ModalState {
   std::optional<ir::Motion> motion;
-  bool absolute = true;
-  ir::ExpressionPtr feed;                         // null pointer: not stated yet
+  std::optional<bool> absolute = true;
+  std::optional<bool> feedPerMinute = true;
+  ir::ExpressionPtr feed;                         // mm/min; null pointer: not stated yet
   bool operator==(const ModalState& other) const; // compares expressions by ir::equal
 };
 
@@ -26,19 +31,32 @@ struct LiftContext {
   const stdlib::MacroSet* macros; // the set that the source calls; nullptr: it calls none
   ir::Cycle& cycle;
   Diagnostics& diagnostics;
-  ModalState state;
+  ModalState state = {};
   std::uint32_t nextBlock = 1;
+  // Value of a variable that the command line fixes, for the checks of pictures; nullopt, or no function: it
+  // varies.
+  std::function<std::optional<double>(ir::VariableId)> fixed = {};
+  Encoding encoding = Encoding::Utf8;                  // of comments
+  const stdlib::MacroSignature* measured = nullptr;    // the last measurement; its results stand in variables
+  std::set<std::uint32_t> stored = {};                 // variables that were assigned since the last call
+  std::set<std::string, std::less<>> pictureTold = {}; // holes whose picture was noted
 };
 
-// Appends the statements of the block to `out`. Reports and returns false where the block has no single
-// meaning: an unknown macro number, letters that no signature has, an NC and a macro statement in one block,
-// two motions, an address twice. A block with a function that Dotek does not translate becomes opaque, with
-// a note. Reads numbers without a point under the control's decimal mode; a literal that the other mode reads
-// differently is a warning with both values. Reports integer digits that do not fit a hole's picture where
-// its value is constant, and (once per field) a picture with fewer decimals than the control.
+// Appends the statements of the block to `out`: comments, modes, probe, spindle and coolant, dwell, motion or
+// measurement, stop. Reports and returns false where the block has no single meaning: an unknown macro
+// number, letters that no signature has, two motions, a code that a field chooses, a variable of the caller.
+// A block with a function that Dotek does not translate becomes opaque, with a note; its words keep the
+// number as written, whatever the decimal mode. Reads other numbers without a point under the control's
+// decimal mode; a literal that the other mode reads differently is a warning with both values. Reports
+// integer digits that do not fit a hole's picture where its value is fixed, and (once per hole name) a
+// picture with fewer decimals than the control. A macro call leaves motion and feed unknown. Block numbers
+// and a feed alone make no statement.
 bool lift(const Block& block, LiftContext& context, std::vector<ir::Statement>& out);
 
 // The programs that the block calls with G65, for choosing the macro set.
 std::vector<std::uint32_t> programsCalled(const Block& block);
+
+// Enters the modal G codes of the block by group: 3 -> "G91". A code that a hole prints is left out.
+void noteModal(const Block& block, const stdlib::Control& control, std::map<int, std::string>& modal);
 
 } // namespace dotek::frontend::nc

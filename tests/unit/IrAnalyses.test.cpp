@@ -2,6 +2,7 @@
 #include "ir/InferKinds.h"
 #include "ir/Linear.h"
 #include "ir/Positions.h"
+#include "ir/Verify.h"
 #include "tests/unit/IrHelper.h"
 
 #include <doctest/doctest.h>
@@ -214,6 +215,25 @@ TEST_CASE("ir: the last measurement") {
   CHECK(last[5] == nullptr);
   CHECK(last[7] == std::get_if<Measure>(&cycle.body[6].node));
   CHECK(last[8] == nullptr);
+}
+
+TEST_CASE("ir: a work variable that is set twice ties no kinds together") {
+  Cycle cycle;
+  for (const char* name : {"x", "g"})
+    cycle.add(parameter(name));
+  Variable work;
+  work.name = "t";
+  cycle.add(work);
+  cycle.checks = {statement(Assign{2, unary(UnaryOp::Absolute, variable(0))}),
+                  statement(Assign{2, binary(BinaryOp::Subtract, variable(1), constant(54))})};
+  Move move;
+  move.axes[0] = Coordinate{variable(0), Frame::Work, variable(1)};
+  cycle.body = {statement(move)};
+  inferKinds(cycle);
+  CHECK(cycle.variables[0].kind == Kind::Length);
+  CHECK(cycle.variables[1].kind == Kind::WorkOffset);
+  CHECK(cycle.variables[2].kind == Kind::Number);
+  CHECK(verify(cycle).empty());
 }
 
 TEST_CASE("ir: kinds follow from use") {

@@ -1,9 +1,22 @@
-#include "frontend/compost/PostRun.h"
+#include "frontend/compost/Conditions.h"
 
 #include <algorithm>
 
 namespace dotek::frontend::compost {
 namespace {
+
+void collectSetters(const std::vector<Statement>& body, const Routine& routine,
+                    std::map<std::string, const Routine*, std::less<>>& setters) {
+  for (const Statement& statement : body) {
+    if (const auto* word = std::get_if<Word>(&statement)) {
+      if (word->name == kSetFlagKeyword && word->arguments.size() == 1)
+        setters.emplace(word->arguments.front().text, &routine);
+    } else if (const auto* branch = std::get_if<std::unique_ptr<If>>(&statement)) {
+      collectSetters((*branch)->thenBody, routine, setters);
+      collectSetters((*branch)->elseBody, routine, setters);
+    }
+  }
+}
 
 Truth both(Truth a, Truth b) {
   if ((a && !*a) || (b && !*b)) return false;
@@ -48,24 +61,36 @@ Truth andBeforeOr(const std::vector<Truth>& terms, const std::vector<Connective>
 
 } // namespace
 
-bool PostRun::Impl::holds(const Condition& condition) {
-  // An operand that decides nothing may stay unknown; one that decides was reported by truth().
-  return truth(condition).value_or(false);
+Conditions::Conditions(const Program& program, const stdlib::Form& form,
+                       const std::set<std::string>& assumptions)
+    : form_(&form), assumptions_(&assumptions) {
+  auto setters = std::make_shared<std::map<std::string, const Routine*, std::less<>>>();
+  for (const Item& item : program.items) {
+    if (const auto* routine = std::get_if<Routine>(&item)) collectSetters(routine->body, *routine, *setters);
+  }
+  setters_ = std::move(setters);
 }
 
-Truth PostRun::Impl::truth(const Condition& condition) {
+void Conditions::setFlag(const Word& word, Diagnostics& diagnostics) {
+  if (word.arguments.size() == 1)
+    flags_[word.arguments.front().text] = word.name == kSetFlagKeyword;
+  else
+    diagnostics.report<diag::FlagNeedsName>(word.range, word.name);
+}
+
+Truth Conditions::truth(const Condition& condition, Diagnostics& diagnostics) {
   std::vector<Truth> terms;
   terms.reserve(condition.terms.size());
   for (const ConditionTerm& term : condition.terms)
-    terms.push_back(truth(term));
+    terms.push_back(truth(term, diagnostics));
   if (terms.empty()) return std::nullopt;
   const Truth plain = leftToRight(terms, condition.connectives);
   const Truth grouped = andBeforeOr(terms, condition.connectives);
   Truth result = plain;
   if (plain != grouped) {
-    if (settings.assumptions.contains("and-before-or")) {
+    if (assumptions_->contains("and-before-or")) {
       result = grouped;
-    } else if (!settings.assumptions.contains("left-to-right")) {
+    } else if (!assumptions_->contains("left-to-right")) {
       diagnostics.report<diag::AndOrOrder>(condition.range);
       return std::nullopt;
     }
@@ -73,41 +98,42 @@ Truth PostRun::Impl::truth(const Condition& condition) {
   if (result) return result;
   for (const ConditionTerm& term : condition.terms) {
     const auto* word = std::get_if<Word>(&term.operand);
-    if (word == nullptr || truth(*word)) continue;
+    if (word == nullptr || truth(*word, diagnostics)) continue;
     if (word->name == kCycleKeyword || word->name == kFlagKeyword)
       diagnostics.report<diag::FlagNeedsName>(word->range, word->name + "?");
-    else if (tell(diag::BooleanUnknown::code, assumed(*word)))
-      diagnostics.report<diag::BooleanUnknown>(word->range, assumed(*word), settings.form.origin);
+    else if (told_.insert(assumed(*word)).second)
+      diagnostics.report<diag::BooleanUnknown>(word->range, assumed(*word), form_->origin);
   }
   return std::nullopt;
 }
 
-Truth PostRun::Impl::truth(const ConditionTerm& term) {
+Truth Conditions::truth(const ConditionTerm& term, Diagnostics& diagnostics) {
   Truth result;
-  if (const auto* word = std::get_if<Word>(&term.operand)) result = truth(*word);
-  if (const auto* inner = std::get_if<std::unique_ptr<Condition>>(&term.operand)) result = truth(**inner);
+  if (const auto* word = std::get_if<Word>(&term.operand)) result = truth(*word, diagnostics);
+  if (const auto* inner = std::get_if<std::unique_ptr<Condition>>(&term.operand))
+    result = truth(**inner, diagnostics);
   if (result && term.nots.size() % 2 == 1) result = !*result;
   return result;
 }
 
-Truth PostRun::Impl::truth(const Word& boolean) {
+Truth Conditions::truth(const Word& boolean, Diagnostics& diagnostics) {
   if (boolean.kind != WordKind::Boolean) return std::nullopt;
   if (boolean.name == kCycleKeyword && boolean.arguments.size() == 1)
-    return boolean.arguments.front().text == operation->cycle;
+    return boolean.arguments.front().text == cycle;
   if (boolean.name == kFlagKeyword && boolean.arguments.size() == 1) {
     // A flag that was never set reads false (compost.md 4.5, inferred).
     const std::string& name = boolean.arguments.front().text;
-    const auto flag = flags.find(name);
-    if (flag != flags.end()) return flag->second;
-    if (const auto setter = flagSetters.find(name); setter != flagSetters.end())
+    const auto flag = flags_.find(name);
+    if (flag != flags_.end()) return flag->second;
+    if (const auto setter = setters_->find(name); setter != setters_->end())
       diagnostics.report<diag::FlagSetElsewhere>(boolean.range, name, setter->second->name);
     return false;
   }
-  if (settings.assumptions.contains(assumed(boolean) + "=yes")) return true;
-  if (settings.assumptions.contains(assumed(boolean) + "=no")) return false;
+  if (assumptions_->contains(assumed(boolean) + "=yes")) return true;
+  if (assumptions_->contains(assumed(boolean) + "=no")) return false;
   if (!boolean.arguments.empty()) return std::nullopt;
-  const auto known = settings.form.booleans.find(boolean.name);
-  if (known != settings.form.booleans.end()) return known->second.value;
+  const auto known = form_->booleans.find(boolean.name);
+  if (known != form_->booleans.end()) return known->second.value;
   return std::nullopt;
 }
 

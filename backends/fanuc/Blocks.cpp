@@ -1,0 +1,267 @@
+// NC blocks: statements of one block of the source share a line.
+#include "backends/fanuc/State.h"
+
+#include <algorithm>
+
+namespace dotek::backends::fanuc {
+
+namespace {
+
+using stdlib::Function;
+
+constexpr std::size_t kFirst = 0, kLast = 10000;
+
+struct BlockWord {
+  char address = 0;
+  std::string text;
+  bool leads = false; // added by us: stands before the words of the source
+};
+
+class Block {
+public:
+  explicit Block(State& state) : state_(state) {}
+
+  // Adds the words of a statement that may share a line.
+  void add(const ir::Statement& statement) {
+    const ir::Origin& origin = statement.origin;
+    if (const auto* move = std::get_if<ir::Move>(&statement.node))
+      plainMove(*move, origin);
+    else if (const auto* mode = std::get_if<ir::SetMode>(&statement.node))
+      setMode(*mode, origin);
+    else if (const auto* spindle = std::get_if<ir::Spindle>(&statement.node))
+      setSpindle(*spindle, origin);
+    else if (const auto* coolant = std::get_if<ir::Coolant>(&statement.node))
+      code(coolantCode(coolant->state), "this coolant", origin);
+    else if (const auto* dwell = std::get_if<ir::Dwell>(&statement.node))
+      pause(*dwell, origin);
+    else if (const auto* stop = std::get_if<ir::Stop>(&statement.node))
+      setStop(*stop, origin);
+    else if (const auto* power = std::get_if<ir::ProbePower>(&statement.node))
+      code(power->on ? Function::ProbeOn : Function::ProbeOff, "the probe", origin);
+    ranges_.insert(ranges_.end(), origin.ranges.begin(), origin.ranges.end());
+  }
+
+  void write(const ir::Origin& first) {
+    ir::Origin origin = first;
+    origin.ranges = ranges_;
+    sort(first.addresses);
+    std::string text;
+    for (const BlockWord& word : words_)
+      text += (text.empty() ? "" : " ") + word.text;
+    if (!text.empty()) state_.sheet.add(text, origin);
+    origin.reason = "distance mode put back";
+    if (after_ != nullptr) state_.sheet.add(codeText(*after_), origin);
+  }
+
+private:
+  static Function coolantCode(ir::Coolant::State state) {
+    if (state == ir::Coolant::State::Flood) return Function::CoolantFlood;
+    return state == ir::Coolant::State::Mist ? Function::CoolantMist : Function::CoolantOff;
+  }
+
+  const stdlib::CodeInfo* find(Function function, std::string_view what, const ir::Origin& origin) {
+    const auto* found = state_.control.find(function);
+    if (found == nullptr) state_.refuse<diag::NoCode>(origin.range(), state_.control.title, what);
+    return found;
+  }
+
+  void code(Function function, std::string_view what, const ir::Origin& origin, bool leads = false) {
+    const auto* found = find(function, what, origin);
+    if (found == nullptr) return;
+    const std::string text = codeText(*found);
+    const bool stands =
+        std::any_of(words_.begin(), words_.end(), [&](const BlockWord& word) { return word.text == text; });
+    if (!stands) words_.push_back({found->letter, text, leads});
+  }
+
+  void value(char address, const ir::ExpressionPtr& expression, Form form, const ir::Origin& origin) {
+    if (expression != nullptr)
+      words_.push_back({address, word(state_, address, expression, form, origin), false});
+  }
+
+  void setMode(const ir::SetMode& mode, const ir::Origin& origin) {
+    switch (mode.mode) {
+    case ir::Mode::Absolute: return code(Function::Absolute, "absolute programming", origin);
+    case ir::Mode::Incremental: return code(Function::Incremental, "incremental programming", origin);
+    case ir::Mode::FeedPerMinute: return code(Function::FeedPerMinute, "feed per minute", origin);
+    case ir::Mode::FeedPerRevolution:
+      // Feeds of the cycle are mm/min.
+      state_.refuse<diag::FeedPerRevolution>(origin.range());
+      return;
+    case ir::Mode::PlaneXY: return code(Function::PlaneXY, "the plane XY", origin);
+    case ir::Mode::PlaneZX: return code(Function::PlaneZX, "the plane ZX", origin);
+    case ir::Mode::PlaneYZ: return code(Function::PlaneYZ, "the plane YZ", origin);
+    case ir::Mode::CutterCompOff: return code(Function::CutterCompOff, "cutter compensation off", origin);
+    case ir::Mode::CannedCycleOff: return code(Function::CannedCycleOff, "canned cycles off", origin);
+    case ir::Mode::RapidMotion: return code(Function::Rapid, "rapid", origin);
+    case ir::Mode::FeedMotion: return code(Function::Feed, "feed", origin);
+    case ir::Mode::WorkSystem:
+      if (mode.system == nullptr) return;
+      guardSystem(state_, mode.system, origin);
+      return value('G', mode.system, Form::Whole, origin);
+    }
+  }
+
+  void setSpindle(const ir::Spindle& spindle, const ir::Origin& origin) {
+    const Function function = spindle.state == ir::Spindle::State::Off ? Function::SpindleOff
+                              : spindle.state == ir::Spindle::State::Clockwise
+                                  ? Function::SpindleClockwise
+                                  : Function::SpindleCounterClockwise;
+    value('S', spindle.speed, Form::Whole, origin);
+    code(function, "this spindle state", origin);
+  }
+
+  void pause(const ir::Dwell& dwell, const ir::Origin& origin) {
+    code(Function::Dwell, "a dwell", origin);
+    value('X', dwell.seconds, Form::Length, origin); // seconds with a point
+  }
+
+  void setStop(const ir::Stop& stop, const ir::Origin& origin) {
+    if (!stop.message.empty())
+      state_.sheet.comment(commentText(state_, stop.message, origin.range()), origin);
+    code(stop.optional ? Function::OptionalStop : Function::Stop, "a stop", origin);
+  }
+
+  // Whether every axis counts from `frame`.
+  static bool all(const ir::Move& move, ir::Frame frame) {
+    return std::all_of(move.axes.begin(), move.axes.end(),
+                       [&](const auto& axis) { return !axis || axis->frame == frame; });
+  }
+
+  bool positionsKnown(const ir::Move& move) {
+    return std::all_of(std::begin(ir::kAxes), std::end(ir::kAxes), [&](ir::Axis axis) {
+      return !move.axes[ir::indexOf(axis)] || workPosition(state_, axis) != nullptr;
+    });
+  }
+
+  // The distance mode that the words of the move need; it is written where another one, or an unknown one, is
+  // in force.
+  void need(Distance wanted, const ir::Origin& origin) {
+    const Distance now = state_.body->distance[state_.at];
+    if (now == wanted) return;
+    const bool absolute = wanted == Distance::Absolute;
+    code(absolute ? Function::Absolute : Function::Incremental, "this distance mode", origin, true);
+    if (now != Distance::Unknown)
+      after_ = find(absolute ? Function::Incremental : Function::Absolute, "this distance mode", origin);
+  }
+
+  void plainMove(const ir::Move& move, const ir::Origin& origin) {
+    if (isOfContact(state_, move, origin)) return;
+    const bool moves = std::any_of(move.axes.begin(), move.axes.end(), [](const auto& axis) { return axis; });
+    const bool machine = moves && all(move, ir::Frame::Machine);
+    const bool travel = moves && all(move, ir::Frame::Here) &&
+                        (state_.body->distance[state_.at] != Distance::Absolute || !positionsKnown(move));
+    if (machine && move.motion != ir::Motion::Rapid) {
+      state_.refuse<diag::FrameRefused>(origin.range(), "a feed move", "machine coordinates");
+      return;
+    }
+    if (moves) need(travel ? Distance::Incremental : Distance::Absolute, origin);
+    if (machine) code(Function::MachineCoordinates, "machine coordinates", origin, true);
+    code(move.motion == ir::Motion::Rapid ? Function::Rapid : Function::Feed, "this move", origin);
+    for (const ir::Axis axis : ir::kAxes) {
+      const auto& coordinate = move.axes[ir::indexOf(axis)];
+      if (!coordinate) continue;
+      const bool direct = travel || machine;
+      value(ir::letterOf(axis),
+            direct ? coordinate->value : place(state_, *coordinate, axis, ir::Frame::Work, origin.range()),
+            Form::Length, origin);
+    }
+    value('F', move.feed, Form::Length, origin);
+  }
+
+  // The source's order of addresses.
+  void sort(const std::string& addresses) {
+    std::vector<std::pair<std::size_t, BlockWord>> keyed;
+    std::vector<bool> used(addresses.size(), false);
+    for (BlockWord& word : words_) {
+      std::size_t key = word.leads ? kFirst : kLast;
+      for (std::size_t i = 0; i < addresses.size() && key == kLast; ++i) {
+        if (used[i] || addresses[i] != word.address) continue;
+        used[i] = true;
+        key = i + 1;
+      }
+      keyed.emplace_back(key, std::move(word));
+    }
+    if (!addresses.empty())
+      std::stable_sort(keyed.begin(), keyed.end(),
+                       [](const auto& a, const auto& b) { return a.first < b.first; });
+    else
+      std::stable_partition(keyed.begin(), keyed.end(), [](const auto& k) { return k.second.leads; });
+    words_.clear();
+    for (auto& [key, word] : keyed)
+      words_.push_back(std::move(word));
+  }
+
+  State& state_;
+  std::vector<BlockWord> words_;
+  std::vector<SourceRange> ranges_;
+  const stdlib::CodeInfo* after_ = nullptr;
+};
+
+// Stands on a line of its own.
+bool isAlone(const State& state, const ir::Statement& statement) {
+  if (const auto* move = std::get_if<ir::Move>(&statement.node)) return move->motion == ir::Motion::Protected;
+  if (const auto* power = std::get_if<ir::ProbePower>(&statement.node))
+    return state.macros.find(power->on ? stdlib::Intent::ProbeOn : stdlib::Intent::ProbeOff) != nullptr ||
+           state.control.find(power->on ? Function::ProbeOn : Function::ProbeOff) == nullptr;
+  return std::holds_alternative<ir::Measure>(statement.node) ||
+         std::holds_alternative<ir::OpaqueBlock>(statement.node);
+}
+
+bool isBlock(const ir::Statement& statement) {
+  return std::holds_alternative<ir::Move>(statement.node) ||
+         std::holds_alternative<ir::SetMode>(statement.node) ||
+         std::holds_alternative<ir::Spindle>(statement.node) ||
+         std::holds_alternative<ir::Coolant>(statement.node) ||
+         std::holds_alternative<ir::ProbePower>(statement.node) ||
+         std::holds_alternative<ir::Dwell>(statement.node) ||
+         std::holds_alternative<ir::Stop>(statement.node);
+}
+
+void writeOpaque(State& state, const ir::OpaqueBlock& block, const ir::Origin& origin) {
+  std::string text;
+  for (const ir::Word& given : block.words) {
+    if (given.address == 'N') continue; // the source's own numbering
+    text += text.empty() ? "" : " ";
+    text += given.value == nullptr ? std::string(1, given.address)
+                                   : word(state, given.address, given.value, Form::Source, origin);
+  }
+  if (state.control.name != state.options.sourceControl.name) {
+    state.refuse<diag::OpaqueBlockRefused>(origin.range(), text, state.options.sourceControl.title);
+    return;
+  }
+  state.sheet.add(text, origin);
+}
+
+void writeAlone(State& state, const ir::Statement& statement) {
+  if (const auto* move = std::get_if<ir::Move>(&statement.node))
+    writeProtectedMove(state, *move, statement.origin);
+  else if (const auto* measure = std::get_if<ir::Measure>(&statement.node))
+    writeMeasure(state, *measure, statement.origin);
+  else if (const auto* power = std::get_if<ir::ProbePower>(&statement.node))
+    writeProbePower(state, power->on, statement.origin);
+  else if (const auto* block = std::get_if<ir::OpaqueBlock>(&statement.node))
+    writeOpaque(state, *block, statement.origin);
+}
+
+} // namespace
+
+std::size_t writeBlock(State& state, const std::vector<ir::Statement>& list, std::size_t at) {
+  if (isAlone(state, list[at])) {
+    writeAlone(state, list[at]);
+    return at + 1;
+  }
+  Block block(state);
+  const ir::Origin& first = list[at].origin;
+  std::size_t i = at;
+  do {
+    state.at = i;
+    block.add(list[i]);
+    ++i;
+  } while (i < list.size() && first.block != 0 && list[i].origin.block == first.block && isBlock(list[i]) &&
+           !isAlone(state, list[i]));
+  block.write(first);
+  return i;
+}
+
+} // namespace dotek::backends::fanuc

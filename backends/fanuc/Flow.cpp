@@ -1,0 +1,145 @@
+// The statements of a list: assignments, jumps, alarms; blocks are left to Blocks.cpp.
+#include "backends/fanuc/State.h"
+#include "ir/Fold.h"
+
+#include <algorithm>
+
+namespace dotek::backends::fanuc {
+
+namespace {
+
+class List {
+public:
+  List(State& state, const std::vector<ir::Statement>& list, bool body)
+      : state_(state), list_(list), body_(body), end_(state.mark()) {}
+
+  void write() {
+    for (std::size_t i = 0; i < list_.size();) {
+      i = one(i);
+      state_.releaseHelpers();
+    }
+    state_.sheet.place(end_);
+  }
+
+private:
+  Mark markOf(ir::LabelId label) {
+    const auto found = marks_.find(label);
+    if (found != marks_.end()) return found->second;
+    return marks_.emplace(label, state_.mark()).first->second;
+  }
+
+  // Writes the statement at `i`; gives the index behind what was written.
+  std::size_t one(std::size_t i) {
+    const ir::Statement& statement = list_[i];
+    const ir::Origin& origin = statement.origin;
+    if (state_.body != nullptr && body_) state_.at = i;
+    if (const auto* assignment = std::get_if<ir::Assign>(&statement.node)) {
+      assign(state_, state_.local(assignment->variable), assignment->value, origin);
+    } else if (const auto* store = std::get_if<ir::Store>(&statement.node)) {
+      if (const auto left = storeTarget(*store, origin)) assign(state_, *left, store->value, origin);
+    } else if (const auto* label = std::get_if<ir::Label>(&statement.node)) {
+      state_.sheet.place(markOf(label->label));
+    } else if (const auto* goTo = std::get_if<ir::Jump>(&statement.node)) {
+      state_.sheet.jump("GOTO ", markOf(goTo->target), origin);
+    } else if (const auto* branch = std::get_if<ir::Branch>(&statement.node)) {
+      return writeBranch(i, *branch);
+    } else if (std::holds_alternative<ir::Return>(statement.node)) {
+      if (i + 1 < list_.size()) state_.sheet.jump("GOTO ", end_, origin);
+    } else if (std::holds_alternative<ir::Alarm>(statement.node)) {
+      const std::string text = sourceAlarm(state_, statement);
+      state_.sheet.add(text, origin);
+    } else if (const auto* comment = std::get_if<ir::Comment>(&statement.node)) {
+      const std::string text = commentText(state_, comment->text, origin.range());
+      state_.sheet.comment(text, origin);
+    } else {
+      return writeBlock(state_, list_, i);
+    }
+    return i + 1;
+  }
+
+  // A branch over one statement is an IF .. THEN with that statement.
+  std::size_t writeBranch(std::size_t i, const ir::Branch& branch) {
+    const ir::Origin& origin = list_[i].origin;
+    if (state_.control.ifThen && i + 2 < list_.size()) {
+      const auto* label = std::get_if<ir::Label>(&list_[i + 2].node);
+      if (label != nullptr && label->label == branch.target && writeGuarded(branch, list_[i + 1]))
+        return i + 2; // the label itself may have other jumps
+    }
+    jumpIf(state_, branch.condition, markOf(branch.target), origin);
+    return i + 1;
+  }
+
+  bool writeGuarded(const ir::Branch& branch, const ir::Statement& guarded) {
+    ir::Origin origin = guarded.origin;
+    if (std::holds_alternative<ir::Alarm>(guarded.node)) {
+      const std::string text = sourceAlarm(state_, guarded);
+      doIf(state_, ir::negate(branch.condition), text, origin);
+      return true;
+    }
+    ir::ExpressionPtr value;
+    std::optional<std::string> left;
+    const auto* assignment = std::get_if<ir::Assign>(&guarded.node);
+    const auto* store = std::get_if<ir::Store>(&guarded.node);
+    if (assignment == nullptr && store == nullptr) return false;
+    // Lines that compute parts of the value would run whatever the condition says: tried aside.
+    const Sheet::Checkpoint before = state_.sheet.checkpoint();
+    if (assignment != nullptr) {
+      left = state_.local(assignment->variable);
+      value = assignment->value;
+    } else {
+      left = storeTarget(*store, origin);
+      value = store->value;
+    }
+    if (!left) return true; // refused
+    const std::string text = *left + "=" + valueText(state_, value, origin);
+    if (state_.sheet.size() != before.lines) {
+      state_.sheet.takeBack(before);
+      state_.releaseHelpers();
+      return false;
+    }
+    doIf(state_, ir::negate(branch.condition), text, origin);
+    return true;
+  }
+
+  // "#550"; nothing where it was refused.
+  std::optional<std::string> storeTarget(const ir::Store& store, const ir::Origin& origin) {
+    const ir::ExpressionPtr number = tidy(store.number);
+    const double* value = ir::constantValue(number);
+    const bool whole = value != nullptr && *value >= 0 && *value < 1e9 &&
+                       *value == static_cast<double>(static_cast<std::uint32_t>(*value));
+    if (!whole || !state_.control.isCommon(static_cast<std::uint32_t>(*value))) {
+      state_.refuse<diag::StoreVariable>(
+          origin.range(), value == nullptr ? "a computed number" : machineText(state_, number, origin),
+          state_.control.title);
+      return std::nullopt;
+    }
+    const auto variable = static_cast<std::uint32_t>(*value);
+    for (const auto& [first, last] : state_.macros.scratch) {
+      if (variable < first || variable > last) continue;
+      const bool kept = std::any_of(state_.control.common.begin(), state_.control.common.end(),
+                                    [&](const stdlib::VariableRange& range) {
+                                      return range.kept && variable >= range.first && variable <= range.last;
+                                    });
+      if (kept) {
+        state_.refuse<diag::StoreCalibration>(origin.range(), variable, state_.macros.title);
+        return std::nullopt;
+      }
+      state_.diagnostics.report<diag::StoreScratch>(origin.range(), variable, state_.macros.title);
+    }
+    return "#" + std::to_string(variable);
+  }
+
+  State& state_;
+  const std::vector<ir::Statement>& list_;
+  bool body_;
+  Mark end_;
+  std::map<ir::LabelId, Mark> marks_;
+};
+
+} // namespace
+
+void writeList(State& state, const std::vector<ir::Statement>& list, bool body) {
+  List(state, list, body).write();
+}
+
+} // namespace dotek::backends::fanuc

@@ -1,0 +1,213 @@
+// The comments before the first block: what a machinist needs to call the program.
+#include "backends/common/PlainText.h"
+#include "backends/fanuc/State.h"
+#include "stdlib/HostInputs.h"
+#include "support/Decimal.h"
+
+#include <algorithm>
+
+namespace dotek::backends::fanuc {
+
+namespace {
+
+constexpr std::size_t kTitleWidth = 24;
+constexpr std::size_t kLeastMeaning = 16;
+
+using Row = std::vector<std::string>;
+
+std::string padded(std::string text, std::size_t width) {
+  text.resize(std::max(width, text.size()), ' ');
+  return text;
+}
+
+std::string withPoint(double value) {
+  std::string text = numberText(Decimal::of(value).rounded(6).value());
+  if (text.find('.') == std::string::npos) text += '.';
+  return text;
+}
+
+// A value that stands in the example of a call, where the source has none.
+double typical(const ir::Variable& variable) {
+  if (variable.defaultValue) return *variable.defaultValue;
+  if (variable.kind == ir::Kind::WorkOffset) return 54;
+  if (variable.role != ir::Role::Host) return 0;
+  if (variable.name == "clearance") return 50;
+  if (variable.name == "retract") return 5;
+  if (variable.name == "tool_radius") return 3;
+  if (variable.name == "return_feed") return 1000;
+  return 0;
+}
+
+class Header {
+public:
+  explicit Header(State& state) : state_(state) {}
+
+  Sheet write() {
+    out_.add("%", origin("begin of the file"));
+    out_.add("O" + number() + "(" + title() + ")", origin("program number"));
+    if (!state_.cycle.title.empty()) say("CYCLE " + state_.cycle.name);
+    say("FOR " + state_.control.title + ", MACROS OF " + state_.macros.title);
+    if (!state_.cycle.measurementStated)
+      say("THE SOURCE STATES A PATH ONLY: NO OFFSET IS SET BY THIS PROGRAM");
+    table();
+    call();
+    fixed();
+    requirements();
+    alarms();
+    for (const std::string& remark : state_.remarks)
+      say(remark);
+    return std::move(out_);
+  }
+
+private:
+  static ir::Origin origin(std::string reason) {
+    ir::Origin out;
+    out.reason = std::move(reason);
+    return out;
+  }
+  void say(std::string_view text) { out_.comment(headerText(text), origin("header")); }
+  // As it stands: columns.
+  void raw(std::string text, const ir::Origin& from) {
+    while (text.ends_with(' '))
+      text.pop_back();
+    out_.add("(" + text + ")", from);
+  }
+
+  std::string number() const {
+    const std::string digits = std::to_string(state_.options.programNumber);
+    return std::string(digits.size() < 4 ? 4 - digits.size() : 0, '0') + digits;
+  }
+
+  std::string title() const {
+    const std::string& given = state_.cycle.title.empty() ? state_.cycle.name : state_.cycle.title;
+    const auto lines = wrapWords(headerText(given), kTitleWidth);
+    std::string out = lines.empty() ? "" : lines.front();
+    while (!out.empty() && std::string_view(" ,-.:/").find(out.back()) != std::string_view::npos)
+      out.pop_back(); // where it was cut
+    return out.empty() ? "PROBE CYCLE" : out;
+  }
+
+  std::string meaning(const ir::Variable& variable) const {
+    if (!variable.meaning.empty()) return headerText(variable.meaning);
+    if (variable.role != ir::Role::Host) return "";
+    for (const stdlib::HostInput& host : stdlib::kHostInputs)
+      if (host.name == variable.name) return headerText(host.meaning);
+    return "";
+  }
+
+  std::string defaultText(ir::VariableId id) const {
+    const ir::Variable& variable = state_.cycle.variable(id);
+    if (mayBeOmitted(state_, id)) return variable.defaultValue ? numberText(*variable.defaultValue) : "NONE";
+    return "GIVE";
+  }
+
+  void table() {
+    if (state_.arguments.empty()) return say("NO ARGUMENTS");
+    std::vector<Row> rows = {{"", "", "NAME", "UNIT", "DEFAULT", "RANGE", "MEANING"}};
+    for (const Argument& argument : state_.arguments) {
+      const ir::Variable& variable = state_.cycle.variable(argument.variable);
+      const std::string unit =
+          variable.unit.empty() ? std::string(ir::kindUnit(variable.kind)) : variable.unit;
+      rows.push_back({std::string(1, argument.letter), "#" + std::to_string(argument.local),
+                      headerText(variable.name), headerText(unit), defaultText(argument.variable),
+                      rangeText(state_, argument.variable), meaning(variable)});
+    }
+    std::vector<std::size_t> widths(6, 0);
+    for (const Row& row : rows)
+      for (std::size_t i = 0; i < widths.size(); ++i)
+        widths[i] = std::max(widths[i], row[i].size());
+    say("ARGUMENTS. GIVE: AN ALARM WHERE IT IS OMITTED");
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      ir::Origin from = origin("header");
+      if (i > 0)
+        if (const auto& range = state_.cycle.variable(state_.arguments[i - 1].variable).range;
+            range.hasPlace())
+          from.ranges.push_back(range);
+      row(rows[i], widths, from);
+    }
+  }
+
+  void row(const Row& cells, const std::vector<std::size_t>& widths, const ir::Origin& from) {
+    std::string text;
+    for (std::size_t i = 0; i < widths.size(); ++i)
+      if (widths[i] > 0) text += padded(cells[i], widths[i]) + " ";
+    const std::size_t indent = text.size();
+    const bool beside = indent + kLeastMeaning <= Sheet::kCommentWidth;
+    const auto lines =
+        wrapWords(cells.back(), beside ? Sheet::kCommentWidth - indent : Sheet::kCommentWidth - 4);
+    raw(text + (beside && !lines.empty() ? lines.front() : ""), from);
+    for (std::size_t i = beside ? 1 : 0; i < lines.size(); ++i)
+      raw(std::string(beside ? indent : 4, ' ') + lines[i], from);
+  }
+
+  void call() {
+    std::string text = "CALL: G65 P" + std::to_string(state_.options.programNumber);
+    std::string made;
+    std::vector<Argument> order = state_.arguments;
+    std::stable_sort(order.begin(), order.end(),
+                     [](const Argument& a, const Argument& b) { return a.letter < b.letter; });
+    for (const Argument& argument : order) {
+      const ir::Variable& variable = state_.cycle.variable(argument.variable);
+      if (!variable.defaultValue && variable.optional) continue;
+      text += std::string(" ") + argument.letter + withPoint(typical(variable));
+      if (!variable.defaultValue) made += std::string(" ") + argument.letter;
+    }
+    say(text);
+    if (!made.empty()) say("EXAMPLES ONLY, SET YOUR OWN:" + made);
+  }
+
+  void fixed() {
+    std::string text;
+    for (const auto& [name, value] : state_.options.fixed)
+      text += (text.empty() ? "FIXED WHEN CONVERTED: " : ", ") + name + " = " + numberText(value);
+    if (!text.empty()) say(text);
+  }
+
+  void requirements() {
+    const Guards& guards = state_.guards;
+    std::string checked, unchecked, noted;
+    const auto put = [&](Guard guard, std::string_view text) {
+      if (guard == Guard::Absent) return;
+      std::string& into = guard == Guard::Checked ? checked : unchecked;
+      into += (into.empty() ? "" : ", ") + std::string(text);
+    };
+    put(guards.metric, "METRIC");
+    put(guards.rotation, "NO ROTATION");
+    put(guards.scaling, "NO SCALING");
+    put(guards.shift, state_.shiftOfZ ? "NO LOCAL SHIFT" : "NO LOCAL SHIFT OF X AND Y");
+    if (!state_.shiftOfZ && guards.shift == Guard::Checked) put(Guard::Unchecked, "NO LOCAL SHIFT OF Z");
+    put(guards.extended, "G54 TO G59");
+    put(guards.cutterComp, "CUTTER COMPENSATION OFF");
+    put(guards.cannedCycle, "CANNED CYCLES OFF");
+    put(guards.toolLength, "TOOL LENGTH ACTIVE");
+    put(Guard::Unchecked, "NO MIRROR IMAGE");
+    put(Guard::Unchecked, "CALIBRATED PROBE IN THE SPINDLE");
+    if (!checked.empty()) say("THE CALLER PROVIDES, ELSE AN ALARM: " + checked);
+    say("THE CALLER PROVIDES, NOT CHECKED: " + unchecked);
+    std::string starts;
+    for (const ir::Axis axis : ir::kAxes) {
+      const auto id = state_.findHost(std::string("start_") + static_cast<char>('x' + ir::indexOf(axis)));
+      if (id && !state_.isArgument(*id) && state_.locals.contains(*id))
+        starts += std::string(" ") + ir::letterOf(axis);
+    }
+    if (!starts.empty()) say("MEASURES FROM WHERE THE PROBE STANDS AT THE CALL IN" + starts);
+  }
+
+  void alarms() {
+    for (const AlarmText& alarm : state_.alarms)
+      out_.comment("ALARM " + std::to_string(alarm.number) + " " +
+                       (alarm.full.empty() ? alarm.shown : alarm.full),
+                   origin("header"));
+  }
+
+  State& state_;
+  Sheet out_;
+};
+
+} // namespace
+
+Sheet header(State& state) {
+  return Header(state).write();
+}
+
+} // namespace dotek::backends::fanuc

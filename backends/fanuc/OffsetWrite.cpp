@@ -1,0 +1,150 @@
+// Writing a work offset ourselves, where the macro's own rule is another one than the source's.
+#include "backends/fanuc/State.h"
+#include "backends/fanuc/Uses.h"
+#include "ir/Evaluate.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace dotek::backends::fanuc {
+
+namespace {
+
+constexpr double kFirstSystem = 54, kLastSystem = 59;
+constexpr std::uint32_t kMaxSteps = 10000;
+
+ir::ExpressionPtr plus(const ir::ExpressionPtr& a, const ir::ExpressionPtr& b) {
+  return ir::binary(ir::BinaryOp::Add, a, b);
+}
+ir::ExpressionPtr minus(const ir::ExpressionPtr& a, const ir::ExpressionPtr& b) {
+  return ir::binary(ir::BinaryOp::Subtract, a, b);
+}
+
+// Why an offset cannot be written; "" where it can.
+std::string obstacle(const State& state) {
+  const stdlib::SystemVariables& variables = state.control.variables;
+  if (!variables.workOffsetX || !variables.externalX || variables.axisStep == 0 || variables.systemStep == 0)
+    return "the control has no variables of the offsets";
+  if (!workSystemVariable(state.control)) return "no variable tells which work system is active";
+  if (state.guards.rotation == Guard::Unchecked) return "a rotation may be active";
+  if (state.guards.scaling == Guard::Unchecked) return "a scaling may be active";
+  if (state.guards.shift == Guard::Unchecked) return "a local shift may be active";
+  if (state.guards.extended == Guard::Unchecked) return "an extended work system may be active";
+  return "";
+}
+
+ir::ResultName positionOf(ir::Axis axis) {
+  constexpr ir::ResultName kNames[] = {ir::ResultName::PositionX, ir::ResultName::PositionY,
+                                       ir::ResultName::PositionZ};
+  return kNames[ir::indexOf(axis)];
+}
+
+// Other values of the arguments: the defaults, and some that differ.
+std::vector<ir::Environment> environments(const State& state) {
+  std::vector<ir::Environment> out;
+  for (const double shift : {0.0, 1000.0, -1000.0}) {
+    ir::Environment environment(state.cycle.variables.size());
+    for (std::size_t i = 0; i < environment.size(); ++i)
+      if (state.cycle.variables[i].role != ir::Role::Local)
+        environment[i] = ir::Scalar::of(state.cycle.variables[i].defaultValue.value_or(0) + shift);
+    out.push_back(std::move(environment));
+  }
+  return out;
+}
+
+// Whether the checks turn away all that is no system. Tried, not proved: an alarm too many does no harm.
+bool checksConfine(const State& state, ir::VariableId id) {
+  for (ir::Environment& environment : environments(state))
+    for (const double value : {-99999.0, -1.0, 0.0, 1.0, 53.0, 53.5, 59.5, 60.0, 61.0, 100.0, 99999.0}) {
+      environment[id] = ir::Scalar::of(value);
+      if (ir::runChecks(state.cycle, environment, kMaxSteps).end != ir::CheckRun::End::Alarm) return false;
+    }
+  return true;
+}
+
+} // namespace
+
+ir::ExpressionPtr offsetNumber(const stdlib::Control& control, const ir::ExpressionPtr& system,
+                               ir::Axis axis) {
+  const stdlib::SystemVariables& variables = control.variables;
+  const int first = *variables.workOffsetX + static_cast<int>(ir::indexOf(axis)) * variables.axisStep;
+  const ir::ExpressionPtr index = minus(system, ir::constant(kFirstSystem));
+  if (variables.systemStep == 1) return tidy(plus(ir::constant(first), index));
+  return tidy(plus(ir::constant(first),
+                   ir::binary(ir::BinaryOp::Multiply, index, ir::constant(variables.systemStep))));
+}
+
+std::optional<int> workSystemVariable(const stdlib::Control& control) {
+  const auto* code = control.find(stdlib::Function::WorkSystem);
+  if (code == nullptr || !code->group || !control.variables.modalFirst) return std::nullopt;
+  return *control.variables.modalFirst + *code->group;
+}
+
+void writeOffset(State& state, const ir::OffsetSetting& setting, ir::Axis axis,
+                 const stdlib::MacroSignature& signature, const ir::Origin& given) {
+  const std::string why = obstacle(state);
+  if (!why.empty()) {
+    state.refuse<diag::OffsetWriteUnsafe>(given.range(), std::string(1, ir::letterOf(axis)), why);
+    return;
+  }
+  const auto result = std::find_if(signature.results.begin(), signature.results.end(),
+                                   [&](const auto& r) { return r.name == positionOf(axis); });
+  if (result == signature.results.end()) {
+    state.refuse<diag::OffsetWriteUnsafe>(given.range(), std::string(1, ir::letterOf(axis)),
+                                          "the macro does not say where it leaves the measured position");
+    return;
+  }
+  ir::Origin origin = given;
+  origin.reason = "offset: active one + measured - nominal";
+  if (axis == ir::Axis::Z) state.shiftOfZ = true;
+  writeWait(state, origin);
+  const ir::ExpressionPtr active = systemVariable(*workSystemVariable(state.control));
+  const ir::ExpressionPtr measured = systemVariable(static_cast<int>(result->variable));
+  const ir::ExpressionPtr value =
+      minus(plus(ir::machineVariable(offsetNumber(state.control, active, axis)), measured),
+            setting.nominal[ir::indexOf(axis)]);
+  const std::string left = machineText(state, offsetNumber(state.control, setting.system, axis), origin);
+  assign(state, left, value, origin);
+}
+
+void writeWait(State& state, const ir::Origin& origin) {
+  const auto* wait = state.control.find(stdlib::Function::MachineCoordinates);
+  if (wait != nullptr && wait->grade != "assumed") state.sheet.add(codeText(*wait), origin);
+}
+
+void guardSystem(State& state, const ir::ExpressionPtr& given, const ir::Origin& origin) {
+  const ir::ExpressionPtr system = tidy(given);
+  if (const double* value = ir::constantValue(system)) {
+    if (*value < kFirstSystem || *value > kLastSystem || *value != std::trunc(*value))
+      state.refuse<diag::SystemRange>(system->range.hasPlace() ? system->range : origin.range(), *value);
+    return;
+  }
+  const auto same = [&](const ir::ExpressionPtr& other) { return ir::equal(other, system); };
+  if (std::any_of(state.systems.begin(), state.systems.end(), same)) return;
+  const auto ids = variablesOf(system);
+  const bool atEntry = std::all_of(ids.begin(), ids.end(), [&](ir::VariableId id) {
+    return state.cycle.variable(id).role != ir::Role::Local && !isAssigned(state.cycle.body, id);
+  });
+  if (atEntry)
+    state.systems.push_back(system);
+  else
+    writeSystemAlarm(state, system, origin);
+}
+
+void writeSystemAlarm(State& state, const ir::ExpressionPtr& system, const ir::Origin& given) {
+  ir::Origin origin;
+  origin.ranges = given.ranges;
+  origin.reason = "range of the work system";
+  const auto* use = std::get_if<ir::VariableUse>(&system->node);
+  constexpr std::string_view kText = "WORK OFFSET NOT 54 TO 59";
+  if (use == nullptr || state.cycle.variable(use->variable).role == ir::Role::Local ||
+      !checksConfine(state, use->variable)) {
+    alarmIf(state, ir::compare(ir::Relation::Less, system, ir::constant(kFirstSystem)), kText, origin);
+    alarmIf(state, ir::compare(ir::Relation::Greater, system, ir::constant(kLastSystem)), kText, origin);
+  }
+  alarmIf(state, ir::compare(ir::Relation::NotEqual, system, ir::unary(ir::UnaryOp::Truncate, system)), kText,
+          origin);
+  state.releaseHelpers();
+}
+
+} // namespace dotek::backends::fanuc

@@ -1,0 +1,151 @@
+// Where the probe is, and coordinates in the frame that a word wants.
+#include "backends/fanuc/State.h"
+#include "backends/fanuc/Uses.h"
+#include "ir/Flow.h"
+
+#include <deque>
+
+namespace dotek::backends::fanuc {
+
+namespace {
+
+struct Facts {
+  Distance distance = Distance::Absolute;
+  std::array<bool, 3> start{};
+  bool reached = false;
+};
+
+bool merge(Facts& into, const Facts& from) {
+  if (!into.reached) {
+    into = from;
+    into.reached = true;
+    return true;
+  }
+  bool changed = false;
+  if (into.distance != from.distance && into.distance != Distance::Unknown) {
+    into.distance = Distance::Unknown;
+    changed = true;
+  }
+  for (std::size_t i = 0; i < 3; ++i) {
+    changed = changed || (from.start[i] && !into.start[i]);
+    into.start[i] = into.start[i] || from.start[i];
+  }
+  return changed;
+}
+
+Facts behind(const ir::Statement& statement, Facts facts) {
+  if (const auto* mode = std::get_if<ir::SetMode>(&statement.node)) {
+    if (mode->mode == ir::Mode::Absolute) facts.distance = Distance::Absolute;
+    if (mode->mode == ir::Mode::Incremental) facts.distance = Distance::Incremental;
+    if (mode->mode == ir::Mode::WorkSystem) facts.start = {true, true, true};
+  } else if (const auto* measure = std::get_if<ir::Measure>(&statement.node)) {
+    for (std::size_t i = 0; measure->setting && i < 3; ++i)
+      if (measure->setting->nominal[i] != nullptr) facts.start[i] = true;
+  } else if (std::holds_alternative<ir::OpaqueBlock>(statement.node)) {
+    facts.distance = Distance::Unknown;
+    facts.start = {true, true, true};
+  }
+  return facts;
+}
+
+ir::ExpressionPtr sum(const ir::ExpressionPtr& a, const ir::ExpressionPtr& b) {
+  return tidy(ir::binary(ir::BinaryOp::Add, a, b));
+}
+
+ir::ExpressionPtr withRange(const ir::ExpressionPtr& expression, SourceRange range) {
+  if (expression->range.hasPlace()) return expression;
+  auto copy = std::make_shared<ir::Expression>(*expression);
+  copy->range = range;
+  return copy;
+}
+
+} // namespace
+
+Body findBody(const State& state) {
+  const auto& list = state.cycle.body;
+  Body out;
+  out.positions = ir::positions(state.cycle);
+  out.last = ir::lastMeasurements(state.cycle);
+  std::vector<Facts> facts(list.size());
+  const auto next = ir::successors(list);
+  std::deque<std::size_t> open;
+  if (!list.empty()) {
+    facts[0].reached = true;
+    open.push_back(0);
+  }
+  for (; !open.empty(); open.pop_front()) {
+    const std::size_t at = open.front();
+    const Facts after = behind(list[at], facts[at]);
+    for (const std::size_t to : next[at])
+      if (to < list.size() && merge(facts[to], after)) open.push_back(to);
+  }
+  for (const Facts& fact : facts) {
+    out.distance.push_back(fact.distance);
+    out.staleStart.push_back(fact.start);
+  }
+  return out;
+}
+
+bool isOfContact(State& state, const ir::Move& move, const ir::Origin& origin) {
+  if (move.point != ir::ProbePoint::Contact) return false;
+  state.refuse<diag::FrameRefused>(origin.range(), "a move", "coordinates of the contact point");
+  return true;
+}
+
+ir::ExpressionPtr workPosition(State& state, ir::Axis axis) {
+  const std::size_t i = ir::indexOf(axis);
+  const ir::AxisPosition& position = state.body->positions[state.at][i];
+  if (position.state == ir::AxisPosition::State::Unknown) return nullptr;
+  if (position.state == ir::AxisPosition::State::Work) return position.value;
+  const ir::ExpressionPtr start = state.start(axis);
+  return position.value == nullptr ? start : sum(start, position.value);
+}
+
+ir::ExpressionPtr place(State& state, const ir::Coordinate& coordinate, ir::Axis axis, ir::Frame wanted,
+                        SourceRange range) {
+  if (coordinate.frame == wanted && coordinate.system == nullptr) return coordinate.value;
+  const std::string letter(1, ir::letterOf(axis));
+  if (coordinate.system != nullptr) {
+    state.refuse<diag::FrameRefused>(range, letter, "a work system of its own");
+    return nullptr;
+  }
+  ir::ExpressionPtr work;
+  switch (coordinate.frame) {
+  case ir::Frame::Work: work = coordinate.value; break;
+  case ir::Frame::Start:
+    if (state.body->staleStart[state.at][ir::indexOf(axis)]) {
+      state.refuse<diag::StartUnknown>(range, letter);
+      return nullptr;
+    }
+    work = sum(state.start(axis), coordinate.value);
+    break;
+  case ir::Frame::Retract: {
+    const auto fixed = state.options.fixed.find("retract");
+    const auto host = state.findHost("retract");
+    if (fixed == state.options.fixed.end() && !host) {
+      state.refuse<diag::RetractUnknown>(range);
+      return nullptr;
+    }
+    work = sum(fixed != state.options.fixed.end() ? ir::constant(fixed->second) : ir::variable(*host),
+               coordinate.value);
+    break;
+  }
+  case ir::Frame::Machine:
+    state.refuse<diag::FrameRefused>(range, letter, "machine coordinates");
+    return nullptr;
+  case ir::Frame::Here:
+    if (const ir::ExpressionPtr here = workPosition(state, axis)) work = sum(here, coordinate.value);
+    break;
+  }
+  if (work != nullptr && wanted == ir::Frame::Here) {
+    const ir::ExpressionPtr here = workPosition(state, axis);
+    work = here == nullptr ? nullptr : tidy(ir::binary(ir::BinaryOp::Subtract, work, here));
+  }
+  if (work == nullptr) {
+    state.refuse<diag::StartUnknown>(range, letter);
+    return nullptr;
+  }
+  return withRange(work, coordinate.value->range);
+}
+
+} // namespace dotek::backends::fanuc

@@ -1,0 +1,244 @@
+// What the parts of the back end share while they write one program.
+#pragma once
+
+#include "backends/fanuc/Emit.h"
+#include "backends/fanuc/Sheet.h"
+#include "ir/Positions.h"
+
+#include <set>
+#include <string_view>
+
+namespace dotek::backends::fanuc {
+
+// Locals for own values: first those that no letter can reach, then those that this program's letters leave.
+class Locals {
+public:
+  Locals(std::uint32_t count, const std::vector<Argument>& arguments);
+  // 0: none is left.
+  std::uint32_t take();
+
+private:
+  std::vector<std::uint32_t> free_; // the last is taken next
+};
+
+// Whether a state of the machine may be in force when the program runs.
+enum class Guard : std::uint8_t {
+  Absent,    // the control has no such function
+  Checked,   // an alarm at entry
+  Unchecked, // no variable tells
+};
+
+struct Guards {
+  Guard metric = Guard::Unchecked, rotation = Guard::Unchecked, scaling = Guard::Unchecked;
+  Guard cutterComp = Guard::Unchecked, cannedCycle = Guard::Unchecked, toolLength = Guard::Unchecked;
+  Guard extended = Guard::Unchecked; // extended work systems
+  Guard shift = Guard::Unchecked;    // local shift
+};
+
+// An alarm of ours or of the source.
+struct AlarmText {
+  std::uint32_t number = 0;
+  std::string shown; // what the control shows
+  std::string full;  // "" where `shown` says all
+};
+
+// What holds before each statement of the body.
+enum class Distance : std::uint8_t { Unknown, Absolute, Incremental };
+struct Body {
+  std::vector<ir::Position> positions;
+  std::vector<const ir::Measure*> last;
+  std::vector<Distance> distance;
+  // An offset was set since entry: the start point is no coordinate of the active system any more.
+  std::vector<std::array<bool, 3>> staleStart;
+  std::map<std::pair<const ir::Measure*, ir::ResultName>, std::uint32_t> kept; // results kept in locals
+};
+
+struct State {
+  State(const ir::Cycle& given, const EmitOptions& emitOptions, const SourceMap& sourceMap,
+        Diagnostics& report, std::vector<Argument> letters);
+
+  template <class Id, class... Args> Diagnostic& refuse(SourceRange range, const Args&... args) {
+    failed = true;
+    return diagnostics.report<Id>(range, args...);
+  }
+  Mark mark() { return nextMark++; }
+  // "#24"; reports where no local is left.
+  std::string local(ir::VariableId id);
+  // A local until releaseHelpers(); 0: none is left.
+  std::uint32_t helper();
+  void releaseHelpers();
+  // The host input, which is added where the cycle does not know it.
+  ir::VariableId host(std::string_view name);
+  std::optional<ir::VariableId> findHost(std::string_view name) const;
+  // Where the cycle began, along `axis`, in work coordinates: a constant where it was fixed.
+  ir::ExpressionPtr start(ir::Axis axis);
+  bool isArgument(ir::VariableId id) const;
+
+  ir::Cycle cycle; // a copy: hosts are added
+  const EmitOptions& options;
+  const stdlib::Control& control;
+  const stdlib::MacroSet& macros;
+  const SourceMap& sources;
+  Diagnostics& diagnostics;
+  std::vector<Argument> arguments;
+  Locals pool;
+  std::map<ir::VariableId, std::uint32_t> locals;
+  std::vector<std::uint32_t> helpers, freeHelpers; // in use by this statement; by others before
+  Sheet sheet;                                     // the part that is being written
+  Mark nextMark = 0;
+  bool failed = false;
+  bool inWord = false; // an address stands before what is printed: ROUND means something else there
+
+  // Alarms: those of the source by statement, then ours, in the order of their numbers.
+  std::vector<AlarmText> alarms;
+  std::map<const ir::Statement*, std::size_t> sourceAlarms; // index in `alarms`
+  Guards guards;
+  std::vector<ir::ExpressionPtr> systems; // work systems to be checked at entry
+  std::vector<std::string> remarks;       // of the header
+  std::set<std::string> reported;         // what is said once for the whole program
+  std::set<ir::VariableId> moving;        // movingVariables() of the cycle
+  bool shiftOfZ = false;                  // an offset of Z is written
+  const Body* body = nullptr;             // facts of the body while it is written, else null
+  std::size_t at = 0;                     // index of the statement of the body that is being written
+};
+
+// "G65", "G54.1", "M3".
+std::string codeText(const stdlib::CodeInfo& code);
+
+// ---- Expressions.cpp ----
+
+// How the constants of a text are written.
+enum class Form : std::uint8_t {
+  Length,   // with a point, at most the control's decimals: lengths, angles, feeds
+  Selector, // with a point, whole: `S56.`
+  Whole,    // without a point: `S3`
+  Source,   // as the source writes it
+};
+
+// A variable of the control, by its number.
+ir::ExpressionPtr systemVariable(int number);
+// Simplified, and terms of a sum that cancel are gone.
+ir::ExpressionPtr tidy(const ir::ExpressionPtr& expression);
+// `value` as a number of a word; reports lost digits and numbers that do not fit.
+std::string numberWord(State& state, double value, Form form, SourceRange range);
+// Address and value. Lines that compute parts of it go to the sheet first.
+std::string word(State& state, char address, const ir::ExpressionPtr& value, Form form,
+                 const ir::Origin& origin);
+// `left` = value, with what has to be computed before.
+void assign(State& state, const std::string& left, const ir::ExpressionPtr& value, const ir::Origin& origin);
+// Right side of an assignment where one line says it; lines may go to the sheet first.
+std::string valueText(State& state, const ir::ExpressionPtr& value, const ir::Origin& origin);
+// One side of a comparison, with at most `depth` brackets inside one another.
+std::string operandText(State& state, const ir::ExpressionPtr& value, const ir::Origin& origin,
+                        std::uint32_t depth);
+// Text of a machine variable: `#550`, `#[5221+[#7-54]*20]`.
+std::string machineText(State& state, const ir::ExpressionPtr& number, const ir::Origin& origin);
+
+// ---- Conditions.cpp ----
+
+void jumpIf(State& state, const ir::ConditionPtr& condition, Mark target, const ir::Origin& origin);
+// `statement` ("#3000=..", "#7=56.") where the condition holds.
+void doIf(State& state, const ir::ConditionPtr& condition, const std::string& statement,
+          const ir::Origin& origin);
+
+// ---- Alarms.cpp ----
+
+// Numbers for the alarms of checks and body, in source order.
+void collectAlarms(State& state);
+// `#3000=n(TEXT)` of an alarm statement of the source; its full text goes to the sheet as a comment.
+std::string sourceAlarm(State& state, const ir::Statement& statement);
+// An alarm of our own where the condition holds.
+void alarmIf(State& state, const ir::ConditionPtr& condition, std::string_view text,
+             const ir::Origin& origin);
+// Only characters that stand in a comment; reports with a note what was changed.
+std::string commentText(State& state, std::string_view utf8, SourceRange range);
+// Upper case, only characters that every control shows.
+std::string headerText(std::string_view utf8);
+
+// ---- Flow.cpp ----
+
+// Writes checks or body.
+void writeList(State& state, const std::vector<ir::Statement>& list, bool body);
+
+// ---- Blocks.cpp ----
+
+// Writes the block that begins at `at` of the body; gives the index behind it.
+std::size_t writeBlock(State& state, const std::vector<ir::Statement>& list, std::size_t at);
+
+// ---- Places.cpp ----
+
+Body findBody(const State& state);
+// `coordinate` along `axis`, counted from `wanted` (Work, or Here); nullptr: refused.
+ir::ExpressionPtr place(State& state, const ir::Coordinate& coordinate, ir::Axis axis, ir::Frame wanted,
+                        SourceRange range);
+// A move of the contact point, which depends on direction and radius: refused.
+bool isOfContact(State& state, const ir::Move& move, const ir::Origin& origin);
+// Where the probe stands, work coordinates; nullptr: not known (nothing is reported).
+ir::ExpressionPtr workPosition(State& state, ir::Axis axis);
+
+// ---- MacroCalls.cpp ----
+
+void writeProtectedMove(State& state, const ir::Move& move, const ir::Origin& origin);
+void writeMeasure(State& state, const ir::Measure& measure, const ir::Origin& origin);
+// By the macro set's own call, else by the control's code; reports where neither has one.
+void writeProbePower(State& state, bool on, const ir::Origin& origin);
+
+// ---- OffsetWrite.cpp ----
+
+// Sets the offset of `setting` along `axis` by what the last call measured.
+void writeOffset(State& state, const ir::OffsetSetting& setting, ir::Axis axis,
+                 const stdlib::MacroSignature& signature, const ir::Origin& origin);
+// Number of the variable that holds the offset of `system` along `axis`.
+ir::ExpressionPtr offsetNumber(const stdlib::Control& control, const ir::ExpressionPtr& system,
+                               ir::Axis axis);
+// Variable that holds the active work system.
+std::optional<int> workSystemVariable(const stdlib::Control& control);
+// A block that the control does not read beyond before the axes stand; nothing where it has none.
+void writeWait(State& state, const ir::Origin& origin);
+void writeSystemAlarm(State& state, const ir::ExpressionPtr& system, const ir::Origin& origin);
+// Makes sure that `system` is 54 to 59 where nothing else does.
+void guardSystem(State& state, const ir::ExpressionPtr& system, const ir::Origin& origin);
+
+// ---- Results.cpp ----
+
+// Reserves locals for results that a later call of a macro would overwrite before they are used.
+void planResults(State& state, Body& body);
+// Behind a measurement: keeps what was reserved.
+void keepResults(State& state, const ir::Measure& measure, const ir::Origin& origin);
+// "#135": what holds the result; "" where it was refused.
+std::string resultText(State& state, ir::ResultName name, SourceRange range);
+
+// ---- Prologue.cpp ----
+
+// Which states of the machine the program can ask for.
+Guards findGuards(const stdlib::Control& control);
+// Omitted arguments: their default, or an alarm.
+void writeArguments(State& state);
+// Where the cycle begins, read into locals.
+void writeStarts(State& state);
+void writeRequirements(State& state);
+// The argument may be omitted: it has a default that moves nothing, or may be null.
+bool mayBeOmitted(const State& state, ir::VariableId id);
+
+// ---- Modes.cpp ----
+
+// Locals for the modal groups that the program changes, and what stands around the body.
+struct SavedMode {
+  const stdlib::CodeInfo* code = nullptr; // a member of the group; nullptr: the feed
+  std::uint32_t local = 0;
+};
+std::vector<SavedMode> planModes(State& state);
+void writeModes(State& state, const std::vector<SavedMode>& saved);
+void restoreModes(State& state, const std::vector<SavedMode>& saved);
+
+// ---- Ranges.cpp ----
+
+// Values of the argument that the checks let pass: "54 TO 59", "SEE ALARMS", "" for all.
+std::string rangeText(const State& state, ir::VariableId id);
+
+// ---- Header.cpp ----
+
+// Everything before the first block, `%` included.
+Sheet header(State& state);
+
+} // namespace dotek::backends::fanuc

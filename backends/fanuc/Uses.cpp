@@ -1,0 +1,145 @@
+#include "backends/fanuc/Uses.h"
+
+#include "ir/Flow.h"
+#include "ir/Walk.h"
+
+#include <algorithm>
+
+namespace dotek::backends::fanuc {
+
+namespace {
+
+using Ids = std::set<ir::VariableId>;
+
+// Beyond this, every branch counts as one that decides on a move.
+constexpr std::size_t kMostStatements = 2000;
+
+template <class Tree> Ids idsOf(const Tree& tree) {
+  Ids out;
+  if (tree == nullptr) return out;
+  ir::eachNode(tree, [&](const ir::Expression& node) {
+    if (const auto* use = std::get_if<ir::VariableUse>(&node.node)) out.insert(use->variable);
+  });
+  return out;
+}
+
+void collect(Ids& out, const ir::ExpressionPtr& expression) {
+  out.merge(idsOf(expression));
+}
+
+// What a move or a measurement moves by.
+Ids movesBy(const ir::Statement& statement) {
+  Ids out;
+  if (const auto* move = std::get_if<ir::Move>(&statement.node)) {
+    for (const auto& axis : move->axes)
+      if (axis) collect(out, axis->value);
+    collect(out, move->feed);
+  } else if (const auto* measure = std::get_if<ir::Measure>(&statement.node)) {
+    if (measure->target) collect(out, measure->target->value);
+    collect(out, measure->diameter);
+  } else if (const auto* block = std::get_if<ir::OpaqueBlock>(&statement.node)) {
+    for (const ir::Word& word : block->words)
+      collect(out, word.value);
+  }
+  return out;
+}
+
+bool mayMove(const ir::Statement& statement) {
+  return std::holds_alternative<ir::Move>(statement.node) ||
+         std::holds_alternative<ir::Measure>(statement.node) ||
+         std::holds_alternative<ir::OpaqueBlock>(statement.node);
+}
+
+// Whether the branch decides on a move, or on an assignment to one of `moving`.
+bool decides(const ir::Cycle& cycle, const std::vector<std::vector<std::size_t>>& next, std::size_t branch,
+             const Ids& moving) {
+  if (cycle.body.size() > kMostStatements) return true;
+  if (next[branch].size() < 2) return false;
+  const auto first = reachableFrom(next, next[branch][0]);
+  const auto second = reachableFrom(next, next[branch][1]);
+  const bool loop = first[branch] || second[branch];
+  for (std::size_t i = 0; i < cycle.body.size(); ++i) {
+    const bool a = first[i] || i == next[branch][0];
+    const bool b = second[i] || i == next[branch][1];
+    if (loop ? !a && !b : a == b) continue;
+    if (mayMove(cycle.body[i])) return true;
+    const auto* assign = std::get_if<ir::Assign>(&cycle.body[i].node);
+    if (assign != nullptr && moving.contains(assign->variable)) return true;
+  }
+  return false;
+}
+
+} // namespace
+
+Ids variablesOf(const ir::ExpressionPtr& expression) {
+  return idsOf(expression);
+}
+
+Ids variablesOf(const ir::ConditionPtr& condition) {
+  return idsOf(condition);
+}
+
+Ids usedVariables(const ir::Cycle& cycle) {
+  Ids out;
+  for (const auto* list : {&cycle.checks, &cycle.body})
+    for (const ir::Statement& statement : *list) {
+      if (const auto* assign = std::get_if<ir::Assign>(&statement.node)) out.insert(assign->variable);
+      ir::eachNode(statement, [&](const ir::Expression& node) {
+        if (const auto* use = std::get_if<ir::VariableUse>(&node.node)) out.insert(use->variable);
+      });
+    }
+  return out;
+}
+
+bool isAssigned(const std::vector<ir::Statement>& list, ir::VariableId id) {
+  return std::any_of(list.begin(), list.end(), [&](const ir::Statement& statement) {
+    const auto* assign = std::get_if<ir::Assign>(&statement.node);
+    return assign != nullptr && assign->variable == id;
+  });
+}
+
+bool isStartHost(const ir::Variable& variable) {
+  return variable.role == ir::Role::Host &&
+         (variable.name == "start_x" || variable.name == "start_y" || variable.name == "start_z");
+}
+
+std::vector<bool> reachableFrom(const std::vector<std::vector<std::size_t>>& next, std::size_t from) {
+  std::vector<bool> out(next.size() + 1, false);
+  std::vector<std::size_t> open = {from};
+  while (!open.empty()) {
+    const std::size_t at = open.back();
+    open.pop_back();
+    if (at >= next.size()) continue;
+    for (const std::size_t after : next[at]) {
+      if (out[after]) continue;
+      out[after] = true;
+      open.push_back(after);
+    }
+  }
+  return out;
+}
+
+Ids movingVariables(const ir::Cycle& cycle) {
+  Ids out;
+  for (const ir::Statement& statement : cycle.body)
+    out.merge(movesBy(statement));
+  const auto next = ir::successors(cycle.body);
+  for (std::size_t before = out.size() + 1; before != out.size();) {
+    before = out.size();
+    for (const auto* list : {&cycle.checks, &cycle.body})
+      for (const ir::Statement& statement : *list) {
+        const auto* assign = std::get_if<ir::Assign>(&statement.node);
+        if (assign != nullptr && out.contains(assign->variable)) collect(out, assign->value);
+      }
+    for (std::size_t i = 0; i < cycle.body.size(); ++i) {
+      const auto* branch = std::get_if<ir::Branch>(&cycle.body[i].node);
+      if (branch == nullptr) continue;
+      const Ids read = idsOf(branch->condition);
+      if (std::includes(out.begin(), out.end(), read.begin(), read.end())) continue;
+      if (decides(cycle, next, i, out)) out.insert(read.begin(), read.end());
+    }
+  }
+  return out;
+}
+
+} // namespace dotek::backends::fanuc

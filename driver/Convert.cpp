@@ -1,0 +1,229 @@
+#include "driver/ConvertValues.h"
+#include "driver/Driver.h"
+#include "driver/Lowering.h"
+#include "driver/PostProgram.h"
+#include "driver/Targets.h"
+
+#include "backends/fanuc/Emit.h"
+#include "frontend/gibbs/Ast.h"
+#include "ir/Fold.h"
+#include "support/Decimal.h"
+#include "support/LineMap.h"
+#include "support/NearestName.h"
+
+#include <algorithm>
+#include <set>
+
+namespace dotek::driver {
+
+namespace fanuc = backends::fanuc;
+
+namespace {
+
+constexpr std::uint32_t kFirstProgram = 8000;
+
+class ConvertCommand {
+public:
+  ConvertCommand(const ConvertOptions& options, Session& session) : options_(options), session_(session) {}
+
+  Outcome run() {
+    if (!load()) return refuse();
+    for (std::size_t i = 0; i < folders_.size(); ++i)
+      one(folders_[i], i);
+    reportUnknownNames();
+    if (session_.diagnostics().hasErrors()) return refuse();
+    keepStrongest(session_.diagnostics());
+    std::string text;
+    for (const OutputFile& file : files_)
+      text += file.text;
+    std::string map = renderLineMap(maps_, session_.sources());
+    Outcome outcome = session_.finish(std::move(text));
+    if (outcome.status != 0) return outcome;
+    outcome.files = std::move(files_);
+    outcome.map = std::move(map);
+    return outcome;
+  }
+
+private:
+  Outcome refuse() {
+    keepStrongest(session_.diagnostics());
+    return session_.finish("");
+  }
+
+  bool load() {
+    Diagnostics& diagnostics = session_.diagnostics();
+    if (options_.inputs.empty())
+      diagnostics.report<diag::MissingOption>({}, "convert", "FOLDER", "the folder of a cycle");
+    if (options_.to.empty())
+      diagnostics.report<diag::MissingOption>({}, "convert", "--to TARGET", "the language to write: fanuc");
+    else if (std::find(kTargets.begin(), kTargets.end(), options_.to) == kTargets.end())
+      diagnostics.report<diag::UnknownTarget>({}, options_.to);
+    if (options_.source.cycle && options_.inputs.size() > 1) diagnostics.report<diag::CycleWithSeveral>({});
+    if (options_.oneFile && options_.inputs.size() > 1)
+      diagnostics.report<diag::OutputForOne>({}, options_.inputs.size());
+    readLetters();
+    if (diagnostics.hasErrors()) return false;
+    inputs_ = loadLoweringInputs(options_.source,
+                                 options_.control.empty() ? std::string(kDefaultControl) : options_.control,
+                                 session_);
+    if (!inputs_) return false;
+    if (options_.probeMacros && inputs_->macroSet(*options_.probeMacros) == nullptr) {
+      std::vector<std::string> known;
+      for (const stdlib::MacroSet& set : inputs_->macroSets)
+        known.push_back(set.name);
+      leaveFindingsToLint(session_);
+      diagnostics.report<diag::UnknownMacroSet>({}, *options_.probeMacros,
+                                                fmt::format("{}", fmt::join(known, ", ")));
+      return false;
+    }
+    for (const std::string& path : options_.inputs)
+      folders_.push_back(loadCycleFolder(path, session_));
+    if (options_.source.cycle) folders_.front().name = *options_.source.cycle;
+    leaveFindingsToLint(session_);
+    if (inputs_->job && !inputs_->job->operations.empty())
+      diagnostics.report<diag::JobOperationsUnused>(inputs_->job->operations.front().range);
+    return !diagnostics.hasErrors() && numbersDiffer();
+  }
+
+  void readLetters() {
+    for (const auto& [name, text] : options_.letters) {
+      if (text.size() != 1)
+        session_.diagnostics().report<diag::LetterNotAllowed>({}, name, text);
+      else if (!letters_.emplace(name, text[0]).second)
+        session_.diagnostics().report<diag::GivenTwice>({}, "--arg", name);
+    }
+  }
+
+  std::uint32_t numberOf(std::size_t index) const {
+    if (options_.programNumber) return *options_.programNumber;
+    if (inputs_->job && inputs_->job->number) return static_cast<std::uint32_t>(*inputs_->job->number);
+    return kFirstProgram + static_cast<std::uint32_t>(index);
+  }
+
+  bool numbersDiffer() {
+    if (folders_.size() < 2 || numberOf(0) != numberOf(1)) return true;
+    session_.diagnostics().report<diag::ProgramNumberTwice>({}, numberOf(0), folders_[0].name,
+                                                            folders_[1].name);
+    return false;
+  }
+
+  // The set that the program calls: given, else the source's; a path alone takes the first that touches
+  // without setting an offset.
+  const stdlib::MacroSet* macrosOf(const LoweredCycle& lowered) {
+    if (options_.probeMacros) return inputs_->macroSet(*options_.probeMacros);
+    if (lowered.macros != nullptr) return lowered.macros;
+    for (const stdlib::MacroSet& set : inputs_->macroSets) {
+      const stdlib::MacroSignature* surface = set.find(stdlib::Intent::Surface);
+      const stdlib::MacroArgument* system =
+          surface == nullptr ? nullptr : surface->find(stdlib::ArgumentRole::System, ir::Axis::X);
+      if (surface == nullptr || (system != nullptr && system->required)) continue;
+      session_.diagnostics().report<diag::MacroSetChosen>({}, lowered.cycle.name, set.name);
+      return &set;
+    }
+    session_.diagnostics().report<diag::MissingOption>({}, "convert", "--probe-macros SET",
+                                                       "the macros that the program calls");
+    return nullptr;
+  }
+
+  void one(const CycleFolder& folder, std::size_t index) {
+    std::optional<LoweredCycle> lowered = lowerCycle(folder, *inputs_, usedSets_, session_);
+    if (!lowered) {
+      failed_ = true;
+      return;
+    }
+    lowered->cycle.name = folder.name;
+    applyDefaults(options_.defaults, *lowered, usedDefaults_, session_);
+    settleValues(folder, *lowered, session_);
+    const stdlib::MacroSet* macros = macrosOf(*lowered);
+    if (macros == nullptr || session_.diagnostics().hasErrors()) return;
+    for (const auto& [id, value] : lowered->fixed) {
+      if (!ir::uses(lowered->cycle, id) && lowered->cycle.variable(id).role == ir::Role::Host)
+        lowered->fixedByName.erase(lowered->cycle.variable(id).name);
+    }
+    ir::fold(lowered->cycle, lowered->fixed);
+    fanuc::EmitOptions emit{*inputs_->control, *macros, *inputs_->sourceControl, 0, {}, {}, {}, {}};
+    emit.plainMessages = options_.common.assume.contains("plain-messages");
+    emit.foreignMacros = macros != lowered->macros;
+    emit.programNumber = numberOf(index);
+    emit.defaults = options_.useDefaults ? fanuc::Defaults::Use : fanuc::Defaults::Alarm;
+    emit.probePower = options_.switchProbe ? fanuc::ProbePowerMode::Macro : fanuc::ProbePowerMode::Source;
+    emit.letters = lettersOf(*lowered);
+    emit.fixed = lowered->fixedByName;
+    for (const char* place : {"start_x", "start_y", "start_z"}) {
+      if (const auto given = inputs_->hosts.find(place); given != inputs_->hosts.end())
+        emit.fixed.insert(*given);
+    }
+    const auto lines = fanuc::emit(lowered->cycle, emit, session_.sources(), session_.diagnostics());
+    if (!lines) return;
+    add(*lines, emit.programNumber);
+  }
+
+  // --arg names are those of this cycle, as it spells them.
+  std::map<std::string, char> lettersOf(const LoweredCycle& lowered) {
+    std::map<std::string, char> out;
+    for (const auto& [name, letter] : letters_) {
+      const std::string folded = frontend::gibbs::foldCase(name);
+      for (const ir::Variable& variable : lowered.cycle.variables) {
+        if (variable.role == ir::Role::Local || frontend::gibbs::foldCase(variable.name) != folded) continue;
+        usedLetters_.insert(name);
+        out.emplace(variable.name, letter);
+      }
+    }
+    return out;
+  }
+
+  void add(const std::vector<fanuc::EmittedLine>& lines, std::uint32_t number) {
+    OutputFile file{fmt::format("O{:04}.nc", number), ""};
+    MappedResult map{file.name, {}};
+    for (const fanuc::EmittedLine& line : lines) {
+      file.text += line.text + "\n";
+      map.lines.push_back({static_cast<std::uint32_t>(map.lines.size() + 1), line.ranges, line.reason});
+    }
+    files_.push_back(std::move(file));
+    maps_.push_back(std::move(map));
+  }
+
+  void reportUnknownNames() {
+    if (failed_) return;
+    std::string cycles;
+    std::vector<std::string> names;
+    for (const CycleFolder& folder : folders_) {
+      cycles += (cycles.empty() ? "" : ", ") + folder.name;
+      for (const auto& field : frontend::gibbs::declaredFields(*folder.cycle))
+        names.push_back(field.name.text);
+    }
+    const auto unknown = [&](const std::string& name) {
+      const std::string near = nearestName(name, names);
+      session_.diagnostics().report<diag::NoSuchField>({}, name, cycles,
+                                                       near.empty() ? "" : "; did you mean `" + near + "`?");
+    };
+    for (const auto& [name, value] : inputs_->sets)
+      if (!usedSets_.contains(name)) unknown(name);
+    for (const auto& [name, text] : options_.defaults)
+      if (!usedDefaults_.contains(name)) unknown(name);
+    for (const auto& [name, letter] : letters_) {
+      if (usedLetters_.contains(name) || session_.diagnostics().hasErrors()) continue;
+      const std::string near = nearestName(name, names);
+      session_.diagnostics().report<diag::ArgumentUnknown>(
+          {}, name, near.empty() ? "" : "; did you mean `" + near + "`?");
+    }
+  }
+
+  const ConvertOptions& options_;
+  Session& session_;
+  std::optional<LoweringInputs> inputs_;
+  std::vector<CycleFolder> folders_;
+  std::map<std::string, char> letters_;
+  std::set<std::string> usedSets_, usedDefaults_, usedLetters_;
+  std::vector<OutputFile> files_;
+  std::vector<MappedResult> maps_;
+  bool failed_ = false;
+};
+
+} // namespace
+
+Outcome convert(const ConvertOptions& options) {
+  return guarded(options.common, [&](Session& session) { return ConvertCommand(options, session).run(); });
+}
+
+} // namespace dotek::driver

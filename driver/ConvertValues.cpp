@@ -1,0 +1,181 @@
+#include "driver/ConvertValues.h"
+
+#include "frontend/gibbs/Ast.h"
+#include "ir/Evaluate.h"
+#include "ir/Rewrite.h"
+#include "support/Decimal.h"
+
+#include <algorithm>
+
+namespace dotek::driver {
+
+namespace gibbs = frontend::gibbs;
+
+namespace {
+
+// A stylus has some such radius, what else the CAM knows is some such height or place: a check that turns a
+// value away for all of them always does.
+constexpr double kRadii[] = {0.001, 1, 3, 10};
+constexpr double kPlaces[] = {0, 50, -50};
+
+class Values {
+public:
+  Values(const CycleFolder& folder, LoweredCycle& lowered, Session& session)
+      : folder_(folder), lowered_(lowered), session_(session) {}
+
+  void settle() {
+    ir::Environment fixed = environment(false);
+    const ir::CheckRun run = tried(fixed);
+    if (run.end == ir::CheckRun::End::Alarm) return rejected(*run.at);
+    const ir::CheckRun defaults = tried(environment(true));
+    if (defaults.end != ir::CheckRun::End::Alarm) return;
+    const std::vector<ir::VariableId> found = culprits();
+    const bool given =
+        std::any_of(found.begin(), found.end(), [&](ir::VariableId id) { return isGiven(id); });
+    if (given) return rejected(*defaults.at);
+    for (const ir::VariableId id : found) {
+      ir::Variable& variable = cycle().variables[id];
+      session_.diagnostics()
+          .report<diag::DefaultTurnedAway>(variable.range, variable.name, numberText(*variable.defaultValue),
+                                           messageOf(*defaults.at))
+          .note(defaults.at->origin.range(), "this check turns it away");
+      variable.defaultValue.reset();
+    }
+  }
+
+private:
+  ir::Cycle& cycle() { return lowered_.cycle; }
+  const ir::Cycle& cycle() const { return lowered_.cycle; }
+
+  bool isGiven(ir::VariableId id) const {
+    return lowered_.fixed.contains(id) || lowered_.givenDefaults.contains(id);
+  }
+
+  ir::Environment environment(bool withDefaults) const {
+    ir::Environment out(cycle().variables.size());
+    for (ir::VariableId id = 0; id < out.size(); ++id) {
+      const ir::Variable& variable = cycle().variable(id);
+      if (const auto fixed = lowered_.fixed.find(id); fixed != lowered_.fixed.end())
+        out[id] = {ir::Scalar::State::Known, fixed->second};
+      else if (withDefaults && variable.defaultValue)
+        out[id] = {ir::Scalar::State::Known, *variable.defaultValue};
+    }
+    return out;
+  }
+
+  // Ends in an alarm only where every value of the host inputs does.
+  ir::CheckRun tried(const ir::Environment& environment) const {
+    ir::CheckRun last = ir::runChecks(cycle(), environment, session_.limits().steps);
+    if (last.end != ir::CheckRun::End::Unknown) return last;
+    for (const auto& [radius, place] : hostValues()) {
+      ir::Environment with = environment;
+      for (ir::VariableId id = 0; id < with.size(); ++id) {
+        const ir::Variable& variable = cycle().variable(id);
+        if (variable.role == ir::Role::Host && !with[id].known())
+          with[id] = {ir::Scalar::State::Known, variable.name == "tool_radius" ? radius : place};
+      }
+      const ir::CheckRun run = ir::runChecks(cycle(), with, session_.limits().steps);
+      if (run.end != ir::CheckRun::End::Alarm) return run;
+      last = run;
+    }
+    return last;
+  }
+
+  std::vector<std::pair<double, double>> hostValues() const {
+    bool radius = false;
+    bool place = false;
+    for (const ir::Variable& variable : cycle().variables) {
+      if (variable.role == ir::Role::Host) (variable.name == "tool_radius" ? radius : place) = true;
+    }
+    std::vector<std::pair<double, double>> out;
+    for (const double r : kRadii) {
+      for (const double p : kPlaces) {
+        if ((radius || r == kRadii[0]) && (place || p == kPlaces[0])) out.emplace_back(r, p);
+      }
+    }
+    return out;
+  }
+
+  // Values that may make the checks pass: around each constant that they name, and round numbers.
+  std::vector<double> candidates() const {
+    std::set<double> out = {0, 1, 5, 10, 50, 100, 1000, -1, -5, -10, -50, -100};
+    for (const double constant : ir::constantsOf(cycle().checks)) {
+      for (const double step : {0.0, 0.001, 1.0, -0.001, -1.0})
+        out.insert(constant + step);
+    }
+    return {out.begin(), out.end()};
+  }
+
+  // Whether some other value of the parameter alone lets the rest pass.
+  bool cures(ir::VariableId id) const {
+    ir::Environment with = environment(true);
+    const std::vector<double> values = candidates();
+    return std::any_of(values.begin(), values.end(), [&](double value) {
+      with[id] = {ir::Scalar::State::Known, value};
+      return tried(with).end == ir::CheckRun::End::Passes;
+    });
+  }
+
+  // The defaults that are to blame: each of which another value lets the rest pass; all of them where no
+  // single one does. None where a fixed value is to blame.
+  std::vector<ir::VariableId> culprits() const {
+    std::vector<ir::VariableId> out;
+    std::vector<ir::VariableId> all;
+    bool fixedCures = false;
+    for (ir::VariableId id = 0; id < cycle().variables.size(); ++id) {
+      const ir::Variable& variable = cycle().variable(id);
+      const bool fixed = lowered_.fixed.contains(id);
+      if (variable.role != ir::Role::Parameter || (!fixed && !variable.defaultValue)) continue;
+      if (!fixed) all.push_back(id);
+      if (!cures(id)) continue;
+      if (fixed)
+        fixedCures = true;
+      else
+        out.push_back(id);
+    }
+    return out.empty() && !fixedCures ? all : out;
+  }
+
+  static std::string messageOf(const ir::Statement& alarm) {
+    const std::string& text = std::get<ir::Alarm>(alarm.node).message;
+    return text.empty() ? "no message" : "`" + text + "`";
+  }
+
+  void rejected(const ir::Statement& alarm) {
+    session_.diagnostics().report<diag::ValuesRejected>(alarm.origin.range(), folder_.name, messageOf(alarm));
+  }
+
+  const CycleFolder& folder_;
+  LoweredCycle& lowered_;
+  Session& session_;
+};
+
+} // namespace
+
+void applyDefaults(const NamedTexts& given, LoweredCycle& lowered, std::set<std::string>& used,
+                   Session& session) {
+  std::set<std::string> seen;
+  for (const auto& [name, text] : given) {
+    const std::string folded = gibbs::foldCase(name);
+    for (ir::Variable& variable : lowered.cycle.variables) {
+      if (variable.role != ir::Role::Parameter || gibbs::foldCase(variable.name) != folded) continue;
+      used.insert(name);
+      const std::optional<double> value = parseNumber(text);
+      if (!value) {
+        session.diagnostics().report<diag::NotANumber>({}, "--default", name, text);
+      } else if (!seen.insert(folded).second) {
+        session.diagnostics().report<diag::GivenTwice>({}, "--default", name);
+      } else {
+        variable.defaultValue = value;
+        variable.defaultDigits = text;
+        lowered.givenDefaults.insert(static_cast<ir::VariableId>(&variable - lowered.cycle.variables.data()));
+      }
+    }
+  }
+}
+
+void settleValues(const CycleFolder& folder, LoweredCycle& lowered, Session& session) {
+  Values(folder, lowered, session).settle();
+}
+
+} // namespace dotek::driver

@@ -1,0 +1,345 @@
+#include "driver/Lowering.h"
+
+#include "driver/Assumptions.h"
+#include "driver/Fields.h"
+#include "driver/Hosts.h"
+#include "driver/PostProgram.h"
+#include "frontend/compost/Lower.h"
+#include "frontend/compost/Summary.h"
+#include "frontend/gibbs/Lower.h"
+#include "ir/Evaluate.h"
+#include "ir/InferKinds.h"
+#include "ir/Rewrite.h"
+#include "ir/Verify.h"
+#include "stdlib/HostInputs.h"
+#include "support/Decimal.h"
+
+#include <algorithm>
+
+namespace dotek::driver {
+
+namespace compost = frontend::compost;
+namespace gibbs = frontend::gibbs;
+
+namespace {
+
+std::optional<stdlib::Control> loadControl(const std::string& name, Session& session) {
+  std::optional<stdlib::Control> control = stdlib::Control::load(session.data(), name);
+  if (!control) {
+    std::string known;
+    for (const stdlib::DataFile* file : session.data().list("controls"))
+      known += (known.empty() ? "" : ", ") + file->name;
+    session.diagnostics().report<diag::UnknownProfile>({}, name, known);
+  }
+  return control;
+}
+
+void readSets(LoweringInputs& inputs, Session& session) {
+  for (const auto& [name, text] : session.options().set) {
+    const std::optional<double> value = parseNumber(text);
+    const std::string folded = gibbs::foldCase(name);
+    const bool twice = std::any_of(inputs.sets.begin(), inputs.sets.end(),
+                                   [&](const auto& set) { return gibbs::foldCase(set.first) == folded; });
+    if (!value)
+      session.diagnostics().report<diag::NotANumber>({}, "--set", name, text);
+    else if (twice)
+      session.diagnostics().report<diag::GivenTwice>({}, "--set", name);
+    else
+      inputs.sets.emplace_back(name, *value);
+  }
+}
+
+// One cycle on its way to the IR.
+class Lowering {
+public:
+  Lowering(const CycleFolder& folder, const LoweringInputs& inputs, Session& session)
+      : folder_(folder), inputs_(inputs), session_(session) {}
+
+  std::optional<LoweredCycle> run(std::set<std::string>& usedSets);
+
+private:
+  ir::Cycle& cycle() { return out_.cycle; }
+  bool branch(const compost::Routine& routine, FieldTable& fields);
+  bool path();
+  bool checks();
+  bool turnedAway();
+  void fix(ir::VariableId id, const std::string& name, double value);
+  void applySets(FieldTable& fields, std::set<std::string>& usedSets);
+  std::optional<ir::VariableId> fieldVariable(FieldTable& fields, const std::string& name, SourceRange where);
+  ir::VariableId host(const std::string& name);
+  bool settleChangedFields();
+  bool verified();
+  gibbs::LowerContext gibbsContext();
+
+  const CycleFolder& folder_;
+  const LoweringInputs& inputs_;
+  Session& session_;
+  LoweredCycle out_;
+  std::map<std::string, ir::VariableId> parameters_; // by folded name
+  std::map<std::string, ir::VariableId> postOnly_;   // fields that only the post knows
+  std::map<std::string, ir::VariableId> hosts_;
+};
+
+ir::VariableId Lowering::host(const std::string& name) {
+  const auto known = hosts_.find(name);
+  if (known != hosts_.end()) return known->second;
+  ir::Variable variable;
+  variable.name = name;
+  variable.role = ir::Role::Host;
+  variable.kind = name == "return_feed"   ? ir::Kind::Feed
+                  : name == "tool_number" ? ir::Kind::Count
+                  : name == "tool_offset" ? ir::Kind::ToolOffset
+                                          : ir::Kind::Length;
+  for (const stdlib::HostInput& input : stdlib::kHostInputs) {
+    if (input.name == name) variable.meaning = input.meaning;
+  }
+  const ir::VariableId id = cycle().add(std::move(variable));
+  hosts_.emplace(name, id);
+  const auto given = inputs_.hosts.find(name);
+  if (given != inputs_.hosts.end()) fix(id, name, given->second);
+  return id;
+}
+
+void Lowering::fix(ir::VariableId id, const std::string& name, double value) {
+  out_.fixed.insert_or_assign(id, value);
+  out_.fixedByName.insert_or_assign(name, value);
+}
+
+std::optional<ir::VariableId> Lowering::fieldVariable(FieldTable& fields, const std::string& name,
+                                                      SourceRange where) {
+  const std::optional<FieldOrigin> origin = fields.origin(name, where);
+  if (!origin) return std::nullopt;
+  if (!origin->number) return parameters_.at(gibbs::foldCase(origin->variable));
+  const auto known = postOnly_.find(name);
+  if (known != postOnly_.end()) return known->second;
+  ir::Variable variable;
+  variable.name = name;
+  variable.role = ir::Role::Parameter;
+  variable.range = where;
+  const ir::VariableId id = cycle().add(std::move(variable));
+  postOnly_.emplace(name, id);
+  fix(id, name, *origin->number);
+  return id;
+}
+
+void Lowering::applySets(FieldTable& fields, std::set<std::string>& usedSets) {
+  for (const auto& [name, value] : inputs_.sets) {
+    if (!fields.set(name, value, {})) continue;
+    usedSets.insert(name);
+    if (const auto found = parameters_.find(gibbs::foldCase(name)); found != parameters_.end())
+      fix(found->second, cycle().variable(found->second).name, value);
+  }
+}
+
+bool Lowering::branch(const compost::Routine& routine, FieldTable& fields) {
+  std::vector<const stdlib::MacroSet*> sets;
+  for (const stdlib::MacroSet& set : inputs_.macroSets)
+    sets.push_back(&set);
+  const compost::LowerSettings settings{
+      session_.sources(),
+      *inputs_.form,
+      session_.limits(),
+      *inputs_.sourceControl,
+      std::move(sets),
+      session_.options().assume,
+      [&](const std::string& name, SourceRange where) { return fieldVariable(fields, name, where); },
+      [&](const std::string& name, SourceRange) { return std::optional(host(name)); },
+      [&](ir::VariableId id) {
+        const auto found = out_.fixed.find(id);
+        return found == out_.fixed.end() ? std::nullopt : std::optional(found->second);
+      }};
+  std::optional<compost::Lowered> lowered = compost::lowerRoutine(*inputs_.program, routine, folder_.name,
+                                                                  cycle(), settings, session_.diagnostics());
+  if (!lowered) return false;
+  if (lowered->body.empty()) {
+    session_.diagnostics().report<diag::NothingPosted>(routine.nameRange, routine.name, folder_.name,
+                                                       testedCycles(*inputs_.program, folder_.name));
+    return false;
+  }
+  cycle().body = std::move(lowered->body);
+  out_.macros = lowered->macros;
+  return true;
+}
+
+gibbs::LowerContext Lowering::gibbsContext() {
+  gibbs::LowerContext context{
+      session_.sources(),
+      session_.gibbsKeywords(),
+      session_.limits(),
+      session_.diagnostics(),
+      session_.options().assume,
+      {},
+      [this](const std::string& name, SourceRange where) { return folder_.loader->macro(name, where); },
+      [this](const std::string& name, SourceRange where) { return folder_.loader->dialog(name, where); },
+      [this](const std::string& name) { return host(name); }};
+  return context;
+}
+
+bool Lowering::path() {
+  if (!folder_.cycle->toolPath) return false;
+  gibbs::LowerContext context = gibbsContext();
+  context.touches = touchLines(session_.sources(), session_.options().assume, session_.diagnostics());
+  return gibbs::lowerToolPath(*folder_.cycle->toolPath, cycle(), context);
+}
+
+bool Lowering::checks() {
+  if (!folder_.cycle->cycleData) return true;
+  if (session_.options().assume.contains("unchecked")) {
+    session_.diagnostics().report<diag::ChecksLeftOut>({folder_.cycle->cycleData->file, 0, 0});
+    return true;
+  }
+  gibbs::LowerContext context = gibbsContext();
+  return gibbs::lowerChecks(*folder_.cycle->cycleData, cycle(), context);
+}
+
+bool Lowering::turnedAway() {
+  ir::Environment known(cycle().variables.size());
+  for (const auto& [id, value] : out_.fixed)
+    known[id] = ir::Scalar::of(value);
+  const ir::CheckRun run = ir::runChecks(cycle(), std::move(known), session_.limits().steps);
+  if (run.end != ir::CheckRun::End::Alarm) return false;
+  const std::string& text = std::get<ir::Alarm>(run.at->node).message;
+  session_.diagnostics().report<diag::ValuesRejected>(run.at->origin.range(), folder_.name,
+                                                      text.empty() ? "no message" : "`" + text + "`");
+  return true;
+}
+
+// Which value of a field the CAM stores is certain where the user cannot type it; else an assumption says it.
+bool Lowering::settleChangedFields() {
+  const auto& assume = session_.options().assume;
+  std::map<ir::VariableId, ir::VariableId> shadows;
+  bool settled = true;
+  for (const ir::Statement& statement : cycle().checks) {
+    const auto* assign = std::get_if<ir::Assign>(&statement.node);
+    if (assign == nullptr || cycle().variable(assign->variable).role != ir::Role::Parameter) continue;
+    const std::string name = cycle().variable(assign->variable).name;
+    const std::string folded = gibbs::foldCase(name);
+    const auto& controls = folder_.cycle->dialog;
+    const bool typed =
+        controls &&
+        std::any_of(controls->controls.begin(), controls->controls.end(), [&](const gibbs::Control& control) {
+          return control.variable && gibbs::foldCase(control.variable->text) == folded;
+        });
+    if (!typed || assume.contains("changed-field=macro")) {
+      session_.diagnostics().report<diag::FieldAssigned>(statement.origin.range(), name);
+    } else if (assume.contains("changed-field=given")) {
+      shadows.emplace(assign->variable, 0);
+    } else {
+      session_.diagnostics().report<diag::FieldAssignedByChecks>(statement.origin.range(), name);
+      settled = false;
+    }
+  }
+  if (!settled || shadows.empty()) return settled;
+  std::vector<ir::Statement> copies;
+  for (auto& [original, shadow] : shadows) {
+    ir::Variable copy = cycle().variable(original);
+    copy.role = ir::Role::Local;
+    shadow = cycle().add(std::move(copy));
+    ir::Statement statement;
+    statement.node = ir::Assign{shadow, ir::variable(original)};
+    statement.origin.reason = "copy that the checks may change";
+    copies.push_back(std::move(statement));
+  }
+  ir::rename(cycle().checks, shadows);
+  cycle().checks.insert(cycle().checks.begin(), std::make_move_iterator(copies.begin()),
+                        std::make_move_iterator(copies.end()));
+  return true;
+}
+
+bool Lowering::verified() {
+  bool good = true;
+  for (const ir::Violation& violation : ir::verify(cycle())) {
+    good = false;
+    if (violation.mixedKinds)
+      session_.diagnostics().report<diag::MixedKinds>(violation.range, violation.message);
+    else
+      session_.diagnostics().report<diag::InternalDefect>(violation.range, violation.message);
+  }
+  return good;
+}
+
+std::optional<LoweredCycle> Lowering::run(std::set<std::string>& usedSets) {
+  out_.cycle = gibbs::declareCycle(*folder_.cycle, session_.sources());
+  for (ir::VariableId id = 0; id < cycle().variables.size(); ++id)
+    parameters_.emplace(gibbs::foldCase(cycle().variable(id).name), id);
+  if (folder_.cycle->defineData) cycle().range = {folder_.cycle->defineData->file, 0, 0};
+  const compost::Routine* routine = nullptr;
+  std::vector<std::string> printed;
+  if (inputs_.program) {
+    routine = chooseRoutine(*inputs_.program, inputs_.routine, inputs_.routineAt, folder_.name, session_);
+    if (routine == nullptr) {
+      for (const auto& set : inputs_.sets)
+        usedSets.insert(set.first); // one finding for one cause
+      return std::nullopt;
+    }
+    for (const compost::FieldRef& field : compost::fieldsPrinted(*inputs_.program, *routine, folder_.name))
+      printed.push_back(field.name);
+  }
+  FieldTable fields(folder_, std::move(printed), session_);
+  applySets(fields, usedSets);
+  bool good = true;
+  for (const auto& [postField, variable] : session_.options().field)
+    good = fields.map(postField, variable) && good;
+  if (!good) return std::nullopt;
+  good = checks();
+  // What the dialog turns away is told before what its blocks would come to.
+  if (good && turnedAway()) return std::nullopt;
+  good = (routine != nullptr ? branch(*routine, fields) : path()) && good;
+  if (!good || session_.diagnostics().hasErrors()) return std::nullopt;
+  if (!settleChangedFields()) return std::nullopt;
+  ir::inferKinds(cycle());
+  if (!verified()) return std::nullopt;
+  return std::move(out_);
+}
+
+} // namespace
+
+const stdlib::MacroSet* LoweringInputs::macroSet(const std::string& name) const {
+  const auto found = std::find_if(macroSets.begin(), macroSets.end(),
+                                  [&](const stdlib::MacroSet& set) { return set.name == name; });
+  return found == macroSets.end() ? nullptr : &*found;
+}
+
+std::optional<LoweringInputs> loadLoweringInputs(const SourceOptions& source, const std::string& control,
+                                                 Session& session) {
+  LoweringInputs inputs;
+  Diagnostics& diagnostics = session.diagnostics();
+  inputs.hosts = parseHosts(session.options().host, diagnostics);
+  readSets(inputs, session);
+  if (session.options().job)
+    inputs.job = loadJob(*session.options().job, session.limits(), session.sources(), diagnostics);
+  if (inputs.job) inputs.hosts.insert(inputs.job->hosts.begin(), inputs.job->hosts.end());
+  inputs.routine = source.routine;
+  if (!inputs.routine && inputs.job) {
+    inputs.routine = inputs.job->operationRoutine;
+    inputs.routineAt = inputs.job->operationRange;
+  }
+  inputs.control = loadControl(control, session);
+  if (source.prog) {
+    inputs.form = session.form(source.form);
+    if (inputs.form && !inputs.form->control.empty())
+      inputs.sourceControl = loadControl(inputs.form->control, session);
+    else
+      inputs.sourceControl = inputs.control;
+    for (const stdlib::DataFile* file : session.data().list("macros")) {
+      if (auto set = stdlib::MacroSet::load(session.data(), file->name))
+        inputs.macroSets.push_back(std::move(*set));
+    }
+    if (!diagnostics.hasErrors()) inputs.program = loadProg(*source.prog, session);
+  } else {
+    inputs.sourceControl = inputs.control;
+    for (const stdlib::DataFile* file : session.data().list("macros")) {
+      if (auto set = stdlib::MacroSet::load(session.data(), file->name))
+        inputs.macroSets.push_back(std::move(*set));
+    }
+  }
+  if (diagnostics.hasErrors() || (source.prog && !inputs.program)) return std::nullopt;
+  return inputs;
+}
+
+std::optional<LoweredCycle> lowerCycle(const CycleFolder& folder, const LoweringInputs& inputs,
+                                       std::set<std::string>& usedSets, Session& session) {
+  return Lowering(folder, inputs, session).run(usedSets);
+}
+
+} // namespace dotek::driver

@@ -1,0 +1,57 @@
+// From a cycle folder and a Prog to the IR: what convert, dump and verify begin with.
+#pragma once
+
+#include "driver/CycleFolder.h"
+#include "driver/Job.h"
+#include "driver/Session.h"
+#include "frontend/compost/Ast.h"
+#include "ir/Cycle.h"
+#include "stdlib/Control.h"
+#include "stdlib/Form.h"
+#include "stdlib/MacroSet.h"
+
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace dotek::driver {
+
+// Profile where no --control is given.
+inline constexpr std::string_view kDefaultControl = "fanuc-0i-md";
+
+// What one command reads before its first cycle.
+struct LoweringInputs {
+  std::optional<stdlib::Form> form;
+  std::optional<frontend::compost::Program> program; // nothing: no --prog
+  std::optional<stdlib::Control> control;            // --control, else the first of the target
+  std::optional<stdlib::Control> sourceControl;      // of the machine that the post writes for
+  std::vector<stdlib::MacroSet> macroSets;           // all, by name
+  std::optional<Job> job;
+  std::map<std::string, double> hosts;              // --host, then the job
+  std::vector<std::pair<std::string, double>> sets; // --set
+  std::optional<std::string> routine;               // --routine, else the job's
+  SourceRange routineAt;
+
+  const stdlib::MacroSet* macroSet(const std::string& name) const; // nullptr: there is none
+};
+
+// Reports and gives nothing where an option, the Prog or a data file has a defect.
+std::optional<LoweringInputs> loadLoweringInputs(const SourceOptions& source, const std::string& control,
+                                                 Session& session);
+
+struct LoweredCycle {
+  ir::Cycle cycle;
+  const stdlib::MacroSet* macros = nullptr;  // the set that the source calls; nullptr: none
+  std::map<ir::VariableId, double> fixed;    // by --set, --host, the job
+  std::map<std::string, double> fixedByName; // the same, as the command line names them
+  std::set<ir::VariableId> givenDefaults;    // defaults that the command line gave
+};
+
+// `usedSets` collects the names of --set that the cycle knows. nullopt where something has no single meaning:
+// reported.
+std::optional<LoweredCycle> lowerCycle(const CycleFolder& folder, const LoweringInputs& inputs,
+                                       std::set<std::string>& usedSets, Session& session);
+
+} // namespace dotek::driver

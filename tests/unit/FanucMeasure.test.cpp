@@ -1,0 +1,236 @@
+// Measurements: what a macro set wants to know, work offsets, results.
+#include "FanucHelper.h"
+
+using namespace dotek;
+using namespace dotek::tests;
+
+namespace {
+
+ir::Measure bore(ExpressionPtr diameter, ExpressionPtr system, ExpressionPtr x, ExpressionPtr y) {
+  ir::Measure out;
+  out.feature = ir::Feature::Bore;
+  out.diameter = std::move(diameter);
+  out.setting = ir::OffsetSetting{std::move(system), {std::move(x), std::move(y), nullptr}};
+  return out;
+}
+
+} // namespace
+
+TEST_CASE("fanuc measure: travel becomes a target where the macro wants one") {
+  SurfaceCycle cycle;
+  const Target target("inspection-plus");
+  SUBCASE("from the start, which is read") {
+    const Emission out = target.emit(cycle.cycle);
+    checkProgram(out);
+    CHECK(out.has("#28=#5001"));
+    CHECK(out.has("G65 P9811 X[#28+#24]"));
+    CHECK(out.has("#[5221+[#19-54]*20]=#[5221+[#4014-54]*20]+#135-#4"));
+    CHECK(out.find("G53", out.find("P9811")) < out.find("#[5221+[#19"));
+    CHECK(out.has("#550=#135"));
+    CHECK(out.codes().contains("result-differs"));
+  }
+  SUBCASE("from X-10 by 10 the word is X0, and the macro sets the offset") {
+    cycle.fixAll();
+    cycle.cycle.body.insert(cycle.cycle.body.begin(), statement(ir::Move{}));
+    auto& move = std::get<ir::Move>(cycle.cycle.body[0].node);
+    move.axes[0] = ir::Coordinate{number(-10), ir::Frame::Work, nullptr};
+    const Emission out = target.emit(cycle.cycle);
+    checkProgram(out);
+    CHECK(out.holds("G65 P9811 S3 X0."));
+    CHECK_FALSE(out.holds("+#135"));
+    CHECK_FALSE(out.holds("#5241"));
+  }
+  SUBCASE("the same with a nominal that differs is written by the program") {
+    ir::fold(cycle.cycle, {{cycle.travel, 10}, {cycle.nominal, 1}, {cycle.system, 55}});
+    Target fixed("inspection-plus");
+    fixed.options.fixed = {{"start_x", -10}};
+    const Emission out = fixed.emit(cycle.cycle);
+    checkProgram(out);
+    CHECK(out.has("G65 P9811 X0."));
+    CHECK(out.has("#5241=#[5221+[#4014-54]*20]+#135-1."));
+  }
+}
+
+TEST_CASE("fanuc measure: a target becomes travel where the macro wants that") {
+  Maker cycle;
+  const VariableId x = cycle.field("x", 0);
+  cycle.move(ir::Motion::Protected, ir::Axis::X, number(-10));
+  cycle.surface(ir::Axis::X, use(x), number(54), use(x));
+  std::get<ir::Measure>(cycle.cycle.body[1].node).target->frame = ir::Frame::Work;
+  const Emission out = Target().emit(cycle.cycle);
+  checkProgram(out);
+  CHECK(out.has("G65 P9023 S54. X[#24+10.] I#24"));
+}
+
+TEST_CASE("fanuc measure: the selector is computed where the system is an argument") {
+  Maker cycle;
+  const VariableId g = cycle.field("G", 56, ir::Kind::WorkOffset);
+  const VariableId x = cycle.field("X", 0);
+  cycle.surface(ir::Axis::X, use(x), use(g), use(x)).origin.arguments = {{'S', g}};
+  std::get<ir::Measure>(cycle.cycle.body[0].node).target->frame = ir::Frame::Work;
+  const Emission out = Target("inspection-plus").emit(cycle.cycle);
+  checkProgram(out);
+  CHECK(out.has("G65 P9811 X#24 S[#19-53]"));
+  // Nothing confines G: our own alarm does.
+  CHECK(out.has("IF[#19 LT 54.]THEN #3000=109(WORK OFFSET NOT 54 TO 59)"));
+  CHECK(out.has("IF[#19 NE FIX[#19]]THEN #3000=109(WORK OFFSET NOT 54 TO 59)"));
+}
+
+TEST_CASE("fanuc measure: checks of the source that confine the system are not repeated") {
+  const SurfaceCycle cycle;
+  const Emission out = Target("inspection-plus").emit(cycle.cycle);
+  CHECK_FALSE(out.holds("IF[#19 LT 54.]THEN"));
+  CHECK(out.holds("IF[#19 NE FIX[#19]]THEN"));
+}
+
+TEST_CASE("fanuc measure: a bore") {
+  Maker cycle;
+  const VariableId d = cycle.field("d", 30), i = cycle.field("i", 30), j = cycle.field("j", 30);
+  SUBCASE("EasyProbe gives the centre its coordinates") {
+    cycle.add(bore(use(d), number(56), use(i), use(j))).origin.addresses = "GPDSIJ";
+    const Emission out = Target().emit(cycle.cycle);
+    checkProgram(out);
+    CHECK(out.has("G65 P9023 D#7 S56. I#4 J#5"));
+  }
+  SUBCASE("Inspection Plus takes the position as the nominal") {
+    cycle.move(ir::Motion::Protected, ir::Axis::X, use(i));
+    cycle.move(ir::Motion::Protected, ir::Axis::Y, use(j));
+    cycle.add(bore(use(d), number(56), use(i), use(j)));
+    CHECK(Target("inspection-plus").emit(cycle.cycle).has("G65 P9814 D#7 S3"));
+  }
+  SUBCASE("else both offsets are written") {
+    cycle.add(bore(use(d), number(56), use(i), use(j)));
+    const Emission out = Target("inspection-plus").emit(cycle.cycle);
+    checkProgram(out);
+    CHECK(out.has("G65 P9814 D#7"));
+    CHECK(out.has("#5261=#[5221+[#4014-54]*20]+#135-#4"));
+    CHECK(out.has("#5262=#[5222+[#4014-54]*20]+#136-#5"));
+  }
+  SUBCASE("and along one axis only that one") {
+    cycle.add(bore(use(d), number(56), use(i), nullptr));
+    const Emission out = Target("inspection-plus").emit(cycle.cycle);
+    CHECK(out.holds("#5261="));
+    CHECK_FALSE(out.holds("#5262="));
+    CHECK(Target().emit(cycle.cycle).codes().contains("needs-offset"));
+  }
+}
+
+TEST_CASE("fanuc measure: writing an offset of Z asks for no shift of Z") {
+  const SurfaceCycle x;
+  CHECK_FALSE(Target("inspection-plus").emit(x.cycle).holds("#5043"));
+  const SurfaceCycle z(ir::Axis::Z);
+  const Emission out = Target("inspection-plus").emit(z.cycle);
+  checkProgram(out);
+  CHECK(out.holds("#5043"));
+  CHECK(out.has("#[5223+[#19-54]*20]=#[5223+[#4014-54]*20]+#137-#6"));
+}
+
+TEST_CASE("fanuc measure: refused offsets") {
+  SurfaceCycle cycle;
+  SUBCASE("a control that does not tell the active system") {
+    const Emission out = Target("inspection-plus", "fanuc-6m").emit(cycle.cycle);
+    CHECK(out.codes().contains("offset-write-unsafe"));
+  }
+  SUBCASE("a rotation that no variable tells") {
+    Target target("inspection-plus");
+    for (stdlib::CodeInfo& code : target.control.codes)
+      if (code.function == stdlib::Function::RotationOff) code.group.reset();
+    CHECK(target.emit(cycle.cycle).codes().contains("offset-write-unsafe"));
+  }
+  SUBCASE("a system that is none") {
+    ir::fold(cycle.cycle, {{cycle.system, 60}});
+    CHECK(Target().emit(cycle.cycle).codes().contains("system-range"));
+  }
+  SUBCASE("EasyProbe measures only to set") {
+    std::get<ir::Measure>(cycle.cycle.body[6].node).setting.reset();
+    CHECK(Target().emit(cycle.cycle).codes().contains("needs-offset"));
+    CHECK_FALSE(Target("inspection-plus").emit(cycle.cycle).codes().contains("needs-offset"));
+  }
+  SUBCASE("an axis that is not measured") {
+    auto& measure = std::get<ir::Measure>(cycle.cycle.body[6].node);
+    measure.setting->nominal[1] = number(0);
+    CHECK(Target().emit(cycle.cycle).codes().contains("macro-set-cannot"));
+  }
+}
+
+TEST_CASE("fanuc measure: a position that is not known") {
+  Maker cycle;
+  const ir::LabelId skip = cycle.cycle.addLabel({"skip", {}});
+  const VariableId a = cycle.field("a", 1);
+  cycle.add(ir::Branch{ir::compare(Relation::Greater, use(a), number(0)), skip});
+  cycle.move(ir::Motion::Protected, ir::Axis::X, number(7));
+  cycle.add(ir::Label{skip});
+  cycle.surface(ir::Axis::X, number(10), number(56), number(0));
+  CHECK(Target("inspection-plus").emit(cycle.cycle).codes().contains("start-unknown"));
+  CHECK_FALSE(Target().emit(cycle.cycle).codes().contains("start-unknown"));
+}
+
+TEST_CASE("fanuc measure: the start point is stale behind a change of the offset") {
+  Maker cycle;
+  cycle.surface(ir::Axis::X, number(10), number(56), number(0));
+  cycle.move(ir::Motion::Protected, ir::Axis::X, number(1), nullptr, ir::Frame::Start);
+  CHECK(Target().emit(cycle.cycle).codes().contains("start-unknown"));
+}
+
+TEST_CASE("fanuc measure: results") {
+  Maker cycle;
+  cycle.surface(ir::Axis::X, number(10), number(56), number(0));
+  SUBCASE("are copied at once") {
+    cycle.add(ir::Store{number(550), ir::result(ir::ResultName::Main)});
+    cycle.move(ir::Motion::Protected, ir::Axis::Z, number(5));
+    CHECK(Target().emit(cycle.cycle).body() ==
+          std::vector<std::string>{"G65 P9023 S56. X10. I0.", "#550=#138", "G65 P9770 Z5."});
+  }
+  SUBCASE("are kept in a local before the next call overwrites them") {
+    cycle.move(ir::Motion::Protected, ir::Axis::Z, number(5));
+    cycle.add(ir::Store{number(550), ir::result(ir::ResultName::Main)});
+    CHECK(Target().emit(cycle.cycle).body() ==
+          std::vector<std::string>{"G65 P9023 S56. X10. I0.", "#28=#138", "G65 P9770 Z5.", "#550=#28"});
+  }
+  SUBCASE("that the set does not name are refused") {
+    cycle.add(ir::Store{number(550), ir::result(ir::ResultName::PositionX)});
+    CHECK(Target().emit(cycle.cycle).codes().contains("result-unknown"));
+    CHECK(Target("inspection-plus").emit(cycle.cycle).has("#550=#135"));
+  }
+}
+
+TEST_CASE("fanuc measure: where values may be stored") {
+  const auto codes = [](double variable) {
+    Maker cycle;
+    cycle.add(ir::Store{number(variable), number(1)});
+    return Target("inspection-plus").emit(cycle.cycle).codes();
+  };
+  CHECK(codes(600).empty());
+  CHECK(codes(5221) == std::set<std::string>{"store-variable"});
+  CHECK(codes(5) == std::set<std::string>{"store-variable"});
+  CHECK(codes(510) == std::set<std::string>{"store-calibration"});
+  CHECK(codes(140) == std::set<std::string>{"store-scratch"});
+  Maker computed;
+  computed.add(ir::Store{use(computed.field("n", 600)), number(1)});
+  CHECK(Target().emit(computed.cycle).codes() == std::set<std::string>{"store-variable"});
+}
+
+TEST_CASE("fanuc measure: variables of the machine that a source reads") {
+  const auto codes = [](double variable, std::string_view control) {
+    Maker cycle;
+    cycle.add(ir::Store{number(550), ir::machineVariable(number(variable))});
+    return Target("easyprobe", control).emit(cycle.cycle).codes();
+  };
+  CHECK(codes(551, "fanuc-31i-b").empty());
+  CHECK(codes(5041, "fanuc-0i-md").empty());
+  CHECK(codes(5041, "fanuc-31i-b") == std::set<std::string>{"machine-variable-refused"});
+  CHECK(codes(24, "fanuc-0i-md") == std::set<std::string>{"machine-variable-refused"});
+}
+
+TEST_CASE("fanuc measure: what the set has no call for") {
+  SurfaceCycle cycle;
+  Target target;
+  std::erase_if(target.macros.signatures,
+                [](const stdlib::MacroSignature& s) { return s.intent == stdlib::Intent::Surface; });
+  CHECK(target.emit(cycle.cycle).codes().contains("macro-set-cannot"));
+  Target needs;
+  for (stdlib::MacroSignature& signature : needs.macros.signatures)
+    for (stdlib::MacroArgument& argument : signature.arguments)
+      if (argument.role == stdlib::ArgumentRole::Feed) argument.required = true;
+  CHECK(needs.emit(cycle.cycle).codes().contains("macro-argument-missing"));
+}
