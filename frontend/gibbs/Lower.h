@@ -42,8 +42,9 @@ bool lowerChecks(const Macro& cycleData, ir::Cycle& cycle, LowerContext& context
 // cycle.body = the path of ToolPath.mac as protected moves (frames Start and Retract), and a Measure without
 // a setting where the code shows a touch: a feed move along one axis to E minus the tool radius where the
 // path has established E > 0, or E plus the tool radius where E < 0, followed by the return to where it
-// began. The contact point is E. A move that could be a touch and does not show it is reported at its line,
-// unless `touches` names it. Reports a note with the fields that no move uses.
+// began. E >= 0 will do where a move of its own serves E < 0, and the reverse; at 0 nothing moves. The
+// contact point is E. A move that could be a touch and does not show it is reported at its line, unless
+// `touches` names it. Reports a note with the fields that no move uses.
 bool lowerToolPath(const Macro& toolPath, ir::Cycle& cycle, LowerContext& context);
 
 } // namespace dotek::frontend::gibbs

@@ -2,6 +2,8 @@
 #include "frontend/gibbs/LowerEmit.h"
 #include "frontend/gibbs/LowerFlatten.h"
 
+#include <algorithm>
+
 namespace dotek::frontend::gibbs {
 
 ir::Cycle declareCycle(const Cycle& source, const SourceMap& sources) {
@@ -46,6 +48,21 @@ bool report(const WalkResult& walk, LowerContext& context) {
   return walk.refusals.empty();
 }
 
+// A macro that calls itself without a condition: place of the CALL that shows the dialog a second time. One
+// under a condition turns values away. kNowhere: some way passes, or none is such.
+std::size_t selfCall(const Flat& flat, const WalkResult& walk) {
+  std::size_t found = kNowhere;
+  for (std::size_t at = 0; at < flat.steps.size(); ++at) {
+    const auto* end = std::get_if<FlatEnd>(&flat.steps[at].step);
+    if (!walk.reached[at] || end == nullptr) continue;
+    if (!end->rejects) return kNowhere;
+    if (end->again && found == kNowhere) found = at;
+  }
+  const bool passes =
+      std::any_of(walk.ends.begin(), walk.ends.end(), [](const auto& end) { return end.second.passes; });
+  return passes ? kNowhere : found;
+}
+
 } // namespace
 
 bool lowerChecks(const Macro& cycleData, ir::Cycle& cycle, LowerContext& context) {
@@ -63,6 +80,10 @@ bool lowerChecks(const Macro& cycleData, ir::Cycle& cycle, LowerContext& context
     return false;
   }
   if (!report(walk, context)) return false;
+  if (const std::size_t call = selfCall(flat, walk); call != kNowhere) {
+    context.diagnostics.report<diag::CallTooDeep>(flat.steps[call].range, context.limits.callDepth);
+    return false;
+  }
   // Nothing gets past an alarm, so that behind one fewer ways are left for the messages that follow.
   for (bool found = true; found && walk.complete;) {
     found = false;

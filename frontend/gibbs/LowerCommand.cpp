@@ -102,7 +102,11 @@ Flattener::Flow Flattener::showDialog(State& state, const Command& c, SourceRang
   const auto name = dialogName(state, c, range, &dialog);
   if (!name) return Flow::Failed;
   if (state.dialogs.contains(*name)) {
-    emit(range, FlatEnd{true});
+    const auto& frames = state.frames;
+    const bool again = std::any_of(frames.begin(), frames.end() - 1, [&](const Frame& frame) {
+      return frame.program == frames.back().program;
+    });
+    emit(again ? frames.back().called : range, FlatEnd{true, again});
     return Flow::Ended;
   }
   emit(range, FlatDialog{});

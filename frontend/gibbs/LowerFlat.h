@@ -42,6 +42,7 @@ struct FlatMove {
 // The macro ends: the values pass, or are turned away.
 struct FlatEnd {
   bool rejects = false;
+  bool again = false; // by a macro that calls itself and shows its dialog a second time
 };
 // The macro ends with what its return code says; not set: it passes.
 struct FlatReturn {

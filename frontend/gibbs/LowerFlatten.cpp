@@ -388,6 +388,7 @@ Flattener::Flow Flattener::call(State& state, const CallStep& s, SourceRange ran
     return Flow::Failed;
   }
   Frame frame;
+  frame.called = range;
   frame.program = &programOf(*macro);
   const std::string place =
       fmt::format("{}:{}:{}", state.frames.back().instance, state.frames.back().at, macro->file);

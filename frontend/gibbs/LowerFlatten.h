@@ -40,6 +40,7 @@ private:
     std::set<std::string> locals; // declared, folded
     std::vector<LoopAt> loops;    // outermost first
     const Name* onError = nullptr;
+    SourceRange called; // the CALL; no place in the outermost
   };
   struct State {
     std::vector<Frame> frames;

@@ -20,7 +20,7 @@ public:
     if (!findTouches()) return false;
     for (const FlatStep& each : flat_.steps)
       if (const auto* assign = std::get_if<FlatAssign>(&each.step)) assigned_.insert(assign->variable);
-    TouchNotes notes(flat_, forced_, hostVariable("tool_radius"));
+    TouchNotes notes(flat_, forced_, hostVariable("tool_radius"), true);
     if (!walkAll(notes) || !ends() || !judged(notes)) return false;
     notes_ = &notes;
     cycle_.body = emitStatements(
@@ -72,11 +72,14 @@ private:
   // All that conditions tell first; where that gives too many ways, less.
   bool walkAll(TouchNotes& notes) {
     options_.unsetZero = context_.assumptions.contains("unset-zero");
-    for (const auto& [facts, forget] :
-         {std::pair(true, false), std::pair(true, true), std::pair(false, true)}) {
-      options_.facts = facts;
-      options_.forget = forget;
-      notes = TouchNotes(flat_, forced_, hostVariable("tool_radius"));
+    struct Effort {
+      bool facts, forget, places;
+    };
+    for (const Effort& effort : {Effort{true, false, true}, Effort{true, true, true},
+                                 Effort{true, true, false}, Effort{false, true, false}}) {
+      options_.facts = effort.facts;
+      options_.forget = effort.forget;
+      notes = TouchNotes(flat_, forced_, hostVariable("tool_radius"), effort.places);
       options_.observer = &notes;
       walk_ = Walk(flat_, cycle_, context_.limits, options_).run();
       if (walk_.complete) break;
@@ -104,7 +107,7 @@ private:
     return ok_;
   }
 
-  std::set<std::size_t> reversals() {
+  ReversalTrace reversals() {
     WalkOptions options = options_;
     options.facts = true;
     for (ir::VariableId id = 0; id < cycle_.variables.size(); ++id) {
@@ -115,19 +118,29 @@ private:
     ReversalTrace trace(flat_, forced_);
     options.observer = &trace;
     Walk(flat_, cycle_, context_.limits, options).run();
-    return trace.reversals();
+    return trace;
   }
 
   bool judged(const TouchNotes& notes) {
     for (const std::size_t step : notes.withoutReturn())
       notShown(step, "the path does not come back to where it began");
-    const std::set<std::size_t> reversing =
-        notes.candidates().empty() ? std::set<std::size_t>() : reversals();
-    for (const auto& [run, steps] : notes.candidates()) {
-      const bool tells =
-          std::any_of(steps.begin(), steps.end(), [&](std::size_t step) { return reversing.contains(step); });
+    for (const std::size_t step : notes.oneSided())
+      notShown(step,
+               "the contact may lie where this move begins, and no move asks for the other side; the path "
+               "goes back along the same axis");
+    const auto candidates = notes.candidates();
+    if (candidates.empty()) return ok_;
+    const ReversalTrace trace = reversals();
+    for (const auto& [run, steps] : candidates) {
+      const bool tells = std::any_of(steps.begin(), steps.end(),
+                                     [&](std::size_t step) { return trace.reversals().contains(step); });
       for (const std::size_t step : steps) {
-        if (tells && !reversing.contains(step)) continue;
+        const bool turns = trace.reversals().contains(step);
+        if (!turns && trace.rises().contains(step)) {
+          refuse<diag::RetractNotShown>(flat_.steps[step].range);
+          continue;
+        }
+        if (tells && !turns) continue;
         notShown(step, tells ? "the path goes back along the same axis"
                              : "the path may go back along the same axis");
       }
@@ -272,7 +285,8 @@ private:
       ways.push_back(
           {measure(step, axis, contact(axis, target, side, touch.contact.value)), std::move(not_)});
     }
-    if (ways.size() == 1 && notes.others.empty()) return {std::move(ways.front().first)};
+    const bool always = notes.others.empty() && !notes.shown.begin()->second.mayBeNone;
+    if (ways.size() == 1 && always) return {std::move(ways.front().first)};
     const bool apart =
         std::all_of(ways.begin(), ways.end(), [](const auto& way) { return way.second != nullptr; });
     if (!apart) {
@@ -297,7 +311,7 @@ private:
   static bool excluded(const MoveNotes& notes, int side, const Value& form) {
     const auto otherSide = [&](const Facts& facts) {
       const auto mirrored = linear(form, side, 0.0, 0); // above 0 on this side
-      return mirrored && (provenBelow(facts, *mirrored) || provenZero(facts, *mirrored));
+      return mirrored && provenNotAbove(facts, *mirrored);
     };
     if (!std::all_of(notes.others.begin(), notes.others.end(), otherSide)) return false;
     for (const auto& [other, touch] : notes.shown)

@@ -1,9 +1,12 @@
 #include "frontend/gibbs/LowerTouch.h"
 
+#include <algorithm>
+
 namespace dotek::frontend::gibbs {
 namespace {
 
-constexpr std::size_t kMaxWays = 256; // facts that are kept for one move
+constexpr std::size_t kMaxWays = 256;  // facts that are kept for one move
+constexpr std::size_t kMaxPlaces = 32; // places that are kept for one way
 
 // a - b; nothing where one is not known or the difference is no short form.
 std::optional<Value> difference(const std::optional<Value>& a, const std::optional<Value>& b) {
@@ -66,6 +69,24 @@ std::set<std::size_t> TouchNotes::returnsOf(std::size_t touch) const {
   return found == returns_.end() ? std::set<std::size_t>{} : found->second;
 }
 
+std::set<std::size_t> TouchNotes::oneSided() const {
+  std::set<std::size_t> out;
+  for (const auto& [step, notes] : notes_) {
+    for (const auto& [side, touch] : notes.shown) {
+      if (!touch.mayBeNone) continue;
+      const auto answered = [&, other = -side](const std::string& form) {
+        return std::any_of(notes_.begin(), notes_.end(), [&](const auto& each) {
+          const auto found = each.second.shown.find(other);
+          return found != each.second.shown.end() && found->second.forms.contains(form);
+        });
+      };
+      for (const auto& [form, value] : touch.forms)
+        if (!answered(form)) out.insert(step);
+    }
+  }
+  return out;
+}
+
 std::map<std::size_t, std::set<std::size_t>> TouchNotes::candidates() const {
   std::map<std::size_t, std::set<std::size_t>> out;
   for (const auto& [run, steps] : candidates_) {
@@ -73,6 +94,42 @@ std::map<std::size_t, std::set<std::size_t>> TouchNotes::candidates() const {
       if (!approaches_.contains(step) && !withoutReturn_.contains(step)) out[run].insert(step);
   }
   return out;
+}
+
+// A height, wherever it stands over X and Y; along X and Y a point. kNowhere: not known.
+std::size_t TouchNotes::placeOf(const Track& track, std::size_t axis, const Value& target) {
+  std::string text = fmt::format("{}", axis);
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (axis == ir::indexOf(ir::Axis::Z) && i != axis) continue;
+    const std::optional<Value> at = i == axis ? std::optional(target) : track.at[i];
+    if (!at || isWidened(*at)) return kNowhere;
+    text += ";" + canonical(*at);
+  }
+  return placeNumbers_.emplace(text, placeNumbers_.size()).first->second;
+}
+
+// The way stands at track.at: it does not turn back here, it goes on along another axis or ends.
+void TouchNotes::stand(Track& track) {
+  for (std::size_t axis = 0; places_ && axis < 3; ++axis) {
+    if (!track.at[axis]) continue;
+    const std::size_t place = placeOf(track, axis, *track.at[axis]);
+    if (place == kNowhere) continue;
+    std::erase_if(track.turns, [&](const Turn& turn) { return turn.place == place; });
+    if (track.stood.size() < kMaxPlaces) track.stood.insert(place);
+  }
+}
+
+// The path went back behind `leg`. No touch goes to where the way has stood before, nor to a height at which
+// it stands later: there it would stand in the material. None along Z goes up.
+void TouchNotes::turn(Track& track, const Leg& leg, bool rises) {
+  const std::size_t axis = ir::indexOf(leg.axis);
+  const std::size_t place = placeOf(track, axis, leg.target);
+  if (place != kNowhere && track.stood.contains(place)) return;
+  if (rises) return;
+  if (places_ && place != kNowhere && leg.axis == ir::Axis::Z && track.turns.size() < kMaxPlaces)
+    track.turns.insert({track.run, leg.step, place});
+  else
+    candidates_[track.run].insert(leg.step);
 }
 
 // What the move before the one at `step` was, now that its follower is known. `next`: where the follower goes
@@ -101,10 +158,12 @@ void TouchNotes::judge(WalkState& state, const std::optional<Value>& next, std::
     const bool goesOn = first && second &&
                         ((provenAbove(state.facts, *first) && provenAbove(state.facts, *second)) ||
                          (provenBelow(state.facts, *first) && provenBelow(state.facts, *second)));
-    if (!goesOn) candidates_[track.run].insert(before.step);
+    const bool rises = before.axis == ir::Axis::Z && first && provenAbove(state.facts, *first);
+    if (!goesOn) turn(track, before, rises);
   }
   track.before.reset();
   if (next) track.before = last;
+  if (last.sign == 0 && (!next || last.exempt)) stand(track);
   track.last.reset();
 }
 
@@ -121,15 +180,23 @@ void TouchNotes::note(WalkState& state, Leg& leg) {
   if (!leg.forced && leg.axis != ir::Axis::Z && way && radius_ != kNoVariable) {
     const std::string symbol = symbolOf(radius_);
     const Value radius = opaqueValue(symbol, {symbol}, symbol, false);
+    const auto holds = [&](const Value& value) {
+      const Unknown* unknown = unknownIn(value);
+      return unknown != nullptr && unknown->terms.contains(symbol);
+    };
     for (const int sign : {1, -1}) {
+      // The radius stands in the target, and nowhere in the way from the begin to the contact.
+      const auto contact = linear(leg.target, 1, radius, sign);
       const auto form = linear(*way, 1, radius, sign);
-      const Unknown* unknown = form ? unknownIn(*form) : nullptr;
-      if (!form || (unknown != nullptr && unknown->terms.contains(symbol))) continue;
-      if (!(sign > 0 ? provenAbove(state.facts, *form) : provenBelow(state.facts, *form))) continue;
+      if (!contact || !form || holds(*contact) || holds(*form)) continue;
+      if (!(sign > 0 ? provenNotBelow(state.facts, *form) : provenNotAbove(state.facts, *form))) continue;
+      if (provenZero(state.facts, *form)) continue;
       leg.sign = sign;
       ShownTouch& shown = notes.shown[sign];
       shown.forms.emplace(canonical(*form), *form);
-      shown.contact.add(linear(leg.target, 1, radius, sign));
+      shown.contact.add(contact);
+      if (!(sign > 0 ? provenAbove(state.facts, *form) : provenBelow(state.facts, *form)))
+        shown.mayBeNone = true;
       keep(shown.facts, state.facts);
       notes.alwaysIdle = false;
       return;
@@ -155,8 +222,9 @@ void TouchNotes::move(WalkState& state, std::size_t step, const std::array<std::
   if (const auto& last = state.track.last) {
     const std::size_t lastAxis = ir::indexOf(last->axis);
     const bool along = idle ? last->forced : axis == lastAxis;
-    // A move without a way, along the same axis or to the same point, is no follower.
-    if (last->forced || !idle || (written != kNowhere && written != lastAxis))
+    // A move without a way, along the same axis or to the same point, is no follower of a plain move. Behind
+    // a touch, which comes back by itself, it is none without a way.
+    if (last->forced || last->sign != 0 || !idle || (written != kNowhere && written != lastAxis))
       judge(state, along ? target[lastAxis] : std::nullopt, step, consumed);
   }
   // Behind a touch that came back there may be nowhere left to go.
@@ -176,6 +244,7 @@ void TouchNotes::move(WalkState& state, std::size_t step, const std::array<std::
     keep(notes.others, state.facts);
     for (std::size_t i = 0; i < 3; ++i)
       if (target[i]) state.track.at[i] = target[i];
+    stand(state.track);
     return;
   }
   Leg leg;
@@ -195,6 +264,8 @@ void TouchNotes::move(WalkState& state, std::size_t step, const std::array<std::
 void TouchNotes::end(WalkState& state) {
   bool consumed = false;
   judge(state, std::nullopt, kNowhere, consumed);
+  for (const Turn& each : state.track.turns)
+    candidates_[each.run].insert(each.step);
 }
 
 void ReversalTrace::move(WalkState& state, std::size_t step,
@@ -215,8 +286,10 @@ void ReversalTrace::move(WalkState& state, std::size_t step,
     leg->axis = ir::kAxes[axis];
     leg->begin = track.at[axis];
     leg->target = *target[axis];
-    if (track.last && ir::indexOf(track.last->axis) == axis && sideOf(*leg) * sideOf(*track.last) < 0)
-      reversals_.insert(track.last->step);
+    if (track.last && ir::indexOf(track.last->axis) == axis && sideOf(*leg) * sideOf(*track.last) < 0) {
+      const bool rises = leg->axis == ir::Axis::Z && sideOf(*leg) < 0;
+      (rises ? rises_ : reversals_).insert(track.last->step);
+    }
   }
   const bool skipped =
       changed.empty() && (written == kNowhere || (track.last && ir::indexOf(track.last->axis) == written));

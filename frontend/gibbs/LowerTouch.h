@@ -26,6 +26,7 @@ struct ShownTouch {
   std::map<std::string, Value> forms; // way to the contact, by text: above 0 to one side, below to the other
   Seen contact;                       // from the entry
   std::vector<Facts> facts;           // what each way knows before the move
+  bool mayBeNone = false;             // on some way the contact may lie where the move begins
 };
 
 // A move over all ways that reach it.
@@ -45,8 +46,9 @@ struct MoveNotes {
 class TouchNotes : public MoveObserver {
 public:
   // `forced`: steps that are touches because the user says so. `radius`: of the ball; kNoVariable: no such.
-  TouchNotes(const Flat& flat, std::set<std::size_t> forced, ir::VariableId radius)
-      : flat_(&flat), forced_(std::move(forced)), radius_(radius) {}
+  // `places`: keep where a way has stood; a touch goes elsewhere.
+  TouchNotes(const Flat& flat, std::set<std::size_t> forced, ir::VariableId radius, bool places)
+      : flat_(&flat), forced_(std::move(forced)), radius_(radius), places_(places) {}
 
   void move(WalkState& state, std::size_t step, const std::array<std::optional<Value>, 3>& target) override;
   void end(WalkState& state) override;
@@ -58,16 +60,24 @@ public:
   std::map<std::size_t, std::set<std::size_t>> candidates() const;
   // Moves that go to a contact as a touch does, but do not come back.
   const std::set<std::size_t>& withoutReturn() const { return withoutReturn_; }
+  // Moves that end the radius before a contact at or beyond their begin, where no move does so for the other
+  // side: nothing says that a contact at the begin is none.
+  std::set<std::size_t> oneSided() const;
   // Moves that go back from the touch.
   std::set<std::size_t> returnsOf(std::size_t touch) const;
 
 private:
   void judge(WalkState& state, const std::optional<Value>& next, std::size_t step, bool& consumed);
   void note(WalkState& state, Leg& leg);
+  std::size_t placeOf(const Track& track, std::size_t axis, const Value& target);
+  void stand(Track& track);
+  void turn(Track& track, const Leg& leg, bool rises);
 
   const Flat* flat_;
   std::set<std::size_t> forced_;
   ir::VariableId radius_;
+  bool places_;
+  std::map<std::string, std::size_t> placeNumbers_;
   std::map<std::size_t, MoveNotes> notes_;
   std::map<std::size_t, std::set<std::size_t>> candidates_;
   std::map<std::size_t, std::set<std::size_t>> returns_;
@@ -82,11 +92,14 @@ public:
   void move(WalkState& state, std::size_t step, const std::array<std::optional<Value>, 3>& target) override;
   void end(WalkState&) override {}
   const std::set<std::size_t>& reversals() const { return reversals_; }
+  // Moves along Z that lead up before the path goes down again.
+  const std::set<std::size_t>& rises() const { return rises_; }
 
 private:
   const Flat& flat_;
   std::set<std::size_t> forced_;
   std::set<std::size_t> reversals_;
+  std::set<std::size_t> rises_;
 };
 
 } // namespace dotek::frontend::gibbs

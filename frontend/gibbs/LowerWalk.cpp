@@ -222,7 +222,12 @@ std::string Walk::keyOf(const WalkState& state) const {
     add((*leg)->begin);
     add((*leg)->target);
   }
-  return key + fmt::format("r{}", state.track.run);
+  key += fmt::format("r{}", state.track.run);
+  for (const std::size_t place : state.track.stood)
+    key += fmt::format("s{}", place);
+  for (const Turn& turn : state.track.turns)
+    key += fmt::format("t{}/{}/{}", turn.run, turn.step, turn.place);
+  return key;
 }
 
 // What differs from the first visit of the place.

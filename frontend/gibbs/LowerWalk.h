@@ -38,12 +38,22 @@ struct Leg {
   bool exempt = false; // the first positioning, from wherever the cycle begins
 };
 
+// A move that turned, to a place where the way had not stood.
+struct Turn {
+  std::size_t run = 0; // first move of its run along one axis
+  std::size_t step = 0;
+  std::size_t place = 0; // number of the place; kNowhere: not known, or no later stand clears it
+  auto operator<=>(const Turn&) const = default;
+};
+
 // Where the probe stands; X and Y from the entry, Z from the retract plane.
 struct Track {
   std::array<std::optional<Value>, 3> at; // nothing: not known
   std::optional<Leg> before;              // `last` is its follower, along the same axis
   std::optional<Leg> last;
-  std::size_t run = 0; // step of the first move of the moves along one axis
+  std::size_t run = 0;         // step of the first move of the moves along one axis
+  std::set<std::size_t> stood; // numbers of the places where it has stood
+  std::set<Turn> turns;
 };
 
 struct WalkState {
@@ -162,5 +172,9 @@ std::string symbolOf(ir::VariableId variable);
 bool provenAbove(const Facts& facts, const Value& value); // value > 0
 bool provenBelow(const Facts& facts, const Value& value);
 bool provenZero(const Facts& facts, const Value& value);
+bool provenNotAbove(const Facts& facts, const Value& value); // value <= 0
+bool provenNotBelow(const Facts& facts, const Value& value);
+// Hangs on what a loop has changed too often to be followed: one name for many values.
+bool isWidened(const Value& value);
 
 } // namespace dotek::frontend::gibbs

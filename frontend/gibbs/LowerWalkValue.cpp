@@ -59,6 +59,18 @@ bool provenZero(const Facts& facts, const Value& value) {
   return proven(facts, value, Relation::Equal) ||
          (proven(facts, value, Relation::LessEqual) && proven(facts, value, Relation::GreaterEqual));
 }
+bool provenNotAbove(const Facts& facts, const Value& value) {
+  return proven(facts, value, Relation::LessEqual);
+}
+bool provenNotBelow(const Facts& facts, const Value& value) {
+  return proven(facts, value, Relation::GreaterEqual);
+}
+
+bool isWidened(const Value& value) {
+  const Unknown* unknown = unknownIn(value);
+  return unknown != nullptr && std::any_of(unknown->hosts.begin(), unknown->hosts.end(),
+                                           [](const std::string& symbol) { return symbol.starts_with('w'); });
+}
 
 // Equal texts are equal values.
 Value Walk::opaque(const std::string& text, const std::vector<Value>& from) {

@@ -251,7 +251,9 @@ TEST_CASE("gibbs lower: refusals of the interpreter stay refusals") {
   CHECK(lowered("dialog \"d.dlg\"\ngoto nowhere\n") == "cannot-translate@nowhere");
   CHECK(lowered("dialog \"d.dlg\"\nx(1) = 2\n", {"array-round"}) == "cannot-translate@x");
   CHECK(lowered("dialog \"d.dlg\"\ncall \"main.mac\"\n") == "cannot-translate@\"main.mac\"");
-  CHECK(lowered("dialog \"d.dlg\"\ncall \"CycleData.mac\"\n") == "alarm []\n"); // shown again
+  CHECK(lowered("dialog \"d.dlg\"\ncall \"CycleData.mac\"\n") == "call-too-deep@call \"CycleData.mac\"");
+  // Under a condition it shows the dialog again.
+  CHECK(lowered("dialog \"d.dlg\"\nif a > 5 then call \"CycleData.mac\"\n") == "a<=5 -> L1\nalarm []\nL1:\n");
   CHECK(lowered("on_error goto out\ndialog \"d.dlg\"\nif 1 / a > 2 then stop \"a\"\n:out\n") ==
         "cannot-translate@1 / a");
   CHECK(lowered("dialog \"d.dlg\"\nn = 3\nfor i = 1 to n\nn = 2\nnext i\n") == "unverified-construct-run@n");

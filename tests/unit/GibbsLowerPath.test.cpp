@@ -158,6 +158,24 @@ TEST_CASE("gibbs lower: shapes that show a touch") {
     CHECK(path(down + "if a >= 5 then x a-r\n" + up) ==
           "move Z W Z\na<5 -> L1\nmeasure X S a\nL1:\nmove Z W h\n");
   }
+  // At a = 0 the macro goes the radius to one side and back, and the program stays.
+  const auto stays = [](const std::string& moves) {
+    PathProject project(moves);
+    return project.lowerPath() ? project.text(project.cycle.body) : project.findings();
+  };
+  SUBCASE("0 stands with one side, and is no touch") {
+    CHECK(stays(down + "if a >= 0 then x a-r\nif a < 0 then x a+r\n" + up) ==
+          "move Z W Z\na<0 -> L1\na<=0 -> L1\nmeasure X S a\nL1:\na>=0 -> L2\nmeasure X S a\nL2:\n"
+          "move Z W h\n");
+    CHECK(stays(down + "if a <= 0 then x a+r\nif a > 0 then x a-r\n" + up) ==
+          "move Z W Z\na>0 -> L1\na>=0 -> L1\nmeasure X S a\nL1:\na<=0 -> L2\nmeasure X S a\nL2:\n"
+          "move Z W h\n");
+  }
+  SUBCASE("a factor of the radius by the side") {
+    CHECK(stays("d = 1\nif a < 0 then d = -1\n" + down + "x a-d*r\n" + up) ==
+          "d = 1\na>=0 -> L1\nd = -1\nL1:\nmove Z W Z\na>=0 -> L2\nmeasure X S a\n-> L3\nL2:\n"
+          "a<=0 -> L3\nmeasure X S a\nL3:\nmove Z W h\n");
+  }
   SUBCASE("a constant") {
     CHECK(path(down + "x 5-r\n" + up) == "move Z W Z\nmeasure X S 5\nmove Z W h\n");
   }
@@ -207,6 +225,8 @@ TEST_CASE("gibbs lower: what does not show a touch is refused where it could be 
   CHECK(path(down + "if b > 0 then x a-r\n" + up) == kRefusedX + "a-r");
   CHECK(path(down + "if a >= 0 then x a-r\n" + up) == kRefusedX + "a-r");
   CHECK(path(down + "if a > 0 then x a-2*r\n" + up) == kRefusedX + "a-2*r");
+  CHECK(path(down + "if a >= 0 then x a-r\nif b < 0 then x b+r\n" + up).starts_with(kRefusedX));
+  CHECK(path(down + "x abs(a)-r\n" + up) == kRefusedX + "abs(a)-r");
   // The variable changes between the condition and the move.
   CHECK(path(down + "e = a\nif e > 0 then goto on\ngoto out\n:on\ne = b\nx e-r\n:out\n" + up) ==
         kRefusedX + "e-r");
@@ -216,6 +236,10 @@ TEST_CASE("gibbs lower: what does not show a touch is refused where it could be 
   CHECK(path(down + "if a > 0 then x a-r\nz h-plane\n") == kRefusedX + "a-r");
   CHECK(path(down + "if a > 0 then x a-r\nx 1\nz h-plane\n") == kRefusedX + "a-r");
   CHECK(path(down + "if a > 0 then x a-r\nif b > 0 then x 0\nz h-plane\n") == kRefusedX + "a-r");
+  // Said twice, the measurement would have come back in between.
+  CHECK(path(down + "if a > 0 then goto on\ngoto out\n:on\nx a-r\nx a-r\n:out\n" + up) == kRefusedX + "a-r");
+  // The radius stands in the begin and not in the target.
+  CHECK(path(down + "x a-r\nif a > 0 then x 0\nx a-r\ny 5\nz h-plane\n").starts_with("touch-not-shown@"));
   // Down and up again without anything in between.
   CHECK(path("z Z-plane\nz h-plane\n") == "touch-not-shown@add_custom_drill_cycle_path feed_z, Z-plane");
   // A loop comes back by itself.
@@ -236,6 +260,43 @@ TEST_CASE("gibbs lower: moves that are no touch") {
   CHECK(path("z 5\nx px\ny 2*py\n") == "move Z R 5\nmove X S start_x\nmove Y S (2*start_y)\n");
   // A variable holds the work coordinate less the origin.
   CHECK(path("low = Z-plane\nz low\nx a\n") == "low = (Z-retract)\nmove Z W Z\nmove X S a\n");
+}
+
+TEST_CASE("gibbs lower: a touch goes to where the path has not stood") {
+  const std::string touchX = "if a > 0 then x a-r\nx 0\n";
+  const std::string touchY = "if b > 0 then y b-r\ny 0\n";
+  const std::string measureX = "a<=0 -> L1\nmeasure X S a\nL1:\n";
+  const std::string measureY = "b<=0 -> L2\nmeasure Y S b\nL2:\n";
+  const auto refused = [](const std::string& what) {
+    return "touch-not-shown@add_custom_drill_cycle_path feed_" + what;
+  };
+  // Up to the clearance and down again, at one place.
+  CHECK(path("z Z-plane\n" + touchX + "z h-plane\nz Z-plane\n" + touchY + "z h-plane\n") ==
+        "move Z W Z\n" + measureX + "move Z W h\nmove Z W Z\n" + measureY + "move Z W h\n");
+  CHECK(path("to 0, 0, h-plane\nz Z-plane\n" + touchX + "z h-plane\nz Z-plane\n" + touchY + "z c-plane\n") ==
+        "move X S 0 Y S 0 Z W h\nmove Z W Z\n" + measureX + "move Z W h\nmove Z W Z\n" + measureY +
+            "move Z W c\n");
+  // The other descent goes deeper: there it may touch, and the clearance is none.
+  CHECK(path("z Z-plane\n" + touchX + "z h-plane\nz c-plane\nz h-plane\n") == refused("z, c-plane"));
+  CHECK(path("to 0, 0, h-plane\nz Z-plane\n" + touchX + "z h-plane\nz c-plane\nz h-plane\n") ==
+        refused("z, c-plane"));
+  // A touch that the path does not name as such is told at each of its lines.
+  CHECK(path("to 0, 0, h-plane\nz Z-plane\nz h-plane\nto 5, 0, h-plane\nz Z-plane\nz h-plane\n") ==
+        refused("z, Z-plane") + "; " + refused("z, Z-plane"));
+  // On one way the path has stood there, on the other it has not.
+  CHECK(
+      path("z h-plane\nif a > 0 then goto on\nz c-plane\ny 5\n:on\nto 0, 0, h-plane\nz c-plane\nz h-plane\n")
+          .starts_with(refused("z, c-plane")));
+  // Neither a height that the path proves higher is touched.
+  CHECK(path("z 0\n" + touchX + "z 5\nz 1\n" + touchY + "z 9\n") ==
+        "move Z R 0\n" + measureX + "move Z R 5\nmove Z R 1\n" + measureY + "move Z R 9\n");
+  // Nothing shows that the move leads up; naming it a touch would be no remedy.
+  CHECK(path("z Z-plane\n" + touchX + "z h-plane\nz Z-plane\n" + touchY + "z 50-plane\n") ==
+        "retract-not-shown@add_custom_drill_cycle_path feed_z, h-plane");
+  // Along X and Y it is the point that counts.
+  CHECK(path("z Z-plane\nx 5\ny 3\nx 0\nx 5\nx 0\ny 0\nx 5\nx 0\nz h-plane\n") !=
+        path("z Z-plane\nx 5\ny 3\nx 0\ny 9\nx 5\nx 0\nz h-plane\n"));
+  CHECK(path("z Z-plane\nx 5\ny 3\nx 0\ny 9\nx 5\nx 0\nz h-plane\n") == refused("x, 5"));
 }
 
 TEST_CASE("gibbs lower: points of the probe, ranges, and fields that no move uses") {
