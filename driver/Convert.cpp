@@ -5,6 +5,7 @@
 #include "driver/Targets.h"
 
 #include "backends/fanuc/Emit.h"
+#include "backends/fanuc/Uses.h"
 #include "frontend/gibbs/Ast.h"
 #include "ir/Fold.h"
 #include "support/Decimal.h"
@@ -137,8 +138,10 @@ private:
     const stdlib::MacroSet* macros = macrosOf(*lowered);
     if (macros == nullptr || session_.diagnostics().hasErrors()) return;
     for (const auto& [id, value] : lowered->fixed) {
-      if (!ir::uses(lowered->cycle, id) && lowered->cycle.variable(id).role == ir::Role::Host)
-        lowered->fixedByName.erase(lowered->cycle.variable(id).name);
+      const ir::Variable& variable = lowered->cycle.variable(id);
+      const bool plane = variable.name == "retract" && fanuc::countsFromRetract(lowered->cycle);
+      if (!ir::uses(lowered->cycle, id) && !plane && variable.role == ir::Role::Host)
+        lowered->fixedByName.erase(variable.name);
     }
     ir::fold(lowered->cycle, lowered->fixed);
     fanuc::EmitOptions emit{*inputs_->control, *macros, *inputs_->sourceControl, 0, {}, {}, {}, {}};

@@ -1,5 +1,6 @@
 #include "driver/Lowering.h"
 
+#include "backends/fanuc/Uses.h"
 #include "driver/Assumptions.h"
 #include "driver/Fields.h"
 #include "driver/Hosts.h"
@@ -48,15 +49,6 @@ void readSets(LoweringInputs& inputs, Session& session) {
     else
       inputs.sets.emplace_back(name, *value);
   }
-}
-
-bool countsFromRetract(const ir::Cycle& cycle) {
-  return std::any_of(cycle.body.begin(), cycle.body.end(), [](const ir::Statement& statement) {
-    const auto* move = std::get_if<ir::Move>(&statement.node);
-    return move != nullptr && std::any_of(move->axes.begin(), move->axes.end(), [](const auto& axis) {
-             return axis && axis->frame == ir::Frame::Retract;
-           });
-  });
 }
 
 // One cycle on its way to the IR.
@@ -196,7 +188,8 @@ bool Lowering::path() {
   gibbs::LowerContext context = gibbsContext();
   context.touches = touchLines(session_.sources(), session_.options().assume, session_.diagnostics());
   if (!gibbs::lowerToolPath(*folder_.cycle->toolPath, cycle(), context)) return false;
-  if (countsFromRetract(cycle())) host("retract"); // also where the macro does not ask for the plane
+  if (backends::fanuc::countsFromRetract(cycle()))
+    host("retract"); // also where the macro does not ask for the plane
   return true;
 }
 

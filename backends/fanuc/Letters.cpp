@@ -40,15 +40,6 @@ struct Assignment {
   }
 };
 
-bool usesRetract(const ir::Cycle& cycle) {
-  return std::any_of(cycle.body.begin(), cycle.body.end(), [](const ir::Statement& statement) {
-    const auto* move = std::get_if<ir::Move>(&statement.node);
-    if (move == nullptr) return false;
-    return std::any_of(move->axes.begin(), move->axes.end(),
-                       [](const auto& axis) { return axis && axis->frame == ir::Frame::Retract; });
-  });
-}
-
 std::vector<ir::VariableId> wantedNames(const ir::Cycle& cycle, const EmitOptions& options) {
   const std::set<ir::VariableId> used = usedVariables(cycle);
   std::vector<ir::VariableId> out;
@@ -57,7 +48,7 @@ std::vector<ir::VariableId> wantedNames(const ir::Cycle& cycle, const EmitOption
       const ir::Variable& variable = cycle.variable(id);
       if (variable.role != role) continue;
       const bool retract = role == ir::Role::Host && variable.name == "retract" &&
-                           !options.fixed.contains("retract") && usesRetract(cycle);
+                           !options.fixed.contains("retract") && countsFromRetract(cycle);
       if (!used.contains(id) && !retract) continue;
       if (isStartHost(variable) && options.control.variables.blockEnd) continue;
       out.push_back(id);
