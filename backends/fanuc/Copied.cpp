@@ -144,7 +144,7 @@ private:
         now[kAnything] = {{at, wordText(word.address, *tenths)}};
         takesH = true;
       } else if (code != nullptr && word.address == 'G') {
-        takesH = takesH || (!code->group && code->function == Function::Other);
+        takesH = takesH || code->function == Function::ToolLengthPlus || !code->group;
         applyCode(at, *code, block, now);
       }
     }
@@ -162,6 +162,7 @@ private:
     case Function::SetPosition: now[{'C', static_cast<int>(code.tenths)}] = {{at, text}}; return;
     case Function::ExtendedWorkSystem: now[extendedKey()] = {{at, text}}; return;
     case Function::WorkSystem: now.erase(extendedKey()); return;
+    case Function::ToolLengthPlus: // demanded as well; that another H is in force stands in the header
     case Function::CutterCompOff:
     case Function::CannedCycleOff:
     case Function::RotationOff:
@@ -202,8 +203,12 @@ private:
       const auto* code = state_.control.find(word.address, *tenths);
       if (word.address == 'M') {
         const bool subprogram = code != nullptr && code->function == Function::SubprogramCall;
-        if (code == nullptr || subprogram || code->function == Function::Other) lose(word, *tenths);
+        if (code == nullptr || subprogram || code->function == Function::Other ||
+            code->function == Function::ToolChange)
+          lose(word, *tenths);
         out_.workSystem = out_.workSystem || subprogram;
+      } else if (code != nullptr && code->function == Function::ToolLengthPlus) {
+        lose(word, *tenths);
       } else if (code == nullptr) {
         const std::string text = wordText('G', *tenths);
         out_.workSystem = true;

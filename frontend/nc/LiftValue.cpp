@@ -170,7 +170,8 @@ bool Lifter::checkPicture(SourceRange where, const Hole& hole, Reading reading) 
                                            *fixed == std::trunc(*fixed) ? "" : " once it is rounded");
     if (printed.text.empty())
       context_.diagnostics.report<diag::BareAddress>(where, bareName(hole), hole.picture->text());
-  } else if (hole.picture->zeroPrintsNothing() && context_.zeroTold.insert(hole.name).second)
+  } else if (reading.kind == ir::Kind::Length && hole.picture->zeroPrintsNothing() &&
+             context_.zeroTold.insert(hole.name).second)
     context_.diagnostics.report<diag::PictureZero>(where, hole.name, hole.picture->text());
   if (reading.kind != ir::Kind::Length || hole.picture->decimals() >= context_.control.decimals) return true;
   if (context_.pictureTold.insert(hole.name).second)

@@ -41,10 +41,16 @@ std::string restored(const Emission& emission) {
 
 } // namespace
 
+TEST_CASE("fanuc copied: a tool length stays as demanded, and the header says that its number changed") {
+  const Emission out = emitCopied({"G43 H2."});
+  CHECK(out.codes().empty());
+  CHECK(out.find("CHANGES THAT ARE NOT PUT BACK: G43") < out.texts().size());
+}
+
 TEST_CASE("fanuc copied: what a bare code cannot put back is refused") {
   const Codes refused = {"mode-not-restored"};
   CHECK(codesOf({"G49"}) == refused);
-  CHECK(codesOf({"G43 H2."}) == refused);
+  CHECK(codesOf({"G44 H2."}) == refused);
   CHECK(codesOf({"H3"}) == refused);
   CHECK(codesOf({"G41 D1"}) == refused);
   CHECK(codesOf({"G68 X0. Y0. R30."}) == refused);

@@ -205,7 +205,7 @@ TEST_CASE("assignments: variables of the machine, results, alarms") {
   CHECK(lifted("G65 P9023 S56. X10. I0.\n#550=#138") == "surface X=here:10 sets 56 X=0\nstore 550=result0\n");
   CHECK(lifted("G65 P9811 X1.\n#550=#135\n#551=#138", "inspection-plus") ==
         "surface X=work:1\nstore 550=result1\nstore 551=result4\n");
-  CHECK(lifted("#3000=1(TOO DEEP)") == "alarm TOO DEEP\n");
+  CHECK(lifted("#3000=1(TOO DEEP)") == "with [alarm-renumbered]");
   CHECK(lifted("#3006=1(CLEAN IT)") == "stop CLEAN IT\n");
   CHECK(lifted("#[500+1]=2") == "refused: [computed-variable]");
   CHECK(lifted("#550=#[#551]") == "refused: [computed-variable]");

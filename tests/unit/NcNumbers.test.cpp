@@ -74,8 +74,10 @@ TEST_CASE("a hole of an opaque block is scaled: the target writes it with a poin
 }
 
 TEST_CASE("a picture without a point prints increments where the control counts them") {
-  CHECK(both("G0 X{a|###}", "fanuc-0i-md") == "rapid X=work:a\n[picture-decimals], [decimal-point]");
-  CHECK(both("G0 X{a|###}", "fanuc-6m") == "rapid X=work:(a/1000)\n[picture-decimals], [decimal-point]");
+  CHECK(both("G0 X{a|###}", "fanuc-0i-md") ==
+        "rapid X=work:a\n[picture-zero], [picture-decimals], [decimal-point]");
+  CHECK(both("G0 X{a|###}", "fanuc-6m") ==
+        "rapid X=work:(a/1000)\n[picture-zero], [picture-decimals], [decimal-point]");
   CHECK(both("G0 X{a|###.###;0}", "fanuc-6m") == "rapid X=work:a\n"); // 0 is 0 either way
   CHECK(both("G0 X{a|}", "fanuc-6m") == "rapid X=work:a\n");
   CHECK(both("G1 X1. F{f|####}", "fanuc-6m") == "feed X=work:1 F=f\n");
