@@ -5,9 +5,9 @@
 #include "driver/Targets.h"
 
 #include "backends/fanuc/Emit.h"
-#include "backends/fanuc/Uses.h"
 #include "frontend/gibbs/Ast.h"
 #include "ir/Fold.h"
+#include "ir/Positions.h"
 #include "support/Decimal.h"
 #include "support/LineMap.h"
 #include "support/NearestName.h"
@@ -139,7 +139,7 @@ private:
     if (macros == nullptr || session_.diagnostics().hasErrors()) return;
     for (const auto& [id, value] : lowered->fixed) {
       const ir::Variable& variable = lowered->cycle.variable(id);
-      const bool plane = variable.name == "retract" && fanuc::countsFromRetract(lowered->cycle);
+      const bool plane = variable.name == "retract" && ir::countsFrom(lowered->cycle, ir::Frame::Retract);
       if (!ir::uses(lowered->cycle, id) && !plane && variable.role == ir::Role::Host)
         lowered->fixedByName.erase(variable.name);
     }

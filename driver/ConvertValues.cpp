@@ -20,19 +20,38 @@ namespace {
 constexpr double kRadii[] = {0.001, 1, 3, 10};
 constexpr double kPlaces[] = {0, 50, -50};
 
+std::vector<std::pair<double, double>> hostValues(const ir::Cycle& cycle) {
+  bool radius = false;
+  bool place = false;
+  for (const ir::Variable& variable : cycle.variables) {
+    if (variable.role == ir::Role::Host) (variable.name == "tool_radius" ? radius : place) = true;
+  }
+  std::vector<std::pair<double, double>> out;
+  for (const double r : kRadii) {
+    for (const double p : kPlaces) {
+      if ((radius || r == kRadii[0]) && (place || p == kPlaces[0])) out.emplace_back(r, p);
+    }
+  }
+  return out;
+}
+
+std::string messageOf(const ir::Statement& alarm) {
+  const std::string& text = std::get<ir::Alarm>(alarm.node).message;
+  return text.empty() ? "no message" : "`" + text + "`";
+}
+
 class Values {
 public:
   Values(const CycleFolder& folder, LoweredCycle& lowered, Session& session)
       : folder_(folder), lowered_(lowered), session_(session) {}
 
   void settle() {
-    if (const std::optional<ir::Statement> alarm = certainAlarm()) return rejected(*alarm);
-    const ir::CheckRun defaults = tried(environment(true));
+    const ir::CheckRun defaults = tried(environment());
     if (defaults.end != ir::CheckRun::End::Alarm) return;
     const std::vector<ir::VariableId> found = culprits();
-    const bool given =
-        std::any_of(found.begin(), found.end(), [&](ir::VariableId id) { return isGiven(id); });
-    if (given) return rejected(*defaults.at);
+    const bool given = std::any_of(found.begin(), found.end(),
+                                   [&](ir::VariableId id) { return lowered_.givenDefaults.contains(id); });
+    if (found.empty() || given) return reportRejected(folder_, *defaults.at, session_);
     for (const ir::VariableId id : found) {
       ir::Variable& variable = cycle().variables[id];
       session_.diagnostics()
@@ -47,53 +66,23 @@ private:
   ir::Cycle& cycle() { return lowered_.cycle; }
   const ir::Cycle& cycle() const { return lowered_.cycle; }
 
-  bool isGiven(ir::VariableId id) const {
-    return lowered_.fixed.contains(id) || lowered_.givenDefaults.contains(id);
-  }
-
-  ir::Environment environment(bool withDefaults) const {
+  ir::Environment environment() const {
     ir::Environment out(cycle().variables.size());
     for (ir::VariableId id = 0; id < out.size(); ++id) {
       const ir::Variable& variable = cycle().variable(id);
       if (const auto fixed = lowered_.fixed.find(id); fixed != lowered_.fixed.end())
         out[id] = {ir::Scalar::State::Known, fixed->second};
-      else if (withDefaults && variable.defaultValue)
+      else if (variable.defaultValue)
         out[id] = {ir::Scalar::State::Known, *variable.defaultValue};
     }
     return out;
-  }
-
-  // Where the fixed values leave no way through the checks, whatever the rest is: an alarm that they end in.
-  std::optional<ir::Statement> certainAlarm() const {
-    if (lowered_.fixed.empty()) return std::nullopt;
-    std::optional<ir::Statement> alarm;
-    for (const auto& [radius, place] : hostValues()) {
-      ir::Cycle trial = cycle();
-      trial.body.clear();
-      std::map<ir::VariableId, double> values = lowered_.fixed;
-      for (ir::VariableId id = 0; id < trial.variables.size(); ++id) {
-        if (trial.variable(id).role == ir::Role::Host)
-          values.emplace(id, trial.variable(id).name == "tool_radius" ? radius : place);
-      }
-      ir::fold(trial, values);
-      const std::vector<bool> reached = ir::reachable(trial.checks);
-      const auto next = ir::successors(trial.checks);
-      bool passes = trial.checks.empty();
-      for (std::size_t i = 0; i < trial.checks.size(); ++i) {
-        if (!reached[i]) continue;
-        passes = passes || std::find(next[i].begin(), next[i].end(), trial.checks.size()) != next[i].end();
-        if (!alarm && std::holds_alternative<ir::Alarm>(trial.checks[i].node)) alarm = trial.checks[i];
-      }
-      if (passes) return std::nullopt;
-    }
-    return alarm;
   }
 
   // Ends in an alarm only where every value of the host inputs does.
   ir::CheckRun tried(const ir::Environment& environment) const {
     ir::CheckRun last = ir::runChecks(cycle(), environment, session_.limits().steps);
     if (last.end != ir::CheckRun::End::Unknown) return last;
-    for (const auto& [radius, place] : hostValues()) {
+    for (const auto& [radius, place] : hostValues(cycle())) {
       ir::Environment with = environment;
       for (ir::VariableId id = 0; id < with.size(); ++id) {
         const ir::Variable& variable = cycle().variable(id);
@@ -105,21 +94,6 @@ private:
       last = run;
     }
     return last;
-  }
-
-  std::vector<std::pair<double, double>> hostValues() const {
-    bool radius = false;
-    bool place = false;
-    for (const ir::Variable& variable : cycle().variables) {
-      if (variable.role == ir::Role::Host) (variable.name == "tool_radius" ? radius : place) = true;
-    }
-    std::vector<std::pair<double, double>> out;
-    for (const double r : kRadii) {
-      for (const double p : kPlaces) {
-        if ((radius || r == kRadii[0]) && (place || p == kPlaces[0])) out.emplace_back(r, p);
-      }
-    }
-    return out;
   }
 
   // Values that may make the checks pass: around each constant that they name, and round numbers.
@@ -134,7 +108,7 @@ private:
 
   // Whether some other value of the parameter alone lets the rest pass.
   bool cures(ir::VariableId id) const {
-    ir::Environment with = environment(true);
+    ir::Environment with = environment();
     const std::vector<double> values = candidates();
     return std::any_of(values.begin(), values.end(), [&](double value) {
       with[id] = {ir::Scalar::State::Known, value};
@@ -142,8 +116,8 @@ private:
     });
   }
 
-  // The defaults that are to blame: each of which another value lets the rest pass; all of them where no
-  // single one does. None where a fixed value is to blame.
+  // The defaults that are to blame: each of which another value lets the rest pass; none where only another
+  // fixed value does; all of them where no single value helps.
   std::vector<ir::VariableId> culprits() const {
     std::vector<ir::VariableId> out;
     std::vector<ir::VariableId> all;
@@ -154,21 +128,10 @@ private:
       if (variable.role != ir::Role::Parameter || (!fixed && !variable.defaultValue)) continue;
       if (!fixed) all.push_back(id);
       if (!cures(id)) continue;
-      if (fixed)
-        fixedCures = true;
-      else
-        out.push_back(id);
+      fixedCures = fixedCures || fixed;
+      if (!fixed) out.push_back(id);
     }
     return out.empty() && !fixedCures ? all : out;
-  }
-
-  static std::string messageOf(const ir::Statement& alarm) {
-    const std::string& text = std::get<ir::Alarm>(alarm.node).message;
-    return text.empty() ? "no message" : "`" + text + "`";
-  }
-
-  void rejected(const ir::Statement& alarm) {
-    session_.diagnostics().report<diag::ValuesRejected>(alarm.origin.range(), folder_.name, messageOf(alarm));
   }
 
   const CycleFolder& folder_;
@@ -177,6 +140,35 @@ private:
 };
 
 } // namespace
+
+std::optional<ir::Statement> certainAlarm(const LoweredCycle& lowered) {
+  if (lowered.fixed.empty()) return std::nullopt;
+  std::optional<ir::Statement> alarm;
+  for (const auto& [radius, place] : hostValues(lowered.cycle)) {
+    ir::Cycle trial = lowered.cycle;
+    trial.body.clear();
+    std::map<ir::VariableId, double> values = lowered.fixed;
+    for (ir::VariableId id = 0; id < trial.variables.size(); ++id) {
+      if (trial.variable(id).role == ir::Role::Host)
+        values.emplace(id, trial.variable(id).name == "tool_radius" ? radius : place);
+    }
+    ir::fold(trial, values);
+    const std::vector<bool> reached = ir::reachable(trial.checks);
+    const auto next = ir::successors(trial.checks);
+    bool passes = trial.checks.empty();
+    for (std::size_t i = 0; i < trial.checks.size(); ++i) {
+      if (!reached[i]) continue;
+      passes = passes || std::find(next[i].begin(), next[i].end(), trial.checks.size()) != next[i].end();
+      if (!alarm && std::holds_alternative<ir::Alarm>(trial.checks[i].node)) alarm = trial.checks[i];
+    }
+    if (passes) return std::nullopt;
+  }
+  return alarm;
+}
+
+void reportRejected(const CycleFolder& folder, const ir::Statement& alarm, Session& session) {
+  session.diagnostics().report<diag::ValuesRejected>(alarm.origin.range(), folder.name, messageOf(alarm));
+}
 
 void applyDefaults(const NamedTexts& given, LoweredCycle& lowered, std::set<std::string>& used,
                    Session& session) {

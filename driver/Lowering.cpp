@@ -1,16 +1,16 @@
 #include "driver/Lowering.h"
 
-#include "backends/fanuc/Uses.h"
 #include "driver/Assumptions.h"
+#include "driver/ConvertValues.h"
 #include "driver/Fields.h"
 #include "driver/Hosts.h"
 #include "driver/PostProgram.h"
 #include "frontend/compost/Lower.h"
 #include "frontend/compost/Summary.h"
 #include "frontend/gibbs/Lower.h"
-#include "ir/Evaluate.h"
 #include "ir/Flow.h"
 #include "ir/InferKinds.h"
+#include "ir/Positions.h"
 #include "ir/Rewrite.h"
 #include "ir/Verify.h"
 #include "stdlib/HostInputs.h"
@@ -188,7 +188,7 @@ bool Lowering::path() {
   gibbs::LowerContext context = gibbsContext();
   context.touches = touchLines(session_.sources(), session_.options().assume, session_.diagnostics());
   if (!gibbs::lowerToolPath(*folder_.cycle->toolPath, cycle(), context)) return false;
-  if (backends::fanuc::countsFromRetract(cycle()))
+  if (ir::countsFrom(cycle(), ir::Frame::Retract))
     host("retract"); // also where the macro does not ask for the plane
   return true;
 }
@@ -204,15 +204,9 @@ bool Lowering::checks() {
 }
 
 bool Lowering::turnedAway() {
-  ir::Environment known(cycle().variables.size());
-  for (const auto& [id, value] : out_.fixed)
-    known[id] = ir::Scalar::of(value);
-  const ir::CheckRun run = ir::runChecks(cycle(), std::move(known), session_.limits().steps);
-  if (run.end != ir::CheckRun::End::Alarm) return false;
-  const std::string& text = std::get<ir::Alarm>(run.at->node).message;
-  session_.diagnostics().report<diag::ValuesRejected>(run.at->origin.range(), folder_.name,
-                                                      text.empty() ? "no message" : "`" + text + "`");
-  return true;
+  const std::optional<ir::Statement> alarm = certainAlarm(out_);
+  if (alarm) reportRejected(folder_, *alarm, session_);
+  return alarm.has_value();
 }
 
 // Which value of a field the CAM stores is certain where the user cannot type it; else an assumption says it.
@@ -326,23 +320,19 @@ std::optional<LoweringInputs> loadLoweringInputs(const SourceOptions& source, co
     inputs.routineAt = inputs.job->operationRange;
   }
   inputs.control = loadControl(control, session);
+  for (const stdlib::DataFile* file : session.data().list("macros")) {
+    if (auto set = stdlib::MacroSet::load(session.data(), file->name))
+      inputs.macroSets.push_back(std::move(*set));
+  }
   if (source.prog) {
     inputs.form = session.form(source.form);
     if (inputs.form && !inputs.form->control.empty())
       inputs.sourceControl = loadControl(inputs.form->control, session);
     else
       inputs.sourceControl = inputs.control;
-    for (const stdlib::DataFile* file : session.data().list("macros")) {
-      if (auto set = stdlib::MacroSet::load(session.data(), file->name))
-        inputs.macroSets.push_back(std::move(*set));
-    }
     if (!diagnostics.hasErrors()) inputs.program = loadProg(*source.prog, session);
   } else {
     inputs.sourceControl = inputs.control;
-    for (const stdlib::DataFile* file : session.data().list("macros")) {
-      if (auto set = stdlib::MacroSet::load(session.data(), file->name))
-        inputs.macroSets.push_back(std::move(*set));
-    }
   }
   if (diagnostics.hasErrors() || (source.prog && !inputs.program)) return std::nullopt;
   return inputs;

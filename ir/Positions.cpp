@@ -1,5 +1,7 @@
 #include "ir/Positions.h"
 
+#include <algorithm>
+
 #include "ir/Dataflow.h"
 #include "ir/Linear.h"
 #include "ir/Walk.h"
@@ -171,6 +173,17 @@ std::vector<const Measure*> lastMeasurements(const Cycle& cycle) {
   for (const auto& fact : facts)
     out.push_back(fact ? *fact : nullptr);
   return out;
+}
+
+bool countsFrom(const Cycle& cycle, Frame frame) {
+  const auto counts = [&](const std::optional<Coordinate>& coordinate) {
+    return coordinate && coordinate->frame == frame;
+  };
+  return std::any_of(cycle.body.begin(), cycle.body.end(), [&](const Statement& statement) {
+    if (const auto* measure = std::get_if<Measure>(&statement.node)) return counts(measure->target);
+    const auto* move = std::get_if<Move>(&statement.node);
+    return move != nullptr && std::any_of(move->axes.begin(), move->axes.end(), counts);
+  });
 }
 
 } // namespace dotek::ir

@@ -30,4 +30,8 @@ std::vector<Position> positions(const Cycle& cycle);
 // opaque block, which may measure, stands between. Points into `cycle.body`.
 std::vector<const Measure*> lastMeasurements(const Cycle& cycle);
 
+// Whether a coordinate of the body counts from `frame`. With Retract the cycle needs the plane's height
+// though no expression names it.
+bool countsFrom(const Cycle& cycle, Frame frame);
+
 } // namespace dotek::ir

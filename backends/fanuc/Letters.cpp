@@ -2,6 +2,7 @@
 #include "backends/fanuc/Emit.h"
 #include "backends/fanuc/Uses.h"
 #include "ir/Fold.h"
+#include "ir/Positions.h"
 #include "support/NearestName.h"
 
 #include <algorithm>
@@ -48,7 +49,7 @@ std::vector<ir::VariableId> wantedNames(const ir::Cycle& cycle, const EmitOption
       const ir::Variable& variable = cycle.variable(id);
       if (variable.role != role) continue;
       const bool retract = role == ir::Role::Host && variable.name == "retract" &&
-                           !options.fixed.contains("retract") && countsFromRetract(cycle);
+                           !options.fixed.contains("retract") && ir::countsFrom(cycle, ir::Frame::Retract);
       if (!used.contains(id) && !retract) continue;
       if (isStartHost(variable) && options.control.variables.blockEnd) continue;
       out.push_back(id);

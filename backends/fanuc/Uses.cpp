@@ -98,17 +98,6 @@ bool isAssigned(const std::vector<ir::Statement>& list, ir::VariableId id) {
   });
 }
 
-bool countsFromRetract(const ir::Cycle& cycle) {
-  const auto counts = [](const std::optional<ir::Coordinate>& coordinate) {
-    return coordinate && coordinate->frame == ir::Frame::Retract;
-  };
-  return std::any_of(cycle.body.begin(), cycle.body.end(), [&](const ir::Statement& statement) {
-    if (const auto* measure = std::get_if<ir::Measure>(&statement.node)) return counts(measure->target);
-    const auto* move = std::get_if<ir::Move>(&statement.node);
-    return move != nullptr && std::any_of(move->axes.begin(), move->axes.end(), counts);
-  });
-}
-
 bool isStartHost(const ir::Variable& variable) {
   return variable.role == ir::Role::Host &&
          (variable.name == "start_x" || variable.name == "start_y" || variable.name == "start_z");

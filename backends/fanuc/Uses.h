@@ -12,8 +12,6 @@ std::set<ir::VariableId> variablesOf(const ir::ConditionPtr& condition);
 // Read or assigned in checks or body.
 std::set<ir::VariableId> usedVariables(const ir::Cycle& cycle);
 bool isAssigned(const std::vector<ir::Statement>& list, ir::VariableId id);
-// A coordinate counts from the retract plane, so the host input `retract` is used without standing in it.
-bool countsFromRetract(const ir::Cycle& cycle);
 // start_x, start_y, start_z.
 bool isStartHost(const ir::Variable& variable);
 // Variables that reach a coordinate, travel, diameter or feed of a move or a measurement, directly, through
