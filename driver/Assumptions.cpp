@@ -2,6 +2,7 @@
 
 #include "frontend/gibbs/Assumptions.h"
 #include "support/NearestName.h"
+#include "support/messages/Commands.h"
 
 #include <algorithm>
 

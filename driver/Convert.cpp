@@ -11,6 +11,8 @@
 #include "support/Decimal.h"
 #include "support/LineMap.h"
 #include "support/NearestName.h"
+#include "support/messages/Commands.h"
+#include "support/messages/Fanuc.h"
 
 #include <algorithm>
 #include <set>

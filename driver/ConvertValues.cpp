@@ -6,6 +6,7 @@
 #include "ir/Fold.h"
 #include "ir/Rewrite.h"
 #include "support/Decimal.h"
+#include "support/messages/Commands.h"
 
 #include <algorithm>
 

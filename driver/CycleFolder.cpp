@@ -1,4 +1,6 @@
 #include "driver/CycleFolder.h"
+#include "support/messages/Commands.h"
+#include "support/messages/Common.h"
 
 #include <algorithm>
 #include <array>

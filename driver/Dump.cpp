@@ -13,6 +13,8 @@
 #include "ir/Print.h"
 #include "support/Decimal.h"
 #include "support/Files.h"
+#include "support/messages/Commands.h"
+#include "support/messages/Common.h"
 
 #include <filesystem>
 

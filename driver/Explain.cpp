@@ -6,6 +6,7 @@
 #include "stdlib/HostInputs.h"
 #include "stdlib/MacroSet.h"
 #include "support/NearestName.h"
+#include "support/messages/Commands.h"
 
 #include <algorithm>
 

@@ -4,6 +4,8 @@
 #include "frontend/gibbs/Labels.h"
 #include "support/Decimal.h"
 #include "support/NearestName.h"
+#include "support/messages/Commands.h"
+#include "support/messages/Gibbs.h"
 
 #include <algorithm>
 

@@ -3,6 +3,7 @@
 #include "stdlib/HostInputs.h"
 #include "support/Decimal.h"
 #include "support/NearestName.h"
+#include "support/messages/Commands.h"
 
 namespace dotek::driver {
 

@@ -9,6 +9,10 @@
 #include "frontend/macrob/Check.h"
 #include "frontend/macrob/Parse.h"
 #include "support/Files.h"
+#include "support/messages/ComPost.h"
+#include "support/messages/Commands.h"
+#include "support/messages/Common.h"
+#include "support/messages/Gibbs.h"
 
 #include <algorithm>
 #include <filesystem>

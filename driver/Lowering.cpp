@@ -15,6 +15,8 @@
 #include "ir/Verify.h"
 #include "stdlib/HostInputs.h"
 #include "support/Decimal.h"
+#include "support/messages/Commands.h"
+#include "support/messages/Nc.h"
 
 #include <algorithm>
 

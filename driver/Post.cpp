@@ -10,6 +10,7 @@
 #include "frontend/compost/Summary.h"
 #include "support/Decimal.h"
 #include "support/NearestName.h"
+#include "support/messages/Commands.h"
 
 #include <algorithm>
 #include <set>

@@ -3,6 +3,7 @@
 #include "frontend/gibbs/Labels.h"
 #include "frontend/gibbs/Run.h"
 #include "support/Decimal.h"
+#include "support/messages/Commands.h"
 
 #include <algorithm>
 

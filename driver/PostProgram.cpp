@@ -4,6 +4,9 @@
 #include "frontend/compost/Parse.h"
 #include "frontend/compost/Summary.h"
 #include "support/NearestName.h"
+#include "support/messages/ComPost.h"
+#include "support/messages/Commands.h"
+#include "support/messages/Gibbs.h"
 
 #include <algorithm>
 #include <array>

@@ -2,6 +2,12 @@
 
 #include "driver/Assumptions.h"
 #include "support/Files.h"
+#include "support/messages/Commands.h"
+#include "support/messages/Common.h"
+#include "support/messages/Fanuc.h"
+#include "support/messages/Gibbs.h"
+#include "support/messages/Nc.h"
+#include "support/messages/Sim.h"
 
 #include <algorithm>
 #include <array>

@@ -6,6 +6,7 @@
 #include "stdlib/DataFiles.h"
 #include "stdlib/Form.h"
 #include "stdlib/GibbsKeywords.h"
+#include "support/messages/Commands.h"
 
 #include <optional>
 #include <string>

@@ -1,3 +1,4 @@
+#include "support/messages/Sim.h"
 #include "driver/Driver.h"
 #include "driver/Session.h"
 #include "driver/SimReport.h"
@@ -6,6 +7,8 @@
 #include "stdlib/Control.h"
 #include "support/Decimal.h"
 #include "support/LineChunks.h"
+#include "support/messages/Commands.h"
+#include "support/messages/Common.h"
 
 #include <charconv>
 

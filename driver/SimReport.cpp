@@ -1,6 +1,8 @@
 #include "driver/SimReport.h"
 
 #include "support/Decimal.h"
+#include "support/messages/Common.h"
+#include "support/messages/Sim.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

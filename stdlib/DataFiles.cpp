@@ -2,6 +2,8 @@
 
 #include "stdlib/EmbeddedData.h"
 #include "support/Files.h"
+#include "support/messages/Commands.h"
+#include "support/messages/Common.h"
 
 #include <algorithm>
 #include <filesystem>

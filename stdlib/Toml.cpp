@@ -2,6 +2,7 @@
 
 #include "stdlib/DataFiles.h"
 #include "support/NearestName.h"
+#include "support/messages/Commands.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,7 @@
 #include "support/Diagnostics.h"
 
+#include "support/messages/Common.h"
+
 #include <algorithm>
 #include <tuple>
 
@@ -12,22 +14,6 @@ std::string_view severityName(Severity severity) {
   case Severity::Error: return "error";
   }
   return "";
-}
-
-std::span<const MessageInfo> messageTable() {
-  // No std::array: clang bounds its deduction at 256 elements.
-  static const std::vector<MessageInfo> kTable = [] {
-    std::vector<MessageInfo> table = {
-#define DOTEK_DIAGNOSTIC(Id, codeText, severityId, formatText, explanationText)                              \
-  MessageInfo{codeText, Severity::severityId, explanationText},
-#include "support/Diagnostics.def"
-#undef DOTEK_DIAGNOSTIC
-    };
-    std::sort(table.begin(), table.end(),
-              [](const MessageInfo& a, const MessageInfo& b) { return a.code < b.code; });
-    return table;
-  }();
-  return kTable;
 }
 
 namespace {

@@ -52,7 +52,7 @@ struct Diagnostic {
   }
 };
 
-// One line of Diagnostics.def: a message that is no lint rule.
+// One line of support/messages/*.def: a message that is no lint rule.
 struct MessageInfo {
   std::string_view code;
   Severity severity;
@@ -62,17 +62,14 @@ struct MessageInfo {
 // All messages, sorted by code.
 std::span<const MessageInfo> messageTable();
 
-namespace diag {
-// Each message is a type, so that its format string is checked against its arguments at compile time.
-#define DOTEK_DIAGNOSTIC(Id, codeText, severityId, formatText, explanationText)                              \
+// Each message is a type of the namespace diag (support/messages/<Group>.h), so that its format string is
+// checked against its arguments at compile time.
+#define DOTEK_MESSAGE_TYPE(Id, codeText, severityId, formatText, explanationText)                            \
   struct Id {                                                                                                \
     static constexpr std::string_view code = codeText;                                                       \
     static constexpr Severity severity = Severity::severityId;                                               \
     static constexpr const char* format = formatText;                                                        \
   };
-#include "support/Diagnostics.def"
-#undef DOTEK_DIAGNOSTIC
-} // namespace diag
 
 // Makes the diagnostic `Id` of the namespace diag; text arguments are UTF-8.
 template <class Id, class... Args> Diagnostic makeDiagnostic(SourceRange range, const Args&... args) {

@@ -1,4 +1,5 @@
 #include "support/LineChunks.h"
+#include "support/messages/Common.h"
 
 #include <algorithm>
 #include <cerrno>

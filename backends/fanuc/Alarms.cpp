@@ -1,6 +1,7 @@
 // Alarms and comments: what a control shows of a text.
 #include "backends/common/PlainText.h"
 #include "backends/fanuc/State.h"
+#include "support/messages/Fanuc.h"
 
 #include <algorithm>
 

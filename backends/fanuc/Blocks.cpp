@@ -1,5 +1,6 @@
 // NC blocks: statements of one block of the source share a line.
 #include "backends/fanuc/State.h"
+#include "support/messages/Fanuc.h"
 
 #include <algorithm>
 

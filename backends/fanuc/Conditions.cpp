@@ -1,6 +1,7 @@
 // Conditions as jumps: joined in one IF where the control has that, else as several.
 #include "backends/fanuc/State.h"
 #include "ir/Fold.h"
+#include "support/messages/Fanuc.h"
 
 #include <algorithm>
 

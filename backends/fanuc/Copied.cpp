@@ -1,6 +1,7 @@
 // What copied blocks leave in force: saved by Modes.cpp where a bare code puts it back, refused otherwise.
 #include "backends/fanuc/State.h"
 #include "ir/Flow.h"
+#include "support/messages/Fanuc.h"
 
 #include <algorithm>
 #include <cmath>

@@ -4,6 +4,7 @@
 #include "backends/fanuc/Uses.h"
 #include "ir/Walk.h"
 #include "support/Decimal.h"
+#include "support/messages/Fanuc.h"
 
 #include <algorithm>
 

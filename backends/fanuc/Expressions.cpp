@@ -3,6 +3,7 @@
 #include "backends/fanuc/State.h"
 #include "ir/Fold.h"
 #include "support/Decimal.h"
+#include "support/messages/Fanuc.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,7 @@
 // The statements of a list: assignments, jumps, alarms; blocks are left to Blocks.cpp.
 #include "backends/fanuc/State.h"
 #include "ir/Fold.h"
+#include "support/messages/Fanuc.h"
 
 #include <algorithm>
 

@@ -4,6 +4,7 @@
 #include "ir/Fold.h"
 #include "ir/Positions.h"
 #include "support/NearestName.h"
+#include "support/messages/Fanuc.h"
 
 #include <algorithm>
 #include <set>

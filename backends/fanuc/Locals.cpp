@@ -1,4 +1,5 @@
 #include "backends/fanuc/State.h"
+#include "support/messages/Fanuc.h"
 
 #include <algorithm>
 

@@ -1,6 +1,7 @@
 // Calls of the vendor's macros, built from their signatures.
 #include "backends/fanuc/State.h"
 #include "ir/Linear.h"
+#include "support/messages/Fanuc.h"
 
 #include <algorithm>
 

@@ -1,5 +1,6 @@
 // The modal groups that the program changes: kept in locals, set, put back.
 #include "backends/fanuc/State.h"
+#include "support/messages/Fanuc.h"
 
 #include <algorithm>
 

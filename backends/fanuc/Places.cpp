@@ -2,6 +2,7 @@
 #include "backends/fanuc/State.h"
 #include "backends/fanuc/Uses.h"
 #include "ir/Flow.h"
+#include "support/messages/Fanuc.h"
 
 #include <algorithm>
 #include <deque>

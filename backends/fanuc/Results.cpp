@@ -3,6 +3,7 @@
 #include "backends/fanuc/Uses.h"
 #include "ir/Flow.h"
 #include "ir/Walk.h"
+#include "support/messages/Fanuc.h"
 
 #include <algorithm>
 

@@ -1,4 +1,5 @@
 #include "frontend/common/ParseSession.h"
+#include "support/messages/Common.h"
 
 #include <algorithm>
 

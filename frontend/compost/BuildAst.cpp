@@ -1,6 +1,8 @@
 // Parse trees of the generated parser to the syntax tree; what the grammar takes and the language does not
 // is reported here.
 #include "frontend/compost/BuildAst.h"
+#include "support/messages/ComPost.h"
+#include "support/messages/Common.h"
 
 #include <algorithm>
 #include <charconv>

@@ -1,6 +1,7 @@
 // Routines, what stands between them, and the whole file.
 #include "frontend/compost/BuildAst.h"
 #include "frontend/compost/Parse.h"
+#include "support/messages/ComPost.h"
 
 #include <algorithm>
 #include <map>

@@ -2,6 +2,7 @@
 
 #include "support/NearestName.h"
 #include "support/Picture.h"
+#include "support/messages/ComPost.h"
 
 #include <algorithm>
 #include <fmt/format.h>

@@ -1,4 +1,5 @@
 #include "frontend/compost/Conditions.h"
+#include "support/messages/ComPost.h"
 
 #include <algorithm>
 

@@ -1,6 +1,7 @@
 #include "frontend/compost/Lower.h"
 
 #include "frontend/compost/LowerRun.h"
+#include "support/messages/Nc.h"
 
 #include <algorithm>
 

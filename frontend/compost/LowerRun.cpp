@@ -1,6 +1,8 @@
 #include "frontend/compost/LowerRun.h"
 
 #include "frontend/nc/Parse.h"
+#include "support/messages/ComPost.h"
+#include "support/messages/Nc.h"
 
 #include <algorithm>
 

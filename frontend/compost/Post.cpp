@@ -2,6 +2,7 @@
 
 #include "frontend/compost/PostRun.h"
 #include "support/Decimal.h"
+#include "support/messages/ComPost.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,5 @@
 #include "frontend/compost/ProgTables.h"
+#include "support/messages/ComPost.h"
 
 namespace dotek::frontend::compost {
 

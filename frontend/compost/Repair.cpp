@@ -1,6 +1,7 @@
 #include "frontend/compost/Repair.h"
 
 #include "frontend/compost/Summary.h"
+#include "support/messages/ComPost.h"
 
 #include <algorithm>
 #include <fmt/format.h>

@@ -1,6 +1,8 @@
 #include "frontend/compost/Tokens.h"
 
 #include "frontend/compost/Parse.h"
+#include "support/messages/ComPost.h"
+#include "support/messages/Common.h"
 
 #include <ComPostParser.h>
 

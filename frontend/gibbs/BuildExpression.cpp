@@ -1,4 +1,6 @@
 #include "frontend/gibbs/BuildTree.h"
+#include "support/messages/Common.h"
+#include "support/messages/Gibbs.h"
 
 #include <charconv>
 

@@ -1,4 +1,5 @@
 #include "frontend/gibbs/BuildTree.h"
+#include "support/messages/Common.h"
 
 namespace dotek::frontend::gibbs {
 

@@ -4,6 +4,7 @@
 #include "frontend/gibbs/Unverified.h"
 #include "frontend/gibbs/Walk.h"
 #include "support/NearestName.h"
+#include "support/messages/Gibbs.h"
 
 #include <algorithm>
 

@@ -1,6 +1,7 @@
 #include "frontend/gibbs/CheckCommand.h"
 #include "frontend/gibbs/Unverified.h"
 #include "frontend/gibbs/Walk.h"
+#include "support/messages/Gibbs.h"
 
 #include <map>
 

@@ -2,6 +2,8 @@
 
 #include "frontend/gibbs/Walk.h"
 #include "support/NearestName.h"
+#include "support/messages/Common.h"
+#include "support/messages/Gibbs.h"
 
 #include <algorithm>
 #include <map>

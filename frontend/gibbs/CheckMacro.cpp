@@ -2,6 +2,7 @@
 #include "frontend/gibbs/CheckFlow.h"
 #include "frontend/gibbs/Unverified.h"
 #include "frontend/gibbs/Walk.h"
+#include "support/messages/Gibbs.h"
 
 namespace dotek::frontend::gibbs {
 

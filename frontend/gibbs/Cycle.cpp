@@ -3,6 +3,7 @@
 #include "frontend/gibbs/Match.h"
 #include "frontend/gibbs/Walk.h"
 #include "support/NearestName.h"
+#include "support/messages/Gibbs.h"
 
 #include <algorithm>
 #include <functional>

@@ -1,5 +1,6 @@
 #include "frontend/gibbs/Assumptions.h"
 #include "frontend/gibbs/RunMachine.h"
+#include "support/messages/Gibbs.h"
 
 #include <cmath>
 

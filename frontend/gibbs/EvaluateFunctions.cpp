@@ -1,6 +1,7 @@
 #include "frontend/gibbs/RunMachine.h"
 
 #include "support/Decimal.h"
+#include "support/messages/Gibbs.h"
 
 #include <cmath>
 

@@ -1,6 +1,7 @@
 #include "frontend/gibbs/Lower.h"
 #include "frontend/gibbs/LowerEmit.h"
 #include "frontend/gibbs/LowerFlatten.h"
+#include "support/messages/Gibbs.h"
 
 #include <algorithm>
 

@@ -1,6 +1,7 @@
 #include "frontend/gibbs/Assumptions.h"
 #include "frontend/gibbs/LowerFlatten.h"
 #include "stdlib/HostInputs.h"
+#include "support/messages/Gibbs.h"
 
 #include <algorithm>
 #include <array>

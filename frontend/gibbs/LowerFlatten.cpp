@@ -2,6 +2,7 @@
 
 #include "frontend/gibbs/Assumptions.h"
 #include "frontend/gibbs/LowerTerms.h"
+#include "support/messages/Gibbs.h"
 
 #include <algorithm>
 

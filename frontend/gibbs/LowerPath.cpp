@@ -3,6 +3,8 @@
 #include "frontend/gibbs/LowerFlatten.h"
 #include "frontend/gibbs/LowerTerms.h"
 #include "frontend/gibbs/LowerTouch.h"
+#include "support/messages/Gibbs.h"
+#include "support/messages/Sim.h"
 
 #include <algorithm>
 

@@ -1,4 +1,5 @@
 #include "frontend/gibbs/RunMachine.h"
+#include "support/messages/Gibbs.h"
 
 #include <algorithm>
 #include <tuple>

@@ -2,6 +2,7 @@
 #include "frontend/gibbs/RunMachine.h"
 
 #include "support/Decimal.h"
+#include "support/messages/Gibbs.h"
 
 #include <algorithm>
 #include <array>

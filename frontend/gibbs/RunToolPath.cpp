@@ -1,6 +1,7 @@
 #include "frontend/gibbs/RunMachine.h"
 
 #include "support/Decimal.h"
+#include "support/messages/Gibbs.h"
 
 namespace dotek::frontend::gibbs {
 namespace {

@@ -1,6 +1,8 @@
 #include "frontend/macrob/BuildAst.h"
 
 #include "support/Decimal.h"
+#include "support/messages/Common.h"
+#include "support/messages/MacroB.h"
 
 #include <algorithm>
 #include <charconv>

@@ -2,6 +2,7 @@
 #include "frontend/macrob/CheckParts.h"
 #include "frontend/macrob/Format.h"
 #include "frontend/macrob/Walk.h"
+#include "support/messages/MacroB.h"
 
 #include <algorithm>
 #include <fmt/format.h>

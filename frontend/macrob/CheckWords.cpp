@@ -3,6 +3,8 @@
 #include "frontend/macrob/CheckParts.h"
 #include "frontend/macrob/Format.h"
 #include "frontend/macrob/Walk.h"
+#include "support/messages/MacroB.h"
+#include "support/messages/Nc.h"
 
 #include <algorithm>
 #include <fmt/format.h>

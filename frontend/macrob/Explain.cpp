@@ -1,5 +1,7 @@
 // Why a block cannot be read, in the words of the control's manual.
 #include "frontend/macrob/Misprints.h"
+#include "support/messages/Common.h"
+#include "support/messages/MacroB.h"
 
 #include <algorithm>
 #include <cctype>

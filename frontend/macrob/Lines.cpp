@@ -1,6 +1,8 @@
 #include "frontend/macrob/Lines.h"
 
 #include "frontend/macrob/Keywords.h"
+#include "support/messages/Common.h"
+#include "support/messages/MacroB.h"
 
 #include <algorithm>
 #include <cctype>

@@ -1,4 +1,5 @@
 #include "frontend/macrob/Misprints.h"
+#include "support/messages/MacroB.h"
 
 #include <algorithm>
 #include <cctype>

@@ -4,6 +4,7 @@
 #include "frontend/macrob/Lines.h"
 #include "frontend/macrob/Misprints.h"
 #include "frontend/macrob/Scan.h"
+#include "support/messages/MacroB.h"
 
 #include <algorithm>
 #include <cctype>

@@ -3,6 +3,7 @@
 
 #include "frontend/nc/Parse.h"
 #include "frontend/nc/Reader.h"
+#include "support/messages/Common.h"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,7 @@
 #include "frontend/nc/Lift.h"
 
 #include "frontend/nc/Lifter.h"
+#include "support/messages/Nc.h"
 
 #include <algorithm>
 #include <cmath>

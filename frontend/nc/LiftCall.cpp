@@ -1,6 +1,7 @@
 // Calls of a vendor's macros by their signatures.
 #include "frontend/nc/Lifter.h"
 #include "support/Decimal.h"
+#include "support/messages/Nc.h"
 
 #include <algorithm>
 #include <cmath>

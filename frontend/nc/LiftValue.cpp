@@ -1,6 +1,8 @@
 // Numbers of words: decimal points, pictures, formulas.
 #include "frontend/nc/Lifter.h"
 #include "support/Decimal.h"
+#include "support/messages/ComPost.h"
+#include "support/messages/Nc.h"
 
 #include <array>
 #include <cmath>

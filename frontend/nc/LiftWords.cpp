@@ -1,5 +1,6 @@
 // Blocks of functions, coordinates, feed and speed.
 #include "frontend/nc/Lifter.h"
+#include "support/messages/Nc.h"
 
 #include <algorithm>
 

@@ -1,6 +1,8 @@
 #include "frontend/nc/Parse.h"
 
 #include "frontend/nc/BlockParser.h"
+#include "support/messages/Common.h"
+#include "support/messages/Nc.h"
 
 #include <algorithm>
 #include <array>

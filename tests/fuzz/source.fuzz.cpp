@@ -1,6 +1,7 @@
 // Any bytes as a source text: decoding, places, excerpts of messages, JSON.
 #include "support/Diagnostics.h"
 #include "support/Files.h"
+#include "support/messages/Common.h"
 
 #include <cstddef>
 #include <cstdint>

@@ -40,8 +40,8 @@ std::string literal(const std::string& text, std::size_t& at) {
 std::vector<Message> messages() {
   std::vector<Message> out;
   for (const TreeFile& file : tree()) {
-    if (file.path != "support/Diagnostics.def") continue;
-    const std::string start = "\nDOTEK_DIAGNOSTIC(";
+    if (!file.below("support/messages") || !file.path.ends_with(".def")) continue;
+    const std::string start = "DOTEK_DIAGNOSTIC(";
     for (std::size_t at = file.text.find(start); at != std::string::npos; at = file.text.find(start, at)) {
       at += start.size();
       Message message;

@@ -1,4 +1,6 @@
 // Findings of one kind in one file are bounded, and nothing is lost in silence.
+#include "support/messages/Common.h"
+#include "support/messages/Gibbs.h"
 #include "tests/unit/ComPostHelper.h"
 #include "tests/unit/GibbsHarness.h"
 

@@ -4,6 +4,7 @@
 #include "frontend/compost/Summary.h"
 #include "ir/InferKinds.h"
 #include "ir/Verify.h"
+#include "support/messages/Commands.h"
 #include "tests/GoldenRunner.h"
 #include "tests/unit/ComPostHelper.h"
 #include "tests/unit/NcHelper.h"

@@ -1,6 +1,7 @@
 // What convert leaves on disk: all or nothing. And what a defect of Dotek itself ends in.
 #include "driver/Session.h"
 #include "support/Files.h"
+#include "support/messages/Commands.h"
 #include "tests/GoldenRunner.h"
 
 #include <doctest/doctest.h>
