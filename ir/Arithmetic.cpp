@@ -141,6 +141,56 @@ Computed direction(double x, double y, AngleUnit unit) {
   return fromRadians(std::atan2(y == 0 ? 0.0 : y, x), unit);
 }
 
+Computed roundedAnd(double a, double b) {
+  return bitAnd(std::round(a), std::round(b));
+}
+
+Computed roundedOr(double a, double b) {
+  return bitOr(std::round(a), std::round(b));
+}
+
+Computed roundedXor(double a, double b) {
+  return bitXor(std::round(a), std::round(b));
+}
+
+Computed roundedModulo(double a, double b) {
+  return modulo(std::round(a), std::round(b));
+}
+
+Computed power(double a, double b) {
+  if (a == 0 && b < 0) return {0, ArithmeticError::DivisionByZero};
+  if (a < 0 && b != std::trunc(b)) return domain();
+  return finite(std::pow(a, b));
+}
+
+Computed bearing(double x, double y) {
+  Computed out = direction(x, y, AngleUnit::Degrees);
+  if (out.ok() && out.value < 0) out.value += 360;
+  if (out.value >= 360) out.value = 0; // a tiny negative angle
+  return out;
+}
+
+Computed fromBcd(double a) {
+  const double whole = std::round(a);
+  if (!(whole >= 0 && whole <= 0xFFFFFFFF)) return domain();
+  double out = 0, place = 1;
+  for (auto rest = static_cast<std::uint32_t>(whole); rest != 0; rest >>= 4U, place *= 10) {
+    if ((rest & 15U) > 9) return domain();
+    out += (rest & 15U) * place;
+  }
+  return finite(out);
+}
+
+Computed toBcd(double a) {
+  const double whole = std::round(a);
+  if (!(whole >= 0 && whole <= 99999999)) return domain();
+  std::uint32_t out = 0;
+  unsigned shift = 0;
+  for (auto rest = static_cast<std::uint32_t>(whole); rest != 0; rest /= 10, shift += 4)
+    out |= rest % 10 << shift;
+  return finite(out);
+}
+
 std::string_view describe(ArithmeticError error) {
   switch (error) {
   case ArithmeticError::None: return "";

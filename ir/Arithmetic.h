@@ -55,6 +55,18 @@ Computed bitXor(double a, double b);
 // Angle of the direction (x, y), above -180 up to 180 degrees; (0, 0) is a domain error.
 Computed direction(double x, double y, AngleUnit unit);
 
+// Both operands are rounded to whole numbers first, half away from zero.
+Computed roundedAnd(double a, double b);
+Computed roundedOr(double a, double b);
+Computed roundedXor(double a, double b);
+Computed roundedModulo(double a, double b); // sign of `a`
+Computed power(double a, double b);
+// As direction, from 0 up to below 360 degrees.
+Computed bearing(double x, double y);
+// Eight BCD digits at most; another digit than 0 to 9, a number below 0 or a larger one: a domain error.
+Computed fromBcd(double a);
+Computed toBcd(double a);
+
 // "a division by zero", ... for messages; "" for None.
 std::string_view describe(ArithmeticError error);
 

@@ -30,6 +30,11 @@ Computed compute(UnaryOp op, double a) {
   case UnaryOp::Logarithm: return logarithm(a);
   case UnaryOp::Exponential: return exponential(a);
   case UnaryOp::NullAsZero: return {a, ArithmeticError::None};
+  case UnaryOp::FromBcd: return fromBcd(a);
+  case UnaryOp::ToBcd: return toBcd(a);
+  // What these give hangs on the control.
+  case UnaryOp::RoundIncrement:
+  case UnaryOp::AddPoint: break;
   }
   return {0, ArithmeticError::Domain};
 }
@@ -46,6 +51,12 @@ Computed compute(BinaryOp op, double a, double b) {
   case BinaryOp::BitOr: return bitOr(a, b);
   case BinaryOp::BitXor: return bitXor(a, b);
   case BinaryOp::ValueOr: return {a, ArithmeticError::None};
+  case BinaryOp::RoundedAnd: return roundedAnd(a, b);
+  case BinaryOp::RoundedOr: return roundedOr(a, b);
+  case BinaryOp::RoundedXor: return roundedXor(a, b);
+  case BinaryOp::RoundedModulo: return roundedModulo(a, b);
+  case BinaryOp::Power: return power(a, b);
+  case BinaryOp::Bearing: return bearing(a, b);
   }
   return {0, ArithmeticError::Domain};
 }
@@ -84,13 +95,27 @@ bool compareNumbers(Relation relation, double a, double b) {
   case Relation::Greater: return a > b;
   case Relation::LessEqual: return a <= b;
   case Relation::GreaterEqual: return a >= b;
+  case Relation::Same: return a == b;
+  case Relation::Different: return a != b;
   }
   return false;
 }
 
 Verdict decide(const Condition& condition, const Environment& environment);
 
+// Null is a value of its own.
+Verdict decideSameness(const Comparison& node, const Environment& environment) {
+  const Scalar a = evaluate(*node.left, environment);
+  const Scalar b = evaluate(*node.right, environment);
+  if (a.state == State::Failed || b.state == State::Failed) return Verdict::Failed;
+  if (a.state == State::Unknown || b.state == State::Unknown) return Verdict::Unknown;
+  const bool same = a.state == b.state && (a.state == State::Null || a.value == b.value);
+  return same == (node.relation == Relation::Same) ? Verdict::True : Verdict::False;
+}
+
 Verdict decideComparison(const Comparison& node, const Environment& environment) {
+  if (node.relation == Relation::Same || node.relation == Relation::Different)
+    return decideSameness(node, environment);
   const Scalar a = operand(evaluate(*node.left, environment));
   const Scalar b = operand(evaluate(*node.right, environment));
   if (a.state == State::Failed || b.state == State::Failed) return Verdict::Failed;

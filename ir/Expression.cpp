@@ -101,6 +101,8 @@ Relation opposite(Relation relation) {
   case Relation::GreaterEqual: return Relation::Less;
   case Relation::Greater: return Relation::LessEqual;
   case Relation::LessEqual: return Relation::Greater;
+  case Relation::Same: return Relation::Different;
+  case Relation::Different: return Relation::Same;
   }
   return relation;
 }

@@ -54,6 +54,11 @@ enum class UnaryOp : std::uint8_t {
   Logarithm,
   Exponential,
   NullAsZero, // null becomes 0; anything else stays
+  // Of macro programs:
+  RoundIncrement, // ROUND behind an address: to the least input increment of the word that holds it
+  FromBcd,        // BIN: the decimal digits of a number in BCD
+  ToBcd,          // BCD
+  AddPoint,       // ADP: an argument that was passed without a point gets it
 };
 enum class BinaryOp : std::uint8_t {
   Add,
@@ -66,6 +71,13 @@ enum class BinaryOp : std::uint8_t {
   BitOr,
   BitXor,
   ValueOr, // left, or right where left is null
+  // Of macro programs; the first four round both operands to whole numbers, half away from zero:
+  RoundedAnd,
+  RoundedOr,
+  RoundedXor,
+  RoundedModulo, // sign of the dividend
+  Power,
+  Bearing, // as Direction, from 0 up to below 360
 };
 struct Unary {
   UnaryOp op = UnaryOp::Negate;
@@ -99,13 +111,24 @@ bool equal(const ExpressionPtr& a, const ExpressionPtr& b);
 struct Condition;
 using ConditionPtr = std::shared_ptr<const Condition>;
 
-enum class Relation : std::uint8_t { Equal, NotEqual, Less, Greater, LessEqual, GreaterEqual };
-// Equal with NotEqual, Less with GreaterEqual, Greater with LessEqual: exact, as no value is a NaN.
+// Same, Different: of macro programs; null is a value of its own, equal to null alone.
+enum class Relation : std::uint8_t {
+  Equal,
+  NotEqual,
+  Less,
+  Greater,
+  LessEqual,
+  GreaterEqual,
+  Same,
+  Different
+};
+// Equal with NotEqual, Less with GreaterEqual, Greater with LessEqual, Same with Different: exact, as no
+// value is a NaN.
 Relation opposite(Relation relation);
 
 struct Comparison {
   Relation relation = Relation::Equal;
-  ExpressionPtr left, right; // neither is null at run time
+  ExpressionPtr left, right; // neither is null at run time, but of Same and Different
 };
 struct IsNull {
   ExpressionPtr value;

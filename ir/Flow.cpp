@@ -1,5 +1,6 @@
 #include "ir/Flow.h"
 
+#include <algorithm>
 #include <unordered_map>
 
 namespace dotek::ir {
@@ -21,10 +22,22 @@ std::vector<std::vector<std::size_t>> successors(const std::vector<Statement>& l
       jump(i, go->target);
     } else if (std::holds_alternative<Return>(node)) {
       out[i].push_back(list.size());
-    } else if (!std::holds_alternative<Alarm>(node)) {
+    } else if (const auto* end = std::get_if<LoopEnd>(&node)) {
+      jump(i, end->begin);
+    } else if (const auto* number = std::get_if<JumpTo>(&node)) {
+      for (const auto& [label, place] : places)
+        if (number->number) out[i].push_back(place);
+      std::sort(out[i].begin(), out[i].end());
+    } else if (std::holds_alternative<Exit>(node)) {
+      out[i].push_back(list.size());
+    } else if (!std::holds_alternative<Alarm>(node) && !std::holds_alternative<Raise>(node)) {
       out[i].push_back(i + 1);
+      if (const auto* loop = std::get_if<Loop>(&node); loop && loop->condition) jump(i, loop->end);
       if (const auto* branch = std::get_if<Branch>(&node)) jump(i, branch->target);
     }
+    // Block delete leaves a statement out.
+    if (list[i].blockDelete != 0 && std::find(out[i].begin(), out[i].end(), i + 1) == out[i].end())
+      out[i].push_back(i + 1);
   }
   return out;
 }

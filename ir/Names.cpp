@@ -94,4 +94,13 @@ Names::Names(const Cycle& cycle, Numbers numbers) : numbers_(numbers) {
   labels_ = unique(names);
 }
 
+Names::Names(const Program& program) : numbers_(Numbers::AsWritten) {
+  std::vector<std::string> texts;
+  std::size_t made = 0;
+  for (const ProgramLabel& label : program.labels)
+    texts.push_back(label.number != 0 ? "n" + std::to_string(label.number) : "next" + std::to_string(++made));
+  std::vector<std::string_view> names(texts.begin(), texts.end());
+  labels_ = unique(names);
+}
+
 } // namespace dotek::ir

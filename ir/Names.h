@@ -2,6 +2,7 @@
 #pragma once
 
 #include "ir/Cycle.h"
+#include "ir/Program.h"
 
 #include <cstdint>
 #include <string>
@@ -23,6 +24,8 @@ public:
   enum class Numbers : std::uint8_t { AsWritten, Plain };
   // Plain: equal numbers have equal texts, however the source writes them.
   explicit Names(const Cycle& cycle, Numbers numbers = Numbers::AsWritten);
+  // Labels of a program: N numbers, made up ones count from 1.
+  explicit Names(const Program& program);
   std::string number(const Constant& constant) const;
   const std::string& variable(VariableId id) const { return id < variables_.size() ? variables_[id] : none_; }
   const std::string& label(LabelId id) const { return id < labels_.size() ? labels_[id] : none_; }

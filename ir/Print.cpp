@@ -1,72 +1,12 @@
 #include "ir/Print.h"
 
 #include "ir/Names.h"
+#include "ir/PrintStatement.h"
 
-#include <algorithm>
 #include <string_view>
 
 namespace dotek::ir {
 namespace {
-
-constexpr std::size_t kCommentColumn = 56;
-
-std::string_view keyword(const Statement& statement) {
-  static constexpr std::string_view kTexts[] = {
-#define DOTEK_STATEMENT(Type, text) text,
-#include "ir/Nodes.def"
-#undef DOTEK_STATEMENT
-      "nothing"};
-  return kTexts[statement.node.index()];
-}
-
-std::string_view motionText(Motion motion) {
-  switch (motion) {
-  case Motion::Rapid: return "rapid";
-  case Motion::Feed: return "feed";
-  case Motion::Protected: return "protected";
-  }
-  return "";
-}
-
-std::string_view spindleText(Spindle::State state) {
-  switch (state) {
-  case Spindle::State::Off: return "off";
-  case Spindle::State::Clockwise: return "clockwise";
-  case Spindle::State::CounterClockwise: return "counterclockwise";
-  }
-  return "";
-}
-
-std::string_view coolantText(Coolant::State state) {
-  switch (state) {
-  case Coolant::State::Off: return "off";
-  case Coolant::State::Flood: return "flood";
-  case Coolant::State::Mist: return "mist";
-  }
-  return "";
-}
-
-std::string_view modeText(Mode mode) {
-  switch (mode) {
-  case Mode::Absolute: return "absolute";
-  case Mode::Incremental: return "incremental";
-  case Mode::FeedPerMinute: return "feed-per-minute";
-  case Mode::FeedPerRevolution: return "feed-per-revolution";
-  case Mode::PlaneXY: return "plane-xy";
-  case Mode::PlaneZX: return "plane-zx";
-  case Mode::PlaneYZ: return "plane-yz";
-  case Mode::CutterCompOff: return "cutter-comp-off";
-  case Mode::CannedCycleOff: return "canned-cycle-off";
-  case Mode::WorkSystem: return "work-system";
-  case Mode::RapidMotion: return "rapid-motion";
-  case Mode::FeedMotion: return "feed-motion";
-  }
-  return "";
-}
-
-char axisText(Axis axis) {
-  return "xyz"[indexOf(axis)];
-}
 
 class Printer {
 public:
@@ -87,18 +27,7 @@ public:
 private:
   void line(std::size_t indent, std::string text, SourceRange range, const std::string& reason) {
     text.insert(0, indent, ' ');
-    std::string comment;
-    if (sources_ && range.hasPlace())
-      comment = sources_->file(range.file).name() + ":" + std::to_string(sources_->line(range));
-    if (!reason.empty()) comment += (comment.empty() ? "" : ", ") + reason;
-    // A comment ends with its line.
-    std::replace_if(
-        comment.begin(), comment.end(), [](char c) { return static_cast<unsigned char>(c) < ' '; }, ' ');
-    if (!comment.empty()) {
-      text.resize(std::max(text.size() + 1, kCommentColumn), ' ');
-      text += "; " + comment;
-    }
-    out_ += text + "\n";
+    out_ += withOrigin(std::move(text), range, reason, sources_) + "\n";
   }
 
   void declare(VariableId id) {
@@ -137,143 +66,16 @@ private:
   void list(const char* title, const std::vector<Statement>& statements) {
     line(2, title, {}, "");
     for (const Statement& statement : statements) {
-      text_ = keyword(statement);
-      std::visit([&](const auto& node) { write(node); }, statement.node);
       const bool label = std::holds_alternative<Label>(statement.node);
-      line(label ? 2 : 4, std::move(text_), statement.origin.range(), statement.origin.reason);
+      line(label ? 2 : 4, statementText(statement, names_), statement.origin.range(),
+           statement.origin.reason);
     }
   }
-
-  void word(std::string_view text) {
-    text_ += ' ';
-    text_ += text;
-  }
-  void put(const ExpressionPtr& expression) {
-    text_ += ' ';
-    ir::write(*expression, names_, text_);
-  }
-  // ` title expression` where there is one.
-  void put(const char* title, const ExpressionPtr& expression) {
-    if (!expression) return;
-    word(title);
-    put(expression);
-  }
-  void put(const Coordinate& place) {
-    word(frameName(place.frame));
-    if (place.system) {
-      put("of", place.system);
-      text_ += ':';
-    }
-    put(place.value);
-  }
-
-  void write(const Assign& node) {
-    word(names_.variable(node.variable));
-    word("=");
-    put(node.value);
-  }
-  void write(const Store& node) {
-    text_ += " #";
-    writePrimary(*node.number, names_, text_);
-    word("=");
-    put(node.value);
-  }
-  void write(const Label& node) { word(names_.label(node.label)); }
-  void write(const Jump& node) { word(names_.label(node.target)); }
-  void write(const Branch& node) {
-    text_ += ' ';
-    ir::write(*node.condition, names_, text_);
-    word("goto");
-    word(names_.label(node.target));
-  }
-  void write(const Return&) {}
-  void write(const Move& node) {
-    word(motionText(node.motion));
-    bool first = true;
-    for (const Axis axis : kAxes) {
-      const auto& target = node.axes[indexOf(axis)];
-      if (!target) continue;
-      if (!first) text_ += ',';
-      first = false;
-      text_ += ' ';
-      text_ += axisText(axis);
-      word("=");
-      put(*target);
-    }
-    put("feed", node.feed);
-    if (node.point == ProbePoint::Centre) return;
-    word("point");
-    word(pointName(node.point));
-  }
-  void write(const Measure& node) {
-    if (node.feature == Feature::Surface) {
-      word("surface");
-      text_ += ' ';
-      text_ += axisText(node.axis);
-    } else {
-      word("bore");
-    }
-    if (node.target) {
-      word("to");
-      put(*node.target);
-    }
-    put("diameter", node.diameter);
-    if (!node.setting) return;
-    text_ += ", set system";
-    put(node.setting->system);
-    char before = ':';
-    for (const Axis axis : kAxes) {
-      const ExpressionPtr& nominal = node.setting->nominal[indexOf(axis)];
-      if (!nominal) continue;
-      text_ += before;
-      before = ',';
-      text_ += ' ';
-      text_ += axisText(axis);
-      put("=", nominal);
-    }
-  }
-  void write(const ProbePower& node) { word(node.on ? "on" : "off"); }
-  void write(const Spindle& node) {
-    word(spindleText(node.state));
-    put("speed", node.speed);
-  }
-  void write(const Coolant& node) { word(coolantText(node.state)); }
-  void write(const SetMode& node) {
-    word(modeText(node.mode));
-    if (node.system) put(node.system);
-  }
-  void write(const Dwell& node) { put(node.seconds); }
-  void write(const Stop& node) {
-    if (node.optional) word("optional");
-    if (!node.message.empty()) word(quoted(node.message));
-  }
-  void write(const Alarm& node) {
-    if (!node.message.empty()) word(quoted(node.message));
-  }
-  void write(const Comment& node) { word(quoted(node.text)); }
-  void write(const OpaqueBlock& node) {
-    for (const Word& it : node.words) {
-      text_ += ' ';
-      text_ += it.address;
-      if (!it.value) continue;
-      const auto* number = std::get_if<Constant>(&it.value->node);
-      const std::string text = number ? names_.number(*number) : "";
-      if (number && text.find(' ') == std::string::npos) { // X-5. is one word
-        text_ += text;
-      } else {
-        text_ += '(';
-        ir::write(*it.value, names_, text_);
-        text_ += ')';
-      }
-    }
-  }
-  void write(std::monostate) {}
 
   const Cycle& cycle_;
   Names names_;
   const SourceMap* sources_;
   std::string out_;
-  std::string text_; // of the statement at work
 };
 
 } // namespace

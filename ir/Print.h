@@ -2,6 +2,7 @@
 #pragma once
 
 #include "ir/Cycle.h"
+#include "ir/Program.h"
 
 #include <string>
 
@@ -9,6 +10,8 @@ namespace dotek::ir {
 
 // With `sources`, a statement ends in `; file:line` of its first range.
 std::string print(const Module& module, const SourceMap* sources);
+// The programs of a file, with their structure (Structure.h) or why there is none.
+std::string print(const ProgramFile& file, const SourceMap* sources);
 std::string print(const Expression& expression, const Cycle& cycle);
 std::string print(const Condition& condition, const Cycle& cycle);
 

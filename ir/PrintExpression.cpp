@@ -26,6 +26,10 @@ std::string_view functionOf(UnaryOp op) {
   case UnaryOp::Logarithm: return "ln";
   case UnaryOp::Exponential: return "exp";
   case UnaryOp::NullAsZero: return "or_zero";
+  case UnaryOp::RoundIncrement: return "round_increment";
+  case UnaryOp::FromBcd: return "from_bcd";
+  case UnaryOp::ToBcd: return "to_bcd";
+  case UnaryOp::AddPoint: return "add_point";
   }
   return "";
 }
@@ -47,6 +51,12 @@ Operator operatorOf(BinaryOp op) {
   case BinaryOp::BitOr: return {"bitor", Level::Primary};
   case BinaryOp::BitXor: return {"bitxor", Level::Primary};
   case BinaryOp::ValueOr: return {"value_or", Level::Primary};
+  case BinaryOp::RoundedAnd: return {"rounded_and", Level::Primary};
+  case BinaryOp::RoundedOr: return {"rounded_or", Level::Primary};
+  case BinaryOp::RoundedXor: return {"rounded_xor", Level::Primary};
+  case BinaryOp::RoundedModulo: return {"rounded_mod", Level::Primary};
+  case BinaryOp::Power: return {"power", Level::Primary};
+  case BinaryOp::Bearing: return {"bearing", Level::Primary};
   }
   return {"", Level::Primary};
 }
@@ -70,6 +80,8 @@ std::string_view relationText(Relation relation) {
   case Relation::Greater: return " > ";
   case Relation::LessEqual: return " <= ";
   case Relation::GreaterEqual: return " >= ";
+  case Relation::Same: return " is ";
+  case Relation::Different: return " is not ";
   }
   return "";
 }

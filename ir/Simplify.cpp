@@ -197,7 +197,9 @@ bool mayFail(const ExpressionPtr& expression) {
     case UnaryOp::ArcSine:
     case UnaryOp::ArcCosine:
     case UnaryOp::Logarithm:
-    case UnaryOp::Exponential: return true;
+    case UnaryOp::Exponential:
+    case UnaryOp::FromBcd:
+    case UnaryOp::ToBcd: return true;
     default: return mayFail(node->operand);
     }
   }
@@ -205,6 +207,7 @@ bool mayFail(const ExpressionPtr& expression) {
     if (mayFail(node->left) || mayFail(node->right)) return true;
     switch (node->op) {
     case BinaryOp::Divide:
+    case BinaryOp::RoundedModulo:
     case BinaryOp::Modulo: {
       const double* divisor = constantValue(node->right);
       return !divisor || *divisor == 0;
@@ -212,7 +215,12 @@ bool mayFail(const ExpressionPtr& expression) {
     case BinaryOp::Direction:
     case BinaryOp::BitAnd:
     case BinaryOp::BitOr:
-    case BinaryOp::BitXor: return true;
+    case BinaryOp::BitXor:
+    case BinaryOp::RoundedAnd:
+    case BinaryOp::RoundedOr:
+    case BinaryOp::RoundedXor:
+    case BinaryOp::Power:
+    case BinaryOp::Bearing: return true;
     default: return false;
     }
   }

@@ -127,12 +127,90 @@ struct OpaqueBlock {
   std::vector<Word> words;
 };
 
+// ---- of programs only (Program.h): what the macro language of a control adds
+// -----------------------------------------------------------------------------
+
+// A block as the control reads it, words in the order of the text. A word whose value is null is left out.
+struct NcBlock {
+  std::vector<Word> words; // a value is never a null pointer
+};
+// GOTO with a computed number, rounded: to the nearest block that has it, forward from here and then from the
+// first block of the program. None: an alarm.
+struct JumpTo {
+  ExpressionPtr number;
+};
+// WHILE and DO. Goes on where the condition holds, else at `end`, which stands right behind the LoopEnd.
+struct Loop {
+  std::uint32_t number = 1; // 1 to 3
+  ConditionPtr condition;   // null pointer: for ever
+  LabelId end = 0;
+};
+// END: goes on at `begin`, which stands right before the Loop.
+struct LoopEnd {
+  std::uint32_t number = 1;
+  LabelId begin = 0;
+};
+enum class CallKind : std::uint8_t {
+  Macro,      // G65: a level of locals of its own
+  AfterMoves, // G66: behind each later block that moves an axis
+  EachBlock,  // G66.1: in the place of each later block, whose words are the arguments
+  Off,        // G67: ends the last G66 or G66.1
+  Subprogram, // M98: the locals of the caller
+};
+struct CallArgument {
+  char letter = 0;
+  std::uint32_t local = 0; // #n that it sets; of two that set one the later holds
+  ExpressionPtr value;     // null at run time: the local stays null
+  SourceRange range;
+};
+struct Call {
+  CallKind kind = CallKind::Macro;
+  ExpressionPtr program;               // P, rounded; null pointer with Off alone
+  ExpressionPtr repeats;               // L; null pointer: once
+  std::vector<CallArgument> arguments; // of Macro and AfterMoves, in the order of the text
+};
+// M99. In the main program: goes on at its first block.
+struct Exit {
+  ExpressionPtr block; // P: N number in the caller to go on at; null pointer: behind the call
+};
+// #3000 = number (text): ends the run.
+struct Raise {
+  ExpressionPtr number;
+  std::string text; // bytes of the source
+};
+// #3006 = number (text): waits for the operator.
+struct Notice {
+  ExpressionPtr number;
+  std::string text; // bytes of the source
+};
+// POPEN, PCLOS.
+struct Port {
+  bool open = false;
+};
+// DPRNT and BPRNT: texts and variables, in order.
+struct PrintPiece {
+  std::string text;                    // bytes as printed, a `*` of the source is a blank
+  std::optional<std::uint32_t> number; // a variable instead of text
+  std::uint32_t integerDigits = 0;     // DPRNT
+  std::uint32_t decimals = 0;
+};
+struct Print {
+  bool binary = false; // BPRNT
+  std::vector<PrintPiece> pieces;
+};
+// SETVN: names of common variables from `first` on.
+struct NameVariables {
+  std::uint32_t first = 0;
+  std::vector<std::string> names;
+};
+
 // Where a statement comes from.
 struct Origin {
   std::vector<SourceRange> ranges; // first: what messages point at
   std::string reason;              // "" or what made it: "argument omitted", "mode restored"
   std::uint32_t block = 0;         // statements lifted from one NC block share a number; 0: from none
   std::string addresses;           // letters of that block in the order written: layout only
+  std::uint32_t place = 0; // of a Comment of a program: words of its block that stand before it, layout only
   // Letters of a macro call that a variable fills directly: they name the arguments of the result.
   std::vector<std::pair<char, VariableId>> arguments;
 
@@ -147,6 +225,8 @@ struct Statement {
 #undef DOTEK_STATEMENT
       node;
   Origin origin;
+  // Of programs: 0: always carried out; 1 to 9: passed over where this switch of block delete is on.
+  std::uint8_t blockDelete = 0;
 };
 
 } // namespace dotek::ir

@@ -153,6 +153,8 @@ private:
       allow(word.value);
     }
   }
+  // The altitude of programs.
+  template <class Other> void look(const Other&) { fault("a statement of programs stands in a cycle"); }
   void look(std::monostate) { fault("a statement does nothing"); }
 
   const Cycle& cycle_;

@@ -42,7 +42,21 @@ template <class S, class Visit> void slots(S& statement, const Visit& visit) {
             [&](std::conditional_t<std::is_const_v<S>, const OpaqueBlock, OpaqueBlock>& node) {
               for (auto& word : node.words)
                 slot(word.value);
-            }},
+            },
+            [&](std::conditional_t<std::is_const_v<S>, const NcBlock, NcBlock>& node) {
+              for (auto& word : node.words)
+                slot(word.value);
+            },
+            [&](std::conditional_t<std::is_const_v<S>, const JumpTo, JumpTo>& node) { slot(node.number); },
+            [&](std::conditional_t<std::is_const_v<S>, const Call, Call>& node) {
+              slot(node.program);
+              slot(node.repeats);
+              for (auto& argument : node.arguments)
+                slot(argument.value);
+            },
+            [&](std::conditional_t<std::is_const_v<S>, const Exit, Exit>& node) { slot(node.block); },
+            [&](std::conditional_t<std::is_const_v<S>, const Raise, Raise>& node) { slot(node.number); },
+            [&](std::conditional_t<std::is_const_v<S>, const Notice, Notice>& node) { slot(node.number); }},
       statement.node);
 }
 
@@ -84,6 +98,8 @@ void eachNode(const ConditionPtr& condition, const std::function<void(const Expr
 
 void eachNode(const Statement& statement, const std::function<void(const Expression&)>& visit) {
   if (const auto* branch = std::get_if<Branch>(&statement.node)) eachNode(branch->condition, visit);
+  if (const auto* loop = std::get_if<Loop>(&statement.node); loop && loop->condition)
+    eachNode(loop->condition, visit);
   eachSlot(statement, [&](const ExpressionPtr& slot) { eachNode(slot, visit); });
 }
 

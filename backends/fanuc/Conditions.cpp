@@ -11,7 +11,9 @@ namespace {
 
 std::string_view nameOf(ir::Relation relation) {
   switch (relation) {
+  case ir::Relation::Same:
   case ir::Relation::Equal: return " EQ ";
+  case ir::Relation::Different:
   case ir::Relation::NotEqual: return " NE ";
   case ir::Relation::Less: return " LT ";
   case ir::Relation::Greater: return " GT ";

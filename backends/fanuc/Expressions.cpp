@@ -32,8 +32,12 @@ std::string_view nameOf(ir::UnaryOp op) {
   case ir::UnaryOp::ArcTangent: return "ATAN";
   case ir::UnaryOp::Logarithm: return "LN";
   case ir::UnaryOp::Exponential: return "EXP";
+  case ir::UnaryOp::FromBcd: return "BIN";
+  case ir::UnaryOp::ToBcd: return "BCD";
   case ir::UnaryOp::Negate:
-  case ir::UnaryOp::NullAsZero: break;
+  case ir::UnaryOp::NullAsZero:
+  case ir::UnaryOp::RoundIncrement:
+  case ir::UnaryOp::AddPoint: break;
   }
   return "";
 }
@@ -53,8 +57,7 @@ std::string_view nameOf(ir::BinaryOp op) {
   case ir::BinaryOp::BitAnd: return " AND ";
   case ir::BinaryOp::BitOr: return " OR ";
   case ir::BinaryOp::BitXor: return " XOR ";
-  case ir::BinaryOp::Direction:
-  case ir::BinaryOp::ValueOr: break;
+  default: break;
   }
   return "";
 }

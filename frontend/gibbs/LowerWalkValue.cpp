@@ -8,7 +8,9 @@ namespace {
 
 Relation relationOf(ir::Relation relation) {
   switch (relation) {
+  case ir::Relation::Same:
   case ir::Relation::Equal: return Relation::Equal;
+  case ir::Relation::Different:
   case ir::Relation::NotEqual: return Relation::NotEqual;
   case ir::Relation::Less: return Relation::Less;
   case ir::Relation::Greater: return Relation::Greater;

@@ -1,0 +1,17 @@
+// The text form of one statement. Private to the printers of cycles and programs.
+#pragma once
+
+#include "ir/Names.h"
+#include "ir/Statement.h"
+
+#include <string>
+
+namespace dotek::ir {
+
+std::string statementText(const Statement& statement, const Names& names);
+
+// `text` with `; file:line, reason` behind it.
+std::string withOrigin(std::string text, SourceRange range, const std::string& reason,
+                       const SourceMap* sources);
+
+} // namespace dotek::ir
