@@ -3,6 +3,7 @@
 #include "sim/Value.h"
 #include "support/Decimal.h"
 #include "support/messages/Common.h"
+#include "support/messages/MacroB.h"
 #include "support/messages/Sim.h"
 
 #include <fmt/format.h>
@@ -135,8 +136,9 @@ void reportRun(const sim::Run& run, const sim::Machine& machine, Session& sessio
   for (const auto& [letter, tenths] : control.readAheadStops)
     stops += fmt::format("{}{}{}", stops.empty() ? "" : ", ", letter, numberText(tenths / 10.0));
   for (const sim::EarlyRead& early : run.earlyReads())
-    diagnostics.report<diag::PositionReadEarly>(early.range, early.number,
-                                                stops.empty() ? "not known" : stops);
+    diagnostics.report<diag::PositionReadEarly>(early.range, early.number)
+        .note({},
+              "the control waits at " + (stops.empty() ? std::string("codes that are not known") : stops));
   const sim::RunEnd& end = machine.end();
   const SourceRange range = run.place();
   Diagnostic* report = nullptr;
@@ -158,9 +160,12 @@ void reportRun(const sim::Run& run, const sim::Machine& machine, Session& sessio
   case Ending::ProgramEnd:
   case Ending::TextEnd: return;
   }
+  constexpr std::size_t kMostCalls = 8;
   const std::vector<SourceRange> calls = run.openCalls();
-  for (auto call = calls.rbegin(); call != calls.rend(); ++call)
-    report->note(*call, "called here");
+  for (std::size_t i = 0; i < calls.size() && i < kMostCalls; ++i)
+    report->note(calls[calls.size() - 1 - i], "called here");
+  if (calls.size() > kMostCalls)
+    report->note({}, fmt::format("called by {} calls more", calls.size() - kMostCalls));
 }
 
 void traceVariables(const sim::Machine& machine, sim::Trace& trace) {

@@ -109,7 +109,7 @@ bool Run::block(const BlockSlots& slots) {
   if (level.modalCalls > 0 && modal_[level.modalCalls - 1].eachBlock)
     return callOnBlock(slots, modal_[level.modalCalls - 1]);
   if (!fill(slots, slots.words) || !executeWords(slots)) return false;
-  if (!machine_.moved() || level.modalCalls == 0) {
+  if (words_.present == 0 || !machine_.moved() || level.modalCalls == 0) {
     ++place_;
     return true;
   }

@@ -156,6 +156,9 @@ void ControlReader::programs() {
   origin(table);
   control_.programLast = whole(table, "last", "the greatest O number", 1, 99999999);
   control_.repeatInProgram = table.value("repeat_in_program").flag();
+  if (control_.repeatInProgram && control_.programLast > 9999)
+    document_.fail(table.value("repeat_in_program").range(),
+                   "the number of the program takes the last four digits; `last` goes beyond them");
   control_.sequenceLast = whole(table, "last_sequence", "the greatest N number of a GOTO", 1, 99999999);
 }
 

@@ -86,15 +86,16 @@ void ControlReader::variables() {
 void ControlReader::overlaps(const TomlTable& table, const Taken& blocks) const {
   std::map<int, std::string_view> taken;
   for (const auto& [key, number] : blocks) {
+    const SourceRange range = (table.has(key) ? table : root_).value(key).range();
     const auto [at, added] = taken.try_emplace(number, key);
     const bool shared = key == "modal_first" && at->second == key; // one group, many codes
     if (!added && !shared)
-      document_.fail(
-          table.value(key).range(),
-          fmt::format("#{} is a variable of `{}` {}", number, at->second,
-                      at->second == key ? "twice: its steps meet" : fmt::format("and of `{}`", key)));
+      document_.fail(range, fmt::format("#{} is a variable of `{}` {}", number, at->second,
+                                        at->second != key                   ? fmt::format("and of `{}`", key)
+                                        : key == "state" || key == "window" ? "twice"
+                                                                            : "twice: its steps meet"));
     if (control_.isCommon(static_cast<std::uint32_t>(number)))
-      document_.fail(table.value(key).range(), fmt::format("#{} is a common variable", number));
+      document_.fail(range, fmt::format("#{} is a common variable", number));
   }
 }
 
