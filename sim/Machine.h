@@ -108,6 +108,21 @@ public:
   void leave();
   Frame& frame() { return stack_.back(); }
 
+  // ---- macros that run by their meaning (MacroMeaning.h)
+  enum class Probe : std::uint8_t { NotSwitched, On, Off };
+  Probe probe() const { return probe_; } // what the program switched last
+  void switchProbe(bool on);
+  // Straight to `end` of the active system, at a feed that is not stated; the probe's contact ends the move
+  // there: true. nullopt: the run has ended.
+  std::optional<bool> probeTo(const Position& end);
+  bool travelTo(const Position& end); // without watching for contact; false: the run has ended
+  // What the macro leaves there is not known: who reads it ends the run. `number`: of a common variable.
+  void forget(std::uint32_t number);
+  void forgetMotion(std::optional<double> feed); // the code of group 1, and the feed unless it is given
+  std::size_t extendedSystem() const { return extendedNow_; }  // n of G54.1 Pn
+  void remark(std::string_view action, std::string_view text); // a line of the trace
+  bool raiseUnnumbered(std::string_view text);                 // an alarm whose number is not known; false
+
   // ---- ends
   bool raise(stdlib::Alarm alarm, char letter = 0);                             // false
   bool raise(std::uint32_t n, std::string_view text);                           // #3000 = n (text); false
@@ -123,6 +138,8 @@ private:
   };
 
   bool stop(Ending ending); // false
+  bool motionKnown();       // false: the run has ended
+  bool feedKnown();
   bool executeLong(const ir::NcWords& words);
   bool runBlock(const ir::NcWords& words);
   bool readCodes(const ir::NcWords& words);
@@ -201,6 +218,8 @@ private:
   bool hasR_ = false, hasDepth_ = false;
   double seconds_ = 0, timerBase_ = 0, hoursBase_ = 0;
 
+  Probe probe_ = Probe::NotSwitched;
+  bool motionForgotten_ = false, feedForgotten_ = false;
   std::vector<double> common_;
   std::vector<double> locals_;
   std::uint32_t level_ = 0;

@@ -105,7 +105,11 @@ bool Machine::find(std::uint32_t number, Place& place) const {
 std::optional<double> Machine::read(std::uint32_t number) {
   if (number == 0) return kNull;
   if (number <= control_.locals) return local(number);
-  if (const std::size_t at = commonIndex(number); at != SIZE_MAX) return common_[at];
+  if (const std::size_t at = commonIndex(number); at != SIZE_MAX) {
+    if (!isUnknown(common_[at])) return common_[at];
+    inconclusive(fmt::format("#{} is read, and what a macro left there is not known", number));
+    return std::nullopt;
+  }
   Place place;
   if (number >= 1000 && find(number, place)) return readSystem(number, place);
   if (number < 1000)
@@ -129,6 +133,7 @@ std::optional<double> Machine::readSystem(std::uint32_t number, const Place& pla
   switch (place.kind) {
   case Kind::Modal: {
     const std::uint32_t tenths = groups_[place.index];
+    if (motionForgotten_ && place.index == table_.g(10).group && !motionKnown()) return std::nullopt;
     const Code& code = table_.g(tenths);
     if (tenths == 0 && (code.flags & Code::Unknown) == 0 && code.group == place.index) return 0.0; // G0
     if (tenths == 0) {
@@ -137,7 +142,9 @@ std::optional<double> Machine::readSystem(std::uint32_t number, const Place& pla
     }
     return tenths / 10.0;
   }
-  case Kind::Word: return place.index == slotOf('F') ? feed_ : modalWords_[place.index];
+  case Kind::Word:
+    if (place.index == slotOf('F') && !feedKnown()) return std::nullopt;
+    return place.index == slotOf('F') ? feed_ : modalWords_[place.index];
   case Kind::BlockEnd: return position(work_, false);
   case Kind::MachinePosition: return position(machinePosition(), true);
   case Kind::Now: {
