@@ -5,6 +5,7 @@
 #include "driver/InputKind.h"
 #include "driver/Lowering.h"
 #include "driver/PostProgram.h"
+#include "driver/Programs.h"
 #include "driver/Session.h"
 #include "frontend/compost/Parse.h"
 #include "frontend/gibbs/Run.h"
@@ -119,6 +120,10 @@ private:
     ir::Module module;
     std::set<std::string> usedSets;
     for (const std::string& input : options_.inputs) {
+      if (isProgram(input)) {
+        programs(input, *inputs->control);
+        continue;
+      }
       CycleFolder folder = loadCycleFolder(input, session_);
       if (options_.source.cycle && options_.inputs.size() == 1) folder.name = *options_.source.cycle;
       leaveFindingsToLint(session_);
@@ -128,7 +133,23 @@ private:
       if (!lowered->fixed.empty()) ir::fold(lowered->cycle, lowered->fixed);
       module.cycles.push_back(std::move(lowered->cycle));
     }
-    out_ = ir::print(module, &session_.sources());
+    if (!module.cycles.empty()) out_ += ir::print(module, &session_.sources());
+  }
+
+  bool isProgram(const std::string& input) {
+    std::error_code error;
+    if (fs::is_directory(input, error)) return false;
+    if (options_.common.from) return kindByName(*options_.common.from) == InputKind::Nc;
+    Diagnostics unread;
+    const std::optional<std::string> bytes = readBytes(input, session_.limits(), unread);
+    return bytes && recognise(input, *bytes) == InputKind::Nc;
+  }
+
+  void programs(const std::string& input, const stdlib::Control& control) {
+    const std::optional<FileId> id = session_.read(input, Encoding::Cp1250);
+    if (!id) return;
+    const std::optional<ir::ProgramFile> file = loadPrograms(*id, control, session_);
+    if (file) out_ += ir::print(*file, &session_.sources());
   }
 
   // The moves that ToolPath.mac writes for the given values: a dry run outside the CAM.

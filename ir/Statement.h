@@ -165,7 +165,7 @@ struct CallArgument {
 };
 struct Call {
   CallKind kind = CallKind::Macro;
-  ExpressionPtr program;               // P, rounded; null pointer with Off alone
+  ExpressionPtr program;               // P, rounded; null pointer: Off, or no P
   ExpressionPtr repeats;               // L; null pointer: once
   std::vector<CallArgument> arguments; // of Macro and AfterMoves, in the order of the text
 };

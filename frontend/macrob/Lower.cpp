@@ -1,0 +1,309 @@
+#include "frontend/macrob/Lower.h"
+
+#include "frontend/macrob/Calls.h"
+#include "frontend/macrob/Check.h"
+#include "frontend/macrob/LowerExpression.h"
+#include "frontend/macrob/Walk.h"
+#include "support/messages/MacroB.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <map>
+#include <utility>
+
+namespace dotek::frontend::macrob {
+namespace {
+
+// The control reaches these while it runs, if ever: an alarm there, no reason not to begin.
+bool isForRunTime(std::string_view code) {
+  return code == diag::GotoTargetMissing::code || code == diag::JumpIntoLoop::code ||
+         code == diag::VariableOutOfRange::code || code == diag::NullWritten::code ||
+         code == diag::ReadOnlyWritten::code || code == diag::ArgumentWithoutPoint::code;
+}
+
+class ProgramLowering {
+public:
+  ProgramLowering(const Program& program, const stdlib::Control& control, Diagnostics& diagnostics)
+      : program_(program), control_(control), diagnostics_(diagnostics) {}
+
+  ir::Program run() {
+    name();
+    for (std::size_t i = 0; i < program_.blocks.size(); ++i)
+      if (const auto& number = program_.blocks[i].sequenceNumber; number && number->value != UINT64_MAX)
+        labels_[number->value].push_back({i, out_.addLabel({number->value, number->digits, number->range})});
+    for (at_ = 0; at_ < program_.blocks.size(); ++at_)
+      block(program_.blocks[at_]);
+    return std::move(out_);
+  }
+
+private:
+  struct NumberedBlock {
+    std::size_t block;
+    ir::LabelId label;
+  };
+  struct OpenLoop {
+    std::uint32_t number;
+    ir::LabelId begin, end;
+  };
+
+  void name() {
+    for (const Comment& comment : program_.comments)
+      out_.titleComments.push_back(comment.text);
+    if (!program_.name) {
+      if (!program_.blocks.empty()) out_.range = program_.blocks.front().range;
+      return;
+    }
+    using Kind = ProgramName::Kind;
+    const ProgramName& name = *program_.name;
+    out_.range = name.range;
+    out_.name = name.text;
+    out_.number = name.number;
+    out_.nameKind = name.kind == Kind::Number  ? ir::Program::NameKind::Number
+                    : name.kind == Kind::Colon ? ir::Program::NameKind::Colon
+                                               : ir::Program::NameKind::Name;
+  }
+
+  const Block& here() const { return program_.blocks[at_]; }
+
+  template <class Node> ir::Statement& add(Node node) {
+    ir::Statement& statement = out_.body.emplace_back();
+    statement.node = std::move(node);
+    statement.origin.ranges = {here().range};
+    statement.origin.block = static_cast<std::uint32_t>(at_ + 1);
+    if (here().blockDelete)
+      statement.blockDelete = static_cast<std::uint8_t>(here().blockDelete->number.value_or(1));
+    return statement;
+  }
+  // A place that is there whether the block is passed over or not.
+  void place(ir::LabelId label) { add(ir::Label{label}).blockDelete = 0; }
+
+  void block(const Block& block) {
+    if (const auto& number = block.sequenceNumber; number && number->value != UINT64_MAX) {
+      for (const NumberedBlock& one : labels_[number->value])
+        if (one.block == at_) place(one.label);
+    }
+    const Comment* message = messageOf(block);
+    for (const Comment& comment : block.comments) {
+      if (&comment == message) continue;
+      ir::Statement& statement = add(ir::Comment{comment.text});
+      statement.blockDelete = 0;
+      statement.origin.place = comment.place;
+    }
+    std::visit([&](const auto& body) { lower(body, message); }, block.body);
+  }
+
+  // The text of #3000=1(TEXT): the first comment behind the statement.
+  const Comment* messageOf(const Block& block) const {
+    const auto* assignment = std::get_if<nc::Assignment>(&block.body);
+    if (const auto* branch = std::get_if<If>(&block.body); branch != nullptr && branch->then)
+      assignment = std::get_if<nc::Assignment>(&branch->statement);
+    if (assignment == nullptr || messageVariable(*assignment) == 0) return nullptr;
+    for (const Comment& comment : block.comments)
+      if (comment.place > 0) return &comment;
+    return nullptr;
+  }
+  // #3000 or #3006; 0: another variable.
+  std::uint32_t messageVariable(const nc::Assignment& assignment) const {
+    const auto number = literal(*assignment.variable);
+    const auto is = [&](std::optional<int> variable) { return variable && number == *variable; };
+    if (!is(control_.variables.alarm) && !is(control_.variables.message)) return 0;
+    return static_cast<std::uint32_t>(*number);
+  }
+
+  // ---- macro statements
+
+  void lower(std::monostate, const Comment*) {}
+  void lower(const Unread&, const Comment*) {} // refused before
+
+  void lower(const nc::Assignment& assignment, const Comment* message) {
+    const std::uint32_t special = messageVariable(assignment);
+    if (special == 0) {
+      add(ir::Store{lowerNumber(*assignment.variable, Place::Statement),
+                    lowerValue(*assignment.value, Place::Statement)});
+      return;
+    }
+    ir::ExpressionPtr number = lowerNumber(*assignment.value, Place::Statement);
+    std::string text = message == nullptr ? "" : message->text;
+    if (control_.variables.alarm && special == static_cast<std::uint32_t>(*control_.variables.alarm))
+      add(ir::Raise{std::move(number), std::move(text)});
+    else
+      add(ir::Notice{std::move(number), std::move(text)});
+  }
+
+  // The block that the search of the control meets: forward from here, then from the first one.
+  std::optional<ir::LabelId> target(const Goto& jump) const {
+    const auto number = literal(*jump.target);
+    if (!number || *number < 1 || *number > control_.sequenceLast || *number != std::floor(*number))
+      return std::nullopt;
+    const auto found = labels_.find(static_cast<std::uint64_t>(*number));
+    if (found == labels_.end()) return std::nullopt;
+    for (const NumberedBlock& one : found->second)
+      if (one.block > at_) return one.label;
+    return found->second.front().label;
+  }
+  void lower(const Goto& jump, const Comment*) {
+    if (const auto label = target(jump))
+      add(ir::Jump{*label});
+    else
+      add(ir::JumpTo{lowerNumber(*jump.target, Place::Statement)});
+  }
+
+  void lower(const If& branch, const Comment* message) {
+    ir::ConditionPtr condition = lowerCondition(*branch.condition);
+    if (const auto* jump = std::get_if<Goto>(&branch.statement)) {
+      if (const auto label = target(*jump)) {
+        add(ir::Branch{std::move(condition), *label});
+        return;
+      }
+    }
+    const ir::LabelId behind = out_.addLabel({0, "", here().range});
+    add(ir::Branch{ir::negate(condition), behind});
+    std::visit([&](const auto& statement) { lower(statement, message); }, branch.statement);
+    place(behind);
+  }
+
+  void lower(const Do& loop, const Comment*) {
+    if (here().blockDelete) refuseSkippedLoop();
+    const std::uint32_t number = loop.loop ? loop.loop->value : 0;
+    const OpenLoop open{number, out_.addLabel({0, "", here().range}), out_.addLabel({0, "", here().range})};
+    place(open.begin);
+    add(ir::Loop{number, loop.condition ? lowerCondition(*loop.condition) : nullptr, open.end});
+    loops_.push_back(open);
+  }
+  // The checks have paired the loops.
+  void lower(const End&, const Comment*) {
+    if (here().blockDelete) refuseSkippedLoop();
+    if (loops_.empty()) return;
+    add(ir::LoopEnd{loops_.back().number, loops_.back().begin});
+    place(loops_.back().end);
+    loops_.pop_back();
+  }
+  void refuseSkippedLoop() { diagnostics_.report<diag::BlockDeleteOfLoop>(here().blockDelete->range); }
+
+  void lower(const Port& port, const Comment*) { add(ir::Port{port.open}); }
+
+  void lower(const Print& print, const Comment*) {
+    ir::Print out{print.binary, {}};
+    for (const auto& piece : print.pieces) {
+      if (const auto* text = std::get_if<PrintedText>(&piece)) {
+        out.pieces.push_back({text->text, std::nullopt, 0, 0});
+        std::replace(out.pieces.back().text.begin(), out.pieces.back().text.end(), '*', ' ');
+        continue;
+      }
+      const auto& variable = std::get<PrintedVariable>(piece);
+      const std::string& format = variable.format;
+      const auto digit = [&](std::size_t i) { return static_cast<std::uint32_t>(format[i] - '0'); };
+      const bool fits =
+          std::all_of(format.begin(), format.end(), [](char c) { return c >= '0' && c <= '9'; });
+      if (!fits || format.size() != (print.binary ? 1 : 2)) {
+        diagnostics_.report<diag::PrintedFormat>(print.range, variable.variable, format);
+        return;
+      }
+      out.pieces.push_back({"", variable.variable, print.binary ? 0 : digit(0), digit(format.size() - 1)});
+    }
+    add(std::move(out));
+  }
+
+  void lower(const SetNames& names, const Comment*) { add(ir::NameVariables{names.first, names.names}); }
+
+  // ---- blocks of words
+
+  void lower(const Words& words, const Comment*) {
+    const std::optional<Call> call = callOf(words);
+    if (!call) {
+      std::vector<const nc::Word*> all;
+      for (const nc::Word& word : words.words)
+        all.push_back(&word);
+      plain(all);
+      return;
+    }
+    switch (call->kind) {
+    case CallKind::Simple: macro(*call, ir::CallKind::Macro); break;
+    case CallKind::AfterMoves: macro(*call, ir::CallKind::AfterMoves); break;
+    case CallKind::EachBlock: macro(*call, ir::CallKind::EachBlock); break;
+    case CallKind::Off:
+      plain(others(words, *call));
+      add(ir::Call{ir::CallKind::Off, nullptr, nullptr, {}});
+      break;
+    case CallKind::Subprogram:
+      plain(others(words, *call));
+      add(ir::Call{ir::CallKind::Subprogram, valueOf(call->program), valueOf(call->repeat), {}});
+      break;
+    case CallKind::Return:
+      if (call->repeat != nullptr) diagnostics_.report<diag::ReturnRepeated>(call->repeat->range);
+      plain(others(words, *call));
+      add(ir::Exit{valueOf(call->program)});
+      break;
+    }
+  }
+
+  static ir::ExpressionPtr valueOf(const nc::Word* word) {
+    return word == nullptr ? nullptr : lowerWordValue(*word->value, Place::Statement);
+  }
+  static std::vector<const nc::Word*> others(const Words& words, const Call& call) {
+    std::vector<const nc::Word*> out;
+    for (const nc::Word& word : words.words)
+      if (&word != call.code && &word != call.program && &word != call.repeat) out.push_back(&word);
+    return out;
+  }
+
+  void plain(const std::vector<const nc::Word*>& words) {
+    if (words.empty()) return;
+    ir::NcBlock block;
+    for (const nc::Word* word : words)
+      block.words.push_back({word->address, lowerWordValue(*word->value, Place::Word), word->range});
+    add(std::move(block));
+  }
+
+  void macro(const Call& call, ir::CallKind kind) {
+    plain(call.before);
+    ir::Call out{kind, valueOf(call.program), valueOf(call.repeat), {}};
+    for (const CallArgument& argument : call.arguments) {
+      if (argument.variable == 0) {
+        diagnostics_.report<diag::NoArgument>(argument.word->range, std::string(1, argument.word->address),
+                                              "G65");
+        continue;
+      }
+      out.arguments.push_back({argument.word->address, argument.variable,
+                               lowerWordValue(*argument.word->value, Place::Statement),
+                               argument.word->range});
+    }
+    add(std::move(out));
+  }
+
+  const Program& program_;
+  const stdlib::Control& control_;
+  Diagnostics& diagnostics_;
+  ir::Program out_;
+  std::map<std::uint64_t, std::vector<NumberedBlock>> labels_; // by N number, in the order of the text
+  std::vector<OpenLoop> loops_;
+  std::size_t at_ = 0;
+};
+
+} // namespace
+
+std::optional<ir::ProgramFile> lower(const File& file, const stdlib::Control& control,
+                                     const SourceMap& sources, Diagnostics& diagnostics) {
+  Diagnostics found;
+  checkFile(file, &control, sources, found);
+  bool fails = file.hasErrors;
+  for (Diagnostic& one : found.all()) {
+    if (one.severity != Severity::Error || isForRunTime(one.code)) continue;
+    fails = true;
+    diagnostics.add(std::move(one));
+  }
+  for (const SourceRange& legend : file.legends)
+    diagnostics.report<diag::LegendNotRun>(legend);
+  if (fails || !file.legends.empty()) return std::nullopt;
+  Diagnostics refused;
+  ir::ProgramFile out{file.markFirst, file.markLast, {}};
+  for (const Program& program : file.programs)
+    out.programs.push_back(ProgramLowering(program, control, refused).run());
+  for (Diagnostic& one : refused.all())
+    diagnostics.add(std::move(one));
+  if (refused.hasErrors()) return std::nullopt;
+  return out;
+}
+
+} // namespace dotek::frontend::macrob
