@@ -1,6 +1,7 @@
 #include "backends/fanuc/TranslateCall.h"
 
 #include "ir/Linear.h"
+#include "support/Decimal.h"
 
 #include <algorithm>
 #include <cmath>
@@ -20,26 +21,44 @@ namespace {
 
 constexpr double kFirstSystem = 54, kSystems = 6;
 
+// A computed length: with a point, so that it counts millimetres in every setting.
+ir::ExpressionPtr millimetres(double value) {
+  const std::string text = numberText(value);
+  return ir::constant(value, {}, text.find('.') == std::string::npos ? text + "." : text);
+}
+
 ir::ExpressionPtr numbered(std::uint32_t number) {
   return ir::machineVariable(ir::constant(number));
 }
 
-bool mayBeNull(const ir::ExpressionPtr& value) {
+// The part of an argument whose being empty leaves the argument empty: #1 of `X#1` and of `X-#1`; nullptr: it
+// is a number whatever happens.
+ir::ExpressionPtr emptyPart(const ir::ExpressionPtr& value) {
+  if (const auto* unary = std::get_if<ir::Unary>(&value->node))
+    return unary->op == ir::UnaryOp::Negate ? emptyPart(unary->operand) : nullptr;
   if (const auto* either = std::get_if<ir::Binary>(&value->node))
-    return either->op == ir::BinaryOp::ValueOr && mayBeNull(either->right);
-  return std::holds_alternative<ir::MachineVariable>(value->node) ||
-         std::holds_alternative<ir::NullValue>(value->node);
+    return either->op == ir::BinaryOp::ValueOr && emptyPart(either->right) != nullptr ? value : nullptr;
+  const bool empty = std::holds_alternative<ir::MachineVariable>(value->node) ||
+                     std::holds_alternative<ir::NullValue>(value->node);
+  return empty ? value : nullptr;
+}
+
+bool mayBeNull(const ir::ExpressionPtr& value) {
+  return emptyPart(value) != nullptr;
 }
 
 // An operand of arithmetic.
 ir::ExpressionPtr number(const ir::ExpressionPtr& value) {
-  return mayBeNull(value) ? ir::unary(ir::UnaryOp::NullAsZero, value) : value;
+  if (!mayBeNull(value)) return value;
+  if (const auto* unary = std::get_if<ir::Unary>(&value->node))
+    return ir::unary(unary->op, number(unary->operand));
+  return ir::unary(ir::UnaryOp::NullAsZero, value);
 }
 ir::ExpressionPtr plus(const ir::ExpressionPtr& a, const ir::ExpressionPtr& b) {
   const double* left = ir::constantValue(a);
   const double* right = ir::constantValue(b);
   if (left != nullptr && right != nullptr)
-    if (const auto sum = ir::exactSum(*left, *right)) return ir::constant(*sum);
+    if (const auto sum = ir::exactSum(*left, *right)) return millimetres(*sum);
   return ir::binary(ir::BinaryOp::Add, number(a), number(b));
 }
 ir::ExpressionPtr minus(const ir::ExpressionPtr& a, const ir::ExpressionPtr& b) {
@@ -154,7 +173,7 @@ private:
   ir::ExpressionPtr length(char letter, const ir::ExpressionPtr& value) {
     if (!countsIncrements(letter, value, settings_.control)) return value;
     if (const auto out = ir::exactProduct(*ir::constantValue(value), settings_.control.increment))
-      return ir::constant(*out);
+      return millimetres(*out);
     refuse(fmt::format("the number behind `{}` is no length", letter));
     return value;
   }
@@ -277,7 +296,8 @@ private:
   void present(const ir::ExpressionPtr& value, char letter) {
     if (!mayBeNull(value) || checked_.find(letter) != std::string::npos) return;
     checked_ += letter;
-    demand(ir::compare(ir::Relation::Different, value, numbered(0)), fmt::format("{} IS MISSING", letter));
+    demand(ir::compare(ir::Relation::Different, emptyPart(value), numbered(0)),
+           fmt::format("{} IS MISSING", letter));
   }
 
   void system(const MacroArgument& from, const MacroArgument& to, const ir::ExpressionPtr& value) {
@@ -291,11 +311,14 @@ private:
       const std::string text = fmt::format("{} IS NOT G54 TO G59", from.letter);
       demand(ir::compare(ir::Relation::GreaterEqual, number(value), ir::constant(first)), text);
       demand(ir::compare(ir::Relation::LessEqual, number(value), ir::constant(first + kSystems - 1)), text);
-      demand(ir::compare(ir::Relation::Same, value, ir::unary(ir::UnaryOp::Round, number(value))), text);
+      demand(ir::compare(ir::Relation::Same, number(value), ir::unary(ir::UnaryOp::Round, number(value))),
+             text);
     }
     if (to.systemRule == SystemRule::Error && from.systemRule == SystemRule::Nominal && !expectsNominal())
       return;
     sets_ = true;
+    if (to.systemRule != from.systemRule)
+      note("both sets set the same offset while no local shift, rotation or scaling is in force");
     if (from.systemCode == to.systemCode) return put(to, value);
     const double shift = index ? kFirstSystem - 1 : 1 - kFirstSystem;
     if (const double* known = ir::constantValue(value))

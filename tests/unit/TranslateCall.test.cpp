@@ -18,6 +18,7 @@ stdlib::MacroSet macros(std::string_view name) {
 
 // "#24", "-5.", "20"
 ir::ExpressionPtr value(const std::string& text) {
+  if (text.starts_with("-#")) return ir::unary(ir::UnaryOp::Negate, value(text.substr(1)));
   if (text[0] == '#') return ir::machineVariable(ir::constant(std::strtod(text.c_str() + 1, nullptr)));
   return ir::constant(std::strtod(text.c_str(), nullptr), {}, text);
 }
@@ -47,6 +48,7 @@ std::string show(const ir::ExpressionPtr& expression) {
     return "#" + show(variable->number);
   if (const auto* unary = std::get_if<ir::Unary>(&expression->node))
     return unary->op == ir::UnaryOp::NullAsZero ? show(unary->operand)
+           : unary->op == ir::UnaryOp::Negate   ? "-" + show(unary->operand)
                                                 : "ROUND[" + show(unary->operand) + "]";
   const auto& binary = std::get<ir::Binary>(expression->node);
   return "[" + show(binary.left) + (binary.op == ir::BinaryOp::Add ? "+" : "-") + show(binary.right) + "]";
@@ -120,6 +122,8 @@ TEST_CASE("a surface: coordinate and travel by the position, Z without the tool'
   CHECK(toEasy("9811 X20. S3") == "G53 P9023 S56 X[20-#5041] I20");
   CHECK(toEasy("9811 Y#25 S1") ==
         "G53 unless #25 NE #0 alarm 150 (Y IS MISSING) P9023 S54 Y[#25-#5042] J#25");
+  CHECK(toEasy("9811 X-#24 S1") ==
+        "G53 unless #24 NE #0 alarm 150 (X IS MISSING) P9023 S54 X[-#24-#5041] I-#24");
   CHECK(toEasy("9811 Z-5. S6") == "G53 P9023 S59 Z[-5-[#5043-#5083]] K-5");
   // Without S EasyProbe cannot measure, and with Q it cannot be told how far.
   CHECK(toEasy("9811 X20.") ==
@@ -156,7 +160,12 @@ TEST_CASE("a number without a point keeps its length") {
   CHECK(toEasy("9811 X20 S3") == "G53 P9023 S56 X[20-#5041] I20");
   Case one = between("inspection-plus", "easyprobe");
   one.control.decimal = stdlib::DecimalMode::Increment;
+  const TranslatedCall scaled = translateCall(call("9811 X20 S3"), one.settings());
   CHECK(translated(std::move(one), "9811 X20 S3") == "G53 P9023 S56 X[0.02-#5041] I0.02");
+  REQUIRE(scaled.call);
+  for (const ir::CallArgument& argument : scaled.call->arguments)
+    if (const auto* constant = std::get_if<ir::Constant>(&argument.value->node))
+      CHECK(constant->digits == (argument.letter == 'S' ? "56." : "0.02"));
 }
 
 TEST_CASE("the probe's switch: the machine's code where the set has no macro") {
