@@ -79,6 +79,7 @@ private:
     case 6: return "BIN[" + std::string(chance(9) ? "10" : any({"1", "18", "33", "153.", "64"})) + "]";
     case 7: return any({"ASIN[.5]", "ACOS[.25]", "ACOS[0]", "TAN[45]", "TAN[10]", "SIN[90]", "COS[180]"});
     case 8: return modern_ ? "ATAN[" + inner + "," + literal() + "+1]" : "COS[" + inner + "]";
+    case 10: return modern_ ? any({"ABS", "ROUND", "SIN"}) + anything() : "FIX[" + inner + "]";
     case 9: return modern_ ? "POW[2," + literal() + "]" : "SQRT[" + literal() + "]";
     default: return any(kPlain) + "[" + inner + "]";
     }
@@ -141,7 +142,9 @@ private:
     if (chance(12)) out += "N" + std::to_string(label());
     out += statement;
     if (statement.find("#3000") == std::string::npos && chance(20)) out += "(NOTE " + literal() + ")";
-    text_ += spaced(out) + "\n";
+    if (chance(40)) out.insert(0, "(BEFORE)");
+    text_ += spaced(out) + (chance(40) ? ";\n" : "\n");
+    if (chance(40)) text_ += chance(2) ? "\n" : "(ALONE)\n";
   }
   void put(int labelNumber, const std::string& statement = "") {
     text_ += spaced("N" + std::string(chance(8) ? "0" : "") + std::to_string(labelNumber) + statement) + "\n";
@@ -244,8 +247,9 @@ private:
     const bool jumper = kinds_[static_cast<std::size_t>(to) - 1] == Kind::Jumper;
     const std::string count = jumper ? "" : repeats();
     const std::string where = target(to);
+    const std::string given = macro ? arguments() : "";
     if (macro)
-      put("G65" + where + count + arguments());
+      put("G65" + (chance(3) ? given + where + count : where + count + given));
     else
       put((chance(4) ? "G0X" + literal() : "") + "M98" + where + count);
     if (jumper) {
@@ -263,7 +267,12 @@ private:
         modal();
         --modals_;
       } else {
-        put(chance(3) ? assignment() : move());
+        switch (number(1, 6)) {
+        case 1: call(); break;
+        case 2:
+        case 3: put(assignment()); break;
+        default: put(move()); break;
+        }
       }
     }
     put("G67");
@@ -275,7 +284,7 @@ private:
       if (!chance(4))
         out += anything() + "[" + std::to_string(number(1, 6)) + std::to_string(number(0, 4)) + "]";
     }
-    put(out + "]");
+    put((chance(4) ? "IF" + condition() + "THEN" : "") + out + "]");
   }
   void error() {
     static const char* const kErrors[] = {"#1=1/0",
@@ -350,7 +359,8 @@ private:
   }
   void forwards() {
     const int to = label();
-    put("IF" + condition() + (modern_ && chance(5) ? "THENGOTO" : "GOTO") + std::to_string(to));
+    put("IF" + condition() + (modern_ && chance(5) ? "THENGOTO" : "GOTO") + (chance(8) ? "0" : "") +
+        std::to_string(to));
     groups(number(1, 2));
     put(to);
   }
@@ -430,13 +440,13 @@ private:
       if (!chance(6)) put(chance(5) ? "M2" : "M30", false);
       return text_;
     }
-    text_ = "O" + std::to_string(8000 + index) + "\n";
+    text_ = (chance(4) ? ":" : "O") + std::to_string(8000 + index) + "\n";
     groups(number(2, 5));
     const Kind kind = kinds_[static_cast<std::size_t>(index) - 1];
     if (chance(20))
       put((kind == Kind::Subprogram ? "M98P" : "G65P") + std::to_string(8000 + index)); // for ever
     if (kind == Kind::Jumper) put("IF" + condition() + "GOTO9001", false);
-    put("M99", false);
+    put((chance(8) ? move() : "") + "M99", false);
     if (kind == Kind::Jumper) put(9001, "M99P" + std::to_string(7000 + index));
     return text_;
   }
