@@ -112,7 +112,8 @@ TEST_CASE("random macro b: the programs are read without an error and end in eve
   for (const auto& [end, count] : endings)
     told += fmt::format(" [{}] {}", end, count);
   INFO(told);
-  for (const std::string alarm : {"110", "111", "112", "115", "116", "119", "122", "77", "78", "128", "3000"})
+  for (const std::string alarm :
+       {"110", "111", "112", "115", "116", "119", "122", "76", "77", "78", "128", "3000"})
     CHECK_MESSAGE(endings["2 " + alarm] > 0, alarm);
   CHECK(endings["0 0"] > kPrograms / 3); // M30
   CHECK(endings["1 0"] > 0);             // end of the text

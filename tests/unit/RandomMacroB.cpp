@@ -314,7 +314,10 @@ private:
                                           "#[#0]=1",
                                           "M30",
                                           "M2",
-                                          "GOTO9998"};
+                                          "GOTO9998",
+                                          "G65P#0",
+                                          "M98P#0",
+                                          "G67"};
     const std::string what = any(kErrors);
     if (what[0] == '#' && chance(2)) return put("IF" + condition() + "THEN" + what);
     put(what);

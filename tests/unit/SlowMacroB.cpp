@@ -409,12 +409,15 @@ private:
     return frame.modalLimit ? std::min(*frame.modalLimit, modals_.size()) : modals_.size();
   }
 
-  // Null: the word is left out.
+  // Null: the word is left out. The sign of a word is part of its value: X-#1 is left out as X#1 is.
   SlowValue wordValue(const nc::Word& word) {
     if (word.value == nullptr) leftOpen("a bare address");
     SlowValue out = number(*word.value);
     const Expression* digits = word.value.get();
-    if (const auto* negated = std::get_if<nc::Negated>(&digits->node)) digits = negated->operand.get();
+    if (const auto* negated = std::get_if<nc::Negated>(&digits->node)) {
+      digits = negated->operand.get();
+      out.null = number(*digits).null;
+    }
     const auto* literal = std::get_if<nc::Number>(&digits->node);
     const bool increments = std::string("ABCIJKQRUVWXYZ").find(word.address) != std::string::npos;
     if (literal != nullptr && digits->brackets == 0 && !literal->point && !setup_.calculator && increments)

@@ -57,6 +57,7 @@ MacroSetup digits8() {
 
 TEST_CASE("slow macro b: null, table of 1.3") {
   CHECK(path("G0\nG90 X1.\nX#1 Y2.\nX0 Y3.") == "1 0 0; 1 2 0; 0 3 0"); // the word is left out
+  CHECK(path("G0X1.Y1.\nX-#1Y2.\nX[#1]Y3.") == "1 1 0; 1 2 0; 0 3 0");
   CHECK(result("#100=5\n#100=#1") == "null");
   CHECK(result("#100=#1*5") == "0");
   CHECK(result("#100=#1+#1") == "0");
@@ -178,7 +179,8 @@ TEST_CASE("slow macro b: calls, 1.8") {
   CHECK(called("G65P9I1.J2.K3.I4.J5.K6.", "#100=#4+#5*10+#6*100+#7*1000+#8*10000+#9*100000") == "654321");
   CHECK(called("G65P9X7.Y8.Z9.", "#100=#24*100+#25*10+#26") == "789");
   CHECK(called("G65P9A#5B1.", "#100=5\n#100=#1") == "null");
-  CHECK(called("G65P9A-#5", "#100=#1") == "0");
+  CHECK(called("G65P9A-#5", "#100=#1") == "null");
+  CHECK(called("G65P9A[#5]", "#100=#1") == "0");
   CHECK(called("G65P9\nGOTO7\nN6#100=2\nN7", "M99P6") == "2");
   CHECK(called("G65P9", "M99P6") == "128");
   CHECK(called("#1=9\nG65P#1A4.", "#100=#1") == "4");
