@@ -78,7 +78,7 @@ std::string difference(const MacroOutcome& slow, const MacroOutcome& other) {
     return fmt::format("ending: {} {} {} and {} {} {}", name(slow.ending), slow.alarm, slow.reason,
                        name(other.ending), other.alarm, other.reason);
   if (slow.ending == SlowStop::Kind::Budget) return ""; // the state is that of some block
-  if (other.line != 0 && slow.line != other.line)
+  if (slow.ending != SlowStop::Kind::TextEnd && other.line != 0 && slow.line != other.line)
     return fmt::format("last line: {} and {}", slow.line, other.line);
   if (std::string text = differing("common", slow.common, other.common); !text.empty()) return text;
   if (std::string text = differing("local", slow.locals, other.locals); !text.empty()) return text;

@@ -219,6 +219,7 @@ private:
       for (int set = number(1, 5); set > 0; --set)
         for (const char letter : {'I', 'J', 'K'})
           if (!chance(3)) out += letter + given();
+      if (chance(3)) out += any({"D#0", "E#0", "H#0", "M#0", "Q#0", "E5.", "H-2.5"}); // hits one of the sets
     }
     static const std::string_view kLetters = "ABCDEFHIJKMQRSTUVWXYZ";
     for (int i = number(0, 4); i > 0; --i)
@@ -444,6 +445,8 @@ private:
       return text_;
     }
     text_ = (chance(4) ? ":" : "O") + std::to_string(8000 + index) + "\n";
+    for (int i = number(0, 4); i > 0; --i) // what it was given shows in the end
+      put("#" + std::to_string(number(510, 530)) + "=#" + std::to_string(number(1, 26)), false);
     groups(number(2, 5));
     const Kind kind = kinds_[static_cast<std::size_t>(index) - 1];
     if (chance(20))
