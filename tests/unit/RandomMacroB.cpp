@@ -45,6 +45,8 @@ private:
     return any(kNumbers);
   }
   std::string small() { return "#" + std::to_string(chance(2) ? number(14, 19) : number(110, 115)); }
+  // A variable with a value, as a minus in a word needs one.
+  std::string set() { return chance(200) ? small() : "#" + std::to_string(number(152, 154)); }
   std::string anything() {
     switch (number(1, 6)) {
     case 1:
@@ -185,7 +187,7 @@ private:
     std::string out(1, axis);
     switch (number(1, 6)) {
     case 1: return out + small();
-    case 2: return out + "-" + small();
+    case 2: return out + "-" + set();
     case 3: return out + "[" + bounded(4) + "]";
     case 4: return out + "[ROUND[" + small() + "/3]]";
     default:
@@ -205,7 +207,7 @@ private:
   std::string given() {
     switch (number(1, 5)) {
     case 1: return anything();
-    case 2: return "-" + small();
+    case 2: return "-" + set();
     case 3: return "[" + bounded(4) + "]";
     default:
       return (chance(4) ? "-" : "") + std::to_string(number(0, 30)) + "." + std::to_string(number(0, 9));
@@ -419,7 +421,7 @@ private:
     case 26: return put(small() + "=#" + std::to_string((chance(2) ? 5001 : 5041) + number(0, 2)));
     case 27: return put(anything() + "=#" + any({"4001", "4003"}));
     case 28: return put(label());
-    case 29: return put(any({"M8", "M9", "G90", "G91", "G0", "G1", "M[8.4]"}));
+    case 29: return put(any({"M8", "M9", "G90", "G91", "G0", "G1", "M[8]"}));
     default: return put(assignment());
     }
   }
@@ -430,14 +432,17 @@ private:
     text_.clear();
     if (index == 0) {
       text_ = chance(2) ? "O1(MAIN)\n" : "O0001\n";
-      text_ += "POPEN\nG90G1X0.Y0.Z5.F200.\n#154=1\n";
+      text_ += "POPEN\nG90G1X0.Y0.Z5.F200.\n#152=2.5\n#153=-7.125\n#154=1\n";
       for (int i = number(2, 8); i > 0; --i)
         put(chance(3) ? anything() + "=" + literal() : small() + "=" + bounded(5));
       groups(number(6, 16));
       if (chance(8)) { // from the start again
         put("#147=#147+1", false);
         put("IF[#147GE3]GOTO9000", false);
-        put("M99", false);
+        // Whether locals are null then is open, so they are.
+        for (const char* block :
+             {"#146=1", "WHILE[#146LE19]DO1", "#[#146]=#0", "#146=#146+1", "END1", "PCLOS", "M99"})
+          put(block, false);
         put(9000);
       }
       put("PCLOS");

@@ -67,7 +67,9 @@ private:
     while (true) {
       const std::optional<double> resume = run(frame);
       if (resume) leftOpen("M99 P of the main program");
-      locals = {}; // M99 clears them, and the program starts anew
+      // The table of 1.3 clears locals at M99; whether it means that of the main program is open.
+      for (const SlowValue& local : locals)
+        if (!local.null) leftOpen("locals behind M99 of the main program");
     }
   }
 
@@ -120,7 +122,7 @@ private:
         return jumpTo(*target, at, frame);
       if (const auto* then = std::get_if<nc::Assignment>(&branch->statement)) assign(*then, block);
       if (const auto* then = std::get_if<macrob::Print>(&branch->statement)) print(*then);
-      if (const auto* then = std::get_if<macrob::Port>(&branch->statement)) open_ = then->open;
+      if (const auto* then = std::get_if<macrob::Port>(&branch->statement)) port(*then);
     } else if (const auto* loop = std::get_if<macrob::Do>(&block.body)) {
       return enter(*loop, at, frame);
     } else if (const auto* end = std::get_if<macrob::End>(&block.body)) {
@@ -130,8 +132,8 @@ private:
       return begin;
     } else if (const auto* printed = std::get_if<macrob::Print>(&block.body)) {
       print(*printed);
-    } else if (const auto* port = std::get_if<macrob::Port>(&block.body)) {
-      open_ = port->open;
+    } else if (const auto* opening = std::get_if<macrob::Port>(&block.body)) {
+      port(*opening);
     }
     return at + 1;
   }
@@ -265,6 +267,11 @@ private:
     } else if (to != 3006) {
       leftOpen("system variable");
     }
+  }
+
+  void port(const macrob::Port& port) {
+    if (port.open == open_) leftOpen("a port opened or closed twice");
+    open_ = port.open;
   }
 
   void print(const macrob::Print& print) {
@@ -409,14 +416,14 @@ private:
     return frame.modalLimit ? std::min(*frame.modalLimit, modals_.size()) : modals_.size();
   }
 
-  // Null: the word is left out. The sign of a word is part of its value: X-#1 is left out as X#1 is.
+  // Null: the word is left out.
   SlowValue wordValue(const nc::Word& word) {
     if (word.value == nullptr) leftOpen("a bare address");
     SlowValue out = number(*word.value);
     const Expression* digits = word.value.get();
     if (const auto* negated = std::get_if<nc::Negated>(&digits->node)) {
       digits = negated->operand.get();
-      out.null = number(*digits).null;
+      if (number(*digits).null) leftOpen("a word of minus null");
     }
     const auto* literal = std::get_if<nc::Number>(&digits->node);
     const bool increments = std::string("ABCIJKQRUVWXYZ").find(word.address) != std::string::npos;

@@ -111,10 +111,20 @@ double SlowArithmetic::whole(SlowValue value) {
 }
 
 double SlowArithmetic::thousandths(SlowValue value) {
-  tie(value, 0.001);
+  checkDecimals(value, 3);
   Written text(value.number);
   text.keep(text.point + 3);
   return text.value();
+}
+
+// Marks the run where a value lies so close to a tie that the last bit decides; an exact decimal tie does
+// not.
+void SlowArithmetic::checkDecimals(SlowValue value, int places) {
+  const double unit = std::pow(10.0, -places);
+  tie(value, unit);
+  const Written text(value.number);
+  if (text.point + places + 1 >= static_cast<int>(text.digits.size())) return;
+  tie({value.number, false, true}, unit);
 }
 
 SlowValue SlowArithmetic::operate(const std::string& op, SlowValue left, SlowValue right) {
@@ -259,7 +269,7 @@ SlowValue SlowArithmetic::apply(const std::string& name, const std::vector<SlowV
 }
 
 std::string SlowArithmetic::printed(SlowValue value, int integerDigits, int decimals) {
-  tie(value, std::pow(10.0, -decimals));
+  checkDecimals(value, decimals);
   Written text(value.number);
   text.keep(text.point + decimals);
   std::string digits = text.digits;
@@ -271,9 +281,9 @@ std::string SlowArithmetic::printed(SlowValue value, int integerDigits, int deci
   std::string fraction = digits.substr(before);
   fraction.resize(static_cast<std::size_t>(decimals), '0');
   if (integer.empty()) integer = "0";
-  if (text.negative) integer.insert(0, "-");
   const auto width = static_cast<std::size_t>(integerDigits);
-  if (integer.size() < width) integer.insert(0, width - integer.size(), ' ');
+  const std::string pad(integer.size() < width ? width - integer.size() : 0, ' ');
+  integer.insert(0, pad + (text.negative ? "-" : ""));
   return decimals == 0 ? integer : integer + "." + fraction;
 }
 

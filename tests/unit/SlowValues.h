@@ -49,11 +49,13 @@ public:
   double whole(SlowValue value);
   // To the nearest thousandth, half away from zero.
   double thousandths(SlowValue value);
-  // As DPRNT prints it: the digits before the point padded by blanks, more digits where they do not suffice.
+  // As DPRNT prints it: the digits before the point padded by blanks, more digits where they do not suffice;
+  // a minus stands before the first digit and takes a place of its own.
   std::string printed(SlowValue value, int integerDigits, int decimals);
 
 private:
   void tie(SlowValue value, double unit);
+  void checkDecimals(SlowValue value, int places);
   void near(SlowValue value, double place);
   SlowValue bits(const std::string& op, SlowValue left, SlowValue right);
   SlowValue angle(const std::string& name, SlowValue value);
