@@ -133,7 +133,7 @@ bool Machine::executeLong(const NcWords& w) {
   stack_.back().line = w.line;
   if (w.has('N')) {
     modalWords_[slotOf('N')] = w.of('N');
-    stack_.back().sequence = w.of('N') < 1e9 ? static_cast<std::uint32_t>(w.of('N')) : 0;
+    stack_.back().sequence = w.of('N') >= 0 && w.of('N') < 1e9 ? static_cast<std::uint32_t>(w.of('N')) : 0;
   }
   if (trace_ != nullptr) trace_->at(w.line);
   if ((w.marks & NcWords::ProgramMark) != 0) {
