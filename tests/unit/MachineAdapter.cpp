@@ -1,16 +1,13 @@
 #include "tests/unit/MachineAdapter.h"
 
 #include "frontend/macrob/Lower.h"
-#include "tests/unit/MacroBHelper.h"
-
-#if __has_include("sim/Run.h")
 #include "sim/Compile.h"
 #include "sim/Run.h"
+#include "tests/unit/MacroBHelper.h"
 
 #include <algorithm>
 #include <cstdlib>
 #include <string_view>
-#endif
 
 namespace dotek::tests {
 namespace {
@@ -20,8 +17,6 @@ const stdlib::Control& controlOf(const std::string& name) {
   static const stdlib::Control older = *stdlib::Control::load(stdlib::DataFiles(), "fanuc-0i-md");
   return name == older.name ? older : modern;
 }
-
-#if __has_include("sim/Run.h")
 
 // X Y Z of the moves in a trace.
 std::vector<MacroPosition> movesOf(std::string_view trace) {
@@ -68,7 +63,7 @@ void runPrograms(const ir::ProgramFile& programs, const stdlib::Control& control
   sim::Trace trace([&](std::string_view piece) { traced += piece; });
   machine.setTrace(&trace);
   Limits limits;
-  limits.simSteps = setup.budget * 20; // a block counts 10
+  limits.simSteps = static_cast<std::uint32_t>(setup.budget * 20); // a block counts 10
   sim::Run run(machine, code, limits);
   run.run();
   trace.flush();
@@ -88,15 +83,6 @@ void runPrograms(const ir::ProgramFile& programs, const stdlib::Control& control
   outcome.positions = movesOf(traced);
   outcome.blocks = machine.blocks();
 }
-
-#else
-
-void runPrograms(const ir::ProgramFile&, const stdlib::Control&, const SourceMap&, const MacroSetup&,
-                 MachineRun& out) {
-  out.refusal = kNoMachine;
-}
-
-#endif
 
 } // namespace
 

@@ -7,9 +7,6 @@
 
 namespace dotek::tests {
 
-// The refusal of all programs as long as there is no machine to run them.
-inline constexpr const char* kNoMachine = "no machine";
-
 struct MachineRun {
   std::string refusal; // not "": the programs are not lowered or compiled, and why
   MacroOutcome outcome;
