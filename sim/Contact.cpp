@@ -122,8 +122,20 @@ public:
       : solid_(solid), radius_(radius), a_(a), axis_(b - a), way_(way) {}
 
   double run() {
+    const double reach = axis_.norm() * way_.norm();
+    if (reach > 0 && axis_.cross(way_).norm() < 1e-9 * reach) return alongItself();
     search(0, way_.norm() > 0 ? 1 : 0, 0, axis_.norm() > 0 ? 1 : 0);
     return best_;
+  }
+
+  // Along its own axis only its leading end meets anything new.
+  double alongItself() {
+    const Vec lead = axis_.dot(way_) > 0 ? Vec(a_ + axis_) : a_;
+    search(0, 0, 0, 1);
+    if (best_ <= 1) return best_;
+    bool atStart = false;
+    const double way = Ball(solid_, radius_, lead, lead + way_).run(atStart);
+    return way < 0 ? best_ : std::min(way / way_.norm(), 1.0);
   }
 
 private:

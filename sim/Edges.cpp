@@ -11,7 +11,7 @@
 namespace dotek::sim {
 namespace {
 
-constexpr double kMostWork = 3e8; // evaluations of a surface, about
+constexpr double kMostWork = 1e8; // evaluations of a surface, about
 constexpr int kRulings = 96;
 constexpr int kDepth = 16;
 constexpr double kShort = 1e-3; // mm: a piece is not cut further

@@ -132,6 +132,18 @@ Range Shape::range(const Patch& patch) const {
   return out;
 }
 
+double Shape::support(const Vec& direction) const {
+  const Vec u = axes.transpose() * direction;
+  const double flat = std::hypot(u.x(), u.y()), at = origin.dot(direction);
+  switch (kind) {
+  case Kind::HalfSpace: return u.z() > 0 && flat < 1e-12 ? at : std::numeric_limits<double>::infinity();
+  case Kind::Sphere: return at + a;
+  case Kind::Cone: return at + std::max(a * flat - c * u.z(), b * flat + c * u.z());
+  case Kind::Block: break;
+  }
+  return at + (a - d) * std::abs(u.x()) + (b - d) * std::abs(u.y()) + d * flat + c * std::abs(u.z());
+}
+
 double Shape::bounding(Vec& centre) const {
   centre = origin;
   double radius = 2 * kFar;

@@ -42,6 +42,8 @@ struct Shape {
   double distance(const Vec& p) const;
   double distance(const Vec& p, Vec& gradient) const; // a unit vector that supports it
   Range range(const Patch& patch) const;
+  // How far it reaches along a unit vector: the greatest x . direction of its points; infinity: without end.
+  double support(const Vec& direction) const;
   // A ball that holds the shape; the radius is at most kFar * 2.
   double bounding(Vec& centre) const;
 };

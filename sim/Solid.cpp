@@ -21,9 +21,47 @@ std::vector<Solid::Node> withoutMeshes(const std::vector<Solid::Node>& list) {
   return out;
 }
 
+constexpr double kOpen = 1e-6; // mm: material above a mouth
+
+// Greatest reach of what a list may hold; what it removes is not taken off.
+double reachOf(const std::vector<Solid::Node>& list, const std::vector<Shape>& shapes, const Vec& direction) {
+  double out = -kInfinity;
+  for (const Solid::Node& node : list) {
+    if (node.action != Solid::Action::Add) continue;
+    out = std::max(out, node.shape >= 0 ? shapes[static_cast<std::size_t>(node.shape)].support(direction)
+                                        : reachOf(node.group, shapes, direction));
+  }
+  return out;
+}
+
 } // namespace
 
+// What is cut from a face on may be cut from far above it: where nothing stands there, the part is the same.
+// The bound is then the true distance in the mouth, too, instead of that to a lid which is not there.
+void Solid::openMouths(std::vector<Node>& list) {
+  std::vector<Node> before;
+  for (Node& node : list) {
+    if (node.shape < 0) openMouths(node.group);
+    Shape* const shape = node.shape < 0 ? nullptr : &shapes[static_cast<std::size_t>(node.shape)];
+    if (node.action == Action::Remove && shape != nullptr && shape->kind == Shape::Kind::Block) {
+      double* const halves[3] = {&shape->a, &shape->b, &shape->c};
+      for (int axis = shape->d > 0 ? 2 : 0; axis < 3; ++axis) {
+        double& half = *halves[axis];
+        for (const double side : {-1.0, 1.0}) {
+          const Vec out = side * shape->axes.col(axis);
+          const double mouth = shape->origin.dot(out) + half;
+          if (!(reachOf(before, shapes, out) <= mouth + kOpen) || half > kFar / 2) continue;
+          half += kFar / 4;
+          shape->origin += kFar / 4 * out;
+        }
+      }
+    }
+    before.push_back(node);
+  }
+}
+
 bool Solid::build() {
+  if (meshes.empty()) openMouths(nodes);
   solidNodes_ = withoutMeshes(nodes);
   surfaces_.clear();
   pieces_.clear();
@@ -149,10 +187,13 @@ void Solid::footOnShapes(const Vec& p, Foot& best) const {
   const double bound = shapesBound(p, &nearest);
   const double least = std::abs(bound);
   if (!std::isfinite(bound) || nearest < 0) return;
-  const double side = bound < 0 ? -1 : 1;
   Vec g;
   const Shape& shape = shapes[static_cast<std::size_t>(nearest)];
   const double own = shape.distance(p, g);
+  // On a wall between two pieces the bound vanishes as well.
+  const bool within = bound < 0 || (bound < kSkin && shapesBound(p + kSkin * g, nullptr) <= 0 &&
+                                    shapesBound(p - kSkin * g, nullptr) <= 0);
+  const double side = within ? -1 : 1;
   if (Vec q = p - own * g; isBoundary(q, g)) {
     best = {q, own * bound < 0 ? Vec(-g) : g, bound};
     return;
@@ -170,7 +211,7 @@ void Solid::footOnShapes(const Vec& p, Foot& best) const {
     if (!isBoundary(q, n)) continue;
     found = d;
     point = q;
-    normal = value * bound < 0 ? Vec(-n) : n;
+    normal = value * side < 0 ? Vec(-n) : n;
     if (d <= least + 1e-12) break;
   }
   double edge = found;

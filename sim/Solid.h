@@ -62,6 +62,7 @@ private:
   double boundOf(const std::vector<Node>& list, const Vec& p, std::int32_t* nearest) const;
   Range rangeOf(const std::vector<Node>& list, const Patch& patch) const;
   double shapesBound(const Vec& p, std::int32_t* nearest) const;
+  void openMouths(std::vector<Node>& list);
   bool isBoundary(const Vec& q, const Vec& normal) const;
   bool isEdge(const Vec& q, const Vec& first, const Vec& second) const;
   void footOnShapes(const Vec& p, Foot& best) const;
