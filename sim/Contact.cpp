@@ -9,6 +9,7 @@ namespace dotek::sim {
 namespace {
 
 constexpr double kFloor = 5e-4;  // mm: the least step of a ball
+constexpr double kFarAway = 0.2; // mm
 constexpr double kTouch = 1e-10; // mm: closer is touching
 constexpr double kExact = 1e-10; // mm: of the place of contact on the way
 constexpr double kSafe = 1e-3;   // mm: of a capsule
@@ -38,7 +39,7 @@ public:
       if (clear <= kTouch) return -1; // the way ends before it is free
     }
     while (at < length_) {
-      const double jump = clear < 0.05 ? freeWay(at) : 0;
+      const double jump = clear < 0.05 || at == 0 ? freeWay(at) : 0;
       const double next = std::min(length_, at + std::max({clear, floor_, jump}));
       const double there = clearance(next);
       if (there <= kTouch) return refine(at, clear, next, there);
@@ -49,7 +50,12 @@ public:
   }
 
 private:
-  double clearance(double at) const { return solid_.foot(from_ + at * direction_).distance - radius_; }
+  // Far away the cheap bound will do.
+  double clearance(double at) const {
+    const Vec p = from_ + at * direction_;
+    if (const double bound = solid_.bound(p) - radius_; bound > kFarAway) return bound;
+    return solid_.foot(p).distance - radius_;
+  }
 
   // Out of the material. false: it goes deeper or stays.
   bool leave(double& at, double& clear) const {

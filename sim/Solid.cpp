@@ -23,15 +23,34 @@ std::vector<Solid::Node> withoutMeshes(const std::vector<Solid::Node>& list) {
 
 constexpr double kOpen = 1e-6; // mm: material above a mouth
 
-// Greatest reach of what a list may hold; what it removes is not taken off.
-double reachOf(const std::vector<Solid::Node>& list, const std::vector<Shape>& shapes, const Vec& direction) {
-  double out = -kInfinity;
-  for (const Solid::Node& node : list) {
-    if (node.action != Solid::Action::Add) continue;
-    out = std::max(out, node.shape >= 0 ? shapes[static_cast<std::size_t>(node.shape)].support(direction)
-                                        : reachOf(node.group, shapes, direction));
+// Whether a plane shows that `other` does not stand in front of that face of `cutter` which looks along
+// `out`.
+bool isClear(const Shape& other, const Shape& cutter, const Vec& out) {
+  if (other.support(out) <= cutter.support(out) + kOpen) return true;
+  Vec there, here;
+  other.bounding(there);
+  cutter.bounding(here);
+  Vec between = here - there;
+  between -= between.dot(out) * out;
+  if (between.norm() > 1e-9 && other.support(between.normalized()) <= -cutter.support(-between.normalized()))
+    return true;
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const double side : {-1.0, 1.0}) {
+      const Vec u = side * cutter.axes.col(axis);
+      if (std::abs(u.dot(out)) < 0.5 && other.support(u) <= -cutter.support(-u)) return true;
+    }
   }
-  return out;
+  return false;
+}
+
+// The same for all that a list may hold; what it removes is not taken off.
+bool isClear(const std::vector<Solid::Node>& list, const std::vector<Shape>& shapes, const Shape& cutter,
+             const Vec& out) {
+  return std::all_of(list.begin(), list.end(), [&](const Solid::Node& node) {
+    if (node.action != Solid::Action::Add) return true;
+    return node.shape >= 0 ? isClear(shapes[static_cast<std::size_t>(node.shape)], cutter, out)
+                           : isClear(node.group, shapes, cutter, out);
+  });
 }
 
 } // namespace
@@ -49,8 +68,7 @@ void Solid::openMouths(std::vector<Node>& list) {
         double& half = *halves[axis];
         for (const double side : {-1.0, 1.0}) {
           const Vec out = side * shape->axes.col(axis);
-          const double mouth = shape->origin.dot(out) + half;
-          if (!(reachOf(before, shapes, out) <= mouth + kOpen) || half > kFar / 2) continue;
+          if (half > kFar / 2 || !isClear(before, shapes, *shape, out)) continue;
           half += kFar / 4;
           shape->origin += kFar / 4 * out;
         }
