@@ -13,7 +13,7 @@ constexpr double kFarAway = 0.2; // mm
 constexpr double kTouch = 1e-10; // mm: closer is touching
 constexpr double kExact = 1e-10; // mm: of the place of contact on the way
 constexpr double kSafe = 1e-3;   // mm: of a capsule
-constexpr int kMostCells = 200'000;
+constexpr int kMostCells = 100'000;
 
 Vec vec(const Point3& p) {
   return {p.x, p.y, p.z};
@@ -128,6 +128,9 @@ public:
       : solid_(solid), radius_(radius), a_(a), axis_(b - a), way_(way) {}
 
   double run() {
+    for (const Mesh& mesh : solid_.meshes)
+      advance(mesh);
+    if (solid_.shapes.empty()) return best_;
     const double reach = axis_.norm() * way_.norm();
     if (reach > 0 && axis_.cross(way_).norm() < 1e-9 * reach) return alongItself();
     search(0, way_.norm() > 0 ? 1 : 0, 0, axis_.norm() > 0 ? 1 : 0);
@@ -145,18 +148,38 @@ public:
   }
 
 private:
+  // Against a mesh the distance of the whole axis is known, so that steps of that size are free.
+  void advance(const Mesh& mesh) {
+    if (mesh.distance(a_) < 0) best_ = 0;
+    const double length = way_.norm();
+    for (double at = 0; best_ > 1 || at < best_ * length;) {
+      const Vec a = a_ + (length > 0 ? at / length : 0) * way_;
+      const double clear = mesh.segmentDistance(a, a + axis_) - radius_;
+      if (clear < kSafe / 2) {
+        best_ = std::min(best_, length > 0 ? at / length : 0);
+        return;
+      }
+      if (at >= length) return;
+      at = std::min(length, at + clear);
+    }
+  }
+
   void search(double t0, double t1, double s0, double s1) {
     if (t0 >= best_ || (best_ <= 1 && (best_ - t0) * way_.norm() < kSafe / 10)) return;
     const Vec middle = a_ + (t0 + t1) / 2 * way_ + (s0 + s1) / 2 * axis_;
     const Vec halfWay = (t1 - t0) / 2 * way_, halfAxis = (s1 - s0) / 2 * axis_;
     const double along = halfWay.norm(), across = halfAxis.norm();
-    const double bound = solid_.bound(middle);
+    const double bound = solid_.shapesBound(middle);
     if (bound - along - across > radius_) return;
-    if (solid_.lowest({middle, halfWay, halfAxis}) > radius_) return;
-    const Foot foot = solid_.foot(middle);
+    if (solid_.shapesLowest({middle, halfWay, halfAxis}) > radius_) return;
+    const Foot foot = solid_.shapesFoot(middle);
     if (foot.distance - along - across > radius_) return;
     if (foot.distance <= radius_) best_ = std::min(best_, (t0 + t1) / 2);
-    if (along + across < kSafe / 2 || ++cells_ > kMostCells) {
+    // In a crowd the answer is coarser, not slower.
+    const double least = ++cells_ > 10 * kMostCells ? 100 * kSafe
+                         : cells_ > kMostCells      ? 20 * kSafe
+                                                    : kSafe / 2;
+    if (along + across < least) {
       best_ = std::min(best_, t0);
       return;
     }

@@ -52,10 +52,69 @@ Nearest nearestOnTriangle(const Vector3d& p, const Vector3d& a, const Vector3d& 
   return out;
 }
 
+// Squared, of two segments.
+double segmentsApart(const Vector3d& a, const Vector3d& b, const Vector3d& c, const Vector3d& d) {
+  const Vector3d u = b - a, v = d - c, w = a - c;
+  const double uu = u.squaredNorm(), vv = v.squaredNorm(), uv = u.dot(v);
+  double best = std::numeric_limits<double>::infinity();
+  const double determinant = uu * vv - uv * uv;
+  if (determinant > 1e-14 * uu * vv) {
+    const double s = (uv * v.dot(w) - vv * u.dot(w)) / determinant;
+    const double t = (uu * v.dot(w) - uv * u.dot(w)) / determinant;
+    if (s > 0 && s < 1 && t > 0 && t < 1) return (w + s * u - t * v).squaredNorm();
+  }
+  // At an end of one of them.
+  double unused = 0;
+  for (const Vector3d& p : {a, b})
+    best = std::min(best, (p - onSegment(p, c, d, unused)).squaredNorm());
+  for (const Vector3d& p : {c, d})
+    best = std::min(best, (p - onSegment(p, a, b, unused)).squaredNorm());
+  return best;
+}
+
+double segmentToTriangle(const Vector3d& a, const Vector3d& b, const std::array<Vector3d, 3>& t) {
+  const Vector3d n = (t[1] - t[0]).cross(t[2] - t[0]);
+  const double ha = (a - t[0]).dot(n), hb = (b - t[0]).dot(n);
+  if (ha * hb < 0) { // does it go through?
+    const Vector3d q = a + ha / (ha - hb) * (b - a);
+    if (nearestOnTriangle(q, t[0], t[1], t[2]).feature == 0) return 0;
+  }
+  double best = std::min((a - nearestOnTriangle(a, t[0], t[1], t[2]).point).squaredNorm(),
+                         (b - nearestOnTriangle(b, t[0], t[1], t[2]).point).squaredNorm());
+  for (std::size_t e = 0; e < 3; ++e)
+    best = std::min(best, segmentsApart(a, b, t[e], t[(e + 1) % 3]));
+  return best;
+}
+
 } // namespace
 
-double Mesh::Box::squaredDistance(const Vector3d& p) const {
-  return (least - p).cwiseMax(p - most).cwiseMax(0).squaredNorm();
+double Mesh::segmentDistance(const Vector3d& a, const Vector3d& b) const {
+  const Vector3d low = a.cwiseMin(b), high = a.cwiseMax(b);
+  std::array<std::uint32_t, 64> stack;
+  std::size_t waiting = 0;
+  stack[waiting++] = 0;
+  double best = std::numeric_limits<double>::infinity();
+  while (waiting > 0) {
+    const std::uint32_t next = stack[--waiting];
+    const Branch& branch = tree_[next];
+    if (branch.box.squaredDistance(low, high) >= best) continue;
+    if (branch.right == 0) {
+      for (std::uint32_t i = branch.begin; i < branch.end; ++i) {
+        const auto& t = triangles_[i];
+        best = std::min(best, segmentToTriangle(a, b, {vertices_[t[0]], vertices_[t[1]], vertices_[t[2]]}));
+      }
+      continue;
+    }
+    const bool left =
+        tree_[next + 1].box.squaredDistance(low, high) < tree_[branch.right].box.squaredDistance(low, high);
+    stack[waiting++] = left ? branch.right : next + 1; // the nearer one is taken first
+    stack[waiting++] = left ? next + 1 : branch.right;
+  }
+  return std::sqrt(best);
+}
+
+double Mesh::Box::squaredDistance(const Vector3d& low, const Vector3d& high) const {
+  return (least - high).cwiseMax(low - most).cwiseMax(0).squaredNorm();
 }
 
 std::string Mesh::set(std::vector<Vector3d> vertices, std::vector<std::array<std::uint32_t, 3>> triangles) {

@@ -26,12 +26,16 @@ public:
   // Negative inside. `point` is the nearest one, `normal` points away from the material; either may be null.
   double distance(const Eigen::Vector3d& p, Eigen::Vector3d* point = nullptr,
                   Eigen::Vector3d* normal = nullptr) const;
+  // From the segment to the surface, not negative: inside is as far as outside.
+  double segmentDistance(const Eigen::Vector3d& a, const Eigen::Vector3d& b) const;
   std::size_t triangleCount() const { return triangles_.size(); }
 
 private:
   struct Box {
     Eigen::Vector3d least, most;
-    double squaredDistance(const Eigen::Vector3d& p) const;
+    double squaredDistance(const Eigen::Vector3d& p) const { return squaredDistance(p, p); }
+    // From a box.
+    double squaredDistance(const Eigen::Vector3d& low, const Eigen::Vector3d& high) const;
   };
   struct Branch {
     Box box;

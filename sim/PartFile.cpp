@@ -105,7 +105,12 @@ private:
   }
 
   void shape(const TomlTable& table, std::optional<Action> forced) {
-    if (builder.shapeCount() > PartBuilder::kMostShapes) return; // finish() says so
+    if (builder.shapeCount() >= PartBuilder::kMostShapes) {
+      table.entries(); // its keys are none of the matter
+      if (!tooMany_) fail(table, fmt::format("the part has more than {} shapes", PartBuilder::kMostShapes));
+      tooMany_ = true;
+      return;
+    }
     const std::string before = builder.fault();
     const TomlValue kind = table.require("kind", "the kind of the shape");
     const std::string name = kind.choice({"box", "cylinder", "cone", "sphere", "half-space", "hole", "slot",
@@ -121,7 +126,9 @@ private:
       mesh(table, forced);
     else if (cut)
       cutter(table, name);
-    else if (!name.empty())
+    else if (name.empty())
+      table.entries(); // without a kind no key is known
+    else
       solid(table, name, action(table, forced));
     if (before.empty() && !builder.fault().empty()) fail(table, builder.fault());
   }
@@ -258,6 +265,7 @@ private:
   const ReadMesh& readMesh_;
   Diagnostics& diagnostics_;
   std::size_t depth_ = 0;
+  bool tooMany_ = false;
 };
 
 } // namespace

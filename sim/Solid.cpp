@@ -130,10 +130,6 @@ double Solid::bound(const Vec& p) const {
   return boundOf(nodes, p, nullptr);
 }
 
-double Solid::shapesBound(const Vec& p, std::int32_t* nearest) const {
-  return boundOf(solidNodes_, p, nearest);
-}
-
 Range Solid::rangeOf(const std::vector<Node>& list, const Patch& patch) const {
   Range out{kInfinity, kInfinity};
   for (const Node& node : list) {
@@ -159,14 +155,14 @@ Range Solid::rangeOf(const std::vector<Node>& list, const Patch& patch) const {
 // Whether material lies on one side of q and none on the other. A skin that is left where two faces coincide
 // is no surface, nor is a wall between two pieces that touch.
 bool Solid::isBoundary(const Vec& q, const Vec& normal) const {
-  return (shapesBound(q + kSkin * normal, nullptr) > 0) != (shapesBound(q - kSkin * normal, nullptr) > 0);
+  return (shapesBound(q + kSkin * normal) > 0) != (shapesBound(q - kSkin * normal) > 0);
 }
 
 bool Solid::isEdge(const Vec& q, const Vec& first, const Vec& second) const {
   int outside = 0;
   for (const double s : {-kSkin, kSkin}) {
     for (const double t : {-kSkin, kSkin})
-      outside += shapesBound(q + s * first + t * second, nullptr) > 0 ? 1 : 0;
+      outside += shapesBound(q + s * first + t * second) > 0 ? 1 : 0;
   }
   return outside != 0 && outside != 4;
 }
@@ -202,15 +198,15 @@ void Solid::footOnEdges(const Vec& p, double& best, Vec& point) const {
 // The bound is met in most cases and then ends the search.
 void Solid::footOnShapes(const Vec& p, Foot& best) const {
   std::int32_t nearest = -1;
-  const double bound = shapesBound(p, &nearest);
+  const double bound = boundOf(solidNodes_, p, &nearest);
   const double least = std::abs(bound);
   if (!std::isfinite(bound) || nearest < 0) return;
   Vec g;
   const Shape& shape = shapes[static_cast<std::size_t>(nearest)];
   const double own = shape.distance(p, g);
   // On a wall between two pieces the bound vanishes as well.
-  const bool within = bound < 0 || (bound < kSkin && shapesBound(p + kSkin * g, nullptr) <= 0 &&
-                                    shapesBound(p - kSkin * g, nullptr) <= 0);
+  const bool within =
+      bound < 0 || (bound < kSkin && shapesBound(p + kSkin * g) <= 0 && shapesBound(p - kSkin * g) <= 0);
   const double side = within ? -1 : 1;
   if (Vec q = p - own * g; isBoundary(q, g)) {
     best = {q, own * bound < 0 ? Vec(-g) : g, bound};
@@ -245,6 +241,12 @@ void Solid::footOnShapes(const Vec& p, Foot& best) const {
     normal = g;
   }
   best = {point, normal, side * found};
+}
+
+Foot Solid::shapesFoot(const Vec& p) const {
+  Foot best;
+  footOnShapes(p, best);
+  return best;
 }
 
 Foot Solid::foot(const Vec& p) const {

@@ -43,6 +43,11 @@ public:
   // The true distance to the surface, to about 1e-9 mm. Inside a part of several pieces that overlap a mesh
   // it is a bound.
   Foot foot(const Vec& p) const;
+
+  // The same without the meshes; there are shapes.
+  double shapesBound(const Vec& p) const { return boundOf(solidNodes_, p, nullptr); }
+  double shapesLowest(const Patch& patch) const { return rangeOf(solidNodes_, patch).least; }
+  Foot shapesFoot(const Vec& p) const;
   // Whether nothing is left of it.
   bool isEmpty() const;
 
@@ -61,7 +66,6 @@ private:
 
   double boundOf(const std::vector<Node>& list, const Vec& p, std::int32_t* nearest) const;
   Range rangeOf(const std::vector<Node>& list, const Patch& patch) const;
-  double shapesBound(const Vec& p, std::int32_t* nearest) const;
   void openMouths(std::vector<Node>& list);
   bool isBoundary(const Vec& q, const Vec& normal) const;
   bool isEdge(const Vec& q, const Vec& first, const Vec& second) const;

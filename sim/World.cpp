@@ -128,21 +128,25 @@ std::optional<double> World::contact(const SkipMove& move) {
     std::optional<Touch> trigger = touch;
     if (probe_.effectiveRadius < probe_.ballRadius())
       trigger = firstContact(part_, probe_.effectiveRadius, from, to);
-    if (trigger && length > 0)
-      signal = std::max(touch->share, trigger->share + (probe_.preTravel + noise()) / length);
+    if (trigger && length > 0) signal = std::max(0.0, trigger->share + (probe_.preTravel + noise()) / length);
   }
   double stop = on_ ? std::min(signal, 1.0) : 1;
-  // What touches in the signal's place touches after it.
-  if (const auto hit = obstacle(from, way * stop); hit && hit->share < 1) {
-    const double share = hit->share * stop;
+  // What the stem or the body meets behind the ball's touch is no news.
+  const double reach = touch ? std::min(touch->share, stop) : stop;
+  bool blocked = false;
+  if (const auto hit = obstacle(from, way * reach); hit && hit->share < 1) {
+    const double share = hit->share * reach;
     add(hit->outcome, kKind, share, from + way * share);
+    blocked = true;
     // A bent stem opens the contact, too.
     if (hit->outcome == Outcome::StemCollision && on_) signal = stop = share;
   }
   if (const auto leaves = leavesTravel(move.machineFrom, move.machineTo); leaves && *leaves < stop)
     add(Outcome::OutsideTravel, kKind, *leaves, from + way * *leaves);
-  if (!touch || touch->share > stop) {
-    if (signal > 1) add(Outcome::Miss, kKind, 1, to);
+  if (!touch) {
+    if (!blocked) add(Outcome::Miss, kKind, 1, to);
+  } else if (blocked && touch->share > stop) {
+    // The machine does not come as far.
   } else if (!on_) {
     addTouch(Outcome::NotArmed, kKind, *touch, length);
   } else if (touch->atStart) {
