@@ -79,7 +79,7 @@ std::optional<double> Machine::read(std::uint32_t number) {
   }
   Place place;
   if (number >= 1000 && find(number, place)) return readSystem(number, place);
-  if (number < 1000)
+  if (number < 1000 || number == UINT32_MAX)
     raise(Alarm::NoSuchVariable);
   else
     inconclusive(fmt::format("what #{} holds is not known to Dotek", number));
@@ -192,7 +192,7 @@ bool Machine::store(std::uint32_t number, double value, bool preset) {
     cells_[cell] = isNull(value) ? kNull : value;
     return true;
   }
-  if (number < 1000) return raise(Alarm::NoSuchVariable);
+  if (number < 1000 || number == UINT32_MAX) return raise(Alarm::NoSuchVariable);
   Place place;
   if (!find(number, place)) return inconclusive(fmt::format("what #{} sets is not known to Dotek", number));
   // A system variable holds numbers: null counts as 0 there.
