@@ -1,0 +1,60 @@
+// What the statements of a program or a cycle mean to a probe.
+#pragma once
+
+#include "ir/Dataflow.h"
+#include "lint/Project.h"
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+
+namespace dotek::lint {
+
+// What one statement does, as far as the data of controls and macro sets tell.
+struct ProbeStep {
+  enum class Kind : std::uint8_t {
+    None,
+    On,        // probe switched on
+    Off,       // probe switched off
+    Protected, // move that stops at a contact
+    Measure,
+    PackCall, // a call of a macro of the same pack whose meaning is not known: may do anything
+    Call,     // another call: may do anything
+  };
+  Kind kind = Kind::None;
+  std::uint32_t program = 0; // of a call
+};
+
+enum class ProbeState : std::uint8_t { Unknown, Off, On };
+
+class Probing {
+public:
+  explicit Probing(const Project& project) : project_(project) {}
+
+  ProbeStep step(const ir::Statement& statement) const;
+  // State before each statement; nothing where no path leads. Unknown where paths disagree.
+  std::vector<std::optional<ProbeState>> states(const std::vector<ir::Statement>& body,
+                                                ProbeState entry) const;
+  // Calls some macro of a probing set.
+  bool probes(const ir::Program& program) const;
+
+private:
+  const Project& project_;
+};
+
+// All programs of all files that could be lowered.
+void eachProgram(const Project& project,
+                 const std::function<void(const ir::Program&, const macrob::File&)>& visit);
+
+// Values of the words of a block as far as they are written out.
+std::optional<double> wordValue(const ir::NcBlock& block, char address);
+bool hasWord(const ir::NcBlock& block, char address);
+bool hasCode(const ir::NcBlock& block, char address, double code);
+// #n of a variable whose number is written out.
+std::optional<std::uint32_t> variableNumber(const ir::Expression& expression);
+std::optional<std::uint32_t> storedNumber(const ir::Statement& statement);
+// Numbers of the variables that the statement reads, with their places.
+void eachRead(const ir::Statement& statement,
+              const std::function<void(std::uint32_t number, SourceRange range)>& visit);
+
+} // namespace dotek::lint
