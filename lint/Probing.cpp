@@ -63,15 +63,15 @@ ProbeStep Probing::step(const ir::Statement& statement) const {
   return {};
 }
 
-std::vector<std::optional<ProbeState>> Probing::states(const std::vector<ir::Statement>& body,
-                                                       ProbeState entry) const {
+std::vector<std::optional<ProbeState>> Probing::states(const std::vector<ir::Statement>& body) const {
   return ir::factsBefore<ProbeState>(
-      body, entry,
+      body, ProbeState::AsBefore,
       [&](std::size_t at, std::size_t, ProbeState before) {
+        if (endsProgram(body[at])) return ProbeState::Ended;
         switch (step(body[at]).kind) {
         case ProbeStep::Kind::On: return ProbeState::On;
         case ProbeStep::Kind::Off: return ProbeState::Off;
-        case ProbeStep::Kind::Call: return ProbeState::Unknown;
+        case ProbeStep::Kind::Call: return ProbeState::Mixed;
         case ProbeStep::Kind::None:
         case ProbeStep::Kind::Protected:
         case ProbeStep::Kind::Measure:
@@ -80,8 +80,8 @@ std::vector<std::optional<ProbeState>> Probing::states(const std::vector<ir::Sta
         return before;
       },
       [](ProbeState& into, ProbeState other) {
-        if (into == other || into == ProbeState::Unknown) return false;
-        into = ProbeState::Unknown;
+        if (into == other || into == ProbeState::Mixed || other == ProbeState::Ended) return false;
+        into = into == ProbeState::Ended ? other : ProbeState::Mixed;
         return true;
       });
 }
@@ -91,6 +91,16 @@ bool Probing::probes(const ir::Program& program) const {
     const ProbeStep::Kind kind = step(statement).kind;
     return kind != ProbeStep::Kind::None && kind != ProbeStep::Kind::Call;
   });
+}
+
+bool endsProgram(const ir::Statement& statement) {
+  const auto* block = std::get_if<ir::NcBlock>(&statement.node);
+  return block != nullptr && (hasCode(*block, 'M', 30) || hasCode(*block, 'M', 2));
+}
+
+bool endsProgram(const ir::Program& program) {
+  return std::any_of(program.body.begin(), program.body.end(),
+                     [](const ir::Statement& statement) { return endsProgram(statement); });
 }
 
 void eachProgram(const Project& project,

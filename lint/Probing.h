@@ -25,22 +25,27 @@ struct ProbeStep {
   std::uint32_t program = 0; // of a call
 };
 
-enum class ProbeState : std::uint8_t { Unknown, Off, On };
+// AsBefore: nothing has switched it yet. Mixed: paths disagree, or a call may have switched it. Ended: the
+// program ends before.
+enum class ProbeState : std::uint8_t { AsBefore, Off, On, Mixed, Ended };
 
 class Probing {
 public:
   explicit Probing(const Project& project) : project_(project) {}
 
   ProbeStep step(const ir::Statement& statement) const;
-  // State before each statement; nothing where no path leads. Unknown where paths disagree.
-  std::vector<std::optional<ProbeState>> states(const std::vector<ir::Statement>& body,
-                                                ProbeState entry) const;
+  // State before each statement; nothing where no path leads.
+  std::vector<std::optional<ProbeState>> states(const std::vector<ir::Statement>& body) const;
   // Calls some macro of a probing set.
   bool probes(const ir::Program& program) const;
 
 private:
   const Project& project_;
 };
+
+// M30 or M2.
+bool endsProgram(const ir::Statement& statement);
+bool endsProgram(const ir::Program& program);
 
 // All programs of all files that could be lowered.
 void eachProgram(const Project& project,

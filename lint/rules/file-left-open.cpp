@@ -28,7 +28,8 @@ void check(const Project& project, Report& report) {
     });
     if (computed || calls) continue;
     for (const auto& [unit, range] : opened)
-      if (!closed.contains(unit))
+      // A unit outside 1 to 10 opens no file.
+      if (unit >= 1 && unit <= 10 && !closed.contains(unit))
         report.at(range,
                   "nothing closes this file; what was written last may be missing in it, and the unit stays "
                   "taken; write FILE_CLOSE {}",

@@ -39,17 +39,10 @@ void checkProgram(const ir::Program& program, const Probing& probing, Report& re
   }
 }
 
-bool mainProgram(const ir::Program& program) {
-  return std::any_of(program.body.begin(), program.body.end(), [](const ir::Statement& statement) {
-    const auto* block = std::get_if<ir::NcBlock>(&statement.node);
-    return block != nullptr && (hasCode(*block, 'M', 30) || hasCode(*block, 'M', 2));
-  });
-}
-
 void check(const Project& project, Report& report) {
   const Probing probing(project);
   eachProgram(project, [&](const ir::Program& program, const macrob::File&) {
-    if (mainProgram(program)) checkProgram(program, probing, report);
+    if (endsProgram(program)) checkProgram(program, probing, report);
   });
 }
 

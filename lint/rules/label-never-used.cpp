@@ -1,6 +1,6 @@
 #include "lint/MacroNames.h"
 
-#include <functional>
+#include <algorithm>
 
 namespace dotek::lint::rule {
 namespace {
@@ -16,6 +16,11 @@ void check(const Project& project, Report& report) {
         used.insert(gibbs::foldCase(handler->label.text));
       includes = includes || std::holds_alternative<gibbs::Include>(statement.node);
     });
+    std::set<std::string> labels;
+    for (const gibbs::Line& line : macro->lines)
+      if (line.label) labels.insert(gibbs::foldCase(line.label->name.text));
+    // A GOTO to a label that is not there is told already, and is the likely cause.
+    if (!std::includes(labels.begin(), labels.end(), used.begin(), used.end())) continue;
     // A label may be for a file that includes this one, or one that it includes.
     if (includes || macro->hasErrorNodes || used.empty()) continue;
     for (const gibbs::Line& line : macro->lines) {

@@ -9,6 +9,8 @@ namespace {
 void checkCall(const macrob::Words& words, const Project& project, Report& report) {
   const auto call = macrob::callOf(words);
   if (!call || call->kind != macrob::CallKind::Simple || call->program == nullptr) return;
+  // Words that are no arguments are told already, and are what is missing here.
+  if (!call->before.empty() || !call->refused.empty()) return;
   const auto number = macrob::literal(*call->program);
   if (!number || *number < 1) return;
   const auto program = static_cast<std::uint32_t>(*number);

@@ -5,7 +5,7 @@ namespace {
 
 // A measurement that every path reaches with the probe switched off before.
 void checkBody(const std::vector<ir::Statement>& body, const Probing& probing, Report& report) {
-  const auto states = probing.states(body, ProbeState::Unknown);
+  const auto states = probing.states(body);
   SourceRange off;
   for (std::size_t i = 0; i < body.size(); ++i) {
     const ProbeStep step = probing.step(body[i]);

@@ -11,13 +11,6 @@ constexpr std::uint32_t kLastLocal = 33;
 // Locals that no letter of argument specification I sets.
 constexpr std::array<std::uint32_t, 12> kWithoutLetter = {10, 12, 14, 15, 16, 27, 28, 29, 30, 31, 32, 33};
 
-bool endsProgram(const ir::Program& program) {
-  return std::any_of(program.body.begin(), program.body.end(), [](const ir::Statement& statement) {
-    const auto* block = std::get_if<ir::NcBlock>(&statement.node);
-    return block != nullptr && (hasCode(*block, 'M', 30) || hasCode(*block, 'M', 2));
-  });
-}
-
 bool returns(const ir::Program& program) {
   return std::any_of(program.body.begin(), program.body.end(),
                      [](const ir::Statement& s) { return std::holds_alternative<ir::Exit>(s.node); });

@@ -9,13 +9,12 @@ namespace {
 bool leaves(const ir::Statement& statement) {
   if (std::holds_alternative<ir::Exit>(statement.node) || std::holds_alternative<ir::Return>(statement.node))
     return true;
-  const auto* block = std::get_if<ir::NcBlock>(&statement.node);
-  return block != nullptr && (hasCode(*block, 'M', 30) || hasCode(*block, 'M', 2));
+  return endsProgram(statement);
 }
 
 // A path on which the probe is on at the end.
 void checkBody(const std::vector<ir::Statement>& body, const Probing& probing, Report& report) {
-  const auto states = probing.states(body, ProbeState::Unknown);
+  const auto states = probing.states(body);
   const ir::Statement* on = nullptr;
   bool off = false;
   for (const ir::Statement& statement : body) {
@@ -35,18 +34,11 @@ void checkBody(const std::vector<ir::Statement>& body, const Probing& probing, R
   }
 }
 
-bool mainProgram(const ir::Program& program) {
-  return std::any_of(program.body.begin(), program.body.end(), [](const ir::Statement& statement) {
-    const auto* block = std::get_if<ir::NcBlock>(&statement.node);
-    return block != nullptr && (hasCode(*block, 'M', 30) || hasCode(*block, 'M', 2));
-  });
-}
-
 void check(const Project& project, Report& report) {
   const Probing probing(project);
   eachProgram(project, [&](const ir::Program& program, const macrob::File&) {
     checkBody(program.body, probing, report);
-    if (!mainProgram(program)) return;
+    if (!endsProgram(program)) return;
     // A main program that switches it on and never off.
     const ir::Statement* on = nullptr;
     bool other = false;

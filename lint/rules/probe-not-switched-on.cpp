@@ -14,9 +14,9 @@ struct Unswitched {
 
 // The first measurement that is reached without a switch in this body.
 SourceRange firstUnswitched(const std::vector<ir::Statement>& body, const Probing& probing) {
-  const auto states = probing.states(body, ProbeState::Unknown);
+  const auto states = probing.states(body);
   for (std::size_t i = 0; i < body.size(); ++i)
-    if (probing.step(body[i]).kind == ProbeStep::Kind::Measure && states[i] == ProbeState::Unknown)
+    if (probing.step(body[i]).kind == ProbeStep::Kind::Measure && states[i] == ProbeState::AsBefore)
       return body[i].origin.range();
   return {};
 }
@@ -52,14 +52,14 @@ void checkCycles(const Project& project, const Probing& probing, Report& report)
 
 // A program that switches the probe off, or on later, is the one that switches it.
 void checkProgram(const ir::Program& program, const Probing& probing, Report& report) {
-  const auto states = probing.states(program.body, ProbeState::Unknown);
+  const auto states = probing.states(program.body);
   SourceRange first;
   SourceRange last;
   bool callsBefore = false;
   for (std::size_t i = 0; i < program.body.size(); ++i) {
     const ProbeStep step = probing.step(program.body[i]);
     if (!first.hasPlace() && step.kind == ProbeStep::Kind::Call) callsBefore = true;
-    if (step.kind == ProbeStep::Kind::Measure && states[i] == ProbeState::Unknown && !first.hasPlace())
+    if (step.kind == ProbeStep::Kind::Measure && states[i] == ProbeState::AsBefore && !first.hasPlace())
       first = program.body[i].origin.range();
     if (step.kind == ProbeStep::Kind::On || step.kind == ProbeStep::Kind::Off)
       if (first.hasPlace() && !last.hasPlace()) last = program.body[i].origin.range();

@@ -3,7 +3,15 @@
 namespace dotek::lint::rule {
 namespace {
 
-void checkLines(const std::vector<gibbs::Line>& lines, Report& report) {
+// Folded labels of the file.
+std::set<std::string> labelsOf(const gibbs::Macro& macro) {
+  std::set<std::string> out;
+  for (const gibbs::Line& line : macro.lines)
+    if (line.label) out.insert(gibbs::foldCase(line.label->name.text));
+  return out;
+}
+
+void checkLines(const std::vector<gibbs::Line>& lines, const std::set<std::string>& labels, Report& report) {
   const gibbs::Statement* jump = nullptr;
   bool told = false;
   for (const gibbs::Line& line : lines) {
@@ -19,22 +27,24 @@ void checkLines(const std::vector<gibbs::Line>& lines, Report& report) {
           .note(jump->range, "the jump");
       told = true;
     }
-    if (std::holds_alternative<gibbs::Goto>(node)) {
+    const auto* go = std::get_if<gibbs::Goto>(&node);
+    // A GOTO to nowhere is told already.
+    if (go != nullptr && labels.contains(gibbs::foldCase(go->label.text))) {
       if (jump == nullptr) told = false;
       jump = line.statement.get();
     } else if (closes) {
       jump = nullptr;
     }
     if (const auto* branch = std::get_if<gibbs::If>(&node)) {
-      checkLines(branch->thenBlock, report);
-      checkLines(branch->elseBlock, report);
+      checkLines(branch->thenBlock, labels, report);
+      checkLines(branch->elseBlock, labels, report);
     }
   }
 }
 
 void check(const Project& project, Report& report) {
   for (const gibbs::Macro* macro : project.allMacros())
-    checkLines(macro->lines, report);
+    checkLines(macro->lines, labelsOf(*macro), report);
 }
 
 } // namespace
