@@ -8,6 +8,8 @@
 namespace dotek::lint {
 namespace {
 
+// Optional arguments of measuring macros, which the data leave out.
+constexpr std::string_view kOptional = "BEFHMQRTUVW";
 constexpr std::uint32_t kPack = 100; // macros of a pack share their hundred: 9800 to 9899
 
 bool inPack(const Project& project, std::uint32_t program) {
@@ -17,8 +19,10 @@ bool inPack(const Project& project, std::uint32_t program) {
   return false;
 }
 
-std::optional<ProbeStep::Kind> meaning(const Project& project, std::uint32_t program) {
+std::optional<ProbeStep::Kind> meaning(const Project& project, std::uint32_t program,
+                                       std::string_view letters) {
   for (const stdlib::MacroSet& set : project.macroSets) {
+    if (!mayBeOf(set, program, letters)) continue;
     for (const stdlib::MacroSignature* signature : set.of(program)) {
       switch (signature->intent) {
       case stdlib::Intent::ProtectedMove: return ProbeStep::Kind::Protected;
@@ -34,6 +38,15 @@ std::optional<ProbeStep::Kind> meaning(const Project& project, std::uint32_t pro
 
 } // namespace
 
+bool mayBeOf(const stdlib::MacroSet& set, std::uint32_t program, std::string_view letters) {
+  const auto signatures = set.of(program);
+  return std::all_of(letters.begin(), letters.end(), [&](char letter) {
+    return kOptional.find(letter) != std::string_view::npos ||
+           std::any_of(signatures.begin(), signatures.end(),
+                       [&](const stdlib::MacroSignature* s) { return s->find(letter) != nullptr; });
+  });
+}
+
 ProbeStep Probing::step(const ir::Statement& statement) const {
   using Kind = ProbeStep::Kind;
   if (const auto* power = std::get_if<ir::ProbePower>(&statement.node))
@@ -46,7 +59,10 @@ ProbeStep Probing::step(const ir::Statement& statement) const {
     const double* number = call->program ? ir::constantValue(call->program) : nullptr;
     if (number == nullptr || *number < 0) return {Kind::Call, 0};
     const auto program = static_cast<std::uint32_t>(std::lround(*number));
-    if (const auto kind = meaning(project_, program)) return {*kind, program};
+    std::string letters;
+    for (const ir::CallArgument& argument : call->arguments)
+      letters += argument.letter;
+    if (const auto kind = meaning(project_, program, letters)) return {*kind, program};
     return {inPack(project_, program) ? Kind::PackCall : Kind::Call, program};
   }
   const auto* block = std::get_if<ir::NcBlock>(&statement.node);

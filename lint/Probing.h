@@ -29,6 +29,10 @@ struct ProbeStep {
 // program ends before.
 enum class ProbeState : std::uint8_t { AsBefore, Off, On, Mixed, Ended };
 
+// Whether a call with these letters can be one of the set: letters that its signatures do not have are
+// optional ones of the vendor's. Another vendor may have a macro of the same number.
+bool mayBeOf(const stdlib::MacroSet& set, std::uint32_t program, std::string_view letters);
+
 class Probing {
 public:
   explicit Probing(const Project& project) : project_(project) {}

@@ -9,6 +9,8 @@ namespace dotek::lint {
 namespace {
 
 constexpr std::size_t kCallDepth = 16;
+// Routines that call one another many times would give more blocks than anybody prints.
+constexpr std::size_t kMostCalls = 2000;
 
 class Collector {
 public:
@@ -43,7 +45,7 @@ private:
         word.kind == compost::WordKind::Command ? compost::findRoutine(prog_, word.name) : nullptr;
     if (routine != nullptr) {
       const bool open = std::find(open_.begin(), open_.end(), routine) != open_.end();
-      if (open || open_.size() >= kCallDepth) return;
+      if (open || open_.size() >= kCallDepth || ++calls_ > kMostCalls) return;
       open_.push_back(routine);
       body(routine->body);
       open_.pop_back();
@@ -82,6 +84,7 @@ private:
   const Project& project_;
   std::vector<const compost::Routine*> open_;
   std::size_t conditions_ = 0;
+  std::size_t calls_ = 0;
   ProgBlock block_;
   std::vector<ProgBlock> out_;
 };

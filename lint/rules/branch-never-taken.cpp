@@ -32,7 +32,8 @@ void walk(const std::vector<compost::Statement>& statements, const std::optional
     } else if (ids) {
       inner = ids;
     }
-    walk(choice.thenBody, inner, report);
+    // An IF without END reaches further than it was meant to, which is told already.
+    walk(choice.thenBody, choice.endRange ? inner : std::nullopt, report);
     walk(choice.elseBody, possible, report);
   }
 }

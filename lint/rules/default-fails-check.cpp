@@ -1,6 +1,7 @@
 #include "frontend/gibbs/Run.h"
 #include "lint/MacroNames.h"
 
+#include <algorithm>
 #include <array>
 #include <map>
 
@@ -10,17 +11,21 @@ namespace {
 using Verdict = gibbs::ChecksResult::Verdict;
 
 constexpr std::array kRadii = {0.05, 0.5, 1.0, 2.0, 3.0, 5.0, 10.0}; // mm
+constexpr std::uint32_t kMostSteps = 20000; // of one run; checks of a dialog take some dozens
 constexpr std::array kTrials = {1.0, -1.0, 20.0, -20.0, 500.0, -500.0, 56.0};
 
 class Runner {
 public:
-  Runner(const gibbs::Cycle& cycle, const Project& project) : cycle_(cycle), project_(project) {}
+  Runner(const gibbs::Cycle& cycle, const Project& project)
+      : cycle_(cycle), project_(project), limits_(project.limits) {
+    limits_.steps = std::min(limits_.steps, kMostSteps);
+  }
 
   gibbs::ChecksResult run(const std::map<std::string, double>& fields, double radius) const {
     Diagnostics ignored;
     gibbs::RunContext context{project_.sources,
                               project_.gibbsKeywords,
-                              project_.limits,
+                              limits_,
                               ignored,
                               fields,
                               {{"tool_radius", radius}, {"tool_number", 1}},
@@ -46,6 +51,7 @@ public:
 private:
   const gibbs::Cycle& cycle_;
   const Project& project_;
+  Limits limits_;
 };
 
 void checkCycle(const gibbs::Cycle& cycle, const Project& project, Report& report) {

@@ -32,10 +32,14 @@ void check(const Project& project, Report& report) {
     for (const Joined& joined : project.joined) {
       if (joined.cycle != cycle) continue;
       for (const compost::BranchRef& branch : compost::branchesOf(*joined.prog, cycle->name)) {
-        const auto fields = compost::fieldsPrinted(*joined.prog, branch, cycle->name);
-        for (const compost::FieldRef& field : fields)
+        if (!compost::fieldsPrinted(*joined.prog, branch, cycle->name).empty()) branches.push_back(branch);
+      }
+      // Blocks outside the branches are printed for this cycle, too.
+      for (const compost::Item& item : joined.prog->items) {
+        const auto* routine = std::get_if<compost::Routine>(&item);
+        if (routine == nullptr) continue;
+        for (const compost::FieldRef& field : compost::fieldsPrinted(*joined.prog, *routine, cycle->name))
           printed.insert(gibbs::foldCase(field.name));
-        if (!fields.empty()) branches.push_back(branch);
       }
     }
     // A post that prints no field at all is no post of this cycle.

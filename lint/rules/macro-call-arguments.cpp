@@ -17,14 +17,16 @@ void checkCall(const macrob::Words& words, const Project& project, Report& repor
   for (const stdlib::MacroSet& set : project.macroSets) {
     const auto signatures = set.of(program);
     if (signatures.empty()) continue;
-    // Letters that no signature has may be optional arguments of the vendor's.
-    std::string letters;
+    std::string all;
+    std::string letters; // those that some signature has
     for (const macrob::CallArgument& argument : call->arguments) {
       const char letter = argument.word->address;
+      all += letter;
       if (std::any_of(signatures.begin(), signatures.end(),
                       [&](const stdlib::MacroSignature* s) { return s->find(letter) != nullptr; }))
         letters += letter;
     }
+    if (!mayBeOf(set, program, all)) return;
     const stdlib::SignatureMatch match = stdlib::match(set, program, letters);
     if (match.ambiguous)
       report.at(call->program->range,

@@ -1,5 +1,6 @@
 #include "lint/ProgBlocks.h"
 
+#include <algorithm>
 #include <map>
 #include <set>
 
@@ -8,8 +9,8 @@ namespace {
 
 // All places are `#` and nothing is given for 0: it prints nothing then.
 bool printsNothingForZero(const std::string& picture) {
-  return picture.find(';') == std::string::npos && picture.find('0') == std::string::npos &&
-         picture.find('#') != std::string::npos;
+  return picture.find('#') != std::string::npos && picture.find_first_not_of("#.") == std::string::npos &&
+         std::count(picture.begin(), picture.end(), '.') <= 1;
 }
 
 void check(const Project& project, Report& report) {

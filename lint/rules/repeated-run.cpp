@@ -40,9 +40,21 @@ void checkSiblings(const Siblings& siblings, Report& report) {
     }
     branches.push_back(std::move(branch));
   }
+  // In how many branches each run of the least length stands.
+  std::map<Texts, std::set<std::size_t>> least;
+  for (std::size_t b = 0; b < branches.size(); ++b) {
+    const Texts& texts = branches[b].texts;
+    for (auto at = texts.begin(); texts.end() - at >= std::ptrdiff_t{kLeast}; ++at)
+      least[Texts(at, at + std::ptrdiff_t{kLeast})].insert(b);
+  }
   std::set<Texts> told;
   for (const Branch& branch : branches) {
     for (std::size_t at = 0; at + kLeast <= branch.texts.size();) {
+      const auto begin = branch.texts.begin() + static_cast<std::ptrdiff_t>(at);
+      if (least.at(Texts(begin, begin + std::ptrdiff_t{kLeast})).size() < kLeast) {
+        ++at;
+        continue;
+      }
       Texts run;
       std::vector<std::size_t> with;
       for (std::size_t end = at; end < branch.texts.size(); ++end) {

@@ -1,5 +1,6 @@
 #include "lint/Probing.h"
 
+#include <optional>
 #include <set>
 
 namespace dotek::lint::rule {
@@ -11,8 +12,39 @@ constexpr std::array<std::string_view, 2> kAxes = {"X", "Y"};
 // alone, which is how a probe is taken up, or until it is switched off.
 struct State {
   bool down = false;
-  int motion = -1; // G0 0, G1 1, others and unknown -1
+  bool measured = false;   // and no move along Z since
+  int motion = -1;         // G0 0, G1 1, others and unknown -1
+  std::optional<double> z; // of the last protected move along Z, where it is written out
 };
+
+// Z of a protected move that goes along no other axis; an empty value inside where it is computed.
+std::optional<std::optional<double>> protectedZ(const ir::Statement& statement) {
+  std::optional<std::optional<double>> z;
+  if (const auto* move = std::get_if<ir::Move>(&statement.node)) {
+    if (move->axes[0] || move->axes[1] || !move->axes[2]) return std::nullopt;
+    const double* value = ir::constantValue(move->axes[2]->value);
+    return value == nullptr ? std::optional<double>() : std::optional(*value);
+  }
+  const auto* call = std::get_if<ir::Call>(&statement.node);
+  if (call == nullptr) return std::nullopt;
+  for (const ir::CallArgument& argument : call->arguments) {
+    if (argument.letter == 'X' || argument.letter == 'Y') return std::nullopt;
+    const double* value = argument.letter == 'Z' ? ir::constantValue(argument.value) : nullptr;
+    if (argument.letter == 'Z') z = value == nullptr ? std::optional<double>() : std::optional(*value);
+  }
+  return z;
+}
+
+// Down unless it leads up: higher than before, or, where that is not written out, the first one behind a
+// measurement.
+void moveAlongZ(State& state, const std::optional<double>& z) {
+  if (z && state.z)
+    state.down = *z < *state.z || (state.down && *z == *state.z);
+  else
+    state.down = !state.measured;
+  state.z = z;
+  state.measured = false;
+}
 
 struct Motion {
   bool rapid = false;
@@ -52,7 +84,9 @@ void checkBody(const std::vector<ir::Statement>& body, const Probing& probing, R
       body, State{},
       [&](std::size_t at, std::size_t, State state) {
         const ProbeStep::Kind kind = probing.step(body[at]).kind;
-        if (kind == ProbeStep::Kind::Protected || kind == ProbeStep::Kind::Measure) state.down = true;
+        if (kind == ProbeStep::Kind::Measure) state.down = state.measured = true;
+        if (kind == ProbeStep::Kind::Protected)
+          if (const auto z = protectedZ(body[at])) moveAlongZ(state, *z);
         if (kind == ProbeStep::Kind::Off || kind == ProbeStep::Kind::Call) state.down = false;
         if (kind == ProbeStep::Kind::Call || kind == ProbeStep::Kind::PackCall) state.motion = -1;
         if (const auto* block = std::get_if<ir::NcBlock>(&body[at].node)) {
@@ -71,8 +105,11 @@ void checkBody(const std::vector<ir::Statement>& body, const Probing& probing, R
       [](State& into, State other) {
         const State before = into;
         into.down = into.down && other.down;
+        into.measured = into.measured || other.measured;
         if (into.motion != other.motion) into.motion = -1;
-        return into.down != before.down || into.motion != before.motion;
+        if (into.z != other.z) into.z.reset();
+        return into.down != before.down || into.motion != before.motion || into.measured != before.measured ||
+               into.z != before.z;
       });
   std::set<std::uint32_t> told;
   for (std::size_t i = 0; i < body.size(); ++i) {

@@ -22,6 +22,10 @@ void checkCall(const macrob::Words& words, const Project& project, Report& repor
   for (const stdlib::MacroSet& set : project.macroSets) {
     const auto signatures = set.of(static_cast<std::uint32_t>(*number));
     if (signatures.empty()) continue;
+    std::string letters;
+    for (const macrob::CallArgument& argument : call->arguments)
+      letters += argument.word->address;
+    if (!mayBeOf(set, static_cast<std::uint32_t>(*number), letters)) return;
     for (const macrob::CallArgument& argument : call->arguments) {
       const stdlib::MacroArgument* known = signatures.front()->find(argument.word->address);
       if (known == nullptr || known->role != stdlib::ArgumentRole::System) continue;
