@@ -8,6 +8,8 @@
 namespace dotek::lint {
 namespace {
 
+// A longer program is a CAM's, where one move follows another; facts of all its paths would take minutes.
+constexpr std::size_t kMostStatements = 20000;
 // Optional arguments of measuring macros, which the data leave out.
 constexpr std::string_view kOptional = "BEFHMQRTUVW";
 constexpr std::uint32_t kPack = 100; // macros of a pack share their hundred: 9800 to 9899
@@ -124,7 +126,7 @@ void eachProgram(const Project& project,
   for (const NcFile& nc : project.programs) {
     if (!nc.lowered) continue;
     for (const ir::Program& program : nc.lowered->programs)
-      visit(program, *nc.file);
+      if (program.body.size() <= kMostStatements) visit(program, *nc.file);
   }
 }
 

@@ -51,7 +51,7 @@ private:
 bool endsProgram(const ir::Statement& statement);
 bool endsProgram(const ir::Program& program);
 
-// All programs of all files that could be lowered.
+// All programs of all files that could be lowered, up to 20000 statements each.
 void eachProgram(const Project& project,
                  const std::function<void(const ir::Program&, const macrob::File&)>& visit);
 

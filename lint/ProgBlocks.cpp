@@ -210,24 +210,20 @@ std::vector<ProgBlock> blocksOf(const std::vector<compost::Statement>& statement
 
 std::vector<Siblings> siblingsOf(const Project& project) {
   std::vector<Siblings> out;
-  for (const compost::Program* prog : project.progs) {
-    std::vector<Siblings> own;
-    for (const std::string& id : compost::cycleIds(*prog)) {
-      for (const compost::BranchRef& ref : compost::branchesOf(*prog, id)) {
-        // A branch for several cycles is nobody's sibling.
-        const auto ids = compost::cyclesOf(ref.branch->condition);
-        if (!ids || ids->size() != 1 || ref.elsePart) continue;
-        CycleBranch branch{id, ref, blocksOf(ref.body(), *prog, project)};
-        if (branch.blocks.empty()) continue;
-        auto at =
-            std::find_if(own.begin(), own.end(), [&](const Siblings& s) { return s.routine == ref.routine; });
-        if (at == own.end()) at = own.insert(own.end(), Siblings{prog, ref.routine, {}});
-        at->branches.push_back(std::move(branch));
-      }
-    }
-    for (Siblings& siblings : own)
-      out.push_back(std::move(siblings));
-  }
+  eachRoutine(project, [&](const compost::Program& prog, const compost::Routine& routine) {
+    Siblings siblings{&prog, &routine, {}};
+    eachStatement(routine.body, [&](const compost::Statement& statement) {
+      const auto* branch = std::get_if<std::unique_ptr<compost::If>>(&statement);
+      if (branch == nullptr) return;
+      // A branch for several cycles is nobody's sibling.
+      const auto ids = compost::cyclesOf((*branch)->condition);
+      if (!ids || ids->size() != 1) return;
+      CycleBranch one{
+          *ids->begin(), {branch->get(), &routine, false}, blocksOf((*branch)->thenBody, prog, project)};
+      if (!one.blocks.empty()) siblings.branches.push_back(std::move(one));
+    });
+    if (!siblings.branches.empty()) out.push_back(std::move(siblings));
+  });
   return out;
 }
 
