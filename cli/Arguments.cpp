@@ -2,6 +2,7 @@
 
 #include "cli/Cli.h"
 #include "driver/InputKind.h"
+#include "lint/Rule.h"
 #include "support/NearestName.h"
 
 #include <CLI/CLI.hpp>
@@ -28,7 +29,8 @@ struct Raw {
   std::string form = "thesis-a";
   std::string format = "text";
   std::string select, ignore;
-  std::string failOn = "warning";
+  std::string failOn;
+  bool fix = false;
   std::string stage = "ast";
   std::vector<std::string> letters, defaults;
   std::string to, control, probeMacros, programNumber, outputFolder, mapFile;
@@ -55,16 +57,22 @@ std::optional<std::uint64_t> wholeNumber(std::string_view text) {
   return value;
 }
 
-std::set<std::string> codes(const std::string& text) {
+std::set<std::string> codes(const std::string& text, bool all) {
   std::set<std::string> out;
   std::istringstream in(text);
   for (std::string code; std::getline(in, code, ',');) {
     if (!code.empty()) out.insert(code);
   }
   for (const std::string& code : out) {
-    const auto table = messageTable();
-    if (std::none_of(table.begin(), table.end(), [&](const MessageInfo& m) { return m.code == code; }))
-      throw UsageError("no message or rule `" + code + "`; `dotek list rules` prints them");
+    const auto table = lint::codeTable();
+    if ((all && code == "all") || std::any_of(table.begin(), table.end(),
+                                              [&](const lint::CodeInfo& info) { return info.code == code; }))
+      continue;
+    NearestName nearest(code);
+    for (const lint::CodeInfo& info : table)
+      nearest.offer(info.code);
+    const std::string near = nearest.result().empty() ? "" : "; did you mean `" + nearest.result() + "`?";
+    throw UsageError("no message or rule `" + code + "`" + near + "; `dotek list rules` prints them");
   }
   return out;
 }
@@ -159,14 +167,16 @@ void fill(const Raw& raw, Arguments& parsed) {
   parsed.sim.programs = raw.programs;
   for (const std::string& text : raw.variables)
     parsed.sim.variables.push_back(splitPair("--var", text));
-  if (!raw.select.empty() && raw.select != "all") parsed.select = codes(raw.select);
-  parsed.ignore = codes(raw.ignore);
-  if (raw.failOn == "never")
-    parsed.failOn.reset();
-  else
-    parsed.failOn = raw.failOn == "note"    ? Severity::Note
-                    : raw.failOn == "error" ? Severity::Error
-                                            : Severity::Warning;
+  parsed.sarif = raw.format == "sarif";
+  if (!raw.select.empty()) parsed.lint.select = codes(raw.select, true);
+  parsed.lint.ignore = codes(raw.ignore, false);
+  parsed.lint.control = raw.control;
+  parsed.lint.fix = raw.fix;
+  if (!raw.failOn.empty())
+    parsed.lint.failOn = raw.failOn == "never"   ? driver::FailOn::Never
+                         : raw.failOn == "note"  ? driver::FailOn::Note
+                         : raw.failOn == "error" ? driver::FailOn::Error
+                                                 : driver::FailOn::Warning;
   parsed.stage = raw.stage == "tokens" ? driver::Stage::Tokens
                  : raw.stage == "path" ? driver::Stage::Path
                  : raw.stage == "ir"   ? driver::Stage::Ir
@@ -265,7 +275,11 @@ void addConvert(CLI::App& app, Raw& raw) {
 void addLint(CLI::App& app, Raw& raw) {
   CLI::App* lint = app.add_subcommand("lint", "check macros, dialogs, cycle folders and posts");
   lint->add_option("PATH", raw.inputs, "files and folders");
-  lint->add_option("--format", raw.format, "text or json")->check(CLI::IsMember({"text", "json"}));
+  lint->add_option("--format", raw.format, "text, json or sarif")
+      ->check(CLI::IsMember({"text", "json", "sarif"}));
+  lint->add_flag("--fix", raw.fix, "make the repairs that change no motion, coordinate or meaning");
+  lint->add_option("--form", raw.form, "what the Form of the post decides (see `dotek list forms`)")
+      ->type_name("NAME");
   lint->add_option("--select", raw.select, "only these codes, separated by commas, or all")
       ->type_name("CODES");
   lint->add_option("--ignore", raw.ignore, "not these codes")->type_name("CODES");

@@ -21,9 +21,8 @@ struct Arguments {
   std::optional<std::pair<std::uint64_t, std::uint64_t>> sequence;
   std::string output; // -o
   bool json = false;
-  std::optional<Severity> failOn = Severity::Warning; // nothing: never
-  std::optional<std::set<std::string>> select;
-  std::set<std::string> ignore;
+  bool sarif = false;
+  driver::LintOptions lint;       // paths, common and source aside
   driver::ConvertOptions convert; // inputs, common and source aside
   std::string outputFolder;       // -d
   std::string mapFile;            // --map

@@ -78,14 +78,11 @@ public:
   }
 
   // Findings are the result.
-  int findings(const driver::Outcome& outcome, bool json, std::optional<Severity> failOn) {
-    out_ << (json ? renderJson(outcome.diagnostics, outcome.sources)
-                  : renderText(outcome.diagnostics, outcome.sources, maxErrors_));
-    if (outcome.status != 0) return outcome.status;
-    const auto& all = outcome.diagnostics.all();
-    const bool fails = failOn && std::any_of(all.begin(), all.end(),
-                                             [&](const Diagnostic& d) { return d.severity >= *failOn; });
-    return fails ? kInputError : kDone;
+  int findings(const driver::Outcome& outcome, const Arguments& arguments) {
+    out_ << (arguments.sarif  ? driver::sarif(outcome)
+             : arguments.json ? renderJson(outcome.diagnostics, outcome.sources)
+                              : renderText(outcome.diagnostics, outcome.sources, maxErrors_));
+    return outcome.status;
   }
 
 private:
@@ -110,9 +107,11 @@ int runCommand(Arguments& arguments, std::ostream& out, std::ostream& err) {
     return printer.programs(driver::convert(options), arguments);
   }
   case Command::Lint: {
-    const driver::LintOptions options{arguments.inputs, arguments.common, arguments.source,
-                                      arguments.select, arguments.ignore, arguments.convert.control};
-    return printer.findings(driver::lint(options), arguments.json, arguments.failOn);
+    driver::LintOptions& options = arguments.lint;
+    options.paths = arguments.inputs;
+    options.common = arguments.common;
+    options.source = arguments.source;
+    return printer.findings(driver::lint(options), arguments);
   }
   case Command::Dump:
     return printer.result(driver::dump({arguments.inputs, arguments.stage, arguments.common, arguments.source,

@@ -65,15 +65,19 @@ struct ConvertOptions {
   bool oneFile = false;     // -o: several inputs are an error
 };
 
-enum class LintFormat : std::uint8_t { Text, Json };
+// From which severity on lint fails.
+enum class FailOn : std::uint8_t { Note, Warning, Error, Never };
 
 struct LintOptions {
   std::vector<std::string> paths;
   CommonOptions common;
   SourceOptions source;
-  std::optional<std::set<std::string>> select; // codes; nothing: all
+  // Codes; nothing: what dotek.toml says, else all that are on by default. "all": every code.
+  std::optional<std::set<std::string>> select;
   std::set<std::string> ignore;
-  std::string control; // profile that programs are checked for; "": what holds on every control
+  std::string control;          // profile that programs are checked for; "": what holds on every control
+  std::optional<FailOn> failOn; // nothing: what dotek.toml says, else Warning
+  bool fix = false;             // makes the safe repairs, then tells what is left
 };
 
 enum class Stage : std::uint8_t { Tokens, Ast, Path, Ir };
@@ -117,9 +121,11 @@ struct Outcome {
 Outcome post(const PostOptions& options);
 // Each folder becomes a program; with a status other than 0 there is none.
 Outcome convert(const ConvertOptions& options);
-// The diagnostics are the result; status is 2 where a file could not be read, else 0 (cli looks at the
-// severities, for --fail-on).
+// The diagnostics are the result; status is 2 where a file could not be read, 1 with a finding at or above
+// the severity of --fail-on.
 Outcome lint(const LintOptions& options);
+// The findings of lint as SARIF 2.1.0; paths as they were given.
+std::string sarif(const Outcome& outcome);
 Outcome dump(const DumpOptions& options);
 // Runs a program on a machine. The status is 0 where it came to its end; the trace and the summary are given
 // up to the place where it did not.

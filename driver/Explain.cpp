@@ -2,6 +2,7 @@
 #include "driver/Driver.h"
 #include "driver/Session.h"
 #include "driver/Targets.h"
+#include "lint/Rule.h"
 #include "stdlib/Control.h"
 #include "stdlib/HostInputs.h"
 #include "stdlib/MacroSet.h"
@@ -98,11 +99,15 @@ std::vector<std::pair<std::string, std::string>> loaded(Session& session, const 
 Outcome explain(const std::string& code) {
   Outcome outcome;
   std::vector<std::string> codes;
-  for (const MessageInfo& info : messageTable()) {
+  for (const lint::CodeInfo& info : lint::codeTable()) {
     codes.emplace_back(info.code);
     if (info.code != code) continue;
     outcome.output =
-        fmt::format("{}: {}\n\n{}", info.code, severityName(info.severity), wrapped(info.explanation));
+        fmt::format("{}: {}{}\n\n{}", info.code, severityName(info.severity),
+                    info.byDefault ? "" : ", off unless it is selected", wrapped(info.explanation));
+    if (info.rule != nullptr)
+      outcome.output += fmt::format("\nA rule of lint ({}); examples: docs/rules/{}.md\n",
+                                    lint::tierName(info.rule->tier), info.code);
     return outcome;
   }
   const std::string near = nearestName(code, codes);
@@ -124,8 +129,9 @@ Outcome list(const std::string& what, const CommonOptions& options) {
     } else if (what == "assumptions") {
       rows = assumptionTable();
     } else if (what == "rules") {
-      for (const MessageInfo& info : messageTable())
-        rows.emplace_back(info.code, severityName(info.severity));
+      for (const lint::CodeInfo& info : lint::codeTable())
+        rows.emplace_back(info.code, std::string(severityName(info.severity)) +
+                                         (info.byDefault ? "" : ", off unless it is selected"));
     } else if (what == "controls") {
       rows = loaded<stdlib::Control>(session, what);
     } else if (what == "macros") {

@@ -1,13 +1,19 @@
+#include "support/messages/Lint.h"
 #include "driver/CycleFolder.h"
 #include "driver/Driver.h"
 #include "driver/InputKind.h"
 #include "driver/Job.h"
+#include "driver/LintConfig.h"
+#include "driver/LintFix.h"
 #include "driver/Lowering.h"
 #include "driver/PostProgram.h"
 #include "driver/Session.h"
 #include "frontend/compost/Summary.h"
 #include "frontend/macrob/Check.h"
+#include "frontend/macrob/Lower.h"
 #include "frontend/macrob/Parse.h"
+#include "lint/Project.h"
+#include "lint/Suppressions.h"
 #include "support/Files.h"
 #include "support/messages/ComPost.h"
 #include "support/messages/Commands.h"
@@ -15,6 +21,7 @@
 #include "support/messages/Gibbs.h"
 
 #include <algorithm>
+#include <deque>
 #include <filesystem>
 #include <set>
 
@@ -22,29 +29,165 @@ namespace dotek::driver {
 
 namespace fs = std::filesystem;
 namespace gibbs = frontend::gibbs;
+namespace compost = frontend::compost;
+namespace macrob = frontend::macrob;
 
 namespace {
 
+// --form where none is given.
+const std::string kDefaultForm = SourceOptions().form;
+
 class LintCommand {
 public:
-  LintCommand(const LintOptions& options, Session& session) : options_(options), session_(session) {}
+  LintCommand(const LintOptions& options, Session& session)
+      : options_(options), session_(session), configs_(session) {}
 
   Outcome run() {
     if (options_.paths.empty())
       session_.diagnostics().report<diag::MissingOption>({}, "lint", "PATH", "a file or a folder");
-    if (!options_.control.empty()) control_ = loadControl(options_.control, session_);
+    for (const std::string& path : options_.paths)
+      configs_.of(path);
+    // A setting that is not understood would change what is told: nothing is told then.
+    if (session_.diagnostics().hasErrors()) return failed();
+    const LintConfig* first = options_.paths.empty() ? nullptr : configs_.of(options_.paths.front());
+    const std::string control =
+        options_.control.empty() && first != nullptr ? first->control : options_.control;
+    if (!control.empty()) control_ = loadControl(control, session_);
     for (const std::string& path : options_.paths)
       visit(path, true);
     acceptEntryPoints();
-    select();
     keepStrongest(session_.diagnostics());
+    lint::Project project = gather(first);
+    const auto wantedSomewhere = [&](std::string_view code) { return isWantedSomewhere(code); };
+    lint::runRules(project, session_.diagnostics(),
+                   [&](const lint::NamedRule& rule) { return wantedSomewhere(rule.id); });
+    suppress(project);
+    select();
+    const bool fails = failsNow();
     Outcome outcome = session_.finish("", true);
     // Findings are the result of lint, not its failure.
     if (outcome.status == 1) outcome.status = 0;
+    if (outcome.status == 0 && fails) outcome.status = 1;
     return outcome;
   }
 
 private:
+  Outcome failed() {
+    Outcome outcome = session_.finish("", true);
+    outcome.status = 2;
+    return outcome;
+  }
+
+  const LintConfig& configOf(FileId file) {
+    if (file == kNoFile) return kNone;
+    return *configs_.of(session_.sources().file(file).name());
+  }
+
+  bool isWantedSomewhere(std::string_view code) {
+    for (const std::string& path : options_.paths)
+      if (isWanted(code, options_, *configs_.of(path))) return true;
+    for (FileId file = 0; file < session_.sources().size(); ++file)
+      if (isWanted(code, options_, configOf(file))) return true;
+    return false;
+  }
+
+  lint::Project gather(const LintConfig* config) {
+    lint::Project project{session_.sources(),
+                          session_.limits(),
+                          session_.gibbsKeywords(),
+                          session_.compostKeywords(),
+                          {},
+                          {},
+                          control_,
+                          {},
+                          {},
+                          {},
+                          {},
+                          {},
+                          {},
+                          {},
+                          {}};
+    for (const stdlib::DataFile* file : session_.data().list("macros")) {
+      if (auto set = stdlib::MacroSet::load(session_.data(), file->name))
+        project.macroSets.push_back(std::move(*set));
+    }
+    const bool formInConfig =
+        config != nullptr && !config->form.empty() && options_.source.form == kDefaultForm;
+    project.form = session_.form(formInConfig ? config->form : options_.source.form);
+    if (project.form && !project.form->control.empty())
+      project.postControl = stdlib::Control::load(session_.data(), project.form->control);
+    for (const compost::Program& prog : progs_)
+      project.progs.push_back(&prog);
+    for (const CycleFolder& folder : folders_)
+      if (folder.cycle) project.cycles.push_back(folder.cycle.get());
+    for (const gibbs::Macro& macro : macros_)
+      project.macros.push_back(&macro);
+    for (const gibbs::Dialog& dialog : dialogs_)
+      project.dialogs.push_back(&dialog);
+    for (const gibbs::DefineData& data : defines_)
+      project.defines.push_back(&data);
+    for (const macrob::File& file : programs_)
+      project.programs.push_back({&file, lowered(file)});
+    lint::join(project);
+    return project;
+  }
+
+  // As the control of --control reads them, else the first that can.
+  std::shared_ptr<const ir::ProgramFile> lowered(const macrob::File& file) {
+    const auto as = [&](const stdlib::Control& control) -> std::shared_ptr<const ir::ProgramFile> {
+      Diagnostics ignored;
+      auto program = macrob::lower(file, control, session_.sources(), ignored);
+      return program ? std::make_shared<const ir::ProgramFile>(std::move(*program)) : nullptr;
+    };
+    if (control_) return as(*control_);
+    for (const stdlib::DataFile* data : session_.data().list("controls")) {
+      const auto control = stdlib::Control::load(session_.data(), data->name);
+      if (!control) continue;
+      if (auto program = as(*control)) return program;
+    }
+    return nullptr;
+  }
+
+  void suppress(const lint::Project& project) {
+    std::vector<lint::Suppression> suppressions = lint::suppressionsOf(project, session_.diagnostics());
+    if (suppressions.empty()) return;
+    std::set<FileId> joined;
+    std::set<FileId> lowered;
+    for (const lint::Joined& one : project.joined) {
+      std::set<FileId> files{one.prog->file};
+      if (one.cycle->defineData) files.insert(one.cycle->defineData->file);
+      if (one.cycle->dialog) files.insert(one.cycle->dialog->file);
+      if (one.cycle->cycleData) files.insert(one.cycle->cycleData->file);
+      if (one.cycle->toolPath) files.insert(one.cycle->toolPath->file);
+      joined.insert(files.begin(), files.end());
+      if (one.lowered) lowered.insert(files.begin(), files.end());
+    }
+    for (const lint::NcFile& nc : project.programs)
+      if (nc.lowered) lowered.insert(nc.file->file);
+    lint::applySuppressions(suppressions, session_.sources(), session_.diagnostics(),
+                            [&](std::string_view code, FileId file) {
+                              if (!isWanted(code, options_, configOf(file))) return false;
+                              const lint::NamedRule* named = lint::findRule(code);
+                              if (named == nullptr) return true;
+                              if (named->rule->tier == lint::Tier::Bundle) return joined.contains(file);
+                              if (named->rule->tier == lint::Tier::Ir) return lowered.contains(file);
+                              return true;
+                            });
+  }
+
+  bool failsNow() {
+    for (const Diagnostic& d : session_.diagnostics().all()) {
+      const FailOn level =
+          options_.failOn ? *options_.failOn : configOf(d.range.file).failOn.value_or(FailOn::Warning);
+      if (level == FailOn::Never) continue;
+      const Severity from = level == FailOn::Note    ? Severity::Note
+                            : level == FailOn::Error ? Severity::Error
+                                                     : Severity::Warning;
+      if (d.severity >= from) return true;
+    }
+    return false;
+  }
+
   void visit(const std::string& path, bool named) {
     std::error_code error;
     if (!fs::is_directory(path, error)) {
@@ -53,7 +196,7 @@ private:
     }
     const bool cycle = isCycleFolder(path);
     // The folder's loader owns the trees of sub-macros; they are linted below as files of their own.
-    if (cycle) loadCycleFolder(path, session_);
+    if (cycle) folders_.push_back(loadCycleFolder(path, session_));
     std::vector<fs::path> entries;
     for (const auto& entry : fs::directory_iterator(path, error))
       entries.push_back(entry.path());
@@ -101,31 +244,34 @@ private:
       return;
     }
     if (*kind == InputKind::Prog) {
-      const auto program = loadProg(path, session_);
+      auto program = loadProg(path, session_);
       if (!program) return;
-      for (const auto* routine : frontend::compost::cycleRoutines(*program, session_.compostKeywords()))
+      for (const auto* routine : compost::cycleRoutines(*program, session_.compostKeywords()))
         entryPoints_.insert(routine->name);
+      progs_.push_back(std::move(*program));
       return;
     }
     const std::optional<FileId> id = session_.read(path, Encoding::Cp1250);
     if (!id) return;
     if (*kind == InputKind::Nc) {
-      using namespace frontend;
-      const macrob::File program =
+      macrob::File program =
           macrob::parse(*id, session_.sources(), session_.limits(), session_.diagnostics());
       macrob::checkFile(program, control_ ? &*control_ : nullptr, session_.sources(), session_.diagnostics());
+      programs_.push_back(std::move(program));
       return;
     }
     const gibbs::ParseContext context{session_.sources(), session_.gibbsKeywords(), session_.limits(),
                                       session_.diagnostics()};
     if (*kind == InputKind::Macro) {
-      const gibbs::Macro macro = gibbs::parseMacro(*id, context);
+      macros_.push_back(gibbs::parseMacro(*id, context));
       MacroLoader loader(session_, fs::path(path).parent_path());
-      gibbs::checkMacro(macro, loader.included(macro), context);
+      gibbs::checkMacro(macros_.back(), loader.included(macros_.back()), context);
     } else if (*kind == InputKind::Dialog) {
-      gibbs::checkDialog(gibbs::parseDialog(*id, context), context);
+      dialogs_.push_back(gibbs::parseDialog(*id, context));
+      gibbs::checkDialog(dialogs_.back(), context);
     } else {
-      gibbs::checkDefineData(gibbs::parseDefineData(*id, context), context);
+      defines_.push_back(gibbs::parseDefineData(*id, context));
+      gibbs::checkDefineData(defines_.back(), context);
     }
   }
 
@@ -157,21 +303,61 @@ private:
     auto& all = session_.diagnostics().all();
     std::erase_if(all, [&](const Diagnostic& d) {
       if (isUsageCode(d.code) || d.code == diag::TooManyFindings::code) return false;
-      const std::string code(d.code);
-      return (options_.select && !options_.select->contains(code)) || options_.ignore.contains(code);
+      return !isWanted(d.code, options_, configOf(d.range.file));
     });
+    for (Diagnostic& d : all) {
+      const auto& severity = configOf(d.range.file).severity;
+      if (const auto at = severity.find(d.code); at != severity.end() && at->second) d.severity = *at->second;
+    }
   }
+
+  static const LintConfig kNone;
 
   const LintOptions& options_;
   Session& session_;
+  LintConfigs configs_;
   std::optional<stdlib::Control> control_; // --control
   std::set<std::string> entryPoints_;      // routines that run without a call in the Prog
+  std::deque<compost::Program> progs_;
+  std::deque<CycleFolder> folders_;
+  std::deque<gibbs::Macro> macros_;
+  std::deque<gibbs::Dialog> dialogs_;
+  std::deque<gibbs::DefineData> defines_;
+  std::deque<macrob::File> programs_;
 };
+
+const LintConfig LintCommand::kNone;
+
+Outcome lintOnce(const LintOptions& options) {
+  return guarded(options.common, [&](Session& session) { return LintCommand(options, session).run(); });
+}
+
+// A repair may lay bare the next one; a few turns are enough for all that do not undo each other.
+constexpr int kFixTurns = 8;
 
 } // namespace
 
 Outcome lint(const LintOptions& options) {
-  return guarded(options.common, [&](Session& session) { return LintCommand(options, session).run(); });
+  Outcome outcome = lintOnce(options);
+  if (!options.fix || outcome.status > 1) return outcome;
+  std::map<std::string, std::uint32_t> total;
+  Diagnostics writing;
+  for (int turn = 0; turn < kFixTurns; ++turn) {
+    const auto made = applySafeFixes(outcome, options.common.limits, writing);
+    if (made.empty()) break;
+    for (const auto& [name, count] : made)
+      total[name] += count;
+    outcome = lintOnce(options);
+  }
+  for (FileId file = 0; file < outcome.sources.size(); ++file) {
+    const auto at = total.find(outcome.sources.file(file).name());
+    if (at != total.end()) outcome.diagnostics.report<diag::FixesApplied>({file, 0, 0}, at->second);
+  }
+  for (const Diagnostic& d : writing.all())
+    outcome.diagnostics.add(d);
+  if (writing.hasErrors()) outcome.status = 2;
+  outcome.diagnostics.sort();
+  return outcome;
 }
 
 } // namespace dotek::driver

@@ -15,6 +15,7 @@ std::span<const MessageInfo> messageTable() {
 #include "support/messages/Common.def"
 #include "support/messages/Fanuc.def"
 #include "support/messages/Gibbs.def"
+#include "support/messages/Lint.def"
 #include "support/messages/MacroB.def"
 #include "support/messages/Nc.def"
 #include "support/messages/Part.def"

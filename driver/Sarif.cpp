@@ -1,0 +1,21 @@
+#include "support/Sarif.h"
+
+#include "driver/Driver.h"
+#include "lint/Rule.h"
+
+#include <set>
+
+namespace dotek::driver {
+
+std::string sarif(const Outcome& outcome) {
+  std::set<std::string_view> told;
+  for (const Diagnostic& d : outcome.diagnostics.all())
+    told.insert(d.code);
+  std::vector<SarifRule> rules;
+  for (const lint::CodeInfo& info : lint::codeTable()) {
+    if (told.contains(info.code)) rules.push_back({info.code, info.severity, info.explanation});
+  }
+  return renderSarif(outcome.diagnostics, outcome.sources, rules);
+}
+
+} // namespace dotek::driver

@@ -1,0 +1,178 @@
+#include "lint/Probing.h"
+
+#include "ir/Walk.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace dotek::lint {
+namespace {
+
+// A longer program is a CAM's, where one move follows another; facts of all its paths would take minutes.
+constexpr std::size_t kMostStatements = 20000;
+// Optional arguments of measuring macros, which the data leave out.
+constexpr std::string_view kOptional = "BEFHMQRTUVW";
+constexpr std::uint32_t kPack = 100; // macros of a pack share their hundred: 9800 to 9899
+
+bool inPack(const Project& project, std::uint32_t program) {
+  for (const stdlib::MacroSet& set : project.macroSets)
+    for (const stdlib::MacroSignature& signature : set.signatures)
+      if (signature.program / kPack == program / kPack) return true;
+  return false;
+}
+
+std::optional<ProbeStep::Kind> meaning(const Project& project, std::uint32_t program,
+                                       std::string_view letters) {
+  for (const stdlib::MacroSet& set : project.macroSets) {
+    if (!mayBeOf(set, program, letters)) continue;
+    for (const stdlib::MacroSignature* signature : set.of(program)) {
+      switch (signature->intent) {
+      case stdlib::Intent::ProtectedMove: return ProbeStep::Kind::Protected;
+      case stdlib::Intent::Surface:
+      case stdlib::Intent::Bore: return ProbeStep::Kind::Measure;
+      case stdlib::Intent::ProbeOn: return ProbeStep::Kind::On;
+      case stdlib::Intent::ProbeOff: return ProbeStep::Kind::Off;
+      }
+    }
+  }
+  return std::nullopt;
+}
+
+} // namespace
+
+bool mayBeOf(const stdlib::MacroSet& set, std::uint32_t program, std::string_view letters) {
+  const auto signatures = set.of(program);
+  return std::all_of(letters.begin(), letters.end(), [&](char letter) {
+    return kOptional.find(letter) != std::string_view::npos ||
+           std::any_of(signatures.begin(), signatures.end(),
+                       [&](const stdlib::MacroSignature* s) { return s->find(letter) != nullptr; });
+  });
+}
+
+ProbeStep Probing::step(const ir::Statement& statement) const {
+  using Kind = ProbeStep::Kind;
+  if (const auto* power = std::get_if<ir::ProbePower>(&statement.node))
+    return {power->on ? Kind::On : Kind::Off, 0};
+  if (std::holds_alternative<ir::Measure>(statement.node)) return {Kind::Measure, 0};
+  if (const auto* move = std::get_if<ir::Move>(&statement.node))
+    return {move->motion == ir::Motion::Protected ? Kind::Protected : Kind::None, 0};
+  if (const auto* call = std::get_if<ir::Call>(&statement.node)) {
+    if (call->kind == ir::CallKind::Off) return {};
+    const double* number = call->program ? ir::constantValue(call->program) : nullptr;
+    if (number == nullptr || *number < 0) return {Kind::Call, 0};
+    const auto program = static_cast<std::uint32_t>(std::lround(*number));
+    std::string letters;
+    for (const ir::CallArgument& argument : call->arguments)
+      letters += argument.letter;
+    if (const auto kind = meaning(project_, program, letters)) return {*kind, program};
+    return {inPack(project_, program) ? Kind::PackCall : Kind::Call, program};
+  }
+  const auto* block = std::get_if<ir::NcBlock>(&statement.node);
+  if (block == nullptr || !project_.control) return {};
+  for (const ir::Word& word : block->words) {
+    const double* code = word.address == 'M' ? ir::constantValue(word.value) : nullptr;
+    const stdlib::CodeInfo* info =
+        code == nullptr || *code < 0
+            ? nullptr
+            : project_.control->find('M', static_cast<std::uint32_t>(std::lround(*code * 10)));
+    if (info != nullptr && info->function == stdlib::Function::ProbeOn) return {Kind::On, 0};
+    if (info != nullptr && info->function == stdlib::Function::ProbeOff) return {Kind::Off, 0};
+  }
+  return {};
+}
+
+std::vector<std::optional<ProbeState>> Probing::states(const std::vector<ir::Statement>& body) const {
+  return ir::factsBefore<ProbeState>(
+      body, ProbeState::AsBefore,
+      [&](std::size_t at, std::size_t, ProbeState before) {
+        if (endsProgram(body[at])) return ProbeState::Ended;
+        switch (step(body[at]).kind) {
+        case ProbeStep::Kind::On: return ProbeState::On;
+        case ProbeStep::Kind::Off: return ProbeState::Off;
+        case ProbeStep::Kind::Call: return ProbeState::Mixed;
+        case ProbeStep::Kind::None:
+        case ProbeStep::Kind::Protected:
+        case ProbeStep::Kind::Measure:
+        case ProbeStep::Kind::PackCall: break;
+        }
+        return before;
+      },
+      [](ProbeState& into, ProbeState other) {
+        if (into == other || into == ProbeState::Mixed || other == ProbeState::Ended) return false;
+        into = into == ProbeState::Ended ? other : ProbeState::Mixed;
+        return true;
+      });
+}
+
+bool Probing::probes(const ir::Program& program) const {
+  return std::any_of(program.body.begin(), program.body.end(), [&](const ir::Statement& statement) {
+    const ProbeStep::Kind kind = step(statement).kind;
+    return kind != ProbeStep::Kind::None && kind != ProbeStep::Kind::Call;
+  });
+}
+
+bool endsProgram(const ir::Statement& statement) {
+  const auto* block = std::get_if<ir::NcBlock>(&statement.node);
+  return block != nullptr && (hasCode(*block, 'M', 30) || hasCode(*block, 'M', 2));
+}
+
+bool endsProgram(const ir::Program& program) {
+  return std::any_of(program.body.begin(), program.body.end(),
+                     [](const ir::Statement& statement) { return endsProgram(statement); });
+}
+
+void eachProgram(const Project& project,
+                 const std::function<void(const ir::Program&, const macrob::File&)>& visit) {
+  for (const NcFile& nc : project.programs) {
+    if (!nc.lowered) continue;
+    for (const ir::Program& program : nc.lowered->programs)
+      if (program.body.size() <= kMostStatements) visit(program, *nc.file);
+  }
+}
+
+std::optional<double> wordValue(const ir::NcBlock& block, char address) {
+  for (const ir::Word& word : block.words) {
+    if (word.address != address) continue;
+    const double* value = ir::constantValue(word.value);
+    return value == nullptr ? std::nullopt : std::optional(*value);
+  }
+  return std::nullopt;
+}
+
+bool hasWord(const ir::NcBlock& block, char address) {
+  return std::any_of(block.words.begin(), block.words.end(),
+                     [&](const ir::Word& word) { return word.address == address; });
+}
+
+bool hasCode(const ir::NcBlock& block, char address, double code) {
+  return std::any_of(block.words.begin(), block.words.end(), [&](const ir::Word& word) {
+    const double* value = word.address == address ? ir::constantValue(word.value) : nullptr;
+    return value != nullptr && *value == code;
+  });
+}
+
+std::optional<std::uint32_t> variableNumber(const ir::Expression& expression) {
+  const auto* variable = std::get_if<ir::MachineVariable>(&expression.node);
+  const double* number = variable == nullptr ? nullptr : ir::constantValue(variable->number);
+  if (number == nullptr || *number < 0 || *number > 1e6) return std::nullopt;
+  return static_cast<std::uint32_t>(std::lround(*number));
+}
+
+std::optional<std::uint32_t> storedNumber(const ir::Statement& statement) {
+  const auto* store = std::get_if<ir::Store>(&statement.node);
+  const double* number = store == nullptr ? nullptr : ir::constantValue(store->number);
+  if (number == nullptr || *number < 0 || *number > 1e6) return std::nullopt;
+  return static_cast<std::uint32_t>(std::lround(*number));
+}
+
+void eachRead(const ir::Statement& statement,
+              const std::function<void(std::uint32_t number, SourceRange range)>& visit) {
+  ir::eachNode(statement, [&](const ir::Expression& node) {
+    if (const auto number = variableNumber(node)) visit(*number, node.range);
+  });
+  if (const auto* print = std::get_if<ir::Print>(&statement.node))
+    for (const ir::PrintPiece& piece : print->pieces)
+      if (piece.number) visit(*piece.number, statement.origin.range());
+}
+
+} // namespace dotek::lint

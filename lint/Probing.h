@@ -1,0 +1,69 @@
+// What the statements of a program or a cycle mean to a probe.
+#pragma once
+
+#include "ir/Dataflow.h"
+#include "lint/Project.h"
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+
+namespace dotek::lint {
+
+// What one statement does, as far as the data of controls and macro sets tell.
+struct ProbeStep {
+  enum class Kind : std::uint8_t {
+    None,
+    On,        // probe switched on
+    Off,       // probe switched off
+    Protected, // move that stops at a contact
+    Measure,
+    PackCall, // a call of a macro of the same pack whose meaning is not known: may do anything
+    Call,     // another call: may do anything
+  };
+  Kind kind = Kind::None;
+  std::uint32_t program = 0; // of a call
+};
+
+// AsBefore: nothing has switched it yet. Mixed: paths disagree, or a call may have switched it. Ended: the
+// program ends before.
+enum class ProbeState : std::uint8_t { AsBefore, Off, On, Mixed, Ended };
+
+// Whether a call with these letters can be one of the set: letters that its signatures do not have are
+// optional ones of the vendor's. Another vendor may have a macro of the same number.
+bool mayBeOf(const stdlib::MacroSet& set, std::uint32_t program, std::string_view letters);
+
+class Probing {
+public:
+  explicit Probing(const Project& project) : project_(project) {}
+
+  ProbeStep step(const ir::Statement& statement) const;
+  // State before each statement; nothing where no path leads.
+  std::vector<std::optional<ProbeState>> states(const std::vector<ir::Statement>& body) const;
+  // Calls some macro of a probing set.
+  bool probes(const ir::Program& program) const;
+
+private:
+  const Project& project_;
+};
+
+// M30 or M2.
+bool endsProgram(const ir::Statement& statement);
+bool endsProgram(const ir::Program& program);
+
+// All programs of all files that could be lowered, up to 20000 statements each.
+void eachProgram(const Project& project,
+                 const std::function<void(const ir::Program&, const macrob::File&)>& visit);
+
+// Values of the words of a block as far as they are written out.
+std::optional<double> wordValue(const ir::NcBlock& block, char address);
+bool hasWord(const ir::NcBlock& block, char address);
+bool hasCode(const ir::NcBlock& block, char address, double code);
+// #n of a variable whose number is written out.
+std::optional<std::uint32_t> variableNumber(const ir::Expression& expression);
+std::optional<std::uint32_t> storedNumber(const ir::Statement& statement);
+// Numbers of the variables that the statement reads, with their places.
+void eachRead(const ir::Statement& statement,
+              const std::function<void(std::uint32_t number, SourceRange range)>& visit);
+
+} // namespace dotek::lint

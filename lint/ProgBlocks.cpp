@@ -1,0 +1,266 @@
+#include "lint/ProgBlocks.h"
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <set>
+
+namespace dotek::lint {
+namespace {
+
+constexpr std::size_t kCallDepth = 16;
+// Routines that call one another many times would give more blocks than anybody prints.
+constexpr std::size_t kMostCalls = 2000;
+
+class Collector {
+public:
+  Collector(const compost::Program& prog, const Project& project) : prog_(prog), project_(project) {}
+
+  std::vector<ProgBlock> run(const std::vector<compost::Statement>& statements) {
+    body(statements);
+    close();
+    return std::move(out_);
+  }
+
+private:
+  void body(const std::vector<compost::Statement>& statements) {
+    for (const compost::Statement& statement : statements) {
+      if (const auto* literal = std::get_if<compost::Literal>(&statement)) {
+        if (!literal->text.empty()) add({ProgPiece::Kind::Text, literal->range, literal, nullptr, ""});
+      } else if (const auto* word = std::get_if<compost::Word>(&statement)) {
+        this->word(*word);
+      } else if (std::holds_alternative<compost::EndOfLine>(statement)) {
+        close();
+      } else if (const auto* branch = std::get_if<std::unique_ptr<compost::If>>(&statement)) {
+        ++conditions_;
+        body((*branch)->thenBody);
+        body((*branch)->elseBody);
+        --conditions_;
+      }
+    }
+  }
+
+  void word(const compost::Word& word) {
+    const compost::Routine* routine =
+        word.kind == compost::WordKind::Command ? compost::findRoutine(prog_, word.name) : nullptr;
+    if (routine != nullptr) {
+      const bool open = std::find(open_.begin(), open_.end(), routine) != open_.end();
+      if (open || open_.size() >= kCallDepth || ++calls_ > kMostCalls) return;
+      open_.push_back(routine);
+      body(routine->body);
+      open_.pop_back();
+      return;
+    }
+    if (word.kind == compost::WordKind::Boolean) return;
+    const stdlib::ComPostKeyword* keyword = project_.compostKeywords.find(word.name);
+    if (keyword != nullptr && keyword->prints == stdlib::Prints::No) return;
+    ProgPiece piece{ProgPiece::Kind::Command, word.range, nullptr, &word, ""};
+    if (word.kind == compost::WordKind::Numeric) {
+      piece.kind = ProgPiece::Kind::Number;
+      if (word.name == "OpFieldData" && word.arguments.size() == 1) piece.field = word.arguments[0].text;
+    } else if (keyword != nullptr && keyword->kind == stdlib::KeywordKind::Sequence) {
+      piece.kind = ProgPiece::Kind::Sequence;
+    }
+    add(std::move(piece));
+  }
+
+  void add(ProgPiece piece) {
+    if (block_.pieces.empty()) {
+      block_.range = piece.range;
+      block_.conditional = conditions_ > 0;
+      block_.called = !open_.empty();
+    } else if (block_.range.file == piece.range.file && piece.range.begin > block_.range.begin) {
+      block_.range = spanning(block_.range, piece.range);
+    }
+    block_.pieces.push_back(std::move(piece));
+  }
+
+  void close() {
+    if (!block_.pieces.empty()) out_.push_back(std::move(block_));
+    block_ = {};
+  }
+
+  const compost::Program& prog_;
+  const Project& project_;
+  std::vector<const compost::Routine*> open_;
+  std::size_t conditions_ = 0;
+  std::size_t calls_ = 0;
+  ProgBlock block_;
+  std::vector<ProgBlock> out_;
+};
+
+std::string printed(const ProgBlock& block, bool fields) {
+  std::string out;
+  for (const ProgPiece& piece : block.pieces) {
+    switch (piece.kind) {
+    case ProgPiece::Kind::Text: out += piece.literal->text; break;
+    case ProgPiece::Kind::Number:
+      out += fields && !piece.field.empty() ? "{" + piece.field + "}" : "{}";
+      break;
+    case ProgPiece::Kind::Command: out += " <" + piece.word->name + ">"; break;
+    case ProgPiece::Kind::Sequence: break;
+    }
+  }
+  std::string one;
+  for (const char c : out) {
+    const bool blank = c == ' ' || c == '\t';
+    if (blank && (one.empty() || one.back() == ' ')) continue;
+    one += blank ? ' ' : c;
+  }
+  while (!one.empty() && one.back() == ' ')
+    one.pop_back();
+  return one;
+}
+
+bool isNumberCharacter(char c) {
+  return std::isdigit(static_cast<unsigned char>(c)) != 0 || c == '.' || c == '-' || c == '+';
+}
+
+// Words of one literal; false where the rest of the block is no NC block.
+bool wordsOfText(const ProgPiece& piece, bool& comment, std::vector<ProgWord>& out) {
+  const std::string& text = piece.literal->text;
+  // Places are known where the literal's range holds its bytes between two apostrophes.
+  const bool placed = piece.range.end - piece.range.begin == text.size() + 2;
+  const auto place = [&](std::size_t begin, std::size_t end) -> SourceRange {
+    if (!placed) return piece.range;
+    const std::uint32_t first = piece.range.begin + 1;
+    return {piece.range.file, first + static_cast<std::uint32_t>(begin),
+            first + static_cast<std::uint32_t>(end)};
+  };
+  for (std::size_t at = 0; at < text.size();) {
+    const char c = text[at];
+    if (comment || c == '(') {
+      comment = c != ')';
+      ++at;
+    } else if (c == ' ' || c == '\t' || c == '/') {
+      ++at;
+    } else if (std::isalpha(static_cast<unsigned char>(c)) != 0) {
+      std::size_t end = at + 1;
+      while (end < text.size() && isNumberCharacter(text[end]))
+        ++end;
+      if (end < text.size() && (text[end] == '#' || text[end] == '[')) return false;
+      out.push_back({static_cast<char>(std::toupper(static_cast<unsigned char>(c))),
+                     text.substr(at + 1, end - at - 1), nullptr, place(at, end)});
+      at = end;
+    } else {
+      return false;
+    }
+  }
+  return true;
+}
+
+} // namespace
+
+std::string ProgBlock::shape() const {
+  return printed(*this, false);
+}
+
+std::string ProgBlock::text() const {
+  return printed(*this, true);
+}
+
+std::vector<ProgWord> wordsOf(const ProgBlock& block, const stdlib::Form* form) {
+  std::vector<ProgWord> out;
+  bool comment = false;
+  for (const ProgPiece& piece : block.pieces) {
+    if (piece.kind == ProgPiece::Kind::Text) {
+      if (!wordsOfText(piece, comment, out)) return {};
+    } else if (comment || piece.kind == ProgPiece::Kind::Sequence) {
+      continue;
+    } else if (piece.kind == ProgPiece::Kind::Number) {
+      if (!out.empty() && out.back().digits.empty() && out.back().hole == nullptr) out.back().hole = &piece;
+    } else if (form != nullptr) {
+      const auto entry = form->commands.find(piece.word->name);
+      if (entry == form->commands.end()) continue;
+      const std::size_t letter = entry->second.text.find_first_not_of(' ');
+      if (letter == std::string::npos) continue;
+      const std::string& text = entry->second.text;
+      out.push_back({text[letter], text.substr(letter + 1), entry->second.value.empty() ? nullptr : &piece,
+                     piece.range});
+    }
+  }
+  return out;
+}
+
+const ProgWord* findWord(const std::vector<ProgWord>& words, char address) {
+  const auto at =
+      std::find_if(words.begin(), words.end(), [&](const ProgWord& word) { return word.address == address; });
+  return at == words.end() ? nullptr : &*at;
+}
+
+std::string digitsOf(const std::vector<ProgWord>& words, char address) {
+  const ProgWord* word = findWord(words, address);
+  return word == nullptr ? "" : word->digits;
+}
+
+std::uint32_t macroCalled(const std::vector<ProgWord>& words) {
+  const bool call = std::any_of(words.begin(), words.end(), [](const ProgWord& word) {
+    return word.address == 'G' && word.digits == "65";
+  });
+  const std::string digits = call ? digitsOf(words, 'P') : "";
+  std::uint32_t number = 0;
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
+  return error == std::errc() && end == digits.data() + digits.size() ? number : 0;
+}
+
+std::vector<ProgBlock> blocksOf(const std::vector<compost::Statement>& statements,
+                                const compost::Program& prog, const Project& project) {
+  return Collector(prog, project).run(statements);
+}
+
+std::vector<Siblings> siblingsOf(const Project& project) {
+  std::vector<Siblings> out;
+  eachRoutine(project, [&](const compost::Program& prog, const compost::Routine& routine) {
+    Siblings siblings{&prog, &routine, {}};
+    eachStatement(routine.body, [&](const compost::Statement& statement) {
+      const auto* branch = std::get_if<std::unique_ptr<compost::If>>(&statement);
+      if (branch == nullptr) return;
+      // A branch for several cycles is nobody's sibling.
+      const auto ids = compost::cyclesOf((*branch)->condition);
+      if (!ids || ids->size() != 1) return;
+      CycleBranch one{
+          *ids->begin(), {branch->get(), &routine, false}, blocksOf((*branch)->thenBody, prog, project)};
+      if (!one.blocks.empty()) siblings.branches.push_back(std::move(one));
+    });
+    if (!siblings.branches.empty()) out.push_back(std::move(siblings));
+  });
+  return out;
+}
+
+void eachStatement(const std::vector<compost::Statement>& statements,
+                   const std::function<void(const compost::Statement&)>& visit) {
+  for (const compost::Statement& statement : statements) {
+    visit(statement);
+    if (const auto* branch = std::get_if<std::unique_ptr<compost::If>>(&statement)) {
+      eachStatement((*branch)->thenBody, visit);
+      eachStatement((*branch)->elseBody, visit);
+    }
+  }
+}
+
+void eachRoutine(const Project& project,
+                 const std::function<void(const compost::Program&, const compost::Routine&)>& visit) {
+  for (const compost::Program* prog : project.progs) {
+    for (const compost::Item& item : prog->items) {
+      if (const auto* routine = std::get_if<compost::Routine>(&item)) visit(*prog, *routine);
+    }
+  }
+}
+
+SourceRange rangeOf(const compost::Statement& statement) {
+  if (const auto* branch = std::get_if<std::unique_ptr<compost::If>>(&statement)) return (*branch)->range;
+  if (const auto* literal = std::get_if<compost::Literal>(&statement)) return literal->range;
+  if (const auto* word = std::get_if<compost::Word>(&statement)) return word->range;
+  if (const auto* end = std::get_if<compost::EndOfLine>(&statement)) return end->range;
+  return std::get<compost::ErrorStatement>(statement).range;
+}
+
+MacroMeaning meaningOf(const Project& project, std::uint32_t program) {
+  for (const stdlib::MacroSet& set : project.macroSets) {
+    const auto signatures = set.of(program);
+    if (!signatures.empty()) return {&set, signatures.front()->intent};
+  }
+  return {};
+}
+
+} // namespace dotek::lint

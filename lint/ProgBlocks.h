@@ -1,0 +1,89 @@
+// What a Prog prints, as NC blocks with holes: the view that rules have of a post.
+#pragma once
+
+#include "lint/Project.h"
+
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace dotek::lint {
+
+// One thing that is printed into a block.
+struct ProgPiece {
+  enum class Kind : std::uint8_t { Text, Number, Command, Sequence };
+  Kind kind = Kind::Text;
+  SourceRange range;
+  const compost::Literal* literal = nullptr; // of Text
+  const compost::Word* word = nullptr;       // of the others
+  std::string field;                         // of an OpFieldData#: the field; else ""
+};
+
+// An NC word of a block: an address with digits, or with a hole that a piece fills.
+struct ProgWord {
+  char address = 0;
+  std::string digits;              // "" of a hole
+  const ProgPiece* hole = nullptr; // what fills it
+  SourceRange range;               // of the address and its digits
+};
+
+struct ProgBlock {
+  std::vector<ProgPiece> pieces; // EOL excepted
+  SourceRange range;             // first to last piece
+  bool conditional = false;      // stands below an IF within the statements that were asked for
+  bool called = false;           // printed by a routine that the statements call
+
+  // `G65 P9770 Z{}`: blanks as one, holes as braces, commands as `<SpinOff>`, no sequence word.
+  std::string shape() const;
+  // The same with the name of each field: `G65 P9770 Z{depth}`.
+  std::string text() const;
+};
+
+// Words of the block; the hole of a command is the address that the form prints for it. A macro statement has
+// none. Points into the block.
+std::vector<ProgWord> wordsOf(const ProgBlock& block, const stdlib::Form* form);
+// The digits of the first word with this address; "" for none, or a hole.
+std::string digitsOf(const std::vector<ProgWord>& words, char address);
+const ProgWord* findWord(const std::vector<ProgWord>& words, char address);
+// G65 with a P that is written out; 0: the block calls nothing.
+std::uint32_t macroCalled(const std::vector<ProgWord>& words);
+
+// The blocks that the statements print, those of called routines included, both arms of an IF one after
+// the other.
+std::vector<ProgBlock> blocksOf(const std::vector<compost::Statement>& statements,
+                                const compost::Program& prog, const Project& project);
+
+// A branch that is printed for one cycle.
+struct CycleBranch {
+  std::string id;
+  compost::BranchRef ref;
+  std::vector<ProgBlock> blocks;
+};
+// Branches of one routine on one cycle each, that print something: siblings of one another.
+struct Siblings {
+  const compost::Program* prog = nullptr;
+  const compost::Routine* routine = nullptr;
+  std::vector<CycleBranch> branches;
+};
+std::vector<Siblings> siblingsOf(const Project& project);
+
+// Visits all statements of a routine, outer ones first.
+void eachStatement(const std::vector<compost::Statement>& statements,
+                   const std::function<void(const compost::Statement&)>& visit);
+// All routines of all Progs.
+void eachRoutine(const Project& project,
+                 const std::function<void(const compost::Program&, const compost::Routine&)>& visit);
+SourceRange rangeOf(const compost::Statement& statement);
+
+// What any set of probing macros says the program does.
+struct MacroMeaning {
+  const stdlib::MacroSet* set = nullptr; // nullptr: no set knows the program
+  stdlib::Intent intent = stdlib::Intent::ProtectedMove;
+  bool measures() const {
+    return set != nullptr && (intent == stdlib::Intent::Surface || intent == stdlib::Intent::Bore);
+  }
+};
+MacroMeaning meaningOf(const Project& project, std::uint32_t program);
+
+} // namespace dotek::lint

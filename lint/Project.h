@@ -1,0 +1,82 @@
+// What one run of the linter looks at: all inputs of the command line as trees, cycle folders joined with the
+// Progs that name them, and the IR where it can be had.
+#pragma once
+
+#include "frontend/compost/Summary.h"
+#include "frontend/gibbs/Cycle.h"
+#include "frontend/macrob/Ast.h"
+#include "ir/Cycle.h"
+#include "ir/Program.h"
+#include "lint/Rule.h"
+#include "stdlib/ComPostKeywords.h"
+#include "stdlib/Control.h"
+#include "stdlib/Form.h"
+#include "stdlib/GibbsKeywords.h"
+#include "stdlib/MacroSet.h"
+#include "support/Limits.h"
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace dotek::lint {
+
+namespace compost = frontend::compost;
+namespace gibbs = frontend::gibbs;
+namespace macrob = frontend::macrob;
+
+// A cycle folder with a Prog that has a branch for it.
+struct Joined {
+  const gibbs::Cycle* cycle = nullptr;
+  const compost::Program* prog = nullptr;
+  const compost::Routine* routine = nullptr; // that posts the cycle; nullptr: none or several
+  // The blocks of the routine and the checks of the macro, lowered; nothing where they have no single
+  // meaning. A field that the folder lacks is a parameter without default.
+  std::shared_ptr<const ir::Cycle> lowered;
+  bool checksLowered = false;
+};
+
+// One file of NC programs.
+struct NcFile {
+  const macrob::File* file = nullptr;
+  std::shared_ptr<const ir::ProgramFile> lowered; // nullptr: some block cannot be read
+};
+
+// Everything outlives the run.
+struct Project {
+  const SourceMap& sources;
+  const Limits& limits;
+  const stdlib::GibbsKeywords& gibbsKeywords;
+  const stdlib::ComPostKeywords& compostKeywords;
+  std::vector<stdlib::MacroSet> macroSets;
+  std::optional<stdlib::Form> form;
+  std::optional<stdlib::Control> control;     // --control
+  std::optional<stdlib::Control> postControl; // of the form
+  std::vector<const compost::Program*> progs;
+  std::vector<const gibbs::Cycle*> cycles;
+  std::vector<const gibbs::Macro*> macros; // outside cycle folders, or called within one
+  std::vector<const gibbs::Dialog*> dialogs;
+  std::vector<const gibbs::DefineData*> defines;
+  std::vector<NcFile> programs;
+  std::vector<Joined> joined;
+
+  // Those of cycle folders too, in the order of reading.
+  std::vector<const gibbs::Macro*> allMacros() const;
+  std::vector<const gibbs::Dialog*> allDialogs() const;
+};
+
+// Fills `joined`: each cycle with each Prog that names it.
+void join(Project& project);
+
+// Runs the rules for which `wanted` holds.
+template <class Wanted>
+void runRules(const Project& project, Diagnostics& diagnostics, const Wanted& wanted) {
+  for (const NamedRule& named : rules()) {
+    if (!wanted(named)) continue;
+    Report report(named.id, named.rule->severity, diagnostics);
+    named.rule->check(project, report);
+  }
+}
+
+} // namespace dotek::lint

@@ -1,0 +1,31 @@
+#include "lint/Probing.h"
+
+namespace dotek::lint::rule {
+namespace {
+
+void check(const Project& project, Report& report) {
+  eachProgram(project, [&](const ir::Program& program, const macrob::File&) {
+    for (const ir::Statement& statement : program.body) {
+      const auto* store = std::get_if<ir::Store>(&statement.node);
+      if (store == nullptr) continue;
+      const auto* source = std::get_if<ir::MachineVariable>(&store->value->node);
+      if (source == nullptr || !ir::equal(source->number, store->number)) continue;
+      const auto number = storedNumber(statement);
+      report.at(statement.origin.range(),
+                "{} gets its own value, so the block does nothing; one of the two numbers is a "
+                "misprint",
+                number ? "#" + std::to_string(*number) : "the variable");
+    }
+  });
+}
+
+} // namespace
+
+DOTEK_LINT_RULE(assigned_to_itself){
+    .severity = Severity::Warning,
+    .tier = Tier::Ir,
+    .explanation = "`#5=#5` changes nothing. Mostly a number was meant to be another one.",
+    .check = check,
+};
+
+} // namespace dotek::lint::rule

@@ -1,0 +1,80 @@
+#include "lint/MacroNames.h"
+#include "lint/ProgBlocks.h"
+#include "support/NearestName.h"
+
+#include <algorithm>
+#include <cctype>
+
+namespace dotek::lint::rule {
+namespace {
+
+void collect(const compost::Condition& condition, std::vector<const compost::Word*>& out) {
+  for (const compost::ConditionTerm& term : condition.terms) {
+    if (compost::cycleTested(term) != nullptr) out.push_back(std::get_if<compost::Word>(&term.operand));
+    if (const auto* inner = std::get_if<std::unique_ptr<compost::Condition>>(&term.operand))
+      collect(**inner, out);
+  }
+}
+
+// One letter lost, added or swapped with its neighbour, or another case or mark between the words. Another
+// letter in the place of one makes another name: `probe.x` and `probe.y`.
+bool misspelt(const std::string& a, const std::string& b) {
+  const auto letters = [](const std::string& text) {
+    std::string out;
+    for (const char c : gibbs::foldCase(text))
+      if (std::isalnum(static_cast<unsigned char>(c)) != 0) out += c;
+    return out;
+  };
+  std::string one = letters(a);
+  std::string other = letters(b);
+  if (one == other) return true;
+  if (nameDistance(one, other, 1) != 1 || std::min(one.size(), other.size()) < 4) return false;
+  if (one.size() != other.size()) return true;
+  std::sort(one.begin(), one.end());
+  std::sort(other.begin(), other.end());
+  return one == other;
+}
+
+void check(const Project& project, Report& report) {
+  std::set<std::string> folders;
+  for (const gibbs::Cycle* cycle : project.cycles)
+    folders.insert(cycle->name);
+  for (const compost::Program* prog : project.progs) {
+    std::vector<const compost::Word*> tests;
+    for (const compost::Item& item : prog->items) {
+      const auto* routine = std::get_if<compost::Routine>(&item);
+      if (routine == nullptr) continue;
+      eachStatement(routine->body, [&](const compost::Statement& statement) {
+        if (const auto* branch = std::get_if<std::unique_ptr<compost::If>>(&statement))
+          collect((*branch)->condition, tests);
+      });
+    }
+    const std::vector<std::string> ids = compost::cycleIds(*prog);
+    for (const compost::Word* test : tests) {
+      const compost::Literal& id = test->arguments.front();
+      if (folders.contains(id.text)) continue;
+      for (const std::string& folder : folders) {
+        // A folder that the Prog names already is not the one that is meant.
+        if (std::find(ids.begin(), ids.end(), folder) != ids.end() || !misspelt(id.text, folder)) continue;
+        report.at(id.range,
+                  "no folder has the name `{}`; did you mean `{}`? the branch is taken for no operation",
+                  id.text, folder);
+        break;
+      }
+    }
+  }
+}
+
+} // namespace
+
+DOTEK_LINT_RULE(cycle_name_differs){
+    .severity = Severity::Warning,
+    .tier = Tier::Syntax,
+    .explanation =
+        "CycleType?('...') names a cycle by its folder, letter by letter. A branch with another name is "
+        "never taken, and the operation prints nothing. Told where a folder without a branch has nearly "
+        "this name.",
+    .check = check,
+};
+
+} // namespace dotek::lint::rule

@@ -1,0 +1,39 @@
+#include "lint/ProgBlocks.h"
+
+namespace dotek::lint::rule {
+namespace {
+
+void check(const Project& project, Report& report) {
+  eachRoutine(project, [&](const compost::Program& prog, const compost::Routine& routine) {
+    for (const ProgBlock& block : blocksOf(routine.body, prog, project)) {
+      if (block.called) continue;
+      const std::vector<ProgWord> words = wordsOf(block, nullptr);
+      const ProgWord* rapid = nullptr;
+      const ProgWord* feed = nullptr;
+      bool other = false;
+      for (const ProgWord& word : words) {
+        if (word.address == 'G' && (word.digits == "0" || word.digits == "00")) rapid = &word;
+        if (word.address == 'G' && word.digits == "65") other = true;
+        if (word.address == 'F') feed = &word;
+      }
+      if (rapid == nullptr || feed == nullptr || other) continue;
+      report.at(feed->range,
+                "a feed stands in a rapid block; the control moves at its rapid rate and keeps the feed "
+                "for the next G1; leave it out, or write G1");
+    }
+  });
+}
+
+} // namespace
+
+DOTEK_LINT_RULE(feed_on_rapid){
+    .severity = Severity::Note,
+    .byDefault = false,
+    .tier = Tier::Syntax,
+    .explanation =
+        "G0 does not look at F. The word reads as if the move were that slow, and the next feed move takes "
+        "it over.",
+    .check = check,
+};
+
+} // namespace dotek::lint::rule

@@ -1,0 +1,56 @@
+#include "lint/MacroNames.h"
+#include "support/NearestName.h"
+
+namespace dotek::lint::rule {
+namespace {
+
+// Macros may add fields for the post that DefineData.txt does not list.
+bool addsFields(const gibbs::Cycle& cycle) {
+  bool adds = false;
+  for (const gibbs::Macro* macro : macrosOf(cycle))
+    eachStatement(*macro, [&](const gibbs::Statement& statement) {
+      adds = adds || commandName(statement) == "ADD_OP_POST_DATA" ||
+             commandName(statement) == "CREATE_OP_POST_DATA";
+    });
+  return adds;
+}
+
+void check(const Project& project, Report& report) {
+  for (const Joined& joined : project.joined) {
+    const gibbs::Cycle& cycle = *joined.cycle;
+    if (!cycle.defineData || cycle.defineData->hasErrorNodes || addsFields(cycle)) continue;
+    const std::set<std::string> fields = fieldsOf(cycle);
+    std::set<std::string> told;
+    for (const compost::BranchRef& branch : compost::branchesOf(*joined.prog, cycle.name)) {
+      for (const compost::FieldRef& field : compost::fieldsPrinted(*joined.prog, branch, cycle.name)) {
+        const std::string key = gibbs::foldCase(field.name);
+        if (fields.contains(key) || !told.insert(key).second) continue;
+        NearestName nearest(field.name);
+        for (const gibbs::Definition& definition : cycle.defineData->definitions)
+          nearest.offer(definition.name.text);
+        report
+            .at(field.range,
+                "the cycle `{}` declares no field `{}`; the post prints 0 or nothing, and the probe does not "
+                "go "
+                "where the user said{}",
+                cycle.name, field.name,
+                nearest.result().empty() ? "" : "; did you mean `" + nearest.result() + "`?")
+            .note({cycle.defineData->file, 0, 0}, "the fields of the cycle are declared here");
+      }
+    }
+  }
+}
+
+} // namespace
+
+DOTEK_LINT_RULE(field_not_defined){
+    .severity = Severity::Error,
+    .tier = Tier::Bundle,
+    .explanation =
+        "A branch of the post prints a field that the folder of its cycle declares neither in "
+        "DefineData.txt nor in its dialog, mostly because one of the two was renamed. With a picture that "
+        "has a text for zero the word comes out as 0, and a measuring move has no length.",
+    .check = check,
+};
+
+} // namespace dotek::lint::rule

@@ -1,0 +1,69 @@
+#include "lint/Probing.h"
+
+#include <algorithm>
+
+namespace dotek::lint::rule {
+namespace {
+
+enum class Distance : std::uint8_t { AsBefore, Incremental, Absolute, Mixed };
+
+std::optional<Distance> modeOf(const ir::Statement& statement) {
+  const auto* block = std::get_if<ir::NcBlock>(&statement.node);
+  if (block == nullptr) return std::nullopt;
+  std::optional<Distance> out;
+  for (const ir::Word& word : block->words) {
+    const double* code = word.address == 'G' ? ir::constantValue(word.value) : nullptr;
+    if (code != nullptr && *code == 91) out = Distance::Incremental;
+    if (code != nullptr && *code == 90) out = Distance::Absolute;
+    // G#1 may restore what was in force.
+    if (word.address == 'G' && code == nullptr) out = Distance::Mixed;
+  }
+  return out;
+}
+
+void checkProgram(const ir::Program& program, Report& report) {
+  const auto before = ir::factsBefore<Distance>(
+      program.body, Distance::AsBefore,
+      [&](std::size_t at, std::size_t, Distance distance) {
+        return modeOf(program.body[at]).value_or(distance);
+      },
+      [](Distance& into, Distance other) {
+        // One way with G91 is enough: the caller goes on in it.
+        if (into == other || into == Distance::Incremental) return false;
+        const Distance merged = other == Distance::Incremental ? Distance::Incremental : Distance::Mixed;
+        const bool changed = into != merged;
+        into = merged;
+        return changed;
+      });
+  const ir::Statement* set = nullptr;
+  for (const ir::Statement& statement : program.body)
+    if (modeOf(statement) == Distance::Incremental) set = &statement;
+  for (std::size_t i = 0; i < program.body.size(); ++i) {
+    if (!std::holds_alternative<ir::Exit>(program.body[i].node) || !before[i]) continue;
+    // The block of the M99 may hold a G90 before it.
+    if (*before[i] != Distance::Incremental || set == nullptr) continue;
+    report
+        .at(program.body[i].origin.range(),
+            "the program returns with G91 in force; the caller's next coordinates are "
+            "taken as distances, and the tool goes elsewhere; write G90 before M99")
+        .note(set->origin.range(), "G91 stands here");
+  }
+}
+
+void check(const Project& project, Report& report) {
+  eachProgram(project,
+              [&](const ir::Program& program, const macrob::File&) { checkProgram(program, report); });
+}
+
+} // namespace
+
+DOTEK_LINT_RULE(incremental_left_on){
+    .severity = Severity::Warning,
+    .tier = Tier::Ir,
+    .explanation = "G91 stays in force behind M99. A macro that uses distances gives the caller back the "
+                   "mode in which it "
+                   "was called, most simply by G90.",
+    .check = check,
+};
+
+} // namespace dotek::lint::rule

@@ -1,0 +1,64 @@
+#include "frontend/macrob/Calls.h"
+#include "lint/Probing.h"
+
+#include <algorithm>
+
+namespace dotek::lint::rule {
+namespace {
+
+void checkCall(const macrob::Words& words, const Project& project, Report& report) {
+  const auto call = macrob::callOf(words);
+  if (!call || call->kind != macrob::CallKind::Simple || call->program == nullptr) return;
+  // Words that are no arguments are told already, and are what is missing here.
+  if (!call->before.empty() || !call->refused.empty()) return;
+  const auto number = macrob::literal(*call->program);
+  if (!number || *number < 1) return;
+  const auto program = static_cast<std::uint32_t>(*number);
+  for (const stdlib::MacroSet& set : project.macroSets) {
+    const auto signatures = set.of(program);
+    if (signatures.empty()) continue;
+    std::string all;
+    std::string letters; // those that some signature has
+    for (const macrob::CallArgument& argument : call->arguments) {
+      const char letter = argument.word->address;
+      all += letter;
+      if (std::any_of(signatures.begin(), signatures.end(),
+                      [&](const stdlib::MacroSignature* s) { return s->find(letter) != nullptr; }))
+        letters += letter;
+    }
+    if (!mayBeOf(set, program, all)) return;
+    const stdlib::SignatureMatch match = stdlib::match(set, program, letters);
+    if (match.ambiguous)
+      report.at(call->program->range,
+                "`{}` measures one thing at a time, and the letters {} of this call belong to "
+                "several; the macro stops with an alarm; write a call for each",
+                project.sources.textUtf8(call->program->range), letters);
+    else if (!match.missing.empty())
+      report.at(call->program->range,
+                "`{}` needs {}, which this call does not have; the macro stops with an alarm; "
+                "write it",
+                project.sources.textUtf8(call->program->range), match.missing);
+    return;
+  }
+}
+
+void check(const Project& project, Report& report) {
+  for (const NcFile& nc : project.programs)
+    for (const macrob::Program& program : nc.file->programs)
+      for (const macrob::Block& block : program.blocks)
+        if (const auto* words = std::get_if<macrob::Words>(&block.body)) checkCall(*words, project, report);
+}
+
+} // namespace
+
+DOTEK_LINT_RULE(macro_call_arguments){
+    .severity = Severity::Warning,
+    .tier = Tier::Syntax,
+    .explanation =
+        "A call of a probing macro lacks a letter that every reading of the macro needs, or mixes the "
+        "letters "
+        "of two readings, such as X and Y of a single surface. What the macros take stands in stdlib/macros.",
+    .check = check,
+};
+
+} // namespace dotek::lint::rule

@@ -1,0 +1,41 @@
+#include "lint/Probing.h"
+
+namespace dotek::lint::rule {
+namespace {
+
+// A measurement that every path reaches with the probe switched off before.
+void checkBody(const std::vector<ir::Statement>& body, const Probing& probing, Report& report) {
+  const auto states = probing.states(body);
+  SourceRange off;
+  for (std::size_t i = 0; i < body.size(); ++i) {
+    const ProbeStep step = probing.step(body[i]);
+    if (step.kind == ProbeStep::Kind::Off) off = body[i].origin.range();
+    if (step.kind != ProbeStep::Kind::Measure || states[i] != ProbeState::Off) continue;
+    Diagnostic& finding = report.at(body[i].origin.range(),
+                                    "the probe is off here: it was switched off before and not on again; the "
+                                    "machine drives the stylus into the part; switch it on before");
+    if (off.hasPlace()) finding.note(off, "switched off here");
+    return; // the next ones have the same cause
+  }
+}
+
+void check(const Project& project, Report& report) {
+  const Probing probing(project);
+  for (const Joined& joined : project.joined)
+    if (joined.lowered) checkBody(joined.lowered->body, probing, report);
+  eachProgram(project, [&](const ir::Program& program, const macrob::File&) {
+    checkBody(program.body, probing, report);
+  });
+}
+
+} // namespace
+
+DOTEK_LINT_RULE(measure_with_probe_off){
+    .severity = Severity::Error,
+    .tier = Tier::Ir,
+    .explanation =
+        "A probe that is switched off gives no signal at the contact. The measuring move goes on to its end.",
+    .check = check,
+};
+
+} // namespace dotek::lint::rule

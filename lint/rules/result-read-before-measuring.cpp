@@ -1,0 +1,73 @@
+#include "lint/Probing.h"
+
+#include <set>
+
+namespace dotek::lint::rule {
+namespace {
+
+std::set<std::uint32_t> resultsOf(const Project& project, const ir::Program& program,
+                                  const Probing& probing) {
+  std::set<std::uint32_t> out;
+  for (const ir::Statement& statement : program.body) {
+    const ProbeStep step = probing.step(statement);
+    if (step.kind != ProbeStep::Kind::Measure) continue;
+    for (const stdlib::MacroSet& set : project.macroSets)
+      for (const stdlib::MacroSignature* signature : set.of(step.program))
+        for (const stdlib::MacroResult& result : signature->results)
+          out.insert(result.variable);
+  }
+  return out;
+}
+
+void checkProgram(const ir::Program& program, const Project& project, const Probing& probing,
+                  Report& report) {
+  const std::set<std::uint32_t> results = resultsOf(project, program, probing);
+  if (results.empty()) return;
+  // Variables that some path may have filled.
+  const auto filled = ir::factsBefore<std::set<std::uint32_t>>(
+      program.body, {},
+      [&](std::size_t at, std::size_t, std::set<std::uint32_t> set) {
+        const ProbeStep::Kind kind = probing.step(program.body[at]).kind;
+        if (kind == ProbeStep::Kind::Measure || kind == ProbeStep::Kind::PackCall ||
+            kind == ProbeStep::Kind::Call)
+          set.insert(results.begin(), results.end());
+        if (const auto number = storedNumber(program.body[at])) set.insert(*number);
+        return set;
+      },
+      [](std::set<std::uint32_t>& into, const std::set<std::uint32_t>& other) {
+        const std::size_t before = into.size();
+        into.insert(other.begin(), other.end());
+        return into.size() != before;
+      });
+  std::set<std::uint32_t> told;
+  for (std::size_t i = 0; i < program.body.size(); ++i) {
+    if (!filled[i]) continue;
+    eachRead(program.body[i], [&](std::uint32_t number, SourceRange range) {
+      if (!results.contains(number) || filled[i]->contains(number) || !told.insert(number).second) return;
+      report.at(range,
+                "#{} is read before the first measurement of this program; it holds what the last program "
+                "left, or nothing; an offset that is set from it moves the part's zero anywhere; measure "
+                "first",
+                number);
+    });
+  }
+}
+
+void check(const Project& project, Report& report) {
+  const Probing probing(project);
+  eachProgram(project, [&](const ir::Program& program, const macrob::File&) {
+    checkProgram(program, project, probing, report);
+  });
+}
+
+} // namespace
+
+DOTEK_LINT_RULE(result_read_before_measuring){
+    .severity = Severity::Warning,
+    .tier = Tier::Ir,
+    .explanation =
+        "A program that measures reads a variable of results on a way on which nothing has measured yet.",
+    .check = check,
+};
+
+} // namespace dotek::lint::rule

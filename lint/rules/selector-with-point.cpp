@@ -1,0 +1,55 @@
+#include "lint/ProgBlocks.h"
+
+#include <set>
+
+namespace dotek::lint::rule {
+namespace {
+
+void check(const Project& project, Report& report) {
+  eachRoutine(project, [&](const compost::Program& prog, const compost::Routine& routine) {
+    std::set<std::uint32_t> pictures; // that print a point
+    std::set<std::string> pointed;
+    for (const compost::Item& item : prog.items)
+      if (const auto* picture = std::get_if<compost::PictureDefinition>(&item))
+        if (picture->picture.text.substr(0, picture->picture.text.find(';')).find('.') != std::string::npos)
+          pictures.insert(picture->number);
+    for (const compost::Item& item : prog.items)
+      if (const auto* format = std::get_if<compost::FormatDirective>(&item))
+        if (pictures.contains(format->number)) pointed.insert(format->name);
+    for (const ProgBlock& block : blocksOf(routine.body, prog, project)) {
+      if (block.called) continue;
+      const std::vector<ProgWord> words = wordsOf(block, nullptr);
+      const std::uint32_t program = macroCalled(words);
+      for (const stdlib::MacroSet& set : project.macroSets) {
+        const auto signatures = set.of(program);
+        if (signatures.empty()) continue;
+        for (const ProgWord& word : words) {
+          if (word.hole == nullptr || !pointed.contains(word.hole->word->name)) continue;
+          const stdlib::MacroArgument* argument = signatures.front()->find(word.address);
+          if (argument == nullptr || argument->role != stdlib::ArgumentRole::System) continue;
+          report.at(
+              word.hole->range,
+              "the number of a work offset is printed with the picture of lengths, as `{}56.`; macros that "
+              "compare it with whole numbers take that, others do not; give it a keyword with a picture of "
+              "its own",
+              word.address);
+        }
+        break;
+      }
+    }
+  });
+}
+
+} // namespace
+
+DOTEK_LINT_RULE(selector_with_point){
+    .severity = Severity::Note,
+    .byDefault = false,
+    .tier = Tier::Syntax,
+    .explanation =
+        "A work offset is chosen by number, and the picture of lengths prints it with a decimal point. The "
+        "macros of EasyProbe are seen to take that.",
+    .check = check,
+};
+
+} // namespace dotek::lint::rule

@@ -1,0 +1,148 @@
+#include "lint/Probing.h"
+
+#include <optional>
+#include <set>
+
+namespace dotek::lint::rule {
+namespace {
+
+constexpr std::array<std::string_view, 2> kAxes = {"X", "Y"};
+
+// Whether the stylus is among the part: behind a protected move or a measurement, until a plain move along Z
+// alone, which is how a probe is taken up, or until it is switched off.
+struct State {
+  bool down = false;
+  bool measured = false;   // and no move along Z since
+  int motion = -1;         // G0 0, G1 1, others and unknown -1
+  std::optional<double> z; // of the last protected move along Z, where it is written out
+};
+
+// Z of a protected move that goes along no other axis; an empty value inside where it is computed.
+std::optional<std::optional<double>> protectedZ(const ir::Statement& statement) {
+  std::optional<std::optional<double>> z;
+  if (const auto* move = std::get_if<ir::Move>(&statement.node)) {
+    if (move->axes[0] || move->axes[1] || !move->axes[2]) return std::nullopt;
+    const double* value = ir::constantValue(move->axes[2]->value);
+    return value == nullptr ? std::optional<double>() : std::optional(*value);
+  }
+  const auto* call = std::get_if<ir::Call>(&statement.node);
+  if (call == nullptr) return std::nullopt;
+  for (const ir::CallArgument& argument : call->arguments) {
+    if (argument.letter == 'X' || argument.letter == 'Y') return std::nullopt;
+    const double* value = argument.letter == 'Z' ? ir::constantValue(argument.value) : nullptr;
+    if (argument.letter == 'Z') z = value == nullptr ? std::optional<double>() : std::optional(*value);
+  }
+  return z;
+}
+
+// Down unless it leads up: higher than before, or, where that is not written out, the first one behind a
+// measurement.
+void moveAlongZ(State& state, const std::optional<double>& z) {
+  if (z && state.z)
+    state.down = *z < *state.z || (state.down && *z == *state.z);
+  else
+    state.down = !state.measured;
+  state.z = z;
+  state.measured = false;
+}
+
+struct Motion {
+  bool rapid = false;
+  bool plain = false; // G0 or G1, stated here or in force
+  bool xy = false;
+  bool z = false;
+};
+
+Motion motionOf(const ir::Statement& statement, const State& before) {
+  Motion out;
+  if (const auto* move = std::get_if<ir::Move>(&statement.node)) {
+    out.plain = move->motion != ir::Motion::Protected;
+    out.rapid = move->motion == ir::Motion::Rapid;
+    const auto inPart = [&](std::size_t axis) {
+      return move->axes[axis] && move->axes[axis]->frame != ir::Frame::Machine;
+    };
+    out.xy = inPart(0) || inPart(1);
+    out.z = move->axes[2].has_value();
+    return out;
+  }
+  const auto* block = std::get_if<ir::NcBlock>(&statement.node);
+  if (block == nullptr) return out;
+  for (const double code : {4.0, 10.0, 28.0, 30.0, 31.0, 52.0, 53.0, 65.0, 92.0})
+    if (hasCode(*block, 'G', code)) return out;
+  const bool rapid = hasCode(*block, 'G', 0);
+  const bool feed = hasCode(*block, 'G', 1);
+  const bool arc = hasCode(*block, 'G', 2) || hasCode(*block, 'G', 3);
+  out.plain = !arc && (rapid || feed || before.motion >= 0);
+  out.rapid = rapid || (!feed && before.motion == 0);
+  out.xy = hasWord(*block, 'X') || hasWord(*block, 'Y');
+  out.z = hasWord(*block, 'Z');
+  return out;
+}
+
+void checkBody(const std::vector<ir::Statement>& body, const Probing& probing, Report& report) {
+  const auto states = ir::factsBefore<State>(
+      body, State{},
+      [&](std::size_t at, std::size_t, State state) {
+        const ProbeStep::Kind kind = probing.step(body[at]).kind;
+        if (kind == ProbeStep::Kind::Measure) state.down = state.measured = true;
+        if (kind == ProbeStep::Kind::Protected)
+          if (const auto z = protectedZ(body[at])) moveAlongZ(state, *z);
+        if (kind == ProbeStep::Kind::Off || kind == ProbeStep::Kind::Call) state.down = false;
+        if (kind == ProbeStep::Kind::Call || kind == ProbeStep::Kind::PackCall) state.motion = -1;
+        if (const auto* block = std::get_if<ir::NcBlock>(&body[at].node)) {
+          for (const double code : {28.0, 30.0, 53.0})
+            if (hasCode(*block, 'G', code)) state.down = false;
+          if (hasCode(*block, 'M', 6)) state.down = false;
+          for (const ir::Word& word : block->words) {
+            const double* code = word.address == 'G' ? ir::constantValue(word.value) : nullptr;
+            if (code != nullptr && *code <= 3) state.motion = *code <= 1 ? static_cast<int>(*code) : -1;
+          }
+        }
+        const Motion motion = motionOf(body[at], state);
+        if (motion.plain && motion.z && !motion.xy) state.down = false;
+        return state;
+      },
+      [](State& into, State other) {
+        const State before = into;
+        into.down = into.down && other.down;
+        into.measured = into.measured || other.measured;
+        if (into.motion != other.motion) into.motion = -1;
+        if (into.z != other.z) into.z.reset();
+        return into.down != before.down || into.motion != before.motion || into.measured != before.measured ||
+               into.z != before.z;
+      });
+  std::set<std::uint32_t> told;
+  for (std::size_t i = 0; i < body.size(); ++i) {
+    if (!states[i] || !states[i]->down) continue;
+    const Motion motion = motionOf(body[i], *states[i]);
+    if (!motion.plain || !motion.xy || !told.insert(body[i].origin.range().begin).second) continue;
+    report.at(body[i].origin.range(),
+              "the stylus is down, and this {} goes along {} or {} without watching it; where "
+              "the part is in the way the stylus breaks; take the probe up first, or use the "
+              "protected move",
+              motion.rapid ? "rapid move" : "feed move", kAxes[0], kAxes[1]);
+  }
+}
+
+void check(const Project& project, Report& report) {
+  const Probing probing(project);
+  for (const Joined& joined : project.joined)
+    if (joined.lowered) checkBody(joined.lowered->body, probing, report);
+  eachProgram(project, [&](const ir::Program& program, const macrob::File&) {
+    // A macro of a probing pack is what moves the stylus: G31 and its retreats are its business.
+    if (probing.probes(program)) checkBody(program.body, probing, report);
+  });
+}
+
+} // namespace
+
+DOTEK_LINT_RULE(unprotected_move){
+    .severity = Severity::Warning,
+    .tier = Tier::Ir,
+    .explanation =
+        "Behind a protected move or a measurement a plain G0 or G1 goes along X or Y, before a move along Z "
+        "alone has taken the probe up. Only protected moves stop at a contact.",
+    .check = check,
+};
+
+} // namespace dotek::lint::rule

@@ -1,0 +1,64 @@
+#include "frontend/macrob/Calls.h"
+#include "lint/Probing.h"
+
+#include <cmath>
+
+namespace dotek::lint::rule {
+namespace {
+
+// Numbers that the macro takes for a work offset: G54 to G59 by their G number; 1 to 6, or those of the
+// extended systems and of the external offset, by index.
+bool isOffset(stdlib::SystemCode code, double number) {
+  if (number != std::floor(number)) return code == stdlib::SystemCode::GNumber && number > 54 && number < 55;
+  if (code == stdlib::SystemCode::GNumber) return number >= 54 && number <= 59;
+  return (number >= 0 && number <= 7) || (number >= 101 && number <= 400);
+}
+
+void checkCall(const macrob::Words& words, const Project& project, Report& report) {
+  const auto call = macrob::callOf(words);
+  if (!call || call->kind != macrob::CallKind::Simple || call->program == nullptr) return;
+  const auto number = macrob::literal(*call->program);
+  if (!number || *number < 1) return;
+  for (const stdlib::MacroSet& set : project.macroSets) {
+    const auto signatures = set.of(static_cast<std::uint32_t>(*number));
+    if (signatures.empty()) continue;
+    std::string letters;
+    for (const macrob::CallArgument& argument : call->arguments)
+      letters += argument.word->address;
+    if (!mayBeOf(set, static_cast<std::uint32_t>(*number), letters)) return;
+    for (const macrob::CallArgument& argument : call->arguments) {
+      const stdlib::MacroArgument* known = signatures.front()->find(argument.word->address);
+      if (known == nullptr || known->role != stdlib::ArgumentRole::System) continue;
+      const auto value = macrob::literal(*argument.word);
+      if (!value || isOffset(known->systemCode, *value)) continue;
+      report.at(argument.word->range,
+                "`{}` names no work offset for {}, which takes {}; the macro stops with an alarm, or "
+                "writes another variable",
+                project.sources.textUtf8(argument.word->range), set.title,
+                known->systemCode == stdlib::SystemCode::GNumber ? "54 to 59" : "1 to 6, or 101 and above");
+    }
+    return;
+  }
+}
+
+void check(const Project& project, Report& report) {
+  for (const NcFile& nc : project.programs)
+    for (const macrob::Program& program : nc.file->programs)
+      for (const macrob::Block& block : program.blocks)
+        if (const auto* words = std::get_if<macrob::Words>(&block.body)) checkCall(*words, project, report);
+}
+
+} // namespace
+
+DOTEK_LINT_RULE(work_offset_number){
+    .severity = Severity::Warning,
+    .tier = Tier::Syntax,
+    .explanation =
+        "Packs of probing macros count work offsets in two ways: EasyProbe by the G number, S54. to S59., "
+        "Inspection Plus from 1 to 6 and from 101 for the extended ones. A number of the other pack is "
+        "easily "
+        "written.",
+    .check = check,
+};
+
+} // namespace dotek::lint::rule

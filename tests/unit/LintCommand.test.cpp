@@ -1,0 +1,191 @@
+// The frame of lint: suppressions, fixes, dotek.toml, SARIF.
+#include "support/messages/Lint.h"
+#include "tests/GoldenRunner.h"
+#include "tests/unit/DataFolder.h"
+
+#include <cstdlib>
+#include <doctest/doctest.h>
+#include <filesystem>
+#include <iostream>
+#include <nlohmann/json.hpp>
+
+namespace fs = std::filesystem;
+using namespace dotek::tests;
+
+namespace {
+
+struct Run {
+  int status = 0;
+  std::vector<std::string> findings; // "FILE:LINE code"
+};
+
+Run lint(const DataFolder& folder, std::vector<std::string> arguments) {
+  arguments.insert(arguments.begin(), "lint");
+  arguments.insert(arguments.end(), {"--format", "json"});
+  const CommandResult result = runDotek(arguments, folder.path());
+  Run run{result.status, {}};
+  REQUIRE_MESSAGE(nlohmann::json::accept(result.out), result.err << result.out);
+  for (const auto& one : nlohmann::json::parse(result.out))
+    run.findings.push_back(one["file"].get<std::string>() + ":" + std::to_string(one["line"].get<int>()) +
+                           " " + one["code"].get<std::string>());
+  return run;
+}
+
+using Findings = std::vector<std::string>;
+
+const std::string kDuplicate = "progStart:\n SeqC SpinOff EOL\n SeqC ' M5' EOL\nRETURN\n";
+
+} // namespace
+
+TEST_CASE("lint: a rule that is off by default runs where it is selected, and for all") {
+  const DataFolder folder;
+  folder.write("p.txt", "progStart:\n SeqC ' G43 H1''' EOL\nRETURN\n");
+  CHECK(lint(folder, {"p.txt"}).findings.empty());
+  CHECK(lint(folder, {"p.txt", "--select", "empty-literal"}).findings == Findings{"p.txt:2 empty-literal"});
+  CHECK(lint(folder, {"p.txt", "--select", "all"}).findings == Findings{"p.txt:2 empty-literal"});
+  CHECK(lint(folder, {"p.txt", "--select", "all", "--ignore", "empty-literal"}).findings.empty());
+  CHECK(lint(folder, {"p.txt", "--select", "all"}).status == 0);
+  CHECK(lint(folder, {"p.txt", "--select", "all", "--fail-on", "note"}).status == 1);
+}
+
+TEST_CASE("lint: comments suppress on their line, on the next, in a region and in a file") {
+  const DataFolder folder;
+  const auto findings = [&](const std::string& text) {
+    folder.write("p.txt", text);
+    return lint(folder, {"p.txt"}).findings;
+  };
+  const std::string code = "literal-duplicates-command";
+  CHECK(findings(kDuplicate) == Findings{"p.txt:3 " + code});
+  CHECK(findings("progStart:\n SeqC SpinOff EOL\n SeqC ' M5' EOL { dotek: ignore " + code + " }\nRETURN\n")
+            .empty());
+  CHECK(
+      findings("progStart:\n SeqC SpinOff EOL\n { dotek: ignore " + code + " }\n\n SeqC ' M5' EOL\nRETURN\n")
+          .empty());
+  CHECK(findings("{ dotek: ignore-file " + code + " }\n" + kDuplicate).empty());
+  CHECK(findings("{DOTEK : IGNORE-FILE Literal-Duplicates-Command, field-not-defined -- agreed}\n" +
+                 kDuplicate) == Findings{});
+  CHECK(findings("progStart:\n SeqC SpinOff EOL\n {dotek: ignore-start " + code +
+                 "}\n SeqC ' M5' EOL\n {dotek: "
+                 "ignore-end " +
+                 code + "}\n SeqC ' M5' EOL\nRETURN\n") == Findings{"p.txt:6 " + code});
+  // A comment of another line suppresses nothing, and says so.
+  CHECK(findings("progStart: { dotek: ignore " + code + " }\n SeqC SpinOff EOL\n SeqC ' M5' EOL\nRETURN\n") ==
+        Findings{"p.txt:1 suppression-unused", "p.txt:3 " + code});
+}
+
+TEST_CASE("lint: suppressions in macros, dialogs, DefineData.txt and programs, of messages too") {
+  const DataFolder folder;
+  folder.write("a.mac", "goto nowhere ! dotek: ignore undefined-label\n");
+  folder.write("d.dlg", "dialog \"x\", 1, 1, 200, 100\n! dotek: ignore control-outside-window\n"
+                        "ok 190, 20, 70, 24\ncancel 20, 60, 70, 24\n");
+  folder.write("o.nc", "%\nO1\n#501=#501 (DOTEK: IGNORE ASSIGNED-TO-ITSELF)\nM30\n%\n");
+  folder.write("touch/DefineData.txt", "a = 1\n! dotek: ignore duplicate-definition\nA = 2\n");
+  CHECK(lint(folder, {"a.mac", "d.dlg", "o.nc"}).findings.empty());
+  CHECK(lint(folder, {"touch", "--ignore", "cycle-file-missing"}).findings.empty());
+}
+
+TEST_CASE("lint: what is wrong with a suppression") {
+  const DataFolder folder;
+  const auto findings = [&](const std::string& comment) {
+    folder.write("a.mac", "! dotek: " + comment + "\nmessage \"x\"\n");
+    return lint(folder, {"a.mac"}).findings;
+  };
+  CHECK(findings("ignore undefined-label") == Findings{"a.mac:1 suppression-unused"});
+  CHECK(findings("ignore undefind-label") == Findings{"a.mac:1 suppression-unknown"});
+  CHECK(findings("ignore") == Findings{"a.mac:1 suppression-form"});
+  CHECK(findings("silence undefined-label") == Findings{"a.mac:1 suppression-form"});
+  CHECK(findings("ignore-start undefined-label") ==
+        Findings{"a.mac:1 suppression-form", "a.mac:1 suppression-unused"});
+  CHECK(findings("ignore-end undefined-label") == Findings{"a.mac:1 suppression-form"});
+  // Of a rule that does not run nothing is known.
+  CHECK(findings("ignore return-code-constant").empty());
+  CHECK(findings("ignore field-not-defined").empty());
+}
+
+TEST_CASE("lint --fix makes the safe repairs and tells what is left") {
+  const DataFolder folder;
+  const std::string text =
+      "\xEF\xBB\xBFprogStart:\r\n SetFlag('a')\r\n IF Flag? ('a')\r\n  SeqC' M32''' EOL\r\n"
+      "  SeqC ' G0 Z5. F100' EOL\r\n END\r\nRETURN\r\n";
+  const std::string path = folder.write("p.txt", text);
+  folder.write("same.txt", kDuplicate);
+  const Run shown = lint(folder, {"p.txt", "--select", "all"});
+  CHECK(readAll(path) == text);
+  CHECK(shown.findings.size() == 4);
+  const Run run = lint(folder, {"p.txt", "--select", "all", "--fix"});
+  CHECK(run.findings ==
+        Findings{"p.txt:1 " + std::string(dotek::diag::FixesApplied::code), "p.txt:5 feed-on-rapid"});
+  CHECK(readAll(path) == "\xEF\xBB\xBFprogStart:\r\n SetFlag('a')\r\n IF Flag?('a')\r\n  SeqC ' M32' EOL\r\n"
+                         "  SeqC ' G0 Z5. F100' EOL\r\n END\r\nRETURN\r\n");
+  CHECK(lint(folder, {"p.txt", "--select", "all", "--fix"}).findings == Findings{"p.txt:5 feed-on-rapid"});
+  // Nothing that is not wanted is repaired, and nothing that is only shown.
+  folder.write("p.txt", text);
+  CHECK(lint(folder, {"p.txt", "--fix"}).findings.empty());
+  CHECK(readAll(path) == text);
+  const std::string open = "main:\n IF CycleType?('x')\n  ' A' EOL\nRETURN\n";
+  const std::string prog = folder.write("open.txt", open);
+  lint(folder, {"open.txt", "--fix"});
+  CHECK(readAll(prog) == open);
+}
+
+TEST_CASE("lint: dotek.toml is found above the input and says what is wanted") {
+  const DataFolder folder;
+  folder.write("dotek.toml",
+               "schema = 1\n[lint]\nignore = [\"literal-duplicates-command\"]\nfail-on = \"note\"\n"
+               "[lint.severity]\nempty-literal = \"error\"\n");
+  folder.write("posts/p.txt", "progStart:\n SeqC SpinOff EOL\n SeqC ' M5''' EOL\nRETURN\n");
+  Run run = lint(folder, {"posts/p.txt"});
+  CHECK(run.findings == Findings{"posts/p.txt:3 empty-literal"});
+  CHECK(run.status == 1);
+  CHECK(lint(folder, {"posts", "--fail-on", "never"}).status == 0);
+  CHECK(lint(folder, {"posts/p.txt", "--select", "literal-duplicates-command"}).findings.empty());
+  // The nearest file counts, alone.
+  folder.write("posts/dotek.toml", "schema = 1\n[lint]\nselect = [\"literal-duplicates-command\"]\n");
+  CHECK(lint(folder, {"posts/p.txt"}).findings == Findings{"posts/p.txt:3 literal-duplicates-command"});
+}
+
+TEST_CASE("lint: a dotek.toml that is not understood stops the run") {
+  const DataFolder folder;
+  folder.write("p.txt", kDuplicate);
+  const auto run = [&](const std::string& text) {
+    folder.write("dotek.toml", text);
+    return lint(folder, {"p.txt"});
+  };
+  Run unknown = run("schema = 1\n[lint]\nignroe = []\n");
+  CHECK(unknown.findings == Findings{"dotek.toml:3 toml-unknown-key"});
+  CHECK(unknown.status == 2);
+  CHECK(run("schema = 1\n[lint]\nignore = [\"no-such-rule\"]\n").findings ==
+        Findings{"dotek.toml:3 toml-value"});
+  CHECK(run("schema = 1\n[lint.severity]\nempty-literal = \"loud\"\n").findings ==
+        Findings{"dotek.toml:3 toml-value"});
+  CHECK(run("[lint]\n").status == 2);
+}
+
+TEST_CASE("lint --format sarif is SARIF 2.1.0") {
+  const DataFolder folder;
+  folder.write("my post.txt", "progStart:\n SeqC SpinOff EOL\n SeqC' M5''' EOL\nRETURN\n");
+  folder.write("a.mac", "goto nowhere\nmessage \"\xE1\"\n");
+  const CommandResult result = runDotek(
+      {"lint", "my post.txt", "a.mac", "missing.mac", "--select", "all", "--format", "sarif"}, folder.path());
+  const auto log = nlohmann::json::parse(result.out);
+  const auto& run = log["runs"][0];
+  CHECK(log["version"] == "2.1.0");
+  CHECK(run["results"].size() >= 4);
+  for (const auto& one : run["results"])
+    CHECK(run["tool"]["driver"]["rules"][one["ruleIndex"].get<std::size_t>()]["id"] == one["ruleId"]);
+  CHECK(run["results"][0]["locations"][0]["physicalLocation"]["artifactLocation"]["uri"] == "my%20post.txt");
+  const std::string file = folder.write("out.sarif", result.out);
+  const fs::path schema = root() / "tests" / "third_party" / "sarif-2.1.0.json";
+  if (std::system("python3 -c 'import jsonschema' > /dev/null 2>&1") != 0) {
+    std::cout << "skipped: no python3-jsonschema, SARIF is not held against its schema\n";
+    return;
+  }
+  const std::string check =
+      "python3 -c \"import json, sys, jsonschema; "
+      "jsonschema.validate(json.load(open(sys.argv[1])), json.load(open(sys.argv[2])))\" '" +
+      file + "' '" + schema.string() + "' > /dev/null 2>&1";
+  CHECK(std::system(check.c_str()) == 0);
+  // The check itself fails where something is wrong.
+  folder.write("out.sarif", "{\"version\": \"2.1.0\"}");
+  CHECK(std::system(check.c_str()) != 0);
+}

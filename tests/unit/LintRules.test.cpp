@@ -1,0 +1,193 @@
+// docs/rules/<id>.md is the documentation of a rule and its test: carets under a line mark what the rule
+// tells, blocks below `## Clean` give no finding at all.
+#include "lint/Rule.h"
+#include "tests/GoldenRunner.h"
+#include "tests/unit/DataFolder.h"
+
+#include <algorithm>
+#include <doctest/doctest.h>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <sstream>
+
+namespace fs = std::filesystem;
+using namespace dotek;
+using namespace dotek::tests;
+
+namespace {
+
+struct Place {
+  std::string file;
+  std::size_t line = 0, column = 0, endColumn = 0;
+  auto operator<=>(const Place&) const = default;
+};
+
+struct Example {
+  std::string title;
+  bool clean = false;
+  std::vector<std::string> flags;
+  std::vector<std::pair<std::string, std::string>> files; // name, text without carets
+  std::multiset<Place> expected;
+};
+
+bool isCaretLine(const std::string& line) {
+  return line.find('^') != std::string::npos && line.find_first_not_of(" ^") == std::string::npos;
+}
+
+class Document {
+public:
+  explicit Document(const fs::path& path) {
+    std::istringstream in(readAll(path));
+    for (std::string line; std::getline(in, line);)
+      take(line);
+  }
+
+  std::vector<Example> examples;
+
+private:
+  void take(const std::string& line) {
+    if (inside_) {
+      if (line == "```") {
+        inside_ = false;
+        examples.back().files.emplace_back(file_, text_);
+      } else if (isCaretLine(line)) {
+        for (std::size_t at = line.find('^'); at != std::string::npos; at = line.find('^', at)) {
+          const std::size_t end = std::min(line.find_first_not_of('^', at), line.size());
+          examples.back().expected.insert({file_, number_, at + 1, end + 1});
+          at = end;
+        }
+      } else {
+        text_ += line + "\n";
+        ++number_;
+      }
+      return;
+    }
+    if (line == "## Reported" || line == "## Clean") {
+      clean_ = line == "## Clean";
+      section_ = true;
+    } else if (line.starts_with("## ")) {
+      section_ = false;
+    } else if (line.starts_with("### ") && section_) {
+      examples.push_back({line.substr(4), clean_, {}, {}, {}});
+    } else if (line.starts_with("Flags: `") && section_ && !examples.empty()) {
+      examples.back().flags = splitArguments(line.substr(8, line.size() - 9));
+    } else if (line.starts_with("```") && section_) {
+      REQUIRE_MESSAGE(!examples.empty(), "a block stands before the first ### title");
+      const std::size_t blank = line.find(' ');
+      REQUIRE_MESSAGE(blank != std::string::npos, line << " has no file name");
+      file_ = line.substr(blank + 1);
+      text_.clear();
+      number_ = 0;
+      inside_ = true;
+    }
+  }
+
+  bool inside_ = false;
+  bool clean_ = false;
+  bool section_ = false;
+  std::string file_, text_;
+  std::size_t number_ = 0;
+};
+
+// What lint tells of the example; the text of the findings for messages.
+std::multiset<Place> findings(const Example& example, const std::string& select, std::string& text) {
+  const DataFolder folder;
+  std::set<std::string> roots;
+  for (const auto& [name, content] : example.files) {
+    const fs::path path = fs::path(folder.path()) / name;
+    fs::create_directories(path.parent_path());
+    std::ofstream(path, std::ios::binary) << content;
+    roots.insert(name.substr(0, name.find('/')));
+  }
+  std::vector<std::string> arguments = {"lint"};
+  arguments.insert(arguments.end(), roots.begin(), roots.end());
+  arguments.insert(arguments.end(), {"--select", select, "--format", "json"});
+  arguments.insert(arguments.end(), example.flags.begin(), example.flags.end());
+  const CommandResult result = runDotek(arguments, folder.path());
+  REQUIRE_MESSAGE(result.status <= 1, result.err << result.out);
+  std::multiset<Place> out;
+  for (const auto& one : nlohmann::json::parse(result.out)) {
+    Place place{one["file"], one["line"], one["column"], one["endColumn"]};
+    if (one["endLine"] != one["line"]) {
+      // Over several lines: the carets stand under the first.
+      for (const auto& [name, content] : example.files) {
+        if (name != place.file) continue;
+        std::istringstream in(content);
+        std::string line;
+        for (std::size_t i = 0; i < place.line; ++i)
+          std::getline(in, line);
+        place.endColumn = line.size() + 1;
+      }
+    }
+    out.insert(place);
+    text += "\n  " + one["file"].get<std::string>() + ":" + std::to_string(place.line) + ":" +
+            std::to_string(place.column) + "-" + std::to_string(place.endColumn) + " " +
+            one["message"].get<std::string>() + " [" + one["code"].get<std::string>() + "]";
+  }
+  return out;
+}
+
+std::vector<fs::path> documents() {
+  std::vector<fs::path> out;
+  for (const auto& entry : fs::directory_iterator(root() / "docs" / "rules"))
+    if (entry.path().extension() == ".md") out.push_back(entry.path());
+  std::sort(out.begin(), out.end());
+  return out;
+}
+
+} // namespace
+
+TEST_CASE("lint rules: the document of each rule holds") {
+  const auto all = documents();
+  REQUIRE(all.size() == lint::rules().size());
+  for (const fs::path& path : all) {
+    const std::string id = path.stem().string();
+    INFO(id);
+    const Document document(path);
+    bool clean = false;
+    bool failing = false;
+    for (const Example& example : document.examples) {
+      INFO(example.title);
+      (example.clean ? clean : failing) = true;
+      std::string text;
+      const auto told = findings(example, id, text);
+      CHECK_MESSAGE(told == example.expected, "told:" << text);
+      if (example.clean) {
+        CHECK_MESSAGE(example.expected.empty(), "carets stand below ## Clean");
+        std::string others;
+        CHECK_MESSAGE(findings(example, "all", others).empty(), "with --select all:" << others);
+      } else {
+        CHECK_MESSAGE(!example.expected.empty(), "no caret");
+      }
+    }
+    CHECK_MESSAGE(clean, "no clean example");
+    CHECK_MESSAGE(failing, "no example that is reported");
+    std::ifstream in(path);
+    std::string first;
+    std::getline(in, first);
+    CHECK_MESSAGE(first == "# " + id, first);
+  }
+}
+
+TEST_CASE("lint rules: ids are unique over messages and rules, and each is explained") {
+  std::set<std::string_view> codes;
+  for (const MessageInfo& info : messageTable())
+    codes.insert(info.code);
+  for (const lint::NamedRule& named : lint::rules()) {
+    CHECK_MESSAGE(codes.insert(named.id).second, named.id << " is a message, too");
+    CHECK(named.rule->explanation.size() > 40);
+    CHECK(lint::findRule(named.id)->rule == named.rule);
+    const CommandResult result = runDotek({"explain", std::string(named.id)}, root());
+    CHECK(result.status == 0);
+    CHECK(result.out.starts_with(std::string(named.id) + ": "));
+  }
+  CHECK(lint::codeTable().size() == messageTable().size() + lint::rules().size());
+}
+
+TEST_CASE("lint: the examples give no finding at --select all") {
+  const CommandResult result = runDotek({"lint", "examples", "--select", "all"}, root());
+  CHECK(result.status == 0);
+  CHECK_MESSAGE(result.out.empty(), result.out);
+}
