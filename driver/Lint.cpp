@@ -8,6 +8,8 @@
 #include "frontend/compost/Summary.h"
 #include "frontend/macrob/Check.h"
 #include "frontend/macrob/Parse.h"
+#include "frontend/mikroprog/Check.h"
+#include "frontend/mikroprog/Parse.h"
 #include "support/Files.h"
 #include "support/messages/ComPost.h"
 #include "support/messages/Commands.h"
@@ -32,7 +34,10 @@ public:
   Outcome run() {
     if (options_.paths.empty())
       session_.diagnostics().report<diag::MissingOption>({}, "lint", "PATH", "a file or a folder");
-    if (!options_.control.empty()) control_ = loadControl(options_.control, session_);
+    if (session_.data().find("mikroprog", options_.control) != nullptr)
+      mikroprog_ = stdlib::MikroprogControl::load(session_.data(), options_.control);
+    else if (!options_.control.empty())
+      control_ = loadControl(options_.control, session_);
     for (const std::string& path : options_.paths)
       visit(path, true);
     acceptEntryPoints();
@@ -74,7 +79,7 @@ private:
 
   static bool mayBeSource(const fs::path& path) {
     const std::string suffix = gibbs::foldCase(path.extension().string());
-    return suffix == ".TXT" || suffix == ".MAC" || suffix == ".DLG" || suffix == ".NC";
+    return suffix == ".TXT" || suffix == ".MAC" || suffix == ".DLG" || suffix == ".NC" || suffix == ".SUF";
   }
 
   void file(const std::string& path, bool named) {
@@ -107,8 +112,10 @@ private:
         entryPoints_.insert(routine->name);
       return;
     }
-    const std::optional<FileId> id = session_.read(path, Encoding::Cp1250);
+    const std::optional<FileId> id =
+        session_.read(path, *kind == InputKind::Suf ? Encoding::Cp852 : Encoding::Cp1250);
     if (!id) return;
+    if (*kind == InputKind::Suf) return suf(*id);
     if (*kind == InputKind::Nc) {
       using namespace frontend;
       const macrob::File program =
@@ -127,6 +134,21 @@ private:
     } else {
       gibbs::checkDefineData(gibbs::parseDefineData(*id, context), context);
     }
+  }
+
+  // Without --control a program with Y is taken for one of a mill, else for one of the lathe.
+  void suf(FileId id) {
+    using namespace frontend;
+    const mikroprog::Program program = mikroprog::parse(id, session_.sources(), session_.diagnostics());
+    const bool mill =
+        std::any_of(program.lines.begin(), program.lines.end(), [](const mikroprog::Line& line) {
+          return line.find('Y') != nullptr || line.find('J') != nullptr;
+        });
+    const auto control =
+        mikroprog_
+            ? mikroprog_
+            : stdlib::MikroprogControl::load(session_.data(), mill ? "mikroprog-mill" : "mikroprog-s280");
+    if (control) mikroprog::checkProgram(program, *control, session_.sources(), session_.diagnostics());
   }
 
   // A routine that prints for a cycle is called for its operations; others are named by a job.
@@ -164,8 +186,9 @@ private:
 
   const LintOptions& options_;
   Session& session_;
-  std::optional<stdlib::Control> control_; // --control
-  std::set<std::string> entryPoints_;      // routines that run without a call in the Prog
+  std::optional<stdlib::Control> control_;            // --control
+  std::optional<stdlib::MikroprogControl> mikroprog_; // the same, for .SUF
+  std::set<std::string> entryPoints_;                 // routines that run without a call in the Prog
 };
 
 } // namespace

@@ -16,6 +16,7 @@ std::span<const MessageInfo> messageTable() {
 #include "support/messages/Fanuc.def"
 #include "support/messages/Gibbs.def"
 #include "support/messages/MacroB.def"
+#include "support/messages/Mikroprog.def"
 #include "support/messages/Nc.def"
 #include "support/messages/Sim.def"
 #undef DOTEK_DIAGNOSTIC
