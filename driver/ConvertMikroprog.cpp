@@ -195,8 +195,7 @@ std::optional<MikroprogProgram> MikroprogConversion::run(const CycleFolder& fold
   }
   ir::fold(cycle, lowered->fixed, {true, session_.limits().steps});
   if (!cycle.checks.empty()) {
-    diagnostics.report<diag::ChecksUndecided>(cycle.checks.front().origin.range(), folder.name,
-                                              "a value that nothing gives");
+    diagnostics.report<diag::ChecksUndecided>(cycle.checks.front().origin.range(), folder.name);
     return std::nullopt;
   }
   const auto [other, added] = written_.emplace(emit.fileName, folder.name);

@@ -27,6 +27,12 @@ bool isQuiet(const std::string& what) {
   return false;
 }
 
+// Number of a code, a block, a condition; a number that cannot be one is none that exists.
+std::uint32_t wholeOf(double value) {
+  return value >= 0 && value < 1e9 && value == std::floor(value) ? static_cast<std::uint32_t>(value)
+                                                                 : UINT32_MAX;
+}
+
 } // namespace
 
 MikroprogMachine::MikroprogMachine(const stdlib::MikroprogControl& control,
@@ -116,9 +122,8 @@ bool MikroprogMachine::block(const MikroprogBlock& block) {
   std::vector<std::string> functions;
   for (const stdlib::MikroprogWord& one : block.words) {
     if (one.address != 'G' && one.address != 'M') continue;
-    const auto number = static_cast<std::uint32_t>(one.value.number);
-    const MikroprogFunction* function =
-        one.value.parameter || one.value.number != number ? nullptr : control_.find(one.address, number);
+    const std::uint32_t number = wholeOf(one.value.number);
+    const MikroprogFunction* function = one.value.parameter ? nullptr : control_.find(one.address, number);
     if (function == nullptr || !function->usable)
       return stop(MikroprogEnding::Inconclusive,
                   fmt::format("{}{} is not known", one.address, one.value.number));
@@ -151,7 +156,7 @@ bool MikroprogMachine::function(const MikroprogBlock& block, const std::string& 
   if (what == "jump-if") {
     const std::optional<double> number = word(block, 'O');
     if (!number) return stop(MikroprogEnding::Fault, "G23 without O");
-    const std::optional<bool> holds = condition(static_cast<std::uint32_t>(*number));
+    const std::optional<bool> holds = condition(wholeOf(*number));
     return holds && (!*holds || jump(block));
   }
   if (what == "call") return call(block);
@@ -276,7 +281,7 @@ bool MikroprogMachine::setPosition(const MikroprogBlock& block) {
 bool MikroprogMachine::jump(const MikroprogBlock& block) {
   const std::optional<double> number = word(block, 'L');
   if (!number) return stop(MikroprogEnding::Fault, "a jump without L");
-  const auto found = numbers_.find(static_cast<std::uint64_t>(*number));
+  const auto found = numbers_.find(wholeOf(*number));
   if (found == numbers_.end()) return stop(MikroprogEnding::Fault, fmt::format("no block N{}", *number));
   next_ = found->second;
   return true;

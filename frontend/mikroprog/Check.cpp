@@ -223,7 +223,8 @@ private:
             fmt::format(": `{}` has none ({})", (*refuses)->code(),
                         (*refuses)->notes.empty() ? "" : (*refuses)->notes.front()));
       else if (!takes && !shortForm)
-        diagnostics_.report<diag::SufAddressNotTaken>(word.range, text(word.range), "");
+        diagnostics_.report<diag::SufAddressNotTaken>(
+            word.range, text(word.range), word.address == 'O' ? "; a program has a name and no number" : "");
       if (std::string_view("XYZIJKR").find(word.address) == std::string_view::npos || !word.value.number)
         continue;
       if (Decimal::of(*word.value.number).fractionPart().size() > static_cast<std::size_t>(control_.decimals))
@@ -262,8 +263,7 @@ private:
     if (const Word* output = line.find('Q'); output != nullptr && function.find('Q') != nullptr) {
       const std::uint32_t number = whole(output);
       if (number == kPowerSection)
-        diagnostics_.report<diag::SufOutput>(output->range, number,
-                                             "it switches the power section of the machine off");
+        diagnostics_.report<diag::SufPowerSection>(output->range);
       else if (number >= 1 && number <= kLastMachineOutput)
         diagnostics_.report<diag::SufOutput>(
             output->range, number, number == 3 ? "coolant is M8 and M9" : "the spindle is M3, M4 and M5");
@@ -330,21 +330,21 @@ private:
 
   void layout() {
     if (end_ == kNone && !program_.lines.empty()) diagnostics_.report<diag::SufNoEnd>({program_.file, 0, 0});
+    std::size_t lastReturn = kNone;
+    for (std::size_t i = 0; i < program_.lines.size(); ++i)
+      if (holds(program_.lines[i], "return")) lastReturn = i;
     for (const auto& [line, where] : calls_) {
       const std::uint64_t number = *program_.lines[line].number;
       if (end_ == kNone || line < end_) {
         diagnostics_.report<diag::SufCallLayout>(where, number);
         continue;
       }
-      bool ends = false;
-      for (std::size_t i = line; i < program_.lines.size() && !ends; ++i)
-        ends = holds(program_.lines[i], "return");
-      if (!ends) diagnostics_.report<diag::SufSubprogramEnd>(where, number);
+      if (lastReturn == kNone || lastReturn < line)
+        diagnostics_.report<diag::SufSubprogramEnd>(where, number);
     }
     for (std::size_t i = 0; i < program_.lines.size(); ++i) {
       if (!holds(program_.lines[i], "return")) continue;
-      const bool called =
-          std::any_of(calls_.begin(), calls_.end(), [&](const auto& call) { return call.first <= i; });
+      const bool called = !calls_.empty() && calls_.begin()->first <= i;
       if (!called) diagnostics_.report<diag::SufStrayReturn>(program_.lines[i].range);
     }
   }
