@@ -379,6 +379,8 @@ std::optional<std::vector<EmittedLine>> emit(const ir::Cycle& cycle, const EmitO
   writeBeginning(state);
   Body(state).write();
   if (state.failed) return std::nullopt;
+  if (!cycle.measurementStated)
+    state.remarks.push_back("THE SOURCE IS A PATH: CONTACTS ARE RECORDED, NOTHING IS SET");
   if (state.probeMoves > 1) {
     const std::string times = state.guards == 1 ? "once" : fmt::format("{} times", state.guards);
     diagnostics.report<diag::GuardOnce>({}, times, state.probeMoves);
