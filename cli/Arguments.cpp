@@ -36,6 +36,7 @@ struct Raw {
   std::string to, control, probeMacros, programNumber, outputFolder, mapFile;
   std::string defaultsMode = "alarm";
   std::string probePower = "source";
+  std::string datum;
   std::vector<std::string> variables;
   std::vector<std::string> programs;
   std::string traceFile;
@@ -111,7 +112,7 @@ driver::CommonOptions commonOf(const Raw& raw) {
   out.data = raw.data;
   if (!raw.from.empty()) {
     if (!driver::kindByName(raw.from))
-      throw UsageError("--from takes prog, mac, dlg, define or nc, not `" + raw.from + "`");
+      throw UsageError("--from takes prog, mac, dlg, define, nc or suf, not `" + raw.from + "`");
     out.from = raw.from;
   }
   return out;
@@ -134,6 +135,7 @@ driver::ConvertOptions convertOf(const Raw& raw) {
     out.defaults.push_back(splitPair("--default", text));
   out.useDefaults = raw.defaultsMode == "use";
   out.switchProbe = raw.probePower == "macro";
+  out.datum = raw.datum;
   return out;
 }
 
@@ -239,7 +241,7 @@ void addConvert(CLI::App& app, Raw& raw) {
   CLI::App* convert = app.add_subcommand(
       "convert", "turn a cycle into a program that stays on the control and takes arguments");
   convert->add_option("FOLDER", raw.inputs, "folders of the cycles");
-  convert->add_option("--to", raw.to, "language to write: fanuc")->type_name("TARGET");
+  convert->add_option("--to", raw.to, "language to write: fanuc or mikroprog")->type_name("TARGET");
   addTarget(*convert, raw);
   convert
       ->add_option("--probe-macros", raw.probeMacros,
@@ -261,12 +263,16 @@ void addConvert(CLI::App& app, Raw& raw) {
       ->add_option("--probe-power", raw.probePower,
                    "the probe is switched where the source does it, or by the program itself")
       ->check(CLI::IsMember({"source", "macro"}));
+  convert
+      ->add_option("--datum", raw.datum,
+                   "of mikroprog: g92 sets the active system, operator stops for an entry by hand")
+      ->type_name("g92|operator");
   convert->add_option("--program-number", raw.programNumber, "O number of the program (8000)")
       ->type_name("N");
   convert->add_option("--map", raw.mapFile, "write which line comes from where, as JSON")->type_name("FILE");
   CLI::Option* output =
       convert->add_option("-o", raw.output, "write the program to a file")->type_name("OUT");
-  convert->add_option("-d", raw.outputFolder, "write each program to DIR/Onnnn.nc")
+  convert->add_option("-d", raw.outputFolder, "write each program to a file of DIR")
       ->type_name("DIR")
       ->excludes(output);
   addCommon(*convert, raw);

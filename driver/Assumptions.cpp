@@ -38,6 +38,10 @@ std::vector<std::pair<std::string, std::string>> assumptionTable() {
       {"and-before-or", "AND beside OR in a Prog: AND binds tighter"},
       {"left-to-right", "AND beside OR in a Prog: read from left to right"},
       {"Word?=yes", "a condition of a Prog that only the CAM can answer: it holds"},
+      {"Q7", "Mikroprog: G23 inside a subprogram stores no return address"},
+      {"Q10", "Mikroprog: P90 takes sums, P90=P90+constant"},
+      {"Q11", "Mikroprog: a parameter may stand in an axis word"},
+      {"Q13", "Mikroprog: O11 to O18 test the coordinate of the moment"},
       {"Word?=no", "a condition of a Prog that only the CAM can answer: it does not hold"},
   };
   for (const frontend::gibbs::Assumption& one : frontend::gibbs::kAssumptions)

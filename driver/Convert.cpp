@@ -1,3 +1,4 @@
+#include "driver/ConvertMikroprog.h"
 #include "driver/ConvertValues.h"
 #include "driver/Driver.h"
 #include "driver/Lowering.h"
@@ -13,6 +14,7 @@
 #include "support/NearestName.h"
 #include "support/messages/Commands.h"
 #include "support/messages/Fanuc.h"
+#include "support/messages/Mikroprog.h"
 
 #include <algorithm>
 #include <set>
@@ -31,8 +33,19 @@ public:
 
   Outcome run() {
     if (!load()) return refuse();
+    if (mikroprog()) {
+      toMikroprog();
+      return finish();
+    }
     for (std::size_t i = 0; i < folders_.size(); ++i)
       one(folders_[i], i);
+    return finish();
+  }
+
+private:
+  bool mikroprog() const { return options_.to == "mikroprog"; }
+
+  Outcome finish() {
     reportUnknownNames();
     if (session_.diagnostics().hasErrors()) return refuse();
     keepStrongest(session_.diagnostics());
@@ -47,7 +60,6 @@ public:
     return outcome;
   }
 
-private:
   Outcome refuse() {
     keepStrongest(session_.diagnostics());
     return session_.finish("");
@@ -58,7 +70,8 @@ private:
     if (options_.inputs.empty())
       diagnostics.report<diag::MissingOption>({}, "convert", "FOLDER", "the folder of a cycle");
     if (options_.to.empty())
-      diagnostics.report<diag::MissingOption>({}, "convert", "--to TARGET", "the language to write: fanuc");
+      diagnostics.report<diag::MissingOption>({}, "convert", "--to TARGET",
+                                              "the language to write: fanuc or mikroprog");
     else if (std::find(kTargets.begin(), kTargets.end(), options_.to) == kTargets.end())
       diagnostics.report<diag::UnknownTarget>({}, options_.to);
     if (options_.source.cycle && options_.inputs.size() > 1) diagnostics.report<diag::CycleWithSeveral>({});
@@ -66,10 +79,14 @@ private:
       diagnostics.report<diag::OutputForOne>({}, options_.inputs.size());
     readLetters();
     if (diagnostics.hasErrors()) return false;
-    inputs_ = loadLoweringInputs(options_.source,
-                                 options_.control.empty() ? std::string(kDefaultControl) : options_.control,
-                                 session_);
+    // For Mikroprog the control is chosen by the cycle; the profile that is loaded here tells of the source.
+    const bool own = options_.control.empty() || mikroprog();
+    inputs_ =
+        loadLoweringInputs(options_.source, own ? std::string(kDefaultControl) : options_.control, session_);
     if (!inputs_) return false;
+    if (!mikroprog() && !options_.datum.empty())
+      diagnostics.report<diag::FlagOfOtherTarget>({}, "--datum", options_.to);
+    if (mikroprog() && !MikroprogConversion(options_, *inputs_, session_).checkFlags()) return false;
     if (options_.probeMacros && inputs_->macroSet(*options_.probeMacros) == nullptr) {
       std::vector<std::string> known;
       for (const stdlib::MacroSet& set : inputs_->macroSets)
@@ -83,9 +100,9 @@ private:
       folders_.push_back(loadCycleFolder(path, session_));
     if (options_.source.cycle) folders_.front().name = *options_.source.cycle;
     leaveFindingsToLint(session_);
-    if (inputs_->job && !inputs_->job->operations.empty())
+    if (!mikroprog() && inputs_->job && !inputs_->job->operations.empty())
       diagnostics.report<diag::JobOperationsUnused>(inputs_->job->operations.front().range);
-    return !diagnostics.hasErrors() && numbersDiffer();
+    return !diagnostics.hasErrors() && (mikroprog() || numbersDiffer());
   }
 
   void readLetters() {
@@ -161,6 +178,19 @@ private:
     const auto lines = fanuc::emit(lowered->cycle, emit, session_.sources(), session_.diagnostics());
     if (!lines) return;
     add(*lines, emit.programNumber);
+  }
+
+  void toMikroprog() {
+    MikroprogConversion conversion(options_, *inputs_, session_);
+    for (const CycleFolder& folder : folders_) {
+      std::optional<MikroprogProgram> program = conversion.run(folder, usedSets_, usedDefaults_);
+      if (!program) {
+        failed_ = true;
+        continue;
+      }
+      files_.push_back(std::move(program->file));
+      maps_.push_back(std::move(program->map));
+    }
   }
 
   // --arg names are those of this cycle, as it spells them.

@@ -63,6 +63,7 @@ struct ConvertOptions {
   bool useDefaults = false; // --defaults use
   bool switchProbe = false; // --probe-power macro
   bool oneFile = false;     // -o: several inputs are an error
+  std::string datum;        // --datum of mikroprog: "", "g92" or "operator"
 };
 
 // From which severity on lint fails.

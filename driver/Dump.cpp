@@ -10,6 +10,7 @@
 #include "frontend/compost/Parse.h"
 #include "frontend/gibbs/Run.h"
 #include "frontend/macrob/Parse.h"
+#include "frontend/mikroprog/Parse.h"
 #include "ir/Fold.h"
 #include "ir/Print.h"
 #include "support/Decimal.h"
@@ -76,8 +77,15 @@ private:
       if (session_.read(input, Encoding::Cp1250)) session_.diagnostics().report<diag::UnknownKind>({}, input);
       return;
     }
-    const std::optional<FileId> id = session_.read(input, Encoding::Cp1250);
+    const std::optional<FileId> id =
+        session_.read(input, *kind == InputKind::Suf ? Encoding::Cp852 : Encoding::Cp1250);
     if (!id) return;
+    if (*kind == InputKind::Suf) {
+      const auto program = frontend::mikroprog::parse(*id, session_.sources(), session_.diagnostics());
+      out_ += options_.stage == Stage::Tokens ? frontend::mikroprog::dumpTokens(program, session_.sources())
+                                              : frontend::mikroprog::dumpAst(program, session_.sources());
+      return;
+    }
     const gibbs::ParseContext context{session_.sources(), session_.gibbsKeywords(), session_.limits(),
                                       session_.diagnostics()};
     if (options_.stage == Stage::Tokens) {
@@ -105,6 +113,7 @@ private:
     case InputKind::Dialog:
       out_ += gibbs::dumpAst(gibbs::parseDialog(*id, context), session_.sources());
       break;
+    case InputKind::Suf: break; // above
     case InputKind::DefineData:
       out_ += gibbs::dumpAst(gibbs::parseDefineData(*id, context), session_.sources());
       break;

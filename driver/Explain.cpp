@@ -6,6 +6,7 @@
 #include "stdlib/Control.h"
 #include "stdlib/HostInputs.h"
 #include "stdlib/MacroSet.h"
+#include "stdlib/MikroprogControl.h"
 #include "support/NearestName.h"
 #include "support/messages/Commands.h"
 
@@ -56,6 +57,18 @@ std::string facts(const stdlib::Control& control) {
                      control.decimal == stdlib::DecimalMode::Calculator ? "calculator" : "increment",
                      control.decimalGrade, control.ifThen ? "IF THEN" : "no IF THEN", skip, common,
                      control.codes.size());
+}
+
+// "title: axes XYZ, 47 G and 29 M functions, relies on Q12 Q20, Q7 open"
+std::string facts(const stdlib::MikroprogControl& control) {
+  std::size_t g = 0;
+  for (const stdlib::MikroprogFunction& function : control.functions)
+    g += function.letter == 'G' ? 1 : 0;
+  std::string relied, open;
+  for (const stdlib::MikroprogQuestion& question : control.questions)
+    (question.assumed ? relied : open) += fmt::format(" Q{}", question.number);
+  return fmt::format("{}: axes {}, {} G and {} M functions, taken as given:{}, open:{}", control.title,
+                     control.axes, g, control.functions.size() - g, relied, open);
 }
 
 // "title: P9770 protected move; P9023 single surface along X, .."
@@ -134,6 +147,8 @@ Outcome list(const std::string& what, const CommonOptions& options) {
                                          (info.byDefault ? "" : ", off unless it is selected"));
     } else if (what == "controls") {
       rows = loaded<stdlib::Control>(session, what);
+      for (auto& row : loaded<stdlib::MikroprogControl>(session, "mikroprog"))
+        rows.push_back(std::move(row));
     } else if (what == "macros") {
       rows = loaded<stdlib::MacroSet>(session, what);
     } else if (what == "forms" || what == "cycles") {
@@ -142,8 +157,8 @@ Outcome list(const std::string& what, const CommonOptions& options) {
       if (rows.empty())
         return session.finish("none in this release; a folder given with --data can add some\n");
     } else if (what == "targets") {
-      for (const std::string_view target : kTargets)
-        rows.emplace_back(target, "program that is called with G65");
+      for (std::size_t i = 0; i < kTargets.size(); ++i)
+        rows.emplace_back(kTargets[i], kTargetTexts[i]);
     } else {
       session.diagnostics().report<diag::UnknownList>({}, what);
     }

@@ -128,6 +128,7 @@ std::optional<InputKind> byName(const std::string& name) {
   if (ends(".MAC")) return InputKind::Macro;
   if (ends(".DLG")) return InputKind::Dialog;
   if (ends(".NC")) return InputKind::Nc;
+  if (ends(".SUF")) return InputKind::Suf;
   return std::nullopt;
 }
 
@@ -140,13 +141,14 @@ std::string_view kindName(InputKind kind) {
   case InputKind::Dialog: return "dlg";
   case InputKind::DefineData: return "define";
   case InputKind::Nc: return "nc";
+  case InputKind::Suf: return "suf";
   }
   return "";
 }
 
 std::optional<InputKind> kindByName(std::string_view name) {
-  for (const InputKind kind :
-       {InputKind::Prog, InputKind::Macro, InputKind::Dialog, InputKind::DefineData, InputKind::Nc}) {
+  for (const InputKind kind : {InputKind::Prog, InputKind::Macro, InputKind::Dialog, InputKind::DefineData,
+                               InputKind::Nc, InputKind::Suf}) {
     if (kindName(kind) == name) return kind;
   }
   return std::nullopt;
@@ -170,7 +172,8 @@ std::optional<InputKind> recognise(std::string_view fileName, std::string_view b
   const std::string name = upper(slash == std::string_view::npos ? fileName : fileName.substr(slash + 1));
   const auto named = byName(name);
   // A name that is fixed in GibbsCAM says more than a damaged content.
-  if (named == InputKind::DefineData) return named;
+  // Words of Mikroprog look like any NC.
+  if (named == InputKind::DefineData || named == InputKind::Suf) return named;
   const int best = std::max({marks.prog, marks.macro, marks.dialog});
   if (marks.nc > best || (named == InputKind::Nc && best < 2)) return InputKind::Nc;
   if (best >= 2) {

@@ -8,9 +8,9 @@
 
 namespace dotek::driver {
 
-enum class InputKind : unsigned char { Prog, Macro, Dialog, DefineData, Nc };
+enum class InputKind : unsigned char { Prog, Macro, Dialog, DefineData, Nc, Suf };
 
-// "prog", "mac", "dlg", "define", "nc": what --from takes.
+// "prog", "mac", "dlg", "define", "nc", "suf": what --from takes.
 std::string_view kindName(InputKind kind);
 std::optional<InputKind> kindByName(std::string_view name);
 // nullopt: neither content nor name tells.

@@ -62,7 +62,7 @@ void readTool(const TomlDocument& document, const TomlTable& table, Job& job) {
   take("number", "tool_number");
   take("offset", "tool_offset");
   take("radius", "tool_radius");
-  table.value("length_to").choice({"tip", "centre"}, "tip");
+  job.lengthToCentre = table.value("length_to").choice({"tip", "centre"}, "tip") == "centre";
 }
 
 JobOperation readOperation(const TomlDocument& document, const TomlTable& table) {

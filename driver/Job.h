@@ -34,6 +34,7 @@ struct Job {
   std::optional<std::string> startRoutine, operationRoutine, endRoutine;
   SourceRange startRange, operationRange, endRange;
   std::map<std::string, double> hosts; // [host] and [tool]
+  bool lengthToCentre = false;         // `length_to` of [tool]
   std::vector<JobOperation> operations;
 };
 

@@ -12,6 +12,8 @@
 #include "frontend/macrob/Check.h"
 #include "frontend/macrob/Lower.h"
 #include "frontend/macrob/Parse.h"
+#include "frontend/mikroprog/Check.h"
+#include "frontend/mikroprog/Parse.h"
 #include "lint/Project.h"
 #include "lint/Suppressions.h"
 #include "support/Files.h"
@@ -52,7 +54,10 @@ public:
     const LintConfig* first = options_.paths.empty() ? nullptr : configs_.of(options_.paths.front());
     const std::string control =
         options_.control.empty() && first != nullptr ? first->control : options_.control;
-    if (!control.empty()) control_ = loadControl(control, session_);
+    if (session_.data().find("mikroprog", control) != nullptr)
+      mikroprog_ = stdlib::MikroprogControl::load(session_.data(), control);
+    else if (!control.empty())
+      control_ = loadControl(control, session_);
     for (const std::string& path : options_.paths)
       visit(path, true);
     acceptEntryPoints();
@@ -217,7 +222,7 @@ private:
 
   static bool mayBeSource(const fs::path& path) {
     const std::string suffix = gibbs::foldCase(path.extension().string());
-    return suffix == ".TXT" || suffix == ".MAC" || suffix == ".DLG" || suffix == ".NC";
+    return suffix == ".TXT" || suffix == ".MAC" || suffix == ".DLG" || suffix == ".NC" || suffix == ".SUF";
   }
 
   void file(const std::string& path, bool named) {
@@ -251,8 +256,10 @@ private:
       progs_.push_back(std::move(*program));
       return;
     }
-    const std::optional<FileId> id = session_.read(path, Encoding::Cp1250);
+    const std::optional<FileId> id =
+        session_.read(path, *kind == InputKind::Suf ? Encoding::Cp852 : Encoding::Cp1250);
     if (!id) return;
+    if (*kind == InputKind::Suf) return suf(*id);
     if (*kind == InputKind::Nc) {
       macrob::File program =
           macrob::parse(*id, session_.sources(), session_.limits(), session_.diagnostics());
@@ -273,6 +280,21 @@ private:
       defines_.push_back(gibbs::parseDefineData(*id, context));
       gibbs::checkDefineData(defines_.back(), context);
     }
+  }
+
+  // Without --control a program with Y is taken for one of a mill, else for one of the lathe.
+  void suf(FileId id) {
+    using namespace frontend;
+    const mikroprog::Program program = mikroprog::parse(id, session_.sources(), session_.diagnostics());
+    const bool mill =
+        std::any_of(program.lines.begin(), program.lines.end(), [](const mikroprog::Line& line) {
+          return line.find('Y') != nullptr || line.find('J') != nullptr;
+        });
+    const auto control =
+        mikroprog_
+            ? mikroprog_
+            : stdlib::MikroprogControl::load(session_.data(), mill ? "mikroprog-mill" : "mikroprog-s280");
+    if (control) mikroprog::checkProgram(program, *control, session_.sources(), session_.diagnostics());
   }
 
   // A routine that prints for a cycle is called for its operations; others are named by a job.
@@ -316,8 +338,9 @@ private:
   const LintOptions& options_;
   Session& session_;
   LintConfigs configs_;
-  std::optional<stdlib::Control> control_; // --control
-  std::set<std::string> entryPoints_;      // routines that run without a call in the Prog
+  std::optional<stdlib::Control> control_;            // --control
+  std::optional<stdlib::MikroprogControl> mikroprog_; // the same, for .SUF
+  std::set<std::string> entryPoints_;                 // routines that run without a call in the Prog
   std::deque<compost::Program> progs_;
   std::deque<CycleFolder> folders_;
   std::deque<gibbs::Macro> macros_;

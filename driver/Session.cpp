@@ -6,6 +6,7 @@
 #include "support/messages/Common.h"
 #include "support/messages/Fanuc.h"
 #include "support/messages/Gibbs.h"
+#include "support/messages/Mikroprog.h"
 #include "support/messages/Nc.h"
 #include "support/messages/Sim.h"
 
@@ -111,7 +112,8 @@ bool isUsageCode(std::string_view code) {
       diag::CycleWithSeveral::code, diag::CycleNameTwice::code,  diag::NotAFolder::code,
       diag::UnknownTarget::code,    diag::UnknownProfile::code,  diag::UnknownMacroSet::code,
       diag::LetterNotAllowed::code, diag::OutputForOne::code,    diag::ArgumentUnknown::code,
-      diag::LetterTwice::code,      diag::VariableFlag::code,
+      diag::LetterTwice::code,      diag::VariableFlag::code,    diag::FlagOfOtherTarget::code,
+      diag::UnknownDatum::code,
   };
   return std::find(kCodes.begin(), kCodes.end(), code) != kCodes.end();
 }

@@ -6,6 +6,9 @@
 
 namespace dotek::driver {
 
-inline constexpr std::array<std::string_view, 1> kTargets = {"fanuc"};
+inline constexpr std::array<std::string_view, 2> kTargets = {"fanuc", "mikroprog"};
+// What `list targets` says of each.
+inline constexpr std::array<std::string_view, 2> kTargetTexts = {"program that is called with G65",
+                                                                 "program without arguments, for Mikroprog"};
 
 } // namespace dotek::driver

@@ -13,7 +13,7 @@ TEST_CASE("seeds of the fuzz targets do no harm") {
     if (!entry.is_regular_file()) continue;
     ++seeds;
     const std::string path = entry.path().string();
-    for (const std::string kind : {"prog", "mac", "dlg", "define", "nc"}) {
+    for (const std::string kind : {"prog", "mac", "dlg", "define", "nc", "suf"}) {
       INFO(path << " as " << kind);
       for (const std::string stage : {"tokens", "ast"})
         CHECK(runDotek({"dump", path, "--stage", stage, "--from", kind}, root()).status <= 2);

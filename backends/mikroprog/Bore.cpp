@@ -1,0 +1,185 @@
+// The centre of a bore: two contacts along each axis and the middle between them.
+#include "backends/mikroprog/State.h"
+#include "ir/Linear.h"
+#include "support/Decimal.h"
+
+#include <fmt/format.h>
+
+namespace dotek::backends::mikroprog {
+
+namespace {
+
+constexpr double kFirstStep = 32.768; // mm; a power of two of the last
+constexpr double kLastStep = 0.002;   // the middle is right to half of it
+constexpr std::uint32_t kBelowX = 11; // condition O: P90 <= X; 13 for Y
+
+double sum(double a, double b) {
+  return ir::exactSum(a, b).value_or(a + b);
+}
+
+struct Plan {
+  double half = 0;   // from the middle to a contact of the ball's centre, as expected
+  double widest = 0; // from contact to contact, at most
+  double first = 0;  // step that the walk begins with: all steps together pass `widest`
+};
+
+std::string record(const State& state, std::string_view function) {
+  return fmt::format("{} @{}.{}", state.code(function), state.options.fileName, state.control.dataEnding);
+}
+
+// Walks from the left contact, at -W, to -W/2. P90 is moved by each step that it may take and stay below the
+// coordinate; for every other step the axis moves by half of it, and P90 with it. W is the sum of those, so
+// their halves lead to the middle, and the walk never passes it.
+void writeWalk(State& state, ir::Axis axis, const Plan& plan, Mark entry, const ir::Origin& from) {
+  const char letter = ir::letterOf(axis);
+  const ir::Origin origin = made("walk to the middle between the contacts", from);
+  const SourceRange range = from.range();
+  state.subprograms.push_back({entry, {}});
+  Sheet& sheet = state.subprograms.back().sheet;
+  const std::string condition = fmt::format("O{}", kBelowX + 2 * static_cast<std::uint32_t>(axis));
+  const std::string feed = " F" + numberWord(state, state.host("return_feed"), range);
+  sheet.comment(fmt::format("WALK TO THE MIDDLE ALONG {}", letter), origin);
+  sheet.place(entry);
+  sheet.add(state.code("incremental"), origin);
+  bool first = true;
+  for (double step = plan.first; step > kLastStep / 2; step /= 2) {
+    const std::string whole = numberWord(state, step, range), half = numberWord(state, step / 2, range);
+    const Mark next = state.mark();
+    sheet.add("P90=P90+" + whole, origin);
+    sheet.jump(state.code("jump-if"), next, condition, origin, first ? "KEEP THE STEP" : "");
+    sheet.add("P90=P90-" + half, origin);
+    sheet.add(fmt::format("{} {}{}{}", state.code("feed"), letter, half, first ? feed : ""), origin);
+    sheet.place(next);
+    first = false;
+  }
+  sheet.add(state.code("absolute"), origin);
+  sheet.add(state.code("return"), origin);
+}
+
+// One axis, by comparing: the first contact becomes 0, so the second is at minus their distance.
+void compareAxis(State& state, ir::Axis axis, const Plan& plan, double centre, double nominal,
+                 const ir::Origin& origin) {
+  const SourceRange range = origin.range();
+  AxisState& now = state.axes[ir::indexOf(axis)];
+  const double over = state.host("overtravel");
+  const auto word = [&](double value) { return axisWord(state, axis, value, range); };
+  state.sheet.comment(fmt::format("MIDDLE ALONG {}", ir::letterOf(axis)), origin);
+  ++state.probeMoves;
+  search(state, axis, sum(sum(sum(centre, now.shift), plan.half), over), origin, "WALL ON THE PLUS SIDE");
+  state.sheet.add(state.code("set-position") + " " + word(0), origin, "FOR THE COMPARISON");
+  state.sheet.add(fmt::format("{} {} F{}", state.code("feed"), word(-plan.half),
+                              numberWord(state, state.host("return_feed"), range)),
+                  made("off the wall", origin));
+  ++state.probeMoves;
+  search(state, axis, -plan.widest, origin, "WALL ON THE MINUS SIDE");
+  state.sheet.add("P90=" + numberWord(state, -2 * plan.first, range), origin);
+  const Mark entry = state.mark();
+  state.sheet.jump(state.code("call"), entry, "", origin, "TO THE MIDDLE");
+  state.sheet.add(record(state, "record-value"), made("record of the diameter", origin),
+                  fmt::format("DIAMETER = {} - 2*P90", numberText(2 * state.host("tool_radius"))));
+  state.sheet.add(state.code("set-position") + " " + word(nominal), origin);
+  writeWalk(state, axis, plan, entry, origin);
+  now.shift = sum(nominal, -centre);
+  now.datum = true;
+}
+
+// One axis by documented functions alone: a record of each contact, and back to where the probe stood.
+void recordAxis(State& state, ir::Axis axis, const Plan& plan, double centre, const ir::Origin& origin) {
+  const AxisState& now = state.axes[ir::indexOf(axis)];
+  const double over = state.host("overtravel");
+  const double here = sum(centre, now.shift);
+  const std::string back =
+      fmt::format("{} {} F{}", state.code("feed"), axisWord(state, axis, here, origin.range()),
+                  numberWord(state, state.host("return_feed"), origin.range()));
+  for (const double side : {1.0, -1.0}) {
+    ++state.probeMoves;
+    search(state, axis, sum(here, side * sum(plan.half, over)), origin,
+           side > 0 ? "WALL ON THE PLUS SIDE" : "WALL ON THE MINUS SIDE");
+    mikroprog::record(state, origin);
+    state.sheet.add(back, made("back to where the measurement began", origin));
+  }
+}
+
+} // namespace
+
+void bore(State& state, const ir::Measure& measure, const ir::Origin& origin) {
+  const SourceRange range = origin.range();
+  const ir::Axis axes[] = {ir::Axis::X, ir::Axis::Y};
+  std::array<double, 2> centre{}, nominal{};
+  for (const ir::Axis axis : axes) {
+    if (!checkAxis(state, axis, range)) return;
+    const std::optional<double> here = hereOf(state, axis, range);
+    if (!here) return;
+    centre[ir::indexOf(axis)] = *here;
+  }
+  const std::optional<double> diameter = valueOf(state, measure.diameter, range);
+  if (!diameter) return;
+  const double radius = state.host("tool_radius");
+  Plan plan;
+  plan.half = sum(*diameter / 2, -radius);
+  plan.widest = sum(2 * plan.half, state.host("overtravel"));
+  if (plan.half <= 0) {
+    state.refuse<diag::MikroprogCannot>(range,
+                                        fmt::format("the ball of radius {} does not fit into the bore of {}",
+                                                    numberText(radius), numberText(*diameter)),
+                                        "give the diameter of the bore, or another radius");
+    return;
+  }
+  for (plan.first = kFirstStep; 2 * plan.first <= plan.widest; plan.first *= 2) {
+  }
+  std::string system;
+  if (measure.setting) {
+    const std::optional<double> number = valueOf(state, measure.setting->system, range);
+    if (!number) return;
+    system = numberText(*number);
+    for (const ir::Axis axis : axes) {
+      const std::size_t i = ir::indexOf(axis);
+      const auto value = valueOf(state, measure.setting->nominal[i], range);
+      if (!value) return;
+      nominal[i] = *value;
+    }
+  }
+  const bool compares = measure.setting && state.options.datum == Datum::SetPosition;
+  if (compares && !relyOn(state, {10, 13, 7}, "the middle of a bore", range)) return;
+  if (compares && !relyOn(state, {12, 23}, "a datum and its record", range)) return;
+  if (!relyOn(state, {20, 22}, "a search along one axis", range)) return;
+  guard(state, origin);
+  --state.probeMoves; // counted below
+  for (const ir::Axis axis : axes) {
+    const std::size_t i = ir::indexOf(axis);
+    if (compares)
+      compareAxis(state, axis, plan, centre[i], nominal[i], origin);
+    else
+      recordAxis(state, axis, plan, centre[i], origin);
+  }
+  state.feed.reset();
+  if (!measure.setting) return;
+  if (compares) {
+    state.diagnostics.report<diag::OffsetNumberDropped>(
+        range, system, state.code("set-position") + " sets the active system itself",
+        state.code("reference") + " alone brings the old one back; `--datum operator` records the contacts");
+    state.remarks.push_back(fmt::format("WORK OFFSET {} NOT WRITTEN: THE ACTIVE SYSTEM IS SET, {} ENDS THAT",
+                                        system, state.code("reference")));
+    std::string by;
+    if (state.axes[0].shift == 0 && state.axes[1].shift == 0)
+      state.remarks.push_back("MOVES BEHIND A DATUM ARE IN THE CORRECTED SYSTEM");
+    for (const ir::Axis axis : axes)
+      if (const double shift = state.axes[ir::indexOf(axis)].shift; shift != 0) {
+        by += fmt::format(", {} by {} mm", ir::letterOf(axis), numberText(shift));
+        state.remarks.push_back(fmt::format("BEHIND THE DATUM {} COUNTS {} MM MORE THAN IN THE SOURCE",
+                                            ir::letterOf(axis), numberText(shift)));
+      }
+    state.diagnostics.report<diag::SystemCorrected>(range, by);
+    return;
+  }
+  const std::string place =
+      axisWord(state, ir::Axis::X, nominal[0], range) + " " + axisWord(state, ir::Axis::Y, nominal[1], range);
+  state.sheet.add(state.code("stop") + " ;" + fmt::format(fmt::runtime(state.control.enterCentre), place),
+                  origin);
+  state.guarded = false;
+  state.diagnostics.report<diag::OffsetNumberDropped>(range, system, "no function writes a stored shift",
+                                                      "the program stops for an entry by hand");
+  state.remarks.push_back(fmt::format("WORK OFFSET {} NOT WRITTEN: THE OPERATOR ENTERS THE SHIFT", system));
+}
+
+} // namespace dotek::backends::mikroprog

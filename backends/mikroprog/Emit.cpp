@@ -1,0 +1,403 @@
+#include "backends/mikroprog/Emit.h"
+
+#include "backends/mikroprog/State.h"
+#include "ir/Fold.h"
+#include "ir/Linear.h"
+#include "support/Decimal.h"
+
+#include <algorithm>
+#include <cctype>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace dotek::backends::mikroprog {
+
+namespace {
+
+constexpr std::uint32_t kStep = 10;      // from block to block
+constexpr std::uint32_t kTails = 900;    // the first tail, or the next hundred behind the main program
+constexpr std::uint32_t kCollision = 10; // from there
+constexpr std::uint32_t kEnd = 90;       // from there
+constexpr std::uint32_t kTailStep = 5;
+constexpr std::uint32_t kSubprograms = 5000; // the first, each at a thousand
+
+bool probes(const ir::Statement& statement) {
+  const auto* move = std::get_if<ir::Move>(&statement.node);
+  return std::holds_alternative<ir::Measure>(statement.node) ||
+         (move != nullptr && move->motion == ir::Motion::Protected);
+}
+
+bool measures(const ir::Cycle& cycle) {
+  return std::any_of(cycle.body.begin(), cycle.body.end(), [](const ir::Statement& statement) {
+    return std::holds_alternative<ir::Measure>(statement.node);
+  });
+}
+
+std::uint32_t roundedUp(std::uint32_t value, std::uint32_t to) {
+  return (value + to - 1) / to * to;
+}
+
+// Writes the statements of the body.
+class Body {
+public:
+  explicit Body(State& state) : s_(state) {}
+
+  void write() {
+    const auto& list = s_.cycle.body;
+    for (std::size_t i = 0; i < list.size() && !s_.failed; ++i) {
+      if (probes(list[i]) && !probed_) {
+        probed_ = true;
+        settle(i);
+      }
+      if (s_.done.insert(&list[i]).second) one(list[i], i);
+    }
+  }
+
+private:
+  // Spindle and coolant at rest before the first probe move, at `first`: what the source writes behind it
+  // comes before it.
+  void settle(std::size_t first) {
+    const auto& list = s_.cycle.body;
+    bool spindle = false, coolant = false; // switched off
+    for (std::size_t i = 0; i < list.size(); ++i) {
+      const auto* turns = std::get_if<ir::Spindle>(&list[i].node);
+      const auto* flows = std::get_if<ir::Coolant>(&list[i].node);
+      if (turns == nullptr && flows == nullptr) continue;
+      const bool off = turns != nullptr ? turns->state == ir::Spindle::State::Off
+                                        : flows->state == ir::Coolant::State::Off;
+      bool& settled = turns != nullptr ? spindle : coolant;
+      if (i < first) {
+        settled = off;
+        continue;
+      }
+      if (settled) continue;
+      if (!off) break;
+      settled = true;
+      s_.diagnostics.report<diag::MovedBefore>(list[i].origin.range(),
+                                               s_.code(turns != nullptr ? "spindle-off" : "coolant-off"));
+      s_.done.insert(&list[i]);
+      one(list[i], i);
+    }
+    const auto missing = [&](bool settled, std::string_view what, std::string_view function) {
+      if (settled) return;
+      s_.diagnostics.report<diag::SpindleNotStopped>(list[first].origin.range(), what, s_.code(function));
+      s_.remarks.push_back(fmt::format("NOTHING HERE STOPS {}: THE CALLER HAS TO",
+                                       what == "the spindle" ? "THE SPINDLE" : "THE COOLANT"));
+    };
+    missing(spindle, "the spindle", "spindle-off");
+    missing(coolant, "the coolant", "coolant-off");
+  }
+
+  void one(const ir::Statement& statement, std::size_t index) {
+    const auto& node = statement.node;
+    const ir::Origin& origin = statement.origin;
+    const SourceRange range = origin.range();
+    if (const auto* move = std::get_if<ir::Move>(&node)) return this->move(*move, origin);
+    if (const auto* measured = std::get_if<ir::Measure>(&node)) return measure(s_, *measured, index);
+    if (const auto* comment = std::get_if<ir::Comment>(&node))
+      return s_.sheet.comment(asciiText(s_, comment->text, range), origin);
+    if (const auto* spindle = std::get_if<ir::Spindle>(&node)) return this->spindle(*spindle, origin);
+    if (const auto* coolant = std::get_if<ir::Coolant>(&node)) return this->coolant(*coolant, origin);
+    if (const auto* power = std::get_if<ir::ProbePower>(&node)) return probePower(*power, origin);
+    if (const auto* mode = std::get_if<ir::SetMode>(&node)) return this->mode(*mode, origin);
+    if (const auto* store = std::get_if<ir::Store>(&node)) return this->store(*store, origin);
+    if (const auto* dwell = std::get_if<ir::Dwell>(&node)) {
+      const auto seconds = valueOf(s_, dwell->seconds, range);
+      if (seconds) s_.sheet.add(s_.code("dwell") + " E" + numberWord(s_, *seconds, range), origin);
+      return;
+    }
+    if (const auto* stop = std::get_if<ir::Stop>(&node)) {
+      if (stop->optional) {
+        s_.refuse<diag::MikroprogCannot>(range, "a stop that the operator switches",
+                                         "M1 needs a condition, and how its field is set is not known (Q14)");
+        return;
+      }
+      return this->stop(stop->message, origin);
+    }
+    if (const auto* alarm = std::get_if<ir::Alarm>(&node)) {
+      this->stop(alarm->message, origin);
+      return toEnd(origin);
+    }
+    if (std::holds_alternative<ir::Return>(node)) return toEnd(origin);
+    if (std::holds_alternative<ir::OpaqueBlock>(node)) {
+      s_.refuse<diag::OpaqueBlockRefused>(range, addresses(std::get<ir::OpaqueBlock>(node)),
+                                          "the source's control");
+      return;
+    }
+    if (const auto* branch = std::get_if<ir::Branch>(&node)) {
+      (void)branch;
+      s_.refuse<diag::FlowRefused>(range, "what only the running program knows");
+      return;
+    }
+    if (std::holds_alternative<ir::Assign>(node)) {
+      s_.refuse<diag::MikroprogCannot>(range, "a value that only the running program knows",
+                                       "whether parameters take sums is not known (Q10)");
+      return;
+    }
+    if (std::holds_alternative<ir::Label>(node)) {
+      s_.refuse<diag::FlowRefused>(range, "a loop without an end");
+      return;
+    }
+    s_.refuse<diag::MikroprogCannot>(range, "this statement", "the control has no function for it");
+  }
+
+  static std::string addresses(const ir::OpaqueBlock& block) {
+    std::string out;
+    for (const ir::Word& word : block.words) {
+      const double* value = word.value == nullptr ? nullptr : ir::constantValue(word.value);
+      out += (out.empty() ? "" : " ") + std::string(1, word.address) + (value ? numberText(*value) : "..");
+    }
+    return out;
+  }
+
+  void move(const ir::Move& move, const ir::Origin& origin) {
+    const SourceRange range = origin.range();
+    if (move.point == ir::ProbePoint::Contact) {
+      s_.refuse<diag::MikroprogCannot>(range, "a move to coordinates of the contact point",
+                                       "the control moves the probe, not the surface");
+      return;
+    }
+    if (move.motion == ir::Motion::Protected) return protectedMove(s_, move, origin);
+    const bool rapid = move.motion == ir::Motion::Rapid;
+    std::string words = s_.code(rapid ? "rapid" : "feed");
+    std::string comment;
+    if (move.feed != nullptr) {
+      s_.feed = valueOf(s_, move.feed, range);
+      if (!s_.feed) return;
+      if (rapid) {
+        comment = "F" + numberText(*s_.feed) + " NOT KEPT";
+        s_.diagnostics.report<diag::FeedDropped>(range, numberText(*s_.feed),
+                                                 s_.code("rapid") + " moves at the machine's top speed");
+      }
+    }
+    bool any = false;
+    for (const ir::Axis axis : ir::kAxes) {
+      const auto& target = move.axes[ir::indexOf(axis)];
+      if (!target) continue;
+      const std::optional<double> to = placeOf(s_, *target, axis, range);
+      if (!to) return;
+      AxisState& now = s_.axes[ir::indexOf(axis)];
+      const bool lift =
+          move.point == ir::ProbePoint::Lowest && axis == ir::Axis::Z && s_.options.lengthToCentre;
+      now.at = lift ? *to + s_.host("tool_radius") : *to;
+      const double word = ir::exactSum(*now.at, now.shift).value_or(*now.at + now.shift);
+      words += " " + axisWord(s_, axis, word, range);
+      any = true;
+    }
+    if (!any) return;
+    if (!rapid) {
+      if (!s_.feed) {
+        s_.refuse<diag::MikroprogCannot>(range, "a feed move without a feed",
+                                         "the control begins with F0; write F into the block");
+        return;
+      }
+      words += " F" + numberWord(s_, *s_.feed, range);
+    }
+    s_.sheet.add(std::move(words), origin, std::move(comment));
+  }
+
+  void spindle(const ir::Spindle& spindle, const ir::Origin& origin) {
+    using TurnState = ir::Spindle::State;
+    if (spindle.state == TurnState::Off) return s_.sheet.add(s_.code("spindle-off"), origin);
+    const std::string code =
+        s_.code(spindle.state == TurnState::Clockwise ? "spindle-right" : "spindle-left");
+    if (spindle.speed == nullptr) {
+      s_.refuse<diag::MikroprogCannot>(origin.range(), "a spindle without a speed", code + " needs S");
+      return;
+    }
+    const auto speed = valueOf(s_, spindle.speed, origin.range());
+    if (speed) s_.sheet.add(code + " S" + numberWord(s_, *speed, origin.range()), origin);
+  }
+
+  void coolant(const ir::Coolant& coolant, const ir::Origin& origin) {
+    if (coolant.state == ir::Coolant::State::Mist) {
+      s_.refuse<diag::MikroprogCannot>(origin.range(), "mist coolant",
+                                       "M8 is the only coolant of the control");
+      return;
+    }
+    s_.sheet.add(s_.code(coolant.state == ir::Coolant::State::Off ? "coolant-off" : "coolant-on"), origin);
+  }
+
+  void probePower(const ir::ProbePower& power, const ir::Origin& origin) {
+    s_.diagnostics.report<diag::ProbePowerDropped>(origin.range(), power.on ? "on" : "off");
+    s_.sheet.comment(fmt::format("PROBE {}: NO FUNCTION OF THE CONTROL IS KNOWN", power.on ? "ON" : "OFF"),
+                     origin);
+    if (s_.remarked.insert("power").second) s_.remarks.push_back("PROBE ON AND OFF");
+  }
+
+  void store(const ir::Store& store, const ir::Origin& origin) {
+    const double* number = ir::constantValue(store.number);
+    const std::string name = number == nullptr ? "[..]" : numberText(*number);
+    if (!std::holds_alternative<ir::MeasuredResult>(store.value->node)) {
+      s_.refuse<diag::MikroprogCannot>(origin.range(), "a value in #" + name,
+                                       "the control has parameters P, and nothing says which is free");
+      return;
+    }
+    s_.diagnostics.report<diag::ResultDropped>(origin.range(), name);
+    s_.sheet.comment(fmt::format("#{} NOT KEPT: SEE THE RECORD", name), origin);
+  }
+
+  void mode(const ir::SetMode& mode, const ir::Origin& origin) {
+    using ir::Mode;
+    const SourceRange range = origin.range();
+    switch (mode.mode) {
+    case Mode::Absolute:
+    case Mode::Incremental:
+    case Mode::RapidMotion:
+    case Mode::FeedMotion:
+    case Mode::FeedPerMinute: return; // coordinates are absolute, each move says what it is
+    case Mode::PlaneXY: return s_.sheet.add(s_.code("plane-xy"), origin);
+    case Mode::PlaneZX: return s_.sheet.add(s_.code("plane-zx"), origin);
+    case Mode::PlaneYZ: return s_.sheet.add(s_.code("plane-yz"), origin);
+    case Mode::CutterCompOff: return s_.sheet.add(s_.code("compensation-off"), origin);
+    case Mode::CannedCycleOff:
+      s_.diagnostics.report<diag::ModeDropped>(range, "the end of canned cycles",
+                                               "the control has none that stays in force");
+      return;
+    case Mode::FeedPerRevolution: s_.refuse<diag::FeedPerRevolution>(range); return;
+    case Mode::WorkSystem:
+      s_.refuse<diag::MikroprogCannot>(range, "a change of the work system",
+                                       "G54 and G55 are stored shifts 3 and 4 here, the others do not exist; "
+                                       "choose the shift on the machine");
+      return;
+    }
+  }
+
+  void stop(const std::string& message, const ir::Origin& origin) {
+    const std::string text = asciiText(s_, message, origin.range());
+    s_.sheet.add(s_.code("stop") + (text.empty() ? "" : " ;" + text), origin);
+    s_.guarded = false;
+  }
+
+  void toEnd(const ir::Origin& origin) {
+    s_.usesEnd = true;
+    s_.sheet.jump(s_.code("jump"), s_.end, "", origin);
+  }
+
+  State& s_;
+  bool probed_ = false;
+};
+
+// Modes and the way to the start point.
+void writeBeginning(State& state) {
+  const ir::Origin origin = made("beginning");
+  const bool mill = state.control.hasAxis('Y');
+  state.sheet.add(fmt::format("{} {} {}", state.code(mill ? "plane-xy" : "plane-zx"), state.code("absolute"),
+                              state.code("feed-per-minute")),
+                  origin);
+  std::string words;
+  for (const ir::Axis axis : ir::kAxes) {
+    const auto given = state.options.hosts.find(fmt::format("start_{}", "xyz"[ir::indexOf(axis)]));
+    if (given == state.options.hosts.end() || !state.control.hasAxis(ir::letterOf(axis))) continue;
+    const std::size_t i = ir::indexOf(axis);
+    state.start[i] = state.axes[i].at = given->second;
+    if (axis != ir::Axis::Z) words += " " + axisWord(state, axis, given->second, {});
+  }
+  if (!words.empty()) state.sheet.add(state.code("rapid") + words, made("start point"));
+}
+
+void numberSheets(State& state, std::vector<EmittedLine>& out) {
+  std::map<Mark, std::uint32_t> numbers;
+  const bool tails = state.usesNotFound || state.usesCollision || state.usesEnd;
+  const std::string jump = state.code("jump"), stop = state.code("stop");
+  const ir::Origin none = made("end of the program");
+  if (tails) state.sheet.jump(jump, state.end, "", none);
+  Sheet notFound, collision, end;
+  if (state.usesNotFound) {
+    const ir::Origin tail = made("tail: the surface was not found");
+    notFound.place(state.notFound);
+    notFound.add(stop + " ;" + state.control.notFound, tail);
+    notFound.jump(jump, state.end, "", tail);
+  }
+  if (state.usesCollision) {
+    collision.place(state.collision);
+    collision.add(stop + " ;" + state.control.collision, made("tail: contact where none was expected"));
+  }
+  end.place(state.end);
+  end.add(state.code("end"), none);
+
+  state.sheet.number(kStep, kStep, numbers);
+  const std::uint32_t behind = static_cast<std::uint32_t>(state.sheet.blocks()) * kStep + 1;
+  const std::uint32_t base = std::max(kTails, roundedUp(behind, 100));
+  notFound.number(base, kTailStep, numbers);
+  collision.number(base + kCollision, kTailStep, numbers);
+  end.number(tails ? base + kEnd : behind - 1 + kStep, kStep, numbers);
+  std::uint32_t entry = std::max(kSubprograms, roundedUp(base + kEnd + 1, 1000));
+  for (Subprogram& sub : state.subprograms) {
+    sub.sheet.number(entry, kStep, numbers);
+    entry = roundedUp(entry + static_cast<std::uint32_t>(sub.sheet.blocks()) * kStep + 1, 1000);
+  }
+  for (const Sheet* sheet : {&state.sheet, &notFound, &collision, &end})
+    sheet->print(numbers, out);
+  for (const Subprogram& sub : state.subprograms)
+    sub.sheet.print(numbers, out);
+}
+
+} // namespace
+
+bool movesY(const ir::Cycle& cycle) {
+  constexpr std::size_t kY = ir::indexOf(ir::Axis::Y);
+  return std::any_of(cycle.body.begin(), cycle.body.end(), [](const ir::Statement& statement) {
+    if (const auto* measure = std::get_if<ir::Measure>(&statement.node))
+      return measure->feature == ir::Feature::Bore || measure->axis == ir::Axis::Y;
+    const auto* move = std::get_if<ir::Move>(&statement.node);
+    return move != nullptr && move->axes[kY].has_value();
+  });
+}
+
+std::vector<std::string> missingHosts(const ir::Cycle& cycle, const stdlib::MikroprogControl& control,
+                                      const std::map<std::string, double>& hosts) {
+  std::vector<std::string> wanted;
+  if (measures(cycle)) wanted = {"tool_radius", "clearance", "overtravel", "return_feed"};
+  for (const char* start : {"start_x", "start_y"})
+    if (control.hasAxis(start[6] == 'x' ? 'X' : 'Y')) wanted.emplace_back(start);
+  for (ir::VariableId id = 0; id < cycle.variables.size(); ++id) {
+    const ir::Variable& variable = cycle.variable(id);
+    if (variable.role == ir::Role::Host && ir::uses(cycle, id) &&
+        std::find(wanted.begin(), wanted.end(), variable.name) == wanted.end())
+      wanted.push_back(variable.name);
+  }
+  std::erase_if(wanted, [&](const std::string& name) { return hosts.contains(name); });
+  return wanted;
+}
+
+std::string shortFileName(const std::string& cycle) {
+  std::string out;
+  for (const char c : cycle)
+    if (std::isalnum(static_cast<unsigned char>(c)) != 0)
+      out += static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+  if (out.size() > 8) out = out.substr(0, 3) + out.substr(out.size() - 5);
+  return out.empty() ? "CYCLE" : out;
+}
+
+std::optional<std::vector<EmittedLine>> emit(const ir::Cycle& cycle, const EmitOptions& options,
+                                             Diagnostics& diagnostics) {
+  State state(cycle, options, diagnostics);
+  state.notFound = state.mark();
+  state.collision = state.mark();
+  state.end = state.mark();
+  writeBeginning(state);
+  Body(state).write();
+  if (state.failed) return std::nullopt;
+  if (!cycle.measurementStated)
+    state.remarks.push_back("THE SOURCE IS A PATH: CONTACTS ARE RECORDED, NOTHING IS SET");
+  if (state.probeMoves > 1) {
+    const std::string times = state.guards == 1 ? "once" : fmt::format("{} times", state.guards);
+    diagnostics.report<diag::GuardOnce>({}, times, state.probeMoves);
+    state.remarks.push_back("O7 IS ASKED BEFORE EACH CHAIN OF PROBE MOVES, NOT BEFORE EACH");
+  }
+  if (!state.relied.empty()) {
+    std::vector<std::string> texts;
+    for (const std::uint32_t number : state.relied)
+      texts.push_back(fmt::format("Q{} ({})", number, state.control.question(number)->title));
+    diagnostics.report<diag::QuestionsAssumed>({}, fmt::format("{}", fmt::join(texts, ", ")));
+  }
+  std::vector<EmittedLine> lines;
+  for (std::string& text : headerLines(state))
+    lines.push_back({std::move(text), {}, "header"});
+  numberSheets(state, lines);
+  if (state.failed) return std::nullopt;
+  return lines;
+}
+
+} // namespace dotek::backends::mikroprog

@@ -1,0 +1,60 @@
+// Writes a cycle whose values are all known as a program of a control by Mikronex (docs/mikroprog.md).
+#pragma once
+
+#include "ir/Cycle.h"
+#include "stdlib/MikroprogControl.h"
+#include "support/Diagnostics.h"
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace dotek::backends::mikroprog {
+
+// What a measurement that sets an offset becomes.
+enum class Datum : std::uint8_t {
+  SetPosition, // G92: the contact gets its coordinate in the active system
+  Operator,    // a stop: the operator enters the shift
+};
+
+struct NamedValue {
+  std::string name;
+  double value = 0;
+  std::string from; // "default", "--set", "host input"
+};
+
+struct EmitOptions {
+  const stdlib::MikroprogControl& control;
+  std::string fileName; // of records, without ending: "SURFACEX"
+  Datum datum = Datum::SetPosition;
+  std::set<std::uint32_t> assumed;     // questions of --assume
+  std::map<std::string, double> hosts; // stdlib/HostInputs.h: mm, mm/min
+  bool lengthToCentre = false;         // the tool length ends at the ball's centre, else at its lowest point
+  std::vector<NamedValue> values;      // of the parameters, for the header
+};
+
+struct EmittedLine {
+  std::string text;                // ASCII, without line end
+  std::vector<SourceRange> ranges; // empty: made up
+  std::string reason;
+};
+
+// Whether a move or a measurement of the cycle needs an axis Y.
+bool movesY(const ir::Cycle& cycle);
+
+// Host inputs that a program for this control needs and `hosts` does not give, in the order of the table.
+std::vector<std::string> missingHosts(const ir::Cycle& cycle, const stdlib::MikroprogControl& control,
+                                      const std::map<std::string, double>& hosts);
+
+// Name of a file in the form that DOS takes, without ending: "SURFACEX".
+std::string shortFileName(const std::string& cycle);
+
+// The program. `cycle` is folded with a value for each parameter and host input; its checks have passed.
+// nullopt where the control cannot say something: reported.
+std::optional<std::vector<EmittedLine>> emit(const ir::Cycle& cycle, const EmitOptions& options,
+                                             Diagnostics& diagnostics);
+
+} // namespace dotek::backends::mikroprog

@@ -1,0 +1,215 @@
+// Protected moves and measurements of one surface.
+#include "backends/mikroprog/State.h"
+#include "ir/Linear.h"
+#include "support/Decimal.h"
+
+#include <cmath>
+#include <fmt/format.h>
+
+namespace dotek::backends::mikroprog {
+
+namespace {
+
+constexpr std::uint32_t kTouchProbe = 7; // condition O: contact of touch probe A
+
+double sum(double a, double b) {
+  return ir::exactSum(a, b).value_or(a + b);
+}
+
+// Coordinate of the controlled point where the ball touches a surface at `face`, moving by the sign of `way`.
+double contactAt(const State& state, ir::Axis axis, double face, double way) {
+  const double radius = state.host("tool_radius");
+  if (axis == ir::Axis::Z && !state.options.lengthToCentre) return way < 0 ? face : sum(face, -2 * radius);
+  return sum(face, way < 0 ? radius : -radius);
+}
+
+// Whether the statements behind `index` go on in the direction of `back` at least to `to`, along that axis
+// alone: they are the way back.
+bool leavesByItself(State& state, std::size_t index, ir::Axis axis, double to, double back) {
+  const auto& list = state.cycle.body;
+  for (std::size_t i = index + 1; i < list.size(); ++i) {
+    const auto& node = list[i].node;
+    if (std::holds_alternative<ir::Comment>(node) || std::holds_alternative<ir::Store>(node)) continue;
+    const auto* mode = std::get_if<ir::SetMode>(&node);
+    if (mode != nullptr && (mode->mode == ir::Mode::Absolute || mode->mode == ir::Mode::RapidMotion ||
+                            mode->mode == ir::Mode::FeedMotion))
+      continue;
+    const auto* move = std::get_if<ir::Move>(&node);
+    if (move == nullptr || move->motion == ir::Motion::Protected) return false;
+    for (const ir::Axis other : ir::kAxes)
+      if (move->axes[ir::indexOf(other)].has_value() != (other == axis)) return false;
+    const ir::Coordinate& target = *move->axes[ir::indexOf(axis)];
+    const double* value = ir::constantValue(target.value);
+    if (target.frame != ir::Frame::Work || target.system != nullptr || value == nullptr) return false;
+    return (*value - to) * back >= 0;
+  }
+  return false;
+}
+
+// The system moves under the coordinates that follow.
+void shiftSystem(State& state, ir::Axis axis, double face, double nominal, const ir::Origin& origin) {
+  AxisState& now = state.axes[ir::indexOf(axis)];
+  now.datum = true;
+  now.shift = sum(nominal, -face);
+  if (std::abs(now.shift) < 1e-9) now.shift = 0;
+  if (now.shift == 0 && !state.remarked.insert("corrected").second) return;
+  const std::string by =
+      now.shift == 0 ? ""
+                     : fmt::format(", {} {} by {} mm", ir::letterOf(axis),
+                                   now.shift > 0 ? "greater" : "smaller", numberText(std::abs(now.shift)));
+  state.diagnostics.report<diag::SystemCorrected>(origin.range(), by);
+  if (now.shift != 0)
+    state.remarks.push_back(fmt::format("BEHIND THE DATUM {} COUNTS {} MM MORE THAN IN THE SOURCE",
+                                        ir::letterOf(axis), numberText(now.shift)));
+  else
+    state.remarks.push_back("MOVES BEHIND A DATUM ARE IN THE CORRECTED SYSTEM");
+}
+
+void setPosition(State& state, ir::Axis axis, double contact, double face, double nominal,
+                 const std::string& system, const ir::Origin& origin) {
+  if (!relyOn(state, {12}, "G92 along one axis", origin.range())) return;
+  if (axis == ir::Axis::Y && !relyOn(state, {22}, "G92 with Y", origin.range())) return;
+  const std::string code = state.code("set-position");
+  state.sheet.add(
+      code + " " + axisWord(state, axis, contact, origin.range()), origin,
+      fmt::format("CONTACT OF {}{}; S{} NOT WRITTEN", ir::letterOf(axis), numberText(nominal), system));
+  state.diagnostics.report<diag::OffsetNumberDropped>(
+      origin.range(), system, code + " sets the active system itself",
+      state.code("reference") +
+          " alone brings the old one back; `--datum operator` stops for an entry by hand");
+  if (state.remarked.insert("offset " + system).second)
+    state.remarks.push_back(fmt::format("WORK OFFSET {} NOT WRITTEN: THE ACTIVE SYSTEM IS SET, {} ENDS THAT",
+                                        system, state.code("reference")));
+  shiftSystem(state, axis, face, nominal, origin);
+}
+
+void askOperator(State& state, ir::Axis axis, double contact, const std::string& system,
+                 const ir::Origin& origin) {
+  const std::string here = axisWord(state, axis, contact, origin.range());
+  state.sheet.add(state.code("stop") + " ;" + fmt::format(fmt::runtime(state.control.enterShift), here),
+                  origin);
+  state.guarded = false;
+  state.diagnostics.report<diag::OffsetNumberDropped>(
+      origin.range(), system, "no function writes a stored shift", "the program stops for an entry by hand");
+  if (state.remarked.insert("offset " + system).second)
+    state.remarks.push_back(fmt::format("WORK OFFSET {} NOT WRITTEN: THE OPERATOR ENTERS THE SHIFT", system));
+}
+
+} // namespace
+
+void guard(State& state, const ir::Origin& origin) {
+  ++state.probeMoves;
+  if (state.guarded) return;
+  state.guarded = true;
+  ++state.guards;
+  state.usesCollision = true;
+  state.sheet.jump(state.code("jump-if"), state.collision, fmt::format("O{}", kTouchProbe),
+                   made("contact before the probe moves", origin), "PROBE ALREADY IN CONTACT");
+}
+
+void protectedMove(State& state, const ir::Move& move, const ir::Origin& origin) {
+  const SourceRange range = origin.range();
+  std::string words = state.code("probe-move");
+  bool several = false, any = false;
+  for (const ir::Axis axis : ir::kAxes) {
+    const auto& target = move.axes[ir::indexOf(axis)];
+    if (!target) continue;
+    const std::optional<double> to = placeOf(state, *target, axis, range);
+    if (!to) return;
+    AxisState& now = state.axes[ir::indexOf(axis)];
+    const bool lift =
+        move.point == ir::ProbePoint::Lowest && axis == ir::Axis::Z && state.options.lengthToCentre;
+    now.at = lift ? sum(*to, state.host("tool_radius")) : *to;
+    words += " " + axisWord(state, axis, sum(*now.at, now.shift), range);
+    several = any;
+    any = true;
+    if (axis == ir::Axis::Y && !relyOn(state, {22}, "G31 with Y", range)) return;
+  }
+  if (!any) return;
+  if (!relyOn(state, {20, 21}, several ? "a protected move of several axes" : "a protected move", range))
+    return;
+  std::string comment;
+  if (move.feed != nullptr) {
+    const std::optional<double> feed = valueOf(state, move.feed, range);
+    if (!feed) return;
+    comment = "F" + numberText(*feed) + " NOT KEPT";
+    state.diagnostics.report<diag::FeedDropped>(
+        range, numberText(*feed), state.code("probe-move") + " moves at a speed of the control");
+  }
+  state.feed.reset(); // the source's macro leaves a feed that nobody knows
+  guard(state, origin);
+  const Mark next = state.mark();
+  state.usesCollision = true;
+  state.sheet.jump(std::move(words), next, "", origin, std::move(comment));
+  state.sheet.jump(state.code("jump"), state.collision, "", made("contact on the way", origin));
+  state.sheet.place(next);
+}
+
+void search(State& state, ir::Axis axis, double target, const ir::Origin& origin, std::string comment) {
+  state.usesNotFound = true;
+  state.sheet.jump(state.code("probe-move") + " " + axisWord(state, axis, target, origin.range()),
+                   state.notFound, "", origin, std::move(comment));
+}
+
+void record(State& state, const ir::Origin& origin) {
+  relyOn(state, {23}, "a record of the contact", origin.range());
+  state.sheet.add(fmt::format("{} @{}.{}", state.code("record-position"), state.options.fileName,
+                              state.control.dataEnding),
+                  made("record of the contact", origin));
+}
+
+void measure(State& state, const ir::Measure& measure, std::size_t index) {
+  const ir::Origin& origin = state.cycle.body[index].origin;
+  const SourceRange range = origin.range();
+  if (measure.feature == ir::Feature::Bore) return bore(state, measure, origin);
+  const ir::Axis axis = measure.axis;
+  if (!measure.target) {
+    state.refuse<diag::MikroprogCannot>(range, "the surface has no place", "nothing tells where to search");
+    return;
+  }
+  if (!checkAxis(state, axis, range)) return;
+  const std::optional<double> from = hereOf(state, axis, range);
+  const std::optional<double> face = from ? placeOf(state, *measure.target, axis, range) : std::nullopt;
+  if (!face) return;
+  AxisState& now = state.axes[ir::indexOf(axis)];
+  const double way = *face - *from;
+  if (way == 0) {
+    state.refuse<diag::MikroprogCannot>(range, "the travel to the surface is 0",
+                                        "it has no direction to search in");
+    return;
+  }
+  if (!relyOn(state, {20}, "a search along one axis", range)) return;
+  if (axis == ir::Axis::Y && !relyOn(state, {22}, "G31 with Y", range)) return;
+  const double over = state.host("overtravel");
+  guard(state, origin);
+  search(state, axis, sum(sum(*face, way < 0 ? -over : over), now.shift), origin,
+         fmt::format("SURFACE EXPECTED AT {}{}", ir::letterOf(axis), numberText(sum(*face, now.shift))));
+  record(state, origin);
+  if (measure.setting) {
+    const ir::ExpressionPtr& given = measure.setting->nominal[ir::indexOf(axis)];
+    const std::optional<double> nominal = valueOf(state, given, range);
+    const std::optional<double> system = valueOf(state, measure.setting->system, range);
+    if (!nominal || !system) return;
+    if (axis == ir::Axis::Z && !state.options.lengthToCentre && state.remarked.insert("tip").second) {
+      state.diagnostics.report<diag::LengthToTip>(range);
+      state.remarks.push_back("Z COUNTS TO THE LOWEST POINT OF THE BALL");
+    }
+    const double contact = contactAt(state, axis, *nominal, way);
+    if (state.options.datum == Datum::SetPosition)
+      setPosition(state, axis, contact, *face, *nominal, numberText(*system), origin);
+    else
+      askOperator(state, axis, contact, numberText(*system), origin);
+  }
+  state.feed.reset();
+  if (state.failed) return;
+  if (leavesByItself(state, index, axis, *from, way < 0 ? 1 : -1)) {
+    state.diagnostics.report<diag::RetreatMerged>(range);
+    return;
+  }
+  state.sheet.add(fmt::format("{} {} F{}", state.code("feed"),
+                              axisWord(state, axis, sum(*from, now.shift), range),
+                              numberWord(state, state.host("return_feed"), range)),
+                  made("back to where the measurement began", origin));
+}
+
+} // namespace dotek::backends::mikroprog

@@ -1,0 +1,105 @@
+// What the parts of the back end share while they write one program.
+#pragma once
+
+#include "backends/mikroprog/Sheet.h"
+#include "support/messages/Fanuc.h"
+#include "support/messages/Mikroprog.h"
+
+#include <array>
+#include <deque>
+
+namespace dotek::backends::mikroprog {
+
+// One axis while the program runs as planned: every surface where the source expects it.
+struct AxisState {
+  std::optional<double> at; // in the coordinates of the source, mm; nothing: not known
+  double shift = 0;         // of the control's coordinate against the source's, since a datum was set
+  bool datum = false;       // a datum was set
+};
+
+// A subprogram behind M30.
+struct Subprogram {
+  Mark entry = 0;
+  Sheet sheet;
+};
+
+struct State {
+  State(const ir::Cycle& cycleOf, const EmitOptions& optionsOf, Diagnostics& report)
+      : cycle(cycleOf), options(optionsOf), control(optionsOf.control), diagnostics(report) {}
+
+  template <class Id, class... Args> Diagnostic& refuse(SourceRange range, const Args&... args) {
+    failed = true;
+    return diagnostics.report<Id>(range, args...);
+  }
+  Mark mark() { return nextMark++; }
+  // Code of a function: code("jump") is "G27".
+  std::string code(std::string_view what) const { return control.function(what).code(); }
+  double host(std::string_view name) const { return options.hosts.at(std::string(name)); }
+
+  const ir::Cycle& cycle;
+  const EmitOptions& options;
+  const stdlib::MikroprogControl& control;
+  Diagnostics& diagnostics;
+
+  Sheet sheet; // the main program
+  std::deque<Subprogram> subprograms;
+  Mark nextMark = 0;
+  Mark notFound = 0, collision = 0, end = 0;
+  bool usesNotFound = false, usesCollision = false, usesEnd = false;
+
+  std::array<AxisState, 3> axes;
+  std::array<std::optional<double>, 3> start; // where the cycle begins, in the coordinates of the source
+  std::optional<double> feed;                 // in force in the source, mm/min
+  bool guarded = false;                       // O7 was asked since the last stop
+  std::size_t guards = 0, probeMoves = 0;
+  std::set<std::uint32_t> relied;      // questions that the program relies on
+  std::vector<std::string> remarks;    // of the header: what is dropped or changed
+  std::set<std::string> remarked;      // what is said once
+  std::set<const ir::Statement*> done; // written before their place
+  bool failed = false;
+};
+
+ir::Origin made(std::string reason, const ir::Origin& from = {});
+
+// ---- Places.cpp ----
+
+// A number as a word takes it: rounded to the control's decimals (a warning), refused where it is too long.
+std::string numberWord(State& state, double value, SourceRange range);
+// "X-10": `value` in coordinates of the control, X of a lathe still a radius.
+std::string axisWord(State& state, ir::Axis axis, double value, SourceRange range);
+// The value of a folded expression; refuses what only the running program could know.
+std::optional<double> valueOf(State& state, const ir::ExpressionPtr& value, SourceRange range);
+// A coordinate in the coordinates of the source.
+std::optional<double> placeOf(State& state, const ir::Coordinate& coordinate, ir::Axis axis,
+                              SourceRange range);
+// Where the probe stands, in the coordinates of the source; refuses where nothing tells.
+std::optional<double> hereOf(State& state, ir::Axis axis, SourceRange range);
+// Refuses an axis that the control does not have.
+bool checkAxis(State& state, ir::Axis axis, SourceRange range);
+// The program relies on these readings. false where one is not taken as given: refused, with all numbers.
+bool relyOn(State& state, const std::vector<std::uint32_t>& questions, std::string_view what,
+            SourceRange range);
+// Printable ASCII for a comment or the panel; a note where a character is lost.
+std::string asciiText(State& state, const std::string& text, SourceRange range);
+
+// ---- Probing.cpp ----
+
+// O7 before the first probe move of a chain.
+void guard(State& state, const ir::Origin& origin);
+// A move that must meet nothing.
+void protectedMove(State& state, const ir::Move& move, const ir::Origin& origin);
+// A move to where contact is wanted: G31 with L to the tail.
+void search(State& state, ir::Axis axis, double target, const ir::Origin& origin, std::string comment);
+void record(State& state, const ir::Origin& origin);
+// The statement at `index` of the body measures.
+void measure(State& state, const ir::Measure& measure, std::size_t index);
+
+// ---- Bore.cpp ----
+
+void bore(State& state, const ir::Measure& measure, const ir::Origin& origin);
+
+// ---- Header.cpp ----
+
+std::vector<std::string> headerLines(const State& state);
+
+} // namespace dotek::backends::mikroprog

@@ -1,0 +1,56 @@
+// Syntax tree of a program of Mikroprog, line by line, with what the programmer wrote.
+#pragma once
+
+#include "support/Source.h"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace dotek::frontend::mikroprog {
+
+struct Value {
+  std::optional<double> number;
+  std::optional<std::uint32_t> parameter; // P6, -P6; `number` is empty then
+  bool negative = false;                  // of a parameter
+  std::string digits;                     // as written, sign included
+};
+
+struct Word {
+  char address = 0; // A to Z, or '@'
+  Value value;
+  std::string file; // of '@'
+  SourceRange range;
+};
+
+struct Term {
+  char op = '+';
+  Value value;
+  SourceRange range;
+};
+struct Assignment {
+  std::uint32_t parameter = 0;
+  std::vector<Term> terms;
+  SourceRange range;
+};
+
+struct Line {
+  std::optional<std::uint64_t> number;
+  SourceRange numberRange;
+  std::optional<Assignment> assignment;
+  std::vector<Word> words;
+  std::optional<std::string> comment; // bytes behind `;`
+  SourceRange commentRange;           // `;` included
+  bool unread = false;                // reported; words and assignment are what stands before the defect
+  SourceRange range;
+
+  const Word* find(char address) const; // nullptr: none
+};
+
+struct Program {
+  FileId file = kNoFile;
+  std::vector<Line> lines; // each line of the text, empty ones left out
+};
+
+} // namespace dotek::frontend::mikroprog

@@ -1,0 +1,288 @@
+#include "frontend/mikroprog/Parse.h"
+
+#include "support/Decimal.h"
+#include "support/messages/Mikroprog.h"
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <fmt/format.h>
+
+namespace dotek::frontend::mikroprog {
+
+namespace {
+
+bool isDigit(char c) {
+  return c >= '0' && c <= '9';
+}
+bool isLetter(char c) {
+  return c >= 'A' && c <= 'Z';
+}
+
+// What a Fanuc program would have here; "" for none.
+std::string_view fanucSyntax(std::string_view text) {
+  if (text.empty()) return "";
+  switch (text[0]) {
+  case '(': return "a comment begins with `;`";
+  case '%': return "a program has no `%`";
+  case '#': return "parameters are P0, P1, ..";
+  case '[':
+  case ']': return "brackets are not known to exist";
+  case '/': return "blocks cannot be switched off";
+  default: break;
+  }
+  for (const std::string_view word : {"IF", "WHILE", "GOTO", "THEN", "DO", "END"})
+    if (text.starts_with(word)) return "jumps are G23, G27 and the L of other functions";
+  return "";
+}
+
+class LineReader {
+public:
+  LineReader(FileId file, std::uint32_t begin, std::string_view text, Diagnostics& diagnostics)
+      : file_(file), begin_(begin), text_(text), diagnostics_(diagnostics) {}
+
+  Line read() {
+    line_.range = {file_, begin_, begin_ + static_cast<std::uint32_t>(text_.size())};
+    blanks();
+    if (at('N') && isDigit(peek(1))) {
+      const std::size_t from = at_++;
+      const auto number = digits();
+      line_.numberRange = range(from);
+      if (!number) {
+        fail(line_.numberRange);
+        return std::move(line_);
+      }
+      line_.number = number;
+    }
+    for (blanks(); at_ < text_.size() && text_[at_] != ';'; blanks())
+      if (!item()) return std::move(line_);
+    if (at(';')) {
+      line_.commentRange = range(at_, text_.size());
+      line_.comment = std::string(text_.substr(at_ + 1));
+    }
+    return std::move(line_);
+  }
+
+private:
+  char peek(std::size_t ahead) const { return at_ + ahead < text_.size() ? text_[at_ + ahead] : '\0'; }
+  bool at(char c) const { return at_ < text_.size() && text_[at_] == c; }
+  void blanks() {
+    while (at(' ') || at('\t'))
+      ++at_;
+  }
+  SourceRange range(std::size_t from, std::size_t to) const {
+    return {file_, begin_ + static_cast<std::uint32_t>(from), begin_ + static_cast<std::uint32_t>(to)};
+  }
+  SourceRange range(std::size_t from) const { return range(from, at_); }
+
+  std::optional<std::uint64_t> digits() {
+    const std::size_t from = at_;
+    while (isDigit(peek(0)))
+      ++at_;
+    std::uint64_t out = 0;
+    const auto result = std::from_chars(text_.data() + from, text_.data() + at_, out);
+    if (result.ec != std::errc() || at_ - from > 9) return std::nullopt;
+    return out;
+  }
+
+  // The text up to the next blank or comment, for messages.
+  SourceRange rest(std::size_t from) const {
+    std::size_t to = from + 1;
+    while (to < text_.size() && text_[to] != ' ' && text_[to] != ';')
+      ++to;
+    return range(from, std::min(to, text_.size()));
+  }
+
+  bool fail(SourceRange where) { // false
+    line_.unread = true;
+    const std::string_view text = text_.substr(where.begin - begin_, where.end - where.begin);
+    const std::string shown = toUtf8(text, isUtf8(text) ? Encoding::Utf8 : Encoding::Cp852);
+    if (const std::string_view why = fanucSyntax(text); !why.empty())
+      diagnostics_.report<diag::SufOtherControl>(where, shown, why);
+    else
+      diagnostics_.report<diag::SufWord>(where, shown);
+    return false;
+  }
+
+  bool item() {
+    const std::size_t from = at_;
+    if (at('@')) {
+      ++at_;
+      while (at_ < text_.size() && text_[at_] != ';' && text_[at_] != ' ' && text_[at_] != '\t')
+        ++at_;
+      Word word;
+      word.address = '@';
+      word.file = std::string(text_.substr(from + 1, at_ - from - 1));
+      word.range = range(from);
+      if (word.file.empty()) return fail(rest(from));
+      line_.words.push_back(std::move(word));
+      return true;
+    }
+    if (!isLetter(peek(0)) || !fanucSyntax(text_.substr(at_, rest(at_).end - begin_ - at_)).empty())
+      return fail(rest(from));
+    if (at('P') && isDigit(peek(1))) {
+      ++at_;
+      const auto number = digits();
+      blanks();
+      if (number && at('=')) return assignment(from, static_cast<std::uint32_t>(*number));
+      at_ = from;
+    }
+    Word word;
+    word.address = text_[at_++];
+    if (!value(word.value)) return fail(rest(from));
+    word.range = range(from);
+    line_.words.push_back(std::move(word));
+    return true;
+  }
+
+  // A number or a parameter, with its sign.
+  bool value(Value& out) {
+    const std::size_t from = at_;
+    if (at('-') || at('+')) out.negative = text_[at_++] == '-';
+    if (at('P')) {
+      ++at_;
+      const auto number = digits();
+      if (!number) return false;
+      out.parameter = static_cast<std::uint32_t>(*number);
+      out.digits = std::string(text_.substr(from, at_ - from));
+      return true;
+    }
+    while (isDigit(peek(0)) || at('.'))
+      ++at_;
+    out.digits = std::string(text_.substr(from, at_ - from));
+    out.negative = false; // the number has its sign
+    out.number = parseNumber(out.digits.starts_with('+') ? out.digits.substr(1) : out.digits);
+    return out.number.has_value();
+  }
+
+  bool assignment(std::size_t from, std::uint32_t parameter) {
+    Assignment out;
+    out.parameter = parameter;
+    ++at_; // =
+    char op = '+';
+    for (;;) {
+      blanks();
+      Term term;
+      term.op = op;
+      const std::size_t begin = at_;
+      if (!value(term.value)) return fail(rest(begin < text_.size() ? begin : from));
+      term.range = range(begin);
+      out.terms.push_back(std::move(term));
+      blanks();
+      if (!at('+') && !at('-') && !at('*') && !at('/')) break;
+      op = text_[at_++];
+    }
+    out.range = range(from);
+    if (line_.assignment || !line_.words.empty()) return fail(out.range);
+    line_.assignment = std::move(out);
+    return true;
+  }
+
+  FileId file_;
+  std::uint32_t begin_;
+  std::string_view text_;
+  Diagnostics& diagnostics_;
+  std::size_t at_ = 0;
+  Line line_;
+};
+
+stdlib::MikroprogValue lowered(const Value& value) {
+  return {value.parameter.has_value() && value.negative, value.parameter, value.number.value_or(0)};
+}
+
+std::string place(const SourceMap& sources, SourceRange range) {
+  const LineColumn at = sources.file(range.file).place(range.begin);
+  return fmt::format("{}:{}", at.line, at.column);
+}
+
+} // namespace
+
+const Word* Line::find(char address) const {
+  const auto at =
+      std::find_if(words.begin(), words.end(), [&](const Word& word) { return word.address == address; });
+  return at == words.end() ? nullptr : &*at;
+}
+
+Program parse(FileId file, const SourceMap& sources, Diagnostics& diagnostics) {
+  const SourceFile& source = sources.file(file);
+  Program out;
+  out.file = file;
+  for (std::uint32_t number = 1; number <= source.lineCount(); ++number) {
+    std::string_view text = source.line(number);
+    while (!text.empty() && (text.back() == ' ' || text.back() == '\t' || text.back() == '\x1a'))
+      text.remove_suffix(1);
+    if (text.empty()) continue;
+    out.lines.push_back(LineReader(file, source.lineStart(number), text, diagnostics).read());
+  }
+  return out;
+}
+
+std::optional<stdlib::MikroprogProgram> lower(const Program& program, const SourceMap& sources) {
+  stdlib::MikroprogProgram out;
+  for (const Line& line : program.lines) {
+    if (line.unread) return std::nullopt;
+    if (!line.number && !line.assignment && line.words.empty()) continue;
+    stdlib::MikroprogBlock block;
+    block.number = line.number;
+    block.line = sources.line(line.range);
+    block.text = line.comment.value_or("");
+    if (line.assignment) {
+      block.assignment.emplace();
+      block.assignment->parameter = line.assignment->parameter;
+      for (const Term& term : line.assignment->terms)
+        block.assignment->terms.push_back({term.op, lowered(term.value)});
+    }
+    for (const Word& word : line.words) {
+      if (word.address == '@')
+        block.file = word.file;
+      else
+        block.words.push_back({word.address, lowered(word.value)});
+    }
+    out.push_back(std::move(block));
+  }
+  return out;
+}
+
+std::string dumpTokens(const Program& program, const SourceMap& sources) {
+  std::string out;
+  const auto token = [&](SourceRange range, std::string_view kind) {
+    out += fmt::format("{} {} {}\n", place(sources, range), kind, sources.textUtf8(range));
+  };
+  for (const Line& line : program.lines) {
+    if (line.number) token(line.numberRange, "number");
+    if (line.assignment) token(line.assignment->range, "assignment");
+    for (const Word& word : line.words)
+      token(word.range, word.address == '@' ? "file" : "word");
+    if (line.comment) token(line.commentRange, "comment");
+    if (line.unread) token(line.range, "unread");
+  }
+  return out;
+}
+
+std::string dumpAst(const Program& program, const SourceMap& sources) {
+  std::string out = "program\n";
+  for (const Line& line : program.lines) {
+    out += fmt::format("  line {}", place(sources, line.range));
+    if (line.unread) out += " unread";
+    if (line.number) out += fmt::format(" N{}", *line.number);
+    if (line.assignment) {
+      out += fmt::format(" set P{} =", line.assignment->parameter);
+      for (const Term& term : line.assignment->terms)
+        out += fmt::format(" {} {}", term.op, term.value.digits);
+    }
+    for (const Word& word : line.words) {
+      if (word.address == '@')
+        out += " file " + word.file;
+      else
+        out += fmt::format(" {}={}", word.address, word.value.digits);
+    }
+    if (line.comment)
+      out += " comment \"" +
+             sources.textUtf8({line.commentRange.file, line.commentRange.begin + 1, line.commentRange.end}) +
+             "\"";
+    out += "\n";
+  }
+  return out;
+}
+
+} // namespace dotek::frontend::mikroprog

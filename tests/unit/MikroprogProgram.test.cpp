@@ -1,0 +1,230 @@
+// What the back end for Mikroprog writes, and what it refuses.
+#include "DataFolder.h"
+#include "MikroprogHelper.h"
+
+using namespace dotek;
+using namespace dotek::tests;
+
+namespace {
+
+// A cycle of statements that begin with spindle and coolant at rest.
+struct Statements : Maker {
+  Statements() {
+    cycle.name = "statements";
+    add(ir::Spindle{});
+    add(ir::Coolant{});
+  }
+  template <class Node> explicit Statements(Node node) : Statements() { add(std::move(node)); }
+};
+
+ir::Move moveOf(ir::Motion motion, ir::Axis axis, ir::Coordinate to) {
+  ir::Move out;
+  out.motion = motion;
+  out.axes[ir::indexOf(axis)] = std::move(to);
+  return out;
+}
+
+std::set<std::string> codesOf(const ir::Cycle& cycle) {
+  return MikroprogTarget().emit(cycle).codes();
+}
+
+} // namespace
+
+TEST_CASE("mikroprog: the profiles hold every function of the lathe, the mill takes them over") {
+  const auto lathe = loadMikroprog("mikroprog-s280"), mill = loadMikroprog("mikroprog-mill");
+  for (const auto* control : {&lathe, &mill}) {
+    const auto count = [&](char letter) {
+      return std::count_if(control->functions.begin(), control->functions.end(),
+                           [&](const auto& one) { return one.letter == letter; });
+    };
+    CHECK(count('G') == 47);
+    CHECK(count('M') == 29);
+    for (const auto& one : control->functions)
+      CHECK_FALSE(one.source.empty());
+  }
+  for (const auto& one : mill.functions)
+    CHECK(one.grade == "inferred");
+  CHECK(lathe.find('G', 78)->find('K')->most == 3.0);
+  CHECK_FALSE(lathe.find('G', 73)->usable);
+  CHECK(lathe.find('G', 18)->start);
+  CHECK(mill.find('G', 17)->start);
+  CHECK(lathe.find('G', 31)->forbids == "F");
+  CHECK(lathe.find('M', 6)->find('T')->use == stdlib::AddressUse::Needed);
+  CHECK(lathe.find('G', 31)->find('Y') == nullptr);
+  CHECK(mill.find('G', 31)->find('Y') != nullptr);
+  CHECK(lathe.question(22) == nullptr);
+  CHECK_FALSE(mill.question(10)->assumed);
+  CHECK(lathe.find('G', 54)->code() == "G54");
+}
+
+TEST_CASE("mikroprog: a profile with a defect does not load") {
+  const std::string good(stdlib::DataFiles().find("mikroprog", "mikroprog-s280")->text);
+  const auto loads = [&](const std::string& from, const std::string& to) {
+    std::string text = good;
+    const std::size_t at = text.find(from);
+    REQUIRE_MESSAGE(at != std::string::npos, from);
+    text.replace(at, from.size(), to);
+    const DataFolder folder;
+    folder.write("mikroprog/mine.toml", text);
+    stdlib::DataFiles files;
+    Diagnostics diagnostics;
+    REQUIRE(files.addFolder(folder.path(), Limits{}, diagnostics));
+    try {
+      return stdlib::MikroprogControl::load(files, "mine").has_value();
+    } catch (const stdlib::DataError&) {
+      return false;
+    }
+  };
+  CHECK(loads("schema = 1", "schema = 1"));
+  CHECK_FALSE(loads("axes = \"XZ\"", "axes = \"XW\""));
+  CHECK_FALSE(loads("diameter = \"X\"", "diameter = \"Y\""));
+  CHECK_FALSE(loads("code = \"G1\"", "code = \"G0\""));
+  CHECK_FALSE(loads("code = \"G1\"", "code = \"H1\""));
+  CHECK_FALSE(loads("use = \"given\"", "use = \"maybe\""));
+  CHECK_FALSE(loads("grade = \"observed\"", "grade = \"sure\""));
+  CHECK_FALSE(loads("function = \"probe-move\"\n", ""));
+  CHECK_FALSE(loads("letter = \"X\"", "letter = \"Y\""));
+  CHECK_FALSE(loads("ZDE MA BYT {}", "ZDE"));
+  CHECK_FALSE(loads("forbids = \"F\"", "forbids = \"L\""));
+  CHECK_FALSE(loads("number = 20", "number = 18"));
+  CHECK_FALSE(loads("title = \"rapid move\"", "name = \"rapid move\""));
+}
+
+TEST_CASE("mikroprog: a program is ASCII, its jumps have targets, lint finds nothing that is wrong") {
+  for (const ir::Axis axis : ir::kAxes) {
+    SurfaceCycle cycle(axis);
+    cycle.fixAll();
+    MikroprogTarget target;
+    const auto emission = target.emit(cycle.cycle);
+    REQUIRE(emission.lines);
+    for (const auto& line : *emission.lines) {
+      CHECK(line.text.size() <= 80);
+      CHECK(std::all_of(line.text.begin(), line.text.end(), [](char c) { return c >= ' ' && c < 127; }));
+    }
+    std::set<std::string> findings;
+    readBack(emission.text(), target.control, &findings);
+    CHECK(findings == std::set<std::string>{"suf-datum-lasts"});
+    CHECK(emission.codes().contains("probe-power-dropped"));
+    CHECK(emission.codes().contains("result-dropped"));
+  }
+}
+
+TEST_CASE("mikroprog: a long program keeps its tails and subprograms behind it") {
+  Statements long_;
+  for (int i = 0; i < 120; ++i)
+    long_.move(ir::Motion::Rapid, ir::Axis::X, number(i));
+  long_.move(ir::Motion::Protected, ir::Axis::Z, number(5));
+  MikroprogTarget target;
+  const auto emission = target.emit(long_.cycle);
+  REQUIRE(emission.lines);
+  CHECK(emission.lines->back().text == "N1390 M30");
+  CHECK(emission.has("G23 L1310 O7"));
+  readBack(emission.text(), target.control);
+}
+
+TEST_CASE("mikroprog: statements and their functions") {
+  Statements list;
+  list.add(ir::Dwell{number(1.5)});
+  list.add(ir::Stop{false, "Look"});
+  list.add(ir::SetMode{ir::Mode::PlaneYZ, nullptr});
+  list.add(ir::SetMode{ir::Mode::CutterCompOff, nullptr});
+  list.move(ir::Motion::Feed, ir::Axis::X, number(1.23456), number(250));
+  list.move(ir::Motion::Feed, ir::Axis::X, number(2));
+  list.add(ir::Spindle{ir::Spindle::State::CounterClockwise, number(500)});
+  list.add(ir::Coolant{ir::Coolant::State::Flood});
+  list.add(ir::Alarm{"Bad"});
+  const auto emission = MikroprogTarget().emit(list.cycle);
+  const std::vector<std::string> wanted = {
+      "G17 G90 G94",    "G0 X-10 Y10", "M5",      "M9", "G4 E1.5", "M0",       "G19",      "G40",
+      "G1 X1.235 F250", "G1 X2 F250",  "M4 S500", "M8", "M0",      "G27 L990", "G27 L990", "M30"};
+  CHECK(emission.blocks() == wanted);
+  CHECK(emission.text().find("M0 ;Look") != std::string::npos);
+  CHECK(emission.codes().contains("number-rounded"));
+}
+
+TEST_CASE("mikroprog: what the control cannot say is refused") {
+  const std::set<std::string> cannot = {"mikroprog-cannot"};
+  CHECK(codesOf(Statements(ir::SetMode{ir::Mode::WorkSystem, number(56)}).cycle) == cannot);
+  CHECK(codesOf(Statements(ir::Stop{true, ""}).cycle) == cannot);
+  CHECK(codesOf(Statements(ir::Coolant{ir::Coolant::State::Mist}).cycle) == cannot);
+  CHECK(codesOf(Statements(ir::Spindle{ir::Spindle::State::Clockwise, nullptr}).cycle) == cannot);
+  CHECK(codesOf(Statements(ir::Store{number(550), number(5)}).cycle) == cannot);
+  CHECK(codesOf(Statements(ir::Dwell{ir::machineVariable(number(500))}).cycle) == cannot);
+  CHECK(codesOf(
+            Statements(moveOf(ir::Motion::Feed, ir::Axis::X, {number(1), ir::Frame::Work, nullptr})).cycle) ==
+        cannot);
+  CHECK(codesOf(Statements(moveOf(ir::Motion::Rapid, ir::Axis::X, {number(1), ir::Frame::Machine, nullptr}))
+                    .cycle) == cannot);
+  CHECK(codesOf(Statements(moveOf(ir::Motion::Rapid, ir::Axis::X, {number(1), ir::Frame::Work, number(55)}))
+                    .cycle) == cannot);
+  CHECK(codesOf(Statements(moveOf(ir::Motion::Rapid, ir::Axis::Z, {number(1), ir::Frame::Here, nullptr}))
+                    .cycle) == std::set<std::string>{"position-needed"});
+  CHECK(codesOf(Statements(ir::SetMode{ir::Mode::FeedPerRevolution, nullptr}).cycle) ==
+        std::set<std::string>{"feed-per-revolution"});
+  CHECK(codesOf(Statements(ir::SetMode{ir::Mode::CannedCycleOff, nullptr}).cycle) ==
+        std::set<std::string>{"mode-dropped"});
+  CHECK(codesOf(Statements(ir::OpaqueBlock{}).cycle) == std::set<std::string>{"opaque-block-refused"});
+  Statements branch;
+  const ir::LabelId label = branch.cycle.addLabel({"on", {}});
+  branch.add(ir::Branch{ir::compare(ir::Relation::Less, ir::machineVariable(number(500)), number(1)), label});
+  CHECK(codesOf(branch.cycle) == std::set<std::string>{"flow-refused"});
+}
+
+TEST_CASE("mikroprog: questions that are open are refused with their numbers") {
+  Statements list;
+  ir::Measure bore;
+  bore.feature = ir::Feature::Bore;
+  bore.diameter = number(30);
+  bore.setting.emplace();
+  bore.setting->system = number(56);
+  bore.setting->nominal = {number(0), number(0), nullptr};
+  list.add(bore);
+  const auto refused = MikroprogTarget().emit(list.cycle);
+  CHECK(refused.codes() == std::set<std::string>{"questions-open"});
+  for (const char* number : {"Q7", "Q10", "Q13"})
+    CHECK(refused.diagnostics.all().front().message.find(number) != std::string::npos);
+  MikroprogTarget some;
+  some.options.assumed = {10, 13};
+  const auto one = some.emit(list.cycle);
+  CHECK(one.diagnostics.all().front().message.find("Q10") == std::string::npos);
+  CHECK(one.diagnostics.all().front().message.find("Q7") != std::string::npos);
+  some.options.assumed = {7, 10, 13};
+  CHECK(some.emit(list.cycle).lines);
+  some.options.hosts["tool_radius"] = 15;
+  CHECK(some.emit(list.cycle).codes().contains("mikroprog-cannot"));
+}
+
+TEST_CASE("mikroprog: spindle and coolant rest before the first probe move, or a warning says so") {
+  Maker maker;
+  maker.cycle.name = "late";
+  maker.move(ir::Motion::Protected, ir::Axis::Z, number(50));
+  maker.add(ir::Spindle{});
+  const auto emission = MikroprogTarget().emit(maker.cycle);
+  CHECK(emission.blocks()[2] == "M5");
+  CHECK(emission.codes().contains("moved-before"));
+  CHECK(emission.codes().contains("spindle-not-stopped")); // of the coolant
+  Maker turning;
+  turning.cycle.name = "turning";
+  turning.move(ir::Motion::Protected, ir::Axis::Z, number(50));
+  turning.add(ir::Spindle{ir::Spindle::State::Clockwise, number(100)});
+  turning.add(ir::Spindle{});
+  const auto turned = MikroprogTarget().emit(turning.cycle);
+  CHECK_FALSE(turned.codes().contains("moved-before"));
+  CHECK(turned.codes().contains("spindle-not-stopped"));
+}
+
+TEST_CASE("mikroprog: what a program needs of the operation") {
+  SurfaceCycle cycle;
+  const auto mill = loadMikroprog("mikroprog-mill"), lathe = loadMikroprog("mikroprog-s280");
+  using backends::mikroprog::missingHosts;
+  const std::vector<std::string> all = {"tool_radius", "clearance", "overtravel",
+                                        "return_feed", "start_x",   "start_y"};
+  CHECK(missingHosts(cycle.cycle, mill, {}) == all);
+  CHECK(missingHosts(cycle.cycle, lathe, {}).size() == 5);
+  CHECK(missingHosts(cycle.cycle, mill, {{"tool_radius", 3}, {"start_y", 1}}).size() == 4);
+  CHECK_FALSE(backends::mikroprog::movesY(cycle.cycle));
+  CHECK(backends::mikroprog::movesY(SurfaceCycle(ir::Axis::Y).cycle));
+  CHECK(backends::mikroprog::shortFileName("surface-x") == "SURFACEX");
+  CHECK(backends::mikroprog::shortFileName("a.long.name.xyz") == "ALOMEXYZ");
+  CHECK(backends::mikroprog::shortFileName("-") == "CYCLE");
+}
