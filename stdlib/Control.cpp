@@ -163,6 +163,8 @@ private:
         static_cast<int>(whole(table, "decimals", "the most digits behind the point, mm", 0, 6));
     control_.integerDigits =
         static_cast<int>(whole(table, "integer_digits", "the most digits before the point", 1, 9));
+    if (const TomlValue digits = table.value("digits"))
+      control_.digits = static_cast<std::uint32_t>(digits.integer(8, 1, 99));
     if (std::abs(control_.increment * std::pow(10.0, control_.decimals) - 1) > 1e-9)
       document_.fail(increment.range(), fmt::format("an increment of {} is not one unit of decimal {}",
                                                     control_.increment, control_.decimals));
@@ -249,6 +251,8 @@ private:
     origin(table);
     control_.programLast = whole(table, "last", "the greatest O number", 1, 99999999);
     control_.sequenceLast = whole(table, "last_sequence", "the greatest N number of a GOTO", 1, 99999999);
+    control_.colonNames = table.value("colon").flag();
+    control_.programNames = table.value("names").flag();
   }
 
   void codes(const TomlTable& table) {
