@@ -111,7 +111,8 @@ bool isUsageCode(std::string_view code) {
       diag::CycleWithSeveral::code, diag::CycleNameTwice::code,  diag::NotAFolder::code,
       diag::UnknownTarget::code,    diag::UnknownProfile::code,  diag::UnknownMacroSet::code,
       diag::LetterNotAllowed::code, diag::OutputForOne::code,    diag::ArgumentUnknown::code,
-      diag::LetterTwice::code,      diag::VariableFlag::code,
+      diag::LetterTwice::code,      diag::VariableFlag::code,    diag::OptionOfCycles::code,
+      diag::OptionOfPrograms::code,
   };
   return std::find(kCodes.begin(), kCodes.end(), code) != kCodes.end();
 }

@@ -233,7 +233,7 @@ void ProgramBlocks::split(const ir::ConditionPtr& condition, const std::string& 
   }
   const ir::LabelId behind = made_++;
   numbers_.add(behind, range_);
-  split(ir::negate(junction->left), numbers_.digits(behind));
+  split(ir::negate(junction->left), numbers_.target(behind));
   split(junction->right, target);
   label(behind);
 }
@@ -252,7 +252,7 @@ void ProgramBlocks::skipUnless(const ir::ConditionPtr& condition, ir::LabelId be
     return;
   }
   numbers_.add(behind, range_);
-  jumpWhere(ir::negate(condition), numbers_.digits(behind));
+  jumpWhere(ir::negate(condition), numbers_.target(behind));
   line(statement);
   label(behind);
   flush();
@@ -263,13 +263,13 @@ std::size_t ProgramBlocks::branch(std::size_t at) {
   const auto& node = std::get<ir::Branch>(program_.body[at].node);
   const std::size_t end = endOfThen(at);
   if (end == 0) {
-    jumpWhere(node.condition, numbers_.digits(node.target));
+    jumpWhere(node.condition, numbers_.target(node.target));
     return at + 1;
   }
   const ir::ConditionPtr condition = ir::negate(node.condition);
   const ir::Statement& inner = program_.body[at + 1];
   if (const auto* jump = std::get_if<ir::Jump>(&inner.node)) {
-    jumpWhere(condition, numbers_.digits(jump->target));
+    jumpWhere(condition, numbers_.target(jump->target));
   } else if (const auto* computed = std::get_if<ir::JumpTo>(&inner.node)) {
     jumpWhere(condition, bounded(text_.target(computed->number), context_.to().bracketDepth));
   } else {
@@ -305,7 +305,7 @@ void ProgramBlocks::loop(const ir::Loop& loop) {
   for (const ir::ConditionPtr& other : others) {
     demandSimple(other);
     numbers_.add(loop.end, range_);
-    jumpWhere(ir::negate(other), numbers_.digits(loop.end));
+    jumpWhere(ir::negate(other), numbers_.target(loop.end));
   }
 }
 
@@ -377,7 +377,7 @@ std::string ProgramBlocks::macro(const ir::Statement& statement) {
   const auto& node = statement.node;
   if (const auto* store = std::get_if<ir::Store>(&node))
     return bounded(text_.variable(store->number) + "=" + text_.value(store->value), most);
-  if (const auto* jump = std::get_if<ir::Jump>(&node)) return "GOTO " + numbers_.digits(jump->target);
+  if (const auto* jump = std::get_if<ir::Jump>(&node)) return "GOTO " + numbers_.target(jump->target);
   if (const auto* computed = std::get_if<ir::JumpTo>(&node))
     return "GOTO " + bounded(text_.target(computed->number), most);
   if (const auto* raise = std::get_if<ir::Raise>(&node))

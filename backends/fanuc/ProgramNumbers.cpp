@@ -134,6 +134,11 @@ std::string ProgramNumbers::digits(ir::LabelId label) const {
   return found == digits_.end() ? "" : found->second;
 }
 
+std::string ProgramNumbers::target(ir::LabelId label) const {
+  const std::string text = digits(label);
+  return text.empty() ? text : std::to_string(std::stoull(text));
+}
+
 void ProgramNumbers::add(ir::LabelId label, SourceRange from) {
   if (digits_.contains(label)) return;
   const std::uint64_t last = context_.to().sequenceLast;

@@ -69,7 +69,7 @@ std::string bracketed(const std::string& text) {
   return "[" + text + "]";
 }
 
-// ATAN of one operand at the end: a `/` and a bracket behind it would become its second operand.
+// ATAN of one operand at the end: what stands behind a `/` would become its second operand.
 bool endsWithArcTangent(std::string_view text) {
   if (!text.ends_with(']')) return false;
   int open = 0;
@@ -171,8 +171,7 @@ std::string ProgramText::binary(const ir::Binary& binary, bool first) const {
   const bool words = infix.text.size() > 1;
   std::string left = operand(binary.left, infix.level, false, first && !words);
   const std::string right = operand(binary.right, infix.level, true, false);
-  if (binary.op == ir::BinaryOp::Divide && right.starts_with('[') && endsWithArcTangent(left))
-    left = bracketed(left);
+  if (binary.op == ir::BinaryOp::Divide && endsWithArcTangent(left)) left = bracketed(left);
   return left + std::string(infix.text) + right;
 }
 
