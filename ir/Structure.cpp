@@ -18,7 +18,7 @@ struct Interval {
 };
 
 // Jumps times statements: what the analysis takes at worst.
-constexpr std::size_t kMostWork = 400'000'000;
+constexpr std::size_t kMostWork = 20'000'000;
 
 // One crosses the other where they overlap and neither holds the other.
 bool cross(const Interval& a, const Interval& b) {

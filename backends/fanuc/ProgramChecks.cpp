@@ -219,7 +219,7 @@ private:
           range, 3000, "raises an alarm, which " + to.title + " has no variable for");
     const auto number = wholeOf(raise.number);
     if (number && (*number < to.alarmFirst || *number > to.alarmLast))
-      context_.diagnostics.report<diag::AlarmNumberRange>(range, *number, to.title, to.alarmFirst,
+      context_.diagnostics.report<diag::AlarmNumberThere>(range, *number, to.title, to.alarmFirst,
                                                           to.alarmLast);
   }
 

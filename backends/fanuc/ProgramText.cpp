@@ -141,7 +141,9 @@ ProgramText::ProgramText(const stdlib::Control& control)
 std::string ProgramText::variable(const ir::ExpressionPtr& given) const {
   const ir::ExpressionPtr& number = withoutNull(given);
   const auto* constant = std::get_if<ir::Constant>(&number->node);
-  if (constant != nullptr && !isSigned(number)) return "#" + digitsOf(*constant);
+  // A number with a point stands in brackets only.
+  if (constant != nullptr && digitsOf(*constant).find_first_not_of("0123456789") == std::string::npos)
+    return "#" + digitsOf(*constant);
   return "#" + bracketed(text(number, true));
 }
 
