@@ -232,6 +232,10 @@ private:
 
   void called(const ir::Call& call) {
     const auto number = wholeOf(call.program);
+    // Repeats and four digits of the number, on both.
+    if (call.kind == ir::CallKind::Subprogram && context_.to().repeatInProgram &&
+        context_.from().repeatInProgram)
+      return;
     if (number && *number > context_.to().programLast)
       context_.diagnostics.report<diag::CalledProgramRange>(statement_->origin.range(), *number,
                                                             context_.to().programLast, context_.to().title);

@@ -211,8 +211,10 @@ std::string ProgramText::value(const ir::ExpressionPtr& expression) const {
 }
 
 std::string ProgramText::word(const ir::ExpressionPtr& expression) const {
-  if (std::holds_alternative<ir::Constant>(expression->node) || isVariable(expression))
-    return text(expression, true);
+  // A number without digits of its own was computed: in brackets it counts no increments.
+  if (const auto* constant = std::get_if<ir::Constant>(&expression->node))
+    return constant->digits.empty() ? bracketed(digitsOf(*constant)) : constant->digits;
+  if (isVariable(expression)) return text(expression, true);
   if (const ir::Unary* minus = negation(expression)) {
     const bool plain = !std::holds_alternative<ir::Unary>(minus->operand->node);
     if (plain) return negated(minus->operand);

@@ -29,6 +29,7 @@ enum class Kind : std::uint8_t {
   Timer,
   Hours,
   Message,
+  ExtendedNumber,
 };
 
 struct Meaning {
@@ -89,7 +90,8 @@ template <class Visit> bool eachMeaning(const Control& control, const Visit& vis
       return true;
   }
   return at(v.alarm, {Kind::Alarm, 0, 0}, 0) || at(v.timer, {Kind::Timer, 0, 0}, 0) ||
-         at(v.hours, {Kind::Hours, 0, 0}, 0) || at(v.message, {Kind::Message, 0, 0}, 0);
+         at(v.hours, {Kind::Hours, 0, 0}, 0) || at(v.message, {Kind::Message, 0, 0}, 0) ||
+         at(v.extendedNumber, {Kind::ExtendedNumber, 0, 0}, 0);
 }
 
 std::optional<Meaning> meaningOf(const Control& control, std::uint32_t number) {
@@ -138,6 +140,7 @@ std::string describe(const Meaning& meaning) {
   case Kind::Timer: return "the timer in milliseconds";
   case Kind::Hours: return "the timer in hours";
   case Kind::Message: return "the message";
+  case Kind::ExtendedNumber: return "the P of G54.1 in force";
   }
   return "";
 }

@@ -100,11 +100,30 @@ private:
 
   // ---- codes
 
+  // What the control calls for the code: program and kind. nullopt: none.
+  static std::optional<std::pair<std::uint32_t, bool>> calledBy(const stdlib::Control& control, char letter,
+                                                                std::uint32_t tenths) {
+    for (const stdlib::CallCode& call : control.callCodes)
+      if (call.letter == letter && tenths % 10 == 0 && tenths / 10 >= call.first &&
+          tenths / 10 < call.first + call.count)
+        return std::pair(call.program + tenths / 10 - call.first, call.macro);
+    return std::nullopt;
+  }
+
   // The code of the target with the meaning; 0 where it was refused.
   std::uint32_t code(char letter, std::uint32_t tenths, SourceRange range, bool ofLanguage = false) {
     const CodeInfo* here = from().find(letter, tenths);
     const CodeInfo* there = to().find(letter, tenths);
     const std::string name = codeName(letter, tenths);
+    const auto called = calledBy(from(), letter, tenths);
+    if (called || calledBy(to(), letter, tenths)) {
+      if (called == calledBy(to(), letter, tenths)) return tenths;
+      diagnostics().report<diag::CodeElsewhere>(
+          range, name,
+          fmt::format("calls a program on one of {} and {}, and not the same on the other", from().title,
+                      to().title));
+      return 0;
+    }
     const bool plain = here != nullptr && here->function == Function::Other;
     if (here != nullptr && there != nullptr && here->function == there->function &&
         (!plain || here->title == there->title)) {

@@ -84,18 +84,15 @@ ir::ExpressionPtr lowerNumber(const Expression& expression, Place place) {
   return orZero(lowerValue(expression, place));
 }
 
-// A number in brackets is one of a macro expression: X[10] is 10 mm where X10 is 10 least increments.
 ir::ExpressionPtr lowerWordValue(const Expression& expression, Place place) {
-  if (expression.brackets > 0) {
-    ir::ExpressionPtr value = lowerValue(expression, place);
-    const auto* constant = std::get_if<ir::Constant>(&value->node);
-    const bool counts = constant != nullptr && constant->digits.find('.') == std::string::npos;
-    return counts ? ir::unary(UnaryOp::NullAsZero, value, expression.range) : value;
-  }
   const auto* negated = std::get_if<nc::Negated>(&expression.node);
-  if (negated == nullptr || !std::holds_alternative<nc::VariableRef>(negated->operand->node) ||
-      negated->operand->brackets > 0)
-    return lowerValue(expression, place);
+  if (negated == nullptr || expression.brackets > 0 ||
+      !std::holds_alternative<nc::VariableRef>(negated->operand->node) || negated->operand->brackets > 0) {
+    ir::ExpressionPtr value = lowerValue(expression, place);
+    // X[10] is computed: it is 10 mm, however the control reads X10.
+    const double* const number = expression.brackets > 0 ? ir::constantValue(value) : nullptr;
+    return number == nullptr ? value : ir::constant(*number, expression.range);
+  }
   return ir::unary(UnaryOp::Negate, lowerValue(*negated->operand, place), expression.range);
 }
 

@@ -16,8 +16,7 @@ ir::ExpressionPtr lowerValue(const Expression& expression, Place place);
 // A number: null counts as 0.
 ir::ExpressionPtr lowerNumber(const Expression& expression, Place place);
 // Value of an address or an argument. `X-#1` with a null #1 has no value: whether the word is left out, or is
-// 0, no source says. A number without a point in brackets stands in NullAsZero: it is a value, and no count
-// of increments.
+// 0, no source says.
 ir::ExpressionPtr lowerWordValue(const Expression& expression, Place place);
 ir::ConditionPtr lowerCondition(const Condition& condition);
 
