@@ -33,7 +33,7 @@ struct Raw {
   bool fix = false;
   std::string stage = "ast";
   std::vector<std::string> letters, defaults;
-  std::string to, control, probeMacros, programNumber, outputFolder, mapFile;
+  std::string to, control, fromControl, renumber, probeMacros, programNumber, outputFolder, mapFile;
   std::string defaultsMode = "alarm";
   std::string probePower = "source";
   std::string datum;
@@ -56,6 +56,17 @@ std::optional<std::uint64_t> wholeNumber(std::string_view text) {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
   return value;
+}
+
+// START:STEP of two whole numbers, the step not 0.
+std::pair<std::uint64_t, std::uint64_t> startAndStep(const std::string& flag, const std::string& text) {
+  const std::size_t colon = text.find(':');
+  const auto start = wholeNumber(std::string_view(text).substr(0, colon));
+  const auto step =
+      colon == std::string::npos ? std::nullopt : wholeNumber(std::string_view(text).substr(colon + 1));
+  if (!start || !step || *step == 0 || *start > 99999999 || *step > 99999)
+    throw UsageError(flag + " takes START:STEP, two whole numbers such as 90:10, not `" + text + "`");
+  return {*start, *step};
 }
 
 std::set<std::string> codes(const std::string& text, bool all) {
@@ -122,6 +133,12 @@ driver::ConvertOptions convertOf(const Raw& raw) {
   driver::ConvertOptions out;
   out.to = raw.to;
   out.control = raw.control;
+  out.fromControl = raw.fromControl;
+  if (!raw.renumber.empty()) {
+    out.renumber = startAndStep("--renumber", raw.renumber);
+    if (out.renumber->first == 0)
+      throw UsageError("--renumber begins at 1 or above, as N0 is no block number");
+  }
   if (!raw.probeMacros.empty()) out.probeMacros = raw.probeMacros;
   if (!raw.programNumber.empty()) {
     const auto number = wholeNumber(raw.programNumber);
@@ -151,16 +168,7 @@ void fill(const Raw& raw, Arguments& parsed) {
   parsed.mapFile = raw.mapFile;
   parsed.output = raw.output;
   parsed.maxErrors = raw.maxErrors;
-  if (!raw.sequence.empty()) {
-    const std::size_t colon = raw.sequence.find(':');
-    const auto start = wholeNumber(std::string_view(raw.sequence).substr(0, colon));
-    const auto step = colon == std::string::npos
-                          ? std::nullopt
-                          : wholeNumber(std::string_view(raw.sequence).substr(colon + 1));
-    if (!start || !step || *step == 0 || *start > 99999999 || *step > 99999)
-      throw UsageError("--seq takes START:STEP, two whole numbers such as 90:10, not `" + raw.sequence + "`");
-    parsed.sequence = {*start, *step};
-  }
+  if (!raw.sequence.empty()) parsed.sequence = startAndStep("--seq", raw.sequence);
   parsed.json = raw.format == "json" || raw.json;
   parsed.quiet = raw.quiet;
   parsed.traceFile = raw.traceFile;
@@ -239,10 +247,16 @@ void addPost(CLI::App& app, Raw& raw) {
 
 void addConvert(CLI::App& app, Raw& raw) {
   CLI::App* convert = app.add_subcommand(
-      "convert", "turn a cycle into a program that stays on the control and takes arguments");
-  convert->add_option("FOLDER", raw.inputs, "folders of the cycles");
+      "convert", "turn cycles into programs that stay on the control, or programs into those of another");
+  convert->add_option("INPUT", raw.inputs, "folders of cycles, files of programs");
   convert->add_option("--to", raw.to, "language to write: fanuc or mikroprog")->type_name("TARGET");
   addTarget(*convert, raw);
+  convert
+      ->add_option("--from-control", raw.fromControl,
+                   "profile of the control that programs are written for (that of --control)")
+      ->type_name("NAME");
+  convert->add_option("--renumber", raw.renumber, "number the blocks of programs anew; jumps follow")
+      ->type_name("START:STEP");
   convert
       ->add_option("--probe-macros", raw.probeMacros,
                    "probing macros that the program calls (see `dotek list macros`)")

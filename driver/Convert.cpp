@@ -1,8 +1,10 @@
 #include "driver/ConvertMikroprog.h"
+#include "driver/ConvertPrograms.h"
 #include "driver/ConvertValues.h"
 #include "driver/Driver.h"
 #include "driver/Lowering.h"
 #include "driver/PostProgram.h"
+#include "driver/Programs.h"
 #include "driver/Targets.h"
 
 #include "backends/fanuc/Emit.h"
@@ -29,7 +31,8 @@ constexpr std::uint32_t kFirstProgram = 8000;
 
 class ConvertCommand {
 public:
-  ConvertCommand(const ConvertOptions& options, Session& session) : options_(options), session_(session) {}
+  ConvertCommand(const ConvertOptions& options, Session& session)
+      : options_(options), session_(session), programs_(options, session) {}
 
   Outcome run() {
     if (!load()) return refuse();
@@ -37,8 +40,12 @@ public:
       toMikroprog();
       return finish();
     }
-    for (std::size_t i = 0; i < folders_.size(); ++i)
-      one(folders_[i], i);
+    for (const Input& input : order_) {
+      if (input.isProgram)
+        program(options_.inputs[input.index]);
+      else
+        one(folders_[input.index], input.index);
+    }
     return finish();
   }
 
@@ -46,7 +53,8 @@ private:
   bool mikroprog() const { return options_.to == "mikroprog"; }
 
   Outcome finish() {
-    reportUnknownNames();
+    if (inputs_) reportUnknownNames();
+    filesDiffer();
     if (session_.diagnostics().hasErrors()) return refuse();
     keepStrongest(session_.diagnostics());
     std::string text;
@@ -68,7 +76,8 @@ private:
   bool load() {
     Diagnostics& diagnostics = session_.diagnostics();
     if (options_.inputs.empty())
-      diagnostics.report<diag::MissingOption>({}, "convert", "FOLDER", "the folder of a cycle");
+      diagnostics.report<diag::MissingOption>({}, "convert", "INPUT",
+                                              "the folder of a cycle or a file of programs");
     if (options_.to.empty())
       diagnostics.report<diag::MissingOption>({}, "convert", "--to TARGET",
                                               "the language to write: fanuc or mikroprog");
@@ -78,7 +87,12 @@ private:
     if (options_.oneFile && options_.inputs.size() > 1)
       diagnostics.report<diag::OutputForOne>({}, options_.inputs.size());
     readLetters();
-    if (diagnostics.hasErrors()) return false;
+    const bool programs = classify();
+    const bool cycles = !folderPaths_.empty();
+    refuseOptions(options_, programs, cycles, session_);
+    if (programs && mikroprog()) diagnostics.report<diag::ProgramTarget>({}, options_.to);
+    if (diagnostics.hasErrors() || (programs && !programs_.load())) return false;
+    if (!cycles) return true;
     // For Mikroprog the control is chosen by the cycle; the profile that is loaded here tells of the source.
     const bool own = options_.control.empty() || mikroprog();
     inputs_ =
@@ -96,13 +110,28 @@ private:
                                                 fmt::format("{}", fmt::join(known, ", ")));
       return false;
     }
-    for (const std::string& path : options_.inputs)
+    for (const std::string& path : folderPaths_)
       folders_.push_back(loadCycleFolder(path, session_));
     if (options_.source.cycle) folders_.front().name = *options_.source.cycle;
     leaveFindingsToLint(session_);
     if (!mikroprog() && inputs_->job && !inputs_->job->operations.empty())
       diagnostics.report<diag::JobOperationsUnused>(inputs_->job->operations.front().range);
     return !diagnostics.hasErrors() && (mikroprog() || numbersDiffer());
+  }
+
+  // Whether there are programs among the inputs.
+  bool classify() {
+    bool programs = false;
+    for (std::size_t i = 0; i < options_.inputs.size(); ++i) {
+      if (isProgramFile(options_.inputs[i], session_)) {
+        order_.push_back({true, i});
+        programs = true;
+        continue;
+      }
+      order_.push_back({false, folderPaths_.size()});
+      folderPaths_.push_back(options_.inputs[i]);
+    }
+    return programs;
   }
 
   void readLetters() {
@@ -177,6 +206,7 @@ private:
     }
     const auto lines = fanuc::emit(lowered->cycle, emit, session_.sources(), session_.diagnostics());
     if (!lines) return;
+    numbers_.emplace_back(emit.programNumber, folder.name);
     add(*lines, emit.programNumber);
   }
 
@@ -205,6 +235,29 @@ private:
       }
     }
     return out;
+  }
+
+  void program(const std::string& path) {
+    std::optional<ConvertedFile> converted = programs_.convert(path);
+    if (!converted) return;
+    for (const std::uint64_t number : converted->numbers)
+      numbers_.emplace_back(number, path);
+    files_.push_back(std::move(converted->file));
+    maps_.push_back(std::move(converted->map));
+  }
+
+  // Neither two files of one name nor two programs of one number. Two of one file were compared before.
+  void filesDiffer() {
+    std::map<std::uint64_t, std::string> byNumber;
+    for (const auto& [number, path] : numbers_) {
+      const auto [first, added] = byNumber.emplace(number, path);
+      if (!added && first->second != path)
+        session_.diagnostics().report<diag::ProgramNumberTwice>({}, number, first->second, path);
+    }
+    std::set<std::string> names;
+    for (const OutputFile& file : files_)
+      if (!names.insert(file.name).second)
+        session_.diagnostics().report<diag::OutputNameTwice>({}, file.name);
   }
 
   void add(const std::vector<fanuc::EmittedLine>& lines, std::uint32_t number) {
@@ -244,9 +297,18 @@ private:
     }
   }
 
+  struct Input {
+    bool isProgram = false;
+    std::size_t index = 0; // in the inputs of a program, in folders_ of a cycle
+  };
+
   const ConvertOptions& options_;
   Session& session_;
-  std::optional<LoweringInputs> inputs_;
+  ProgramConversion programs_;
+  std::vector<Input> order_;
+  std::vector<std::string> folderPaths_;
+  std::vector<std::pair<std::uint64_t, std::string>> numbers_; // of the results, with their inputs
+  std::optional<LoweringInputs> inputs_;                       // nothing: no cycle
   std::vector<CycleFolder> folders_;
   std::map<std::string, char> letters_;
   std::set<std::string> usedSets_, usedDefaults_, usedLetters_;

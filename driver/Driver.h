@@ -51,19 +51,21 @@ struct PostOptions {
 };
 
 struct ConvertOptions {
-  std::vector<std::string> inputs; // folders of cycles
+  std::vector<std::string> inputs; // folders of cycles, files of programs
   CommonOptions common;
   SourceOptions source;
   std::string to;
   std::string control;                    // "": the target's first
+  std::string fromControl;                // that programs are written for; "": the same
   std::optional<std::string> probeMacros; // nothing: the set that the source calls
   std::optional<std::uint32_t> programNumber;
-  NamedTexts letters;       // --arg NAME=LETTER
-  NamedTexts defaults;      // --default NAME=VALUE
-  bool useDefaults = false; // --defaults use
-  bool switchProbe = false; // --probe-power macro
-  bool oneFile = false;     // -o: several inputs are an error
-  std::string datum;        // --datum of mikroprog: "", "g92" or "operator"
+  NamedTexts letters;                                              // --arg NAME=LETTER
+  NamedTexts defaults;                                             // --default NAME=VALUE
+  bool useDefaults = false;                                        // --defaults use
+  bool switchProbe = false;                                        // --probe-power macro
+  bool oneFile = false;                                            // -o: several inputs are an error
+  std::optional<std::pair<std::uint64_t, std::uint64_t>> renumber; // first N number of programs, step
+  std::string datum; // --datum of mikroprog: "", "g92" or "operator"
 };
 
 // From which severity on lint fails.
@@ -120,7 +122,8 @@ struct Outcome {
 };
 
 Outcome post(const PostOptions& options);
-// Each folder becomes a program; with a status other than 0 there is none.
+// Each folder becomes a program, each file of programs another file; with a status other than 0 there is
+// none.
 Outcome convert(const ConvertOptions& options);
 // The diagnostics are the result; status is 2 where a file could not be read, 1 with a finding at or above
 // the severity of --fail-on.

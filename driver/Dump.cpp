@@ -129,7 +129,7 @@ private:
     ir::Module module;
     std::set<std::string> usedSets;
     for (const std::string& input : options_.inputs) {
-      if (isProgram(input)) {
+      if (isProgramFile(input, session_)) {
         programs(input, *inputs->control);
         continue;
       }
@@ -143,15 +143,6 @@ private:
       module.cycles.push_back(std::move(lowered->cycle));
     }
     if (!module.cycles.empty()) out_ += ir::print(module, &session_.sources());
-  }
-
-  bool isProgram(const std::string& input) {
-    std::error_code error;
-    if (fs::is_directory(input, error)) return false;
-    if (options_.common.from) return kindByName(*options_.common.from) == InputKind::Nc;
-    Diagnostics unread;
-    const std::optional<std::string> bytes = readBytes(input, session_.limits(), unread);
-    return bytes && recognise(input, *bytes) == InputKind::Nc;
   }
 
   void programs(const std::string& input, const stdlib::Control& control) {

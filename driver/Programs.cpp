@@ -1,18 +1,32 @@
 #include "driver/Programs.h"
 
+#include "driver/InputKind.h"
 #include "frontend/macrob/Lower.h"
 #include "frontend/macrob/Parse.h"
+#include "support/Files.h"
 
+#include <filesystem>
 #include <utility>
 
 namespace dotek::driver {
 
-std::optional<ir::ProgramFile> loadPrograms(FileId file, const stdlib::Control& control, Session& session) {
+bool isProgramFile(const std::string& path, const Session& session) {
+  std::error_code error;
+  if (std::filesystem::is_directory(path, error)) return false;
+  if (session.options().from) return kindByName(*session.options().from) == InputKind::Nc;
+  Diagnostics unread;
+  const std::optional<std::string> bytes = readBytes(path, session.limits(), unread);
+  return bytes && recognise(path, *bytes) == InputKind::Nc;
+}
+
+std::optional<ir::ProgramFile> loadPrograms(FileId file, const stdlib::Control& control, Session& session,
+                                            SourceRange* leader) {
   Diagnostics found;
   const frontend::macrob::File tree =
       frontend::macrob::parse(file, session.sources(), session.limits(), found);
   for (Diagnostic& one : found.all())
     if (one.severity == Severity::Error) session.diagnostics().add(std::move(one));
+  if (leader != nullptr) *leader = tree.leader;
   return frontend::macrob::lower(tree, control, session.sources(), session.diagnostics());
 }
 

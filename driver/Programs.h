@@ -6,11 +6,16 @@
 #include "stdlib/Control.h"
 
 #include <optional>
+#include <string>
 
 namespace dotek::driver {
 
+// By content, or by --from; false for a folder and for what cannot be read.
+bool isProgramFile(const std::string& path, const Session& session);
+
 // nullopt where the file cannot run on the control: reported. What matters to the writing of the programs
-// alone is left to lint.
-std::optional<ir::ProgramFile> loadPrograms(FileId file, const stdlib::Control& control, Session& session);
+// alone is left to lint. `leader`: gets the place of the text before the first `%`, if there is any.
+std::optional<ir::ProgramFile> loadPrograms(FileId file, const stdlib::Control& control, Session& session,
+                                            SourceRange* leader = nullptr);
 
 } // namespace dotek::driver

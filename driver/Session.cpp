@@ -113,7 +113,8 @@ bool isUsageCode(std::string_view code) {
       diag::UnknownTarget::code,    diag::UnknownProfile::code,  diag::UnknownMacroSet::code,
       diag::LetterNotAllowed::code, diag::OutputForOne::code,    diag::ArgumentUnknown::code,
       diag::LetterTwice::code,      diag::VariableFlag::code,    diag::FlagOfOtherTarget::code,
-      diag::UnknownDatum::code,
+      diag::UnknownDatum::code,     diag::OptionOfCycles::code,  diag::OptionOfPrograms::code,
+      diag::ProgramTarget::code,
   };
   return std::find(kCodes.begin(), kCodes.end(), code) != kCodes.end();
 }

@@ -52,6 +52,8 @@ void rewrite(Statement& statement, const Rewriter& rewriter) {
   eachSlot(statement, [&](ExpressionPtr& slot) { slot = rewrite(slot, rewriter); });
   if (auto* branch = std::get_if<Branch>(&statement.node))
     branch->condition = rewrite(branch->condition, rewriter);
+  if (auto* loop = std::get_if<Loop>(&statement.node); loop != nullptr && loop->condition)
+    loop->condition = rewrite(loop->condition, rewriter);
 }
 
 void rename(std::vector<Statement>& list, const std::map<VariableId, VariableId>& names) {

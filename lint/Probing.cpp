@@ -28,10 +28,12 @@ std::optional<ProbeStep::Kind> meaning(const Project& project, std::uint32_t pro
     for (const stdlib::MacroSignature* signature : set.of(program)) {
       switch (signature->intent) {
       case stdlib::Intent::ProtectedMove: return ProbeStep::Kind::Protected;
-      case stdlib::Intent::Surface:
-      case stdlib::Intent::Bore: return ProbeStep::Kind::Measure;
       case stdlib::Intent::ProbeOn: return ProbeStep::Kind::On;
       case stdlib::Intent::ProbeOff: return ProbeStep::Kind::Off;
+      // These compute or remember; they do not touch.
+      case stdlib::Intent::FeatureToFeature:
+      case stdlib::Intent::ToolUpdate: return ProbeStep::Kind::PackCall;
+      default: return ProbeStep::Kind::Measure;
       }
     }
   }

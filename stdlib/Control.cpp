@@ -68,6 +68,8 @@ void ControlReader::words() {
       static_cast<int>(whole(table, "decimals", "the most digits behind the point, mm", 0, 6));
   control_.integerDigits =
       static_cast<int>(whole(table, "integer_digits", "the most digits before the point", 1, 9));
+  if (const TomlValue digits = table.value("digits"))
+    control_.digits = static_cast<std::uint32_t>(digits.integer(8, 1, 99));
   if (std::abs(control_.increment * std::pow(10.0, control_.decimals) - 1) > 1e-9)
     document_.fail(increment.range(), fmt::format("an increment of {} is not one unit of decimal {}",
                                                   control_.increment, control_.decimals));
@@ -160,6 +162,8 @@ void ControlReader::programs() {
     document_.fail(table.value("repeat_in_program").range(),
                    "the number of the program takes the last four digits; `last` goes beyond them");
   control_.sequenceLast = whole(table, "last_sequence", "the greatest N number of a GOTO", 1, 99999999);
+  control_.colonNames = table.value("colon").flag();
+  control_.programNames = table.value("names").flag();
 }
 
 void ControlReader::motion() {

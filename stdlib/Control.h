@@ -226,6 +226,7 @@ struct Control {
   double increment = 0.001;      // mm, least input increment
   int decimals = 3;              // most digits behind the point of a word, mm
   int integerDigits = 5;         // most digits before the point
+  std::uint32_t digits = 8;      // most digits of a number, leading zeros too
   bool ifThen = true;            // IF [..] THEN statement
   bool joinedConditions = false; // [[..] AND [..]]
   bool thenGoto = false;         // IF [..] THEN GOTO n is known to run
@@ -240,6 +241,8 @@ struct Control {
   std::uint32_t alarmFirst = 0, alarmLast = 200; // n of #3000=n
   std::uint32_t alarmLength = 26;                // characters of a message
   std::uint32_t programLast = 9999;              // greatest O number
+  bool colonNames = false;                       // a program may be headed :12
+  bool programNames = false;                     // a program may be headed <NAME>
   std::uint32_t sequenceLast = 9999;             // greatest N number of a GOTO
   SystemVariables variables;
   std::optional<double> arcTolerance; // mm, between the radii of an arc's ends; nothing: not known

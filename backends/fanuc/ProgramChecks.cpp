@@ -1,0 +1,289 @@
+#include "backends/fanuc/ProgramChecks.h"
+
+#include "backends/fanuc/ProgramText.h"
+#include "backends/fanuc/ProgramVariables.h"
+#include "ir/Rewrite.h"
+#include "ir/Walk.h"
+#include "support/Decimal.h"
+#include "support/messages/Fanuc.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <map>
+#include <set>
+
+namespace dotek::backends::fanuc {
+
+namespace {
+
+constexpr std::uint32_t kFirstSystem = 1000;
+constexpr std::size_t kMostCalls = 64; // no control nests calls that deep
+
+// The whole number that the control reads; nullopt: computed.
+std::optional<std::uint32_t> wholeOf(const ir::ExpressionPtr& expression) {
+  const double* value = expression ? ir::constantValue(expression) : nullptr;
+  if (value == nullptr || std::abs(*value) > 99999999 || *value < 0) return std::nullopt;
+  return static_cast<std::uint32_t>(std::lround(*value));
+}
+
+// What to write in place of a function that the target lacks; "": nothing known.
+std::string_view workaround(std::string_view function) {
+  if (function == "MOD") return "for whole numbers write `#1-FIX[#1/#2]*#2`";
+  if (function == "POW") return "write the product, or `EXP[#2*LN[#1]]` where both exist";
+  if (function == "ATAN[y]/[x]" || function == "ATAN[y,x]")
+    return "divide in brackets, `ATAN[#1/#2]`, and add 180 degrees where x is negative";
+  if (function == "ASIN") return "write `ATAN[#1/SQRT[1-#1*#1]]`";
+  if (function == "ACOS") return "write `90-ATAN[#1/SQRT[1-#1*#1]]`";
+  if (function == "ADP") return "write the point where the program is called";
+  return "compute it before, or take another control";
+}
+
+class Variables {
+public:
+  Variables(ir::Program& program, const ProgramContext& context) : program_(program), context_(context) {}
+
+  void run() {
+    for (ir::Statement& statement : program_.body) {
+      statement_ = &statement;
+      if (auto* store = std::get_if<ir::Store>(&statement.node)) stored(*store);
+      ir::rewrite(statement, [&](const ir::ExpressionPtr& expression) { return used(expression); });
+      if (auto* print = std::get_if<ir::Print>(&statement.node))
+        for (ir::PrintPiece& piece : print->pieces)
+          if (piece.number) piece.number = there(*piece.number, statement.origin.range());
+      if (auto* names = std::get_if<ir::NameVariables>(&statement.node))
+        for (std::uint32_t i = 0; i < names->names.size(); ++i)
+          there(names->first + i, statement.origin.range());
+    }
+  }
+
+private:
+  std::uint32_t there(std::uint32_t number, SourceRange range) {
+    const VariableThere found = variableThere(number, context_.from(), context_.to());
+    if (!found.number) {
+      context_.diagnostics.report<diag::VariableElsewhere>(range, number, found.why);
+    } else if (*found.number != number) {
+      context_.diagnostics.report<diag::VariableMoved>(range, number, found.what, *found.number,
+                                                       context_.to().title);
+    }
+    return found.number.value_or(number);
+  }
+
+  void stored(ir::Store& store) {
+    const SourceRange range = statement_->origin.range();
+    if (const auto number = wholeOf(store.number)) {
+      const std::uint32_t moved = there(*number, range);
+      if (moved != *number) store.number = ir::constant(moved, store.number->range, std::to_string(moved));
+      if (!context_.same() && context_.to().isReadOnly(moved))
+        context_.diagnostics.report<diag::VariableReadOnly>(range, moved, context_.to().title);
+    } else {
+      computed(store.number);
+    }
+  }
+
+  ir::ExpressionPtr used(const ir::ExpressionPtr& expression) {
+    const auto* machine = std::get_if<ir::MachineVariable>(&expression->node);
+    if (machine == nullptr) return expression;
+    const auto number = wholeOf(machine->number);
+    if (!number) {
+      computed(machine->number);
+      return expression;
+    }
+    const std::uint32_t moved = there(*number, expression->range);
+    if (moved == *number) return expression;
+    return ir::machineVariable(ir::constant(moved, machine->number->range, std::to_string(moved)),
+                               expression->range);
+  }
+
+  // The constant that a computed number begins with: 2000 of #[2000+#7].
+  static std::optional<std::uint32_t> baseOf(const ir::ExpressionPtr& number) {
+    const auto* sum = std::get_if<ir::Binary>(&number->node);
+    if (sum == nullptr || (sum->op != ir::BinaryOp::Add && sum->op != ir::BinaryOp::Subtract))
+      return std::nullopt;
+    if (const auto left = wholeOf(sum->left)) return left;
+    if (sum->op == ir::BinaryOp::Add)
+      if (const auto right = wholeOf(sum->right)) return right;
+    return baseOf(sum->left);
+  }
+
+  void computed(const ir::ExpressionPtr& number) {
+    if (context_.same()) return;
+    const SourceRange range = number->range.hasPlace() ? number->range : statement_->origin.range();
+    const auto base = baseOf(number);
+    const bool system = base && *base >= kFirstSystem;
+    const bool same = sameVariables(context_.from(), context_.to());
+    const bool known = system && (variableThere(*base, context_.from(), context_.to()).number ||
+                                  variableThere(*base + 1, context_.from(), context_.to()).number);
+    const bool holds = system ? same && known : same || holdsVariablesOf(context_.to(), context_.from());
+    if (!holds)
+      context_.diagnostics.report<diag::VariableNumberComputed>(range, context_.to().title,
+                                                                context_.from().title);
+    else if (!system && !(same && base) && !std::exchange(told_, true))
+      context_.diagnostics.report<diag::VariableNumberOpen>(range, context_.from().title,
+                                                            context_.to().title);
+  }
+
+  ir::Program& program_;
+  const ProgramContext& context_;
+  ir::Statement* statement_ = nullptr;
+  bool told_ = false;
+};
+
+class Checks {
+public:
+  Checks(const ir::Program& program, const ir::ProgramFile& file, const ProgramContext& context)
+      : program_(program), file_(file), context_(context) {}
+
+  void run() {
+    for (const ir::Statement& statement : program_.body) {
+      statement_ = &statement;
+      ir::eachNode(statement, [&](const ir::Expression& node) { expression(node); });
+      if (context_.same()) continue;
+      if (const auto* raise = std::get_if<ir::Raise>(&statement.node)) alarm(*raise);
+      if (const auto* call = std::get_if<ir::Call>(&statement.node)) called(*call);
+      if (std::holds_alternative<ir::Print>(statement.node) ||
+          std::holds_alternative<ir::Port>(statement.node) ||
+          std::holds_alternative<ir::NameVariables>(statement.node))
+        output();
+      if (std::holds_alternative<ir::Notice>(statement.node) && !context_.to().variables.message)
+        context_.diagnostics.report<diag::VariableElsewhere>(
+            statement.origin.range(), 3006,
+            "waits for the operator, which " + context_.to().title + " has no variable for");
+    }
+    if (!context_.same()) levels();
+  }
+
+private:
+  SourceRange placeOf(const ir::Expression& node) const {
+    return node.range.hasPlace() ? node.range : statement_->origin.range();
+  }
+
+  // ---- numbers and functions
+
+  void expression(const ir::Expression& node) {
+    if (const auto* constant = std::get_if<ir::Constant>(&node.node)) return digits(*constant, node);
+    if (const auto* unary = std::get_if<ir::Unary>(&node.node)) {
+      const std::string_view key = functionKey(unary->op);
+      if (!key.empty() && known(key, node) && unary->op == ir::UnaryOp::ArcTangent) known("ATAN[y]", node);
+      if (unary->op == ir::UnaryOp::RoundIncrement && context_.to().increment != context_.from().increment)
+        context_.diagnostics.report<diag::ProgramFunction>(
+            placeOf(node), context_.to().title, "ROUND of a word to " + numberText(context_.from().increment),
+            "its least increment is another; round with FIX");
+    } else if (const auto* binary = std::get_if<ir::Binary>(&node.node)) {
+      const std::string_view key = functionKey(binary->op);
+      if (binary->op == ir::BinaryOp::Bearing) {
+        const auto& functions = context_.to().functions;
+        if (!functions.contains("ATAN[y,x]")) known("ATAN[y]/[x]", node);
+      } else if (!key.empty()) {
+        known(key, node);
+      } else if (!isArithmetic(binary->op)) {
+        notOfPrograms("an operator");
+      }
+    } else if (std::holds_alternative<ir::VariableUse>(node.node) ||
+               std::holds_alternative<ir::MeasuredResult>(node.node)) {
+      notOfPrograms("a variable of a cycle");
+    }
+  }
+
+  static bool isArithmetic(ir::BinaryOp op) {
+    return op == ir::BinaryOp::Add || op == ir::BinaryOp::Subtract || op == ir::BinaryOp::Multiply ||
+           op == ir::BinaryOp::Divide;
+  }
+  void notOfPrograms(const char* what) {
+    context_.diagnostics.report<diag::StatementNotOfProgram>(statement_->origin.range(), what);
+  }
+
+  bool known(std::string_view key, const ir::Expression& node) {
+    if (context_.to().functions.contains(std::string(key))) return true;
+    context_.diagnostics.report<diag::ProgramFunction>(placeOf(node), context_.to().title, key,
+                                                       workaround(key));
+    return false;
+  }
+
+  void digits(const ir::Constant& constant, const ir::Expression& node) {
+    const std::string text = constant.digits.empty() ? numberText(constant.value) : constant.digits;
+    const auto count = static_cast<std::uint32_t>(
+        std::count_if(text.begin(), text.end(), [](char c) { return c >= '0' && c <= '9'; }));
+    if (count > context_.to().digits)
+      context_.diagnostics.report<diag::ConstantDigits>(placeOf(node), text, count, context_.to().title,
+                                                        context_.to().digits);
+  }
+
+  // ---- messages and output
+
+  void alarm(const ir::Raise& raise) {
+    const stdlib::Control& to = context_.to();
+    const SourceRange range = statement_->origin.range();
+    if (!to.variables.alarm)
+      context_.diagnostics.report<diag::VariableElsewhere>(
+          range, 3000, "raises an alarm, which " + to.title + " has no variable for");
+    const auto number = wholeOf(raise.number);
+    if (number && (*number < to.alarmFirst || *number > to.alarmLast))
+      context_.diagnostics.report<diag::AlarmNumberThere>(range, *number, to.title, to.alarmFirst,
+                                                          to.alarmLast);
+  }
+
+  void output() {
+    if (!std::exchange(outputTold_, true))
+      context_.diagnostics.report<diag::OutputNotKnown>(statement_->origin.range(), context_.to().title);
+  }
+
+  // ---- calls
+
+  void called(const ir::Call& call) {
+    const auto number = wholeOf(call.program);
+    // Repeats and four digits of the number, on both.
+    if (call.kind == ir::CallKind::Subprogram && context_.to().repeatInProgram &&
+        context_.from().repeatInProgram)
+      return;
+    if (number && *number > context_.to().programLast)
+      context_.diagnostics.report<diag::CalledProgramRange>(statement_->origin.range(), *number,
+                                                            context_.to().programLast, context_.to().title);
+  }
+
+  // Levels of G65 and G66 that calls within the file come to, this program counted as called by none.
+  void levels() {
+    std::map<std::uint64_t, const ir::Program*> byNumber;
+    for (const ir::Program& one : file_.programs)
+      byNumber.emplace(one.number, &one);
+    std::set<const ir::Program*> open;
+    std::map<const ir::Program*, std::uint32_t> depth;
+    const std::function<std::uint32_t(const ir::Program&)> depthOf = [&](const ir::Program& program) {
+      if (const auto known = depth.find(&program); known != depth.end()) return known->second;
+      if (open.size() > kMostCalls || !open.insert(&program).second) return 0u;
+      std::uint32_t most = 0;
+      for (const ir::Statement& statement : program.body) {
+        const auto* call = std::get_if<ir::Call>(&statement.node);
+        if (call == nullptr || call->kind == ir::CallKind::Off) continue;
+        const auto number = wholeOf(call->program);
+        const auto target = number ? byNumber.find(*number) : byNumber.end();
+        const std::uint32_t below = target == byNumber.end() ? 0 : depthOf(*target->second);
+        most = std::max(most, below + (call->kind == ir::CallKind::Subprogram ? 0 : 1));
+      }
+      open.erase(&program);
+      return depth[&program] = most;
+    };
+    const std::uint32_t most = depthOf(program_);
+    if (most > context_.to().macroLevels)
+      context_.diagnostics.report<diag::MacroLevelsThere>(program_.range, most, context_.to().title,
+                                                          context_.to().macroLevels);
+  }
+
+  const ir::Program& program_;
+  const ir::ProgramFile& file_;
+  const ProgramContext& context_;
+  const ir::Statement* statement_ = nullptr;
+  bool outputTold_ = false;
+};
+
+} // namespace
+
+void translateVariables(ir::Program& program, const ProgramContext& context) {
+  if (!context.same()) Variables(program, context).run();
+}
+
+void checkProgram(const ir::Program& program, const ir::ProgramFile& file, const ProgramContext& context) {
+  Checks(program, file, context).run();
+}
+
+} // namespace dotek::backends::fanuc
