@@ -15,7 +15,7 @@ constexpr std::string_view kIntentNames[] = {
     DOTEK_INTENTS(DOTEK_INTENT)
 #undef DOTEK_INTENT
 };
-constexpr std::string_view kRoles[] = {"target", "feed", "diameter", "nominal", "system"};
+constexpr std::string_view kRoles[] = {"target", "feed", "diameter", "nominal", "system", "overtravel"};
 constexpr std::string_view kResults[] = {"main", "position-x", "position-y", "position-z", "size"};
 constexpr std::string_view kNoArgument = "GLNOP";
 // More than any pack has; checks compare each with each.
@@ -126,8 +126,8 @@ private:
       }
     }
     const TomlValue role = table.require("role", "what the argument means");
-    out.role = named<ArgumentRole>(role.choice({"target", "feed", "diameter", "nominal", "system"}, "target"),
-                                   kRoles);
+    out.role = named<ArgumentRole>(
+        role.choice({"target", "feed", "diameter", "nominal", "system", "overtravel"}, "target"), kRoles);
     out.required = table.value("required").flag();
     if (out.role == ArgumentRole::Target || out.role == ArgumentRole::Nominal)
       out.axis = static_cast<ir::Axis>(

@@ -30,11 +30,12 @@ enum class Intent : std::uint8_t {
 std::string_view intentName(Intent intent);
 
 enum class ArgumentRole : std::uint8_t {
-  Target,   // "target": coordinate to reach or to find, along `axis`
-  Feed,     // "feed"
-  Diameter, // "diameter"
-  Nominal,  // "nominal": coordinate that the feature gets along `axis` in the system that the call sets
-  System,   // "system": work offset to set
+  Target,     // "target": coordinate to reach or to find, along `axis`
+  Feed,       // "feed"
+  Diameter,   // "diameter"
+  Nominal,    // "nominal": coordinate that the feature gets along `axis` in the system that the call sets
+  System,     // "system": work offset to set
+  Overtravel, // "overtravel": how far the measuring move goes on behind the expected surface
 };
 
 // How a work system is written in a System argument.

@@ -123,6 +123,7 @@ bool Lifter::measure(const stdlib::MacroSignature& signature) {
       sets = true;
       break;
     case stdlib::ArgumentRole::Feed:
+    case stdlib::ArgumentRole::Overtravel: // the IR does not carry it
       return refuse<diag::UnknownMacroLetter>(word.range, signature.program, context_.macros->name,
                                               word.address);
     }

@@ -135,10 +135,11 @@ TEST_CASE("Inspection Plus: facts of the reference") {
   for (const ir::Axis axis : ir::kAxes) {
     const MacroSignature& surface = *set.find(Intent::Surface, axis);
     CHECK(surface.program == 9811);
-    CHECK(surface.arguments.size() == 2);
+    CHECK(surface.arguments.size() == 3);
     CHECK(surface.find(ArgumentRole::Target, axis)->frame == ir::Frame::Work);
     const MacroArgument& system = *surface.find('S');
     CHECK_FALSE(system.required);
+    CHECK(surface.find(ArgumentRole::Overtravel, axis)->letter == 'Q');
     CHECK(system.systemCode == SystemCode::Index);
     CHECK(system.systemRule == SystemRule::Error);
     CHECK_FALSE(system.point);
@@ -194,7 +195,8 @@ TEST_CASE("letters of a call and the signature that they fit") {
       {"inspection-plus", 9811, "S", "", 0, "X or Y or Z", false},
       {"inspection-plus", 9811, "", "", 0, "X or Y or Z", false},
       {"inspection-plus", 9811, "XY", "", 0, "", true},
-      {"inspection-plus", 9811, "YQ", "", 'Q', "", false},
+      {"inspection-plus", 9811, "YQ", "single surface along Y", 0, "", false},
+      {"inspection-plus", 9811, "YT", "", 'T', "", false},
       {"inspection-plus", 9814, "D", "bore", 0, "", false},
       {"inspection-plus", 9814, "DS", "bore", 0, "", false},
       {"inspection-plus", 9814, "S", "", 0, "D", false},
