@@ -39,6 +39,7 @@ struct Raw {
   bool json = false, quiet = false;
   std::uint32_t maxErrors = 50;
   bool recover = false;
+  bool wholePost = false;
 };
 
 std::pair<std::string, std::string> splitPair(const std::string& flag, const std::string& text) {
@@ -125,6 +126,7 @@ driver::ConvertOptions convertOf(const Raw& raw) {
     out.defaults.push_back(splitPair("--default", text));
   out.useDefaults = raw.defaultsMode == "use";
   out.switchProbe = raw.probePower == "macro";
+  out.wholePost = raw.wholePost;
   return out;
 }
 
@@ -227,7 +229,7 @@ void addConvert(CLI::App& app, Raw& raw) {
   CLI::App* convert = app.add_subcommand(
       "convert", "turn a cycle into a program that stays on the control and takes arguments");
   convert->add_option("FOLDER", raw.inputs, "folders of the cycles");
-  convert->add_option("--to", raw.to, "language to write: fanuc")->type_name("TARGET");
+  convert->add_option("--to", raw.to, "language to write: fanuc or fusion")->type_name("TARGET");
   addTarget(*convert, raw);
   convert
       ->add_option("--probe-macros", raw.probeMacros,
@@ -251,10 +253,11 @@ void addConvert(CLI::App& app, Raw& raw) {
       ->check(CLI::IsMember({"source", "macro"}));
   convert->add_option("--program-number", raw.programNumber, "O number of the program (8000)")
       ->type_name("N");
+  convert->add_flag("--whole-post", raw.wholePost, "with --to fusion: the smallest post around the cycles");
   convert->add_option("--map", raw.mapFile, "write which line comes from where, as JSON")->type_name("FILE");
   CLI::Option* output =
       convert->add_option("-o", raw.output, "write the program to a file")->type_name("OUT");
-  convert->add_option("-d", raw.outputFolder, "write each program to DIR/Onnnn.nc")
+  convert->add_option("-d", raw.outputFolder, "write each program to DIR: Onnnn.nc, or NAME.js for fusion")
       ->type_name("DIR")
       ->excludes(output);
   addCommon(*convert, raw);

@@ -1,3 +1,4 @@
+#include "driver/ConvertFusion.h"
 #include "driver/ConvertValues.h"
 #include "driver/Driver.h"
 #include "driver/Lowering.h"
@@ -13,6 +14,7 @@
 #include "support/NearestName.h"
 #include "support/messages/Commands.h"
 #include "support/messages/Fanuc.h"
+#include "support/messages/Fusion.h"
 
 #include <algorithm>
 #include <set>
@@ -31,8 +33,10 @@ public:
 
   Outcome run() {
     if (!load()) return refuse();
+    if (options_.to == "fusion") fusion_.emplace(options_, *inputs_, session_);
     for (std::size_t i = 0; i < folders_.size(); ++i)
       one(folders_[i], i);
+    if (fusion_) fusion_->finish(files_, maps_);
     reportUnknownNames();
     if (session_.diagnostics().hasErrors()) return refuse();
     keepStrongest(session_.diagnostics());
@@ -58,11 +62,14 @@ private:
     if (options_.inputs.empty())
       diagnostics.report<diag::MissingOption>({}, "convert", "FOLDER", "the folder of a cycle");
     if (options_.to.empty())
-      diagnostics.report<diag::MissingOption>({}, "convert", "--to TARGET", "the language to write: fanuc");
+      diagnostics.report<diag::MissingOption>({}, "convert", "--to TARGET",
+                                              "the language to write: fanuc or fusion");
     else if (std::find(kTargets.begin(), kTargets.end(), options_.to) == kTargets.end())
       diagnostics.report<diag::UnknownTarget>({}, options_.to);
     if (options_.source.cycle && options_.inputs.size() > 1) diagnostics.report<diag::CycleWithSeveral>({});
-    if (options_.oneFile && options_.inputs.size() > 1)
+    if (options_.to == "fusion") FusionParts::checkOptions(options_, diagnostics);
+    if (options_.wholePost && options_.to == "fanuc") diagnostics.report<diag::WholePostOfControl>({});
+    if (options_.oneFile && options_.inputs.size() > 1 && !options_.wholePost)
       diagnostics.report<diag::OutputForOne>({}, options_.inputs.size());
     readLetters();
     if (diagnostics.hasErrors()) return false;
@@ -85,7 +92,7 @@ private:
     leaveFindingsToLint(session_);
     if (inputs_->job && !inputs_->job->operations.empty())
       diagnostics.report<diag::JobOperationsUnused>(inputs_->job->operations.front().range);
-    return !diagnostics.hasErrors() && numbersDiffer();
+    return !diagnostics.hasErrors() && (options_.to == "fusion" || numbersDiffer());
   }
 
   void readLetters() {
@@ -136,7 +143,14 @@ private:
     }
     lowered->cycle.name = folder.name;
     applyDefaults(options_.defaults, *lowered, usedDefaults_, session_);
+    std::map<ir::VariableId, double> defaults;
+    for (ir::VariableId id = 0; id < lowered->cycle.variables.size(); ++id)
+      if (const auto value = lowered->cycle.variable(id).defaultValue) defaults.emplace(id, *value);
     settleValues(folder, *lowered, session_);
+    if (fusion_) {
+      if (!session_.diagnostics().hasErrors()) fusion_->add(folder, *lowered, std::move(defaults));
+      return;
+    }
     const stdlib::MacroSet* macros = macrosOf(*lowered);
     if (macros == nullptr || session_.diagnostics().hasErrors()) return;
     for (const auto& [id, value] : lowered->fixed) {
@@ -222,6 +236,7 @@ private:
   std::set<std::string> usedSets_, usedDefaults_, usedLetters_;
   std::vector<OutputFile> files_;
   std::vector<MappedResult> maps_;
+  std::optional<FusionParts> fusion_; // with --to fusion
   bool failed_ = false;
 };
 

@@ -62,6 +62,7 @@ struct ConvertOptions {
   NamedTexts defaults;      // --default NAME=VALUE
   bool useDefaults = false; // --defaults use
   bool switchProbe = false; // --probe-power macro
+  bool wholePost = false;   // --whole-post, of fusion
   bool oneFile = false;     // -o: several inputs are an error
 };
 

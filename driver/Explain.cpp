@@ -137,7 +137,8 @@ Outcome list(const std::string& what, const CommonOptions& options) {
         return session.finish("none in this release; a folder given with --data can add some\n");
     } else if (what == "targets") {
       for (const std::string_view target : kTargets)
-        rows.emplace_back(target, "program that is called with G65");
+        rows.emplace_back(target,
+                          target == "fusion" ? "part of a Fusion post" : "program that is called with G65");
     } else {
       session.diagnostics().report<diag::UnknownList>({}, what);
     }

@@ -6,6 +6,6 @@
 
 namespace dotek::driver {
 
-inline constexpr std::array<std::string_view, 1> kTargets = {"fanuc"};
+inline constexpr std::array<std::string_view, 2> kTargets = {"fanuc", "fusion"};
 
 } // namespace dotek::driver
