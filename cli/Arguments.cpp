@@ -35,6 +35,7 @@ struct Raw {
   std::string defaultsMode = "alarm";
   std::string probePower = "source";
   std::vector<std::string> variables;
+  std::vector<std::string> programs;
   std::string traceFile;
   bool json = false, quiet = false;
   std::uint32_t maxErrors = 50;
@@ -157,6 +158,7 @@ void fill(const Raw& raw, Arguments& parsed) {
   parsed.traceFile = raw.traceFile;
   parsed.sim.control = raw.control;
   parsed.sim.json = raw.json;
+  parsed.sim.programs = raw.programs;
   for (const std::string& text : raw.variables)
     parsed.sim.variables.push_back(splitPair("--var", text));
   if (!raw.select.empty() && raw.select != "all") parsed.select = codes(raw.select);
@@ -294,6 +296,9 @@ void addSim(CLI::App& app, Raw& raw) {
   addTarget(*sim, raw);
   sim->add_option("--var", raw.variables, "value of a variable before the program begins")
       ->type_name("N=VALUE")
+      ->allow_extra_args(false);
+  sim->add_option("--programs", raw.programs, "folder of programs that can be called")
+      ->type_name("DIR")
       ->allow_extra_args(false);
   sim->add_flag("--quiet", raw.quiet, "no trace");
   sim->add_flag("--json", raw.json, "print how the run ended as JSON, and no trace");

@@ -2,7 +2,8 @@
 
 # dotek_embed_data(<folder> <output.cpp>)
 function(dotek_embed_data folder output)
-  file(GLOB_RECURSE files CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/${folder}/*.toml)
+  file(GLOB_RECURSE files CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/${folder}/*.toml
+       ${CMAKE_SOURCE_DIR}/${folder}/*.nc)
   add_custom_command(
     OUTPUT ${output}
     COMMAND ${CMAKE_COMMAND} -DROOT=${CMAKE_SOURCE_DIR}/${folder} -DOUTPUT=${output}

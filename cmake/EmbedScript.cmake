@@ -1,5 +1,5 @@
-# Run by EmbedData.cmake: writes OUTPUT, a sorted table of every .toml below ROOT.
-file(GLOB_RECURSE files RELATIVE ${ROOT} ${ROOT}/*.toml)
+# Run by EmbedData.cmake: writes OUTPUT, a sorted table of every .toml and .nc below ROOT.
+file(GLOB_RECURSE files RELATIVE ${ROOT} ${ROOT}/*.toml ${ROOT}/*.nc)
 list(SORT files)
 set(rows "")
 foreach(file IN LISTS files)

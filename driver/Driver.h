@@ -90,9 +90,10 @@ struct DumpOptions {
 struct SimOptions {
   std::string program; // path
   CommonOptions common;
-  std::string control;  // "": the first
-  NamedTexts variables; // --var N=VALUE
-  bool json = false;    // the output is the summary as JSON
+  std::string control;               // "": the first
+  NamedTexts variables;              // --var N=VALUE
+  std::vector<std::string> programs; // --programs DIR: what can be called beside the programs of the file
+  bool json = false;                 // the output is the summary as JSON
   // Takes the trace while the program runs, in pieces of whole lines. Empty: no trace is made.
   std::function<void(std::string_view)> trace;
 };

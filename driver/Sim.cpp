@@ -1,11 +1,16 @@
 #include "support/messages/Sim.h"
 #include "driver/Driver.h"
+#include "driver/ProgramLibrary.h"
 #include "driver/Session.h"
 #include "driver/SimReport.h"
 #include "frontend/nc/Scan.h"
+#include "sim/Arguments.h"
+#include "sim/Compile.h"
 #include "sim/Machine.h"
+#include "sim/Run.h"
 #include "stdlib/Control.h"
 #include "support/Decimal.h"
+#include "support/Files.h"
 #include "support/LineChunks.h"
 #include "support/messages/Commands.h"
 #include "support/messages/Common.h"
@@ -37,7 +42,7 @@ public:
     }
     sim::Machine machine(*control_);
     if (!setVariables(machine)) return session_.finish("");
-    if (frontend::nc::mayHoldMacros(*chunks)) return runLoaded();
+    if (!options_.programs.empty() || frontend::nc::mayHoldMacros(*chunks)) return runLoaded(kept, machine);
     chunks->rewind();
     return runStreamed(*chunks, machine);
   }
@@ -86,7 +91,7 @@ private:
         diagnostics().report<diag::VariableFlag>({}, flag, "it takes NUMBER=VALUE");
       } else if (!value) {
         diagnostics().report<diag::VariableFlag>({}, flag, "the value is no number");
-      } else if (!machine.write(number, *value)) {
+      } else if (!machine.preset(number, *value)) {
         diagnostics().report<diag::VariableFlag>(
             {}, flag, fmt::format("`{}` has no such variable that a program could set", control_->name));
         return false;
@@ -95,10 +100,26 @@ private:
     return !diagnostics().hasErrors();
   }
 
-  // A program with macro statements, calls or jumps.
-  Outcome runLoaded() {
-    diagnostics().report<diag::MacroProgram>({});
-    return session_.finish("");
+  // A program with macro statements, calls or jumps: it and all that it may call are kept.
+  Outcome runLoaded(std::optional<std::string>& kept, sim::Machine& machine) {
+    const std::optional<FileId> id =
+        kept ? addText(options_.program, std::move(*kept), Encoding::Cp1250, session_.options().encoding,
+                       session_.sources(), diagnostics())
+             : session_.read(options_.program, Encoding::Cp1250);
+    if (!id) return session_.finish("");
+    const std::optional<ProgramLibrary> library =
+        ProgramLibrary::load(*id, options_.programs, *control_, session_);
+    if (!library) return session_.finish("");
+    const sim::Bytecode code = sim::compile(library->programs(), *control_, session_.sources());
+    std::optional<sim::Trace> trace;
+    if (options_.trace) machine.setTrace(&trace.emplace(options_.trace));
+    sim::Run run(machine, code, session_.limits());
+    run.run();
+    machine.setTrace(nullptr);
+    if (trace) traceVariables(machine, *trace);
+    trace.reset();
+    reportRun(run, machine, session_);
+    return session_.finish(options_.json ? summary(machine, &run, session_) : "", true);
   }
 
   // A program of plain blocks: block by block, in constant memory.
@@ -110,7 +131,7 @@ private:
     using Result = frontend::nc::Scanner::Result;
     Result result = Result::Block;
     while ((result = scanner.next(words)) == Result::Block) {
-      if (!machine.execute(words)) break;
+      if (callsProgram(words, machine) || !machine.execute(words)) break;
     }
     machine.setTrace(nullptr);
     trace.reset();
@@ -118,7 +139,24 @@ private:
       reportScanError(options_.program, scanner, chunks, session_);
     else
       reportEnd(options_.program, scanner, machine, session_);
-    return session_.finish(options_.json ? summary(machine, *control_, session_) : "", true);
+    return session_.finish(options_.json ? summary(machine, nullptr, session_) : "", true);
+  }
+
+  // A code that calls a program on this control: the run ends, as no programs are given.
+  bool callsProgram(const ir::NcWords& words, sim::Machine& machine) const {
+    if (control_->callCodes.empty() || (words.present & ir::addressBits("GMT")) == 0) return false;
+    const auto calls = [&](char letter, double value, std::uint32_t which) {
+      const stdlib::CallCode* const call = sim::findCallCode(*control_, letter, value);
+      if (call != nullptr)
+        machine.inconclusive("it calls a program; `--programs DIR` gives those that it may call", letter,
+                             which);
+      return call != nullptr;
+    };
+    for (std::uint32_t i = 0; i < words.gCount; ++i)
+      if (calls('G', words.g[i] / 10.0, i)) return true;
+    for (std::uint32_t i = 0; i < words.mCount; ++i)
+      if (calls('M', words.m[i], i)) return true;
+    return words.has('T') && calls('T', words.of('T'), 0);
   }
 
   const SimOptions& options_;

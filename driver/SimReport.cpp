@@ -1,7 +1,9 @@
 #include "driver/SimReport.h"
 
+#include "sim/Value.h"
 #include "support/Decimal.h"
 #include "support/messages/Common.h"
+#include "support/messages/MacroB.h"
 #include "support/messages/Sim.h"
 
 #include <fmt/format.h>
@@ -12,6 +14,13 @@ namespace {
 
 using frontend::nc::ScanFault;
 using sim::Ending;
+
+constexpr std::string_view kHidden = "a macro statement or a call that the first reading did not show";
+
+// Texts of programs are bytes.
+std::string toUtf8Text(const std::string& bytes) {
+  return toUtf8(bytes, isUtf8(bytes) ? Encoding::Utf8 : Encoding::Cp1250);
+}
 
 // The line as a file of its own, since the program itself is not kept.
 FileId addLine(const std::string& path, std::string_view line, std::uint64_t number, Session& session) {
@@ -48,7 +57,8 @@ std::string_view endingName(const sim::Machine& machine, bool stoppedByText) {
   case Ending::Return: return "return";
   case Ending::Alarm: return "alarm";
   case Ending::Inconclusive: return "inconclusive";
-  case Ending::Call: return "call";
+  case Ending::Call: return "inconclusive";
+  case Ending::Limit: return "limit";
   case Ending::Running:
   case Ending::TextEnd: break;
   }
@@ -93,7 +103,7 @@ void reportScanError(const std::string& path, const frontend::nc::Scanner& scann
   case ScanFault::LineTooLong: diagnostics.report<diag::BlockTooLong>(range, LineChunks::kBuffer); break;
   case ScanFault::MacroText:
   case ScanFault::Reading:
-  case ScanFault::None: diagnostics.report<diag::MacroProgram>(range); break;
+  case ScanFault::None: diagnostics.report<diag::RunInconclusive>(range, text, kHidden); break;
   }
 }
 
@@ -116,15 +126,64 @@ void reportEnd(const std::string& path, const frontend::nc::Scanner& scanner, co
   else if (end.ending == Ending::Inconclusive)
     diagnostics.report<diag::RunInconclusive>(range, session.sources().textUtf8(range), end.text);
   else
-    diagnostics.report<diag::MacroProgram>(range);
+    diagnostics.report<diag::RunInconclusive>(range, session.sources().textUtf8(range), kHidden);
 }
 
-std::string summary(sim::Machine& machine, const stdlib::Control& control, Session& session) {
+void reportRun(const sim::Run& run, const sim::Machine& machine, Session& session) {
+  Diagnostics& diagnostics = session.diagnostics();
+  const stdlib::Control& control = machine.control();
+  std::string stops;
+  for (const auto& [letter, tenths] : control.readAheadStops)
+    stops += fmt::format("{}{}{}", stops.empty() ? "" : ", ", letter, numberText(tenths / 10.0));
+  for (const sim::EarlyRead& early : run.earlyReads())
+    diagnostics.report<diag::PositionReadEarly>(early.range, early.number)
+        .note({},
+              "the control waits at " + (stops.empty() ? std::string("codes that are not known") : stops));
+  const sim::RunEnd& end = machine.end();
+  const SourceRange range = run.place();
+  Diagnostic* report = nullptr;
+  switch (end.ending) {
+  case Ending::Alarm: {
+    report = &diagnostics.report<diag::ControlAlarm>(range, end.number, toUtf8Text(end.text), where(end));
+    const stdlib::AlarmInfo* missing = control.find(stdlib::Alarm::NoSuchProgram);
+    if (missing != nullptr && end.number == missing->number && end.text == missing->text)
+      report->note({}, "programs of other files are found with `--programs DIR`");
+    break;
+  }
+  case Ending::Limit: report = &diagnostics.report<diag::RunLimit>(range, end.text); break;
+  case Ending::Inconclusive:
+  case Ending::Call:
+  case Ending::Return:
+    report = &diagnostics.report<diag::RunInconclusive>(range, session.sources().textUtf8(range), end.text);
+    break;
+  case Ending::Running:
+  case Ending::ProgramEnd:
+  case Ending::TextEnd: return;
+  }
+  constexpr std::size_t kMostCalls = 8;
+  const std::vector<SourceRange> calls = run.openCalls();
+  for (std::size_t i = 0; i < calls.size() && i < kMostCalls; ++i)
+    report->note(calls[calls.size() - 1 - i], "called here");
+  if (calls.size() > kMostCalls)
+    report->note({}, fmt::format("called by {} calls more", calls.size() - kMostCalls));
+}
+
+void traceVariables(const sim::Machine& machine, sim::Trace& trace) {
+  for (const auto& [number, value] : machine.written()) {
+    trace.begin("variable").text(std::to_string(number));
+    if (sim::isNull(value))
+      trace.text("null").end();
+    else
+      trace.word("", value).end();
+  }
+}
+
+std::string summary(sim::Machine& machine, const sim::Run* run, Session& session) {
   const sim::RunEnd& end = machine.end();
   const bool notRead = end.ending == Ending::Running && session.diagnostics().hasErrors();
   std::string out = "{\n";
   out += fmt::format("  \"ending\": \"{}\",\n", endingName(machine, notRead));
-  out += fmt::format("  \"control\": {},\n", nlohmann::json(control.name).dump());
+  out += fmt::format("  \"control\": {},\n", nlohmann::json(machine.control().name).dump());
   out += fmt::format("  \"blocks\": {},\n", machine.blocks());
   out += fmt::format("  \"position\": {},\n", positionText(machine.position(), machine.movedAxes()));
   out += fmt::format("  \"machine\": {},\n", positionText(machine.machinePosition(), machine.movedAxes()));
@@ -140,12 +199,18 @@ std::string summary(sim::Machine& machine, const stdlib::Control& control, Sessi
     for (const sim::Frame& frame : end.stack)
       stack += fmt::format("{}{{\"program\": {}, \"sequence\": {}, \"line\": {}}}", stack.empty() ? "" : ", ",
                            frame.program, frame.sequence, frame.line);
-    out += fmt::format(
-        "  \"alarm\": {{\"number\": {}, \"text\": {}, \"line\": {}, \"stack\": [{}]}},\n", end.number,
-        nlohmann::json(end.text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace), end.line,
-        stack);
+    out += fmt::format("  \"alarm\": {{\"number\": {}, \"text\": {}, \"line\": {}, \"stack\": [{}]}},\n",
+                       end.number, nlohmann::json(toUtf8Text(end.text)).dump(), end.line, stack);
   } else {
     out += "  \"alarm\": null,\n";
+  }
+  if (run != nullptr) {
+    std::string variables;
+    for (const auto& [number, value] : machine.written())
+      variables += fmt::format("{}\"{}\": {}", variables.empty() ? "" : ", ", number,
+                               sim::isNull(value) ? "null" : numberText(value));
+    out += fmt::format("  \"variables\": {{{}}},\n", variables);
+    out += fmt::format("  \"output\": {},\n", nlohmann::json(toUtf8Text(run->output())).dump());
   }
   std::string diagnostics = renderJson(session.diagnostics(), session.sources());
   while (diagnostics.ends_with('\n'))

@@ -37,6 +37,8 @@ Computed fromRadians(double angle, AngleUnit unit) {
 // Quarter turns 0..3 where a degree angle is a multiple of 90, else -1.
 int quarterTurns(double angle, AngleUnit unit) {
   if (unit != AngleUnit::Degrees) return -1;
+  // The quotient of a multiple is exact: any other is none, and needs no remainder.
+  if (const double quotient = angle / 90.0; quotient != std::floor(quotient)) return -1;
   const double rest = std::fmod(angle, 360.0);
   const double quarters = (rest < 0 ? rest + 360.0 : rest) / 90.0;
   return quarters == std::floor(quarters) ? static_cast<int>(quarters) % 4 : -1;

@@ -23,7 +23,7 @@ constexpr std::uint32_t kIncrementWords = kAxisBits | ir::addressBits("IJKRQ");
 
 } // namespace
 
-Machine::Machine(const stdlib::Control& control) : control_(control), table_(control) {
+Machine::Machine(const stdlib::Control& control) : control_(control), table_(control), layout_(control) {
   // What is in force at power on, as most machines are set: rapid, XY, absolute, mm, per minute, G54.
   for (const Function function :
        {Function::Rapid, Function::PlaneXY, Function::Absolute, Function::Metric, Function::FeedPerMinute,
@@ -41,11 +41,12 @@ Machine::Machine(const stdlib::Control& control) : control_(control), table_(con
   if (control.arcTolerance) arcTolerance_ = *control.arcTolerance;
   extended_.resize(static_cast<std::size_t>(control.variables.extendedCount) + 1);
   tools_.resize(static_cast<std::size_t>(control.variables.toolCount) + 1);
-  std::size_t commons = 0;
-  for (const stdlib::VariableRange& range : control.common)
-    commons += range.last - range.first + 1;
-  common_.assign(commons, kNull);
-  locals_.assign(static_cast<std::size_t>(control.macroLevels + 1) * kLocals, kNull);
+  cells_.assign(layout_.size(), kFresh);
+  cells_[0] = kNull;
+  for (const stdlib::StateRange& range : control.state)
+    state_.insert(state_.end(), range.last - range.first + 1,
+                  range.null ? kNull : range.initial.value_or(kFresh));
+  if (control.window) pmc_.assign(control.window->bytes, 0);
   stack_.reserve(64);
   stack_.emplace_back();
 }
@@ -106,6 +107,7 @@ bool Machine::execute(const NcWords& w) {
   feed_ = feed;
   if ((w.present & ir::addressBit('N')) != 0) modalWords_[slotOf('N')] = w.of('N');
   work_ = end;
+  moved_ = axes != 0;
   shown_ |= axisNumbers(axes);
   if (trace_ != nullptr && axes != 0) [[unlikely]] {
     trace_->at(w.line);
@@ -130,10 +132,11 @@ bool Machine::plainArc(const NcWords& w, const PlaneAxes& plane, const Position&
 
 bool Machine::executeLong(const NcWords& w) {
   if (!running()) return false;
+  moved_ = false;
   stack_.back().line = w.line;
   if (w.has('N')) {
     modalWords_[slotOf('N')] = w.of('N');
-    stack_.back().sequence = w.of('N') < 1e9 ? static_cast<std::uint32_t>(w.of('N')) : 0;
+    stack_.back().sequence = w.of('N') >= 0 && w.of('N') < 1e9 ? static_cast<std::uint32_t>(w.of('N')) : 0;
   }
   if (trace_ != nullptr) trace_->at(w.line);
   if ((w.marks & NcWords::ProgramMark) != 0) {
@@ -298,21 +301,51 @@ bool Machine::inconclusive(std::string why, char letter, std::uint32_t which) {
   return false;
 }
 
+bool Machine::overLimit(std::string what) {
+  stop(Ending::Limit);
+  end_.text = std::move(what);
+  end_.letter = 0;
+  end_.stack = stack_;
+  return false;
+}
+
+void Machine::beginProgram(std::uint32_t number) {
+  stack_.back().program = number;
+  modalWords_[slotOf('O')] = number;
+}
+
+void Machine::noteModal(Function function) {
+  if (const Code* code = table_.find(function); code != nullptr && code->group != 0)
+    groups_[code->group] = code->tenths;
+}
+
 bool Machine::enter(const Frame& callee) {
-  if (stack_.size() >= 32) return raise(Alarm::SubprogramDepth);
+  if (control_.callDepth && stack_.size() > *control_.callDepth) return raise(Alarm::SubprogramDepth);
+  if (stack_.size() > callLimit_)
+    return overLimit(
+        fmt::format("calls nest deeper than {}; `--limit call-depth=N` allows more", callLimit_));
   if (callee.macro) {
     if (level_ >= control_.macroLevels) return raise(Alarm::MacroDepth);
     ++level_;
-    std::fill_n(locals_.begin() + static_cast<std::ptrdiff_t>(level_ * kLocals), kLocals, kNull);
+    const auto locals = cells_.begin() + 1;
+    saved_.insert(saved_.end(), locals, locals + control_.locals);
+    std::fill_n(locals, control_.locals, kNull);
   }
   stack_.push_back(callee);
+  modalWords_[slotOf('O')] = callee.program;
   return true;
 }
 
 void Machine::leave() {
   if (stack_.size() < 2) return;
-  if (stack_.back().macro) --level_;
+  if (stack_.back().macro) {
+    --level_;
+    const auto from = saved_.end() - static_cast<std::ptrdiff_t>(control_.locals);
+    std::copy(from, saved_.end(), cells_.begin() + 1);
+    saved_.erase(from, saved_.end());
+  }
   stack_.pop_back();
+  modalWords_[slotOf('O')] = stack_.back().program;
 }
 
 } // namespace dotek::sim

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "ir/NcWords.h"
+#include "sim/Cells.h"
 #include "sim/CodeTable.h"
 #include "sim/Trace.h"
 #include "sim/Value.h"
@@ -14,6 +15,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace dotek::sim {
@@ -25,6 +27,7 @@ enum class Ending : std::uint8_t {
   Return,       // M99
   Alarm,        // of the control, or #3000
   Inconclusive, // Dotek does not know what the control would do
+  Limit,        // a limit of Dotek: `--limit`
   Call,         // G65, G66, M98: the caller runs it
 };
 
@@ -67,9 +70,12 @@ public:
   // `control` outlives the machine. Nothing else is needed; the trace and the signal may be added.
   explicit Machine(const stdlib::Control& control);
 
-  void setTrace(Trace* trace) { trace_ = trace; }            // nullptr: quiet
-  void setSkipSignal(SkipSignal* signal) { skip_ = signal; } // nullptr: G31 ends the run as inconclusive
+  void setTrace(Trace* trace) { trace_ = trace; }                // nullptr: quiet
+  void setSkipSignal(SkipSignal* signal) { skip_ = signal; }     // nullptr: G31 ends the run as inconclusive
+  void setCallLimit(std::uint32_t calls) { callLimit_ = calls; } // calls within calls
   void setBlockDelete(std::uint32_t levels) { deleteLevels_ = levels; } // bit n: the switch of `/n` is on
+
+  std::uint32_t blockDelete() const { return deleteLevels_; }
 
   // Runs one block. false: the run has ended, end() says how; blocks after that do nothing.
   bool execute(const ir::NcWords& words);
@@ -90,34 +96,59 @@ public:
   std::uint32_t uncertain() const { return uncertain_; }
   std::uint32_t movedAxes() const { return shown_; }
   double seconds() const { return seconds_; }
+  // The last block moved an axis, or told one to move to where it stands.
+  bool moved() const { return moved_; }
+  const stdlib::Control& control() const { return control_; }
+  Trace* trace() const { return trace_; }
 
   // ---- variables of macros
   // The value (kNull: null). nullopt: the run has ended, with alarm 115 or as inconclusive.
   std::optional<double> read(std::uint32_t number);
   // false: the run has ended (115, 116, or inconclusive). #3000 and #3006 are `raise` and `message`.
   bool write(std::uint32_t number, double value);
-  double local(std::uint32_t number) const {
-    return locals_[level_ * kLocals + number];
-  } // 1 to control.locals
-  void setLocal(std::uint32_t number, double value) { locals_[level_ * kLocals + number] = value; }
+  // Before the program begins: system variables that a program cannot write, too.
+  bool preset(std::uint32_t number, double value);
+  double local(std::uint32_t number) const { return cells_[number]; } // 1 to control.locals
+  void setLocal(std::uint32_t number, double value) { cells_[number] = value; }
   std::uint32_t level() const { return level_; } // of macro calls, 0 in the main program
+  // The cells of the layout, then those that were added; good until the next addCells().
+  const CellLayout& layout() const { return layout_; }
+  double* cells() { return cells_.data(); }
+  // More cells for a running program; gives the first.
+  std::uint32_t addCells(std::uint32_t count);
+  // A value that a motion still in the queue may change: a position, the window of the PMC.
+  bool changesWithMotion(std::uint32_t number) const;
+  // The common variables and the locals of the main program that were written, by number.
+  std::vector<std::pair<std::uint32_t, double>> written() const;
+  // To the least input increment, as a word of a length is; in the unit in force.
+  double toIncrement(double value) const {
+    return rounded(value, control_.decimals + (modes_[kUnits] != 0 ? 1 : 0));
+  }
 
   // ---- calls; the caller finds the program and runs it
   // A call with arguments gets a level of its own, its locals are null. false: too deep, an alarm.
   bool enter(const Frame& callee);
   void leave();
   Frame& frame() { return stack_.back(); }
+  // The block with this N number is reached.
+  void sequence(std::uint32_t number) {
+    stack_.back().sequence = number;
+    modalWords_['N' - 'A'] = number;
+  }
+  void beginProgram(std::uint32_t number);   // the main one
+  void noteModal(stdlib::Function function); // a code that the caller carries out
 
   // ---- ends
   bool raise(stdlib::Alarm alarm, char letter = 0);                             // false
   bool raise(std::uint32_t n, std::string_view text);                           // #3000 = n (text); false
   void message(std::string_view text);                                          // #3006
+  bool finish() { return stop(Ending::TextEnd); }                               // false
+  bool overLimit(std::string what);                                             // false
   bool inconclusive(std::string why, char letter = 0, std::uint32_t which = 0); // false
   // Time goes by: #3001, #3002. Dwells do it by themselves; moves take no time.
   void advance(double seconds) { seconds_ += seconds; }
 
 private:
-  static constexpr std::uint32_t kLocals = 100;
   struct ToolOffset {
     double wear = 0, geometry = 0;
   };
@@ -160,7 +191,11 @@ private:
   struct Place; // what a system variable stands for
   bool find(std::uint32_t number, Place& place) const;
   std::optional<double> readSystem(std::uint32_t number, const Place& place);
-  std::size_t commonIndex(std::uint32_t number) const; // SIZE_MAX: none
+  bool findState(std::uint32_t number, Place& place) const;
+  std::optional<double> readState(std::uint32_t number, const Place& place);
+  bool writeState(std::uint32_t number, const Place& place, double value, bool preset);
+  bool store(std::uint32_t number, double value, bool preset);
+  std::uint32_t windowBytes(const Place& place) const; // 0: the address lies outside
 
   const stdlib::Control& control_;
   CodeTable table_;
@@ -201,9 +236,16 @@ private:
   bool hasR_ = false, hasDepth_ = false;
   double seconds_ = 0, timerBase_ = 0, hoursBase_ = 0;
 
-  std::vector<double> common_;
-  std::vector<double> locals_;
+  CellLayout layout_;
+  std::vector<double> cells_;
+  std::vector<double> saved_;                             // locals of the levels below
+  std::vector<std::pair<std::uint32_t, double>> presets_; // cell and value
+  std::vector<double> state_;                             // by range of the control; kFresh: not known
+  std::vector<std::uint8_t> pmc_;
+  double pmcAddress_ = -1;
   std::uint32_t level_ = 0;
+  std::uint32_t callLimit_ = 32;
+  bool moved_ = false;
   std::vector<Frame> stack_;
   RunEnd end_;
 

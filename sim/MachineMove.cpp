@@ -40,6 +40,7 @@ bool Machine::move(const NcWords& w) {
   const bool isArc = modes_[kMotion] >= kArcClockwise;
   const bool centre = (w.present & ir::addressBits("IJKR")) != 0;
   if ((w.present & kAxisBits) == 0 && !(isArc && centre)) return true;
+  moved_ = true;
   const std::uint32_t unknown = uncertain_;
   Position end;
   if (!target(w, end)) return false;
@@ -125,6 +126,7 @@ bool Machine::machineMove(const NcWords& w) {
   if (modes_[kMotion] > kFeed || modes_[kCanned] != 0)
     return inconclusive("machine coordinates go with rapid or feed", 'G');
   if (modes_[kMotion] == kFeed && !(feed_ > 0)) return raise(Alarm::NoFeed);
+  moved_ = true;
   for (std::size_t i = 0; i < kAxes; ++i) {
     if (!has(w, i)) continue;
     const double value = lengthOf(w, kAxisLetters[i]);
@@ -149,6 +151,7 @@ bool Machine::reference(const NcWords& w, bool first) {
   if (w.has('P') && !(w.of('P') >= 2 && w.of('P') <= 4))
     return inconclusive("reference points are P2 to P4", 'P');
   if ((w.present & kAxisBits) == 0) return true;
+  moved_ = true;
   Position via;
   const std::uint32_t unknown = uncertain_;
   for (std::size_t i = 0; i < kAxes; ++i) {
@@ -181,6 +184,7 @@ bool Machine::skipMove(const NcWords& w) {
   Position end;
   if (!target(w, end)) return false;
   if (!(feed_ > 0)) return raise(Alarm::NoFeed);
+  moved_ = true;
   if (skip_ == nullptr)
     return inconclusive("no part is given, so whether the probe touches is not known", 'G');
   SkipMove skip;
@@ -216,6 +220,7 @@ bool Machine::cannedCycle(const NcWords& w) {
   }
   const std::uint32_t drills = (w.present & kAxisBits) | (w.present & ir::addressBit('R'));
   if (drills == 0) return true;
+  moved_ = true;
   const bool incremental = modes_[kDistance] != 0;
   Position hole;
   const double level = work_[depth];

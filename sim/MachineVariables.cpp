@@ -1,46 +1,14 @@
 // Variables of macros by number: locals, commons, and the system variables that the control's table places.
 #include "sim/Axes.h"
-#include "sim/Machine.h"
+#include "sim/Place.h"
 
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 
 namespace dotek::sim {
 
 using stdlib::Alarm;
-
-struct Machine::Place {
-  enum class Kind : std::uint8_t {
-    None,
-    Modal,
-    Word,
-    BlockEnd,
-    MachinePosition,
-    Now,
-    Skip,
-    ToolLength,
-    External,
-    System,
-    Extended,
-    Wear,
-    Geometry,
-    Timer,
-    Hours,
-    Write, // #3000, #3006: written only
-  };
-  Kind kind = Kind::None;
-  std::size_t index = 0; // group, letter, system or offset
-  std::size_t axis = 0;
-};
-
-std::size_t Machine::commonIndex(std::uint32_t number) const {
-  std::size_t before = 0;
-  for (const stdlib::VariableRange& range : control_.common) {
-    if (number >= range.first && number <= range.last) return before + (number - range.first);
-    before += range.last - range.first + 1;
-  }
-  return SIZE_MAX;
-}
 
 bool Machine::find(std::uint32_t number, Place& place) const {
   using Kind = Place::Kind;
@@ -75,7 +43,7 @@ bool Machine::find(std::uint32_t number, Place& place) const {
     return true;
   };
   if (one(v.alarm, Kind::Write) || one(v.message, Kind::Write) || one(v.timer, Kind::Timer) ||
-      one(v.hours, Kind::Hours))
+      one(v.hours, Kind::Hours) || one(v.extendedNumber, Kind::ExtendedNumber) || findState(number, place))
     return true;
   if (v.modalFirst && n > *v.modalFirst && n < *v.modalFirst + kGroups) {
     place = {Kind::Modal, static_cast<std::size_t>(n - *v.modalFirst), 0};
@@ -104,8 +72,8 @@ bool Machine::find(std::uint32_t number, Place& place) const {
 
 std::optional<double> Machine::read(std::uint32_t number) {
   if (number == 0) return kNull;
-  if (number <= control_.locals) return local(number);
-  if (const std::size_t at = commonIndex(number); at != SIZE_MAX) return common_[at];
+  if (const std::uint32_t cell = layout_.cellOf(number); cell != CellLayout::kNone)
+    return isNull(cells_[cell]) ? kNull : cells_[cell];
   Place place;
   if (number >= 1000 && find(number, place)) return readSystem(number, place);
   if (number < 1000)
@@ -113,6 +81,14 @@ std::optional<double> Machine::read(std::uint32_t number) {
   else
     inconclusive(fmt::format("what #{} holds is not known to Dotek", number));
   return std::nullopt;
+}
+
+bool Machine::changesWithMotion(std::uint32_t number) const {
+  using Kind = Place::Kind;
+  Place place;
+  return number >= 1000 && find(number, place) &&
+         (place.kind == Kind::BlockEnd || place.kind == Kind::MachinePosition || place.kind == Kind::Now ||
+          place.kind == Kind::Skip || place.kind == Kind::Window);
 }
 
 std::optional<double> Machine::readSystem(std::uint32_t number, const Place& place) {
@@ -158,6 +134,14 @@ std::optional<double> Machine::readSystem(std::uint32_t number, const Place& pla
   case Kind::Geometry: return tools_[place.index].geometry;
   case Kind::Timer: return std::floor((seconds_ - timerBase_) * 1000 + 1e-6);
   case Kind::Hours: return (seconds_ - hoursBase_) / 3600;
+  case Kind::ExtendedNumber:
+    if (modes_[kSystem] == kExtended) return static_cast<double>(extendedNow_);
+    inconclusive(fmt::format("#{} is read while no additional work system is in force", number));
+    return std::nullopt;
+  case Kind::State:
+  case Kind::StateWord:
+  case Kind::WindowAddress:
+  case Kind::Window: return readState(number, place);
   case Kind::Write:
   case Kind::None: break;
   }
@@ -166,14 +150,40 @@ std::optional<double> Machine::readSystem(std::uint32_t number, const Place& pla
 }
 
 bool Machine::write(std::uint32_t number, double value) {
+  return store(number, value, false);
+}
+
+bool Machine::preset(std::uint32_t number, double value) {
+  if (const std::uint32_t cell = layout_.cellOf(number); cell != CellLayout::kNone)
+    presets_.emplace_back(cell, value);
+  return store(number, value, true);
+}
+
+std::uint32_t Machine::addCells(std::uint32_t count) {
+  const auto first = static_cast<std::uint32_t>(cells_.size());
+  cells_.resize(cells_.size() + count, kNull);
+  return first;
+}
+
+std::vector<std::pair<std::uint32_t, double>> Machine::written() const {
+  std::vector<std::pair<std::uint32_t, double>> out;
+  for (std::uint32_t cell = 1; cell < layout_.size(); ++cell) {
+    const bool below = cell <= layout_.locals() && !saved_.empty(); // the main program's lie lowest
+    const double value = below ? saved_[cell - 1] : cells_[cell];
+    bool given = isFresh(value);
+    for (const auto& [at, preset] : presets_)
+      given = given || (at == cell && value == preset);
+    if (!given) out.emplace_back(layout_.numberOf(cell), value);
+  }
+  std::sort(out.begin(), out.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  return out;
+}
+
+bool Machine::store(std::uint32_t number, double value, bool preset) {
   using Kind = Place::Kind;
   if (number == 0) return raise(Alarm::WriteProtected);
-  if (number <= control_.locals) {
-    setLocal(number, value);
-    return true;
-  }
-  if (const std::size_t at = commonIndex(number); at != SIZE_MAX) {
-    common_[at] = value;
+  if (const std::uint32_t cell = layout_.cellOf(number); cell != CellLayout::kNone) {
+    cells_[cell] = isNull(value) ? kNull : value;
     return true;
   }
   if (number < 1000) return raise(Alarm::NoSuchVariable);
@@ -193,6 +203,10 @@ bool Machine::write(std::uint32_t number, double value) {
     return true;
   case Kind::Timer: timerBase_ = seconds_ - given / 1000; return true;
   case Kind::Hours: hoursBase_ = seconds_ - given * 3600; return true;
+  case Kind::State:
+  case Kind::StateWord:
+  case Kind::WindowAddress:
+  case Kind::Window: return writeState(number, place, given, preset);
   case Kind::Write: return inconclusive(fmt::format("#{} needs a message", number));
   default: return raise(Alarm::WriteProtected);
   }

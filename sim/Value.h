@@ -9,9 +9,18 @@ namespace dotek::sim {
 
 inline constexpr std::uint64_t kNullBits = 0x7FF8'0000'6E75'6C6CULL;
 inline constexpr double kNull = std::bit_cast<double>(kNullBits);
+// Null of a variable that nobody has written: what a run wrote can be told from what it left alone.
+inline constexpr std::uint64_t kFreshBits = kNullBits | 1;
+inline constexpr double kFresh = std::bit_cast<double>(kFreshBits);
 
 inline bool isNull(double value) {
-  return std::bit_cast<std::uint64_t>(value) == kNullBits;
+  return (std::bit_cast<std::uint64_t>(value) | 1) == kFreshBits;
+}
+inline bool isFresh(double value) {
+  return std::bit_cast<std::uint64_t>(value) == kFreshBits;
+}
+inline double nullAsZero(double value) {
+  return isNull(value) ? 0 : value;
 }
 
 } // namespace dotek::sim

@@ -18,6 +18,10 @@ class DataFiles;
 // How a number without a decimal point is read where the address counts a length or an angle.
 enum class DecimalMode : std::uint8_t { Increment, Calculator };
 
+// How macro statements compute. Decimal8: each result has eight significant decimal digits, is 0 or lies
+// between 1e-29 and 1e47 in magnitude.
+enum class Arithmetic : std::uint8_t { Double, Decimal8 };
+
 // What a G or M function does, as far as Dotek translates it. X(id, name in the data)
 #define DOTEK_FUNCTIONS(X)                                                                                   \
   X(Other, "other") /* known to the control, not translated: an opaque block */                              \
@@ -159,15 +163,16 @@ struct SystemVariables {
   std::optional<int>
       toolWear; // of offset 0: offset n stands at toolWear + n; the whole length where there is no geometry
   std::optional<int> toolGeometry;
-  int toolCount = 0;             // greatest offset number
-  std::optional<int> modalWords; // words in force: + 2 B, 7 D, 9 F, 11 H, 13 M, 14 N, 15 O, 19 S, 20 T
-  std::optional<int> toolLength; // X of the tool offset in force
-  std::optional<int> alarm;      // #3000
-  std::optional<int> timer;      // #3001, milliseconds
-  std::optional<int> hours;      // #3002
-  std::optional<int> message;    // #3006
-  int systemStep = 0;            // from G54 to G55
-  int axisStep = 0;              // from X to Y
+  int toolCount = 0;                 // greatest offset number
+  std::optional<int> modalWords;     // words in force: + 2 B, 7 D, 9 F, 11 H, 13 M, 14 N, 15 O, 19 S, 20 T
+  std::optional<int> toolLength;     // X of the tool offset in force
+  std::optional<int> alarm;          // #3000
+  std::optional<int> timer;          // #3001, milliseconds
+  std::optional<int> hours;          // #3002
+  std::optional<int> message;        // #3006
+  std::optional<int> extendedNumber; // #4130: P of the additional work system in force
+  int systemStep = 0;                // from G54 to G55
+  int axisStep = 0;                  // from X to Y
 };
 
 struct VariableRange {
@@ -175,12 +180,49 @@ struct VariableRange {
   bool kept = false; // at power off
 };
 
+// A code that calls a program: G5101, or as many codes one behind the other as there are programs. Any T.
+struct CallCode {
+  char letter = 'G';
+  std::uint32_t first = 0; // code; of T unused
+  std::uint32_t count = 1;
+  std::uint32_t program = 0;          // of the first code; the next code calls the next program
+  bool macro = true;                  // with arguments and locals of its own; else as a subprogram
+  std::optional<std::uint32_t> holds; // variable that gets the number behind the letter
+  std::string grade;
+  std::string source;
+};
+
+// System variables that hold a value which Dotek keeps and does not otherwise follow.
+struct StateRange {
+  enum class Access : std::uint8_t {
+    ReadOnly, // alarm 116 where a program writes it
+    Store,    // a program may write it, and that is all that happens
+    Effect,   // writing it changes what Dotek does not follow
+  };
+  std::uint32_t first = 0, last = 0;
+  std::optional<std::uint32_t> word; // variable that holds these as bits, the first as the lowest
+  Access access = Access::ReadOnly;
+  bool null = false;             // always null
+  std::optional<double> initial; // nothing: not known until it is set
+  std::string title;
+  std::string grade;
+  std::string source;
+};
+
+// Window into the memory of the machine's PMC; each is the number of a variable.
+struct PmcWindow {
+  std::string area; // "R"
+  std::uint32_t bytes = 0;
+  std::uint32_t address = 0, byte = 0, word = 0, doubleWord = 0; // a variable that is missing: 0
+};
+
 struct Control {
   std::string name;   // of the file
   std::string title;  // what lists print
   std::string origin; // "built in", or the file
   DecimalMode decimal = DecimalMode::Calculator;
-  std::string decimalGrade;      // a grade, as of a code
+  std::string decimalGrade; // a grade, as of a code
+  Arithmetic arithmetic = Arithmetic::Double;
   double increment = 0.001;      // mm, least input increment
   int decimals = 3;              // most digits behind the point of a word, mm
   int integerDigits = 5;         // most digits before the point
@@ -202,8 +244,17 @@ struct Control {
   SystemVariables variables;
   std::optional<double> arcTolerance; // mm, between the radii of an arc's ends; nothing: not known
   char repeatLetter = 0;              // of canned cycles; 0: not known
-  std::vector<AlarmInfo> alarms;      // each alarm once
-  std::vector<CodeInfo> codes;        // G and M, in the order of the file; each letter and code once
+  std::optional<std::uint32_t>
+      callDepth;                   // calls within calls, macros and subprograms together; nothing: not known
+  bool repeatInProgram = false;    // M98 P51002 calls O1002 five times
+  std::vector<CallCode> callCodes; // no code twice
+  std::vector<std::pair<char, std::uint32_t>>
+      readAheadStops;            // letter, code times ten, rising: wait for motion to end
+  std::vector<StateRange> state; // no variable twice
+  std::optional<PmcWindow> window;
+  std::optional<bool> printPadding; // DPRNT writes blanks for missing digits; nothing: not known
+  std::vector<AlarmInfo> alarms;    // each alarm once
+  std::vector<CodeInfo> codes;      // G and M, in the order of the file; each letter and code once
 
   const CodeInfo* find(char letter, std::uint32_t tenths) const; // nullptr: not in the table
   const CodeInfo* find(Function function) const;                 // the first with that meaning

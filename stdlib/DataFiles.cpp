@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view kKinds[] = {"controls", "cycles", "forms", "keywords", "macrob", "macros"};
 constexpr std::string_view kReads = "`controls/*.toml`, `cycles/*.toml`, `forms/*.toml`, `keywords/*.toml`, "
-                                    "`macrob/*.toml` and `macros/*.toml`";
+                                    "`macrob/*.nc` and `macros/*.toml`";
 
 // Entries of a folder in byte order; false with a diagnostic where it cannot be read.
 bool listFolder(const fs::path& folder, const Limits& limits, std::vector<fs::path>& out,
@@ -43,9 +43,11 @@ bool before(const DataFile& file, std::string_view folder, std::string_view name
   return file.folder != folder ? file.folder < folder : file.name < name;
 }
 
-bool isDataFile(const fs::path& path) {
+// Programs of a control in `macrob`, data elsewhere.
+bool isDataFile(const fs::path& path, std::string_view kind) {
   std::error_code error;
-  return path.extension() == ".toml" && !path.stem().empty() && !fs::is_directory(path, error);
+  return path.extension() == (kind == "macrob" ? ".nc" : ".toml") && !path.stem().empty() &&
+         !fs::is_directory(path, error);
 }
 
 } // namespace
@@ -78,7 +80,7 @@ bool DataFiles::addFolder(const std::string& path, const Limits& limits, Diagnos
   bool ok = true;
   bool any = false;
   for (const fs::path& folder : folders) {
-    if (isDataFile(folder)) diagnostics.report<diag::DataFolderUnused>({}, folder.string(), kReads);
+    if (isDataFile(folder, "")) diagnostics.report<diag::DataFolderUnused>({}, folder.string(), kReads);
     if (!fs::is_directory(folder, error)) continue;
     const std::string kind = folder.filename().string();
     const bool known = std::find(std::begin(kKinds), std::end(kKinds), kind) != std::end(kKinds);
@@ -88,7 +90,7 @@ bool DataFiles::addFolder(const std::string& path, const Limits& limits, Diagnos
       continue;
     }
     for (const fs::path& file : paths) {
-      if (!isDataFile(file)) continue;
+      if (!isDataFile(file, kind)) continue;
       any = true;
       if (!known) {
         diagnostics.report<diag::DataFolderUnused>({}, file.string(), kReads);

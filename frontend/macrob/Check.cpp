@@ -12,6 +12,7 @@ void checkFile(const File& file, const stdlib::Control* control, const SourceMap
     checkVariables(program, context);
     checkExpressions(program, context);
     checkWords(program, context);
+    checkMessages(program, context);
   }
 }
 

@@ -214,7 +214,7 @@ private:
     if (target == nullptr || sum == nullptr || (sum->op != "+" && sum->op != "-")) return;
     const auto from = variableNumber(*sum->left);
     const auto step = constant(*sum->right);
-    if (!from || *from != static_cast<std::uint32_t>(target->value) || !step) return;
+    if (!from || *from != target->value || !step) return;
     // Eighths and the like are exact.
     if (!isWhole(*step * 8)) counters_.insert(*from);
   }

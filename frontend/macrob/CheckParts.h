@@ -38,4 +38,7 @@ struct Loop {
 // Without reporting.
 std::vector<Loop> loopsOf(const Program& program);
 
+// Alarms and messages: number, length. Of a control alone.
+void checkMessages(const Program& program, const CheckContext& context);
+
 } // namespace dotek::frontend::macrob

@@ -141,7 +141,7 @@ private:
     const Expression& side = onLeft ? *operation.left : *operation.right;
     const auto* number = std::get_if<nc::Number>(&side.node);
     if (number == nullptr || number->point || side.brackets > 0) return;
-    if (!used_.contains(static_cast<std::uint32_t>(number->value))) return;
+    if (!(number->value < 1e6) || !used_.contains(static_cast<std::uint32_t>(number->value))) return;
     const std::string variable = "#" + number->digits;
     const std::string op = operation.op.size() == 1 ? operation.op : " " + operation.op + " ";
     const std::string text =

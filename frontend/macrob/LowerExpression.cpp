@@ -87,8 +87,12 @@ ir::ExpressionPtr lowerNumber(const Expression& expression, Place place) {
 ir::ExpressionPtr lowerWordValue(const Expression& expression, Place place) {
   const auto* negated = std::get_if<nc::Negated>(&expression.node);
   if (negated == nullptr || expression.brackets > 0 ||
-      !std::holds_alternative<nc::VariableRef>(negated->operand->node) || negated->operand->brackets > 0)
-    return lowerValue(expression, place);
+      !std::holds_alternative<nc::VariableRef>(negated->operand->node) || negated->operand->brackets > 0) {
+    ir::ExpressionPtr value = lowerValue(expression, place);
+    // X[10] is computed: it is 10 mm, however the control reads X10.
+    const double* const number = expression.brackets > 0 ? ir::constantValue(value) : nullptr;
+    return number == nullptr ? value : ir::constant(*number, expression.range);
+  }
   return ir::unary(UnaryOp::Negate, lowerValue(*negated->operand, place), expression.range);
 }
 

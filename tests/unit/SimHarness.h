@@ -49,6 +49,7 @@ struct Simulation {
     case sim::Ending::TextEnd: return "text end";
     case sim::Ending::Return: return "return";
     case sim::Ending::Call: return "call";
+    case sim::Ending::Limit: return "limit";
     case sim::Ending::Alarm: return fmt::format("alarm {}", end.number);
     case sim::Ending::Inconclusive:
       return end.letter == 0 ? "inconclusive" : fmt::format("inconclusive {}", end.letter);

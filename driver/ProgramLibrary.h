@@ -1,0 +1,31 @@
+// The programs of a run: those of the file, and those of folders, which it may call.
+#pragma once
+
+#include "driver/Session.h"
+#include "ir/Program.h"
+#include "stdlib/Control.h"
+
+#include <deque>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace dotek::driver {
+
+class ProgramLibrary {
+public:
+  // Of `folders` each file O1234, or with the end .nc or .NC, in the order of the names. nullopt: reported.
+  static std::optional<ProgramLibrary> load(FileId main, const std::vector<std::string>& folders,
+                                            const stdlib::Control& control, Session& session);
+  // The main program first; of each number one. They live as long as this object.
+  std::vector<const ir::Program*> programs() const;
+
+private:
+  bool addFolder(const std::string& folder, const stdlib::Control& control, Session& session);
+  void add(ir::ProgramFile file, bool main, Session& session);
+
+  std::string main_; // path
+  std::deque<ir::Program> programs_;
+};
+
+} // namespace dotek::driver

@@ -1,0 +1,27 @@
+// Codes and letters of blocks that call programs, as a control's table says.
+#pragma once
+
+#include "stdlib/Control.h"
+
+#include <cstdint>
+
+namespace dotek::sim {
+
+// The call that the code is; nullptr: it is an ordinary one.
+const stdlib::CallCode* findCallCode(const stdlib::Control& control, char letter, double value);
+bool stopsReadingAhead(const stdlib::Control& control, char letter, double value);
+
+// Lengths and angles: without a point they count increments where the control does not calculate.
+bool countsIncrements(char letter);
+
+// The locals of the words of a call: of I, J, K each set has its own (argument specification II).
+class ArgumentLetters {
+public:
+  // #n that the next word with this letter sets; 0: it is no argument.
+  std::uint32_t next(char letter);
+
+private:
+  int set_ = 0, last_ = -1; // of I, J, K: 0, 1, 2
+};
+
+} // namespace dotek::sim

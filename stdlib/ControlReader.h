@@ -1,0 +1,72 @@
+// Reads the file of a control; private to Control*.cpp.
+#pragma once
+
+#include "stdlib/Control.h"
+#include "stdlib/Toml.h"
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace dotek::stdlib {
+
+// More than any control has; checks compare each with each.
+inline constexpr std::size_t kMostCodes = 2000;
+inline constexpr std::size_t kMostRanges = 100;
+
+std::string codeText(char letter, std::uint32_t tenths); // "G54.1"
+
+class ControlReader {
+public:
+  explicit ControlReader(const TomlDocument& document) : document_(document), root_(document.root()) {}
+  Control read();
+
+private:
+  struct Origin {
+    std::string grade, source;
+  };
+  static Origin origin(const TomlTable& table);
+  static std::uint32_t whole(const TomlTable& table, std::string_view key, std::string_view what,
+                             std::int64_t least, std::int64_t most);
+  TomlTable section(std::string_view key, std::string_view what) const {
+    return root_.require(key, what).table();
+  }
+  TomlTable optional(std::string_view key) const { return root_.value(key).table(); }
+
+  // Control.cpp
+  void decimal();
+  void words();
+  void language();
+  void common();
+  void readOnly();
+  void alarm();
+  void programs();
+  void motion();
+
+  // ControlCodes.cpp
+  void codes(const TomlTable& table);
+  std::optional<CodeInfo> parseCode(const TomlValue& item) const;
+  void check(const CodeInfo& code, const TomlValue& item);
+  void alarms();
+
+  // ControlCalls.cpp
+  std::optional<std::pair<char, std::uint32_t>> parseName(const TomlValue& item) const;
+  void calls();
+  void readAhead();
+  void output();
+
+  // ControlVariables.cpp
+  using Taken = std::vector<std::pair<std::string_view, int>>;
+  void variables();
+  void state(Taken& blocks);
+  void window(Taken& blocks);
+  void overlaps(const TomlTable& table, const Taken& blocks) const;
+
+  const TomlDocument& document_;
+  TomlTable root_;
+  Control control_;
+};
+
+} // namespace dotek::stdlib

@@ -1,0 +1,162 @@
+// Variables of a control: where it keeps its state, and what Dotek only keeps.
+#include "stdlib/ControlReader.h"
+
+#include <cmath>
+#include <fmt/format.h>
+#include <map>
+#include <numbers>
+
+namespace dotek::stdlib {
+
+void ControlReader::variables() {
+  const TomlTable table = section("variables", "system variables");
+  origin(table);
+  SystemVariables& v = control_.variables;
+  const auto number = [&](std::string_view key) -> std::optional<int> {
+    const TomlValue value = table.value(key);
+    if (!value) return std::nullopt;
+    return static_cast<int>(value.integer(1000, 1000, 999999));
+  };
+  v.modalFirst = number("modal_first");
+  v.modalFeed = number("modal_feed");
+  v.blockEnd = number("block_end");
+  v.machine = number("machine");
+  v.position = number("position");
+  v.skip = number("skip");
+  v.externalX = number("external_x");
+  v.workOffsetX = number("work_offset_x");
+  v.extendedX = number("extended_x");
+  v.extendedStep = static_cast<int>(table.value("extended_step").integer(0, 1, 9999));
+  v.extendedCount = static_cast<int>(table.value("extended_count").integer(0, 1, 300));
+  v.toolWear = number("tool_wear");
+  v.toolGeometry = number("tool_geometry");
+  v.toolCount = static_cast<int>(table.value("tool_count").integer(0, 1, 999));
+  v.modalWords = number("modal_words");
+  v.toolLength = number("tool_length");
+  v.alarm = number("alarm");
+  v.timer = number("timer");
+  v.hours = number("hours");
+  v.message = number("message");
+  v.extendedNumber = number("extended_number");
+  v.systemStep = static_cast<int>(table.value("system_step").integer(0, 1, 9999));
+  v.axisStep = static_cast<int>(table.value("axis_step").integer(0, 1, 9999));
+  if (v.workOffsetX && v.systemStep == 0)
+    document_.fail(table.value("work_offset_x").range(), "`work_offset_x` stands without `system_step`");
+  if ((v.workOffsetX || v.externalX) && v.axisStep == 0)
+    document_.fail(table.value(v.workOffsetX ? "work_offset_x" : "external_x").range(),
+                   "an offset of X stands without `axis_step`");
+  if (v.extendedX && (v.extendedStep == 0 || v.extendedCount == 0))
+    document_.fail(table.value("extended_x").range(),
+                   "`extended_x` stands without `extended_step` and `extended_count`");
+  if ((v.toolWear || v.toolGeometry) && v.toolCount == 0)
+    document_.fail(table.value(v.toolWear ? "tool_wear" : "tool_geometry").range(),
+                   "tool offsets stand without `tool_count`");
+  Taken blocks;
+  const auto add = [&](std::string_view key, std::optional<int> first, int count, int step = 1) {
+    for (int i = 0; first && i < count; ++i)
+      blocks.emplace_back(key, *first + i * step);
+  };
+  add("modal_feed", v.modalFeed, 1);
+  add("block_end", v.blockEnd, 3);
+  add("machine", v.machine, 3);
+  add("position", v.position, 3);
+  add("skip", v.skip, 3);
+  add("external_x", v.externalX, 3, v.axisStep);
+  for (int system = 0; v.workOffsetX && system < 6; ++system)
+    add("work_offset_x", *v.workOffsetX + system * v.systemStep, 3, v.axisStep);
+  for (int system = 0; v.extendedX && system < v.extendedCount; ++system)
+    add("extended_x", *v.extendedX + system * v.extendedStep, 3, v.axisStep);
+  add("tool_wear", v.toolWear ? std::optional<int>(*v.toolWear + 1) : std::nullopt, v.toolCount);
+  add("tool_geometry", v.toolGeometry ? std::optional<int>(*v.toolGeometry + 1) : std::nullopt, v.toolCount);
+  add("tool_length", v.toolLength, 3);
+  add("alarm", v.alarm, 1);
+  add("timer", v.timer, 1);
+  add("hours", v.hours, 1);
+  add("message", v.message, 1);
+  add("extended_number", v.extendedNumber, 1);
+  if (v.modalFirst) {
+    for (const CodeInfo& code : control_.codes)
+      if (code.group) blocks.emplace_back("modal_first", *v.modalFirst + *code.group);
+  }
+  state(blocks);
+  window(blocks);
+  overlaps(table, blocks);
+}
+
+void ControlReader::overlaps(const TomlTable& table, const Taken& blocks) const {
+  std::map<int, std::string_view> taken;
+  for (const auto& [key, number] : blocks) {
+    const SourceRange range = (table.has(key) ? table : root_).value(key).range();
+    const auto [at, added] = taken.try_emplace(number, key);
+    const bool shared = key == "modal_first" && at->second == key; // one group, many codes
+    if (!added && !shared)
+      document_.fail(range, fmt::format("#{} is a variable of `{}` {}", number, at->second,
+                                        at->second != key                   ? fmt::format("and of `{}`", key)
+                                        : key == "state" || key == "window" ? "twice"
+                                                                            : "twice: its steps meet"));
+    if (control_.isCommon(static_cast<std::uint32_t>(number)))
+      document_.fail(range, fmt::format("#{} is a common variable", number));
+  }
+}
+
+// Each may be written by `--var`; what a program may do says `access`.
+void ControlReader::state(Taken& blocks) {
+  for (const TomlTable& table : root_.value("state").tables()) {
+    const Origin origin = ControlReader::origin(table);
+    if (control_.state.size() == kMostRanges)
+      document_.fail(table.range(), fmt::format("more than {} ranges", kMostRanges));
+    StateRange range;
+    range.first = whole(table, "first", "a variable number", 1000, 999999);
+    range.last = static_cast<std::uint32_t>(table.value("last").integer(range.first, 1000, 999999));
+    range.title = table.require("title", "what it holds").text();
+    range.grade = origin.grade;
+    range.source = origin.source;
+    const std::string access = table.require("access", "read-only, store or effect")
+                                   .choice({"read-only", "store", "effect"}, "read-only");
+    range.access = access == "store"    ? StateRange::Access::Store
+                   : access == "effect" ? StateRange::Access::Effect
+                                        : StateRange::Access::ReadOnly;
+    if (const TomlValue initial = table.value("initial")) {
+      if (initial.isText())
+        range.null = initial.choice({"null"}, "null") == "null";
+      else
+        range.initial = initial.number();
+    }
+    if (range.first > range.last || range.last - range.first > 999)
+      document_.fail(table.range(),
+                     fmt::format("#{} to #{} is no range of at most 1000", range.first, range.last));
+    if (const TomlValue word = table.value("word")) {
+      range.word = static_cast<std::uint32_t>(word.integer(1000, 1000, 999999));
+      blocks.emplace_back("state", static_cast<int>(*range.word));
+      if (range.last - range.first > 31) document_.fail(word.range(), "a word holds 32 bits at most");
+    }
+    for (std::uint32_t n = range.first; n <= range.last && n - range.first < 1000; ++n)
+      blocks.emplace_back("state", static_cast<int>(n));
+    control_.state.push_back(std::move(range));
+  }
+}
+
+void ControlReader::window(Taken& blocks) {
+  if (!root_.value("window")) return;
+  const TomlTable table = optional("window");
+  origin(table);
+  PmcWindow window;
+  window.area = table.require("area", "the letter of the memory").text();
+  window.bytes = whole(table, "bytes", "the size of the memory", 1, 1 << 20);
+  const auto number = [&](std::string_view key) -> std::uint32_t {
+    const TomlValue value = table.value(key);
+    if (!value) return 0;
+    const auto out = static_cast<std::uint32_t>(value.integer(1000, 1000, 999999));
+    blocks.emplace_back("window", static_cast<int>(out));
+    return out;
+  };
+  window.address = number("address");
+  window.byte = number("byte");
+  window.word = number("word");
+  window.doubleWord = number("double_word");
+  if (window.address == 0)
+    document_.fail(table.range(), "`address` is missing: the variable that chooses the place");
+  control_.window = std::move(window);
+}
+
+} // namespace dotek::stdlib

@@ -1,0 +1,7 @@
+O1
+#1=7
+GOTO #1
+WHILE [#2 LT 5] DO1
+N7 #2=#2+1
+END1
+M30
