@@ -74,7 +74,11 @@ void FusionParts::checkOptions(const ConvertOptions& options, Diagnostics& diagn
 
 void FusionParts::add(const CycleFolder& folder, LoweredCycle& lowered,
                       std::map<ir::VariableId, double> defaults) {
-  const stdlib::MacroSet none{.name = "", .title = "no set", .origin = "", .signatures = {}, .scratch = {}};
+  const stdlib::MacroSet none = [] {
+    stdlib::MacroSet set;
+    set.title = "no set";
+    return set;
+  }();
   const stdlib::MacroSet* macros =
       options_.probeMacros ? inputs_.macroSet(*options_.probeMacros) : lowered.macros;
   const bool foreign = macros != lowered.macros && lowered.macros != nullptr;

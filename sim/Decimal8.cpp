@@ -3,7 +3,9 @@
 #include "support/Decimal.h"
 
 #include <array>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 
 namespace dotek::sim {
 namespace {
@@ -43,7 +45,9 @@ double toDecimal8(double value) {
   if (size < 1e8 && size == std::floor(size)) return value;
   if (!(size >= 1e-14 && size < 1e22)) return slowly(value);
   // size * 10^shift has eight digits before the point.
-  int shift = 7 - static_cast<int>(std::floor(std::log10(size)));
+  // The power of two gives the power of ten, or the one below it.
+  const int power = static_cast<int>(std::bit_cast<std::uint64_t>(size) >> 52) - 1023;
+  int shift = 7 - (power * 78913 >> 18);
   const auto scaledBy = [&](int by) {
     return by >= 0 ? size * kPowers[static_cast<std::size_t>(by)]
                    : size / kPowers[static_cast<std::size_t>(-by)];

@@ -158,7 +158,9 @@ bool Machine::executeLong(const NcWords& w) {
     return inconclusive(fmt::format("more than {} codes in one block", NcWords::kMostCodes));
   if (!readCodes(w) || !checkWords(w)) return false;
   if (!runBlock(w)) return false;
-  long_ = (modes_[kCanned] | modes_[kUnits]) != 0 || uncertain_ != 0 ? 1 : 0;
+  long_ = (modes_[kCanned] | modes_[kUnits]) != 0 || uncertain_ != 0 || motionForgotten_ || feedForgotten_
+              ? 1
+              : 0;
   return true;
 }
 
@@ -210,6 +212,7 @@ bool Machine::readCodes(const NcWords& w) {
   const bool motion = (block_.slots >> kMotion & 1) != 0;
   if (motion && (block_.slots >> kCanned & 1) != 0 && modes_[kCanned] != 0)
     return inconclusive("a canned cycle and a motion of group 1 in one block", 'G');
+  if (motion) motionForgotten_ = false;
   // A motion code ends a canned cycle as G80 does.
   if (motion && modes_[kCanned] != 0) {
     modes_[kCanned] = 0;

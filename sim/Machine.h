@@ -138,6 +138,22 @@ public:
   void beginProgram(std::uint32_t number);   // the main one
   void noteModal(stdlib::Function function); // a code that the caller carries out
 
+  // ---- macros that run by their meaning (MacroMeaning.h)
+  enum class Probe : std::uint8_t { NotSwitched, On, Off };
+  Probe probe() const { return probe_; } // what the program switched last
+  void switchProbe(bool on);
+  // Straight to `end` of the active system, at a feed that is not stated; the probe's contact ends the move
+  // there: true. nullopt: the run has ended.
+  std::optional<bool> probeTo(const Position& end);
+  bool travelTo(const Position& end); // without watching for contact; false: the run has ended
+  // What the macro leaves there is not known: who reads it ends the run. `number`: of a common variable.
+  void forget(std::uint32_t number);
+  bool hasUnknown() const { return hasUnknown_; } // a cell may hold kUnknown (Value.h)
+  void forgetMotion(std::optional<double> feed);  // the code of group 1, and the feed unless it is given
+  std::size_t extendedSystem() const { return extendedNow_; }  // n of G54.1 Pn
+  void remark(std::string_view action, std::string_view text); // a line of the trace
+  bool raiseUnnumbered(std::string_view text);                 // an alarm whose number is not known; false
+
   // ---- ends
   bool raise(stdlib::Alarm alarm, char letter = 0);                             // false
   bool raise(std::uint32_t n, std::string_view text);                           // #3000 = n (text); false
@@ -154,6 +170,8 @@ private:
   };
 
   bool stop(Ending ending); // false
+  bool motionKnown();       // false: the run has ended
+  bool feedKnown();
   bool executeLong(const ir::NcWords& words);
   bool runBlock(const ir::NcWords& words);
   bool readCodes(const ir::NcWords& words);
@@ -243,6 +261,9 @@ private:
   std::vector<double> state_;                             // by range of the control; kFresh: not known
   std::vector<std::uint8_t> pmc_;
   double pmcAddress_ = -1;
+  Probe probe_ = Probe::NotSwitched;
+  bool motionForgotten_ = false, feedForgotten_ = false;
+  bool hasUnknown_ = false; // a cell may hold kUnknown
   std::uint32_t level_ = 0;
   std::uint32_t callLimit_ = 32;
   bool moved_ = false;

@@ -41,6 +41,7 @@ bool Machine::move(const NcWords& w) {
   const bool centre = (w.present & ir::addressBits("IJKR")) != 0;
   if ((w.present & kAxisBits) == 0 && !(isArc && centre)) return true;
   moved_ = true;
+  if (!motionKnown() || (modes_[kMotion] != kRapid && !feedKnown())) return false;
   const std::uint32_t unknown = uncertain_;
   Position end;
   if (!target(w, end)) return false;
@@ -121,6 +122,7 @@ bool Machine::oneShot(const NcWords& w) {
 // G53: without axes it only waits for the moves before.
 bool Machine::machineMove(const NcWords& w) {
   if ((w.present & kAxisBits) == 0) return true;
+  if (!motionKnown() || (modes_[kMotion] == kFeed && !feedKnown())) return false;
   if (modes_[kDistance] != 0)
     return inconclusive("machine coordinates in incremental mode are not known", 'G');
   if (modes_[kMotion] > kFeed || modes_[kCanned] != 0)
@@ -182,7 +184,7 @@ bool Machine::skipMove(const NcWords& w) {
     return inconclusive("a skip move within a canned cycle or under cutter compensation", 'G');
   if (uncertain_ != 0) return inconclusive("where the move begins is not known", 'G');
   Position end;
-  if (!target(w, end)) return false;
+  if (!target(w, end) || !feedKnown()) return false;
   if (!(feed_ > 0)) return raise(Alarm::NoFeed);
   moved_ = true;
   if (skip_ == nullptr)
@@ -224,7 +226,7 @@ bool Machine::cannedCycle(const NcWords& w) {
   const bool incremental = modes_[kDistance] != 0;
   Position hole;
   const double level = work_[depth];
-  if (!target(w, hole)) return false;
+  if (!target(w, hole) || !feedKnown()) return false;
   if (!(feed_ > 0)) return raise(Alarm::NoFeed);
   if (w.has('R')) {
     cycleR_ = incremental ? snap(initialLevel_ + lengthOf(w, 'R')) : lengthOf(w, 'R');

@@ -59,6 +59,7 @@ bool Machine::settings(const NcWords& w) {
       return inconclusive("what it counts without a point is not known", 'F');
     if (!(w.of('F') >= 0)) return inconclusive("a feed is not below 0", 'F');
     feed_ = modes_[kUnits] != 0 ? snap(w.of('F') * 25.4) : w.of('F');
+    feedForgotten_ = false;
   }
   if (w.has('S')) {
     if (!(w.of('S') >= 0)) return inconclusive("a speed is not below 0", 'S');
@@ -100,8 +101,8 @@ bool Machine::miscellaneous(const NcWords& w) {
     case Function::CoolantMist: action = "coolant", state = "mist"; break;
     case Function::CoolantFlood: action = "coolant", state = "flood"; break;
     case Function::CoolantOff: action = "coolant", state = "off"; break;
-    case Function::ProbeOn: action = "probe", state = "on"; break;
-    case Function::ProbeOff: action = "probe", state = "off"; break;
+    case Function::ProbeOn: switchProbe(true); break;
+    case Function::ProbeOff: switchProbe(false); break;
     case Function::ToolChange:
       if (trace_ != nullptr) trace_->begin("tool-change").text(std::to_string(toolNumber_)).end();
       break;

@@ -72,8 +72,11 @@ bool Machine::find(std::uint32_t number, Place& place) const {
 
 std::optional<double> Machine::read(std::uint32_t number) {
   if (number == 0) return kNull;
-  if (const std::uint32_t cell = layout_.cellOf(number); cell != CellLayout::kNone)
-    return isNull(cells_[cell]) ? kNull : cells_[cell];
+  if (const std::uint32_t cell = layout_.cellOf(number); cell != CellLayout::kNone) {
+    if (!isUnknown(cells_[cell])) return isNull(cells_[cell]) ? kNull : cells_[cell];
+    inconclusive(fmt::format("#{} is read, and what a macro left there is not known", number));
+    return std::nullopt;
+  }
   Place place;
   if (number >= 1000 && find(number, place)) return readSystem(number, place);
   if (number < 1000)
@@ -105,6 +108,7 @@ std::optional<double> Machine::readSystem(std::uint32_t number, const Place& pla
   switch (place.kind) {
   case Kind::Modal: {
     const std::uint32_t tenths = groups_[place.index];
+    if (motionForgotten_ && place.index == table_.g(10).group && !motionKnown()) return std::nullopt;
     const Code& code = table_.g(tenths);
     if (tenths == 0 && (code.flags & Code::Unknown) == 0 && code.group == place.index) return 0.0; // G0
     if (tenths == 0) {
@@ -113,7 +117,9 @@ std::optional<double> Machine::readSystem(std::uint32_t number, const Place& pla
     }
     return tenths / 10.0;
   }
-  case Kind::Word: return place.index == slotOf('F') ? feed_ : modalWords_[place.index];
+  case Kind::Word:
+    if (place.index == slotOf('F') && !feedKnown()) return std::nullopt;
+    return place.index == slotOf('F') ? feed_ : modalWords_[place.index];
   case Kind::BlockEnd: return position(work_, false);
   case Kind::MachinePosition: return position(machinePosition(), true);
   case Kind::Now: {

@@ -98,6 +98,56 @@ bool test(ir::Relation relation, double a, double b) {
   return false;
 }
 
+// Bit 0: a is a cell that is read; bit 1: b is one.
+unsigned operandsOf(Op op) {
+  switch (op) {
+  case Op::Copy:
+  case Op::Number:
+  case Op::Sine:
+  case Op::Cosine:
+  case Op::SquareRoot:
+  case Op::Unary:
+  case Op::NegateGiven:
+  case Op::ToIncrement:
+  case Op::ReadAt:
+  case Op::JumpTrue:
+  case Op::JumpFalse:
+  case Op::Not:
+  case Op::JumpTo:
+  case Op::Exit:
+  case Op::Raise: return 1;
+  case Op::Write: return 2;
+  case Op::Add:
+  case Op::Subtract:
+  case Op::Multiply:
+  case Op::Divide:
+  case Op::Binary:
+  case Op::WriteAt:
+  case Op::JumpLess:
+  case Op::JumpGreater:
+  case Op::JumpLessEqual:
+  case Op::JumpGreaterEqual:
+  case Op::JumpSame:
+  case Op::JumpDifferent:
+  case Op::Test:
+  case Op::And:
+  case Op::Or: return 3;
+  case Op::Read:
+  case Op::Jump:
+  case Op::SkipDelete:
+  case Op::Sequence:
+  case Op::Block:
+  case Op::Call:
+  case Op::Notice:
+  case Op::OpenPort:
+  case Op::Print:
+  case Op::Name:
+  case Op::Refuse:
+  case Op::End: break;
+  }
+  return 0;
+}
+
 } // namespace
 
 Run::Run(Machine& machine, const Bytecode& code, const Limits& limits, MacroMeaning* meaning)
@@ -124,8 +174,18 @@ void Run::run() {
   if (main.routine->number <= UINT32_MAX)
     machine_.beginProgram(static_cast<std::uint32_t>(main.routine->number));
   const bool decimal = control_.arithmetic == stdlib::Arithmetic::Decimal8;
-  while (decimal ? execute<true>() : execute<false>()) {
+  for (bool goesOn = true; goesOn;) {
+    if (machine_.hasUnknown())
+      goesOn = decimal ? execute<true, true>() : execute<false, true>();
+    else
+      goesOn = decimal ? execute<true, false>() : execute<false, false>();
   }
+}
+
+bool Run::knows(std::uint32_t cell) {
+  if (cell >= machine_.layout().size() || !isUnknown(cells_[cell])) return true;
+  return refuse(
+      fmt::format("#{} is read, and what a macro left there is not known", machine_.layout().numberOf(cell)));
 }
 
 bool Run::spend(std::uint32_t steps) {
@@ -180,7 +240,7 @@ bool Run::writeAt(double number, double value) {
 
 // Runs until a block, a call or whatever else changes more than cells; false: the run has ended. The places
 // of instructions are 32 bits; each list of instructions ends in an End.
-template <bool kDecimal8> bool Run::execute() {
+template <bool kDecimal8, bool kWatched> bool Run::execute() {
   const Instruction* const all = code_.instructions.data();
   double* const cells = cells_;
   const Instruction* at = all + place_;
@@ -211,6 +271,11 @@ template <bool kDecimal8> bool Run::execute() {
     return --fuel != 0;
   };
   for (;;) {
+    if constexpr (kWatched) {
+      const unsigned operands = operandsOf(at->op);
+      leave();
+      if (((operands & 1) != 0 && !knows(at->a)) || ((operands & 2) != 0 && !knows(at->b))) return false;
+    }
     switch (at->op) {
     case Op::Copy: {
       const double value = cells[at->a];

@@ -61,7 +61,9 @@ private:
     std::vector<double> arguments;
   };
 
-  template <bool kDecimal8> bool execute();
+  // Watched: a cell may hold what a macro left and nobody knows; who reads it ends the run.
+  template <bool kDecimal8, bool kWatched> bool execute();
+  bool knows(std::uint32_t cell); // false: it does not, and the run has ended
   bool spend(std::uint32_t steps);
   bool fail(ir::ArithmeticError error, bool tangent, bool bits);
 

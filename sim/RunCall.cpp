@@ -21,6 +21,7 @@ bool Run::repeatsOf(double value, std::uint32_t& repeats) {
 
 bool Run::call(const CallSlots& slots) {
   if (slots.kind == ir::CallKind::Off) return modalOff();
+  if (!knows(slots.program) || !knows(slots.repeats)) return false;
   const double program = slots.program == kNoCell ? kNull : cell(slots.program);
   if (isNull(program)) return machine_.raise(Alarm::NoProgramNumber);
   Request request;
@@ -41,6 +42,7 @@ bool Run::call(const CallSlots& slots) {
   std::fill(locals_.begin(), locals_.end(), kNull);
   for (std::uint32_t i = 0; i < slots.arguments; ++i) {
     const ArgumentSlot& argument = code_.arguments[slots.firstArgument + i];
+    if (!knows(argument.cell)) return false;
     const double value = cells_[argument.cell];
     if (isNull(value)) continue;
     // A length as written counts increments where the control does not calculate.

@@ -23,4 +23,12 @@ inline double nullAsZero(double value) {
   return isNull(value) ? 0 : value;
 }
 
+// What a macro of a vendor left in a variable and no source tells: reading it ends the run.
+inline constexpr std::uint64_t kUnknownBits = 0x7FF8'0000'756E'6B6EULL;
+inline constexpr double kUnknown = std::bit_cast<double>(kUnknownBits);
+
+inline bool isUnknown(double value) {
+  return std::bit_cast<std::uint64_t>(value) == kUnknownBits;
+}
+
 } // namespace dotek::sim

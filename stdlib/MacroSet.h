@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace dotek::stdlib {
@@ -19,6 +20,22 @@ class DataFiles;
   X(ProtectedMove, "protected-move")                                                                         \
   X(Surface, "surface")                                                                                      \
   X(Bore, "bore")                                                                                            \
+  X(Boss, "boss")                                                                                            \
+  X(Pocket, "pocket")                                                                                        \
+  X(Web, "web")                                                                                              \
+  X(InnerCorner, "inner-corner")                                                                             \
+  X(OuterCorner, "outer-corner")                                                                             \
+  X(Angle, "angle")                                                                                          \
+  X(AngledSurface, "angled-surface")                                                                         \
+  X(AngledPocket, "angled-pocket")                                                                           \
+  X(AngledWeb, "angled-web")                                                                                 \
+  X(ThreePointBore, "three-point-bore")                                                                      \
+  X(ThreePointBoss, "three-point-boss")                                                                      \
+  X(BoltCircle, "bolt-circle")                                                                               \
+  X(StockAllowance, "stock-allowance")                                                                       \
+  X(FeatureToFeature, "feature-to-feature")                                                                  \
+  X(ToolUpdate, "tool-update")                                                                               \
+  X(Calibration, "calibration")                                                                              \
   X(ProbeOn, "probe-on")                                                                                     \
   X(ProbeOff, "probe-off")
 
@@ -29,14 +46,51 @@ enum class Intent : std::uint8_t {
 };
 std::string_view intentName(Intent intent);
 
+// How the data state the axis of a role: not at all, always, where the feature lies along one.
+enum class AxisUse : std::uint8_t { None, Needed, Possible };
+
+// What an argument means. X(id, name in the data, kind, axis, chooses a thing instead of measuring one)
+#define DOTEK_ROLES(X)                                                                                       \
+  X(Target, "target", Length, Needed, false) /* coordinate to reach or to find, along `axis` */              \
+  X(Feed, "feed", Feed, None, false)                                                                         \
+  X(Diameter, "diameter", Length, None, false)     /* expected */                                            \
+  X(Nominal, "nominal", Length, Needed, false)     /* coordinate that the feature gets in the system set */  \
+  X(System, "system", WorkOffset, None, true)      /* work offset to set */                                  \
+  X(Width, "width", Length, Possible, false)       /* expected */                                            \
+  X(Depth, "depth", Length, None, false)           /* Z at which is probed, work coordinates */              \
+  X(Clearance, "clearance", Length, None, false)   /* beside the surface on the way down; < 0: within */     \
+  X(Overtravel, "overtravel", Length, None, false) /* how far beyond the expected surface is probed */       \
+  X(FlagOnly, "flag-only", Flag, None, true)       /* 1: a flag instead of an alarm */                       \
+  X(Tool, "tool", ToolOffset, None, true)          /* tool offset to correct */                              \
+  X(SpareTool, "spare-tool", ToolOffset, None, true)  /* offset that adds up what is averaged */             \
+  X(Experience, "experience", ToolOffset, None, true) /* offset whose value is added to the size */          \
+  X(SizeTolerance, "size-tolerance", Length, None, false)                                                    \
+  X(PositionTolerance, "position-tolerance", Length, None, false) /* diameter of the zone */                 \
+  X(AngleTolerance, "angle-tolerance", Angle, None, false)                                                   \
+  X(UpperLimit, "upper-limit", Length, None, false) /* of the error; beyond it nothing is set */             \
+  X(NullBand, "null-band", Length, None, false)     /* no tool is corrected below */                         \
+  X(Feedback, "feedback", Ratio, None, false)       /* share of the error that corrects the tool */          \
+  X(Print, "print", Count, None, true)              /* 1: next feature, 2: next part */                      \
+  X(Spacing, "spacing", Length, Needed, false)      /* to the second touch of a face */                      \
+  X(FaceAngle, "face-angle", Angle, None, false)    /* expected, from +X */                                  \
+  X(Direction, "direction", Angle, None, false)     /* of the touch, from +X */                              \
+  X(Distance, "distance", Length, None, false)      /* from the start to the expected surface */             \
+  X(FirstAngle, "first-angle", Angle, None, false)  /* directions of three touches */                        \
+  X(SecondAngle, "second-angle", Angle, None, false)                                                         \
+  X(ThirdAngle, "third-angle", Angle, None, false)                                                           \
+  X(PitchDiameter, "pitch-diameter", Length, None, false)                                                    \
+  X(StartAngle, "start-angle", Angle, None, false)                                                           \
+  X(Number, "number", Count, None, true)       /* of holes, of parts */                                      \
+  X(Point, "point", Length, Needed, false)     /* of further touches; the letter may be repeated */          \
+  X(Task, "task", Count, None, true)           /* what is calibrated */                                      \
+  X(Unstated, "unstated", Number, None, false) /* a letter of the call; no source says what it is */
+
 enum class ArgumentRole : std::uint8_t {
-  Target,     // "target": coordinate to reach or to find, along `axis`
-  Feed,       // "feed"
-  Diameter,   // "diameter"
-  Nominal,    // "nominal": coordinate that the feature gets along `axis` in the system that the call sets
-  System,     // "system": work offset to set
-  Overtravel, // "overtravel": how far the measuring move goes on behind the expected surface
+#define DOTEK_ROLE(id, name, kind, axis, selector) id,
+  DOTEK_ROLES(DOTEK_ROLE)
+#undef DOTEK_ROLE
 };
+std::string_view roleName(ArgumentRole role);
 
 // How a work system is written in a System argument.
 enum class SystemCode : std::uint8_t {
@@ -46,13 +100,13 @@ enum class SystemCode : std::uint8_t {
 // What a System argument does with the offset.
 enum class SystemRule : std::uint8_t {
   Nominal, // "nominal": the feature gets the coordinate of the Nominal argument
-  Error,   // "error": the offset changes by measured minus target; the target is the nominal
+  Error,   // "error": new value = offset in force + measured minus expected; the target is the nominal
 };
 
 struct MacroArgument {
   char letter = 0;
   ArgumentRole role = ArgumentRole::Target;
-  ir::Axis axis = ir::Axis::X;       // of Target, Nominal
+  ir::Axis axis = ir::Axis::X;       // where the role has one
   ir::Frame frame = ir::Frame::Work; // of Target: Work (absolute, active system) or Here (signed travel)
   ir::Kind kind = ir::Kind::Length;
   bool selector = false; // chooses, does not measure: its digits are no length
@@ -60,12 +114,50 @@ struct MacroArgument {
   bool required = false;
   SystemCode systemCode = SystemCode::GNumber;
   SystemRule systemRule = SystemRule::Nominal;
+  // Of an Index: numbers beside 1 to 6 that stand for G54.1 P1 and following; 0: none.
+  std::uint32_t extendedFirst = 0, extendedLast = 0;
+  std::string unknown; // what no source says of it: a run by meaning that meets it is inconclusive
 };
 
+// What a variable holds behind the call. X(id, name in the data)
+#define DOTEK_OUTPUTS(X)                                                                                     \
+  X(Main, "main") /* no document describes it */                                                             \
+  X(PositionX, "position-x")                                                                                 \
+  X(PositionY, "position-y")                                                                                 \
+  X(PositionZ, "position-z")                                                                                 \
+  X(Size, "size")                                                                                            \
+  X(Angle, "angle")    /* of a face; of a corner: of its X face */                                           \
+  X(AngleY, "angle-y") /* of the Y face of a corner */                                                       \
+  X(ErrorX, "error-x")                                                                                       \
+  X(ErrorY, "error-y")                                                                                       \
+  X(ErrorZ, "error-z")                                                                                       \
+  X(SizeError, "size-error")                                                                                 \
+  X(AngleError, "angle-error")                                                                               \
+  X(AngleErrorY, "angle-error-y")                                                                            \
+  X(TruePosition, "true-position")                                                                           \
+  X(MetalCondition, "metal-condition")                                                                       \
+  X(TouchDirection, "direction")                                                                             \
+  X(Hole, "hole")                                                                                            \
+  X(Maximum, "maximum")                                                                                      \
+  X(Variation, "variation")                                                                                  \
+  X(OutOfTolerance, "out-of-tolerance") /* 0, or what was exceeded */                                        \
+  X(ProbeError, "probe-error")          /* 0: none */
+
+enum class Output : std::uint8_t {
+#define DOTEK_OUTPUT(id, name) id,
+  DOTEK_OUTPUTS(DOTEK_OUTPUT)
+#undef DOTEK_OUTPUT
+};
+std::string_view outputName(Output output);
+
 struct MacroResult {
-  ir::ResultName name = ir::ResultName::Main;
+  Output output = Output::Main;
+  std::optional<ir::ResultName> name; // of the outputs that the IR has
   std::uint32_t variable = 0;
   bool documented = true; // what it holds is known; never with Main
+  // Of one that is not documented: what a run by meaning puts there, and says so; nothing: it is not known
+  // then.
+  std::optional<Output> taken;
 };
 
 // One reading of a call. A program that measures in several ways has one signature for each.
@@ -77,11 +169,60 @@ struct MacroSignature {
   // At least one of these letters stands in the call; empty: no such rule.
   std::string anyOf;
   std::vector<MacroResult> results;
+  std::string unknown; // what no source says of the call: a run by meaning is inconclusive; "": nothing
   std::string grade;
   std::string source;
 
   const MacroArgument* find(char letter) const;
-  const MacroArgument* find(ArgumentRole role, ir::Axis axis) const; // axis aside for Feed, Diameter, System
+  // `axis` aside for roles that state none.
+  const MacroArgument* find(ArgumentRole role, ir::Axis axis = ir::Axis::X) const;
+  const MacroResult* find(Output output) const;
+  // All letters are arguments, and none that is required is missing.
+  bool fits(std::string_view letters) const;
+};
+
+// Letters that exclude each other.
+struct RefusedLetters {
+  std::vector<std::uint32_t> programs;
+  std::string letters; // all of them together
+  std::string text;    // of the alarm; "" where no source gives it
+};
+
+// Alarms of the macros. X(id, name in the data)
+#define DOTEK_MACRO_ALARMS(X)                                                                                \
+  X(PathObstructed, "path-obstructed")                                                                       \
+  X(NoFeed, "no-feed")                                                                                       \
+  X(ProbeOpen, "probe-open")                                                                                 \
+  X(ProbeFail, "probe-fail")                                                                                 \
+  X(OutOfTolerance, "out-of-tolerance")                                                                      \
+  X(OutOfPosition, "out-of-position")                                                                        \
+  X(OutOfAngle, "out-of-angle")                                                                              \
+  X(UpperLimit, "upper-limit")
+
+enum class MacroAlarm : std::uint8_t {
+#define DOTEK_MACRO_ALARM(id, name) id,
+  DOTEK_MACRO_ALARMS(DOTEK_MACRO_ALARM)
+#undef DOTEK_MACRO_ALARM
+};
+std::string_view macroAlarmName(MacroAlarm alarm);
+
+struct MacroAlarmInfo {
+  MacroAlarm alarm{};
+  std::optional<std::uint32_t> number; // n of #3000 = n; nothing: not known
+  std::string text;
+};
+
+// What a run by meaning needs beside the signatures; nothing: no source gives it.
+struct ProbingFacts {
+  std::optional<double> overtravel, overtravelZ;        // without the argument, mm; Z: where it differs
+  std::optional<double> clearance;                      // without the argument, mm
+  std::optional<std::uint32_t> feedVariable;            // keeps the feed of protected moves
+  std::optional<std::uint32_t> radiusX, radiusY;        // of the calibrated stylus
+  std::optional<std::uint32_t> offsetX, offsetY;        // of the ball to the spindle's axis
+  std::optional<std::uint32_t> vectorFirst, vectorLast; // radii by direction
+  bool lengthToTip = true;                              // the tool's length ends at the ball's lowest point
+  enum class ToolRegister : std::uint8_t { Unknown, Wear, Geometry };
+  ToolRegister toolLength = ToolRegister::Unknown; // what a tool argument corrects
 };
 
 struct MacroSet {
@@ -91,12 +232,19 @@ struct MacroSet {
   std::vector<MacroSignature> signatures; // in the order of the file
   // Variables that the macros overwrite: nothing of the caller is kept there across a call.
   std::vector<std::pair<std::uint32_t, std::uint32_t>> scratch;
+  // Those of them that every call is known to overwrite.
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> overwritten;
+  std::vector<RefusedLetters> refused;
+  std::vector<MacroAlarmInfo> alarms; // each once
+  ProbingFacts probing;
 
   bool calls(std::uint32_t program) const;
   // Signatures of the program.
   std::vector<const MacroSignature*> of(std::uint32_t program) const;
-  // The signature for an intent; of a surface the one along `axis`. nullptr: the set has none.
+  // The signature for an intent; of a surface, an angle, a pocket and a web the one along `axis`. nullptr:
+  // the set has none.
   const MacroSignature* find(Intent intent, ir::Axis axis = ir::Axis::X) const;
+  const MacroAlarmInfo* find(MacroAlarm alarm) const;
 
   static std::optional<MacroSet> load(const DataFiles& files, std::string_view name);
 };
@@ -105,9 +253,15 @@ struct MacroSet {
 struct SignatureMatch {
   const MacroSignature* signature = nullptr; // the only one that fits; nullptr: see the rest
   char unknown = 0;                          // letter that no signature of the program has
+  const RefusedLetters* refused = nullptr;   // letters that the macro does not take together
   std::string missing;    // letters that the nearest signatures need: "S", "X or Y or Z", "S and I"
   bool ambiguous = false; // every letter is known, and they belong to different readings: XY of one surface
 };
 SignatureMatch match(const MacroSet& set, std::uint32_t program, std::string_view letters);
+
+// #n that a letter of G65 sets, argument specification I; 0: the letter is no argument.
+std::uint32_t localOf(char letter);
+// The letter that sets #n; 0: none does.
+char letterOfLocal(std::uint32_t local);
 
 } // namespace dotek::stdlib

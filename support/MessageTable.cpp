@@ -18,6 +18,7 @@ std::span<const MessageInfo> messageTable() {
 #include "support/messages/Gibbs.def"
 #include "support/messages/MacroB.def"
 #include "support/messages/Nc.def"
+#include "support/messages/Part.def"
 #include "support/messages/Sim.def"
 #undef DOTEK_DIAGNOSTIC
     };

@@ -147,8 +147,7 @@ private:
     case stdlib::ArgumentRole::System:
       if (measure_.setting && setByCall_) expression = systemNumber(argument);
       break;
-    case stdlib::ArgumentRole::Feed:
-    case stdlib::ArgumentRole::Overtravel: break; // the macro's own
+    default: break; // a cycle says nothing of it
     }
     if (expression != nullptr) return word(state_, argument.letter, expression, formOf(argument), origin_);
     if (!argument.required || state_.failed) return std::nullopt;

@@ -117,7 +117,7 @@ std::optional<std::uint32_t> variableOf(State& state, ir::ResultName name, const
     const auto* instead = name == ir::ResultName::Main ? find(*signature, nearestOf(*measure)) : nullptr;
     if (instead != nullptr) {
       state.diagnostics.report<diag::ResultDiffers>(range, instead->variable, state.macros.title,
-                                                    describe(instead->name));
+                                                    describe(nearestOf(*measure)));
       return instead->variable;
     }
   }

@@ -340,7 +340,7 @@ void MacroBlocks::measure(const ir::Measure& measure, const ir::Origin& origin, 
       if (argument.systemCode == stdlib::SystemCode::Index)
         value = difference(value, ir::constant(kFirstSystem - 1));
       break;
-    case stdlib::ArgumentRole::Feed: break;
+    default: break; // a cycle says nothing of it
     }
     if (value != nullptr) arguments.emplace_back(&argument, value);
     if (value == nullptr && argument.required && !state_.failed) {
@@ -352,6 +352,11 @@ void MacroBlocks::measure(const ir::Measure& measure, const ir::Origin& origin, 
     }
   }
   if (state_.failed) return;
+  // A system that the call corrects stands last, as posts write it.
+  std::stable_partition(arguments.begin(), arguments.end(), [](const auto& one) {
+    return one.first->role != stdlib::ArgumentRole::System ||
+           one.first->systemRule != stdlib::SystemRule::Error;
+  });
   call(*signature, arguments, origin, lines);
   last_ = &measure;
   // The system that was set may be the active one.
@@ -400,8 +405,8 @@ void MacroBlocks::store(const ir::Store& store, const ir::Origin& origin, std::v
   if (found == nullptr && signature != nullptr && result->name == ir::ResultName::Main) {
     found = find(*signature, nearestOf(*last_));
     if (found != nullptr)
-      state_.diagnostics.report<diag::ResultDiffers>(store.value->range, found->variable,
-                                                     state_.options.macros.title, describe(found->name));
+      state_.diagnostics.report<diag::ResultDiffers>(
+          store.value->range, found->variable, state_.options.macros.title, describe(nearestOf(*last_)));
   }
   if (found == nullptr) {
     if (state_.failed) return; // the measurement was refused

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace dotek::frontend::nc {
 namespace {
@@ -38,6 +40,10 @@ bool Lifter::call(std::uint32_t program, const Word& programWord) {
     return refuse<diag::UnknownMacroLetter>(word == nullptr ? programWord.range : word->range, program,
                                             context_.macros->name, match.unknown);
   }
+  if (match.refused != nullptr)
+    return refuse<diag::MacroLettersRefused>(block_.range, program, context_.macros->name,
+                                             fmt::format("{}", fmt::join(match.refused->letters, " and ")),
+                                             match.refused->text.empty() ? "" : ": " + match.refused->text);
   if (!match.missing.empty())
     return refuse<diag::MissingMacroLetter>(block_.range, program, context_.macros->name, match.missing);
   if (match.signature == nullptr)
@@ -53,10 +59,33 @@ bool Lifter::call(std::uint32_t program, const Word& programWord) {
   case stdlib::Intent::ProtectedMove: return protectedMove(*match.signature);
   case stdlib::Intent::Surface:
   case stdlib::Intent::Bore: return measure(*match.signature);
-  case stdlib::Intent::ProbeOn: add(ir::ProbePower{true}); return true;
-  case stdlib::Intent::ProbeOff: add(ir::ProbePower{false}); return true;
+  case stdlib::Intent::ProbeOn:
+  case stdlib::Intent::ProbeOff:
+    for (const Word& word : block_.words)
+      if (const auto* found = match.signature->find(word.address))
+        return refuse<diag::MacroLetterNotTranslated>(word.range, program, word.address,
+                                                      stdlib::roleName(found->role));
+    add(ir::ProbePower{match.signature->intent == stdlib::Intent::ProbeOn});
+    return true;
+  case stdlib::Intent::Boss:
+  case stdlib::Intent::Pocket:
+  case stdlib::Intent::Web:
+  case stdlib::Intent::InnerCorner:
+  case stdlib::Intent::OuterCorner:
+  case stdlib::Intent::Angle:
+  case stdlib::Intent::AngledSurface:
+  case stdlib::Intent::AngledPocket:
+  case stdlib::Intent::AngledWeb:
+  case stdlib::Intent::ThreePointBore:
+  case stdlib::Intent::ThreePointBoss:
+  case stdlib::Intent::BoltCircle:
+  case stdlib::Intent::StockAllowance:
+  case stdlib::Intent::FeatureToFeature:
+  case stdlib::Intent::ToolUpdate:
+  case stdlib::Intent::Calibration: break;
   }
-  return false;
+  return refuse<diag::MacroNotTranslated>(programWord.range, program, context_.macros->name,
+                                          "`" + match.signature->title + "`");
 }
 
 // The argument stands in the call.
@@ -87,8 +116,8 @@ bool Lifter::protectedMove(const stdlib::MacroSignature& signature) {
     else if (found->role == stdlib::ArgumentRole::Feed)
       move.feed = read;
     else
-      return refuse<diag::UnknownMacroLetter>(word.range, signature.program, context_.macros->name,
-                                              word.address);
+      return refuse<diag::MacroLetterNotTranslated>(word.range, signature.program, word.address,
+                                                    stdlib::roleName(found->role));
   }
   add(std::move(move));
   return true;
@@ -122,10 +151,9 @@ bool Lifter::measure(const stdlib::MacroSignature& signature) {
       if (!setting.system) return false;
       sets = true;
       break;
-    case stdlib::ArgumentRole::Feed:
-    case stdlib::ArgumentRole::Overtravel: // the IR does not carry it
-      return refuse<diag::UnknownMacroLetter>(word.range, signature.program, context_.macros->name,
-                                              word.address);
+    default:
+      return refuse<diag::MacroLetterNotTranslated>(word.range, signature.program, word.address,
+                                                    stdlib::roleName(found->role));
     }
   }
   if (sets && system->systemRule == stdlib::SystemRule::Error) {

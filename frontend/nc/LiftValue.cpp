@@ -267,7 +267,7 @@ ir::ExpressionPtr Lifter::variableValue(const Expression& expression, const Vari
   if (!number) return nullptr;
   if (context_.measured != nullptr) {
     for (const stdlib::MacroResult& result : context_.measured->results) {
-      if (result.variable == *number) return ir::result(result.name, expression.range);
+      if (result.variable == *number && result.name) return ir::result(*result.name, expression.range);
     }
   }
   if (context_.macros != nullptr) {

@@ -51,4 +51,10 @@ TEST_CASE("docs/data-files.md names every meaning, intent, role and function tha
   }
   for (int i = 0; i <= static_cast<int>(Intent::ProbeOff); ++i)
     CHECK(named("`" + std::string(intentName(static_cast<Intent>(i))) + "`"));
+  for (int i = 0; i <= static_cast<int>(ArgumentRole::Unstated); ++i)
+    CHECK(named("`" + std::string(roleName(static_cast<ArgumentRole>(i))) + "`"));
+  for (int i = 0; i <= static_cast<int>(Output::ProbeError); ++i)
+    CHECK(named("`" + std::string(outputName(static_cast<Output>(i))) + "`"));
+  for (int i = 0; i <= static_cast<int>(MacroAlarm::UpperLimit); ++i)
+    CHECK(named(macroAlarmName(static_cast<MacroAlarm>(i))));
 }

@@ -73,7 +73,9 @@ TEST_CASE("every built-in macro set loads, and every signature has a grade and a
       CHECK_FALSE(signature.source.empty());
       for (const MacroArgument& argument : signature.arguments) {
         CHECK(std::string("GLNOP").find(argument.letter) == std::string::npos);
-        CHECK(argument.point == !(argument.selector && argument.systemCode == SystemCode::Index));
+        const bool named =
+            argument.role == ArgumentRole::System && argument.systemCode == SystemCode::GNumber;
+        CHECK(argument.point == (named || !argument.selector));
       }
     }
   }
@@ -135,11 +137,9 @@ TEST_CASE("Inspection Plus: facts of the reference") {
   for (const ir::Axis axis : ir::kAxes) {
     const MacroSignature& surface = *set.find(Intent::Surface, axis);
     CHECK(surface.program == 9811);
-    CHECK(surface.arguments.size() == 3);
     CHECK(surface.find(ArgumentRole::Target, axis)->frame == ir::Frame::Work);
     const MacroArgument& system = *surface.find('S');
     CHECK_FALSE(system.required);
-    CHECK(surface.find(ArgumentRole::Overtravel, axis)->letter == 'Q');
     CHECK(system.systemCode == SystemCode::Index);
     CHECK(system.systemRule == SystemRule::Error);
     CHECK_FALSE(system.point);
@@ -151,12 +151,22 @@ TEST_CASE("Inspection Plus: facts of the reference") {
   CHECK(bore.program == 9814);
   CHECK(bore.find('D')->required);
   CHECK(bore.find('S')->systemRule == SystemRule::Error);
-  REQUIRE(bore.results.size() == 3);
-  CHECK(bore.results[2].name == ir::ResultName::Size);
-  CHECK(bore.results[2].variable == 138);
-  CHECK(bore.results[2].documented);
-  CHECK(set.scratch.at(0) == std::pair<std::uint32_t, std::uint32_t>(100, 149));
-  CHECK(set.scratch.at(1) == std::pair<std::uint32_t, std::uint32_t>(500, 517));
+  REQUIRE(bore.find(Output::Size) != nullptr);
+  CHECK(bore.find(Output::Size)->name == ir::ResultName::Size);
+  CHECK(bore.find(Output::Size)->variable == 138);
+  CHECK(bore.find(Output::Size)->documented);
+  // #100 to #149, in pieces of different certainty
+  CHECK(set.scratch.at(0).first == 100);
+  for (std::size_t i = 1; i + 1 < set.scratch.size(); ++i)
+    CHECK(set.scratch[i].first == set.scratch[i - 1].second + 1);
+  CHECK(set.scratch.at(set.scratch.size() - 2).second == 149);
+  CHECK(set.scratch.back() == std::pair<std::uint32_t, std::uint32_t>(500, 517));
+  CHECK(set.overwritten.size() == 2);
+  CHECK(set.probing.overtravel == 10);
+  CHECK(set.probing.radiusX == 500);
+  CHECK(set.find(MacroAlarm::PathObstructed)->number == 86);
+  CHECK_FALSE(set.find(MacroAlarm::OutOfPosition)->number);
+  CHECK(set.find(MacroAlarm::UpperLimit) == nullptr);
 }
 
 TEST_CASE("letters of a call and the signature that they fit") {
@@ -194,14 +204,27 @@ TEST_CASE("letters of a call and the signature that they fit") {
       {"inspection-plus", 9811, "YS", "single surface along Y", 0, "", false},
       {"inspection-plus", 9811, "S", "", 0, "X or Y or Z", false},
       {"inspection-plus", 9811, "", "", 0, "X or Y or Z", false},
-      {"inspection-plus", 9811, "XY", "", 0, "", true},
+      {"inspection-plus", 9811, "XY", "", 0, "", false}, // refused
       {"inspection-plus", 9811, "YQ", "single surface along Y", 0, "", false},
-      {"inspection-plus", 9811, "YT", "", 'T', "", false},
+      {"inspection-plus", 9811, "YB", "", 'B', "", false},
       {"inspection-plus", 9814, "D", "bore", 0, "", false},
       {"inspection-plus", 9814, "DS", "bore", 0, "", false},
       {"inspection-plus", 9814, "S", "", 0, "D", false},
-      {"inspection-plus", 9814, "DZ", "", 'Z', "", false}, // Z makes it a boss
+      {"inspection-plus", 9814, "DZ", "boss, or bore with an island", 0, "", false},
+      {"inspection-plus", 9814, "DR", "", 0, "Z", false}, // R beside the hole: at which height?
+      {"inspection-plus", 9814, "DST", "", 0, "", false}, // refused
+      {"inspection-plus", 9812, "X", "pocket along X", 0, "", false},
+      {"inspection-plus", 9812, "YZRQ", "web along Y, or pocket with an island", 0, "", false},
+      {"inspection-plus", 9820, "ZIJS", "stock allowance on a Z face", 0, "", false},
+      {"inspection-plus", 9820, "ZIK", "", 0, "", true},
+      {"inspection-plus", 9823, "ABCD", "bore by three points", 0, "", false},
+      {"inspection-plus", 9823, "ABD", "", 0, "C", false},
+      {"inspection-plus", 9834, "", "feature to feature: remember", 0, "", false},
+      {"inspection-plus", 9834, "XYHM", "feature to feature: distances in X and Y", 0, "", false},
+      {"inspection-plus", 9843, "XD", "angle of an X face", 0, "", false},
+      {"inspection-plus", 9817, "DE", "", 0, "", false}, // packs disagree: no program of the set
       {"inspection-plus", 9832, "", "probe on", 0, "", false},
+      {"inspection-plus", 9832, "W", "probe on", 0, "", false},
       {"inspection-plus", 9833, "", "probe off", 0, "", false},
       {"inspection-plus", 9833, "W", "", 'W', "", false},
   };
@@ -222,13 +245,19 @@ TEST_CASE("two signatures that fit are ambiguous, and the letters that lack stan
   MacroSet set; // no file can hold this: the loader refuses it
   MacroSignature one;
   one.program = 1;
-  one.arguments.push_back({.letter = 'X', .required = true});
+  const auto argument = [](char letter, bool required) {
+    MacroArgument out;
+    out.letter = letter;
+    out.required = required;
+    return out;
+  };
+  one.arguments.push_back(argument('X', true));
   set.signatures = {one, one};
   CHECK(match(set, 1, "X").ambiguous);
   CHECK(match(set, 1, "X").signature == nullptr);
   set.signatures.pop_back();
-  set.signatures[0].arguments.push_back({.letter = 'Y'});
-  set.signatures[0].arguments.push_back({.letter = 'Z'});
+  set.signatures[0].arguments.push_back(argument('Y', false));
+  set.signatures[0].arguments.push_back(argument('Z', false));
   set.signatures[0].anyOf = "YZ";
   CHECK(match(set, 1, "").missing == "X and (Y or Z)");
 }
@@ -335,4 +364,76 @@ TEST_CASE("defects of a macro set, with line and column") {
   CHECK(setError(signature("probe-on", "") + "[[signature]]\nprogram = 1\ntitle = 'two'\nintent = "
                                              "'probe-off'\ngrade = 'inferred'\nsource = 'x'\n") ==
         "15:11: a call of P1 with no letters means `one` and `two`");
+}
+
+TEST_CASE("letters that exclude each other: the rule that a call breaks") {
+  const MacroSet set = macros("inspection-plus");
+  const auto refused = [&](std::uint32_t program, std::string_view letters) {
+    const RefusedLetters* rule = match(set, program, letters).refused;
+    return rule == nullptr ? std::string() : rule->letters + ":" + rule->text;
+  };
+  CHECK(refused(9811, "XST") == "ST:");
+  CHECK(refused(9814, "DHS") == "SH:");
+  CHECK(refused(9812, "XTM") == "TM:TM INPUT MIXED");
+  CHECK(refused(9811, "XY") == "XY:XY INPUT MIXED");
+  CHECK(refused(9810, "XY") == "");
+  CHECK(refused(9814, "DS") == "");
+}
+
+TEST_CASE("letters and the locals that they set") {
+  CHECK(localOf('A') == 1);
+  CHECK(localOf('D') == 7);
+  CHECK(localOf('K') == 6);
+  CHECK(localOf('Z') == 26);
+  for (const char letter : {'G', 'L', 'N', 'O', 'P', 'a'})
+    CHECK(localOf(letter) == 0);
+  for (char letter = 'A'; letter <= 'Z'; ++letter)
+    if (localOf(letter) != 0) CHECK(letterOfLocal(localOf(letter)) == letter);
+  for (const std::uint32_t local : {0U, 10U, 27U, 33U})
+    CHECK(letterOfLocal(local) == 0);
+}
+
+TEST_CASE("shared arguments and results, alarms, facts of probing: defects with line and column") {
+  const std::string group = "[[arguments]]\nname = 'more'\ngrade = 'inferred'\nsource = 'x'\n" // line 8
+                            "list = [{letter='Q',role='overtravel'}]\n";
+  const std::string use =
+      "[[signature]]\nprogram = 1\ntitle = 'one'\nintent = 'surface'\ngrade = 'inferred'\n"
+      "source = 'x'\narguments = [" + // line 13
+      kX.substr(0, kX.size() - 2) +
+      "]\n";
+  CHECK(setError(kHead + group + use + "groups = ['more']\n") == "");
+  CHECK(setError(kHead + group + use + "groups = ['less']\n") == "20:11: there is no group `less`");
+  CHECK(setError(kHead + group + use) == "8:1: no signature names `more`");
+  CHECK(setError(kHead + group + group + use + "groups = ['more']\n") == "14:8: `more` is given twice");
+  const std::string any =
+      "[[signature]]\nprogram = 1\ntitle = 'one'\nintent = 'probe-on'\ngrade = 'inferred'\n"
+      "source = 'x'\n";
+  const auto alarm = [&](const std::string& list) {
+    return setError(kHead + "[[alarms]]\ngrade = 'inferred'\nsource = 'x'\nlist = [" + list + "]\n" + any);
+  };
+  CHECK(alarm("'probe-fail 93: PROBE FAIL', 'probe-open: PROBE OPEN'") == "");
+  CHECK(alarm("'fail 93: PROBE FAIL'").find("is no alarm") != std::string::npos);
+  CHECK(alarm("'probe-fail 93'").find("is no alarm") != std::string::npos);
+  CHECK(alarm("'probe-fail 9x: A'").find("goes from 0 to 999") != std::string::npos);
+  CHECK(alarm("'probe-fail 93: A', 'probe-fail 94: B'").find("is given twice") != std::string::npos);
+  const std::string certain = "grade = 'inferred'\nsource = 'x'\n";
+  CHECK(setError(kHead + "[probing]\novertravel = 0\n" + certain + any).find("above 0") != std::string::npos);
+  CHECK(
+      setError(kHead + "[stylus]\nradius_x = 500\nlength_to = 'tip'\n" + certain + any).find("go together") !=
+      std::string::npos);
+  CHECK(setError(kHead + any + "[[refused]]\nprograms = [1]\nletters = 'ST'\n" + certain)
+            .find("P1 has no argument `S`") != std::string::npos);
+  // what intents need
+  const auto round = [&](const std::string& intent, const std::string& arguments) {
+    return setError(signature(intent, "arguments = [" + arguments + "]\n"));
+  };
+  const std::string d = "{letter='D',role='diameter',required=true}";
+  CHECK(round("boss", d) == "8:1: a boss has an argument `depth`, which is required");
+  CHECK(round("boss", d + ",{letter='Z',role='depth',required=true}") == "");
+  CHECK(round("pocket", d).starts_with("8:1: a pocket has one width, which is required"));
+  CHECK(round("inner-corner", kX).starts_with("8:1: a corner has targets in X and Y"));
+  CHECK(round("angle", kX) == "8:1: an angle has an argument `spacing`, which is required");
+  CHECK(round("angled-surface", d).starts_with("8:1: an angled surface has an argument `direction`"));
+  CHECK(round("three-point-bore", d)
+            .starts_with("8:1: what three points measure has an argument `first-angle`"));
 }

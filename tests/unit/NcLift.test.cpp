@@ -71,6 +71,28 @@ TEST_CASE("calls that have no single meaning are refused") {
   CHECK(lifted("G65 P9770 Z F5") == "refused: [bare-word]");
 }
 
+TEST_CASE(
+    "letters and calls that the macro set knows and a cycle cannot say are refused, each with what it is") {
+  const char* const plus = "inspection-plus";
+  CHECK(lifted("G65 P9811 Y-1. Q5.", plus) == "refused: [macro-letter-not-translated]");
+  CHECK(pointed("G65 P9811 Y-1. Q5.", plus) == "Q5.");
+  CHECK(message("G65 P9811 Y-1. Q5.", plus).find("`Q` of program `9811` is the overtravel") !=
+        std::string::npos);
+  CHECK(message("G65 P9814 D30. H.1", plus).find("size-tolerance") != std::string::npos);
+  CHECK(lifted("G65 P9814 D30. T5", plus) == "refused: [macro-letter-not-translated]");
+  CHECK(lifted("G65 P9810 Z5. M1", plus) == "refused: [macro-letter-not-translated]");
+  CHECK(lifted("G65 P9832 W1", plus) == "refused: [macro-letter-not-translated]");
+  CHECK(lifted("G65 P9814 D30. Z-5.", plus) == "refused: [macro-not-translated]");
+  CHECK(message("G65 P9814 D30. Z-5.", plus).find("boss") != std::string::npos);
+  CHECK(lifted("G65 P9812 X30.", plus) == "refused: [macro-not-translated]");
+  CHECK(lifted("G65 P9801 K2", plus) == "refused: [macro-not-translated]");
+  CHECK(lifted("G65 P9817 D30. E20.", plus) == "refused: [unknown-macro]");
+  CHECK(lifted("G65 P9814 D30. S1 T5", plus) == "refused: [macro-letters-refused]");
+  CHECK(message("G65 P9811 X1. T5 M.1", plus).find("T and M together") != std::string::npos);
+  CHECK(message("G65 P9811 X1. T5 M.1", plus).find("TM INPUT MIXED") != std::string::npos);
+  CHECK(lifted("G65 P9811 X1. Y1.", plus) == "refused: [macro-letters-refused]");
+}
+
 TEST_CASE("a macro leaves its motion and feed behind") {
   CHECK(lifted("G1 X1. F50\nG65 P9770 Z5.\nX2.") == "refused: [mode-not-known]");
   CHECK(lifted("G1 X1. F50\nG65 P9770 Z5.\nG1 X2.") ==
