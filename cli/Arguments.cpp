@@ -43,6 +43,7 @@ struct Raw {
   bool json = false, quiet = false;
   std::uint32_t maxErrors = 50;
   bool recover = false;
+  bool wholePost = false;
 };
 
 std::pair<std::string, std::string> splitPair(const std::string& flag, const std::string& text) {
@@ -153,6 +154,7 @@ driver::ConvertOptions convertOf(const Raw& raw) {
   out.useDefaults = raw.defaultsMode == "use";
   out.switchProbe = raw.probePower == "macro";
   out.datum = raw.datum;
+  out.wholePost = raw.wholePost;
   return out;
 }
 
@@ -249,7 +251,7 @@ void addConvert(CLI::App& app, Raw& raw) {
   CLI::App* convert = app.add_subcommand(
       "convert", "turn cycles into programs that stay on the control, or programs into those of another");
   convert->add_option("INPUT", raw.inputs, "folders of cycles, files of programs");
-  convert->add_option("--to", raw.to, "language to write: fanuc or mikroprog")->type_name("TARGET");
+  convert->add_option("--to", raw.to, "language to write: fanuc, mikroprog or fusion")->type_name("TARGET");
   addTarget(*convert, raw);
   convert
       ->add_option("--from-control", raw.fromControl,
@@ -283,6 +285,7 @@ void addConvert(CLI::App& app, Raw& raw) {
       ->type_name("g92|operator");
   convert->add_option("--program-number", raw.programNumber, "O number of the program (8000)")
       ->type_name("N");
+  convert->add_flag("--whole-post", raw.wholePost, "with --to fusion: the smallest post around the cycles");
   convert->add_option("--map", raw.mapFile, "write which line comes from where, as JSON")->type_name("FILE");
   CLI::Option* output =
       convert->add_option("-o", raw.output, "write the program to a file")->type_name("OUT");

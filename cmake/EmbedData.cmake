@@ -22,3 +22,13 @@ function(dotek_store_tables output)
     DEPENDS dotek_store
     VERBATIM COMMENT "Storing keyword tables")
 endfunction()
+
+# dotek_embed_text(<input> <output.cpp> <header> <namespace> <function>): one text file as a function that gives it.
+function(dotek_embed_text input output header namespace function)
+  add_custom_command(
+    OUTPUT ${output}
+    COMMAND ${CMAKE_COMMAND} -DINPUT=${CMAKE_SOURCE_DIR}/${input} -DOUTPUT=${output} -DHEADER=${header}
+            -DNAMESPACE=${namespace} -DFUNCTION=${function} -P ${CMAKE_SOURCE_DIR}/cmake/EmbedTextScript.cmake
+    DEPENDS ${CMAKE_SOURCE_DIR}/${input} ${CMAKE_SOURCE_DIR}/cmake/EmbedTextScript.cmake
+    VERBATIM COMMENT "Embedding ${input}")
+endfunction()

@@ -1,3 +1,4 @@
+#include "driver/ConvertFusion.h"
 #include "driver/ConvertMikroprog.h"
 #include "driver/ConvertPrograms.h"
 #include "driver/ConvertValues.h"
@@ -16,6 +17,7 @@
 #include "support/NearestName.h"
 #include "support/messages/Commands.h"
 #include "support/messages/Fanuc.h"
+#include "support/messages/Fusion.h"
 #include "support/messages/Mikroprog.h"
 
 #include <algorithm>
@@ -40,12 +42,14 @@ public:
       toMikroprog();
       return finish();
     }
+    if (options_.to == "fusion" && inputs_) fusion_.emplace(options_, *inputs_, session_);
     for (const Input& input : order_) {
       if (input.isProgram)
         program(options_.inputs[input.index]);
       else
         one(folders_[input.index], input.index);
     }
+    if (fusion_) fusion_->finish(files_, maps_);
     return finish();
   }
 
@@ -80,17 +84,19 @@ private:
                                               "the folder of a cycle or a file of programs");
     if (options_.to.empty())
       diagnostics.report<diag::MissingOption>({}, "convert", "--to TARGET",
-                                              "the language to write: fanuc or mikroprog");
+                                              "the language to write: fanuc, mikroprog or fusion");
     else if (std::find(kTargets.begin(), kTargets.end(), options_.to) == kTargets.end())
       diagnostics.report<diag::UnknownTarget>({}, options_.to);
     if (options_.source.cycle && options_.inputs.size() > 1) diagnostics.report<diag::CycleWithSeveral>({});
-    if (options_.oneFile && options_.inputs.size() > 1)
+    if (options_.to == "fusion") FusionParts::checkOptions(options_, diagnostics);
+    if (options_.wholePost && options_.to == "fanuc") diagnostics.report<diag::WholePostOfControl>({});
+    if (options_.oneFile && options_.inputs.size() > 1 && !options_.wholePost)
       diagnostics.report<diag::OutputForOne>({}, options_.inputs.size());
     readLetters();
     const bool programs = classify();
     const bool cycles = !folderPaths_.empty();
     refuseOptions(options_, programs, cycles, session_);
-    if (programs && mikroprog()) diagnostics.report<diag::ProgramTarget>({}, options_.to);
+    if (programs && options_.to != "fanuc") diagnostics.report<diag::ProgramTarget>({}, options_.to);
     if (diagnostics.hasErrors() || (programs && !programs_.load())) return false;
     if (!cycles) return true;
     // For Mikroprog the control is chosen by the cycle; the profile that is loaded here tells of the source.
@@ -116,7 +122,7 @@ private:
     leaveFindingsToLint(session_);
     if (!mikroprog() && inputs_->job && !inputs_->job->operations.empty())
       diagnostics.report<diag::JobOperationsUnused>(inputs_->job->operations.front().range);
-    return !diagnostics.hasErrors() && (mikroprog() || numbersDiffer());
+    return !diagnostics.hasErrors() && (options_.to != "fanuc" || numbersDiffer());
   }
 
   // Whether there are programs among the inputs.
@@ -182,7 +188,14 @@ private:
     }
     lowered->cycle.name = folder.name;
     applyDefaults(options_.defaults, *lowered, usedDefaults_, session_);
+    std::map<ir::VariableId, double> defaults;
+    for (ir::VariableId id = 0; id < lowered->cycle.variables.size(); ++id)
+      if (const auto value = lowered->cycle.variable(id).defaultValue) defaults.emplace(id, *value);
     settleValues(folder, *lowered, session_);
+    if (fusion_) {
+      if (!session_.diagnostics().hasErrors()) fusion_->add(folder, *lowered, std::move(defaults));
+      return;
+    }
     const stdlib::MacroSet* macros = macrosOf(*lowered);
     if (macros == nullptr || session_.diagnostics().hasErrors()) return;
     for (const auto& [id, value] : lowered->fixed) {
@@ -314,6 +327,7 @@ private:
   std::set<std::string> usedSets_, usedDefaults_, usedLetters_;
   std::vector<OutputFile> files_;
   std::vector<MappedResult> maps_;
+  std::optional<FusionParts> fusion_; // with --to fusion
   bool failed_ = false;
 };
 

@@ -65,7 +65,8 @@ struct ConvertOptions {
   bool switchProbe = false;                                        // --probe-power macro
   bool oneFile = false;                                            // -o: several inputs are an error
   std::optional<std::pair<std::uint64_t, std::uint64_t>> renumber; // first N number of programs, step
-  std::string datum; // --datum of mikroprog: "", "g92" or "operator"
+  std::string datum;      // --datum of mikroprog: "", "g92" or "operator"
+  bool wholePost = false; // --whole-post, of fusion
 };
 
 // From which severity on lint fails.

@@ -168,6 +168,7 @@ bool Lowering::branch(const compost::Routine& routine, FieldTable& fields) {
     break;
   }
   out_.macros = lowered->macros;
+  out_.printed = std::move(lowered->printed);
   return true;
 }
 

@@ -6,6 +6,7 @@
 #include "driver/Session.h"
 #include "frontend/compost/Ast.h"
 #include "ir/Cycle.h"
+#include "ir/PrintedText.h"
 #include "stdlib/Control.h"
 #include "stdlib/Form.h"
 #include "stdlib/MacroSet.h"
@@ -50,6 +51,7 @@ struct LoweredCycle {
   std::map<ir::VariableId, double> fixed;    // by --set, --host, the job
   std::map<std::string, double> fixedByName; // the same, as the command line names them
   std::set<ir::VariableId> givenDefaults;    // defaults that the command line gave
+  std::vector<ir::PrintedBlock> printed;     // what the Prog prints, block by block; empty without a Prog
 };
 
 // `usedSets` collects the names of --set that the cycle knows. nullopt where something has no single meaning:

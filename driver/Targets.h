@@ -6,9 +6,9 @@
 
 namespace dotek::driver {
 
-inline constexpr std::array<std::string_view, 2> kTargets = {"fanuc", "mikroprog"};
+inline constexpr std::array<std::string_view, 3> kTargets = {"fanuc", "mikroprog", "fusion"};
 // What `list targets` says of each.
-inline constexpr std::array<std::string_view, 2> kTargetTexts = {"program that is called with G65",
-                                                                 "program without arguments, for Mikroprog"};
+inline constexpr std::array<std::string_view, 3> kTargetTexts = {
+    "program that is called with G65", "program without arguments, for Mikroprog", "part of a Fusion post"};
 
 } // namespace dotek::driver

@@ -14,6 +14,7 @@ std::span<const MessageInfo> messageTable() {
 #include "support/messages/Commands.def"
 #include "support/messages/Common.def"
 #include "support/messages/Fanuc.def"
+#include "support/messages/Fusion.def"
 #include "support/messages/Gibbs.def"
 #include "support/messages/Lint.def"
 #include "support/messages/MacroB.def"

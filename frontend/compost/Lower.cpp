@@ -80,6 +80,7 @@ std::optional<Lowered> lowerRoutine(const Program& program, const Routine& routi
     if (!nc::lift(block, context, lowered.body)) ok = false;
   }
   if (!ok || run.failed()) return std::nullopt;
+  lowered.printed = run.takePrinted();
   return lowered;
 }
 

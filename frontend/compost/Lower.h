@@ -4,6 +4,7 @@
 
 #include "frontend/compost/Ast.h"
 #include "ir/Cycle.h"
+#include "ir/PrintedText.h"
 #include "stdlib/Control.h"
 #include "stdlib/Form.h"
 #include "stdlib/MacroSet.h"
@@ -35,6 +36,7 @@ struct LowerSettings {
 struct Lowered {
   std::vector<ir::Statement> body;
   const stdlib::MacroSet* macros = nullptr; // the set that the blocks call; nullptr: none
+  std::vector<ir::PrintedBlock> printed;    // the text of the blocks
 };
 
 // What the routine prints for the cycle `cycleId`. nullopt where something has no single

@@ -31,6 +31,41 @@ bool blank(const std::vector<nc::Piece>& line) {
   });
 }
 
+// What stands behind the block number: blanks before it go with it.
+std::string withoutNumber(const std::string& text) {
+  const std::size_t digits = text.find_first_not_of(' ', text.find('N') + 1);
+  const std::size_t behind = std::min(text.find_first_not_of("0123456789", digits), text.size());
+  return text.substr(std::min(text.find_first_not_of(' ', behind), text.size()));
+}
+
+ir::PrintedBlock printedBlock(const std::vector<nc::Piece>& line, bool numbered, const SourceMap& sources) {
+  ir::PrintedBlock out;
+  out.numbered = numbered;
+  for (const nc::Piece& piece : line) {
+    ir::PrintedPiece printed;
+    if (const auto* text = std::get_if<nc::TextPiece>(&piece)) {
+      printed.range = text->range;
+      printed.text = toUtf8(text->text, sources.file(text->range.file).encoding());
+    } else {
+      const auto& hole = std::get<nc::HolePiece>(piece);
+      printed.range = hole.range;
+      printed.name = hole.hole.name;
+      if (const auto* use = std::get_if<ir::VariableUse>(&hole.hole.value->node))
+        printed.variable = use->variable;
+      if (hole.hole.picture != nullptr) printed.picture = *hole.hole.picture;
+    }
+    out.range = out.pieces.empty() ? printed.range : spanning(out.range, printed.range);
+    const bool text = !printed.picture;
+    if (text && !out.pieces.empty() && !out.pieces.back().picture)
+      out.pieces.back().text += printed.text;
+    else
+      out.pieces.push_back(std::move(printed));
+  }
+  // The parser took a number: only blanks, the N and digits stand before the rest.
+  if (numbered) out.pieces.front().text = withoutNumber(out.pieces.front().text);
+  return out;
+}
+
 } // namespace
 
 LowerRun::LowerRun(const Program& program, const std::string& cycleId, const LowerSettings& settings,
@@ -194,7 +229,9 @@ void LowerRun::endLine(SourceRange where) {
     return;
   }
   nc::noteModal(*block, settings_.control, state_.modal);
-  if (!comparing_) blocks_.push_back(std::move(*block));
+  if (comparing_) return;
+  printed_.push_back(printedBlock(line, block->sequenceNumber.has_value(), settings_.sources));
+  blocks_.push_back(std::move(*block));
 }
 
 void LowerRun::word(const Word& word) {

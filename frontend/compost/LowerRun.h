@@ -19,6 +19,8 @@ public:
   void run(const Routine& routine);
   bool failed() const { return failed_; }
   const std::vector<nc::Block>& blocks() const { return blocks_; }
+  // The text of each of blocks().
+  std::vector<ir::PrintedBlock> takePrinted() { return std::move(printed_); }
 
 private:
   // What an untaken side of a condition must not change.
@@ -57,6 +59,7 @@ private:
   State state_;
   std::deque<Picture> commandPictures_; // blocks point into it
   std::vector<nc::Block> blocks_;
+  std::vector<ir::PrintedBlock> printed_;
   std::set<std::string, std::less<>> told_; // words that the form lacks
   std::uint64_t steps_ = 0;
   std::uint64_t bytes_ = 0;

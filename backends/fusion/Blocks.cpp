@@ -1,0 +1,158 @@
+// Blocks: texts of values first, then lines.
+#include "backends/fusion/State.h"
+#include "ir/Fold.h"
+#include "support/Decimal.h"
+#include "support/messages/Fanuc.h"
+#include "support/messages/Fusion.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace dotek::backends::fusion {
+
+namespace {
+
+constexpr int kDecimals = 3; // of the fixed format
+constexpr double kSame = 1e-9;
+
+struct Line {
+  Text text;
+  bool numbered = true;
+  ir::Origin origin;
+};
+
+bool isAscii(std::string_view text) {
+  return std::all_of(text.begin(), text.end(), [](char c) { return c >= ' ' && c <= '~'; });
+}
+
+Line printed(State& state, Texts& texts, const ir::PrintedBlock& block) {
+  Line line;
+  line.numbered = block.numbered;
+  line.origin.ranges = {block.range};
+  for (const ir::PrintedPiece& piece : block.pieces) {
+    if (piece.picture) {
+      texts.picture(line.text, piece, block.range);
+      continue;
+    }
+    if (!isAscii(piece.text)) state.diagnostics.report<diag::FusionNotAscii>(piece.range);
+    line.text.add(piece.text);
+  }
+  return line;
+}
+
+} // namespace
+
+void Text::addExpression(std::string expression) {
+  if (!pending_.empty()) parts_.push_back(quoted(std::exchange(pending_, "")));
+  parts_.push_back(std::move(expression));
+}
+
+std::string Text::expression() const {
+  std::string out;
+  for (const std::string& part : parts_)
+    out += (out.empty() ? "" : " + ") + part;
+  if (!pending_.empty() || out.empty()) out += (out.empty() ? "" : " + ") + quoted(pending_);
+  return out;
+}
+
+void Texts::picture(Text& text, const ir::PrintedPiece& piece, SourceRange block) {
+  const Picture& picture = *piece.picture;
+  const ir::Variable& variable = state_.cycle.variable(piece.variable);
+  if (const auto fixed = state_.options.fixed.find(piece.variable); fixed != state_.options.fixed.end()) {
+    const Picture::Printed shown = picture.print(fixed->second); // one that does not fit was refused
+    if (shown.fit == Picture::Fit::LosesDecimals)
+      state_.diagnostics.report<diag::FusionDigits>(piece.range, piece.name, numberText(fixed->second),
+                                                    shown.text);
+    text.add(shown.text);
+    return;
+  }
+  const std::string key = picture.text() + "\n" + std::to_string(piece.variable);
+  const auto [known, fresh] = known_.emplace(key, "");
+  if (fresh) {
+    ir::Origin origin;
+    origin.ranges = {piece.range, block};
+    const std::string value = state_.name(piece.variable);
+    const std::string arguments = "(" + quoted(picture.text()) + ", " + value + ")";
+    known->second = state_.names.take(value + "Text");
+    state_.script.add("var " + known->second + " = " + state_.helper(Helper::Picture) + arguments + ";",
+                      origin);
+    state_.errorIf(known->second + " === null", variable.name + " does not fit " + picture.text(), origin);
+    state_.script.add(state_.helper(Helper::Loses) + "(" + quoted(variable.name) + ", " + value + ", " +
+                          state_.helper(Helper::Shown) + arguments + ");",
+                      origin);
+    const auto given = state_.options.defaults.find(piece.variable);
+    if (given != state_.options.defaults.end()) {
+      const Picture::Printed shown = picture.print(given->second);
+      if (shown.fit == Picture::Fit::DoesNotFit)
+        state_.diagnostics.report<diag::FusionDoesNotFit>(variable.range, variable.name,
+                                                          numberText(given->second), picture.text());
+      else if (shown.fit == Picture::Fit::LosesDecimals)
+        state_.diagnostics.report<diag::FusionDigits>(
+            variable.range, "the default of `" + variable.name + "`", numberText(given->second), shown.text);
+    }
+  }
+  text.addExpression(known->second);
+}
+
+void Texts::number(Text& text, const ir::ExpressionPtr& given, const ir::Origin& origin) {
+  const ir::ExpressionPtr value = ir::simplify(given);
+  const SourceRange range = value->range.hasPlace() ? value->range : origin.range();
+  if (const double* constant = ir::constantValue(value)) {
+    const Decimal rounded = Decimal::of(*constant).rounded(kDecimals);
+    if (static_cast<int>(rounded.integerPart().size()) > state_.options.control.integerDigits)
+      state_.refuse<diag::NumberTooLarge>(range, numberText(*constant), state_.options.control.integerDigits,
+                                          state_.options.control.title);
+    if (std::abs(rounded.value() - *constant) > kSame)
+      state_.diagnostics.report<diag::NumberRounded>(range, numberText(*constant),
+                                                     numberText(rounded.value()));
+    const std::string digits = numberText(rounded.value());
+    text.add(digits + (digits.find('.') == std::string::npos ? "." : ""));
+    return;
+  }
+  const std::string expression = valueText(state_, value, range);
+  const auto [known, fresh] = known_.emplace(expression, "");
+  if (fresh) {
+    const auto* use = std::get_if<ir::VariableUse>(&value->node);
+    guardArithmetic(state_, value, origin);
+    known->second = state_.names.take(use != nullptr ? expression + "Text" : std::string("text"));
+    const std::string& name = known->second;
+    state_.script.add("var " + name + " = " + state_.helper(Helper::Number) + "(" + expression + ");",
+                      origin);
+    state_.errorIf(name + " === null", expression + " has too many digits for the control", origin);
+    state_.script.add(state_.helper(Helper::Loses) + "(" + quoted(expression) + ", " + expression +
+                          ", Number(" + name + "));",
+                      origin);
+  }
+  text.addExpression(known->second);
+}
+
+void writeBlocks(State& state) {
+  Texts texts(state);
+  MacroBlocks macros(state, texts);
+  std::vector<Line> lines;
+  const auto& blocks = state.options.printed;
+  for (std::size_t i = 0; i < blocks.size(); ++i) {
+    if (!state.options.foreignMacros) {
+      lines.push_back(printed(state, texts, blocks[i]));
+      continue;
+    }
+    std::vector<const ir::Statement*> statements;
+    for (const ir::Statement& statement : state.cycle.body)
+      if (statement.origin.block == i + 1) statements.push_back(&statement);
+    if (statements.empty()) continue; // it says nothing, or nobody reaches it
+    std::vector<Text> own;
+    if (!macros.block(statements, own)) {
+      lines.push_back(printed(state, texts, blocks[i]));
+      continue;
+    }
+    for (Text& text : own)
+      lines.push_back({std::move(text), true, statements.front()->origin});
+  }
+  for (const Line& line : lines)
+    state.script.add((line.numbered ? "writeBlock(" : "writeln(") + line.text.expression() + ");",
+                     line.origin);
+  for (const char* output : {"xOutput", "yOutput", "zOutput", "feedOutput", "gMotionModal"})
+    state.script.add(std::string(output) + ".reset();");
+}
+
+} // namespace dotek::backends::fusion

@@ -1,0 +1,85 @@
+#include "backends/fusion/Emit.h"
+
+#include "backends/fusion/State.h"
+#include "support/messages/Fusion.h"
+
+#include <algorithm>
+
+namespace dotek::backends::fusion {
+
+namespace {
+
+bool isStraight(const ir::Cycle& cycle) {
+  return std::none_of(cycle.body.begin(), cycle.body.end(), [](const ir::Statement& statement) {
+    return std::holds_alternative<ir::Label>(statement.node) ||
+           std::holds_alternative<ir::Jump>(statement.node) ||
+           std::holds_alternative<ir::Branch>(statement.node) ||
+           std::holds_alternative<ir::Assign>(statement.node);
+  });
+}
+
+// Names of parameters before those of hosts and locals, whoever is used first.
+void nameFields(State& state) {
+  for (ir::VariableId id = 0; id < state.cycle.variables.size(); ++id) {
+    const ir::Variable& variable = state.cycle.variable(id);
+    if (variable.role == ir::Role::Parameter) state.named.emplace(id, state.names.take(variable.name));
+  }
+}
+
+} // namespace
+
+State::State(const ir::Cycle& given, const EmitOptions& emitOptions, Diagnostics& report)
+    : cycle(given), options(emitOptions), diagnostics(report), prefix(prefixOf(given.name)) {}
+
+std::optional<std::vector<EmittedLine>> emit(const ir::Cycle& cycle, const EmitOptions& options,
+                                             Diagnostics& diagnostics) {
+  State state(cycle, options, diagnostics);
+  if (options.printed.empty() || !isStraight(cycle)) {
+    state.refuse<diag::FusionNeedsProg>(cycle.range);
+    return std::nullopt;
+  }
+  nameFields(state);
+
+  // The body first: it tells what is read and which helpers are needed.
+  Script rest;
+  const auto body = [&](Script& into) {
+    std::swap(state.script, into);
+    writeChecks(state);
+    writeBlocks(state);
+    std::swap(state.script, into);
+  };
+  rest.indent();
+  body(rest);
+  if (state.failed) return std::nullopt;
+  Script reading;
+  reading.indent();
+  std::swap(state.script, reading);
+  writeReading(state);
+  std::swap(state.script, reading);
+
+  writeHead(state);
+  writeProperties(state);
+  Script& script = state.script;
+  writeHelpers(state);
+  script.add("// Checks the fields, then prints the blocks of the cycle.");
+  script.add("function " + state.prefix + "_write(x, y, z) {");
+  script.append(reading);
+  script.append(rest);
+  script.add("}");
+  script.blank();
+  script.add("// true: the operation is this cycle, and its blocks are printed.");
+  script.open("function " + state.prefix + "_dispatch(x, y, z) {");
+  script.add("switch (currentSection.getProperty(\"dotekCycle\")) {");
+  script.open("case " + quoted(state.prefix) + ":");
+  script.add(state.prefix + "_write(x, y, z);");
+  script.add("return true;");
+  script.close("default:");
+  script.reopen();
+  script.add("return false;");
+  script.close("}");
+  script.close();
+  if (state.failed) return std::nullopt;
+  return script.lines();
+}
+
+} // namespace dotek::backends::fusion

@@ -1,0 +1,56 @@
+// Writes a cycle as a part of a Fusion post: ES5, one function that checks the fields and prints the blocks.
+#pragma once
+
+#include "ir/Cycle.h"
+#include "ir/PrintedText.h"
+#include "stdlib/Control.h"
+#include "stdlib/MacroSet.h"
+#include "support/Diagnostics.h"
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace dotek::backends::fusion {
+
+// A value that a field may have, and what the dialog says of it.
+struct Choice {
+  double value = 0;
+  std::string title; // UTF-8
+};
+
+struct EmitOptions {
+  const stdlib::Control& control; // of the machine that the post writes for: codes, digits
+  const stdlib::MacroSet& macros;
+  // The source calls another set: blocks that move or measure are written anew, the others as the Prog prints
+  // them. Else all are printed as the Prog prints them.
+  bool foreignMacros = false;
+  std::vector<ir::PrintedBlock> printed;     // of the source, as Origin::block counts them
+  std::map<ir::VariableId, double> fixed;    // by --set, --host, the job: printed as they are
+  std::map<std::string, double> fixedByName; // named in the head; a start point that stands here is checked
+  std::map<ir::VariableId, std::vector<Choice>> choices; // of a field that the dialog offers as a list
+  std::map<ir::VariableId, double> defaults; // values of the source, those its checks turn away included
+};
+
+struct EmittedLine {
+  std::string text;                // ASCII, without line end
+  std::vector<SourceRange> ranges; // empty: made up
+  std::string reason;
+};
+
+// "surfaceX" of "surface-x": what each name of the fragment begins with. Letters and digits of ASCII alone; a
+// name without any, or one that begins with a digit, gets "cycle" before it.
+std::string prefixOf(const std::string& cycleName);
+
+// The fragment: head, properties, functions PREFIX_dispatch(x, y, z) and PREFIX_write(x, y, z) with what they
+// need. nullopt where something cannot be said: reported. `cycle` is folded; its body is straight.
+std::optional<std::vector<EmittedLine>> emit(const ir::Cycle& cycle, const EmitOptions& options,
+                                             Diagnostics& diagnostics);
+
+// The smallest post around fragments: header, formats, writeBlock, entry functions. `prefixes` of the
+// fragments, in the order in which their dispatch functions are asked.
+std::vector<EmittedLine> postAround(const std::vector<std::vector<EmittedLine>>& fragments,
+                                    const std::vector<std::string>& prefixes);
+
+} // namespace dotek::backends::fusion

@@ -1,0 +1,515 @@
+// A double of the post kernel: as much of it as the probing part of a post calls, with the rules of
+// docs/fusion.md, "The kernel double". ES5. dotekRun(input) at the end runs one operation.
+
+var MM = 0, IN = 1;
+var X = 0, Y = 1, Z = 2;
+var DEG = 180 / Math.PI;
+var EOL = "\r\n", SP = " ", TAB = "\t";
+var FORMAT_INTEGER = 0, FORMAT_REAL = 1, FORMAT_LZS = 2, FORMAT_TZS = 3;
+var CONTROL_CHANGED = 0, CONTROL_FORCE = 1, CONTROL_NONZERO = 2;
+var TYPE_ABSOLUTE = 0, TYPE_INCREMENTAL = 1, TYPE_DIRECTIONAL = 2;
+var CAPABILITY_MILLING = 1, CAPABILITY_INSPECTION = 8;
+var TOOL_PROBE = 37;
+
+var unit = MM;
+var properties = {};
+var groupDefinitions = {};
+var tool = {};
+var cycle = {};
+var cycleType = "";
+var currentSection;
+
+// ---- number formats -------------------------------------------------------------------------------------
+
+function dotekPower10(exponent) {
+  return Number("1e" + exponent);
+}
+
+// `text` with zeros before it up to `width` characters.
+function dotekPadded(text, width) {
+  while (text.length < width) {
+    text = "0" + text;
+  }
+  return text;
+}
+
+function DotekFormat(specifiers) {
+  var names = ["decimals", "trim", "trimLeadZero", "forceDecimal", "forceSign", "zeropad", "width", "separator",
+    "scale", "offset", "cyclicLimit", "cyclicSign", "prefix", "suffix", "type", "minDigitsLeft",
+    "minDigitsRight", "base", "minimum", "maximum"];
+  var given = specifiers || {};
+  var from = given.inherit;
+  this.decimals = 6;
+  this.trim = true;
+  this.trimLeadZero = false;
+  this.forceDecimal = false;
+  this.forceSign = false;
+  this.zeropad = false;
+  this.width = 0;
+  this.separator = ".";
+  this.scale = 1;
+  this.offset = 0;
+  this.cyclicLimit = 0;
+  this.cyclicSign = 0;
+  this.prefix = "";
+  this.suffix = "";
+  this.type = undefined;
+  this.minDigitsLeft = 0;
+  this.minDigitsRight = 0;
+  this.base = 0;
+  this.minimum = undefined;
+  this.maximum = undefined;
+  for (var i = 0; i < names.length; ++i) {
+    if (from !== undefined) {
+      this[names[i]] = from[names[i]];
+    }
+    if (given[names[i]] !== undefined) {
+      this[names[i]] = given[names[i]];
+    }
+  }
+}
+
+// Digits that the value is rounded to; an integer has none.
+DotekFormat.prototype.dotekDecimals = function () {
+  return this.type === FORMAT_INTEGER ? 0 : this.decimals;
+};
+
+// Units of the last decimal place, a whole number with sign: rounded half away from zero.
+DotekFormat.prototype.dotekUnits = function (value) {
+  var scaled = value * this.scale + this.offset;
+  if (this.cyclicLimit > 0) {
+    scaled = scaled % this.cyclicLimit;
+    if (this.cyclicSign > 0 && scaled < 0) {
+      scaled += this.cyclicLimit;
+    }
+    if (this.cyclicSign < 0 && scaled > 0) {
+      scaled -= this.cyclicLimit;
+    }
+  }
+  var units = Math.floor(Math.abs(scaled) * dotekPower10(this.dotekDecimals()) + 0.5);
+  return scaled < 0 && units !== 0 ? -units : units;
+};
+
+DotekFormat.prototype.getResultingValue = function (value) {
+  return Number(this.dotekUnits(value) + "e-" + this.dotekDecimals());
+};
+DotekFormat.prototype.getError = function (value) {
+  return value * this.scale + this.offset - this.getResultingValue(value);
+};
+DotekFormat.prototype.isSignificant = function (value) {
+  return this.dotekUnits(value) !== 0;
+};
+DotekFormat.prototype.areDifferent = function (a, b) {
+  return this.dotekUnits(a) !== this.dotekUnits(b);
+};
+DotekFormat.prototype.getMinimumValue = function () {
+  return Number("1e-" + this.dotekDecimals());
+};
+
+DotekFormat.prototype.format = function (value) {
+  if (typeof value !== "number" || !isFinite(value)) {
+    throw new Error("format: " + value + " is no number");
+  }
+  var decimals = this.dotekDecimals();
+  var units = this.dotekUnits(value);
+  var digits = dotekPadded(String(Math.abs(units)), decimals + 1);
+  var whole = digits.substring(0, digits.length - decimals);
+  var fraction = digits.substring(digits.length - decimals);
+  var sign = units < 0 ? "-" : this.forceSign ? "+" : "";
+  var text;
+  if (this.type === FORMAT_LZS || this.type === FORMAT_TZS) {
+    // Without a point; zeros of one side are dropped.
+    text = whole + fraction;
+    text = this.type === FORMAT_LZS ? text.replace(/^0+/, "") : text.replace(/0+$/, "");
+    return this.prefix + sign + (text === "" ? "0" : text) + this.suffix;
+  }
+  var keepTrailing = this.type === undefined ? !this.trim : false;
+  if (!keepTrailing) {
+    fraction = fraction.replace(/0+$/, "");
+  }
+  while (fraction.length < this.minDigitsRight) {
+    fraction += "0";
+  }
+  if (this.type !== undefined) {
+    whole = dotekPadded(whole, this.minDigitsLeft);
+  } else if (this.zeropad) {
+    whole = dotekPadded(whole, this.width);
+  }
+  var point = fraction !== "" || (this.type === undefined ? this.forceDecimal : this.type === FORMAT_REAL);
+  if (this.trimLeadZero && whole === "0" && fraction !== "") {
+    whole = "";
+  }
+  return this.prefix + sign + whole + (point ? this.separator : "") + fraction + this.suffix;
+};
+
+(function () {
+  // getScale, setScale and their like.
+  var accessors = {NumberOfDecimals: "decimals", Trim: "trim", TrimLeadZero: "trimLeadZero",
+    ForceDecimal: "forceDecimal", ForceSign: "forceSign", ZeroPad: "zeropad", Width: "width",
+    DecimalSymbol: "separator", Scale: "scale", Offset: "offset", Prefix: "prefix", Suffix: "suffix",
+    Type: "type", MinDigitsLeft: "minDigitsLeft", MinDigitsRight: "minDigitsRight"};
+  function add(name, member) {
+    DotekFormat.prototype["get" + name] = function () {
+      return this[member];
+    };
+    DotekFormat.prototype["set" + name] = function (value) {
+      this[member] = value;
+    };
+  }
+  for (var name in accessors) {
+    if (accessors.hasOwnProperty(name)) {
+      add(name, accessors[name]);
+    }
+  }
+}());
+
+function createFormat(specifiers) {
+  return new DotekFormat(specifiers);
+}
+
+// ---- variables: when a word is printed ------------------------------------------------------------------
+
+// kind: "variable", "modal", "reference", "incremental" or "output".
+function DotekVariable(kind, specifiers, format) {
+  var given = specifiers || {};
+  this.kind = kind;
+  this.formatter = format;
+  this.prefix = given.prefix;
+  this.suffix = given.suffix;
+  this.control = given.control === undefined ? CONTROL_CHANGED : given.control;
+  if (given.force) {
+    this.control = CONTROL_FORCE;
+  }
+  this.type = given.type === undefined ? TYPE_ABSOLUTE : given.type;
+  if (kind === "incremental") {
+    this.type = TYPE_INCREMENTAL;
+  }
+  this.tolerance = given.tolerance || 0;
+  this.onchange = given.onchange;
+  this.enabled = true;
+  this.stored = kind === "incremental" ? given.first : given.current;
+}
+
+DotekVariable.prototype.dotekWord = function (value) {
+  var replaces = this.prefix !== undefined && (this.kind === "modal" || this.kind === "output");
+  var plain = this.formatter.format(value);
+  var own = replaces ? this.formatter.getPrefix() : "";
+  return (this.prefix === undefined ? "" : this.prefix) + plain.substring(own.length) +
+    (this.suffix === undefined ? "" : this.suffix);
+};
+
+DotekVariable.prototype.dotekSame = function (a, b) {
+  return a !== undefined && b !== undefined &&
+    (!this.formatter.areDifferent(a, b) || Math.abs(a - b) < this.tolerance);
+};
+
+DotekVariable.prototype.format = function (value, reference) {
+  var before = this.stored;
+  var shown = value;
+  var same;
+  this.stored = value;
+  if (this.kind === "reference") {
+    same = this.dotekSame(value, reference);
+  } else if (this.type === TYPE_INCREMENTAL) {
+    shown = value - (before === undefined ? 0 : before);
+    same = !this.formatter.isSignificant(shown);
+  } else if (this.control === CONTROL_NONZERO) {
+    same = !this.formatter.isSignificant(value);
+  } else {
+    same = this.dotekSame(value, before);
+  }
+  if (!this.enabled || (same && this.control !== CONTROL_FORCE)) {
+    return "";
+  }
+  if (this.onchange !== undefined) {
+    this.onchange();
+  }
+  if (this.type === TYPE_DIRECTIONAL && before !== undefined && value < before) {
+    return this.dotekWord(-Math.abs(value));
+  }
+  return this.dotekWord(shown);
+};
+DotekVariable.prototype.reset = function () {
+  if (this.type !== TYPE_INCREMENTAL) {
+    this.stored = undefined;
+  }
+};
+DotekVariable.prototype.disable = function () {
+  this.enabled = false;
+};
+DotekVariable.prototype.getCurrent = function () {
+  return this.stored;
+};
+DotekVariable.prototype.setPrefix = function (prefix) {
+  this.prefix = prefix;
+};
+
+function createVariable(specifiers, format) {
+  return new DotekVariable("variable", specifiers, format);
+}
+function createModal(specifiers, format) {
+  return new DotekVariable("modal", specifiers, format);
+}
+function createReferenceVariable(specifiers, format) {
+  return new DotekVariable("reference", specifiers, format);
+}
+function createIncrementalVariable(specifiers, format) {
+  return new DotekVariable("incremental", specifiers, format);
+}
+function createOutputVariable(specifiers, format) {
+  var out = new DotekVariable("output", specifiers, format);
+  out.enable = function () {
+    this.enabled = true;
+  };
+  out.isEnabled = function () {
+    return this.enabled;
+  };
+  out.setCurrent = function (value) {
+    this.stored = value;
+  };
+  out.setControl = function (control) {
+    this.control = control;
+  };
+  out.setType = function (type) {
+    this.type = type;
+  };
+  out.setFormat = function (other) {
+    this.formatter = other;
+  };
+  out.getResultingValue = function (value) {
+    return this.formatter.getResultingValue(value);
+  };
+  out.areDifferent = function (a, b) {
+    return this.formatter.areDifferent(a, b);
+  };
+  out.isSignificant = function (value) {
+    return this.formatter.isSignificant(value);
+  };
+  return out;
+}
+
+function DotekModalGroup(specifiers, groups, format) {
+  this.given = specifiers || {};
+  this.groups = groups;
+  this.formatter = format;
+  this.active = [];
+}
+DotekModalGroup.prototype.format = function (code) {
+  for (var i = 0; i < this.groups.length; ++i) {
+    if (this.groups[i].indexOf(code) < 0) {
+      continue;
+    }
+    if (this.active[i] === code && !this.given.force) {
+      return "";
+    }
+    this.active[i] = code;
+    return this.formatter.format(code);
+  }
+  if (this.given.strict) {
+    throw new Error("modal group: no code " + code);
+  }
+  return this.formatter.format(code);
+};
+DotekModalGroup.prototype.reset = function () {
+  this.active = [];
+};
+function createModalGroup(specifiers, groups, format) {
+  return new DotekModalGroup(specifiers, groups, format);
+}
+
+// ---- text -----------------------------------------------------------------------------------------------
+
+var dotekState = {text: "", buffer: null, separator: " ", eol: "\n", errors: [], warnings: [], log: [],
+  afterError: false, told: {}};
+
+function write(text) {
+  if (dotekState.buffer !== null) {
+    dotekState.buffer += text;
+    return;
+  }
+  if (dotekState.errors.length > 0) {
+    dotekState.afterError = true;
+  }
+  dotekState.text += text;
+}
+function writeln(text) {
+  write((text === undefined ? "" : text) + dotekState.eol);
+}
+
+// Non-empty words of nested arrays and argument lists, in order.
+function dotekFlat(list, out) {
+  for (var i = 0; i < list.length; ++i) {
+    var one = list[i];
+    if (one === undefined || one === null || one === "") {
+      continue;
+    }
+    if (typeof one === "object" && one.length !== undefined) {
+      dotekFlat(one, out);
+    } else {
+      out.push(String(one));
+    }
+  }
+  return out;
+}
+function formatWords() {
+  return dotekFlat(arguments, []).join(dotekState.separator);
+}
+function writeWords() {
+  var text = formatWords(arguments);
+  if (text !== "") {
+    writeln(text);
+  }
+}
+function writeWords2(first) {
+  var rest = Array.prototype.slice.call(arguments, 1);
+  if (formatWords(rest) !== "") {
+    writeWords(first, rest);
+  }
+}
+function setWordSeparator(separator) {
+  dotekState.separator = separator;
+}
+function setEOL(eol) {
+  dotekState.eol = eol;
+}
+function conditional(condition, text) {
+  return condition ? text : "";
+}
+function subst(text) {
+  for (var i = arguments.length - 1; i > 0; --i) {
+    text = text.split("%" + i).join(String(arguments[i]));
+  }
+  return text;
+}
+function localize(text) {
+  return text;
+}
+function redirectToBuffer() {
+  dotekState.buffer = "";
+}
+function getRedirectionBuffer() {
+  return dotekState.buffer;
+}
+function closeRedirection() {
+  dotekState.buffer = null;
+}
+
+// Whether the kernel stops a script here is unproven: the double goes on and tells what was written behind.
+function error(text) {
+  dotekState.errors.push(String(text));
+}
+function warning(text) {
+  dotekState.warnings.push(String(text));
+}
+function warningOnce(text, id) {
+  if (!dotekState.told[id]) {
+    dotekState.told[id] = true;
+    warning(text);
+  }
+}
+function log(text) {
+  dotekState.log.push(String(text));
+}
+function validate(condition, text) {
+  if (!condition) {
+    throw new Error(text === undefined ? "validation failed" : text);
+  }
+}
+function cycleNotSupported() {
+  throw new Error("the cycle `" + cycleType + "` is not supported");
+}
+function setCodePage() {
+}
+
+// ---- units, angles, properties --------------------------------------------------------------------------
+
+function toRad(degrees) {
+  return degrees / DEG;
+}
+function toDeg(radians) {
+  return radians * DEG;
+}
+function toPreciseUnit(value, given) {
+  return given === unit ? value : unit === MM ? value * 25.4 : value / 25.4;
+}
+// The kernel's rule for round defaults: 25 mm an inch.
+function spatial(value, given) {
+  return given === unit ? value : unit === MM ? value * 25 : value / 25;
+}
+function toUnit(value, given) {
+  return spatial(value, given);
+}
+
+var dotekValues = {};
+
+function getProperty(name, otherwise) {
+  if (dotekValues.hasOwnProperty(name)) {
+    return dotekValues[name];
+  }
+  var property = properties[name];
+  if (property === undefined) {
+    return otherwise;
+  }
+  return typeof property === "object" && property !== null ? property.value : property;
+}
+function setProperty(name, value) {
+  dotekValues[name] = value;
+}
+
+// ---- running one operation ------------------------------------------------------------------------------
+
+// input: {unit, properties: {name: value}, points: [[x, y, z]], tool, cycle, cycleType, entry: function name}.
+// With `entry`, that function alone is called for each point; else the entry functions of a post in their
+// order. Gives {text, errors, warnings, afterError, failure}.
+function dotekRun(input) {
+  var global = (function () {
+    return this;
+  }()) || globalThis;
+  var failure = "";
+  function call(name, list) {
+    if (typeof global[name] === "function") {
+      global[name].apply(null, list || []);
+    }
+  }
+  unit = input.unit === undefined ? MM : input.unit;
+  dotekValues = input.properties || {};
+  tool = input.tool || {};
+  cycle = input.cycle || {};
+  cycleType = input.cycleType || "";
+  currentSection = {
+    workOffset: 1,
+    probeWorkOffset: 1,
+    strategy: "probe",
+    getTool: function () {
+      return tool;
+    },
+    getProperty: getProperty,
+    getId: function () {
+      return 0;
+    },
+    getNumberOfCyclePoints: function () {
+      return input.points.length;
+    }
+  };
+  try {
+    if (input.entry === undefined) {
+      call("onMachine");
+      call("onOpen");
+      call("onSection");
+      call("onCycle");
+    }
+    for (var i = 0; i < input.points.length; ++i) {
+      call(input.entry === undefined ? "onCyclePoint" : input.entry, input.points[i]);
+    }
+    if (input.entry === undefined) {
+      call("onCycleEnd");
+      call("onSectionEnd");
+      call("onClose");
+      call("onTerminate");
+    }
+  } catch (thrown) {
+    failure = String(thrown);
+  }
+  return {text: dotekState.text, errors: dotekState.errors.join("\n"), warnings: dotekState.warnings.join("\n"),
+    afterError: dotekState.afterError, failure: failure};
+}

@@ -1,0 +1,156 @@
+// What the parts of the back end share while they write one fragment.
+#pragma once
+
+#include "backends/fusion/Script.h"
+
+#include <set>
+#include <string_view>
+
+namespace dotek::backends::fusion {
+
+// Private functions of a fragment that stand in it only where they are called.
+enum class Helper : std::uint8_t {
+  IsNumber,
+  Digits,  // of Picture
+  Picture, // text of a value in a picture
+  Shown,   // value that a picture prints
+  Number,  // text of a value in the fixed format
+  Loses,   // a warning where the text says another value
+  Truncate,
+  RoundUp,
+  Round,
+  Divide,
+  Modulo,
+  SquareRoot,
+  Sine,
+  Cosine,
+  Tangent,
+  ArcSine,
+  ArcCosine,
+  ArcTangent,
+  Direction,
+  Logarithm,
+  Bits,
+};
+
+struct State {
+  State(const ir::Cycle& given, const EmitOptions& emitOptions, Diagnostics& report);
+
+  template <class Id, class... Args> Diagnostic& refuse(SourceRange range, const Args&... args) {
+    failed = true;
+    return diagnostics.report<Id>(range, args...);
+  }
+  // PREFIX_name of a helper, which the fragment then holds.
+  std::string helper(Helper which);
+  // The host input, which is added where the cycle does not know it.
+  ir::VariableId host(std::string_view name);
+  // The name of a variable in the function; parameters and hosts that are asked for are read at its
+  // beginning.
+  const std::string& name(ir::VariableId id);
+  // `error(localize(..)); return;` where `condition` holds.
+  void errorIf(const std::string& condition, std::string_view text, const ir::Origin& origin);
+
+  ir::Cycle cycle; // a copy: hosts are added
+  const EmitOptions& options;
+  Diagnostics& diagnostics;
+  std::string prefix;
+  LocalNames names;
+  std::map<ir::VariableId, std::string> named;
+  std::set<ir::VariableId> read; // parameters and hosts that the function reads
+  std::set<Helper> helpers;
+  Script script; // the part that is being written
+  bool failed = false;
+};
+
+// ---- Expressions.cpp ----
+
+// The value in JavaScript; an operand of another operator gets brackets. What a control alone knows is
+// refused.
+std::string valueText(State& state, const ir::ExpressionPtr& value, SourceRange range, bool operand = false);
+std::string conditionText(State& state, const ir::ConditionPtr& condition, SourceRange range);
+// Before a statement that computes: an error where arithmetic has no result.
+void guardArithmetic(State& state, const ir::ExpressionPtr& value, const ir::Origin& origin);
+void guardArithmetic(State& state, const ir::ConditionPtr& condition, const ir::Origin& origin);
+
+// ---- Checks.cpp ----
+
+// The checks of the cycle: if where they are structured, else a switch in a loop.
+void writeChecks(State& state);
+
+// ---- Blocks.cpp ----
+
+// The texts of all values first, so that nothing is written before the last error; then the blocks.
+void writeBlocks(State& state);
+
+// Pieces of a block on their way to one string expression.
+class Text {
+public:
+  void add(std::string_view literal) { pending_ += literal; }
+  void addExpression(std::string expression);
+  std::string expression() const;
+
+private:
+  std::vector<std::string> parts_;
+  std::string pending_;
+};
+
+// A value that blocks print: its text is computed once, checked, and kept in a variable.
+class Texts {
+public:
+  explicit Texts(State& state) : state_(state) {}
+  // The variable that holds the text of a variable in a picture; of a fixed one the text, quoted by `add`.
+  void picture(Text& text, const ir::PrintedPiece& piece, SourceRange block);
+  // The text of a value in the fixed format: three decimals, always a point.
+  void number(Text& text, const ir::ExpressionPtr& value, const ir::Origin& origin);
+
+private:
+  State& state_;
+  std::map<std::string, std::string> known_; // what is printed -> variable
+};
+
+// ---- MacroBlocks.cpp ----
+
+// Blocks of another macro set than the source's.
+class MacroBlocks {
+public:
+  MacroBlocks(State& state, Texts& texts);
+  // The lines that stand for the statements of one block; false: the Prog's own text does.
+  bool block(const std::vector<const ir::Statement*>& statements, std::vector<Text>& lines);
+
+private:
+  struct Place {
+    ir::ExpressionPtr value; // work coordinate; null pointer: not known
+  };
+  void move(const ir::Move& move, const ir::Origin& origin, std::vector<Text>& lines);
+  void measure(const ir::Measure& measure, const ir::Origin& origin, std::vector<Text>& lines);
+  void call(const stdlib::MacroSignature& signature,
+            const std::vector<std::pair<const stdlib::MacroArgument*, ir::ExpressionPtr>>& arguments,
+            const ir::Origin& origin, std::vector<Text>& lines);
+  void code(stdlib::Function function, std::string_view what, const ir::Origin& origin, Text& text);
+  void store(const ir::Store& store, const ir::Origin& origin, std::vector<Text>& lines);
+  void switchProbe(bool on, std::vector<Text>& lines);
+  bool otherCode(const ir::Statement& statement, Text& text);
+  bool requireNominal(const ir::Measure& measure, const ir::Origin& origin);
+  // The coordinate in the frame that the macro wants; null pointer: refused.
+  ir::ExpressionPtr place(const ir::Coordinate& coordinate, ir::Axis axis, ir::Frame wanted,
+                          const ir::Origin& origin);
+  void moved(const ir::Move& move);
+
+  State& state_;
+  Texts& texts_;
+  Place at_[3];
+  const ir::Measure* last_ = nullptr; // measurement whose results stand
+};
+
+// ---- Properties.cpp ----
+
+void writeHead(State& state);
+void writeProperties(State& state);
+// Where the function begins: fields, host inputs.
+void writeReading(State& state);
+
+// ---- Helpers.cpp ----
+
+void writeHelpers(State& state);
+
+} // namespace dotek::backends::fusion

@@ -1,0 +1,15 @@
+// node fusion-run.js KERNEL POST PREFIX JSON: runs a whole post on the kernel's double, prints NC text and errors.
+// JSON: {"properties": .., "points": .., "tool": .., "cycle": ..}
+"use strict";
+const fs = require("fs");
+const vm = require("vm");
+const [kernel, post, prefix, json] = process.argv.slice(2);
+vm.runInThisContext(fs.readFileSync(kernel, "utf8"));
+vm.runInThisContext(fs.readFileSync(post, "utf8"));
+const input = JSON.parse(json);
+input.properties = Object.assign({dotekCycle: prefix}, input.properties);
+const result = vm.runInThisContext("dotekRun")(input);
+process.stdout.write(result.text);
+if (result.errors !== "") console.log("error: " + result.errors);
+if (result.failure !== "") console.log("failure: " + result.failure);
+if (result.afterError) console.log("defect: written behind an error");
