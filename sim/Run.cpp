@@ -301,15 +301,19 @@ template <bool kDecimal8, bool kWatched> bool Run::execute() {
       if (!put(number(at->a) / divisor)) return overflow();
       break;
     }
-    case Op::Sine: put(ir::sine(number(at->a), AngleUnit::Degrees).value); break;
-    case Op::Cosine: put(ir::cosine(number(at->a), AngleUnit::Degrees).value); break;
+    case Op::Sine:
+      if (!put(ir::sine(number(at->a), AngleUnit::Degrees).value)) return overflow();
+      break;
+    case Op::Cosine:
+      if (!put(ir::cosine(number(at->a), AngleUnit::Degrees).value)) return overflow();
+      break;
     case Op::SquareRoot: {
       const double a = number(at->a);
       if (a < 0) {
         leave();
         return fail(ArithmeticError::Domain, false, false);
       }
-      put(std::sqrt(a));
+      if (!put(std::sqrt(a))) return overflow();
       break;
     }
     case Op::Unary: {

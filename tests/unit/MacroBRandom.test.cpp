@@ -194,6 +194,8 @@ TEST_CASE("random macro b: the slow evaluator and the machine agree") {
       ++refusals[machine.refusal];
       continue;
     }
+    // The two count their steps in different ways.
+    if (slow.ending == SlowStop::Kind::Budget || machine.outcome.ending == SlowStop::Kind::Budget) continue;
     ++compared;
     const std::string what = difference(slow, machine.outcome);
     if (what.empty()) continue;

@@ -185,6 +185,13 @@ TEST_CASE("decimal8: the nearest number of eight digits, half away from zero") {
   CHECK_FALSE(sim::fitsDecimal8(1.1e47));
 }
 
+TEST_CASE("decimal8: the result of a function that does not fit is alarm 111, no stale value") {
+  for (const std::string function : {"SIN[#1]", "SQRT[#3]", "COS[#1]*#1*#1"})
+    CHECK(MacroRun("#1=.0000001*.0000001*.0000001*.0000001\n#3=#1\n#2=5\n#2=" + function + "\n",
+                   controlOf("fanuc-0i-md"))
+              .end() == (function.starts_with("SQRT") ? "end" : "alarm 111"));
+}
+
 TEST_CASE("run, reference 1.6: words of computed values") {
   const auto at = [](const std::string& blocks) { return MacroRun("G90G0\n" + blocks).trace; };
   CHECK(at("#1=12.3456\nX#1\n").starts_with("rapid X12.346000"));

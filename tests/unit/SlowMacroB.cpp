@@ -372,6 +372,8 @@ private:
     made.repeats = repeatsOf(repeats);
     if (call.kind == macrob::CallKind::AfterMoves) {
       if (frame.macroDepth > 0) leftOpen("G66 in a macro");
+      if (modals_.size() >= static_cast<std::size_t>(setup_.macroLevels))
+        leftOpen("how many G66 are in force at most");
       modals_.push_back(made);
       return at + 1;
     }
