@@ -171,7 +171,8 @@ private:
       const stdlib::MacroSignature* surface = set.find(stdlib::Intent::Surface);
       const stdlib::MacroArgument* system =
           surface == nullptr ? nullptr : surface->find(stdlib::ArgumentRole::System, ir::Axis::X);
-      if (surface == nullptr || (system != nullptr && system->required)) continue;
+      // Macros that need something set first are taken on demand alone.
+      if (surface == nullptr || (system != nullptr && system->required) || !set.needs.empty()) continue;
       session_.diagnostics().report<diag::MacroSetChosen>({}, lowered.cycle.name, set.name);
       return &set;
     }
