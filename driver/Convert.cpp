@@ -58,7 +58,7 @@ private:
 
   Outcome finish() {
     if (inputs_) reportUnknownNames();
-    filesDiffer();
+    if (!session_.diagnostics().hasErrors()) filesDiffer();
     if (session_.diagnostics().hasErrors()) return refuse();
     keepStrongest(session_.diagnostics());
     std::string text;
@@ -171,8 +171,9 @@ private:
       const stdlib::MacroSignature* surface = set.find(stdlib::Intent::Surface);
       const stdlib::MacroArgument* system =
           surface == nullptr ? nullptr : surface->find(stdlib::ArgumentRole::System, ir::Axis::X);
-      // Macros that need something set first are taken on demand alone.
-      if (surface == nullptr || (system != nullptr && system->required) || !set.needs.empty()) continue;
+      if (surface == nullptr || (system != nullptr && system->required)) continue;
+      // A vendor's set before one whose text has to be brought along.
+      if (session_.data().find("macrob", set.name) != nullptr) continue;
       session_.diagnostics().report<diag::MacroSetChosen>({}, lowered.cycle.name, set.name);
       return &set;
     }
