@@ -1,5 +1,7 @@
 // Our own macros on G31: their text, run on parts of exact geometry.
 #include "tests/unit/OwnMacros.h"
+#include "driver/Driver.h"
+#include "tests/GoldenRunner.h"
 
 #include <cstdio>
 
@@ -281,4 +283,16 @@ TEST_CASE("own macros: alarms") {
   CHECK(open.run("X1.5Y0Z0", "G65P8811X20.").end() == "alarm 3093");
   CHECK(open.last->machine->position()[0] == doctest::Approx(1.5));
   CHECK(open.last->at(149) == "2");
+}
+
+TEST_CASE("own macros: lint finds nothing, on both controls") {
+  for (const char* control : {"fanuc-0i-md", "fanuc-31i-b"}) {
+    driver::LintOptions lint;
+    lint.paths = {(root() / "stdlib/macrob/dotek.nc").generic_string()};
+    lint.control = control;
+    const driver::Outcome outcome = driver::lint(lint);
+    CHECK_MESSAGE(outcome.output.empty(), outcome.output);
+    CHECK(outcome.status == 0);
+    CHECK(outcome.diagnostics.all().empty());
+  }
 }
