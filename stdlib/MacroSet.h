@@ -237,6 +237,8 @@ struct MacroSet {
   std::vector<RefusedLetters> refused;
   std::vector<MacroAlarmInfo> alarms; // each once
   ProbingFacts probing;
+  std::string needs; // what is set before the first call, as a program's header says it; "": nothing
+  bool needsSkipPosition = false; // the macros read the skip position of the control
 
   bool calls(std::uint32_t program) const;
   // Signatures of the program.

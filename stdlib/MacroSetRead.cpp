@@ -50,6 +50,7 @@ public:
     set_.title = root_.require("title", "what lists print").text();
     for (const TomlTable& table : root_.require("scratch", "tables of variables").tables())
       scratch(table);
+    caller();
     probing();
     for (const TomlTable& table : root_.value("alarms").tables())
       alarms(table);
@@ -111,6 +112,17 @@ private:
     }
     set_.scratch.emplace_back(first, last);
     if (table.value("overwritten").flag()) set_.overwritten.emplace_back(first, last);
+  }
+
+  void caller() {
+    const TomlValue value = root_.value("caller");
+    if (!value) return;
+    const TomlTable table = value.table();
+    origin(table);
+    if (const TomlValue needs = table.value("needs")) set_.needs = needs.text();
+    set_.needsSkipPosition = table.value("skip_position").flag();
+    if (set_.needs.empty() && !set_.needsSkipPosition)
+      document_.fail(table.range(), "nothing is needed: leave the table out");
   }
 
   void probing() {

@@ -95,6 +95,8 @@ std::optional<std::vector<EmittedLine>> emit(const ir::Cycle& cycle, const EmitO
   auto arguments = assignLetters(cycle, options, diagnostics);
   if (!arguments) return std::nullopt;
   State state(cycle, options, sources, diagnostics, std::move(*arguments));
+  if (state.macros.needsSkipPosition && !state.control.variables.skip && probes(cycle))
+    state.refuse<diag::NoSkipPosition>(cycle.range, "macros of " + state.macros.title, state.control.title);
   state.guards = findGuards(state.control);
   state.moving = movingVariables(state.cycle);
   checkMachineVariables(state);

@@ -184,6 +184,7 @@ private:
     put(Guard::Unchecked, "CALIBRATED PROBE IN THE SPINDLE");
     if (!checked.empty()) say("THE CALLER PROVIDES, ELSE AN ALARM: " + checked);
     say("THE CALLER PROVIDES, NOT CHECKED: " + unchecked);
+    if (!state_.macros.needs.empty()) say("SET BEFORE THE FIRST CALL: " + state_.macros.needs);
     std::string starts;
     for (const ir::Axis axis : ir::kAxes) {
       const auto id = state_.findHost(std::string("start_") + static_cast<char>('x' + ir::indexOf(axis)));

@@ -5,6 +5,7 @@
 #include "support/Decimal.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace dotek::backends::fanuc {
 
@@ -153,15 +154,22 @@ void writeArguments(State& state) {
 void writeStarts(State& state) {
   const auto first = state.control.variables.blockEnd;
   const auto used = usedVariables(state.cycle);
+  bool waits = false; // the caller's own moves may still be under way
+  const auto wait = [&] {
+    if (!std::exchange(waits, true)) writeWait(state, made("waits until the axes stand"));
+  };
   for (const ir::Axis axis : ir::kAxes) {
     const int i = static_cast<int>(ir::indexOf(axis));
     const std::string name = std::string("start_") + static_cast<char>('x' + i);
     if (!first) continue;
     if (const auto id = state.findHost(name);
-        id && !state.isArgument(*id) && (used.contains(*id) || state.locals.contains(*id)))
+        id && !state.isArgument(*id) && (used.contains(*id) || state.locals.contains(*id))) {
+      wait();
       state.sheet.add(state.local(*id) + "=#" + std::to_string(*first + i), made("start of the cycle"));
+    }
     const auto fixed = state.options.fixed.find(name);
     if (fixed == state.options.fixed.end()) continue;
+    wait();
     const ir::ExpressionPtr away =
         ir::unary(ir::UnaryOp::Absolute, minus(systemVariable(*first + i), ir::constant(fixed->second)));
     alarmIf(state, ir::compare(ir::Relation::Greater, away, ir::constant(kSamePlace)),

@@ -421,6 +421,8 @@ TEST_CASE("shared arguments and results, alarms, facts of probing: defects with 
   CHECK(
       setError(kHead + "[stylus]\nradius_x = 500\nlength_to = 'tip'\n" + certain + any).find("go together") !=
       std::string::npos);
+  CHECK(setError(kHead + "[caller]\nneeds = '#520'\n" + certain + any) == "");
+  CHECK(setError(kHead + "[caller]\n" + certain + any).find("nothing is needed") != std::string::npos);
   CHECK(setError(kHead + any + "[[refused]]\nprograms = [1]\nletters = 'ST'\n" + certain)
             .find("P1 has no argument `S`") != std::string::npos);
   // what intents need
