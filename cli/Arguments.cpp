@@ -177,6 +177,7 @@ void fill(const Raw& raw, Arguments& parsed) {
   parsed.sim.control = raw.control;
   parsed.sim.json = raw.json;
   parsed.sim.programs = raw.programs;
+  if (!raw.probeMacros.empty()) parsed.sim.probeMacros = raw.probeMacros;
   for (const std::string& text : raw.variables)
     parsed.sim.variables.push_back(splitPair("--var", text));
   parsed.sarif = raw.format == "sarif";
@@ -334,6 +335,9 @@ void addSim(CLI::App& app, Raw& raw) {
   sim->add_option("--programs", raw.programs, "folder of programs that can be called")
       ->type_name("DIR")
       ->allow_extra_args(false);
+  sim->add_option("--probe-macros", raw.probeMacros,
+                  "set of probing macros that calls without a program mean (all)")
+      ->type_name("SET");
   sim->add_flag("--quiet", raw.quiet, "no trace");
   sim->add_flag("--json", raw.json, "print how the run ended as JSON, and no trace");
   sim->add_option("--trace", raw.traceFile, "write the trace to a file")->type_name("OUT");

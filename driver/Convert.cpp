@@ -58,7 +58,7 @@ private:
 
   Outcome finish() {
     if (inputs_) reportUnknownNames();
-    filesDiffer();
+    if (!session_.diagnostics().hasErrors()) filesDiffer();
     if (session_.diagnostics().hasErrors()) return refuse();
     keepStrongest(session_.diagnostics());
     std::string text;
@@ -172,6 +172,8 @@ private:
       const stdlib::MacroArgument* system =
           surface == nullptr ? nullptr : surface->find(stdlib::ArgumentRole::System, ir::Axis::X);
       if (surface == nullptr || (system != nullptr && system->required)) continue;
+      // A vendor's set before one whose text has to be brought along.
+      if (session_.data().find("macrob", set.name) != nullptr) continue;
       session_.diagnostics().report<diag::MacroSetChosen>({}, lowered.cycle.name, set.name);
       return &set;
     }

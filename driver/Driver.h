@@ -100,7 +100,9 @@ struct SimOptions {
   std::string control;               // "": the first
   NamedTexts variables;              // --var N=VALUE
   std::vector<std::string> programs; // --programs DIR: what can be called beside the programs of the file
-  bool json = false;                 // the output is the summary as JSON
+  // --probe-macros: the set of vendors' macros that runs by its meaning; nothing: all.
+  std::optional<std::string> probeMacros;
+  bool json = false; // the output is the summary as JSON
   // Takes the trace while the program runs, in pieces of whole lines. Empty: no trace is made.
   std::function<void(std::string_view)> trace;
 };

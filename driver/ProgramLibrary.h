@@ -8,6 +8,7 @@
 #include <deque>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace dotek::driver {
@@ -17,6 +18,8 @@ public:
   // Of `folders` each file O1234, or with the end .nc or .NC, in the order of the names. nullopt: reported.
   static std::optional<ProgramLibrary> load(FileId main, const std::vector<std::string>& folders,
                                             const stdlib::Control& control, Session& session);
+  // Further programs that can be called; of one number the first stays.
+  void addCallable(ir::ProgramFile file, Session& session) { add(std::move(file), false, session); }
   // The main program first; of each number one. They live as long as this object.
   std::vector<const ir::Program*> programs() const;
 

@@ -2,6 +2,7 @@
 #include "driver/Driver.h"
 #include "driver/ProgramLibrary.h"
 #include "driver/Session.h"
+#include "driver/SimMacros.h"
 #include "driver/SimReport.h"
 #include "frontend/nc/Scan.h"
 #include "sim/Arguments.h"
@@ -107,13 +108,15 @@ private:
                        session_.sources(), diagnostics())
              : session_.read(options_.program, Encoding::Cp1250);
     if (!id) return session_.finish("");
-    const std::optional<ProgramLibrary> library =
-        ProgramLibrary::load(*id, options_.programs, *control_, session_);
+    std::optional<ProgramLibrary> library = ProgramLibrary::load(*id, options_.programs, *control_, session_);
     if (!library) return session_.finish("");
+    const std::unique_ptr<SimMacros> macros =
+        SimMacros::load(options_.probeMacros, *control_, *library, session_);
+    if (!macros) return session_.finish("");
     const sim::Bytecode code = sim::compile(library->programs(), *control_, session_.sources());
     std::optional<sim::Trace> trace;
     if (options_.trace) machine.setTrace(&trace.emplace(options_.trace));
-    sim::Run run(machine, code, session_.limits());
+    sim::Run run(machine, code, session_.limits(), macros.get());
     run.run();
     machine.setTrace(nullptr);
     if (trace) traceVariables(machine, *trace);

@@ -89,7 +89,10 @@ public:
       if (const nc::Assignment* assignment = assignmentOf(block)) counters(*assignment);
     for (const Block& block : program_.blocks) {
       if (!std::holds_alternative<Unread>(block.body)) depth(block);
-      walk(block, [&](const Expression& expression, bool) { function(expression); });
+      walk(block, [&](const Expression& expression, bool) {
+        function(expression);
+        digits(expression);
+      });
       if (const Condition* condition = conditionOf(block)) {
         joined(*condition, true);
         compare(*condition);
@@ -123,6 +126,16 @@ private:
       context_.report<diag::BracketsTooDeep>({block.range.file, place, place + 1}, most);
       return;
     }
+  }
+
+  // Zeros before the first digit count as well, `.5` has one digit.
+  void digits(const Expression& expression) {
+    const auto* number = std::get_if<nc::Number>(&expression.node);
+    if (number == nullptr || control() == nullptr) return;
+    const auto count = std::count_if(number->digits.begin(), number->digits.end(),
+                                     [](char c) { return c >= '0' && c <= '9'; });
+    if (count > static_cast<std::ptrdiff_t>(control()->digits))
+      context_.report<diag::NumberDigits>(expression.range, count, control()->title, control()->digits);
   }
 
   // ---- functions

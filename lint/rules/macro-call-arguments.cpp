@@ -28,7 +28,7 @@ void checkCall(const macrob::Words& words, const Project& project, Report& repor
     }
     if (!mayBeOf(set, program, all)) return;
     const stdlib::SignatureMatch match = stdlib::match(set, program, letters);
-    if (match.ambiguous)
+    if (match.ambiguous || match.refused != nullptr)
       report.at(call->program->range,
                 "`{}` measures one thing at a time, and the letters {} of this call belong to "
                 "several; the macro stops with an alarm; write a call for each",

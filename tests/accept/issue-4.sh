@@ -41,3 +41,44 @@ for file in O10 O30 O50 O500; do
 done
 dotek lint "$pocket"/*.ocr.nc
 check "without a control nothing is said of points" bash -c '! grep -q without-point' < <(findings)
+
+# ---- the machine
+nc() { printf '%%\nO1\n%s\n%%\n' "$1" >"$scratch/p.nc"; }
+nc $'#1=0\nWHILE[#1LT5]DO1\n#1=#1+1\nEND1\n#500=#1*2\nM30'
+dotek sim "$scratch/p.nc" --control fanuc-31i-b
+check "sim: a loop counts" says "variable 500 10.000000"
+nc $'N1GOTO1'
+dotek sim "$scratch/p.nc" --limit sim-steps=100000
+check "sim: a program that never ends stops at its limit" says "sim-steps"
+check "sim: and fails" hasStatus 1
+nc $'#500=1/#1'
+dotek sim "$scratch/p.nc"
+check "sim: null divides as 0" says "112"
+nc $'IF[#1EQ0]GOTO9\n#500=1\nN9IF[#1EQ#0]THEN#501=1\nM30'
+dotek sim "$scratch/p.nc"
+check "sim: null is not 0 for EQ" says "variable 500 1.000000" "variable 501 1.000000"
+mkdir -p "$scratch/lib"
+printf '%%\nO9010\n#510=#1+#4\nM99\n%%\n' >"$scratch/lib/O9010.nc"
+nc $'G65P9010A1.I2.\nM30'
+dotek sim "$scratch/p.nc" --programs "$scratch/lib" --json
+check "sim: a call finds its program" says '"510": 3'
+
+# ---- programs into programs
+for source in "$ram"/O9050-excerpt.nc "$pocket"/O{10,30,50}.ocr.nc; do
+  case $source in
+    "$ram"/*) profile=fanuc-31i-b ;;
+    *) profile=fanuc-6m ;;
+  esac
+  dotek convert "$source" --to fanuc --control "$profile"
+  check "convert $(basename "$source") for its own control" hasStatus 0
+  cp "$out" "$scratch/once.nc"
+  dotek convert "$scratch/once.nc" --to fanuc --control "$profile"
+  check "convert $(basename "$source"): the result again is the same" diff "$scratch/once.nc" "$out"
+  for number in $(grep -oE '^/?N *[0-9]+' "$source" | tr -dc '0-9\n'); do
+    check "convert $(basename "$source"): N$number is still there" grep -qE "^/?N0*$((10#$number))([^0-9]|\$)" "$scratch/once.nc"
+  done
+done
+nc $'GOTO#1\nN5M30'
+dotek dump "$scratch/p.nc" --stage ir
+check "a computed GOTO is not structured, and says why" says "not structured"
+finish

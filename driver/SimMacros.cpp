@@ -1,0 +1,90 @@
+#include "driver/SimMacros.h"
+
+#include "driver/Programs.h"
+#include "sim/Machine.h"
+#include "support/Files.h"
+#include "support/messages/Commands.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace dotek::driver {
+namespace {
+
+// Numbers that the programs call and that none of them has.
+std::set<std::uint32_t> missing(const ProgramLibrary& library) {
+  std::set<std::uint32_t> out;
+  const std::vector<const ir::Program*> programs = library.programs();
+  for (const ir::Program* program : programs) {
+    for (const ir::Statement& statement : program->body) {
+      const auto* call = std::get_if<ir::Call>(&statement.node);
+      const double* number = call != nullptr && call->program ? ir::constantValue(call->program) : nullptr;
+      if (number != nullptr && *number >= 1 && *number < 1e8)
+        out.insert(static_cast<std::uint32_t>(std::lround(*number)));
+    }
+  }
+  for (const ir::Program* program : programs)
+    if (program->number <= UINT32_MAX) out.erase(static_cast<std::uint32_t>(program->number));
+  return out;
+}
+
+} // namespace
+
+std::unique_ptr<SimMacros> SimMacros::load(const std::optional<std::string>& chosen,
+                                           const stdlib::Control& control, ProgramLibrary& library,
+                                           Session& session) {
+  auto out = std::make_unique<SimMacros>();
+  const std::set<std::uint32_t> called = missing(library);
+  if (called.empty() && !chosen) return out;
+  std::vector<std::string> names;
+  for (const stdlib::DataFile* file : session.data().list("macros")) {
+    names.push_back(file->name);
+    if (chosen && file->name != *chosen) continue;
+    std::optional<stdlib::MacroSet> set = stdlib::MacroSet::load(session.data(), file->name);
+    if (set) out->sets_.push_back(std::move(*set));
+  }
+  if (chosen && out->sets_.empty()) {
+    session.diagnostics().report<diag::UnknownMacroSet>({}, *chosen,
+                                                        fmt::format("{}", fmt::join(names, ", ")));
+    return nullptr;
+  }
+  for (const stdlib::MacroSet& set : out->sets_) {
+    const stdlib::DataFile* text = session.data().find("macrob", set.name);
+    if (text == nullptr) {
+      out->meanings_.emplace_back(set, control);
+      continue;
+    }
+    const bool wanted =
+        std::any_of(called.begin(), called.end(), [&](std::uint32_t program) { return set.calls(program); });
+    if (!wanted) continue;
+    const std::optional<FileId> id =
+        addText("macrob/" + set.name + ".nc", std::string(text->text), Encoding::Utf8, std::nullopt,
+                session.sources(), session.diagnostics());
+    std::optional<ir::ProgramFile> file;
+    if (id) file = loadPrograms(*id, control, session);
+    if (!file) return nullptr;
+    library.addCallable(std::move(*file), session);
+  }
+  return out;
+}
+
+bool SimMacros::knows(std::uint32_t program) const {
+  return std::any_of(meanings_.begin(), meanings_.end(),
+                     [&](const sim::VendorMacros& one) { return one.knows(program); });
+}
+
+bool SimMacros::run(sim::Machine& machine, std::uint32_t program, std::span<const double> locals) {
+  sim::VendorMacros* found = nullptr;
+  for (sim::VendorMacros& one : meanings_) {
+    if (!one.knows(program)) continue;
+    if (found != nullptr)
+      return machine.inconclusive(
+          fmt::format("several sets of probing macros have O{}; `--probe-macros SET` says which", program));
+    found = &one;
+  }
+  return found->run(machine, program, locals);
+}
+
+} // namespace dotek::driver

@@ -1,0 +1,36 @@
+// The probing macros that a run may call: by their text, where Dotek has it, else by their meaning.
+#pragma once
+
+#include "driver/ProgramLibrary.h"
+#include "driver/Session.h"
+#include "sim/VendorMacros.h"
+#include "stdlib/Control.h"
+#include "stdlib/MacroSet.h"
+
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace dotek::driver {
+
+class SimMacros final : public sim::MacroMeaning {
+public:
+  // `chosen`: the only set that counts; nothing: all. nullptr: there is no such set, reported. Sets with a
+  // text give it to the library where one of its programs calls them and has no program of that number.
+  static std::unique_ptr<SimMacros> load(const std::optional<std::string>& chosen,
+                                         const stdlib::Control& control, ProgramLibrary& library,
+                                         Session& session);
+
+  bool knows(std::uint32_t program) const override;
+  // Several sets that know the program: inconclusive.
+  bool run(sim::Machine& machine, std::uint32_t program, std::span<const double> locals) override;
+
+private:
+  std::vector<stdlib::MacroSet> sets_;
+  std::deque<sim::VendorMacros> meanings_; // of the sets without a text
+};
+
+} // namespace dotek::driver
