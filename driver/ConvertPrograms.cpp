@@ -74,9 +74,8 @@ bool ProgramConversion::load() {
 
 bool ProgramConversion::translateCalls(ir::ProgramFile& file) {
   if (wanted_ == nullptr) return true;
-  return std::all_of(file.programs.begin(), file.programs.end(), [&](ir::Program& program) {
-    return fanuc::translateCalls(program, *wanted_, sets_, session_.diagnostics());
-  });
+  return fanuc::translateCalls(file, {*wanted_, sets_, *source_, options_.programNumber},
+                               session_.diagnostics());
 }
 
 std::optional<ConvertedFile> ProgramConversion::convert(const std::string& path) {

@@ -2,9 +2,12 @@
 #pragma once
 
 #include "ir/Program.h"
+#include "stdlib/Control.h"
 #include "stdlib/MacroSet.h"
 #include "support/Diagnostics.h"
 
+#include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace dotek::backends::fanuc {
@@ -14,9 +17,15 @@ namespace dotek::backends::fanuc {
 const stdlib::MacroSet* calledSet(const ir::ProgramFile& file, const std::vector<stdlib::MacroSet>& sets,
                                   const ir::Statement** mixed = nullptr);
 
-// Calls of the program become those of `wanted`. Today a program that calls another set is refused; one that
-// calls `wanted`, or no probing macro, stays. False where it was refused: reported.
-bool translateCalls(ir::Program& program, const stdlib::MacroSet& wanted,
-                    const std::vector<stdlib::MacroSet>& sets, Diagnostics& diagnostics);
+struct CallOptions {
+  const stdlib::MacroSet& wanted;
+  const std::vector<stdlib::MacroSet>& sets; // all that are known
+  const stdlib::Control& control;            // that the programs are written for
+  std::optional<std::uint32_t> number;       // of the one program of the file, in place of its own
+};
+
+// Calls of the file become those of `wanted`, and reads of their results follow. A file that calls `wanted`,
+// or no probing macro, stays. False where something was refused: reported at its place.
+bool translateCalls(ir::ProgramFile& file, const CallOptions& options, Diagnostics& diagnostics);
 
 } // namespace dotek::backends::fanuc

@@ -95,21 +95,10 @@ private:
                                expression->range);
   }
 
-  // The constant that a computed number begins with: 2000 of #[2000+#7].
-  static std::optional<std::uint32_t> baseOf(const ir::ExpressionPtr& number) {
-    const auto* sum = std::get_if<ir::Binary>(&number->node);
-    if (sum == nullptr || (sum->op != ir::BinaryOp::Add && sum->op != ir::BinaryOp::Subtract))
-      return std::nullopt;
-    if (const auto left = wholeOf(sum->left)) return left;
-    if (sum->op == ir::BinaryOp::Add)
-      if (const auto right = wholeOf(sum->right)) return right;
-    return baseOf(sum->left);
-  }
-
   void computed(const ir::ExpressionPtr& number) {
     if (context_.same()) return;
     const SourceRange range = number->range.hasPlace() ? number->range : statement_->origin.range();
-    const auto base = baseOf(number);
+    const auto base = firstNumber(number);
     const bool system = base && *base >= kFirstSystem;
     const bool same = sameVariables(context_.from(), context_.to());
     const bool known = system && (variableThere(*base, context_.from(), context_.to()).number ||

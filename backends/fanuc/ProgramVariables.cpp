@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <fmt/format.h>
 
 namespace dotek::backends::fanuc {
@@ -224,6 +225,21 @@ VariableThere variableThere(std::uint32_t number, const Control& from, const Con
         fmt::format("is {} on {}; the profile of {} has no variable for it", what, from.title, to.title),
         what);
   return {there, what, ""};
+}
+
+std::optional<std::uint32_t> firstNumber(const ir::ExpressionPtr& number) {
+  const auto whole = [](const ir::ExpressionPtr& side) -> std::optional<std::uint32_t> {
+    const double* value = ir::constantValue(side);
+    if (value == nullptr || *value < 0 || *value > 99999999) return std::nullopt;
+    return static_cast<std::uint32_t>(std::lround(*value));
+  };
+  const auto* sum = std::get_if<ir::Binary>(&number->node);
+  if (sum == nullptr || (sum->op != ir::BinaryOp::Add && sum->op != ir::BinaryOp::Subtract))
+    return std::nullopt;
+  if (const auto left = whole(sum->left)) return left;
+  if (sum->op == ir::BinaryOp::Add)
+    if (const auto right = whole(sum->right)) return right;
+  return firstNumber(sum->left);
 }
 
 } // namespace dotek::backends::fanuc

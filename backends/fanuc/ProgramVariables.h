@@ -1,6 +1,7 @@
 // What the numbers of variables mean on two controls. Private to Program*.cpp.
 #pragma once
 
+#include "ir/Expression.h"
 #include "stdlib/Control.h"
 
 #include <cstdint>
@@ -21,6 +22,9 @@ VariableThere variableThere(std::uint32_t number, const stdlib::Control& from, c
 bool sameVariables(const stdlib::Control& from, const stdlib::Control& to);
 // Every local and common variable of the source is one of the target, kept as long.
 bool holdsVariablesOf(const stdlib::Control& to, const stdlib::Control& from);
+
+// The constant that a computed number counts from: 2000 of #[2000+#7]. nullopt: none.
+std::optional<std::uint32_t> firstNumber(const ir::ExpressionPtr& number);
 
 // "#1 to #33, #100 to #149"
 std::string variableRanges(const stdlib::Control& control);
