@@ -2,8 +2,10 @@
 #include "backends/fanuc/Program.h"
 #include "backends/fanuc/ProgramCalls.h"
 #include "frontend/macrob/Lower.h"
+#include "sim/VendorMacros.h"
 #include "stdlib/DataFiles.h"
-#include "tests/unit/MacroBHelper.h"
+#include "tests/unit/ContactWorld.h"
+#include "tests/unit/RunHarness.h"
 
 #include <doctest/doctest.h>
 #include <fmt/format.h>
@@ -148,4 +150,30 @@ TEST_CASE("calls of another set: calls that two sets know belong to none") {
   // The one that is wanted is taken.
   CHECK(translate("G65P9811X1.S1\nM99\n", {macros("easyprobe"), macros("inspection-plus"), twin}, 2)
             .codes.empty());
+}
+
+TEST_CASE("calls of another set: both programs set the same offset on the same part") {
+  const std::string source = "G90G54G0X2.Y1.Z-1.\n#1=20.\n#2=3\nG65P9811X#1S#2\nG65P9811Z-9.S4\nM30\n";
+  const auto run = [](const std::string& text, const char* set) {
+    const stdlib::Control control = *stdlib::Control::load(stdlib::DataFiles(), "fanuc-0i-md");
+    const stdlib::MacroSet known = macros(set);
+    sim::VendorMacros meaning(known, control);
+    meaning.setStylusRadius(3);
+    tests::ContactWorld world(3);
+    world.wall(20.3, 0, 180);
+    world.halfSpace({0, 0, -8.75}, {0, 0, 1});
+    const tests::MacroRun done("O1\n" + text, control, &world, &meaning);
+    return fmt::format("{} {:.3f} {:.3f}", done.end(), done.machine->read(5261).value_or(-1),
+                       done.machine->read(5283).value_or(-1));
+  };
+  const std::string expected = run(source, "inspection-plus");
+  CHECK(expected == "end 0.300 0.250");
+  const std::vector<stdlib::MacroSet> sets = {macros("dotek"), macros("easyprobe"),
+                                              macros("inspection-plus")};
+  for (std::size_t wanted = 0; wanted < 2; ++wanted) {
+    const Translated out = translate(source, sets, wanted);
+    CAPTURE(out.text);
+    CHECK(out.text.find("P98") == std::string::npos);
+    CHECK(run(out.text, sets[wanted].name.c_str()) == expected);
+  }
 }
