@@ -188,7 +188,7 @@ TEST_CASE("decimal8: the nearest number of eight digits, half away from zero") {
 TEST_CASE("decimal8: the result of a function that does not fit is alarm 111, no stale value") {
   for (const std::string function : {"SIN[#1]", "SQRT[#3]", "COS[#1]*#1*#1"})
     CHECK(MacroRun("#1=.0000001*.0000001*.0000001*.0000001\n#3=#1\n#2=5\n#2=" + function + "\n",
-                   controlOf("fanuc-0i-md"))
+                   dotek::tests::controlOf("fanuc-0i-md"))
               .end() == (function.starts_with("SQRT") ? "end" : "alarm 111"));
 }
 
