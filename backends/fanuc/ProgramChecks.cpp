@@ -150,6 +150,7 @@ private:
   // ---- numbers and functions
 
   void expression(const ir::Expression& node) {
+    digitsKept(node);
     if (const auto* constant = std::get_if<ir::Constant>(&node.node)) return digits(*constant, node);
     if (const auto* unary = std::get_if<ir::Unary>(&node.node)) {
       const std::string_view key = functionKey(unary->op);
@@ -172,6 +173,30 @@ private:
                std::holds_alternative<ir::MeasuredResult>(node.node)) {
       notOfPrograms("a variable of a cycle");
     }
+  }
+
+  // Told once: results that one control rounds and the other does not.
+  void digitsKept(const ir::Expression& node) {
+    if (context_.to().arithmetic == context_.from().arithmetic || arithmeticTold_) return;
+    if (const auto* unary = std::get_if<ir::Unary>(&node.node)) {
+      using Op = ir::UnaryOp;
+      const bool exact = unary->op == Op::Negate || unary->op == Op::NullAsZero || unary->op == Op::Absolute;
+      if (exact) return;
+    } else if (const auto* binary = std::get_if<ir::Binary>(&node.node)) {
+      // A counter is the same on both.
+      const bool sum = binary->op == ir::BinaryOp::Add || binary->op == ir::BinaryOp::Subtract;
+      const double* step = ir::constantValue(binary->right);
+      if (sum && step != nullptr && *step == std::floor(*step)) return;
+    } else {
+      return;
+    }
+    arithmeticTold_ = true;
+    const auto kept = [](const stdlib::Control& control) {
+      return control.arithmetic == stdlib::Arithmetic::Decimal8 ? "eight digits" : "fifteen digits";
+    };
+    context_.diagnostics.report<diag::ArithmeticElsewhere>(placeOf(node), context_.from().title,
+                                                           kept(context_.from()), context_.to().title,
+                                                           kept(context_.to()));
   }
 
   static bool isArithmetic(ir::BinaryOp op) {
@@ -263,6 +288,7 @@ private:
   const ProgramContext& context_;
   const ir::Statement* statement_ = nullptr;
   bool outputTold_ = false;
+  bool arithmeticTold_ = false;
 };
 
 } // namespace

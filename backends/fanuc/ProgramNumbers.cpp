@@ -20,6 +20,40 @@ bool isNumbered(const ir::ProgramLabel& label) {
   return label.number != 0 || !label.digits.empty();
 }
 
+// Which programs a statement calls, by a call or by a code of `[[calls]]`.
+struct Called {
+  std::vector<std::uint64_t> programs;
+  bool computed = false;
+};
+
+Called calledBy(const ir::Statement& statement, const stdlib::Control& control) {
+  Called out;
+  if (const auto* call = std::get_if<ir::Call>(&statement.node); call && call->kind != ir::CallKind::Off) {
+    if (const auto number = wholeOf(call->program)) {
+      const bool repeats = call->kind == ir::CallKind::Subprogram && !call->repeats && *number > 9999;
+      out.programs.push_back(repeats && control.repeatInProgram ? *number % 10000 : *number);
+    } else {
+      out.computed = true;
+    }
+  }
+  if (const auto* block = std::get_if<ir::NcBlock>(&statement.node)) {
+    for (const ir::Word& word : block->words) {
+      for (const stdlib::CallCode& code : control.callCodes) {
+        if (word.address != code.letter) continue;
+        const auto number = wholeOf(word.value);
+        if (code.letter == 'T')
+          out.programs.push_back(code.program);
+        else if (!number)
+          for (std::uint32_t i = 0; i < code.count; ++i)
+            out.programs.push_back(code.program + i);
+        else if (*number >= code.first && *number - code.first < code.count)
+          out.programs.push_back(code.program + (*number - code.first));
+      }
+    }
+  }
+  return out;
+}
+
 std::string digitsOf(const ir::ProgramLabel& label) {
   return label.digits.empty() ? std::to_string(label.number) : label.digits;
 }
@@ -83,11 +117,10 @@ void ProgramNumbers::renumber() {
     const auto* exit = std::get_if<ir::Exit>(&statement.node);
     if (exit != nullptr && exit->block && !wholeOf(exit->block))
       diagnostics.report<diag::RenumberComputed>(range, "M99 P");
-    const auto* call = std::get_if<ir::Call>(&statement.node);
-    if (call != nullptr && call->kind != ir::CallKind::Off) {
-      const auto number = wholeOf(call->program);
-      callsOut = callsOut || !number || onlyProgram(*number) == nullptr;
-    }
+    const Called called = calledBy(statement, context_.from());
+    callsOut = callsOut || called.computed ||
+               std::any_of(called.programs.begin(), called.programs.end(),
+                           [&](std::uint64_t number) { return onlyProgram(number) == nullptr; });
     const std::optional<int>& words = context_.from().variables.modalWords;
     ir::eachNode(statement, [&](const ir::Expression& node) {
       const auto* machine = std::get_if<ir::MachineVariable>(&node.node);
@@ -175,17 +208,17 @@ void ProgramNumbers::findCallers() {
   for (const ir::Program& caller : file_.programs) {
     bool calls = false;
     for (const ir::Statement& statement : caller.body) {
-      const auto* call = std::get_if<ir::Call>(&statement.node);
-      if (call == nullptr || call->kind == ir::CallKind::Off) continue;
-      const auto program = wholeOf(call->program);
-      callers_->open = callers_->open || !program;
-      calls = calls || (program && *program == program_.number && program_.number != 0);
+      const Called called = calledBy(statement, context_.from());
+      callers_->open = callers_->open || called.computed;
+      calls = calls || (program_.number != 0 &&
+                        std::count(called.programs.begin(), called.programs.end(), program_.number) != 0);
     }
     if (!calls) continue;
     std::map<std::uint64_t, std::uint64_t>& now = callers_->numbers.emplace_back();
     for (const auto& [id, number] :
          renumbered(caller, context_.options.renumber->first, context_.options.renumber->second))
-      now.emplace(caller.labels[id].number, number);
+      // Of two blocks with one number the place of the call decides: 0, it is not followed.
+      if (!now.emplace(caller.labels[id].number, number).second) now[caller.labels[id].number] = 0;
   }
 }
 

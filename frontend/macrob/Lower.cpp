@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstddef>
 #include <map>
+#include <string_view>
 #include <utility>
 
 namespace dotek::frontend::macrob {
@@ -281,6 +282,29 @@ private:
   std::size_t at_ = 0;
 };
 
+// The control stops reading at a `%` behind the first block: blocks behind it belong to no program before it.
+void reportMarks(const File& file, const SourceMap& sources, Diagnostics& diagnostics) {
+  const std::string_view bytes = sources.file(file.file).bytes();
+  std::optional<std::uint32_t> last; // behind the last block or header
+  const auto markBefore = [&](const SourceRange& next) -> std::optional<SourceRange> {
+    if (!last || next.begin <= *last) return std::nullopt;
+    const std::size_t at = bytes.substr(*last, next.begin - *last).find('%');
+    if (at == std::string_view::npos) return std::nullopt;
+    const auto place = static_cast<std::uint32_t>(*last + at);
+    return SourceRange{file.file, place, place + 1};
+  };
+  for (const Program& program : file.programs) {
+    if (program.name) {
+      if (const auto at = markBefore(program.name->range)) diagnostics.report<diag::TextBehindEnd>(*at);
+      last = program.comments.empty() ? program.name->range.end : program.comments.back().range.end;
+    }
+    for (const Block& block : program.blocks) {
+      if (const auto at = markBefore(block.range)) diagnostics.report<diag::BlocksBehindEnd>(*at);
+      last = block.range.end;
+    }
+  }
+}
+
 } // namespace
 
 std::optional<ir::ProgramFile> lower(const File& file, const stdlib::Control& control,
@@ -297,6 +321,7 @@ std::optional<ir::ProgramFile> lower(const File& file, const stdlib::Control& co
     diagnostics.report<diag::LegendNotRun>(legend);
   if (fails || !file.legends.empty()) return std::nullopt;
   Diagnostics refused;
+  reportMarks(file, sources, refused);
   ir::ProgramFile out{file.markFirst, file.markLast, {}};
   for (const Program& program : file.programs)
     out.programs.push_back(ProgramLowering(program, control, refused).run());

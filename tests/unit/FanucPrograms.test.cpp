@@ -103,6 +103,16 @@ TEST_CASE("macro B programs: THEN and joined conditions on a control without the
   CHECK(old("IF[[#1EQ1]OR[SQRT[#2]EQ2]]GOTO5\nN5\n") == "joined-elsewhere");
 }
 
+TEST_CASE("macro B programs: another count of digits is told, once, where it matters") {
+  const auto told = [](const std::string& text, const std::string& to) {
+    return convert("O1\n" + text, "fanuc-31i-b", to).told;
+  };
+  CHECK(told("#1=#2/3\nIF[#1*3EQ#2]GOTO5\nN5M30\n", "fanuc-0i-md") == "arithmetic-elsewhere");
+  CHECK(told("#1=SIN[#2]\n", "fanuc-0i-md") == "arithmetic-elsewhere");
+  CHECK(told("#1=#1+1\n#2=-#1\nG0X#1Y[ABS[#2]]\n", "fanuc-0i-md") == "");
+  CHECK(told("#1=#2/3\n", "fanuc-31i-b") == "");
+}
+
 TEST_CASE("macro B programs: variables under their numbers on the other control") {
   CHECK(blocks("#5242=#5242+1.\n", "fanuc-0i-md", "fanuc-6m") == "#2602=#2602+1.\n");
   CHECK(blocks("#1=#2503\n", "fanuc-6m", "fanuc-0i-md") == "#1=#5261\n");

@@ -119,3 +119,14 @@ TEST_CASE("macro B lowering: what the control cannot run is refused") {
   CHECK_FALSE(frontend::macrob::lower(drawing.file, *profile, drawing.sources, drawing.diagnostics));
   CHECK(drawing.told().find("legend-not-run") != std::string::npos);
 }
+
+TEST_CASE("macro B lowering: blocks behind the end of the file belong to no program") {
+  CHECK(lower("G0X1.\n%\nX2.\n").told ==
+        "E 4:1 " + std::string(diag::BlocksBehindEnd::code) + "; W 4:1 text-behind-end");
+  CHECK_FALSE(lower("G0X1.\n%\nX2.\n").file);
+  // Whole programs are read, and not in silence.
+  const Lowered two = lower("M30(50%)\n(%)\n%\nO2(%)\nM99\n");
+  CHECK(two.file);
+  CHECK(two.told == "W 5:1 text-behind-end");
+  CHECK(lower("#1=1(%)\n(%)\nM30\n%\n%\n").told == "");
+}
