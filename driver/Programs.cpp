@@ -10,12 +10,12 @@
 
 namespace dotek::driver {
 
-bool isProgramFile(const std::string& path, const Session& session) {
+bool isProgramFile(const std::string& path, Session& session) {
   std::error_code error;
   if (std::filesystem::is_directory(path, error)) return false;
   if (session.options().from) return kindByName(*session.options().from) == InputKind::Nc;
-  Diagnostics unread;
-  const std::optional<std::string> bytes = readBytes(path, session.limits(), unread);
+  if (!std::filesystem::exists(path, error)) return false; // the caller tells
+  const std::optional<std::string> bytes = readBytes(path, session.limits(), session.diagnostics());
   return bytes && recognise(path, *bytes) == InputKind::Nc;
 }
 

@@ -11,7 +11,7 @@
 namespace dotek::driver {
 
 // By content, or by --from; false for a folder and for what cannot be read.
-bool isProgramFile(const std::string& path, const Session& session);
+bool isProgramFile(const std::string& path, Session& session);
 
 // nullopt where the file cannot run on the control: reported. What matters to the writing of the programs
 // alone is left to lint. `leader`: gets the place of the text before the first `%`, if there is any.

@@ -105,8 +105,22 @@ std::optional<FileId> addText(std::string name, std::string bytes, Encoding fall
 
 namespace {
 
+// A device or a pipe: written into, never replaced.
+bool isStream(const std::string& path) {
+  std::error_code error;
+  return fs::is_other(fs::status(path, error));
+}
+
+// Beside the file, so that renaming it is one step; what a link names stays where it is.
 std::string temporaryOf(const std::string& path) {
-  return path + ".dotek-" + std::to_string(getpid());
+  const std::string end = ".dotek-" + std::to_string(getpid());
+  std::error_code error;
+  if (isStream(path)) {
+    const fs::path folder = fs::temp_directory_path(error);
+    return (error ? fs::path("/tmp") : folder).string() + "/stream" + end;
+  }
+  const fs::path real = fs::is_symlink(path, error) ? fs::canonical(path, error) : fs::path(path);
+  return (error ? path : real.string()) + end;
 }
 
 bool writeTemporary(const std::string& path, const std::string& bytes, Diagnostics& diagnostics) {
@@ -121,7 +135,19 @@ bool writeTemporary(const std::string& path, const std::string& bytes, Diagnosti
 
 bool rename(const std::string& path, Diagnostics& diagnostics) {
   std::error_code error;
-  fs::rename(temporaryOf(path), path, error);
+  const std::string temporary = temporaryOf(path);
+  if (isStream(path)) {
+    std::ifstream in(temporary, std::ios::binary);
+    std::ofstream out(path, std::ios::binary);
+    if (in.peek() != std::ifstream::traits_type::eof()) out << in.rdbuf();
+    out.flush();
+    std::remove(temporary.c_str());
+    if (out) return true;
+    diagnostics.report<diag::FileNotWritable>({}, path, std::strerror(errno));
+    return false;
+  }
+  const fs::path real = fs::is_symlink(path, error) ? fs::canonical(path, error) : fs::path(path);
+  fs::rename(temporary, error ? fs::path(path) : real, error);
   if (!error) return true;
   diagnostics.report<diag::FileNotWritable>({}, path, error.message());
   std::remove(temporaryOf(path).c_str());

@@ -204,7 +204,7 @@ const ir::Program* ProgramNumbers::onlyProgram(std::uint64_t number) const {
 
 // The programs of the file that call this one, with their numbers before and after.
 void ProgramNumbers::findCallers() {
-  callers_.emplace();
+  callers_ = Callers{{}, false};
   for (const ir::Program& caller : file_.programs) {
     bool calls = false;
     for (const ir::Statement& statement : caller.body) {

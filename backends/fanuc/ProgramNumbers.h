@@ -28,7 +28,7 @@ private:
   // Of programs in the file that call this one.
   struct Callers {
     std::vector<std::map<std::uint64_t, std::uint64_t>> numbers; // before and after, of each
-    bool open = false;                                           // a call whose program is computed
+    bool open;                                                   // a call whose program is computed
   };
 
   void renumber();

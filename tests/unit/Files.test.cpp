@@ -88,3 +88,16 @@ TEST_CASE("a result is written whole or not at all") {
   // Nothing is left beside it.
   CHECK(std::distance(fs::directory_iterator(scratch.folder), fs::directory_iterator()) == 1);
 }
+
+TEST_CASE("a device is written into, and a link keeps its place") {
+  const Scratch scratch;
+  Diagnostics diagnostics;
+  CHECK(writeAtomically("/dev/null", "N10\n", diagnostics));
+  CHECK(fs::is_character_file("/dev/null"));
+  CHECK(writeAtomically(scratch.path("real"), "N10\n", diagnostics));
+  fs::create_symlink(scratch.path("real"), scratch.path("link"));
+  CHECK(writeAtomically(scratch.path("link"), "N20\n", diagnostics));
+  CHECK(fs::is_symlink(scratch.path("link")));
+  CHECK(tests::readAll(scratch.path("real")) == "N20\n");
+  CHECK(diagnostics.empty());
+}
