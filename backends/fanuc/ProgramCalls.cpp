@@ -68,11 +68,11 @@ std::uint32_t freeAlarm(const ir::ProgramFile& file, const stdlib::Control& cont
 // "#520 to #523 have to be set before the first call": what the macros keep at power off.
 std::string setup(const stdlib::MacroSet& set, const stdlib::Control& control) {
   std::string kept;
-  for (const auto& [first, last] : set.scratch)
+  for (const auto& scratch : set.scratch)
     if (std::any_of(control.common.begin(), control.common.end(), [&](const stdlib::VariableRange& range) {
-          return range.kept && range.first <= first && last <= range.last;
+          return range.kept && range.first <= scratch.first && scratch.second <= range.last;
         }))
-      kept += fmt::format("{}#{} to #{}", kept.empty() ? "" : ", ", first, last);
+      kept += fmt::format("{}#{} to #{}", kept.empty() ? "" : ", ", scratch.first, scratch.second);
   return kept.empty() ? "set them up before the first call"
                       : "what they keep in " + kept + " has to be set before the first call";
 }
