@@ -51,6 +51,11 @@ Machine::Machine(const stdlib::Control& control) : control_(control), table_(con
   stack_.emplace_back();
 }
 
+void Machine::setWatcher(MotionWatcher* watcher) {
+  watcher_ = watcher;
+  if (watcher != nullptr) long_ = 1;
+}
+
 Position Machine::machinePosition() const {
   Position out;
   for (std::size_t i = 0; i < kAxes; ++i)
@@ -158,9 +163,9 @@ bool Machine::executeLong(const NcWords& w) {
     return inconclusive(fmt::format("more than {} codes in one block", NcWords::kMostCodes));
   if (!readCodes(w) || !checkWords(w)) return false;
   if (!runBlock(w)) return false;
-  long_ = (modes_[kCanned] | modes_[kUnits]) != 0 || uncertain_ != 0 || motionForgotten_ || feedForgotten_
-              ? 1
-              : 0;
+  const bool odd = (modes_[kCanned] | modes_[kUnits]) != 0 || uncertain_ != 0 || motionForgotten_ ||
+                   feedForgotten_ || watcher_ != nullptr;
+  long_ = odd ? 1 : 0;
   return true;
 }
 

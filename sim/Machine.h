@@ -6,6 +6,7 @@
 #include "ir/NcWords.h"
 #include "sim/Cells.h"
 #include "sim/CodeTable.h"
+#include "sim/MotionWatcher.h"
 #include "sim/Trace.h"
 #include "sim/Value.h"
 #include "stdlib/Control.h"
@@ -70,9 +71,12 @@ public:
   // `control` outlives the machine. Nothing else is needed; the trace and the signal may be added.
   explicit Machine(const stdlib::Control& control);
 
-  void setTrace(Trace* trace) { trace_ = trace; }                // nullptr: quiet
-  void setSkipSignal(SkipSignal* signal) { skip_ = signal; }     // nullptr: G31 ends the run as inconclusive
-  void setCallLimit(std::uint32_t calls) { callLimit_ = calls; } // calls within calls
+  void setTrace(Trace* trace) { trace_ = trace; }            // nullptr: quiet
+  void setSkipSignal(SkipSignal* signal) { skip_ = signal; } // nullptr: G31 ends the run as inconclusive
+  // nullptr: nobody watches. Watched blocks take the long way.
+  void setWatcher(MotionWatcher* watcher);
+  MotionWatcher* watcher() const { return watcher_; }
+  void setCallLimit(std::uint32_t calls) { callLimit_ = calls; }        // calls within calls
   void setBlockDelete(std::uint32_t levels) { deleteLevels_ = levels; } // bit n: the switch of `/n` is on
 
   std::uint32_t blockDelete() const { return deleteLevels_; }
@@ -92,6 +96,9 @@ public:
   std::uint32_t modalCode(std::uint32_t group) const { return group < kGroups ? groups_[group] : 0; }
   double feed() const { return feed_; } // mm/min or mm per revolution
   double spindleSpeed() const { return speed_; }
+  std::uint8_t spindle() const { return spindle_; } // 0 off, 1 clockwise, 2 counterclockwise
+  enum class Coolant : std::uint8_t { NotSwitched, Off, Flood, Mist };
+  Coolant coolant() const { return coolant_; } // what the program switched last
   // Axes (bits in the order of kAxisLetters) whose position is not known, since what moved them is not.
   std::uint32_t uncertain() const { return uncertain_; }
   std::uint32_t movedAxes() const { return shown_; }
@@ -202,6 +209,9 @@ private:
   double rounded(double value, int places) const;
   void updateOffsets();
   void traceMove(std::string_view action, const Position& end, bool feed);
+  // Tells the watcher of a motion from `from` (of the machine) to where the machine stands. `unknown`: the
+  // axes that were uncertain before.
+  void tellMotion(MotionKind kind, const Position& from, std::uint32_t unknown);
   const Position& systemOffset() const {
     return modes_[kSystem] == kExtended ? extended_[extendedNow_] : systems_[modes_[kSystem]];
   }
@@ -219,6 +229,7 @@ private:
   CodeTable table_;
   Trace* trace_ = nullptr;
   SkipSignal* skip_ = nullptr;
+  MotionWatcher* watcher_ = nullptr;
   std::uint32_t deleteLevels_ = 0;
 
   // What the short way of execute() reads, together.
@@ -239,6 +250,7 @@ private:
   double speed_ = 0;
   std::uint8_t spindle_ = 0; // 0 off, 1 clockwise, 2 counterclockwise
   std::uint8_t shownSpindle_ = 0;
+  Coolant coolant_ = Coolant::NotSwitched;
   double shownSpeed_ = 0;
   Position offset_{}; // sum of what lies between work and machine, tool length aside
   Position external_{}, local_{}, shift_{};

@@ -6,6 +6,7 @@ namespace dotek::sim {
 
 void Machine::switchProbe(bool on) {
   probe_ = on ? Probe::On : Probe::Off;
+  if (watcher_ != nullptr) watcher_->probeSwitched(on);
   if (trace_ != nullptr) trace_->begin("probe").text(on ? "on" : "off").end();
 }
 
@@ -32,6 +33,7 @@ std::optional<bool> Machine::probeTo(const Position& end) {
       work_[i] = snap(skip.from[i] + (skip.to[i] - skip.from[i]) * *share);
   }
   skipped_ = work_;
+  if (watcher_ != nullptr) tellMotion(MotionKind::Skip, skip.machineFrom, 0);
   if (trace_ != nullptr) {
     trace_->begin("probing").position(skip.to, shown_).text(contact ? "contact" : "no-contact");
     trace_->position(work_, shown_).end();
@@ -41,8 +43,10 @@ std::optional<bool> Machine::probeTo(const Position& end) {
 
 bool Machine::travelTo(const Position& end) {
   if (uncertain_ != 0) return inconclusive("where the move begins is not known");
+  const Position from = machinePosition();
   for (std::size_t i = 0; i < kAxes; ++i)
     work_[i] = snap(end[i]);
+  if (watcher_ != nullptr) tellMotion(MotionKind::Feed, from, 0);
   if (trace_ != nullptr) trace_->begin("travel").position(work_, shown_).end();
   return true;
 }

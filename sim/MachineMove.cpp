@@ -19,6 +19,10 @@ void Machine::traceMove(std::string_view action, const Position& end, bool feed)
   trace_->end();
 }
 
+void Machine::tellMotion(MotionKind kind, const Position& from, std::uint32_t unknown) {
+  watcher_->moved({kind, from, machinePosition(), stack_.back().line, (unknown | uncertain_) == 0});
+}
+
 bool Machine::target(const NcWords& w, Position& end) {
   end = work_;
   const bool incremental = modes_[kDistance] != 0;
@@ -54,7 +58,10 @@ bool Machine::move(const NcWords& w) {
   }
   if (trace_ != nullptr)
     traceMove(modes_[kMotion] == kRapid ? "rapid" : "feed", end, modes_[kMotion] != kRapid);
+  const Position from = machinePosition();
   work_ = end;
+  if (watcher_ != nullptr)
+    tellMotion(modes_[kMotion] == kRapid ? MotionKind::Rapid : MotionKind::Feed, from, unknown);
   return true;
 }
 
@@ -202,6 +209,7 @@ bool Machine::skipMove(const NcWords& w) {
       work_[i] = snap(skip.from[i] + (end[i] - skip.from[i]) * *share);
   }
   skipped_ = work_; // without a contact the end of the block
+  if (watcher_ != nullptr) tellMotion(MotionKind::Skip, skip.machineFrom, 0);
   if (trace_ != nullptr) {
     trace_->begin("skip").position(end, shown_).word("F", feed_).text(share ? "contact" : "no-contact");
     trace_->position(work_, shown_).end();

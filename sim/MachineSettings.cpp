@@ -98,9 +98,9 @@ bool Machine::miscellaneous(const NcWords& w) {
       spindle_ = 0;
       spindle = true;
       break;
-    case Function::CoolantMist: action = "coolant", state = "mist"; break;
-    case Function::CoolantFlood: action = "coolant", state = "flood"; break;
-    case Function::CoolantOff: action = "coolant", state = "off"; break;
+    case Function::CoolantMist: action = "coolant", state = "mist", coolant_ = Coolant::Mist; break;
+    case Function::CoolantFlood: action = "coolant", state = "flood", coolant_ = Coolant::Flood; break;
+    case Function::CoolantOff: action = "coolant", state = "off", coolant_ = Coolant::Off; break;
     case Function::ProbeOn: switchProbe(true); break;
     case Function::ProbeOff: switchProbe(false); break;
     case Function::ToolChange:

@@ -81,6 +81,7 @@ private:
   bool modalOff();
   bool begin(const Request& request);
   bool beginPass(const Level& level);
+  void leaveLevel(const Level& level);
   bool repeatsOf(double value, std::uint32_t& repeats);
   bool exit(std::uint32_t cell);
   bool textEnd();

@@ -95,8 +95,11 @@ bool Run::begin(const Request& request) {
   for (std::uint32_t i = 0; i < request.repeats; ++i) {
     if (!spend(10) || !machine_.enter({number, 0, 0, true})) return false;
     std::copy(locals_.begin() + 1, locals_.end(), cells_ + 1);
+    if (MotionWatcher* const watcher = machine_.watcher(); watcher != nullptr)
+      watcher->callBegins(number, locals_);
     if (!meaning_->run(machine_, number, std::span<const double>(cells_, locals_.size()))) return false;
     machine_.leave();
+    if (MotionWatcher* const watcher = machine_.watcher(); watcher != nullptr) watcher->callEnded(number);
   }
   ahead_ = false;
   ++place_;
@@ -109,7 +112,11 @@ bool Run::beginPass(const Level& level) {
   frame.program = static_cast<std::uint32_t>(level.routine->number);
   frame.macro = level.macro;
   if (!machine_.enter(frame)) return false;
-  if (level.macro) std::copy(locals_.begin() + 1, locals_.end(), cells_ + 1);
+  if (level.macro) {
+    std::copy(locals_.begin() + 1, locals_.end(), cells_ + 1);
+    if (MotionWatcher* const watcher = machine_.watcher(); watcher != nullptr)
+      watcher->callBegins(frame.program, locals_);
+  }
   place_ = level.routine->begin;
   return true;
 }
@@ -126,13 +133,13 @@ bool Run::exit(std::uint32_t at) {
     return refuse("M99 with P within a call that repeats: whether it ends the repeats is not known");
   if (level.repeats > 1) {
     --level.repeats;
-    machine_.leave();
+    leaveLevel(level);
     if (level.macro) locals_ = level.arguments;
     return beginPass(level);
   }
   const std::uint32_t caller = level.caller;
   if (isNull(block)) {
-    machine_.leave();
+    leaveLevel(level);
     levels_.pop_back();
     place_ = caller + 1;
     return true;
@@ -144,9 +151,15 @@ bool Run::exit(std::uint32_t at) {
     place_ = here;
     return false;
   }
-  machine_.leave();
+  leaveLevel(level);
   levels_.pop_back();
   return true;
+}
+
+void Run::leaveLevel(const Level& level) {
+  machine_.leave();
+  if (MotionWatcher* const watcher = machine_.watcher(); watcher != nullptr && level.macro)
+    watcher->callEnded(static_cast<std::uint32_t>(level.routine->number));
 }
 
 bool Run::textEnd() {

@@ -47,6 +47,7 @@ public:
   // Rapids and feeds; a Skip has been looked at by contact() and is passed over.
   void moved(const MachineMotion& motion) override;
 
+  void probeSwitched(bool on) override { on_ = on; }
   void setOn(bool on) { on_ = on; }
   bool on() const { return on_; }
   void setLine(std::uint64_t line) { line_ = line; } // of the skip moves to come

@@ -1,0 +1,78 @@
+// What one run of a program did, in terms that two programs for different machines and macros can be compared
+// by. Positions are those of the stylus's lowest point in coordinates of the machine: machine position
+// without the tool's length (mm).
+#pragma once
+
+#include "sim/Machine.h"
+#include "sim/Picture.h"
+#include "sim/World.h"
+#include "support/Source.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace dotek::verify {
+
+enum class Switch : std::uint8_t { NotSwitched, Off, On };
+
+// What is on while the machine moves.
+struct Surroundings {
+  Switch probe = Switch::Off;
+  std::uint8_t spindle = 0; // 0 off, 1 clockwise, 2 counterclockwise
+  sim::Machine::Coolant coolant = sim::Machine::Coolant::NotSwitched;
+  bool operator==(const Surroundings&) const = default;
+};
+
+// A straight piece of the way. A measuring call is one piece of no length, where it begins.
+struct Piece {
+  sim::PathKind kind = sim::PathKind::Feed;
+  sim::Point3 from, to;
+  Surroundings with;
+  SourceRange range; // in the program that ran
+};
+
+// Where a surface is expected, or was found. In X and Y the ball's centre stands one radius before it, in Z
+// its lowest point touches.
+struct Touch {
+  sim::Point3 point;
+  sim::Point3 direction; // of the motion, length 1
+};
+
+// A call, or a bare skip move, that measures.
+struct Measure {
+  std::vector<Touch> nominal;            // by the arguments; empty: the call states none
+  std::vector<sim::ProbeEvent> contacts; // of the world, in order
+  sim::Point3 start, end;
+  Surroundings with;
+  SourceRange range;
+};
+
+enum class Ending : std::uint8_t { Finished, Alarm, Inconclusive };
+
+struct Record {
+  Ending ending = Ending::Finished;
+  std::uint32_t alarm = 0; // as the control shows it; 0: its number is not known
+  std::string text;        // of the alarm, or why it is inconclusive
+  SourceRange endedAt;
+
+  std::vector<Piece> pieces;
+  std::vector<Measure> measures;
+  // What went wrong on the way (no contacts, no misses), and where in the program.
+  std::vector<std::pair<sim::ProbeEvent, SourceRange>> events;
+  // Work offsets that were written: G number (54 to 59; 54.1 Pn as 5410 + n) and axis (0 to 2), to the
+  // machine position of the zero.
+  std::map<std::pair<std::uint32_t, std::uint32_t>, double> zeros;
+  std::map<std::uint32_t, double> stores; // variables that the program itself writes; kNull is a value
+  sim::Point3 start, end;
+  // Modal codes by group, times ten, at entry and at the end.
+  std::array<std::uint32_t, 32> modalBefore{}, modalAfter{};
+  std::vector<sim::PictureMove> moves; // every motion, for pictures; only where asked for
+};
+
+} // namespace dotek::verify
