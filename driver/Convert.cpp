@@ -72,6 +72,7 @@ private:
     outcome.map = std::move(map);
     outcome.maps = std::move(maps);
     outcome.arguments = std::move(arguments_);
+    outcome.macros = std::move(called_);
     return outcome;
   }
 
@@ -230,6 +231,7 @@ private:
       for (const fanuc::Argument& one : *letters)
         arguments.push_back({lowered->cycle.variable(one.variable).name, one.letter});
     arguments_.push_back(std::move(arguments));
+    called_ = macros->name;
     numbers_.emplace_back(emit.programNumber, folder.name);
     add(*lines, emit.programNumber);
   }
@@ -339,6 +341,7 @@ private:
   std::vector<OutputFile> files_;
   std::vector<MappedResult> maps_;
   std::vector<std::vector<OutputArgument>> arguments_;
+  std::string called_; // set of macros
   std::optional<FusionParts> fusion_; // with --to fusion
   bool failed_ = false;
 };

@@ -10,7 +10,8 @@
 #include "ir/Program.h"
 #include "sim/Compile.h"
 #include "sim/VendorMacros.h"
-#include "support/messages/Commands.h"
+#include "stdlib/HostInputs.h"
+#include "support/messages/Verify.h"
 
 #include <algorithm>
 #include <cmath>
@@ -43,6 +44,16 @@ std::set<std::uint32_t> storesOf(const std::vector<ir::Program>& programs) {
   return out;
 }
 
+// Nothing that a probe could meet.
+sim::Part emptyPart(const sim::Point3& middle) {
+  constexpr double kAway = 10000;
+  sim::PartBuilder builder;
+  const sim::Point3 corner = middle + sim::Point3{0, 0, -kAway};
+  builder.box(corner, corner + sim::Point3{1, 1, 1});
+  std::string fault;
+  return *builder.finish(fault);
+}
+
 } // namespace
 
 struct CaseRunner::Values {
@@ -68,11 +79,11 @@ CaseRunner::CaseRunner(const VerifyOptions& options, const VerifyPlan& plan)
     : options_(options), plan_(plan), session_(options.common) {}
 
 bool CaseRunner::load() {
-  inputs_ = loadLoweringInputs(options_.source,
-                               options_.control.empty() || options_.to == "mikroprog"
-                                   ? std::string(kDefaultControl)
-                                   : options_.control,
-                               session_);
+  inputs_ =
+      loadLoweringInputs(options_.source,
+                         options_.control.empty() || options_.to == "mikroprog" ? std::string(kDefaultControl)
+                                                                                : options_.control,
+                         session_);
   if (!inputs_) return false;
   folder_ = loadCycleFolder(options_.inputs.front(), session_);
   if (options_.source.cycle) folder_->name = *options_.source.cycle;
@@ -111,10 +122,10 @@ bool CaseRunner::prepare() {
   const auto read = [&](const std::string& name, std::string text) {
     const FileId id = ready_->sources.add(SourceFile(name, std::move(text), Encoding::Utf8));
     Diagnostics found;
-    const frontend::macrob::File tree = frontend::macrob::parse(id, ready_->sources, session_.limits(), found);
+    const frontend::macrob::File tree =
+        frontend::macrob::parse(id, ready_->sources, session_.limits(), found);
     std::optional<ir::ProgramFile> file;
-    if (!found.hasErrors())
-      file = frontend::macrob::lower(tree, *inputs_->control, ready_->sources, found);
+    if (!found.hasErrors()) file = frontend::macrob::lower(tree, *inputs_->control, ready_->sources, found);
     if (!file) {
       for (const Diagnostic& one : found.all())
         if (one.severity == Severity::Error)
@@ -241,6 +252,7 @@ std::optional<verify::Case> CaseRunner::draw(std::uint64_t index) {
       const auto& [x, y, z, turn] = *options_.partError;
       proposal.error = {{x, y, z}, turn};
     }
+    if (options_.replay) return proposal;
     const std::unique_ptr<Values> values = check(proposal, true);
     if (!values) return std::nullopt;
     if (values->rejected) {
@@ -284,8 +296,7 @@ std::optional<verify::Record> CaseRunner::runPosted(const Values& values, sim::W
   const FileId id = sources.add(SourceFile("posted", std::move(text), Encoding::Utf8));
   const frontend::macrob::File tree = frontend::macrob::parse(id, sources, session_.limits(), found);
   std::optional<ir::ProgramFile> file;
-  if (!found.hasErrors())
-    file = frontend::macrob::lower(tree, *inputs_->sourceControl, sources, found);
+  if (!found.hasErrors()) file = frontend::macrob::lower(tree, *inputs_->sourceControl, sources, found);
   if (!file) {
     refusal_ = found.all().empty() ? "the posted program cannot be read" : found.all().front().message;
     return std::nullopt;
@@ -305,9 +316,8 @@ verify::Record CaseRunner::runTranslation(const Values& values, sim::World& worl
   for (const OutputArgument& argument : plan_.translation->arguments) {
     const std::uint32_t local = stdlib::localOf(argument.letter);
     const std::string folded = gibbs::foldCase(argument.name);
-    const auto field =
-        std::find_if(values.drawn.values.begin(), values.drawn.values.end(),
-                     [&](const auto& one) { return gibbs::foldCase(one.first) == folded; });
+    const auto field = std::find_if(values.drawn.values.begin(), values.drawn.values.end(),
+                                    [&](const auto& one) { return gibbs::foldCase(one.first) == folded; });
     if (field != values.drawn.values.end())
       entry.variables.emplace_back(local, field->second);
     else if (const auto host = values.drawn.hosts.find(argument.name); host != values.drawn.hosts.end())
@@ -380,7 +390,8 @@ CaseResult CaseRunner::run(const verify::Case& drawn) {
     if (post(*values)) source = runPosted(*values, world, probeOn);
     if (!source) {
       result.verdict = CaseVerdict::NoProgram;
-      result.why = session_.diagnostics().all().empty() ? refusal_ : session_.diagnostics().all().front().message;
+      result.why =
+          session_.diagnostics().all().empty() ? refusal_ : session_.diagnostics().all().front().message;
       return result;
     }
   }
@@ -439,7 +450,7 @@ bool CaseRunner::samePlace(SourceRange source, std::uint32_t targetLine) const {
   const auto& lines = plan_.translation->sources;
   if (targetLine > lines.size()) return false;
   const auto& from = lines[targetLine - 1];
-  return from.contains({session_.sourceName(source), session_.lineOf(source)});
+  return from.contains({session_.sources().file(source.file).name(), session_.sources().line(source)});
 }
 
 // Eight digits leave this much of a result beside the other way to compute it.
@@ -478,7 +489,7 @@ std::vector<std::pair<std::string, SourceRange>> CaseRunner::droppedDigits(const
     if (!values || values->rejected) continue;
     post(*values);
     for (const Diagnostic& one : session_.diagnostics().all())
-      if (one.code == "value-loses-digits") out.emplace_back(field.name, one.range);
+      if (one.code == "lost-decimals") out.emplace_back(field.name, one.range);
   }
   return out;
 }

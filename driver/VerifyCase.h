@@ -27,7 +27,7 @@ namespace dotek::driver {
 // A translation as text, with what its lines come from.
 struct Translation {
   std::string name, text;
-  std::uint32_t number = 0;                                               // O number
+  std::uint32_t number = 0; // O number
   std::vector<OutputArgument> arguments;
   std::vector<std::set<std::pair<std::string, std::uint32_t>>> sources; // by line from 0: file and line
 };
@@ -47,6 +47,7 @@ struct CaseFinding {
   verify::Aspect aspect = verify::Aspect::Path;
   std::string text;
   SourceRange source;
+  SourceRange posted;           // beside a path: the Prog's line
   std::uint32_t targetLine = 0; // from 1; 0: none
 };
 
@@ -95,6 +96,10 @@ private:
   sim::Probe probeOf(const verify::Case& drawn) const;
   verify::Entry entryOf(const verify::Case& drawn, bool probeOn) const;
   void addFinding(CaseResult& result, const verify::Difference& difference, const Values& values) const;
+  void compareRejection(CaseResult& result, const Values& values, const verify::Record& target) const;
+  void noteProbe(CaseResult& result, const verify::Record& record, const Values& values) const;
+  bool samePlace(SourceRange source, std::uint32_t targetLine) const;
+  double resultTolerance() const;
   SourceRange sourceOf(SourceRange posted, const Values& values) const;
   std::uint32_t targetLine(SourceRange range) const;
 
