@@ -53,9 +53,13 @@ double spread(double least, double most, Random& random) {
 }
 
 // How likely a field keeps its first value: the more attempts were in vain, the nearer to what the programmer
-// tried himself.
+// tried himself. Every other attempt stays free: the first values need not be legal.
 double keeps(std::uint32_t attempt) {
-  return attempt < 8 ? 0.08 : attempt < 32 ? 0.2 : attempt < 128 ? 0.4 : 0.7;
+  return attempt % 2 != 0 ? 0.08 : attempt < 8 ? 0.08 : attempt < 32 ? 0.2 : attempt < 128 ? 0.4 : 0.7;
+}
+
+bool isWhole(double value) {
+  return value == std::round(value);
 }
 
 // Behind, between or before the constants that checks compare with.
@@ -66,7 +70,9 @@ double besideThresholds(const DrawField& field, const std::vector<double>& sorte
   if (random.chance(0.1)) return sorted[random.below(sorted.size())];
   if (n == 0) return sorted.front() - spread(stepOf(field), kWide, random);
   if (n == sorted.size()) return sorted.back() + spread(stepOf(field), kWide, random);
-  return random.between(sorted[n - 1], sorted[n]);
+  const double inside = random.between(sorted[n - 1], sorted[n]);
+  // Where all that is known is whole, so are most values that mean something.
+  return isWhole(first) && isWhole(sorted[n - 1]) && random.chance(0.8) ? std::round(inside) : inside;
 }
 
 double lengthValue(const DrawField& field, bool near, Random& random) {

@@ -70,8 +70,7 @@ std::string at(const Point3& p) {
 class Walk {
 public:
   Walk(const DrawnPath& path, const Part& part, const sim::Probe& probe, double off)
-      : path_(path), part_(part), probe_(probe), off_(std::max(off, kExact)),
-        at_(path.points.front() + up()) {}
+      : path_(path), part_(part), probe_(probe), off_(off + kExact), at_(path.points.front() + up()) {}
 
   std::string run() {
     std::size_t touch = 0;
