@@ -105,6 +105,9 @@ private:
           const auto [at, added] = decimals.emplace(piece.variable, piece.picture->decimals());
           if (!added) at->second = std::min(at->second, piece.picture->decimals());
         }
+    for (const auto& [id, places] : decimals)
+      if (const ir::Variable& host = lowered.cycle.variable(id); host.role == ir::Role::Host)
+        plan_.hostDecimals.emplace(host.name, places);
     const std::set<double> compared = ir::constantsOf(lowered.cycle.checks);
     const std::vector<double> thresholds(compared.begin(), compared.end());
     for (ir::VariableId id = 0; id < lowered.cycle.variables.size(); ++id) {

@@ -31,6 +31,7 @@ void VerifyReport::add(std::uint64_t number, bool edge, verify::Case drawn, Case
   case CaseVerdict::Proved: ++counts.proved; break;
   case CaseVerdict::Idle: ++counts.idle; break;
   case CaseVerdict::Differ: ++counts.differ; break;
+  case CaseVerdict::Refused: ++counts.refused; break;
   case CaseVerdict::NoProgram: ++counts.none; break;
   }
   for (CaseFinding& finding : result.findings) {
@@ -51,12 +52,13 @@ void VerifyReport::add(std::uint64_t number, bool edge, verify::Case drawn, Case
     if (!added) at->second.second = at->second.second || result.spindleLater;
   }
   if (result.unarmed && (!unarmed_ || before(*result.unarmed, *unarmed_))) unarmed_ = result.unarmed;
-  if (result.verdict == CaseVerdict::Idle || result.verdict == CaseVerdict::NoProgram) {
+  if (result.verdict != CaseVerdict::Proved && result.verdict != CaseVerdict::Differ) {
     Idle& idle = idle_[{result.whyAt.file, result.whyAt.begin, result.why}];
     if (idle.count == 0 || number < idle.first) {
       idle.first = number;
       idle.at = result.whyAt;
       idle.why = result.why;
+      idle.drawn = drawn;
     }
     ++idle.count;
   }
@@ -213,17 +215,18 @@ Outcome VerifyReport::finish() {
   constexpr std::size_t kMostReasons = 5;
   for (std::size_t i = 0; i < std::min(reasons.size(), kMostReasons); ++i)
     if (options_.source.prog)
-      told_.report<diag::VerifyIdle>(reasons[i]->at, reasons[i]->count, cases_.all(), reasons[i]->why);
+      told_.report<diag::VerifyIdle>(reasons[i]->at, reasons[i]->count, cases_.all(), reasons[i]->why,
+                                     replay(reasons[i]->drawn));
   const std::uint64_t all = cases_.all();
   if (static_cast<double>(cases_.proved) < options_.minProved / 100 * static_cast<double>(all))
     told_.report<diag::VerifyTooFew>({}, cases_.proved, all, numberText(options_.minProved));
   session.diagnostics() = std::move(told_);
   std::string out;
   if (edges_.all() > 0)
-    out += fmt::format("edge cases: same {}, undecided {}, differ {} of {}\n", edges_.proved + edges_.idle,
-                       edges_.none, edges_.differ, edges_.all());
-  out += fmt::format("proved {}, idle {}, differ {} of {}\n", cases_.proved, cases_.idle + cases_.none,
-                     cases_.differ, all);
+    out += fmt::format("edge cases: same {}, refused {}, undecided {}, differ {} of {}\n",
+                       edges_.proved + edges_.idle, edges_.refused, edges_.none, edges_.differ, edges_.all());
+  out += fmt::format("proved {}, idle {}, differ {} of {}\n", cases_.proved,
+                     cases_.idle + cases_.refused + cases_.none, cases_.differ, all);
   return session.finish(std::move(out), true);
 }
 
