@@ -301,9 +301,13 @@ std::optional<verify::Case> CaseRunner::draw(std::uint64_t index) {
         refusal_ = "the path touches nothing";
         continue;
       }
-      const double off =
-          plan_.translation ? verify::mostOff(values->path->nominal(), values->drawn.error) : 0;
-      refusal_ = verify::whyNotReached(*values->path, *values->part, probeOf(values->drawn), off);
+      const sim::Probe probe = probeOf(values->drawn);
+      refusal_ = verify::whyNotReached(*values->path, *values->part, probe);
+      if (!refusal_.empty()) continue;
+      misplace(*values);
+      if (plan_.translation)
+        refusal_ = verify::whyNotReached(*values->path, *values->part, probe,
+                                         verify::mostOff(values->path->nominal(), values->drawn.error));
       if (!refusal_.empty()) continue;
     }
     if (routine_ != nullptr) {
@@ -320,12 +324,17 @@ std::optional<verify::Case> CaseRunner::draw(std::uint64_t index) {
   return std::nullopt;
 }
 
-// Of the touches that the path shows, off its place where a translation is looked at.
+// Of the touches that the path shows, at their nominal place.
 bool CaseRunner::makePart(Values& values) const {
-  const std::vector<verify::Touch> touches = values.path->nominal();
-  values.part = verify::partOf(touches, values.drawn.hosts.at("tool_radius"), kReach,
-                               plan_.translation ? values.drawn.error : verify::PartError{});
+  const double radius = values.drawn.hosts.at("tool_radius");
+  values.part = verify::partOf(values.path->nominal(), radius, std::max(radius, kReach), {});
   return values.part.has_value();
+}
+
+// Where a translation is looked at, the part stands off its place.
+void CaseRunner::misplace(Values& values) const {
+  if (plan_.translation)
+    values.part = verify::withError(*values.part, values.path->nominal(), values.drawn.error);
 }
 
 sim::Point3 CaseRunner::zeroOf(const verify::Case& drawn) const {
@@ -468,8 +477,8 @@ CaseResult CaseRunner::run(const verify::Case& drawn) {
   }
   if (plan_.part)
     values->part = plan_.part;
-  else if (!values->part && values->path)
-    makePart(*values);
+  else if (!values->part && values->path && makePart(*values))
+    misplace(*values);
   if (!values->part) values->part = emptyPart(zeroOf(drawn));
   sim::World world(*values->part, probeOf(drawn),
                    plan_.machine ? plan_.machine->limits : sim::MachineLimits{});
@@ -562,7 +571,7 @@ void CaseRunner::comparePath(CaseResult& result, const Values& values) const {
 // A line of the translation that stems from nothing in the source.
 bool CaseRunner::madeUp(std::uint32_t line) const {
   const auto& lines = plan_.translation->sources;
-  return line != 0 && line <= lines.size() && lines[line - 1].empty();
+  return line != 0 && line <= lines.size() && lines[line - 1] && lines[line - 1]->empty();
 }
 
 bool CaseRunner::samePlace(SourceRange source, std::uint32_t targetLine) const {
@@ -570,7 +579,8 @@ bool CaseRunner::samePlace(SourceRange source, std::uint32_t targetLine) const {
   const auto& lines = plan_.translation->sources;
   if (targetLine > lines.size()) return false;
   const auto& from = lines[targetLine - 1];
-  return from.contains({session_.sources().file(source.file).name(), session_.sources().line(source)});
+  return !from ||
+         from->contains({session_.sources().file(source.file).name(), session_.sources().line(source)});
 }
 
 // Eight digits leave this much of a result beside the other way to compute it.

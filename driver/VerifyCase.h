@@ -29,7 +29,8 @@ struct Translation {
   std::string name, text;
   std::uint32_t number = 0; // O number
   std::vector<OutputArgument> arguments;
-  std::vector<std::set<std::pair<std::string, std::uint32_t>>> sources; // by line from 0: file and line
+  // By line from 0: files and lines; empty: made up. Nothing: not known, of a line that was edited.
+  std::vector<std::optional<std::set<std::pair<std::string, std::uint32_t>>>> sources;
 };
 
 // What all cases share.
@@ -99,6 +100,7 @@ private:
   verify::Case settled(const verify::Case& drawn);
   void roundHosts(verify::Case& drawn) const;
   bool makePart(Values& values) const;
+  void misplace(Values& values) const;
   sim::Point3 zeroOf(const verify::Case& drawn) const;
   bool post(Values& values);
   bool readPosted(Values& values);

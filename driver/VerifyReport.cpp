@@ -128,6 +128,7 @@ std::string VerifyReport::replay(const verify::Case& drawn) const {
   if (!options_.control.empty()) flag("--control", options_.control);
   if (options_.probeMacros) flag("--probe-macros", *options_.probeMacros);
   if (options_.common.job) flag("--job", *options_.common.job);
+  if (options_.translation) flag("--translation", *options_.translation);
   if (options_.part) flag("--part", *options_.part);
   if (options_.machine) flag("--machine", *options_.machine);
   for (const std::string& assumption : options_.common.assume)
