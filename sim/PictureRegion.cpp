@@ -124,6 +124,18 @@ bool cutsMaterial(const Part& part, const Region& region, std::size_t axis, doub
   return false;
 }
 
+// A place in the material next to a touched point, at most `depth` along the axis.
+std::optional<double> behindFace(const Part& part, const Point3& touched, std::size_t axis, double depth) {
+  for (int i = 0; i < 8; ++i, depth /= 2) {
+    for (const double step : {-depth, depth}) {
+      Point3 p = touched;
+      setCoordinate(p, axis, coordinate(touched, axis) + step);
+      if (part.distance(p) < -1e-6) return coordinate(p, axis);
+    }
+  }
+  return std::nullopt;
+}
+
 } // namespace
 
 bool Region::contains(const Point3& p) const {
@@ -173,7 +185,16 @@ Region regionOf(const Picture& picture) {
     }
   }
   if (picture.part) {
-    const Region seen = common(reachOf(*picture.part), near);
+    // A side that ends near by is shown whole; of one that does not, a piece is enough.
+    Region seen = reachOf(*picture.part);
+    const Region piece = grown(focus, std::max(15.0, 0.3 * longest(focus)));
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      if (coordinate(seen.least, axis) < coordinate(near.least, axis))
+        setCoordinate(seen.least, axis, coordinate(piece.least, axis));
+      if (coordinate(seen.most, axis) > coordinate(near.most, axis))
+        setCoordinate(seen.most, axis, coordinate(piece.most, axis));
+    }
+    seen = common(seen, near);
     if (!isEmpty(seen)) {
       bounds.add(seen.least);
       bounds.add(seen.most);
@@ -190,22 +211,26 @@ SectionPlanes sectionPlanesOf(const Picture& picture, const Region& region) {
     out.at[axis] = coordinate(middle, axis);
   if (!picture.part) return out;
 
-  const double depth = std::max(0.5, 0.01 * longest(region)); // below a face that was touched
+  const double depth = std::max(0.5, 0.01 * longest(region)); // behind a face that was touched
   std::optional<Point3> inside;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     struct Candidate {
       double at;
       std::size_t contact;
     };
-    std::vector<Candidate> sideways, below;
+    std::vector<Candidate> sideways;
+    std::optional<double> behind[2]; // behind faces that look against the axis, along it
     for (std::size_t i = 0; i < picture.contacts.size() && i < 1000; ++i) {
       const Point3& p = picture.contacts[i].point;
       if (!region.contains(p)) continue;
-      const double along = coordinate(picture.part->nearest(p).normal, axis);
-      if (std::abs(along) < 0.3)
+      if (std::abs(coordinate(picture.part->nearest(p).normal, axis)) < 0.3) {
         sideways.push_back({coordinate(p, axis), i});
-      else
-        below.push_back({coordinate(p, axis) - (along > 0 ? depth : -depth), i});
+        continue;
+      }
+      const std::optional<double> side = behindFace(*picture.part, p, axis, depth);
+      if (!side) continue;
+      std::optional<double>& first = behind[*side < coordinate(p, axis) ? 1 : 0];
+      if (!first) first = side;
     }
     if (!sideways.empty()) {
       // The coordinate that most contacts share; of equals the first.
@@ -224,8 +249,10 @@ SectionPlanes sectionPlanesOf(const Picture& picture, const Region& region) {
       out.contact[axis] = sideways[best].contact;
       continue;
     }
-    if (!below.empty()) {
-      out.at[axis] = below.front().at;
+    if (behind[0] || behind[1]) { // touched from both sides: between them
+      out.at[axis] = behind[0] && behind[1] ? (*behind[0] + *behind[1]) / 2
+                     : behind[0]            ? *behind[0]
+                                            : *behind[1];
       continue;
     }
     Bounds way;

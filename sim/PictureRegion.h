@@ -33,8 +33,8 @@ Region reachOf(const Part& part);
 Region regionOf(const Picture& picture);
 
 // Where the sections lie: X of YZ, Y of XZ, Z of XY. At a contact that the plane cuts from the side, so that
-// the touched surface is seen; else just below touched faces; else in the middle of the way, or of the part
-// where there is no material.
+// the touched surface is seen; else just behind a touched face, or between two touched from both sides; else
+// in the middle of the way, or of the part where there is no material.
 struct SectionPlanes {
   std::array<double, 3> at{};                          // by axis
   std::array<std::optional<std::size_t>, 3> contact{}; // that it goes through, place in Picture::contacts

@@ -103,7 +103,7 @@ std::vector<std::string> notesOf(const Picture& picture, const Region& region) {
     hidden += isDrawn(contact.point) ? 0 : 1;
   for (const PictureError& error : picture.errors)
     hidden += isDrawn(error.at) ? 0 : 1;
-  if (beyond > 0) out.push_back(fmt::format("{} of the way lead out of the picture", plural(beyond, "move")));
+  if (beyond > 0) out.push_back(fmt::format("the way leaves the picture in {}", plural(beyond, "move")));
   if (lost > 0)
     out.push_back(fmt::format("{} not drawn: no number, or farther than 1 km", plural(lost, "move")));
   if (hidden > 0) out.push_back(fmt::format("{} without a place on the sheet", plural(hidden, "mark")));

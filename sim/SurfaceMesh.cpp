@@ -240,8 +240,8 @@ private:
 
 SurfaceMesh surfaceOf(const Part& part, const Region& region, std::uint32_t cells) {
   const Solid& solid = part.solid();
-  if (solid.shapes.size() > 30 || !solid.meshes.empty()) cells = std::min(cells, 56u);
-  if (solid.shapes.size() > 90) cells = std::min(cells, 40u);
+  if (solid.shapes.size() > 30 || !solid.meshes.empty()) cells = std::min(cells, 80u);
+  if (solid.shapes.size() > 90) cells = std::min(cells, 48u);
   return Mesher(part, region, std::max(cells, 4u)).make();
 }
 

@@ -18,6 +18,6 @@ struct SurfaceMesh {
 // Of the part within the region; where the region cuts it, the cut is closed. Edges and corners of the part
 // are kept. What is finer than a `cells`th of the region's longest side may be missed. The work is bounded:
 // fewer cells are taken for parts of many shapes.
-SurfaceMesh surfaceOf(const Part& part, const Region& region, std::uint32_t cells = 72);
+SurfaceMesh surfaceOf(const Part& part, const Region& region, std::uint32_t cells = 112);
 
 } // namespace dotek::sim

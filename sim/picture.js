@@ -185,7 +185,7 @@ window.onerror = (message, source, line) => {
     if (!isFitted) view.fit();
     isFitted = true;
     layRows();
-    redraw();
+    view.draw(current); // before the page is painted, so that nothing flickers
   }).observe(canvas);
 
   window.dotek = { moves, go, state };
@@ -195,5 +195,5 @@ window.onerror = (message, source, line) => {
   window.addEventListener("hashchange", () => go(wanted()));
   layRows();
   go(wanted());
-  redraw();
+  view.draw(current); // at once: what prints or photographs the page waits for no frame
 })();
