@@ -96,6 +96,7 @@ private:
                                     [](const PictureMove& move) { return !isDrawn(move); });
     if (lost > 0)
       note(fmt::format("moves without a number, or farther than 1 km: {}; they are not drawn", lost));
+    if (!hasProbe(picture_)) note("no probe is stated: the way is that of the spindle's gauge line");
     if (!picture_.part) note("no part: only the way is drawn");
     return out;
   }
@@ -135,11 +136,14 @@ private:
                          i == 0 ? "" : ",", pathKindName(kind), style.colour, style.width, dashes);
     }
     out += fmt::format("],\n\"region\":[{},{}],\n", numbers(region_.least), numbers(region_.most));
-    out += fmt::format("\"probe\":{{\"ball\":{},\"stem\":[{},{}],\"body\":[{},{}],\"length\":{}}},\n",
-                       number(size(probe.ballRadius())), number(size(probe.stemDiameter) / 2),
-                       number(size(probe.stemLength)), number(size(probe.bodyDiameter) / 2),
-                       number(size(probe.bodyLength)),
-                       number(std::isfinite(probe.centreLength()) ? probe.centreLength() : 0));
+    out += "\"probe\":";
+    out += !hasProbe(picture_)
+               ? "null,\n"
+               : fmt::format("{{\"ball\":{},\"stem\":[{},{}],\"body\":[{},{}],\"length\":{}}},\n",
+                             number(size(probe.ballRadius())), number(size(probe.stemDiameter) / 2),
+                             number(size(probe.stemLength)), number(size(probe.bodyDiameter) / 2),
+                             number(size(probe.bodyLength)),
+                             number(std::isfinite(probe.centreLength()) ? probe.centreLength() : 0));
     way(out);
     marks(out);
     out += "\"blocks\":[";

@@ -159,6 +159,10 @@ bool isDrawn(const PictureMove& move) {
   return isDrawn(move.from) && isDrawn(move.to);
 }
 
+bool hasProbe(const Picture& picture) {
+  return picture.probe.length > 0 || !picture.probe.lengthToTip;
+}
+
 Region reachOf(const Part& part) {
   Region out;
   for (std::size_t axis = 0; axis < 3; ++axis) {

@@ -25,6 +25,9 @@ inline constexpr double kDrawn = 1e6;
 bool isDrawn(const Point3& p);
 bool isDrawn(const PictureMove& move);
 
+// Whether the picture has a probe, so that its way is that of the ball's centre.
+bool hasProbe(const Picture& picture);
+
 // The box that holds the part. A side without end stands at kDrawn or beyond.
 Region reachOf(const Part& part);
 

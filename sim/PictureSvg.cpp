@@ -24,6 +24,10 @@ std::string px(double value) {
   return shortNumber(value, 2);
 }
 
+double finite(double value) {
+  return std::isfinite(value) ? value : 0;
+}
+
 // Text in lines of at most `width` characters, broken at blanks where there are any.
 std::vector<std::string> wrapped(std::string_view text, std::size_t width) {
   std::vector<std::string> out;
@@ -155,10 +159,9 @@ std::string drawLegend(const Sheet& sheet, double left, double top, double& bott
   legend.gap(6);
   addScale(legend, sheet.scale);
   legend.text("mm, in coordinates of the machine;", 0, "#4a525c");
-  legend.text(fmt::format("the way is that of the ball's centre (ball {})",
-                          std::isfinite(picture.probe.ballDiameter)
-                              ? shortNumber(picture.probe.ballDiameter, 3)
-                              : "?"),
+  legend.text(hasProbe(picture) ? fmt::format("the way is that of the ball's centre (ball {})",
+                                              shortNumber(finite(picture.probe.ballDiameter), 3))
+                                : "the way is that of the spindle's gauge line: no probe is stated",
               0, "#4a525c");
   for (const std::string& note : notesOf(picture, sheet.region))
     legend.text(note, 0, "#8a4b00");

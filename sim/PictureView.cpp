@@ -249,7 +249,7 @@ private:
   // The ball where it touched and where something went wrong.
   void balls() {
     const double radius = picture_.probe.ballRadius() * frame_.scale;
-    if (!(radius > 1) || radius > 2000 || picture_.contacts.size() > 60) return;
+    if (!hasProbe(picture_) || !(radius > 1) || radius > 2000 || picture_.contacts.size() > 60) return;
     const auto ball = [&](const Point3& p, const char* colour) {
       const PlanePoint at = sheet(on(p));
       out_ += fmt::format("<circle cx=\"{}\" cy=\"{}\" r=\"{}\" stroke=\"{}\"/>\n", px(at[0]), px(at[1]),

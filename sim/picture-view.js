@@ -61,6 +61,7 @@ function makeView(canvas, data) {
   }
   function makeProbe() {
     const probe = data.probe, out = [], ball = [];
+    if (probe === null) return out;
     for (let i = 0; i <= 14; ++i) ball.push([probe.ball * Math.sin(Math.PI * i / 14), -probe.ball * Math.cos(Math.PI * i / 14)]);
     out.push(turned(ball, null));
     const [stemRadius, stemLength] = probe.stem, [bodyRadius, bodyLength] = probe.body;
@@ -337,11 +338,12 @@ function makeView(canvas, data) {
     drawMarks(current);
     if (show.probe && move !== undefined && move.drawn) { // where the ball is, even behind the part
       const p = project(...move.to);
-      paint.globalAlpha = isHidden(p[0], p[1], p[2] + data.probe.ball) ? 0.9 : 0.25;
+      const radius = data.probe === null ? 0 : data.probe.ball;
+      paint.globalAlpha = radius === 0 || isHidden(p[0], p[1], p[2] + radius) ? 0.9 : 0.25;
       paint.setLineDash([]);
       paint.lineWidth = 1.6;
       paint.strokeStyle = move.on ? "#b87400" : "#39424d";
-      paint.beginPath(); paint.arc(p[0], p[1], Math.max(2, data.probe.ball * camera.zoom), 0, 7); paint.stroke();
+      paint.beginPath(); paint.arc(p[0], p[1], Math.max(3, radius * camera.zoom), 0, 7); paint.stroke();
     }
     drawScale();
   }

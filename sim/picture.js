@@ -94,7 +94,7 @@ window.onerror = (message, source, line) => {
     slider.value = current;
     ["x", "y", "z"].forEach((name, i) => {
       byId(name).textContent = number(move.to[i]);
-      byId("gauge-" + name).textContent = move.to[i] === null ? "?" : number(move.to[i] + (i === 2 ? data.probe.length : 0));
+      byId("gauge-" + name).textContent = move.to[i] === null ? "?" : number(move.to[i] + (i === 2 && data.probe ? data.probe.length : 0));
     });
     byId("kind").textContent = data.kinds[move.kind].name;
     byId("power").textContent = move.on ? "on" : "off";
@@ -109,6 +109,10 @@ window.onerror = (message, source, line) => {
     }
     showBlock();
     redraw();
+  }
+  if (data.probe === null) { // the way is the machine's own
+    byId("what").textContent = "machine";
+    byId("gauge").hidden = true;
   }
   slider.max = Math.max(0, moves.length - 1);
   slider.addEventListener("input", () => go(slider.value));

@@ -78,7 +78,7 @@
     expect(hash() !== turned, "the wheel does not zoom");
 
     // The ball, lit while the probe is on: near by, and with nothing before it.
-    let on = 0;
+    let on = data.probe === null ? count : 0;
     while (on < count && !(data.way[on * 6 + 1] === 1 && window.dotek.moves[on].drawn)) ++on;
     if (on < count) {
       const tick = (id, checked) => { byId(id).checked = checked; byId(id).dispatchEvent(new Event("change")); };

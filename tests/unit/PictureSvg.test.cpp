@@ -229,6 +229,8 @@ TEST_CASE("svg: valid whatever the picture") {
       CHECK(attribute(svg, element, "height") < 4000);
     }
   }
+  CHECK(pictureSvg(pictures[0]).find("no probe is stated") != std::string::npos);
+  CHECK(pictureSvg(pictures[1]).find("no probe is stated") == std::string::npos);
   const std::string lost = pictureSvg(pictures[3]);
   CHECK(lost.find("2 moves not drawn") != std::string::npos);
   CHECK(lost.find("2 marks without a place on the sheet") != std::string::npos);
