@@ -66,22 +66,21 @@ std::string xmlText(std::string_view text, std::size_t most) {
 }
 
 std::string jsonText(std::string_view text, std::size_t most) {
-  return '"' +
-         escaped(text, most,
-                 [](std::string_view character, std::string& out) {
-                   if (character == "\"" || character == "\\")
-                     out += fmt::format("\\{}", character);
-                   else if (static_cast<std::uint8_t>(character[0]) < 0x20 || character == "\x7F")
-                     out += ' ';
-                   else if (character == "<" || character == ">" ||
-                            character == "&") // nothing closes the script
-                     out += fmt::format("\\u{:04x}", static_cast<unsigned>(character[0]));
-                   else if (character == "\xE2\x80\xA8" || character == "\xE2\x80\xA9")
-                     out += ' ';
-                   else
-                     out += character;
-                 }) +
-         '"';
+  const auto escape = [](std::string_view character, std::string& out) {
+    const bool isMarkup =
+        character == "<" || character == ">" || character == "&"; // they could close the script
+    const bool isLineEnd =
+        character == "\xE2\x80\xA8" || character == "\xE2\x80\xA9"; // of scripts, not of JSON
+    if (character == "\"" || character == "\\")
+      out += fmt::format("\\{}", character);
+    else if (isMarkup)
+      out += fmt::format("\\u{:04x}", static_cast<unsigned>(character[0]));
+    else if (static_cast<std::uint8_t>(character[0]) < 0x20 || character == "\x7F" || isLineEnd)
+      out += ' ';
+    else
+      out += character;
+  };
+  return '"' + escaped(text, most, escape) + '"';
 }
 
 std::string shortNumber(double value, int places) {

@@ -189,11 +189,13 @@ private:
     const double side = d <= 0 ? 1 : -1;
     const PlanePoint normal{(b[1] - a[1]) / l * side, -(b[0] - a[0]) / l * side};
     PlanePoint before = middle;
-    for (double t = std::abs(d); t < 2 * l; t *= 1.6) {
+    double t = std::abs(d);
+    while (t < 2 * l) {
       const PlanePoint p{middle[0] + normal[0] * t, middle[1] + normal[1] * t};
       if (p[0] < least_[0] || p[0] > most_[0] || p[1] < least_[1] || p[1] > most_[1]) return;
       if ((distance(p) <= 0) == (d <= 0)) {
         before = p;
+        t *= 1.6;
         continue;
       }
       const PlanePoint found = d <= 0 ? root(before, p) : root(p, before);

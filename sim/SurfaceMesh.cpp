@@ -30,8 +30,10 @@ public:
       : part_(part), least_(vec(region.least)), most_(vec(region.most)) {
     const Vec size = most_ - least_;
     step_ = size.maxCoeff() / cells;
-    for (int i = 0; i < 3; ++i)
-      count_[i] = static_cast<std::uint32_t>(std::max(1.0, std::ceil(size[i] / step_ - 1e-9))) + 3;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double side = size[static_cast<Eigen::Index>(i)];
+      count_[i] = static_cast<std::uint32_t>(std::max(1.0, std::ceil(side / step_ - 1e-9))) + 3;
+    }
     values_.assign(std::size_t{count_[0]} * count_[1] * count_[2], 0);
     cells_.assign(values_.size(), kNone);
   }
@@ -65,9 +67,11 @@ private:
   std::size_t index(const Node& n) const { return (std::size_t{n[2]} * count_[1] + n[1]) * count_[0] + n[0]; }
   Vec place(const Node& n) const {
     Vec out;
-    for (int i = 0; i < 3; ++i) {
-      const std::uint32_t k = n[static_cast<std::size_t>(i)];
-      out[i] = k <= 1 ? least_[i] : k + 2 >= count_[i] ? most_[i] : least_[i] + (k - 1) * step_;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto axis = static_cast<Eigen::Index>(i);
+      out[axis] = n[i] <= 1               ? least_[axis]
+                  : n[i] + 2 >= count_[i] ? most_[axis]
+                                          : least_[axis] + (n[i] - 1) * step_;
     }
     return out;
   }
@@ -121,7 +125,7 @@ private:
     for (int i = 0; i < 40 && (out - in).squaredNorm() > step_ * step_ * 1e-6; ++i) {
       double share = a / (a - b);
       if (i % 3 == 2 || !(share > 0.02 && share < 0.98)) share = 0.5;
-      const Vec m = in + (out - in) * share;
+      Vec m = in + (out - in) * share;
       const double d = distance(m);
       if (std::abs(d) < 1e-7) return m;
       (d <= 0 ? in : out) = m;

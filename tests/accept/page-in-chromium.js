@@ -36,7 +36,7 @@
       byId("slider").value = i;
       byId("slider").dispatchEvent(new Event("input"));
       check(i, "slider");
-      shown.push([i, ...numbers()]);
+      shown.push([i, ...numbers(), ...["x", "y", "z"].map((id) => byId("gauge-" + id).textContent)]);
       const place = window.dotek.state().drawnAt;
       if (before !== null && place !== null && Math.hypot(place[0] - before[0], place[1] - before[1]) > 0.5) ++places;
       before = place;
@@ -78,11 +78,16 @@
     expect(hash() !== turned, "the wheel does not zoom");
 
     // The ball, lit while the probe is on: near by, and with nothing before it.
+    const box = canvas.getBoundingClientRect();
+    const isInSight = (i) => {
+      window.dotek.go(i);
+      const at = window.dotek.state().drawnAt;
+      return at !== null && at[0] > 0 && at[1] > 0 && at[0] < box.width && at[1] < box.height;
+    };
     let on = data.probe === null ? count : 0;
-    while (on < count && !(data.way[on * 6 + 1] === 1 && window.dotek.moves[on].drawn)) ++on;
+    while (on < count && !(data.way[on * 6 + 1] === 1 && isInSight(on))) ++on;
     if (on < count) {
       const tick = (id, checked) => { byId(id).checked = checked; byId(id).dispatchEvent(new Event("change")); };
-      const box = canvas.getBoundingClientRect();
       tick("show-part", false);
       window.dotek.go(on);
       for (let i = 0; i < 5; ++i) {
