@@ -237,23 +237,29 @@ private:
     s_.sheet.comment(fmt::format("#{} NOT KEPT: SEE THE RECORD", name), origin);
   }
 
+  void left(SourceRange range, std::string_view what, std::string_view why) {
+    s_.diagnostics.report<diag::ModeDropped>(range, what, why);
+  }
+
   void mode(const ir::SetMode& mode, const ir::Origin& origin) {
     using ir::Mode;
     const SourceRange range = origin.range();
     switch (mode.mode) {
-    case Mode::Absolute:
+    // Each coordinate is written absolute, each move says what it is, and the first block says the rest.
+    case Mode::Absolute: return left(range, "absolute programming", "it is in force from the first block on");
     case Mode::Incremental:
+      return left(range, "incremental programming", "each coordinate is written absolute");
     case Mode::RapidMotion:
-    case Mode::FeedMotion:
-    case Mode::FeedPerMinute: return; // coordinates are absolute, each move says what it is
+    case Mode::FeedMotion: return left(range, "a motion code without an axis", "each move says its own");
+    case Mode::FeedPerMinute: return left(range, "feed per minute", "it is in force from the first block on");
     case Mode::PlaneXY: return s_.sheet.add(s_.code("plane-xy"), origin);
     case Mode::PlaneZX: return s_.sheet.add(s_.code("plane-zx"), origin);
     case Mode::PlaneYZ: return s_.sheet.add(s_.code("plane-yz"), origin);
     case Mode::CutterCompOff: return s_.sheet.add(s_.code("compensation-off"), origin);
     case Mode::CannedCycleOff:
-      s_.diagnostics.report<diag::ModeDropped>(range, "the end of canned cycles",
-                                               "the control has none that stays in force");
-      return;
+      if (s_.remarked.insert("canned").second)
+        s_.remarks.push_back("THE END OF CANNED CYCLES: NONE STAYS IN FORCE");
+      return left(range, "the end of canned cycles", "the control has none that stays in force");
     case Mode::FeedPerRevolution: s_.refuse<diag::FeedPerRevolution>(range); return;
     case Mode::WorkSystem:
       s_.refuse<diag::MikroprogCannot>(range, "a change of the work system",

@@ -204,6 +204,8 @@ void measure(State& state, const ir::Measure& measure, std::size_t index) {
   if (state.failed) return;
   if (leavesByItself(state, index, axis, *from, way < 0 ? 1 : -1)) {
     state.diagnostics.report<diag::RetreatMerged>(range);
+    if (state.remarked.insert("retreat").second)
+      state.remarks.push_back("THE WAY BACK FROM A SURFACE IS THE MOVE OF THE SOURCE BEHIND IT");
     return;
   }
   state.sheet.add(fmt::format("{} {} F{}", state.code("feed"),

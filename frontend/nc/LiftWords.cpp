@@ -88,7 +88,7 @@ bool Lifter::function(const Code& code, Plan& plan) {
   case Function::Metric:
     // The emitted program demands it of its caller.
     context_.diagnostics.report<diag::WordLeftOut>(code.word->range, wordText(*code.word),
-                                                   "the program checks that its caller is metric");
+                                                   "the result counts in millimetres; a Fanuc program checks that its caller does");
     return true;
   case Function::ProgramEnd:
   case Function::Return: return refuse<diag::EndInBranch>(code.word->range, wordText(*code.word));
