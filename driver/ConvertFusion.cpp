@@ -74,6 +74,9 @@ void FusionParts::checkOptions(const ConvertOptions& options, Diagnostics& diagn
 
 void FusionParts::add(const CycleFolder& folder, LoweredCycle& lowered,
                       std::map<ir::VariableId, double> defaults) {
+  const std::string& control = inputs_.sourceControl->name;
+  if (!options_.control.empty() && options_.control != control)
+    session_.diagnostics().report<diag::ControlOfForm>(lowered.cycle.range, control, options_.control);
   const stdlib::MacroSet none = [] {
     stdlib::MacroSet set;
     set.title = "no set";

@@ -148,6 +148,8 @@ void writeBlocks(State& state) {
     for (Text& text : own)
       lines.push_back({std::move(text), true, statements.front()->origin});
   }
+  Text last;
+  if (const ir::Origin* origin = macros.putBack(last)) lines.push_back({std::move(last), true, *origin});
   for (const Line& line : lines)
     state.script.add((line.numbered ? "writeBlock(" : "writeln(") + line.text.expression() + ");",
                      line.origin);

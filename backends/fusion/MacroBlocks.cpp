@@ -90,10 +90,15 @@ bool MacroBlocks::block(const std::vector<const ir::Statement*>& statements, std
     const ir::Origin& origin = one->origin;
     if (std::holds_alternative<ir::OpaqueBlock>(one->node)) {
       state_.refuse<diag::FusionOpaque>(origin.range(), state_.options.macros.title);
-    } else if (const auto* mode = std::get_if<ir::SetMode>(&one->node);
-               mode != nullptr && mode->mode == ir::Mode::WorkSystem) {
+      continue;
+    }
+    const auto* mode = std::get_if<ir::SetMode>(&one->node);
+    if (mode != nullptr && mode->mode == ir::Mode::WorkSystem) {
       for (Place& place : at_)
         place.value = nullptr;
+    } else if (mode != nullptr && (mode->mode == ir::Mode::Absolute || mode->mode == ir::Mode::Incremental)) {
+      incremental_ = mode->mode == ir::Mode::Incremental ? &origin : nullptr;
+      overwritten_ = false;
     }
   }
   if (!rewritten) return false;
@@ -115,6 +120,12 @@ bool MacroBlocks::block(const std::vector<const ir::Statement*>& statements, std
   }
   if (codes.expression() != "\"\"") lines.insert(lines.begin(), std::move(codes));
   return true;
+}
+
+const ir::Origin* MacroBlocks::putBack(Text& text) {
+  if (incremental_ == nullptr || !overwritten_) return nullptr;
+  code(Function::Incremental, "incremental programming", *incremental_, text);
+  return incremental_;
 }
 
 void MacroBlocks::code(Function function, std::string_view what, const ir::Origin& origin, Text& text) {
@@ -230,6 +241,7 @@ void MacroBlocks::move(const ir::Move& move, const ir::Origin& origin, std::vect
   } else {
     Text text;
     code(Function::Absolute, "absolute programming", origin, text);
+    overwritten_ = true;
     code(move.motion == ir::Motion::Rapid ? Function::Rapid : Function::Feed, "this move", origin, text);
     for (const ir::Axis axis : ir::kAxes) {
       const auto& coordinate = move.axes[ir::indexOf(axis)];

@@ -138,6 +138,8 @@ void writeHead(State& state) {
   script.comment(
       "The operation chooses the cycle with the property dotekCycle. Its point is where the cycle starts, in "
       "the work system of the operation.");
+  if (!state.options.macros.needs.empty())
+    script.comment("Set before the first call of a macro: " + state.options.macros.needs);
   if (!state.options.fixedByName.empty()) {
     std::string fixed;
     for (const auto& [name, value] : state.options.fixedByName)
