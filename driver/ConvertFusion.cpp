@@ -120,6 +120,9 @@ void FusionParts::finish(std::vector<OutputFile>& files, std::vector<MappedResul
     maps.push_back(std::move(map));
   };
   if (!options_.probeMacros) dropNotesOfPrograms(session_.diagnostics());
+  // An alarm is printed with its number, whatever the macros are.
+  std::erase_if(session_.diagnostics().all(),
+                [](const Diagnostic& one) { return one.code == diag::AlarmRenumbered::code; });
   if (parts_.empty()) return;
   if (!options_.wholePost) {
     for (const Part& part : parts_)

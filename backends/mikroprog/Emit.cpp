@@ -9,6 +9,7 @@
 #include <cctype>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <utility>
 
 namespace dotek::backends::mikroprog {
 
@@ -94,8 +95,13 @@ private:
     const SourceRange range = origin.range();
     if (const auto* move = std::get_if<ir::Move>(&node)) return this->move(*move, origin);
     if (const auto* measured = std::get_if<ir::Measure>(&node)) return measure(s_, *measured, index);
-    if (const auto* comment = std::get_if<ir::Comment>(&node))
-      return s_.sheet.comment(asciiText(s_, comment->text, range), origin);
+    if (const auto* comment = std::get_if<ir::Comment>(&node)) {
+      if (isOfStop(index))
+        stopText_ += (stopText_.empty() ? "" : " ") + comment->text;
+      else
+        s_.sheet.comment(asciiText(s_, comment->text, range), origin);
+      return;
+    }
     if (const auto* spindle = std::get_if<ir::Spindle>(&node)) return this->spindle(*spindle, origin);
     if (const auto* coolant = std::get_if<ir::Coolant>(&node)) return this->coolant(*coolant, origin);
     if (const auto* power = std::get_if<ir::ProbePower>(&node)) return probePower(*power, origin);
@@ -112,9 +118,13 @@ private:
                                          "M1 needs a condition, and how its field is set is not known (Q14)");
         return;
       }
-      return this->stop(stop->message, origin);
+      const std::string beside = std::exchange(stopText_, "");
+      return this->stop(stop->message.empty() ? beside : stop->message, origin);
     }
     if (const auto* alarm = std::get_if<ir::Alarm>(&node)) {
+      s_.diagnostics.report<diag::AlarmStops>(range, s_.code("stop"));
+      if (s_.remarked.insert("alarm").second)
+        s_.remarks.push_back("AN ALARM IS A STOP WITH ITS TEXT AND THE END; ITS NUMBER IS NOT KEPT");
       this->stop(alarm->message, origin);
       return toEnd(origin);
     }
@@ -139,6 +149,17 @@ private:
       return;
     }
     s_.refuse<diag::MikroprogCannot>(range, "this statement", "the control has no function for it");
+  }
+
+  // Whether the comment at `index` stands in the block of a stop, which shows it to the operator.
+  bool isOfStop(std::size_t index) const {
+    const auto& list = s_.cycle.body;
+    const std::uint32_t block = list[index].origin.block;
+    for (std::size_t i = index + 1; block != 0 && i < list.size() && list[i].origin.block == block; ++i) {
+      const auto* stop = std::get_if<ir::Stop>(&list[i].node);
+      if (stop != nullptr && !stop->optional && stop->message.empty()) return true;
+    }
+    return false;
   }
 
   static std::string addresses(const ir::OpaqueBlock& block) {
@@ -282,6 +303,7 @@ private:
 
   State& s_;
   bool probed_ = false;
+  std::string stopText_; // comments of the block of the next stop
 };
 
 // Modes and the way to the start point.

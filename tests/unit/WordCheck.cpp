@@ -87,8 +87,7 @@ public:
       else if (explained(word))
         ++report_.explained;
       else
-        report_.lost.push_back(fmt::format("{}:{}: {}{}, of `{}`", block.place.file, block.place.first,
-                                           word.letter, word.value, block.text));
+        lose(word);
     }
     follow();
   }
@@ -383,12 +382,7 @@ private:
 
   bool explained(const NcWord& word) const {
     const bool control = how_.target == WordTarget::Mikroprog;
-    // A feed of its own is written with the moves that run at it.
-    if (word.letter == 'F' && told("word-left-out", word.spelled))
-      return std::any_of(lines_.begin(), lines_.end(), [&](const ResultLine& line) {
-        return std::any_of(line.words.begin(), line.words.end(),
-                           [&](const NcWord& other) { return same(word, other); });
-      });
+    if (word.letter == 'F' && told("word-left-out", word.spelled)) return true; // see follow()
     if (control && word.letter == 'F') return told("feed-dropped") && says("F" + word.value + " NOT KEPT");
     if (control && word.letter == 'S' && signature_ != nullptr)
       return told("offset-number-dropped") && fileSays("OFFSET " + word.value + " NOT WRITTEN");
@@ -404,8 +398,28 @@ private:
     return word.letter == 'G' && word.value == "21" && told("word-left-out", word.spelled);
   }
 
+  // A feed that stood in a block without a move has to be with the moves that run at it.
+  void followFeed() {
+    bool moves = false, feeds = false;
+    for (const NcWord& word : block_->words) {
+      if (word.letter == 'G' && (word.value == "0" || word.value == "1")) motion_ = word.value[0];
+      moves = moves || (word.letter >= 'X' && word.letter <= 'Z' && signature_ == nullptr && !hasCode(4));
+      if (word.letter != 'F') continue;
+      feeds = true;
+      feed_.reset();
+      if (told("word-left-out", word.spelled)) feed_ = word;
+    }
+    if (signature_ != nullptr) feed_.reset();
+    if (moves && !feeds && feed_ && motion_ == '1' && !emitted(*feed_)) lose(*feed_);
+  }
+  void lose(const NcWord& word) {
+    report_.lost.push_back(fmt::format("{}:{}: {}{}, of `{}`", block_->place.file, block_->place.first,
+                                       word.letter, word.value, block_->text));
+  }
+
   // Where the probe stands behind the block, in the coordinates of the source.
   void follow() {
+    followFeed();
     const bool measures = signature_ != nullptr && signature_->intent != Intent::ProtectedMove;
     const bool travels = incremental();
     for (const NcWord& word : block_->words) {
@@ -431,7 +445,9 @@ private:
   std::map<std::string, std::string> names_; // field: its variable
   std::array<std::optional<double>, 3> at_;
   std::array<double, 3> shift_{};
-  bool incremental_ = false; // of the source
+  bool incremental_ = false;   // of the source
+  char motion_ = 0;            // of the source: '0', '1'
+  std::optional<NcWord> feed_; // in force in the source, and left out where it stands
   const SourceBlock* block_ = nullptr;
   const stdlib::MacroSignature* signature_ = nullptr; // of the block, where it calls
   std::vector<const ResultLine*> here_;               // lines that come from the block
