@@ -385,6 +385,13 @@ void MacroBlocks::call(
   text.add("G65 P" + std::to_string(signature.program));
   for (const auto& [argument, value] : arguments) {
     if (value == nullptr) return; // refused
+    const bool positive =
+        argument->role == stdlib::ArgumentRole::Feed || argument->role == stdlib::ArgumentRole::Diameter;
+    if (positive && ir::constantValue(ir::simplify(value)) == nullptr)
+      state_.errorIf(valueText(state_, value, origin.range()) + " <= 0",
+                     std::string(stdlib::roleName(argument->role)) + " of macro " +
+                         std::to_string(signature.program) + " is not above 0",
+                     origin);
     text.add(std::string(" ") + argument->letter);
     texts_.number(text, value, origin);
   }

@@ -113,7 +113,8 @@ void bore(State& state, const ir::Measure& measure, const ir::Origin& origin) {
     if (!here) return;
     centre[ir::indexOf(axis)] = *here;
   }
-  const std::optional<double> diameter = valueOf(state, measure.diameter, range);
+  const std::optional<double> diameter =
+      rangedValueOf(state, 'D', measure.diameter, "a diameter", false, range);
   if (!diameter) return;
   const double radius = state.host("tool_radius");
   Plan plan;

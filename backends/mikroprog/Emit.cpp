@@ -108,7 +108,7 @@ private:
     if (const auto* mode = std::get_if<ir::SetMode>(&node)) return this->mode(*mode, origin);
     if (const auto* store = std::get_if<ir::Store>(&node)) return this->store(*store, origin);
     if (const auto* dwell = std::get_if<ir::Dwell>(&node)) {
-      const auto seconds = valueOf(s_, dwell->seconds, range);
+      const auto seconds = rangedValueOf(s_, 'E', dwell->seconds, "a dwell", true, range);
       if (seconds) s_.sheet.add(s_.code("dwell") + " E" + numberWord(s_, *seconds, range), origin);
       return;
     }
@@ -183,7 +183,7 @@ private:
     std::string words = s_.code(rapid ? "rapid" : "feed");
     std::string comment;
     if (move.feed != nullptr) {
-      s_.feed = valueOf(s_, move.feed, range);
+      s_.feed = rangedValueOf(s_, 'F', move.feed, "a feed", false, range);
       if (!s_.feed) return;
       if (rapid) {
         comment = "F" + numberText(*s_.feed) + " NOT KEPT";
@@ -226,7 +226,7 @@ private:
       s_.refuse<diag::MikroprogCannot>(origin.range(), "a spindle without a speed", code + " needs S");
       return;
     }
-    const auto speed = valueOf(s_, spindle.speed, origin.range());
+    const auto speed = rangedValueOf(s_, 'S', spindle.speed, "a spindle speed", true, origin.range());
     if (speed) s_.sheet.add(code + " S" + numberWord(s_, *speed, origin.range()), origin);
   }
 

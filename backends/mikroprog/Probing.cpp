@@ -130,7 +130,7 @@ void protectedMove(State& state, const ir::Move& move, const ir::Origin& origin)
     return;
   std::string comment;
   if (move.feed != nullptr) {
-    const std::optional<double> feed = valueOf(state, move.feed, range);
+    const std::optional<double> feed = rangedValueOf(state, 'F', move.feed, "a feed", false, range);
     if (!feed) return;
     comment = "F" + numberText(*feed) + " NOT KEPT";
     state.diagnostics.report<diag::FeedDropped>(

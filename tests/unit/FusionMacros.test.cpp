@@ -60,6 +60,25 @@ TEST_CASE("a fragment with our own macros says what they need and calls them") {
   CHECK(holds(run.text, "G65 P8811 X12. Q8. S2."));
 }
 
+TEST_CASE("a fragment prints nothing where the operation has an overtravel or a ball that cannot be meant") {
+  const DataFolder folder;
+  const std::string fragment = fragmentOf(ownMacrosFor(folder, "fanuc-0i-md"));
+  fusion::RunInput input;
+  input.toolDiameter = 6;
+  input.cycle = {{"clearance", 15}, {"probeOvertravel", -8}};
+  input.properties = {{"surfaceX_X", 12}, {"surfaceX_I", 12}, {"surfaceX_G", 55}, {"surfaceX_Z", -5}};
+  const auto errorOf = [&] {
+    const fusion::RunResult run = fusion::runFragment(fragment, "surfaceX", input);
+    CHECK(run.text.empty());
+    return run.errors.empty() ? std::string() : run.errors.front();
+  };
+  CHECK(errorOf() == "surface-x: cycle.probeOvertravel is negative");
+  input.cycle["probeOvertravel"] = 0;
+  CHECK(fusion::runFragment(fragment, "surfaceX", input).ok());
+  input.toolDiameter = 0;
+  CHECK(errorOf() == "surface-x: tool.diameter / 2 is not above 0");
+}
+
 TEST_CASE("a fragment with our own macros is refused for a machine that cannot tell the skip position") {
   const DataFolder folder;
   driver::ConvertOptions convert = ownMacrosFor(folder, "fanuc-6m");

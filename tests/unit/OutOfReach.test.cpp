@@ -27,6 +27,7 @@ public:
                                        "if var <= 5 then goto good\nmessage \"" +
                                            text + "\"\ngoto ask\n:good\n");
   }
+  void nominal(const std::string& text) { nominal_ = text; }
   void define(const std::string& text) { folder_.write("odd/DefineData.txt", text); }
 
   driver::Outcome convert(const std::string& target, const std::string& block,
@@ -35,8 +36,8 @@ public:
                               " SeqC ' G90 G0 X1. Y2. Z60.' EOL\n SeqC ' " +
                                   block +
                                   "' EOL\n SeqC ' M5 M9' EOL\n SeqC ' G65 P9770 Z10. F500.' EOL\n"
-                                  " SeqC ' G65 P9023 S'OpFieldData#('G')' X'OpFieldData#('X')' "
-                                  "I'OpFieldData#('var') EOL\nEND\nRETURN\n");
+                                  " SeqC ' G65 P9023 S'OpFieldData#('G')' X'OpFieldData#('X')' " +
+                                  nominal_ + " EOL\nEND\nRETURN\n");
     driver::ConvertOptions out;
     out.inputs = {folder_.path() + "/odd"};
     out.source.prog = folder_.path() + "/post.txt";
@@ -52,6 +53,7 @@ public:
 
 private:
   DataFolder folder_;
+  std::string nominal_ = "I'OpFieldData#('var')";
 };
 
 // Codes of the diagnostics of `severity` in a line of a file whose name ends so; line 0: any.
@@ -114,6 +116,22 @@ TEST_CASE("a default out of the range of the checks is told at its line for ever
   const auto fusion = one.convert("fusion", "M9");
   CHECK(fusion.status == 0);
   CHECK(codesAt(fusion, Severity::Warning, "DefineData.txt", 3).contains("default-turned-away"));
+}
+
+TEST_CASE("a field that leads to a word out of its range is refused when folded, or stops the fragment") {
+  OneBlock one;
+  one.define("! Odd\nX = 12\nvar = -4\nG = 55\n");
+  one.nominal("I1.'");
+  for (const char* block : {"G1 X5. F'OpFieldData#('var')'", "G65 P9770 Z9. F'OpFieldData#('var')'",
+                            "G4 X'OpFieldData#('var')'", "M3 S'OpFieldData#('var')'"}) {
+    CAPTURE(block);
+    const auto refused = one.convert("mikroprog", block);
+    CHECK(codesAt(refused, Severity::Error, "post.txt", kLine) == Codes{"value-out-of-range"});
+  }
+  const auto fusion = one.convert("fusion", "G65 P9770 Z9. F'OpFieldData#('var')'",
+                                  [](auto& options) { options.probeMacros = "inspection-plus"; });
+  CHECK_MESSAGE(fusion.status == 0, messagesOf(fusion));
+  CHECK(fusion.output.find("if (var_ <= 0) {") != std::string::npos);
 }
 
 TEST_CASE("an axis that the target lacks is refused at its line") {
