@@ -302,6 +302,12 @@ TEST_CASE("examples: every NC word of each kind is emitted, translated or explai
   Cycle cycle = examples((root() / "tests" / "words" / "kinds.txt").generic_string()).front();
   all({cycle}, counts);
   CHECK(counts.converted > 10);
+  // A code that the source leaves to what is in force stands before the axes.
+  driver::ConvertOptions options = optionsFor(cycle, true);
+  options.to = "fanuc";
+  const std::string program = driver::convert(options).output;
+  CHECK(program.find("\nG0 X-14.\n") != std::string::npos);
+  CHECK(program.find("\nG0 G91 X-1.\n") != std::string::npos);
 }
 
 TEST_CASE("corpus cycles: every NC word of the source is emitted, translated or explained") {
