@@ -28,6 +28,7 @@ struct Arguments {
   std::string mapFile;            // --map
   driver::SimOptions sim;         // common aside
   std::string traceFile;          // --trace
+  std::string svgFile, htmlFile;  // --svg, --html
   bool quiet = false;
   driver::Stage stage = driver::Stage::Ast;
   std::uint32_t maxErrors = 50;

@@ -102,7 +102,9 @@ struct SimOptions {
   std::vector<std::string> programs; // --programs DIR: what can be called beside the programs of the file
   // --probe-macros: the set of vendors' macros that runs by its meaning; nothing: all.
   std::optional<std::string> probeMacros;
-  bool json = false; // the output is the summary as JSON
+  std::optional<std::string> part, machine; // --part, --machine: paths
+  bool svg = false, html = false;           // pictures of the run as files "svg" and "html"
+  bool json = false;                        // the output is the summary as JSON
   // Takes the trace while the program runs, in pieces of whole lines. Empty: no trace is made.
   std::function<void(std::string_view)> trace;
 };
@@ -118,7 +120,7 @@ struct OutputFile {
 struct Outcome {
   int status = 0;
   std::string output;
-  std::vector<OutputFile> files; // of convert
+  std::vector<OutputFile> files; // of convert, and pictures of sim
   std::string map;               // of convert: what --map writes
   SourceMap sources;
   Diagnostics diagnostics; // sorted
