@@ -3,6 +3,7 @@
 #include "cli/Cli.h"
 #include "driver/InputKind.h"
 #include "lint/Rule.h"
+#include "support/Decimal.h"
 #include "support/NearestName.h"
 
 #include <CLI/CLI.hpp>
@@ -10,6 +11,7 @@
 #include <array>
 #include <charconv>
 #include <filesystem>
+#include <fmt/format.h>
 #include <ostream>
 #include <sstream>
 
@@ -39,7 +41,10 @@ struct Raw {
   std::string datum;
   std::vector<std::string> variables;
   std::vector<std::string> programs;
-  std::string traceFile, svgFile, htmlFile, part, machine;
+  std::string traceFile, svgFile, htmlFile;
+  std::string part, machine, partError;
+  std::string cases, seed, jobs, minProved, tolerance, activeSystem;
+  bool replay = false;
   bool json = false, quiet = false;
   std::uint32_t maxErrors = 50;
   bool recover = false;
@@ -158,6 +163,63 @@ driver::ConvertOptions convertOf(const Raw& raw) {
   return out;
 }
 
+std::uint64_t countOf(const std::string& flag, const std::string& text, std::uint64_t otherwise,
+                      std::uint64_t least, std::uint64_t most) {
+  if (text.empty()) return otherwise;
+  const auto number = wholeNumber(text);
+  if (!number || *number < least || *number > most)
+    throw UsageError(fmt::format("{} takes a whole number from {} to {}, not `{}`", flag, least, most, text));
+  return *number;
+}
+
+double numberOf(const std::string& flag, const std::string& text, double otherwise, double least,
+                double most) {
+  if (text.empty()) return otherwise;
+  const auto number = parseNumber(text);
+  if (!number || !(*number >= least && *number <= most))
+    throw UsageError(fmt::format("{} takes a number from {} to {}, not `{}`", flag, numberText(least),
+                                 numberText(most), text));
+  return *number;
+}
+
+// X,Y,Z,TURN.
+std::array<double, 4> placeOf(const std::string& text) {
+  std::array<double, 4> out{};
+  std::istringstream in(text);
+  std::size_t count = 0;
+  for (std::string one; std::getline(in, one, ','); ++count) {
+    const auto number = parseNumber(one);
+    if (!number || count >= out.size())
+      throw UsageError("--part-error takes X,Y,Z,TURN in mm and degrees, not `" + text + "`");
+    out[count] = *number;
+  }
+  if (count != out.size())
+    throw UsageError("--part-error takes X,Y,Z,TURN in mm and degrees, not `" + text + "`");
+  return out;
+}
+
+driver::VerifyOptions verifyOf(const Raw& raw) {
+  driver::VerifyOptions out;
+  out.to = raw.to;
+  out.control = raw.control;
+  out.fromControl = raw.fromControl;
+  if (!raw.probeMacros.empty()) out.probeMacros = raw.probeMacros;
+  if (!raw.part.empty()) out.part = raw.part;
+  if (!raw.machine.empty()) out.machine = raw.machine;
+  constexpr std::uint64_t kMostCases = 10'000'000, kMostSeed = UINT64_MAX, kMostJobs = 256;
+  out.cases = countOf("--cases", raw.cases, raw.replay ? 1 : out.cases, 1, kMostCases);
+  out.seed = countOf("--seed", raw.seed, out.seed, 0, kMostSeed);
+  out.jobs = static_cast<std::uint32_t>(countOf("--jobs", raw.jobs, 0, 1, kMostJobs));
+  out.minProved = numberOf("--min-proved", raw.minProved, out.minProved, 0, 100);
+  out.tolerance = numberOf("--tolerance", raw.tolerance, out.tolerance, 0, 10);
+  if (!raw.partError.empty()) out.partError = placeOf(raw.partError);
+  if (!raw.activeSystem.empty())
+    out.activeSystem = static_cast<std::uint32_t>(countOf("--active-system", raw.activeSystem, 54, 54, 59));
+  out.datum = raw.datum;
+  out.replay = raw.replay;
+  return out;
+}
+
 void fill(const Raw& raw, Arguments& parsed) {
   parsed.inputs = raw.inputs;
   parsed.common = commonOf(raw);
@@ -166,6 +228,7 @@ void fill(const Raw& raw, Arguments& parsed) {
   if (!raw.cycle.empty()) parsed.source.cycle = raw.cycle;
   parsed.source.form = raw.form;
   parsed.convert = convertOf(raw);
+  parsed.verify = verifyOf(raw);
   parsed.outputFolder = raw.outputFolder;
   parsed.mapFile = raw.mapFile;
   parsed.output = raw.output;
@@ -354,6 +417,46 @@ void addSim(CLI::App& app, Raw& raw) {
   addCommon(*sim, raw);
 }
 
+void addVerify(CLI::App& app, Raw& raw) {
+  CLI::App* verify = app.add_subcommand(
+      "verify", "run a source and its translation on many drawn cases and compare what they do");
+  verify->add_option("INPUT", raw.inputs, "folder of a cycle, or file of programs");
+  verify
+      ->add_option(
+          "--to", raw.to,
+          "language of the translation: fanuc, mikroprog or fusion; without it the path of the macro "
+          "stands beside the posted program")
+      ->type_name("TARGET");
+  addTarget(*verify, raw);
+  verify
+      ->add_option("--from-control", raw.fromControl,
+                   "profile of the control that programs are written for (that of --control)")
+      ->type_name("NAME");
+  verify->add_option("--probe-macros", raw.probeMacros, "probing macros that the translation calls")
+      ->type_name("SET");
+  addSource(*verify, raw);
+  addValues(*verify, raw);
+  verify->add_option("--datum", raw.datum, "of mikroprog: g92 or operator")->type_name("g92|operator");
+  verify->add_option("--part", raw.part, "the part that is probed (made from the source where left out)")
+      ->type_name("PART.toml");
+  verify->add_option("--machine", raw.machine, "probe and travel of the machine")->type_name("MACHINE.toml");
+  verify->add_option("--cases", raw.cases, "cases to draw (1000)")->type_name("N");
+  verify->add_option("--seed", raw.seed, "which cases are drawn (1)")->type_name("S");
+  verify->add_option("--min-proved", raw.minProved, "share of the cases that has to be proved (95)")
+      ->type_name("PERCENT");
+  verify->add_option("--tolerance", raw.tolerance, "what counts as equal (0.000001)")->type_name("MM");
+  verify->add_option("--jobs", raw.jobs, "cases that run at one time (one for each processor)")
+      ->type_name("N");
+  verify
+      ->add_option("--part-error", raw.partError, "where the part stands, off its nominal place; of a replay")
+      ->type_name("X,Y,Z,TURN");
+  verify->add_option("--active-system", raw.activeSystem, "work system in force at entry; of a replay")
+      ->type_name("N");
+  verify->add_flag("--replay", raw.replay, "run the one case whose values are given");
+  verify->add_option("-o", raw.output, "write the report to a file")->type_name("REPORT");
+  addCommon(*verify, raw);
+}
+
 // CLI11 would only say that a command is missing.
 void checkCommand(const CLI::App& app, const std::vector<std::string>& arguments) {
   if (arguments.empty() || arguments.front().starts_with('-')) return;
@@ -407,6 +510,7 @@ std::optional<int> parseArguments(const std::vector<std::string>& arguments, Arg
   addLint(app, raw);
   addDump(app, raw);
   addSim(app, raw);
+  addVerify(app, raw);
   CLI::App* explain = app.add_subcommand("explain", "say what a message means and what to do");
   explain->add_option("CODE", raw.inputs, "the name in brackets behind a message")->required()->expected(1);
   CLI::App* list = app.add_subcommand("list", "print a table");
@@ -427,6 +531,7 @@ std::optional<int> parseArguments(const std::vector<std::string>& arguments, Arg
                      : command == "dump"    ? Command::Dump
                      : command == "explain" ? Command::Explain
                      : command == "sim"     ? Command::Sim
+                     : command == "verify"  ? Command::Verify
                                             : Command::List;
     fill(raw, parsed);
     return std::nullopt;

@@ -11,7 +11,7 @@
 
 namespace dotek::cli {
 
-enum class Command : unsigned char { Post, Convert, Lint, Dump, Explain, List, Sim };
+enum class Command : unsigned char { Post, Convert, Lint, Dump, Explain, List, Sim, Verify };
 
 struct Arguments {
   Command command = Command::Post;
@@ -29,6 +29,7 @@ struct Arguments {
   driver::SimOptions sim;         // common aside
   std::string traceFile;          // --trace
   std::string svgFile, htmlFile;  // --svg, --html
+  driver::VerifyOptions verify;   // inputs, common and source aside
   bool quiet = false;
   driver::Stage stage = driver::Stage::Ast;
   std::uint32_t maxErrors = 50;

@@ -9,6 +9,7 @@
 #include <exception>
 #include <memory>
 #include <ostream>
+#include <unistd.h>
 
 namespace dotek::cli {
 namespace {
@@ -81,6 +82,23 @@ public:
     return writing.hasErrors() ? kUsage : outcome.status;
   }
 
+  // The report counts also where something differs; a terminal sees how far the run is.
+  int verification(driver::VerifyOptions& options, const Arguments& arguments) {
+    if (isatty(STDERR_FILENO) == 1) {
+      options.progress = [&](std::uint64_t done, std::uint64_t all) {
+        err_ << "\r" << done << " of " << all << " cases" << (done == all ? "\r\x1b[K" : "") << std::flush;
+      };
+    }
+    const driver::Outcome outcome = driver::verify(options);
+    err_ << renderText(outcome.diagnostics, outcome.sources, maxErrors_);
+    Diagnostics writing;
+    if (arguments.output.empty())
+      out_ << outcome.output;
+    else if (outcome.status != kUsage && !writeAtomically(arguments.output, outcome.output, writing))
+      err_ << renderText(writing, outcome.sources, maxErrors_);
+    return writing.hasErrors() ? kUsage : outcome.status;
+  }
+
   // Findings are the result.
   int findings(const driver::Outcome& outcome, const Arguments& arguments) {
     out_ << (arguments.sarif  ? driver::sarif(outcome)
@@ -125,6 +143,11 @@ int runCommand(Arguments& arguments, std::ostream& out, std::ostream& err) {
     arguments.sim.program = arguments.inputs.empty() ? "" : arguments.inputs.front();
     arguments.sim.common = arguments.common;
     return printer.simulation(arguments.sim, arguments);
+  case Command::Verify:
+    arguments.verify.inputs = arguments.inputs;
+    arguments.verify.common = arguments.common;
+    arguments.verify.source = arguments.source;
+    return printer.verification(arguments.verify, arguments);
   case Command::Explain: return printer.result(driver::explain(arguments.inputs.front()), "");
   case Command::List: return printer.result(driver::list(arguments.inputs.front(), arguments.common), "");
   }

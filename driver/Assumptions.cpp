@@ -34,6 +34,7 @@ std::vector<std::pair<std::string, std::string>> assumptionTable() {
       {"changed-field=given", "a field that the macro changes behind its dialog: the given value is stored"},
       {"unchecked", "checks of CycleData.mac that cannot be made: the values pass"},
       {"touch=FILE:LINE", "a move of ToolPath.mac that could be a touch and does not show it: it is one"},
+      {"probe-on", "verify: another routine has switched the probe on before the cycle"},
       {"plain-messages", "a message that the control cannot show: accents and odd characters are dropped"},
       {"and-before-or", "AND beside OR in a Prog: AND binds tighter"},
       {"left-to-right", "AND beside OR in a Prog: read from left to right"},

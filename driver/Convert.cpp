@@ -65,10 +65,14 @@ private:
     for (const OutputFile& file : files_)
       text += file.text;
     std::string map = renderLineMap(maps_, session_.sources());
+    std::vector<MappedResult> maps = maps_;
     Outcome outcome = session_.finish(std::move(text));
     if (outcome.status != 0) return outcome;
     outcome.files = std::move(files_);
     outcome.map = std::move(map);
+    outcome.maps = std::move(maps);
+    outcome.arguments = std::move(arguments_);
+    outcome.macros = std::move(called_);
     return outcome;
   }
 
@@ -221,6 +225,13 @@ private:
     }
     const auto lines = fanuc::emit(lowered->cycle, emit, session_.sources(), session_.diagnostics());
     if (!lines) return;
+    Diagnostics told; // by emit() already
+    std::vector<OutputArgument> arguments;
+    if (const auto letters = fanuc::assignLetters(lowered->cycle, emit, told))
+      for (const fanuc::Argument& one : *letters)
+        arguments.push_back({lowered->cycle.variable(one.variable).name, one.letter});
+    arguments_.push_back(std::move(arguments));
+    called_ = macros->name;
     numbers_.emplace_back(emit.programNumber, folder.name);
     add(*lines, emit.programNumber);
   }
@@ -329,6 +340,8 @@ private:
   std::set<std::string> usedSets_, usedDefaults_, usedLetters_;
   std::vector<OutputFile> files_;
   std::vector<MappedResult> maps_;
+  std::vector<std::vector<OutputArgument>> arguments_;
+  std::string called_; // set of macros
   std::optional<FusionParts> fusion_; // with --to fusion
   bool failed_ = false;
 };

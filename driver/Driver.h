@@ -2,9 +2,11 @@
 #pragma once
 
 #include "support/Diagnostics.h"
+#include "support/LineMap.h"
 #include "support/Limits.h"
 #include "support/Source.h"
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <map>
@@ -109,10 +111,39 @@ struct SimOptions {
   std::function<void(std::string_view)> trace;
 };
 
+struct VerifyOptions {
+  std::vector<std::string> inputs; // one folder of a cycle, or one file of programs
+  CommonOptions common;
+  SourceOptions source;
+  std::string to;      // "": the path of the macro against the posted program
+  std::string control; // "": the target's first
+  std::string fromControl;
+  std::optional<std::string> probeMacros;
+  std::optional<std::string> part, machine; // paths
+  std::uint64_t cases = 1000;
+  std::uint64_t seed = 1;
+  double minProved = 95;   // percent
+  double tolerance = 1e-6; // mm
+  std::uint32_t jobs = 0;  // 0: one for each processor
+  std::string datum;       // of mikroprog, as of convert
+  // Of a replay: where the part stands, X, Y, Z, mm, and turned about Z, degrees; the system that is active.
+  std::optional<std::array<double, 4>> partError;
+  std::optional<std::uint32_t> activeSystem; // 54 to 59
+  bool replay = false;                       // one case, all of whose values are given: nothing is made smaller
+  // Told from time to time how many of how many cases are done; from one thread at a time.
+  std::function<void(std::uint64_t done, std::uint64_t all)> progress;
+};
+
 // One file of a result that may have several; `output` holds them one behind the other.
 struct OutputFile {
   std::string name; // "O8000.nc"
   std::string text;
+};
+
+// An argument of a program that convert has written.
+struct OutputArgument {
+  std::string name; // of the parameter or the host input
+  char letter = 0;
 };
 
 // What a command gives. `status` is 0, 1 or 2 as docs/cli.md says; with a status other than 0 of post,
@@ -122,6 +153,9 @@ struct Outcome {
   std::string output;
   std::vector<OutputFile> files; // of convert, and pictures of sim
   std::string map;               // of convert: what --map writes
+  std::vector<MappedResult> maps; // the same, file by file; places are of `sources`
+  std::string macros; // of convert: the set that the last result calls; "": none
+  std::vector<std::vector<OutputArgument>> arguments; // of convert to fanuc, cycle by cycle
   SourceMap sources;
   Diagnostics diagnostics; // sorted
 };
@@ -139,6 +173,9 @@ Outcome dump(const DumpOptions& options);
 // Runs a program on a machine. The status is 0 where it came to its end; the trace and the summary are given
 // up to the place where it did not.
 Outcome sim(const SimOptions& options);
+// Runs source and translation on many drawn cases and compares what they do. The output is the report; its
+// last line counts: `proved P, idle I, differ D of N`.
+Outcome verify(const VerifyOptions& options);
 // The text of one message or rule; status 2 for an unknown code.
 Outcome explain(const std::string& code);
 // `what`: cycles, controls, macros, forms, rules, targets, hosts, limits, assumptions.

@@ -18,6 +18,7 @@ public:
   explicit Session(const CommonOptions& options);
 
   SourceMap& sources() { return sources_; }
+  const SourceMap& sources() const { return sources_; }
   Diagnostics& diagnostics() { return diagnostics_; }
   const Limits& limits() const { return options_.limits; }
   const CommonOptions& options() const { return options_; }

@@ -13,6 +13,7 @@ namespace {
 
 constexpr double kMostWork = 1e8; // evaluations of a surface, about
 constexpr int kRulings = 96;
+constexpr int kArcs = 32; // of a circle: each smooth()
 constexpr int kDepth = 16;
 constexpr double kShort = 1e-3; // mm: a piece is not cut further
 constexpr double kParallel = 1e-9;
@@ -97,6 +98,8 @@ bool Solid::meet(std::uint32_t i, std::uint32_t j) {
     const Vec foot = t->origin - h * s->axis;
     return straight(foot + side, t->axis, i, j) && straight(foot - side, t->axis, i, j);
   }
+  if (s->kind == Kind::Plane && t->kind == Kind::Cylinder && parallel)
+    return circle(t->origin - s->value(t->origin) * s->axis, s->axis, t->radius, i, j);
   if (s->kind == Kind::Cylinder && t->kind == Kind::Cylinder && parallel) {
     Vec w = t->origin - s->origin;
     w -= w.dot(s->axis) * s->axis;
@@ -159,10 +162,10 @@ bool Solid::straight(const Vec& o, const Vec& d, std::uint32_t i, std::uint32_t 
 bool Solid::circle(const Vec& centre, const Vec& axis, double radius, std::uint32_t i, std::uint32_t j) {
   const Vec x = across(axis) * radius, y = axis.cross(x);
   const auto point = [&](int n) {
-    const double angle = 2 * std::numbers::pi * (n % kRulings) / kRulings;
+    const double angle = 2 * std::numbers::pi * (n % kArcs) / kArcs;
     return Vec(centre + std::cos(angle) * x + std::sin(angle) * y);
   };
-  for (int n = 0; n < kRulings; ++n) {
+  for (int n = 0; n < kArcs; ++n) {
     Piece piece;
     piece.a = point(n);
     piece.b = point(n + 1);

@@ -72,6 +72,13 @@ Position Machine::machinePosition() const {
   return out;
 }
 
+Position Machine::zeroOf(std::uint32_t system) const {
+  Position out;
+  for (std::size_t i = 0; i < kAxes; ++i)
+    out[i] = snap(external_[i] + systems_[system][i]);
+  return out;
+}
+
 // The short way: nothing but straight moves and arcs in mm, and the codes that go with them. Whatever else a
 // block holds, or what stands out of range, takes the long way from the beginning: nothing is changed before
 // that is known.

@@ -95,6 +95,8 @@ public:
   // ---- state
   const Position& position() const { return work_; } // of the active work system, mm and degrees
   Position machinePosition() const;                  // the tool's length included
+  // Where the zero of G54 (0) to G59 (5) lies, in coordinates of the machine: with the external offset.
+  Position zeroOf(std::uint32_t system) const;
   const Position& skipPosition() const { return skipped_; }
   std::uint8_t mode(Slot slot) const { return modes_[slot]; }
   // Code in force of a modal group, times ten; 0: none was given and none is in force at the start.

@@ -22,6 +22,7 @@ std::span<const MessageInfo> messageTable() {
 #include "support/messages/Nc.def"
 #include "support/messages/Part.def"
 #include "support/messages/Sim.def"
+#include "support/messages/Verify.def"
 #undef DOTEK_DIAGNOSTIC
     };
     std::sort(table.begin(), table.end(),

@@ -1,1 +1,370 @@
 #include "verify/Draw.h"
+
+#include "verify/Random.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace dotek::verify {
+namespace {
+
+using ir::Kind;
+
+constexpr double kMost = 999; // numbers stay below
+constexpr double kWide = 100; // mm: how far a length goes
+constexpr std::uint32_t kFirstSystem = 54, kLastSystem = 59;
+constexpr double kMostShift = 0.3; // mm, X and Y
+constexpr double kLeastRise = 0.02, kMostRise = 0.4;
+constexpr double kMostTurn = 0.3; // degrees
+
+constexpr std::array<double, 10> kPowers{1, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9};
+
+double unitsOf(int decimals) {
+  return kPowers[static_cast<std::size_t>(std::clamp(decimals, 0, 9))];
+}
+double stepOf(const DrawField& field) {
+  return 1 / unitsOf(field.decimals);
+}
+// The nearest multiple of the last place, as a reader of its digits gets it.
+double rounded(double value, int decimals) {
+  const double units = unitsOf(decimals);
+  const double out = std::round(value * units) / units;
+  return out == 0 ? 0 : out; // no -0
+}
+double thousandths(double value) {
+  return rounded(value, 3);
+}
+double towardsZero(double value) {
+  const double out = std::trunc(value * 1000) / 1000;
+  return out == 0 ? 0 : out;
+}
+
+double limited(const DrawField& field, double value) {
+  const double most = std::max(kMost - stepOf(field), std::abs(field.initial.value_or(0)));
+  return rounded(std::clamp(value, -most, most), field.decimals);
+}
+
+// Each doubling is as likely as the next; no logarithms, whose last digits differ between platforms.
+double spread(double least, double most, Random& random) {
+  const int doublings = std::max(1, std::ilogb(most / least) + 1);
+  const auto n = static_cast<int>(random.below(static_cast<std::uint64_t>(doublings)));
+  return std::min(std::ldexp(least, n) * (1 + random.share()), most);
+}
+
+// How likely a field keeps its first value: the more attempts were in vain, the nearer to what the programmer
+// tried himself. Every other attempt stays free: the first values need not be legal.
+double keeps(std::uint32_t attempt) {
+  return attempt % 2 != 0 ? 0.08 : attempt < 8 ? 0.08 : attempt < 32 ? 0.2 : attempt < 128 ? 0.4 : 0.7;
+}
+
+bool isWhole(double value) {
+  return value == std::round(value);
+}
+
+// Behind, between or before the constants that checks compare with.
+double besideThresholds(const DrawField& field, const std::vector<double>& sorted, Random& random) {
+  const double first = field.initial.value_or(sorted.front());
+  auto n = static_cast<std::size_t>(std::upper_bound(sorted.begin(), sorted.end(), first) - sorted.begin());
+  if (!field.initial || random.chance(0.4)) n = random.below(sorted.size() + 1);
+  if (random.chance(0.1)) return sorted[random.below(sorted.size())];
+  if (n == 0) return sorted.front() - spread(stepOf(field), kWide, random);
+  if (n == sorted.size()) return sorted.back() + spread(stepOf(field), kWide, random);
+  const double inside = random.between(sorted[n - 1], sorted[n]);
+  // Where all that is known is whole, so are most values that mean something.
+  return isWhole(first) && isWhole(sorted[n - 1]) && random.chance(0.8) ? std::round(inside) : inside;
+}
+
+double lengthValue(const DrawField& field, bool near, Random& random) {
+  const double first = field.initial.value_or(0), step = stepOf(field);
+  std::vector<double> sorted;
+  for (const double threshold : field.thresholds)
+    if (std::abs(threshold) < kMost && threshold != 0) sorted.push_back(threshold);
+  std::sort(sorted.begin(), sorted.end());
+  if (!sorted.empty() && random.chance(0.6)) return besideThresholds(field, sorted, random);
+
+  bool negative = random.chance(near ? 0.1 : 0.3) != (first < 0);
+  double size = 0;
+  if (near && first != 0) {
+    size = std::abs(first) * spread(0.25, 4, random);
+  } else {
+    const double most = std::max(kWide, 2 * std::abs(first)), least = std::min(1.0, std::max(step, 0.001));
+    const double choice = random.share();
+    size = choice < 0.2   ? spread(least, most, random)
+           : choice < 0.5 ? random.between(0, most)
+                          : spread(1, most, random);
+  }
+  return negative ? -size : size;
+}
+
+double smallNumber(const DrawField& field, std::int64_t least, Random& random) {
+  const auto first = static_cast<std::int64_t>(std::clamp(field.initial.value_or(1), -kMost, kMost));
+  std::int64_t middle = first;
+  if (!field.thresholds.empty() && random.chance(0.5)) {
+    const double threshold = field.thresholds[random.below(field.thresholds.size())];
+    middle = static_cast<std::int64_t>(std::clamp(threshold, -kMost, kMost));
+  }
+  return static_cast<double>(std::max(least, middle + random.whole(-2, 2)));
+}
+
+double angleValue(const DrawField& field, bool near, Random& random) {
+  const double first = field.initial.value_or(0);
+  const bool negative = random.chance(near ? 0.1 : 0.3) != (first < 0);
+  const double size = random.chance(0.3)   ? static_cast<double>(15 * random.whole(0, 12))
+                      : near && first != 0 ? std::min(180.0, std::abs(first) * spread(0.25, 4, random))
+                                           : random.between(0, 180);
+  return negative ? -size : size;
+}
+
+double hostValue(const std::string& name, Random& random) {
+  if (name == "tool_radius")
+    return thousandths(random.chance(0.8) ? random.between(1, 3) : random.between(0.5, 4));
+  if (name == "start_x" || name == "start_y") return thousandths(random.between(-kWide, kWide));
+  if (name == "start_z") return thousandths(random.between(100, 160));
+  if (name == "clearance" || name == "retract") return thousandths(random.between(1, 60));
+  if (name == "overtravel") return thousandths(random.between(2, 10));
+  if (name == "return_feed") return static_cast<double>(10 * random.whole(10, 90));
+  if (name == "tool_number" || name == "tool_offset") return static_cast<double>(random.whole(1, 20));
+  return thousandths(random.between(1, 60));
+}
+
+} // namespace
+
+Draws::Draws(std::vector<DrawField> fields, std::vector<std::string> hosts,
+             std::map<std::string, double> fixedHosts, std::uint64_t seed)
+    : fields_(std::move(fields)), hosts_(std::move(hosts)), fixedHosts_(std::move(fixedHosts)), seed_(seed) {
+  for (std::size_t n = 0; n < fields_.size(); ++n)
+    fieldNames_.push_back({n, Random::hash(fields_[n].name)});
+  std::sort(fieldNames_.begin(), fieldNames_.end(),
+            [&](const Name& a, const Name& b) { return fields_[a.index].name < fields_[b.index].name; });
+  std::erase_if(hosts_, [&](const std::string& name) { return fixedHosts_.contains(name); });
+  std::sort(hosts_.begin(), hosts_.end());
+  hosts_.erase(std::unique(hosts_.begin(), hosts_.end()), hosts_.end());
+  for (std::size_t n = 0; n < hosts_.size(); ++n)
+    hostNames_.push_back({n, Random::hash(hosts_[n])});
+
+  // One of each field after the other, so that few cases see many fields.
+  std::vector<std::vector<Edge>> each;
+  std::size_t most = 0;
+  for (std::size_t n = 0; n < fields_.size(); ++n) {
+    each.push_back(edgesOf(n));
+    most = std::max(most, each.back().size());
+  }
+  for (std::size_t row = 0; row < most; ++row) {
+    for (const std::vector<Edge>& list : each)
+      if (row < list.size()) edges_.push_back(list[row]);
+  }
+}
+
+bool Draws::isDrawn(const char* host) const {
+  return std::binary_search(hosts_.begin(), hosts_.end(), host);
+}
+
+double Draws::value(const DrawField& field, bool near, std::uint32_t attempt, Random& random) const {
+  if (field.fixed) return *field.fixed;
+  if (field.kind == Kind::WorkOffset) return static_cast<double>(random.whole(kFirstSystem, kLastSystem));
+  if (field.initial && random.chance(keeps(attempt))) return rounded(*field.initial, field.decimals);
+  switch (field.kind) {
+  case Kind::WorkOffset: break;
+  case Kind::Flag: return static_cast<double>(random.whole(0, 1));
+  case Kind::Count: return smallNumber(field, 0, random);
+  case Kind::ToolOffset: return smallNumber(field, 1, random);
+  case Kind::Angle: return limited(field, angleValue(field, near, random));
+  case Kind::Feed: {
+    const double first = std::abs(field.initial.value_or(0));
+    const double size = near && first > 0 ? first * spread(0.25, 4, random) : spread(10, kMost, random);
+    return std::max(limited(field, size), stepOf(field));
+  }
+  case Kind::Text: return rounded(field.initial.value_or(0), field.decimals);
+  case Kind::Number:
+  case Kind::Length:
+  case Kind::Ratio: break;
+  }
+  return limited(field, lengthValue(field, near, random));
+}
+
+void Draws::drawSystem(Case& drawn, Random& random) const {
+  const auto first = static_cast<std::uint32_t>(random.below(6));
+  for (std::uint32_t n = 0; n < 6; ++n) {
+    drawn.system = kFirstSystem + (first + n) % 6;
+    const bool taken = std::any_of(fields_.begin(), fields_.end(), [&](const DrawField& field) {
+      return field.kind == Kind::WorkOffset && drawn.values.at(field.name) == drawn.system;
+    });
+    if (!taken) return;
+  }
+}
+
+Case Draws::propose(std::uint64_t index, std::uint32_t attempt) const {
+  const std::uint64_t base = Random::sub(Random::sub(seed_, index), attempt);
+  Case out;
+  out.hosts = fixedHosts_;
+  Random random(base);
+  // Half of the cases stay near the first values, the others go anywhere.
+  const bool near = random.chance(0.5);
+  for (const Name& name : fieldNames_) {
+    const DrawField& field = fields_[name.index];
+    Random own(base ^ name.hash);
+    out.values.emplace_hint(out.values.end(), field.name, value(field, near, attempt, own));
+  }
+  for (const Name& name : hostNames_) {
+    const std::string& host = hosts_[name.index];
+    Random own(base ^ name.hash);
+    out.hosts.emplace_hint(fixedHosts_.empty() ? out.hosts.end() : out.hosts.lower_bound(host), host,
+                           hostValue(host, own));
+  }
+  drawSystem(out, random);
+
+  const auto radius = out.hosts.find("tool_radius");
+  const double most = std::min(kMostShift, (radius == out.hosts.end() ? 0.5 : radius->second) / 3);
+  if (!random.chance(0.1)) {
+    out.error.shift.x = towardsZero(random.between(-most, most));
+    out.error.shift.y = towardsZero(random.between(-most, most));
+    out.error.turn = thousandths(random.between(-kMostTurn, kMostTurn));
+  }
+  out.error.shift.z = thousandths(random.between(kLeastRise, kMostRise));
+  out.stream = random.next();
+  return out;
+}
+
+void Draws::settleHosts(Case& drawn, const DrawnPath& path) const {
+  Random random(drawn.stream);
+  const double down = random.share(), up = random.share();
+  if (path.points.size() > 1) {
+    double highest = path.points[1].z, second = -1e9;
+    for (std::size_t n = 1; n < path.points.size(); ++n)
+      highest = std::max(highest, path.points[n].z);
+    for (std::size_t n = 1; n < path.points.size(); ++n)
+      if (path.points[n].z < highest - 1e-9) second = std::max(second, path.points[n].z);
+    if (second == -1e9) second = highest;
+    if (isDrawn("clearance")) {
+      const double at = thousandths(second + (highest - second) * down);
+      drawn.hosts["clearance"] = at >= second && at <= highest ? at : highest;
+    }
+    if (isDrawn("start_z")) {
+      const auto clearance = drawn.hosts.find("clearance");
+      const double least = clearance == drawn.hosts.end() ? highest : std::max(highest, clearance->second);
+      drawn.hosts["start_z"] = std::ceil((least + 60 * up) * 1000 - 1e-6) / 1000;
+    }
+  }
+
+  // Never farther than a third of the ball, nor of the way that a touch has.
+  double least = 1e9, leastDown = 1e9, radius = 1e9, arm = 0;
+  sim::Point3 middle;
+  for (const DrawnTouch& each : path.touches)
+    middle = middle + each.touch.point * (1 / static_cast<double>(path.touches.size()));
+  for (const DrawnTouch& each : path.touches) {
+    const sim::Point3 &end = path.points[each.move], way = end - path.points[each.move - 1];
+    const double length = std::sqrt(way.dot(way));
+    if (each.touch.direction.z != 0) {
+      leastDown = std::min(leastDown, length);
+      continue;
+    }
+    radius = each.touch.point.z - end.z;
+    least = std::min(least, length);
+    arm = std::max(arm, std::hypot(each.touch.point.x - middle.x, each.touch.point.y - middle.y));
+  }
+  const double most = std::min({kMostShift, radius / 3, least / 3});
+  sim::Point3& shift = drawn.error.shift;
+  shift.x = towardsZero(std::clamp(shift.x, -most, most));
+  shift.y = towardsZero(std::clamp(shift.y, -most, most));
+  if (leastDown < 1e9)
+    shift.z = towardsZero(std::clamp(shift.z, std::min(kLeastRise, leastDown / 2), leastDown / 2));
+  else if (random.chance(0.5))
+    shift.z = -shift.z;
+  if (least == 1e9) {
+    drawn.error.turn = 0;
+  } else {
+    const double limit = std::min(radius, least) / 3 / std::max(arm, 1e-3) * 180 / 3.14159265358979;
+    drawn.error.turn = towardsZero(std::clamp(drawn.error.turn, -limit, limit));
+  }
+}
+
+// ---- edges
+
+std::vector<Draws::Edge> Draws::edgesOf(std::size_t index) const {
+  using Means = Edge::Means;
+  const DrawField& field = fields_[index];
+  std::vector<Edge> out;
+  if (field.fixed) return out;
+  const double step = stepOf(field), largest = 1000 - step;
+  const auto add = [&](double value) {
+    value = rounded(value, field.decimals);
+    const bool known = std::any_of(out.begin(), out.end(), [&](const Edge& edge) {
+      return edge.means == Means::Value && edge.value == value;
+    });
+    if (!known) out.push_back({index, Means::Value, value, 0});
+  };
+  if (field.kind == Kind::WorkOffset) {
+    out.push_back({index, Means::System, kFirstSystem, 0});
+    add(kFirstSystem - 1);
+    add(kLastSystem + 1);
+    if (field.decimals > 0) add(kFirstSystem + 0.5);
+    add(0);
+    out.push_back({index, Means::System, kLastSystem, 0});
+    add(-static_cast<double>(kFirstSystem));
+    add(kFirstSystem - step);
+    add(kLastSystem + step);
+    add(largest);
+    return out;
+  }
+  const bool isSize = field.kind == Kind::Length || field.kind == Kind::Number;
+  if (isSize) out.push_back({index, Means::Radius, 1, 0});
+  add(0);
+  if (isSize) out.push_back({index, Means::Radius, -1, 0});
+  for (const double threshold : field.thresholds) {
+    if (std::abs(threshold) > largest) continue;
+    add(threshold);
+    add(threshold - step);
+    add(threshold + step);
+  }
+  if (isSize) {
+    out.push_back({index, Means::Radius, 1, -1});
+    out.push_back({index, Means::Radius, 1, 1});
+    out.push_back({index, Means::Radius, 2, 0});
+    out.push_back({index, Means::Radius, -1, 1});
+    out.push_back({index, Means::Radius, 2, 1});
+  }
+  add(largest);
+  add(-largest);
+  add(step);
+  add(-step);
+  if (field.initial) add(-*field.initial);
+  add(100 - step); // one digit fewer
+  add(1 - step);
+  return out;
+}
+
+void Draws::apply(const Edge& edge, Case& drawn) const {
+  const DrawField& field = fields_[edge.field];
+  double& value = drawn.values[field.name];
+  switch (edge.means) {
+  case Edge::Means::Value: value = edge.value; return;
+  case Edge::Means::System:
+    value = edge.value;
+    drawn.system = static_cast<std::uint32_t>(edge.value);
+    return;
+  case Edge::Means::Radius: {
+    const auto radius = drawn.hosts.find("tool_radius");
+    const double size = rounded(radius == drawn.hosts.end() ? 1 : radius->second, field.decimals);
+    // A radius that the field can say, so that it is met exactly.
+    if (isDrawn("tool_radius") && size > 0) radius->second = size;
+    value = rounded(size * edge.value + edge.steps * stepOf(field), field.decimals);
+    return;
+  }
+  }
+}
+
+Case Draws::edge(std::uint64_t index) const {
+  const std::uint64_t stream = Random::sub(seed_ ^ 0x65646765u, index); // apart from the proposals
+  Random random(stream);
+  // Around the first values or some others; few of them are illegal for another reason.
+  Case out = propose(stream, random.chance(0.5) ? 0 : 1000);
+  out.edge = true;
+  if (edges_.empty()) return out;
+  // The second one first: the own one of this case is the one that counts.
+  if (index >= edges_.size()) apply(edges_[random.below(edges_.size())], out);
+  apply(edges_[index % edges_.size()], out);
+  return out;
+}
+
+} // namespace dotek::verify

@@ -4,8 +4,8 @@
 #include "ir/Kind.h"
 #include "verify/DrawnPath.h"
 
+#include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -13,12 +13,14 @@
 
 namespace dotek::verify {
 
+class Random;
+
 // A parameter of the cycle.
 struct DrawField {
   std::string name; // as the source spells it
   ir::Kind kind = ir::Kind::Number;
   std::optional<double> initial;  // of DefineData.txt
-  int decimals = 3;               // that the field's picture prints
+  int decimals = 3;               // that the field's picture prints; 0 to 9
   std::vector<double> thresholds; // constants that the checks compare it with
   std::optional<double> fixed;    // by --set or the job: always this
 };
@@ -28,33 +30,60 @@ struct Case {
   std::map<std::string, double> hosts;  // tool_radius, clearance, retract, start_x, start_y, start_z, ...
   std::uint32_t system = 54;            // active at entry: 54 to 59
   PartError error;
-  bool edge = false; // edge and illegal values
+  bool edge = false;        // edge and illegal values
+  std::uint64_t stream = 0; // seed of what settleHosts() draws
 };
 
 class Draws {
 public:
-  // `hosts`: names that are drawn; `fixedHosts`: given ones. `mayBeIllegal`: what the case `index` of edge
-  // cases is about.
+  // `hosts`: names that are drawn; `fixedHosts`: given ones, which every case has.
   Draws(std::vector<DrawField> fields, std::vector<std::string> hosts,
         std::map<std::string, double> fixedHosts, std::uint64_t seed);
 
   // The `attempt`-th proposal for case `index`: the same arguments give the same case, whatever ran before.
-  // It may be illegal or out of reach; the caller asks for further attempts.
+  // It may be illegal or out of reach; the caller asks for further attempts. What is drawn for a name does
+  // not hang on the other names.
   Case propose(std::uint64_t index, std::uint32_t attempt) const;
-  // Hosts that hang on the path, once it is known without them: clearance, start_z, retract stay as proposed
-  // where they are fixed.
+  // Hosts that hang on the path, once it is known without them: `clearance` between its two highest levels,
+  // `start_z` above all; they stay where they are fixed or not drawn. Also keeps the part's error so small
+  // that the ball finds the surface. The path begins at `start_z`: compute it again afterwards.
   void settleHosts(Case& drawn, const DrawnPath& path) const;
   // An edge case: values at the thresholds, one step beside them, 0, illegal systems, the largest value that
-  // the picture prints, the active system as the one that is set.
+  // the picture prints, values at the ball's radius and diameter, the active system as the one that is set.
+  // Each of these comes once for each field, then again beside another one.
   Case edge(std::uint64_t index) const;
 
   const std::vector<DrawField>& fields() const { return fields_; }
 
 private:
+  // What an edge case does to a field.
+  struct Edge {
+    enum class Means : std::uint8_t {
+      Value,  // the field gets `value`
+      Radius, // the ball's radius times `value`, plus `steps` of the field
+      System, // `value`, which is the active system, too
+    };
+    std::size_t field = 0;
+    Means means = Means::Value;
+    double value = 0;
+    int steps = 0;
+  };
+  std::vector<Edge> edgesOf(std::size_t field) const;
+  void apply(const Edge& edge, Case& drawn) const;
+  double value(const DrawField& field, bool near, std::uint32_t attempt, Random& random) const;
+  void drawSystem(Case& drawn, Random& random) const;
+  bool isDrawn(const char* host) const;
+
+  struct Name {
+    std::size_t index = 0;
+    std::uint64_t hash = 0;
+  };
   std::vector<DrawField> fields_;
   std::vector<std::string> hosts_;
   std::map<std::string, double> fixedHosts_;
   std::uint64_t seed_;
+  std::vector<Name> fieldNames_, hostNames_; // in the order of their names
+  std::vector<Edge> edges_;
 };
 
 } // namespace dotek::verify

@@ -1,1 +1,175 @@
 #include "verify/DrawnPath.h"
+
+#include "sim/Contact.h"
+#include "support/Decimal.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace dotek::verify {
+namespace {
+
+using frontend::gibbs::PathMove;
+using sim::Part;
+using sim::Point3;
+
+constexpr double kSame = 1e-9;  // mm: coordinates that differ by rounding
+constexpr double kExact = 1e-6; // mm: a contact is where it was drawn
+
+double lengthOf(const Point3& p) {
+  return std::sqrt(p.dot(p));
+}
+
+// The way of a move along one axis.
+struct Step {
+  int axis = -1; // none: along several, or it stands
+  double way = 0;
+};
+
+Step stepOf(const Point3& from, const Point3& to) {
+  const std::array<double, 3> way{to.x - from.x, to.y - from.y, to.z - from.z};
+  Step out;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double part = way[static_cast<std::size_t>(axis)];
+    if (std::abs(part) <= kSame) continue;
+    if (out.axis >= 0) return {};
+    out = {axis, part};
+  }
+  return out;
+}
+
+Touch touchAt(const Point3& end, const Step& step, double ballRadius) {
+  const double sign = step.way > 0 ? 1 : -1;
+  if (step.axis == 2) return {end, {0, 0, sign}};
+  const Point3 direction = step.axis == 0 ? Point3{sign, 0, 0} : Point3{0, sign, 0};
+  return {end + direction * ballRadius + Point3{0, 0, ballRadius}, direction};
+}
+
+void findTouches(DrawnPath& path, double ballRadius) {
+  const std::vector<Point3>& points = path.points;
+  for (std::size_t n = 1; n + 1 < points.size(); ++n) {
+    const Step step = stepOf(points[n - 1], points[n]), next = stepOf(points[n], points[n + 1]);
+    if (step.axis < 0 || next.axis != step.axis || step.way * next.way >= 0) continue;
+    if (step.axis == 2 && step.way > 0) continue;
+    if (!path.touches.empty() && path.touches.back().move + 1 == n) { // the way back, or on to the other side
+      const Step before = stepOf(points[n - 2], points[n - 1]);
+      if (before.axis == step.axis && std::abs(step.way) <= std::abs(before.way) + kSame) continue;
+    }
+    path.touches.push_back({touchAt(points[n], step, ballRadius), n, path.ranges[n]});
+  }
+}
+
+// ---- walking
+
+std::string at(const Point3& p) {
+  return fmt::format("X{} Y{} Z{}", fixedText(p.x, 3), fixedText(p.y, 3), fixedText(p.z, 3));
+}
+
+class Walk {
+public:
+  Walk(const DrawnPath& path, const Part& part, const sim::Probe& probe, double off)
+      : path_(path), part_(part), probe_(probe), off_(off + kExact), at_(path.points.front() + up()) {}
+
+  std::string run() {
+    std::size_t touch = 0;
+    for (std::size_t n = 1; n < path_.points.size(); ++n) {
+      const bool measures = touch < path_.touches.size() && path_.touches[touch].move == n;
+      std::string why = measures ? measure(path_.touches[touch++], n) : pass(n);
+      if (!why.empty()) return why;
+    }
+    return "";
+  }
+
+private:
+  Point3 up() const { return {0, 0, probe_.ballRadius()}; }
+
+  std::string pass(std::size_t n) {
+    const Point3 to = path_.points[n] + up();
+    if (const auto touch = sim::firstContact(part_, probe_.ballRadius(), at_, to))
+      return fmt::format("move {} runs into the part at {}", n, at(touch->centre - up()));
+    std::string why = collision(to - at_, n);
+    at_ = to;
+    return why;
+  }
+
+  std::string measure(const DrawnTouch& drawn, std::size_t n) {
+    const Point3 end = path_.points[n] + up();
+    const Point3 direction = drawn.touch.direction;
+    // A little farther than it may come, so that a contact at the limit is not lost to rounding.
+    const auto touch = sim::firstContact(part_, probe_.ballRadius(), at_, end + direction * (2 * off_));
+    if (!touch) return fmt::format("move {} does not reach the surface it touches", n);
+    if (touch->atStart) return fmt::format("move {} touches where it begins", n);
+    if (std::abs((touch->centre - end).dot(direction)) > off_)
+      return fmt::format("move {} touches at {}, not where it ends", n, at(touch->centre - up()));
+    std::string why = collision(touch->centre - at_, n);
+    at_ = touch->centre;
+    return why;
+  }
+
+  // Of the stem and the body.
+  std::string collision(const Point3& way, std::size_t n) const {
+    if (!(probe_.stemDiameter > 0) || !(lengthOf(way) > 0)) return "";
+    const Point3 top = at_ + Point3{0, 0, probe_.stemLength};
+    if (collides({at_, top, probe_.stemDiameter / 2}, way))
+      return fmt::format("the stem runs into the part in move {}", n);
+    if (!(probe_.bodyDiameter > 0)) return "";
+    const double radius = probe_.bodyDiameter / 2; // its round end lies within it
+    if (collides(
+            {top + Point3{0, 0, radius}, top + Point3{0, 0, std::max(radius, probe_.bodyLength)}, radius},
+            way))
+      return fmt::format("the probe's body runs into the part in move {}", n);
+    return "";
+  }
+  bool collides(const sim::Capsule& capsule, const Point3& way) const {
+    return sim::firstCollision(part_, capsule, way).has_value();
+  }
+
+  const DrawnPath& path_;
+  const Part& part_;
+  const sim::Probe& probe_;
+  double off_;
+  Point3 at_; // of the ball's centre
+};
+
+} // namespace
+
+std::vector<Touch> DrawnPath::nominal() const {
+  std::vector<Touch> out;
+  out.reserve(touches.size());
+  for (const DrawnTouch& each : touches)
+    out.push_back(each.touch);
+  return out;
+}
+
+DrawnPath drawnPath(const std::vector<PathMove>& path, const Point3& start, double retract,
+                    double ballRadius) {
+  DrawnPath out;
+  out.points.reserve(path.size() + 1);
+  out.ranges.reserve(path.size() + 1);
+  out.points.push_back(start);
+  out.ranges.emplace_back();
+  Point3 here = start;
+  for (const PathMove& move : path) {
+    const bool all = move.kind == PathMove::Kind::Feed;
+    if (all || move.kind == PathMove::Kind::FeedX) here.x = start.x + move.x;
+    if (all || move.kind == PathMove::Kind::FeedY) here.y = start.y + move.y;
+    if (all || move.kind == PathMove::Kind::FeedZ) here.z = retract + move.z;
+    out.points.push_back(here);
+    out.ranges.push_back(move.range);
+  }
+  findTouches(out, ballRadius);
+  return out;
+}
+
+std::string whyNotReached(const DrawnPath& path, const Part& part, const sim::Probe& probe, double off) {
+  if (path.touches.empty()) return "the path shows no touch";
+  double highest = path.points[1].z;
+  for (std::size_t n = 2; n < path.points.size(); ++n)
+    highest = std::max(highest, path.points[n].z);
+  if (path.points.back().z < highest - kSame) return "the path ends lower than it was";
+  return Walk(path, part, probe, off).run();
+}
+
+} // namespace dotek::verify

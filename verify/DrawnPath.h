@@ -1,4 +1,5 @@
-// What the programmer of a cycle saw: ToolPath.mac executed on a point, and the touches that it shows.
+// What the programmer of a cycle saw: ToolPath.mac executed on a point, and the touches that it shows. The
+// rules stand in docs/verify.md.
 #pragma once
 
 #include "frontend/gibbs/Run.h"
@@ -6,12 +7,16 @@
 #include "verify/Record.h"
 
 #include <cstddef>
+#include <optional>
+#include <string>
 #include <vector>
 
 namespace dotek::verify {
 
 // A feed move along one axis, downward if Z, which the next move takes back along the same axis. In X and Y
-// the move ends where the ball's centre is, the contact lies one radius further; in Z it ends at the contact.
+// the move ends where the ball's centre is, the contact lies one radius further, at the height of the ball's
+// centre (one radius above the path); in Z it ends at the contact. The way back from a touch is no touch
+// itself as long as it ends on the way that led there.
 struct DrawnTouch {
   Touch touch;
   std::size_t move = 0; // place in DrawnPath::points of its end
@@ -19,13 +24,16 @@ struct DrawnTouch {
 };
 
 struct DrawnPath {
-  std::vector<sim::Point3> points; // `start` first, then the end of each move
+  std::vector<sim::Point3> points; // `start` first, then the end of each move; lowest points of the ball
   std::vector<SourceRange> ranges; // of each point; of the start none
-  std::vector<DrawnTouch> touches;
+  std::vector<DrawnTouch> touches; // in the order of the path
+
+  std::vector<Touch> nominal() const;
 };
 
 // `start`: where the stylus's lowest point stands before, the point of the operation in X and Y; Z of the
-// path counts from `retract`. `start` and the result are in one system of coordinates, mm.
+// path counts from `retract`. `start` and the result are in one system of coordinates, mm. A move along one
+// axis leaves the others where they were, at the beginning those of `start`.
 DrawnPath drawnPath(const std::vector<frontend::gibbs::PathMove>& path, const sim::Point3& start,
                     double retract, double ballRadius);
 
@@ -36,14 +44,21 @@ struct PartError {
 };
 
 // A part that has the surfaces which these touches expect: opposite touches that look outward from one
-// middle, two pairs of one size, are a bore (looking inward: a boss); other touches get a block each, as
-// small as the ball, the error and a search beyond the surface need (`reach`, mm). nullopt: there are no
-// touches.
+// middle, two pairs of one size, are a bore (looking inward: a boss; one pair looking inward: a web); other
+// touches get a block each, as small as the ball, the error and a search beyond the surface need (`reach`,
+// mm). nullopt: there are no touches, or more than a part can have.
 std::optional<sim::Part> partOf(const std::vector<Touch>& touches, double ballRadius, double reach,
                                 const PartError& error);
+// What partOf() made for these touches without an error, placed with one; cheap.
+sim::Part withError(const sim::Part& nominal, const std::vector<Touch>& touches, const PartError& error);
+// How far the error moves a surface at most, mm.
+double mostOff(const std::vector<Touch>& touches, const PartError& error);
 
 // The way meets the part nowhere but at its touches, ends nowhere lower than it was (it comes out where it
-// went in), and each touch lies where the ball gets to. "" or why not.
-std::string whyNotReached(const DrawnPath& path, const sim::Part& part, const sim::Probe& probe);
+// went in), and each touch lies where the ball gets to. "" or why not, in one line. `off`: by how much a
+// contact may come earlier or later than drawn (of a part with an error: mostOff()); the way back begins at
+// the contact.
+std::string whyNotReached(const DrawnPath& path, const sim::Part& part, const sim::Probe& probe,
+                          double off = 0);
 
 } // namespace dotek::verify

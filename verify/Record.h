@@ -60,6 +60,7 @@ struct Record {
   std::uint32_t alarm = 0; // as the control shows it; 0: its number is not known
   std::string text;        // of the alarm, or why it is inconclusive
   SourceRange endedAt;
+  std::string alarmKind; // of a probing macro's alarm, as all sets call it; "" for others
 
   std::vector<Piece> pieces;
   std::vector<Measure> measures;

@@ -1,0 +1,497 @@
+#include "driver/VerifyCase.h"
+
+#include "driver/PostChecks.h"
+#include "driver/PostProgram.h"
+#include "driver/Programs.h"
+#include "frontend/compost/Summary.h"
+#include "frontend/gibbs/Run.h"
+#include "frontend/macrob/Lower.h"
+#include "frontend/macrob/Parse.h"
+#include "ir/Program.h"
+#include "sim/Compile.h"
+#include "sim/VendorMacros.h"
+#include "stdlib/HostInputs.h"
+#include "support/messages/Verify.h"
+
+#include <algorithm>
+#include <cmath>
+#include <deque>
+#include <fmt/format.h>
+
+namespace dotek::driver {
+
+namespace compost = frontend::compost;
+namespace gibbs = frontend::gibbs;
+
+namespace {
+
+constexpr std::uint32_t kAttempts = 2000; // to find values that the cycle takes
+constexpr double kReach = 12;             // how far a search goes beyond a surface, mm
+// A stylus where no machine file states one, by its ball: stem and body.
+constexpr double kStemShare = 0.6, kStemLength = 60, kBodyDiameter = 40, kBodyLength = 60;
+
+// Variables of the control that the program writes by number.
+std::set<std::uint32_t> storesOf(const std::vector<ir::Program>& programs) {
+  std::set<std::uint32_t> out;
+  for (const ir::Program& program : programs) {
+    for (const ir::Statement& statement : program.body) {
+      const auto* store = std::get_if<ir::Store>(&statement.node);
+      const double* number = store != nullptr && store->number ? ir::constantValue(store->number) : nullptr;
+      if (number != nullptr && *number >= 100 && *number < 1000)
+        out.insert(static_cast<std::uint32_t>(*number));
+    }
+  }
+  return out;
+}
+
+// Nothing that a probe could meet.
+sim::Part emptyPart(const sim::Point3& middle) {
+  constexpr double kAway = 10000;
+  sim::PartBuilder builder;
+  const sim::Point3 corner = middle + sim::Point3{0, 0, -kAway};
+  builder.box(corner, corner + sim::Point3{1, 1, 1});
+  std::string fault;
+  return *builder.finish(fault);
+}
+
+} // namespace
+
+struct CaseRunner::Values {
+  verify::Case drawn;
+  FieldTable fields;
+  std::optional<verify::DrawnPath> path; // active work system
+  std::optional<sim::Part> part;
+  bool rejected = false; // by the dialog
+  std::string rejection;
+  SourceRange rejectedAt;
+  std::vector<compost::PostedLine> lines;
+  std::set<std::uint32_t> stores;
+};
+
+struct CaseRunner::Ready {
+  SourceMap sources;
+  std::deque<ir::ProgramFile> files;
+  FileId emitted = kNoFile;
+  sim::Bytecode code;
+};
+
+CaseRunner::CaseRunner(const VerifyOptions& options, const VerifyPlan& plan)
+    : options_(options), plan_(plan), session_(options.common) {}
+
+bool CaseRunner::load() {
+  inputs_ =
+      loadLoweringInputs(options_.source,
+                         options_.control.empty() || options_.to == "mikroprog" ? std::string(kDefaultControl)
+                                                                                : options_.control,
+                         session_);
+  if (!inputs_) return false;
+  folder_ = loadCycleFolder(options_.inputs.front(), session_);
+  if (options_.source.cycle) folder_->name = *options_.source.cycle;
+  return !session_.diagnostics().hasErrors();
+}
+
+bool CaseRunner::prepare() {
+  std::vector<std::string> printed;
+  if (inputs_->program) {
+    routine_ =
+        chooseRoutine(*inputs_->program, inputs_->routine, inputs_->routineAt, folder_->name, session_);
+    if (routine_ == nullptr) return false;
+    for (const compost::FieldRef& field : compost::fieldsPrinted(*inputs_->program, *routine_, folder_->name))
+      printed.push_back(field.name);
+  }
+  fields_.emplace(*folder_, std::move(printed), session_);
+  for (const auto& [name, value] : inputs_->sets)
+    fields_->set(name, value, {});
+  for (const auto& [postField, variable] : options_.common.field)
+    if (!fields_->map(postField, variable)) return false;
+  std::vector<std::string> hosts;
+  for (const std::string_view name : stdlib::hostInputNames())
+    hosts.emplace_back(name);
+  draws_.emplace(plan_.fields, std::move(hosts), plan_.fixedHosts, options_.seed);
+  sourceSet_ = inputs_->macroSet(plan_.sourceMacros);
+  targetSet_ = inputs_->macroSet(plan_.targetMacros);
+  const auto listOf = [](const stdlib::MacroSet* set) {
+    return set == nullptr ? std::vector<const stdlib::MacroSet*>{}
+                          : std::vector<const stdlib::MacroSet*>{set};
+  };
+  sourceStand_.emplace(*inputs_->sourceControl, listOf(sourceSet_), session_.limits());
+  if (!plan_.translation) return true;
+  targetStand_.emplace(*inputs_->control, listOf(targetSet_), session_.limits());
+
+  ready_ = std::make_shared<Ready>();
+  const auto read = [&](const std::string& name, std::string text) {
+    const FileId id = ready_->sources.add(SourceFile(name, std::move(text), Encoding::Utf8));
+    Diagnostics found;
+    const frontend::macrob::File tree =
+        frontend::macrob::parse(id, ready_->sources, session_.limits(), found);
+    std::optional<ir::ProgramFile> file;
+    if (!found.hasErrors()) file = frontend::macrob::lower(tree, *inputs_->control, ready_->sources, found);
+    if (!file) {
+      for (const Diagnostic& one : found.all())
+        if (one.severity == Severity::Error)
+          session_.diagnostics().report<diag::TranslationNotRead>({}, name, one.message);
+      return false;
+    }
+    ready_->files.push_back(std::move(*file));
+    return true;
+  };
+  // The arguments stand in the locals of the caller; one that is null is left out of the call.
+  std::string call = fmt::format("O1\nG65P{}", plan_.translation->number);
+  for (const OutputArgument& argument : plan_.translation->arguments)
+    call += fmt::format("{}#{}", argument.letter, stdlib::localOf(argument.letter));
+  if (!read("call", call + "\nM30\n")) return false;
+  ready_->emitted = ready_->sources.size();
+  if (!read(plan_.translation->name, plan_.translation->text)) return false;
+  if (targetSet_ != nullptr) {
+    if (const stdlib::DataFile* text = session_.data().find("macrob", targetSet_->name))
+      if (!read(targetSet_->name, std::string(text->text))) return false;
+  }
+  std::vector<const ir::Program*> programs;
+  for (const ir::ProgramFile& file : ready_->files)
+    for (const ir::Program& program : file.programs)
+      programs.push_back(&program);
+  ready_->code = sim::compile(programs, *inputs_->control, ready_->sources);
+  return true;
+}
+
+sim::Probe CaseRunner::probeOf(const verify::Case& drawn) const {
+  const double radius = drawn.hosts.at("tool_radius");
+  sim::Probe probe;
+  if (plan_.machine) {
+    probe = plan_.machine->probe;
+  } else {
+    probe.length = verify::kToolLength;
+    probe.stemDiameter = 2 * radius * kStemShare;
+    probe.stemLength = kStemLength;
+    probe.bodyDiameter = kBodyDiameter;
+    probe.bodyLength = kBodyLength;
+  }
+  probe.ballDiameter = 2 * radius;
+  probe.effectiveRadius = radius;
+  probe.lengthToTip = true;
+  probe.preTravel = 0; // a calibrated probe, as exact as its signal
+  probe.noise = 0;
+  probe.on = false;
+  return probe;
+}
+
+verify::Entry CaseRunner::entryOf(const verify::Case& drawn, bool probeOn) const {
+  verify::Entry entry;
+  const auto host = [&](const char* name) {
+    const auto found = drawn.hosts.find(name);
+    return found == drawn.hosts.end() ? 0.0 : found->second;
+  };
+  entry.start = {host("start_x"), host("start_y"), host("start_z")};
+  entry.system = drawn.system;
+  entry.probeOn = probeOn;
+  if (plan_.machine) {
+    // Where the machine's travel is stated, the cycle stands in its middle.
+    double middle[3] = {};
+    const sim::Point3 zero = entry.zeros[drawn.system - 54];
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      if (const auto& span = plan_.machine->limits.travel[axis])
+        middle[axis] = (span->least + span->most) / 2 - (axis == 0   ? zero.x + entry.start.x
+                                                         : axis == 1 ? zero.y + entry.start.y
+                                                                     : zero.z + entry.start.z);
+    for (sim::Point3& one : entry.zeros)
+      one = one + sim::Point3{middle[0], middle[1], middle[2]};
+  }
+  return entry;
+}
+
+// Checks, path and part of a case. nullptr: the source cannot be run; refusal_ says why.
+std::unique_ptr<CaseRunner::Values> CaseRunner::check(const verify::Case& drawn, bool settle) {
+  session_.diagnostics() = Diagnostics();
+  auto out = std::unique_ptr<Values>(new Values{drawn, *fields_, {}, {}, false, "", {}, {}, {}});
+  for (const auto& [name, value] : drawn.values)
+    out->fields.set(name, value, {});
+  runCycleChecks(*folder_, out->fields, out->drawn.hosts, session_);
+  for (const Diagnostic& one : session_.diagnostics().all()) {
+    if (one.severity != Severity::Error) continue;
+    out->rejected = true;
+    out->rejection = one.message;
+    out->rejectedAt = one.range;
+    return out;
+  }
+  if (folder_->cycle->toolPath) {
+    gibbs::RunContext context{
+        session_.sources(),
+        session_.gibbsKeywords(),
+        session_.limits(),
+        session_.diagnostics(),
+        out->fields.macroValues(),
+        out->drawn.hosts,
+        session_.options().assume,
+        [&](const std::string& name, SourceRange where) { return folder_->loader->macro(name, where); },
+        [&](const std::string& name, SourceRange where) { return folder_->loader->dialog(name, where); }};
+    const auto path = gibbs::runToolPath(*folder_->cycle->toolPath, context);
+    if (!path) {
+      refusal_ = session_.diagnostics().all().empty() ? "the path cannot be run"
+                                                      : session_.diagnostics().all().front().message;
+      return nullptr;
+    }
+    const auto drawPath = [&] {
+      const std::map<std::string, double>& hosts = out->drawn.hosts;
+      const sim::Point3 start{hosts.at("start_x"), hosts.at("start_y"), hosts.at("start_z")};
+      return verify::drawnPath(*path, start, hosts.at("retract"), hosts.at("tool_radius"));
+    };
+    out->path = drawPath();
+    if (settle) {
+      draws_->settleHosts(out->drawn, *out->path);
+      out->path = drawPath();
+    }
+  }
+  return out;
+}
+
+std::optional<verify::Case> CaseRunner::draw(std::uint64_t index) {
+  for (std::uint32_t attempt = 0; attempt < kAttempts; ++attempt) {
+    verify::Case proposal = draws_->propose(index, attempt);
+    if (options_.activeSystem) proposal.system = *options_.activeSystem;
+    if (options_.partError) {
+      const auto& [x, y, z, turn] = *options_.partError;
+      proposal.error = {{x, y, z}, turn};
+    }
+    if (options_.replay) return proposal;
+    const std::unique_ptr<Values> values = check(proposal, true);
+    if (!values) return std::nullopt;
+    if (values->rejected) {
+      refusal_ = values->rejection;
+      continue;
+    }
+    if (!values->path) return values->drawn;
+    const std::optional<sim::Part> part =
+        verify::partOf(values->path->nominal(), values->drawn.hosts.at("tool_radius"), kReach, {});
+    if (!part) {
+      refusal_ = "the path touches nothing";
+      continue;
+    }
+    refusal_ = verify::whyNotReached(*values->path, *part, probeOf(values->drawn),
+                                     verify::mostOff(values->path->nominal(), values->drawn.error));
+    if (refusal_.empty()) return values->drawn;
+  }
+  return std::nullopt;
+}
+
+bool CaseRunner::post(Values& values) {
+  compost::PostSettings settings{session_.sources(), *inputs_->form, session_.limits(),
+                                 options_.common.assume};
+  compost::PostRun run(*inputs_->program, settings, session_.diagnostics());
+  compost::Operation now;
+  now.cycle = folder_->name;
+  now.hosts = values.drawn.hosts;
+  now.field = [&](const std::string& name, SourceRange where) { return values.fields.value(name, where); };
+  run.run(*routine_, now);
+  values.lines = run.finish();
+  return !session_.diagnostics().hasErrors();
+}
+
+std::optional<verify::Record> CaseRunner::runPosted(const Values& values, sim::World& world, bool probeOn) {
+  std::string text = "O1\n";
+  for (const compost::PostedLine& line : values.lines)
+    text += line.text + "\n";
+  text += "M30\n";
+  SourceMap sources;
+  Diagnostics found;
+  const FileId id = sources.add(SourceFile("posted", std::move(text), Encoding::Utf8));
+  const frontend::macrob::File tree = frontend::macrob::parse(id, sources, session_.limits(), found);
+  std::optional<ir::ProgramFile> file;
+  if (!found.hasErrors()) file = frontend::macrob::lower(tree, *inputs_->sourceControl, sources, found);
+  if (!file) {
+    refusal_ = found.all().empty() ? "the posted program cannot be read" : found.all().front().message;
+    return std::nullopt;
+  }
+  const sim::Bytecode code = sim::compile({&file->programs.front()}, *inputs_->sourceControl, sources);
+  std::optional<sim::VendorMacros> meaning;
+  if (sourceSet_ != nullptr) {
+    meaning.emplace(*sourceSet_, *inputs_->sourceControl);
+    meaning->setStylusRadius(values.drawn.hosts.at("tool_radius"));
+  }
+  return sourceStand_->run(code, world, entryOf(values.drawn, probeOn), storesOf(file->programs),
+                           meaning ? &*meaning : nullptr);
+}
+
+verify::Record CaseRunner::runTranslation(const Values& values, sim::World& world, bool probeOn) {
+  verify::Entry entry = entryOf(values.drawn, probeOn);
+  for (const OutputArgument& argument : plan_.translation->arguments) {
+    const std::uint32_t local = stdlib::localOf(argument.letter);
+    const std::string folded = gibbs::foldCase(argument.name);
+    const auto field = std::find_if(values.drawn.values.begin(), values.drawn.values.end(),
+                                    [&](const auto& one) { return gibbs::foldCase(one.first) == folded; });
+    if (field != values.drawn.values.end())
+      entry.variables.emplace_back(local, field->second);
+    else if (const auto host = values.drawn.hosts.find(argument.name); host != values.drawn.hosts.end())
+      entry.variables.emplace_back(local, host->second);
+  }
+  std::optional<sim::VendorMacros> meaning;
+  if (targetSet_ != nullptr) {
+    meaning.emplace(*targetSet_, *inputs_->control);
+    meaning->setStylusRadius(values.drawn.hosts.at("tool_radius"));
+  }
+  return targetStand_->run(ready_->code, world, entry, values.stores, meaning ? &*meaning : nullptr);
+}
+
+SourceRange CaseRunner::sourceOf(SourceRange posted, const Values& values) const {
+  if (!posted.hasPlace() || values.lines.empty()) return {};
+  // The text was "O1", then a posted line each.
+  std::uint32_t at = 3;
+  for (const compost::PostedLine& line : values.lines) {
+    const std::uint32_t end = at + static_cast<std::uint32_t>(line.text.size()) + 1;
+    if (posted.begin < end) return posted.begin < at ? SourceRange{} : line.range;
+    at = end;
+  }
+  return {};
+}
+
+std::uint32_t CaseRunner::targetLine(SourceRange range) const {
+  if (!ready_ || range.file != ready_->emitted) return 0;
+  return ready_->sources.line(range);
+}
+
+void CaseRunner::addFinding(CaseResult& result, const verify::Difference& difference,
+                            const Values& values) const {
+  CaseFinding finding;
+  finding.aspect = difference.aspect;
+  finding.text = difference.text;
+  finding.source = plan_.translation ? sourceOf(difference.source, values) : difference.source;
+  finding.targetLine = targetLine(difference.target);
+  if (!plan_.translation) finding.posted = sourceOf(difference.target, values);
+  result.findings.push_back(std::move(finding));
+}
+
+CaseResult CaseRunner::run(const verify::Case& drawn) {
+  CaseResult result;
+  const bool probeOn = options_.common.assume.contains("probe-on");
+  std::unique_ptr<Values> values = check(drawn, false);
+  if (!values) {
+    result.verdict = CaseVerdict::NoProgram;
+    result.why = refusal_;
+    return result;
+  }
+  const verify::Entry entry = entryOf(drawn, probeOn);
+  const sim::Point3 offset = entry.zeros[drawn.system - 54];
+  std::optional<sim::Part> part = plan_.part;
+  if (!part && values->path) {
+    std::vector<verify::Touch> touches = values->path->nominal();
+    for (verify::Touch& touch : touches)
+      touch.point = touch.point + offset;
+    const verify::PartError error = plan_.translation ? drawn.error : verify::PartError{};
+    part = verify::partOf(touches, drawn.hosts.at("tool_radius"), kReach, error);
+  }
+  if (!part) part = emptyPart(offset);
+  sim::World world(*part, probeOf(drawn), plan_.machine ? plan_.machine->limits : sim::MachineLimits{});
+
+  std::optional<verify::Record> source;
+  if (values->rejected) {
+    source.emplace();
+    source->ending = verify::Ending::Alarm;
+    source->text = values->rejection;
+  } else {
+    if (post(*values)) source = runPosted(*values, world, probeOn);
+    if (!source) {
+      result.verdict = CaseVerdict::NoProgram;
+      result.why =
+          session_.diagnostics().all().empty() ? refusal_ : session_.diagnostics().all().front().message;
+      return result;
+    }
+  }
+  SourceRange at;
+  result.why = verify::whyNothingProved(*source, at);
+  result.whyAt = values->rejected ? values->rejectedAt : sourceOf(at, *values);
+  noteProbe(result, *source, *values);
+  if (plan_.translation) {
+    for (const auto& [number, value] : source->stores)
+      values->stores.insert(number);
+    const verify::Record target = runTranslation(*values, world, probeOn);
+    verify::CompareRules rules;
+    rules.tolerance = options_.tolerance;
+    rules.results = std::max(options_.tolerance, resultTolerance());
+    rules.mayRestoreModes = true;
+    rules.sameAlarmNumbers = sourceSet_ == targetSet_ && !values->rejected;
+    rules.samePlace = [&](SourceRange one, SourceRange other) {
+      return samePlace(values->rejected ? values->rejectedAt : sourceOf(one, *values), targetLine(other));
+    };
+    if (values->rejected) {
+      compareRejection(result, *values, target);
+    } else {
+      for (const verify::Difference& difference : verify::compare(*source, target, rules))
+        addFinding(result, difference, *values);
+    }
+  } else if (values->path && !values->rejected) {
+    for (const verify::Difference& difference :
+         verify::compare(*values->path, offset, *source, options_.tolerance))
+      addFinding(result, difference, *values);
+  }
+  result.verdict = !result.findings.empty() ? CaseVerdict::Differ
+                   : result.why.empty()     ? CaseVerdict::Proved
+                                            : CaseVerdict::Idle;
+  return result;
+}
+
+// The dialog has turned the values away: the translation raises an alarm that stems from there, and nothing
+// has moved.
+void CaseRunner::compareRejection(CaseResult& result, const Values& values,
+                                  const verify::Record& target) const {
+  CaseFinding finding;
+  finding.aspect = verify::Aspect::Ending;
+  finding.source = values.rejectedAt;
+  finding.targetLine = targetLine(target.endedAt);
+  if (target.ending != verify::Ending::Alarm)
+    finding.text = "the dialog turns the values away, and the program runs";
+  else if (!target.pieces.empty())
+    finding.text = "the dialog turns the values away, and the program moves before its alarm";
+  else
+    return;
+  result.findings.push_back(std::move(finding));
+}
+
+bool CaseRunner::samePlace(SourceRange source, std::uint32_t targetLine) const {
+  if (!source.hasPlace() || targetLine == 0) return true;
+  const auto& lines = plan_.translation->sources;
+  if (targetLine > lines.size()) return false;
+  const auto& from = lines[targetLine - 1];
+  return from.contains({session_.sources().file(source.file).name(), session_.sources().line(source)});
+}
+
+// Eight digits leave this much of a result beside the other way to compute it.
+double CaseRunner::resultTolerance() const {
+  const auto digits = [](const stdlib::Control& control) {
+    return control.arithmetic == stdlib::Arithmetic::Decimal8;
+  };
+  constexpr double kEightDigits = 5e-5;
+  return digits(*inputs_->control) || digits(*inputs_->sourceControl) ? kEightDigits : 0;
+}
+
+void CaseRunner::noteProbe(CaseResult& result, const verify::Record& record, const Values& values) const {
+  const verify::Piece* first = nullptr;
+  for (const verify::Piece& piece : record.pieces) {
+    if (piece.kind == sim::PathKind::Protected && piece.with.probe != verify::Switch::On && first == nullptr)
+      first = &piece;
+    if (piece.kind == sim::PathKind::Measuring && piece.with.probe != verify::Switch::On && !result.unarmed)
+      result.unarmed = sourceOf(piece.range, values);
+  }
+  if (first != nullptr) result.unprotected = sourceOf(first->range, values);
+  for (const verify::Measure& measure : record.measures)
+    if (measure.with.probe != verify::Switch::On && !result.unarmed)
+      result.unarmed = sourceOf(measure.range, values);
+}
+
+std::vector<std::pair<std::string, SourceRange>> CaseRunner::droppedDigits(const verify::Case& drawn) {
+  std::vector<std::pair<std::string, SourceRange>> out;
+  for (const verify::DrawField& field : plan_.fields) {
+    if (field.fixed || field.kind == ir::Kind::WorkOffset) continue;
+    verify::Case finer = drawn;
+    const auto value = finer.values.find(field.name);
+    if (value == finer.values.end()) continue;
+    // Within the last place, towards the value's own side, so that no check turns it away.
+    value->second += (value->second < 0 ? -0.4 : 0.4) * std::pow(10.0, -field.decimals);
+    const std::unique_ptr<Values> values = check(finer, false);
+    if (!values || values->rejected) continue;
+    post(*values);
+    for (const Diagnostic& one : session_.diagnostics().all())
+      if (one.code == "lost-decimals") out.emplace_back(field.name, one.range);
+  }
+  return out;
+}
+
+} // namespace dotek::driver

@@ -1,0 +1,230 @@
+#include "driver/VerifyReport.h"
+
+#include "support/Decimal.h"
+#include "support/messages/Verify.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace dotek::driver {
+
+namespace {
+
+constexpr std::size_t kMostTold = 20;       // differences; more are counted
+constexpr std::uint32_t kMostShrinks = 400; // runs for one of them
+
+bool before(const SourceRange& a, const SourceRange& b) {
+  return std::pair(a.file, a.begin) < std::pair(b.file, b.begin);
+}
+
+} // namespace
+
+VerifyReport::Key VerifyReport::keyOf(bool edge, const CaseFinding& finding) {
+  return {edge, finding.aspect, finding.source.file, finding.source.begin,
+          finding.targetLine != 0 ? finding.targetLine : finding.posted.begin};
+}
+
+void VerifyReport::add(std::uint64_t number, bool edge, verify::Case drawn, CaseResult result) {
+  Counts& counts = edge ? edges_ : cases_;
+  switch (result.verdict) {
+  case CaseVerdict::Proved: ++counts.proved; break;
+  case CaseVerdict::Idle: ++counts.idle; break;
+  case CaseVerdict::Differ: ++counts.differ; break;
+  case CaseVerdict::NoProgram: ++counts.none; break;
+  }
+  for (CaseFinding& finding : result.findings) {
+    Group& group = groups_[keyOf(edge, finding)];
+    if (group.count == 0 || number < group.first) {
+      group.first = number;
+      group.edge = edge;
+      group.drawn = drawn;
+      group.finding = std::move(finding);
+    }
+    ++group.count;
+  }
+  if (edge) return;
+  if (result.unprotected) {
+    const auto [at, added] =
+        unprotected_.emplace(std::pair(result.unprotected->file, result.unprotected->begin),
+                             std::pair(*result.unprotected, result.spindleLater));
+    if (!added) at->second.second = at->second.second || result.spindleLater;
+  }
+  if (result.unarmed && (!unarmed_ || before(*result.unarmed, *unarmed_))) unarmed_ = result.unarmed;
+  if (result.verdict == CaseVerdict::Idle || result.verdict == CaseVerdict::NoProgram) {
+    Idle& idle = idle_[{result.whyAt.file, result.whyAt.begin, result.why}];
+    if (idle.count == 0 || number < idle.first) {
+      idle.first = number;
+      idle.at = result.whyAt;
+      idle.why = result.why;
+    }
+    ++idle.count;
+  }
+  if (result.verdict == CaseVerdict::Proved && (!proved_ || number < proved_->first))
+    proved_.emplace(number, std::move(drawn));
+}
+
+bool VerifyReport::stillDiffers(const verify::Case& drawn, const CaseFinding& finding) {
+  const CaseResult result = runner_.run(drawn);
+  return std::any_of(result.findings.begin(), result.findings.end(),
+                     [&](const CaseFinding& one) { return keyOf(false, one) == keyOf(false, finding); });
+}
+
+// Simpler values as long as the same difference stays.
+verify::Case VerifyReport::shrink(const Group& group) {
+  verify::Case best = group.drawn;
+  std::uint32_t runs = 0;
+  const auto attempt = [&](const verify::Case& simpler) {
+    if (runs >= kMostShrinks) return false;
+    ++runs;
+    if (!stillDiffers(simpler, group.finding)) return false;
+    best = simpler;
+    return true;
+  };
+  verify::Case plain = best;
+  plain.error = {};
+  if (!options_.partError) attempt(plain);
+  const auto simplify = [&](auto member, const std::string& name, std::vector<double> candidates) {
+    for (const double value : candidates) {
+      const double now = (best.*member).at(name);
+      if (value == now || std::abs(value) > std::abs(now)) continue;
+      verify::Case simpler = best;
+      (simpler.*member)[name] = value;
+      if (attempt(simpler)) return;
+    }
+  };
+  for (const verify::DrawField& field : plan_.fields) {
+    const auto value = best.values.find(field.name);
+    if (field.fixed || value == best.values.end()) continue;
+    const double now = value->second;
+    simplify(&verify::Case::values, field.name,
+             {0.0, field.initial.value_or(now), std::round(now / 10) * 10, std::round(now), std::trunc(now)});
+  }
+  const std::map<std::string, double> hosts = best.hosts;
+  for (const auto& [name, value] : hosts) {
+    if (plan_.fixedHosts.contains(name)) continue;
+    simplify(&verify::Case::hosts, name,
+             {0.0, std::round(value / 10) * 10, std::round(value), std::trunc(value)});
+  }
+  return best;
+}
+
+std::string VerifyReport::replay(const verify::Case& drawn) const {
+  const auto quoted = [](const std::string& text) {
+    const bool plain = text.find_first_of(" '\"$&;()<>|*?\\") == std::string::npos;
+    return plain ? text : "'" + text + "'";
+  };
+  std::string out = "dotek verify " + quoted(options_.inputs.front());
+  const auto flag = [&](std::string_view name, const std::string& value) {
+    out += fmt::format(" {} {}", name, quoted(value));
+  };
+  if (options_.source.prog) flag("--prog", *options_.source.prog);
+  if (options_.source.form != SourceOptions().form) flag("--form", options_.source.form);
+  if (options_.source.routine) flag("--routine", *options_.source.routine);
+  if (options_.source.cycle) flag("--cycle", *options_.source.cycle);
+  if (!options_.to.empty()) flag("--to", options_.to);
+  if (!options_.control.empty()) flag("--control", options_.control);
+  if (options_.probeMacros) flag("--probe-macros", *options_.probeMacros);
+  if (options_.common.job) flag("--job", *options_.common.job);
+  if (options_.part) flag("--part", *options_.part);
+  if (options_.machine) flag("--machine", *options_.machine);
+  for (const std::string& assumption : options_.common.assume)
+    flag("--assume", assumption);
+  if (options_.common.recover) out += " --recover";
+  for (const auto& [field, variable] : options_.common.field)
+    flag("--field", field + "=" + variable);
+  std::set<std::string> known;
+  for (const auto& [name, value] : drawn.values) {
+    flag("--set", name + "=" + numberText(value));
+    known.insert(name);
+  }
+  for (const auto& [name, text] : options_.common.set)
+    if (!known.contains(name)) flag("--set", name + "=" + text);
+  for (const auto& [name, value] : drawn.hosts)
+    flag("--host", name + "=" + numberText(value));
+  flag("--part-error",
+       fmt::format("{},{},{},{}", numberText(drawn.error.shift.x), numberText(drawn.error.shift.y),
+                   numberText(drawn.error.shift.z), numberText(drawn.error.turn)));
+  flag("--active-system", std::to_string(drawn.system));
+  return out + " --replay";
+}
+
+void VerifyReport::tellDifference(const Group& group, std::uint64_t of) {
+  Diagnostics& diagnostics = runner_.session().diagnostics();
+  const verify::Case smallest = options_.replay ? group.drawn : shrink(group);
+  diagnostics = std::move(told_);
+  const std::string_view aspect = verify::aspectName(group.finding.aspect);
+  const std::string command = replay(smallest);
+  Diagnostic& finding = plan_.translation
+                            ? diagnostics.report<diag::VerifyDiffers>(
+                                  group.finding.source, aspect, group.finding.text, group.count, of, command)
+                            : diagnostics.report<diag::VerifyPathDiffers>(
+                                  group.finding.source, aspect, group.finding.text, group.count, of, command);
+  if (group.finding.posted.hasPlace()) finding.note(group.finding.posted, "the post prints this here");
+  if (group.finding.targetLine != 0)
+    finding.note(targetRange(group.finding.targetLine), "of the translation");
+  told_ = std::move(diagnostics);
+}
+
+// The place of a line of the translation, whose text is kept beside the sources.
+SourceRange VerifyReport::targetRange(std::uint32_t line) {
+  SourceMap& sources = runner_.session().sources();
+  if (!translationFile_)
+    translationFile_ =
+        sources.add(SourceFile(plan_.translation->name, plan_.translation->text, Encoding::Utf8));
+  const SourceFile& file = sources.file(*translationFile_);
+  const std::uint32_t begin = file.lineStart(line);
+  return {*translationFile_, begin, begin + static_cast<std::uint32_t>(file.line(line).size())};
+}
+
+void VerifyReport::tellProbe() {
+  for (const auto& [place, what] : unprotected_)
+    told_.report<diag::UnprotectedMove>(what.first,
+                                        what.second ? " and before the spindle is told to stop" : "");
+  if (unarmed_) told_.report<diag::ProbeNeverOn>(*unarmed_);
+}
+
+// Once for each field: a value that is finer than what its picture prints.
+void VerifyReport::tellPictures() {
+  if (!proved_ || options_.replay) return;
+  const auto dropped = runner_.droppedDigits(proved_->second);
+  for (const auto& [name, range] : dropped)
+    told_.report<diag::PictureDropsDigits>(range, name);
+}
+
+Outcome VerifyReport::finish() {
+  Session& session = runner_.session();
+  if (plan_.sourceMacros.empty() && !options_.source.prog)
+    told_.report<diag::MeasurementNotStated>({runner_.folder().place, 0, 0}, cases_.idle, cases_.all());
+  tellProbe();
+  if (options_.source.prog) tellPictures();
+  std::size_t told = 0;
+  for (const auto& [key, group] : groups_) {
+    if (told++ == kMostTold) break;
+    tellDifference(group, (group.edge ? edges_ : cases_).all());
+  }
+  // The most frequent reasons alone; a probe that is off has been told.
+  std::vector<const Idle*> reasons;
+  for (const auto& [key, idle] : idle_)
+    if (!unarmed_ || idle.at != *unarmed_) reasons.push_back(&idle);
+  std::sort(reasons.begin(), reasons.end(), [](const Idle* a, const Idle* b) {
+    return std::pair(b->count, a->first) < std::pair(a->count, b->first);
+  });
+  constexpr std::size_t kMostReasons = 5;
+  for (std::size_t i = 0; i < std::min(reasons.size(), kMostReasons); ++i)
+    if (options_.source.prog)
+      told_.report<diag::VerifyIdle>(reasons[i]->at, reasons[i]->count, cases_.all(), reasons[i]->why);
+  const std::uint64_t all = cases_.all();
+  if (static_cast<double>(cases_.proved) < options_.minProved / 100 * static_cast<double>(all))
+    told_.report<diag::VerifyTooFew>({}, cases_.proved, all, numberText(options_.minProved));
+  session.diagnostics() = std::move(told_);
+  std::string out;
+  if (edges_.all() > 0)
+    out += fmt::format("edge cases: same {}, undecided {}, differ {} of {}\n", edges_.proved + edges_.idle,
+                       edges_.none, edges_.differ, edges_.all());
+  out += fmt::format("proved {}, idle {}, differ {} of {}\n", cases_.proved, cases_.idle + cases_.none,
+                     cases_.differ, all);
+  return session.finish(std::move(out), true);
+}
+
+} // namespace dotek::driver

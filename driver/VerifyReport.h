@@ -1,0 +1,62 @@
+// Private to Verify*.cpp: what the cases come to. The order in which they are added does not matter.
+#pragma once
+
+#include "driver/VerifyCase.h"
+
+#include <map>
+#include <string>
+#include <tuple>
+
+namespace dotek::driver {
+
+class VerifyReport {
+public:
+  // All outlive the report. `runner` shrinks what differs and holds the diagnostics.
+  VerifyReport(const VerifyOptions& options, const VerifyPlan& plan, CaseRunner& runner)
+      : options_(options), plan_(plan), runner_(runner) {}
+
+  void add(std::uint64_t number, bool edge, verify::Case drawn, CaseResult result);
+  // Reports to the runner's session; the output's last line counts.
+  Outcome finish();
+
+private:
+  struct Group {
+    std::uint64_t count = 0, first = 0; // number of the first case
+    bool edge = false;                  // all of them are
+    verify::Case drawn;
+    CaseFinding finding;
+  };
+  struct Idle {
+    std::uint64_t count = 0, first = 0;
+    SourceRange at;
+    std::string why;
+  };
+  struct Counts {
+    std::uint64_t proved = 0, idle = 0, differ = 0, none = 0;
+    std::uint64_t all() const { return proved + idle + differ + none; }
+  };
+  using Key = std::tuple<bool, verify::Aspect, FileId, std::uint32_t, std::uint32_t>;
+
+  static Key keyOf(bool edge, const CaseFinding& finding);
+  bool stillDiffers(const verify::Case& drawn, const CaseFinding& finding);
+  verify::Case shrink(const Group& group);
+  std::string replay(const verify::Case& drawn) const;
+  void tellDifference(const Group& group, std::uint64_t of);
+  void tellProbe();
+  void tellPictures();
+  SourceRange targetRange(std::uint32_t line);
+
+  const VerifyOptions& options_;
+  const VerifyPlan& plan_;
+  CaseRunner& runner_;
+  Diagnostics told_; // the runner's own are of its last case
+  std::optional<FileId> translationFile_;
+  Counts cases_, edges_;
+  std::map<Key, Group> groups_;
+  std::map<std::tuple<FileId, std::uint32_t, std::string>, Idle> idle_;
+  std::map<std::pair<FileId, std::uint32_t>, std::pair<SourceRange, bool>> unprotected_;
+  std::optional<SourceRange> unarmed_;
+  std::optional<std::pair<std::uint64_t, verify::Case>> proved_; // the first that is
+};
+
+} // namespace dotek::driver

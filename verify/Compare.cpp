@@ -1,0 +1,425 @@
+#include "verify/Compare.h"
+
+#include "sim/Value.h"
+#include "support/Decimal.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace dotek::verify {
+
+namespace {
+
+using sim::Point3;
+
+constexpr int kShown = 6; // decimals
+
+double lengthOf(const Point3& p) {
+  return std::sqrt(p.dot(p));
+}
+
+std::string textOf(const Point3& p) {
+  return fmt::format("X{} Y{} Z{}", fixedText(p.x, kShown), fixedText(p.y, kShown), fixedText(p.z, kShown));
+}
+
+bool near(const Point3& a, const Point3& b, double tolerance) {
+  return std::abs(a.x - b.x) <= tolerance && std::abs(a.y - b.y) <= tolerance &&
+         std::abs(a.z - b.z) <= tolerance;
+}
+
+// `b` lies on the way from `a` to `c`.
+bool between(const Point3& a, const Point3& b, const Point3& c, double tolerance) {
+  const Point3 way = c - a, part = b - a;
+  const double length = lengthOf(way);
+  if (!(length > 0)) return false;
+  const double share = part.dot(way) / (length * length);
+  return share >= 0 && share <= 1 && lengthOf(part - way * share) <= tolerance;
+}
+
+// Without what moves nothing, and with straight runs of one kind as one piece. Measures stay.
+std::vector<Piece> straight(const std::vector<Piece>& pieces, bool kinds, double tolerance) {
+  std::vector<Piece> out;
+  for (const Piece& piece : pieces) {
+    if (piece.kind == sim::PathKind::Measuring && kinds) {
+      out.push_back(piece);
+      continue;
+    }
+    if (near(piece.from, piece.to, tolerance)) continue;
+    if (!out.empty()) {
+      Piece& last = out.back();
+      const bool alike = !kinds || (last.kind == piece.kind && last.with == piece.with);
+      const bool joined = near(last.to, piece.from, tolerance);
+      if (alike && joined && between(last.from, last.to, piece.to, tolerance)) {
+        last.to = piece.to;
+        continue;
+      }
+    }
+    out.push_back(piece);
+  }
+  return out;
+}
+
+std::string_view switchName(Switch state) {
+  switch (state) {
+  case Switch::NotSwitched: return "not switched";
+  case Switch::Off: return "off";
+  case Switch::On: return "on";
+  }
+  return "";
+}
+
+class Comparison {
+public:
+  Comparison(const Record& source, const Record& target, const CompareRules& rules)
+      : source_(source), target_(target), rules_(rules) {}
+
+  std::vector<Difference> run() {
+    ending();
+    if (!out_.empty()) return std::move(out_);
+    path();
+    measures();
+    zeros();
+    stores();
+    if (!near(source_.end, target_.end, rules_.tolerance))
+      add(Aspect::End, fmt::format("it ends at {} against {}", textOf(source_.end), textOf(target_.end)),
+          source_.endedAt, target_.endedAt);
+    if (source_.ending == Ending::Finished) modes();
+    std::stable_sort(out_.begin(), out_.end(),
+                     [](const Difference& a, const Difference& b) { return a.aspect < b.aspect; });
+    return std::move(out_);
+  }
+
+private:
+  void add(Aspect aspect, std::string text, SourceRange source, SourceRange target) {
+    const bool there =
+        std::any_of(out_.begin(), out_.end(), [&](const Difference& one) { return one.aspect == aspect; });
+    if (!there) out_.push_back({aspect, std::move(text), source, target});
+  }
+
+  static std::string endText(const Record& record) {
+    switch (record.ending) {
+    case Ending::Finished: return "it ends";
+    case Ending::Alarm:
+      return record.alarm == 0 ? fmt::format("an alarm ({})", record.text)
+                               : fmt::format("alarm {} ({})", record.alarm, record.text);
+    case Ending::Inconclusive: return "what it does is not known: " + record.text;
+    }
+    return "";
+  }
+
+  void ending() {
+    const bool alarms = source_.ending == Ending::Alarm && target_.ending == Ending::Alarm;
+    bool same = source_.ending == target_.ending;
+    if (alarms && (!source_.alarmKind.empty() || !target_.alarmKind.empty()))
+      same = source_.alarmKind == target_.alarmKind;
+    if (alarms && rules_.sameAlarmNumbers && same)
+      same = source_.alarm == target_.alarm && source_.text == target_.text;
+    if (!same) {
+      add(Aspect::Ending, endText(source_) + " against " + endText(target_), source_.endedAt,
+          target_.endedAt);
+    } else if (alarms && rules_.samePlace && source_.endedAt.hasPlace() &&
+               !rules_.samePlace(source_.endedAt, target_.endedAt)) {
+      add(Aspect::Ending, endText(source_) + " comes from another place", source_.endedAt, target_.endedAt);
+    }
+  }
+
+  void path() {
+    const std::vector<Piece> a = straight(source_.pieces, true, rules_.tolerance);
+    const std::vector<Piece> b = straight(target_.pieces, true, rules_.tolerance);
+    for (std::size_t i = 0; i < std::max(a.size(), b.size()); ++i) {
+      if (i >= a.size()) {
+        add(Aspect::Path,
+            fmt::format("nothing against a {} move to {}", pathKindName(b[i].kind), textOf(b[i].to)),
+            a.empty() ? SourceRange{} : a.back().range, b[i].range);
+        return;
+      }
+      if (i >= b.size()) {
+        add(Aspect::Path,
+            fmt::format("a {} move to {} against nothing", pathKindName(a[i].kind), textOf(a[i].to)),
+            a[i].range, b.empty() ? SourceRange{} : b.back().range);
+        return;
+      }
+      const bool same = a[i].kind == b[i].kind && near(a[i].from, b[i].from, rules_.tolerance) &&
+                        near(a[i].to, b[i].to, rules_.tolerance);
+      if (!same) {
+        add(Aspect::Path,
+            fmt::format("a {} move to {} against a {} move to {}", pathKindName(a[i].kind), textOf(a[i].to),
+                        pathKindName(b[i].kind), textOf(b[i].to)),
+            a[i].range, b[i].range);
+        return;
+      }
+      state(a[i], b[i]);
+    }
+  }
+
+  void state(const Piece& a, const Piece& b) {
+    if (a.with == b.with) return;
+    std::string text;
+    const auto tell = [&](std::string_view what, std::string_view one, std::string_view other) {
+      if (one != other) text += fmt::format("{}{} {} against {}", text.empty() ? "" : ", ", what, one, other);
+    };
+    static constexpr std::string_view kSpindle[] = {"off", "clockwise", "counterclockwise"};
+    static constexpr std::string_view kCoolant[] = {"not switched", "off", "flood", "mist"};
+    tell("probe", switchName(a.with.probe), switchName(b.with.probe));
+    tell("spindle", kSpindle[a.with.spindle], kSpindle[b.with.spindle]);
+    tell("coolant", kCoolant[static_cast<std::size_t>(a.with.coolant)],
+         kCoolant[static_cast<std::size_t>(b.with.coolant)]);
+    add(Aspect::State, text, a.range, b.range);
+  }
+
+  void measures() {
+    const auto& a = source_.measures;
+    const auto& b = target_.measures;
+    for (std::size_t i = 0; i < std::max(a.size(), b.size()); ++i) {
+      if (i >= a.size() || i >= b.size()) {
+        add(Aspect::Nominal, fmt::format("{} measures against {}", a.size(), b.size()),
+            i < a.size() ? a[i].range : SourceRange{}, i < b.size() ? b[i].range : SourceRange{});
+        return;
+      }
+      nominal(a[i], b[i]);
+      contacts(a[i], b[i]);
+      if (!near(a[i].end, b[i].end, rules_.tolerance))
+        add(Aspect::Path,
+            fmt::format("the measure leaves the probe at {} against {}", textOf(a[i].end), textOf(b[i].end)),
+            a[i].range, b[i].range);
+    }
+  }
+
+  void nominal(const Measure& a, const Measure& b) {
+    if (a.nominal.size() != b.nominal.size()) {
+      add(Aspect::Nominal, fmt::format("{} surfaces against {}", a.nominal.size(), b.nominal.size()), a.range,
+          b.range);
+      return;
+    }
+    for (std::size_t i = 0; i < a.nominal.size(); ++i) {
+      const Touch &one = a.nominal[i], &other = b.nominal[i];
+      if (near(one.point, other.point, rules_.tolerance) && near(one.direction, other.direction, 1e-9))
+        continue;
+      add(Aspect::Nominal,
+          fmt::format("the surface is expected at {} against {}", textOf(one.point), textOf(other.point)),
+          a.range, b.range);
+      return;
+    }
+  }
+
+  void contacts(const Measure& a, const Measure& b) {
+    if (a.contacts.size() != b.contacts.size()) {
+      add(Aspect::Contact, fmt::format("{} contacts against {}", a.contacts.size(), b.contacts.size()),
+          a.range, b.range);
+      return;
+    }
+    for (std::size_t i = 0; i < a.contacts.size(); ++i) {
+      if (near(a.contacts[i].point, b.contacts[i].point, rules_.results)) continue;
+      add(Aspect::Contact,
+          fmt::format("contact at {} against {}", textOf(a.contacts[i].point), textOf(b.contacts[i].point)),
+          a.range, b.range);
+      return;
+    }
+  }
+
+  // What follows the last measure made it.
+  SourceRange lastMeasure(const Record& record) const {
+    return record.measures.empty() ? SourceRange{} : record.measures.back().range;
+  }
+
+  void zeros() {
+    for (const auto& [key, value] : source_.zeros) {
+      const auto other = target_.zeros.find(key);
+      if (other != target_.zeros.end() && std::abs(other->second - value) <= rules_.results) continue;
+      add(Aspect::Offset,
+          fmt::format("the zero of G{} along {} lies at {} of the machine against {}", key.first,
+                      "XYZ"[key.second], fixedText(value, kShown),
+                      other == target_.zeros.end() ? "nothing" : fixedText(other->second, kShown)),
+          lastMeasure(source_), lastMeasure(target_));
+      return;
+    }
+  }
+
+  void stores() {
+    const auto shown = [](const std::map<std::uint32_t, double>& stores, std::uint32_t number) {
+      const auto found = stores.find(number);
+      if (found == stores.end()) return std::string("was not written");
+      if (sim::isUnknown(found->second)) return std::string("is not known");
+      return sim::isNull(found->second) ? std::string("null") : numberText(found->second);
+    };
+    for (const auto& [number, value] : source_.stores) {
+      const auto other = target_.stores.find(number);
+      if (other != target_.stores.end()) {
+        const bool null = sim::isNull(value), otherNull = sim::isNull(other->second);
+        const bool unknown = sim::isUnknown(value) || sim::isUnknown(other->second);
+        if (unknown ? sim::isUnknown(value) && sim::isUnknown(other->second)
+                    : null == otherNull && (null || std::abs(value - other->second) <= rules_.results))
+          continue;
+      }
+      add(Aspect::Variable,
+          fmt::format("#{} {} against {}", number, shown(source_.stores, number),
+                      shown(target_.stores, number)),
+          lastMeasure(source_), lastMeasure(target_));
+      return;
+    }
+  }
+
+  void modes() {
+    for (std::size_t group = 1; group < source_.modalAfter.size(); ++group) {
+      const std::uint32_t one = source_.modalAfter[group], other = target_.modalAfter[group];
+      if (one == other || (rules_.mayRestoreModes && other == target_.modalBefore[group])) continue;
+      add(Aspect::Modal,
+          fmt::format("G{} of group {} against G{}", numberText(one / 10.0), group, numberText(other / 10.0)),
+          {}, {});
+      return;
+    }
+  }
+
+  const Record& source_;
+  const Record& target_;
+  const CompareRules& rules_;
+  std::vector<Difference> out_;
+};
+
+// The point of a path as a piece; measures of a program add none.
+std::vector<Piece> piecesOf(const DrawnPath& path, const Point3& offset) {
+  std::vector<Piece> out;
+  for (std::size_t i = 1; i < path.points.size(); ++i) {
+    Piece piece;
+    piece.from = path.points[i - 1] + offset;
+    piece.to = path.points[i] + offset;
+    piece.range = path.ranges[i];
+    out.push_back(piece);
+  }
+  return out;
+}
+
+// Without the ways to touches and back: those are compared as contacts. A path that goes on through the
+// starting point of a touch on the far side comes back to it.
+std::vector<Piece> withoutTouches(const DrawnPath& path, const Point3& offset) {
+  std::vector<Piece> all = piecesOf(path, offset);
+  std::vector<Piece> out;
+  Point3 at = path.points.front() + offset;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const bool touch = std::any_of(path.touches.begin(), path.touches.end(),
+                                   [&](const DrawnTouch& one) { return one.move == i + 1; });
+    if (touch) continue; // the probe measures from `at`
+    Piece piece = all[i];
+    piece.from = at;
+    at = piece.to;
+    out.push_back(piece);
+  }
+  return out;
+}
+
+} // namespace
+
+std::string_view aspectName(Aspect aspect) {
+  switch (aspect) {
+  case Aspect::Ending: return "ending";
+  case Aspect::Path: return "path";
+  case Aspect::State: return "state";
+  case Aspect::Nominal: return "nominal contact";
+  case Aspect::Contact: return "contact";
+  case Aspect::Offset: return "work offset";
+  case Aspect::Variable: return "variable";
+  case Aspect::End: return "end position";
+  case Aspect::Modal: return "modal state";
+  }
+  return "";
+}
+
+std::vector<Difference> compare(const Record& source, const Record& target, const CompareRules& rules) {
+  return Comparison(source, target, rules).run();
+}
+
+std::vector<Difference> compare(const DrawnPath& path, const Point3& offset, const Record& program,
+                                double tolerance) {
+  std::vector<Difference> out;
+  const auto add = [&](Aspect aspect, std::string text, SourceRange source, SourceRange target) {
+    const bool there =
+        std::any_of(out.begin(), out.end(), [&](const Difference& one) { return one.aspect == aspect; });
+    if (!there) out.push_back({aspect, std::move(text), source, target});
+  };
+  // Contacts: of one measure in any order.
+  std::size_t next = 0;
+  for (const Measure& measure : program.measures) {
+    std::vector<bool> used(measure.nominal.size(), false);
+    for (std::size_t n = 0; n < measure.nominal.size(); ++n, ++next) {
+      if (next >= path.touches.size()) {
+        add(Aspect::Nominal,
+            fmt::format("the path touches nothing more against a surface at {}",
+                        textOf(measure.nominal[n].point)),
+            path.ranges.empty() ? SourceRange{} : path.ranges.back(), measure.range);
+        break;
+      }
+      const Touch& drawn = path.touches[next].touch;
+      const Point3 point = drawn.point + offset;
+      const auto fits = [&](std::size_t i) {
+        return !used[i] && near(measure.nominal[i].point, point, tolerance) &&
+               near(measure.nominal[i].direction, drawn.direction, 1e-9);
+      };
+      std::size_t i = 0;
+      while (i < used.size() && !fits(i))
+        ++i;
+      if (i == used.size()) {
+        add(Aspect::Nominal,
+            fmt::format("the path touches a surface at {} against {}", textOf(point),
+                        textOf(measure.nominal[n].point)),
+            path.touches[next].range, measure.range);
+        break;
+      }
+      used[i] = true;
+    }
+    if (!out.empty()) break;
+  }
+  if (out.empty() && program.ending == Ending::Finished && next < path.touches.size())
+    add(Aspect::Nominal,
+        fmt::format("the path touches a surface at {} against no measure",
+                    textOf(path.touches[next].touch.point + offset)),
+        path.touches[next].range, {});
+
+  if (program.ending != Ending::Finished) return out;
+  const std::vector<Piece> a = straight(withoutTouches(path, offset), false, tolerance);
+  std::vector<Piece> moves;
+  for (const Piece& piece : program.pieces)
+    if (piece.kind != sim::PathKind::Measuring) moves.push_back(piece);
+  const std::vector<Piece> b = straight(moves, false, tolerance);
+  for (std::size_t i = 0; i < std::max(a.size(), b.size()); ++i) {
+    if (i < a.size() && i < b.size() && near(a[i].to, b[i].to, tolerance)) continue;
+    const std::string one = i < a.size() ? "the path goes to " + textOf(a[i].to) : "the path ends";
+    const std::string other = i < b.size() ? textOf(b[i].to) : std::string("the end");
+    add(Aspect::Path, one + " against " + other,
+        i < a.size()          ? a[i].range
+        : path.ranges.empty() ? SourceRange{}
+                              : path.ranges.back(),
+        i < b.size() ? b[i].range : SourceRange{});
+    break;
+  }
+  if (!path.points.empty() && !near(path.points.back() + offset, program.end, tolerance))
+    add(Aspect::End,
+        fmt::format("the path ends at {} against {}", textOf(path.points.back() + offset),
+                    textOf(program.end)),
+        path.ranges.back(), program.pieces.empty() ? SourceRange{} : program.pieces.back().range);
+  return out;
+}
+
+std::string whyNothingProved(const Record& record, SourceRange& at) {
+  at = record.endedAt;
+  if (record.ending == Ending::Inconclusive) return record.text;
+  for (const Measure& measure : record.measures) {
+    if (measure.with.probe == Switch::On) continue;
+    at = measure.range;
+    return "the probe is off at a measuring move";
+  }
+  if (record.ending == Ending::Alarm) return "alarm: " + record.text;
+  if (!record.events.empty()) {
+    at = record.events.front().second;
+    return "the probe, its stem or its body meets what it should not";
+  }
+  for (const Measure& measure : record.measures) {
+    at = measure.range;
+    if (measure.contacts.empty() || measure.contacts.size() < measure.nominal.size())
+      return "a measuring move makes no contact";
+  }
+  if (record.measures.empty()) return "nothing is measured";
+  return "";
+}
+
+} // namespace dotek::verify

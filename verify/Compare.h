@@ -1,0 +1,57 @@
+// What two runs did differently.
+#pragma once
+
+#include "verify/DrawnPath.h"
+#include "verify/Record.h"
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace dotek::verify {
+
+enum class Aspect : std::uint8_t {
+  Ending,   // alarms, their code and place; a side that cannot be judged
+  Path,     // points of the way, and how they are reached
+  State,    // probe, spindle, coolant while moving
+  Nominal,  // where surfaces are expected
+  Contact,  // where they were met
+  Offset,   // zeros of work systems
+  Variable, // that the source stores
+  End,      // end position
+  Modal,    // codes in force at the end
+};
+std::string_view aspectName(Aspect aspect);
+
+struct Difference {
+  Aspect aspect = Aspect::Path;
+  std::string text;           // "Z 4.000 against 5.000": the source first
+  SourceRange source, target; // in the programs that ran; may be without a place
+};
+
+struct CompareRules {
+  double tolerance = 1e-6; // mm; also of degrees and variables
+  // Of results that the control has computed: offsets, variables. Not below `tolerance`.
+  double results = 1e-6;
+  // Whether a place of the target's program stems from a place of the source's. Nothing: not compared.
+  std::function<bool(SourceRange source, SourceRange target)> samePlace;
+  // Modal groups may also end as they stood at entry: the target is called and puts them back.
+  bool mayRestoreModes = false;
+  // The target may raise an alarm of its own where the source cannot be judged.
+  bool sameAlarmNumbers = false; // both call the same macros: numbers and texts count, not only their kind
+};
+
+// The first difference of each aspect, in the order of the aspects. Behind a different ending only that is
+// told.
+std::vector<Difference> compare(const Record& source, const Record& target, const CompareRules& rules);
+
+// The drawn path beside the program: points without their kinds, nominal contacts, end. `offset`: from the
+// system of the path to the machine.
+std::vector<Difference> compare(const DrawnPath& path, const sim::Point3& offset, const Record& program,
+                                double tolerance);
+
+// Why the run proves nothing: an alarm, a collision, a measuring move with the probe off, a measure without
+// contact. "" where it does; `at`: where.
+std::string whyNothingProved(const Record& record, SourceRange& at);
+
+} // namespace dotek::verify

@@ -1,0 +1,189 @@
+#include "verify/DrawnPath.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+
+namespace dotek::verify {
+namespace {
+
+using sim::Part;
+using sim::PartBuilder;
+using sim::Point3;
+
+constexpr double kSame = 1e-6;  // mm: places that are meant to be one
+constexpr double kBeside = 2.5; // mm of a face beside the ball: more than an error moves the contact
+constexpr double kBehind = 2;   // mm of material behind a search that finds nothing
+constexpr double kAbove = 3;    // mm of a face above and below the ball's centre
+constexpr double kRim = 10;     // mm of a plate around its bore
+
+double lengthOf(const Point3& p) {
+  return std::sqrt(p.dot(p));
+}
+
+bool isSame(const Point3& a, const Point3& b) {
+  return lengthOf(a - b) <= kSame;
+}
+
+// Each touch once; a second one of the same place adds no surface.
+std::vector<Touch> distinct(const std::vector<Touch>& touches) {
+  std::vector<Touch> out;
+  for (const Touch& touch : touches) {
+    const bool known = std::any_of(out.begin(), out.end(), [&](const Touch& other) {
+      return isSame(other.point, touch.point) && isSame(other.direction, touch.direction);
+    });
+    if (!known) out.push_back(touch);
+  }
+  return out;
+}
+
+Point3 middleOf(const std::vector<Touch>& touches) {
+  const std::vector<Touch> each = distinct(touches);
+  Point3 sum;
+  for (const Touch& touch : each)
+    sum = sum + touch.point;
+  return sum * (1 / static_cast<double>(std::max<std::size_t>(each.size(), 1)));
+}
+
+// Two touches on one line, in opposite directions.
+struct Pair {
+  Point3 middle;
+  Point3 direction; // of one of them
+  double half = 0;  // of the way from one to the other
+  bool outward = true;
+};
+
+class Shapes {
+public:
+  Shapes(const std::vector<Touch>& touches, double ballRadius, double reach)
+      : middle_(middleOf(touches)), beside_(ballRadius + kBeside), behind_(reach + kBehind) {
+    std::vector<Touch> rest = distinct(touches);
+    std::vector<Pair> pairs = takePairs(rest);
+    takeRounds(pairs);
+    for (const Pair& pair : pairs)
+      addPair(pair);
+    for (const Touch& touch : rest)
+      addBlock(touch.point, touch.direction, behind_);
+  }
+
+  std::optional<Part> finish() {
+    std::string fault;
+    const std::unique_ptr<Part> part = builder_.finish(fault);
+    if (!part) return std::nullopt;
+    return part->placed({middle_, {}});
+  }
+
+private:
+  static std::vector<Pair> takePairs(std::vector<Touch>& rest) {
+    std::vector<Pair> out;
+    for (std::size_t i = 0; i < rest.size();) {
+      const std::size_t other = partner(rest, i);
+      if (other == rest.size()) {
+        ++i;
+        continue;
+      }
+      const Point3 between = rest[i].point - rest[other].point, direction = rest[i].direction;
+      out.push_back({(rest[i].point + rest[other].point) * 0.5, direction, lengthOf(between) / 2,
+                     between.dot(direction) > 0});
+      rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(other));
+      rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(i));
+    }
+    return out;
+  }
+  // Of touch i; rest.size(): it has none.
+  static std::size_t partner(const std::vector<Touch>& rest, std::size_t i) {
+    if (rest[i].direction.z != 0) return rest.size();
+    for (std::size_t k = i + 1; k < rest.size(); ++k) {
+      if (!isSame(rest[i].direction, rest[k].direction * -1)) continue;
+      const Point3 between = rest[i].point - rest[k].point;
+      const Point3 across = between - rest[i].direction * between.dot(rest[i].direction);
+      if (lengthOf(across) <= kSame && lengthOf(between) > kSame) return k;
+    }
+    return rest.size();
+  }
+
+  // A bore or a boss of all pairs that have one middle and one size, at whatever heights.
+  void takeRounds(std::vector<Pair>& pairs) {
+    for (std::size_t i = 0; i < pairs.size();) {
+      const Pair first = pairs[i];
+      const auto belongs = [&](const Pair& p) {
+        return std::abs(p.middle.x - first.middle.x) <= kSame &&
+               std::abs(p.middle.y - first.middle.y) <= kSame && std::abs(p.half - first.half) <= kSame &&
+               p.outward == first.outward;
+      };
+      const auto crosses = [&](const Pair& p) {
+        return belongs(p) && std::abs(p.direction.dot(first.direction)) < 0.5;
+      };
+      if (std::none_of(pairs.begin(), pairs.end(), crosses)) {
+        ++i;
+        continue;
+      }
+      double low = first.middle.z, high = low;
+      for (const Pair& p : pairs) {
+        if (!belongs(p)) continue;
+        low = std::min(low, p.middle.z);
+        high = std::max(high, p.middle.z);
+      }
+      addRound(first, low - kAbove, high + kAbove);
+      std::erase_if(pairs, belongs);
+    }
+  }
+
+  void addRound(const Pair& pair, double low, double high) {
+    const Point3 middle = pair.middle - middle_;
+    const Point3 bottom{middle.x, middle.y, low - middle_.z}, top{middle.x, middle.y, high - middle_.z};
+    if (!pair.outward) return builder_.cylinder(bottom, top, pair.half);
+    const double side = pair.half + std::max(kRim, behind_);
+    builder_.beginGroup(PartBuilder::Action::Add);
+    builder_.box(bottom - Point3{side, side, 0}, top + Point3{side, side, 0});
+    builder_.cylinder(bottom, top, pair.half, PartBuilder::Action::Remove);
+    builder_.endGroup();
+  }
+
+  void addPair(const Pair& pair) {
+    const Point3 way = pair.direction * pair.half;
+    if (!pair.outward) return addBlock(pair.middle - way, pair.direction, 2 * pair.half);
+    addBlock(pair.middle + way, pair.direction, behind_);
+    addBlock(pair.middle - way, pair.direction * -1, behind_);
+  }
+
+  // Its face looks against the touch.
+  void addBlock(const Point3& point, const Point3& direction, double depth) {
+    const Point3 middle = point + direction * (depth / 2) - middle_;
+    if (direction.z != 0)
+      return builder_.block(middle, {0, 0, 1}, {1, 0, 0}, {beside_, beside_, depth / 2}, 0,
+                            PartBuilder::Action::Add);
+    builder_.block(middle, {0, 0, 1}, direction, {depth / 2, beside_, kAbove}, 0, PartBuilder::Action::Add);
+  }
+
+  Point3 middle_; // zero of the part: what it is turned about
+  double beside_, behind_;
+  PartBuilder builder_;
+};
+
+} // namespace
+
+std::optional<Part> partOf(const std::vector<Touch>& touches, double ballRadius, double reach,
+                           const PartError& error) {
+  if (touches.empty()) return std::nullopt;
+  const std::optional<Part> nominal = Shapes(touches, ballRadius, reach).finish();
+  if (!nominal) return std::nullopt;
+  return withError(*nominal, touches, error);
+}
+
+Part withError(const Part& nominal, const std::vector<Touch>& touches, const PartError& error) {
+  return nominal.placed({middleOf(touches), {}}, {error.shift, {0, 0, error.turn}});
+}
+
+double mostOff(const std::vector<Touch>& touches, const PartError& error) {
+  const Point3 middle = middleOf(touches);
+  double arm = 0;
+  for (const Touch& touch : touches)
+    arm = std::max(arm, std::hypot(touch.point.x - middle.x, touch.point.y - middle.y));
+  // On a face that is turned the ball touches a little beside its middle.
+  const double beside = error.turn != 0 ? 0.001 : 0;
+  return lengthOf(error.shift) + arm * std::abs(error.turn) * std::numbers::pi / 180 + beside;
+}
+
+} // namespace dotek::verify

@@ -1,0 +1,218 @@
+#include "verify/Recorder.h"
+
+#include "sim/Value.h"
+#include "verify/Nominal.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace dotek::verify {
+
+using stdlib::Intent;
+
+namespace {
+
+double lengthOf(const sim::Point3& p) {
+  return std::sqrt(p.dot(p));
+}
+
+bool isFault(sim::Outcome outcome) {
+  return outcome != sim::Outcome::Contact && outcome != sim::Outcome::Miss;
+}
+
+// Touches of one place, a fast one and a slow one, are one contact.
+bool same(const sim::ProbeEvent& a, const sim::ProbeEvent& b) {
+  return lengthOf(a.point - b.point) < 1e-6;
+}
+
+} // namespace
+
+Recorder::Recorder(sim::Machine& machine, sim::World& world, std::vector<const stdlib::MacroSet*> sets,
+                   double toolLength)
+    : machine_(machine), world_(world), sets_(std::move(sets)), length_(toolLength) {}
+
+sim::Point3 Recorder::lowest(const sim::Position& machine) const {
+  return {machine[0], machine[1], machine[2] - length_};
+}
+
+sim::Point3 Recorder::offset() const {
+  const sim::Position now = machine_.machinePosition();
+  const sim::Position& work = machine_.position();
+  return {now[0] - work[0], now[1] - work[1], now[2] - work[2] - length_};
+}
+
+Surroundings Recorder::surroundings() const {
+  return {probe_, machine_.spindle(), machine_.coolant()};
+}
+
+SourceRange Recorder::place() const {
+  return run_ == nullptr ? SourceRange{} : run_->place();
+}
+
+void Recorder::begin(const sim::Run& run, bool keepMoves) {
+  run_ = &run;
+  keepMoves_ = keepMoves;
+  record_.start = lowest(machine_.machinePosition());
+  for (std::uint32_t group = 0; group < record_.modalBefore.size(); ++group)
+    record_.modalBefore[group] = machine_.modalCode(group);
+}
+
+std::optional<double> Recorder::contact(const sim::SkipMove& move) {
+  sim::SkipMove longer = move;
+  double length = 0;
+  for (std::size_t i = 0; i < 3; ++i)
+    length = std::hypot(length, move.machineTo[i] - move.machineFrom[i]);
+  if (length > 0) {
+    for (std::size_t i = 0; i < 3; ++i)
+      longer.machineTo[i] += (move.machineTo[i] - move.machineFrom[i]) * (kTouchSlack / length);
+  }
+  const std::optional<double> share = world_.contact(longer);
+  if (!share || !(length > 0)) return share;
+  return std::min(1.0, *share * (length + kTouchSlack) / length);
+}
+
+void Recorder::addPiece(sim::PathKind kind, const sim::Point3& from, const sim::Point3& to,
+                        SourceRange range) {
+  record_.pieces.push_back({kind, from, to, surroundings(), range});
+}
+
+void Recorder::takeEvents() {
+  const std::vector<sim::ProbeEvent>& all = world_.events();
+  const SourceRange range = call_.depth > 0 ? call_.range : place();
+  for (; events_ < all.size(); ++events_) {
+    const sim::ProbeEvent& event = all[events_];
+    if (isFault(event.outcome)) {
+      record_.events.emplace_back(event, range);
+    } else if (event.outcome == sim::Outcome::Contact && !record_.measures.empty()) {
+      const bool measuring = call_.depth == 0 || call_.measures;
+      auto& contacts = record_.measures.back().contacts;
+      if (measuring && (contacts.empty() || !same(contacts.back(), event))) contacts.push_back(event);
+    }
+  }
+}
+
+void Recorder::moved(const sim::MachineMotion& motion) {
+  const sim::Point3 from = lowest(motion.from), to = lowest(motion.to);
+  const bool skip = motion.kind == sim::MotionKind::Skip;
+  sim::PathKind kind = motion.kind == sim::MotionKind::Rapid ? sim::PathKind::Rapid : sim::PathKind::Feed;
+  if (skip) kind = call_.moves ? sim::PathKind::Protected : sim::PathKind::Measuring;
+  if (call_.depth == 0) {
+    if (skip) {
+      Measure measure;
+      measure.start = from;
+      measure.end = to;
+      measure.with = surroundings();
+      measure.range = place();
+      record_.measures.push_back(std::move(measure));
+    }
+    addPiece(kind, from, to, place());
+  }
+  world_.moved(motion);
+  takeEvents();
+  if (keepMoves_) {
+    sim::PictureMove move;
+    move.kind = kind;
+    move.from = world_.centreAt(motion.from);
+    move.to = world_.centreAt(motion.to);
+    move.probeOn = world_.on();
+    record_.moves.push_back(move);
+  }
+}
+
+void Recorder::callBegins(std::uint32_t program, std::span<const double> locals) {
+  if (call_.depth > 0) {
+    ++call_.depth;
+    return;
+  }
+  const auto set = std::find_if(sets_.begin(), sets_.end(),
+                                [&](const stdlib::MacroSet* one) { return one->calls(program); });
+  if (set == sets_.end()) return;
+  call_.depth = 1;
+  call_.range = place();
+  call_.start = lowest(machine_.machinePosition());
+  call_.with = surroundings();
+  const stdlib::MacroSignature* const signature = signatureOf(**set, program, locals);
+  const Intent intent = signature == nullptr ? Intent::Surface : signature->intent;
+  call_.moves = intent == Intent::ProtectedMove;
+  call_.measures = !call_.moves && intent != Intent::ProbeOn && intent != Intent::ProbeOff;
+  if (!call_.measures) return;
+  Measure measure;
+  measure.start = call_.start;
+  measure.with = call_.with;
+  measure.range = call_.range;
+  if (signature != nullptr) {
+    const sim::Position& at = machine_.position();
+    measure.nominal = nominalTouches(*signature, locals, {at[0], at[1], at[2]}, world_.probe().ballRadius());
+    for (Touch& touch : measure.nominal)
+      touch.point = touch.point + offset();
+  }
+  record_.measures.push_back(std::move(measure));
+}
+
+void Recorder::endCall() {
+  takeEvents();
+  const sim::Point3 end = lowest(machine_.machinePosition());
+  if (call_.measures) {
+    record_.measures.back().end = end;
+    record_.pieces.push_back({sim::PathKind::Measuring, call_.start, call_.start, call_.with, call_.range});
+  } else if (call_.moves) {
+    record_.pieces.push_back({sim::PathKind::Protected, call_.start, end, call_.with, call_.range});
+  }
+  call_ = {};
+}
+
+void Recorder::callEnded(std::uint32_t /*program*/) {
+  if (call_.depth == 0) return;
+  if (--call_.depth == 0) endCall();
+}
+
+Record Recorder::finish(const std::set<std::uint32_t>& stores) {
+  const sim::RunEnd& end = machine_.end();
+  switch (end.ending) {
+  case sim::Ending::ProgramEnd:
+  case sim::Ending::TextEnd:
+  case sim::Ending::Return: record_.ending = Ending::Finished; break;
+  case sim::Ending::Alarm: record_.ending = Ending::Alarm; break;
+  default: record_.ending = Ending::Inconclusive; break;
+  }
+  if (record_.ending != Ending::Finished) {
+    record_.alarm = end.number;
+    record_.text = end.text;
+    record_.endedAt = call_.depth > 0 ? call_.range : place();
+    if (call_.depth > 0) {
+      record_.alarmKind = alarmKindOf(end);
+      endCall();
+    }
+  }
+  takeEvents();
+  record_.end = lowest(machine_.machinePosition());
+  for (std::uint32_t group = 0; group < record_.modalAfter.size(); ++group)
+    record_.modalAfter[group] = machine_.modalCode(group);
+  for (std::uint32_t system = 0; system < 6; ++system) {
+    const sim::Position zero = machine_.zeroOf(system);
+    for (std::uint32_t axis = 0; axis < 3; ++axis)
+      record_.zeros[{54 + system, axis}] = zero[axis];
+  }
+  for (const auto& [number, value] : machine_.written())
+    if (stores.contains(number)) record_.stores.emplace(number, sim::isNull(value) ? sim::kNull : value);
+  return std::move(record_);
+}
+
+// What the macros of all sets call the same: no contact, an obstructed path.
+std::string Recorder::alarmKindOf(const sim::RunEnd& end) const {
+#define DOTEK_VERIFY_ALARM(id, name) stdlib::MacroAlarm::id,
+  static constexpr stdlib::MacroAlarm kAlarms[] = {DOTEK_MACRO_ALARMS(DOTEK_VERIFY_ALARM)};
+#undef DOTEK_VERIFY_ALARM
+  for (const stdlib::MacroSet* set : sets_) {
+    for (const stdlib::MacroAlarm alarm : kAlarms) {
+      const stdlib::MacroAlarmInfo* const info = set->find(alarm);
+      const bool same = info == nullptr ? end.number == 0 && end.text == stdlib::macroAlarmName(alarm)
+                        : info->number  ? end.number == 3000 + *info->number && end.text == info->text
+                                        : end.number == 0 && end.text == info->text;
+      if (same) return std::string(stdlib::macroAlarmName(alarm));
+    }
+  }
+  return "";
+}
+
+} // namespace dotek::verify

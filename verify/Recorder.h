@@ -1,0 +1,66 @@
+// Writes a Record while a program runs on a machine in a world.
+#pragma once
+
+#include "sim/Run.h"
+#include "sim/World.h"
+#include "stdlib/MacroSet.h"
+#include "verify/Record.h"
+
+#include <set>
+#include <vector>
+
+namespace dotek::verify {
+
+// A move that ends this near before a surface touches it (mm): programs that end a travel on the nominal
+// surface.
+inline constexpr double kTouchSlack = 1e-6;
+
+class Recorder final : public sim::SkipSignal, public sim::MotionWatcher {
+public:
+  // All outlive the recorder. `sets`: whose calls are taken as one thing each; a program of one number in
+  // several sets is taken by the first.
+  Recorder(sim::Machine& machine, sim::World& world, std::vector<const stdlib::MacroSet*> sets,
+           double toolLength);
+
+  // Before the run: entry state is taken here.
+  void begin(const sim::Run& run, bool keepMoves);
+  std::optional<double> contact(const sim::SkipMove& move) override;
+  void moved(const sim::MachineMotion& motion) override;
+  void probeSwitched(bool on) override { world_.probeSwitched(on), probe_ = on ? Switch::On : Switch::Off; }
+  void callBegins(std::uint32_t program, std::span<const double> locals) override;
+  void callEnded(std::uint32_t program) override;
+  void assumeProbe(Switch probe) { probe_ = probe; }
+
+  // Behind the run. `stores`: common variables whose end values count.
+  Record finish(const std::set<std::uint32_t>& stores);
+
+private:
+  sim::Point3 lowest(const sim::Position& machine) const;
+  sim::Point3 offset() const; // from the active work system to the machine, without the tool's length
+  Surroundings surroundings() const;
+  SourceRange place() const;
+  void addPiece(sim::PathKind kind, const sim::Point3& from, const sim::Point3& to, SourceRange range);
+  void takeEvents();
+  void endCall();
+  std::string alarmKindOf(const sim::RunEnd& end) const;
+
+  sim::Machine& machine_;
+  sim::World& world_;
+  std::vector<const stdlib::MacroSet*> sets_;
+  const double length_;
+  const sim::Run* run_ = nullptr;
+  bool keepMoves_ = false;
+  Switch probe_ = Switch::Off;
+  Record record_;
+  std::size_t events_ = 0; // of the world, that were taken
+  // A call that counts as one thing, with what it calls itself.
+  struct OpenCall {
+    std::uint32_t depth = 0; // 0: none
+    bool measures = false, moves = false;
+    sim::Point3 start;
+    SourceRange range;
+    Surroundings with;
+  } call_;
+};
+
+} // namespace dotek::verify

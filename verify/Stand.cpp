@@ -1,0 +1,89 @@
+#include "verify/Stand.h"
+
+#include "frontend/nc/Scan.h"
+#include "support/LineChunks.h"
+
+#include <fmt/format.h>
+
+namespace dotek::verify {
+
+namespace {
+
+constexpr double kMacroFeed = 1000; // of protected moves, where a set keeps it in a variable
+// What the text of Dotek's own macros wants (stdlib/macrob/dotek.nc): feeds of the touches, way back.
+constexpr std::pair<std::uint32_t, double> kOwnMacros[] = {{521, 500}, {522, 50}, {523, 0.5}};
+
+} // namespace
+
+std::array<sim::Point3, 6> standZeros() {
+  std::array<sim::Point3, 6> out;
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    const double n = static_cast<double>(i);
+    out[i] = {100 + 17 * n, -200 - 23 * n, -300 + 31 * n};
+  }
+  return out;
+}
+
+Stand::Stand(const stdlib::Control& control, std::vector<const stdlib::MacroSet*> sets, const Limits& limits)
+    : control_(control), sets_(std::move(sets)), limits_(limits), fresh_(control) {}
+
+bool Stand::prepare(sim::Machine& machine, const Entry& entry, double ballRadius, double length) const {
+  const stdlib::SystemVariables& v = control_.variables;
+  std::string text = fmt::format("G21G17G40G49G80G90G94G{}\nG10L10P1R{}\n", entry.system, length);
+  for (std::uint32_t system = 0; system < 6; ++system) {
+    const sim::Point3& zero = entry.zeros[system];
+    const double at[] = {zero.x, zero.y, zero.z};
+    for (int axis = 0; axis < 3; ++axis) {
+      if (v.workOffsetX)
+        machine.preset(static_cast<std::uint32_t>(*v.workOffsetX + static_cast<int>(system) * v.systemStep +
+                                                  axis * v.axisStep),
+                       at[axis]);
+    }
+    if (!v.workOffsetX)
+      text += fmt::format("G10L2P{}X{:.3f}Y{:.3f}Z{:.3f}\n", system + 1, zero.x, zero.y, zero.z);
+  }
+  for (const stdlib::MacroSet* set : sets_) {
+    const stdlib::ProbingFacts& facts = set->probing;
+    if (facts.feedVariable) machine.preset(*facts.feedVariable, kMacroFeed);
+    if (!set->needsSkipPosition) continue;
+    for (const auto& radius : {facts.radiusX, facts.radiusY})
+      if (radius) machine.preset(*radius, ballRadius);
+    for (const auto& [number, value] : kOwnMacros)
+      machine.preset(number, value);
+  }
+  text += fmt::format("G0X{:.6f}Y{:.6f}\nG43H1Z{:.6f}\nF{}\n", entry.start.x, entry.start.y, entry.start.z,
+                      entry.feed);
+  LineChunks chunks(text);
+  frontend::nc::Scanner scanner(chunks);
+  ir::NcWords words;
+  while (scanner.next(words) == frontend::nc::Scanner::Result::Block)
+    if (!machine.execute(words)) return false;
+  for (const auto& [number, value] : entry.variables)
+    machine.preset(number, value);
+  return machine.running();
+}
+
+Record Stand::run(const sim::Bytecode& code, sim::World& world, const Entry& entry,
+                  const std::set<std::uint32_t>& stores, sim::MacroMeaning* meaning, bool keepMoves) {
+  sim::Machine machine(fresh_);
+  const double length = world.probe().centreLength() + world.probe().ballRadius();
+  if (!prepare(machine, entry, world.probe().ballRadius(), length)) {
+    Record record;
+    record.ending = Ending::Inconclusive;
+    record.text = "the state before the program cannot be reached: " + machine.end().text;
+    return record;
+  }
+  world.restart(0);
+  world.setOn(entry.probeOn);
+  sim::Run run(machine, code, limits_, meaning);
+  Recorder recorder(machine, world, sets_, length);
+  recorder.assumeProbe(entry.probeOn ? Switch::On : Switch::Off);
+  recorder.begin(run, keepMoves);
+  machine.setSkipSignal(&recorder);
+  machine.setWatcher(&recorder);
+  run.run();
+  machine.setWatcher(nullptr);
+  return recorder.finish(stores);
+}
+
+} // namespace dotek::verify

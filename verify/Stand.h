@@ -1,0 +1,54 @@
+// Runs a compiled program from a known state of the machine in a world, and records what it does.
+#pragma once
+
+#include "sim/Bytecode.h"
+#include "sim/MacroMeaning.h"
+#include "stdlib/Control.h"
+#include "stdlib/MacroSet.h"
+#include "support/Limits.h"
+#include "verify/Recorder.h"
+
+#include <array>
+#include <cstdint>
+#include <set>
+#include <utility>
+#include <vector>
+
+namespace dotek::verify {
+
+// Of the stylus's lowest point below the spindle's gauge line, where no machine file says it (mm).
+inline constexpr double kToolLength = 150;
+
+// Zeros of G54 to G59 in coordinates of the machine: all different, so that a mixed-up system shows.
+std::array<sim::Point3, 6> standZeros();
+
+// What holds before the program's first block, beside G17 G21 G40 G49 off G80 G90 G94 G0.
+struct Entry {
+  sim::Point3 start; // of the stylus's lowest point, system `system`
+  std::uint32_t system = 54;
+  std::array<sim::Point3, 6> zeros = standZeros();
+  double feed = 800; // mm/min
+  bool probeOn = false;
+  std::vector<std::pair<std::uint32_t, double>> variables; // set before: locals, commons
+};
+
+class Stand {
+public:
+  // All outlive the stand. `sets`: macros whose calls count as one thing; `texts`: of those, the ones that
+  // run by their text. `meaning`: of the others.
+  Stand(const stdlib::Control& control, std::vector<const stdlib::MacroSet*> sets, const Limits& limits);
+
+  // The first program of `code`, in `world`, which is restarted.
+  Record run(const sim::Bytecode& code, sim::World& world, const Entry& entry,
+             const std::set<std::uint32_t>& stores, sim::MacroMeaning* meaning, bool keepMoves = false);
+
+private:
+  bool prepare(sim::Machine& machine, const Entry& entry, double ballRadius, double length) const;
+
+  const stdlib::Control& control_;
+  std::vector<const stdlib::MacroSet*> sets_;
+  const Limits& limits_;
+  const sim::Machine fresh_; // copied for each run
+};
+
+} // namespace dotek::verify
