@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 namespace dotek::driver {
 namespace {
@@ -78,6 +79,7 @@ void SimWorld::begin() {
 void SimWorld::attach(sim::Machine& machine) {
   if (!isActive()) return;
   line_ = [&machine] { return machine.frame().line; };
+  blocks_ = [&machine] { return machine.blocks(); };
   stop_ = [&machine](std::string why) { machine.inconclusive(std::move(why)); };
   if (machine_) {
     sim::Position start{};
@@ -92,6 +94,7 @@ void SimWorld::attach(sim::Machine& machine) {
 void SimWorld::attach(sim::MikroprogMachine& machine) {
   if (!isActive()) return;
   line_ = [&machine] { return static_cast<std::uint64_t>(machine.line()); };
+  blocks_ = [&machine] { return machine.blocks(); };
   stop_ = [&machine](std::string why) { machine.inconclusive(std::move(why)); };
   if (machine_) machine.setPosition(machine_->start);
   if (world_) machine.setSkipSignal(this);
@@ -142,23 +145,33 @@ void SimWorld::callEnded(std::uint32_t program) {
 void SimWorld::takeEvents() {
   if (!world_ || world_->events().empty()) return;
   // Places of a program that is not kept are copies of its lines: none is made for nothing.
-  const bool wanted = std::any_of(world_->events().begin(), world_->events().end(), [&](const auto& event) {
-    const bool contact = event.outcome == sim::Outcome::Contact;
-    return (contact ? contacts_ : events_).size() < kMostKept || (!contact && isTold(event));
-  });
+  const bool wanted =
+      std::any_of(world_->events().begin(), world_->events().end(), [&](const sim::ProbeEvent& event) {
+        const bool contact = event.outcome == sim::Outcome::Contact;
+        return (contact ? contacts_ : events_).size() < kMostKept || (!contact && isTold(event));
+      });
   const RunPlace place = wanted ? place_() : RunPlace();
-  for (const sim::ProbeEvent& event : world_->events()) {
-    const bool contact = event.outcome == sim::Outcome::Contact;
-    std::vector<Kept>& kept = contact ? contacts_ : events_;
-    ++(contact ? contactCount_ : eventCount_);
-    if (kept.size() < kMostKept) kept.push_back({event, place});
-    // The end of the run says it.
-    if (event.outcome == sim::Outcome::NotModelled)
-      stop_(std::string(event.placeUnknown ? kNowhere : kRotary));
-    else if (!contact && isTold(event))
-      tell(event, place);
-  }
+  for (const sim::ProbeEvent& event : world_->events())
+    if (!isSame(event)) take(event, place);
   world_->forgetEvents();
+}
+
+bool SimWorld::isSame(const sim::ProbeEvent& event) {
+  if (event.kind == sim::MotionKind::Skip) return false;
+  std::uint64_t& last = told_[static_cast<std::size_t>(event.outcome)].block;
+  return std::exchange(last, blocks_()) == blocks_();
+}
+
+void SimWorld::take(const sim::ProbeEvent& event, const RunPlace& place) {
+  const bool contact = event.outcome == sim::Outcome::Contact;
+  std::vector<Kept>& kept = contact ? contacts_ : events_;
+  ++(contact ? contactCount_ : eventCount_);
+  if (kept.size() < kMostKept) kept.push_back({event, place});
+  // The end of the run says it.
+  if (event.outcome == sim::Outcome::NotModelled)
+    stop_(std::string(event.placeUnknown ? kNowhere : kRotary));
+  else if (!contact && isTold(event))
+    tell(event, place);
 }
 
 bool SimWorld::isTold(const sim::ProbeEvent& event) const {

@@ -74,7 +74,8 @@ private:
     std::uint32_t number = 0;
     std::string_view code;
     Severity severity = Severity::Note;
-    SourceRange next; // the first that was not told
+    SourceRange next;        // the first that was not told
+    std::uint64_t block = 0; // the last: which block of the run
   };
 
   SimWorld(const SimOptions& options, Session& session) : options_(options), session_(session) {}
@@ -82,7 +83,9 @@ private:
   void begin();
   void takeEvents();
   void tell(const sim::ProbeEvent& event, const RunPlace& place);
+  void take(const sim::ProbeEvent& event, const RunPlace& place);
   bool isTold(const sim::ProbeEvent& event) const; // false: it is one too many
+  bool isSame(const sim::ProbeEvent& event);       // of the block as one before: another chord of an arc, say
   sim::PictureBlock blockNow() const;
   std::string placeJson(const SourceRange& range) const;
   std::string json(const Kept& kept) const;
@@ -96,7 +99,7 @@ private:
   PlaceNow place_;
   sim::PictureRecorder::BlockNow block_;
   sim::PictureRecorder::CallKind callKind_;
-  std::function<std::uint64_t()> line_;
+  std::function<std::uint64_t()> line_, blocks_;
   std::function<void(std::string)> stop_; // ends the run as inconclusive
   std::vector<Kept> contacts_, events_;
   std::uint64_t contactCount_ = 0, eventCount_ = 0;

@@ -72,6 +72,11 @@ std::optional<double> World::leavesTravel(const Position& from, const Position& 
   return out;
 }
 
+bool World::isOld(const Obstacle& hit, double length) const {
+  constexpr double kNear = 0.002; // collisions are found on the safe side by half of it
+  return pressed_ && hit.share * length <= kNear;
+}
+
 // The stem or the body on the way, the earlier of the two.
 std::optional<World::Obstacle> World::obstacle(const Point3& from, const Point3& way) const {
   std::optional<Obstacle> out;
@@ -146,7 +151,7 @@ std::optional<double> World::contact(const SkipMove& move) {
   // What the stem or the body meets behind the ball's touch is no news.
   const double reach = touch ? std::min(touch->share, stop) : stop;
   bool blocked = false;
-  if (const auto hit = obstacle(from, way * reach); hit && hit->share < 1 && !isOld(*hit)) {
+  if (const auto hit = obstacle(from, way * reach); hit && hit->share < 1 && !isOld(*hit, reach * length)) {
     const double share = hit->share * reach;
     add(hit->outcome, kKind, share, from + way * share);
     blocked = true;
@@ -187,7 +192,7 @@ void World::moved(const MachineMotion& motion) {
   if (motion.from == motion.to) return;
   const std::optional<Touch> touch = touchOf(probe_.ballRadius(), from, to);
   const auto hit = obstacle(from, way);
-  if (hit && (!touch || hit->share < touch->share) && !isOld(*hit))
+  if (hit && (!touch || hit->share < touch->share) && !isOld(*hit, lengthOf(way)))
     add(hit->outcome, motion.kind, hit->share, from + way * hit->share);
   // Backing off from where a stem was told to collide is no second collision.
   pressed_ = touch.has_value() || hit.has_value();

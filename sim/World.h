@@ -77,7 +77,8 @@ private:
   bool isModelled(const Position& from, const Position& to) const;
   std::optional<double> leavesTravel(const Position& from, const Position& to) const;
   std::optional<Obstacle> obstacle(const Point3& from, const Point3& way) const;
-  bool isOld(const Obstacle& hit) const { return pressed_ && hit.share <= 0; }
+  // Stands where the last motion ended, which was told.
+  bool isOld(const Obstacle& hit, double length) const;
   double noise();
   ProbeEvent& add(Outcome outcome, MotionKind kind, double share, const Point3& centre);
   ProbeEvent& addTouch(Outcome outcome, MotionKind kind, const Touch& touch, double length);
