@@ -42,7 +42,7 @@ struct Raw {
   std::vector<std::string> variables;
   std::vector<std::string> programs;
   std::string traceFile, svgFile, htmlFile;
-  std::string part, machine, partError;
+  std::string part, machine, partError, translation;
   std::string cases, seed, jobs, minProved, tolerance, activeSystem;
   bool replay = false;
   bool json = false, quiet = false;
@@ -206,6 +206,7 @@ driver::VerifyOptions verifyOf(const Raw& raw) {
   if (!raw.probeMacros.empty()) out.probeMacros = raw.probeMacros;
   if (!raw.part.empty()) out.part = raw.part;
   if (!raw.machine.empty()) out.machine = raw.machine;
+  if (!raw.translation.empty()) out.translation = raw.translation;
   constexpr std::uint64_t kMostCases = 10'000'000, kMostSeed = UINT64_MAX, kMostJobs = 256;
   out.cases = countOf("--cases", raw.cases, raw.replay ? 1 : out.cases, 1, kMostCases);
   out.seed = countOf("--seed", raw.seed, out.seed, 0, kMostSeed);
@@ -437,6 +438,10 @@ void addVerify(CLI::App& app, Raw& raw) {
   addSource(*verify, raw);
   addValues(*verify, raw);
   verify->add_option("--datum", raw.datum, "of mikroprog: g92 or operator")->type_name("g92|operator");
+  verify
+      ->add_option("--translation", raw.translation,
+                   "look at this program instead of what convert writes: the same one, edited by hand")
+      ->type_name("FILE");
   verify->add_option("--part", raw.part, "the part that is probed (made from the source where left out)")
       ->type_name("PART.toml");
   verify->add_option("--machine", raw.machine, "probe and travel of the machine")->type_name("MACHINE.toml");

@@ -120,6 +120,8 @@ struct VerifyOptions {
   std::string fromControl;
   std::optional<std::string> probeMacros;
   std::optional<std::string> part, machine; // paths
+  // A program that is looked at instead of what convert writes now: the same arguments, edited by hand. Path.
+  std::optional<std::string> translation;
   std::uint64_t cases = 1000;
   std::uint64_t seed = 1;
   double minProved = 95;   // percent

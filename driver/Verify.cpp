@@ -7,6 +7,7 @@
 #include "frontend/gibbs/Cycle.h"
 #include "ir/Rewrite.h"
 #include "sim/PartFile.h"
+#include "support/Files.h"
 #include "support/messages/Commands.h"
 
 #include <algorithm>
@@ -105,6 +106,9 @@ private:
           const auto [at, added] = decimals.emplace(piece.variable, piece.picture->decimals());
           if (!added) at->second = std::min(at->second, piece.picture->decimals());
         }
+    for (const auto& [id, places] : decimals)
+      if (const ir::Variable& host = lowered.cycle.variable(id); host.role == ir::Role::Host)
+        plan_.hostDecimals.emplace(host.name, places);
     const std::set<double> compared = ir::constantsOf(lowered.cycle.checks);
     const std::vector<double> thresholds(compared.begin(), compared.end());
     for (ir::VariableId id = 0; id < lowered.cycle.variables.size(); ++id) {
@@ -136,13 +140,47 @@ private:
     translation.number = numberOf(translation.text);
     if (!outcome.arguments.empty()) translation.arguments = outcome.arguments.front();
     for (const MappedLine& line : outcome.maps.front().lines) {
-      auto& places = translation.sources.emplace_back();
+      auto& places = translation.sources.emplace_back().emplace();
       for (const SourceRange& range : line.ranges)
         if (range.hasPlace())
           places.emplace(outcome.sources.file(range.file).name(), outcome.sources.line(range));
     }
+    if (options_.translation && !takeEdited(translation)) return false;
     plan_.targetMacros = outcome.macros;
     plan_.translation = std::move(translation);
+    return true;
+  }
+
+  // The text of --translation; its lines that convert would write as well keep what they come from.
+  bool takeEdited(Translation& translation) {
+    Session& session = main_.session();
+    const auto bytes = readBytes(*options_.translation, session.limits(), session.diagnostics());
+    if (!bytes) return false;
+    const SourceFile before("", translation.text, Encoding::Utf8), now("", *bytes, Encoding::Utf8);
+    const std::uint32_t rows = before.lineCount(), columns = now.lineCount();
+    constexpr std::uint64_t kMost = 25'000'000;
+    std::vector<std::optional<std::set<std::pair<std::string, std::uint32_t>>>> sources(columns);
+    if (std::uint64_t{rows} * columns <= kMost) {
+      // The longest common subsequence of lines.
+      std::vector<std::vector<std::uint32_t>> common(rows + 1, std::vector<std::uint32_t>(columns + 1, 0));
+      for (std::uint32_t r = rows; r-- > 0;)
+        for (std::uint32_t c = columns; c-- > 0;)
+          common[r][c] = before.line(r + 1) == now.line(c + 1) ? common[r + 1][c + 1] + 1
+                                                               : std::max(common[r + 1][c], common[r][c + 1]);
+      for (std::uint32_t r = 0, c = 0; r < rows && c < columns;) {
+        if (before.line(r + 1) == now.line(c + 1)) {
+          if (r < translation.sources.size()) sources[c] = translation.sources[r];
+          ++r, ++c;
+        } else if (common[r + 1][c] >= common[r][c + 1]) {
+          ++r;
+        } else {
+          ++c;
+        }
+      }
+    }
+    translation.name = *options_.translation;
+    translation.text = *bytes;
+    translation.sources = std::move(sources);
     return true;
   }
 

@@ -44,6 +44,20 @@ std::set<std::uint32_t> storesOf(const std::vector<ir::Program>& programs) {
   return out;
 }
 
+std::optional<SourceRange> spindleOffIn(const ir::Program& program, const stdlib::Control& control) {
+  for (const ir::Statement& statement : program.body) {
+    const auto* block = std::get_if<ir::NcBlock>(&statement.node);
+    if (block == nullptr) continue;
+    for (const ir::Word& word : block->words) {
+      const double* code = word.address == 'M' ? ir::constantValue(word.value) : nullptr;
+      const stdlib::CodeInfo* info =
+          code == nullptr ? nullptr : control.find('M', static_cast<std::uint32_t>(std::lround(*code * 10)));
+      if (info != nullptr && info->function == stdlib::Function::SpindleOff) return statement.origin.range();
+    }
+  }
+  return std::nullopt;
+}
+
 // Nothing that a probe could meet.
 sim::Part emptyPart(const sim::Point3& middle) {
   constexpr double kAway = 10000;
@@ -56,16 +70,26 @@ sim::Part emptyPart(const sim::Point3& middle) {
 
 } // namespace
 
+// The posted program, ready to run.
+struct CaseRunner::Posted {
+  SourceMap sources;
+  ir::ProgramFile file;
+  sim::Bytecode code;
+  std::set<std::uint32_t> stores;
+};
+
 struct CaseRunner::Values {
   verify::Case drawn;
   FieldTable fields;
-  std::optional<verify::DrawnPath> path; // active work system
+  std::optional<verify::DrawnPath> path; // of the machine
   std::optional<sim::Part> part;
   bool rejected = false; // by the dialog
   std::string rejection;
   SourceRange rejectedAt;
   std::vector<compost::PostedLine> lines;
-  std::set<std::uint32_t> stores;
+  std::optional<SourceRange> spindleOff; // the first block that stops the spindle, as posted
+  std::unique_ptr<Posted> posted;
+  std::optional<verify::Record> rehearsal;
 };
 
 struct CaseRunner::Ready {
@@ -77,6 +101,8 @@ struct CaseRunner::Ready {
 
 CaseRunner::CaseRunner(const VerifyOptions& options, const VerifyPlan& plan)
     : options_(options), plan_(plan), session_(options.common) {}
+
+CaseRunner::~CaseRunner() = default;
 
 bool CaseRunner::load() {
   inputs_ =
@@ -199,12 +225,23 @@ verify::Entry CaseRunner::entryOf(const verify::Case& drawn, bool probeOn) const
   return entry;
 }
 
-// Checks, path and part of a case. nullptr: the source cannot be run; refusal_ says why.
+// To the last place that the post prints of them.
+void CaseRunner::roundHosts(verify::Case& drawn) const {
+  for (const auto& [name, places] : plan_.hostDecimals) {
+    const auto host = drawn.hosts.find(name);
+    const double unit = std::pow(10.0, places);
+    if (host != drawn.hosts.end() && !plan_.fixedHosts.contains(name))
+      host->second = std::round(host->second * unit) / unit;
+  }
+}
+
+// Checks and path of a case. nullptr: the source cannot be run; refusal_ says why.
 std::unique_ptr<CaseRunner::Values> CaseRunner::check(const verify::Case& drawn, bool settle) {
   session_.diagnostics() = Diagnostics();
-  auto out = std::unique_ptr<Values>(new Values{drawn, *fields_, {}, {}, false, "", {}, {}, {}});
+  auto out = std::unique_ptr<Values>(new Values{drawn, *fields_, {}, {}, false, "", {}, {}, {}, nullptr, {}});
   for (const auto& [name, value] : drawn.values)
     out->fields.set(name, value, {});
+  if (settle) roundHosts(out->drawn);
   runCycleChecks(*folder_, out->fields, out->drawn.hosts, session_);
   for (const Diagnostic& one : session_.diagnostics().all()) {
     if (one.severity != Severity::Error) continue;
@@ -230,16 +267,16 @@ std::unique_ptr<CaseRunner::Values> CaseRunner::check(const verify::Case& drawn,
                                                       : session_.diagnostics().all().front().message;
       return nullptr;
     }
-    const auto drawPath = [&] {
+    const auto drawPath = [&](const sim::Point3& zero) {
       const std::map<std::string, double>& hosts = out->drawn.hosts;
       const sim::Point3 start{hosts.at("start_x"), hosts.at("start_y"), hosts.at("start_z")};
-      return verify::drawnPath(*path, start, hosts.at("retract"), hosts.at("tool_radius"));
+      return verify::drawnPath(*path, start + zero, hosts.at("retract") + zero.z, hosts.at("tool_radius"));
     };
-    out->path = drawPath();
     if (settle) {
-      draws_->settleHosts(out->drawn, *out->path);
-      out->path = drawPath();
+      draws_->settleHosts(out->drawn, drawPath({}));
+      roundHosts(out->drawn);
     }
+    out->path = drawPath(zeroOf(out->drawn));
   }
   return out;
 }
@@ -252,25 +289,62 @@ std::optional<verify::Case> CaseRunner::draw(std::uint64_t index) {
       const auto& [x, y, z, turn] = *options_.partError;
       proposal.error = {{x, y, z}, turn};
     }
-    if (options_.replay) return proposal;
-    const std::unique_ptr<Values> values = check(proposal, true);
+    if (options_.replay) return proposal; // drawn_ is of no other case
+    std::unique_ptr<Values> values = check(proposal, true);
     if (!values) return std::nullopt;
     if (values->rejected) {
       refusal_ = values->rejection;
       continue;
     }
-    if (!values->path) return values->drawn;
-    const std::optional<sim::Part> part =
-        verify::partOf(values->path->nominal(), values->drawn.hosts.at("tool_radius"), kReach, {});
-    if (!part) {
-      refusal_ = "the path touches nothing";
-      continue;
+    if (values->path) {
+      if (!makePart(*values)) {
+        refusal_ = "the path touches nothing";
+        continue;
+      }
+      const sim::Probe probe = probeOf(values->drawn);
+      refusal_ = verify::whyNotReached(*values->path, *values->part, probe);
+      if (!refusal_.empty()) continue;
+      misplace(*values);
+      if (plan_.translation)
+        refusal_ = verify::whyNotReached(*values->path, *values->part, probe,
+                                         verify::mostOff(values->path->nominal(), values->drawn.error));
+      if (!refusal_.empty()) continue;
     }
-    refusal_ = verify::whyNotReached(*values->path, *part, probeOf(values->drawn),
-                                     verify::mostOff(values->path->nominal(), values->drawn.error));
-    if (refusal_.empty()) return values->drawn;
+    if (routine_ != nullptr) {
+      if (!readPosted(*values)) continue;
+      if (values->path) {
+        refusal_ = whyNotMeasured(*values);
+        if (!refusal_.empty()) continue;
+      }
+    }
+    verify::Case drawn = values->drawn;
+    drawn_ = std::move(values);
+    return drawn;
   }
   return std::nullopt;
+}
+
+// Of the touches that the path shows, at their nominal place.
+bool CaseRunner::makePart(Values& values) const {
+  const double radius = values.drawn.hosts.at("tool_radius");
+  values.part = verify::partOf(values.path->nominal(), radius, std::max(radius, kReach), {});
+  return values.part.has_value();
+}
+
+// Where a translation is looked at, the part stands off its place.
+void CaseRunner::misplace(Values& values) const {
+  if (plan_.translation)
+    values.part = verify::withError(*values.part, values.path->nominal(), values.drawn.error);
+}
+
+sim::Point3 CaseRunner::zeroOf(const verify::Case& drawn) const {
+  return entryOf(drawn, false).zeros[drawn.system - 54];
+}
+
+// Host inputs as the path and the post's pictures have them.
+verify::Case CaseRunner::settled(const verify::Case& drawn) {
+  const std::unique_ptr<Values> values = check(drawn, true);
+  return values ? values->drawn : drawn;
 }
 
 bool CaseRunner::post(Values& values) {
@@ -286,29 +360,59 @@ bool CaseRunner::post(Values& values) {
   return !session_.diagnostics().hasErrors();
 }
 
-std::optional<verify::Record> CaseRunner::runPosted(const Values& values, sim::World& world, bool probeOn) {
+// Posts the case and reads what was posted. false: there is no such program; refusal_ says why.
+bool CaseRunner::readPosted(Values& values) {
+  if (!post(values)) {
+    for (const Diagnostic& one : session_.diagnostics().all())
+      if (one.severity == Severity::Error) refusal_ = one.message;
+    return false;
+  }
   std::string text = "O1\n";
   for (const compost::PostedLine& line : values.lines)
     text += line.text + "\n";
   text += "M30\n";
-  SourceMap sources;
+  auto posted = std::make_unique<Posted>();
   Diagnostics found;
-  const FileId id = sources.add(SourceFile("posted", std::move(text), Encoding::Utf8));
-  const frontend::macrob::File tree = frontend::macrob::parse(id, sources, session_.limits(), found);
+  const FileId id = posted->sources.add(SourceFile("posted", std::move(text), Encoding::Utf8));
+  const frontend::macrob::File tree = frontend::macrob::parse(id, posted->sources, session_.limits(), found);
   std::optional<ir::ProgramFile> file;
-  if (!found.hasErrors()) file = frontend::macrob::lower(tree, *inputs_->sourceControl, sources, found);
+  if (!found.hasErrors())
+    file = frontend::macrob::lower(tree, *inputs_->sourceControl, posted->sources, found);
   if (!file) {
     refusal_ = found.all().empty() ? "the posted program cannot be read" : found.all().front().message;
-    return std::nullopt;
+    return false;
   }
-  const sim::Bytecode code = sim::compile({&file->programs.front()}, *inputs_->sourceControl, sources);
+  posted->file = std::move(*file);
+  const ir::Program& program = posted->file.programs.front();
+  values.spindleOff = spindleOffIn(program, *inputs_->sourceControl);
+  posted->stores = storesOf(posted->file.programs);
+  posted->code = sim::compile({&program}, *inputs_->sourceControl, posted->sources);
+  values.posted = std::move(posted);
+  return true;
+}
+
+verify::Record CaseRunner::runPosted(const Values& values, sim::World& world, bool probeOn,
+                                     verify::Stand::Way way) {
   std::optional<sim::VendorMacros> meaning;
   if (sourceSet_ != nullptr) {
     meaning.emplace(*sourceSet_, *inputs_->sourceControl);
     meaning->setStylusRadius(values.drawn.hosts.at("tool_radius"));
   }
-  return sourceStand_->run(code, world, entryOf(values.drawn, probeOn), storesOf(file->programs),
-                           meaning ? &*meaning : nullptr);
+  return sourceStand_->run(values.posted->code, world, entryOf(values.drawn, probeOn), values.posted->stores,
+                           meaning ? &*meaning : nullptr, way);
+}
+
+// What the source measures, whatever the part: surfaces that the probe cannot get at by its own axes are out
+// of reach. "" or why.
+std::string CaseRunner::whyNotMeasured(Values& values) {
+  sim::World nothing(*values.part, probeOf(values.drawn));
+  values.rehearsal = runPosted(values, nothing, true, verify::Stand::Way::Rehearse);
+  for (const verify::Measure& measure : values.rehearsal->measures) {
+    if (measure.nominal.empty()) return "a measure has no way to its surface";
+    for (const verify::Touch& touch : measure.nominal)
+      if (touch.direction.z > 0) return "a measure leads upward, where the stylus touches nothing";
+  }
+  return "";
 }
 
 verify::Record CaseRunner::runTranslation(const Values& values, sim::World& world, bool probeOn) {
@@ -328,7 +432,9 @@ verify::Record CaseRunner::runTranslation(const Values& values, sim::World& worl
     meaning.emplace(*targetSet_, *inputs_->control);
     meaning->setStylusRadius(values.drawn.hosts.at("tool_radius"));
   }
-  return targetStand_->run(ready_->code, world, entry, values.stores, meaning ? &*meaning : nullptr);
+  return targetStand_->run(ready_->code, world, entry,
+                           values.posted ? values.posted->stores : std::set<std::uint32_t>{},
+                           meaning ? &*meaning : nullptr);
 }
 
 SourceRange CaseRunner::sourceOf(SourceRange posted, const Values& values) const {
@@ -362,24 +468,20 @@ void CaseRunner::addFinding(CaseResult& result, const verify::Difference& differ
 CaseResult CaseRunner::run(const verify::Case& drawn) {
   CaseResult result;
   const bool probeOn = options_.common.assume.contains("probe-on");
-  std::unique_ptr<Values> values = check(drawn, false);
+  std::unique_ptr<Values> values = std::move(drawn_); // of draw()
+  if (!values) values = check(drawn, false);
   if (!values) {
     result.verdict = CaseVerdict::NoProgram;
     result.why = refusal_;
     return result;
   }
-  const verify::Entry entry = entryOf(drawn, probeOn);
-  const sim::Point3 offset = entry.zeros[drawn.system - 54];
-  std::optional<sim::Part> part = plan_.part;
-  if (!part && values->path) {
-    std::vector<verify::Touch> touches = values->path->nominal();
-    for (verify::Touch& touch : touches)
-      touch.point = touch.point + offset;
-    const verify::PartError error = plan_.translation ? drawn.error : verify::PartError{};
-    part = verify::partOf(touches, drawn.hosts.at("tool_radius"), kReach, error);
-  }
-  if (!part) part = emptyPart(offset);
-  sim::World world(*part, probeOf(drawn), plan_.machine ? plan_.machine->limits : sim::MachineLimits{});
+  if (plan_.part)
+    values->part = plan_.part;
+  else if (!values->part && values->path && makePart(*values))
+    misplace(*values);
+  if (!values->part) values->part = emptyPart(zeroOf(drawn));
+  sim::World world(*values->part, probeOf(drawn),
+                   plan_.machine ? plan_.machine->limits : sim::MachineLimits{});
 
   std::optional<verify::Record> source;
   if (values->rejected) {
@@ -387,21 +489,22 @@ CaseResult CaseRunner::run(const verify::Case& drawn) {
     source->ending = verify::Ending::Alarm;
     source->text = values->rejection;
   } else {
-    if (post(*values)) source = runPosted(*values, world, probeOn);
-    if (!source) {
+    if (!values->posted && !readPosted(*values)) {
       result.verdict = CaseVerdict::NoProgram;
-      result.why =
-          session_.diagnostics().all().empty() ? refusal_ : session_.diagnostics().all().front().message;
+      result.why = refusal_;
       return result;
     }
+    source = runPosted(*values, world, probeOn, verify::Stand::Way::Run);
   }
   SourceRange at;
   result.why = verify::whyNothingProved(*source, at);
   result.whyAt = values->rejected ? values->rejectedAt : sourceOf(at, *values);
   noteProbe(result, *source, *values);
+  if (source->ending == verify::Ending::Inconclusive) {
+    result.verdict = CaseVerdict::NoProgram;
+    return result;
+  }
   if (plan_.translation) {
-    for (const auto& [number, value] : source->stores)
-      values->stores.insert(number);
     const verify::Record target = runTranslation(*values, world, probeOn);
     verify::CompareRules rules;
     rules.tolerance = options_.tolerance;
@@ -411,15 +514,23 @@ CaseResult CaseRunner::run(const verify::Case& drawn) {
     rules.samePlace = [&](SourceRange one, SourceRange other) {
       return samePlace(values->rejected ? values->rejectedAt : sourceOf(one, *values), targetLine(other));
     };
+    if (!values->rejected && target.ending == verify::Ending::Alarm && target.pieces.empty() &&
+        madeUp(targetLine(target.endedAt))) {
+      result.verdict = CaseVerdict::Refused;
+      result.why = "the translation refuses the values: " + target.text;
+      result.whyAt = {};
+      return result;
+    }
     if (values->rejected) {
       compareRejection(result, *values, target);
     } else {
       for (const verify::Difference& difference : verify::compare(*source, target, rules))
         addFinding(result, difference, *values);
+      comparePath(result, *values);
     }
   } else if (values->path && !values->rejected) {
     for (const verify::Difference& difference :
-         verify::compare(*values->path, offset, *source, options_.tolerance))
+         verify::compare(*values->path, {}, *source, options_.tolerance))
       addFinding(result, difference, *values);
   }
   result.verdict = !result.findings.empty() ? CaseVerdict::Differ
@@ -445,12 +556,31 @@ void CaseRunner::compareRejection(CaseResult& result, const Values& values,
   result.findings.push_back(std::move(finding));
 }
 
+// What the path touches and what the source measures, whatever the translation is: nominal contacts alone.
+void CaseRunner::comparePath(CaseResult& result, const Values& values) const {
+  if (!values.path || !values.rehearsal) return;
+  for (const verify::Difference& difference :
+       verify::compare(*values.path, {}, *values.rehearsal, options_.tolerance)) {
+    if (difference.aspect != verify::Aspect::Nominal) continue;
+    CaseFinding finding{difference.aspect, "the drawn path and the post: " + difference.text,
+                        difference.source, sourceOf(difference.target, values), 0};
+    result.findings.push_back(std::move(finding));
+  }
+}
+
+// A line of the translation that stems from nothing in the source.
+bool CaseRunner::madeUp(std::uint32_t line) const {
+  const auto& lines = plan_.translation->sources;
+  return line != 0 && line <= lines.size() && lines[line - 1] && lines[line - 1]->empty();
+}
+
 bool CaseRunner::samePlace(SourceRange source, std::uint32_t targetLine) const {
   if (!source.hasPlace() || targetLine == 0) return true;
   const auto& lines = plan_.translation->sources;
   if (targetLine > lines.size()) return false;
   const auto& from = lines[targetLine - 1];
-  return from.contains({session_.sources().file(source.file).name(), session_.sources().line(source)});
+  return !from ||
+         from->contains({session_.sources().file(source.file).name(), session_.sources().line(source)});
 }
 
 // Eight digits leave this much of a result beside the other way to compute it.
@@ -470,7 +600,10 @@ void CaseRunner::noteProbe(CaseResult& result, const verify::Record& record, con
     if (piece.kind == sim::PathKind::Measuring && piece.with.probe != verify::Switch::On && !result.unarmed)
       result.unarmed = sourceOf(piece.range, values);
   }
-  if (first != nullptr) result.unprotected = sourceOf(first->range, values);
+  if (first != nullptr) {
+    result.unprotected = sourceOf(first->range, values);
+    result.spindleLater = values.spindleOff && first->range.begin < values.spindleOff->begin;
+  }
   for (const verify::Measure& measure : record.measures)
     if (measure.with.probe != verify::Switch::On && !result.unarmed)
       result.unarmed = sourceOf(measure.range, values);
@@ -478,6 +611,16 @@ void CaseRunner::noteProbe(CaseResult& result, const verify::Record& record, con
 
 std::vector<std::pair<std::string, SourceRange>> CaseRunner::droppedDigits(const verify::Case& drawn) {
   std::vector<std::pair<std::string, SourceRange>> out;
+  const auto lost = [&](const verify::Case& one) {
+    std::vector<SourceRange> places;
+    const std::unique_ptr<Values> values = check(one, false);
+    if (!values || values->rejected) return places;
+    post(*values);
+    for (const Diagnostic& told : session_.diagnostics().all())
+      if (told.code == "lost-decimals") places.push_back(told.range);
+    return places;
+  };
+  const std::vector<SourceRange> always = lost(drawn);
   for (const verify::DrawField& field : plan_.fields) {
     if (field.fixed || field.kind == ir::Kind::WorkOffset) continue;
     verify::Case finer = drawn;
@@ -485,11 +628,8 @@ std::vector<std::pair<std::string, SourceRange>> CaseRunner::droppedDigits(const
     if (value == finer.values.end()) continue;
     // Within the last place, towards the value's own side, so that no check turns it away.
     value->second += (value->second < 0 ? -0.4 : 0.4) * std::pow(10.0, -field.decimals);
-    const std::unique_ptr<Values> values = check(finer, false);
-    if (!values || values->rejected) continue;
-    post(*values);
-    for (const Diagnostic& one : session_.diagnostics().all())
-      if (one.code == "lost-decimals") out.emplace_back(field.name, one.range);
+    for (const SourceRange& place : lost(finer))
+      if (std::find(always.begin(), always.end(), place) == always.end()) out.emplace_back(field.name, place);
   }
   return out;
 }

@@ -29,15 +29,17 @@ struct Translation {
   std::string name, text;
   std::uint32_t number = 0; // O number
   std::vector<OutputArgument> arguments;
-  std::vector<std::set<std::pair<std::string, std::uint32_t>>> sources; // by line from 0: file and line
+  // By line from 0: files and lines; empty: made up. Nothing: not known, of a line that was edited.
+  std::vector<std::optional<std::set<std::pair<std::string, std::uint32_t>>>> sources;
 };
 
 // What all cases share.
 struct VerifyPlan {
   std::vector<verify::DrawField> fields;
   std::map<std::string, double> fixedHosts;
-  std::string sourceMacros, targetMacros; // names of sets; "": none
-  std::optional<Translation> translation; // nothing: the path stands beside the posted program
+  std::map<std::string, int> hostDecimals; // of host inputs that the post prints
+  std::string sourceMacros, targetMacros;  // names of sets; "": none
+  std::optional<Translation> translation;  // nothing: the path stands beside the posted program
   std::optional<sim::MachineFile> machine;
   std::optional<sim::Part> part; // of --part; nothing: made from the path of each case
 };
@@ -51,7 +53,9 @@ struct CaseFinding {
   std::uint32_t targetLine = 0; // from 1; 0: none
 };
 
-enum class CaseVerdict : std::uint8_t { Proved, Idle, Differ, NoProgram };
+// Refused: the translation raises an alarm of its own before anything moves. NoProgram: the source prints
+// none, or no source tells what it does.
+enum class CaseVerdict : std::uint8_t { Proved, Idle, Differ, Refused, NoProgram };
 
 struct CaseResult {
   CaseVerdict verdict = CaseVerdict::Idle;
@@ -68,6 +72,7 @@ struct CaseResult {
 class CaseRunner {
 public:
   CaseRunner(const VerifyOptions& options, const VerifyPlan& plan);
+  ~CaseRunner();
 
   // Reads the source; false: reported to session().
   bool load();
@@ -80,7 +85,8 @@ public:
 
   // The case of this number; nothing: no values were found within the attempts.
   std::optional<verify::Case> draw(std::uint64_t index);
-  verify::Case edge(std::uint64_t index) const { return draws_->edge(index); }
+  verify::Case edge(std::uint64_t index) { return settled(draws_->edge(index)); }
+  // The case that `draw` gave last is run without another look at it.
   CaseResult run(const verify::Case& drawn);
   // Fields whose picture drops digits of a value that is finer than its last place: printed where.
   std::vector<std::pair<std::string, SourceRange>> droppedDigits(const verify::Case& drawn);
@@ -88,16 +94,26 @@ public:
   const std::string& lastRefusal() const { return refusal_; }
 
 private:
+  struct Posted; // the posted program of one case
   struct Values; // of one case, behind the checks
   std::unique_ptr<Values> check(const verify::Case& drawn, bool settle);
+  verify::Case settled(const verify::Case& drawn);
+  void roundHosts(verify::Case& drawn) const;
+  bool makePart(Values& values) const;
+  void misplace(Values& values) const;
+  sim::Point3 zeroOf(const verify::Case& drawn) const;
   bool post(Values& values);
-  std::optional<verify::Record> runPosted(const Values& values, sim::World& world, bool probeOn);
+  bool readPosted(Values& values);
+  verify::Record runPosted(const Values& values, sim::World& world, bool probeOn, verify::Stand::Way way);
+  std::string whyNotMeasured(Values& values);
   verify::Record runTranslation(const Values& values, sim::World& world, bool probeOn);
   sim::Probe probeOf(const verify::Case& drawn) const;
   verify::Entry entryOf(const verify::Case& drawn, bool probeOn) const;
   void addFinding(CaseResult& result, const verify::Difference& difference, const Values& values) const;
   void compareRejection(CaseResult& result, const Values& values, const verify::Record& target) const;
   void noteProbe(CaseResult& result, const verify::Record& record, const Values& values) const;
+  void comparePath(CaseResult& result, const Values& values) const;
+  bool madeUp(std::uint32_t line) const;
   bool samePlace(SourceRange source, std::uint32_t targetLine) const;
   double resultTolerance() const;
   SourceRange sourceOf(SourceRange posted, const Values& values) const;
@@ -112,6 +128,7 @@ private:
   std::optional<FieldTable> fields_;
   std::optional<verify::Draws> draws_;
   std::string refusal_;
+  std::unique_ptr<Values> drawn_; // of draw(), for the next run()
 
   // The translation, ready to run: its own map of sources, the programs, what runs.
   struct Ready;

@@ -30,10 +30,11 @@ private:
     std::uint64_t count = 0, first = 0;
     SourceRange at;
     std::string why;
+    verify::Case drawn;
   };
   struct Counts {
-    std::uint64_t proved = 0, idle = 0, differ = 0, none = 0;
-    std::uint64_t all() const { return proved + idle + differ + none; }
+    std::uint64_t proved = 0, idle = 0, differ = 0, refused = 0, none = 0;
+    std::uint64_t all() const { return proved + idle + differ + refused + none; }
   };
   using Key = std::tuple<bool, verify::Aspect, FileId, std::uint32_t, std::uint32_t>;
 
@@ -45,6 +46,7 @@ private:
   void tellProbe();
   void tellPictures();
   SourceRange targetRange(std::uint32_t line);
+  SourceRange sourceOfLine(std::uint32_t line) const;
 
   const VerifyOptions& options_;
   const VerifyPlan& plan_;

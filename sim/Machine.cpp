@@ -79,6 +79,17 @@ Position Machine::zeroOf(std::uint32_t system) const {
   return out;
 }
 
+void Machine::setZero(std::uint32_t system, const Position& zero) {
+  for (std::size_t i = 0; i < kAxes; ++i)
+    systems_[system][i] = zero[i] - external_[i];
+  updateOffsets();
+}
+
+void Machine::setToolLength(std::uint32_t tool, double length) {
+  if (tool >= tools_.size()) tools_.resize(tool + 1);
+  tools_[tool] = {0, length};
+}
+
 // The short way: nothing but straight moves and arcs in mm, and the codes that go with them. Whatever else a
 // block holds, or what stands out of range, takes the long way from the beginning: nothing is changed before
 // that is known.

@@ -97,6 +97,10 @@ public:
   Position machinePosition() const;                  // the tool's length included
   // Where the zero of G54 (0) to G59 (5) lies, in coordinates of the machine: with the external offset.
   Position zeroOf(std::uint32_t system) const;
+  // Before the program begins: the same, and the length of a tool, whatever variables the control has for
+  // them.
+  void setZero(std::uint32_t system, const Position& zero);
+  void setToolLength(std::uint32_t tool, double length);
   const Position& skipPosition() const { return skipped_; }
   std::uint8_t mode(Slot slot) const { return modes_[slot]; }
   // Code in force of a modal group, times ten; 0: none was given and none is in force at the start.

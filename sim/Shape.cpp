@@ -16,7 +16,7 @@ double stretched(double flat, double gx, double gy, double z, double half, Vec& 
   const double high = std::abs(z) - half;
   const double sz = signOf(z);
   if (flat > 0 && high > 0) {
-    const double length = std::hypot(flat, high);
+    const double length = std::sqrt(flat * flat + high * high);
     gradient = Vec(gx * flat / length, gy * flat / length, sz * high / length);
     return length;
   }
@@ -119,17 +119,19 @@ double Shape::distance(const Vec& p, Vec& gradient) const {
   return out;
 }
 
-Range Shape::range(const Patch& patch) const {
+double Shape::least(const Patch& patch) const {
   Vec g;
   const double middle = distance(patch.middle, g);
-  Range out{middle - std::abs(g.dot(patch.a)) - std::abs(g.dot(patch.b)), 0};
-  // Convex: the greatest value is at a corner.
-  const bool line = patch.b.isZero(0);
-  out.most = std::max(distance(patch.middle + patch.a + patch.b), distance(patch.middle - patch.a - patch.b));
-  if (!line)
-    out.most = std::max(
-        {out.most, distance(patch.middle + patch.a - patch.b), distance(patch.middle - patch.a + patch.b)});
-  return out;
+  return middle - std::abs(g.dot(patch.a)) - std::abs(g.dot(patch.b));
+}
+
+// Convex: the greatest value is at a corner.
+double Shape::most(const Patch& patch) const {
+  const double out =
+      std::max(distance(patch.middle + patch.a + patch.b), distance(patch.middle - patch.a - patch.b));
+  if (patch.b.isZero(0)) return out;
+  return std::max(
+      {out, distance(patch.middle + patch.a - patch.b), distance(patch.middle - patch.a + patch.b)});
 }
 
 double Shape::support(const Vec& direction) const {
@@ -148,7 +150,7 @@ double Shape::bounding(Vec& centre) const {
   centre = origin;
   double radius = 2 * kFar;
   if (kind == Kind::Sphere) radius = a;
-  if (kind == Kind::Block) radius = std::hypot(std::hypot(a, b), c);
+  if (kind == Kind::Block) radius = std::sqrt(a * a + b * b + c * c);
   if (kind == Kind::Cone) radius = std::hypot(std::max(a, b), c);
   if (radius >= 2 * kFar) centre = Vec::Zero();
   return std::min(radius, 2 * kFar);

@@ -21,11 +21,6 @@ struct Patch {
   Vec middle, a, b;
 };
 
-// Least and greatest value of a function on a patch, or a bound of them.
-struct Range {
-  double least, most;
-};
-
 // Its signed distance (negative inside) is exact and convex, so a tangent is a lower bound everywhere.
 struct Shape {
   enum class Kind : std::uint8_t {
@@ -41,7 +36,9 @@ struct Shape {
 
   double distance(const Vec& p) const;
   double distance(const Vec& p, Vec& gradient) const; // a unit vector that supports it
-  Range range(const Patch& patch) const;
+  // On a patch: a lower bound of the distance, and its greatest value.
+  double least(const Patch& patch) const;
+  double most(const Patch& patch) const;
   // How far it reaches along a unit vector: the greatest x . direction of its points; infinity: without end.
   double support(const Vec& direction) const;
   // A ball that holds the shape; the radius is at most kFar * 2.

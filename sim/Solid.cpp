@@ -130,24 +130,23 @@ double Solid::bound(const Vec& p) const {
   return boundOf(nodes, p, nullptr);
 }
 
-Range Solid::rangeOf(const std::vector<Node>& list, const Patch& patch) const {
-  Range out{kInfinity, kInfinity};
+// The greatest value is needed of what is removed only.
+double Solid::endOf(const std::vector<Node>& list, const Patch& patch, bool least) const {
+  double out = kInfinity;
   for (const Node& node : list) {
-    Range r{0, 0};
+    const bool wanted = least == (node.action != Action::Remove);
+    double d = 0;
     if (node.shape >= 0) {
-      r = shapes[static_cast<std::size_t>(node.shape)].range(patch);
+      const Shape& shape = shapes[static_cast<std::size_t>(node.shape)];
+      d = wanted ? shape.least(patch) : shape.most(patch);
     } else if (node.mesh >= 0) {
-      const double d = meshes[static_cast<std::size_t>(node.mesh)].distance(patch.middle);
       const double reach = patch.a.norm() + patch.b.norm();
-      r = {d - reach, d + reach};
+      d = meshes[static_cast<std::size_t>(node.mesh)].distance(patch.middle) + (wanted ? -reach : reach);
     } else {
-      r = rangeOf(node.group, patch);
+      d = endOf(node.group, patch, wanted);
     }
-    if (node.action == Action::Remove) r = {-r.most, -r.least};
-    if (node.action == Action::Add)
-      out = {std::min(out.least, r.least), std::min(out.most, r.most)};
-    else
-      out = {std::max(out.least, r.least), std::max(out.most, r.most)};
+    if (node.action == Action::Remove) d = -d;
+    out = node.action == Action::Add ? std::min(out, d) : std::max(out, d);
   }
   return out;
 }

@@ -39,14 +39,14 @@ public:
   // Never more than the true distance; its sign is right. Cheap.
   double bound(const Vec& p) const;
   // A lower bound of the distance on a patch.
-  double lowest(const Patch& patch) const { return rangeOf(nodes, patch).least; }
+  double lowest(const Patch& patch) const { return endOf(nodes, patch, true); }
   // The true distance to the surface, to about 1e-9 mm. Inside a part of several pieces that overlap a mesh
   // it is a bound.
   Foot foot(const Vec& p) const;
 
   // The same without the meshes; there are shapes.
   double shapesBound(const Vec& p) const { return boundOf(solidNodes_, p, nullptr); }
-  double shapesLowest(const Patch& patch) const { return rangeOf(solidNodes_, patch).least; }
+  double shapesLowest(const Patch& patch) const { return endOf(solidNodes_, patch, true); }
   Foot shapesFoot(const Vec& p) const;
   // Whether nothing is left of it.
   bool isEmpty() const;
@@ -65,7 +65,8 @@ private:
   };
 
   double boundOf(const std::vector<Node>& list, const Vec& p, std::int32_t* nearest) const;
-  Range rangeOf(const std::vector<Node>& list, const Patch& patch) const;
+  // The least value on a patch, or the greatest; a bound.
+  double endOf(const std::vector<Node>& list, const Patch& patch, bool least) const;
   void openMouths(std::vector<Node>& list);
   bool isBoundary(const Vec& q, const Vec& normal) const;
   bool isEdge(const Vec& q, const Vec& first, const Vec& second) const;

@@ -81,7 +81,7 @@ public:
     measures();
     zeros();
     stores();
-    if (!near(source_.end, target_.end, rules_.tolerance))
+    if (!stopsInMacros() && !near(source_.end, target_.end, rules_.tolerance))
       add(Aspect::End, fmt::format("it ends at {} against {}", textOf(source_.end), textOf(target_.end)),
           source_.endedAt, target_.endedAt);
     if (source_.ending == Ending::Finished) modes();
@@ -95,6 +95,11 @@ private:
     const bool there =
         std::any_of(out_.begin(), out_.end(), [&](const Difference& one) { return one.aspect == aspect; });
     if (!there) out_.push_back({aspect, std::move(text), source, target});
+  }
+
+  // Where other macros stop with their alarm is their own business.
+  bool stopsInMacros() const {
+    return !rules_.sameAlarmNumbers && source_.ending == Ending::Alarm && !source_.alarmKind.empty();
   }
 
   static std::string endText(const Record& record) {
@@ -179,7 +184,7 @@ private:
       }
       nominal(a[i], b[i]);
       contacts(a[i], b[i]);
-      if (!near(a[i].end, b[i].end, rules_.tolerance))
+      if (!stopsInMacros() && !near(a[i].end, b[i].end, rules_.tolerance))
         add(Aspect::Path,
             fmt::format("the measure leaves the probe at {} against {}", textOf(a[i].end), textOf(b[i].end)),
             a[i].range, b[i].range);

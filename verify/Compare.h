@@ -37,7 +37,6 @@ struct CompareRules {
   std::function<bool(SourceRange source, SourceRange target)> samePlace;
   // Modal groups may also end as they stood at entry: the target is called and puts them back.
   bool mayRestoreModes = false;
-  // The target may raise an alarm of its own where the source cannot be judged.
   bool sameAlarmNumbers = false; // both call the same macros: numbers and texts count, not only their kind
 };
 

@@ -47,9 +47,10 @@ double limited(const DrawField& field, double value) {
 
 // Each doubling is as likely as the next; no logarithms, whose last digits differ between platforms.
 double spread(double least, double most, Random& random) {
-  const int doublings = std::max(1, std::ilogb(most / least) + 1);
-  const auto n = static_cast<int>(random.below(static_cast<std::uint64_t>(doublings)));
-  return std::min(std::ldexp(least, n) * (1 + random.share()), most);
+  const int whole = std::ilogb(most / least);
+  const int doublings = std::max(1, std::ldexp(least, whole) < most ? whole + 1 : whole);
+  const double low = std::ldexp(least, static_cast<int>(random.below(static_cast<std::uint64_t>(doublings))));
+  return random.between(low, std::min(2 * low, most));
 }
 
 // How likely a field keeps its first value: the more attempts were in vain, the nearer to what the programmer
@@ -75,14 +76,22 @@ double besideThresholds(const DrawField& field, const std::vector<double>& sorte
   return isWhole(first) && isWhole(sorted[n - 1]) && random.chance(0.8) ? std::round(inside) : inside;
 }
 
+// Constants that tell more than the sign does.
+std::vector<double> usableThresholds(const DrawField& field) {
+  std::vector<double> out;
+  for (const double threshold : field.thresholds)
+    if (std::abs(threshold) < kMost && threshold != 0) out.push_back(threshold);
+  std::sort(out.begin(), out.end());
+  return out;
+}
+
+double feedValue(const DrawField& field, bool near, Random& random) {
+  const double first = std::abs(field.initial.value_or(0));
+  return near && first > 0 ? first * spread(0.25, 4, random) : spread(10, kMost, random);
+}
+
 double lengthValue(const DrawField& field, bool near, Random& random) {
   const double first = field.initial.value_or(0), step = stepOf(field);
-  std::vector<double> sorted;
-  for (const double threshold : field.thresholds)
-    if (std::abs(threshold) < kMost && threshold != 0) sorted.push_back(threshold);
-  std::sort(sorted.begin(), sorted.end());
-  if (!sorted.empty() && random.chance(0.6)) return besideThresholds(field, sorted, random);
-
   bool negative = random.chance(near ? 0.1 : 0.3) != (first < 0);
   double size = 0;
   if (near && first != 0) {
@@ -165,22 +174,24 @@ double Draws::value(const DrawField& field, bool near, std::uint32_t attempt, Ra
   if (field.kind == Kind::WorkOffset) return static_cast<double>(random.whole(kFirstSystem, kLastSystem));
   if (field.initial && random.chance(keeps(attempt))) return rounded(*field.initial, field.decimals);
   switch (field.kind) {
-  case Kind::WorkOffset: break;
   case Kind::Flag: return static_cast<double>(random.whole(0, 1));
   case Kind::Count: return smallNumber(field, 0, random);
   case Kind::ToolOffset: return smallNumber(field, 1, random);
-  case Kind::Angle: return limited(field, angleValue(field, near, random));
-  case Kind::Feed: {
-    const double first = std::abs(field.initial.value_or(0));
-    const double size = near && first > 0 ? first * spread(0.25, 4, random) : spread(10, kMost, random);
-    return std::max(limited(field, size), stepOf(field));
-  }
   case Kind::Text: return rounded(field.initial.value_or(0), field.decimals);
+  case Kind::WorkOffset:
+  case Kind::Angle:
+  case Kind::Feed:
   case Kind::Number:
   case Kind::Length:
   case Kind::Ratio: break;
   }
-  return limited(field, lengthValue(field, near, random));
+  const std::vector<double> thresholds = usableThresholds(field);
+  const double drawn = !thresholds.empty() && random.chance(0.6) ? besideThresholds(field, thresholds, random)
+                       : field.kind == Kind::Angle               ? angleValue(field, near, random)
+                       : field.kind == Kind::Feed                ? feedValue(field, near, random)
+                                                                 : lengthValue(field, near, random);
+  const double out = limited(field, drawn);
+  return field.kind == Kind::Feed ? std::max(out, stepOf(field)) : out;
 }
 
 void Draws::drawSystem(Case& drawn, Random& random) const {
@@ -329,6 +340,11 @@ std::vector<Draws::Edge> Draws::edgesOf(std::size_t index) const {
   add(step);
   add(-step);
   if (field.initial) add(-*field.initial);
+  if (field.kind == Kind::Angle) {
+    add(90);
+    add(180);
+    add(360);
+  }
   add(100 - step); // one digit fewer
   add(1 - step);
   return out;

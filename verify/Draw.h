@@ -50,7 +50,8 @@ public:
   void settleHosts(Case& drawn, const DrawnPath& path) const;
   // An edge case: values at the thresholds, one step beside them, 0, illegal systems, the largest value that
   // the picture prints, values at the ball's radius and diameter, the active system as the one that is set.
-  // Each of these comes once for each field, then again beside another one.
+  // Each of these comes once for each field, then again beside another one. Its hosts are settled like
+  // others.
   Case edge(std::uint64_t index) const;
 
   const std::vector<DrawField>& fields() const { return fields_; }

@@ -58,6 +58,7 @@ void Recorder::begin(const sim::Run& run, bool keepMoves) {
 }
 
 std::optional<double> Recorder::contact(const sim::SkipMove& move) {
+  if (rehearsal_) return call_.moves ? std::nullopt : std::optional(1.0);
   sim::SkipMove longer = move;
   double length = 0;
   for (std::size_t i = 0; i < 3; ++i)
@@ -107,6 +108,7 @@ void Recorder::moved(const sim::MachineMotion& motion) {
     }
     addPiece(kind, from, to, place());
   }
+  if (rehearsal_) return;
   world_.moved(motion);
   takeEvents();
   if (keepMoves_) {

@@ -30,6 +30,9 @@ public:
   void callBegins(std::uint32_t program, std::span<const double> locals) override;
   void callEnded(std::uint32_t program) override;
   void assumeProbe(Switch probe) { probe_ = probe; }
+  // Without a part: each measuring move makes its contact at its end, no other one does. So a run shows all
+  // that the program would measure.
+  void rehearse() { rehearsal_ = true; }
 
   // Behind the run. `stores`: common variables whose end values count.
   Record finish(const std::set<std::uint32_t>& stores);
@@ -50,6 +53,7 @@ private:
   const double length_;
   const sim::Run* run_ = nullptr;
   bool keepMoves_ = false;
+  bool rehearsal_ = false;
   Switch probe_ = Switch::Off;
   Record record_;
   std::size_t events_ = 0; // of the world, that were taken

@@ -28,20 +28,11 @@ Stand::Stand(const stdlib::Control& control, std::vector<const stdlib::MacroSet*
     : control_(control), sets_(std::move(sets)), limits_(limits), fresh_(control) {}
 
 bool Stand::prepare(sim::Machine& machine, const Entry& entry, double ballRadius, double length) const {
-  const stdlib::SystemVariables& v = control_.variables;
-  std::string text = fmt::format("G21G17G40G49G80G90G94G{}\nG10L10P1R{}\n", entry.system, length);
-  for (std::uint32_t system = 0; system < 6; ++system) {
+  for (std::uint32_t system = 0; system < entry.zeros.size(); ++system) {
     const sim::Point3& zero = entry.zeros[system];
-    const double at[] = {zero.x, zero.y, zero.z};
-    for (int axis = 0; axis < 3; ++axis) {
-      if (v.workOffsetX)
-        machine.preset(static_cast<std::uint32_t>(*v.workOffsetX + static_cast<int>(system) * v.systemStep +
-                                                  axis * v.axisStep),
-                       at[axis]);
-    }
-    if (!v.workOffsetX)
-      text += fmt::format("G10L2P{}X{:.3f}Y{:.3f}Z{:.3f}\n", system + 1, zero.x, zero.y, zero.z);
+    machine.setZero(system, {zero.x, zero.y, zero.z});
   }
+  machine.setToolLength(1, length);
   for (const stdlib::MacroSet* set : sets_) {
     const stdlib::ProbingFacts& facts = set->probing;
     if (facts.feedVariable) machine.preset(*facts.feedVariable, kMacroFeed);
@@ -51,8 +42,8 @@ bool Stand::prepare(sim::Machine& machine, const Entry& entry, double ballRadius
     for (const auto& [number, value] : kOwnMacros)
       machine.preset(number, value);
   }
-  text += fmt::format("G0X{:.6f}Y{:.6f}\nG43H1Z{:.6f}\nF{}\n", entry.start.x, entry.start.y, entry.start.z,
-                      entry.feed);
+  const std::string text = fmt::format("G21G17G40G49G80G90G94G{}\nG0X{:.6f}Y{:.6f}\nG43H1Z{:.6f}\nF{:.1f}\n",
+                                       entry.system, entry.start.x, entry.start.y, entry.start.z, entry.feed);
   LineChunks chunks(text);
   frontend::nc::Scanner scanner(chunks);
   ir::NcWords words;
@@ -64,7 +55,7 @@ bool Stand::prepare(sim::Machine& machine, const Entry& entry, double ballRadius
 }
 
 Record Stand::run(const sim::Bytecode& code, sim::World& world, const Entry& entry,
-                  const std::set<std::uint32_t>& stores, sim::MacroMeaning* meaning, bool keepMoves) {
+                  const std::set<std::uint32_t>& stores, sim::MacroMeaning* meaning, Way way) {
   sim::Machine machine(fresh_);
   const double length = world.probe().centreLength() + world.probe().ballRadius();
   if (!prepare(machine, entry, world.probe().ballRadius(), length)) {
@@ -78,7 +69,8 @@ Record Stand::run(const sim::Bytecode& code, sim::World& world, const Entry& ent
   sim::Run run(machine, code, limits_, meaning);
   Recorder recorder(machine, world, sets_, length);
   recorder.assumeProbe(entry.probeOn ? Switch::On : Switch::Off);
-  recorder.begin(run, keepMoves);
+  if (way == Way::Rehearse) recorder.rehearse();
+  recorder.begin(run, way == Way::KeepMoves);
   machine.setSkipSignal(&recorder);
   machine.setWatcher(&recorder);
   run.run();

@@ -38,9 +38,10 @@ public:
   // run by their text. `meaning`: of the others.
   Stand(const stdlib::Control& control, std::vector<const stdlib::MacroSet*> sets, const Limits& limits);
 
-  // The first program of `code`, in `world`, which is restarted.
+  enum class Way : std::uint8_t { Run, KeepMoves, Rehearse }; // Recorder.h
+  // The first program of `code`, in `world`, which is restarted; rehearsed it meets nothing of it.
   Record run(const sim::Bytecode& code, sim::World& world, const Entry& entry,
-             const std::set<std::uint32_t>& stores, sim::MacroMeaning* meaning, bool keepMoves = false);
+             const std::set<std::uint32_t>& stores, sim::MacroMeaning* meaning, Way way = Way::Run);
 
 private:
   bool prepare(sim::Machine& machine, const Entry& entry, double ballRadius, double length) const;
