@@ -69,7 +69,7 @@ const std::string kTouch = kOn + "G65P9811X30.S2\n";
 TEST_CASE("verify: the same program does the same") {
   CHECK(differing(kTouch, kTouch).empty());
   CHECK(differing("G0X10.\nG0X20.\n", "G0X20.\n").empty());                 // in one line
-  CHECK(differing("G0X10.\nX20.Y5.\n", "G91G0X10.\nX10.Y5.G90\n").empty()); // another way to say it
+  CHECK(differing("G0X10.\nX20.Y5.\n", "G91G0X10.\nX10.Y5.\nG90\n").empty()); // another way to say it
 }
 
 TEST_CASE("verify: each aspect has its difference") {
