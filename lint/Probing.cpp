@@ -51,6 +51,36 @@ bool mayBeOf(const stdlib::MacroSet& set, std::uint32_t program, std::string_vie
   });
 }
 
+Probing::Probing(const Project& project) : project_(project) {
+  if (project.control) return;
+  eachProgram(project, [&](const ir::Program& program, const macrob::File&) {
+    for (const ir::Statement& statement : program.body) {
+      const auto* block = std::get_if<ir::NcBlock>(&statement.node);
+      const ProbeStep::Kind kind = step(statement).kind;
+      guessCodes_ = guessCodes_ || (block != nullptr && hasCode(*block, 'G', 31)) ||
+                    kind == ProbeStep::Kind::Protected || kind == ProbeStep::Kind::Measure;
+    }
+  });
+  // The blocks of a post are those of the control of its form, or of a probing cycle anyway.
+  guessCodes_ = guessCodes_ || !project.joined.empty();
+}
+
+ProbeStep::Kind Probing::codeStep(double code) const {
+  const auto number = static_cast<std::uint32_t>(std::lround(code * 10));
+  const auto of = [&](const stdlib::Control& control) {
+    const stdlib::CodeInfo* info = control.find('M', number);
+    if (info == nullptr) return ProbeStep::Kind::None;
+    return info->function == stdlib::Function::ProbeOn    ? ProbeStep::Kind::On
+           : info->function == stdlib::Function::ProbeOff ? ProbeStep::Kind::Off
+                                                          : ProbeStep::Kind::None;
+  };
+  if (project_.control) return of(*project_.control);
+  if (!guessCodes_) return ProbeStep::Kind::None;
+  for (const stdlib::Control& control : project_.controls)
+    if (const ProbeStep::Kind kind = of(control); kind != ProbeStep::Kind::None) return kind;
+  return ProbeStep::Kind::None;
+}
+
 ProbeStep Probing::step(const ir::Statement& statement) const {
   using Kind = ProbeStep::Kind;
   if (const auto* power = std::get_if<ir::ProbePower>(&statement.node))
@@ -70,15 +100,11 @@ ProbeStep Probing::step(const ir::Statement& statement) const {
     return {inPack(project_, program) ? Kind::PackCall : Kind::Call, program};
   }
   const auto* block = std::get_if<ir::NcBlock>(&statement.node);
-  if (block == nullptr || !project_.control) return {};
+  if (block == nullptr) return {};
   for (const ir::Word& word : block->words) {
     const double* code = word.address == 'M' ? ir::constantValue(word.value) : nullptr;
-    const stdlib::CodeInfo* info =
-        code == nullptr || *code < 0
-            ? nullptr
-            : project_.control->find('M', static_cast<std::uint32_t>(std::lround(*code * 10)));
-    if (info != nullptr && info->function == stdlib::Function::ProbeOn) return {Kind::On, 0};
-    if (info != nullptr && info->function == stdlib::Function::ProbeOff) return {Kind::Off, 0};
+    const Kind kind = code == nullptr || *code < 0 ? Kind::None : codeStep(*code);
+    if (kind != Kind::None) return {kind, 0};
   }
   return {};
 }

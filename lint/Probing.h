@@ -35,7 +35,7 @@ bool mayBeOf(const stdlib::MacroSet& set, std::uint32_t program, std::string_vie
 
 class Probing {
 public:
-  explicit Probing(const Project& project) : project_(project) {}
+  explicit Probing(const Project& project);
 
   ProbeStep step(const ir::Statement& statement) const;
   // State before each statement; nothing where no path leads.
@@ -44,7 +44,12 @@ public:
   bool probes(const ir::Program& program) const;
 
 private:
+  ProbeStep::Kind codeStep(double code) const;
+
   const Project& project_;
+  // Without --control a code of the builder counts as the one known profile that has it says, where the files
+  // probe at all: M31 is a conveyor elsewhere.
+  bool guessCodes_ = false;
 };
 
 // M30 or M2.

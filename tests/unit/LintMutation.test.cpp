@@ -143,51 +143,73 @@ std::string verdict(const driver::Outcome& outcome) {
   return out;
 }
 
-// Values of the fields of a folder: as they stand, and drawn ones, beyond what checks allow too.
+// Values of the fields of a folder: as they stand, each at the ends of what can be typed, and drawn ones.
 std::vector<driver::NamedTexts> draws(const InputFile& data) {
   static const std::regex field("(?:^|\n)\\s*(\\w+)\\s*=\\s*(-?[0-9.]+)");
+  driver::NamedTexts given;
+  for (std::sregex_iterator match(data.code.begin(), data.code.end(), field), none; match != none; ++match)
+    given.emplace_back(match->str(1), match->str(2));
   std::vector<driver::NamedTexts> out(1);
   std::mt19937_64 random(7);
-  for (int draw = 0; draw < 8; ++draw) {
-    driver::NamedTexts values;
-    for (std::sregex_iterator match(data.code.begin(), data.code.end(), field), none; match != none;
-         ++match) {
-      const double given = std::stod(match->str(2));
-      const auto hundredths = static_cast<long>(random() % 4000) - 2000;
-      const double value = draw < 4 ? given + static_cast<double>(hundredths) / (given >= 50 ? 500 : 200)
-                                    : static_cast<double>(hundredths) / 25;
-      const bool whole = given >= 50 && draw % 2 == 0;
-      values.emplace_back(match->str(1),
-                          whole ? std::to_string(static_cast<int>(value)) : fmt::format("{:.2f}", value));
+  for (std::size_t i = 0; i < given.size(); ++i) {
+    for (const char* value : {"-1000", "1000", "0", "0.001", "5.5", "-5.5", "7", "53", "60"}) {
+      out.push_back(given);
+      out.back()[i].second = value;
     }
-    out.push_back(values);
+  }
+  for (int draw = 0; draw < 8; ++draw) {
+    out.push_back(given);
+    for (auto& [name, text] : out.back()) {
+      const double value = std::stod(text);
+      const auto thousandths = static_cast<double>(static_cast<long>(random() % 8000) - 4000) / 1000;
+      // Numbers of offsets stay whole.
+      text = value >= 50 ? fmt::format("{}", 54 + random() % 6) : fmt::format("{:.3f}", value + thousandths);
+    }
   }
   return out;
 }
 
-std::string meaningOfCycle(const Written& written, const std::string& folder) {
-  std::string out;
+// One after the other what a cycle means: the dialog, the posted text, the verdict of its checks and the path
+// for the first values, and for the drawn ones; the routines of the post that print no cycle. nullopt behind
+// the last.
+std::optional<std::string> meaningOfCycle(const Written& written, const std::string& folder,
+                                          std::size_t part) {
+  if (part == 0) return withoutBlanks(withoutComments(readAll(written.path(folder + "/CycleData.dlg")), 'l'));
+  const std::vector<driver::NamedTexts> values = draws(*written.bundle().find(folder + "/DefineData.txt"));
   driver::CommonOptions common;
   common.host = {
       {"tool_radius", "3"}, {"clearance", "12.5"}, {"retract", "4.25"}, {"start_x", "1"}, {"start_y", "2"}};
-  const InputFile* data = written.bundle().find(folder + "/DefineData.txt");
-  for (const driver::NamedTexts& values : draws(*data)) {
-    common.set = values;
-    for (const InputFile& prog : written.bundle().files) {
-      if (prog.kind != 'p') continue;
-      driver::PostOptions options;
-      options.folders = {written.path(folder)};
-      options.common = common;
-      options.source.prog = written.path(prog.name);
-      out += verdict(driver::post(options));
-    }
+  std::vector<const InputFile*> progs;
+  for (const InputFile& file : written.bundle().files)
+    if (file.kind == 'p') progs.push_back(&file);
+  driver::PostOptions post;
+  post.folders = {written.path(folder)};
+  if (part <= values.size()) {
+    common.set = values[part - 1];
     driver::DumpOptions path;
     path.inputs = {written.path(folder)};
     path.stage = driver::Stage::Path;
     path.common = common;
-    out += verdict(driver::dump(path));
+    std::string out = verdict(driver::dump(path));
+    for (const InputFile* prog : progs) {
+      post.common = common;
+      post.source.prog = written.path(prog->name);
+      out += verdict(driver::post(post));
+    }
+    return out;
   }
-  out += withoutBlanks(withoutComments(readAll(written.path(folder + "/CycleData.dlg")), 'l'));
+  if (part > values.size() + 1) return std::nullopt;
+  std::string out;
+  static const std::regex routine("(?:^|\n)(\\w+):");
+  for (const InputFile* prog : progs) {
+    for (std::sregex_iterator match(prog->code.begin(), prog->code.end(), routine), none; match != none;
+         ++match) {
+      post.common = common;
+      post.source.prog = written.path(prog->name);
+      post.source.routine = match->str(1);
+      out += verdict(driver::post(post));
+    }
+  }
   return out;
 }
 
@@ -209,19 +231,42 @@ std::optional<std::string> meaningOfProgram(const std::string& path) {
   return out;
 }
 
-std::string meaning(const Written& written, const InputFile& file) {
-  switch (file.kind) {
-  case 'n':
+// One after the other what the bundle means where this file is changed; nullopt behind the last.
+std::optional<std::string> meaning(const Written& written, const InputFile& file, std::size_t part) {
+  if (file.kind == 'n') {
+    if (part > 0) return std::nullopt;
     return meaningOfProgram(written.path(file.name))
         .value_or("unreadable " + readAll(written.path(file.name)));
-  case 's': return withoutBlanks(withoutComments(readAll(written.path(file.name)), 's'));
-  case 'p': {
-    std::string out;
-    for (const InputFile& data : written.bundle().files)
-      if (data.kind == 'd') out += meaningOfCycle(written, data.folder());
-    return out;
   }
-  default: return meaningOfCycle(written, file.folder());
+  if (file.kind == 's') {
+    if (part > 0) return std::nullopt;
+    return withoutBlanks(withoutComments(readAll(written.path(file.name)), 's'));
+  }
+  if (file.kind != 'p') return meaningOfCycle(written, file.folder(), part);
+  std::string out;
+  bool any = false;
+  for (const InputFile& data : written.bundle().files) {
+    if (data.kind != 'd') continue;
+    const auto one = meaningOfCycle(written, data.folder(), part);
+    any = any || one;
+    out += one.value_or("");
+  }
+  return any ? std::optional(out) : std::nullopt;
+}
+
+// Whether the changed file means the same as before.
+bool meansTheSame(const Written& disk, std::size_t number, const Change& edit,
+                  std::vector<std::string>& clean) {
+  const InputFile& file = disk.bundle().files[number];
+  for (std::size_t part = 0;; ++part) {
+    disk.restore(number);
+    if (part == clean.size()) {
+      const auto before = meaning(disk, file, part);
+      if (!before) return true;
+      clean.push_back(*before);
+    }
+    disk.change(number, edit);
+    if (meaning(disk, file, part) != clean[part]) return false;
   }
 }
 
@@ -274,7 +319,7 @@ Tally run(const std::vector<Bundle>& bundles, std::uint64_t seed) {
   std::vector<std::unique_ptr<Written>> written;
   for (const Bundle& bundle : bundles)
     written.push_back(std::make_unique<Written>(bundle));
-  std::map<std::pair<std::size_t, std::size_t>, std::string> meanings; // of the clean files
+  std::map<std::pair<std::size_t, std::size_t>, std::vector<std::string>> meanings; // of the clean files
   for (const Mutant& mutant : mutants) {
     const InputFile& file = bundles[mutant.bundle].files[mutant.file];
     const Written& disk = *written[mutant.bundle];
@@ -296,12 +341,9 @@ Tally run(const std::vector<Bundle>& bundles, std::uint64_t seed) {
       for (const std::string& code : codes)
         how += code + " ";
     } else {
-      const std::string now = meaning(disk, file);
-      disk.restore(mutant.file);
-      std::string& clean = meanings[{mutant.bundle, mutant.file}];
-      if (clean.empty()) clean = meaning(disk, file);
-      how = now == clean ? "EXCUSED" : "SURVIVES";
-      if (now == clean) {
+      const bool same = meansTheSame(disk, mutant.file, mutant.edit, meanings[{mutant.bundle, mutant.file}]);
+      how = same ? "EXCUSED" : "SURVIVES";
+      if (same) {
         ++tally.excused;
       } else {
         ++ofOperator.second;

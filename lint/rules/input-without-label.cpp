@@ -1,0 +1,36 @@
+#include "frontend/gibbs/Labels.h"
+#include "lint/MacroNames.h"
+
+namespace dotek::lint::rule {
+namespace {
+
+void check(const Project& project, Report& report) {
+  for (const gibbs::Dialog* dialog : project.allDialogs()) {
+    if (dialog->hasErrorNodes) continue;
+    const std::vector<gibbs::InputLabel> labels = gibbs::inputLabels(*dialog);
+    const gibbs::InputLabel* named = nullptr;
+    for (const gibbs::InputLabel& label : labels)
+      if (!label.name.empty()) named = &label;
+    if (named == nullptr) continue;
+    for (const gibbs::InputLabel& label : labels)
+      if (label.name.empty() && label.meaning.empty() && gibbs::foldCase(label.input->kind.text) == "INPUT")
+        report
+            .at(label.input->range,
+                "no label stands before the input of `{}`; the user does not see what belongs into it; write "
+                "one",
+                label.variable.text)
+            .note(named->input->range, "another input has one");
+  }
+}
+
+} // namespace
+
+DOTEK_LINT_RULE(input_without_label){
+    .severity = Severity::Warning,
+    .tier = Tier::Syntax,
+    .explanation =
+        "An input of a dialog has no label in its row, neither before nor behind it, and others have one.",
+    .check = check,
+};
+
+} // namespace dotek::lint::rule
