@@ -1,5 +1,5 @@
 #include "ir/Walk.h"
-#include "lint/Skips.h"
+#include "lint/OwnCalls.h"
 
 #include <algorithm>
 #include <map>
@@ -10,42 +10,16 @@ namespace {
 
 constexpr std::uint32_t kLastArgument = 26;
 
-bool isEmpty(const ir::ExpressionPtr& expression) {
-  return std::holds_alternative<ir::NullValue>(expression->node) || variableNumber(*expression) == 0U;
-}
-
-// The local that a condition asks whether it is empty.
-std::optional<std::uint32_t> nullTested(const ir::ConditionPtr& condition) {
-  if (const auto* test = std::get_if<ir::IsNull>(&condition->node)) return variableNumber(*test->value);
-  const auto* same = std::get_if<ir::Comparison>(&condition->node);
-  if (same == nullptr || same->relation != ir::Relation::Same) return std::nullopt;
-  if (isEmpty(same->right)) return variableNumber(*same->left);
-  return isEmpty(same->left) ? variableNumber(*same->right) : std::nullopt;
-}
-
 void checkProgram(const ir::Program& program, Report& report) {
   if (endsProgram(program)) return;
   const auto& body = program.body;
-  std::set<std::uint32_t> required; // empty: an alarm
+  const std::set<std::uint32_t> required = requiredLocals(program);
   std::set<std::uint32_t> compared;
   std::set<std::uint32_t> stored;
   std::map<std::uint32_t, SourceRange> read;
-  const auto raises = [&](ir::LabelId label) {
-    for (std::size_t i = 0; i < body.size(); ++i) {
-      const auto* target = std::get_if<ir::Label>(&body[i].node);
-      if (target == nullptr || target->label != label) continue;
-      while (i < body.size() && (std::holds_alternative<ir::Label>(body[i].node) ||
-                                 std::holds_alternative<ir::Comment>(body[i].node)))
-        ++i;
-      return i < body.size() && std::holds_alternative<ir::Raise>(body[i].node);
-    }
-    return false;
-  };
   for (const ir::Statement& statement : body) {
     if (const auto number = storedNumber(statement)) stored.insert(*number);
     if (const auto* branch = std::get_if<ir::Branch>(&statement.node)) {
-      if (const auto number = nullTested(branch->condition); number && raises(branch->target))
-        required.insert(*number);
       ir::eachNode(branch->condition, [&](const ir::Expression& node) {
         if (const auto number = variableNumber(node)) compared.insert(*number);
       });

@@ -7,6 +7,7 @@ namespace dotek::lint::rule {
 namespace {
 
 constexpr AxisSet kAnyAxis = 8; // a called program may have moved
+constexpr AxisSet kNone = 16;   // on one way nothing has
 
 std::string names(AxisSet axes) {
   std::string out;
@@ -22,7 +23,7 @@ void checkProgram(const ir::Program& program, Report& report) {
   // A macro may evaluate what its caller measured.
   if (!skips && !endsProgram(program)) return;
   const auto moved = ir::factsBefore<AxisSet>(
-      body, AxisSet{0},
+      body, kNone,
       [&](std::size_t at, std::size_t, AxisSet axes) -> AxisSet {
         if (const ir::NcBlock* skip = skipOf(body[at])) return axesOf(*skip);
         return callOf(body[at]) != nullptr ? kAnyAxis : axes;
@@ -37,10 +38,11 @@ void checkProgram(const ir::Program& program, Report& report) {
     bool told = false;
     eachRead(body[i], [&](std::uint32_t number, SourceRange range) {
       const auto axis = contactAxis(number);
-      if (!axis || (*moved[i] & *axis) != 0 || told) return;
+      const bool none = (*moved[i] & kNone) != 0;
+      if (!axis || told || (!none && (*moved[i] & *axis) != 0)) return;
       told = true;
       const SourceRange place = range.hasPlace() ? range : body[i].origin.range();
-      if (*moved[i] == 0)
+      if (none)
         report.at(place,
                   "#{} is where the last G31 stopped, and no G31 stands before this block; the value is left "
                   "from another measurement; read it behind the G31",

@@ -19,7 +19,7 @@ void checkCondition(const macrob::Condition& condition, Report& report) {
   const auto* difference = std::get_if<frontend::nc::Operation>(&comparison.left->node);
   const auto bound = macrob::literal(*comparison.right);
   if (difference == nullptr || difference->op != "-" || !bound || *bound <= 0 || *bound > kTolerance) return;
-  if (macrob::literal(*difference->right)) return; // an offset of one value
+  if (macrob::literal(*difference->right) == 0.0) return;
   report.at(
       condition.range,
       "the difference has a sign, and each negative one is below this tolerance; the test holds for any "

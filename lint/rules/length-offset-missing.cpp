@@ -13,7 +13,7 @@ void checkProgram(const ir::Program& program, const Probing& probing, Report& re
   for (const ir::Statement& statement : program.body) {
     const ProbeStep::Kind kind = probing.step(statement).kind;
     measures = measures || skipOf(statement) != nullptr || kind == ProbeStep::Kind::Measure ||
-               kind == ProbeStep::Kind::Protected;
+               kind == ProbeStep::Kind::Protected || probing.skips(probing.step(statement).program);
     const auto* block = std::get_if<ir::NcBlock>(&statement.node);
     if (block == nullptr) continue;
     if (hasCode(*block, 'M', 6)) change = &statement;

@@ -35,7 +35,13 @@ void checkProgram(const ir::Program& program, const Probing& probing, Report& re
         if (const auto* block = std::get_if<ir::NcBlock>(&body[at].node);
             block != nullptr && !hasWord(*block, 'Z'))
           return height;
-        return heightOf(body[at]);
+        // A protected move along X or Y stays on its height.
+        const Height z = heightOf(body[at]);
+        const ir::Call* call = callOf(body[at]);
+        const bool level = call != nullptr && probing.step(body[at]).kind == ProbeStep::Kind::Protected &&
+                           std::none_of(call->arguments.begin(), call->arguments.end(),
+                                        [](const ir::CallArgument& one) { return one.letter == 'Z'; });
+        return level ? height : z;
       },
       [](Height& into, const Height& other) {
         if (into == other || !into) return false;

@@ -98,6 +98,7 @@ void checkProgram(const ir::Program& program, const Probing& probing, Report& re
     case ProbeStep::Kind::Off:
       if (off == nullptr) off = &statement;
       break;
+    case ProbeStep::Kind::OwnCall:
     case ProbeStep::Kind::Call:
     case ProbeStep::Kind::PackCall: touches = true; break;
     default: touches = touches || skipOf(statement) != nullptr; break;

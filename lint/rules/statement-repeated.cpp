@@ -1,4 +1,5 @@
 #include "lint/MacroNames.h"
+#include "lint/ProgBlocks.h"
 #include "lint/Skips.h"
 
 #include <algorithm>
@@ -36,8 +37,27 @@ void checkPrograms(const Project& project, Report& report) {
   });
 }
 
+void checkPosts(const Project& project, Report& report) {
+  eachRoutine(project, [&](const compost::Program& prog, const compost::Routine& routine) {
+    const std::vector<ProgBlock> blocks = blocksOf(routine.body, prog, project);
+    for (std::size_t i = 1; i < blocks.size(); ++i) {
+      const std::string text = blocks[i].text();
+      // Distances and waits add up.
+      if (blocks[i].called || text != blocks[i - 1].text() || text.find("G91") != std::string::npos ||
+          text.find("G4") != std::string::npos ||
+          text.find_first_of("ABCDEFGHIJKLMNOPQRSTUVWXYZ") == std::string::npos || text.front() == '(')
+        continue;
+      if (blocks[i].pieces.front().arm != blocks[i - 1].pieces.front().arm) continue;
+      report.at(blocks[i].range,
+                "this block is the same as the one before and changes nothing; one of the two is "
+                "left over, or was meant to differ");
+    }
+  });
+}
+
 void check(const Project& project, Report& report) {
   checkPrograms(project, report);
+  checkPosts(project, report);
   for (const gibbs::Macro* macro : project.allMacros()) {
     for (std::size_t i = 1; i < macro->lines.size(); ++i) {
       const gibbs::Line& line = macro->lines[i];

@@ -400,6 +400,10 @@ TEST_CASE("lint mutation: of 400 mutants of clean inputs at least 85 % are found
   check("first", 1);
 }
 
-TEST_CASE("lint mutation: inputs that no rule was written for") {
+TEST_CASE("lint mutation: other inputs and another seed") {
   check("second", 1001);
+}
+
+TEST_CASE("lint mutation: inputs that were written behind the rules") {
+  check("third", 2001);
 }

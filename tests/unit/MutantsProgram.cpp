@@ -64,7 +64,7 @@ void numberDoubled(const InputFile& file, const Bundle&, Sites& sites) {
 }
 
 void stepLost(const InputFile& file, const Bundle&, Sites& sites) {
-  dropLines(file, std::regex("^(#\\d+)=\\1[-+]"), sites);
+  dropLines(file, std::regex("^(#\\d+)=\\1[-+]\\d"), sites);
 }
 
 // Letters of the arguments of calls, with their values.
@@ -122,8 +122,9 @@ void readBeforeCall(const InputFile& file, const Bundle&, Sites& sites) {
 void waitLost(const InputFile& file, const Bundle&, Sites& sites) {
   static const std::regex wait("^(N\\d+ ?)?(G53|G4 ?P\\d+)$");
   const std::vector<Line> lines = linesOf(file);
-  for (std::size_t i = 0; i + 1 < lines.size(); ++i)
-    if (std::regex_search(lines[i].code, wait)) sites.push_back(dropLine(file, lines[i]));
+  for (std::size_t i = 1; i + 1 < lines.size(); ++i)
+    if (std::regex_search(lines[i].code, wait) && lines[i - 1].code.find("G31") == std::string::npos)
+      sites.push_back(dropLine(file, lines[i]));
 }
 
 // A move along Z alone to a place that is higher than the one before.
