@@ -14,6 +14,7 @@ std::optional<std::uint32_t> armOf(const ProgBlock& block, const ProgWord& word)
 
 void check(const Project& project, Report& report) {
   eachRoutine(project, [&](const compost::Program& prog, const compost::Routine& routine) {
+    if (prog.hasErrorNodes || !routine.returnRange) return; // told already
     for (const ProgBlock& block : blocksOf(routine.body, prog, project)) {
       if (block.called) continue;
       const std::vector<ProgWord> words = wordsOf(block, project.form ? &*project.form : nullptr);

@@ -29,7 +29,10 @@ void check(const Project& project, Report& report) {
       const bool right = isFixed(comparison->right) || isEmpty(comparison->right);
       const bool plain = std::holds_alternative<ir::Constant>(comparison->left->node) &&
                          std::holds_alternative<ir::Constant>(comparison->right->node);
-      if (!left || !right || plain) continue;
+      // IF [1 EQ 1] and [1 EQ 0] switch blocks on and off.
+      const bool meant = plain && (comparison->relation == ir::Relation::Equal ||
+                                   comparison->relation == ir::Relation::NotEqual);
+      if (!left || !right || meant) continue;
       report.at(
           branch->condition->range.hasPlace() ? branch->condition->range : statement.origin.range(),
           "this condition looks at no variable, so it comes out the same each time; mostly the `#` of one "

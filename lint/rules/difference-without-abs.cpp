@@ -1,7 +1,10 @@
 #include "frontend/macrob/Calls.h"
 #include "lint/Project.h"
 
-#include <array>
+#include <algorithm>
+#include <optional>
+#include <string>
+#include <vector>
 
 namespace dotek::lint::rule {
 namespace {
@@ -26,7 +29,49 @@ void checkCondition(const macrob::Condition& condition, Report& report) {
       "value that is too small; write ABS before the brackets");
 }
 
+// The bound and the target of IF [..] GOTO with one comparison of a variable or a calculation.
+struct Test {
+  const macrob::Condition* condition = nullptr;
+  std::string key; // comparison, bound, target
+  bool absolute = false;
+};
+
+std::optional<Test> testOf(const macrob::If& branch, const Project& project) {
+  const auto* jump = std::get_if<macrob::Goto>(&branch.statement);
+  const auto* comparison =
+      branch.condition ? std::get_if<macrob::Comparison>(&branch.condition->node) : nullptr;
+  if (jump == nullptr || comparison == nullptr || !jump->target || !comparison->left || !comparison->right)
+    return std::nullopt;
+  if (!macrob::literal(*comparison->right) || *macrob::literal(*comparison->right) <= 0) return std::nullopt;
+  const auto* function = std::get_if<frontend::nc::FunctionCall>(&comparison->left->node);
+  return Test{branch.condition.get(),
+              fmt::format("{} {} {}", comparison->op, project.sources.text(comparison->right->range),
+                          project.sources.text(jump->target->range)),
+              function != nullptr && function->name == "ABS"};
+}
+
+// Of several tests against one bound with one target all but this one are absolute.
+void compareTests(const macrob::Program& program, const Project& project, Report& report) {
+  std::vector<Test> tests;
+  for (const macrob::Block& block : program.blocks)
+    if (const auto* branch = std::get_if<macrob::If>(&block.body))
+      if (auto test = testOf(*branch, project)) tests.push_back(std::move(*test));
+  for (const Test& test : tests) {
+    const auto other = std::find_if(tests.begin(), tests.end(),
+                                    [&](const Test& one) { return one.absolute && one.key == test.key; });
+    if (test.absolute || other == tests.end()) continue;
+    report
+        .at(test.condition->range,
+            "this test has the bound and the target of another one, which takes the absolute "
+            "value; here each value of the other sign passes; write ABS")
+        .note(other->condition->range, "the other test");
+  }
+}
+
 void check(const Project& project, Report& report) {
+  for (const NcFile& nc : project.programs)
+    for (const macrob::Program& program : nc.file->programs)
+      compareTests(program, project, report);
   for (const NcFile& nc : project.programs)
     for (const macrob::Program& program : nc.file->programs)
       for (const macrob::Block& block : program.blocks)

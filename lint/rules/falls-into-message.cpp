@@ -18,6 +18,23 @@ void check(const Project& project, Report& report) {
       if (const auto* jump = std::get_if<gibbs::Goto>(&statement.node))
         used.insert(gibbs::foldCase(jump->label.text));
     });
+    // Behind the last message the end of the macro follows; where others jump, this one was to.
+    std::size_t jumps = 0;
+    const auto leads = [&](std::size_t i) {
+      return i < lines.size() && lines[i].statement &&
+             std::holds_alternative<gibbs::Goto>(lines[i].statement->node);
+    };
+    for (std::size_t i = 0; i < lines.size(); ++i)
+      jumps += isMessage(lines[i]) && leads(i + 1) ? 1 : 0;
+    for (std::size_t i = 0; i + 1 < lines.size() && jumps > 1; ++i) {
+      const gibbs::Line& label = lines[i + 1];
+      if (!isMessage(lines[i]) || !label.label || !used.contains(gibbs::foldCase(label.label->name.text)))
+        continue;
+      if (i + 2 < lines.size() && isMessage(lines[i + 2])) continue;
+      report.at(lines[i].statement->range,
+                "behind this message the macro goes on with the values that it complains "
+                "of; behind the others it jumps away; write the GOTO");
+    }
     for (std::size_t i = 0; i + 2 < lines.size(); ++i) {
       const gibbs::Line& label = lines[i + 1];
       if (!isMessage(lines[i]) || !label.label || label.statement || !isMessage(lines[i + 2])) continue;

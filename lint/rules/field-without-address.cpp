@@ -28,6 +28,7 @@ bool insideComment(const ProgBlock& block, std::size_t at) {
 
 void check(const Project& project, Report& report) {
   eachRoutine(project, [&](const compost::Program& prog, const compost::Routine& routine) {
+    if (prog.hasErrorNodes || !routine.returnRange) return; // told already
     for (const ProgBlock& block : blocksOf(routine.body, prog, project)) {
       if (block.called) continue;
       const std::vector<ProgWord> words = wordsOf(block, project.form ? &*project.form : nullptr);

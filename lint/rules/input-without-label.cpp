@@ -12,6 +12,19 @@ void check(const Project& project, Report& report) {
     for (const gibbs::InputLabel& label : labels)
       if (!label.name.empty()) named = &label;
     if (named == nullptr) continue;
+    // Text behind the inputs: of all but one.
+    const gibbs::InputLabel* bare = nullptr;
+    std::size_t without = 0;
+    for (const gibbs::InputLabel& label : labels) {
+      without += label.meaning.empty() ? 1 : 0;
+      if (label.meaning.empty()) bare = &label;
+    }
+    if (without == 1 && labels.size() > 2 && !bare->name.empty())
+      report.at(bare->input->range,
+                "behind each other input of the dialog stands what it means, and behind that of `{}` "
+                "nothing; write "
+                "it",
+                bare->variable.text);
     for (const gibbs::InputLabel& label : labels)
       if (label.name.empty() && label.meaning.empty() && gibbs::foldCase(label.input->kind.text) == "INPUT")
         report

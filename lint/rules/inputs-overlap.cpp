@@ -20,9 +20,14 @@ void check(const Project& project, Report& report) {
     for (std::size_t i = 0; i < dialog->controls.size(); ++i) {
       const gibbs::Control& control = dialog->controls[i];
       if (!isTyped(control)) continue;
-      const auto before = std::find_if(
-          dialog->controls.begin(), dialog->controls.begin() + static_cast<std::ptrdiff_t>(i),
-          [&](const gibbs::Control& other) { return isTyped(other) && overlap(*other.box, *control.box); });
+      const auto before =
+          std::find_if(dialog->controls.begin(), dialog->controls.begin() + static_cast<std::ptrdiff_t>(i),
+                       [&](const gibbs::Control& other) {
+                         // A second OK is told as such.
+                         const std::string kind = gibbs::foldCase(control.kind.text);
+                         const bool twice = kind != "INPUT" && kind == gibbs::foldCase(other.kind.text);
+                         return isTyped(other) && !twice && overlap(*other.box, *control.box);
+                       });
       if (before == dialog->controls.begin() + static_cast<std::ptrdiff_t>(i)) continue;
       report
           .at(control.range,

@@ -11,6 +11,11 @@ namespace {
 constexpr double kFirstCommon = 100;
 constexpr double kLastCommon = 999;
 
+// Codes in force and positions of the machine: a number alone that is one of these was to be read.
+bool isSystem(double number) {
+  return (number > 4000 && number <= 4130) || (number > 5000 && number <= 5083);
+}
+
 void check(const Project& project, Report& report) {
   std::map<std::uint32_t, SourceRange> stored;
   std::set<std::uint32_t> read;
@@ -27,6 +32,11 @@ void check(const Project& project, Report& report) {
       const bool words = std::holds_alternative<ir::NcBlock>(statement.node) ||
                          callOf(statement) != nullptr || std::holds_alternative<ir::Raise>(statement.node);
       const auto* store = std::get_if<ir::Store>(&statement.node);
+      const auto* whole = store == nullptr ? nullptr : std::get_if<ir::Constant>(&store->value->node);
+      if (whole != nullptr && isSystem(whole->value) && whole->digits.find('.') == std::string::npos)
+        report.at(store->value->range.hasPlace() ? store->value->range : statement.origin.range(),
+                  "{0} is a number here, and #{0} is a state of the control; write `#{0}` if that is meant",
+                  whole->digits);
       if (words) continue;
       ir::eachNode(statement, [&](const ir::Expression& node) {
         const auto* constant = std::get_if<ir::Constant>(&node.node);

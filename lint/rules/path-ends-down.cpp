@@ -41,7 +41,7 @@ std::optional<std::vector<gibbs::PathMove>> pathOf(const gibbs::Cycle& cycle, co
 
 void check(const Project& project, Report& report) {
   for (const gibbs::Cycle* cycle : project.cycles) {
-    if (!cycle->toolPath || cycle->toolPath->hasErrorNodes) continue;
+    if (!cycle->toolPath || cycle->toolPath->hasErrorNodes || !cycle->dialog) continue;
     const auto path = pathOf(*cycle, project);
     if (!path || path->size() < 2) continue;
     const auto lower = [](const gibbs::PathMove& a, const gibbs::PathMove& b) { return a.z < b.z; };

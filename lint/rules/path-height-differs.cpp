@@ -21,6 +21,13 @@ void checkMacro(const gibbs::Macro& macro, Report& report) {
     return std::any_of(planes.begin(), planes.end(),
                        [&](const std::string& name) { return signOf(value, name) == -1; });
   };
+  std::set<std::string> own;
+  eachStatement(macro, [&](const gibbs::Statement& statement) {
+    if (const auto* assign = std::get_if<gibbs::Assignment>(&statement.node))
+      own.insert(gibbs::foldCase(assign->target.name.text));
+    if (const auto* loop = std::get_if<gibbs::For>(&statement.node))
+      own.insert(gibbs::foldCase(loop->variable.text));
+  });
   const gibbs::Expression* usual = nullptr;
   for (const PathCommand& path : paths)
     if (path.axes[2] != nullptr && below(*path.axes[2])) usual = path.axes[2];
@@ -42,6 +49,10 @@ void checkMacro(const gibbs::Macro& macro, Report& report) {
     const gibbs::Expression* z = path.axes[2];
     // A number alone is a distance from the plane.
     if (usual == nullptr || z == nullptr || below(*z) || plainNumber(*z)) continue;
+    // What the macro works out itself may have the plane in it.
+    const std::set<std::string> names = readsOf(*z);
+    if (std::any_of(names.begin(), names.end(), [&](const std::string& name) { return own.contains(name); }))
+      continue;
     report
         .at(z->range,
             "heights of a path count from the retract plane, and the others of this macro subtract it; "

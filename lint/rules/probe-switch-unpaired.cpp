@@ -53,6 +53,7 @@ void checkPost(const compost::Program& prog, const Project& project, Report& rep
   for (const compost::Item& item : prog.items) {
     const auto* routine = std::get_if<compost::Routine>(&item);
     if (routine == nullptr) continue;
+    if (!routine->returnRange) return; // told already; what is missing may be behind
     const std::vector<ProgBlock> blocks = blocksOf(routine->body, prog, project);
     add(all, blocks, project);
     for (const ProgBlock& block : blocks)
@@ -114,7 +115,7 @@ void checkProgram(const ir::Program& program, const Probing& probing, Report& re
 
 void check(const Project& project, Report& report) {
   for (const compost::Program* prog : project.progs)
-    checkPost(*prog, project, report);
+    if (!prog->hasErrorNodes) checkPost(*prog, project, report);
   checkBranches(project, report);
   const Probing probing(project);
   eachProgram(project, [&](const ir::Program& program, const macrob::File&) {

@@ -31,7 +31,9 @@ std::vector<Travel> travels(const std::vector<ir::Statement>& body, const Probin
   bool measured = false;
   bool lifted = false;
   for (std::size_t i = 0; i < body.size(); ++i) {
-    if (probing.step(body[i]).kind == ProbeStep::Kind::Measure) {
+    const ProbeStep step = probing.step(body[i]);
+    if (step.kind == ProbeStep::Kind::Measure ||
+        (step.kind == ProbeStep::Kind::OwnCall && probing.skips(step.program))) {
       measured = true;
       lifted = false;
       continue;
@@ -66,7 +68,8 @@ void check(const Project& project, Report& report) {
   for (const Joined& joined : project.joined)
     if (joined.lowered) checkBody(joined.lowered->body, probing, report);
   eachProgram(project, [&](const ir::Program& program, const macrob::File&) {
-    checkBody(program.body, probing, report);
+    // A macro that touches one feature knows its own ways.
+    if (endsProgram(program)) checkBody(program.body, probing, report);
   });
 }
 

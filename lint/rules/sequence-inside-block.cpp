@@ -25,6 +25,7 @@ bool exclude(const std::vector<compost::Statement>& statements, SourceRange firs
 
 void check(const Project& project, Report& report) {
   eachRoutine(project, [&](const compost::Program& prog, const compost::Routine& routine) {
+    if (prog.hasErrorNodes || !routine.returnRange) return; // told already
     for (const ProgBlock& block : blocksOf(routine.body, prog, project)) {
       for (std::size_t i = 1; i < block.pieces.size(); ++i) {
         const ProgPiece& piece = block.pieces[i];

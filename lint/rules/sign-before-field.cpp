@@ -7,6 +7,7 @@ namespace {
 
 void check(const Project& project, Report& report) {
   eachRoutine(project, [&](const compost::Program& prog, const compost::Routine& routine) {
+    if (prog.hasErrorNodes || !routine.returnRange) return; // told already
     for (const ProgBlock& block : blocksOf(routine.body, prog, project)) {
       if (block.called) continue;
       for (std::size_t i = 1; i < block.pieces.size(); ++i) {

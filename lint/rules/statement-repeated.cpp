@@ -39,6 +39,7 @@ void checkPrograms(const Project& project, Report& report) {
 
 void checkPosts(const Project& project, Report& report) {
   eachRoutine(project, [&](const compost::Program& prog, const compost::Routine& routine) {
+    if (prog.hasErrorNodes || !routine.returnRange) return; // told already
     const std::vector<ProgBlock> blocks = blocksOf(routine.body, prog, project);
     for (std::size_t i = 1; i < blocks.size(); ++i) {
       const std::string text = blocks[i].text();
@@ -47,6 +48,8 @@ void checkPosts(const Project& project, Report& report) {
           text.find("G4") != std::string::npos ||
           text.find_first_of("ABCDEFGHIJKLMNOPQRSTUVWXYZ") == std::string::npos || text.front() == '(')
         continue;
+      const std::vector<ProgWord> words = wordsOf(blocks[i], nullptr);
+      if (findWord(words, 'M') != nullptr || findWord(words, 'T') != nullptr) continue;
       if (blocks[i].pieces.front().arm != blocks[i - 1].pieces.front().arm) continue;
       report.at(blocks[i].range,
                 "this block is the same as the one before and changes nothing; one of the two is "
@@ -59,6 +62,7 @@ void check(const Project& project, Report& report) {
   checkPrograms(project, report);
   checkPosts(project, report);
   for (const gibbs::Macro* macro : project.allMacros()) {
+    if (macro->hasErrorNodes) continue;
     for (std::size_t i = 1; i < macro->lines.size(); ++i) {
       const gibbs::Line& line = macro->lines[i];
       const gibbs::Line& before = macro->lines[i - 1];
