@@ -55,7 +55,13 @@ void check(const Project& project, Report& report) {
       if (folders.contains(id.text)) continue;
       for (const std::string& folder : folders) {
         // A folder that the Prog prints for already is not the one that is meant.
-        if (!compost::printingRoutines(*prog, project.compostKeywords, folder).empty() ||
+        std::string one = gibbs::foldCase(id.text);
+        std::string other = gibbs::foldCase(folder);
+        std::sort(one.begin(), one.end());
+        std::sort(other.begin(), other.end());
+        // The same letters in another order are no name of their own.
+        const bool same = one == other;
+        if ((!same && !compost::printingRoutines(*prog, project.compostKeywords, folder).empty()) ||
             !misspelt(id.text, folder))
           continue;
         report.at(id.range,

@@ -37,6 +37,22 @@ void check(const Project& project, Report& report) {
         report.at(store->value->range.hasPlace() ? store->value->range : statement.origin.range(),
                   "{0} is a number here, and #{0} is a state of the control; write `#{0}` if that is meant",
                   whole->digits);
+      // #500=500+#1, and #[150+141]: the number itself stands where its variable belongs.
+      const auto target = storedNumber(statement);
+      bool lost = false;
+      if (store != nullptr && target && std::holds_alternative<ir::Binary>(store->value->node))
+        ir::eachNode(store->value, [&](const ir::Expression& node) {
+          const auto* constant = std::get_if<ir::Constant>(&node.node);
+          lost = lost || (constant != nullptr && constant->value == *target && *target >= kFirstCommon &&
+                          constant->digits.find('.') == std::string::npos && !indices.contains(&node));
+        });
+      const auto* sum = store == nullptr ? nullptr : std::get_if<ir::Binary>(&store->number->node);
+      lost = lost || (sum != nullptr && ir::constantValue(sum->left) != nullptr &&
+                      ir::constantValue(sum->right) != nullptr);
+      if (lost)
+        report.at(statement.origin.range(),
+                  "a number stands here where its variable belongs; the control calculates "
+                  "with the number; write the `#` before it");
       if (words) continue;
       ir::eachNode(statement, [&](const ir::Expression& node) {
         const auto* constant = std::get_if<ir::Constant>(&node.node);
