@@ -43,11 +43,20 @@ std::optional<std::set<std::uint32_t>> storedIn(const std::vector<ir::Statement>
 
 // Leaves the loop by a jump of the text: what loop-never-ends passes over.
 bool jumpsOut(const ir::Program& program, const Loop& loop) {
+  bool jumps = false;
   for (std::size_t i = loop.begin + 1; i < loop.end; ++i) {
     const auto* branch = std::get_if<ir::Branch>(&program.body[i].node);
-    if (branch != nullptr && program.labels[branch->target].number != 0) return true;
+    if (branch == nullptr || program.labels[branch->target].number == 0) continue;
+    // A loop that waits for a state of the control is meant to turn.
+    bool waits = false;
+    ir::eachNode(branch->condition, [&](const ir::Expression& node) {
+      const auto number = variableNumber(node);
+      waits = waits || (number && *number >= kFirstSystem);
+    });
+    if (waits) return false;
+    jumps = true;
   }
-  return false;
+  return jumps;
 }
 
 void checkProgram(const ir::Program& program, Report& report) {
