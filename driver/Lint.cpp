@@ -111,6 +111,7 @@ private:
                           {},
                           {},
                           {},
+                          {},
                           {}};
     for (const stdlib::DataFile* file : session_.data().list("macros")) {
       if (auto set = stdlib::MacroSet::load(session_.data(), file->name))
@@ -121,6 +122,10 @@ private:
     project.form = session_.form(formInConfig ? config->form : options_.source.form);
     if (project.form && !project.form->control.empty())
       project.postControl = stdlib::Control::load(session_.data(), project.form->control);
+    if (!control_)
+      for (const stdlib::DataFile* data : session_.data().list("controls"))
+        if (auto control = stdlib::Control::load(session_.data(), data->name))
+          project.controls.push_back(std::move(*control));
     for (const compost::Program& prog : progs_)
       project.progs.push_back(&prog);
     for (const CycleFolder& folder : folders_)

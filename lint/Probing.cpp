@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace dotek::lint {
 namespace {
@@ -51,6 +52,82 @@ bool mayBeOf(const stdlib::MacroSet& set, std::uint32_t program, std::string_vie
   });
 }
 
+Probing::Probing(const Project& project) : project_(project) {
+  readOwn();
+  if (project.control) return;
+  eachProgram(project, [&](const ir::Program& program, const macrob::File&) {
+    for (const ir::Statement& statement : program.body) {
+      const auto* block = std::get_if<ir::NcBlock>(&statement.node);
+      const ProbeStep::Kind kind = step(statement).kind;
+      guessCodes_ = guessCodes_ || (block != nullptr && hasCode(*block, 'G', 31)) ||
+                    kind == ProbeStep::Kind::Protected || kind == ProbeStep::Kind::Measure;
+    }
+  });
+  // The blocks of a post are those of the control of its form, or of a probing cycle anyway.
+  guessCodes_ = guessCodes_ || !project.joined.empty();
+}
+
+void Probing::readOwn() {
+  struct Own {
+    std::set<std::uint32_t> calls;
+    bool open = false; // switches the probe, or calls what is not known
+    bool skips = false;
+  };
+  std::map<std::uint32_t, Own> all;
+  eachProgram(project_, [&](const ir::Program& program, const macrob::File&) {
+    Own& own = all[static_cast<std::uint32_t>(program.number)];
+    for (const ir::Statement& statement : program.body) {
+      const auto* block = std::get_if<ir::NcBlock>(&statement.node);
+      own.skips = own.skips || (block != nullptr && hasCode(*block, 'G', 31));
+      if (block != nullptr)
+        for (const ir::Word& word : block->words) {
+          const double* code = word.address == 'M' ? ir::constantValue(word.value) : nullptr;
+          // M0 to M9, M30 and M99 switch no probe; of others only a profile knows.
+          own.open = own.open || (word.address == 'M' && (code == nullptr || (*code > 9 && *code != 30)));
+        }
+      const ProbeStep one = step(statement);
+      if (one.kind == ProbeStep::Kind::Call && one.program != 0)
+        own.calls.insert(one.program);
+      else if (one.kind != ProbeStep::Kind::None)
+        own.open = true;
+    }
+  });
+  // What a program calls decides as well.
+  for (bool changed = true; changed;) {
+    changed = false;
+    for (auto& [number, own] : all) {
+      for (const std::uint32_t called : own.calls) {
+        const auto at = all.find(called);
+        const bool open = at == all.end() || at->second.open;
+        const bool skips = at != all.end() && at->second.skips;
+        changed = changed || (open && !own.open) || (skips && !own.skips);
+        own.open = own.open || open;
+        own.skips = own.skips || skips;
+      }
+    }
+  }
+  for (const auto& [number, own] : all) {
+    if (!own.open && number != 0) quiet_.insert(number);
+    if (own.skips && number != 0) skipping_.insert(number);
+  }
+}
+
+ProbeStep::Kind Probing::codeStep(double code) const {
+  const auto number = static_cast<std::uint32_t>(std::lround(code * 10));
+  const auto of = [&](const stdlib::Control& control) {
+    const stdlib::CodeInfo* info = control.find('M', number);
+    if (info == nullptr) return ProbeStep::Kind::None;
+    return info->function == stdlib::Function::ProbeOn    ? ProbeStep::Kind::On
+           : info->function == stdlib::Function::ProbeOff ? ProbeStep::Kind::Off
+                                                          : ProbeStep::Kind::None;
+  };
+  if (project_.control) return of(*project_.control);
+  if (!guessCodes_) return ProbeStep::Kind::None;
+  for (const stdlib::Control& control : project_.controls)
+    if (const ProbeStep::Kind kind = of(control); kind != ProbeStep::Kind::None) return kind;
+  return ProbeStep::Kind::None;
+}
+
 ProbeStep Probing::step(const ir::Statement& statement) const {
   using Kind = ProbeStep::Kind;
   if (const auto* power = std::get_if<ir::ProbePower>(&statement.node))
@@ -67,18 +144,15 @@ ProbeStep Probing::step(const ir::Statement& statement) const {
     for (const ir::CallArgument& argument : call->arguments)
       letters += argument.letter;
     if (const auto kind = meaning(project_, program, letters)) return {*kind, program};
+    if (quiet_.contains(program)) return {Kind::OwnCall, program};
     return {inPack(project_, program) ? Kind::PackCall : Kind::Call, program};
   }
   const auto* block = std::get_if<ir::NcBlock>(&statement.node);
-  if (block == nullptr || !project_.control) return {};
+  if (block == nullptr) return {};
   for (const ir::Word& word : block->words) {
     const double* code = word.address == 'M' ? ir::constantValue(word.value) : nullptr;
-    const stdlib::CodeInfo* info =
-        code == nullptr || *code < 0
-            ? nullptr
-            : project_.control->find('M', static_cast<std::uint32_t>(std::lround(*code * 10)));
-    if (info != nullptr && info->function == stdlib::Function::ProbeOn) return {Kind::On, 0};
-    if (info != nullptr && info->function == stdlib::Function::ProbeOff) return {Kind::Off, 0};
+    const Kind kind = code == nullptr || *code < 0 ? Kind::None : codeStep(*code);
+    if (kind != Kind::None) return {kind, 0};
   }
   return {};
 }
@@ -95,7 +169,8 @@ std::vector<std::optional<ProbeState>> Probing::states(const std::vector<ir::Sta
         case ProbeStep::Kind::None:
         case ProbeStep::Kind::Protected:
         case ProbeStep::Kind::Measure:
-        case ProbeStep::Kind::PackCall: break;
+        case ProbeStep::Kind::PackCall:
+        case ProbeStep::Kind::OwnCall: break;
         }
         return before;
       },
@@ -109,7 +184,7 @@ std::vector<std::optional<ProbeState>> Probing::states(const std::vector<ir::Sta
 bool Probing::probes(const ir::Program& program) const {
   return std::any_of(program.body.begin(), program.body.end(), [&](const ir::Statement& statement) {
     const ProbeStep::Kind kind = step(statement).kind;
-    return kind != ProbeStep::Kind::None && kind != ProbeStep::Kind::Call;
+    return kind != ProbeStep::Kind::None && kind != ProbeStep::Kind::Call && kind != ProbeStep::Kind::OwnCall;
   });
 }
 

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <set>
 
 namespace dotek::lint {
 
@@ -19,6 +20,7 @@ struct ProbeStep {
     Protected, // move that stops at a contact
     Measure,
     PackCall, // a call of a macro of the same pack whose meaning is not known: may do anything
+    OwnCall,  // a call of a program of these files that switches no probe, nor calls one that may
     Call,     // another call: may do anything
   };
   Kind kind = Kind::None;
@@ -35,16 +37,26 @@ bool mayBeOf(const stdlib::MacroSet& set, std::uint32_t program, std::string_vie
 
 class Probing {
 public:
-  explicit Probing(const Project& project) : project_(project) {}
+  explicit Probing(const Project& project);
 
   ProbeStep step(const ir::Statement& statement) const;
   // State before each statement; nothing where no path leads.
   std::vector<std::optional<ProbeState>> states(const std::vector<ir::Statement>& body) const;
   // Calls some macro of a probing set.
   bool probes(const ir::Program& program) const;
+  // The program is one of these files, and a G31 stands in it or in one that it calls.
+  bool skips(std::uint32_t program) const { return skipping_.contains(program); }
 
 private:
+  ProbeStep::Kind codeStep(double code) const;
+
+  void readOwn();
+
   const Project& project_;
+  std::set<std::uint32_t> quiet_, skipping_; // programs of the files: without a switch, with a G31
+  // Without --control a code of the builder counts as the one known profile that has it says, where the files
+  // probe at all: M31 is a conveyor elsewhere.
+  bool guessCodes_ = false;
 };
 
 // M30 or M2.

@@ -26,15 +26,19 @@ private:
   void body(const std::vector<compost::Statement>& statements) {
     for (const compost::Statement& statement : statements) {
       if (const auto* literal = std::get_if<compost::Literal>(&statement)) {
-        if (!literal->text.empty()) add({ProgPiece::Kind::Text, literal->range, literal, nullptr, ""});
+        if (!literal->text.empty()) add({ProgPiece::Kind::Text, literal->range, literal, nullptr, "", 0});
       } else if (const auto* word = std::get_if<compost::Word>(&statement)) {
         this->word(*word);
       } else if (std::holds_alternative<compost::EndOfLine>(statement)) {
         close();
       } else if (const auto* branch = std::get_if<std::unique_ptr<compost::If>>(&statement)) {
         ++conditions_;
+        const std::uint32_t outer = arm_;
+        arm_ = ++arms_;
         body((*branch)->thenBody);
+        arm_ = ++arms_;
         body((*branch)->elseBody);
+        arm_ = outer;
         --conditions_;
       }
     }
@@ -54,7 +58,7 @@ private:
     if (word.kind == compost::WordKind::Boolean) return;
     const stdlib::ComPostKeyword* keyword = project_.compostKeywords.find(word.name);
     if (keyword != nullptr && keyword->prints == stdlib::Prints::No) return;
-    ProgPiece piece{ProgPiece::Kind::Command, word.range, nullptr, &word, ""};
+    ProgPiece piece{ProgPiece::Kind::Command, word.range, nullptr, &word, "", 0};
     if (word.kind == compost::WordKind::Numeric) {
       piece.kind = ProgPiece::Kind::Number;
       if (word.name == "OpFieldData" && word.arguments.size() == 1) piece.field = word.arguments[0].text;
@@ -65,6 +69,7 @@ private:
   }
 
   void add(ProgPiece piece) {
+    piece.arm = arm_;
     if (block_.pieces.empty()) {
       block_.range = piece.range;
       block_.conditional = conditions_ > 0;
@@ -85,6 +90,7 @@ private:
   std::vector<const compost::Routine*> open_;
   std::size_t conditions_ = 0;
   std::size_t calls_ = 0;
+  std::uint32_t arm_ = 0, arms_ = 0;
   ProgBlock block_;
   std::vector<ProgBlock> out_;
 };
@@ -253,6 +259,19 @@ SourceRange rangeOf(const compost::Statement& statement) {
   if (const auto* word = std::get_if<compost::Word>(&statement)) return word->range;
   if (const auto* end = std::get_if<compost::EndOfLine>(&statement)) return end->range;
   return std::get<compost::ErrorStatement>(statement).range;
+}
+
+bool MacroMeaning::measures() const {
+  if (set == nullptr) return false;
+  switch (intent) {
+  case stdlib::Intent::ProtectedMove:
+  case stdlib::Intent::FeatureToFeature:
+  case stdlib::Intent::ToolUpdate:
+  case stdlib::Intent::Calibration:
+  case stdlib::Intent::ProbeOn:
+  case stdlib::Intent::ProbeOff: return false;
+  default: return true;
+  }
 }
 
 MacroMeaning meaningOf(const Project& project, std::uint32_t program) {

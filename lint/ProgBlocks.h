@@ -18,6 +18,7 @@ struct ProgPiece {
   const compost::Literal* literal = nullptr; // of Text
   const compost::Word* word = nullptr;       // of the others
   std::string field;                         // of an OpFieldData#: the field; else ""
+  std::uint32_t arm = 0; // pieces of one number stand below the same part of an IF; 0: below none
 };
 
 // An NC word of a block: an address with digits, or with a hole that a piece fills.
@@ -80,9 +81,7 @@ SourceRange rangeOf(const compost::Statement& statement);
 struct MacroMeaning {
   const stdlib::MacroSet* set = nullptr; // nullptr: no set knows the program
   stdlib::Intent intent = stdlib::Intent::ProtectedMove;
-  bool measures() const {
-    return set != nullptr && (intent == stdlib::Intent::Surface || intent == stdlib::Intent::Bore);
-  }
+  bool measures() const; // touches a feature
 };
 MacroMeaning meaningOf(const Project& project, std::uint32_t program);
 

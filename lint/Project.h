@@ -60,6 +60,7 @@ struct Project {
   std::vector<const gibbs::DefineData*> defines;
   std::vector<NcFile> programs;
   std::vector<Joined> joined;
+  std::vector<stdlib::Control> controls; // all profiles, where --control names none
 
   // Those of cycle folders too, in the order of reading.
   std::vector<const gibbs::Macro*> allMacros() const;

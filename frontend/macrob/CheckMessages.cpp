@@ -9,6 +9,10 @@
 namespace dotek::frontend::macrob {
 namespace {
 
+// On every control that has macro B.
+constexpr double kAlarm = 3000;
+constexpr double kStop = 3006;
+
 const Comment* textOf(const Block& block) {
   for (const Comment& comment : block.comments)
     if (comment.place > 0) return &comment;
@@ -35,9 +39,15 @@ void checkBlock(const Block& block, const nc::Assignment& assignment, const Chec
 } // namespace
 
 void checkMessages(const Program& program, const CheckContext& context) {
-  if (context.control == nullptr) return;
-  for (const Block& block : program.blocks)
-    if (const nc::Assignment* assignment = assignmentOf(block)) checkBlock(block, *assignment, context);
+  for (const Block& block : program.blocks) {
+    const nc::Assignment* assignment = assignmentOf(block);
+    if (assignment == nullptr) continue;
+    if (context.control != nullptr)
+      checkBlock(block, *assignment, context);
+    else if (const auto variable = literal(*assignment->variable);
+             (variable == kAlarm || variable == kStop) && textOf(block) == nullptr)
+      context.report<diag::AlarmWithoutText>(assignment->range, variable == kAlarm ? "alarm" : "stop");
+  }
 }
 
 } // namespace dotek::frontend::macrob

@@ -12,9 +12,10 @@ void check(const Project& project, Report& report) {
     if (window == nullptr) continue;
     for (const gibbs::Control& control : dialog->controls) {
       const std::string kind = gibbs::foldCase(control.kind.text);
-      // The box of a label is larger than its text more often than not.
-      if (!control.box || &control == window || kind == "LABEL" || kind == "DIALOG") continue;
+      if (!control.box || &control == window || kind == "DIALOG") continue;
       const gibbs::Box& box = *control.box;
+      // The box of a label is larger than its text more often than not; where it begins, the text begins.
+      if (kind == "LABEL" && box.left < window->box->width && box.top < window->box->height) continue;
       const long right = long{box.left} + box.width;
       const long bottom = long{box.top} + box.height;
       if (box.left >= 0 && box.top >= 0 && right <= window->box->width && bottom <= window->box->height)

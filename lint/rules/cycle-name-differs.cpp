@@ -28,7 +28,8 @@ bool misspelt(const std::string& a, const std::string& b) {
   std::string one = letters(a);
   std::string other = letters(b);
   if (one == other) return true;
-  if (nameDistance(one, other, 1) != 1 || std::min(one.size(), other.size()) < 4) return false;
+  if (nameDistance(one, other, 1) != 1 || std::min(one.size(), other.size()) < 3) return false;
+  if (one.size() != other.size() && std::min(one.size(), other.size()) < 4) return false;
   if (one.size() != other.size()) return true;
   std::sort(one.begin(), one.end());
   std::sort(other.begin(), other.end());
@@ -49,13 +50,20 @@ void check(const Project& project, Report& report) {
           collect((*branch)->condition, tests);
       });
     }
-    const std::vector<std::string> ids = compost::cycleIds(*prog);
     for (const compost::Word* test : tests) {
       const compost::Literal& id = test->arguments.front();
       if (folders.contains(id.text)) continue;
       for (const std::string& folder : folders) {
-        // A folder that the Prog names already is not the one that is meant.
-        if (std::find(ids.begin(), ids.end(), folder) != ids.end() || !misspelt(id.text, folder)) continue;
+        // A folder that the Prog prints for already is not the one that is meant.
+        std::string one = gibbs::foldCase(id.text);
+        std::string other = gibbs::foldCase(folder);
+        std::sort(one.begin(), one.end());
+        std::sort(other.begin(), other.end());
+        // The same letters in another order are no name of their own.
+        const bool same = one == other;
+        if ((!same && !compost::printingRoutines(*prog, project.compostKeywords, folder).empty()) ||
+            !misspelt(id.text, folder))
+          continue;
         report.at(id.range,
                   "no folder has the name `{}`; did you mean `{}`? the branch is taken for no operation",
                   id.text, folder);

@@ -1,4 +1,5 @@
 #include "lint/ProgBlocks.h"
+#include "lint/Skips.h"
 
 namespace dotek::lint::rule {
 namespace {
@@ -20,6 +21,18 @@ void check(const Project& project, Report& report) {
       report.at(feed->range,
                 "a feed stands in a rapid block; the control moves at its rapid rate and keeps the feed "
                 "for the next G1; leave it out, or write G1");
+    }
+  });
+  eachProgram(project, [&](const ir::Program& program, const macrob::File&) {
+    for (const ir::Statement& statement : program.body) {
+      const auto* block = std::get_if<ir::NcBlock>(&statement.node);
+      if (block == nullptr || !isPlainMove(statement) || !hasCode(*block, 'G', 0) || hasCode(*block, 'G', 1))
+        continue;
+      for (const ir::Word& word : block->words)
+        if (word.address == 'F')
+          report.at(word.range,
+                    "a feed stands in a rapid block; the control moves at its rapid rate and keeps "
+                    "the feed for the next G1; leave it out, or write G1");
     }
   });
 }

@@ -16,7 +16,9 @@ void checkProgram(const ir::Program& program, const Probing& probing, Report& re
       [&](std::size_t at, std::size_t, bool known) {
         const ir::Statement& statement = program.body[at];
         const ProbeStep::Kind kind = probing.step(statement).kind;
-        if (kind == ProbeStep::Kind::Call || kind == ProbeStep::Kind::PackCall) return true;
+        if (kind == ProbeStep::Kind::Call || kind == ProbeStep::Kind::OwnCall ||
+            kind == ProbeStep::Kind::PackCall)
+          return true;
         const auto* call = std::get_if<ir::Call>(&statement.node);
         if (call != nullptr && kind == ProbeStep::Kind::Protected) return known || statesFeed(*call);
         const auto* block = std::get_if<ir::NcBlock>(&statement.node);

@@ -17,13 +17,19 @@ bool isShortName(const std::string& text) {
 
 void check(const Project& project, Report& report) {
   for (const gibbs::Dialog* dialog : project.allDialogs()) {
-    for (const gibbs::InputLabel& label : gibbs::inputLabels(*dialog)) {
-      if (!isShortName(label.name) || !isShortName(label.variable.text) || !label.nameRange.hasPlace())
-        continue;
+    const std::vector<gibbs::InputLabel> labels = gibbs::inputLabels(*dialog);
+    for (const gibbs::InputLabel& label : labels) {
+      if (label.name.empty() || !label.nameRange.hasPlace()) continue;
       const std::string shown = gibbs::foldCase(label.name);
       const std::string bound = gibbs::foldCase(label.variable.text);
+      // A longer label is a text, unless it is the name of another input.
+      const bool other = shown != bound && std::any_of(labels.begin(), labels.end(), [&](const auto& one) {
+                           return gibbs::foldCase(one.variable.text) == shown;
+                         });
+      if (!other && (!isShortName(label.name) || !isShortName(label.variable.text))) continue;
       // `X` beside `X1`, or `a` beside `Ka`, is one name with a mark.
-      if (shown.find(bound) != std::string::npos || bound.find(shown) != std::string::npos) continue;
+      if (!other && (shown.find(bound) != std::string::npos || bound.find(shown) != std::string::npos))
+        continue;
       report
           .at(label.variable.range,
               "the label beside this input says `{}`, the input writes `{}`; who reads the dialog looks for "

@@ -29,7 +29,7 @@ void checkProgram(const ir::Program& program, const Project& project, const Prob
       [&](std::size_t at, std::size_t, std::set<std::uint32_t> set) {
         const ProbeStep::Kind kind = probing.step(program.body[at]).kind;
         if (kind == ProbeStep::Kind::Measure || kind == ProbeStep::Kind::PackCall ||
-            kind == ProbeStep::Kind::Call)
+            kind == ProbeStep::Kind::Call || kind == ProbeStep::Kind::OwnCall)
           set.insert(results.begin(), results.end());
         if (const auto number = storedNumber(program.body[at])) set.insert(*number);
         return set;

@@ -87,8 +87,11 @@ void checkBody(const std::vector<ir::Statement>& body, const Probing& probing, R
         if (kind == ProbeStep::Kind::Measure) state.down = state.measured = true;
         if (kind == ProbeStep::Kind::Protected)
           if (const auto z = protectedZ(body[at])) moveAlongZ(state, *z);
-        if (kind == ProbeStep::Kind::Off || kind == ProbeStep::Kind::Call) state.down = false;
-        if (kind == ProbeStep::Kind::Call || kind == ProbeStep::Kind::PackCall) state.motion = -1;
+        if (kind == ProbeStep::Kind::Off || kind == ProbeStep::Kind::Call || kind == ProbeStep::Kind::OwnCall)
+          state.down = false;
+        if (kind == ProbeStep::Kind::Call || kind == ProbeStep::Kind::PackCall ||
+            kind == ProbeStep::Kind::OwnCall)
+          state.motion = -1;
         if (const auto* block = std::get_if<ir::NcBlock>(&body[at].node)) {
           for (const double code : {28.0, 30.0, 53.0})
             if (hasCode(*block, 'G', code)) state.down = false;

@@ -41,11 +41,26 @@ void checkCall(const macrob::Words& words, const Project& project, Report& repor
   }
 }
 
+// G10 L2 P0 to P6: the external offset and G54 to G59.
+void checkTable(const macrob::Words& words, const Project& project, Report& report) {
+  if (macrob::findCode(words, 'G', 10) == nullptr || macrob::findCode(words, 'L', 2) == nullptr) return;
+  for (const auto& word : words.words) {
+    const auto value = word.address == 'P' ? macrob::literal(word) : std::nullopt;
+    if (value && (*value < 0 || *value > 6))
+      report.at(word.range,
+                "`{}` names no work offset for G10 L2, which takes P0 to P6; the control stops with an alarm",
+                project.sources.textUtf8(word.range));
+  }
+}
+
 void check(const Project& project, Report& report) {
   for (const NcFile& nc : project.programs)
     for (const macrob::Program& program : nc.file->programs)
       for (const macrob::Block& block : program.blocks)
-        if (const auto* words = std::get_if<macrob::Words>(&block.body)) checkCall(*words, project, report);
+        if (const auto* words = std::get_if<macrob::Words>(&block.body)) {
+          checkCall(*words, project, report);
+          checkTable(*words, project, report);
+        }
 }
 
 } // namespace

@@ -1,0 +1,74 @@
+#include "lint/Skips.h"
+
+#include "ir/Dataflow.h"
+
+#include <algorithm>
+#include <array>
+
+namespace dotek::lint {
+namespace {
+
+constexpr std::uint32_t kContact = 5061;
+// Codes whose axis words are no target of a plain move.
+constexpr std::array<double, 12> kNoMove = {2, 3, 4, 10, 28, 30, 31, 52, 53, 65, 66, 92};
+
+} // namespace
+
+AxisSet axesOf(const ir::NcBlock& block) {
+  return static_cast<AxisSet>((hasWord(block, 'X') ? 1 : 0) | (hasWord(block, 'Y') ? 2 : 0) |
+                              (hasWord(block, 'Z') ? 4 : 0));
+}
+
+const ir::NcBlock* skipOf(const ir::Statement& statement) {
+  const auto* block = std::get_if<ir::NcBlock>(&statement.node);
+  return block != nullptr && hasCode(*block, 'G', 31) ? block : nullptr;
+}
+
+bool isPlainMove(const ir::Statement& statement) {
+  const auto* block = std::get_if<ir::NcBlock>(&statement.node);
+  if (block == nullptr || axesOf(*block) == 0) return false;
+  return std::none_of(kNoMove.begin(), kNoMove.end(),
+                      [&](double code) { return hasCode(*block, 'G', code); });
+}
+
+std::optional<AxisSet> contactAxis(std::uint32_t variable) {
+  if (variable < kContact || variable > kContact + 2) return std::nullopt;
+  return static_cast<AxisSet>(1U << (variable - kContact));
+}
+
+std::optional<DistanceMode> statedMode(const ir::Statement& statement) {
+  if (callOf(statement) != nullptr) return std::nullopt; // a macro gives back what it changes
+  const auto* block = std::get_if<ir::NcBlock>(&statement.node);
+  if (block == nullptr) return std::nullopt;
+  std::optional<DistanceMode> out;
+  for (const ir::Word& word : block->words) {
+    if (word.address != 'G') continue;
+    const double* code = ir::constantValue(word.value);
+    if (code == nullptr) out = DistanceMode::Unknown;
+    if (code != nullptr && *code == 90) out = DistanceMode::Absolute;
+    if (code != nullptr && *code == 91) out = DistanceMode::Incremental;
+  }
+  return out;
+}
+
+std::vector<std::optional<DistanceMode>> distanceModes(const std::vector<ir::Statement>& body) {
+  return ir::factsBefore<DistanceMode>(
+      body, DistanceMode::AsBefore,
+      [&](std::size_t at, std::size_t, DistanceMode mode) { return statedMode(body[at]).value_or(mode); },
+      [](DistanceMode& into, DistanceMode other) {
+        if (into == other || into == DistanceMode::Unknown) return false;
+        const bool known = into != DistanceMode::AsBefore && other != DistanceMode::AsBefore &&
+                           other != DistanceMode::Unknown;
+        const DistanceMode merged = known ? DistanceMode::Both : DistanceMode::Unknown;
+        const bool changed = merged != into;
+        into = merged;
+        return changed;
+      });
+}
+
+const ir::Call* callOf(const ir::Statement& statement) {
+  const auto* call = std::get_if<ir::Call>(&statement.node);
+  return call != nullptr && call->kind != ir::CallKind::Off ? call : nullptr;
+}
+
+} // namespace dotek::lint

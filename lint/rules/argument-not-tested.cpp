@@ -1,0 +1,59 @@
+#include "ir/Walk.h"
+#include "lint/OwnCalls.h"
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+namespace dotek::lint::rule {
+namespace {
+
+constexpr std::uint32_t kLastArgument = 26;
+
+void checkProgram(const ir::Program& program, Report& report) {
+  if (endsProgram(program)) return;
+  const auto& body = program.body;
+  const std::set<std::uint32_t> required = requiredLocals(program);
+  std::set<std::uint32_t> compared;
+  std::set<std::uint32_t> stored;
+  std::map<std::uint32_t, SourceRange> read;
+  for (const ir::Statement& statement : body) {
+    if (const auto number = storedNumber(statement)) stored.insert(*number);
+    if (const auto* branch = std::get_if<ir::Branch>(&statement.node)) {
+      ir::eachNode(branch->condition, [&](const ir::Expression& node) {
+        if (const auto number = variableNumber(node)) compared.insert(*number);
+      });
+      continue;
+    }
+    if (callOf(statement) != nullptr) continue; // an empty one is handed on as such
+    eachRead(statement, [&](std::uint32_t number, SourceRange range) {
+      read.emplace(number, range.hasPlace() ? range : statement.origin.range());
+    });
+  }
+  if (required.size() < 2) return;
+  for (const auto& [number, range] : read)
+    if (number >= 1 && number <= kLastArgument && !compared.contains(number) && !stored.contains(number))
+      report.at(
+          range,
+          "the program gives an alarm where other arguments are missing, and does not look at #{}; a call "
+          "without it goes on with an empty value, which drops the word or counts as 0; test it, too",
+          number);
+}
+
+void check(const Project& project, Report& report) {
+  eachProgram(project,
+              [&](const ir::Program& program, const macrob::File&) { checkProgram(program, report); });
+}
+
+} // namespace
+
+DOTEK_LINT_RULE(argument_not_tested){
+    .severity = Severity::Note,
+    .tier = Tier::Ir,
+    .explanation = "A macro tests two or more of its arguments for #0 and ends in an alarm where one is "
+                   "missing; another "
+                   "one that it reads is never looked at.",
+    .check = check,
+};
+
+} // namespace dotek::lint::rule

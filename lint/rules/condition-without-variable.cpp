@@ -1,0 +1,54 @@
+#include "ir/Walk.h"
+#include "lint/Skips.h"
+
+namespace dotek::lint::rule {
+namespace {
+
+bool isEmpty(const ir::ExpressionPtr& expression) {
+  return std::holds_alternative<ir::NullValue>(expression->node) || variableNumber(*expression) == 0U;
+}
+
+bool isFixed(const ir::ExpressionPtr& expression) {
+  bool fixed = true;
+  ir::eachNode(expression, [&](const ir::Expression& node) {
+    fixed = fixed && !std::holds_alternative<ir::MachineVariable>(node.node) &&
+            !std::holds_alternative<ir::VariableUse>(node.node);
+  });
+  return fixed;
+}
+
+void check(const Project& project, Report& report) {
+  eachProgram(project, [&](const ir::Program& program, const macrob::File&) {
+    for (const ir::Statement& statement : program.body) {
+      // WHILE [1 EQ 1] is meant.
+      const auto* branch = std::get_if<ir::Branch>(&statement.node);
+      const auto* comparison =
+          branch == nullptr ? nullptr : std::get_if<ir::Comparison>(&branch->condition->node);
+      if (comparison == nullptr) continue;
+      const bool left = isFixed(comparison->left) || isEmpty(comparison->left);
+      const bool right = isFixed(comparison->right) || isEmpty(comparison->right);
+      const bool plain = std::holds_alternative<ir::Constant>(comparison->left->node) &&
+                         std::holds_alternative<ir::Constant>(comparison->right->node);
+      // IF [1 EQ 1] and [1 EQ 0] switch blocks on and off.
+      const bool meant = plain && (comparison->relation == ir::Relation::Equal ||
+                                   comparison->relation == ir::Relation::NotEqual);
+      if (!left || !right || meant) continue;
+      report.at(
+          branch->condition->range.hasPlace() ? branch->condition->range : statement.origin.range(),
+          "this condition looks at no variable, so it comes out the same each time; mostly the `#` of one "
+          "is missing; write it");
+    }
+  });
+}
+
+} // namespace
+
+DOTEK_LINT_RULE(condition_without_variable){
+    .severity = Severity::Warning,
+    .tier = Tier::Ir,
+    .explanation = "An IF compares numbers with numbers, or a number with #0. `IF[9EQ#0]` was meant to be "
+                   "`IF[#9EQ#0]`.",
+    .check = check,
+};
+
+} // namespace dotek::lint::rule

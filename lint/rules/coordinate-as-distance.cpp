@@ -1,0 +1,86 @@
+#include "ir/Expression.h"
+#include "lint/Skips.h"
+
+#include <algorithm>
+#include <set>
+#include <utility>
+
+namespace dotek::lint::rule {
+namespace {
+
+bool moves(const ir::Statement& statement) {
+  const auto* block = std::get_if<ir::NcBlock>(&statement.node);
+  return block != nullptr &&
+         ((skipOf(statement) != nullptr && axesOf(*block) != 0) || isPlainMove(statement));
+}
+
+// Coordinates that are written out, 0 aside.
+std::set<std::pair<char, double>> coordinates(const ir::Statement& statement) {
+  std::set<std::pair<char, double>> out;
+  for (const ir::Word& word : std::get<ir::NcBlock>(statement.node).words) {
+    const double* value = ir::constantValue(word.value);
+    if (value != nullptr && *value != 0 && word.address >= 'X' && word.address <= 'Z')
+      out.emplace(word.address, *value);
+  }
+  return out;
+}
+
+bool takesOffset(const ir::Statement& statement) {
+  const auto& block = std::get<ir::NcBlock>(statement.node);
+  if (hasCode(block, 'G', 43) || hasCode(block, 'G', 44)) return true;
+  for (int system = 54; system <= 59; ++system)
+    if (hasCode(block, 'G', system)) return true;
+  return false;
+}
+
+void checkProgram(const ir::Program& program, Report& report) {
+  const auto& body = program.body;
+  const auto modes = distanceModes(body);
+  const auto modeOf = [&](std::size_t i) { return statedMode(body[i]).value_or(*modes[i]); };
+  std::set<std::pair<char, double>> absolute;
+  bool absoluteSkip = false;
+  for (std::size_t i = 0; i < body.size(); ++i) {
+    if (!modes[i] || !moves(body[i]) || modeOf(i) != DistanceMode::Absolute) continue;
+    absolute.merge(coordinates(body[i]));
+    absoluteSkip = absoluteSkip || skipOf(body[i]) != nullptr;
+  }
+  for (std::size_t i = 0; i < body.size(); ++i) {
+    if (!modes[i] || !moves(body[i]) || statedMode(body[i])) continue;
+    if (*modes[i] == DistanceMode::Both) {
+      report.at(
+          body[i].origin.range(),
+          "this block is reached with G90 on one way and with G91 on another; what it moves to differs; "
+          "state the mode here");
+      return;
+    }
+    if (*modes[i] != DistanceMode::Incremental) continue;
+    const auto words = coordinates(body[i]);
+    const bool same =
+        std::any_of(words.begin(), words.end(), [&](const auto& w) { return absolute.contains(w); });
+    if (!same && !takesOffset(body[i]) && !(absoluteSkip && skipOf(body[i]) != nullptr)) continue;
+    report.at(
+        body[i].origin.range(),
+        "G91 is still in force here, so the words are distances; elsewhere the program writes such words "
+        "as coordinates; write G90 before, or into the block");
+    return;
+  }
+}
+
+void check(const Project& project, Report& report) {
+  eachProgram(project,
+              [&](const ir::Program& program, const macrob::File&) { checkProgram(program, report); });
+}
+
+} // namespace
+
+DOTEK_LINT_RULE(coordinate_as_distance){
+    .severity = Severity::Warning,
+    .tier = Tier::Ir,
+    .explanation =
+        "Behind G91 a move to a coordinate that the program uses under G90 elsewhere, a G31 where others are "
+        "absolute, or a move that takes up an offset: the G90 is forgotten. So it is where a loop or a jump "
+        "comes back with the other mode in force.",
+    .check = check,
+};
+
+} // namespace dotek::lint::rule

@@ -1,0 +1,34 @@
+#include "lint/Skips.h"
+
+namespace dotek::lint::rule {
+namespace {
+
+void check(const Project& project, Report& report) {
+  eachProgram(project, [&](const ir::Program& program, const macrob::File&) {
+    const auto modes = distanceModes(program.body);
+    const ir::Statement* set = nullptr;
+    for (std::size_t i = 0; i < program.body.size(); ++i) {
+      if (statedMode(program.body[i]) == DistanceMode::Incremental) set = &program.body[i];
+      if (!endsProgram(program.body[i]) || !modes[i] || set == nullptr) continue;
+      if (*modes[i] != DistanceMode::Incremental && *modes[i] != DistanceMode::Both) continue;
+      report
+          .at(program.body[i].origin.range(),
+              "the program ends with G91 in force; whether M30 takes it back hangs on a parameter, and a "
+              "program "
+              "that states no G90 moves by distances; write G90 before the end")
+          .note(set->origin.range(), "G91 stands here");
+    }
+  });
+}
+
+} // namespace
+
+DOTEK_LINT_RULE(ends_incremental){
+    .severity = Severity::Note,
+    .byDefault = false,
+    .tier = Tier::Ir,
+    .explanation = "A main program comes to its end with G91 in force, mostly behind a way home.",
+    .check = check,
+};
+
+} // namespace dotek::lint::rule

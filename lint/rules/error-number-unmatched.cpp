@@ -1,0 +1,78 @@
+#include "lint/MacroNames.h"
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <string>
+
+namespace dotek::lint::rule {
+namespace {
+
+struct Numbers {
+  std::map<double, SourceRange> set, compared;
+  bool other = false; // set or compared in another way
+};
+
+void check(const Project& project, Report& report) {
+  std::set<std::string> fields; // their values come from the user
+  for (const gibbs::Cycle* cycle : project.cycles)
+    fields.merge(fieldsOf(*cycle));
+  for (const gibbs::Macro* macro : project.allMacros()) {
+    if (macro->hasErrorNodes) continue;
+    std::map<std::string, Numbers> all;
+    eachStatement(*macro, [&](const gibbs::Statement& statement) {
+      if (const auto* assign = std::get_if<gibbs::Assignment>(&statement.node)) {
+        Numbers& numbers = all[gibbs::foldCase(assign->target.name.text)];
+        const auto value = assign->value ? plainNumber(*assign->value) : std::nullopt;
+        if (value)
+          numbers.set.emplace(*value, statement.range);
+        else
+          numbers.other = true;
+      } else if (const gibbs::Comparison* comparison = onlyComparison(statement)) {
+        const gibbs::Name* name = plainName(*comparison->left);
+        const auto value = plainNumber(*comparison->right);
+        if (name == nullptr || !value) return;
+        Numbers& numbers = all[gibbs::foldCase(name->text)];
+        if (comparison->relation == gibbs::Relation::Equal)
+          numbers.compared.emplace(*value, comparison->range);
+        else if (*value != 0)
+          numbers.other = true;
+      }
+    });
+    for (const auto& [name, numbers] : all) {
+      const auto isError = [](const auto& one) { return one.first != 0; };
+      const bool codes = std::count_if(numbers.set.begin(), numbers.set.end(), isError) > 0 &&
+                         std::count_if(numbers.compared.begin(), numbers.compared.end(), isError) > 0;
+      if (numbers.other || fields.contains(name) || !codes ||
+          numbers.set.size() + numbers.compared.size() < 4)
+        continue;
+      for (const auto& [value, range] : numbers.compared)
+        if (value != 0 && !numbers.set.contains(value))
+          report.at(range,
+                    "nothing gives `{}` the value {}, so this never holds; a check that was meant to is "
+                    "missing, or "
+                    "has another number",
+                    name, value);
+      for (const auto& [value, range] : numbers.set)
+        if (value != 0 && !numbers.compared.contains(value))
+          report.at(
+              range,
+              "nothing looks for the value {}, as for the others; what this check finds is not told; write "
+              "the message, or the number that is meant",
+              value);
+    }
+  }
+}
+
+} // namespace
+
+DOTEK_LINT_RULE(error_number_unmatched){
+    .severity = Severity::Warning,
+    .tier = Tier::Syntax,
+    .explanation =
+        "Checks put the number of the mistake into a variable, and messages follow by number. A number "
+        "without message, or a message without number, is a check or a message that was lost.",
+    .check = check,
+};
+
+} // namespace dotek::lint::rule

@@ -1,0 +1,48 @@
+#include "lint/Skips.h"
+
+#include <algorithm>
+
+namespace dotek::lint::rule {
+namespace {
+
+void checkProgram(const ir::Program& program, const Probing& probing, Report& report) {
+  if (!endsProgram(program)) return;
+  const ir::Statement* change = nullptr;
+  bool measures = false;
+  bool offset = false;
+  for (const ir::Statement& statement : program.body) {
+    const ProbeStep::Kind kind = probing.step(statement).kind;
+    measures = measures || skipOf(statement) != nullptr || kind == ProbeStep::Kind::Measure ||
+               kind == ProbeStep::Kind::Protected || probing.skips(probing.step(statement).program);
+    const auto* block = std::get_if<ir::NcBlock>(&statement.node);
+    if (block == nullptr) continue;
+    if (hasCode(*block, 'M', 6)) change = &statement;
+    for (const ir::Word& word : block->words) {
+      const double* code = word.address == 'G' ? ir::constantValue(word.value) : nullptr;
+      // G43, G44, their forms with a point, and a code that is computed.
+      if (word.address == 'G' && (code == nullptr || (*code >= 43 && *code < 45))) offset = true;
+    }
+  }
+  if (change == nullptr || !measures || offset) return;
+  report.at(change->origin.range(),
+            "the program puts the probe in and measures, and no G43 takes up its length; Z counts from the "
+            "nose of the spindle then, and the stylus goes into the part by its length; write G43 H..");
+}
+
+void check(const Project& project, Report& report) {
+  const Probing probing(project);
+  eachProgram(project, [&](const ir::Program& program, const macrob::File&) {
+    checkProgram(program, probing, report);
+  });
+}
+
+} // namespace
+
+DOTEK_LINT_RULE(length_offset_missing){
+    .severity = Severity::Warning,
+    .tier = Tier::Ir,
+    .explanation = "A main program changes the tool, probes, and never takes up a tool length with G43.",
+    .check = check,
+};
+
+} // namespace dotek::lint::rule

@@ -1,0 +1,87 @@
+#include "ir/Walk.h"
+#include "lint/OwnCalls.h"
+#include "stdlib/MacroSet.h"
+
+namespace dotek::lint::rule {
+namespace {
+
+constexpr std::uint32_t kLastLocal = 33;
+
+// A variable or a number, no calculation.
+bool isPlain(const ir::Expression& expression) {
+  const auto* unary = std::get_if<ir::Unary>(&expression.node);
+  if (unary != nullptr && unary->op == ir::UnaryOp::NullAsZero) return isPlain(*unary->operand);
+  return std::holds_alternative<ir::Constant>(expression.node) || variableNumber(expression).has_value();
+}
+
+void checkProgram(const ir::Program& program, const std::vector<OwnCall>* calls, Report& report) {
+  std::set<std::uint32_t> given;
+  if (calls != nullptr)
+    for (const OwnCall& call : *calls)
+      given.insert(call.given.begin(), call.given.end());
+  for (const ir::Statement& statement : program.body) {
+    if (std::holds_alternative<ir::Store>(statement.node) && !storedNumber(statement)) return;
+    if (const auto number = storedNumber(statement)) given.insert(*number);
+    const ir::Call* call = callOf(statement);
+    if (call != nullptr && call->kind == ir::CallKind::Subprogram) return;
+  }
+  std::set<std::uint32_t> told, tested, asked;
+  for (const ir::Statement& statement : program.body) {
+    const auto* branch = std::get_if<ir::Branch>(&statement.node);
+    if (branch == nullptr) continue;
+    ir::eachNode(branch->condition, [&](const ir::Expression& node) {
+      if (const auto number = variableNumber(node)) tested.insert(*number);
+    });
+    // An argument that is asked for may be left out; a local without a letter is always empty.
+    if (const auto one = nullCompared(branch->condition)) asked.insert(*one);
+    const auto number = nullTested(branch->condition);
+    if (!number || *number == 0 || *number > kLastLocal || given.contains(*number)) continue;
+    if (stdlib::letterOfLocal(*number) == 0 && told.insert(*number).second)
+      report.at(statement.origin.range(),
+                "#{} is asked whether it is empty, and it always is: no letter of a call sets it and the "
+                "program does "
+                "not; write the number of the argument that is meant",
+                *number);
+  }
+  if (calls == nullptr) return;
+  for (const ir::Statement& statement : program.body) {
+    const auto* branch = std::get_if<ir::Branch>(&statement.node);
+    if ((branch != nullptr && nullCompared(branch->condition)) || callOf(statement) != nullptr) continue;
+    // A flag that is compared as such may be left out.
+    if (const auto* flag =
+            branch == nullptr ? nullptr : std::get_if<ir::Comparison>(&branch->condition->node))
+      if (isPlain(*flag->left) && isPlain(*flag->right)) continue;
+    eachRead(statement, [&](std::uint32_t number, SourceRange range) {
+      if (number == 0 || number > kLastLocal || given.contains(number)) return;
+      // A test beside it shows that leaving it out is meant.
+      if (asked.contains(number) || (branch == nullptr && tested.contains(number))) return;
+      if (!told.insert(number).second) return;
+      report.at(range.hasPlace() ? range : statement.origin.range(),
+                "#{} is read here, no call in the files gives it, and the program does not set it; it is "
+                "empty, and "
+                "counts as 0 or drops the word; write the number that is meant",
+                number);
+    });
+  }
+}
+
+void check(const Project& project, Report& report) {
+  const auto calls = callsByProgram(project);
+  eachProgram(project, [&](const ir::Program& program, const macrob::File&) {
+    if (endsProgram(program) || program.number == 0) return;
+    const auto at = calls.find(static_cast<std::uint32_t>(program.number));
+    checkProgram(program, at == calls.end() ? nullptr : &at->second, report);
+  });
+}
+
+} // namespace
+
+DOTEK_LINT_RULE(local_never_given){
+    .severity = Severity::Warning,
+    .tier = Tier::Ir,
+    .explanation =
+        "A macro reads a local that none of its calls in the files gives and that it does not set itself.",
+    .check = check,
+};
+
+} // namespace dotek::lint::rule

@@ -1,0 +1,90 @@
+#include "lint/ProgBlocks.h"
+#include "lint/Skips.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+namespace dotek::lint::rule {
+namespace {
+
+struct Called {
+  std::uint32_t number = 0;
+  SourceRange range;
+};
+
+// Two neighbouring digits of the number changed places.
+std::set<std::uint32_t> swaps(std::uint32_t number) {
+  std::set<std::uint32_t> out;
+  const std::string digits = std::to_string(number);
+  for (std::size_t i = 1; i < digits.size(); ++i) {
+    std::string other = digits;
+    std::swap(other[i], other[i - 1]);
+    if (other != digits && other[0] != '0') out.insert(static_cast<std::uint32_t>(std::stoul(other)));
+  }
+  return out;
+}
+
+void compare(const std::vector<Called>& calls, const std::set<std::uint32_t>& defined, const Project& project,
+             Report& report) {
+  const auto known = [&](std::uint32_t number) {
+    return defined.contains(number) || meaningOf(project, number).set != nullptr;
+  };
+  for (const Called& call : calls) {
+    if (known(call.number)) continue;
+    const std::set<std::uint32_t> others = swaps(call.number);
+    const auto meant = std::find_if(calls.begin(), calls.end(), [&](const Called& other) {
+      return others.contains(other.number) && known(other.number);
+    });
+    const auto there = std::find_if(others.begin(), others.end(),
+                                    [&](std::uint32_t other) { return defined.contains(other); });
+    if (meant == calls.end() && there == others.end()) continue;
+    report.at(
+        call.range,
+        "nothing is known of the program {0}, and {1} has the same digits in another order; the control "
+        "stops with an alarm, or runs something else; write P{1} if it is meant",
+        call.number, meant != calls.end() ? meant->number : *there);
+  }
+}
+
+void check(const Project& project, Report& report) {
+  std::set<std::uint32_t> defined;
+  std::vector<Called> calls;
+  eachProgram(project, [&](const ir::Program& program, const macrob::File&) {
+    defined.insert(static_cast<std::uint32_t>(program.number));
+    for (const ir::Statement& statement : program.body) {
+      const ir::Call* call = callOf(statement);
+      const double* number = call == nullptr || !call->program ? nullptr : ir::constantValue(call->program);
+      if (number != nullptr && *number > 0 && *number < 1e8)
+        calls.push_back({static_cast<std::uint32_t>(std::lround(*number)), statement.origin.range()});
+    }
+  });
+  compare(calls, defined, project, report);
+  for (const compost::Program* prog : project.progs) {
+    std::vector<Called> printed;
+    for (const compost::Item& item : prog->items) {
+      const auto* routine = std::get_if<compost::Routine>(&item);
+      if (routine == nullptr) continue;
+      for (const ProgBlock& block : blocksOf(routine->body, *prog, project)) {
+        const std::vector<ProgWord> words = wordsOf(block, nullptr);
+        const ProgWord* word = findWord(words, 'P');
+        if (const std::uint32_t number = macroCalled(words); number != 0 && word != nullptr && !block.called)
+          printed.push_back({number, word->range});
+      }
+    }
+    compare(printed, defined, project, report);
+  }
+}
+
+} // namespace
+
+DOTEK_LINT_RULE(macro_number_swapped){
+    .severity = Severity::Warning,
+    .tier = Tier::Ir,
+    .explanation = "A call names a program that neither the files nor the data of probing macros know, and "
+                   "one that they "
+                   "know has the same digits in another order.",
+    .check = check,
+};
+
+} // namespace dotek::lint::rule

@@ -1,0 +1,92 @@
+#include "ir/Walk.h"
+#include "lint/Skips.h"
+
+#include <cmath>
+#include <map>
+#include <set>
+
+namespace dotek::lint::rule {
+namespace {
+
+constexpr double kFirstCommon = 100;
+constexpr double kLastCommon = 999;
+
+// Codes in force and positions of the machine: a number alone that is one of these was to be read.
+bool isSystem(double number) {
+  return (number > 4000 && number <= 4130) || (number > 5000 && number <= 5083);
+}
+
+void check(const Project& project, Report& report) {
+  std::map<std::uint32_t, SourceRange> stored;
+  std::set<std::uint32_t> read;
+  std::map<std::uint32_t, SourceRange> numbers; // without a point, in calculations
+  eachProgram(project, [&](const ir::Program& program, const macrob::File&) {
+    for (const ir::Statement& statement : program.body) {
+      if (const auto number = storedNumber(statement)) stored.emplace(*number, statement.origin.range());
+      eachRead(statement, [&](std::uint32_t number, SourceRange) { read.insert(number); });
+      std::set<const ir::Expression*> indices; // numbers of variables
+      ir::eachNode(statement, [&](const ir::Expression& node) {
+        if (const auto* variable = std::get_if<ir::MachineVariable>(&node.node))
+          indices.insert(variable->number.get());
+      });
+      const bool words = std::holds_alternative<ir::NcBlock>(statement.node) ||
+                         callOf(statement) != nullptr || std::holds_alternative<ir::Raise>(statement.node);
+      const auto* store = std::get_if<ir::Store>(&statement.node);
+      const auto* whole = store == nullptr ? nullptr : std::get_if<ir::Constant>(&store->value->node);
+      if (whole != nullptr && isSystem(whole->value) && whole->digits.find('.') == std::string::npos)
+        report.at(store->value->range.hasPlace() ? store->value->range : statement.origin.range(),
+                  "{0} is a number here, and #{0} is a state of the control; write `#{0}` if that is meant",
+                  whole->digits);
+      // #500=500+#1, and #[150+141]: the number itself stands where its variable belongs.
+      const auto target = storedNumber(statement);
+      bool lost = false;
+      if (store != nullptr && target && std::holds_alternative<ir::Binary>(store->value->node))
+        ir::eachNode(store->value, [&](const ir::Expression& node) {
+          const auto* constant = std::get_if<ir::Constant>(&node.node);
+          lost = lost || (constant != nullptr && constant->value == *target && *target >= kFirstCommon &&
+                          constant->digits.find('.') == std::string::npos && !indices.contains(&node));
+        });
+      const auto* sum = store == nullptr ? nullptr : std::get_if<ir::Binary>(&store->number->node);
+      lost = lost || (sum != nullptr && ir::constantValue(sum->left) != nullptr &&
+                      ir::constantValue(sum->right) != nullptr);
+      if (lost)
+        report.at(statement.origin.range(),
+                  "a number stands here where its variable belongs; the control calculates "
+                  "with the number; write the `#` before it");
+      if (words) continue;
+      ir::eachNode(statement, [&](const ir::Expression& node) {
+        const auto* constant = std::get_if<ir::Constant>(&node.node);
+        if (constant == nullptr || indices.contains(&node)) return;
+        if (store != nullptr && store->number.get() == &node) return;
+        if (constant->value < kFirstCommon || constant->value > kLastCommon ||
+            constant->digits.find('.') != std::string::npos || constant->value != std::floor(constant->value))
+          return;
+        numbers.emplace(static_cast<std::uint32_t>(constant->value),
+                        node.range.hasPlace() ? node.range : statement.origin.range());
+      });
+    }
+  });
+  for (const auto& [number, range] : numbers) {
+    const auto at = stored.find(number);
+    if (at == stored.end() || read.contains(number)) continue;
+    report
+        .at(range,
+            "{0} is a number here, and #{0} is set and read nowhere; the control calculates with {0}; write "
+            "`#{0}` if the variable is meant",
+            number)
+        .note(at->second, fmt::format("#{} is set here", number));
+  }
+}
+
+} // namespace
+
+DOTEK_LINT_RULE(number_of_unread_variable){
+    .severity = Severity::Warning,
+    .tier = Tier::Ir,
+    .explanation =
+        "A calculation has a whole number that is the number of a common variable, and that variable is "
+        "set but never read: its `#` was lost.",
+    .check = check,
+};
+
+} // namespace dotek::lint::rule

@@ -1,0 +1,68 @@
+#include "lint/Skips.h"
+
+#include <cmath>
+
+namespace dotek::lint::rule {
+namespace {
+
+// Lengths; the other letters count, choose or are feeds.
+constexpr std::string_view kLengths = "XYZIJKR";
+// So many times as many have a point.
+constexpr std::size_t kTimes = 4;
+
+struct Number {
+  std::string text; // as written
+  char letter = 0;
+  SourceRange range;
+};
+
+void collect(const ir::Statement& statement, std::vector<Number>& with, std::vector<Number>& without) {
+  const auto take = [&](char letter, const ir::ExpressionPtr& value, SourceRange range) {
+    if (kLengths.find(letter) == std::string_view::npos || value == nullptr) return;
+    const auto* constant = std::get_if<ir::Constant>(&value->node);
+    if (constant == nullptr || constant->digits.empty() || constant->value == 0) return;
+    (constant->digits.find('.') == std::string::npos ? without : with)
+        .push_back({constant->digits, letter, range});
+  };
+  if (const auto* block = std::get_if<ir::NcBlock>(&statement.node)) {
+    // Seconds, and the table of an offset.
+    if (hasCode(*block, 'G', 4)) return;
+    for (const ir::Word& word : block->words)
+      take(word.address, word.value, word.range);
+  } else if (const ir::Call* call = callOf(statement)) {
+    for (const ir::CallArgument& argument : call->arguments)
+      take(argument.letter, argument.value, argument.range);
+  }
+}
+
+void check(const Project& project, Report& report) {
+  // A known control is asked what it makes of such words: word-without-point.
+  if (project.control) return;
+  for (const NcFile& nc : project.programs) {
+    if (!nc.lowered) continue;
+    std::vector<Number> with, without;
+    for (const ir::Program& program : nc.lowered->programs)
+      for (const ir::Statement& statement : program.body)
+        collect(statement, with, without);
+    if (without.empty() || with.size() < kTimes * without.size()) continue;
+    for (const Number& number : without)
+      report.at(
+          number.range,
+          "`{0}{1}` has no point, and the other lengths of the file have one; a control that counts least "
+          "increments reads thousandths here; write `{0}{1}.`",
+          number.letter, number.text);
+  }
+}
+
+} // namespace
+
+DOTEK_LINT_RULE(number_without_point){
+    .severity = Severity::Warning,
+    .tier = Tier::Ir,
+    .explanation = "Many controls read X10 as 0.01 mm and X10. as 10 mm. A file that writes nearly all its "
+                   "lengths with a "
+                   "point means it everywhere.",
+    .check = check,
+};
+
+} // namespace dotek::lint::rule

@@ -1,0 +1,63 @@
+#include "ir/Dataflow.h"
+#include "lint/Skips.h"
+
+#include <set>
+
+namespace dotek::lint::rule {
+namespace {
+
+// Where the machine stands: #5001 to #5003, #5021 to #5023, #5041 to #5043.
+bool isPosition(std::uint32_t number) {
+  return number > 5000 && number <= 5043 && number % 20 >= 1 && number % 20 <= 3;
+}
+
+void checkProgram(const ir::Program& program, Report& report) {
+  // In a main program nothing moves before.
+  if (endsProgram(program)) return;
+  const auto& body = program.body;
+  // A dwell, G31, G53 or an M code ends the reading ahead; a move of the program's own is told elsewhere.
+  const auto waited = ir::factsBefore<bool>(
+      body, false,
+      [&](std::size_t at, std::size_t, bool before) {
+        const auto* block = std::get_if<ir::NcBlock>(&body[at].node);
+        if (callOf(body[at]) != nullptr) return true;
+        return before || (block != nullptr &&
+                          (hasCode(*block, 'G', 4) || hasCode(*block, 'G', 31) || hasCode(*block, 'G', 53) ||
+                           hasWord(*block, 'M') || axesOf(*block) != 0));
+      },
+      [](bool& into, bool other) {
+        const bool changed = into && !other;
+        into = into && other;
+        return changed;
+      });
+  std::set<std::uint32_t> told;
+  for (std::size_t i = 0; i < body.size(); ++i) {
+    if (!waited[i] || *waited[i]) continue;
+    eachRead(body[i], [&](std::uint32_t number, SourceRange range) {
+      if (!isPosition(number) || !told.insert(number).second) return;
+      report.at(range.hasPlace() ? range : body[i].origin.range(),
+                "#{} is read before anything in this macro waits for the axes; the caller's last move may "
+                "still run, "
+                "and the control gives a position on the way; put `G53` or `G4 P0` before",
+                number);
+    });
+  }
+}
+
+void check(const Project& project, Report& report) {
+  eachProgram(project,
+              [&](const ir::Program& program, const macrob::File&) { checkProgram(program, report); });
+}
+
+} // namespace
+
+DOTEK_LINT_RULE(position_read_at_entry){
+    .severity = Severity::Note,
+    .tier = Tier::Ir,
+    .explanation =
+        "A macro reads where the machine stands before a block that ends the reading ahead. Within one "
+        "program position-read-early tells it.",
+    .check = check,
+};
+
+} // namespace dotek::lint::rule

@@ -1,0 +1,72 @@
+#include "lint/Probing.h"
+#include "lint/ProgBlocks.h"
+
+#include <algorithm>
+
+namespace dotek::lint::rule {
+namespace {
+
+void checkBlock(const ProgBlock& block, const Project& project, Report& report) {
+  const std::vector<ProgWord> words = wordsOf(block, project.form ? &*project.form : nullptr);
+  const std::uint32_t program = macroCalled(words);
+  if (program == 0) return;
+  for (const stdlib::MacroSet& set : project.macroSets) {
+    const auto signatures = set.of(program);
+    if (signatures.empty()) continue;
+    const auto isKnown = [&](char letter) {
+      return std::any_of(signatures.begin(), signatures.end(),
+                         [&](const stdlib::MacroSignature* s) { return s->find(letter) != nullptr; });
+    };
+    std::string known;
+    for (const ProgWord& word : words) {
+      if (word.address == 'G' || word.address == 'P' || word.address == 'N') continue;
+      if (isKnown(word.address)) {
+        // A letter that is printed twice is another finding.
+        if (known.find(word.address) != std::string::npos) return;
+        known += word.address;
+      } else if (!mayBeOf(set, program, {&word.address, 1})) {
+        report.at(
+            word.range,
+            "P{} of {} takes no `{}` that is known; the macro leaves the value aside, or stops for want of "
+            "another letter",
+            program, set.title, word.address);
+        return;
+      }
+    }
+    const ProgWord* call = findWord(words, 'P');
+    const stdlib::SignatureMatch match = stdlib::match(set, program, known);
+    if (call == nullptr) return;
+    if (match.ambiguous || match.refused != nullptr)
+      report.at(
+          call->range,
+          "P{} measures one thing at a time, and the letters {} of this call belong to several; the macro "
+          "stops with an alarm; print a call for each",
+          program, known);
+    else if (!match.missing.empty())
+      report.at(call->range,
+                "P{} needs {}, which this call does not print; the macro stops with an alarm; print it",
+                program, match.missing);
+    return;
+  }
+}
+
+void check(const Project& project, Report& report) {
+  eachRoutine(project, [&](const compost::Program& prog, const compost::Routine& routine) {
+    if (prog.hasErrorNodes || !routine.returnRange) return; // told already
+    for (const ProgBlock& block : blocksOf(routine.body, prog, project))
+      if (!block.called) checkBlock(block, project, report);
+  });
+}
+
+} // namespace
+
+DOTEK_LINT_RULE(post_call_arguments){
+    .severity = Severity::Warning,
+    .tier = Tier::Syntax,
+    .explanation =
+        "A call of a probing macro that a post prints has a letter that the macro does not know, or "
+        "lacks one that it needs. What the macros take stands in stdlib/macros.",
+    .check = check,
+};
+
+} // namespace dotek::lint::rule

@@ -1,0 +1,84 @@
+#include "ir/Walk.h"
+#include "lint/OwnCalls.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace dotek::lint::rule {
+namespace {
+
+// Common variables that each program of the files sets.
+std::map<std::uint32_t, std::set<std::uint32_t>> results(const Project& project) {
+  std::map<std::uint32_t, std::set<std::uint32_t>> out;
+  eachProgram(project, [&](const ir::Program& program, const macrob::File&) {
+    for (const ir::Statement& statement : program.body)
+      if (const auto number = storedNumber(statement); number && *number >= 100 && *number <= 999)
+        out[static_cast<std::uint32_t>(program.number)].insert(*number);
+  });
+  return out;
+}
+
+struct Use {
+  const ir::Statement* call = nullptr;
+  bool read = false;
+  bool again = false; // the next statement calls the same: a fast touch and a slow one
+};
+
+void checkProgram(const ir::Program& program, const std::map<std::uint32_t, std::set<std::uint32_t>>& sets,
+                  Report& report) {
+  std::map<std::uint32_t, std::vector<Use>> uses;
+  const ir::Statement* before = nullptr;
+  for (const ir::Statement& statement : program.body) {
+    if (std::holds_alternative<ir::Label>(statement.node) ||
+        std::holds_alternative<ir::Comment>(statement.node))
+      continue;
+    const ir::Statement* const last = std::exchange(before, &statement);
+    eachRead(statement, [&](std::uint32_t number, SourceRange) {
+      for (auto& [called, list] : uses)
+        if (sets.at(called).contains(number)) list.back().read = true;
+    });
+    const ir::Call* call = callOf(statement);
+    const double* number = call == nullptr || !call->program ? nullptr : ir::constantValue(call->program);
+    if (number == nullptr || *number < 1 || *number > 1e8) continue;
+    const auto called = static_cast<std::uint32_t>(std::lround(*number));
+    if (!sets.contains(called) || called == program.number) continue;
+    std::vector<Use>& list = uses[called];
+    if (!list.empty() && list.back().call == last) list.back().again = true;
+    list.push_back({&statement, false, false});
+  }
+  for (const auto& [called, list] : uses) {
+    const auto read = std::count_if(list.begin(), list.end(), [](const Use& use) { return use.read; });
+    // A loop may read behind its END what stands before in the text.
+    const bool loops = std::any_of(program.body.begin(), program.body.end(), [](const ir::Statement& s) {
+      return std::holds_alternative<ir::Loop>(s.node);
+    });
+    if (read == 0 || loops) continue;
+    for (const Use& use : list)
+      if (!use.read && !use.again)
+        report.at(use.call->origin.range(),
+                  "nothing reads a result of O{} between this call and the next one, or the end, as behind "
+                  "its other "
+                  "calls; the value is lost; read it behind the call",
+                  called);
+  }
+}
+
+void check(const Project& project, Report& report) {
+  const auto sets = results(project);
+  eachProgram(project,
+              [&](const ir::Program& program, const macrob::File&) { checkProgram(program, sets, report); });
+}
+
+} // namespace
+
+DOTEK_LINT_RULE(result_of_call_unread){
+    .severity = Severity::Warning,
+    .tier = Tier::Ir,
+    .explanation =
+        "A program of the files leaves results in common variables. Behind some of its calls they are "
+        "read, behind one they are not: the block that reads stands before the call, or is missing.",
+    .check = check,
+};
+
+} // namespace dotek::lint::rule

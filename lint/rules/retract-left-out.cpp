@@ -1,0 +1,87 @@
+#include "ir/Dataflow.h"
+#include "lint/Skips.h"
+
+namespace dotek::lint::rule {
+namespace {
+
+// Axes of a move; a call of a protected move included.
+AxisSet movedBy(const ir::Statement& statement, const Probing& probing) {
+  if (const auto* move = std::get_if<ir::Move>(&statement.node))
+    return static_cast<AxisSet>((move->axes[0] ? 1 : 0) | (move->axes[1] ? 2 : 0) | (move->axes[2] ? 4 : 0));
+  if (const auto* block = std::get_if<ir::NcBlock>(&statement.node))
+    return isPlainMove(statement) ? axesOf(*block) : AxisSet{0};
+  const ir::Call* call = callOf(statement);
+  if (call == nullptr || probing.step(statement).kind != ProbeStep::Kind::Protected) return 0;
+  AxisSet out = 0;
+  for (const ir::CallArgument& argument : call->arguments)
+    if (argument.letter >= 'X' && argument.letter <= 'Z')
+      out = static_cast<AxisSet>(out | (1U << (argument.letter - 'X')));
+  return out;
+}
+
+struct Travel {
+  std::size_t at = 0;
+  bool lifted = false;
+};
+
+// Moves along X or Y behind a measurement, up to the next one: the first of each, and whether a move along Z
+// alone stands between.
+std::vector<Travel> travels(const std::vector<ir::Statement>& body, const Probing& probing) {
+  std::vector<Travel> out;
+  bool measured = false;
+  bool lifted = false;
+  for (std::size_t i = 0; i < body.size(); ++i) {
+    const ProbeStep step = probing.step(body[i]);
+    if (step.kind == ProbeStep::Kind::Measure ||
+        (step.kind == ProbeStep::Kind::OwnCall && probing.skips(step.program))) {
+      measured = true;
+      lifted = false;
+      continue;
+    }
+    const AxisSet axes = movedBy(body[i], probing);
+    if (axes == 4) lifted = true;
+    if (!measured || axes == 0 || axes == 4) continue;
+    out.push_back({i, lifted});
+    measured = false;
+  }
+  return out;
+}
+
+void checkBody(const std::vector<ir::Statement>& body, const Probing& probing, Report& report) {
+  const std::vector<Travel> all = travels(body, probing);
+  const Travel* lifted = nullptr;
+  for (const Travel& travel : all)
+    if (travel.lifted) lifted = &travel;
+  if (lifted == nullptr) return;
+  for (const Travel& travel : all)
+    if (!travel.lifted)
+      report
+          .at(body[travel.at].origin.range(),
+              "this travel follows a measurement without taking the probe up first, as the others do; the "
+              "stylus "
+              "goes through the part at the depth of the touch; write the move along Z before it")
+          .note(body[lifted->at].origin.range(), "here a move along Z stands before");
+}
+
+void check(const Project& project, Report& report) {
+  const Probing probing(project);
+  for (const Joined& joined : project.joined)
+    if (joined.lowered) checkBody(joined.lowered->body, probing, report);
+  eachProgram(project, [&](const ir::Program& program, const macrob::File&) {
+    // A macro that touches one feature knows its own ways.
+    if (endsProgram(program)) checkBody(program.body, probing, report);
+  });
+}
+
+} // namespace
+
+DOTEK_LINT_RULE(retract_left_out){
+    .severity = Severity::Warning,
+    .tier = Tier::Ir,
+    .explanation = "Between a measurement and the travel to the next one most programs take the probe up. "
+                   "Here one travel "
+                   "of the program goes without, at the depth of the touch.",
+    .check = check,
+};
+
+} // namespace dotek::lint::rule

@@ -1,0 +1,31 @@
+#include "lint/Skips.h"
+
+namespace dotek::lint::rule {
+namespace {
+
+void check(const Project& project, Report& report) {
+  eachProgram(project, [&](const ir::Program& program, const macrob::File&) {
+    const auto modes = distanceModes(program.body);
+    for (std::size_t i = 0; i < program.body.size(); ++i) {
+      const ir::NcBlock* skip = skipOf(program.body[i]);
+      if (skip == nullptr || axesOf(*skip) == 0 || !modes[i] || *modes[i] != DistanceMode::AsBefore) continue;
+      if (statedMode(program.body[i])) continue;
+      report.at(program.body[i].origin.range(),
+                "neither G90 nor G91 stands before this G31; in the other mode of the caller the stylus goes "
+                "elsewhere, and the way may be too long; state the mode here");
+    }
+  });
+}
+
+} // namespace
+
+DOTEK_LINT_RULE(skip_in_callers_mode){
+    .severity = Severity::Warning,
+    .tier = Tier::Ir,
+    .explanation =
+        "Whether the words of a G31 are coordinates or distances hangs on G90 and G91. A program that states "
+        "neither measures in the mode that happens to be in force.",
+    .check = check,
+};
+
+} // namespace dotek::lint::rule

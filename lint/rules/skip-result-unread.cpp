@@ -1,0 +1,55 @@
+#include "lint/Skips.h"
+
+#include <algorithm>
+
+namespace dotek::lint::rule {
+namespace {
+
+struct Skip {
+  const ir::Statement* statement = nullptr;
+  bool read = false;
+};
+
+void checkProgram(const ir::Program& program, Report& report) {
+  std::vector<Skip> skips;
+  for (const ir::Statement& statement : program.body) {
+    // Where the order of running is another one, nothing is known.
+    if (std::holds_alternative<ir::JumpTo>(statement.node)) return;
+    bool computed = false;
+    if (const auto* store = std::get_if<ir::Store>(&statement.node)) {
+      const auto* variable = std::get_if<ir::MachineVariable>(&store->value->node);
+      computed = variable != nullptr && !variableNumber(*store->value);
+    }
+    eachRead(statement, [&](std::uint32_t number, SourceRange) {
+      if (contactAxis(number) && !skips.empty()) skips.back().read = true;
+    });
+    if (computed && !skips.empty()) skips.back().read = true;
+    if (skipOf(statement) != nullptr) skips.push_back({&statement, false});
+  }
+  if (std::none_of(skips.begin(), skips.end(), [](const Skip& skip) { return skip.read; })) return;
+  for (const Skip& skip : skips)
+    if (!skip.read)
+      report.at(skip.statement->origin.range(),
+                "nothing reads where this G31 stopped, #5061 to #5063, before the next one, as behind the "
+                "others; an "
+                "early contact is not noticed; read it, or write G1 if a plain move is meant");
+}
+
+void check(const Project& project, Report& report) {
+  eachProgram(project,
+              [&](const ir::Program& program, const macrob::File&) { checkProgram(program, report); });
+}
+
+} // namespace
+
+DOTEK_LINT_RULE(skip_result_unread){
+    .severity = Severity::Note,
+    .byDefault = false,
+    .tier = Tier::Ir,
+    .explanation =
+        "A program reads the contact behind some of its G31 and not behind this one. As a guarded move it "
+        "may be meant so.",
+    .check = check,
+};
+
+} // namespace dotek::lint::rule

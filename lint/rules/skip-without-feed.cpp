@@ -1,0 +1,60 @@
+#include "ir/Dataflow.h"
+#include "lint/Skips.h"
+
+#include <algorithm>
+
+namespace dotek::lint::rule {
+namespace {
+
+void checkProgram(const ir::Program& program, Report& report) {
+  const auto& body = program.body;
+  const ir::Statement* withFeed = nullptr;
+  for (const ir::Statement& statement : body) {
+    const ir::NcBlock* skip = skipOf(statement);
+    if (skip != nullptr && hasWord(*skip, 'F') && withFeed == nullptr) withFeed = &statement;
+  }
+  const auto given = ir::factsBefore<bool>(
+      body, false,
+      [&](std::size_t at, std::size_t, bool before) {
+        const auto* block = std::get_if<ir::NcBlock>(&body[at].node);
+        return before || (block != nullptr && hasWord(*block, 'F')) || callOf(body[at]) != nullptr;
+      },
+      [](bool& into, bool other) {
+        const bool changed = other && !into;
+        into = into || other;
+        return changed;
+      });
+  for (std::size_t i = 0; i < body.size(); ++i) {
+    const ir::NcBlock* skip = skipOf(body[i]);
+    if (skip == nullptr || hasWord(*skip, 'F') || axesOf(*skip) == 0 || !given[i]) continue;
+    if (!*given[i] && endsProgram(program))
+      report.at(
+          body[i].origin.range(),
+          "no feed was given before this G31; the control stops with an alarm, or moves at the feed of the "
+          "program before; write F into the block");
+    else if (withFeed != nullptr)
+      report
+          .at(body[i].origin.range(),
+              "this G31 has no feed of its own and goes at the one in force, which a move may have set; the "
+              "place of the contact hangs on the feed; write F into the block")
+          .note(withFeed->origin.range(), "another G31 has one");
+  }
+}
+
+void check(const Project& project, Report& report) {
+  eachProgram(project,
+              [&](const ir::Program& program, const macrob::File&) { checkProgram(program, report); });
+}
+
+} // namespace
+
+DOTEK_LINT_RULE(skip_without_feed){
+    .severity = Severity::Warning,
+    .tier = Tier::Ir,
+    .explanation =
+        "A G31 without F, in a program whose other G31 have one, or before any F. It measures at the feed of "
+        "the last move, mostly a fast one.",
+    .check = check,
+};
+
+} // namespace dotek::lint::rule

@@ -1,0 +1,95 @@
+#include "lint/MacroNames.h"
+#include "lint/ProgBlocks.h"
+#include "lint/Skips.h"
+
+#include <algorithm>
+
+namespace dotek::lint::rule {
+namespace {
+
+// Doing the same once more changes nothing: codes and moves to a place that is written out.
+bool isIdle(const ir::Statement& statement) {
+  const auto* block = std::get_if<ir::NcBlock>(&statement.node);
+  if (block == nullptr || block->words.empty() || skipOf(statement) != nullptr) return false;
+  return std::all_of(block->words.begin(), block->words.end(), [&](const ir::Word& word) {
+    const double* value = ir::constantValue(word.value);
+    // A dwell adds up, a code of the builder may count.
+    return value != nullptr && word.address != 'M' && word.address != 'T' &&
+           !(word.address == 'G' && *value == 4);
+  });
+}
+
+void checkPrograms(const Project& project, Report& report) {
+  eachProgram(project, [&](const ir::Program& program, const macrob::File&) {
+    const auto& body = program.body;
+    const auto modes = distanceModes(body);
+    for (std::size_t i = 1; i < body.size(); ++i) {
+      if (!isIdle(body[i]) || !isIdle(body[i - 1]) || !modes[i]) continue;
+      const auto& now = std::get<ir::NcBlock>(body[i].node);
+      const bool incremental = *modes[i] != DistanceMode::Absolute && axesOf(now) != 0;
+      if (incremental ||
+          project.sources.text(body[i].origin.range()) != project.sources.text(body[i - 1].origin.range()))
+        continue;
+      report.at(body[i].origin.range(),
+                "this block is the same as the one before and changes nothing; one of "
+                "the two is left over, or was meant to differ");
+    }
+  });
+}
+
+void checkPosts(const Project& project, Report& report) {
+  eachRoutine(project, [&](const compost::Program& prog, const compost::Routine& routine) {
+    if (prog.hasErrorNodes || !routine.returnRange) return; // told already
+    const std::vector<ProgBlock> blocks = blocksOf(routine.body, prog, project);
+    for (std::size_t i = 1; i < blocks.size(); ++i) {
+      const std::string text = blocks[i].text();
+      // Distances and waits add up.
+      if (blocks[i].called || text != blocks[i - 1].text() || text.find("G91") != std::string::npos ||
+          text.find("G4") != std::string::npos ||
+          text.find_first_of("ABCDEFGHIJKLMNOPQRSTUVWXYZ") == std::string::npos || text.front() == '(')
+        continue;
+      const std::vector<ProgWord> words = wordsOf(blocks[i], nullptr);
+      if (findWord(words, 'M') != nullptr || findWord(words, 'T') != nullptr) continue;
+      if (blocks[i].pieces.front().arm != blocks[i - 1].pieces.front().arm) continue;
+      report.at(blocks[i].range,
+                "this block is the same as the one before and changes nothing; one of the two is "
+                "left over, or was meant to differ");
+    }
+  });
+}
+
+void check(const Project& project, Report& report) {
+  checkPrograms(project, report);
+  checkPosts(project, report);
+  for (const gibbs::Macro* macro : project.allMacros()) {
+    if (macro->hasErrorNodes) continue;
+    for (std::size_t i = 1; i < macro->lines.size(); ++i) {
+      const gibbs::Line& line = macro->lines[i];
+      const gibbs::Line& before = macro->lines[i - 1];
+      if (line.label || !line.statement || !before.statement) continue;
+      // v = v + 1 counts.
+      if (const auto* assign = std::get_if<gibbs::Assignment>(&line.statement->node))
+        if (!assign->value || readsOf(*assign->value).contains(gibbs::foldCase(assign->target.name.text)))
+          continue;
+      if (std::holds_alternative<gibbs::Next>(line.statement->node) ||
+          std::holds_alternative<gibbs::CallMacro>(line.statement->node))
+        continue;
+      if (project.sources.text(line.statement->range) != project.sources.text(before.statement->range))
+        continue;
+      report.at(line.statement->range, "this statement is the same as the one before; one of the two is left "
+                                       "over, or was meant to differ");
+    }
+  }
+}
+
+} // namespace
+
+DOTEK_LINT_RULE(statement_repeated){
+    .severity = Severity::Note,
+    .tier = Tier::Syntax,
+    .explanation = "The same block or statement stands twice in a row, where the second one has nothing left "
+                   "to do. A line is copied to be changed, and the change is easily forgotten.",
+    .check = check,
+};
+
+} // namespace dotek::lint::rule

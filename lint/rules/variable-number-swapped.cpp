@@ -1,0 +1,61 @@
+#include "lint/Probing.h"
+
+#include <algorithm>
+#include <map>
+
+namespace dotek::lint::rule {
+namespace {
+
+constexpr std::uint32_t kFirstCommon = 100;
+constexpr std::uint32_t kLastCommon = 999;
+
+// Two neighbouring digits have changed places.
+bool areSwapped(std::uint32_t a, std::uint32_t b) {
+  const std::string first = std::to_string(a);
+  const std::string second = std::to_string(b);
+  if (a == b || first.size() != second.size()) return false;
+  for (std::size_t i = 1; i < first.size(); ++i) {
+    std::string swapped = first;
+    std::swap(swapped[i], swapped[i - 1]);
+    if (swapped == second) return true;
+  }
+  return false;
+}
+
+void check(const Project& project, Report& report) {
+  // Over all files: a common variable may be set in one and read in another.
+  std::map<std::uint32_t, SourceRange> stored, read;
+  eachProgram(project, [&](const ir::Program& program, const macrob::File&) {
+    for (const ir::Statement& statement : program.body) {
+      if (const auto number = storedNumber(statement)) stored.emplace(*number, statement.origin.range());
+      eachRead(statement, [&](std::uint32_t number, SourceRange range) {
+        read.emplace(number, range.hasPlace() ? range : statement.origin.range());
+      });
+    }
+  });
+  for (const auto& [number, range] : read) {
+    if (number < kFirstCommon || number > kLastCommon || stored.contains(number)) continue;
+    const auto other = std::find_if(stored.begin(), stored.end(), [&, to = number](const auto& one) {
+      return !read.contains(one.first) && areSwapped(one.first, to);
+    });
+    if (other == stored.end()) continue;
+    report
+        .at(range,
+            "#{0} is read and set nowhere, #{1} is set and read nowhere; one of them is a misprint of the "
+            "other; write the number that is meant",
+            number, other->first)
+        .note(other->second, fmt::format("#{} is set here", other->first));
+  }
+}
+
+} // namespace
+
+DOTEK_LINT_RULE(variable_number_swapped){
+    .severity = Severity::Warning,
+    .tier = Tier::Ir,
+    .explanation = "Of two common variables one is only set and the other one only read, and their numbers "
+                   "have the same digits in another order.",
+    .check = check,
+};
+
+} // namespace dotek::lint::rule

@@ -1,0 +1,56 @@
+#include "lint/Skips.h"
+
+namespace dotek::lint::rule {
+namespace {
+
+void checkProgram(const ir::Program& program, const Probing& probing, Report& report) {
+  if (!endsProgram(program)) return;
+  const ir::Statement* first = nullptr;
+  bool change = false;
+  bool measures = false;
+  for (const ir::Statement& statement : program.body) {
+    const ProbeStep step = probing.step(statement);
+    measures = measures || skipOf(statement) != nullptr || step.kind == ProbeStep::Kind::Measure ||
+               probing.skips(step.program);
+    // A program that is called may choose.
+    if (step.kind == ProbeStep::Kind::Call || callOf(statement) != nullptr) {
+      const ir::Call* call = callOf(statement);
+      if (call->kind == ir::CallKind::Subprogram) return;
+    }
+    const auto* block = std::get_if<ir::NcBlock>(&statement.node);
+    if (block == nullptr) continue;
+    change = change || hasCode(*block, 'M', 6);
+    for (const ir::Word& word : block->words) {
+      const double* code = word.address == 'G' ? ir::constantValue(word.value) : nullptr;
+      if (word.address != 'G') continue;
+      // G52 to G59, their extended forms, G92, and a code that is computed.
+      if (code == nullptr || (*code >= 52 && *code < 60 && *code != 53) || *code == 92) return;
+    }
+    if (first == nullptr && isPlainMove(statement) && (axesOf(*block) & 3) != 0) first = &statement;
+  }
+  if (!change || !measures || first == nullptr) return;
+  report.at(
+      first->origin.range(),
+      "the program moves and measures, and chooses no work offset; its coordinates count in the one that was "
+      "left in force; write G54 to G59 before the first move");
+}
+
+void check(const Project& project, Report& report) {
+  const Probing probing(project);
+  eachProgram(project, [&](const ir::Program& program, const macrob::File&) {
+    checkProgram(program, probing, report);
+  });
+}
+
+} // namespace
+
+DOTEK_LINT_RULE(work_offset_not_chosen){
+    .severity = Severity::Warning,
+    .tier = Tier::Ir,
+    .explanation =
+        "A main program that changes the tool and probes states no G54 to G59. A misprint, G64 for G54, "
+        "leaves it without as well.",
+    .check = check,
+};
+
+} // namespace dotek::lint::rule
