@@ -135,10 +135,13 @@ void SimWorld::probeSwitched(bool on) {
 }
 
 void SimWorld::callBegins(std::uint32_t program, std::span<const double> locals) {
+  protected_.push_back((!protected_.empty() && protected_.back()) ||
+                       (callKind_ && callKind_(program, locals) == sim::PathKind::Protected));
   if (recorder_) recorder_->callBegins(program, locals);
 }
 
 void SimWorld::callEnded(std::uint32_t program) {
+  if (!protected_.empty()) protected_.pop_back();
   if (recorder_) recorder_->callEnded(program);
 }
 
@@ -170,8 +173,12 @@ void SimWorld::take(const sim::ProbeEvent& event, const RunPlace& place) {
   // The end of the run says it.
   if (event.outcome == sim::Outcome::NotModelled)
     stop_(std::string(event.placeUnknown ? kNowhere : kRotary));
-  else if (!contact && isTold(event))
+  else if (!contact && isTold(event) && !isMeantToMiss(event))
     tell(event, place);
+}
+
+bool SimWorld::isMeantToMiss(const sim::ProbeEvent& event) const {
+  return event.outcome == sim::Outcome::Miss && !protected_.empty() && protected_.back();
 }
 
 bool SimWorld::isTold(const sim::ProbeEvent& event) const {

@@ -84,8 +84,9 @@ private:
   void takeEvents();
   void tell(const sim::ProbeEvent& event, const RunPlace& place);
   void take(const sim::ProbeEvent& event, const RunPlace& place);
-  bool isTold(const sim::ProbeEvent& event) const; // false: it is one too many
-  bool isSame(const sim::ProbeEvent& event);       // of the block as one before: another chord of an arc, say
+  bool isTold(const sim::ProbeEvent& event) const;        // false: it is one too many
+  bool isMeantToMiss(const sim::ProbeEvent& event) const; // within a protected move
+  bool isSame(const sim::ProbeEvent& event); // of the block as one before: another chord of an arc, say
   sim::PictureBlock blockNow() const;
   std::string placeJson(const SourceRange& range) const;
   std::string json(const Kept& kept) const;
@@ -99,6 +100,7 @@ private:
   PlaceNow place_;
   sim::PictureRecorder::BlockNow block_;
   sim::PictureRecorder::CallKind callKind_;
+  std::vector<bool> protected_; // of the calls that are open: within a protected move
   std::function<std::uint64_t()> line_, blocks_;
   std::function<void(std::string)> stop_; // ends the run as inconclusive
   std::vector<Kept> contacts_, events_;
