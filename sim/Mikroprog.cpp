@@ -33,6 +33,12 @@ std::uint32_t wholeOf(double value) {
                                                                  : UINT32_MAX;
 }
 
+Position wide(const std::array<double, 3>& point) {
+  Position out{};
+  std::copy(point.begin(), point.end(), out.begin());
+  return out;
+}
+
 } // namespace
 
 MikroprogMachine::MikroprogMachine(const stdlib::MikroprogControl& control,
@@ -181,6 +187,9 @@ bool MikroprogMachine::function(const MikroprogBlock& block, const std::string& 
     return true;
   }
   if (what == "end") return stop(MikroprogEnding::ProgramEnd, "");
+  if (what == "spindle-right" || what == "spindle-left" || what == "spindle-off")
+    spindle_ = what != "spindle-off";
+  if (what == "coolant-on" || what == "coolant-off") coolant_ = what == "coolant-on";
   if (isQuiet(what)) return true;
   return stop(MikroprogEnding::Inconclusive,
               what.empty() ? "a function that is not followed" : what + " is not followed");
@@ -212,7 +221,7 @@ bool MikroprogMachine::target(const MikroprogBlock& block, std::array<double, 3>
   return true;
 }
 
-std::optional<double> MikroprogMachine::contact(const std::array<double, 3>& to) {
+SkipMove MikroprogMachine::skipMove(const std::array<double, 3>& to) const {
   SkipMove move{};
   for (std::size_t i = 0; i < 3; ++i) {
     move.machineFrom[i] = machine_[i];
@@ -221,7 +230,11 @@ std::optional<double> MikroprogMachine::contact(const std::array<double, 3>& to)
     move.to[i] = to[i] - offset_[i];
   }
   move.feed = feed_;
-  return signal_->contact(move);
+  return move;
+}
+
+void MikroprogMachine::tell(MotionKind kind, const std::array<double, 3>& from) {
+  if (watcher_ != nullptr) watcher_->moved({kind, wide(from), wide(machine_), line_, true});
 }
 
 bool MikroprogMachine::move(const MikroprogBlock& block, const std::string& motion) {
@@ -233,16 +246,18 @@ bool MikroprogMachine::move(const MikroprogBlock& block, const std::string& moti
   if (!target(block, to, any)) return false;
   if (!any) return true;
   if (motion == "feed" && feed_ <= 0) return stop(MikroprogEnding::Fault, "a feed move with F0");
-  if (signal_ != nullptr && to != machine_) {
-    const std::optional<double> share = contact(to);
+  if (signal_ != nullptr && watcher_ == nullptr && to != machine_) {
+    const std::optional<double> share = signal_->contact(skipMove(to));
     if (share && *share > kTouching && *share < 1 - kTouching) {
       for (std::size_t i = 0; i < 3; ++i)
         machine_[i] += *share * (to[i] - machine_[i]);
       return stop(MikroprogEnding::Crash, "the stylus meets the part in a move that does not watch it");
     }
   }
+  const std::array<double, 3> from = machine_;
   machine_ = to;
-  return true;
+  tell(motion == "rapid" ? MotionKind::Rapid : MotionKind::Feed, from);
+  return ending_ == MikroprogEnding::Running;
 }
 
 bool MikroprogMachine::probe(const MikroprogBlock& block) {
@@ -252,10 +267,13 @@ bool MikroprogMachine::probe(const MikroprogBlock& block) {
   bool any = false;
   if (!target(block, to, any)) return false;
   if (!any) return stop(MikroprogEnding::Fault, "G31 without an axis");
-  const std::optional<double> share = to == machine_ ? std::nullopt : contact(to);
+  const std::optional<double> share = to == machine_ ? std::nullopt : signal_->contact(skipMove(to));
+  if (ending_ != MikroprogEnding::Running) return false; // who watches has ended it
   if (share && *share <= kTouching) return stop(MikroprogEnding::Inconclusive, "G31 begins in contact (Q19)");
+  const std::array<double, 3> from = machine_;
   for (std::size_t i = 0; i < 3; ++i)
     machine_[i] = share ? snap(machine_[i] + *share * (to[i] - machine_[i])) : to[i];
+  tell(MotionKind::Skip, from);
   event(share ? MikroprogEvent::Kind::Contact : MikroprogEvent::Kind::NoContact);
   if (share) return true;
   const bool hasTarget =
@@ -296,7 +314,7 @@ bool MikroprogMachine::call(const MikroprogBlock& block) {
 
 std::optional<bool> MikroprogMachine::condition(std::uint32_t number) {
   if (number == 7) {
-    if (signal_ != nullptr) return contact(machine_).has_value();
+    if (signal_ != nullptr) return signal_->contact(skipMove(machine_)).has_value();
     stop(MikroprogEnding::Inconclusive, "O7 without a part");
     return std::nullopt;
   }

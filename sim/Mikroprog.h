@@ -4,6 +4,7 @@
 #pragma once
 
 #include "sim/Machine.h"
+#include "sim/MotionWatcher.h"
 #include "stdlib/MikroprogControl.h"
 #include "stdlib/MikroprogProgram.h"
 
@@ -48,6 +49,9 @@ public:
 
   // nullptr: no part, G31 ends the run as inconclusive. O7 asks it with a move of no length.
   void setSkipSignal(SkipSignal* signal) { signal_ = signal; }
+  // Without a watcher the signal is asked in each motion, and one that does not watch for it crashes. With
+  // one the signal is for G31 and O7, and the watcher sees to the rest; it may end the run by inconclusive().
+  void setWatcher(MotionWatcher* watcher) { watcher_ = watcher; }
   // Where the machine stands before the program; the active system counts from the machine's zero.
   void setPosition(const std::array<double, 3>& machine) { machine_ = machine; }
   // Zero of the active system at the start, in coordinates of the machine.
@@ -55,11 +59,15 @@ public:
 
   // Runs to an end, at most so many blocks.
   void run(std::uint64_t mostBlocks = 100000);
+  void inconclusive(std::string why) { stop(MikroprogEnding::Inconclusive, std::move(why)); }
 
   MikroprogEnding ending() const { return ending_; }
   const std::string& why() const { return why_; } // of a fault, a crash, an inconclusive end
   std::uint32_t line() const { return line_; }    // of the text, of the block that ran last
   const std::vector<MikroprogEvent>& events() const { return events_; }
+  // What M3, M4, M5 and M8, M9 said last; nothing: none of them yet.
+  std::optional<bool> spindle() const { return spindle_; }
+  std::optional<bool> coolant() const { return coolant_; }
   // What the panel showed last; "" for nothing.
   std::string lastStop() const;
   std::array<double, 3> position() const; // of the active system
@@ -82,12 +90,14 @@ private:
   bool setPosition(const stdlib::MikroprogBlock& block);
   bool call(const stdlib::MikroprogBlock& block);
   bool function(const stdlib::MikroprogBlock& block, const std::string& what);
-  std::optional<double> contact(const std::array<double, 3>& to);
+  SkipMove skipMove(const std::array<double, 3>& to) const;
+  void tell(MotionKind kind, const std::array<double, 3>& from);
   void event(MikroprogEvent::Kind kind, std::string text = "", double value = 0);
 
   const stdlib::MikroprogControl& control_;
   const stdlib::MikroprogProgram& program_;
   SkipSignal* signal_ = nullptr;
+  MotionWatcher* watcher_ = nullptr;
   std::map<std::uint64_t, std::size_t> numbers_; // N to its block
   std::array<double, 3> machine_{}, offset_{};
   std::map<std::uint32_t, double> parameters_;
@@ -95,6 +105,7 @@ private:
   std::string motion_ = "rapid";
   bool incremental_ = false;
   double feed_ = 0;
+  std::optional<bool> spindle_, coolant_;
   std::size_t next_ = 0;
   std::uint64_t number_ = 0;
   std::uint32_t line_ = 0;

@@ -1,0 +1,31 @@
+// A posted program beside what a program of Mikroprog does. The rules stand in docs/verify.md.
+#pragma once
+
+#include "verify/Compare.h"
+#include "verify/MikroprogRun.h"
+
+#include <functional>
+#include <vector>
+
+namespace dotek::verify {
+
+struct MikroprogFacts {
+  const stdlib::MikroprogControl& control;
+  std::uint32_t system = 54;                            // active at entry
+  sim::Point3 zero;                                     // of that system at entry, in the machine
+  double overtravel = 0;                                // with which the program was written, mm
+  bool byOperator = false;                              // the datum is a stop with a text, not G92
+  bool toCentre = false;                                // as of MikroprogStand
+  double tolerance = 1e-6;                              // mm
+  std::function<SourceRange(std::uint32_t line)> place; // of the program's text
+};
+
+// How far a datum in the middle of a bore may lie beside it: half of the last step of the walk, and the
+// rounding of its first one, mm.
+inline constexpr double kMiddleTolerance = 0.0015;
+
+// The first difference of each aspect. `world`: in which both ran.
+std::vector<Difference> compare(const Record& source, const MikroprogRecord& target, const sim::World& world,
+                                const MikroprogFacts& facts);
+
+} // namespace dotek::verify
