@@ -301,13 +301,10 @@ std::optional<verify::Case> CaseRunner::draw(std::uint64_t index) {
         refusal_ = "the path touches nothing";
         continue;
       }
-      const sim::Probe probe = probeOf(values->drawn);
-      refusal_ = verify::whyNotReached(*values->path, *values->part, probe);
-      if (!refusal_.empty()) continue;
       misplace(*values);
-      if (plan_.translation)
-        refusal_ = verify::whyNotReached(*values->path, *values->part, probe,
-                                         verify::mostOff(values->path->nominal(), values->drawn.error));
+      const double off =
+          plan_.translation ? verify::mostOff(values->path->nominal(), values->drawn.error) : 0;
+      refusal_ = verify::whyNotReached(*values->path, *values->part, probeOf(values->drawn), off);
       if (!refusal_.empty()) continue;
     }
     if (routine_ != nullptr) {

@@ -1,5 +1,6 @@
 #include "driver/VerifyReport.h"
 
+#include "stdlib/HostInputs.h"
 #include "support/Decimal.h"
 #include "support/messages/Verify.h"
 
@@ -89,7 +90,8 @@ verify::Case VerifyReport::shrink(const Group& group) {
   const auto simplify = [&](auto member, const std::string& name, std::vector<double> candidates) {
     for (const double value : candidates) {
       const double now = (best.*member).at(name);
-      if (value == now || std::abs(value) > std::abs(now)) continue;
+      if (value == now || std::abs(value) > std::abs(now) || !stdlib::hostInputRefuses(name, value).empty())
+        continue;
       verify::Case simpler = best;
       (simpler.*member)[name] = value;
       if (attempt(simpler)) return;
@@ -157,15 +159,18 @@ void VerifyReport::tellDifference(const Group& group, std::uint64_t of) {
   const verify::Case smallest = options_.replay ? group.drawn : shrink(group);
   diagnostics = std::move(told_);
   const std::string_view aspect = verify::aspectName(group.finding.aspect);
-  const std::string command = replay(smallest);
-  Diagnostic& finding = plan_.translation
-                            ? diagnostics.report<diag::VerifyDiffers>(
-                                  group.finding.source, aspect, group.finding.text, group.count, of, command)
-                            : diagnostics.report<diag::VerifyPathDiffers>(
-                                  group.finding.source, aspect, group.finding.text, group.count, of, command);
+  const std::string_view which = group.edge ? " at edges" : "";
+  SourceRange place = group.finding.source;
+  if (!place.hasPlace()) place = sourceOfLine(group.finding.targetLine);
+  Diagnostic& finding =
+      plan_.translation
+          ? diagnostics.report<diag::VerifyDiffers>(place, aspect, group.finding.text, group.count, of, which)
+          : diagnostics.report<diag::VerifyPathDiffers>(place, aspect, group.finding.text, group.count, of,
+                                                        which);
   if (group.finding.posted.hasPlace()) finding.note(group.finding.posted, "the post prints this here");
   if (group.finding.targetLine != 0)
     finding.note(targetRange(group.finding.targetLine), "of the translation");
+  finding.note({}, "replay: " + replay(smallest));
   told_ = std::move(diagnostics);
 }
 
@@ -178,6 +183,24 @@ SourceRange VerifyReport::targetRange(std::uint32_t line) {
   const SourceFile& file = sources.file(*translationFile_);
   const std::uint32_t begin = file.lineStart(line);
   return {*translationFile_, begin, begin + static_cast<std::uint32_t>(file.line(line).size())};
+}
+
+// Where a line of the translation stems from, as far as it stands in a file of the source.
+SourceRange VerifyReport::sourceOfLine(std::uint32_t line) const {
+  if (!plan_.translation || line == 0 || line > plan_.translation->sources.size()) return {};
+  const auto& places = plan_.translation->sources[line - 1];
+  if (!places || places->empty()) return {};
+  const auto& [name, number] = *places->begin();
+  const SourceMap& sources = runner_.session().sources();
+  for (FileId id = 0; id < sources.size(); ++id) {
+    const SourceFile& file = sources.file(id);
+    if (file.name() != name || number > file.lineCount()) continue;
+    const std::string_view text = file.line(number);
+    const std::size_t blank = std::min(text.find_first_not_of(" \t"), text.size());
+    const std::uint32_t begin = file.lineStart(number);
+    return {id, begin + static_cast<std::uint32_t>(blank), begin + static_cast<std::uint32_t>(text.size())};
+  }
+  return {};
 }
 
 void VerifyReport::tellProbe() {
@@ -216,8 +239,8 @@ Outcome VerifyReport::finish() {
   constexpr std::size_t kMostReasons = 5;
   for (std::size_t i = 0; i < std::min(reasons.size(), kMostReasons); ++i)
     if (options_.source.prog)
-      told_.report<diag::VerifyIdle>(reasons[i]->at, reasons[i]->count, cases_.all(), reasons[i]->why,
-                                     replay(reasons[i]->drawn));
+      told_.report<diag::VerifyIdle>(reasons[i]->at, reasons[i]->count, cases_.all(), reasons[i]->why)
+          .note({}, "the first: " + replay(reasons[i]->drawn));
   const std::uint64_t all = cases_.all();
   if (static_cast<double>(cases_.proved) < options_.minProved / 100 * static_cast<double>(all))
     told_.report<diag::VerifyTooFew>({}, cases_.proved, all, numberText(options_.minProved));

@@ -46,6 +46,7 @@ private:
   void tellProbe();
   void tellPictures();
   SourceRange targetRange(std::uint32_t line);
+  SourceRange sourceOfLine(std::uint32_t line) const;
 
   const VerifyOptions& options_;
   const VerifyPlan& plan_;
