@@ -1,8 +1,10 @@
 #include "driver/VerifyCase.h"
 
+#include "driver/ConvertMikroprog.h"
 #include "driver/PostChecks.h"
 #include "driver/PostProgram.h"
 #include "driver/Programs.h"
+#include "driver/VerifyTargets.h"
 #include "frontend/compost/Summary.h"
 #include "frontend/gibbs/Run.h"
 #include "frontend/macrob/Lower.h"
@@ -113,6 +115,9 @@ bool CaseRunner::load() {
   if (!inputs_) return false;
   folder_ = loadCycleFolder(options_.inputs.front(), session_);
   if (options_.source.cycle) folder_->name = *options_.source.cycle;
+  if (options_.to == "mikroprog" && !session_.diagnostics().hasErrors())
+    if (const JobOperation* operation = mikroprogOperation(*inputs_, *folder_, session_))
+      takeOperation(*operation, options_.common, *inputs_);
   return !session_.diagnostics().hasErrors();
 }
 
@@ -142,6 +147,8 @@ bool CaseRunner::prepare() {
   };
   sourceStand_.emplace(*inputs_->sourceControl, listOf(sourceSet_), session_.limits());
   if (!plan_.translation) return true;
+  target_ = verifyTarget({options_, plan_, session_, *inputs_, *folder_});
+  if (target_ != nullptr) return target_->prepare();
   targetStand_.emplace(*inputs_->control, listOf(targetSet_), session_.limits());
 
   ready_ = std::make_shared<Ready>();
@@ -501,7 +508,25 @@ CaseResult CaseRunner::run(const verify::Case& drawn) {
     result.verdict = CaseVerdict::NoProgram;
     return result;
   }
-  if (plan_.translation) {
+  if (target_ != nullptr) {
+    const verify::Entry entry = entryOf(values->drawn, probeOn);
+    const std::set<std::uint32_t> none;
+    const TargetRun ran = target_->run({values->drawn, entry, values->posted ? values->posted->stores : none,
+                                        world, values->rejected ? nullptr : &*source});
+    if (ran.refused && !values->rejected) {
+      result.verdict = CaseVerdict::Refused;
+      result.why = "the translation refuses the values: " + ran.why;
+      result.whyAt = {};
+      return result;
+    }
+    if (ran.undecided) {
+      result.verdict = CaseVerdict::NoProgram;
+      result.why = ran.why;
+      result.whyAt = {};
+      return result;
+    }
+    takeRun(result, ran, *values);
+  } else if (plan_.translation) {
     const verify::Record target = runTranslation(*values, world, probeOn);
     verify::CompareRules rules;
     rules.tolerance = options_.tolerance;
@@ -534,6 +559,24 @@ CaseResult CaseRunner::run(const verify::Case& drawn) {
                    : result.why.empty()     ? CaseVerdict::Proved
                                             : CaseVerdict::Idle;
   return result;
+}
+
+void CaseRunner::takeRun(CaseResult& result, const TargetRun& ran, const Values& values) const {
+  if (values.rejected && !ran.refused && ran.differences.empty()) {
+    CaseFinding finding;
+    finding.aspect = verify::Aspect::Ending;
+    finding.text = "the dialog turns the values away, and the translation takes them";
+    finding.source = values.rejectedAt;
+    result.findings.push_back(std::move(finding));
+  }
+  for (const TargetDifference& one : ran.differences) {
+    CaseFinding finding;
+    finding.aspect = one.difference.aspect;
+    finding.text = one.difference.text + (one.line.empty() ? "" : ", in `" + one.line + "`");
+    finding.source = values.rejected ? values.rejectedAt : sourceOf(one.difference.source, values);
+    result.findings.push_back(std::move(finding));
+  }
+  if (!values.rejected) comparePath(result, values);
 }
 
 // The dialog has turned the values away: the translation raises an alarm that stems from there, and nothing

@@ -69,6 +69,9 @@ struct CaseResult {
   std::optional<SourceRange> unarmed; // the first measuring move with the probe off
 };
 
+class VerifyTarget;
+struct TargetRun;
+
 class CaseRunner {
 public:
   CaseRunner(const VerifyOptions& options, const VerifyPlan& plan);
@@ -110,6 +113,7 @@ private:
   sim::Probe probeOf(const verify::Case& drawn) const;
   verify::Entry entryOf(const verify::Case& drawn, bool probeOn) const;
   void addFinding(CaseResult& result, const verify::Difference& difference, const Values& values) const;
+  void takeRun(CaseResult& result, const TargetRun& ran, const Values& values) const;
   void compareRejection(CaseResult& result, const Values& values, const verify::Record& target) const;
   void noteProbe(CaseResult& result, const verify::Record& record, const Values& values) const;
   void comparePath(CaseResult& result, const Values& values) const;
@@ -136,6 +140,7 @@ private:
   const stdlib::MacroSet* sourceSet_ = nullptr;
   const stdlib::MacroSet* targetSet_ = nullptr;
   std::optional<verify::Stand> sourceStand_, targetStand_;
+  std::unique_ptr<VerifyTarget> target_; // instead of ready_, of translations that no call reaches
 };
 
 } // namespace dotek::driver

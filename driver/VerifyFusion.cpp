@@ -55,17 +55,14 @@ public:
   TargetRun run(const TargetCase& now) override {
     TargetRun out;
     const fusion::RunResult result = fragment_->run(inputOf(now.drawn));
-    const auto differs = [&](verify::Aspect aspect, std::string text) {
-      out.differences.push_back({{aspect, std::move(text), {}, {}}, ""});
-    };
     if (!result.failure.empty()) {
-      differs(verify::Aspect::Ending, "the fragment fails: " + result.failure);
+      out.differs(verify::Aspect::Ending, "the fragment fails: " + result.failure);
       return out;
     }
     if (!result.errors.empty()) {
       if (result.wroteAfterError || !result.text.empty())
-        differs(verify::Aspect::Ending,
-                "the fragment writes blocks beside its error: " + result.errors.front());
+        out.differs(verify::Aspect::Ending,
+                    "the fragment writes blocks beside its error: " + result.errors.front());
       out.refused = out.differences.empty();
       out.why = "the post stops with an error: " + result.errors.front();
       return out;
@@ -112,8 +109,7 @@ private:
     auto file = read("posted by the fragment", "O1\n" + text + "M30\n", sources_, why);
     const FileId id = static_cast<FileId>(sources_.size() - 1);
     if (!file) {
-      out.differences.push_back(
-          {{verify::Aspect::Ending, "the text of the fragment cannot be read: " + why, {}, {}}, ""});
+      out.differs(verify::Aspect::Ending, "the text of the fragment cannot be read: " + why);
       return;
     }
     std::vector<const ir::Program*> programs;

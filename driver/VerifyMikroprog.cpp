@@ -40,9 +40,11 @@ public:
       return out;
     }
     if (now.source == nullptr) return out;
-    const auto differs = [&](verify::Aspect aspect, std::string what) {
-      out.differences.push_back({{aspect, std::move(what), {}, {}}, ""});
-    };
+    if (verify::goesOnInItsDatum(*now.source, now.entry.system)) {
+      out.undecided = true;
+      out.why = "the source sets the system in which it goes on, this control has no other to set";
+      return out;
+    }
     SourceMap sources;
     Diagnostics found;
     const FileId id = sources.add(SourceFile("program", std::move(*text), Encoding::Cp852));
@@ -52,10 +54,10 @@ public:
     if (!program || found.hasErrors()) {
       for (const Diagnostic& one : found.all())
         if (one.severity == Severity::Error && out.differences.empty())
-          out.differences.push_back(
-              {{verify::Aspect::Ending, "the program is faulty: " + one.message, {}, {}},
-               one.range.hasPlace() ? std::string(sources.file(id).line(sources.line(one.range))) : ""});
-      if (out.differences.empty()) differs(verify::Aspect::Ending, "the program cannot be read");
+          out.differs(verify::Aspect::Ending, "the program is faulty: " + one.message,
+                      one.range.hasPlace() ? std::string(sources.file(id).line(sources.line(one.range)))
+                                           : "");
+      if (out.differences.empty()) out.differs(verify::Aspect::Ending, "the program cannot be read");
       return out;
     }
     const bool toCentre = from_.inputs.job && from_.inputs.job->lengthToCentre;
@@ -68,8 +70,7 @@ public:
       const std::uint32_t begin = file.lineStart(line);
       return SourceRange{id, begin, begin + 1};
     };
-    verify::MikroprogFacts facts{*control_};
-    facts.system = now.entry.system;
+    verify::MikroprogFacts facts(*control_);
     facts.zero = zero;
     facts.overtravel = now.drawn.hosts.at("overtravel");
     facts.byOperator = from_.options.datum == "operator";
@@ -132,8 +133,7 @@ private:
       const verify::MikroprogRecord record = stand.run(now.world, start, zero, interference);
       const std::string why = verify::whyNotCaught(record, tail);
       if (!why.empty() && out.differences.empty())
-        out.differences.push_back(
-            {{verify::Aspect::Ending, fmt::format("{} {}: {}", what, number + 1, why), {}, {}}, ""});
+        out.differs(verify::Aspect::Ending, fmt::format("{} {}: {}", what, number + 1, why));
     };
     for (std::size_t i = 0; i < ran.searches; ++i)
       attempt({i, {}, {}}, Tail::NotFound, "no surface at search", i);
@@ -142,8 +142,7 @@ private:
     for (std::size_t i = 0; i < ran.guards; ++i)
       attempt({{}, {}, i}, Tail::Collision, "contact before chain", i);
     if (ran.guards == 0 && ran.searches + ran.protectedMoves > 0 && out.differences.empty())
-      out.differences.push_back(
-          {{verify::Aspect::Ending, "nothing asks for contact before the first probe move", {}, {}}, ""});
+      out.differs(verify::Aspect::Ending, "nothing asks for contact before the first probe move");
   }
 
   const TargetSource from_;

@@ -4,6 +4,13 @@
 
 namespace dotek::driver {
 
+void TargetRun::differs(verify::Aspect aspect, std::string text, std::string line) {
+  TargetDifference& one = differences.emplace_back();
+  one.difference.aspect = aspect;
+  one.difference.text = std::move(text);
+  one.line = std::move(line);
+}
+
 std::unique_ptr<VerifyTarget> verifyTarget(const TargetSource& source) {
   if (source.options.to == "fusion") return fusionTarget(source);
   if (source.options.to == "mikroprog") return mikroprogTarget(source);

@@ -25,7 +25,6 @@ struct TargetCase {
   const std::set<std::uint32_t>& stores; // common variables that the source writes
   sim::World& world;
   const verify::Record* source; // nullptr: the dialog turns the values away
-  const sim::Part& part;
 };
 
 // A difference and the line of the translation that shows it; the text is that of this case.
@@ -37,8 +36,11 @@ struct TargetDifference {
 struct TargetRun {
   // Nothing is written for these values, or the translation stops with an error before anything moves.
   bool refused = false;
-  std::string why;
-  std::vector<TargetDifference> differences; // none where the dialog has turned the values away
+  bool undecided = false; // the two cannot be compared
+  std::string why;        // it is refused or undecided
+  std::vector<TargetDifference> differences;
+
+  void differs(verify::Aspect aspect, std::string text, std::string line = "");
 };
 
 class VerifyTarget {

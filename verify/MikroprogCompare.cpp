@@ -70,6 +70,8 @@ public:
         zero_(facts.zero) {}
 
   std::vector<Difference> run() {
+    // What the source touches with its probe off stops a probe that is always on.
+    if (!source_.events.empty() && target_.ending == Ends::Collision) return {};
     expected_.start = source_.start;
     found_.start = target_.start;
     for (const Piece& piece : source_.pieces) {
@@ -84,6 +86,7 @@ public:
     expected_.end = shifted(source_.end);
     found_.end = target_.end;
     ending();
+    obstructed();
     if (source_.events.empty() && !target_.events.empty())
       add(Aspect::Contact, "the stylus meets the part on its way", {}, target_.events.front().second);
     CompareRules rules;
@@ -106,7 +109,7 @@ private:
     own_.push_back({aspect, std::move(text), source, line == 0 ? SourceRange{} : facts_.place(line)});
   }
 
-  Point3 shifted(const Point3& point) const { return point - moved_ + error_; }
+  Point3 shifted(const Point3& point) const { return point + error_; }
 
   void move(const Piece& piece) {
     expected_.pieces.push_back({piece.kind, shifted(piece.from), shifted(piece.to), {}, piece.range});
@@ -186,17 +189,26 @@ private:
       return lookedFor(want, got, group, sides);
     predict(given, want, sides);
     want.end = shifted(given.end);
+    if (sides == kBoreSides) centresOnly(want.contacts);
     expected_.measures.push_back(want);
     if (group.searches.empty()) return;
     got.end = wayBack(want.end, sides, group);
     nominals(want, got, group, sides);
-    if (sides == kBoreSides && facts_.byOperator && got.contacts.size() == want.contacts.size())
-      got.contacts = want.contacts; // from the middle that was expected, not from the one that was found
+    if (sides == kBoreSides) centresOnly(got.contacts);
     found_.measures.push_back(got);
     settled(given, group);
     datums(given, group);
     records(given, group, sides);
     if (group.zero && !facts_.byOperator) zero_ = *group.zero;
+  }
+
+  // Of a bore the place of the ball, where it touches: what it touches leans with where it stands across.
+  void centresOnly(std::vector<sim::ProbeEvent>& contacts) const {
+    for (std::size_t i = 0; i < contacts.size(); ++i) {
+      contacts[i].point = contacts[i].centre;
+      // Without a walk the ball stands in the middle that was expected, not in the one that was found.
+      if (facts_.byOperator && i > 1) contacts[i].point = {};
+    }
   }
 
   // The source stops here with its alarm: only what was looked for is compared.
@@ -277,7 +289,8 @@ private:
       const Point3 way = step.to - at;
       const double length = lengthOf(way);
       const double share = length > 0 ? (end - at).dot(way) / (length * length) : -1;
-      const bool passes = share >= 0 && share <= 1 + 1e-9 && near(at + way * share, end, tolerance);
+      const bool passes = length > 0 && share >= 0 && share <= 1 + tolerance / length &&
+                          near(at + way * share, end, tolerance);
       if (sides == 1 && passes) {
         if (!near(end, step.to, facts_.tolerance)) foundPiece(step, end);
         ++step_;
@@ -363,7 +376,7 @@ private:
     Point3 off; // of the surface from where the source expects it
     std::array<bool, 3> known{};
     change_ = {};
-    const bool elsewhere = !near(error_, moved_, 0);
+    const bool elsewhere = !near(error_, {}, 0);
     for (std::size_t i = 0; i < given.nominal.size() && i < given.contacts.size(); ++i) {
       const Touch& touch = want.nominal[i];
       sim::ProbeEvent contact = given.contacts[i];
@@ -386,8 +399,7 @@ private:
       known[*axis] = true;
     }
     for (const auto& [key, zero] : given.datums) {
-      const auto [system, axis] = key;
-      if (system == facts_.system) part(moved_, axis) = zero - part(facts_.zero, axis);
+      const std::uint32_t axis = key.second;
       if (known[axis] && !facts_.byOperator) part(error_, axis) = part(off, axis);
     }
     // Behind the first datum of a bore the ball stands in the middle along X.
@@ -444,6 +456,20 @@ private:
 
   // ---- the end --------------------------------------------------------------------------------------------
 
+  // Where both are stopped on their way, one of them lies beside the other and meets the obstacle elsewhere.
+  void obstructed() {
+    if (source_.ending != Ending::Alarm || target_.ending != Ends::Collision) return;
+    if (expected_.pieces.empty() || expected_.pieces.size() != found_.pieces.size()) return;
+    const Piece& want = expected_.pieces.back();
+    Piece& got = found_.pieces.back();
+    const Point3 a = want.to - want.from, b = got.to - got.from;
+    const double lengths = lengthOf(a) * lengthOf(b);
+    if (want.kind != sim::PathKind::Protected || got.kind != want.kind || !(lengths > 0)) return;
+    if (a.dot(b) / lengths < 1 - 1e-9) return;
+    got.to = want.to;
+    found_.end = expected_.end;
+  }
+
   void ending() {
     expected_.ending = source_.ending;
     expected_.text = source_.text;
@@ -483,14 +509,20 @@ private:
   std::size_t measure_ = 0; // of the source, the next
   std::size_t step_ = 0;    // of the target, the next
   bool bores_ = false;
-  // By how much the source's own active zero has moved, and by how much the target's way lies beside that of
-  // the source's first zero.
-  Point3 moved_, error_;
+  // By how much the target's way lies beside that of the source: what its datums have corrected.
+  Point3 error_;
   Point3 change_; // by how much the target measures its surface elsewhere
   Point3 zero_;   // of the target's active system
 };
 
 } // namespace
+
+bool goesOnInItsDatum(const Record& source, std::uint32_t system) {
+  return std::any_of(source.measures.begin(), source.measures.end(), [&](const Measure& measure) {
+    return std::any_of(measure.datums.begin(), measure.datums.end(),
+                       [&](const auto& datum) { return datum.first.first == system; });
+  });
+}
 
 std::vector<Difference> compare(const Record& source, const MikroprogRecord& target, const sim::World& world,
                                 const MikroprogFacts& facts) {

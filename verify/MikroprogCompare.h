@@ -10,6 +10,8 @@
 namespace dotek::verify {
 
 struct MikroprogFacts {
+  explicit MikroprogFacts(const stdlib::MikroprogControl& of) : control(of) {}
+
   const stdlib::MikroprogControl& control;
   std::uint32_t system = 54;                            // active at entry
   sim::Point3 zero;                                     // of that system at entry, in the machine
@@ -23,6 +25,11 @@ struct MikroprogFacts {
 // How far a datum in the middle of a bore may lie beside it: half of the last step of the walk, and the
 // rounding of its first one, mm.
 inline constexpr double kMiddleTolerance = 0.0015;
+
+// Whether the source moves the zero of `system`, which is active, and so its own way from there on. The
+// target has no other system than the active one, and is written for a source that keeps its own: not
+// comparable.
+bool goesOnInItsDatum(const Record& source, std::uint32_t system);
 
 // The first difference of each aspect. `world`: in which both ran.
 std::vector<Difference> compare(const Record& source, const MikroprogRecord& target, const sim::World& world,

@@ -59,6 +59,7 @@ public:
       standing = standing && move.machineFrom[i] == move.machineTo[i];
     if (standing) return there(move) ? std::optional(0.0) : std::nullopt;
     aim_ = lowest(move.machineTo);
+    asked_ = true;
     if (kind() == Kind::Search) {
       if (interference_.missing == record.searches) return disturb(1), std::nullopt;
     } else if (interference_.obstacle == record.protectedMoves) {
@@ -73,8 +74,9 @@ public:
     step.kind = motion.kind == sim::MotionKind::Rapid ? Kind::Rapid : Kind::Feed;
     if (motion.kind == sim::MotionKind::Skip) {
       step.kind = kind();
-      step.aim = aim_;
-      ++(step.kind == Kind::Search ? record.searches : record.protectedMoves);
+      step.aim = asked_ ? aim_ : lowest(motion.to);
+      if (asked_) ++(step.kind == Kind::Search ? record.searches : record.protectedMoves);
+      asked_ = false;
     } else {
       world_.setLine(motion.line);
       world_.moved(motion);
@@ -166,6 +168,7 @@ private:
   const std::map<std::uint32_t, Kind>& probeMoves_;
   const double length_, zeroLength_;
   sim::Point3 aim_;
+  bool asked_ = false; // for the G31 that runs: one that leads nowhere asks for nothing
   std::size_t worldEvents_ = 0, machineEvents_ = 0;
 };
 

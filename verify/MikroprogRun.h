@@ -54,7 +54,8 @@ struct MikroprogRecord {
   // What the probe, its stem or its body meets, and in which line.
   std::vector<std::pair<sim::ProbeEvent, std::uint32_t>> events;
   sim::Point3 start, end;
-  std::size_t searches = 0, protectedMoves = 0, guards = 0; // that ran; a guard is a question for O7
+  // That ran; probe moves of no length do not count. A guard is a question for O7.
+  std::size_t searches = 0, protectedMoves = 0, guards = 0;
   // The first step behind what was asked for (Interference); nothing: it did not come to that.
   std::optional<std::size_t> disturbed;
 };
