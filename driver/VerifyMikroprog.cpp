@@ -80,7 +80,13 @@ public:
     const auto lineOf = [&](std::uint32_t line) {
       return line == 0 ? std::string() : std::string(sources.file(id).line(line));
     };
-    for (verify::Difference& difference : verify::compare(*now.source, ran, now.world, facts)) {
+    verify::MikroprogComparison compared = verify::compare(*now.source, ran, now.world, facts);
+    if (!compared.undecided.empty()) {
+      out.undecided = true;
+      out.why = std::move(compared.undecided);
+      return out;
+    }
+    for (verify::Difference& difference : compared.differences) {
       std::string line = difference.target.hasPlace() ? lineOf(sources.line(difference.target)) : "";
       out.differences.push_back({std::move(difference), std::move(line)});
     }

@@ -64,8 +64,7 @@ std::array<std::optional<double>, 3> coordinatesIn(const std::string& text, cons
 // program goes on, the target with its searches as measures.
 class Sides {
 public:
-  Sides(const Record& source, const MikroprogRecord& target, const sim::World& world,
-        const MikroprogFacts& facts)
+  Sides(const Record& source, const MikroprogRecord& target, sim::World& world, const MikroprogFacts& facts)
       : source_(source), target_(target), world_(world), facts_(facts), radius_(world.probe().ballRadius()),
         zero_(facts.zero) {}
 
@@ -104,7 +103,55 @@ public:
     return out;
   }
 
+  // Behind run().
+  std::string whyUndecided() {
+    if (near(error_, {}, 0)) return "";
+    SourceRange at;
+    if (!whyNothingProved(source_, at).empty())
+      return "the source comes to nothing behind a datum, where this control goes on beside its way";
+    return correctedWayIsFree() ? "" : "the way that a datum has corrected meets the part";
+  }
+
 private:
+  // The way that is expected of the target, walked without it.
+  bool correctedWayIsFree() {
+    const double length = world_.probe().centreLength() + radius_;
+    const auto machine = [&](const Point3& lowest) {
+      sim::Position out{};
+      out[0] = lowest.x, out[1] = lowest.y, out[2] = lowest.z + length;
+      return out;
+    };
+    world_.restart(0);
+    world_.setOn(true);
+    std::size_t measures = 0;
+    for (const Piece& piece : expected_.pieces) {
+      sim::SkipMove move{};
+      const auto ask = [&](const Point3& from, const Point3& to) {
+        const sim::Position a = machine(from), b = machine(to);
+        for (std::size_t i = 0; i < a.size(); ++i)
+          move.machineFrom[i] = a[i], move.machineTo[i] = b[i];
+        return world_.contact(move);
+      };
+      if (piece.kind == sim::PathKind::Measuring) {
+        if (measures == expected_.measures.size()) break;
+        const Measure& measure = expected_.measures[measures++];
+        for (const Touch& touch : measure.nominal) {
+          const Point3 start = measure.start + Point3{0, 0, radius_};
+          const double way = lengthOf(touch.point - start) + facts_.overtravel;
+          ask(measure.start, measure.start + touch.direction * way);
+        }
+      } else if (piece.kind == sim::PathKind::Protected) {
+        if (!near(piece.from, piece.to, 0) && ask(piece.from, piece.to)) return false;
+      } else {
+        const auto kind = piece.kind == sim::PathKind::Rapid ? sim::MotionKind::Rapid : sim::MotionKind::Feed;
+        world_.moved({kind, machine(piece.from), machine(piece.to), 0, true});
+      }
+    }
+    return std::none_of(world_.events().begin(), world_.events().end(), [](const sim::ProbeEvent& event) {
+      return event.outcome != sim::Outcome::Contact && event.outcome != sim::Outcome::Miss;
+    });
+  }
+
   void add(Aspect aspect, std::string text, SourceRange source, std::uint32_t line) {
     own_.push_back({aspect, std::move(text), source, line == 0 ? SourceRange{} : facts_.place(line)});
   }
@@ -501,7 +548,7 @@ private:
 
   const Record& source_;
   const MikroprogRecord& target_;
-  const sim::World& world_;
+  sim::World& world_;
   const MikroprogFacts& facts_;
   const double radius_;
   Record expected_, found_;
@@ -524,9 +571,13 @@ bool goesOnInItsDatum(const Record& source, std::uint32_t system) {
   });
 }
 
-std::vector<Difference> compare(const Record& source, const MikroprogRecord& target, const sim::World& world,
-                                const MikroprogFacts& facts) {
-  return Sides(source, target, world, facts).run();
+MikroprogComparison compare(const Record& source, const MikroprogRecord& target, sim::World& world,
+                            const MikroprogFacts& facts) {
+  Sides sides(source, target, world, facts);
+  MikroprogComparison out;
+  out.differences = sides.run();
+  if (!out.differences.empty()) out.undecided = sides.whyUndecided();
+  return out;
 }
 
 } // namespace dotek::verify

@@ -5,6 +5,7 @@
 #include "verify/MikroprogRun.h"
 
 #include <functional>
+#include <string>
 #include <vector>
 
 namespace dotek::verify {
@@ -31,8 +32,15 @@ inline constexpr double kMiddleTolerance = 0.0015;
 // comparable.
 bool goesOnInItsDatum(const Record& source, std::uint32_t system);
 
-// The first difference of each aspect. `world`: in which both ran.
-std::vector<Difference> compare(const Record& source, const MikroprogRecord& target, const sim::World& world,
-                                const MikroprogFacts& facts);
+struct MikroprogComparison {
+  std::vector<Difference> differences; // the first of each aspect
+  // Why what differs says nothing of the program, "" where it does: behind a datum it goes beside the way of
+  // the source, and there that way meets the part, or the source itself has come to nothing.
+  std::string undecided;
+};
+
+// `world`: in which both ran; it is run again.
+MikroprogComparison compare(const Record& source, const MikroprogRecord& target, sim::World& world,
+                            const MikroprogFacts& facts);
 
 } // namespace dotek::verify
