@@ -148,6 +148,7 @@ bool CaseRunner::prepare() {
   sourceStand_.emplace(*inputs_->sourceControl, listOf(sourceSet_), session_.limits());
   if (!plan_.translation) return true;
   target_ = verifyTarget({options_, plan_, session_, *inputs_, *folder_});
+  if (target_ != nullptr && target_->needsNominal()) nominal_ = std::make_unique<NominalFields>(plan_.fields);
   if (target_ != nullptr) return target_->prepare();
   targetStand_.emplace(*inputs_->control, listOf(targetSet_), session_.limits());
 
@@ -297,6 +298,7 @@ std::optional<verify::Case> CaseRunner::draw(std::uint64_t index) {
       proposal.error = {{x, y, z}, turn};
     }
     if (options_.replay) return proposal; // drawn_ is of no other case
+    if (nominal_ != nullptr) nominal_->roundStart(proposal);
     std::unique_ptr<Values> values = check(proposal, true);
     if (!values) return std::nullopt;
     if (values->rejected) {
@@ -314,6 +316,7 @@ std::optional<verify::Case> CaseRunner::draw(std::uint64_t index) {
       refusal_ = verify::whyNotReached(*values->path, *values->part, probeOf(values->drawn), off);
       if (!refusal_.empty()) continue;
     }
+    if (nominal_ != nullptr && !leadToNominal(values)) continue;
     if (routine_ != nullptr) {
       if (!readPosted(*values)) continue;
       if (values->path) {
@@ -326,6 +329,38 @@ std::optional<verify::Case> CaseRunner::draw(std::uint64_t index) {
     return drawn;
   }
   return std::nullopt;
+}
+
+// Where start and travel have to lead to the nominal: changes what is nominal. The way stays as it is.
+bool CaseRunner::leadToNominal(std::unique_ptr<Values>& values) {
+  const auto misses = [&](const verify::Case& drawn) { return nominalMisses(drawn); };
+  const std::optional<verify::Case> settled = nominal_->settle(values->drawn, misses);
+  if (!settled) {
+    refusal_ = "no field makes the start and the travel lead to the nominal";
+    return false;
+  }
+  const std::optional<sim::Part> part = values->part;
+  values = check(*settled, false);
+  if (!values) return false;
+  refusal_ = values->rejection;
+  values->part = part;
+  return !values->rejected;
+}
+
+// By how much each datum moves the zero away from that of the active system, where the part is in its place.
+std::optional<std::vector<double>> CaseRunner::nominalMisses(const verify::Case& drawn) {
+  const std::unique_ptr<Values> values = check(drawn, false);
+  if (!values || values->rejected || !values->path || !makePart(*values) || !readPosted(*values))
+    return std::nullopt;
+  sim::World world(*values->part, probeOf(drawn));
+  const verify::Record record = runPosted(*values, world, true, verify::Stand::Way::Run);
+  std::vector<double> out;
+  const sim::Point3 zero = zeroOf(drawn);
+  const double active[] = {zero.x, zero.y, zero.z};
+  for (const verify::Measure& measure : record.measures)
+    for (const auto& [key, moved] : measure.datums)
+      out.push_back(moved - active[key.second]);
+  return out;
 }
 
 // Of the touches that the path shows, at their nominal place.

@@ -69,6 +69,7 @@ struct CaseResult {
   std::optional<SourceRange> unarmed; // the first measuring move with the probe off
 };
 
+class NominalFields;
 class VerifyTarget;
 struct TargetRun;
 
@@ -102,6 +103,8 @@ private:
   std::unique_ptr<Values> check(const verify::Case& drawn, bool settle);
   verify::Case settled(const verify::Case& drawn);
   void roundHosts(verify::Case& drawn) const;
+  bool leadToNominal(std::unique_ptr<Values>& values);
+  std::optional<std::vector<double>> nominalMisses(const verify::Case& drawn);
   bool makePart(Values& values) const;
   void misplace(Values& values) const;
   sim::Point3 zeroOf(const verify::Case& drawn) const;
@@ -140,7 +143,8 @@ private:
   const stdlib::MacroSet* sourceSet_ = nullptr;
   const stdlib::MacroSet* targetSet_ = nullptr;
   std::optional<verify::Stand> sourceStand_, targetStand_;
-  std::unique_ptr<VerifyTarget> target_; // instead of ready_, of translations that no call reaches
+  std::unique_ptr<VerifyTarget> target_;   // instead of ready_, of translations that no call reaches
+  std::unique_ptr<NominalFields> nominal_; // where target_ wants it
 };
 
 } // namespace dotek::driver

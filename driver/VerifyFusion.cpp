@@ -34,6 +34,9 @@ public:
                                : std::vector<const stdlib::MacroSet*>{set_},
                source.session.limits()) {}
 
+  // Macros that correct an offset by measured less expected take no other nominal.
+  bool needsNominal() const override { return set_ != sourceSet_; }
+
   bool prepare() override {
     const Translation& translation = *from_.plan.translation;
     prefix_ = fusion::prefixOf(from_.folder.name);

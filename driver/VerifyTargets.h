@@ -10,6 +10,8 @@
 #include "verify/Compare.h"
 #include "verify/Stand.h"
 
+#include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <set>
@@ -49,10 +51,31 @@ public:
   virtual ~VerifyTarget() = default;
   VerifyTarget(const VerifyTarget&) = delete;
   VerifyTarget& operator=(const VerifyTarget&) = delete;
+  // Whether it takes only values with which start and travel lead to the coordinate that a surface gets.
+  virtual bool needsNominal() const { return false; }
   // Before the first case. false: reported to the session.
   virtual bool prepare() = 0;
   // The session's diagnostics are this run's own.
   virtual TargetRun run(const TargetCase& now) = 0;
+};
+
+// Looks for the fields that say which coordinate a surface gets, by trying: a change of one moves one zero
+// and no other.
+class NominalFields {
+public:
+  explicit NominalFields(const std::vector<verify::DrawField>& fields) : fields_(fields) {}
+
+  // Start points with no more places than the fields have.
+  void roundStart(verify::Case& drawn) const;
+  // The case with these fields changed so that no zero is missed. `misses`: by how much each is, in the order
+  // of the program; nothing: the values are none. nullopt: no fields do that.
+  std::optional<verify::Case>
+  settle(verify::Case drawn,
+         const std::function<std::optional<std::vector<double>>(const verify::Case&)>& misses);
+
+private:
+  const std::vector<verify::DrawField>& fields_;
+  std::map<std::size_t, std::string> known_; // field by number of the zero
 };
 
 // What both share; all outlive the target.
