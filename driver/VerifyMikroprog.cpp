@@ -20,6 +20,10 @@ public:
   explicit MikroprogTarget(const TargetSource& source) : from_(source) {}
 
   bool prepare() override {
+    if (from_.inputs.job && from_.inputs.job->lengthToCentre) {
+      from_.session.diagnostics().report<diag::LengthOfProbe>({});
+      return false;
+    }
     std::set<std::string> used;
     lowered_ = lowerCycle(from_.folder, from_.inputs, used, from_.session);
     if (!lowered_) return false;
@@ -60,8 +64,7 @@ public:
       if (out.differences.empty()) out.differs(verify::Aspect::Ending, "the program cannot be read");
       return out;
     }
-    const bool toCentre = from_.inputs.job && from_.inputs.job->lengthToCentre;
-    const verify::MikroprogStand stand(*control_, *program, toCentre);
+    const verify::MikroprogStand stand(*control_, *program);
     const sim::Point3 zero = now.entry.zeros[now.entry.system - 54];
     const sim::Point3 start = now.entry.start + zero;
     const verify::MikroprogRecord ran = stand.run(now.world, start, zero);
@@ -74,7 +77,6 @@ public:
     facts.zero = zero;
     facts.overtravel = now.drawn.hosts.at("overtravel");
     facts.byOperator = from_.options.datum == "operator";
-    facts.toCentre = toCentre;
     facts.tolerance = from_.options.tolerance;
     facts.place = place;
     const auto lineOf = [&](std::uint32_t line) {
@@ -112,12 +114,9 @@ private:
             lowered.fixed.emplace(id, value);
       }
     }
-    const MikroprogWriting writing{*control_,
-                                   from_.options.datum,
-                                   from_.options.common.assume,
-                                   from_.inputs.job && from_.inputs.job->lengthToCentre,
-                                   drawn.hosts,
-                                   [](const std::string&) { return std::string("--set"); }};
+    const MikroprogWriting writing{
+        *control_, from_.options.datum, from_.options.common.assume,
+        false,     drawn.hosts,         [](const std::string&) { return std::string("--set"); }};
     auto program = writeMikroprog(from_.folder, std::move(lowered), writing, from_.session);
     if (!program) return std::nullopt;
     return std::move(program->file.text);

@@ -105,7 +105,7 @@ public:
 
   // Behind run().
   std::string whyUndecided() {
-    if (near(error_, {}, 0)) return "";
+    if (!corrected_) return "";
     SourceRange at;
     if (!whyNothingProved(source_, at).empty())
       return "the source comes to nothing behind a datum, where this control goes on beside its way";
@@ -138,7 +138,7 @@ private:
         for (const Touch& touch : measure.nominal) {
           const Point3 start = measure.start + Point3{0, 0, radius_};
           const double way = lengthOf(touch.point - start) + facts_.overtravel;
-          ask(measure.start, measure.start + touch.direction * way);
+          if (!ask(measure.start, measure.start + touch.direction * way)) return false;
         }
       } else if (piece.kind == sim::PathKind::Protected) {
         if (!near(piece.from, piece.to, 0) && ask(piece.from, piece.to)) return false;
@@ -308,7 +308,7 @@ private:
     Point3 zero = group.zero.value_or(Point3{});
     for (std::size_t axis = 0; axis < 3; ++axis) {
       if (!shown[axis]) continue;
-      double here = part(step.to, axis) + (axis == 2 && facts_.toCentre ? radius_ : 0);
+      double here = part(step.to, axis);
       if (middle && axis < 2)
         here = (part(group.searches[2 * axis]->to, axis) + part(group.searches[2 * axis + 1]->to, axis)) / 2;
       const bool diameter = facts_.control.isDiameter("XYZ"[axis]);
@@ -447,7 +447,9 @@ private:
     }
     for (const auto& [key, zero] : given.datums) {
       const std::uint32_t axis = key.second;
-      if (known[axis] && !facts_.byOperator) part(error_, axis) = part(off, axis);
+      if (!known[axis] || facts_.byOperator) continue;
+      part(error_, axis) = part(off, axis);
+      corrected_ = true;
     }
     // Behind the first datum of a bore the ball stands in the middle along X.
     if (sides == kBoreSides && given.datums.size() > 1 && !facts_.byOperator)
@@ -556,6 +558,7 @@ private:
   std::size_t measure_ = 0; // of the source, the next
   std::size_t step_ = 0;    // of the target, the next
   bool bores_ = false;
+  bool corrected_ = false; // a datum has moved the target's system
   // By how much the target's way lies beside that of the source: what its datums have corrected.
   Point3 error_;
   Point3 change_; // by how much the target measures its surface elsewhere

@@ -18,7 +18,6 @@ struct MikroprogFacts {
   sim::Point3 zero;                                     // of that system at entry, in the machine
   double overtravel = 0;                                // with which the program was written, mm
   bool byOperator = false;                              // the datum is a stop with a text, not G92
-  bool toCentre = false;                                // as of MikroprogStand
   double tolerance = 1e-6;                              // mm
   std::function<SourceRange(std::uint32_t line)> place; // of the program's text
 };

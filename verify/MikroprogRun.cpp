@@ -45,13 +45,11 @@ bool has(const Shape& shape, std::string_view function) {
 class Watch final : public sim::SkipSignal, public sim::MotionWatcher {
 public:
   Watch(sim::MikroprogMachine& machine, sim::World& world, const Interference& interference,
-        const std::map<std::uint32_t, Kind>& probeMoves, bool toCentre)
+        const std::map<std::uint32_t, Kind>& probeMoves)
       : machine_(machine), world_(world), interference_(interference), probeMoves_(probeMoves),
-        length_(world.probe().centreLength() + world.probe().ballRadius()),
-        zeroLength_(toCentre ? world.probe().centreLength() : length_) {}
+        length_(world.probe().centreLength() + world.probe().ballRadius()) {}
 
   double length() const { return length_; }
-  double zeroLength() const { return zeroLength_; }
 
   std::optional<double> contact(const sim::SkipMove& move) override {
     bool standing = true;
@@ -154,7 +152,7 @@ private:
       }
       step.from = step.to = lowest(event.machine);
       step.zero = {event.machine[0] - event.position[0], event.machine[1] - event.position[1],
-                   event.machine[2] - event.position[2] - zeroLength_};
+                   event.machine[2] - event.position[2] - length_};
       step.value = event.value;
       step.text = event.text;
       step.line = static_cast<std::uint32_t>(event.block); // its N; the stand knows the line
@@ -166,7 +164,7 @@ private:
   sim::World& world_;
   const Interference& interference_;
   const std::map<std::uint32_t, Kind>& probeMoves_;
-  const double length_, zeroLength_;
+  const double length_;
   sim::Point3 aim_;
   bool asked_ = false; // for the G31 that runs: one that leads nowhere asks for nothing
   std::size_t worldEvents_ = 0, machineEvents_ = 0;
@@ -175,8 +173,8 @@ private:
 } // namespace
 
 MikroprogStand::MikroprogStand(const stdlib::MikroprogControl& control,
-                               const stdlib::MikroprogProgram& program, bool toCentre)
-    : control_(control), program_(program), toCentre_(toCentre) {
+                               const stdlib::MikroprogProgram& program)
+    : control_(control), program_(program) {
   for (std::size_t i = 0; i < program.size(); ++i)
     if (program[i].number) numbers_.emplace(*program[i].number, i);
   classify();
@@ -237,9 +235,9 @@ MikroprogRecord MikroprogStand::run(sim::World& world, const sim::Point3& start,
   world.restart(0);
   world.setOn(true);
   sim::MikroprogMachine machine(control_, program_);
-  Watch watch(machine, world, interference, probeMoves_, toCentre_);
+  Watch watch(machine, world, interference, probeMoves_);
   machine.setPosition({start.x, start.y, start.z + watch.length()});
-  machine.setOffset({zero.x, zero.y, zero.z + watch.zeroLength()});
+  machine.setOffset({zero.x, zero.y, zero.z + watch.length()});
   machine.setSkipSignal(&watch);
   machine.setWatcher(&watch);
   machine.run();

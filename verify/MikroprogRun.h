@@ -69,10 +69,8 @@ struct Interference {
 
 class MikroprogStand {
 public:
-  // Both outlive the stand. `toCentre`: the tool's length ends at the ball's centre, else at its lowest
-  // point.
-  MikroprogStand(const stdlib::MikroprogControl& control, const stdlib::MikroprogProgram& program,
-                 bool toCentre);
+  // Both outlive the stand. The tool's length ends at the ball's lowest point.
+  MikroprogStand(const stdlib::MikroprogControl& control, const stdlib::MikroprogProgram& program);
 
   // `start` and `zero`: where the stylus's lowest point stands and the active system has its zero, in
   // coordinates of the machine. The probe is on all the time. The world is restarted.
@@ -86,7 +84,6 @@ private:
 
   const stdlib::MikroprogControl& control_;
   const stdlib::MikroprogProgram& program_;
-  const bool toCentre_;
   std::map<std::uint64_t, std::size_t> numbers_;            // N to its block
   std::map<std::uint32_t, MikroprogStep::Kind> probeMoves_; // by line
   std::string fault_;                                       // of the program's shape; "": none
