@@ -522,6 +522,10 @@ CaseResult CaseRunner::run(const verify::Case& drawn) {
   sim::World world(*values->part, probeOf(drawn),
                    plan_.machine ? plan_.machine->limits : sim::MachineLimits{});
 
+  if (routine_ == nullptr) {
+    compareGeometry(result, *values, runTranslation(*values, world, true));
+    return result;
+  }
   std::optional<verify::Record> source;
   if (values->rejected) {
     source.emplace();
@@ -641,6 +645,29 @@ void CaseRunner::comparePath(CaseResult& result, const Values& values) const {
                         difference.source, sourceOf(difference.target, values), 0};
     result.findings.push_back(std::move(finding));
   }
+}
+
+// Without a Prog: the way and the touches alone.
+void CaseRunner::compareGeometry(CaseResult& result, const Values& values,
+                                 const verify::Record& target) const {
+  result.why = "measurement not stated by the source";
+  if (values.rejected) {
+    compareRejection(result, values, target);
+  } else if (target.ending != verify::Ending::Finished) {
+    result.findings.push_back({verify::Aspect::Ending,
+                               "the path ends against an alarm: " + target.text,
+                               {},
+                               {},
+                               targetLine(target.endedAt)});
+  } else if (values.path) {
+    for (const verify::Difference& difference :
+         verify::compare(*values.path, {}, target, options_.tolerance)) {
+      CaseFinding finding{
+          difference.aspect, difference.text, difference.source, {}, targetLine(difference.target)};
+      result.findings.push_back(std::move(finding));
+    }
+  }
+  result.verdict = result.findings.empty() ? CaseVerdict::Idle : CaseVerdict::Differ;
 }
 
 // A line of the translation that stems from nothing in the source.
