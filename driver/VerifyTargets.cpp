@@ -1,5 +1,6 @@
 #include "driver/VerifyTargets.h"
 
+#include "support/messages/Commands.h"
 #include "support/messages/Mikroprog.h"
 
 #include <algorithm>
@@ -73,6 +74,9 @@ bool checkTargetOptions(const VerifyOptions& options, Diagnostics& diagnostics) 
   const auto none = [&](bool given, std::string_view flag) {
     if (given) diagnostics.report<diag::FlagOfOtherTarget>({}, flag, options.to);
   };
+  if ((options.to == "mikroprog" || options.to == "fusion") && !options.source.prog)
+    diagnostics.report<diag::MissingOption>(
+        {}, "verify", "--prog PROG.txt", "a drawn path states no measurement that such a program could make");
   if (options.to == "mikroprog") {
     none(options.probeMacros.has_value(), "--probe-macros");
     if (!options.datum.empty() && options.datum != "g92" && options.datum != "operator")
