@@ -465,11 +465,13 @@ private:
       const double want = zero + part(change_, axis);
       const bool set = group.zero && group.set[axis];
       const double got = set ? part(*group.zero, axis) : part(zero_, axis);
-      if (std::abs(want - got) <= (bores_ ? std::max(facts_.tolerance, kMiddleTolerance) : facts_.tolerance))
+      // A zero that stays where it is has to be set as well.
+      if (group.zero &&
+          std::abs(want - got) <= (bores_ ? std::max(facts_.tolerance, kMiddleTolerance) : facts_.tolerance))
         continue;
       add(Aspect::Offset,
           fmt::format("the zero of G{} along {} lies at {} of the machine against {}", system, "XYZ"[axis],
-                      fixedText(want, kShown), set ? fixedText(got, kShown) : "nothing"),
+                      fixedText(want, kShown), group.zero ? fixedText(got, kShown) : "nothing"),
           given.range, group.setLine);
     }
     for (std::size_t axis = 0; axis < 3; ++axis)
