@@ -199,6 +199,9 @@ private:
       if (const auto value = lowered->cycle.variable(id).defaultValue) defaults.emplace(id, *value);
     settleValues(folder, *lowered, session_);
     if (fusion_) {
+      called_ = options_.probeMacros         ? *options_.probeMacros
+                : lowered->macros != nullptr ? lowered->macros->name
+                                             : "";
       if (!session_.diagnostics().hasErrors()) fusion_->add(folder, *lowered, std::move(defaults));
       return;
     }
@@ -341,7 +344,7 @@ private:
   std::vector<OutputFile> files_;
   std::vector<MappedResult> maps_;
   std::vector<std::vector<OutputArgument>> arguments_;
-  std::string called_; // set of macros
+  std::string called_;                // set of macros
   std::optional<FusionParts> fusion_; // with --to fusion
   bool failed_ = false;
 };

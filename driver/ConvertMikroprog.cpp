@@ -22,17 +22,6 @@ namespace {
 constexpr std::string_view kTarget = "mikroprog";
 constexpr std::string_view kMill = "mikroprog-mill"; // of cycles that move Y
 
-std::optional<stdlib::MikroprogControl> loadProfile(const std::string& name, Session& session) {
-  auto control = stdlib::MikroprogControl::load(session.data(), name);
-  if (!control) {
-    std::string known;
-    for (const stdlib::DataFile* file : session.data().list("mikroprog"))
-      known += (known.empty() ? "" : ", ") + file->name;
-    session.diagnostics().report<diag::UnknownProfile>({}, name, known);
-  }
-  return control;
-}
-
 std::set<std::uint32_t> questionsOf(const std::set<std::string>& assume) {
   std::set<std::uint32_t> out;
   for (const std::string& name : assume) {
@@ -67,6 +56,17 @@ bool sameName(const std::string& a, const std::string& b) {
 
 } // namespace
 
+std::optional<stdlib::MikroprogControl> loadMikroprogControl(const std::string& name, Session& session) {
+  auto control = stdlib::MikroprogControl::load(session.data(), name);
+  if (!control) {
+    std::string known;
+    for (const stdlib::DataFile* file : session.data().list("mikroprog"))
+      known += (known.empty() ? "" : ", ") + file->name;
+    session.diagnostics().report<diag::UnknownProfile>({}, name, known);
+  }
+  return control;
+}
+
 bool MikroprogConversion::checkFlags() {
   const auto none = [&](bool given, std::string_view flag) {
     if (given) session_.diagnostics().report<diag::FlagOfOtherTarget>({}, flag, kTarget);
@@ -78,31 +78,94 @@ bool MikroprogConversion::checkFlags() {
   none(options_.switchProbe, "--probe-power macro");
   if (!options_.datum.empty() && options_.datum != "g92" && options_.datum != "operator")
     session_.diagnostics().report<diag::UnknownDatum>({}, options_.datum);
-  if (!options_.control.empty()) loadProfile(options_.control, session_);
+  if (!options_.control.empty()) loadMikroprogControl(options_.control, session_);
   return !session_.diagnostics().hasErrors();
 }
 
-// The operation of the job for this folder; nullptr: none, or several, which is reported.
-const JobOperation* MikroprogConversion::operationOf(const CycleFolder& folder) {
-  if (!inputs_.job) return nullptr;
+const JobOperation* mikroprogOperation(const LoweringInputs& inputs, const CycleFolder& folder,
+                                       Session& session) {
+  if (!inputs.job) return nullptr;
   const JobOperation* found = nullptr;
   std::size_t points = 0;
-  for (const JobOperation& operation : inputs_.job->operations) {
+  for (const JobOperation& operation : inputs.job->operations) {
     if (operation.cycle != folder.name) continue;
     found = found == nullptr ? &operation : found;
     points += std::max<std::size_t>(operation.at.size(), 1);
   }
   if (points <= 1) return found;
-  session_.diagnostics().report<diag::PointsOfOperation>(found->cycleRange, folder.name, points);
+  session.diagnostics().report<diag::PointsOfOperation>(found->cycleRange, folder.name, points);
   return nullptr;
 }
 
-std::optional<std::string> MikroprogConversion::controlFor(const CycleFolder& folder,
-                                                           const LoweredCycle& lowered) {
-  if (!options_.control.empty()) return options_.control;
+void takeOperation(const JobOperation& operation, const CommonOptions& options, LoweringInputs& inputs) {
+  std::map<std::string, double> own = operation.hosts;
+  if (!operation.at.empty()) {
+    own.emplace("start_x", operation.at.front().first);
+    own.emplace("start_y", operation.at.front().second);
+  }
+  for (const auto& [name, value] : own) {
+    const bool flag = std::any_of(options.host.begin(), options.host.end(),
+                                  [&, &key = name](const auto& given) { return given.first == key; });
+    if (!flag) inputs.hosts[name] = value;
+  }
+  for (const JobValue& value : operation.set) {
+    const bool flag = std::any_of(inputs.sets.begin(), inputs.sets.end(),
+                                  [&](const auto& set) { return sameName(set.first, value.name); });
+    if (!flag) inputs.sets.emplace_back(value.name, value.value);
+  }
+}
+
+std::optional<std::string> mikroprogControlFor(const std::string& given, const CycleFolder& folder,
+                                               const LoweredCycle& lowered, Session& session) {
+  if (!given.empty()) return given;
   if (mikroprog::movesY(lowered.cycle)) return std::string(kMill);
-  session_.diagnostics().report<diag::ControlNotChosen>(lowered.cycle.range, folder.name);
+  session.diagnostics().report<diag::ControlNotChosen>(lowered.cycle.range, folder.name);
   return std::nullopt;
+}
+
+std::optional<MikroprogProgram> writeMikroprog(const CycleFolder& folder, LoweredCycle lowered,
+                                               const MikroprogWriting& writing, Session& session) {
+  Diagnostics& diagnostics = session.diagnostics();
+  ir::Cycle& cycle = lowered.cycle;
+  for (const std::string& host : mikroprog::missingHosts(cycle, writing.control, writing.hosts)) {
+    const auto info = std::find_if(std::begin(stdlib::kHostInputs), std::end(stdlib::kHostInputs),
+                                   [&](const stdlib::HostInput& one) { return one.name == host; });
+    diagnostics.report<diag::HostNeeded>(cycle.range, folder.name, host, info->meaning, host);
+  }
+  if (diagnostics.hasErrors()) return std::nullopt;
+  if (const std::optional<ir::Statement> alarm = certainAlarm(lowered)) {
+    reportRejected(folder, *alarm, session);
+    return std::nullopt;
+  }
+
+  mikroprog::EmitOptions emit{writing.control, mikroprog::shortFileName(folder.name), {}, {}, {}, false, {}};
+  emit.datum = writing.datum == "operator" ? mikroprog::Datum::Operator : mikroprog::Datum::SetPosition;
+  emit.assumed = questionsOf(writing.assume);
+  emit.hosts = writing.hosts;
+  emit.lengthToCentre = writing.lengthToCentre;
+  for (ir::VariableId id = 0; id < cycle.variables.size(); ++id) {
+    const ir::Variable& variable = cycle.variable(id);
+    if (variable.role != ir::Role::Parameter || !lowered.fixed.contains(id)) continue;
+    emit.values.push_back({variable.name, lowered.fixed.at(id), writing.fromWhere(variable.name)});
+  }
+  ir::fold(cycle, lowered.fixed, {true, session.limits().steps});
+  if (!cycle.checks.empty()) {
+    diagnostics.report<diag::ChecksUndecided>(cycle.checks.front().origin.range(), folder.name);
+    return std::nullopt;
+  }
+  // The back end says what becomes of an alarm.
+  std::erase_if(diagnostics.all(),
+                [](const Diagnostic& one) { return one.code == diag::AlarmRenumbered::code; });
+  const auto lines = mikroprog::emit(cycle, emit, diagnostics);
+  if (!lines) return std::nullopt;
+  MikroprogProgram out;
+  out.file.name = emit.fileName + "." + writing.control.programEnding;
+  out.map.name = out.file.name;
+  for (const mikroprog::EmittedLine& line : *lines) {
+    out.file.text += line.text + "\r\n";
+    out.map.lines.push_back({static_cast<std::uint32_t>(out.map.lines.size() + 1), line.ranges, line.reason});
+  }
+  return out;
 }
 
 // Where the value of a parameter comes from, for the header.
@@ -137,25 +200,9 @@ std::optional<MikroprogProgram> MikroprogConversion::run(const CycleFolder& fold
                                                          std::set<std::string>& usedDefaults) {
   Diagnostics& diagnostics = session_.diagnostics();
   const Restore restore(inputs_);
-  const JobOperation* operation = operationOf(folder);
+  const JobOperation* operation = mikroprogOperation(inputs_, folder, session_);
   if (diagnostics.hasErrors()) return std::nullopt;
-  if (operation != nullptr) {
-    std::map<std::string, double> own = operation->hosts;
-    if (!operation->at.empty()) {
-      own.emplace("start_x", operation->at.front().first);
-      own.emplace("start_y", operation->at.front().second);
-    }
-    for (const auto& [name, value] : own) {
-      const bool flag = std::any_of(options_.common.host.begin(), options_.common.host.end(),
-                                    [&, &key = name](const auto& given) { return given.first == key; });
-      if (!flag) inputs_.hosts[name] = value;
-    }
-    for (const JobValue& value : operation->set) {
-      const bool flag = std::any_of(inputs_.sets.begin(), inputs_.sets.end(),
-                                    [&](const auto& set) { return sameName(set.first, value.name); });
-      if (!flag) inputs_.sets.emplace_back(value.name, value.value);
-    }
-  }
+  if (operation != nullptr) takeOperation(*operation, options_.common, inputs_);
 
   std::optional<LoweredCycle> lowered = lowerCycle(folder, inputs_, usedSets, session_);
   if (!lowered) return std::nullopt;
@@ -168,53 +215,24 @@ std::optional<MikroprogProgram> MikroprogConversion::run(const CycleFolder& fold
   cycle.name = folder.name;
   applyDefaults(options_.defaults, *lowered, usedDefaults, session_);
   settleValues(folder, *lowered, session_);
-  const std::optional<std::string> name = controlFor(folder, *lowered);
+  const std::optional<std::string> name = mikroprogControlFor(options_.control, folder, *lowered, session_);
   if (!name || diagnostics.hasErrors()) return std::nullopt;
-  const auto control = loadProfile(*name, session_);
+  const auto control = loadMikroprogControl(*name, session_);
   if (!control) return std::nullopt;
   const bool fixed = fixParameters(*lowered);
-  for (const std::string& host : mikroprog::missingHosts(cycle, *control, inputs_.hosts)) {
-    const auto info = std::find_if(std::begin(stdlib::kHostInputs), std::end(stdlib::kHostInputs),
-                                   [&](const stdlib::HostInput& one) { return one.name == host; });
-    diagnostics.report<diag::HostNeeded>(cycle.range, folder.name, host, info->meaning, host);
-  }
-  if (!fixed || diagnostics.hasErrors()) return std::nullopt;
-  if (const std::optional<ir::Statement> alarm = certainAlarm(*lowered)) {
-    reportRejected(folder, *alarm, session_);
-    return std::nullopt;
-  }
-
-  mikroprog::EmitOptions emit{*control, mikroprog::shortFileName(folder.name), {}, {}, {}, false, {}};
-  emit.datum = options_.datum == "operator" ? mikroprog::Datum::Operator : mikroprog::Datum::SetPosition;
-  emit.assumed = questionsOf(options_.common.assume);
-  emit.hosts = inputs_.hosts;
-  emit.lengthToCentre = inputs_.job && inputs_.job->lengthToCentre;
-  for (ir::VariableId id = 0; id < cycle.variables.size(); ++id) {
-    const ir::Variable& variable = cycle.variable(id);
-    if (variable.role != ir::Role::Parameter || !lowered->fixed.contains(id)) continue;
-    emit.values.push_back({variable.name, lowered->fixed.at(id), fromWhere(variable.name)});
-  }
-  ir::fold(cycle, lowered->fixed, {true, session_.limits().steps});
-  if (!cycle.checks.empty()) {
-    diagnostics.report<diag::ChecksUndecided>(cycle.checks.front().origin.range(), folder.name);
-    return std::nullopt;
-  }
-  const auto [other, added] = written_.emplace(emit.fileName, folder.name);
+  const MikroprogWriting writing{*control,
+                                 options_.datum,
+                                 options_.common.assume,
+                                 inputs_.job && inputs_.job->lengthToCentre,
+                                 inputs_.hosts,
+                                 [&](const std::string& parameter) { return fromWhere(parameter); }};
+  std::optional<MikroprogProgram> out = writeMikroprog(folder, std::move(*lowered), writing, session_);
+  if (!fixed || !out) return std::nullopt;
+  const auto [other, added] = written_.emplace(out->file.name, folder.name);
   if (!added) {
-    diagnostics.report<diag::FileNameTwice>({}, emit.fileName, other->second, folder.name);
+    diagnostics.report<diag::FileNameTwice>({}, mikroprog::shortFileName(folder.name), other->second,
+                                            folder.name);
     return std::nullopt;
-  }
-  // The back end says what becomes of an alarm.
-  std::erase_if(diagnostics.all(),
-                [](const Diagnostic& one) { return one.code == diag::AlarmRenumbered::code; });
-  const auto lines = mikroprog::emit(cycle, emit, diagnostics);
-  if (!lines) return std::nullopt;
-  MikroprogProgram out;
-  out.file.name = emit.fileName + "." + control->programEnding;
-  out.map.name = out.file.name;
-  for (const mikroprog::EmittedLine& line : *lines) {
-    out.file.text += line.text + "\r\n";
-    out.map.lines.push_back({static_cast<std::uint32_t>(out.map.lines.size() + 1), line.ranges, line.reason});
   }
   return out;
 }

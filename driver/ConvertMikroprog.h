@@ -1,10 +1,15 @@
-// Private to Convert.cpp: cycles as programs for a control by Mikronex.
+// Private to Convert.cpp and Verify*.cpp: cycles as programs for a control by Mikronex.
 #pragma once
 
 #include "driver/ConvertValues.h"
+#include "stdlib/MikroprogControl.h"
 #include "support/LineMap.h"
 
+#include <functional>
+#include <map>
+#include <optional>
 #include <set>
+#include <string>
 
 namespace dotek::driver {
 
@@ -13,6 +18,32 @@ struct MikroprogProgram {
   OutputFile file; // "SURFACEX.SUF", CR LF
   MappedResult map;
 };
+
+// The profile of this name. nullopt: there is none, reported.
+std::optional<stdlib::MikroprogControl> loadMikroprogControl(const std::string& name, Session& session);
+// The profile for a cycle: the given one, else the mill where it moves Y. nullopt: reported.
+std::optional<std::string> mikroprogControlFor(const std::string& given, const CycleFolder& folder,
+                                               const LoweredCycle& lowered, Session& session);
+// The operation of the job for this folder; nullptr: none, or several, which is reported.
+const JobOperation* mikroprogOperation(const LoweringInputs& inputs, const CycleFolder& folder,
+                                       Session& session);
+// Its start point, host inputs and values, as far as no flag gives them.
+void takeOperation(const JobOperation& operation, const CommonOptions& options, LoweringInputs& inputs);
+
+// How one program is written.
+struct MikroprogWriting {
+  const stdlib::MikroprogControl& control;
+  std::string datum;            // of --datum; "": g92
+  std::set<std::string> assume; // of --assume
+  bool lengthToCentre = false;
+  std::map<std::string, double> hosts;
+  std::function<std::string(const std::string&)> fromWhere; // where the value of a parameter comes from
+};
+
+// The program of a cycle; a value is fixed for each of its parameters. nullopt where something is missing,
+// cannot be said, or is turned away by the cycle's own checks: reported.
+std::optional<MikroprogProgram> writeMikroprog(const CycleFolder& folder, LoweredCycle lowered,
+                                               const MikroprogWriting& writing, Session& session);
 
 class MikroprogConversion {
 public:
@@ -28,8 +59,6 @@ public:
                                       std::set<std::string>& usedDefaults);
 
 private:
-  const JobOperation* operationOf(const CycleFolder& folder);
-  std::optional<std::string> controlFor(const CycleFolder& folder, const LoweredCycle& lowered);
   bool fixParameters(LoweredCycle& lowered);
   std::string fromWhere(const std::string& name) const;
 

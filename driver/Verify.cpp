@@ -1,17 +1,21 @@
 #include "support/messages/Verify.h"
+#include "backends/mikroprog/Emit.h"
 #include "driver/CycleFolder.h"
 #include "driver/Driver.h"
 #include "driver/Targets.h"
 #include "driver/VerifyCase.h"
 #include "driver/VerifyReport.h"
+#include "driver/VerifyTargets.h"
 #include "frontend/gibbs/Cycle.h"
 #include "ir/Rewrite.h"
 #include "sim/PartFile.h"
+#include "stdlib/HostInputs.h"
 #include "support/Files.h"
 #include "support/messages/Commands.h"
 
 #include <algorithm>
 #include <atomic>
+#include <fmt/format.h>
 #include <mutex>
 #include <thread>
 
@@ -45,6 +49,7 @@ private:
                                               "one folder of a cycle, or one file of programs");
     if (!options_.to.empty() && std::find(kTargets.begin(), kTargets.end(), options_.to) == kTargets.end())
       diagnostics.report<diag::UnknownTarget>({}, options_.to);
+    checkTargetOptions(options_, diagnostics);
     if (options_.to.empty() && !options_.source.prog && !diagnostics.hasErrors())
       diagnostics.report<diag::MissingOption>({}, "verify", "--prog PROG.txt or --to TARGET",
                                               "what the cycle is compared with");
@@ -121,10 +126,16 @@ private:
   }
 
   bool translate() {
+    if (options_.to == "mikroprog") return plannedForEachCase();
     ConvertOptions convert;
     convert.inputs = options_.inputs;
     convert.common = options_.common;
     convert.source = options_.source;
+    // The values of one case are those of fields and of the operation, as they were where it was found.
+    if (options_.to == "fusion" && options_.replay) {
+      convert.common.set.clear();
+      std::erase_if(convert.common.host, [](const auto& host) { return host.first != "return_feed"; });
+    }
     convert.to = options_.to;
     convert.control = options_.control;
     convert.probeMacros = options_.probeMacros;
@@ -149,6 +160,32 @@ private:
     plan_.targetMacros = outcome.macros;
     plan_.translation = std::move(translation);
     return true;
+  }
+
+  // A program of Mikroprog has no arguments: it is written for each case, or edited for one.
+  bool plannedForEachCase() {
+    Translation translation;
+    translation.name = backends::mikroprog::shortFileName(main_.folder().name) + ".SUF";
+    if (options_.translation) {
+      Session& session = main_.session();
+      const auto bytes = readBytes(*options_.translation, session.limits(), session.diagnostics());
+      if (!bytes) return false;
+      translation.name = *options_.translation;
+      translation.text = *bytes;
+      for (const verify::DrawField& field : plan_.fields)
+        if (!field.fixed) session.diagnostics().report<diag::EditedNeedsValues>({}, "--set " + field.name);
+      for (const std::string_view host : stdlib::hostInputNames())
+        if (mikroprogNeeds(host) && !plan_.fixedHosts.contains(std::string(host)))
+          session.diagnostics().report<diag::EditedNeedsValues>({}, fmt::format("--host {}", host));
+      if (session.diagnostics().hasErrors()) return false;
+    }
+    plan_.translation = std::move(translation);
+    return true;
+  }
+
+  static bool mikroprogNeeds(std::string_view host) {
+    return host == "tool_radius" || host == "clearance" || host == "overtravel" || host == "return_feed" ||
+           host == "start_x" || host == "start_y";
   }
 
   // The text of --translation; its lines that convert would write as well keep what they come from.

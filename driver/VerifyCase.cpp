@@ -1,8 +1,10 @@
 #include "driver/VerifyCase.h"
 
+#include "driver/ConvertMikroprog.h"
 #include "driver/PostChecks.h"
 #include "driver/PostProgram.h"
 #include "driver/Programs.h"
+#include "driver/VerifyTargets.h"
 #include "frontend/compost/Summary.h"
 #include "frontend/gibbs/Run.h"
 #include "frontend/macrob/Lower.h"
@@ -113,6 +115,9 @@ bool CaseRunner::load() {
   if (!inputs_) return false;
   folder_ = loadCycleFolder(options_.inputs.front(), session_);
   if (options_.source.cycle) folder_->name = *options_.source.cycle;
+  if (options_.to == "mikroprog" && !session_.diagnostics().hasErrors())
+    if (const JobOperation* operation = mikroprogOperation(*inputs_, *folder_, session_))
+      takeOperation(*operation, options_.common, *inputs_);
   return !session_.diagnostics().hasErrors();
 }
 
@@ -142,6 +147,9 @@ bool CaseRunner::prepare() {
   };
   sourceStand_.emplace(*inputs_->sourceControl, listOf(sourceSet_), session_.limits());
   if (!plan_.translation) return true;
+  target_ = verifyTarget({options_, plan_, session_, *inputs_, *folder_});
+  if (target_ != nullptr && target_->needsNominal()) nominal_ = std::make_unique<NominalFields>(plan_.fields);
+  if (target_ != nullptr) return target_->prepare();
   targetStand_.emplace(*inputs_->control, listOf(targetSet_), session_.limits());
 
   ready_ = std::make_shared<Ready>();
@@ -290,6 +298,7 @@ std::optional<verify::Case> CaseRunner::draw(std::uint64_t index) {
       proposal.error = {{x, y, z}, turn};
     }
     if (options_.replay) return proposal; // drawn_ is of no other case
+    if (nominal_ != nullptr) nominal_->roundStart(proposal);
     std::unique_ptr<Values> values = check(proposal, true);
     if (!values) return std::nullopt;
     if (values->rejected) {
@@ -307,6 +316,7 @@ std::optional<verify::Case> CaseRunner::draw(std::uint64_t index) {
       refusal_ = verify::whyNotReached(*values->path, *values->part, probeOf(values->drawn), off);
       if (!refusal_.empty()) continue;
     }
+    if (nominal_ != nullptr && !leadToNominal(values)) continue;
     if (routine_ != nullptr) {
       if (!readPosted(*values)) continue;
       if (values->path) {
@@ -319,6 +329,38 @@ std::optional<verify::Case> CaseRunner::draw(std::uint64_t index) {
     return drawn;
   }
   return std::nullopt;
+}
+
+// Where start and travel have to lead to the nominal: changes what is nominal. The way stays as it is.
+bool CaseRunner::leadToNominal(std::unique_ptr<Values>& values) {
+  const auto misses = [&](const verify::Case& drawn) { return nominalMisses(drawn); };
+  const std::optional<verify::Case> settled = nominal_->settle(values->drawn, misses);
+  if (!settled) {
+    refusal_ = "no field makes the start and the travel lead to the nominal";
+    return false;
+  }
+  const std::optional<sim::Part> part = values->part;
+  values = check(*settled, false);
+  if (!values) return false;
+  refusal_ = values->rejection;
+  values->part = part;
+  return !values->rejected;
+}
+
+// By how much each datum moves the zero away from that of the active system, where the part is in its place.
+std::optional<std::vector<double>> CaseRunner::nominalMisses(const verify::Case& drawn) {
+  const std::unique_ptr<Values> values = check(drawn, false);
+  if (!values || values->rejected || !values->path || !makePart(*values) || !readPosted(*values))
+    return std::nullopt;
+  sim::World world(*values->part, probeOf(drawn));
+  const verify::Record record = runPosted(*values, world, true, verify::Stand::Way::Run);
+  std::vector<double> out;
+  const sim::Point3 zero = zeroOf(drawn);
+  const double active[] = {zero.x, zero.y, zero.z};
+  for (const verify::Measure& measure : record.measures)
+    for (const auto& [key, moved] : measure.datums)
+      out.push_back(moved - active[key.second]);
+  return out;
 }
 
 // Of the touches that the path shows, at their nominal place.
@@ -505,7 +547,25 @@ CaseResult CaseRunner::run(const verify::Case& drawn) {
     result.verdict = CaseVerdict::NoProgram;
     return result;
   }
-  if (plan_.translation) {
+  if (target_ != nullptr) {
+    const verify::Entry entry = entryOf(values->drawn, probeOn);
+    const std::set<std::uint32_t> none;
+    const TargetRun ran = target_->run({values->drawn, entry, values->posted ? values->posted->stores : none,
+                                        world, values->rejected ? nullptr : &*source});
+    if (ran.refused && !values->rejected) {
+      result.verdict = CaseVerdict::Refused;
+      result.why = "the translation refuses the values: " + ran.why;
+      result.whyAt = {};
+      return result;
+    }
+    if (ran.undecided) {
+      result.verdict = CaseVerdict::NoProgram;
+      result.why = ran.why;
+      result.whyAt = {};
+      return result;
+    }
+    takeRun(result, ran, *values);
+  } else if (plan_.translation) {
     const verify::Record target = runTranslation(*values, world, probeOn);
     verify::CompareRules rules;
     rules.tolerance = options_.tolerance;
@@ -538,6 +598,24 @@ CaseResult CaseRunner::run(const verify::Case& drawn) {
                    : result.why.empty()     ? CaseVerdict::Proved
                                             : CaseVerdict::Idle;
   return result;
+}
+
+void CaseRunner::takeRun(CaseResult& result, const TargetRun& ran, const Values& values) const {
+  if (values.rejected && !ran.refused && ran.differences.empty()) {
+    CaseFinding finding;
+    finding.aspect = verify::Aspect::Ending;
+    finding.text = "the dialog turns the values away, and the translation takes them";
+    finding.source = values.rejectedAt;
+    result.findings.push_back(std::move(finding));
+  }
+  for (const TargetDifference& one : ran.differences) {
+    CaseFinding finding;
+    finding.aspect = one.difference.aspect;
+    finding.text = one.difference.text + (one.line.empty() ? "" : ", in `" + one.line + "`");
+    finding.source = values.rejected ? values.rejectedAt : sourceOf(one.difference.source, values);
+    result.findings.push_back(std::move(finding));
+  }
+  if (!values.rejected) comparePath(result, values);
 }
 
 // The dialog has turned the values away: the translation raises an alarm that stems from there, and nothing

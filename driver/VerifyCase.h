@@ -69,6 +69,10 @@ struct CaseResult {
   std::optional<SourceRange> unarmed; // the first measuring move with the probe off
 };
 
+class NominalFields;
+class VerifyTarget;
+struct TargetRun;
+
 class CaseRunner {
 public:
   CaseRunner(const VerifyOptions& options, const VerifyPlan& plan);
@@ -99,6 +103,8 @@ private:
   std::unique_ptr<Values> check(const verify::Case& drawn, bool settle);
   verify::Case settled(const verify::Case& drawn);
   void roundHosts(verify::Case& drawn) const;
+  bool leadToNominal(std::unique_ptr<Values>& values);
+  std::optional<std::vector<double>> nominalMisses(const verify::Case& drawn);
   bool makePart(Values& values) const;
   void misplace(Values& values) const;
   sim::Point3 zeroOf(const verify::Case& drawn) const;
@@ -110,6 +116,7 @@ private:
   sim::Probe probeOf(const verify::Case& drawn) const;
   verify::Entry entryOf(const verify::Case& drawn, bool probeOn) const;
   void addFinding(CaseResult& result, const verify::Difference& difference, const Values& values) const;
+  void takeRun(CaseResult& result, const TargetRun& ran, const Values& values) const;
   void compareRejection(CaseResult& result, const Values& values, const verify::Record& target) const;
   void noteProbe(CaseResult& result, const verify::Record& record, const Values& values) const;
   void comparePath(CaseResult& result, const Values& values) const;
@@ -137,6 +144,8 @@ private:
   const stdlib::MacroSet* sourceSet_ = nullptr;
   const stdlib::MacroSet* targetSet_ = nullptr;
   std::optional<verify::Stand> sourceStand_, targetStand_;
+  std::unique_ptr<VerifyTarget> target_;   // instead of ready_, of translations that no call reaches
+  std::unique_ptr<NominalFields> nominal_; // where target_ wants it
 };
 
 } // namespace dotek::driver

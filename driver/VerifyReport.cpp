@@ -129,6 +129,7 @@ std::string VerifyReport::replay(const verify::Case& drawn) const {
   if (!options_.to.empty()) flag("--to", options_.to);
   if (!options_.control.empty()) flag("--control", options_.control);
   if (options_.probeMacros) flag("--probe-macros", *options_.probeMacros);
+  if (!options_.datum.empty()) flag("--datum", options_.datum);
   if (options_.common.job) flag("--job", *options_.common.job);
   if (options_.translation) flag("--translation", *options_.translation);
   if (options_.part) flag("--part", *options_.part);

@@ -210,6 +210,9 @@ bool MikroprogMachine::function(const MikroprogBlock& block, const std::string& 
     if (trace_ != nullptr) trace_->begin("end").end();
     return stop(MikroprogEnding::ProgramEnd, "");
   }
+  if (what == "spindle-right" || what == "spindle-left" || what == "spindle-off")
+    spindle_ = what != "spindle-off";
+  if (what == "coolant-on" || what == "coolant-off") coolant_ = what == "coolant-on";
   if (isQuiet(what)) {
     if (trace_ == nullptr) return true;
     if (what == "spindle-right" || what == "spindle-left" || what == "spindle-off")

@@ -67,6 +67,9 @@ public:
   std::vector<std::uint32_t> openCalls() const;    // lines of the calls that are open, the outermost first
   std::uint64_t blocks() const { return blocks_; } // that ran
   const std::vector<MikroprogEvent>& events() const { return events_; }
+  // What M3, M4, M5 and M8, M9 said last; nothing: none of them yet.
+  std::optional<bool> spindle() const { return spindle_; }
+  std::optional<bool> coolant() const { return coolant_; }
   // What the panel showed last; "" for nothing.
   std::string lastStop() const;
   std::array<double, 3> position() const; // of the active system
@@ -108,6 +111,7 @@ private:
   std::string motion_ = "rapid";
   bool incremental_ = false;
   double feed_ = 0;
+  std::optional<bool> spindle_, coolant_;
   std::size_t next_ = 0;
   std::uint64_t number_ = 0, blocks_ = 0;
   std::uint32_t line_ = 0;

@@ -51,6 +51,8 @@ struct Measure {
   sim::Point3 start, end;
   Surroundings with;
   SourceRange range;
+  // Zeros that the call has moved: G number and axis to where they lie behind it, as Record::zeros.
+  std::map<std::pair<std::uint32_t, std::uint32_t>, double> datums;
 };
 
 enum class Ending : std::uint8_t { Finished, Alarm, Inconclusive };

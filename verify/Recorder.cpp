@@ -138,6 +138,8 @@ void Recorder::callBegins(std::uint32_t program, std::span<const double> locals)
   call_.moves = intent == Intent::ProtectedMove;
   call_.measures = !call_.moves && intent != Intent::ProbeOn && intent != Intent::ProbeOff;
   if (!call_.measures) return;
+  for (std::uint32_t system = 0; system < call_.zeros.size(); ++system)
+    call_.zeros[system] = machine_.zeroOf(system);
   Measure measure;
   measure.start = call_.start;
   measure.with = call_.with;
@@ -155,7 +157,13 @@ void Recorder::endCall() {
   takeEvents();
   const sim::Point3 end = lowest(machine_.machinePosition());
   if (call_.measures) {
-    record_.measures.back().end = end;
+    Measure& measure = record_.measures.back();
+    measure.end = end;
+    for (std::uint32_t system = 0; system < call_.zeros.size(); ++system) {
+      const sim::Position now = machine_.zeroOf(system);
+      for (std::uint32_t axis = 0; axis < 3; ++axis)
+        if (now[axis] != call_.zeros[system][axis]) measure.datums[{54 + system, axis}] = now[axis];
+    }
     record_.pieces.push_back({sim::PathKind::Measuring, call_.start, call_.start, call_.with, call_.range});
   } else if (call_.moves) {
     record_.pieces.push_back({sim::PathKind::Protected, call_.start, end, call_.with, call_.range});

@@ -6,6 +6,7 @@
 #include "stdlib/MacroSet.h"
 #include "verify/Record.h"
 
+#include <array>
 #include <set>
 #include <vector>
 
@@ -64,6 +65,7 @@ private:
     sim::Point3 start;
     SourceRange range;
     Surroundings with;
+    std::array<sim::Position, 6> zeros; // of G54 to G59, of one that measures
   } call_;
 };
 

@@ -43,6 +43,9 @@ struct EmittedLine {
 // name without any, or one that begins with a digit, gets "cycle" before it.
 std::string prefixOf(const std::string& cycleName);
 
+// "surfaceX_G": the property of a field.
+std::string propertyOf(std::string_view prefix, std::string_view field);
+
 // The fragment: head, properties, functions PREFIX_dispatch(x, y, z) and PREFIX_write(x, y, z) with what they
 // need. nullopt where something cannot be said: reported. `cycle` is folded; its body is straight.
 std::optional<std::vector<EmittedLine>> emit(const ir::Cycle& cycle, const EmitOptions& options,

@@ -51,11 +51,7 @@ const std::vector<Choice>* choicesOf(const State& state, ir::VariableId id) {
 }
 
 std::string propertyName(const State& state, const ir::Variable& variable) {
-  std::string name;
-  for (const char c : variable.name)
-    name +=
-        static_cast<unsigned char>(c) < 0x80 && std::isalnum(static_cast<unsigned char>(c)) != 0 ? c : '_';
-  return state.prefix + "_" + name;
+  return propertyOf(state.prefix, variable.name);
 }
 
 void writeProperty(State& state, ir::VariableId id) {
@@ -94,6 +90,14 @@ void writeProperty(State& state, ir::VariableId id) {
 }
 
 } // namespace
+
+std::string propertyOf(std::string_view prefix, std::string_view field) {
+  std::string name;
+  for (const char c : field)
+    name +=
+        static_cast<unsigned char>(c) < 0x80 && std::isalnum(static_cast<unsigned char>(c)) != 0 ? c : '_';
+  return std::string(prefix) + "_" + name;
+}
 
 ir::VariableId State::host(std::string_view wanted) {
   for (ir::VariableId id = 0; id < cycle.variables.size(); ++id)

@@ -30,6 +30,24 @@ public:
     return message.empty() ? "an exception" : message;
   }
 
+  // Reads a program, which stays at the bottom of the stack for repeat(). "" or what is wrong with it.
+  std::string keep(std::string_view code) {
+    if (heap_ == nullptr) return "no memory for the script engine";
+    if (duk_pcompile_lstring(heap_.get(), 0, code.data(), code.size()) == 0) return "";
+    const std::string message = duk_safe_to_string(heap_.get(), -1);
+    duk_pop(heap_.get());
+    return message.empty() ? "a syntax error" : message;
+  }
+  // Runs what was kept as the `index`-th.
+  std::string repeat(int index) {
+    duk_dup(heap_.get(), index);
+    const bool good = duk_pcall(heap_.get(), 0) == 0;
+    const std::string message = good ? "" : duk_safe_to_string(heap_.get(), -1);
+    duk_pop(heap_.get());
+    return good || !message.empty() ? message : "an exception";
+  }
+  void pop() { duk_pop(heap_.get()); }
+
   // Of the object on top of the stack.
   std::string text(const char* member) {
     duk_get_prop_string(heap_.get(), -1, member);
@@ -85,6 +103,15 @@ std::string postText(std::string_view fragment, std::string_view prefix) {
   return out;
 }
 
+// What the call left on the stack.
+void take(Engine& engine, RunResult& out) {
+  out.text = engine.text("text");
+  out.errors = linesOf(engine.text("errors"));
+  out.warnings = linesOf(engine.text("warnings"));
+  out.wroteAfterError = engine.text("afterError") == "true";
+  out.failure = engine.text("failure");
+}
+
 RunResult run(std::string_view post, const std::string& call) {
   RunResult out;
   Engine engine;
@@ -92,15 +119,40 @@ RunResult run(std::string_view post, const std::string& call) {
     out.failure = engine.run(part);
     if (!out.failure.empty()) return out;
   }
-  out.text = engine.text("text");
-  out.errors = linesOf(engine.text("errors"));
-  out.warnings = linesOf(engine.text("warnings"));
-  out.wroteAfterError = engine.text("afterError") == "true";
-  out.failure = engine.text("failure");
+  take(engine, out);
   return out;
 }
 
 } // namespace
+
+// The kernel and the post, one behind the other, as the engine keeps them.
+class Fragment::Prepared {
+public:
+  Prepared(std::string_view fragment, std::string_view prefix) {
+    failure = engine.keep(kernelText());
+    if (failure.empty()) failure = engine.keep(postText(fragment, prefix));
+  }
+  Engine engine;
+  std::string failure;
+};
+
+Fragment::Fragment(std::string_view fragment, std::string_view prefix)
+    : prefix_(prefix), prepared_(std::make_unique<Prepared>(fragment, prefix)) {}
+
+Fragment::~Fragment() = default;
+
+RunResult Fragment::run(const RunInput& input) const {
+  RunResult out;
+  Engine& engine = prepared_->engine;
+  out.failure = prepared_->failure;
+  for (const int part : {0, 1})
+    if (out.failure.empty()) out.failure = engine.repeat(part);
+  if (out.failure.empty()) out.failure = engine.run(callText(prefix_, false, input));
+  if (!out.failure.empty()) return out;
+  take(engine, out);
+  engine.pop();
+  return out;
+}
 
 RunResult runFragment(std::string_view fragment, std::string_view prefix, const RunInput& input) {
   return run(postText(fragment, prefix), callText(prefix, false, input));

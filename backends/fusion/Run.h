@@ -3,6 +3,7 @@
 
 #include <array>
 #include <map>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -33,6 +34,19 @@ struct RunResult {
 // NC text of a fragment: PREFIX_write(x, y, z) for each point, within the post of postAround(). Runs only
 // text that this back end wrote: nothing limits its time but the bound in loops of checks.
 RunResult runFragment(std::string_view fragment, std::string_view prefix, const RunInput& input);
+// A fragment that runs many times: its text is read once. Each run begins anew. For one thread.
+class Fragment {
+public:
+  Fragment(std::string_view fragment, std::string_view prefix);
+  ~Fragment();
+  RunResult run(const RunInput& input) const;
+
+private:
+  class Prepared;
+  const std::string prefix_;
+  std::unique_ptr<Prepared> prepared_;
+};
+
 // NC text of a whole post: its entry functions in their order; `prefix` chooses the cycle.
 RunResult runPost(std::string_view post, std::string_view prefix, const RunInput& input);
 

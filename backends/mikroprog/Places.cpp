@@ -2,6 +2,7 @@
 #include "backends/common/PlainText.h"
 #include "backends/mikroprog/State.h"
 #include "ir/Fold.h"
+#include "ir/Linear.h"
 #include "ir/Walk.h"
 #include "support/Decimal.h"
 #include "support/messages/Nc.h"
@@ -13,6 +14,10 @@
 namespace dotek::backends::mikroprog {
 
 namespace {
+
+double sum(double a, double b) {
+  return ir::exactSum(a, b).value_or(a + b);
+}
 
 constexpr double kNoise = 1e-9; // mm: what sums of decimals leave behind
 
@@ -110,18 +115,18 @@ std::optional<double> placeOf(State& state, const ir::Coordinate& coordinate, ir
   case ir::Frame::Here: {
     const std::optional<double> here = hereOf(state, axis, range);
     if (!here) return std::nullopt;
-    return *here + *value;
+    return sum(*here, *value);
   }
   case ir::Frame::Start: {
     const std::optional<double> from = state.start[ir::indexOf(axis)];
-    if (from) return *from + *value;
+    if (from) return sum(*from, *value);
     state.refuse<diag::PositionNeeded>(range, letter,
                                        std::string(1, static_cast<char>(ir::letterOf(axis) - 'A' + 'a')));
     return std::nullopt;
   }
   case ir::Frame::Retract:
     if (const auto plane = state.options.hosts.find("retract"); plane != state.options.hosts.end())
-      return plane->second + *value;
+      return sum(plane->second, *value);
     state.refuse<diag::RetractUnknown>(range);
     return std::nullopt;
   case ir::Frame::Machine: break;

@@ -1,0 +1,161 @@
+// Cases of verify --to fusion.
+#include "backends/fusion/Emit.h"
+#include "backends/fusion/Run.h"
+#include "driver/VerifyTargets.h"
+#include "frontend/macrob/Lower.h"
+#include "frontend/macrob/Parse.h"
+#include "ir/Program.h"
+#include "sim/Compile.h"
+#include "sim/VendorMacros.h"
+#include "support/messages/Verify.h"
+
+#include <algorithm>
+#include <cmath>
+#include <deque>
+#include <fmt/format.h>
+
+namespace dotek::driver {
+
+namespace fusion = backends::fusion;
+namespace macrob = frontend::macrob;
+
+namespace {
+
+constexpr double kEightDigits = 5e-5; // left of a result beside another way to compute it
+
+class FusionTarget final : public VerifyTarget {
+public:
+  explicit FusionTarget(const TargetSource& source)
+      : from_(source), control_(*source.inputs.sourceControl),
+        sourceSet_(source.inputs.macroSet(source.plan.sourceMacros)),
+        set_(source.inputs.macroSet(source.plan.targetMacros)),
+        stand_(control_,
+               set_ == nullptr ? std::vector<const stdlib::MacroSet*>{}
+                               : std::vector<const stdlib::MacroSet*>{set_},
+               source.session.limits()) {}
+
+  // Macros that correct an offset by measured less expected take no other nominal.
+  bool needsNominal() const override { return set_ != sourceSet_; }
+
+  bool prepare() override {
+    const Translation& translation = *from_.plan.translation;
+    prefix_ = fusion::prefixOf(from_.folder.name);
+    fragment_ = std::make_unique<fusion::Fragment>(translation.text, prefix_);
+    if (set_ != nullptr) {
+      if (const stdlib::DataFile* text = from_.session.data().find("macrob", set_->name)) {
+        std::string why;
+        auto file = read(set_->name, std::string(text->text), sources_, why);
+        if (!file) {
+          from_.session.diagnostics().report<diag::TranslationNotRead>({}, set_->name, why);
+          return false;
+        }
+        macros_.emplace(std::move(*file));
+      }
+    }
+    return true;
+  }
+
+  TargetRun run(const TargetCase& now) override {
+    TargetRun out;
+    const fusion::RunResult result = fragment_->run(inputOf(now.drawn));
+    if (!result.failure.empty()) {
+      out.differs(verify::Aspect::Ending, "the fragment fails: " + result.failure);
+      return out;
+    }
+    if (!result.errors.empty()) {
+      if (result.wroteAfterError || !result.text.empty())
+        out.differs(verify::Aspect::Ending,
+                    "the fragment writes blocks beside its error: " + result.errors.front());
+      out.refused = out.differences.empty();
+      out.why = "the post stops with an error: " + result.errors.front();
+      return out;
+    }
+    if (now.source == nullptr) return out; // it runs
+    runText(now, result.text, out);
+    return out;
+  }
+
+private:
+  std::optional<ir::ProgramFile> read(const std::string& name, std::string text, SourceMap& sources,
+                                      std::string& why) const {
+    const FileId id = sources.add(SourceFile(name, std::move(text), Encoding::Utf8));
+    Diagnostics found;
+    const macrob::File tree = macrob::parse(id, sources, from_.session.limits(), found);
+    std::optional<ir::ProgramFile> file;
+    if (!found.hasErrors()) file = macrob::lower(tree, control_, sources, found);
+    if (!file) why = found.all().empty() ? "no reason is told" : found.all().front().message;
+    return file;
+  }
+
+  fusion::RunInput inputOf(const verify::Case& drawn) const {
+    const auto host = [&](const char* name, double otherwise) {
+      const auto found = drawn.hosts.find(name);
+      return found == drawn.hosts.end() ? otherwise : found->second;
+    };
+    fusion::RunInput out;
+    for (const auto& [name, value] : drawn.values)
+      out.properties[fusion::propertyOf(prefix_, name)] = value;
+    out.points = {{host("start_x", 0), host("start_y", 0), host("start_z", 0)}};
+    out.toolDiameter = 2 * host("tool_radius", 3);
+    out.toolNumber = host("tool_number", 1);
+    out.toolLengthOffset = host("tool_offset", 1);
+    const std::pair<const char*, const char*> kCycle[] = {
+        {"clearance", "clearance"}, {"retract", "retract"}, {"overtravel", "probeOvertravel"}};
+    for (const auto& [name, member] : kCycle)
+      if (const auto found = drawn.hosts.find(name); found != drawn.hosts.end())
+        out.cycle[member] = found->second;
+    return out;
+  }
+
+  void runText(const TargetCase& now, const std::string& text, TargetRun& out) {
+    std::string why;
+    auto file = read("posted by the fragment", "O1\n" + text + "M30\n", sources_, why);
+    const FileId id = static_cast<FileId>(sources_.size() - 1);
+    if (!file) {
+      out.differs(verify::Aspect::Ending, "the text of the fragment cannot be read: " + why);
+      return;
+    }
+    std::vector<const ir::Program*> programs;
+    for (const ir::Program& program : file->programs)
+      programs.push_back(&program);
+    if (macros_)
+      for (const ir::Program& program : macros_->programs)
+        programs.push_back(&program);
+    const sim::Bytecode code = sim::compile(programs, control_, sources_);
+    std::optional<sim::VendorMacros> meaning;
+    if (set_ != nullptr) {
+      meaning.emplace(*set_, control_);
+      meaning->setStylusRadius(now.drawn.hosts.at("tool_radius"));
+    }
+    const verify::Record record =
+        stand_.run(code, now.world, now.entry, now.stores, meaning ? &*meaning : nullptr);
+    verify::CompareRules rules;
+    rules.tolerance = rules.results = from_.options.tolerance;
+    if (control_.arithmetic == stdlib::Arithmetic::Decimal8)
+      rules.results = std::max(rules.tolerance, kEightDigits);
+    rules.sameAlarmNumbers = sourceSet_ == set_;
+    for (verify::Difference& difference : verify::compare(*now.source, record, rules)) {
+      std::string line;
+      if (difference.target.hasPlace() && difference.target.file == id)
+        line = sources_.file(id).line(sources_.line(difference.target));
+      out.differences.push_back({std::move(difference), std::move(line)});
+    }
+  }
+
+  const TargetSource from_;
+  const stdlib::Control& control_;
+  const stdlib::MacroSet *sourceSet_, *set_;
+  verify::Stand stand_;
+  std::string prefix_;
+  std::unique_ptr<fusion::Fragment> fragment_;
+  std::optional<ir::ProgramFile> macros_; // of the target's set, where it has a text
+  SourceMap sources_;
+};
+
+} // namespace
+
+std::unique_ptr<VerifyTarget> fusionTarget(const TargetSource& source) {
+  return std::make_unique<FusionTarget>(source);
+}
+
+} // namespace dotek::driver

@@ -1,0 +1,90 @@
+#include "driver/VerifyTargets.h"
+
+#include "support/messages/Commands.h"
+#include "support/messages/Mikroprog.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace dotek::driver {
+
+namespace {
+
+constexpr double kSame = 1e-7; // mm
+
+} // namespace
+
+void TargetRun::differs(verify::Aspect aspect, std::string text, std::string line) {
+  TargetDifference& one = differences.emplace_back();
+  one.difference.aspect = aspect;
+  one.difference.text = std::move(text);
+  one.line = std::move(line);
+}
+
+void NominalFields::roundStart(verify::Case& drawn) const {
+  int places = 3;
+  for (const verify::DrawField& field : fields_)
+    if (field.kind != ir::Kind::WorkOffset) places = std::min(places, field.decimals);
+  const double unit = std::pow(10.0, places);
+  for (const char* name : {"start_x", "start_y"})
+    if (const auto host = drawn.hosts.find(name); host != drawn.hosts.end())
+      host->second = std::round(host->second * unit) / unit;
+}
+
+std::optional<verify::Case>
+NominalFields::settle(verify::Case drawn,
+                      const std::function<std::optional<std::vector<double>>(const verify::Case&)>& misses) {
+  std::optional<std::vector<double>> now = misses(drawn);
+  for (std::size_t i = 0; now && i < now->size(); ++i) {
+    const double miss = (*now)[i];
+    if (std::abs(miss) < kSame) continue;
+    const auto attempt = [&](const verify::DrawField& field) {
+      const auto value = drawn.values.find(field.name);
+      if (field.fixed || field.kind == ir::Kind::WorkOffset || value == drawn.values.end()) return false;
+      verify::Case other = drawn;
+      const double unit = std::pow(10.0, field.decimals);
+      // A zero lies where the surface is, less its coordinate.
+      other.values[field.name] = std::round((value->second + miss) * unit) / unit;
+      const auto then = misses(other);
+      if (!then || then->size() != now->size()) return false;
+      for (std::size_t n = 0; n < now->size(); ++n)
+        if (std::abs((*then)[n] - (n == i ? 0 : (*now)[n])) > kSame) return false;
+      drawn = std::move(other);
+      now = then;
+      known_[i] = field.name;
+      return true;
+    };
+    const auto known = std::find_if(fields_.begin(), fields_.end(), [&](const verify::DrawField& field) {
+      return known_.contains(i) && field.name == known_.at(i);
+    });
+    if (known != fields_.end() && attempt(*known)) continue;
+    if (std::none_of(fields_.begin(), fields_.end(), attempt)) return std::nullopt;
+  }
+  if (!now) return std::nullopt;
+  return drawn;
+}
+
+std::unique_ptr<VerifyTarget> verifyTarget(const TargetSource& source) {
+  if (source.options.to == "fusion") return fusionTarget(source);
+  if (source.options.to == "mikroprog") return mikroprogTarget(source);
+  return nullptr;
+}
+
+bool checkTargetOptions(const VerifyOptions& options, Diagnostics& diagnostics) {
+  const auto none = [&](bool given, std::string_view flag) {
+    if (given) diagnostics.report<diag::FlagOfOtherTarget>({}, flag, options.to);
+  };
+  if ((options.to == "mikroprog" || options.to == "fusion") && !options.source.prog)
+    diagnostics.report<diag::MissingOption>(
+        {}, "verify", "--prog PROG.txt", "a drawn path states no measurement that such a program could make");
+  if (options.to == "mikroprog") {
+    none(options.probeMacros.has_value(), "--probe-macros");
+    if (!options.datum.empty() && options.datum != "g92" && options.datum != "operator")
+      diagnostics.report<diag::UnknownDatum>({}, options.datum);
+  } else if (!options.to.empty()) {
+    none(!options.datum.empty(), "--datum");
+  }
+  return !diagnostics.hasErrors();
+}
+
+} // namespace dotek::driver

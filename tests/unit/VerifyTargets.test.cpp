@@ -1,0 +1,183 @@
+// Translations for Mikroprog and Fusion, sound and damaged: a damaged one is never proved.
+#include "driver/Driver.h"
+
+#include <doctest/doctest.h>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace dotek::tests {
+
+namespace {
+
+using Names = std::vector<std::pair<std::string, std::string>>;
+
+const std::string kExamples = std::string(DOTEK_ROOT) + "/examples/";
+const Names kValues = {{"X", "15"}, {"I", "0"}, {"G", "56"}, {"Z", "-5"}, {"R", "50"}};
+const Names kHosts = {{"clearance", "5"}, {"tool_radius", "3"}, {"overtravel", "5"}, {"return_feed", "1000"},
+                      {"start_x", "-15"}, {"start_y", "10"},    {"start_z", "60"}};
+
+class Scratch {
+public:
+  Scratch() : path_(std::filesystem::temp_directory_path() / "dotek-verify-targets") {
+    std::filesystem::create_directories(path_);
+  }
+  std::string write(const std::string& name, const std::string& text) const {
+    std::ofstream(path_ / name, std::ios::binary) << text;
+    return (path_ / name).string();
+  }
+
+private:
+  std::filesystem::path path_;
+};
+
+driver::VerifyOptions options(const std::string& to) {
+  driver::VerifyOptions out;
+  out.inputs = {kExamples + "surface-x"};
+  out.source.prog = kExamples + "post.txt";
+  out.to = to;
+  if (to == "mikroprog") out.control = "mikroprog-mill";
+  out.cases = 40;
+  out.jobs = 1;
+  return out;
+}
+
+void addTo(driver::CommonOptions& common, const Names& sets, const Names& hosts) {
+  for (const auto& [name, value] : sets)
+    common.set.emplace_back(name, value);
+  for (const auto& [name, value] : hosts)
+    common.host.emplace_back(name, value);
+}
+
+std::string converted(const std::string& to) {
+  driver::ConvertOptions convert;
+  convert.inputs = {kExamples + "surface-x"};
+  convert.source.prog = kExamples + "post.txt";
+  convert.to = to;
+  if (to == "mikroprog") {
+    convert.control = "mikroprog-mill";
+    addTo(convert.common, kValues, kHosts);
+  }
+  const driver::Outcome outcome = driver::convert(convert);
+  REQUIRE(outcome.status == 0);
+  return outcome.files.front().text;
+}
+
+std::string lastLine(const std::string& text) {
+  const std::size_t end = text.size() - 1;
+  return text.substr(text.rfind('\n', end - 1) + 1, end - text.rfind('\n', end - 1) - 1);
+}
+
+// The text with its first `from` replaced.
+std::string edited(std::string text, const std::string& from, const std::string& to) {
+  const std::size_t at = text.find(from);
+  REQUIRE_MESSAGE(at != std::string::npos, from << " is not in\n" << text);
+  return text.replace(at, from.size(), to);
+}
+
+driver::Outcome verified(const std::string& to, const std::string& text) {
+  const Scratch scratch;
+  driver::VerifyOptions run = options(to);
+  run.cases = 20;
+  run.translation = scratch.write("edited", text);
+  if (to == "mikroprog") addTo(run.common, kValues, kHosts);
+  return driver::verify(run);
+}
+
+} // namespace
+
+TEST_CASE("sound translations are proved on every target") {
+  for (const char* to : {"fusion", "mikroprog"}) {
+    const driver::Outcome outcome = driver::verify(options(to));
+    CHECK_MESSAGE(outcome.status == 0, to);
+    CHECK(lastLine(outcome.output) == "proved 40, idle 0, differ 0 of 40");
+  }
+  driver::VerifyOptions lathe = options("mikroprog");
+  lathe.control = "mikroprog-s280";
+  CHECK(lastLine(driver::verify(lathe).output) == "proved 40, idle 0, differ 0 of 40");
+  driver::VerifyOptions byHand = options("mikroprog");
+  byHand.datum = "operator";
+  CHECK(lastLine(driver::verify(byHand).output) == "proved 40, idle 0, differ 0 of 40");
+  for (const char* set : {"inspection-plus", "dotek"}) {
+    driver::VerifyOptions other = options("fusion");
+    other.probeMacros = set;
+    CHECK_MESSAGE(lastLine(driver::verify(other).output) == "proved 40, idle 0, differ 0 of 40", set);
+  }
+}
+
+TEST_CASE("what convert writes for the same values is what verify runs on Mikroprog") {
+  const driver::Outcome outcome = verified("mikroprog", converted("mikroprog"));
+  CHECK(outcome.status == 0);
+  CHECK(lastLine(outcome.output) == "proved 20, idle 0, differ 0 of 20");
+}
+
+TEST_CASE("a damaged program of Mikroprog is never proved") {
+  const std::string good = converted("mikroprog");
+  const std::pair<std::string, std::string> kDamage[] = {
+      {"G92 X-3", "G92 X3"},                        // the radius has the wrong sign
+      {"G92 X-3", "G92 X0"},                        // no radius
+      {"G92 X-3", "G92 Y-3"},                       // the wrong axis
+      {" G92 X-3", " ;G92 X-3"},                    // no datum
+      {"M25 @SURFACEX.SOU", ""},                    // no record
+      {"G1 X-15", "G1 X-14"},                       // not back to where it began
+      {"G1 X-15 F1000", ""},                        // not back at all
+      {"G31 X5 L900", "G31 X5 L910"},               // a missing surface in the wrong tail
+      {"G31 X5 L900", "G31 X-5 L900"},              // too short
+      {"G31 X5 L900", "G31 X6 L900"},               // another overtravel
+      {"G31 Z-5 L100", "G31 Z-4 L100"},             // not deep enough
+      {"G31 Z-5 L100", "G0 Z-5"},                   // no protection
+      {"N90 G27 L910", "N90 M9"},                   // contact goes on
+      {"N90 G27 L910", "N90 G27 L100"},             // the same by a jump
+      {"G23 L910 O7", "G23 L990 O7"},               // contact before the chain ends without a word
+      {"N50 G23 L910 O7", "N50 M9"},                // nobody asks for it
+      {"N900 M0 ;SONDA NENASLA PLOCHU", "N900 M9"}, // no tail
+      {"N905 G27 L990", "N905 G27 L60"},            // the tail goes back to work
+      {"G0 X-15 Y10", "G0 X-15 Y11"},               // another start
+      {"M5", "M3 S100"},                            // the spindle turns
+      {"M9", ""},                                   // nobody switches the coolant off
+  };
+  for (const auto& [from, to] : kDamage) {
+    const driver::Outcome outcome = verified("mikroprog", edited(good, from, to));
+    CHECK_MESSAGE(outcome.status == 1, from << " to " << to);
+    CHECK_MESSAGE(lastLine(outcome.output) == "proved 0, idle 0, differ 20 of 20", from << " to " << to);
+  }
+}
+
+TEST_CASE("a damaged fragment is never proved") {
+  const std::string good = converted("fusion");
+  CHECK(lastLine(verified("fusion", good).output) == "proved 20, idle 0, differ 0 of 20");
+  const std::pair<std::string, std::string> kDamage[] = {
+      {"writeBlock(\"M31\");", ""},                                          // the probe stays off
+      {"writeBlock(\"M5\");", "writeBlock(\"M3 S100\");"},                   // the spindle turns
+      {"\" X\" + XText", "\" Y\" + XText"},                                  // another axis
+      {"\" I\" + IText", "\" I\" + XText"},                                  // another field
+      {"\"surfaceX_I\"", "\"surfaceX_X\""},                                  // another property
+      {"cycle.clearance", "cycle.retract"},                                  // another host input
+      {"Z\" + ZText", "Z-\" + ZText"},                                       // the sign
+      {"writeBlock(\"G65 P9770 Z\" + RText", "writeBlock(\"G0 Z\" + RText"}, // no protection
+  };
+  for (const auto& [from, to] : kDamage) {
+    const driver::Outcome outcome = verified("fusion", edited(good, from, to));
+    CHECK_MESSAGE(outcome.status == 1, from << " to " << to);
+    CHECK_MESSAGE(lastLine(outcome.output).find("differ 0 of") == std::string::npos, from << " to " << to);
+  }
+}
+
+TEST_CASE("a fragment without its checks takes what the dialog turns away") {
+  std::string text = converted("fusion");
+  for (std::size_t at = 0; (at = text.find("error(localize(", at)) != std::string::npos; at += 4)
+    text.replace(at, 5, "String");
+  for (std::size_t at = 0; (at = text.find("return;", at)) != std::string::npos; at += 2)
+    text.replace(at, 7, ";");
+  driver::VerifyOptions run = options("fusion");
+  const Scratch scratch;
+  run.translation = scratch.write("unchecked.js", text);
+  run.cases = 200;
+  const driver::Outcome outcome = driver::verify(run);
+  CHECK(outcome.status == 1);
+  CHECK(outcome.output.find("differ 0 of 20\n") == std::string::npos);
+}
+
+} // namespace dotek::tests
