@@ -217,6 +217,8 @@ driver::VerifyOptions verifyOf(const Raw& raw) {
   if (!raw.activeSystem.empty())
     out.activeSystem = static_cast<std::uint32_t>(countOf("--active-system", raw.activeSystem, 54, 54, 59));
   out.datum = raw.datum;
+  for (const std::string& text : raw.variables)
+    out.variables.push_back(splitPair("--var", text));
   out.replay = raw.replay;
   return out;
 }
@@ -432,6 +434,11 @@ void addVerify(CLI::App& app, Raw& raw) {
       ->add_option("--translation", raw.translation,
                    "look at this program instead of what convert writes: the same one, edited by hand")
       ->type_name("FILE");
+  verify
+      ->add_option("--var", raw.variables,
+                   "value of a variable before the programs begin, instead of a drawn one")
+      ->type_name("N=VALUE")
+      ->allow_extra_args(false);
   verify->add_option("--part", raw.part, "the part that is probed (made from the source where left out)")
       ->type_name("PART.toml");
   verify->add_option("--machine", raw.machine, "probe and travel of the machine")->type_name("MACHINE.toml");

@@ -126,6 +126,9 @@ struct VerifyOptions {
   double tolerance = 1e-6; // mm
   std::uint32_t jobs = 0;  // 0: one for each processor
   std::string datum;       // of mikroprog, as of convert
+  NamedTexts variables;    // --var N=VALUE, of programs: not drawn
+  // What convert is asked to write, where more is asked than stands above; nothing: its defaults.
+  std::optional<ConvertOptions> conversion;
   // Of a replay: where the part stands, X, Y, Z, mm, and turned about Z, degrees; the system that is active.
   std::optional<std::array<double, 4>> partError;
   std::optional<std::uint32_t> activeSystem; // 54 to 59
