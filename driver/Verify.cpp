@@ -7,7 +7,7 @@
 #include "driver/VerifyPrograms.h"
 #include "driver/VerifyReport.h"
 #include "driver/VerifyRuns.h"
-#include "driver/VerifyTarget.h"
+#include "driver/VerifyTranslation.h"
 #include "frontend/gibbs/Cycle.h"
 #include "ir/Rewrite.h"
 #include "support/Files.h"

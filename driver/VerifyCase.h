@@ -6,7 +6,7 @@
 #include "driver/Lowering.h"
 #include "driver/Session.h"
 #include "driver/VerifySubject.h"
-#include "driver/VerifyTarget.h"
+#include "driver/VerifyTranslation.h"
 #include "frontend/compost/Post.h"
 #include "sim/Bytecode.h"
 #include "sim/Probe.h"

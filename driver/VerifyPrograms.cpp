@@ -225,12 +225,19 @@ verify::Case ProgramRunner::propose(std::uint64_t index, std::uint32_t attempt) 
   return out;
 }
 
+// Values that turn the program away from what cannot be run here would hide it.
+bool ProgramRunner::otherValuesMayDo(const verify::Record& record) const {
+  if (record.ending == verify::Ending::Inconclusive) return record.overLimit;
+  const stdlib::AlarmInfo* const missing = sourceControl_->find(stdlib::Alarm::NoSuchProgram);
+  return record.ending != verify::Ending::Alarm || missing == nullptr || record.alarm != missing->number;
+}
+
 std::optional<verify::Case> ProgramRunner::draw(std::uint64_t index) {
   std::uint32_t endless = 0; // they take long
   for (std::uint32_t attempt = 0; attempt < kAttempts && endless < kEndless; ++attempt) {
     drawn_ = play(propose(index, attempt), !options_.partError);
     if (drawn_->record.overLimit) ++endless;
-    if (drawn_->why.empty() || options_.replay) break;
+    if (drawn_->why.empty() || options_.replay || !otherValuesMayDo(drawn_->record)) break;
   }
   return drawn_->drawn; // the last one, whatever it comes to
 }

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "driver/VerifySubject.h"
-#include "driver/VerifyTarget.h"
+#include "driver/VerifyTranslation.h"
 #include "verify/Rehearsal.h"
 #include "verify/Variables.h"
 
@@ -58,6 +58,7 @@ private:
   bool addCaller();
   bool compileSource(const stdlib::Control& control, sim::Bytecode& out);
   verify::Case propose(std::uint64_t index, std::uint32_t attempt) const;
+  bool otherValuesMayDo(const verify::Record& record) const;
   std::unique_ptr<Played> play(verify::Case drawn, bool drawError);
   verify::Record runSide(const Side& side, const verify::Case& drawn, sim::World& world,
                          verify::Stand::Way way) const;

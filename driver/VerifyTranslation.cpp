@@ -1,4 +1,4 @@
-#include "driver/VerifyTarget.h"
+#include "driver/VerifyTranslation.h"
 
 #include "frontend/macrob/Lower.h"
 #include "frontend/macrob/Parse.h"
