@@ -49,6 +49,7 @@ struct Raw {
   std::uint32_t maxErrors = 50;
   bool recover = false;
   bool wholePost = false;
+  bool verify = false;
 };
 
 std::pair<std::string, std::string> splitPair(const std::string& flag, const std::string& text) {
@@ -160,6 +161,7 @@ driver::ConvertOptions convertOf(const Raw& raw) {
   out.switchProbe = raw.probePower == "macro";
   out.datum = raw.datum;
   out.wholePost = raw.wholePost;
+  out.verify = raw.verify;
   return out;
 }
 
@@ -353,6 +355,8 @@ void addConvert(CLI::App& app, Raw& raw) {
   convert->add_option("--program-number", raw.programNumber, "O number of the program (8000)")
       ->type_name("N");
   convert->add_flag("--whole-post", raw.wholePost, "with --to fusion: the smallest post around the cycles");
+  convert->add_flag("--verify", raw.verify,
+                    "run 200 cases of source and result first; write nothing that differs");
   convert->add_option("--map", raw.mapFile, "write which line comes from where, as JSON")->type_name("FILE");
   CLI::Option* output =
       convert->add_option("-o", raw.output, "write the program to a file")->type_name("OUT");

@@ -111,7 +111,7 @@ private:
   }
 
   bool translate() {
-    ConvertOptions convert = options_.conversion ? *options_.conversion : ConvertOptions();
+    ConvertOptions convert;
     convert.inputs = options_.inputs;
     convert.common = options_.common;
     convert.source = options_.source;
@@ -119,7 +119,7 @@ private:
     convert.control = options_.control;
     convert.probeMacros = options_.probeMacros;
     convert.datum = options_.datum;
-    Outcome outcome = driver::convert(convert);
+    Outcome outcome = options_.converted ? *options_.converted : driver::convert(convert);
     if (outcome.status != 0 || outcome.files.size() != 1) {
       refused_ = std::move(outcome);
       return false;

@@ -65,6 +65,7 @@ private:
   void compareRejection(CaseResult& result, const Values& values, const verify::Record& target) const;
   void noteProbe(CaseResult& result, const verify::Record& record, const Values& values) const;
   void comparePath(CaseResult& result, const Values& values) const;
+  void compareGeometry(CaseResult& result, const Values& values, const verify::Record& target) const;
   SourceRange sourceOf(SourceRange posted, const Values& values) const;
   std::uint32_t targetLine(SourceRange range) const;
 

@@ -382,7 +382,7 @@ public:
                                                          "what the programs are compared with");
       return session_.finish("");
     }
-    ConvertOptions convert = options_.conversion ? *options_.conversion : ConvertOptions();
+    ConvertOptions convert;
     convert.inputs = options_.inputs;
     convert.common = options_.common;
     convert.common.host.clear();
@@ -393,7 +393,7 @@ public:
     convert.fromControl = options_.fromControl;
     convert.probeMacros = options_.probeMacros;
     convert.datum = options_.datum;
-    Outcome converted = driver::convert(convert);
+    Outcome converted = options_.converted ? *options_.converted : driver::convert(convert);
     if (converted.status != 0 || converted.files.size() != 1) return converted;
     plan_.programs = true;
     Translation translation = translationOf(converted);

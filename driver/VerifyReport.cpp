@@ -222,8 +222,7 @@ void VerifyReport::tellPictures() {
 Outcome VerifyReport::finish() {
   Session& session = runner_.session();
   const bool stated = options_.source.prog || plan_.programs;
-  if (plan_.sourceMacros.empty() && !stated)
-    told_.report<diag::MeasurementNotStated>(runner_.place(), cases_.idle, cases_.all());
+  if (!stated) told_.report<diag::MeasurementNotStated>(runner_.place(), cases_.idle, cases_.all());
   tellProbe();
   if (options_.source.prog) tellPictures();
   std::size_t told = 0;
@@ -244,7 +243,7 @@ Outcome VerifyReport::finish() {
       told_.report<diag::VerifyIdle>(reasons[i]->at, reasons[i]->count, cases_.all(), reasons[i]->why)
           .note({}, "the first: " + replay(reasons[i]->drawn));
   const std::uint64_t all = cases_.all();
-  if (static_cast<double>(cases_.proved) < options_.minProved / 100 * static_cast<double>(all))
+  if (stated && static_cast<double>(cases_.proved) < options_.minProved / 100 * static_cast<double>(all))
     told_.report<diag::VerifyTooFew>({}, cases_.proved, all, numberText(options_.minProved));
   session.diagnostics() = std::move(told_);
   std::string out;

@@ -133,6 +133,11 @@ public:
   bool changesWithMotion(std::uint32_t number) const;
   // The common variables and the locals of the main program that were written, by number.
   std::vector<std::pair<std::uint32_t, double>> written() const;
+  // Of a common variable as it stands; kFresh: nobody wrote it, or there is none of this number.
+  double common(std::uint32_t number) const {
+    const std::uint32_t cell = layout_.cellOf(number);
+    return cell == CellLayout::kNone ? kFresh : cells_[cell];
+  }
   // To the least input increment, as a word of a length is; in the unit in force.
   double toIncrement(double value) const {
     return rounded(value, control_.decimals + (modes_[kUnits] != 0 ? 1 : 0));
