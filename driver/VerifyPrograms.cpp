@@ -78,8 +78,8 @@ bool ProgramRunner::load() {
   for (const stdlib::MacroSet& set : sets_)
     if (sourceSet_ != nullptr && options_.probeMacros == set.name) targetSet_ = &set;
   std::vector<const stdlib::MacroSet*> used;
-  for (const stdlib::MacroSet* set : {sourceSet_, targetSet_})
-    if (set != nullptr) used.push_back(set);
+  if (sourceSet_ != nullptr) used.push_back(sourceSet_);
+  if (targetSet_ != sourceSet_) used.push_back(targetSet_);
   variables_ = verify::variablesOf(*programs_, *sourceControl_, used);
   // Signals go by the same number on both.
   std::erase_if(variables_, [&](const verify::ProgramVariable& one) {
@@ -87,8 +87,9 @@ bool ProgramRunner::load() {
   });
   for (const stdlib::VariableRange& range : sourceControl_->common)
     for (std::uint32_t number = range.first; number <= range.last; ++number)
-      if (std::none_of(used.begin(), used.end(),
-                       [&](const stdlib::MacroSet* set) { return verify::usesVariable(*set, number); }))
+      if (used.size() < 2 || std::none_of(used.begin(), used.end(), [&](const stdlib::MacroSet* set) {
+            return verify::usesVariable(*set, number);
+          }))
         stores_.insert(number);
   return true;
 }
@@ -175,14 +176,15 @@ bool ProgramRunner::prepare() {
                           : std::vector<const stdlib::MacroSet*>{set};
   };
   if (!addCaller() || !compileSource(*sourceControl_, sourceCode_)) return false;
-  sourceStand_.emplace(*sourceControl_, listOf(sourceSet_), sourceLimits_);
+  sourceStand_ = std::make_unique<verify::Stand>(*sourceControl_, listOf(sourceSet_), sourceLimits_);
   if (sourceControl_->arithmetic != targetControl_->arithmetic) {
     sourceAsTarget_ = sourceControl_;
     sourceAsTarget_->arithmetic = targetControl_->arithmetic;
     if (!compileSource(*sourceAsTarget_, sourceAsTargetCode_)) return false;
-    sourceAsTargetStand_.emplace(*sourceAsTarget_, listOf(sourceSet_), sourceLimits_);
+    sourceAsTargetStand_ =
+        std::make_unique<verify::Stand>(*sourceAsTarget_, listOf(sourceSet_), sourceLimits_);
   }
-  targetStand_.emplace(*targetControl_, listOf(targetSet_), targetLimits_);
+  targetStand_ = std::make_unique<verify::Stand>(*targetControl_, listOf(targetSet_), targetLimits_);
   if (caller_ && !translation_.read("call", caller_->text, *targetControl_, session_)) return false;
   if (!translation_.readTranslation(*plan_.translation, *targetControl_, session_)) return false;
   if (caller_) translation_.numberFirst(caller_->callee);
@@ -238,6 +240,8 @@ std::optional<verify::Case> ProgramRunner::draw(std::uint64_t index) {
     drawn_ = play(propose(index, attempt), !options_.partError);
     if (drawn_->record.overLimit) ++endless;
     if (drawn_->why.empty() || options_.replay || !otherValuesMayDo(drawn_->record)) break;
+    // It proves nothing; a difference shows all the same.
+    if (!drawn_->record.overLimit && !differences(*drawn_, runTarget(*drawn_)).empty()) break;
   }
   return drawn_->drawn; // the last one, whatever it comes to
 }
@@ -277,7 +281,7 @@ std::unique_ptr<ProgramRunner::Played> ProgramRunner::play(verify::Case drawn, b
   out->drawn = std::move(drawn);
   const sim::Probe probe = probeFor(plan_, out->drawn);
   const sim::Point3 zero = entryFor(plan_, out->drawn, false).zeros[out->drawn.system - 54];
-  const Side source{&*sourceControl_, sourceSet_, &sourceCode_, &*sourceStand_};
+  const Side source{&*sourceControl_, sourceSet_, &sourceCode_, sourceStand_.get()};
   if (plan_.part) {
     out->part = plan_.part;
   } else {
@@ -309,6 +313,12 @@ std::unique_ptr<ProgramRunner::Played> ProgramRunner::play(verify::Case drawn, b
   return out;
 }
 
+verify::Record ProgramRunner::runTarget(const Played& played) const {
+  sim::World world(*played.part, probeFor(plan_, played.drawn), limits());
+  const Side side{&*targetControl_, targetSet_, &translation_.code(), targetStand_.get()};
+  return runSide(side, played.drawn, world, verify::Stand::Way::Run);
+}
+
 verify::CompareRules ProgramRunner::rules() const {
   verify::CompareRules out;
   const bool otherArithmetic = sourceControl_->arithmetic != targetControl_->arithmetic;
@@ -331,7 +341,7 @@ std::vector<verify::Difference> ProgramRunner::differences(const Played& played,
   if (out.empty() || !sourceAsTarget_) return out;
   // Whether the digits alone make the difference.
   sim::World world(*played.part, probeFor(plan_, played.drawn), limits());
-  const Side source{&*sourceAsTarget_, sourceSet_, &sourceAsTargetCode_, &*sourceAsTargetStand_};
+  const Side source{&*sourceAsTarget_, sourceSet_, &sourceAsTargetCode_, sourceAsTargetStand_.get()};
   const verify::Record again = runSide(source, played.drawn, world, verify::Stand::Way::Run);
   if (!verify::compare(again, target, loose).empty()) return out;
   for (verify::Difference& one : out)
@@ -352,10 +362,7 @@ CaseResult ProgramRunner::run(const verify::Case& drawn) {
     result.verdict = CaseVerdict::NoProgram;
     return result;
   }
-  sim::World world(*played->part, probeFor(plan_, drawn), limits());
-  const Side side{&*targetControl_, targetSet_, &translation_.code(), &*targetStand_};
-  const verify::Record target = runSide(side, drawn, world, verify::Stand::Way::Run);
-  for (const verify::Difference& one : differences(*played, target)) {
+  for (const verify::Difference& one : differences(*played, runTarget(*played))) {
     CaseFinding finding;
     finding.aspect = one.aspect;
     finding.text = one.text;

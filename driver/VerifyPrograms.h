@@ -62,6 +62,7 @@ private:
   std::unique_ptr<Played> play(verify::Case drawn, bool drawError);
   verify::Record runSide(const Side& side, const verify::Case& drawn, sim::World& world,
                          verify::Stand::Way way) const;
+  verify::Record runTarget(const Played& played) const;
   verify::CompareRules rules() const;
   std::vector<verify::Difference> differences(const Played& played, const verify::Record& target);
   SourceRange inSource(SourceRange range) const { return range.file == file_ ? range : SourceRange{}; }
@@ -84,7 +85,7 @@ private:
   std::map<std::uint32_t, double> fixed_;
   std::set<std::uint32_t> stores_; // common variables that count
   sim::Bytecode sourceCode_, sourceAsTargetCode_;
-  std::optional<verify::Stand> sourceStand_, targetStand_, sourceAsTargetStand_;
+  std::unique_ptr<verify::Stand> sourceStand_, targetStand_, sourceAsTargetStand_;
   TargetPrograms translation_;
   std::string refusal_;
   std::unique_ptr<Played> drawn_; // of draw(), for the next run()

@@ -97,7 +97,7 @@ private:
     const bool known = local ? main : control_.isCommon(number) || isSignal(number);
     if (!known) return;
     for (const stdlib::MacroSet* set : sets_)
-      if (usesVariable(*set, number)) return;
+      if (sets_.size() > 1 ? usesVariable(*set, number) : needsVariable(*set, number)) return;
     ProgramVariable& variable = found_[number];
     variable.number = number;
     variable.local = local;
@@ -208,6 +208,11 @@ private:
   std::map<std::uint32_t, ProgramVariable> found_;
 };
 
+bool holds(const std::vector<std::pair<std::uint32_t, std::uint32_t>>& ranges, std::uint32_t number) {
+  return std::any_of(ranges.begin(), ranges.end(),
+                     [&](const auto& range) { return range.first <= number && number <= range.second; });
+}
+
 double toStep(double value) {
   return std::round(value / kStep) * kStep;
 }
@@ -239,17 +244,17 @@ double plainValue(VariableUse use, Random& random) {
 
 } // namespace
 
-bool usesVariable(const stdlib::MacroSet& set, std::uint32_t number) {
-  const auto within = [&](const std::pair<std::uint32_t, std::uint32_t>& range) {
-    return range.first <= number && number <= range.second;
-  };
-  if (std::any_of(set.scratch.begin(), set.scratch.end(), within) ||
-      std::any_of(set.overwritten.begin(), set.overwritten.end(), within))
-    return true;
+bool needsVariable(const stdlib::MacroSet& set, std::uint32_t number) {
   const stdlib::ProbingFacts& facts = set.probing;
   for (const auto& one : {facts.feedVariable, facts.radiusX, facts.radiusY, facts.offsetX, facts.offsetY})
     if (one == number) return true;
-  if (facts.vectorFirst && facts.vectorLast && within({*facts.vectorFirst, *facts.vectorLast})) return true;
+  if (facts.vectorFirst && facts.vectorLast && *facts.vectorFirst <= number && number <= *facts.vectorLast)
+    return true;
+  return set.needsSkipPosition && holds(set.scratch, number);
+}
+
+bool usesVariable(const stdlib::MacroSet& set, std::uint32_t number) {
+  if (holds(set.scratch, number) || holds(set.overwritten, number) || needsVariable(set, number)) return true;
   return std::any_of(set.signatures.begin(), set.signatures.end(), [&](const stdlib::MacroSignature& one) {
     return std::any_of(one.results.begin(), one.results.end(),
                        [&](const stdlib::MacroResult& result) { return result.variable == number; });

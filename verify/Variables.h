@@ -35,12 +35,16 @@ struct ProgramVariable {
 };
 
 // Of the first program the locals, and of all programs the common variables and signals, that may be read
-// before the file has written them; by number. Variables of the sets' macros are none. A computed number
+// before the file has written them; by number. What the sets' macros need is none of
+// them, nor, where there are two sets, what they use: a translation may keep other values there. A computed
+// number
 // #[c+..] with a common variable c stands for c and the nine behind it.
 std::vector<ProgramVariable> variablesOf(const ir::ProgramFile& file, const stdlib::Control& control,
                                          const std::vector<const stdlib::MacroSet*>& sets);
 // Variables that calls of the set overwrite, read or leave results in.
 bool usesVariable(const stdlib::MacroSet& set, std::uint32_t number);
+// Those that have to be set before a call: feed, calibration, what the set's own text wants.
+bool needsVariable(const stdlib::MacroSet& set, std::uint32_t number);
 
 // Multiples of 0.001; nothing: null.
 std::optional<double> drawValue(const ProgramVariable& variable, Random& random);
