@@ -194,6 +194,7 @@ private:
     ir::eachNode(condition, [&](const ir::Expression& node) {
       null = null || std::holds_alternative<ir::NullValue>(node.node);
     });
+    null = null || operands.variables.contains(0); // #0
     for (const std::uint32_t number : operands.variables) {
       const auto at = found_.find(number);
       if (at == found_.end()) continue;
