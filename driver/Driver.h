@@ -2,8 +2,8 @@
 #pragma once
 
 #include "support/Diagnostics.h"
-#include "support/LineMap.h"
 #include "support/Limits.h"
+#include "support/LineMap.h"
 #include "support/Source.h"
 
 #include <array>
@@ -105,7 +105,9 @@ struct SimOptions {
   std::vector<std::string> programs; // --programs DIR: what can be called beside the programs of the file
   // --probe-macros: the set of vendors' macros that runs by its meaning; nothing: all.
   std::optional<std::string> probeMacros;
-  bool json = false; // the output is the summary as JSON
+  std::optional<std::string> part, machine; // --part, --machine: paths
+  bool svg = false, html = false;           // pictures of the run as files "svg" and "html"
+  bool json = false;                        // the output is the summary as JSON
   // Takes the trace while the program runs, in pieces of whole lines. Empty: no trace is made.
   std::function<void(std::string_view)> trace;
 };
@@ -135,7 +137,7 @@ struct VerifyOptions {
   // Of a replay: where the part stands, X, Y, Z, mm, and turned about Z, degrees; the system that is active.
   std::optional<std::array<double, 4>> partError;
   std::optional<std::uint32_t> activeSystem; // 54 to 59
-  bool replay = false;                       // one case, all of whose values are given: nothing is made smaller
+  bool replay = false; // one case, all of whose values are given: nothing is made smaller
   // Told from time to time how many of how many cases are done; from one thread at a time.
   std::function<void(std::uint64_t done, std::uint64_t all)> progress;
 };
@@ -157,10 +159,10 @@ struct OutputArgument {
 struct Outcome {
   int status = 0;
   std::string output;
-  std::vector<OutputFile> files; // of convert
-  std::string map;               // of convert: what --map writes
+  std::vector<OutputFile> files;  // of convert, and pictures of sim
+  std::string map;                // of convert: what --map writes
   std::vector<MappedResult> maps; // the same, file by file; places are of `sources`
-  std::string macros; // of convert: the set that the last result calls; "": none
+  std::string macros;             // of convert: the set that the last result calls; "": none
   std::vector<std::vector<OutputArgument>> arguments; // of convert to fanuc, cycle by cycle
   std::vector<std::string> macrosByCycle;             // the sets that these call
   SourceMap sources;

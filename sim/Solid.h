@@ -86,6 +86,7 @@ private:
   Ruling ruling(double angle, std::uint32_t i, std::uint32_t j);
   bool smooth(Piece& piece) const;
   bool keep(const Piece& piece, int depth);
+  static double bend(const Surface& surface, const Piece& piece, double length);
   bool isOnOwners(const Vec& q, const Piece& piece, double reach) const;
   bool isKept(const Vec& q, const Piece& piece);
   // The point of the curve in the plane across the chord at share u of the chord. false: none is found.
