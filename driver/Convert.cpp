@@ -345,7 +345,7 @@ private:
   std::vector<MappedResult> maps_;
   std::vector<std::vector<OutputArgument>> arguments_;
   std::vector<std::string> macrosByCycle_;
-  std::string called_; // set of macros
+  std::string called_;                // set of macros
   std::optional<FusionParts> fusion_; // with --to fusion
   bool failed_ = false;
 };
