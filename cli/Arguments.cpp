@@ -49,6 +49,7 @@ struct Raw {
   std::uint32_t maxErrors = 50;
   bool recover = false;
   bool wholePost = false;
+  bool verify = false;
 };
 
 std::pair<std::string, std::string> splitPair(const std::string& flag, const std::string& text) {
@@ -160,6 +161,7 @@ driver::ConvertOptions convertOf(const Raw& raw) {
   out.switchProbe = raw.probePower == "macro";
   out.datum = raw.datum;
   out.wholePost = raw.wholePost;
+  out.verify = raw.verify;
   return out;
 }
 
@@ -217,6 +219,8 @@ driver::VerifyOptions verifyOf(const Raw& raw) {
   if (!raw.activeSystem.empty())
     out.activeSystem = static_cast<std::uint32_t>(countOf("--active-system", raw.activeSystem, 54, 54, 59));
   out.datum = raw.datum;
+  for (const std::string& text : raw.variables)
+    out.variables.push_back(splitPair("--var", text));
   out.replay = raw.replay;
   return out;
 }
@@ -357,6 +361,8 @@ void addConvert(CLI::App& app, Raw& raw) {
   convert->add_option("--program-number", raw.programNumber, "O number of the program (8000)")
       ->type_name("N");
   convert->add_flag("--whole-post", raw.wholePost, "with --to fusion: the smallest post around the cycles");
+  convert->add_flag("--verify", raw.verify,
+                    "run 200 cases of source and result first; write nothing that differs");
   convert->add_option("--map", raw.mapFile, "write which line comes from where, as JSON")->type_name("FILE");
   CLI::Option* output =
       convert->add_option("-o", raw.output, "write the program to a file")->type_name("OUT");
@@ -442,6 +448,11 @@ void addVerify(CLI::App& app, Raw& raw) {
       ->add_option("--translation", raw.translation,
                    "look at this program instead of what convert writes: the same one, edited by hand")
       ->type_name("FILE");
+  verify
+      ->add_option("--var", raw.variables,
+                   "value of a variable before the programs begin, instead of a drawn one")
+      ->type_name("N=VALUE")
+      ->allow_extra_args(false);
   verify->add_option("--part", raw.part, "the part that is probed (made from the source where left out)")
       ->type_name("PART.toml");
   verify->add_option("--machine", raw.machine, "probe and travel of the machine")->type_name("MACHINE.toml");

@@ -2,6 +2,7 @@
 #include "driver/ConvertMikroprog.h"
 #include "driver/ConvertPrograms.h"
 #include "driver/ConvertValues.h"
+#include "driver/ConvertVerify.h"
 #include "driver/Driver.h"
 #include "driver/Lowering.h"
 #include "driver/PostProgram.h"
@@ -73,6 +74,7 @@ private:
     outcome.maps = std::move(maps);
     outcome.arguments = std::move(arguments_);
     outcome.macros = std::move(called_);
+    outcome.macrosByCycle = std::move(macrosByCycle_);
     return outcome;
   }
 
@@ -235,6 +237,7 @@ private:
         arguments.push_back({lowered->cycle.variable(one.variable).name, one.letter});
     arguments_.push_back(std::move(arguments));
     called_ = macros->name;
+    macrosByCycle_.push_back(macros->name);
     numbers_.emplace_back(emit.programNumber, folder.name);
     add(*lines, emit.programNumber);
   }
@@ -344,6 +347,7 @@ private:
   std::vector<OutputFile> files_;
   std::vector<MappedResult> maps_;
   std::vector<std::vector<OutputArgument>> arguments_;
+  std::vector<std::string> macrosByCycle_;
   std::string called_;                // set of macros
   std::optional<FusionParts> fusion_; // with --to fusion
   bool failed_ = false;
@@ -352,7 +356,9 @@ private:
 } // namespace
 
 Outcome convert(const ConvertOptions& options) {
-  return guarded(options.common, [&](Session& session) { return ConvertCommand(options, session).run(); });
+  Outcome outcome =
+      guarded(options.common, [&](Session& session) { return ConvertCommand(options, session).run(); });
+  return options.verify && outcome.status == 0 ? verified(options, std::move(outcome)) : outcome;
 }
 
 } // namespace dotek::driver

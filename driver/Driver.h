@@ -69,6 +69,7 @@ struct ConvertOptions {
   std::optional<std::pair<std::uint64_t, std::uint64_t>> renumber; // first N number of programs, step
   std::string datum;      // --datum of mikroprog: "", "g92" or "operator"
   bool wholePost = false; // --whole-post, of fusion
+  bool verify = false;    // --verify: what does not agree with its source is not given
 };
 
 // From which severity on lint fails.
@@ -111,6 +112,8 @@ struct SimOptions {
   std::function<void(std::string_view)> trace;
 };
 
+struct Outcome;
+
 struct VerifyOptions {
   std::vector<std::string> inputs; // one folder of a cycle, or one file of programs
   CommonOptions common;
@@ -128,6 +131,9 @@ struct VerifyOptions {
   double tolerance = 1e-6; // mm
   std::uint32_t jobs = 0;  // 0: one for each processor
   std::string datum;       // of mikroprog, as of convert
+  NamedTexts variables;    // --var N=VALUE, of programs: not drawn
+  // A result of convert with one file, which is looked at; nullptr: verify converts the input itself.
+  std::shared_ptr<const Outcome> converted;
   // Of a replay: where the part stands, X, Y, Z, mm, and turned about Z, degrees; the system that is active.
   std::optional<std::array<double, 4>> partError;
   std::optional<std::uint32_t> activeSystem; // 54 to 59
@@ -158,6 +164,7 @@ struct Outcome {
   std::vector<MappedResult> maps; // the same, file by file; places are of `sources`
   std::string macros;             // of convert: the set that the last result calls; "": none
   std::vector<std::vector<OutputArgument>> arguments; // of convert to fanuc, cycle by cycle
+  std::vector<std::string> macrosByCycle;             // the sets that these call
   SourceMap sources;
   Diagnostics diagnostics; // sorted
 };

@@ -7,6 +7,7 @@
 #include "driver/SimMikroprog.h"
 #include "driver/SimReport.h"
 #include "driver/SimWorld.h"
+#include "driver/VariableFlags.h"
 #include "frontend/nc/Scan.h"
 #include "sim/Arguments.h"
 #include "sim/Compile.h"
@@ -19,7 +20,6 @@
 #include "support/messages/Commands.h"
 #include "support/messages/Common.h"
 
-#include <charconv>
 #include <span>
 
 namespace dotek::driver {
@@ -102,21 +102,12 @@ private:
   }
 
   bool setVariables(sim::Machine& machine) {
-    for (const auto& [name, text] : options_.variables) {
-      const std::string flag = name + "=" + text;
-      const std::string_view digits = name.starts_with('#') ? std::string_view(name).substr(1) : name;
-      std::uint32_t number = 0;
-      const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
-      const std::optional<double> value = parseNumber(text);
-      if (error != std::errc() || end != digits.data() + digits.size() || number == 0) {
-        diagnostics().report<diag::VariableFlag>({}, flag, "it takes NUMBER=VALUE");
-      } else if (!value) {
-        diagnostics().report<diag::VariableFlag>({}, flag, "the value is no number");
-      } else if (!machine.preset(number, *value)) {
-        diagnostics().report<diag::VariableFlag>(
-            {}, flag, fmt::format("`{}` has no such variable that a program could set", control_->name));
-        return false;
-      }
+    for (const auto& [number, value] : variablesOf(options_.variables, diagnostics())) {
+      if (machine.preset(number, value)) continue;
+      diagnostics().report<diag::VariableFlag>(
+          {}, fmt::format("{}={}", number, numberText(value)),
+          fmt::format("`{}` has no such variable that a program could set", control_->name));
+      return false;
     }
     return !diagnostics().hasErrors();
   }

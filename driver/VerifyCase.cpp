@@ -17,7 +17,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <deque>
 #include <fmt/format.h>
 
 namespace dotek::driver {
@@ -29,8 +28,6 @@ namespace {
 
 constexpr std::uint32_t kAttempts = 2000; // to find values that the cycle takes
 constexpr double kReach = 12;             // how far a search goes beyond a surface, mm
-// A stylus where no machine file states one, by its ball: stem and body.
-constexpr double kStemShare = 0.6, kStemLength = 60, kBodyDiameter = 40, kBodyLength = 60;
 
 // Variables of the control that the program writes by number.
 std::set<std::uint32_t> storesOf(const std::vector<ir::Program>& programs) {
@@ -60,16 +57,6 @@ std::optional<SourceRange> spindleOffIn(const ir::Program& program, const stdlib
   return std::nullopt;
 }
 
-// Nothing that a probe could meet.
-sim::Part emptyPart(const sim::Point3& middle) {
-  constexpr double kAway = 10000;
-  sim::PartBuilder builder;
-  const sim::Point3 corner = middle + sim::Point3{0, 0, -kAway};
-  builder.box(corner, corner + sim::Point3{1, 1, 1});
-  std::string fault;
-  return *builder.finish(fault);
-}
-
 } // namespace
 
 // The posted program, ready to run.
@@ -92,13 +79,6 @@ struct CaseRunner::Values {
   std::optional<SourceRange> spindleOff; // the first block that stops the spindle, as posted
   std::unique_ptr<Posted> posted;
   std::optional<verify::Record> rehearsal;
-};
-
-struct CaseRunner::Ready {
-  SourceMap sources;
-  std::deque<ir::ProgramFile> files;
-  FileId emitted = kNoFile;
-  sim::Bytecode code;
 };
 
 CaseRunner::CaseRunner(const VerifyOptions& options, const VerifyPlan& plan)
@@ -152,85 +132,16 @@ bool CaseRunner::prepare() {
   if (target_ != nullptr) return target_->prepare();
   targetStand_.emplace(*inputs_->control, listOf(targetSet_), session_.limits());
 
-  ready_ = std::make_shared<Ready>();
-  const auto read = [&](const std::string& name, std::string text) {
-    const FileId id = ready_->sources.add(SourceFile(name, std::move(text), Encoding::Utf8));
-    Diagnostics found;
-    const frontend::macrob::File tree =
-        frontend::macrob::parse(id, ready_->sources, session_.limits(), found);
-    std::optional<ir::ProgramFile> file;
-    if (!found.hasErrors()) file = frontend::macrob::lower(tree, *inputs_->control, ready_->sources, found);
-    if (!file) {
-      for (const Diagnostic& one : found.all())
-        if (one.severity == Severity::Error)
-          session_.diagnostics().report<diag::TranslationNotRead>({}, name, one.message);
-      return false;
-    }
-    ready_->files.push_back(std::move(*file));
-    return true;
-  };
+  ready_ = std::make_shared<TargetPrograms>();
   // The arguments stand in the locals of the caller; one that is null is left out of the call.
   std::string call = fmt::format("O1\nG65P{}", plan_.translation->number);
   for (const OutputArgument& argument : plan_.translation->arguments)
     call += fmt::format("{}#{}", argument.letter, stdlib::localOf(argument.letter));
-  if (!read("call", call + "\nM30\n")) return false;
-  ready_->emitted = ready_->sources.size();
-  if (!read(plan_.translation->name, plan_.translation->text)) return false;
-  if (targetSet_ != nullptr) {
-    if (const stdlib::DataFile* text = session_.data().find("macrob", targetSet_->name))
-      if (!read(targetSet_->name, std::string(text->text))) return false;
-  }
-  std::vector<const ir::Program*> programs;
-  for (const ir::ProgramFile& file : ready_->files)
-    for (const ir::Program& program : file.programs)
-      programs.push_back(&program);
-  ready_->code = sim::compile(programs, *inputs_->control, ready_->sources);
-  return true;
-}
-
-sim::Probe CaseRunner::probeOf(const verify::Case& drawn) const {
-  const double radius = drawn.hosts.at("tool_radius");
-  sim::Probe probe;
-  if (plan_.machine) {
-    probe = plan_.machine->probe;
-  } else {
-    probe.length = verify::kToolLength;
-    probe.stemDiameter = 2 * radius * kStemShare;
-    probe.stemLength = kStemLength;
-    probe.bodyDiameter = kBodyDiameter;
-    probe.bodyLength = kBodyLength;
-  }
-  probe.ballDiameter = 2 * radius;
-  probe.effectiveRadius = radius;
-  probe.lengthToTip = true;
-  probe.preTravel = 0; // a calibrated probe, as exact as its signal
-  probe.noise = 0;
-  probe.on = false;
-  return probe;
-}
-
-verify::Entry CaseRunner::entryOf(const verify::Case& drawn, bool probeOn) const {
-  verify::Entry entry;
-  const auto host = [&](const char* name) {
-    const auto found = drawn.hosts.find(name);
-    return found == drawn.hosts.end() ? 0.0 : found->second;
-  };
-  entry.start = {host("start_x"), host("start_y"), host("start_z")};
-  entry.system = drawn.system;
-  entry.probeOn = probeOn;
-  if (plan_.machine) {
-    // Where the machine's travel is stated, the cycle stands in its middle.
-    double middle[3] = {};
-    const sim::Point3 zero = entry.zeros[drawn.system - 54];
-    for (std::size_t axis = 0; axis < 3; ++axis)
-      if (const auto& span = plan_.machine->limits.travel[axis])
-        middle[axis] = (span->least + span->most) / 2 - (axis == 0   ? zero.x + entry.start.x
-                                                         : axis == 1 ? zero.y + entry.start.y
-                                                                     : zero.z + entry.start.z);
-    for (sim::Point3& one : entry.zeros)
-      one = one + sim::Point3{middle[0], middle[1], middle[2]};
-  }
-  return entry;
+  const stdlib::Control& control = *inputs_->control;
+  return ready_->read("call", call + "\nM30\n", control, session_) &&
+         ready_->readTranslation(*plan_.translation, control, session_) &&
+         (targetSet_ == nullptr || ready_->readMacros(*targetSet_, control, session_)) &&
+         ready_->compile(control);
 }
 
 // To the last place that the post prints of them.
@@ -313,7 +224,7 @@ std::optional<verify::Case> CaseRunner::draw(std::uint64_t index) {
       misplace(*values);
       const double off =
           plan_.translation ? verify::mostOff(values->path->nominal(), values->drawn.error) : 0;
-      refusal_ = verify::whyNotReached(*values->path, *values->part, probeOf(values->drawn), off);
+      refusal_ = verify::whyNotReached(*values->path, *values->part, probeFor(plan_, values->drawn), off);
       if (!refusal_.empty()) continue;
     }
     if (nominal_ != nullptr && !leadToNominal(values)) continue;
@@ -352,7 +263,7 @@ std::optional<std::vector<double>> CaseRunner::nominalMisses(const verify::Case&
   const std::unique_ptr<Values> values = check(drawn, false);
   if (!values || values->rejected || !values->path || !makePart(*values) || !readPosted(*values))
     return std::nullopt;
-  sim::World world(*values->part, probeOf(drawn));
+  sim::World world(*values->part, probeFor(plan_, drawn));
   const verify::Record record = runPosted(*values, world, true, verify::Stand::Way::Run);
   std::vector<double> out;
   const sim::Point3 zero = zeroOf(drawn);
@@ -377,7 +288,7 @@ void CaseRunner::misplace(Values& values) const {
 }
 
 sim::Point3 CaseRunner::zeroOf(const verify::Case& drawn) const {
-  return entryOf(drawn, false).zeros[drawn.system - 54];
+  return entryFor(plan_, drawn, false).zeros[drawn.system - 54];
 }
 
 // Host inputs as the path and the post's pictures have them.
@@ -437,14 +348,14 @@ verify::Record CaseRunner::runPosted(const Values& values, sim::World& world, bo
     meaning.emplace(*sourceSet_, *inputs_->sourceControl);
     meaning->setStylusRadius(values.drawn.hosts.at("tool_radius"));
   }
-  return sourceStand_->run(values.posted->code, world, entryOf(values.drawn, probeOn), values.posted->stores,
-                           meaning ? &*meaning : nullptr, way);
+  return sourceStand_->run(values.posted->code, world, entryFor(plan_, values.drawn, probeOn),
+                           values.posted->stores, meaning ? &*meaning : nullptr, way);
 }
 
 // What the source measures, whatever the part: surfaces that the probe cannot get at by its own axes are out
 // of reach. "" or why.
 std::string CaseRunner::whyNotMeasured(Values& values) {
-  sim::World nothing(*values.part, probeOf(values.drawn));
+  sim::World nothing(*values.part, probeFor(plan_, values.drawn));
   values.rehearsal = runPosted(values, nothing, true, verify::Stand::Way::Rehearse);
   for (const verify::Measure& measure : values.rehearsal->measures) {
     if (measure.nominal.empty()) return "a measure has no way to its surface";
@@ -455,7 +366,7 @@ std::string CaseRunner::whyNotMeasured(Values& values) {
 }
 
 verify::Record CaseRunner::runTranslation(const Values& values, sim::World& world, bool probeOn) {
-  verify::Entry entry = entryOf(values.drawn, probeOn);
+  verify::Entry entry = entryFor(plan_, values.drawn, probeOn);
   for (const OutputArgument& argument : plan_.translation->arguments) {
     const std::uint32_t local = stdlib::localOf(argument.letter);
     const std::string folded = gibbs::foldCase(argument.name);
@@ -471,7 +382,7 @@ verify::Record CaseRunner::runTranslation(const Values& values, sim::World& worl
     meaning.emplace(*targetSet_, *inputs_->control);
     meaning->setStylusRadius(values.drawn.hosts.at("tool_radius"));
   }
-  return targetStand_->run(ready_->code, world, entry,
+  return targetStand_->run(ready_->code(), world, entry,
                            values.posted ? values.posted->stores : std::set<std::uint32_t>{},
                            meaning ? &*meaning : nullptr);
 }
@@ -489,8 +400,7 @@ SourceRange CaseRunner::sourceOf(SourceRange posted, const Values& values) const
 }
 
 std::uint32_t CaseRunner::targetLine(SourceRange range) const {
-  if (!ready_ || range.file != ready_->emitted) return 0;
-  return ready_->sources.line(range);
+  return ready_ ? ready_->line(range) : 0;
 }
 
 void CaseRunner::addFinding(CaseResult& result, const verify::Difference& difference,
@@ -519,7 +429,7 @@ CaseResult CaseRunner::run(const verify::Case& drawn) {
   else if (!values->part && values->path && makePart(*values))
     misplace(*values);
   if (!values->part) values->part = emptyPart(zeroOf(drawn));
-  sim::World world(*values->part, probeOf(drawn),
+  sim::World world(*values->part, probeFor(plan_, drawn),
                    plan_.machine ? plan_.machine->limits : sim::MachineLimits{});
 
   if (routine_ == nullptr) {
@@ -548,7 +458,7 @@ CaseResult CaseRunner::run(const verify::Case& drawn) {
     return result;
   }
   if (target_ != nullptr) {
-    const verify::Entry entry = entryOf(values->drawn, probeOn);
+    const verify::Entry entry = entryFor(plan_, values->drawn, probeOn);
     const std::set<std::uint32_t> none;
     const TargetRun ran = target_->run({values->drawn, entry, values->posted ? values->posted->stores : none,
                                         world, values->rejected ? nullptr : &*source});
@@ -569,14 +479,15 @@ CaseResult CaseRunner::run(const verify::Case& drawn) {
     const verify::Record target = runTranslation(*values, world, probeOn);
     verify::CompareRules rules;
     rules.tolerance = options_.tolerance;
-    rules.results = std::max(options_.tolerance, resultTolerance());
+    rules.results = std::max(options_.tolerance, resultTolerance(*inputs_->control, *inputs_->sourceControl));
     rules.mayRestoreModes = true;
     rules.sameAlarmNumbers = sourceSet_ == targetSet_ && !values->rejected;
     rules.samePlace = [&](SourceRange one, SourceRange other) {
-      return samePlace(values->rejected ? values->rejectedAt : sourceOf(one, *values), targetLine(other));
+      return plan_.translation->stemsFrom(values->rejected ? values->rejectedAt : sourceOf(one, *values),
+                                          targetLine(other), session_.sources());
     };
     if (!values->rejected && target.ending == verify::Ending::Alarm && target.pieces.empty() &&
-        madeUp(targetLine(target.endedAt))) {
+        plan_.translation->madeUp(targetLine(target.endedAt))) {
       result.verdict = CaseVerdict::Refused;
       result.why = "the translation refuses the values: " + target.text;
       result.whyAt = {};
@@ -670,45 +581,12 @@ void CaseRunner::compareGeometry(CaseResult& result, const Values& values,
   result.verdict = result.findings.empty() ? CaseVerdict::Idle : CaseVerdict::Differ;
 }
 
-// A line of the translation that stems from nothing in the source.
-bool CaseRunner::madeUp(std::uint32_t line) const {
-  const auto& lines = plan_.translation->sources;
-  return line != 0 && line <= lines.size() && lines[line - 1] && lines[line - 1]->empty();
-}
-
-bool CaseRunner::samePlace(SourceRange source, std::uint32_t targetLine) const {
-  if (!source.hasPlace() || targetLine == 0) return true;
-  const auto& lines = plan_.translation->sources;
-  if (targetLine > lines.size()) return false;
-  const auto& from = lines[targetLine - 1];
-  return !from ||
-         from->contains({session_.sources().file(source.file).name(), session_.sources().line(source)});
-}
-
-// Eight digits leave this much of a result beside the other way to compute it.
-double CaseRunner::resultTolerance() const {
-  const auto digits = [](const stdlib::Control& control) {
-    return control.arithmetic == stdlib::Arithmetic::Decimal8;
-  };
-  constexpr double kEightDigits = 5e-5;
-  return digits(*inputs_->control) || digits(*inputs_->sourceControl) ? kEightDigits : 0;
-}
-
 void CaseRunner::noteProbe(CaseResult& result, const verify::Record& record, const Values& values) const {
-  const verify::Piece* first = nullptr;
-  for (const verify::Piece& piece : record.pieces) {
-    if (piece.kind == sim::PathKind::Protected && piece.with.probe != verify::Switch::On && first == nullptr)
-      first = &piece;
-    if (piece.kind == sim::PathKind::Measuring && piece.with.probe != verify::Switch::On && !result.unarmed)
-      result.unarmed = sourceOf(piece.range, values);
-  }
-  if (first != nullptr) {
-    result.unprotected = sourceOf(first->range, values);
-    result.spindleLater = values.spindleOff && first->range.begin < values.spindleOff->begin;
-  }
-  for (const verify::Measure& measure : record.measures)
-    if (measure.with.probe != verify::Switch::On && !result.unarmed)
-      result.unarmed = sourceOf(measure.range, values);
+  const verify::ProbeOff off = verify::probeOffIn(record);
+  if (off.measuring) result.unarmed = sourceOf(*off.measuring, values);
+  if (!off.protectedMove) return;
+  result.unprotected = sourceOf(*off.protectedMove, values);
+  result.spindleLater = values.spindleOff && off.protectedMove->begin < values.spindleOff->begin;
 }
 
 std::vector<std::pair<std::string, SourceRange>> CaseRunner::droppedDigits(const verify::Case& drawn) {

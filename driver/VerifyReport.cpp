@@ -128,6 +128,7 @@ std::string VerifyReport::replay(const verify::Case& drawn) const {
   if (options_.source.cycle) flag("--cycle", *options_.source.cycle);
   if (!options_.to.empty()) flag("--to", options_.to);
   if (!options_.control.empty()) flag("--control", options_.control);
+  if (!options_.fromControl.empty()) flag("--from-control", options_.fromControl);
   if (options_.probeMacros) flag("--probe-macros", *options_.probeMacros);
   if (!options_.datum.empty()) flag("--datum", options_.datum);
   if (options_.common.job) flag("--job", *options_.common.job);
@@ -141,7 +142,7 @@ std::string VerifyReport::replay(const verify::Case& drawn) const {
     flag("--field", field + "=" + variable);
   std::set<std::string> known;
   for (const auto& [name, value] : drawn.values) {
-    flag("--set", name + "=" + numberText(value));
+    flag(plan_.programs ? "--var" : "--set", name + "=" + numberText(value));
     known.insert(name);
   }
   for (const auto& [name, text] : options_.common.set)
@@ -221,8 +222,8 @@ void VerifyReport::tellPictures() {
 
 Outcome VerifyReport::finish() {
   Session& session = runner_.session();
-  if (!options_.source.prog)
-    told_.report<diag::MeasurementNotStated>({runner_.folder().place, 0, 0}, cases_.idle, cases_.all());
+  const bool stated = options_.source.prog || plan_.programs;
+  if (!stated) told_.report<diag::MeasurementNotStated>(runner_.place(), cases_.idle, cases_.all());
   tellProbe();
   if (options_.source.prog) tellPictures();
   std::size_t told = 0;
@@ -239,12 +240,11 @@ Outcome VerifyReport::finish() {
   });
   constexpr std::size_t kMostReasons = 5;
   for (std::size_t i = 0; i < std::min(reasons.size(), kMostReasons); ++i)
-    if (options_.source.prog)
+    if (stated)
       told_.report<diag::VerifyIdle>(reasons[i]->at, reasons[i]->count, cases_.all(), reasons[i]->why)
           .note({}, "the first: " + replay(reasons[i]->drawn));
   const std::uint64_t all = cases_.all();
-  if (options_.source.prog &&
-      static_cast<double>(cases_.proved) < options_.minProved / 100 * static_cast<double>(all))
+  if (stated && static_cast<double>(cases_.proved) < options_.minProved / 100 * static_cast<double>(all))
     told_.report<diag::VerifyTooFew>({}, cases_.proved, all, numberText(options_.minProved));
   session.diagnostics() = std::move(told_);
   std::string out;

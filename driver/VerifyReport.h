@@ -1,7 +1,7 @@
 // Private to Verify*.cpp: what the cases come to. The order in which they are added does not matter.
 #pragma once
 
-#include "driver/VerifyCase.h"
+#include "driver/VerifySubject.h"
 
 #include <map>
 #include <string>
@@ -12,7 +12,7 @@ namespace dotek::driver {
 class VerifyReport {
 public:
   // All outlive the report. `runner` shrinks what differs and holds the diagnostics.
-  VerifyReport(const VerifyOptions& options, const VerifyPlan& plan, CaseRunner& runner)
+  VerifyReport(const VerifyOptions& options, const VerifyPlan& plan, CaseSubject& runner)
       : options_(options), plan_(plan), runner_(runner) {}
 
   void add(std::uint64_t number, bool edge, verify::Case drawn, CaseResult result);
@@ -50,7 +50,7 @@ private:
 
   const VerifyOptions& options_;
   const VerifyPlan& plan_;
-  CaseRunner& runner_;
+  CaseSubject& runner_;
   Diagnostics told_; // the runner's own are of its last case
   std::optional<FileId> translationFile_;
   Counts cases_, edges_;

@@ -85,6 +85,8 @@ public:
       add(Aspect::End, fmt::format("it ends at {} against {}", textOf(source_.end), textOf(target_.end)),
           source_.endedAt, target_.endedAt);
     if (source_.ending == Ending::Finished) modes();
+    if (rules_.sameProgram && source_.printed != target_.printed)
+      add(Aspect::Printed, fmt::format("`{}` against `{}`", source_.printed, target_.printed), {}, {});
     std::stable_sort(out_.begin(), out_.end(),
                      [](const Difference& a, const Difference& b) { return a.aspect < b.aspect; });
     return std::move(out_);
@@ -100,6 +102,16 @@ private:
   // Where other macros stop with their alarm is their own business.
   bool stopsInMacros() const {
     return !rules_.sameAlarmNumbers && source_.ending == Ending::Alarm && !source_.alarmKind.empty();
+  }
+
+  // A number that is not known agrees with any. Controls show texts of different length.
+  bool sameOwnAlarm() const {
+    if (source_.alarm == 0 || target_.alarm == 0) return true;
+    constexpr std::uint32_t kOwn = 3000;
+    if (source_.alarm != target_.alarm || source_.alarm < kOwn) return source_.alarm == target_.alarm;
+    const std::size_t shown = std::min(source_.text.size(), target_.text.size());
+    return source_.text.compare(0, shown, target_.text, 0, shown) == 0 &&
+           (shown > 0 || source_.text == target_.text);
   }
 
   static std::string endText(const Record& record) {
@@ -120,6 +132,8 @@ private:
       same = source_.alarmKind == target_.alarmKind;
     if (alarms && rules_.sameAlarmNumbers && same)
       same = source_.alarm == target_.alarm && source_.text == target_.text;
+    else if (alarms && rules_.sameProgram && same && source_.alarmKind.empty())
+      same = sameOwnAlarm();
     if (!same) {
       add(Aspect::Ending, endText(source_) + " against " + endText(target_), source_.endedAt,
           target_.endedAt);
@@ -254,9 +268,20 @@ private:
         const bool null = sim::isNull(value), otherNull = sim::isNull(other->second);
         const bool unknown = sim::isUnknown(value) || sim::isUnknown(other->second);
         if (unknown ? sim::isUnknown(value) && sim::isUnknown(other->second)
-                    : null == otherNull && (null || std::abs(value - other->second) <= rules_.results))
+                    : null == otherNull &&
+                          (null || std::abs(value - other->second) <=
+                                       std::max(rules_.results, rules_.relative * std::abs(value))))
           continue;
       }
+      add(Aspect::Variable,
+          fmt::format("#{} {} against {}", number, shown(source_.stores, number),
+                      shown(target_.stores, number)),
+          lastMeasure(source_), lastMeasure(target_));
+      return;
+    }
+    if (!rules_.sameProgram) return;
+    for (const auto& [number, value] : target_.stores) {
+      if (source_.stores.contains(number)) continue;
       add(Aspect::Variable,
           fmt::format("#{} {} against {}", number, shown(source_.stores, number),
                       shown(target_.stores, number)),
@@ -326,6 +351,7 @@ std::string_view aspectName(Aspect aspect) {
   case Aspect::Variable: return "variable";
   case Aspect::End: return "end position";
   case Aspect::Modal: return "modal state";
+  case Aspect::Printed: return "printed text";
   }
   return "";
 }
@@ -402,6 +428,18 @@ std::vector<Difference> compare(const DrawnPath& path, const Point3& offset, con
         fmt::format("the path ends at {} against {}", textOf(path.points.back() + offset),
                     textOf(program.end)),
         path.ranges.back(), program.pieces.empty() ? SourceRange{} : program.pieces.back().range);
+  return out;
+}
+
+ProbeOff probeOffIn(const Record& record) {
+  ProbeOff out;
+  for (const Piece& piece : record.pieces) {
+    if (piece.with.probe == Switch::On) continue;
+    if (piece.kind == sim::PathKind::Protected && !out.protectedMove) out.protectedMove = piece.range;
+    if (piece.kind == sim::PathKind::Measuring && !out.measuring) out.measuring = piece.range;
+  }
+  for (const Measure& measure : record.measures)
+    if (measure.with.probe != Switch::On && !out.measuring) out.measuring = measure.range;
   return out;
 }
 

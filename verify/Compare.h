@@ -5,6 +5,7 @@
 #include "verify/Record.h"
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,7 @@ enum class Aspect : std::uint8_t {
   Variable, // that the source stores
   End,      // end position
   Modal,    // codes in force at the end
+  Printed,  // what DPRNT and BPRNT sent
 };
 std::string_view aspectName(Aspect aspect);
 
@@ -33,10 +35,14 @@ struct CompareRules {
   double tolerance = 1e-6; // mm; also of degrees and variables
   // Of results that the control has computed: offsets, variables. Not below `tolerance`.
   double results = 1e-6;
+  double relative = 0; // share of a variable's value that counts as equal beside that
   // Whether a place of the target's program stems from a place of the source's. Nothing: not compared.
   std::function<bool(SourceRange source, SourceRange target)> samePlace;
   // Modal groups may also end as they stood at entry: the target is called and puts them back.
   bool mayRestoreModes = false;
+  // The target is the same program, translated: it stores and prints nothing else, and alarms that no probing
+  // macro raises have their numbers; of #3000 their texts, too, as far as the control shows them.
+  bool sameProgram = false;
   bool sameAlarmNumbers = false; // both call the same macros: numbers and texts count, not only their kind
 };
 
@@ -48,6 +54,12 @@ std::vector<Difference> compare(const Record& source, const Record& target, cons
 // system of the path to the machine.
 std::vector<Difference> compare(const DrawnPath& path, const sim::Point3& offset, const Record& program,
                                 double tolerance);
+
+// Where the first measuring move, and the first protected one, ran with the probe off; calls, too.
+struct ProbeOff {
+  std::optional<SourceRange> measuring, protectedMove;
+};
+ProbeOff probeOffIn(const Record& record);
 
 // Why the run proves nothing: an alarm, a collision, a measuring move with the probe off, a measure without
 // contact. "" where it does; `at`: where.

@@ -62,7 +62,8 @@ struct Record {
   std::uint32_t alarm = 0; // as the control shows it; 0: its number is not known
   std::string text;        // of the alarm, or why it is inconclusive
   SourceRange endedAt;
-  std::string alarmKind; // of a probing macro's alarm, as all sets call it; "" for others
+  bool overLimit = false; // inconclusive: a limit of Dotek
+  std::string alarmKind;  // of a probing macro's alarm, as all sets call it; "" for others
 
   std::vector<Piece> pieces;
   std::vector<Measure> measures;
@@ -72,6 +73,7 @@ struct Record {
   // machine position of the zero.
   std::map<std::pair<std::uint32_t, std::uint32_t>, double> zeros;
   std::map<std::uint32_t, double> stores; // variables that the program itself writes; kNull is a value
+  std::string printed;                    // by DPRNT and BPRNT, bytes
   sim::Point3 start, end;
   // Modal codes by group, times ten, at entry and at the end.
   std::array<std::uint32_t, 32> modalBefore{}, modalAfter{};

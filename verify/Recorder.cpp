@@ -185,6 +185,7 @@ Record Recorder::finish(const std::set<std::uint32_t>& stores) {
   case sim::Ending::Alarm: record_.ending = Ending::Alarm; break;
   default: record_.ending = Ending::Inconclusive; break;
   }
+  record_.overLimit = end.ending == sim::Ending::Limit;
   if (record_.ending != Ending::Finished) {
     record_.alarm = end.number;
     record_.text = end.text;

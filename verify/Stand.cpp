@@ -75,7 +75,9 @@ Record Stand::run(const sim::Bytecode& code, sim::World& world, const Entry& ent
   machine.setWatcher(&recorder);
   run.run();
   machine.setWatcher(nullptr);
-  return recorder.finish(stores);
+  Record record = recorder.finish(stores);
+  record.printed = run.output();
+  return record;
 }
 
 } // namespace dotek::verify

@@ -1,0 +1,103 @@
+#include "driver/ConvertVerify.h"
+
+#include "driver/Programs.h"
+#include "driver/Session.h"
+#include "support/messages/Verify.h"
+
+#include <algorithm>
+
+namespace dotek::driver {
+
+namespace {
+
+constexpr std::uint64_t kCases = 200; // of each input
+
+// The sources of `from` become sources of `into`; the diagnostics follow.
+void take(Outcome& into, Outcome from) {
+  const FileId first = into.sources.size();
+  for (FileId id = 0; id < from.sources.size(); ++id)
+    into.sources.add(from.sources.file(id));
+  const auto move = [&](SourceRange& range) {
+    if (range.hasPlace()) range.file += first;
+  };
+  for (Diagnostic& one : from.diagnostics.all()) {
+    move(one.range);
+    for (DiagnosticNote& note : one.notes)
+      move(note.range);
+    if (one.fix)
+      for (Edit& edit : one.fix->edits)
+        move(edit.range);
+    into.diagnostics.add(std::move(one));
+  }
+}
+
+std::string lastLine(std::string text) {
+  while (!text.empty() && text.back() == '\n')
+    text.pop_back();
+  const std::size_t at = text.rfind('\n');
+  return at == std::string::npos ? text : text.substr(at + 1);
+}
+
+// The result of one input by itself; `cycle`: its place among the cycles.
+std::shared_ptr<const Outcome> resultOf(const Outcome& all, std::size_t file, std::size_t cycle) {
+  auto out = std::make_shared<Outcome>();
+  out->files = {all.files[file]};
+  out->maps = {all.maps[file]};
+  if (cycle < all.arguments.size()) {
+    out->arguments = {all.arguments[cycle]};
+    out->macros = all.macrosByCycle[cycle];
+  }
+  out->sources = all.sources;
+  return out;
+}
+
+VerifyOptions optionsOf(const ConvertOptions& options, const std::string& input) {
+  VerifyOptions out;
+  out.inputs = {input};
+  out.common = options.common;
+  // The program switches the probe by itself, so the source stands where it is on.
+  if (options.switchProbe) out.common.assume.insert("probe-on");
+  out.source = options.source;
+  out.to = options.to;
+  out.control = options.control;
+  out.fromControl = options.fromControl;
+  out.probeMacros = options.probeMacros;
+  out.datum = options.datum;
+  out.cases = kCases;
+  return out;
+}
+
+} // namespace
+
+Outcome verified(const ConvertOptions& options, Outcome outcome) {
+  Session session(options.common);
+  std::size_t cycles = 0;
+  int status = 0;
+  for (std::size_t i = 0; i < options.inputs.size(); ++i) {
+    const std::string& input = options.inputs[i];
+    VerifyOptions one = optionsOf(options, input);
+    const bool program = isProgramFile(input, session);
+    if (options.to == "fanuc")
+      one.converted = resultOf(outcome, i, program ? outcome.arguments.size() : cycles);
+    if (!program) ++cycles;
+    Outcome found = driver::verify(one);
+    status = std::max(status, found.status);
+    const std::string counts = lastLine(found.output);
+    const bool good = found.status == 0;
+    take(outcome, std::move(found));
+    if (good)
+      outcome.diagnostics.report<diag::Verified>({}, input, counts);
+    else
+      outcome.diagnostics.report<diag::NotVerified>({}, input,
+                                                    counts.empty() ? "it cannot be looked at" : counts);
+  }
+  outcome.diagnostics.sort();
+  if (status == 0) return outcome;
+  Outcome out;
+  out.status = status;
+  out.sources = std::move(outcome.sources);
+  out.diagnostics = std::move(outcome.diagnostics);
+  return out;
+}
+
+} // namespace dotek::driver

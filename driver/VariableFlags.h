@@ -1,0 +1,15 @@
+// `--var N=VALUE`.
+#pragma once
+
+#include "driver/Driver.h"
+
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+namespace dotek::driver {
+
+// Numbers with their values; what is none is reported.
+std::vector<std::pair<std::uint32_t, double>> variablesOf(const NamedTexts& given, Diagnostics& diagnostics);
+
+} // namespace dotek::driver

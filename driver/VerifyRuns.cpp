@@ -1,0 +1,64 @@
+#include "driver/VerifyRuns.h"
+
+#include "support/messages/Verify.h"
+
+#include <algorithm>
+#include <atomic>
+#include <mutex>
+#include <thread>
+
+namespace dotek::driver {
+
+namespace {
+
+constexpr std::uint64_t kEdgeShare = 10;                 // one edge case beside so many others
+constexpr std::uint64_t kEdges = std::uint64_t{1} << 62; // numbers of edge cases begin here
+
+} // namespace
+
+bool runCases(const VerifyOptions& options, bool edges, CaseSubject& main,
+              const std::function<std::unique_ptr<CaseSubject>()>& another, VerifyReport& report) {
+  const std::uint64_t all = options.cases + (edges ? options.cases / kEdgeShare : 0);
+  std::atomic<std::uint64_t> next = 0, done = 0;
+  std::atomic<bool> stop = false;
+  std::mutex mutex;
+  std::string noValues;
+  const auto work = [&](CaseSubject& runner) {
+    for (std::uint64_t n = next++; n < all && !stop; n = next++) {
+      const bool edge = n >= options.cases;
+      std::optional<verify::Case> drawn;
+      if (edge)
+        drawn = runner.edge(n - options.cases);
+      else
+        drawn = runner.draw(n);
+      if (!drawn) {
+        const std::lock_guard lock(mutex);
+        noValues = runner.lastRefusal();
+        stop = true;
+        return;
+      }
+      CaseResult result = runner.run(*drawn);
+      const std::lock_guard lock(mutex);
+      report.add(edge ? kEdges + n : n, edge, std::move(*drawn), std::move(result));
+      const std::uint64_t finished = ++done;
+      if (options.progress && (finished % 64 == 0 || finished == all)) options.progress(finished, all);
+    }
+  };
+  std::uint32_t jobs = options.jobs != 0 ? options.jobs : std::max(1U, std::thread::hardware_concurrency());
+  jobs = static_cast<std::uint32_t>(std::min<std::uint64_t>(jobs, std::max<std::uint64_t>(1, all / 32)));
+  std::vector<std::thread> threads;
+  for (std::uint32_t i = 1; i < jobs; ++i) {
+    threads.emplace_back([&] {
+      if (const std::unique_ptr<CaseSubject> runner = another()) work(*runner);
+    });
+  }
+  work(main);
+  for (std::thread& thread : threads)
+    thread.join();
+  if (!stop) return true;
+  main.session().diagnostics() = Diagnostics();
+  main.session().diagnostics().report<diag::NoValuesFound>(main.place(), noValues);
+  return false;
+}
+
+} // namespace dotek::driver

@@ -1,0 +1,92 @@
+// Private to Verify*.cpp: what all kinds of sources share that verify looks at. A subject draws cases and
+// runs them on both sides; the report puts together what they come to.
+#pragma once
+
+#include "driver/Session.h"
+#include "sim/Part.h"
+#include "sim/Probe.h"
+#include "verify/Compare.h"
+#include "verify/Draw.h"
+#include "verify/Stand.h"
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace dotek::driver {
+
+// A translation as text, with what its lines come from.
+struct Translation {
+  std::string name, text;
+  std::uint32_t number = 0; // O number
+  std::vector<OutputArgument> arguments;
+  // By line from 0: files and lines; empty: made up. Nothing: not known, of a line that was edited.
+  std::vector<std::optional<std::set<std::pair<std::string, std::uint32_t>>>> sources;
+
+  // A line, from 1, that stems from nothing in the source.
+  bool madeUp(std::uint32_t line) const;
+  // The line, from 1, stems from a place of the source; true where one of the two is not known.
+  bool stemsFrom(SourceRange source, std::uint32_t line, const SourceMap& sources) const;
+};
+
+// What all cases share.
+struct VerifyPlan {
+  std::vector<verify::DrawField> fields; // of a cycle
+  std::map<std::string, double> fixedHosts;
+  std::map<std::string, int> hostDecimals; // of host inputs that the post prints
+  std::string sourceMacros, targetMacros;  // names of sets; "": none
+  std::optional<Translation> translation;  // nothing: the path stands beside the posted program
+  std::optional<sim::MachineFile> machine;
+  std::optional<sim::Part> part; // of --part; nothing: made from the path of each case
+  bool programs = false;         // macro B against its conversion: fields are variables by number
+};
+
+// A difference in places that the user has: the source's files, lines of the translation.
+struct CaseFinding {
+  verify::Aspect aspect = verify::Aspect::Path;
+  std::string text;
+  SourceRange source;
+  SourceRange posted;           // beside a path: the Prog's line
+  std::uint32_t targetLine = 0; // from 1; 0: none
+};
+
+// Refused: the translation raises an alarm of its own before anything moves. NoProgram: the source prints
+// none, or no source tells what it does.
+enum class CaseVerdict : std::uint8_t { Proved, Idle, Differ, Refused, NoProgram };
+
+struct CaseResult {
+  CaseVerdict verdict = CaseVerdict::Idle;
+  std::vector<CaseFinding> findings;
+  std::string why; // nothing is proved; "" where it is
+  SourceRange whyAt;
+  // Protected moves that ran with the probe off, the first of the case; and whether the spindle was stopped
+  // only behind it.
+  std::optional<SourceRange> unprotected;
+  bool spindleLater = false;
+  std::optional<SourceRange> unarmed; // the first measuring move with the probe off
+};
+
+// One thread uses a subject.
+class CaseSubject {
+public:
+  virtual ~CaseSubject() = default;
+  virtual Session& session() = 0;
+  virtual SourceRange place() const = 0; // of the source as a whole
+  // The case of this number; nothing: no values were found within the attempts.
+  virtual std::optional<verify::Case> draw(std::uint64_t index) = 0;
+  virtual verify::Case edge(std::uint64_t index) = 0;
+  // The case that `draw` gave last is run without another look at it.
+  virtual CaseResult run(const verify::Case& drawn) = 0;
+  // Fields whose picture drops digits of a value that is finer than its last place: printed where.
+  virtual std::vector<std::pair<std::string, SourceRange>> droppedDigits(const verify::Case& /*drawn*/) {
+    return {};
+  }
+  // Why the last proposal of draw() was turned away.
+  virtual const std::string& lastRefusal() const = 0;
+};
+
+} // namespace dotek::driver

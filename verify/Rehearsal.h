@@ -1,0 +1,20 @@
+// The part that a program expects, by what it measured in a rehearsal (Recorder::rehearse).
+#pragma once
+
+#include "verify/DrawnPath.h"
+#include "verify/Random.h"
+#include "verify/Record.h"
+
+#include <vector>
+
+namespace dotek::verify {
+
+// Surfaces by the calls' arguments; of a bare skip move the one that it meets at its end.
+std::vector<Touch> touchesOf(const Record& rehearsal, double ballRadius);
+
+// Where the part stands: off by at most 0.3 mm, a third of the ball's radius and of the shortest way of a
+// bare skip move, towards those moves, as they go no farther than the surface. Turned by at most 0.3 degrees
+// where no bare skip move is made.
+PartError drawError(const Record& rehearsal, double ballRadius, Random& random);
+
+} // namespace dotek::verify
