@@ -2,8 +2,8 @@
 #pragma once
 
 #include "support/Diagnostics.h"
-#include "support/LineMap.h"
 #include "support/Limits.h"
+#include "support/LineMap.h"
 #include "support/Source.h"
 
 #include <array>
@@ -129,9 +129,14 @@ struct VerifyOptions {
   // Of a replay: where the part stands, X, Y, Z, mm, and turned about Z, degrees; the system that is active.
   std::optional<std::array<double, 4>> partError;
   std::optional<std::uint32_t> activeSystem; // 54 to 59
-  bool replay = false;                       // one case, all of whose values are given: nothing is made smaller
+  bool replay = false; // one case, all of whose values are given: nothing is made smaller
   // Told from time to time how many of how many cases are done; from one thread at a time.
   std::function<void(std::uint64_t done, std::uint64_t all)> progress;
+  // Told of each case by its number, edge cases behind the others: whether it is proved, and what the
+  // translation did, as `sim` traces it (docs/sim.md), with the
+  // zeros of the work systems and the variables that the source stores at the end. In any order, from one
+  // thread at a time.
+  std::function<void(std::uint64_t number, bool proved, const std::string& trace)> traces;
 };
 
 // One file of a result that may have several; `output` holds them one behind the other.
@@ -151,10 +156,10 @@ struct OutputArgument {
 struct Outcome {
   int status = 0;
   std::string output;
-  std::vector<OutputFile> files; // of convert
-  std::string map;               // of convert: what --map writes
+  std::vector<OutputFile> files;  // of convert
+  std::string map;                // of convert: what --map writes
   std::vector<MappedResult> maps; // the same, file by file; places are of `sources`
-  std::string macros; // of convert: the set that the last result calls; "": none
+  std::string macros;             // of convert: the set that the last result calls; "": none
   std::vector<std::vector<OutputArgument>> arguments; // of convert to fanuc, cycle by cycle
   SourceMap sources;
   Diagnostics diagnostics; // sorted

@@ -213,6 +213,7 @@ private:
         }
         CaseResult result = runner.run(*drawn);
         const std::lock_guard lock(mutex);
+        if (options_.traces) options_.traces(n, result.verdict == CaseVerdict::Proved, result.trace);
         report.add(edge ? kEdges + n : n, edge, std::move(*drawn), std::move(result));
         const std::uint64_t finished = ++done;
         if (options_.progress && (finished % 64 == 0 || finished == all)) options_.progress(finished, all);

@@ -67,6 +67,7 @@ struct CaseResult {
   std::optional<SourceRange> unprotected;
   bool spindleLater = false;
   std::optional<SourceRange> unarmed; // the first measuring move with the probe off
+  std::string trace;                  // of the translation; only where VerifyOptions::traces wants it
 };
 
 class CaseRunner {
@@ -106,7 +107,7 @@ private:
   bool readPosted(Values& values);
   verify::Record runPosted(const Values& values, sim::World& world, bool probeOn, verify::Stand::Way way);
   std::string whyNotMeasured(Values& values);
-  verify::Record runTranslation(const Values& values, sim::World& world, bool probeOn);
+  verify::Record runTranslation(const Values& values, sim::World& world, bool probeOn, std::string& trace);
   sim::Probe probeOf(const verify::Case& drawn) const;
   verify::Entry entryOf(const verify::Case& drawn, bool probeOn) const;
   void addFinding(CaseResult& result, const verify::Difference& difference, const Values& values) const;

@@ -73,6 +73,7 @@ Record Stand::run(const sim::Bytecode& code, sim::World& world, const Entry& ent
   recorder.begin(run, way == Way::KeepMoves);
   machine.setSkipSignal(&recorder);
   machine.setWatcher(&recorder);
+  machine.setTrace(trace_);
   run.run();
   machine.setWatcher(nullptr);
   return recorder.finish(stores);
