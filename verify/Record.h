@@ -71,6 +71,7 @@ struct Record {
   std::map<std::pair<std::uint32_t, std::uint32_t>, double> zeros;
   std::map<std::uint32_t, double> stores; // variables that the program itself writes; kNull is a value
   sim::Point3 start, end;
+  Surroundings after; // what is on at the end
   // Modal codes by group, times ten, at entry and at the end.
   std::array<std::uint32_t, 32> modalBefore{}, modalAfter{};
   std::vector<sim::PictureMove> moves; // every motion, for pictures; only where asked for

@@ -188,6 +188,7 @@ Record Recorder::finish(const std::set<std::uint32_t>& stores) {
   }
   takeEvents();
   record_.end = lowest(machine_.machinePosition());
+  record_.after = surroundings();
   for (std::uint32_t group = 0; group < record_.modalAfter.size(); ++group)
     record_.modalAfter[group] = machine_.modalCode(group);
   for (std::uint32_t system = 0; system < 6; ++system) {

@@ -64,7 +64,7 @@ Record Stand::run(const sim::Bytecode& code, sim::World& world, const Entry& ent
     record.text = "the state before the program cannot be reached: " + machine.end().text;
     return record;
   }
-  world.restart(0);
+  world.restart(entry.noiseSeed);
   world.setOn(entry.probeOn);
   sim::Run run(machine, code, limits_, meaning);
   Recorder recorder(machine, world, sets_, length);
