@@ -48,7 +48,8 @@ std::vector<Piece> straight(const std::vector<Piece>& pieces, bool kinds, double
     if (near(piece.from, piece.to, tolerance)) continue;
     if (!out.empty()) {
       Piece& last = out.back();
-      const bool alike = !kinds || (last.kind == piece.kind && last.with == piece.with);
+      const bool alike =
+          !kinds || (last.kind == piece.kind && last.with == piece.with && last.feed == piece.feed);
       const bool joined = near(last.to, piece.from, tolerance);
       if (alike && joined && between(last.from, last.to, piece.to, tolerance)) {
         last.to = piece.to;
@@ -176,7 +177,17 @@ private:
         return;
       }
       state(a[i].with, b[i].with, "", a[i].range, b[i].range);
+      feed(a[i], b[i]);
     }
+  }
+
+  void feed(const Piece& a, const Piece& b) {
+    const auto shown = [](const Piece& piece) {
+      return piece.feed ? "F" + numberText(*piece.feed) : std::string("no feed");
+    };
+    const bool same = a.feed && b.feed ? std::abs(*a.feed - *b.feed) <= rules_.results
+                                       : a.feed.has_value() == b.feed.has_value();
+    if (!same) add(Aspect::State, shown(a) + " against " + shown(b), a.range, b.range);
   }
 
   void state(const Surroundings& a, const Surroundings& b, std::string_view when, SourceRange source,

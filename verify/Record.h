@@ -35,6 +35,8 @@ struct Piece {
   sim::Point3 from, to;
   Surroundings with;
   SourceRange range; // in the program that ran
+  // As programmed, for the move itself; nothing: a rapid, or what the control or a macro takes by itself.
+  std::optional<double> feed;
 };
 
 // Where a surface is expected, or was found. In X and Y the ball's centre stands one radius before it, in Z

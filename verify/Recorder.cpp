@@ -74,7 +74,9 @@ std::optional<double> Recorder::contact(const sim::SkipMove& move) {
 
 void Recorder::addPiece(sim::PathKind kind, const sim::Point3& from, const sim::Point3& to,
                         SourceRange range) {
-  record_.pieces.push_back({kind, from, to, surroundings(), range});
+  Piece piece{kind, from, to, surroundings(), range, std::nullopt};
+  if (kind != sim::PathKind::Rapid) piece.feed = machine_.feed();
+  record_.pieces.push_back(std::move(piece));
 }
 
 void Recorder::takeEvents() {
@@ -136,6 +138,11 @@ void Recorder::callBegins(std::uint32_t program, std::span<const double> locals)
   const stdlib::MacroSignature* const signature = signatureOf(**set, program, locals);
   const Intent intent = signature == nullptr ? Intent::Surface : signature->intent;
   call_.moves = intent == Intent::ProtectedMove;
+  if (const stdlib::MacroArgument* feed =
+          signature == nullptr ? nullptr : signature->find(stdlib::ArgumentRole::Feed)) {
+    const double given = locals[stdlib::localOf(feed->letter)];
+    if (!sim::isNull(given) && !sim::isUnknown(given)) call_.feed = given;
+  }
   call_.measures = !call_.moves && intent != Intent::ProbeOn && intent != Intent::ProbeOff;
   if (!call_.measures) return;
   Measure measure;
@@ -156,9 +163,11 @@ void Recorder::endCall() {
   const sim::Point3 end = lowest(machine_.machinePosition());
   if (call_.measures) {
     record_.measures.back().end = end;
-    record_.pieces.push_back({sim::PathKind::Measuring, call_.start, call_.start, call_.with, call_.range});
+    record_.pieces.push_back(
+        {sim::PathKind::Measuring, call_.start, call_.start, call_.with, call_.range, std::nullopt});
   } else if (call_.moves) {
-    record_.pieces.push_back({sim::PathKind::Protected, call_.start, end, call_.with, call_.range});
+    record_.pieces.push_back(
+        {sim::PathKind::Protected, call_.start, end, call_.with, call_.range, call_.feed});
   }
   call_ = {};
 }

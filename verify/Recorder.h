@@ -64,6 +64,7 @@ private:
     sim::Point3 start;
     SourceRange range;
     Surroundings with;
+    std::optional<double> feed; // an argument
   } call_;
 };
 

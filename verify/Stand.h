@@ -29,7 +29,7 @@ struct Entry {
   std::array<sim::Point3, 6> zeros = standZeros();
   double feed = 800; // mm/min
   bool probeOn = false;
-  std::uint64_t noiseSeed = 0; // of a probe whose signal is noisy
+  std::uint64_t noiseSeed = 0;                             // of a probe whose signal is noisy
   std::vector<std::pair<std::uint32_t, double>> variables; // set before: locals, commons
 };
 

@@ -23,13 +23,20 @@ double& part(Point3& p, std::size_t axis) {
 
 class Maker {
 public:
-  Maker(std::string_view name, verify::Random& random, double turn, double tilt)
-      : random_(random), turn_(turn), tilt_(tilt) {
+  Maker(std::string_view name, verify::Random& random, const MeasuredPlace& place)
+      : random_(random), turn_(place.turn), tilt_(place.tilt) {
     out_.name = name;
     out_.ball = thousandths(0.5, 4);
     // The middle of the feature, and how far off it lies.
     middle_ = {thousandths(-60, 60), thousandths(-60, 60), thousandths(-40, 40)};
     off_ = {random_.between(-0.4, 0.4), random_.between(-0.4, 0.4), random_.between(-0.4, 0.4)};
+    if (!place.beyond) {
+      if (random_.chance(0.3)) search_ = thousandths(3, 9);
+      return;
+    }
+    off_ = {};
+    if (random_.chance(0.5)) search_ = thousandths(3, 5);
+    far_ = search_.value_or(10) + *place.beyond;
   }
 
   MeasuredFeature make() {
@@ -51,6 +58,8 @@ private:
     return std::round(random_.between(least, most) * 1000) / 1000;
   }
   double side() { return random_.chance(0.5) ? 1 : -1; }
+  // How far beyond the expected surface, where the call says it.
+  std::string beyond() const { return search_ ? "Q" + text(*search_) : std::string(); }
   static std::string text(double value) { return fmt::format("{:.3f}", value); }
 
   // Shapes were built around the feature's middle.
@@ -77,6 +86,7 @@ private:
   void surface(std::size_t axis) {
     const double sign = axis == 2 ? -1 : side(), way = thousandths(8, 30);
     sim::PartBuilder builder;
+    part(off_, axis) += sign * far_;
     Point3 least{-40, -40, -40}, most{40, 40, 40};
     (sign > 0 ? part(least, axis) : part(most, axis)) = 0;
     builder.box(least, most);
@@ -94,24 +104,32 @@ private:
     const char letter = "XYZ"[axis];
     const std::string at = letter + text(part(middle_, axis));
     out_.calls["easyprobe"] = fmt::format("G65P9023S55.{}{}{}", letter, text(sign * (way + 9)), wanted(axis));
-    out_.calls["inspection-plus"] = "G65P9811" + at + "S2";
-    out_.calls["dotek"] = "G65P8811" + at + "S2";
+    const std::string more = "S2" + beyond();
+    out_.calls["inspection-plus"] = "G65P9811" + at + more;
+    out_.calls["dotek"] = "G65P8811" + at + more;
     out_.results = {{135 + static_cast<std::uint32_t>(axis), out_.found[axis], 1}};
   }
 
+  double sizeOf(double expected, bool outside) {
+    if (far_ != 0) return expected + (outside ? -2 : 2) * far_;
+    return expected + random_.between(-0.4, 0.4);
+  }
   void aboveOrWithin(bool outside) { out_.start = middle_ + Point3{0, 0, outside ? kAbove : kDepth}; }
   std::string downBeside(double clearance) const {
     return "Z" + text(middle_.z + kDepth) + "R" + text(clearance);
   }
 
   void round(bool boss) {
-    const double diameter = thousandths(14, 60), size = diameter + random_.between(-0.4, 0.4);
+    const double diameter = thousandths(far_ != 0 ? 30 : 14, 60), size = sizeOf(diameter, boss);
     sim::PartBuilder builder;
-    if (boss) {
-      builder.cylinder({0, 0, -40}, {0, 0, 0}, size / 2);
+    if (!boss) builder.box({-70, -70, -40}, {70, 70, 0});
+    const Action action = boss ? Action::Add : Action::Remove;
+    if (far_ != 0) { // along one axis alone
+      Point3 half{diameter / 2, diameter / 2, 0};
+      part(half, random_.below(2)) = size / 2;
+      builder.box({-half.x, -half.y, -40}, {half.x, half.y, 0}, action);
     } else {
-      builder.box({-50, -50, -40}, {50, 50, 0});
-      builder.cylinder({0, 0, -40}, {0, 0, 0}, size / 2, Action::Remove);
+      builder.cylinder({0, 0, -40}, {0, 0, 0}, size / 2, action);
     }
     place(builder);
     aboveOrWithin(boss);
@@ -119,13 +137,14 @@ private:
     find(1, middle_.y + off_.y, middle_.y);
     const std::string d = "D" + text(diameter) + (boss ? downBeside(thousandths(4, 8)) : std::string());
     if (!boss) out_.calls["easyprobe"] = "G65P9023D" + text(diameter) + "S55." + wanted(0) + wanted(1);
-    out_.calls["inspection-plus"] = "G65P9814" + d + "S2";
-    out_.calls["dotek"] = "G65P8814" + d + "S2";
+    const std::string more = "S2" + beyond();
+    out_.calls["inspection-plus"] = "G65P9814" + d + more;
+    out_.calls["dotek"] = "G65P8814" + d + more;
     out_.results = {{135, out_.found[0], 1}, {136, out_.found[1], 1}, {138, size, 2}};
   }
 
   void flat(std::size_t axis, bool web) {
-    const double width = thousandths(14, 60), size = width + random_.between(-0.4, 0.4);
+    const double width = thousandths(far_ != 0 ? 30 : 14, 60), size = sizeOf(width, web);
     sim::PartBuilder builder;
     Point3 half{45, 45, 0};
     part(half, axis) = size / 2;
@@ -140,7 +159,7 @@ private:
     const double stretch = 1 / std::cos(turn_ * kDegree) - 1;
     const double measured = size + (size + (web ? 2 : -2) * out_.ball) * stretch;
     const std::string call = std::string(1, "XY"[axis]) + text(width) +
-                             (web ? downBeside(thousandths(4, 8)) : std::string()) + "S2";
+                             (web ? downBeside(thousandths(4, 8)) : std::string()) + "S2" + beyond();
     out_.calls["inspection-plus"] = "G65P9812" + call;
     out_.calls["dotek"] = "G65P8812" + call;
     out_.results = {{135 + static_cast<std::uint32_t>(axis), out_.found[axis], 1}, {138, measured, 2}};
@@ -150,25 +169,29 @@ private:
   void corner(bool outer) {
     const double x = side(), y = side(), wayX = thousandths(10, 25), wayY = thousandths(10, 25);
     sim::PartBuilder builder;
-    const auto beyond = [&](std::size_t axis, double sign) {
+    const auto facing = [&](std::size_t axis, double sign) {
       Point3 least{-60, -60, -40}, most{60, 60, 0};
       (sign > 0 ? part(least, axis) : part(most, axis)) = 0;
       builder.box(least, most, outer && axis == 1 ? Action::Keep : Action::Add);
     };
-    beyond(0, x);
-    beyond(1, y);
-    place(builder);
+    facing(0, x);
+    facing(1, y);
     out_.start = middle_ + Point3{-x * wayX, -y * wayY, kDepth};
-    const double i = thousandths(8, 25), j = thousandths(8, 25);
+    const double i = thousandths(far_ != 0 ? 20 : 8, 25), j = thousandths(far_ != 0 ? 20 : 8, 25);
+    if (random_.chance(0.5))
+      off_.x += x * far_;
+    else
+      off_.y += y * far_;
+    place(builder);
     // Where the two touches meet their faces: Y of the one across X, X of the one across Y.
     const double atY = outer ? y * j : -y * wayY, atX = outer ? x * i : -x * wayX;
     const double slope = std::tan(turn_ * kDegree);
     find(0, middle_.x + off_.x - slope * (atY - off_.y) + errorOfTouch(turn_, x), middle_.x);
     find(1, middle_.y + off_.y + slope * (atX - off_.x) + errorOfTouch(turn_, y), middle_.y);
     const std::string at = "X" + text(middle_.x) + "Y" + text(middle_.y);
-    if (!outer) out_.calls["inspection-plus"] = "G65P9815" + at + "S2";
+    if (!outer) out_.calls["inspection-plus"] = "G65P9815" + at + "S2" + beyond();
     out_.calls["dotek"] =
-        outer ? fmt::format("G65P8816{}I{}J{}S2", at, text(i), text(j)) : "G65P8815" + at + "S2";
+        (outer ? fmt::format("G65P8816{}I{}J{}S2", at, text(i), text(j)) : "G65P8815" + at + "S2") + beyond();
     out_.results = {{135, out_.found[0], 1}, {136, out_.found[1], 1}};
   }
 
@@ -178,10 +201,12 @@ private:
     Point3 least{-60, -60, -40}, most{60, 60, 0};
     (sign > 0 ? part(least, axis) : part(most, axis)) = 0;
     builder.box(least, most);
+    part(off_, axis) += sign * far_;
     place(builder);
     out_.start = middle_ + Point3{0, 0, kDepth};
     part(out_.start, axis) -= sign * way;
-    const std::string at = std::string(1, "XY"[axis]) + text(part(middle_, axis)) + "D" + text(spacing);
+    const std::string at =
+        std::string(1, "XY"[axis]) + text(part(middle_, axis)) + "D" + text(spacing) + beyond();
     out_.calls["inspection-plus"] = "G65P9843" + at;
     out_.calls["dotek"] = "G65P8843" + at;
     const double angle = (axis == 0 ? 90 : 0) + turn_;
@@ -237,14 +262,16 @@ private:
 
   verify::Random& random_;
   const double turn_, tilt_;
+  std::optional<double> search_; // 10 mm without
+  double far_ = 0;               // how much farther a surface lies
   Point3 middle_, off_;
   MeasuredFeature out_;
 };
 
 } // namespace
 
-MeasuredFeature measuredFeature(std::string_view name, verify::Random& random, double turn, double tilt) {
-  return Maker(name, random, turn, tilt).make();
+MeasuredFeature measuredFeature(std::string_view name, verify::Random& random, const MeasuredPlace& place) {
+  return Maker(name, random, place).make();
 }
 
 } // namespace dotek::tests

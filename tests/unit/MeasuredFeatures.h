@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -38,9 +39,17 @@ inline constexpr std::string_view kMeasuredFeatures[] = {
 inline constexpr std::string_view kAngledFeatures[] = {"angled surface", "angled pocket", "angled web",
                                                        "three-point bore", "three-point boss"};
 
-// `turn`: of the part about Z, degrees, through the middle of the feature; `tilt`: about X of a face that is
-// touched along Z. What the macros find is then off by the known error of the method (docs/verify.md).
-MeasuredFeature measuredFeature(std::string_view name, verify::Random& random, double turn = 0,
-                                double tilt = 0);
+// Where the part is off its place, beside a random shift.
+struct MeasuredPlace {
+  double turn = 0; // about Z, degrees, through the middle of the feature
+  double tilt = 0; // about X, of a face that is touched along Z
+  // A surface lies so much (mm) beyond where the search for it ends, instead of the shift. nullopt: all are
+  // near.
+  std::optional<double> beyond;
+};
+
+// What the macros find is off by the known error of the method where it is turned (docs/verify.md).
+MeasuredFeature measuredFeature(std::string_view name, verify::Random& random,
+                                const MeasuredPlace& place = {});
 
 } // namespace dotek::tests

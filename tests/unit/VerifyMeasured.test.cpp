@@ -119,8 +119,8 @@ TEST_CASE("measured: features that are touched along their normals are exact") {
       for (const std::string_view name : kMeasuredFeatures) {
         // Turned bores stay what they are; the angle of a face is what is measured.
         const bool turned = name.starts_with("b") || name.starts_with("angle");
-        measure(ways, measuredFeature(name, random, turned ? turnOf(random, 0, 5) : 0), tolerance, {},
-                errors);
+        measure(ways, measuredFeature(name, random, {turned ? turnOf(random, 0, 5) : 0, 0, {}}), tolerance,
+                {}, errors);
       }
       for (const std::string_view name : kAngledFeatures)
         measure(ways, measuredFeature(name, random), tolerance, {}, errors);
@@ -135,8 +135,8 @@ TEST_CASE("measured: oblique touches are off by the known error of the method") 
       for (const std::string_view name : kMeasuredFeatures) {
         if (name.starts_with("b") || name.starts_with("angle")) continue;
         const double turn = turnOf(random, 0.2, 8);
-        measure(ways, measuredFeature(name, random, name == "surface z" ? 0 : turn, turn), tolerance, {},
-                errors);
+        measure(ways, measuredFeature(name, random, {name == "surface z" ? 0 : turn, turn, {}}), tolerance,
+                {}, errors);
       }
   });
 }
@@ -167,4 +167,30 @@ TEST_CASE("measured: the calibrated radius takes the way to the signal away") {
         measure(ways, measuredFeature(name, random), tolerance, probe, errors);
       }
   });
+}
+
+// Surfaces just within the search, and just beyond it: there the macros say so.
+TEST_CASE("measured: searches go as far as the call says") {
+  for (const std::string control : {"fanuc-31i-b", "fanuc-0i-md"}) {
+    CAPTURE(control);
+    Ways ways(control);
+    verify::Random random(15);
+    int runs = 0;
+    for (int n = 0; n < 2 * kPlacements; ++n)
+      for (const std::string_view name : kMeasuredFeatures)
+        for (const auto& [way, runner] : ways.all()) {
+          CAPTURE(name);
+          CAPTURE(way);
+          const bool missed = n % 2 == 0;
+          const MeasuredFeature feature = measuredFeature(name, random, {0, 0, missed ? 0.1 : -0.1});
+          if (runner == &ways.easyprobe || (runner == &ways.meaning && name == "outer corner")) continue;
+          const auto record = runner->run(feature);
+          if (!record) continue;
+          CAPTURE(record->text);
+          CHECK(record->ending == (missed ? verify::Ending::Alarm : verify::Ending::Finished));
+          CHECK(record->alarmKind == (missed ? "probe-fail" : ""));
+          ++runs;
+        }
+    CHECK(runs > 30 * kPlacements);
+  }
 }
