@@ -41,7 +41,7 @@ struct Raw {
   std::string datum;
   std::vector<std::string> variables;
   std::vector<std::string> programs;
-  std::string traceFile;
+  std::string traceFile, svgFile, htmlFile;
   std::string part, machine, partError, translation;
   std::string cases, seed, jobs, minProved, tolerance, activeSystem;
   bool replay = false;
@@ -238,6 +238,12 @@ void fill(const Raw& raw, Arguments& parsed) {
   parsed.json = raw.format == "json" || raw.json;
   parsed.quiet = raw.quiet;
   parsed.traceFile = raw.traceFile;
+  parsed.svgFile = raw.svgFile;
+  parsed.htmlFile = raw.htmlFile;
+  parsed.sim.svg = !raw.svgFile.empty();
+  parsed.sim.html = !raw.htmlFile.empty();
+  if (!raw.part.empty()) parsed.sim.part = raw.part;
+  if (!raw.machine.empty()) parsed.sim.machine = raw.machine;
   parsed.sim.control = raw.control;
   parsed.sim.json = raw.json;
   parsed.sim.programs = raw.programs;
@@ -262,7 +268,7 @@ void fill(const Raw& raw, Arguments& parsed) {
 
 void addCommon(CLI::App& app, Raw& raw) {
   app.add_option("--encoding", raw.encoding, "utf-8, cp1250 or cp852 instead of the recognised encoding");
-  app.add_option("--from", raw.from, "kind of the inputs: prog, mac, dlg, define or nc");
+  app.add_option("--from", raw.from, "kind of the inputs: prog, mac, dlg, define, nc or suf");
   app.add_option("--max-errors", raw.maxErrors, "print at most N errors; 0 prints all")->type_name("N");
   app.add_option("--limit", raw.limit, "set a limit (see `dotek list limits`)")
       ->type_name("NAME=N")
@@ -402,6 +408,10 @@ void addSim(CLI::App& app, Raw& raw) {
   sim->add_option("--probe-macros", raw.probeMacros,
                   "set of probing macros that calls without a program mean (all)")
       ->type_name("SET");
+  sim->add_option("--part", raw.part, "part that the probe touches; needs --machine")->type_name("PART.toml");
+  sim->add_option("--machine", raw.machine, "probe and travel of the machine")->type_name("MACHINE.toml");
+  sim->add_option("--svg", raw.svgFile, "write a picture of the run, three views")->type_name("OUT");
+  sim->add_option("--html", raw.htmlFile, "write a page that shows the run in space")->type_name("OUT");
   sim->add_flag("--quiet", raw.quiet, "no trace");
   sim->add_flag("--json", raw.json, "print how the run ended as JSON, and no trace");
   sim->add_option("--trace", raw.traceFile, "write the trace to a file")->type_name("OUT");

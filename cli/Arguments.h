@@ -28,6 +28,7 @@ struct Arguments {
   std::string mapFile;            // --map
   driver::SimOptions sim;         // common aside
   std::string traceFile;          // --trace
+  std::string svgFile, htmlFile;  // --svg, --html
   driver::VerifyOptions verify;   // inputs, common and source aside
   bool quiet = false;
   driver::Stage stage = driver::Stage::Ast;

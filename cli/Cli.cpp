@@ -74,6 +74,10 @@ public:
     out_ << outcome.output;
     err_ << renderText(outcome.diagnostics, outcome.sources, maxErrors_);
     if (file && outcome.status != 2) file->commit(writing);
+    std::vector<std::pair<std::string, const std::string*>> pictures;
+    for (const driver::OutputFile& one : outcome.files)
+      pictures.emplace_back(one.name == "svg" ? arguments.svgFile : arguments.htmlFile, &one.text);
+    if (outcome.status != 2 && !pictures.empty()) writeAllAtomically(pictures, "", writing);
     err_ << renderText(writing, SourceMap(), maxErrors_);
     return writing.hasErrors() ? kUsage : outcome.status;
   }

@@ -74,6 +74,9 @@ void FusionParts::checkOptions(const ConvertOptions& options, Diagnostics& diagn
 
 void FusionParts::add(const CycleFolder& folder, LoweredCycle& lowered,
                       std::map<ir::VariableId, double> defaults) {
+  const std::string& control = inputs_.sourceControl->name;
+  if (!options_.control.empty() && options_.control != control)
+    session_.diagnostics().report<diag::ControlOfForm>(lowered.cycle.range, control, options_.control);
   const stdlib::MacroSet none = [] {
     stdlib::MacroSet set;
     set.title = "no set";
@@ -117,6 +120,9 @@ void FusionParts::finish(std::vector<OutputFile>& files, std::vector<MappedResul
     maps.push_back(std::move(map));
   };
   if (!options_.probeMacros) dropNotesOfPrograms(session_.diagnostics());
+  // An alarm is printed with its number, whatever the macros are.
+  std::erase_if(session_.diagnostics().all(),
+                [](const Diagnostic& one) { return one.code == diag::AlarmRenumbered::code; });
   if (parts_.empty()) return;
   if (!options_.wholePost) {
     for (const Part& part : parts_)

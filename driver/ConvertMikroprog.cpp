@@ -8,6 +8,7 @@
 #include "support/Decimal.h"
 #include "support/messages/Commands.h"
 #include "support/messages/Mikroprog.h"
+#include "support/messages/Nc.h"
 
 #include <algorithm>
 #include <charconv>
@@ -203,6 +204,9 @@ std::optional<MikroprogProgram> MikroprogConversion::run(const CycleFolder& fold
     diagnostics.report<diag::FileNameTwice>({}, emit.fileName, other->second, folder.name);
     return std::nullopt;
   }
+  // The back end says what becomes of an alarm.
+  std::erase_if(diagnostics.all(),
+                [](const Diagnostic& one) { return one.code == diag::AlarmRenumbered::code; });
   const auto lines = mikroprog::emit(cycle, emit, diagnostics);
   if (!lines) return std::nullopt;
   MikroprogProgram out;

@@ -39,7 +39,15 @@ gibbs::ParseContext contextOf(Session& session) {
 
 MacroLoader::MacroLoader(Session& session, fs::path folder) : session_(session), folder_(std::move(folder)) {}
 
-std::optional<fs::path> MacroLoader::find(const std::string& name, const std::string& suffix) const {
+std::optional<fs::path> MacroLoader::find(const std::string& name, const std::string& suffix) {
+  const std::string key = name + '\n' + suffix;
+  if (const auto known = found_.find(key); known != found_.end()) return known->second;
+  std::optional<fs::path> path = search(name, suffix);
+  if (path) found_.emplace(key, *path);
+  return path;
+}
+
+std::optional<fs::path> MacroLoader::search(const std::string& name, const std::string& suffix) const {
   std::string local = name;
   std::replace(local.begin(), local.end(), '\\', '/'); // the CAM runs on Windows
   const fs::path relative(local);
@@ -57,7 +65,7 @@ std::optional<fs::path> MacroLoader::find(const std::string& name, const std::st
 }
 
 bool MacroLoader::hasDialog(const std::string& name) const {
-  return find(name, ".dlg").has_value();
+  return search(name, ".dlg").has_value();
 }
 
 std::string MacroLoader::folderName() const {

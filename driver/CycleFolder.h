@@ -32,7 +32,8 @@ public:
 
 private:
   std::string folderName() const;
-  std::optional<std::filesystem::path> find(const std::string& name, const std::string& suffix) const;
+  std::optional<std::filesystem::path> find(const std::string& name, const std::string& suffix);
+  std::optional<std::filesystem::path> search(const std::string& name, const std::string& suffix) const;
   void collect(const frontend::gibbs::Macro& macro, std::vector<FileId>& open,
                std::vector<const frontend::gibbs::Macro*>& out);
 
@@ -40,6 +41,7 @@ private:
   std::filesystem::path folder_;
   std::deque<frontend::gibbs::Macro> ownMacros_;
   std::deque<frontend::gibbs::Dialog> ownDialogs_;
+  std::map<std::string, std::filesystem::path> found_;          // by name and suffix as asked for
   std::map<std::string, const frontend::gibbs::Macro*> macros_; // by path; nullptr: cannot be read
   std::map<std::string, const frontend::gibbs::Dialog*> dialogs_;
 };

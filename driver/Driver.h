@@ -104,7 +104,9 @@ struct SimOptions {
   std::vector<std::string> programs; // --programs DIR: what can be called beside the programs of the file
   // --probe-macros: the set of vendors' macros that runs by its meaning; nothing: all.
   std::optional<std::string> probeMacros;
-  bool json = false; // the output is the summary as JSON
+  std::optional<std::string> part, machine; // --part, --machine: paths
+  bool svg = false, html = false;           // pictures of the run as files "svg" and "html"
+  bool json = false;                        // the output is the summary as JSON
   // Takes the trace while the program runs, in pieces of whole lines. Empty: no trace is made.
   std::function<void(std::string_view)> trace;
 };
@@ -156,7 +158,11 @@ struct OutputArgument {
 struct Outcome {
   int status = 0;
   std::string output;
+<<<<<<< HEAD
   std::vector<OutputFile> files;  // of convert
+=======
+  std::vector<OutputFile> files;  // of convert, and pictures of sim
+>>>>>>> main
   std::string map;                // of convert: what --map writes
   std::vector<MappedResult> maps; // the same, file by file; places are of `sources`
   std::string macros;             // of convert: the set that the last result calls; "": none

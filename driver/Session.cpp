@@ -114,7 +114,7 @@ bool isUsageCode(std::string_view code) {
       diag::LetterNotAllowed::code, diag::OutputForOne::code,    diag::ArgumentUnknown::code,
       diag::LetterTwice::code,      diag::VariableFlag::code,    diag::FlagOfOtherTarget::code,
       diag::UnknownDatum::code,     diag::OptionOfCycles::code,  diag::OptionOfPrograms::code,
-      diag::ProgramTarget::code,
+      diag::ProgramTarget::code,    diag::OptionOfMacroB::code,
   };
   return std::find(kCodes.begin(), kCodes.end(), code) != kCodes.end();
 }

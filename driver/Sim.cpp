@@ -1,9 +1,12 @@
 #include "support/messages/Sim.h"
 #include "driver/Driver.h"
+#include "driver/InputKind.h"
 #include "driver/ProgramLibrary.h"
 #include "driver/Session.h"
 #include "driver/SimMacros.h"
+#include "driver/SimMikroprog.h"
 #include "driver/SimReport.h"
+#include "driver/SimWorld.h"
 #include "frontend/nc/Scan.h"
 #include "sim/Arguments.h"
 #include "sim/Compile.h"
@@ -17,6 +20,7 @@
 #include "support/messages/Common.h"
 
 #include <charconv>
+#include <span>
 
 namespace dotek::driver {
 namespace {
@@ -30,8 +34,11 @@ public:
   Outcome run() {
     if (options_.program.empty())
       diagnostics().report<diag::MissingOption>({}, "sim", "PROGRAM", "an NC program");
+    if (isMikroprog()) return simMikroprog(options_, session_);
     control_ = loadControl();
     if (diagnostics().hasErrors()) return session_.finish("");
+    world_ = SimWorld::load(options_, session_);
+    if (!world_) return session_.finish("");
     std::unique_ptr<LineChunks> chunks = LineChunks::open(options_.program, diagnostics());
     if (!chunks) return session_.finish("");
     // What cannot be read twice, a pipe, is kept; so its size is bounded.
@@ -50,6 +57,19 @@ public:
 
 private:
   Diagnostics& diagnostics() { return session_.diagnostics(); }
+
+  // Its words look like any NC, so the name tells, or --from.
+  bool isMikroprog() const {
+    const std::optional<std::string>& from = options_.common.from;
+    return (from ? kindByName(*from) : recognise(options_.program, "")) == InputKind::Suf;
+  }
+
+  Outcome finish(sim::Machine& machine, const sim::Run* run) {
+    world_->reportRest();
+    Outcome out = session_.finish(options_.json ? summary(machine, run, *world_, session_) : "", true);
+    world_->finish(out);
+    return out;
+  }
 
   // nullopt with a diagnostic where it is too large or cannot be read.
   std::optional<std::string> readAll(LineChunks& chunks) {
@@ -111,18 +131,24 @@ private:
     std::optional<ProgramLibrary> library = ProgramLibrary::load(*id, options_.programs, *control_, session_);
     if (!library) return session_.finish("");
     const std::unique_ptr<SimMacros> macros =
-        SimMacros::load(options_.probeMacros, *control_, *library, session_);
+        SimMacros::load(options_.probeMacros, world_->hasPicture(), *control_, *library, session_);
     if (!macros) return session_.finish("");
+    if (const auto radius = world_->calibratedRadius()) macros->setStylusRadius(*radius);
     const sim::Bytecode code = sim::compile(library->programs(), *control_, session_.sources());
     std::optional<sim::Trace> trace;
     if (options_.trace) machine.setTrace(&trace.emplace(options_.trace));
     sim::Run run(machine, code, session_.limits(), macros.get());
+    world_->setPlace([&run] { return RunPlace{run.place(), run.openCalls()}; });
+    world_->setCallKind([&macros](std::uint32_t program, std::span<const double> locals) {
+      return macros->kindOf(program, locals);
+    });
+    world_->attach(machine);
     run.run();
     machine.setTrace(nullptr);
     if (trace) traceVariables(machine, *trace);
     trace.reset();
     reportRun(run, machine, session_);
-    return session_.finish(options_.json ? summary(machine, &run, session_) : "", true);
+    return finish(machine, &run);
   }
 
   // A program of plain blocks: block by block, in constant memory.
@@ -130,6 +156,8 @@ private:
     std::optional<sim::Trace> trace;
     if (options_.trace) machine.setTrace(&trace.emplace(options_.trace));
     frontend::nc::Scanner scanner(chunks);
+    setPlace(scanner);
+    world_->attach(machine);
     ir::NcWords words;
     using Result = frontend::nc::Scanner::Result;
     Result result = Result::Block;
@@ -142,7 +170,21 @@ private:
       reportScanError(options_.program, scanner, chunks, session_);
     else
       reportEnd(options_.program, scanner, machine, session_);
-    return session_.finish(options_.json ? summary(machine, nullptr, session_) : "", true);
+    return finish(machine, nullptr);
+  }
+
+  // The lines at which something happens are kept as files of their own.
+  void setPlace(const frontend::nc::Scanner& scanner) {
+    world_->setPlace(
+        [this, &scanner, line = std::uint64_t(0), range = SourceRange()]() mutable {
+          if (line != scanner.line()) range = placeOfLine(options_.program, scanner, session_);
+          line = scanner.line();
+          return RunPlace{range, {}};
+        },
+        [this, &scanner] {
+          return sim::PictureBlock{toUtf8Text(std::string(scanner.lineText())),
+                                   fmt::format("{}:{}", options_.program, scanner.line())};
+        });
   }
 
   // A code that calls a program on this control: the run ends, as no programs are given.
@@ -165,6 +207,7 @@ private:
   const SimOptions& options_;
   Session& session_;
   std::optional<stdlib::Control> control_;
+  std::unique_ptr<SimWorld> world_;
 };
 
 } // namespace

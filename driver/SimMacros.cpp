@@ -2,6 +2,7 @@
 
 #include "driver/Programs.h"
 #include "sim/Machine.h"
+#include "sim/Value.h"
 #include "support/Files.h"
 #include "support/messages/Commands.h"
 
@@ -32,12 +33,12 @@ std::set<std::uint32_t> missing(const ProgramLibrary& library) {
 
 } // namespace
 
-std::unique_ptr<SimMacros> SimMacros::load(const std::optional<std::string>& chosen,
+std::unique_ptr<SimMacros> SimMacros::load(const std::optional<std::string>& chosen, bool all,
                                            const stdlib::Control& control, ProgramLibrary& library,
                                            Session& session) {
   auto out = std::make_unique<SimMacros>();
   const std::set<std::uint32_t> called = missing(library);
-  if (called.empty() && !chosen) return out;
+  if (called.empty() && !chosen && !all) return out;
   std::vector<std::string> names;
   for (const stdlib::DataFile* file : session.data().list("macros")) {
     names.push_back(file->name);
@@ -68,6 +69,27 @@ std::unique_ptr<SimMacros> SimMacros::load(const std::optional<std::string>& cho
     library.addCallable(std::move(*file), session);
   }
   return out;
+}
+
+std::optional<sim::PathKind> SimMacros::kindOf(std::uint32_t program, std::span<const double> locals) const {
+  std::string letters;
+  for (std::uint32_t local = 1; local < locals.size(); ++local) {
+    const char letter = sim::isNull(locals[local]) ? '\0' : stdlib::letterOfLocal(local);
+    if (letter != 0) letters += letter;
+  }
+  std::optional<sim::PathKind> out;
+  for (const stdlib::MacroSet& set : sets_) {
+    if (!set.calls(program)) continue;
+    const stdlib::MacroSignature* const signature = stdlib::match(set, program, letters).signature;
+    const bool moves = signature != nullptr && signature->intent == stdlib::Intent::ProtectedMove;
+    if (!out || moves) out = moves ? sim::PathKind::Protected : sim::PathKind::Measuring;
+  }
+  return out;
+}
+
+void SimMacros::setStylusRadius(double radius) {
+  for (sim::VendorMacros& one : meanings_)
+    one.setStylusRadius(radius);
 }
 
 bool SimMacros::knows(std::uint32_t program) const {

@@ -3,6 +3,7 @@
 
 #include "driver/ProgramLibrary.h"
 #include "driver/Session.h"
+#include "sim/Picture.h"
 #include "sim/VendorMacros.h"
 #include "stdlib/Control.h"
 #include "stdlib/MacroSet.h"
@@ -11,6 +12,7 @@
 #include <deque>
 #include <optional>
 #include <set>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -20,9 +22,15 @@ class SimMacros final : public sim::MacroMeaning {
 public:
   // `chosen`: the only set that counts; nothing: all. nullptr: there is no such set, reported. Sets with a
   // text give it to the library where one of its programs calls them and has no program of that number.
-  static std::unique_ptr<SimMacros> load(const std::optional<std::string>& chosen,
+  // `all`: the sets are kept although nothing calls them without a program, for kindOf().
+  static std::unique_ptr<SimMacros> load(const std::optional<std::string>& chosen, bool all,
                                          const stdlib::Control& control, ProgramLibrary& library,
                                          Session& session);
+
+  // What the skip moves of a call are for, by the signatures; nothing: no set has the program.
+  std::optional<sim::PathKind> kindOf(std::uint32_t program, std::span<const double> locals) const;
+  // Of a stylus that was calibrated, mm; the variables of a set go first.
+  void setStylusRadius(double radius);
 
   bool knows(std::uint32_t program) const override;
   // Several sets that know the program: inconclusive.

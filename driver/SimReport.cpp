@@ -17,11 +17,6 @@ using sim::Ending;
 
 constexpr std::string_view kHidden = "a macro statement or a call that the first reading did not show";
 
-// Texts of programs are bytes.
-std::string toUtf8Text(const std::string& bytes) {
-  return toUtf8(bytes, isUtf8(bytes) ? Encoding::Utf8 : Encoding::Cp1250);
-}
-
 // The line as a file of its own, since the program itself is not kept.
 FileId addLine(const std::string& path, std::string_view line, std::uint64_t number, Session& session) {
   const Encoding encoding = isUtf8(line) ? Encoding::Utf8 : Encoding::Cp1250;
@@ -65,6 +60,12 @@ std::string_view endingName(const sim::Machine& machine, bool stoppedByText) {
   return "text-end";
 }
 
+} // namespace
+
+std::string toUtf8Text(const std::string& bytes) {
+  return toUtf8(bytes, isUtf8(bytes) ? Encoding::Utf8 : Encoding::Cp1250);
+}
+
 std::string positionText(const sim::Position& position, std::uint32_t shown) {
   std::string out;
   for (std::size_t i = 0; i < sim::kAxes; ++i) {
@@ -75,7 +76,10 @@ std::string positionText(const sim::Position& position, std::uint32_t shown) {
   return "{" + out + "}";
 }
 
-} // namespace
+SourceRange placeOfLine(const std::string& path, const frontend::nc::Scanner& scanner, Session& session) {
+  const std::string_view line = scanner.lineText();
+  return wholeLine(addLine(path, line, scanner.line(), session), line);
+}
 
 void reportScanError(const std::string& path, const frontend::nc::Scanner& scanner, const LineChunks& chunks,
                      Session& session) {
@@ -113,12 +117,10 @@ void reportEnd(const std::string& path, const frontend::nc::Scanner& scanner, co
   if (end.ending != Ending::Alarm && end.ending != Ending::Inconclusive && end.ending != Ending::Call &&
       end.ending != Ending::Return)
     return;
-  const std::string_view line = scanner.lineText();
-  const FileId file = addLine(path, line, scanner.line(), session);
-  SourceRange range = wholeLine(file, line);
+  SourceRange range = placeOfLine(path, scanner, session);
   if (end.letter != 0) {
-    if (const auto word = frontend::nc::findWord(line, end.letter, end.which))
-      range = {file, word->begin, word->end};
+    if (const auto word = frontend::nc::findWord(scanner.lineText(), end.letter, end.which))
+      range = {range.file, word->begin, word->end};
   }
   Diagnostics& diagnostics = session.diagnostics();
   if (end.ending == Ending::Alarm)
@@ -178,7 +180,7 @@ void traceVariables(const sim::Machine& machine, sim::Trace& trace) {
   }
 }
 
-std::string summary(sim::Machine& machine, const sim::Run* run, Session& session) {
+std::string summary(sim::Machine& machine, const sim::Run* run, const SimWorld& world, Session& session) {
   const sim::RunEnd& end = machine.end();
   const bool notRead = end.ending == Ending::Running && session.diagnostics().hasErrors();
   std::string out = "{\n";
@@ -212,6 +214,7 @@ std::string summary(sim::Machine& machine, const sim::Run* run, Session& session
     out += fmt::format("  \"variables\": {{{}}},\n", variables);
     out += fmt::format("  \"output\": {},\n", nlohmann::json(toUtf8Text(run->output())).dump());
   }
+  out += world.summary();
   std::string diagnostics = renderJson(session.diagnostics(), session.sources());
   while (diagnostics.ends_with('\n'))
     diagnostics.pop_back();

@@ -1,7 +1,8 @@
-// Private to Sim.cpp: how a run ended, as diagnostics and as JSON.
+// Private to `sim`: how a run ended, as diagnostics and as JSON.
 #pragma once
 
 #include "driver/Session.h"
+#include "driver/SimWorld.h"
 #include "frontend/nc/Scan.h"
 #include "sim/Machine.h"
 #include "sim/Run.h"
@@ -20,6 +21,13 @@ void reportRun(const sim::Run& run, const sim::Machine& machine, Session& sessio
 // The last lines of the trace: what was written.
 void traceVariables(const sim::Machine& machine, sim::Trace& trace);
 // docs/sim.md says what is in it. `run`: of a program that was loaded; nullptr: of plain blocks.
-std::string summary(sim::Machine& machine, const sim::Run* run, Session& session);
+std::string summary(sim::Machine& machine, const sim::Run* run, const SimWorld& world, Session& session);
+
+// The line at which the scanner stands, as a file of its own, since the program itself is not kept.
+SourceRange placeOfLine(const std::string& path, const frontend::nc::Scanner& scanner, Session& session);
+// Texts of programs are bytes.
+std::string toUtf8Text(const std::string& bytes);
+// A position as an object by axis; `shown` as of Trace::position.
+std::string positionText(const sim::Position& position, std::uint32_t shown);
 
 } // namespace dotek::driver

@@ -317,13 +317,10 @@ std::optional<verify::Case> CaseRunner::draw(std::uint64_t index) {
         refusal_ = "the path touches nothing";
         continue;
       }
-      const sim::Probe probe = probeOf(values->drawn);
-      refusal_ = verify::whyNotReached(*values->path, *values->part, probe);
-      if (!refusal_.empty()) continue;
       misplace(*values);
-      if (plan_.translation)
-        refusal_ = verify::whyNotReached(*values->path, *values->part, probe,
-                                         verify::mostOff(values->path->nominal(), values->drawn.error));
+      const double off =
+          plan_.translation ? verify::mostOff(values->path->nominal(), values->drawn.error) : 0;
+      refusal_ = verify::whyNotReached(*values->path, *values->part, probeOf(values->drawn), off);
       if (!refusal_.empty()) continue;
     }
     if (routine_ != nullptr) {
@@ -505,6 +502,10 @@ CaseResult CaseRunner::run(const verify::Case& drawn) {
   sim::World world(*values->part, probeOf(drawn),
                    plan_.machine ? plan_.machine->limits : sim::MachineLimits{});
 
+  if (routine_ == nullptr) {
+    compareGeometry(result, *values, runTranslation(*values, world, true));
+    return result;
+  }
   std::optional<verify::Record> source;
   if (values->rejected) {
     source.emplace();
@@ -588,6 +589,29 @@ void CaseRunner::comparePath(CaseResult& result, const Values& values) const {
                         difference.source, sourceOf(difference.target, values), 0};
     result.findings.push_back(std::move(finding));
   }
+}
+
+// Without a Prog: the way and the touches alone.
+void CaseRunner::compareGeometry(CaseResult& result, const Values& values,
+                                 const verify::Record& target) const {
+  result.why = "measurement not stated by the source";
+  if (values.rejected) {
+    compareRejection(result, values, target);
+  } else if (target.ending != verify::Ending::Finished) {
+    result.findings.push_back({verify::Aspect::Ending,
+                               "the path ends against an alarm: " + target.text,
+                               {},
+                               {},
+                               targetLine(target.endedAt)});
+  } else if (values.path) {
+    for (const verify::Difference& difference :
+         verify::compare(*values.path, {}, target, options_.tolerance)) {
+      CaseFinding finding{
+          difference.aspect, difference.text, difference.source, {}, targetLine(difference.target)};
+      result.findings.push_back(std::move(finding));
+    }
+  }
+  result.verdict = result.findings.empty() ? CaseVerdict::Idle : CaseVerdict::Differ;
 }
 
 // A line of the translation that stems from nothing in the source.

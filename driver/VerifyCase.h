@@ -114,6 +114,7 @@ private:
   void compareRejection(CaseResult& result, const Values& values, const verify::Record& target) const;
   void noteProbe(CaseResult& result, const verify::Record& record, const Values& values) const;
   void comparePath(CaseResult& result, const Values& values) const;
+  void compareGeometry(CaseResult& result, const Values& values, const verify::Record& target) const;
   bool madeUp(std::uint32_t line) const;
   bool samePlace(SourceRange source, std::uint32_t targetLine) const;
   double resultTolerance() const;

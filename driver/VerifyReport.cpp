@@ -220,7 +220,7 @@ void VerifyReport::tellPictures() {
 
 Outcome VerifyReport::finish() {
   Session& session = runner_.session();
-  if (plan_.sourceMacros.empty() && !options_.source.prog)
+  if (!options_.source.prog)
     told_.report<diag::MeasurementNotStated>({runner_.folder().place, 0, 0}, cases_.idle, cases_.all());
   tellProbe();
   if (options_.source.prog) tellPictures();
@@ -242,7 +242,8 @@ Outcome VerifyReport::finish() {
       told_.report<diag::VerifyIdle>(reasons[i]->at, reasons[i]->count, cases_.all(), reasons[i]->why)
           .note({}, "the first: " + replay(reasons[i]->drawn));
   const std::uint64_t all = cases_.all();
-  if (static_cast<double>(cases_.proved) < options_.minProved / 100 * static_cast<double>(all))
+  if (options_.source.prog &&
+      static_cast<double>(cases_.proved) < options_.minProved / 100 * static_cast<double>(all))
     told_.report<diag::VerifyTooFew>({}, cases_.proved, all, numberText(options_.minProved));
   session.diagnostics() = std::move(told_);
   std::string out;

@@ -206,6 +206,8 @@ private:
 
 std::optional<Touch> firstContact(const Part& part, double radius, const Point3& from, const Point3& to) {
   const Vec start = vec(part.toPart(from)), end = vec(part.toPart(to));
+  const Vec reach = Vec::Constant(radius + kFarAway);
+  if (!part.solid().mayLieIn(start.cwiseMin(end) - reach, start.cwiseMax(end) + reach)) return std::nullopt;
   Touch out;
   const double length = (end - start).norm();
   const double way = Ball(part.solid(), radius, start, end).run(out.atStart);
@@ -219,9 +221,13 @@ std::optional<Touch> firstContact(const Part& part, double radius, const Point3&
 }
 
 std::optional<double> firstCollision(const Part& part, const Capsule& capsule, const Point3& way) {
-  const double share = Sweep(part.solid(), capsule.radius, vec(part.toPart(capsule.a)),
-                             vec(part.toPart(capsule.b)), vec(part.turnToPart(way)))
-                           .run();
+  const Vec a = vec(part.toPart(capsule.a)), b = vec(part.toPart(capsule.b));
+  const Vec turned = vec(part.turnToPart(way));
+  const Vec reach = Vec::Constant(capsule.radius + kFarAway);
+  const Vec least = a.cwiseMin(b), most = a.cwiseMax(b);
+  if (!part.solid().mayLieIn(least.cwiseMin(least + turned) - reach, most.cwiseMax(most + turned) + reach))
+    return std::nullopt;
+  const double share = Sweep(part.solid(), capsule.radius, a, b, turned).run();
   if (share > 1) return std::nullopt;
   return share;
 }

@@ -317,11 +317,20 @@ bool Solid::isKept(const Vec& q, const Piece& piece) {
   return n.cross(m).norm() > kTangent && isEdge(q, n, m);
 }
 
+// How far the surface's value may lie off the straight line between the ends of a piece.
+double Solid::bend(const Surface& surface, const Piece& piece, double length) {
+  if (surface.kind == Surface::Kind::Plane) return 2 * piece.sag;
+  if (surface.kind == Surface::Kind::Cone || length > surface.radius / 4) return length;
+  return 2 * piece.sag + length * length / (2 * surface.radius);
+}
+
 // Cuts a curved piece where other surfaces cross it and keeps what is an edge of the part.
 bool Solid::keep(const Piece& piece, int depth) {
   if (work_ > kMostWork) return false;
   const double length = (piece.b - piece.a).norm();
   if (!isOnOwners((piece.a + piece.b) / 2, piece, length + piece.sag + 1e-6)) return true;
+  // Far from all that is left of the part it is no edge, and cuts in it would be for nothing.
+  if (std::abs(shapesBound((piece.a + piece.b) / 2)) > length + piece.sag + 1e-6) return true;
   work_ += static_cast<double>(2 * surfaces_.size());
   std::vector<double> cuts = {0, 1};
   bool halve = false;
@@ -338,7 +347,8 @@ bool Solid::keep(const Piece& piece, int depth) {
         (surfaces_[k].value(q) * va > 0 ? from : to) = u;
       }
       cuts.push_back((from + to) / 2);
-    } else if (std::abs(va) + std::abs(vb) < 1.2 * length && length > kShort) {
+    } else if (std::abs(va) + std::abs(vb) < 1.2 * length && length > kShort &&
+               std::min(std::abs(va), std::abs(vb)) <= bend(surfaces_[k], piece, length)) {
       halve = true; // it may cross twice
     }
   }

@@ -53,7 +53,16 @@ Machine::Machine(const stdlib::Control& control) : control_(control), table_(con
 
 void Machine::setWatcher(MotionWatcher* watcher) {
   watcher_ = watcher;
-  if (watcher != nullptr) long_ = 1;
+  if (watcher == nullptr) return;
+  long_ = 1;
+  at_ = machinePosition();
+  lost_ = uncertain_;
+}
+
+void Machine::startAt(const Position& machine) {
+  for (std::size_t i = 0; i < kAxes; ++i)
+    work_[i] = snap(machine[i] - offset_[i] - (i == 2 ? toolLength_ : 0));
+  at_ = machine;
 }
 
 Position Machine::machinePosition() const {
@@ -183,6 +192,7 @@ bool Machine::executeLong(const NcWords& w) {
   if (!runBlock(w)) return false;
   const bool odd = (modes_[kCanned] | modes_[kUnits]) != 0 || uncertain_ != 0 || motionForgotten_ ||
                    feedForgotten_ || watcher_ != nullptr;
+  if (!running()) return false; // who watches has ended it
   long_ = odd ? 1 : 0;
   return true;
 }

@@ -62,6 +62,8 @@ public:
   virtual ~SkipSignal() = default;
   // The share of the way, 0 to 1, at which the signal comes; nothing: it does not come.
   virtual std::optional<double> contact(const SkipMove& move) = 0;
+  // Whether it is there while the machine stands; `here` has no length.
+  virtual bool isThere(const SkipMove& here) { return contact(here).has_value(); }
 };
 
 struct PlaneAxes;
@@ -73,8 +75,11 @@ public:
 
   void setTrace(Trace* trace) { trace_ = trace; }            // nullptr: quiet
   void setSkipSignal(SkipSignal* signal) { skip_ = signal; } // nullptr: G31 ends the run as inconclusive
-  // nullptr: nobody watches. Watched blocks take the long way.
+  // nullptr: nobody watches. Watched blocks take the long way. The watcher, and the signal, may end the run
+  // by inconclusive().
   void setWatcher(MotionWatcher* watcher);
+  // Where the machine stands before the program begins; without it all axes stand at its zero.
+  void startAt(const Position& machine);
   MotionWatcher* watcher() const { return watcher_; }
   void setCallLimit(std::uint32_t calls) { callLimit_ = calls; }        // calls within calls
   void setBlockDelete(std::uint32_t levels) { deleteLevels_ = levels; } // bit n: the switch of `/n` is on
@@ -133,6 +138,11 @@ public:
   bool changesWithMotion(std::uint32_t number) const;
   // The common variables and the locals of the main program that were written, by number.
   std::vector<std::pair<std::uint32_t, double>> written() const;
+  // Of a common variable as it stands; kFresh: nobody wrote it, or there is none of this number.
+  double common(std::uint32_t number) const {
+    const std::uint32_t cell = layout_.cellOf(number);
+    return cell == CellLayout::kNone ? kFresh : cells_[cell];
+  }
   // To the least input increment, as a word of a length is; in the unit in force.
   double toIncrement(double value) const {
     return rounded(value, control_.decimals + (modes_[kUnits] != 0 ? 1 : 0));
@@ -215,9 +225,14 @@ private:
   double rounded(double value, int places) const;
   void updateOffsets();
   void traceMove(std::string_view action, const Position& end, bool feed);
-  // Tells the watcher of a motion from `from` (of the machine) to where the machine stands. `unknown`: the
-  // axes that were uncertain before.
-  void tellMotion(MotionKind kind, const Position& from, std::uint32_t unknown);
+  // Tells the watcher of a motion of `axes` (bits) to where the machine stands now. `certain`: it is known.
+  void tellMotion(MotionKind kind, std::uint32_t axes, bool certain = true);
+  void tellTo(MotionKind kind, const Position& to, std::uint32_t lost);
+  // An arc about a centre that lies by `first` and `second` from its begin, as chords. `work_` is its end.
+  void tellArc(const PlaneAxes& plane, std::uint32_t axes, double first, double second,
+               const Position& begin);
+  void tellHole(const Position& hole, std::uint32_t axes, std::size_t depth);
+  const Code* cannedCode() const; // in force; nullptr: none
   const Position& systemOffset() const {
     return modes_[kSystem] == kExtended ? extended_[extendedNow_] : systems_[modes_[kSystem]];
   }
@@ -285,6 +300,11 @@ private:
   std::uint32_t level_ = 0;
   std::uint32_t callLimit_ = 32;
   bool moved_ = false;
+  // For the watcher: where the machine stands, axes of which that is not known, and whether the tool's length
+  // may have been cancelled by a reference return.
+  Position at_{};
+  std::uint32_t lost_ = 0;
+  bool lengthInDoubt_ = false;
   std::vector<Frame> stack_;
   RunEnd end_;
 

@@ -3,6 +3,16 @@
 #include "sim/Machine.h"
 
 namespace dotek::sim {
+namespace {
+
+std::uint32_t changed(const Position& from, const Position& to) {
+  std::uint32_t out = 0;
+  for (std::size_t i = 0; i < kAxes; ++i)
+    if (from[i] != to[i]) out |= 1u << i;
+  return out;
+}
+
+} // namespace
 
 void Machine::switchProbe(bool on) {
   probe_ = on ? Probe::On : Probe::Off;
@@ -33,22 +43,23 @@ std::optional<bool> Machine::probeTo(const Position& end) {
       work_[i] = snap(skip.from[i] + (skip.to[i] - skip.from[i]) * *share);
   }
   skipped_ = work_;
-  if (watcher_ != nullptr) tellMotion(MotionKind::Skip, skip.machineFrom, 0);
+  if (watcher_ != nullptr) tellMotion(MotionKind::Skip, changed(skip.from, work_));
   if (trace_ != nullptr) {
     trace_->begin("probing").position(skip.to, shown_).text(contact ? "contact" : "no-contact");
     trace_->position(work_, shown_).end();
   }
+  if (!running()) return std::nullopt; // who watches has ended it
   return contact;
 }
 
 bool Machine::travelTo(const Position& end) {
   if (uncertain_ != 0) return inconclusive("where the move begins is not known");
-  const Position from = machinePosition();
+  const Position from = work_;
   for (std::size_t i = 0; i < kAxes; ++i)
     work_[i] = snap(end[i]);
-  if (watcher_ != nullptr) tellMotion(MotionKind::Feed, from, 0);
+  if (watcher_ != nullptr) tellMotion(MotionKind::Feed, changed(from, work_));
   if (trace_ != nullptr) trace_->begin("travel").position(work_, shown_).end();
-  return true;
+  return running();
 }
 
 void Machine::forget(std::uint32_t number) {

@@ -19,10 +19,6 @@ void Machine::traceMove(std::string_view action, const Position& end, bool feed)
   trace_->end();
 }
 
-void Machine::tellMotion(MotionKind kind, const Position& from, std::uint32_t unknown) {
-  watcher_->moved({kind, from, machinePosition(), stack_.back().line, (unknown | uncertain_) == 0});
-}
-
 bool Machine::target(const NcWords& w, Position& end) {
   end = work_;
   const bool incremental = modes_[kDistance] != 0;
@@ -58,10 +54,10 @@ bool Machine::move(const NcWords& w) {
   }
   if (trace_ != nullptr)
     traceMove(modes_[kMotion] == kRapid ? "rapid" : "feed", end, modes_[kMotion] != kRapid);
-  const Position from = machinePosition();
   work_ = end;
   if (watcher_ != nullptr)
-    tellMotion(modes_[kMotion] == kRapid ? MotionKind::Rapid : MotionKind::Feed, from, unknown);
+    tellMotion(modes_[kMotion] == kRapid ? MotionKind::Rapid : MotionKind::Feed,
+               axisNumbers(w.present & kAxisBits));
   return true;
 }
 
@@ -108,7 +104,9 @@ bool Machine::arc(const NcWords& w, const Position& end) {
         .word("", snap(work_[plane.second] + second));
     trace_->word(modes_[kFeedMode] == 0 ? "F" : "FR", feed_).end();
   }
+  const Position begin = work_;
   work_ = end;
+  if (watcher_ != nullptr) tellArc(plane, axisNumbers(w.present & kAxisBits), first, second, begin);
   return true;
 }
 
@@ -149,6 +147,11 @@ bool Machine::machineMove(const NcWords& w) {
   if (trace_ != nullptr)
     traceMove(modes_[kMotion] == kRapid ? "machine rapid" : "machine feed", machinePosition(),
               modes_[kMotion] != kRapid);
+  if (watcher_ == nullptr) return true;
+  lengthInDoubt_ = false;
+  tellMotion(modes_[kMotion] == kRapid ? MotionKind::Rapid : MotionKind::Feed,
+             axisNumbers(w.present & kAxisBits));
+  lengthInDoubt_ = (uncertain_ >> 2 & 1) != 0;
   return true;
 }
 
@@ -169,6 +172,21 @@ bool Machine::reference(const NcWords& w, bool first) {
       uncertain_ &= ~(1u << i);
   }
   if (!target(w, via)) return false;
+  if (watcher_ != nullptr) {
+    // In incremental mode the point counts from where the machine stands, whatever its coordinates are.
+    Position to = at_;
+    std::uint32_t lost = lost_;
+    for (std::size_t i = 0; i < kAxes; ++i) {
+      if (!has(w, i)) continue;
+      if (modes_[kDistance] != 0) {
+        to[i] = snap(at_[i] + lengthOf(w, kAxisLetters[i]));
+      } else {
+        to[i] = snap(via[i] + offset_[i] + (i == 2 ? toolLength_ : 0));
+        lost = (lost & ~(1u << i)) | (i == 2 && lengthInDoubt_ ? 1u << 2 : 0);
+      }
+    }
+    if (to != at_ || lost != lost_) tellTo(MotionKind::Rapid, to, lost);
+  }
   for (std::size_t i = 0; i < kAxes; ++i) {
     if (!has(w, i)) continue;
     work_[i] = snap(-offset_[i] - (i == 2 ? toolLength_ : 0));
@@ -182,6 +200,11 @@ bool Machine::reference(const NcWords& w, bool first) {
     trace_->begin(first ? "reference" : "second-reference").text(axes).text("via");
     trace_->position(via, shown_).end();
   }
+  if (watcher_ == nullptr || !running()) return true;
+  const bool doubt = lengthInDoubt_ || (has(w, 2) && toolLength_ != 0);
+  lengthInDoubt_ = false;
+  tellMotion(MotionKind::Rapid, axisNumbers(w.present & kAxisBits), first);
+  lengthInDoubt_ = doubt;
   return true;
 }
 
@@ -209,12 +232,20 @@ bool Machine::skipMove(const NcWords& w) {
       work_[i] = snap(skip.from[i] + (end[i] - skip.from[i]) * *share);
   }
   skipped_ = work_; // without a contact the end of the block
-  if (watcher_ != nullptr) tellMotion(MotionKind::Skip, skip.machineFrom, 0);
+  if (watcher_ != nullptr) tellMotion(MotionKind::Skip, axisNumbers(w.present & kAxisBits));
   if (trace_ != nullptr) {
     trace_->begin("skip").position(end, shown_).word("F", feed_).text(share ? "contact" : "no-contact");
     trace_->position(work_, shown_).end();
   }
   return true;
+}
+
+const Code* Machine::cannedCode() const {
+  for (std::uint32_t group = 0; group < kGroups; ++group) {
+    const Code& one = table_.g(groups_[group]);
+    if (one.slot == kCanned && one.value != 0 && one.group == group) return &one;
+  }
+  return nullptr;
 }
 
 // G73 to G89. Only their ends are followed: over the hole, at the initial level or at level R.
@@ -262,11 +293,7 @@ bool Machine::cannedCycle(const NcWords& w) {
       if (axis != depth) at[axis] = snap(start[axis] + (hole[axis] - start[axis]) * i);
     at[depth] = modes_[kReturn] == 0 ? initialLevel_ : cycleR_;
     if (trace_ != nullptr) {
-      const Code* code = nullptr;
-      for (std::uint32_t group = 0; group < kGroups && code == nullptr; ++group) {
-        const Code& one = table_.g(groups_[group]);
-        if (one.slot == kCanned && one.value != 0 && one.group == group) code = &one;
-      }
+      const Code* const code = cannedCode();
       trace_->begin("cycle").text(code == nullptr ? "?" : fmt::format("G{}", code->tenths / 10));
       Position bottom = at;
       bottom[depth] = cycleDepth_;
@@ -276,6 +303,10 @@ bool Machine::cannedCycle(const NcWords& w) {
           .text("ends")
           .position(at, shown_)
           .end();
+    }
+    if (watcher_ != nullptr) {
+      tellHole(at, axisNumbers(w.present & kAxisBits), depth);
+      if (!running()) return false;
     }
     work_ = at;
   }

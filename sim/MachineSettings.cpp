@@ -194,6 +194,7 @@ bool Machine::changeToolLength(const NcWords& w) {
   const bool changed = length != toolLength_ || modes_[kLength] != block_.before[kLength];
   if (length != toolLength_) uncertain_ |= 1u << 2;
   toolLength_ = length;
+  lengthInDoubt_ = false;
   if (trace_ != nullptr && changed) {
     static constexpr std::string_view kNames[] = {"off", "+", "-"};
     trace_->begin("tool-length").text(kNames[modes_[kLength]]);

@@ -15,7 +15,8 @@ using stdlib::MikroprogFunction;
 
 constexpr std::string_view kLetters = "XYZ";
 constexpr std::uint32_t kAccumulator = 90; // P90: the parameter of conditions and files
-constexpr double kTouching = 1e-9;         // share of a move within which the contact is there from the start
+constexpr std::size_t kMostEvents = 100'000;
+constexpr double kTouching = 1e-9; // share of a move within which the contact is there from the start
 
 // Functions that move nothing and decide nothing here.
 bool isQuiet(const std::string& what) {
@@ -31,6 +32,12 @@ bool isQuiet(const std::string& what) {
 std::uint32_t wholeOf(double value) {
   return value >= 0 && value < 1e9 && value == std::floor(value) ? static_cast<std::uint32_t>(value)
                                                                  : UINT32_MAX;
+}
+
+Position wide(const std::array<double, 3>& point) {
+  Position out{};
+  std::copy(point.begin(), point.end(), out.begin());
+  return out;
 }
 
 } // namespace
@@ -49,13 +56,21 @@ bool MikroprogMachine::stop(MikroprogEnding ending, std::string why) {
 }
 
 void MikroprogMachine::event(MikroprogEvent::Kind kind, std::string text, double value) {
+  if (events_.size() == kMostEvents) {
+    stop(MikroprogEnding::Endless, fmt::format("more than {} contacts, records and stops", kMostEvents));
+    return;
+  }
   events_.push_back({kind, number_, position(), machine_, value, std::move(text)});
 }
 
 std::array<double, 3> MikroprogMachine::position() const {
+  return inSystem(machine_);
+}
+
+std::array<double, 3> MikroprogMachine::inSystem(const std::array<double, 3>& machine) const {
   std::array<double, 3> out{};
   for (std::size_t i = 0; i < 3; ++i)
-    out[i] = snap(machine_[i] - offset_[i]);
+    out[i] = snap(machine[i] - offset_[i]);
   return out;
 }
 
@@ -80,6 +95,8 @@ void MikroprogMachine::run(std::uint64_t mostBlocks) {
       const MikroprogBlock& now = program_[next_++];
       number_ = now.number.value_or(0);
       line_ = now.line;
+      ++blocks_;
+      if (trace_ != nullptr) trace_->at(line_);
       block(now);
     }
   }
@@ -174,14 +191,37 @@ bool MikroprogMachine::function(const MikroprogBlock& block, const std::string& 
       return stop(MikroprogEnding::Inconclusive, "P90 has no value");
     event(position ? MikroprogEvent::Kind::Record : MikroprogEvent::Kind::Value, block.file,
           position ? 0 : value->second);
+    if (trace_ != nullptr && position) {
+      trace_->begin("record").text(block.file).position(wide(this->position()), 7).end();
+    } else if (trace_ != nullptr) {
+      trace_->begin("record").text(block.file).word("", value->second).end();
+    }
     return true;
   }
   if (what == "stop") {
     event(MikroprogEvent::Kind::Stop, block.text);
+    if (trace_ != nullptr && !block.text.empty())
+      trace_->begin("stop").text(block.text).end();
+    else if (trace_ != nullptr)
+      trace_->begin("stop").end();
     return true;
   }
-  if (what == "end") return stop(MikroprogEnding::ProgramEnd, "");
-  if (isQuiet(what)) return true;
+  if (what == "end") {
+    if (trace_ != nullptr) trace_->begin("end").end();
+    return stop(MikroprogEnding::ProgramEnd, "");
+  }
+  if (isQuiet(what)) {
+    if (trace_ == nullptr) return true;
+    if (what == "spindle-right" || what == "spindle-left" || what == "spindle-off")
+      trace_->begin("spindle")
+          .text(what == "spindle-off"     ? "off"
+                : what == "spindle-right" ? "cw"
+                                          : "ccw")
+          .end();
+    else if (what == "coolant-on" || what == "coolant-off")
+      trace_->begin("coolant").text(what == "coolant-on" ? "flood" : "off").end();
+    return true;
+  }
   return stop(MikroprogEnding::Inconclusive,
               what.empty() ? "a function that is not followed" : what + " is not followed");
 }
@@ -212,7 +252,7 @@ bool MikroprogMachine::target(const MikroprogBlock& block, std::array<double, 3>
   return true;
 }
 
-std::optional<double> MikroprogMachine::contact(const std::array<double, 3>& to) {
+SkipMove MikroprogMachine::skipMove(const std::array<double, 3>& to) const {
   SkipMove move{};
   for (std::size_t i = 0; i < 3; ++i) {
     move.machineFrom[i] = machine_[i];
@@ -221,7 +261,18 @@ std::optional<double> MikroprogMachine::contact(const std::array<double, 3>& to)
     move.to[i] = to[i] - offset_[i];
   }
   move.feed = feed_;
-  return signal_->contact(move);
+  return move;
+}
+
+void MikroprogMachine::tell(MotionKind kind, const std::array<double, 3>& from) {
+  if (watcher_ != nullptr) watcher_->moved({kind, wide(from), wide(machine_), line_, true});
+}
+
+void MikroprogMachine::traceMove(std::string_view action, bool feed) {
+  if (trace_ == nullptr) return;
+  trace_->begin(action).position(wide(position()), 7);
+  if (feed) trace_->word("F", feed_);
+  trace_->end();
 }
 
 bool MikroprogMachine::move(const MikroprogBlock& block, const std::string& motion) {
@@ -233,16 +284,19 @@ bool MikroprogMachine::move(const MikroprogBlock& block, const std::string& moti
   if (!target(block, to, any)) return false;
   if (!any) return true;
   if (motion == "feed" && feed_ <= 0) return stop(MikroprogEnding::Fault, "a feed move with F0");
-  if (signal_ != nullptr && to != machine_) {
-    const std::optional<double> share = contact(to);
+  if (signal_ != nullptr && watcher_ == nullptr && to != machine_) {
+    const std::optional<double> share = signal_->contact(skipMove(to));
     if (share && *share > kTouching && *share < 1 - kTouching) {
       for (std::size_t i = 0; i < 3; ++i)
         machine_[i] += *share * (to[i] - machine_[i]);
       return stop(MikroprogEnding::Crash, "the stylus meets the part in a move that does not watch it");
     }
   }
+  const std::array<double, 3> from = machine_;
   machine_ = to;
-  return true;
+  traceMove(motion, motion == "feed");
+  tell(motion == "rapid" ? MotionKind::Rapid : MotionKind::Feed, from);
+  return ending_ == MikroprogEnding::Running;
 }
 
 bool MikroprogMachine::probe(const MikroprogBlock& block) {
@@ -252,10 +306,17 @@ bool MikroprogMachine::probe(const MikroprogBlock& block) {
   bool any = false;
   if (!target(block, to, any)) return false;
   if (!any) return stop(MikroprogEnding::Fault, "G31 without an axis");
-  const std::optional<double> share = to == machine_ ? std::nullopt : contact(to);
+  const std::optional<double> share = to == machine_ ? std::nullopt : signal_->contact(skipMove(to));
+  if (ending_ != MikroprogEnding::Running) return false; // who watches has ended it
   if (share && *share <= kTouching) return stop(MikroprogEnding::Inconclusive, "G31 begins in contact (Q19)");
+  const std::array<double, 3> from = machine_;
   for (std::size_t i = 0; i < 3; ++i)
     machine_[i] = share ? snap(machine_[i] + *share * (to[i] - machine_[i])) : to[i];
+  tell(MotionKind::Skip, from);
+  if (trace_ != nullptr) {
+    trace_->begin("skip").position(wide(inSystem(to)), 7).text(share ? "contact" : "no-contact");
+    trace_->position(wide(position()), 7).end();
+  }
   event(share ? MikroprogEvent::Kind::Contact : MikroprogEvent::Kind::NoContact);
   if (share) return true;
   const bool hasTarget =
@@ -275,6 +336,7 @@ bool MikroprogMachine::setPosition(const MikroprogBlock& block) {
   }
   if (!any) return stop(MikroprogEnding::Fault, "G92 without an axis");
   event(MikroprogEvent::Kind::Datum);
+  if (trace_ != nullptr) trace_->begin("set-position").position(wide(position()), 7).end();
   return true;
 }
 
@@ -294,9 +356,16 @@ bool MikroprogMachine::call(const MikroprogBlock& block) {
   return jump(block);
 }
 
+std::vector<std::uint32_t> MikroprogMachine::openCalls() const {
+  std::vector<std::uint32_t> out;
+  for (const std::size_t next : returns_)
+    out.push_back(program_[next - 1].line);
+  return out;
+}
+
 std::optional<bool> MikroprogMachine::condition(std::uint32_t number) {
   if (number == 7) {
-    if (signal_ != nullptr) return contact(machine_).has_value();
+    if (signal_ != nullptr) return signal_->isThere(skipMove(machine_));
     stop(MikroprogEnding::Inconclusive, "O7 without a part");
     return std::nullopt;
   }

@@ -48,17 +48,24 @@ public:
 
   // nullptr: no part, G31 ends the run as inconclusive. O7 asks it with a move of no length.
   void setSkipSignal(SkipSignal* signal) { signal_ = signal; }
+  // Without a watcher the signal is asked in each motion, and one that does not watch for it crashes. With
+  // one the signal is for G31 and O7, and the watcher sees to the rest; it may end the run by inconclusive().
+  void setWatcher(MotionWatcher* watcher) { watcher_ = watcher; }
+  void setTrace(Trace* trace) { trace_ = trace; } // nullptr: quiet
   // Where the machine stands before the program; the active system counts from the machine's zero.
   void setPosition(const std::array<double, 3>& machine) { machine_ = machine; }
   // Zero of the active system at the start, in coordinates of the machine.
   void setOffset(const std::array<double, 3>& offset) { offset_ = offset; }
 
-  // Runs to an end, at most so many blocks.
+  // Runs to an end, at most so many blocks and 100,000 events.
   void run(std::uint64_t mostBlocks = 100000);
+  void inconclusive(std::string why) { stop(MikroprogEnding::Inconclusive, std::move(why)); }
 
   MikroprogEnding ending() const { return ending_; }
-  const std::string& why() const { return why_; } // of a fault, a crash, an inconclusive end
-  std::uint32_t line() const { return line_; }    // of the text, of the block that ran last
+  const std::string& why() const { return why_; }  // of a fault, a crash, an inconclusive end
+  std::uint32_t line() const { return line_; }     // of the text, of the block that ran last
+  std::vector<std::uint32_t> openCalls() const;    // lines of the calls that are open, the outermost first
+  std::uint64_t blocks() const { return blocks_; } // that ran
   const std::vector<MikroprogEvent>& events() const { return events_; }
   // What the panel showed last; "" for nothing.
   std::string lastStop() const;
@@ -66,6 +73,7 @@ public:
   const std::array<double, 3>& machinePosition() const { return machine_; }
   const std::array<double, 3>& offset() const { return offset_; }
   std::optional<double> parameter(std::uint32_t number) const;
+  const std::map<std::uint32_t, double>& parameters() const { return parameters_; } // that have a value
 
 private:
   bool stop(MikroprogEnding ending, std::string why); // false
@@ -82,12 +90,17 @@ private:
   bool setPosition(const stdlib::MikroprogBlock& block);
   bool call(const stdlib::MikroprogBlock& block);
   bool function(const stdlib::MikroprogBlock& block, const std::string& what);
-  std::optional<double> contact(const std::array<double, 3>& to);
+  std::array<double, 3> inSystem(const std::array<double, 3>& machine) const;
+  SkipMove skipMove(const std::array<double, 3>& to) const;
+  void tell(MotionKind kind, const std::array<double, 3>& from);
+  void traceMove(std::string_view action, bool feed);
   void event(MikroprogEvent::Kind kind, std::string text = "", double value = 0);
 
   const stdlib::MikroprogControl& control_;
   const stdlib::MikroprogProgram& program_;
   SkipSignal* signal_ = nullptr;
+  MotionWatcher* watcher_ = nullptr;
+  Trace* trace_ = nullptr;
   std::map<std::uint64_t, std::size_t> numbers_; // N to its block
   std::array<double, 3> machine_{}, offset_{};
   std::map<std::uint32_t, double> parameters_;
@@ -96,7 +109,7 @@ private:
   bool incremental_ = false;
   double feed_ = 0;
   std::size_t next_ = 0;
-  std::uint64_t number_ = 0;
+  std::uint64_t number_ = 0, blocks_ = 0;
   std::uint32_t line_ = 0;
   MikroprogEnding ending_ = MikroprogEnding::Running;
   std::string why_;

@@ -42,7 +42,9 @@ public:
   Point3 toMachine(const Point3& part) const;
   Point3 turnToPart(const Point3& direction) const;
   Point3 turnToMachine(const Point3& direction) const;
-  const Solid& solid() const { return *solid_; }
+  const Solid& solid() const { return *solid_; } // of one that is not empty
+  // Made by no builder: there is nothing that could be touched, and nothing else may be asked.
+  bool isEmpty() const { return solid_ == nullptr; }
 
 private:
   friend class PartBuilder;

@@ -46,9 +46,11 @@ struct PictureBlock {
 };
 
 struct Picture {
-  std::string title;              // UTF-8
-  std::optional<Part> part;       // nothing: only the way is drawn
-  Probe probe;                    // its ball, stem and body
+  std::string title;        // UTF-8
+  std::optional<Part> part; // nothing: only the way is drawn
+  // Its ball, stem and body. One without a length down to its tip is none: then the points of the way are
+  // those of the spindle's gauge line.
+  Probe probe;
   std::vector<PictureMove> moves; // in the order of the run
   std::vector<PictureContact> contacts;
   std::vector<PictureError> errors;

@@ -37,6 +37,7 @@ struct MachineLimits {
 };
 
 struct MachineFile {
+  std::array<double, 3> start{}; // where X, Y, Z stand before the program, in coordinates of the machine
   MachineLimits limits;
   Probe probe;
 };

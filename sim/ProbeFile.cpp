@@ -3,6 +3,7 @@
 #include "stdlib/Toml.h"
 #include "support/Files.h"
 
+#include <cmath>
 #include <fmt/format.h>
 #include <limits>
 
@@ -79,8 +80,16 @@ std::optional<MachineFile> readMachine(FileId file, const SourceMap& sources, Di
   if (!document) return std::nullopt;
   MachineFile out;
   const TomlTable root = document->root();
-  const TomlTable travel = root.value("travel").table();
   constexpr std::string_view kNames[3] = {"x", "y", "z"};
+  const TomlTable start = root.value("start").table();
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    constexpr double kFarthest = 20000;
+    const TomlValue value = start.value(kNames[axis]);
+    out.start[axis] = value.number(0);
+    if (value.isNumber() && !(std::abs(out.start[axis]) <= kFarthest))
+      document->fail(value.range(), fmt::format("`{}` is farther than {} mm away", kNames[axis], kFarthest));
+  }
+  const TomlTable travel = root.value("travel").table();
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const TomlValue value = travel.value(kNames[axis]);
     if (!value) continue;

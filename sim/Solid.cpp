@@ -85,6 +85,8 @@ bool Solid::build() {
   pieces_.clear();
   chains_.clear();
   corners_.clear();
+  boxes_.clear();
+  if (!addBoxes(nodes)) boxes_.clear();
   std::vector<Apex> apexes;
   for (std::uint32_t i = 0; i < shapes.size(); ++i)
     addSurfaces(shapes[i], i, surfaces_, apexes);
@@ -124,6 +126,35 @@ double Solid::boundOf(const std::vector<Node>& list, const Vec& p, std::int32_t*
     if (nearest != nullptr) *nearest = which;
   }
   return out;
+}
+
+// What is removed or kept makes nothing larger.
+bool Solid::addBoxes(const std::vector<Node>& list) {
+  for (const Node& node : list) {
+    if (node.action != Action::Add) continue;
+    if (node.mesh >= 0) return false;
+    if (node.shape < 0) {
+      if (!addBoxes(node.group)) return false;
+      continue;
+    }
+    const Shape& shape = shapes[static_cast<std::size_t>(node.shape)];
+    Box box;
+    for (int axis = 0; axis < 3; ++axis) {
+      const Vec unit = Vec::Unit(axis);
+      box.most[axis] = shape.support(unit);
+      box.least[axis] = -shape.support(-unit);
+    }
+    if (!box.most.allFinite() || !box.least.allFinite()) return false;
+    boxes_.push_back(box);
+  }
+  return true;
+}
+
+bool Solid::mayLieIn(const Vec& least, const Vec& most) const {
+  if (boxes_.empty()) return true;
+  for (const Box& box : boxes_)
+    if ((box.least.array() <= most.array()).all() && (box.most.array() >= least.array()).all()) return true;
+  return false;
 }
 
 double Solid::bound(const Vec& p) const {

@@ -48,6 +48,8 @@ public:
   double shapesBound(const Vec& p) const { return boundOf(solidNodes_, p, nullptr); }
   double shapesLowest(const Patch& patch) const { return endOf(solidNodes_, patch, true); }
   Foot shapesFoot(const Vec& p) const;
+  // Whether anything of it may lie between the corners `least` and `most` of a box.
+  bool mayLieIn(const Vec& least, const Vec& most) const;
   // Whether nothing is left of it.
   bool isEmpty() const;
 
@@ -84,6 +86,7 @@ private:
   Ruling ruling(double angle, std::uint32_t i, std::uint32_t j);
   bool smooth(Piece& piece) const;
   bool keep(const Piece& piece, int depth);
+  static double bend(const Surface& surface, const Piece& piece, double length);
   bool isOnOwners(const Vec& q, const Piece& piece, double reach) const;
   bool isKept(const Vec& q, const Piece& piece);
   // The point of the curve in the plane across the chord at share u of the chord. false: none is found.
@@ -91,7 +94,14 @@ private:
   void nearestOnPiece(const Vec& p, const Piece& piece, double& best, Vec& point) const;
   void addChains(std::size_t begin);
 
+  // A box that holds one of the pieces that are added.
+  struct Box {
+    Vec least, most;
+  };
+  bool addBoxes(const std::vector<Node>& list); // false: one has no end
+
   std::vector<Node> solidNodes_; // nodes without meshes
+  std::vector<Box> boxes_;       // none: not bounded
   std::vector<Surface> surfaces_;
   std::vector<Piece> pieces_;
   std::vector<Chain> chains_;

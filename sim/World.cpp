@@ -29,6 +29,7 @@ World::World(Part part, const Probe& probe, const MachineLimits& limits)
 void World::restart(std::uint64_t seed) {
   events_.clear();
   on_ = probe_.on;
+  pressed_ = false;
   seed_ = seed;
   touches_ = 0;
 }
@@ -37,7 +38,19 @@ Point3 World::centreAt(const Position& position) const {
   return {position[0], position[1], position[2] - probe_.centreLength()};
 }
 
+std::optional<Touch> World::touchOf(double radius, const Point3& from, const Point3& to) const {
+  return part_.isEmpty() ? std::nullopt : firstContact(part_, radius, from, to);
+}
+
+bool World::isThere(const SkipMove& here) {
+  // A position that a touch has stopped at counts as one that deflects the stylus, whatever the noise was.
+  constexpr double kNear = 1e-6;
+  return on_ && !part_.isEmpty() &&
+         part_.distance(centreAt(here.machineFrom)) <= probe_.effectiveRadius + 3 * probe_.noise + kNear;
+}
+
 bool World::isModelled(const Position& from, const Position& to) const {
+  if (part_.isEmpty()) return true;
   for (std::size_t axis = 3; axis < kAxes; ++axis) {
     if (from[axis] != 0 || to[axis] != 0) return false;
   }
@@ -59,10 +72,15 @@ std::optional<double> World::leavesTravel(const Position& from, const Position& 
   return out;
 }
 
+bool World::isOld(const Obstacle& hit, double length) const {
+  constexpr double kNear = 0.002; // collisions are found on the safe side by half of it
+  return pressed_ && hit.share * length <= kNear;
+}
+
 // The stem or the body on the way, the earlier of the two.
 std::optional<World::Obstacle> World::obstacle(const Point3& from, const Point3& way) const {
   std::optional<Obstacle> out;
-  if (!(probe_.stemDiameter > 0)) return out;
+  if (!(probe_.stemDiameter > 0) || part_.isEmpty()) return out;
   const Point3 top = from + Point3{0, 0, probe_.stemLength};
   if (const auto share = firstCollision(part_, {from, top, probe_.stemDiameter / 2}, way))
     out = {Outcome::StemCollision, *share};
@@ -119,22 +137,21 @@ std::optional<double> World::contact(const SkipMove& move) {
   }
   const Point3 way = to - from;
   const double length = lengthOf(way);
-  const std::optional<Touch> touch = firstContact(part_, probe_.ballRadius(), from, to);
+  const std::optional<Touch> touch = touchOf(probe_.ballRadius(), from, to);
   // Where the signal comes; more than 1: it does not.
   double signal = 2;
   if (touch && touch->atStart) {
     signal = 0;
   } else if (touch) {
     std::optional<Touch> trigger = touch;
-    if (probe_.effectiveRadius < probe_.ballRadius())
-      trigger = firstContact(part_, probe_.effectiveRadius, from, to);
+    if (probe_.effectiveRadius < probe_.ballRadius()) trigger = touchOf(probe_.effectiveRadius, from, to);
     if (trigger && length > 0) signal = std::max(0.0, trigger->share + (probe_.preTravel + noise()) / length);
   }
   double stop = on_ ? std::min(signal, 1.0) : 1;
   // What the stem or the body meets behind the ball's touch is no news.
   const double reach = touch ? std::min(touch->share, stop) : stop;
   bool blocked = false;
-  if (const auto hit = obstacle(from, way * reach); hit && hit->share < 1) {
+  if (const auto hit = obstacle(from, way * reach); hit && hit->share < 1 && !isOld(*hit, reach * length)) {
     const double share = hit->share * reach;
     add(hit->outcome, kKind, share, from + way * share);
     blocked = true;
@@ -156,6 +173,7 @@ std::optional<double> World::contact(const SkipMove& move) {
   } else {
     addTouch(Outcome::Contact, kKind, *touch, length).depth = (signal - touch->share) * length;
   }
+  pressed_ = touch.has_value() || blocked;
   if (!on_ || signal > 1) return std::nullopt;
   return signal;
 }
@@ -164,17 +182,20 @@ void World::moved(const MachineMotion& motion) {
   if (motion.kind == MotionKind::Skip) return;
   if (motion.line != 0) line_ = motion.line;
   const Point3 from = centreAt(motion.from), to = centreAt(motion.to);
-  if (!isModelled(motion.from, motion.to)) {
-    add(Outcome::NotModelled, motion.kind, 0, from);
+  if (!motion.known || !isModelled(motion.from, motion.to)) {
+    add(Outcome::NotModelled, motion.kind, 0, from).placeUnknown = !motion.known;
     return;
   }
   const Point3 way = to - from;
   if (const auto leaves = leavesTravel(motion.from, motion.to))
     add(Outcome::OutsideTravel, motion.kind, *leaves, from + way * *leaves);
   if (motion.from == motion.to) return;
-  const std::optional<Touch> touch = firstContact(part_, probe_.ballRadius(), from, to);
-  if (const auto hit = obstacle(from, way); hit && (!touch || hit->share < touch->share))
+  const std::optional<Touch> touch = touchOf(probe_.ballRadius(), from, to);
+  const auto hit = obstacle(from, way);
+  if (hit && (!touch || hit->share < touch->share) && !isOld(*hit, lengthOf(way)))
     add(hit->outcome, motion.kind, hit->share, from + way * hit->share);
+  // Backing off from where a stem was told to collide is no second collision.
+  pressed_ = touch.has_value() || hit.has_value();
   if (touch) settle(*touch, motion, lengthOf(way));
 }
 
@@ -188,6 +209,23 @@ void World::settle(const Touch& touch, const MachineMotion& motion, double lengt
   else if (!on_)
     outcome = Outcome::NotArmed;
   addTouch(outcome, motion.kind, touch, length);
+}
+
+std::string_view outcomeName(Outcome outcome) {
+  switch (outcome) {
+  case Outcome::Contact: return "contact";
+  case Outcome::EarlyContact: return "early-contact";
+  case Outcome::Miss: return "miss";
+  case Outcome::NotArmed: return "not-armed";
+  case Outcome::NoSignal: return "no-signal";
+  case Outcome::Overtravel: return "overtravel";
+  case Outcome::StemCollision: return "stem-collision";
+  case Outcome::BodyCollision: return "body-collision";
+  case Outcome::RapidIntoPart: return "rapid-into-part";
+  case Outcome::OutsideTravel: return "outside-travel";
+  case Outcome::NotModelled: return "not-modelled";
+  }
+  return "";
 }
 
 void reportEvent(const ProbeEvent& event, SourceRange range, Diagnostics& diagnostics) {
@@ -206,7 +244,12 @@ void reportEvent(const ProbeEvent& event, SourceRange range, Diagnostics& diagno
   case Outcome::BodyCollision: diagnostics.report<diag::BodyCollision>(range, centre); return;
   case Outcome::RapidIntoPart: diagnostics.report<diag::RapidIntoPart>(range, centre, depth); return;
   case Outcome::OutsideTravel: diagnostics.report<diag::OutsideTravel>(range, centre); return;
-  case Outcome::NotModelled: diagnostics.report<diag::AxisNotModelled>(range); return;
+  case Outcome::NotModelled:
+    if (event.placeUnknown)
+      diagnostics.report<diag::PlaceNotKnown>(range);
+    else
+      diagnostics.report<diag::AxisNotModelled>(range);
+    return;
   }
 }
 

@@ -205,8 +205,10 @@ Record Recorder::finish(const std::set<std::uint32_t>& stores) {
     for (std::uint32_t axis = 0; axis < 3; ++axis)
       record_.zeros[{54 + system, axis}] = zero[axis];
   }
-  for (const auto& [number, value] : machine_.written())
-    if (stores.contains(number)) record_.stores.emplace(number, sim::isNull(value) ? sim::kNull : value);
+  for (const std::uint32_t number : stores) {
+    const double value = machine_.common(number);
+    if (!sim::isFresh(value)) record_.stores.emplace(number, value);
+  }
   return std::move(record_);
 }
 

@@ -191,6 +191,8 @@ private:
         used[i] = true;
         key = i + 1;
       }
+      // A code that the source leaves to what is in force stands before the axes, as people write it.
+      if (key == kLast && word.address == 'G') key = kFirst;
       keyed.emplace_back(key, std::move(word));
     }
     if (!addresses.empty())

@@ -4,6 +4,7 @@
 #include "support/Decimal.h"
 #include "support/messages/Fanuc.h"
 #include "support/messages/Fusion.h"
+#include "support/messages/Nc.h"
 
 #include <algorithm>
 #include <cmath>
@@ -38,6 +39,14 @@ Line printed(State& state, Texts& texts, const ir::PrintedBlock& block) {
     line.text.add(piece.text);
   }
   return line;
+}
+
+// The block is printed with every word that it has.
+void stands(State& state, SourceRange block) {
+  std::erase_if(state.diagnostics.all(), [&](const Diagnostic& one) {
+    return one.code == diag::WordLeftOut::code && one.range.file == block.file &&
+           one.range.begin >= block.begin && one.range.end <= block.end;
+  });
 }
 
 } // namespace
@@ -142,12 +151,15 @@ void writeBlocks(State& state) {
     if (statements.empty()) continue; // it says nothing, or nobody reaches it
     std::vector<Text> own;
     if (!macros.block(statements, own)) {
+      stands(state, blocks[i].range);
       lines.push_back(printed(state, texts, blocks[i]));
       continue;
     }
     for (Text& text : own)
       lines.push_back({std::move(text), true, statements.front()->origin});
   }
+  Text last;
+  if (const ir::Origin* origin = macros.putBack(last)) lines.push_back({std::move(last), true, *origin});
   for (const Line& line : lines)
     state.script.add((line.numbered ? "writeBlock(" : "writeln(") + line.text.expression() + ");",
                      line.origin);

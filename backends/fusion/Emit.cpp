@@ -1,6 +1,7 @@
 #include "backends/fusion/Emit.h"
 
 #include "backends/fusion/State.h"
+#include "support/messages/Fanuc.h"
 #include "support/messages/Fusion.h"
 
 #include <algorithm>
@@ -15,6 +16,14 @@ bool isStraight(const ir::Cycle& cycle) {
            std::holds_alternative<ir::Jump>(statement.node) ||
            std::holds_alternative<ir::Branch>(statement.node) ||
            std::holds_alternative<ir::Assign>(statement.node);
+  });
+}
+
+bool probes(const ir::Cycle& cycle) {
+  return std::any_of(cycle.body.begin(), cycle.body.end(), [](const ir::Statement& statement) {
+    const auto* move = std::get_if<ir::Move>(&statement.node);
+    return std::holds_alternative<ir::Measure>(statement.node) ||
+           (move != nullptr && move->motion == ir::Motion::Protected);
   });
 }
 
@@ -36,6 +45,11 @@ std::optional<std::vector<EmittedLine>> emit(const ir::Cycle& cycle, const EmitO
   State state(cycle, options, diagnostics);
   if (options.printed.empty() || !isStraight(cycle)) {
     state.refuse<diag::FusionNeedsProg>(cycle.range);
+    return std::nullopt;
+  }
+  if (options.macros.needsSkipPosition && !options.control.variables.skip && probes(cycle)) {
+    state.refuse<diag::NoSkipPosition>(cycle.range, "macros of " + options.macros.title,
+                                       options.control.title);
     return std::nullopt;
   }
   nameFields(state);

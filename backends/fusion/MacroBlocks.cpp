@@ -90,10 +90,15 @@ bool MacroBlocks::block(const std::vector<const ir::Statement*>& statements, std
     const ir::Origin& origin = one->origin;
     if (std::holds_alternative<ir::OpaqueBlock>(one->node)) {
       state_.refuse<diag::FusionOpaque>(origin.range(), state_.options.macros.title);
-    } else if (const auto* mode = std::get_if<ir::SetMode>(&one->node);
-               mode != nullptr && mode->mode == ir::Mode::WorkSystem) {
+      continue;
+    }
+    const auto* mode = std::get_if<ir::SetMode>(&one->node);
+    if (mode != nullptr && mode->mode == ir::Mode::WorkSystem) {
       for (Place& place : at_)
         place.value = nullptr;
+    } else if (mode != nullptr && (mode->mode == ir::Mode::Absolute || mode->mode == ir::Mode::Incremental)) {
+      incremental_ = mode->mode == ir::Mode::Incremental ? &origin : nullptr;
+      overwritten_ = false;
     }
   }
   if (!rewritten) return false;
@@ -115,6 +120,12 @@ bool MacroBlocks::block(const std::vector<const ir::Statement*>& statements, std
   }
   if (codes.expression() != "\"\"") lines.insert(lines.begin(), std::move(codes));
   return true;
+}
+
+const ir::Origin* MacroBlocks::putBack(Text& text) {
+  if (incremental_ == nullptr || !overwritten_) return nullptr;
+  code(Function::Incremental, "incremental programming", *incremental_, text);
+  return incremental_;
 }
 
 void MacroBlocks::code(Function function, std::string_view what, const ir::Origin& origin, Text& text) {
@@ -230,6 +241,7 @@ void MacroBlocks::move(const ir::Move& move, const ir::Origin& origin, std::vect
   } else {
     Text text;
     code(Function::Absolute, "absolute programming", origin, text);
+    overwritten_ = true;
     code(move.motion == ir::Motion::Rapid ? Function::Rapid : Function::Feed, "this move", origin, text);
     for (const ir::Axis axis : ir::kAxes) {
       const auto& coordinate = move.axes[ir::indexOf(axis)];
@@ -373,6 +385,13 @@ void MacroBlocks::call(
   text.add("G65 P" + std::to_string(signature.program));
   for (const auto& [argument, value] : arguments) {
     if (value == nullptr) return; // refused
+    const bool positive =
+        argument->role == stdlib::ArgumentRole::Feed || argument->role == stdlib::ArgumentRole::Diameter;
+    if (positive && ir::constantValue(ir::simplify(value)) == nullptr)
+      state_.errorIf(valueText(state_, value, origin.range()) + " <= 0",
+                     std::string(stdlib::roleName(argument->role)) + " of macro " +
+                         std::to_string(signature.program) + " is not above 0",
+                     origin);
     text.add(std::string(" ") + argument->letter);
     texts_.number(text, value, origin);
   }

@@ -138,6 +138,8 @@ void writeHead(State& state) {
   script.comment(
       "The operation chooses the cycle with the property dotekCycle. Its point is where the cycle starts, in "
       "the work system of the operation.");
+  if (!state.options.macros.needs.empty())
+    script.comment("Set before the first call of a macro: " + state.options.macros.needs);
   if (!state.options.fixedByName.empty()) {
     std::string fixed;
     for (const auto& [name, value] : state.options.fixedByName)
@@ -205,6 +207,11 @@ void writeReading(State& state) {
     const std::string what = host != nullptr ? std::string(host->text) : variable.name;
     state.errorIf("!" + state.helper(Helper::IsNumber) + "(" + state.name(id) + ")", what + " is no number",
                   {});
+    // A number that cannot be meant, as the command line refuses it.
+    const bool positive = variable.name == "tool_radius";
+    if (host != nullptr && (positive || variable.name == "overtravel"))
+      state.errorIf(state.name(id) + (positive ? " <= 0" : " < 0"),
+                    what + (positive ? " is not above 0" : " is negative"), {});
     if (isWhole(variable.kind))
       state.errorIf(state.name(id) + " % 1 !== 0", what + " is no whole number", {});
   }

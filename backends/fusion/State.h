@@ -116,6 +116,9 @@ public:
   MacroBlocks(State& state, Texts& texts);
   // The lines that stand for the statements of one block; false: the Prog's own text does.
   bool block(const std::vector<const ir::Statement*>& statements, std::vector<Text>& lines);
+  // Behind the last block: G91 where the source leaves it in force and our moves have written G90; nullptr:
+  // no line, else the origin of the line.
+  const ir::Origin* putBack(Text& text);
 
 private:
   struct Place {
@@ -139,7 +142,9 @@ private:
   State& state_;
   Texts& texts_;
   Place at_[3];
-  const ir::Measure* last_ = nullptr; // measurement whose results stand
+  const ir::Measure* last_ = nullptr;       // measurement whose results stand
+  const ir::Origin* incremental_ = nullptr; // of the G91 that is in force in the source
+  bool overwritten_ = false;                // by a G90 of ours
 };
 
 // ---- Properties.cpp ----

@@ -63,18 +63,19 @@ void compareAxis(State& state, ir::Axis axis, const Plan& plan, double centre, d
   AxisState& now = state.axes[ir::indexOf(axis)];
   const double over = state.host("overtravel");
   const auto word = [&](double value) { return axisWord(state, axis, value, range); };
-  state.sheet.comment(fmt::format("MIDDLE ALONG {}", ir::letterOf(axis)), origin);
+  const ir::Origin way = made("middle of the bore by comparing", origin);
+  state.sheet.comment(fmt::format("MIDDLE ALONG {}", ir::letterOf(axis)), way);
   ++state.probeMoves;
   search(state, axis, sum(sum(sum(centre, now.shift), plan.half), over), origin, "WALL ON THE PLUS SIDE");
-  state.sheet.add(state.code("set-position") + " " + word(0), origin, "FOR THE COMPARISON");
+  state.sheet.add(state.code("set-position") + " " + word(0), way, "FOR THE COMPARISON");
   state.sheet.add(fmt::format("{} {} F{}", state.code("feed"), word(-plan.half),
                               numberWord(state, state.host("return_feed"), range)),
                   made("off the wall", origin));
   ++state.probeMoves;
   search(state, axis, -plan.widest, origin, "WALL ON THE MINUS SIDE");
-  state.sheet.add("P90=" + numberWord(state, -2 * plan.first, range), origin);
+  state.sheet.add("P90=" + numberWord(state, -2 * plan.first, range), way);
   const Mark entry = state.mark();
-  state.sheet.jump(state.code("call"), entry, "", origin, "TO THE MIDDLE");
+  state.sheet.jump(state.code("call"), entry, "", way, "TO THE MIDDLE");
   state.sheet.add(record(state, "record-value"), made("record of the diameter", origin),
                   fmt::format("DIAMETER = {} - 2*P90", numberText(2 * state.host("tool_radius"))));
   state.sheet.add(state.code("set-position") + " " + word(nominal), origin);
@@ -112,7 +113,8 @@ void bore(State& state, const ir::Measure& measure, const ir::Origin& origin) {
     if (!here) return;
     centre[ir::indexOf(axis)] = *here;
   }
-  const std::optional<double> diameter = valueOf(state, measure.diameter, range);
+  const std::optional<double> diameter =
+      rangedValueOf(state, 'D', measure.diameter, "a diameter", false, range);
   if (!diameter) return;
   const double radius = state.host("tool_radius");
   Plan plan;

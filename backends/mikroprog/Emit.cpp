@@ -9,6 +9,7 @@
 #include <cctype>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <utility>
 
 namespace dotek::backends::mikroprog {
 
@@ -94,15 +95,20 @@ private:
     const SourceRange range = origin.range();
     if (const auto* move = std::get_if<ir::Move>(&node)) return this->move(*move, origin);
     if (const auto* measured = std::get_if<ir::Measure>(&node)) return measure(s_, *measured, index);
-    if (const auto* comment = std::get_if<ir::Comment>(&node))
-      return s_.sheet.comment(asciiText(s_, comment->text, range), origin);
+    if (const auto* comment = std::get_if<ir::Comment>(&node)) {
+      if (isOfStop(index))
+        stopText_ += (stopText_.empty() ? "" : " ") + comment->text;
+      else
+        s_.sheet.comment(asciiText(s_, comment->text, range), origin);
+      return;
+    }
     if (const auto* spindle = std::get_if<ir::Spindle>(&node)) return this->spindle(*spindle, origin);
     if (const auto* coolant = std::get_if<ir::Coolant>(&node)) return this->coolant(*coolant, origin);
     if (const auto* power = std::get_if<ir::ProbePower>(&node)) return probePower(*power, origin);
     if (const auto* mode = std::get_if<ir::SetMode>(&node)) return this->mode(*mode, origin);
     if (const auto* store = std::get_if<ir::Store>(&node)) return this->store(*store, origin);
     if (const auto* dwell = std::get_if<ir::Dwell>(&node)) {
-      const auto seconds = valueOf(s_, dwell->seconds, range);
+      const auto seconds = rangedValueOf(s_, 'E', dwell->seconds, "a dwell", true, range);
       if (seconds) s_.sheet.add(s_.code("dwell") + " E" + numberWord(s_, *seconds, range), origin);
       return;
     }
@@ -112,9 +118,13 @@ private:
                                          "M1 needs a condition, and how its field is set is not known (Q14)");
         return;
       }
-      return this->stop(stop->message, origin);
+      const std::string beside = std::exchange(stopText_, "");
+      return this->stop(stop->message.empty() ? beside : stop->message, origin);
     }
     if (const auto* alarm = std::get_if<ir::Alarm>(&node)) {
+      s_.diagnostics.report<diag::AlarmStops>(range, s_.code("stop"));
+      if (s_.remarked.insert("alarm").second)
+        s_.remarks.push_back("AN ALARM IS A STOP WITH ITS TEXT AND THE END; ITS NUMBER IS NOT KEPT");
       this->stop(alarm->message, origin);
       return toEnd(origin);
     }
@@ -141,6 +151,17 @@ private:
     s_.refuse<diag::MikroprogCannot>(range, "this statement", "the control has no function for it");
   }
 
+  // Whether the comment at `index` stands in the block of a stop, which shows it to the operator.
+  bool isOfStop(std::size_t index) const {
+    const auto& list = s_.cycle.body;
+    const std::uint32_t block = list[index].origin.block;
+    for (std::size_t i = index + 1; block != 0 && i < list.size() && list[i].origin.block == block; ++i) {
+      const auto* stop = std::get_if<ir::Stop>(&list[i].node);
+      if (stop != nullptr && !stop->optional && stop->message.empty()) return true;
+    }
+    return false;
+  }
+
   static std::string addresses(const ir::OpaqueBlock& block) {
     std::string out;
     for (const ir::Word& word : block.words) {
@@ -162,7 +183,7 @@ private:
     std::string words = s_.code(rapid ? "rapid" : "feed");
     std::string comment;
     if (move.feed != nullptr) {
-      s_.feed = valueOf(s_, move.feed, range);
+      s_.feed = rangedValueOf(s_, 'F', move.feed, "a feed", false, range);
       if (!s_.feed) return;
       if (rapid) {
         comment = "F" + numberText(*s_.feed) + " NOT KEPT";
@@ -205,7 +226,7 @@ private:
       s_.refuse<diag::MikroprogCannot>(origin.range(), "a spindle without a speed", code + " needs S");
       return;
     }
-    const auto speed = valueOf(s_, spindle.speed, origin.range());
+    const auto speed = rangedValueOf(s_, 'S', spindle.speed, "a spindle speed", true, origin.range());
     if (speed) s_.sheet.add(code + " S" + numberWord(s_, *speed, origin.range()), origin);
   }
 
@@ -237,23 +258,29 @@ private:
     s_.sheet.comment(fmt::format("#{} NOT KEPT: SEE THE RECORD", name), origin);
   }
 
+  void left(SourceRange range, std::string_view what, std::string_view why) {
+    s_.diagnostics.report<diag::ModeDropped>(range, what, why);
+  }
+
   void mode(const ir::SetMode& mode, const ir::Origin& origin) {
     using ir::Mode;
     const SourceRange range = origin.range();
     switch (mode.mode) {
-    case Mode::Absolute:
+    // Each coordinate is written absolute, each move says what it is, and the first block says the rest.
+    case Mode::Absolute: return left(range, "absolute programming", "it is in force from the first block on");
     case Mode::Incremental:
+      return left(range, "incremental programming", "each coordinate is written absolute");
     case Mode::RapidMotion:
-    case Mode::FeedMotion:
-    case Mode::FeedPerMinute: return; // coordinates are absolute, each move says what it is
+    case Mode::FeedMotion: return left(range, "a motion code without an axis", "each move says its own");
+    case Mode::FeedPerMinute: return left(range, "feed per minute", "it is in force from the first block on");
     case Mode::PlaneXY: return s_.sheet.add(s_.code("plane-xy"), origin);
     case Mode::PlaneZX: return s_.sheet.add(s_.code("plane-zx"), origin);
     case Mode::PlaneYZ: return s_.sheet.add(s_.code("plane-yz"), origin);
     case Mode::CutterCompOff: return s_.sheet.add(s_.code("compensation-off"), origin);
     case Mode::CannedCycleOff:
-      s_.diagnostics.report<diag::ModeDropped>(range, "the end of canned cycles",
-                                               "the control has none that stays in force");
-      return;
+      if (s_.remarked.insert("canned").second)
+        s_.remarks.push_back("THE END OF CANNED CYCLES: NONE STAYS IN FORCE");
+      return left(range, "the end of canned cycles", "the control has none that stays in force");
     case Mode::FeedPerRevolution: s_.refuse<diag::FeedPerRevolution>(range); return;
     case Mode::WorkSystem:
       s_.refuse<diag::MikroprogCannot>(range, "a change of the work system",
@@ -276,6 +303,7 @@ private:
 
   State& s_;
   bool probed_ = false;
+  std::string stopText_; // comments of the block of the next stop
 };
 
 // Modes and the way to the start point.

@@ -4,6 +4,7 @@
 #include "ir/Fold.h"
 #include "ir/Walk.h"
 #include "support/Decimal.h"
+#include "support/messages/Nc.h"
 
 #include <cmath>
 #include <fmt/format.h>
@@ -65,6 +66,14 @@ std::optional<double> valueOf(State& state, const ir::ExpressionPtr& value, Sour
   if (const double* constant = ir::constantValue(simple)) return *constant;
   state.refuse<diag::MikroprogCannot>(range, "the number hangs on " + unknownOf(state, simple),
                                       "no function reads it into a word");
+  return std::nullopt;
+}
+
+std::optional<double> rangedValueOf(State& state, char letter, const ir::ExpressionPtr& value,
+                                    std::string_view what, bool zero, SourceRange range) {
+  const std::optional<double> out = valueOf(state, value, range);
+  if (!out || *out > 0 || (zero && *out == 0)) return out;
+  state.refuse<diag::ValueOutOfRange>(range, letter, numberText(*out), what, zero ? "0 or more" : "above 0");
   return std::nullopt;
 }
 

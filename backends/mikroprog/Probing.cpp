@@ -130,7 +130,7 @@ void protectedMove(State& state, const ir::Move& move, const ir::Origin& origin)
     return;
   std::string comment;
   if (move.feed != nullptr) {
-    const std::optional<double> feed = valueOf(state, move.feed, range);
+    const std::optional<double> feed = rangedValueOf(state, 'F', move.feed, "a feed", false, range);
     if (!feed) return;
     comment = "F" + numberText(*feed) + " NOT KEPT";
     state.diagnostics.report<diag::FeedDropped>(
@@ -204,6 +204,8 @@ void measure(State& state, const ir::Measure& measure, std::size_t index) {
   if (state.failed) return;
   if (leavesByItself(state, index, axis, *from, way < 0 ? 1 : -1)) {
     state.diagnostics.report<diag::RetreatMerged>(range);
+    if (state.remarked.insert("retreat").second)
+      state.remarks.push_back("THE WAY BACK FROM A SURFACE IS THE MOVE OF THE SOURCE BEHIND IT");
     return;
   }
   state.sheet.add(fmt::format("{} {} F{}", state.code("feed"),

@@ -69,6 +69,9 @@ std::string numberWord(State& state, double value, SourceRange range);
 std::string axisWord(State& state, ir::Axis axis, double value, SourceRange range);
 // The value of a folded expression; refuses what only the running program could know.
 std::optional<double> valueOf(State& state, const ir::ExpressionPtr& value, SourceRange range);
+// The same; refuses a number below 0, and 0 where `zero` is not allowed. `what` for the message: "a feed".
+std::optional<double> rangedValueOf(State& state, char letter, const ir::ExpressionPtr& value,
+                                    std::string_view what, bool zero, SourceRange range);
 // A coordinate in the coordinates of the source.
 std::optional<double> placeOf(State& state, const ir::Coordinate& coordinate, ir::Axis axis,
                               SourceRange range);

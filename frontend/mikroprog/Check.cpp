@@ -1,5 +1,6 @@
 #include "frontend/mikroprog/Check.h"
 
+#include "frontend/mikroprog/CheckGeometry.h"
 #include "support/Decimal.h"
 #include "support/messages/Mikroprog.h"
 
@@ -367,6 +368,7 @@ private:
 void checkProgram(const Program& program, const stdlib::MikroprogControl& control, const SourceMap& sources,
                   Diagnostics& diagnostics) {
   Checker(program, control, sources, diagnostics).run();
+  checkGeometry(program, control, sources, diagnostics);
 }
 
 } // namespace dotek::frontend::mikroprog

@@ -95,6 +95,8 @@ ir::ExpressionPtr Lifter::argument(const stdlib::MacroArgument& argument) {
   const bool measures =
       !argument.selector && (argument.kind == ir::Kind::Length || argument.kind == ir::Kind::Angle);
   if (argument.selector) reading.kind = ir::Kind::Number;
+  if (argument.role == stdlib::ArgumentRole::Feed && !inRange(word, "a feed", false)) return nullptr;
+  if (argument.role == stdlib::ArgumentRole::Diameter && !inRange(word, "a diameter", false)) return nullptr;
   reading.increments = measures && countsIncrements(argument.letter);
   const ir::ExpressionPtr out = value(word, reading);
   if (!out) return nullptr;

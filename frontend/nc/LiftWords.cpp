@@ -28,6 +28,7 @@ bool Lifter::words() {
 
   ir::ExpressionPtr feed;
   if (const Word* word = find('F')) {
+    if (!inRange(*word, "a feed", false)) return false;
     feed = value(*word, {ir::Kind::Feed, false});
     if (!feed) return false;
     context_.state.feed = feed;
@@ -38,14 +39,16 @@ bool Lifter::words() {
   if (plan.probe) add(*plan.probe);
   if (plan.spindle) {
     if (const Word* speed = find('S')) {
+      if (!inRange(*speed, "a spindle speed", true)) return false;
       plan.spindle->speed = value(*speed, {});
       if (!plan.spindle->speed) return false;
     }
     add(*plan.spindle);
   }
   if (plan.coolant) add(*plan.coolant);
+  if (plan.dwell && feed) feedAlone();
   if (plan.dwell && !dwell()) return false;
-  if (!plan.dwell && !motion(plan, feed)) return false;
+  if (!plan.dwell && !motion(feed)) return false;
   if (plan.stop) add(*plan.stop);
   return true;
 }
@@ -87,8 +90,9 @@ bool Lifter::function(const Code& code, Plan& plan) {
   case Function::Inch: return refuse<diag::InchInBranch>(code.word->range, wordText(*code.word));
   case Function::Metric:
     // The emitted program demands it of its caller.
-    context_.diagnostics.report<diag::WordLeftOut>(code.word->range, wordText(*code.word),
-                                                   "the program checks that its caller is metric");
+    context_.diagnostics.report<diag::WordLeftOut>(
+        code.word->range, wordText(*code.word),
+        "the result counts in millimetres; a Fanuc program checks that its caller does");
     return true;
   case Function::ProgramEnd:
   case Function::Return: return refuse<diag::EndInBranch>(code.word->range, wordText(*code.word));
@@ -170,7 +174,19 @@ void Lifter::modalCodes(Plan& plan) {
         {*plan.motion == ir::Motion::Rapid ? ir::Mode::RapidMotion : ir::Mode::FeedMotion, nullptr});
 }
 
-bool Lifter::motion(const Plan& plan, const ir::ExpressionPtr& feed) {
+void Lifter::feedAlone() {
+  context_.diagnostics.report<diag::WordLeftOut>(find('F')->range, wordText(*find('F')),
+                                                 "it is written with the moves that run at it");
+}
+
+bool Lifter::inRange(const Word& word, std::string_view what, bool zero) {
+  const std::optional<double> known = knownNumber(*word.value);
+  if (!known || *known > 0 || (zero && *known == 0)) return true;
+  return refuse<diag::ValueOutOfRange>(word.range, word.address, numberText(*known), what,
+                                       zero ? "0 or more" : "above 0");
+}
+
+bool Lifter::motion(const ir::ExpressionPtr& feed) {
   ir::Move move;
   bool any = false;
   for (const ir::Axis axis : ir::kAxes) {
@@ -187,9 +203,7 @@ bool Lifter::motion(const Plan& plan, const ir::ExpressionPtr& feed) {
     any = true;
   }
   if (!any) {
-    if (feed && plan.modes.empty())
-      context_.diagnostics.report<diag::WordLeftOut>(find('F')->range, wordText(*find('F')),
-                                                     "it is written with the moves that run at it");
+    if (feed) feedAlone();
     return true;
   }
   move.motion = *context_.state.motion;
@@ -205,6 +219,7 @@ bool Lifter::dwell() {
   const Word* milliseconds = find('P');
   if ((seconds == nullptr) == (milliseconds == nullptr)) return refuse<diag::DwellForm>(block_.range);
   const Word& word = seconds == nullptr ? *milliseconds : *seconds;
+  if (!inRange(word, "a dwell", true)) return false;
   ir::ExpressionPtr read = value(word, {ir::Kind::Number, seconds != nullptr});
   if (!read) return false;
   if (seconds == nullptr) {

@@ -59,7 +59,11 @@ private:
   bool miscellaneous(const Code& code, Plan& plan);
   void modalCodes(Plan& plan);
   void leftOver(Plan& plan);
-  bool motion(const Plan& plan, const ir::ExpressionPtr& feed);
+  // Tells of a feed in a block without a move.
+  void feedAlone();
+  // Refuses a number that is known and below 0, or 0 where `zero` is not allowed.
+  bool inRange(const Word& word, std::string_view what, bool zero);
+  bool motion(const ir::ExpressionPtr& feed);
   bool dwell();
   bool opaque(const Plan& plan);
 

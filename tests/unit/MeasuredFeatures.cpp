@@ -115,6 +115,8 @@ private:
     return expected + random_.between(-0.4, 0.4);
   }
   void aboveOrWithin(bool outside) { out_.start = middle_ + Point3{0, 0, outside ? kAbove : kDepth}; }
+  // Mostly less than the ball is wide: what forgets it meets the feature on the way down.
+  double clearance() { return thousandths(0.6, random_.chance(0.5) ? 1 : 8); }
   std::string downBeside(double clearance) const {
     return "Z" + text(middle_.z + kDepth) + "R" + text(clearance);
   }
@@ -135,7 +137,7 @@ private:
     aboveOrWithin(boss);
     find(0, middle_.x + off_.x, middle_.x);
     find(1, middle_.y + off_.y, middle_.y);
-    const std::string d = "D" + text(diameter) + (boss ? downBeside(thousandths(4, 8)) : std::string());
+    const std::string d = "D" + text(diameter) + (boss ? downBeside(clearance()) : std::string());
     if (!boss) out_.calls["easyprobe"] = "G65P9023D" + text(diameter) + "S55." + wanted(0) + wanted(1);
     const std::string more = "S2" + beyond();
     out_.calls["inspection-plus"] = "G65P9814" + d + more;
@@ -159,7 +161,7 @@ private:
     const double stretch = 1 / std::cos(turn_ * kDegree) - 1;
     const double measured = size + (size + (web ? 2 : -2) * out_.ball) * stretch;
     const std::string call = std::string(1, "XY"[axis]) + text(width) +
-                             (web ? downBeside(thousandths(4, 8)) : std::string()) + "S2" + beyond();
+                             (web ? downBeside(clearance()) : std::string()) + "S2" + beyond();
     out_.calls["inspection-plus"] = "G65P9812" + call;
     out_.calls["dotek"] = "G65P8812" + call;
     out_.results = {{135 + static_cast<std::uint32_t>(axis), out_.found[axis], 1}, {138, measured, 2}};
@@ -243,7 +245,7 @@ private:
     find(0, middle_.x + along.x * off, middle_.x);
     find(1, middle_.y + along.y * off, middle_.y);
     out_.calls["inspection-plus"] = fmt::format("G65P9822A{}D{}{}", text(direction), text(width),
-                                                web ? downBeside(thousandths(4, 8)) : std::string());
+                                                web ? downBeside(clearance()) : std::string());
     out_.results = {{135, out_.found[0], 1}, {136, out_.found[1], 1}, {138, size, 2}};
   }
 

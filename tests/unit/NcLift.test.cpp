@@ -114,7 +114,10 @@ TEST_CASE("G0 and G1: modal motion, feed and distance mode") {
   CHECK(lifted("G91 G1 Z-{a|} F50") == "with [sign-before-value]");
   CHECK(lifted("G91 G1 Z-5. F50\nG90 G0 Z5.") == "mode G91\nfeed Z=here:-5 F=50\nmode G90\nrapid Z=work:5\n");
   CHECK(lifted("G0") == "mode G0\n");
-  CHECK(lifted("G1 F100\nX5.") == "mode G1\nfeed X=work:5 F=100\n");
+  CHECK(lifted("G1 F100\nX5.") == "with [word-left-out]");
+  Nc nc;
+  CHECK(nc.lift("G1 F100\nX5."));
+  CHECK(nc.shown() == "mode G1\nfeed X=work:5 F=100\n");
   CHECK(lifted("F100") == "with [word-left-out]");
   CHECK(lifted("G54 G17 G90 G0 G94") == "mode G54\nmode G17\nmode G90\nmode G94\nmode G0\n");
   CHECK(lifted("G17 G40 G80") == "mode G17\nmode G40\nmode G80\n");

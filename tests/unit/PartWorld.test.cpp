@@ -261,3 +261,68 @@ TEST_CASE("probe: every trouble has its message") {
   reportEvent(contact, {}, none);
   CHECK(none.empty());
 }
+
+TEST_CASE("probe: without a part nothing is touched, and the travel is looked at") {
+  MachineLimits limits;
+  limits.travel[0] = MachineLimits::Span{-10, 10};
+  World world(Part(), probe(), limits);
+  SkipMove move;
+  move.machineTo[2] = -500;
+  CHECK(!world.contact(move));
+  CHECK(!world.isThere(move));
+  Position far{};
+  far[0] = 11;
+  far[4] = 30; // a rotary axis turns no part
+  world.moved({MotionKind::Rapid, {}, far, 3, true});
+  REQUIRE(world.events().size() == 2);
+  CHECK(world.events()[0].outcome == Outcome::Miss);
+  CHECK(world.events()[1].outcome == Outcome::OutsideTravel);
+  CHECK(world.events()[1].line == 3);
+}
+
+TEST_CASE("probe: a motion whose place is not known says nothing of the part") {
+  Bench bench(probe());
+  bench.world.moved({MotionKind::Rapid, bench.at({50, 30, 20}), bench.at({50, 5, -5}), 7, false});
+  REQUIRE(bench.world.events().size() == 1);
+  CHECK(bench.world.events()[0].outcome == Outcome::NotModelled);
+  Diagnostics diagnostics;
+  reportEvent(bench.world.events()[0], {}, diagnostics);
+  CHECK(diagnostics.all().front().code == "place-not-known");
+  bench.world.forgetEvents();
+  CHECK(bench.world.events().empty());
+}
+
+TEST_CASE("probe: standing, it is deflected where a touch has stopped it") {
+  Probe noisy = probe();
+  noisy.noise = 0.001;
+  noisy.preTravel = 0.01;
+  noisy.effectiveRadius = 2.98;
+  for (std::uint64_t seed = 1; seed < 200; ++seed) {
+    noisy.seed = seed;
+    Bench bench(noisy);
+    const Point3 stop = bench.stop({-20, 30, -10}, {5, 30, -10});
+    SkipMove here;
+    here.machineFrom = here.machineTo = bench.at(stop);
+    bench.world.forgetEvents();
+    CHECK(bench.world.isThere(here));
+    here.machineFrom[0] -= 0.05;
+    CHECK(!bench.world.isThere(here));
+    here.machineFrom = here.machineTo;
+    bench.world.probeSwitched(false);
+    CHECK(!bench.world.isThere(here));
+    CHECK(bench.world.events().empty());
+  }
+}
+
+TEST_CASE("probe: backing off from a collision is no second one") {
+  Bench bench(probe());
+  bench.move(MotionKind::Rapid, {80, 20, 20}, {80, 20, 1.5}); // the stem's round end reaches the face, too
+  bench.move(MotionKind::Rapid, {80, 20, 1.5}, {80, 20, 20});
+  CHECK(bench.outcomes() == std::vector{Outcome::RapidIntoPart});
+  bench.move(MotionKind::Rapid, {80, 20, 20}, {80, 20, 1.5});
+  CHECK(bench.outcomes().size() == 2);
+  bench.world.restart(1);
+  // What stands there at the start was told by nobody.
+  bench.move(MotionKind::Rapid, {80, 20, 1.5}, {80, 20, 20});
+  CHECK(bench.outcomes() == std::vector{Outcome::StemCollision});
+}

@@ -1,0 +1,261 @@
+#include "driver/SimWorld.h"
+
+#include "sim/PartFile.h"
+#include "support/Decimal.h"
+#include "support/messages/Commands.h"
+#include "support/messages/Common.h"
+#include "support/messages/Sim.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+namespace dotek::driver {
+namespace {
+
+constexpr std::string_view kRotary =
+    "an axis besides X, Y and Z stands off zero; where the part is then is not known";
+constexpr std::string_view kNowhere = "where the machine stands in this move is not known, so what it meets "
+                                      "is not; write a Z word behind G43 or G49, "
+                                      "and keep G30 out of the run";
+
+std::string pointJson(const sim::Point3& p) {
+  return fmt::format("{{\"X\": {}, \"Y\": {}, \"Z\": {}}}", fixedText(p.x, 6), fixedText(p.y, 6),
+                     fixedText(p.z, 6));
+}
+
+bool hasPoint(sim::Outcome outcome) {
+  switch (outcome) {
+  case sim::Outcome::Contact:
+  case sim::Outcome::EarlyContact:
+  case sim::Outcome::NotArmed:
+  case sim::Outcome::NoSignal:
+  case sim::Outcome::Overtravel:
+  case sim::Outcome::RapidIntoPart: return true;
+  case sim::Outcome::Miss:
+  case sim::Outcome::StemCollision:
+  case sim::Outcome::BodyCollision:
+  case sim::Outcome::OutsideTravel:
+  case sim::Outcome::NotModelled: break;
+  }
+  return false;
+}
+
+} // namespace
+
+std::unique_ptr<SimWorld> SimWorld::load(const SimOptions& options, Session& session) {
+  std::unique_ptr<SimWorld> out(new SimWorld(options, session));
+  out->picture_ = options.svg || options.html;
+  if (options.part && !options.machine) {
+    session.diagnostics().report<diag::MissingOption>(
+        {}, "sim", "--machine MACHINE.toml", "the probe that touches the part of `--part` is stated there");
+    return nullptr;
+  }
+  if (!options.machine) return out;
+  std::optional<sim::PartFile> part;
+  out->machine_ =
+      sim::loadMachine(*options.machine, session.limits(), session.sources(), session.diagnostics());
+  if (options.part)
+    part = sim::loadPart(*options.part, session.limits(), session.sources(), session.diagnostics());
+  if (!out->machine_ || (options.part && !part)) return nullptr;
+  out->world_.emplace(part ? part->part : sim::Part(), out->machine_->probe, out->machine_->limits);
+  return out;
+}
+
+void SimWorld::begin() {
+  if (!picture_) return;
+  sim::Picture picture;
+  picture.title = options_.program;
+  if (world_ && !world_->part().isEmpty()) picture.part = world_->part();
+  if (world_) picture.probe = world_->probe();
+  recorder_.emplace(
+      std::move(picture), world_ ? &*world_ : nullptr,
+      callKind_ ? callKind_
+                : [](std::uint32_t, std::span<const double>) { return std::optional<sim::PathKind>(); },
+      block_ ? block_ : [this] { return blockNow(); });
+}
+
+void SimWorld::attach(sim::Machine& machine) {
+  if (!isActive()) return;
+  line_ = [&machine] { return machine.frame().line; };
+  blocks_ = [&machine] { return machine.blocks(); };
+  stop_ = [&machine](std::string why) { machine.inconclusive(std::move(why)); };
+  if (machine_) {
+    sim::Position start{};
+    std::copy(machine_->start.begin(), machine_->start.end(), start.begin());
+    machine.startAt(start);
+  }
+  if (world_) machine.setSkipSignal(this);
+  machine.setWatcher(this);
+  begin();
+}
+
+void SimWorld::attach(sim::MikroprogMachine& machine) {
+  if (!isActive()) return;
+  line_ = [&machine] { return static_cast<std::uint64_t>(machine.line()); };
+  blocks_ = [&machine] { return machine.blocks(); };
+  stop_ = [&machine](std::string why) { machine.inconclusive(std::move(why)); };
+  if (machine_) machine.setPosition(machine_->start);
+  if (world_) machine.setSkipSignal(this);
+  machine.setWatcher(this);
+  begin();
+}
+
+std::optional<double> SimWorld::calibratedRadius() const {
+  if (!machine_) return std::nullopt;
+  return machine_->probe.effectiveRadius - machine_->probe.preTravel;
+}
+
+std::optional<double> SimWorld::contact(const sim::SkipMove& move) {
+  if (!world_) return std::nullopt;
+  world_->setLine(line_());
+  const std::optional<double> share = recorder_ ? recorder_->contact(move) : world_->contact(move);
+  takeEvents();
+  return share;
+}
+
+bool SimWorld::isThere(const sim::SkipMove& here) {
+  return world_ && world_->isThere(here);
+}
+
+void SimWorld::moved(const sim::MachineMotion& motion) {
+  if (recorder_)
+    recorder_->moved(motion);
+  else if (world_)
+    world_->moved(motion);
+  takeEvents();
+}
+
+void SimWorld::probeSwitched(bool on) {
+  if (recorder_)
+    recorder_->probeSwitched(on);
+  else if (world_)
+    world_->probeSwitched(on);
+}
+
+void SimWorld::callBegins(std::uint32_t program, std::span<const double> locals) {
+  if (recorder_) recorder_->callBegins(program, locals);
+}
+
+void SimWorld::callEnded(std::uint32_t program) {
+  if (recorder_) recorder_->callEnded(program);
+}
+
+void SimWorld::takeEvents() {
+  if (!world_ || world_->events().empty()) return;
+  // Places of a program that is not kept are copies of its lines: none is made for nothing.
+  const bool wanted =
+      std::any_of(world_->events().begin(), world_->events().end(), [&](const sim::ProbeEvent& event) {
+        const bool contact = event.outcome == sim::Outcome::Contact;
+        return (contact ? contacts_ : events_).size() < kMostKept || (!contact && isTold(event));
+      });
+  const RunPlace place = wanted ? place_() : RunPlace();
+  for (const sim::ProbeEvent& event : world_->events())
+    if (!isSame(event)) take(event, place);
+  world_->forgetEvents();
+}
+
+bool SimWorld::isSame(const sim::ProbeEvent& event) {
+  if (event.kind == sim::MotionKind::Skip) return false;
+  std::uint64_t& last = told_[static_cast<std::size_t>(event.outcome)].block;
+  return std::exchange(last, blocks_()) == blocks_();
+}
+
+void SimWorld::take(const sim::ProbeEvent& event, const RunPlace& place) {
+  const bool contact = event.outcome == sim::Outcome::Contact;
+  std::vector<Kept>& kept = contact ? contacts_ : events_;
+  ++(contact ? contactCount_ : eventCount_);
+  if (kept.size() < kMostKept) kept.push_back({event, place});
+  // The end of the run says it.
+  if (event.outcome == sim::Outcome::NotModelled)
+    stop_(std::string(event.placeUnknown ? kNowhere : kRotary));
+  else if (!contact && isTold(event))
+    tell(event, place);
+}
+
+bool SimWorld::isTold(const sim::ProbeEvent& event) const {
+  return told_[static_cast<std::size_t>(event.outcome)].number <= kMostTold;
+}
+
+void SimWorld::tell(const sim::ProbeEvent& event, const RunPlace& place) {
+  Told& told = told_[static_cast<std::size_t>(event.outcome)];
+  Diagnostics one;
+  sim::reportEvent(event, place.range, one);
+  if (one.empty()) return;
+  Diagnostic& diagnostic = one.all().front();
+  told.code = diagnostic.code;
+  told.severity = diagnostic.severity;
+  if (++told.number > kMostTold) {
+    told.next = place.range;
+    return;
+  }
+  constexpr std::size_t kMostCalls = 8;
+  for (std::size_t i = 0; i < place.calls.size() && i < kMostCalls; ++i)
+    diagnostic.note(place.calls[place.calls.size() - 1 - i], "called here");
+  session_.diagnostics().add(std::move(diagnostic));
+}
+
+void SimWorld::reportRest() {
+  for (const Told& told : told_) {
+    if (told.number <= kMostTold) continue;
+    Diagnostic& rest =
+        session_.diagnostics().report<diag::TooManyFindings>(told.next, kMostTold, std::string(told.code));
+    rest.severity = std::max(rest.severity, told.severity);
+  }
+  if (recorder_ && recorder_->isFull())
+    session_.diagnostics().report<diag::PictureEnds>({}, sim::PictureRecorder::kMostMoves);
+}
+
+void SimWorld::finish(Outcome& outcome) const {
+  if (!recorder_) return;
+  if (options_.svg) outcome.files.push_back({"svg", sim::pictureSvg(recorder_->picture())});
+  if (options_.html) outcome.files.push_back({"html", sim::pictureHtml(recorder_->picture())});
+}
+
+sim::PictureBlock SimWorld::blockNow() const {
+  const RunPlace place = place_();
+  if (!place.range.hasPlace()) return {};
+  const SourceFile& file = session_.sources().file(place.range.file);
+  std::string text = session_.sources().textUtf8(place.range);
+  for (char& c : text)
+    if (c == '\n' || c == '\r') c = ' ';
+  return {std::move(text), fmt::format("{}:{}", file.name(), file.place(place.range.begin).line)};
+}
+
+std::string SimWorld::placeJson(const SourceRange& range) const {
+  if (!range.hasPlace()) return "\"file\": null, \"line\": 0";
+  const SourceFile& file = session_.sources().file(range.file);
+  return fmt::format("\"file\": {}, \"line\": {}", nlohmann::json(file.name()).dump(),
+                     file.place(range.begin).line);
+}
+
+std::string SimWorld::json(const Kept& kept) const {
+  const sim::ProbeEvent& event = kept.event;
+  const bool contact = event.outcome == sim::Outcome::Contact;
+  std::string out = contact ? "{" : fmt::format("{{\"outcome\": \"{}\", ", sim::outcomeName(event.outcome));
+  out += placeJson(kept.place.range) + ", \"calls\": [";
+  for (auto call = kept.place.calls.rbegin(); call != kept.place.calls.rend(); ++call)
+    out += (call == kept.place.calls.rbegin() ? "{" : ", {") + placeJson(*call) + "}";
+  out += "], \"centre\": " + pointJson(event.centre);
+  if (hasPoint(event.outcome))
+    out += ", \"point\": " + pointJson(event.point) + ", \"normal\": " + pointJson(event.normal) +
+           ", \"depth\": " + fixedText(event.depth, 6);
+  return out + "}";
+}
+
+std::string SimWorld::summary() const {
+  const auto list = [&](const std::vector<Kept>& kept) {
+    std::string out;
+    for (const Kept& one : kept)
+      out += (out.empty() ? "\n    " : ",\n    ") + json(one);
+    return out.empty() ? out : out + "\n  ";
+  };
+  std::string out = "  \"contacts\": [" + list(contacts_) + "],\n  \"events\": [" + list(events_) + "],\n";
+  if (contactCount_ > contacts_.size() || eventCount_ > events_.size())
+    out += fmt::format("  \"contactsLeftOut\": {},\n  \"eventsLeftOut\": {},\n",
+                       contactCount_ - contacts_.size(), eventCount_ - events_.size());
+  return out;
+}
+
+} // namespace dotek::driver

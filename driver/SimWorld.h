@@ -1,0 +1,109 @@
+// The world of a simulated run: the part and the probe of --part and --machine, and the pictures. What
+// happens there becomes findings at the block that runs, with the calls that are open.
+#pragma once
+
+#include "driver/Session.h"
+#include "sim/Machine.h"
+#include "sim/Mikroprog.h"
+#include "sim/PictureRecorder.h"
+#include "sim/Probe.h"
+#include "sim/World.h"
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace dotek::driver {
+
+// Where a run stands.
+struct RunPlace {
+  SourceRange range;              // of the block
+  std::vector<SourceRange> calls; // the outermost first
+};
+
+class SimWorld final : public sim::SkipSignal, public sim::MotionWatcher {
+public:
+  using PlaceNow = std::function<RunPlace()>;
+
+  // nullptr: an error was reported.
+  static std::unique_ptr<SimWorld> load(const SimOptions& options, Session& session);
+
+  // From now on the machine asks this world. Nothing happens where neither a part, nor a machine, nor a
+  // picture was asked for.
+  void attach(sim::Machine& machine);
+  void attach(sim::MikroprogMachine& machine);
+  // To be set before the run: asked for each event, and `block` for each motion of a picture; without `block`
+  // the place says it.
+  void setPlace(PlaceNow place, sim::PictureRecorder::BlockNow block = nullptr) {
+    place_ = std::move(place);
+    block_ = std::move(block);
+  }
+  void setCallKind(sim::PictureRecorder::CallKind kind) { callKind_ = std::move(kind); }
+
+  bool hasPicture() const { return picture_; }
+  // The radius that the calibration of the stylus would have found; nothing: no machine was given.
+  std::optional<double> calibratedRadius() const;
+
+  // Behind the run.
+  void finish(Outcome& outcome) const;
+  void reportRest(); // what was too much to be told one by one
+  // "contacts" and "events" of the summary, each on a line that ends with a comma.
+  std::string summary() const;
+
+  std::optional<double> contact(const sim::SkipMove& move) override;
+  bool isThere(const sim::SkipMove& here) override;
+  void moved(const sim::MachineMotion& motion) override;
+  void probeSwitched(bool on) override;
+  void callBegins(std::uint32_t program, std::span<const double> locals) override;
+  void callEnded(std::uint32_t program) override;
+
+private:
+  static constexpr std::size_t kMostKept = 10'000; // of contacts and of events, in the summary
+  static constexpr std::uint32_t kMostTold = Diagnostics::kMostAlike; // of each outcome
+
+  struct Kept {
+    sim::ProbeEvent event;
+    RunPlace place;
+  };
+  struct Told {
+    std::uint32_t number = 0;
+    std::string_view code;
+    Severity severity = Severity::Note;
+    SourceRange next;        // the first that was not told
+    std::uint64_t block = 0; // the last: which block of the run
+  };
+
+  SimWorld(const SimOptions& options, Session& session) : options_(options), session_(session) {}
+  bool isActive() const { return world_.has_value() || picture_; }
+  void begin();
+  void takeEvents();
+  void tell(const sim::ProbeEvent& event, const RunPlace& place);
+  void take(const sim::ProbeEvent& event, const RunPlace& place);
+  bool isTold(const sim::ProbeEvent& event) const; // false: it is one too many
+  bool isSame(const sim::ProbeEvent& event);       // of the block as one before: another chord of an arc, say
+  sim::PictureBlock blockNow() const;
+  std::string placeJson(const SourceRange& range) const;
+  std::string json(const Kept& kept) const;
+
+  const SimOptions& options_;
+  Session& session_;
+  std::optional<sim::MachineFile> machine_;
+  std::optional<sim::World> world_;
+  bool picture_ = false;
+  std::optional<sim::PictureRecorder> recorder_;
+  PlaceNow place_;
+  sim::PictureRecorder::BlockNow block_;
+  sim::PictureRecorder::CallKind callKind_;
+  std::function<std::uint64_t()> line_, blocks_;
+  std::function<void(std::string)> stop_; // ends the run as inconclusive
+  std::vector<Kept> contacts_, events_;
+  std::uint64_t contactCount_ = 0, eventCount_ = 0;
+  std::array<Told, 16> told_{}; // by outcome
+};
+
+} // namespace dotek::driver

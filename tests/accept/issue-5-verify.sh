@@ -1,0 +1,88 @@
+#!/usr/bin/env bash
+# Issue 5: the proof that a translation is right, on the cycles of the corpus.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/../.."
+. tests/accept/checks.sh
+
+cases=${DOTEK_ACCEPT_CASES:-10000}
+gibbs=$DOTEK_CORPUS/gibbs prog=$DOTEK_CORPUS/compost/probe-routines.txt
+
+# longDotek ARGS...: as dotek, for runs of many cases.
+longDotek() {
+  status=0
+  timeout 300 "$DOTEK" "$@" >"$out" 2>"$err" </dev/null || status=$?
+}
+# verify CYCLE ARGS...
+verify() {
+  local cycle=$1 field=()
+  shift
+  case $cycle in
+    *.X) field=(--field X=a) ;;
+    *.Y) field=(--field Y=b) ;;
+    *.Z) field=(--field Z=d) ;;
+  esac
+  longDotek verify "$gibbs/$cycle" --prog "$prog" --recover "${field[@]}" "$@"
+}
+lastIs() { [[ $(tail -n 1 "$out") == "$1" ]] || { printf 'last line: %s\n' "$(tail -n 1 "$out")"; head -n 20 "$err"; return 1; }; }
+# at CODE LINE: one finding of the code, at this line of the Prog.
+at() {
+  grep -E ":$2:[0-9]+: (error|warning): .*\[$1\]$" "$err" >/dev/null || { printf 'nowhere: %s at %s\n' "$1" "$2"; head -n 20 "$err"; return 1; }
+}
+
+# ---- all macro sets: proved, or refused by convert for the reason that convert tells
+for set in easyprobe inspection-plus dotek; do
+  for cycle in MERENI.OSA.X MERENI.OSA.Y MERENI.STRED.OTVOR; do
+    verify "$cycle" --to fanuc --probe-macros "$set" --cases "$cases"
+    check "$cycle, $set: all proved" lastIs "proved $cases, idle 0, differ 0 of $cases"
+    check "$cycle, $set: exit 0" hasStatus 0
+    check "$cycle, $set: the move before the probe is on" saysOnce protected-while-off
+  done
+  for cycle in MERENI.OSA.Z MERENI.OSA.XYZ; do
+    verify "$cycle" --to fanuc --probe-macros "$set" --cases 500
+    check "$cycle, $set: the probe is never on" lastIs "proved 0, idle 500, differ 0 of 500"
+    check "$cycle, $set: said once" saysOnce probe-never-on
+    check "$cycle, $set: the move before the probe is on" saysOnce protected-while-off
+    check "$cycle, $set: exit 1" hasStatus 1
+    verify "$cycle" --to fanuc --probe-macros "$set" --cases "$cases" --assume probe-on
+    check "$cycle, $set: all proved with the probe on" lastIs "proved $cases, idle 0, differ 0 of $cases"
+    check "$cycle, $set: exit 0" hasStatus 0
+  done
+done
+verify MERENI.OSA.Z --to fanuc --cases 50
+check "OSA.Z: at its first measure" at probe-never-on 49
+verify MERENI.OSA.XYZ --to fanuc --cases 50
+check "OSA.XYZ: at its first measure" at probe-never-on 61
+check "OSA.XYZ: its first protected move" at protected-while-off 55
+verify MERENI.OSA.X --to fanuc --cases 50
+check "OSA.X: its first protected move" at protected-while-off 20
+check "a finer value than the picture prints is told" says "picture drops digits of Zb" "picture drops digits of a"
+
+# ---- what the programmer saw against what the post prints
+for cycle in MERENI.OSA.X MERENI.OSA.Y; do
+  verify "$cycle" --cases 2000
+  check "$cycle: the path is what is posted" lastIs "proved 2000, idle 0, differ 0 of 2000"
+done
+for cycle in MERENI.OSA.Z MERENI.OSA.XYZ; do
+  verify "$cycle" --cases 2000 --assume probe-on
+  check "$cycle: the path is what is posted" lastIs "proved 2000, idle 0, differ 0 of 2000"
+done
+verify MERENI.STRED.OTVOR --cases 500
+check "the hole cycle: differs" hasStatus 1
+check "the hole cycle: retracts to a fixed height" says "ToolPath.mac:13:1: error: path differs" "probe-routines.txt:16:2: note: the post prints this here"
+replay=$(sed -n 's/^dotek: note: replay: dotek //p' "$err" | head -n 1)
+eval "longDotek $replay"
+check "the command that is printed shows it again" lastIs "proved 0, idle 0, differ 1 of 1"
+
+# ---- without a Prog
+longDotek verify "$gibbs/MERENI.OSA.X" --to fanuc --cases 200 --min-proved 0
+check "a path alone proves nothing" says "measurement not stated by the source"
+check "a path alone: geometry agrees" lastIs "proved 0, idle 200, differ 0 of 200"
+
+# ---- speed: the XYZ cycle
+begin=${EPOCHREALTIME/[.,]/}
+verify MERENI.OSA.XYZ --to fanuc --cases 10000 --assume probe-on
+took=$(((${EPOCHREALTIME/[.,]/} - begin) / 1000))
+printf '10,000 cases of the XYZ cycle: %s ms (required under 5000 ms)\n' "$took"
+check "10,000 cases of the XYZ cycle in 5 s" test "$took" -lt 5000
+
+finish

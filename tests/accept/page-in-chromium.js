@@ -1,0 +1,125 @@
+// Put behind a page of `--html` by page-in-chromium.sh: uses the page as a reader would and writes what it found
+// into #result. What the page shows is held against the data in its file, not against its own variables.
+"use strict";
+
+(async () => {
+  const byId = (id) => document.getElementById(id);
+  const data = JSON.parse(byId("data").textContent);
+  const count = data.way.length / 6, faults = [], shown = [], pixels = new Set();
+  const expect = (holds, what) => { if (!holds) faults.push(what); };
+  const painted = () => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)));
+  const numbers = () => ["x", "y", "z"].map((id) => byId(id).textContent);
+  const wanted = (i) => data.way.slice(i * 6 + 3, i * 6 + 6).map((v) => v.toFixed(6));
+  const check = (i, how) => {
+    expect(numbers().join() === wanted(i).join(), how + ": move " + i + " shows " + numbers() + ", not " + wanted(i));
+    expect(byId("kind").textContent === data.kinds[data.way[i * 6]].name, how + ": kind of move " + i);
+    expect(byId("power").textContent === (data.way[i * 6 + 1] ? "on" : "off"), how + ": probe at move " + i);
+    const row = document.querySelector("#blocks .current");
+    expect(row !== null && Number(row.dataset.block) === data.way[i * 6 + 2], how + ": block of move " + i);
+  };
+  const hash = () => {
+    const canvas = byId("view"), dots = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height).data;
+    let sum = 0;
+    for (let i = 0; i < dots.length; ++i) sum = (sum * 31 + dots[i]) % 4294967291;
+    return sum;
+  };
+  try {
+    expect(count > 3, "the page has no moves to step through");
+    expect(window.dotek.moves.length === count, "dotek.moves");
+    expect(Number(byId("slider").max) === count - 1, "the slider's end");
+    await painted();
+
+    let places = 0, before = null;
+    const steps = Math.min(count, 40);
+    for (let k = 0; k < steps; ++k) {
+      const i = Math.floor(k * (count - 1) / (steps - 1));
+      byId("slider").value = i;
+      byId("slider").dispatchEvent(new Event("input"));
+      check(i, "slider");
+      shown.push([i, ...numbers(), ...["x", "y", "z"].map((id) => byId("gauge-" + id).textContent)]);
+      const place = window.dotek.state().drawnAt;
+      if (before !== null && place !== null && Math.hypot(place[0] - before[0], place[1] - before[1]) > 0.5) ++places;
+      before = place;
+      await painted();
+      pixels.add(hash());
+    }
+    expect(places > 0, "the slider does not move the probe");
+    expect(pixels.size > steps / 3, "the slider does not change the view: " + pixels.size + " views of " + steps);
+
+    window.dotek.go(1);
+    document.dispatchEvent(new KeyboardEvent("keydown", { key: "ArrowRight" }));
+    check(2, "key right");
+    document.dispatchEvent(new KeyboardEvent("keydown", { key: "ArrowLeft" }));
+    check(1, "key left");
+    window.dotek.go(0);
+    const last = data.way[count * 6 - 4], row = document.querySelector('#blocks .row[data-block="' + last + '"]');
+    if (row !== null) { // in sight
+      row.click();
+      let first = 0;
+      while (data.way[first * 6 + 2] !== last) ++first;
+      check(first, "click on a block");
+    }
+    expect(byId("errors").children.length === data.errors.length, "the list of errors");
+    if (data.errors.length > 0) {
+      window.dotek.go(0);
+      byId("errors").querySelector("button").click();
+      check(data.errors[0][3], "click on an error");
+    }
+
+    const canvas = byId("view"), still = hash();
+    const pointer = (name, x, y) => canvas.dispatchEvent(new PointerEvent(name, { clientX: x, clientY: y, pointerId: 1, button: 0 }));
+    canvas.setPointerCapture = () => {}; // of a pointer that is none
+    pointer("pointerdown", 300, 300); pointer("pointermove", 360, 320); pointer("pointerup", 360, 320);
+    await painted();
+    const turned = hash();
+    expect(turned !== still, "dragging does not turn the view");
+    canvas.dispatchEvent(new WheelEvent("wheel", { deltaY: -240, clientX: 300, clientY: 300 }));
+    await painted();
+    expect(hash() !== turned, "the wheel does not zoom");
+
+    // The ball, lit while the probe is on: near by, and with nothing before it.
+    const box = canvas.getBoundingClientRect();
+    const isInSight = (i) => {
+      window.dotek.go(i);
+      const at = window.dotek.state().drawnAt;
+      return at !== null && at[0] > 0 && at[1] > 0 && at[0] < box.width && at[1] < box.height;
+    };
+    let on = data.probe === null ? count : 0;
+    while (on < count && !(data.way[on * 6 + 1] === 1 && isInSight(on))) ++on;
+    if (on < count) {
+      const tick = (id, checked) => { byId(id).checked = checked; byId(id).dispatchEvent(new Event("change")); };
+      tick("show-part", false);
+      window.dotek.go(on);
+      for (let i = 0; i < 5; ++i) {
+        const [x, y] = window.dotek.state().drawnAt;
+        canvas.dispatchEvent(new WheelEvent("wheel", { deltaY: -300, clientX: box.left + x, clientY: box.top + y }));
+      }
+      const lit = () => {
+        const { data: dots, width } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
+        let sum = 0, x = 0, y = 0;
+        for (let i = 0; i < dots.length; i += 4) {
+          if (dots[i] < 205 || dots[i + 1] < 110 || dots[i + 2] > 80) continue;
+          ++sum;
+          x += i / 4 % width;
+          y += Math.floor(i / 4 / width);
+        }
+        return { sum, x: x / sum * box.width / canvas.width, y: y / sum * box.width / canvas.width };
+      };
+      await painted();
+      const ball = lit(), at = window.dotek.state().drawnAt;
+      expect(ball.sum > 20, "the ball is not drawn: " + ball.sum + " dots of it");
+      const off = Math.hypot(ball.x - at[0], ball.y - at[1]);
+      expect(off < 2 + 2 * Math.sqrt(ball.sum), "the ball is drawn " + off + " px from its place");
+      tick("show-probe", false);
+      await painted();
+      expect(lit().sum < ball.sum / 4, "the probe cannot be hidden");
+    }
+    expect(byId("fault").textContent === "", "script error: " + byId("fault").textContent);
+  } catch (error) {
+    faults.push(String(error.stack));
+  }
+  const result = document.createElement("pre");
+  result.id = "result";
+  result.textContent = JSON.stringify({ faults, views: pixels.size, shown });
+  document.body.append(result);
+})();

@@ -1,0 +1,262 @@
+#include "sim/Sections.h"
+#include "sim/SurfaceMesh.h"
+#include "tests/unit/PictureHelper.h"
+
+#include <algorithm>
+#include <doctest/doctest.h>
+#include <map>
+#include <numbers>
+
+using namespace dotek::sim;
+using namespace dotek::tests;
+using Action = PartBuilder::Action;
+
+namespace {
+
+double distanceTo(const PlanePoint& p, const PlanePoint& a, const PlanePoint& b) {
+  const double dx = b[0] - a[0], dy = b[1] - a[1], square = dx * dx + dy * dy;
+  const double t = square > 0 ? std::clamp(((p[0] - a[0]) * dx + (p[1] - a[1]) * dy) / square, 0.0, 1.0) : 0;
+  return std::hypot(p[0] - a[0] - dx * t, p[1] - a[1] - dy * t);
+}
+
+double distanceTo(const PlanePoint& p, const SectionLine& line) {
+  double best = 1e9;
+  const std::size_t count = line.points.size();
+  for (std::size_t i = 0; i + (line.closed ? 0 : 1) < count; ++i)
+    best = std::min(best, distanceTo(p, line.points[i], line.points[(i + 1) % count]));
+  return best;
+}
+
+// Positive where it runs counterclockwise.
+double areaOf(const SectionLine& line) {
+  double out = 0;
+  for (std::size_t i = 0; i < line.points.size(); ++i) {
+    const PlanePoint &a = line.points[i], &b = line.points[(i + 1) % line.points.size()];
+    out += (a[0] * b[1] - b[0] * a[1]) / 2;
+  }
+  return out;
+}
+
+bool isWithin(const PlanePoint& p, const Section& section) {
+  bool in = false;
+  for (const SectionLine& line : section.areas) {
+    for (std::size_t i = 0; i < line.points.size(); ++i) {
+      const PlanePoint &a = line.points[i], &b = line.points[(i + 1) % line.points.size()];
+      if ((a[1] > p[1]) != (b[1] > p[1]) && p[0] < a[0] + (p[1] - a[1]) / (b[1] - a[1]) * (b[0] - a[0]))
+        in = !in;
+    }
+  }
+  return in;
+}
+
+Point3 atPlane(std::size_t across, double at, const PlanePoint& p) {
+  Point3 out;
+  setCoordinate(out, across, at);
+  setCoordinate(out, planeAxes(across)[0], p[0]);
+  setCoordinate(out, planeAxes(across)[1], p[1]);
+  return out;
+}
+
+double volumeOf(const SurfaceMesh& mesh) {
+  double out = 0;
+  for (const auto& t : mesh.triangles) {
+    const Point3 &a = mesh.vertices[t[0]], &b = mesh.vertices[t[1]], &c = mesh.vertices[t[2]];
+    out +=
+        (a.x * (b.y * c.z - b.z * c.y) + a.y * (b.z * c.x - b.x * c.z) + a.z * (b.x * c.y - b.y * c.x)) / 6;
+  }
+  return out;
+}
+
+// Edges with more triangles on one side than on the other.
+std::size_t openEdges(const SurfaceMesh& mesh) {
+  std::map<std::pair<std::uint32_t, std::uint32_t>, int> sides;
+  for (const auto& t : mesh.triangles) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::uint32_t a = t[i], b = t[(i + 1) % 3];
+      sides[{std::min(a, b), std::max(a, b)}] += a < b ? 1 : -1;
+    }
+  }
+  return static_cast<std::size_t>(
+      std::count_if(sides.begin(), sides.end(), [](const auto& s) { return s.second != 0; }));
+}
+
+} // namespace
+
+TEST_CASE("section: of a turned box it is its outline") {
+  PartBuilder builder;
+  builder.box({0, 0, -20}, {120, 80, 0});
+  const Part part = finish(builder)->placed({{10, 20, 30}, {}}, {{0, 0, 0}, {0, 0, 17}});
+  const Section section = sectionOf(part, 2, 20, {{-60, -20, -10}, {160, 180, 60}});
+  REQUIRE(section.areas.size() == 1);
+  REQUIRE(section.lines.size() == 1);
+  CHECK(section.lines[0].closed);
+  CHECK(areaOf(section.areas[0]) == doctest::Approx(120 * 80).epsilon(1e-4));
+  CHECK(section.lines[0].points.size() < 40);
+  for (const PlanePoint& p : section.lines[0].points)
+    CHECK(std::abs(part.distance(atPlane(2, 20, p))) < 0.05);
+  // Every place of the outline, the corners too, is near the line.
+  const Point3 corners[] = {{0, 0, 0}, {120, 0, 0}, {120, 80, 0}, {0, 80, 0}};
+  for (int i = 0; i < 4; ++i) {
+    for (double share = 0; share < 1; share += 1.0 / 64) {
+      const Point3 p = part.toMachine(corners[i] + (corners[(i + 1) % 4] - corners[i]) * share);
+      CAPTURE(i);
+      CAPTURE(share);
+      CHECK(distanceTo({p.x, p.y}, section.lines[0]) < 0.05);
+    }
+  }
+}
+
+TEST_CASE("section: a bore is a hole, across and along") {
+  const Part part = platePart();
+  const Region region{{-320, -220, -430}, {-160, -100, -370}};
+  const Section across = sectionOf(part, 2, -410, region);
+  REQUIRE(across.areas.size() == 2);
+  CHECK(areaOf(across.areas[0]) * areaOf(across.areas[1]) < 0);
+  const SectionLine& bore = areaOf(across.areas[0]) < 0 ? across.areas[0] : across.areas[1];
+  const Point3 centre = part.toMachine({30, 40, -10});
+  for (std::size_t i = 0; i < bore.points.size(); ++i) {
+    const PlanePoint &a = bore.points[i], &b = bore.points[(i + 1) % bore.points.size()];
+    CHECK(std::hypot(a[0] - centre.x, a[1] - centre.y) == doctest::Approx(15).epsilon(0.05 / 15));
+    CHECK(std::hypot((a[0] + b[0]) / 2 - centre.x, (a[1] + b[1]) / 2 - centre.y) ==
+          doctest::Approx(15).epsilon(0.05 / 15));
+  }
+  CHECK(areaOf(bore) == doctest::Approx(-225 * std::numbers::pi).epsilon(0.002));
+  const Section along = sectionOf(part, 1, centre.y, region);
+  CHECK(along.areas.size() == 2);
+}
+
+TEST_CASE("section: what the region cuts is closed, and its border is no line of the part") {
+  PartBuilder builder;
+  builder.halfSpace({0, 0, 0}, {0, 0, 1});
+  const auto part = finish(builder);
+  const Region region{{-50, -50, -50}, {50, 50, 50}};
+  const Section side = sectionOf(*part, 1, 0, region);
+  REQUIRE(side.areas.size() == 1);
+  CHECK(areaOf(side.areas[0]) == doctest::Approx(100 * 50).epsilon(1e-5));
+  REQUIRE(side.lines.size() == 1);
+  CHECK_FALSE(side.lines[0].closed);
+  for (const PlanePoint& p : side.lines[0].points)
+    CHECK(std::abs(p[1]) < 0.01);
+  const Section below = sectionOf(*part, 2, -10, region);
+  REQUIRE(below.areas.size() == 1);
+  CHECK(areaOf(below.areas[0]) == doctest::Approx(1e4).epsilon(1e-5));
+  CHECK(below.lines.empty());
+  CHECK(sectionOf(*part, 2, 10, region).areas.empty());
+  // Within a face rounding decides nothing: it is all material.
+  CHECK(sectionOf(*part, 2, 0, region).areas.size() == 1);
+}
+
+TEST_CASE("section: random parts, held against what their shapes contain") {
+  int compared = 0, within = 0;
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    const RandomPart random = RandomPart::make(seed);
+    PartRandom dice(seed);
+    const std::size_t across = dice.below(3);
+    const double at = dice.between(-6, 6);
+    const Section section = sectionOf(*random.part, across, at, {{-40, -40, -40}, {40, 40, 40}});
+    for (int i = 0; i < 300; ++i) {
+      const PlanePoint p{dice.between(-14, 14), dice.between(-14, 14)};
+      const Point3 q = atPlane(across, at, p);
+      if (std::abs(random.part->distance(q)) < 0.5) continue; // a cell's diagonal
+      CAPTURE(seed);
+      CAPTURE(p[0]);
+      CAPTURE(p[1]);
+      CHECK(isWithin(p, section) == random.contains(q));
+      ++compared;
+      within += random.contains(q) ? 1 : 0;
+    }
+    for (const SectionLine& line : section.lines) {
+      for (const PlanePoint& p : line.points)
+        CHECK(std::abs(random.part->distance(atPlane(across, at, p))) < 0.05);
+    }
+  }
+  CHECK(compared > 4000);
+  CHECK(within > 500);
+}
+
+TEST_CASE("surface: a plate with a bore is closed, of the right size, with its edges") {
+  PartBuilder builder;
+  builder.box({0, 0, -20}, {120, 80, 0});
+  builder.cylinder({30, 40, -30}, {30, 40, 1}, 15, Action::Remove);
+  const auto part = finish(builder);
+  const SurfaceMesh mesh = surfaceOf(*part, {{-7.3, -8.1, -29.7}, {130.2, 91, 14}});
+  REQUIRE(mesh.triangles.size() > 1000);
+  CHECK(openEdges(mesh) == 0);
+  CHECK(volumeOf(mesh) == doctest::Approx(120 * 80 * 20 - 225 * std::numbers::pi * 20).epsilon(0.005));
+  for (const Point3& p : mesh.vertices)
+    CHECK(std::abs(part->distance(p)) < 0.25);
+  for (const Point3& corner : {Point3{0, 0, 0}, {120, 0, 0}, {0, 80, -20}, {120, 80, -20}}) {
+    const bool there = std::any_of(mesh.vertices.begin(), mesh.vertices.end(),
+                                   [&](const Point3& p) { return lengthOf(p - corner) < 0.01; });
+    CHECK(there);
+  }
+  // No triangle covers the bore.
+  for (const auto& t : mesh.triangles) {
+    const Point3 middle = (mesh.vertices[t[0]] + mesh.vertices[t[1]] + mesh.vertices[t[2]]) * (1.0 / 3);
+    CHECK(std::hypot(middle.x - 30, middle.y - 40) > 14);
+  }
+}
+
+TEST_CASE("surface: clipped where the region ends") {
+  PartBuilder builder;
+  builder.halfSpace({0, 0, 0}, {0, 0, 1});
+  const auto part = finish(builder);
+  const SurfaceMesh mesh = surfaceOf(*part, {{-50, -40, -30}, {50, 40, 30}});
+  CHECK(openEdges(mesh) == 0);
+  CHECK(volumeOf(mesh) == doctest::Approx(100 * 80 * 30).epsilon(1e-3));
+  CHECK(surfaceOf(*part, {{-50, -40, 10}, {50, 40, 30}}).triangles.empty());
+}
+
+TEST_CASE("surface: of random parts it is closed, and their size") {
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    const RandomPart random = RandomPart::make(seed);
+    const SurfaceMesh mesh = surfaceOf(*random.part, {{-40, -40, -40}, {40, 40, 40}});
+    CAPTURE(seed);
+    CHECK(openEdges(mesh) == 0);
+    PartRandom dice(seed);
+    int in = 0;
+    constexpr int kPoints = 40'000;
+    constexpr double kReach = 45; // nothing of such a part is farther out
+    for (int i = 0; i < kPoints; ++i)
+      in += random.contains(dice.point(kReach)) ? 1 : 0;
+    const double volume = std::pow(2 * kReach, 3) * in / kPoints,
+                 deviation = std::pow(2 * kReach, 3) * std::sqrt(in + 1.0) / kPoints;
+    CHECK(std::abs(volumeOf(mesh) - volume) < 4 * deviation + 0.03 * volume);
+  }
+}
+
+TEST_CASE("picture region: the reach of a part, and what a far rapid does not widen") {
+  const Region reach = reachOf(platePart());
+  CHECK(reach.most.x - reach.least.x == doctest::Approx(120.35).epsilon(1e-3));
+  CHECK(reach.most.z == doctest::Approx(-400 + 12 + 0.03).epsilon(1e-4));
+  PartBuilder builder;
+  builder.halfSpace({0, 0, 0}, {0, 0, 1});
+  CHECK(reachOf(*finish(builder)).most.x > 1e4);
+
+  Picture picture = borePicture();
+  const Region region = regionOf(picture);
+  CHECK(region.contains({-270, -160, -377}));
+  CHECK_FALSE(region.contains({-270, -160, -150}));
+  CHECK(region.contains({-182, -122, -419})); // a corner of the plate
+  picture.moves.push_back({PathKind::Rapid, picture.moves.back().to, {5000, 0, 0}, true, 0});
+  CHECK(regionOf(picture).most.x == region.most.x);
+}
+
+TEST_CASE("picture sections lie where contacts are seen from the side, or just below them") {
+  Picture picture = borePicture();
+  SectionPlanes planes = sectionPlanesOf(picture, regionOf(picture));
+  CHECK(planes.at[2] == doctest::Approx(-407.97));
+  CHECK(planes.contact[2].has_value());
+  picture.contacts = {{{-245, -150, -399.97}, 13}}; // on the upper face
+  planes = sectionPlanesOf(picture, regionOf(picture));
+  CHECK(planes.at[0] == -245);
+  CHECK(planes.at[1] == -150);
+  CHECK(planes.at[2] < -400);
+  CHECK(planes.at[2] > -402);
+  picture.contacts.clear();
+  for (PictureMove& move : picture.moves) // far above the part
+    move.from.z = move.to.z = -360;
+  picture.errors.clear();
+  planes = sectionPlanesOf(picture, regionOf(picture));
+  CHECK(picture.part->distance({-290, -190, planes.at[2]}) < 0);
+}
