@@ -158,11 +158,7 @@ struct OutputArgument {
 struct Outcome {
   int status = 0;
   std::string output;
-<<<<<<< HEAD
-  std::vector<OutputFile> files;  // of convert
-=======
   std::vector<OutputFile> files;  // of convert, and pictures of sim
->>>>>>> main
   std::string map;                // of convert: what --map writes
   std::vector<MappedResult> maps; // the same, file by file; places are of `sources`
   std::string macros;             // of convert: the set that the last result calls; "": none
