@@ -503,7 +503,7 @@ CaseResult CaseRunner::run(const verify::Case& drawn) {
                    plan_.machine ? plan_.machine->limits : sim::MachineLimits{});
 
   if (routine_ == nullptr) {
-    compareGeometry(result, *values, runTranslation(*values, world, true));
+    compareGeometry(result, *values, runTranslation(*values, world, true, result.trace));
     return result;
   }
   std::optional<verify::Record> source;
