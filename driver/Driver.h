@@ -135,9 +135,9 @@ struct VerifyOptions {
   // Told from time to time how many of how many cases are done; from one thread at a time.
   std::function<void(std::uint64_t done, std::uint64_t all)> progress;
   // Told of each case by its number, edge cases behind the others: whether it is proved, and what the
-  // translation did, as `sim` traces it (docs/sim.md), with the
-  // zeros of the work systems and the variables that the source stores at the end. In any order, from one
-  // thread at a time.
+  // translation did, as `sim` traces it (docs/sim.md). Before it stands a line `start X Y Z`, behind it the
+  // zeros of the work systems and the variables that the source stores. In any order, from one thread at a
+  // time.
   std::function<void(std::uint64_t number, bool proved, const std::string& trace)> traces;
 };
 

@@ -447,7 +447,11 @@ verify::Record CaseRunner::runTranslation(const Values& values, sim::World& worl
     meaning->setStylusRadius(values.drawn.hosts.at("tool_radius"));
   }
   std::optional<sim::Trace> writer;
-  if (options_.traces) writer.emplace([&](std::string_view lines) { trace += lines; });
+  if (options_.traces) {
+    writer.emplace([&](std::string_view lines) { trace += lines; });
+    const sim::Point3& at = entry.start;
+    writer->begin("start").word("X", at.x).word("Y", at.y).word("Z", at.z).end();
+  }
   targetStand_->setTrace(writer ? &*writer : nullptr);
   verify::Record record = targetStand_->run(ready_->code, world, entry,
                                             values.posted ? values.posted->stores : std::set<std::uint32_t>{},

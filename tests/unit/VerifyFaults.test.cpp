@@ -112,7 +112,7 @@ std::size_t deeds(const std::string& trace) {
     const std::string to = begin == std::string::npos ? "" : line.substr(begin, end - begin);
     const bool nothing = line == last || (moves && to == at);
     last = line;
-    if (moves || line.starts_with("system "))
+    if (moves || line.starts_with("system ") || line.starts_with("start "))
       at = to;
     else if (line.find(" X") != std::string::npos)
       at.clear(); // it may have moved
@@ -406,6 +406,11 @@ TEST_CASE("verify rejects planted faults") {
                          one.survived);
     all.rejected += one.rejected;
     all.survived += one.survived;
+  }
+  for (const std::string_view kind : faultKinds()) {
+    if (counts[kind].placesConverted == 0)
+      table += fmt::format("fits nowhere in converted programs: {}\n", kind);
+    if (counts[kind].placesOwn == 0) table += fmt::format("fits nowhere in our own macros: {}\n", kind);
   }
   const std::size_t changed = all.rejected + all.survived;
   MESSAGE(
