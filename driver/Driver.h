@@ -140,6 +140,11 @@ struct VerifyOptions {
   bool replay = false; // one case, all of whose values are given: nothing is made smaller
   // Told from time to time how many of how many cases are done; from one thread at a time.
   std::function<void(std::uint64_t done, std::uint64_t all)> progress;
+  // Told of each case by its number, edge cases behind the others: whether it is proved, and what the
+  // translation did, as `sim` traces it (docs/sim.md). Before it stands a line `start X Y Z`, behind it the
+  // zeros of the work systems and the variables that the source stores. In any order, from one thread at a
+  // time.
+  std::function<void(std::uint64_t number, bool proved, const std::string& trace)> traces;
 };
 
 // One file of a result that may have several; `output` holds them one behind the other.

@@ -11,6 +11,7 @@
 #include "frontend/macrob/Parse.h"
 #include "ir/Program.h"
 #include "sim/Compile.h"
+#include "sim/Value.h"
 #include "sim/VendorMacros.h"
 #include "stdlib/HostInputs.h"
 #include "support/messages/Verify.h"
@@ -55,6 +56,21 @@ std::optional<SourceRange> spindleOffIn(const ir::Program& program, const stdlib
     }
   }
   return std::nullopt;
+}
+
+// What the program leaves: zeros of the systems in coordinates of the machine, variables.
+void traceResults(const verify::Record& record, sim::Trace& trace) {
+  for (const auto& [key, value] : record.zeros) {
+    trace.begin("zero").text(std::to_string(key.first));
+    trace.word(std::string_view("XYZ").substr(key.second, 1), value).end();
+  }
+  for (const auto& [number, value] : record.stores) {
+    trace.begin("variable").text(std::to_string(number));
+    if (sim::isNull(value))
+      trace.text("null").end();
+    else
+      trace.word("", value).end();
+  }
 }
 
 } // namespace
@@ -365,7 +381,8 @@ std::string CaseRunner::whyNotMeasured(Values& values) {
   return "";
 }
 
-verify::Record CaseRunner::runTranslation(const Values& values, sim::World& world, bool probeOn) {
+verify::Record CaseRunner::runTranslation(const Values& values, sim::World& world, bool probeOn,
+                                          std::string& trace) {
   verify::Entry entry = entryFor(plan_, values.drawn, probeOn);
   for (const OutputArgument& argument : plan_.translation->arguments) {
     const std::uint32_t local = stdlib::localOf(argument.letter);
@@ -382,9 +399,18 @@ verify::Record CaseRunner::runTranslation(const Values& values, sim::World& worl
     meaning.emplace(*targetSet_, *inputs_->control);
     meaning->setStylusRadius(values.drawn.hosts.at("tool_radius"));
   }
-  return targetStand_->run(ready_->code(), world, entry,
-                           values.posted ? values.posted->stores : std::set<std::uint32_t>{},
-                           meaning ? &*meaning : nullptr);
+  std::optional<sim::Trace> writer;
+  if (options_.traces) {
+    writer.emplace([&](std::string_view lines) { trace += lines; });
+    const sim::Point3& at = entry.start;
+    writer->begin("start").word("X", at.x).word("Y", at.y).word("Z", at.z).end();
+  }
+  targetStand_->setTrace(writer ? &*writer : nullptr);
+  verify::Record record = targetStand_->run(ready_->code(), world, entry,
+                                            values.posted ? values.posted->stores : std::set<std::uint32_t>{},
+                                            meaning ? &*meaning : nullptr);
+  if (writer) traceResults(record, *writer);
+  return record;
 }
 
 SourceRange CaseRunner::sourceOf(SourceRange posted, const Values& values) const {
@@ -433,7 +459,7 @@ CaseResult CaseRunner::run(const verify::Case& drawn) {
                    plan_.machine ? plan_.machine->limits : sim::MachineLimits{});
 
   if (routine_ == nullptr) {
-    compareGeometry(result, *values, runTranslation(*values, world, true));
+    compareGeometry(result, *values, runTranslation(*values, world, true, result.trace));
     return result;
   }
   std::optional<verify::Record> source;
@@ -476,7 +502,7 @@ CaseResult CaseRunner::run(const verify::Case& drawn) {
     }
     takeRun(result, ran, *values);
   } else if (plan_.translation) {
-    const verify::Record target = runTranslation(*values, world, probeOn);
+    const verify::Record target = runTranslation(*values, world, probeOn, result.trace);
     verify::CompareRules rules;
     rules.tolerance = options_.tolerance;
     rules.results = std::max(options_.tolerance, resultTolerance(*inputs_->control, *inputs_->sourceControl));

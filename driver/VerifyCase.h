@@ -66,7 +66,7 @@ private:
   bool readPosted(Values& values);
   verify::Record runPosted(const Values& values, sim::World& world, bool probeOn, verify::Stand::Way way);
   std::string whyNotMeasured(Values& values);
-  verify::Record runTranslation(const Values& values, sim::World& world, bool probeOn);
+  verify::Record runTranslation(const Values& values, sim::World& world, bool probeOn, std::string& trace);
   void addFinding(CaseResult& result, const verify::Difference& difference, const Values& values) const;
   void takeRun(CaseResult& result, const TargetRun& ran, const Values& values) const;
   void compareRejection(CaseResult& result, const Values& values, const verify::Record& target) const;

@@ -48,7 +48,8 @@ std::vector<Piece> straight(const std::vector<Piece>& pieces, bool kinds, double
     if (near(piece.from, piece.to, tolerance)) continue;
     if (!out.empty()) {
       Piece& last = out.back();
-      const bool alike = !kinds || (last.kind == piece.kind && last.with == piece.with);
+      const bool alike =
+          !kinds || (last.kind == piece.kind && last.with == piece.with && last.feed == piece.feed);
       const bool joined = near(last.to, piece.from, tolerance);
       if (alike && joined && between(last.from, last.to, piece.to, tolerance)) {
         last.to = piece.to;
@@ -69,6 +70,23 @@ std::string_view switchName(Switch state) {
   return "";
 }
 
+std::string_view faultName(sim::Outcome outcome) {
+  switch (outcome) {
+  case sim::Outcome::Contact: return "a contact";
+  case sim::Outcome::EarlyContact: return "a contact that no measuring move makes";
+  case sim::Outcome::Miss: return "no contact";
+  case sim::Outcome::NotArmed: return "a touch with the probe off";
+  case sim::Outcome::NoSignal: return "a touch without a signal";
+  case sim::Outcome::Overtravel: return "a stylus that is pushed too far";
+  case sim::Outcome::StemCollision: return "a collision of the stem";
+  case sim::Outcome::BodyCollision: return "a collision of the probe's body";
+  case sim::Outcome::RapidIntoPart: return "a rapid into the part";
+  case sim::Outcome::OutsideTravel: return "a move out of the machine's travel";
+  case sim::Outcome::NotModelled: return "a rotary or second axis off zero";
+  }
+  return "";
+}
+
 class Comparison {
 public:
   Comparison(const Record& source, const Record& target, const CompareRules& rules)
@@ -79,12 +97,16 @@ public:
     if (!out_.empty()) return std::move(out_);
     path();
     measures();
+    faults();
     zeros();
     stores();
     if (!stopsInMacros() && !near(source_.end, target_.end, rules_.tolerance))
       add(Aspect::End, fmt::format("it ends at {} against {}", textOf(source_.end), textOf(target_.end)),
           source_.endedAt, target_.endedAt);
-    if (source_.ending == Ending::Finished) modes();
+    if (source_.ending == Ending::Finished) {
+      state(source_.after, target_.after, " at the end", source_.endedAt, target_.endedAt);
+      modes();
+    }
     if (rules_.sameProgram && source_.printed != target_.printed)
       add(Aspect::Printed, fmt::format("`{}` against `{}`", source_.printed, target_.printed), {}, {});
     std::stable_sort(out_.begin(), out_.end(),
@@ -168,23 +190,44 @@ private:
             a[i].range, b[i].range);
         return;
       }
-      state(a[i], b[i]);
+      state(a[i].with, b[i].with, "", a[i].range, b[i].range);
+      feed(a[i], b[i]);
     }
   }
 
-  void state(const Piece& a, const Piece& b) {
-    if (a.with == b.with) return;
+  void feed(const Piece& a, const Piece& b) {
+    const auto shown = [](const Piece& piece) {
+      return piece.feed ? "F" + numberText(*piece.feed) : std::string("no feed");
+    };
+    const bool same = a.feed && b.feed ? std::abs(*a.feed - *b.feed) <= rules_.results
+                                       : a.feed.has_value() == b.feed.has_value();
+    if (!same) add(Aspect::State, shown(a) + " against " + shown(b), a.range, b.range);
+  }
+
+  void state(const Surroundings& a, const Surroundings& b, std::string_view when, SourceRange source,
+             SourceRange target) {
+    if (a == b) return;
     std::string text;
     const auto tell = [&](std::string_view what, std::string_view one, std::string_view other) {
       if (one != other) text += fmt::format("{}{} {} against {}", text.empty() ? "" : ", ", what, one, other);
     };
     static constexpr std::string_view kSpindle[] = {"off", "clockwise", "counterclockwise"};
     static constexpr std::string_view kCoolant[] = {"not switched", "off", "flood", "mist"};
-    tell("probe", switchName(a.with.probe), switchName(b.with.probe));
-    tell("spindle", kSpindle[a.with.spindle], kSpindle[b.with.spindle]);
-    tell("coolant", kCoolant[static_cast<std::size_t>(a.with.coolant)],
-         kCoolant[static_cast<std::size_t>(b.with.coolant)]);
-    add(Aspect::State, text, a.range, b.range);
+    tell("probe", switchName(a.probe), switchName(b.probe));
+    tell("spindle", kSpindle[a.spindle], kSpindle[b.spindle]);
+    tell("coolant", kCoolant[static_cast<std::size_t>(a.coolant)],
+         kCoolant[static_cast<std::size_t>(b.coolant)]);
+    add(Aspect::State, text + std::string(when), source, target);
+  }
+
+  // What the probe meets besides its contacts, also within calls. Behind a fault of the source nothing is
+  // proved anyway.
+  void faults() {
+    if (!source_.events.empty() || target_.events.empty()) return;
+    const auto& [event, where] = target_.events.front();
+    add(Aspect::Contact,
+        fmt::format("nothing against {} at {}", faultName(event.outcome), textOf(event.centre)),
+        lastMeasure(source_), where);
   }
 
   void measures() {

@@ -14,9 +14,9 @@ namespace dotek::verify {
 enum class Aspect : std::uint8_t {
   Ending,   // alarms, their code and place; a side that cannot be judged
   Path,     // points of the way, and how they are reached
-  State,    // probe, spindle, coolant while moving
+  State,    // feed, probe, spindle, coolant while moving; the latter at the end, too
   Nominal,  // where surfaces are expected
-  Contact,  // where they were met
+  Contact,  // where they were met; what the probe met that it should not
   Offset,   // zeros of work systems
   Variable, // that the source stores
   End,      // end position

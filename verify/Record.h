@@ -35,6 +35,8 @@ struct Piece {
   sim::Point3 from, to;
   Surroundings with;
   SourceRange range; // in the program that ran
+  // As programmed, for the move itself; nothing: a rapid, or what the control or a macro takes by itself.
+  std::optional<double> feed = {};
 };
 
 // Where a surface is expected, or was found. In X and Y the ball's centre stands one radius before it, in Z
@@ -75,6 +77,7 @@ struct Record {
   std::map<std::uint32_t, double> stores; // variables that the program itself writes; kNull is a value
   std::string printed;                    // by DPRNT and BPRNT, bytes
   sim::Point3 start, end;
+  Surroundings after; // what is on at the end
   // Modal codes by group, times ten, at entry and at the end.
   std::array<std::uint32_t, 32> modalBefore{}, modalAfter{};
   std::vector<sim::PictureMove> moves; // every motion, for pictures; only where asked for

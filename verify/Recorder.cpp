@@ -74,7 +74,9 @@ std::optional<double> Recorder::contact(const sim::SkipMove& move) {
 
 void Recorder::addPiece(sim::PathKind kind, const sim::Point3& from, const sim::Point3& to,
                         SourceRange range) {
-  record_.pieces.push_back({kind, from, to, surroundings(), range});
+  Piece piece{kind, from, to, surroundings(), range, std::nullopt};
+  if (kind != sim::PathKind::Rapid) piece.feed = machine_.feed();
+  record_.pieces.push_back(std::move(piece));
 }
 
 void Recorder::takeEvents() {
@@ -136,6 +138,11 @@ void Recorder::callBegins(std::uint32_t program, std::span<const double> locals)
   const stdlib::MacroSignature* const signature = signatureOf(**set, program, locals);
   const Intent intent = signature == nullptr ? Intent::Surface : signature->intent;
   call_.moves = intent == Intent::ProtectedMove;
+  if (const stdlib::MacroArgument* feed =
+          signature == nullptr ? nullptr : signature->find(stdlib::ArgumentRole::Feed)) {
+    const double given = locals[stdlib::localOf(feed->letter)];
+    if (!sim::isNull(given) && !sim::isUnknown(given)) call_.feed = given;
+  }
   call_.measures = !call_.moves && intent != Intent::ProbeOn && intent != Intent::ProbeOff;
   if (!call_.measures) return;
   for (std::uint32_t system = 0; system < call_.zeros.size(); ++system)
@@ -164,9 +171,10 @@ void Recorder::endCall() {
       for (std::uint32_t axis = 0; axis < 3; ++axis)
         if (now[axis] != call_.zeros[system][axis]) measure.datums[{54 + system, axis}] = now[axis];
     }
-    record_.pieces.push_back({sim::PathKind::Measuring, call_.start, call_.start, call_.with, call_.range});
+    record_.pieces.push_back({sim::PathKind::Measuring, call_.start, call_.start, call_.with, call_.range, std::nullopt});
   } else if (call_.moves) {
-    record_.pieces.push_back({sim::PathKind::Protected, call_.start, end, call_.with, call_.range});
+    record_.pieces.push_back(
+        {sim::PathKind::Protected, call_.start, end, call_.with, call_.range, call_.feed});
   }
   call_ = {};
 }
@@ -197,6 +205,7 @@ Record Recorder::finish(const std::set<std::uint32_t>& stores) {
   }
   takeEvents();
   record_.end = lowest(machine_.machinePosition());
+  record_.after = surroundings();
   for (std::uint32_t group = 0; group < record_.modalAfter.size(); ++group)
     record_.modalAfter[group] = machine_.modalCode(group);
   for (std::uint32_t system = 0; system < 6; ++system) {

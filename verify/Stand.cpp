@@ -64,7 +64,7 @@ Record Stand::run(const sim::Bytecode& code, sim::World& world, const Entry& ent
     record.text = "the state before the program cannot be reached: " + machine.end().text;
     return record;
   }
-  world.restart(0);
+  world.restart(entry.noiseSeed);
   world.setOn(entry.probeOn);
   sim::Run run(machine, code, limits_, meaning);
   Recorder recorder(machine, world, sets_, length);
@@ -73,6 +73,7 @@ Record Stand::run(const sim::Bytecode& code, sim::World& world, const Entry& ent
   recorder.begin(run, way == Way::KeepMoves);
   machine.setSkipSignal(&recorder);
   machine.setWatcher(&recorder);
+  machine.setTrace(trace_);
   run.run();
   machine.setWatcher(nullptr);
   Record record = recorder.finish(stores);

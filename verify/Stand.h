@@ -29,6 +29,7 @@ struct Entry {
   std::array<sim::Point3, 6> zeros = standZeros();
   double feed = 800; // mm/min
   bool probeOn = false;
+  std::uint64_t noiseSeed = 0;                             // of a probe whose signal is noisy
   std::vector<std::pair<std::uint32_t, double>> variables; // set before: locals, commons
 };
 
@@ -42,6 +43,8 @@ public:
   // The first program of `code`, in `world`, which is restarted; rehearsed it meets nothing of it.
   Record run(const sim::Bytecode& code, sim::World& world, const Entry& entry,
              const std::set<std::uint32_t>& stores, sim::MacroMeaning* meaning, Way way = Way::Run);
+  // Takes the trace of the runs to come (sim/Trace.h), without the state before the program. nullptr: nobody.
+  void setTrace(sim::Trace* trace) { trace_ = trace; }
 
 private:
   bool prepare(sim::Machine& machine, const Entry& entry, double ballRadius, double length) const;
@@ -49,6 +52,7 @@ private:
   const stdlib::Control& control_;
   std::vector<const stdlib::MacroSet*> sets_;
   const Limits& limits_;
+  sim::Trace* trace_ = nullptr;
   const sim::Machine fresh_; // copied for each run
 };
 

@@ -68,7 +68,7 @@ const std::string kTouch = kOn + "G65P9811X30.S2\n";
 
 TEST_CASE("verify: the same program does the same") {
   CHECK(differing(kTouch, kTouch).empty());
-  CHECK(differing("G0X10.\nG0X20.\n", "G0X20.\n").empty());                 // in one line
+  CHECK(differing("G0X10.\nG0X20.\n", "G0X20.\n").empty());                   // in one line
   CHECK(differing("G0X10.\nX20.Y5.\n", "G91G0X10.\nX10.Y5.\nG90\n").empty()); // another way to say it
 }
 
@@ -80,6 +80,13 @@ TEST_CASE("verify: each aspect has its difference") {
   CHECK(differing("M3S100\nG0X10.\nM5\n", "G0X10.\nM5\n") == Aspects{Aspect::State});
   CHECK(differing("M8\nG0X10.\n", "M9\nG0X10.\n") == Aspects{Aspect::State});
   CHECK(differing("G65P9832\nG0X1.\n", "G65P9833\nG0X1.\n") == Aspects{Aspect::State});
+  CHECK(differing("M3S100\nG0X1.\n", "M3S100\nG0X1.\nM5\n") == Aspects{Aspect::State}); // at the end
+  CHECK(differing("G65P9832\nG0X1.\nG65P9833\n", "G65P9832\nG0X1.\n") == Aspects{Aspect::State});
+  CHECK(differing("G1X10.F500.\nG0X0\n", "G1X10.F5000.\nG0X0\n") == Aspects{Aspect::State});
+  CHECK(differing(kOn + "G65P9810X10.F500.\n", kOn + "G65P9810X10.F900.\n") == Aspects{Aspect::State});
+  CHECK(differing(kOn + "G65P9810X10.F500.\n", kOn + "G65P9810X10.\n") == Aspects{Aspect::State});
+  CHECK(differing(kOn + "G65P9810X10.F500.\nG65P9810X20.F90.\n", kOn + "G65P9810X20.F500.\n") ==
+        Aspects{Aspect::Path}); // not in one piece
   CHECK(differing(kTouch, kOn + "G65P9811X30.5S2\n") == Aspects{Aspect::Nominal, Aspect::Offset});
   CHECK(differing(kTouch, kOn + "G65P9811X30.S3\n") == Aspects{Aspect::Offset});
   CHECK(differing(kTouch, kOn + "G0Y1.\n" + "G65P9811X30.S2\nG0Y0\n") ==
@@ -90,6 +97,21 @@ TEST_CASE("verify: each aspect has its difference") {
   CHECK(differing("G91\n", "G90\n") == Aspects{Aspect::Modal});
   CHECK(differing("G91\n", "G90\n", true).empty()); // as it stood at entry
   CHECK(differing("G90\n", "G91\n", true) == Aspects{Aspect::Modal});
+}
+
+TEST_CASE("verify: what the translation meets and the source does not") {
+  // The same way; the part stands where only the second runs.
+  const OneRun source(kOn + "G1X20.F500.\nG0X0\n"), target(kOn + "G1X40.F500.\nG0X0\n");
+  REQUIRE(source.record.events.empty());
+  REQUIRE_FALSE(target.record.events.empty());
+  verify::Record met = source.record;
+  met.events = target.record.events;
+  const auto found = verify::compare(source.record, met, {});
+  REQUIRE(found.size() == 1);
+  CHECK(found.front().aspect == Aspect::Contact);
+  CAPTURE(found.front().text);
+  CHECK(found.front().text.starts_with("nothing against a "));
+  CHECK(verify::compare(met, met, {}).empty());
 }
 
 TEST_CASE("verify: endings") {
