@@ -43,6 +43,7 @@ struct Raw {
   std::vector<std::string> programs;
   std::string traceFile, svgFile, htmlFile;
   std::string part, machine, partError, translation;
+  std::vector<std::string> values; // --value
   std::string cases, seed, jobs, minProved, tolerance, activeSystem;
   bool replay = false;
   bool json = false, quiet = false;
@@ -222,6 +223,10 @@ driver::VerifyOptions verifyOf(const Raw& raw) {
   for (const std::string& text : raw.variables)
     out.variables.push_back(splitPair("--var", text));
   out.replay = raw.replay;
+  for (const std::string& text : raw.values)
+    out.values.push_back(splitPair("--value", text));
+  if (!out.values.empty() && !out.replay)
+    throw UsageError("--value goes with --replay; --set fixes a value in all cases");
   return out;
 }
 
@@ -468,6 +473,9 @@ void addVerify(CLI::App& app, Raw& raw) {
       ->type_name("X,Y,Z,TURN");
   verify->add_option("--active-system", raw.activeSystem, "work system in force at entry; of a replay")
       ->type_name("N");
+  verify->add_option("--value", raw.values, "value of a field or a host input; of a replay")
+      ->type_name("NAME=VALUE")
+      ->allow_extra_args(false);
   verify->add_flag("--replay", raw.replay, "run the one case whose values are given");
   verify->add_option("-o", raw.output, "write the report to a file")->type_name("REPORT");
   addCommon(*verify, raw);
@@ -488,8 +496,8 @@ void checkCommand(const CLI::App& app, const std::vector<std::string>& arguments
 
 // `--set A=1 B=2` means `--set A=1 --set B=2`: pairs that follow a flag of pairs belong to it.
 std::vector<std::string> spreadPairs(const std::vector<std::string>& arguments) {
-  constexpr std::array<std::string_view, 6> kPairFlags = {"--set",     "--field", "--host",
-                                                          "--default", "--arg",   "--var"};
+  constexpr std::array<std::string_view, 7> kPairFlags = {"--set", "--field", "--host", "--default",
+                                                          "--arg", "--var",   "--value"};
   std::vector<std::string> out;
   std::string flag;
   bool first = false;

@@ -134,6 +134,8 @@ struct VerifyOptions {
   NamedTexts variables;    // --var N=VALUE, of programs: not drawn
   // A result of convert with one file, which is looked at; nullptr: verify converts the input itself.
   std::shared_ptr<const Outcome> converted;
+  // Of a replay: values of fields and host inputs, which the translation gets as arguments like drawn ones.
+  NamedTexts values;
   // Of a replay: where the part stands, X, Y, Z, mm, and turned about Z, degrees; the system that is active.
   std::optional<std::array<double, 4>> partError;
   std::optional<std::uint32_t> activeSystem; // 54 to 59

@@ -122,10 +122,6 @@ private:
     convert.common = options_.common;
     convert.source = options_.source;
     // The values of one case are those of fields and of the operation, as they were where it was found.
-    if (options_.to == "fusion" && options_.replay) {
-      convert.common.set.clear();
-      std::erase_if(convert.common.host, [](const auto& host) { return host.first != "return_feed"; });
-    }
     convert.to = options_.to;
     convert.control = options_.control;
     convert.probeMacros = options_.probeMacros;

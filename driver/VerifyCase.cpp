@@ -1,4 +1,4 @@
-#include "driver/VerifyCase.h"
+#include "driver/VerifyCaseParts.h"
 
 #include "driver/ConvertMikroprog.h"
 #include "driver/PostChecks.h"
@@ -58,44 +58,7 @@ std::optional<SourceRange> spindleOffIn(const ir::Program& program, const stdlib
   return std::nullopt;
 }
 
-// What the program leaves: zeros of the systems in coordinates of the machine, variables.
-void traceResults(const verify::Record& record, sim::Trace& trace) {
-  for (const auto& [key, value] : record.zeros) {
-    trace.begin("zero").text(std::to_string(key.first));
-    trace.word(std::string_view("XYZ").substr(key.second, 1), value).end();
-  }
-  for (const auto& [number, value] : record.stores) {
-    trace.begin("variable").text(std::to_string(number));
-    if (sim::isNull(value))
-      trace.text("null").end();
-    else
-      trace.word("", value).end();
-  }
-}
-
 } // namespace
-
-// The posted program, ready to run.
-struct CaseRunner::Posted {
-  SourceMap sources;
-  ir::ProgramFile file;
-  sim::Bytecode code;
-  std::set<std::uint32_t> stores;
-};
-
-struct CaseRunner::Values {
-  verify::Case drawn;
-  FieldTable fields;
-  std::optional<verify::DrawnPath> path; // of the machine
-  std::optional<sim::Part> part;
-  bool rejected = false; // by the dialog
-  std::string rejection;
-  SourceRange rejectedAt;
-  std::vector<compost::PostedLine> lines;
-  std::optional<SourceRange> spindleOff; // the first block that stops the spindle, as posted
-  std::unique_ptr<Posted> posted;
-  std::optional<verify::Record> rehearsal;
-};
 
 CaseRunner::CaseRunner(const VerifyOptions& options, const VerifyPlan& plan)
     : options_(options), plan_(plan), session_(options.common) {}
@@ -126,6 +89,7 @@ bool CaseRunner::prepare() {
     for (const compost::FieldRef& field : compost::fieldsPrinted(*inputs_->program, *routine_, folder_->name))
       printed.push_back(field.name);
   }
+  if (!knowsValues()) return false;
   fields_.emplace(*folder_, std::move(printed), session_);
   for (const auto& [name, value] : inputs_->sets)
     fields_->set(name, value, {});
@@ -216,6 +180,35 @@ std::unique_ptr<CaseRunner::Values> CaseRunner::check(const verify::Case& drawn,
   return out;
 }
 
+// Those of --value; prepare() has seen that all are known.
+void CaseRunner::takeValues(verify::Case& drawn) const {
+  for (const auto& [name, text] : options_.values) {
+    const std::string folded = gibbs::foldCase(name);
+    const auto field =
+        std::find_if(plan_.fields.begin(), plan_.fields.end(),
+                     [&](const verify::DrawField& one) { return gibbs::foldCase(one.name) == folded; });
+    const double value = parseNumber(text).value_or(0);
+    if (field != plan_.fields.end())
+      drawn.values[field->name] = value;
+    else
+      drawn.hosts[name] = value;
+  }
+}
+
+bool CaseRunner::knowsValues() {
+  for (const auto& [name, text] : options_.values) {
+    const std::string folded = gibbs::foldCase(name);
+    const bool field =
+        std::any_of(plan_.fields.begin(), plan_.fields.end(),
+                    [&](const verify::DrawField& one) { return gibbs::foldCase(one.name) == folded; });
+    if (!parseNumber(text))
+      session_.diagnostics().report<diag::NotANumber>({}, "--value", name, text);
+    else if (!field && !stdlib::isHostInput(name))
+      session_.diagnostics().report<diag::NoSuchField>(SourceRange{}, name, folder_->name, "");
+  }
+  return !session_.diagnostics().hasErrors();
+}
+
 std::optional<verify::Case> CaseRunner::draw(std::uint64_t index) {
   for (std::uint32_t attempt = 0; attempt < kAttempts; ++attempt) {
     verify::Case proposal = draws_->propose(index, attempt);
@@ -224,7 +217,10 @@ std::optional<verify::Case> CaseRunner::draw(std::uint64_t index) {
       const auto& [x, y, z, turn] = *options_.partError;
       proposal.error = {{x, y, z}, turn};
     }
-    if (options_.replay) return proposal; // drawn_ is of no other case
+    if (options_.replay) {
+      takeValues(proposal);
+      return proposal; // drawn_ is of no other case
+    }
     if (nominal_ != nullptr) nominal_->roundStart(proposal);
     std::unique_ptr<Values> values = check(proposal, true);
     if (!values) return std::nullopt;
@@ -233,6 +229,8 @@ std::optional<verify::Case> CaseRunner::draw(std::uint64_t index) {
       continue;
     }
     if (values->path) {
+      refusal_ = verify::whyNoWay(*values->path);
+      if (!refusal_.empty()) continue;
       if (!makePart(*values)) {
         refusal_ = "the path touches nothing";
         continue;
@@ -379,265 +377,6 @@ std::string CaseRunner::whyNotMeasured(Values& values) {
       if (touch.direction.z > 0) return "a measure leads upward, where the stylus touches nothing";
   }
   return "";
-}
-
-verify::Record CaseRunner::runTranslation(const Values& values, sim::World& world, bool probeOn,
-                                          std::string& trace) {
-  verify::Entry entry = entryFor(plan_, values.drawn, probeOn);
-  for (const OutputArgument& argument : plan_.translation->arguments) {
-    const std::uint32_t local = stdlib::localOf(argument.letter);
-    const std::string folded = gibbs::foldCase(argument.name);
-    const auto field = std::find_if(values.drawn.values.begin(), values.drawn.values.end(),
-                                    [&](const auto& one) { return gibbs::foldCase(one.first) == folded; });
-    if (field != values.drawn.values.end())
-      entry.variables.emplace_back(local, field->second);
-    else if (const auto host = values.drawn.hosts.find(argument.name); host != values.drawn.hosts.end())
-      entry.variables.emplace_back(local, host->second);
-  }
-  std::optional<sim::VendorMacros> meaning;
-  if (targetSet_ != nullptr) {
-    meaning.emplace(*targetSet_, *inputs_->control);
-    meaning->setStylusRadius(values.drawn.hosts.at("tool_radius"));
-  }
-  std::optional<sim::Trace> writer;
-  if (options_.traces) {
-    writer.emplace([&](std::string_view lines) { trace += lines; });
-    const sim::Point3& at = entry.start;
-    writer->begin("start").word("X", at.x).word("Y", at.y).word("Z", at.z).end();
-  }
-  targetStand_->setTrace(writer ? &*writer : nullptr);
-  verify::Record record = targetStand_->run(ready_->code(), world, entry,
-                                            values.posted ? values.posted->stores : std::set<std::uint32_t>{},
-                                            meaning ? &*meaning : nullptr);
-  if (writer) traceResults(record, *writer);
-  return record;
-}
-
-SourceRange CaseRunner::sourceOf(SourceRange posted, const Values& values) const {
-  if (!posted.hasPlace() || values.lines.empty()) return {};
-  // The text was "O1", then a posted line each.
-  std::uint32_t at = 3;
-  for (const compost::PostedLine& line : values.lines) {
-    const std::uint32_t end = at + static_cast<std::uint32_t>(line.text.size()) + 1;
-    if (posted.begin < end) return posted.begin < at ? SourceRange{} : line.range;
-    at = end;
-  }
-  return {};
-}
-
-std::uint32_t CaseRunner::targetLine(SourceRange range) const {
-  return ready_ ? ready_->line(range) : 0;
-}
-
-void CaseRunner::addFinding(CaseResult& result, const verify::Difference& difference,
-                            const Values& values) const {
-  CaseFinding finding;
-  finding.aspect = difference.aspect;
-  finding.text = difference.text;
-  finding.source = plan_.translation ? sourceOf(difference.source, values) : difference.source;
-  finding.targetLine = targetLine(difference.target);
-  if (!plan_.translation) finding.posted = sourceOf(difference.target, values);
-  result.findings.push_back(std::move(finding));
-}
-
-CaseResult CaseRunner::run(const verify::Case& drawn) {
-  CaseResult result;
-  const bool probeOn = options_.common.assume.contains("probe-on");
-  std::unique_ptr<Values> values = std::move(drawn_); // of draw()
-  if (!values) values = check(drawn, false);
-  if (!values) {
-    result.verdict = CaseVerdict::NoProgram;
-    result.why = refusal_;
-    return result;
-  }
-  if (plan_.part)
-    values->part = plan_.part;
-  else if (!values->part && values->path && makePart(*values))
-    misplace(*values);
-  if (!values->part) values->part = emptyPart(zeroOf(drawn));
-  sim::World world(*values->part, probeFor(plan_, drawn),
-                   plan_.machine ? plan_.machine->limits : sim::MachineLimits{});
-
-  if (routine_ == nullptr) {
-    compareGeometry(result, *values, runTranslation(*values, world, true, result.trace));
-    return result;
-  }
-  std::optional<verify::Record> source;
-  if (values->rejected) {
-    source.emplace();
-    source->ending = verify::Ending::Alarm;
-    source->text = values->rejection;
-  } else {
-    if (!values->posted && !readPosted(*values)) {
-      result.verdict = CaseVerdict::NoProgram;
-      result.why = refusal_;
-      return result;
-    }
-    source = runPosted(*values, world, probeOn, verify::Stand::Way::Run);
-  }
-  SourceRange at;
-  result.why = verify::whyNothingProved(*source, at);
-  result.whyAt = values->rejected ? values->rejectedAt : sourceOf(at, *values);
-  noteProbe(result, *source, *values);
-  if (source->ending == verify::Ending::Inconclusive) {
-    result.verdict = CaseVerdict::NoProgram;
-    return result;
-  }
-  if (target_ != nullptr) {
-    const verify::Entry entry = entryFor(plan_, values->drawn, probeOn);
-    const std::set<std::uint32_t> none;
-    const TargetRun ran = target_->run({values->drawn, entry, values->posted ? values->posted->stores : none,
-                                        world, values->rejected ? nullptr : &*source});
-    if (ran.refused && !values->rejected) {
-      result.verdict = CaseVerdict::Refused;
-      result.why = "the translation refuses the values: " + ran.why;
-      result.whyAt = {};
-      return result;
-    }
-    if (ran.undecided) {
-      result.verdict = CaseVerdict::NoProgram;
-      result.why = ran.why;
-      result.whyAt = {};
-      return result;
-    }
-    takeRun(result, ran, *values);
-  } else if (plan_.translation) {
-    const verify::Record target = runTranslation(*values, world, probeOn, result.trace);
-    verify::CompareRules rules;
-    rules.tolerance = options_.tolerance;
-    rules.results = std::max(options_.tolerance, resultTolerance(*inputs_->control, *inputs_->sourceControl));
-    rules.mayRestoreModes = true;
-    rules.sameAlarmNumbers = sourceSet_ == targetSet_ && !values->rejected;
-    rules.samePlace = [&](SourceRange one, SourceRange other) {
-      return plan_.translation->stemsFrom(values->rejected ? values->rejectedAt : sourceOf(one, *values),
-                                          targetLine(other), session_.sources());
-    };
-    if (!values->rejected && target.ending == verify::Ending::Alarm && target.pieces.empty() &&
-        plan_.translation->madeUp(targetLine(target.endedAt))) {
-      result.verdict = CaseVerdict::Refused;
-      result.why = "the translation refuses the values: " + target.text;
-      result.whyAt = {};
-      return result;
-    }
-    if (values->rejected) {
-      compareRejection(result, *values, target);
-    } else {
-      for (const verify::Difference& difference : verify::compare(*source, target, rules))
-        addFinding(result, difference, *values);
-      comparePath(result, *values);
-    }
-  } else if (values->path && !values->rejected) {
-    for (const verify::Difference& difference :
-         verify::compare(*values->path, {}, *source, options_.tolerance))
-      addFinding(result, difference, *values);
-  }
-  result.verdict = !result.findings.empty() ? CaseVerdict::Differ
-                   : result.why.empty()     ? CaseVerdict::Proved
-                                            : CaseVerdict::Idle;
-  return result;
-}
-
-void CaseRunner::takeRun(CaseResult& result, const TargetRun& ran, const Values& values) const {
-  if (values.rejected && !ran.refused && ran.differences.empty()) {
-    CaseFinding finding;
-    finding.aspect = verify::Aspect::Ending;
-    finding.text = "the dialog turns the values away, and the translation takes them";
-    finding.source = values.rejectedAt;
-    result.findings.push_back(std::move(finding));
-  }
-  for (const TargetDifference& one : ran.differences) {
-    CaseFinding finding;
-    finding.aspect = one.difference.aspect;
-    finding.text = one.difference.text + (one.line.empty() ? "" : ", in `" + one.line + "`");
-    finding.source = values.rejected ? values.rejectedAt : sourceOf(one.difference.source, values);
-    result.findings.push_back(std::move(finding));
-  }
-  if (!values.rejected) comparePath(result, values);
-}
-
-// The dialog has turned the values away: the translation raises an alarm that stems from there, and nothing
-// has moved.
-void CaseRunner::compareRejection(CaseResult& result, const Values& values,
-                                  const verify::Record& target) const {
-  CaseFinding finding;
-  finding.aspect = verify::Aspect::Ending;
-  finding.source = values.rejectedAt;
-  finding.targetLine = targetLine(target.endedAt);
-  if (target.ending != verify::Ending::Alarm)
-    finding.text = "the dialog turns the values away, and the program runs";
-  else if (!target.pieces.empty())
-    finding.text = "the dialog turns the values away, and the program moves before its alarm";
-  else
-    return;
-  result.findings.push_back(std::move(finding));
-}
-
-// What the path touches and what the source measures, whatever the translation is: nominal contacts alone.
-void CaseRunner::comparePath(CaseResult& result, const Values& values) const {
-  if (!values.path || !values.rehearsal) return;
-  for (const verify::Difference& difference :
-       verify::compare(*values.path, {}, *values.rehearsal, options_.tolerance)) {
-    if (difference.aspect != verify::Aspect::Nominal) continue;
-    CaseFinding finding{difference.aspect, "the drawn path and the post: " + difference.text,
-                        difference.source, sourceOf(difference.target, values), 0};
-    result.findings.push_back(std::move(finding));
-  }
-}
-
-// Without a Prog: the way and the touches alone.
-void CaseRunner::compareGeometry(CaseResult& result, const Values& values,
-                                 const verify::Record& target) const {
-  result.why = "measurement not stated by the source";
-  if (values.rejected) {
-    compareRejection(result, values, target);
-  } else if (target.ending != verify::Ending::Finished) {
-    result.findings.push_back({verify::Aspect::Ending,
-                               "the path ends against an alarm: " + target.text,
-                               {},
-                               {},
-                               targetLine(target.endedAt)});
-  } else if (values.path) {
-    for (const verify::Difference& difference :
-         verify::compare(*values.path, {}, target, options_.tolerance)) {
-      CaseFinding finding{
-          difference.aspect, difference.text, difference.source, {}, targetLine(difference.target)};
-      result.findings.push_back(std::move(finding));
-    }
-  }
-  result.verdict = result.findings.empty() ? CaseVerdict::Idle : CaseVerdict::Differ;
-}
-
-void CaseRunner::noteProbe(CaseResult& result, const verify::Record& record, const Values& values) const {
-  const verify::ProbeOff off = verify::probeOffIn(record);
-  if (off.measuring) result.unarmed = sourceOf(*off.measuring, values);
-  if (!off.protectedMove) return;
-  result.unprotected = sourceOf(*off.protectedMove, values);
-  result.spindleLater = values.spindleOff && off.protectedMove->begin < values.spindleOff->begin;
-}
-
-std::vector<std::pair<std::string, SourceRange>> CaseRunner::droppedDigits(const verify::Case& drawn) {
-  std::vector<std::pair<std::string, SourceRange>> out;
-  const auto lost = [&](const verify::Case& one) {
-    std::vector<SourceRange> places;
-    const std::unique_ptr<Values> values = check(one, false);
-    if (!values || values->rejected) return places;
-    post(*values);
-    for (const Diagnostic& told : session_.diagnostics().all())
-      if (told.code == "lost-decimals") places.push_back(told.range);
-    return places;
-  };
-  const std::vector<SourceRange> always = lost(drawn);
-  for (const verify::DrawField& field : plan_.fields) {
-    if (field.fixed || field.kind == ir::Kind::WorkOffset) continue;
-    verify::Case finer = drawn;
-    const auto value = finer.values.find(field.name);
-    if (value == finer.values.end()) continue;
-    // Within the last place, towards the value's own side, so that no check turns it away.
-    value->second += (value->second < 0 ? -0.4 : 0.4) * std::pow(10.0, -field.decimals);
-    for (const SourceRange& place : lost(finer))
-      if (std::find(always.begin(), always.end(), place) == always.end()) out.emplace_back(field.name, place);
-  }
-  return out;
 }
 
 } // namespace dotek::driver

@@ -56,6 +56,9 @@ private:
   struct Values; // of one case, behind the checks
   std::unique_ptr<Values> check(const verify::Case& drawn, bool settle);
   verify::Case settled(const verify::Case& drawn);
+  void takeValues(verify::Case& drawn) const;
+  bool writesActive(const verify::Record& record, const Values& values) const;
+  bool knowsValues();
   void roundHosts(verify::Case& drawn) const;
   bool leadToNominal(std::unique_ptr<Values>& values);
   std::optional<std::vector<double>> nominalMisses(const verify::Case& drawn);

@@ -138,7 +138,7 @@ bool ProgramRunner::addCaller() {
     return number;
   };
   const std::uint64_t own = programs.front().number;
-  caller_.emplace();
+  caller_ = Caller();
   caller_->callee = own >= 1 && own <= kMostCalled ? static_cast<std::uint32_t>(own) : next();
   caller_->text = fmt::format("O{}\nM98P{}\nM30\n", next(), caller_->callee);
   programs_->programs.front().nameKind = ir::Program::NameKind::Number;

@@ -140,15 +140,25 @@ std::string VerifyReport::replay(const verify::Case& drawn) const {
   if (options_.common.recover) out += " --recover";
   for (const auto& [field, variable] : options_.common.field)
     flag("--field", field + "=" + variable);
+  for (const std::string& folder : options_.common.data)
+    flag("--data", folder);
+  // What the user has fixed belongs to the translation; the values of the case do not.
+  const bool writtenForCase = options_.to == "mikroprog";
   std::set<std::string> known;
   for (const auto& [name, value] : drawn.values) {
-    flag(plan_.programs ? "--var" : "--set", name + "=" + numberText(value));
-    known.insert(name);
+    flag(plan_.programs ? "--var" : writtenForCase ? "--set" : "--value", name + "=" + numberText(value));
+    if (writtenForCase) known.insert(name);
   }
   for (const auto& [name, text] : options_.common.set)
     if (!known.contains(name)) flag("--set", name + "=" + text);
-  for (const auto& [name, value] : drawn.hosts)
-    flag("--host", name + "=" + numberText(value));
+  known.clear();
+  const bool asHost = plan_.programs || writtenForCase;
+  for (const auto& [name, value] : drawn.hosts) {
+    flag(asHost ? "--host" : "--value", name + "=" + numberText(value));
+    if (asHost) known.insert(name);
+  }
+  for (const auto& [name, text] : options_.common.host)
+    if (!known.contains(name)) flag("--host", name + "=" + text);
   flag("--part-error",
        fmt::format("{},{},{},{}", numberText(drawn.error.shift.x), numberText(drawn.error.shift.y),
                    numberText(drawn.error.shift.z), numberText(drawn.error.turn)));

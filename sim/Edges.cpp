@@ -62,6 +62,7 @@ void Solid::addChains(std::size_t begin) {
 bool Solid::meet(std::uint32_t i, std::uint32_t j) {
   using Kind = Surface::Kind;
   const Surface *s = &surfaces_[i], *t = &surfaces_[j];
+  if (s->shape != t->shape && !mayTouch(s->shape, shapeBoxes_[t->shape])) return true;
   Vec a, b;
   const double ra = shapes[s->shape].bounding(a), rb = shapes[t->shape].bounding(b);
   if ((a - b).norm() > ra + rb + 1e-6) return true;
@@ -129,9 +130,12 @@ bool Solid::straight(const Vec& o, const Vec& d, std::uint32_t i, std::uint32_t 
     to = std::min(to, middle + std::sqrt(square));
   }
   if (from >= to) return true;
+  // Of shapes that end before both of them none cuts the edge.
+  const Box &one = shapeBoxes_[surfaces_[i].shape], &other = shapeBoxes_[surfaces_[j].shape];
+  const Box both{one.least.cwiseMax(other.least), one.most.cwiseMin(other.most)};
   std::vector<double> cuts = {from, to};
   for (std::uint32_t k = 0; k < surfaces_.size(); ++k) {
-    if (k == i || k == j) continue;
+    if (k == i || k == j || !mayTouch(surfaces_[k].shape, both)) continue;
     double t[2];
     const int count = surfaces_[k].roots(o, d, t);
     for (int n = 0; n < count; ++n) {

@@ -85,6 +85,9 @@ bool Solid::build() {
   pieces_.clear();
   chains_.clear();
   corners_.clear();
+  shapeBoxes_.clear();
+  for (const Shape& shape : shapes)
+    shapeBoxes_.push_back(boxOf(shape));
   boxes_.clear();
   if (!addBoxes(nodes)) boxes_.clear();
   std::vector<Apex> apexes;
@@ -128,6 +131,23 @@ double Solid::boundOf(const std::vector<Node>& list, const Vec& p, std::int32_t*
   return out;
 }
 
+Solid::Box Solid::boxOf(const Shape& shape) {
+  Box box;
+  for (int axis = 0; axis < 3; ++axis) {
+    const Vec unit = Vec::Unit(axis);
+    box.most[axis] = shape.support(unit);
+    box.least[axis] = -shape.support(-unit);
+  }
+  return box;
+}
+
+bool Solid::mayTouch(std::uint32_t shape, const Box& box) const {
+  constexpr double kSlack = 1e-3;
+  const Box& own = shapeBoxes_[shape];
+  return (own.least.array() <= box.most.array() + kSlack).all() &&
+         (own.most.array() + kSlack >= box.least.array()).all();
+}
+
 // What is removed or kept makes nothing larger.
 bool Solid::addBoxes(const std::vector<Node>& list) {
   for (const Node& node : list) {
@@ -137,13 +157,7 @@ bool Solid::addBoxes(const std::vector<Node>& list) {
       if (!addBoxes(node.group)) return false;
       continue;
     }
-    const Shape& shape = shapes[static_cast<std::size_t>(node.shape)];
-    Box box;
-    for (int axis = 0; axis < 3; ++axis) {
-      const Vec unit = Vec::Unit(axis);
-      box.most[axis] = shape.support(unit);
-      box.least[axis] = -shape.support(-unit);
-    }
+    const Box& box = shapeBoxes_[static_cast<std::size_t>(node.shape)];
     if (!box.most.allFinite() || !box.least.allFinite()) return false;
     boxes_.push_back(box);
   }

@@ -99,9 +99,12 @@ private:
     Vec least, most;
   };
   bool addBoxes(const std::vector<Node>& list); // false: one has no end
+  static Box boxOf(const Shape& shape);         // may be without end
+  bool mayTouch(std::uint32_t shape, const Box& box) const;
 
   std::vector<Node> solidNodes_; // nodes without meshes
   std::vector<Box> boxes_;       // none: not bounded
+  std::vector<Box> shapeBoxes_;  // by shape
   std::vector<Surface> surfaces_;
   std::vector<Piece> pieces_;
   std::vector<Chain> chains_;

@@ -163,13 +163,17 @@ DrawnPath drawnPath(const std::vector<PathMove>& path, const Point3& start, doub
   return out;
 }
 
-std::string whyNotReached(const DrawnPath& path, const Part& part, const sim::Probe& probe, double off) {
+std::string whyNoWay(const DrawnPath& path) {
   if (path.touches.empty()) return "the path shows no touch";
   double highest = path.points[1].z;
   for (std::size_t n = 2; n < path.points.size(); ++n)
     highest = std::max(highest, path.points[n].z);
-  if (path.points.back().z < highest - kSame) return "the path ends lower than it was";
-  return Walk(path, part, probe, off).run();
+  return path.points.back().z < highest - kSame ? "the path ends lower than it was" : "";
+}
+
+std::string whyNotReached(const DrawnPath& path, const Part& part, const sim::Probe& probe, double off) {
+  std::string why = whyNoWay(path);
+  return why.empty() ? Walk(path, part, probe, off).run() : why;
 }
 
 } // namespace dotek::verify

@@ -54,6 +54,9 @@ sim::Part withError(const sim::Part& nominal, const std::vector<Touch>& touches,
 // How far the error moves a surface at most, mm.
 double mostOff(const std::vector<Touch>& touches, const PartError& error);
 
+// Why no part could be reached on this way; "" where that hangs on the part: it touches nothing, or ends
+// lower than it was.
+std::string whyNoWay(const DrawnPath& path);
 // The way meets the part nowhere but at its touches, ends nowhere lower than it was (it comes out where it
 // went in), and each touch lies where the ball gets to. "" or why not, in one line. `off`: by how much a
 // contact may come earlier or later than drawn (of a part with an error: mostOff()); the way back begins at

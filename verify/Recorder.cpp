@@ -171,7 +171,8 @@ void Recorder::endCall() {
       for (std::uint32_t axis = 0; axis < 3; ++axis)
         if (now[axis] != call_.zeros[system][axis]) measure.datums[{54 + system, axis}] = now[axis];
     }
-    record_.pieces.push_back({sim::PathKind::Measuring, call_.start, call_.start, call_.with, call_.range, std::nullopt});
+    record_.pieces.push_back(
+        {sim::PathKind::Measuring, call_.start, call_.start, call_.with, call_.range, std::nullopt});
   } else if (call_.moves) {
     record_.pieces.push_back(
         {sim::PathKind::Protected, call_.start, end, call_.with, call_.range, call_.feed});

@@ -66,7 +66,7 @@ private:
     SourceRange range;
     Surroundings with;
     std::array<sim::Position, 6> zeros; // of G54 to G59, of one that measures
-    std::optional<double> feed; // an argument
+    std::optional<double> feed;         // an argument
   } call_;
 };
 

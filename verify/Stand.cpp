@@ -25,7 +25,7 @@ std::array<sim::Point3, 6> standZeros() {
 }
 
 Stand::Stand(const stdlib::Control& control, std::vector<const stdlib::MacroSet*> sets, const Limits& limits)
-    : control_(control), sets_(std::move(sets)), limits_(limits), fresh_(control) {}
+    : sets_(std::move(sets)), limits_(limits), fresh_(control) {}
 
 bool Stand::prepare(sim::Machine& machine, const Entry& entry, double ballRadius, double length) const {
   for (std::uint32_t system = 0; system < entry.zeros.size(); ++system) {

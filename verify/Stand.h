@@ -49,7 +49,6 @@ public:
 private:
   bool prepare(sim::Machine& machine, const Entry& entry, double ballRadius, double length) const;
 
-  const stdlib::Control& control_;
   std::vector<const stdlib::MacroSet*> sets_;
   const Limits& limits_;
   sim::Trace* trace_ = nullptr;

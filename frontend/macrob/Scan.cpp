@@ -23,6 +23,13 @@ public:
     Block block;
     block.range = range_;
     if (!prefix(block)) return std::nullopt;
+    skip();
+    if (here() == '#') {
+      std::optional<nc::Assignment> one = copy();
+      if (!one) return std::nullopt;
+      block.body = std::move(*one);
+      return block;
+    }
     Words words;
     while (true) {
       skip();
@@ -92,6 +99,65 @@ private:
     if (!endsNumber()) return false;
     block.sequenceNumber = std::move(sequence);
     return true;
+  }
+
+  ExpressionPtr expression(std::size_t begin, decltype(Expression::node) node) const {
+    auto out = std::make_unique<Expression>();
+    out->range = range(begin);
+    out->node = std::move(node);
+    return out;
+  }
+  // Digits; with `point` they may hold one. nullptr: something else stands there.
+  ExpressionPtr number(bool point) {
+    const std::size_t begin = at_;
+    digits();
+    const bool hasPoint = point && here() == '.';
+    if (hasPoint) {
+      ++at_;
+      digits();
+    }
+    const std::string_view spelling = text_.substr(begin, at_ - begin);
+    if (spelling.empty() || spelling == ".") return nullptr;
+    const std::optional<double> value = parseNumber(spelling);
+    if (!value) return nullptr;
+    ExpressionPtr out = expression(begin, nc::Number{std::string(spelling), *value, hasPoint});
+    return endsNumber() ? std::move(out) : nullptr;
+  }
+  // #n without a point and brackets.
+  ExpressionPtr variable() {
+    const std::size_t begin = at_++;
+    skip();
+    const std::size_t digitsBegin = at_;
+    ExpressionPtr which = number(false);
+    if (which == nullptr) return nullptr;
+    const std::size_t behind = at_;
+    at_ = digitsBegin + std::get<nc::Number>(which->node).digits.size();
+    nc::VariableRef reference;
+    reference.number = std::move(which);
+    ExpressionPtr out = expression(begin, std::move(reference));
+    at_ = behind;
+    return out;
+  }
+  // `#550=#138` or `#550=1.5`, the whole block; all else is for the grammar.
+  std::optional<nc::Assignment> copy() {
+    const std::size_t begin = at_;
+    ExpressionPtr target = variable();
+    if (target == nullptr || here() != '=') return std::nullopt;
+    ++at_;
+    skip();
+    ExpressionPtr value;
+    if (here() == '#')
+      value = variable();
+    else if (isDigit(here()) || here() == '.')
+      value = number(true);
+    if (value == nullptr || at_ != text_.size()) return std::nullopt;
+    nc::Assignment out;
+    out.variable = std::move(std::get<nc::VariableRef>(target->node).number);
+    const std::uint32_t end = value->range.end;
+    out.value = std::move(value);
+    out.range = range(begin);
+    out.range.end = end;
+    return out;
   }
 
   std::optional<nc::Word> word() {

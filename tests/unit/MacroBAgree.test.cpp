@@ -221,12 +221,13 @@ TEST_CASE("macrob: the hand-written reader takes plain blocks and leaves the oth
   const auto takes = [](const std::string& text) {
     return macrob::scanBlock(text, {0, 0, static_cast<std::uint32_t>(text.size())}).has_value();
   };
-  for (const char* plain :
-       {"G1 X5. Y-3.F100", "N10G0", "/N10 X+1", "/2G1", "", "N5", "G65P9811Y-1Q5", "X .5"})
+  for (const char* plain : {"G1 X5. Y-3.F100", "N10G0", "/N10 X+1", "/2G1", "", "N5", "G65P9811Y-1Q5", "X .5",
+                            "#1=2", "N5 #550 = #138", "#1=2.5(A)", "/#1=#2"})
     CHECK_MESSAGE(takes(plain), plain);
   for (const char* other :
-       {"#1=2", "X#1",   "X[1]", "GOTO1", "DO1",  "END1", "O10", "GO",     "X1,5",   "X1 0", "x1",   "X",
-        "N1.",  "G1 N5", "/0G1", "X.",    "X1*2", "1",    "IF",  "X1.2.3", "/12 G1", "N",    "POPEN"})
+       {"#1=-2", "#1=2+1", "#1=[2]", "#1.=2", "#1=", "#1=2 3", "#1=#2G1", "##1=2",  "#1", "#[1]=2", "X#1",
+        "X[1]",  "GOTO1",  "DO1",    "END1",  "O10", "GO",     "X1,5",    "X1 0",   "x1", "X",      "N1.",
+        "G1 N5", "/0G1",   "X.",     "X1*2",  "1",   "IF",     "X1.2.3",  "/12 G1", "N",  "POPEN"})
     CHECK_MESSAGE(!takes(other), other);
 }
 
