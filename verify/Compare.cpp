@@ -288,7 +288,8 @@ private:
   void zeros() {
     for (const auto& [key, value] : source_.zeros) {
       const auto other = target_.zeros.find(key);
-      if (other != target_.zeros.end() && std::abs(other->second - value) <= rules_.results) continue;
+      const double equal = std::max(rules_.results, rules_.relative * std::abs(value));
+      if (other != target_.zeros.end() && std::abs(other->second - value) <= equal) continue;
       add(Aspect::Offset,
           fmt::format("the zero of G{} along {} lies at {} of the machine against {}", key.first,
                       "XYZ"[key.second], fixedText(value, kShown),

@@ -35,7 +35,7 @@ struct CompareRules {
   double tolerance = 1e-6; // mm; also of degrees and variables
   // Of results that the control has computed: offsets, variables. Not below `tolerance`.
   double results = 1e-6;
-  double relative = 0; // share of a variable's value that counts as equal beside that
+  double relative = 0; // share of a variable's or a zero's value that counts as equal beside that
   // Whether a place of the target's program stems from a place of the source's. Nothing: not compared.
   std::function<bool(SourceRange source, SourceRange target)> samePlace;
   // Modal groups may also end as they stood at entry: the target is called and puts them back.

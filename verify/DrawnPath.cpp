@@ -15,8 +15,9 @@ using frontend::gibbs::PathMove;
 using sim::Part;
 using sim::Point3;
 
-constexpr double kSame = 1e-9;  // mm: coordinates that differ by rounding
-constexpr double kExact = 1e-6; // mm: a contact is where it was drawn
+constexpr double kSame = 1e-9;     // mm: coordinates that differ by rounding
+constexpr double kExact = 1e-6;    // mm: a contact is where it was drawn
+constexpr double kLeastWay = 0.01; // mm to a touch; macros take less for a stylus that is deflected
 
 double lengthOf(const Point3& p) {
   return std::sqrt(p.dot(p));
@@ -100,7 +101,8 @@ private:
     // A little farther than it may come, so that a contact at the limit is not lost to rounding.
     const auto touch = sim::firstContact(part_, probe_.ballRadius(), at_, end + direction * (2 * off_));
     if (!touch) return fmt::format("move {} does not reach the surface it touches", n);
-    if (touch->atStart) return fmt::format("move {} touches where it begins", n);
+    if (touch->atStart || touch->share * lengthOf(end + direction * (2 * off_) - at_) < kLeastWay)
+      return fmt::format("move {} touches where it begins", n);
     if (std::abs((touch->centre - end).dot(direction)) > off_)
       return fmt::format("move {} touches at {}, not where it ends", n, at(touch->centre - up()));
     std::string why = collision(touch->centre - at_, n);
