@@ -31,7 +31,9 @@ void check(const Project& project, Report& report) {
   const auto isCommon = [](std::uint32_t number) { return number >= kFirstCommon && number <= kLastCommon; };
   if (computed || !main || std::count_if(stored.begin(), stored.end(), isCommon) < static_cast<int>(kLeast))
     return;
-  for (const auto& [number, range] : read) {
+  for (const auto& entry : read) {
+    const std::uint32_t number = entry.first;
+    const SourceRange range = entry.second;
     if (!isCommon(number) || stored.contains(number)) continue;
     const bool result = std::any_of(project.macroSets.begin(), project.macroSets.end(), [&](const auto& set) {
       return std::any_of(set.signatures.begin(), set.signatures.end(), [&](const auto& signature) {
