@@ -61,9 +61,23 @@ private:
     return !diagnostics.hasErrors();
   }
 
+  // What the job says of the first operation of this cycle: where it stands. Its fields are drawn.
+  void takeOperation() {
+    if (!main_.inputs().job) return;
+    for (const JobOperation& one : main_.inputs().job->operations) {
+      if (one.cycle != main_.folder().name) continue;
+      plan_.fixedHosts.insert(one.hosts.begin(), one.hosts.end());
+      if (one.at.empty()) return;
+      plan_.fixedHosts.emplace("start_x", one.at.front().first);
+      plan_.fixedHosts.emplace("start_y", one.at.front().second);
+      return;
+    }
+  }
+
   bool makePlan() {
     Session& session = main_.session();
     plan_.fixedHosts = main_.inputs().hosts;
+    takeOperation();
     if (!loadWorld(options_, plan_, session)) return false;
     std::set<std::string> used;
     std::optional<LoweredCycle> lowered = lowerCycle(main_.folder(), main_.inputs(), used, session);

@@ -230,6 +230,7 @@ std::optional<verify::Case> CaseRunner::draw(std::uint64_t index) {
     }
     if (values->path) {
       refusal_ = verify::whyNoWay(*values->path);
+      if (refusal_.empty()) refusal_ = whyNotClear(*values);
       if (!refusal_.empty()) continue;
       if (!makePart(*values)) {
         refusal_ = "the path touches nothing";
@@ -286,6 +287,27 @@ std::optional<std::vector<double>> CaseRunner::nominalMisses(const verify::Case&
     for (const auto& [key, moved] : measure.datums)
       out.push_back(moved - active[key.second]);
   return out;
+}
+
+// A clearance that is given has to lie between the two highest levels of the path, as a drawn one does.
+std::string CaseRunner::whyNotClear(const Values& values) const {
+  const auto given = plan_.fixedHosts.find("clearance");
+  if (given == plan_.fixedHosts.end()) return "";
+  constexpr double kSame = 1e-6;
+  const std::vector<sim::Point3>& points = values.path->points;
+  double highest = points[1].z;
+  for (std::size_t i = 2; i < points.size(); ++i)
+    highest = std::max(highest, points[i].z);
+  const double clearance = given->second + zeroOf(values.drawn).z;
+  if (clearance > highest + kSame) return "the clearance that is given lies above the path";
+  bool below = false; // a level lies there
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    if (points[i].z >= highest - kSame) continue;
+    below = true;
+    if (points[i].z > clearance + kSame) return "the path goes on above the clearance that is given";
+  }
+  if (!below && clearance < highest - kSame) return "the whole path lies above the clearance that is given";
+  return "";
 }
 
 // Of the touches that the path shows, at their nominal place.
