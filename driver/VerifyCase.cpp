@@ -232,14 +232,16 @@ std::optional<verify::Case> CaseRunner::draw(std::uint64_t index) {
       refusal_ = verify::whyNoWay(*values->path);
       if (refusal_.empty()) refusal_ = whyNotClear(*values);
       if (!refusal_.empty()) continue;
-      if (!makePart(*values)) {
+      if (makePart(*values)) {
+        misplace(*values);
+        const double off =
+            plan_.translation ? verify::mostOff(values->path->nominal(), values->drawn.error) : 0;
+        refusal_ = verify::whyNotReached(*values->path, *values->part, probeFor(plan_, values->drawn), off);
+      } else if (plan_.part) {
+        values->part = plan_.part;
+      } else {
         refusal_ = "the path touches nothing";
-        continue;
       }
-      misplace(*values);
-      const double off =
-          plan_.translation ? verify::mostOff(values->path->nominal(), values->drawn.error) : 0;
-      refusal_ = verify::whyNotReached(*values->path, *values->part, probeFor(plan_, values->drawn), off);
       if (!refusal_.empty()) continue;
     }
     if (nominal_ != nullptr && !leadToNominal(values)) continue;

@@ -102,10 +102,11 @@ CaseResult CaseRunner::run(const verify::Case& drawn) {
     result.why = refusal_;
     return result;
   }
-  if (plan_.part)
-    values->part = plan_.part;
-  else if (!values->part && values->path && makePart(*values))
+  if (!values->part && values->path && makePart(*values))
     misplace(*values);
+  else if (!values->part)
+    values->part = plan_.part;
+  result.partMade = values->path && !values->path->touches.empty();
   if (!values->part) values->part = emptyPart(zeroOf(drawn));
   sim::World world(*values->part, probeFor(plan_, drawn),
                    plan_.machine ? plan_.machine->limits : sim::MachineLimits{});

@@ -45,6 +45,7 @@ void VerifyReport::add(std::uint64_t number, bool edge, verify::Case drawn, Case
     }
     ++group.count;
   }
+  partsMade_ = partsMade_ || (options_.part && result.partMade);
   if (edge) return;
   if (result.unprotected) {
     const auto [at, added] =
@@ -234,6 +235,7 @@ Outcome VerifyReport::finish() {
   Session& session = runner_.session();
   const bool stated = options_.source.prog || plan_.programs;
   if (!stated) told_.report<diag::MeasurementNotStated>(runner_.place(), cases_.idle, cases_.all());
+  if (partsMade_) told_.report<diag::PartNotUsed>({});
   tellProbe();
   if (options_.source.prog) tellPictures();
   std::size_t told = 0;

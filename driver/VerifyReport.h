@@ -51,7 +51,8 @@ private:
   const VerifyOptions& options_;
   const VerifyPlan& plan_;
   CaseSubject& runner_;
-  Diagnostics told_; // the runner's own are of its last case
+  bool partsMade_ = false; // in the place of the one that was given
+  Diagnostics told_;       // the runner's own are of its last case
   std::optional<FileId> translationFile_;
   Counts cases_, edges_;
   std::map<Key, Group> groups_;

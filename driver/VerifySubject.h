@@ -68,6 +68,7 @@ struct CaseResult {
   std::optional<SourceRange> unprotected;
   bool spindleLater = false;
   std::optional<SourceRange> unarmed; // the first measuring move with the probe off
+  bool partMade = false;              // of the touches that the path shows
   std::string trace;                  // of the translation; only where VerifyOptions::traces wants it
 };
 
