@@ -28,6 +28,7 @@ namespace gibbs = frontend::gibbs;
 namespace {
 
 constexpr std::uint32_t kAttempts = 2000; // to find values that the cycle takes
+constexpr double kNear = 0.01;            // beside what a corrected way measures, mm
 constexpr double kReach = 12;             // how far a search goes beyond a surface, mm
 
 // Variables of the control that the program writes by number.
@@ -233,10 +234,12 @@ std::optional<verify::Case> CaseRunner::draw(std::uint64_t index) {
       if (refusal_.empty()) refusal_ = whyNotClear(*values);
       if (!refusal_.empty()) continue;
       if (makePart(*values)) {
+        const sim::Part nominal = *values->part;
         misplace(*values);
         const double off =
             plan_.translation ? verify::mostOff(values->path->nominal(), values->drawn.error) : 0;
         refusal_ = verify::whyNotReached(*values->path, *values->part, probeFor(plan_, values->drawn), off);
+        if (refusal_.empty() && options_.to == "mikroprog") refusal_ = whyNotCorrected(*values, nominal, off);
       } else if (plan_.part) {
         values->part = plan_.part;
       } else {
@@ -289,6 +292,22 @@ std::optional<std::vector<double>> CaseRunner::nominalMisses(const verify::Case&
     for (const auto& [key, moved] : measure.datums)
       out.push_back(moved - active[key.second]);
   return out;
+}
+
+// Where each datum moves the way that follows: the way also fits the part with some axes at their place.
+std::string CaseRunner::whyNotCorrected(const Values& values, const sim::Part& nominal, double off) const {
+  const std::vector<verify::Touch> touches = values.path->nominal();
+  for (unsigned axes = 0; axes < 7; ++axes) {
+    verify::PartError error = values.drawn.error;
+    error.shift.x *= axes & 1;
+    error.shift.y *= axes >> 1 & 1;
+    error.shift.z *= axes >> 2 & 1;
+    const sim::Part part = verify::withError(nominal, touches, error);
+    std::string why =
+        verify::whyNotReached(*values.path, part, probeFor(plan_, values.drawn), off, off + kNear);
+    if (!why.empty()) return why;
+  }
+  return "";
 }
 
 // A clearance that is given has to lie between the two highest levels of the path, as a drawn one does.

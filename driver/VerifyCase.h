@@ -62,6 +62,7 @@ private:
   void roundHosts(verify::Case& drawn) const;
   bool leadToNominal(std::unique_ptr<Values>& values);
   std::optional<std::vector<double>> nominalMisses(const verify::Case& drawn);
+  std::string whyNotCorrected(const Values& values, const sim::Part& nominal, double off) const;
   std::string whyNotClear(const Values& values) const;
   bool makePart(Values& values) const;
   void misplace(Values& values) const;

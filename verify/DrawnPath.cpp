@@ -70,8 +70,9 @@ std::string at(const Point3& p) {
 
 class Walk {
 public:
-  Walk(const DrawnPath& path, const Part& part, const sim::Probe& probe, double off)
-      : path_(path), part_(part), probe_(probe), off_(off + kExact), at_(path.points.front() + up()) {}
+  Walk(const DrawnPath& path, const Part& part, const sim::Probe& probe, double off, double near)
+      : path_(path), part_(part), probe_(probe), off_(off + kExact), near_(near),
+        at_(path.points.front() + up()) {}
 
   std::string run() {
     std::size_t touch = 0;
@@ -105,6 +106,12 @@ private:
       return fmt::format("move {} touches where it begins", n);
     if (std::abs((touch->centre - end).dot(direction)) > off_)
       return fmt::format("move {} touches at {}, not where it ends", n, at(touch->centre - up()));
+    if (near_ > 0) {
+      // A ball that is larger by that touches what it measures earlier, by as much.
+      const auto beside = sim::firstContact(part_, probe_.ballRadius() + near_, at_, end);
+      if (beside && (touch->centre - beside->centre).dot(direction) > 2 * near_)
+        return fmt::format("move {} passes the part too near", n);
+    }
     std::string why = collision(touch->centre - at_, n);
     at_ = touch->centre;
     return why;
@@ -131,7 +138,7 @@ private:
   const DrawnPath& path_;
   const Part& part_;
   const sim::Probe& probe_;
-  double off_;
+  double off_, near_;
   Point3 at_; // of the ball's centre
 };
 
@@ -173,9 +180,10 @@ std::string whyNoWay(const DrawnPath& path) {
   return path.points.back().z < highest - kSame ? "the path ends lower than it was" : "";
 }
 
-std::string whyNotReached(const DrawnPath& path, const Part& part, const sim::Probe& probe, double off) {
+std::string whyNotReached(const DrawnPath& path, const Part& part, const sim::Probe& probe, double off,
+                          double near) {
   std::string why = whyNoWay(path);
-  return why.empty() ? Walk(path, part, probe, off).run() : why;
+  return why.empty() ? Walk(path, part, probe, off, near).run() : why;
 }
 
 } // namespace dotek::verify

@@ -61,7 +61,8 @@ std::string whyNoWay(const DrawnPath& path);
 // went in), and each touch lies where the ball gets to. "" or why not, in one line. `off`: by how much a
 // contact may come earlier or later than drawn (of a part with an error: mostOff()); the way back begins at
 // the contact.
+// `near`: how far a measuring move keeps away from what it does not measure.
 std::string whyNotReached(const DrawnPath& path, const sim::Part& part, const sim::Probe& probe,
-                          double off = 0);
+                          double off = 0, double near = 0);
 
 } // namespace dotek::verify

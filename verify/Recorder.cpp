@@ -152,12 +152,30 @@ void Recorder::callBegins(std::uint32_t program, std::span<const double> locals)
   measure.with = call_.with;
   measure.range = call_.range;
   if (signature != nullptr) {
+    noteSystem(*signature, locals);
     const sim::Position& at = machine_.position();
     measure.nominal = nominalTouches(*signature, locals, {at[0], at[1], at[2]}, world_.probe().ballRadius());
     for (Touch& touch : measure.nominal)
       touch.point = touch.point + offset();
   }
   record_.measures.push_back(std::move(measure));
+}
+
+// A datum that moves nothing is one, too.
+void Recorder::noteSystem(const stdlib::MacroSignature& signature, std::span<const double> locals) {
+  const auto given = [&](const stdlib::MacroArgument* argument) {
+    const std::uint32_t local = argument == nullptr ? 0 : stdlib::localOf(argument->letter);
+    const bool there = local != 0 && local < locals.size() && !sim::isNull(locals[local]);
+    return there ? std::optional(locals[local]) : std::nullopt;
+  };
+  const stdlib::MacroArgument* const system = signature.find(stdlib::ArgumentRole::System);
+  const std::optional<double> value = given(system);
+  if (!value) return;
+  const double number = system->systemCode == stdlib::SystemCode::Index ? *value + 53 : *value;
+  if (!(number >= 54 && number <= 59)) return;
+  call_.system = static_cast<std::uint32_t>(number);
+  for (const ir::Axis axis : ir::kAxes)
+    call_.names[ir::indexOf(axis)] = given(signature.find(stdlib::ArgumentRole::Nominal, axis)).has_value();
 }
 
 void Recorder::endCall() {
@@ -169,7 +187,8 @@ void Recorder::endCall() {
     for (std::uint32_t system = 0; system < call_.zeros.size(); ++system) {
       const sim::Position now = machine_.zeroOf(system);
       for (std::uint32_t axis = 0; axis < 3; ++axis)
-        if (now[axis] != call_.zeros[system][axis]) measure.datums[{54 + system, axis}] = now[axis];
+        if (now[axis] != call_.zeros[system][axis] || (54 + system == call_.system && call_.names[axis]))
+          measure.datums[{54 + system, axis}] = now[axis];
     }
     record_.pieces.push_back(
         {sim::PathKind::Measuring, call_.start, call_.start, call_.with, call_.range, std::nullopt});

@@ -45,6 +45,7 @@ private:
   SourceRange place() const;
   void addPiece(sim::PathKind kind, const sim::Point3& from, const sim::Point3& to, SourceRange range);
   void takeEvents();
+  void noteSystem(const stdlib::MacroSignature& signature, std::span<const double> locals);
   void endCall();
   std::string alarmKindOf(const sim::RunEnd& end) const;
 
@@ -65,6 +66,8 @@ private:
     sim::Point3 start;
     SourceRange range;
     Surroundings with;
+    std::uint32_t system = 0;           // that the call names, 54 to 59; 0: none
+    std::array<bool, 3> names{};        // axes whose coordinate it names
     std::array<sim::Position, 6> zeros; // of G54 to G59, of one that measures
     std::optional<double> feed;         // an argument
   } call_;
