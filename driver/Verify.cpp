@@ -55,6 +55,16 @@ private:
     if (!options_.to.empty() && std::find(kTargets.begin(), kTargets.end(), options_.to) == kTargets.end())
       diagnostics.report<diag::UnknownTarget>({}, options_.to);
     checkTargetOptions(options_, diagnostics);
+    const auto none = [&]<class Message>(bool given, std::string_view flag, Message) {
+      if (given) diagnostics.report<Message>({}, flag);
+    };
+    none(!options_.variables.empty(), "--var", diag::OptionOfPrograms{});
+    none(!options_.fromControl.empty(), "--from-control", diag::OptionOfPrograms{});
+    if (options_.to.empty()) {
+      none(options_.probeMacros.has_value(), "--probe-macros", diag::FlagWithoutTarget{});
+      none(options_.translation.has_value(), "--translation", diag::FlagWithoutTarget{});
+      none(!options_.datum.empty(), "--datum", diag::FlagWithoutTarget{});
+    }
     if (options_.to.empty() && !options_.source.prog && !diagnostics.hasErrors())
       diagnostics.report<diag::MissingOption>({}, "verify", "--prog PROG.txt or --to TARGET",
                                               "what the cycle is compared with");

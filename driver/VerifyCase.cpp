@@ -93,7 +93,10 @@ bool CaseRunner::prepare() {
   if (!knowsValues()) return false;
   fields_.emplace(*folder_, std::move(printed), session_);
   for (const auto& [name, value] : inputs_->sets)
-    fields_->set(name, value, {});
+    if (!fields_->set(name, value, {}))
+      session_.diagnostics().report<diag::NoSuchField>(SourceRange{}, name, folder_->name,
+                                                       fields_->hint(name));
+  if (session_.diagnostics().hasErrors()) return false;
   for (const auto& [postField, variable] : options_.common.field)
     if (!fields_->map(postField, variable)) return false;
   std::vector<std::string> hosts;
