@@ -238,6 +238,8 @@ struct MacroSet {
   std::vector<MacroAlarmInfo> alarms; // each once
   ProbingFacts probing;
   std::string needs; // what is set before the first call, as a program's header says it; "": nothing
+  // Variables of what is needed with values that do, for runs in which nobody sets them: number and value.
+  std::vector<std::pair<std::uint32_t, double>> callerValues;
   bool needsSkipPosition = false; // the macros read the skip position of the control
 
   bool calls(std::uint32_t program) const;

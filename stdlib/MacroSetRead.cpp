@@ -121,6 +121,13 @@ private:
     origin(table);
     if (const TomlValue needs = table.value("needs")) set_.needs = needs.text();
     set_.needsSkipPosition = table.value("skip_position").flag();
+    for (const TomlTable& one : table.value("values").tables()) {
+      const auto number =
+          static_cast<std::uint32_t>(one.require("variable", "a variable number").integer(1, 1, 999999));
+      set_.callerValues.emplace_back(number, one.require("value", "a number").number());
+    }
+    if (set_.needs.empty() && !set_.callerValues.empty())
+      document_.fail(table.range(), "`values` are of variables that `needs` tells of");
     if (set_.needs.empty() && !set_.needsSkipPosition)
       document_.fail(table.range(), "nothing is needed: leave the table out");
   }

@@ -10,8 +10,6 @@ namespace dotek::verify {
 namespace {
 
 constexpr double kMacroFeed = 1000; // of protected moves, where a set keeps it in a variable
-// What the text of Dotek's own macros wants (stdlib/macrob/dotek.nc): feeds of the touches, way back.
-constexpr std::pair<std::uint32_t, double> kOwnMacros[] = {{521, 500}, {522, 50}, {523, 0.5}};
 
 } // namespace
 
@@ -36,10 +34,10 @@ bool Stand::prepare(sim::Machine& machine, const Entry& entry, double ballRadius
   for (const stdlib::MacroSet* set : sets_) {
     const stdlib::ProbingFacts& facts = set->probing;
     if (facts.feedVariable) machine.preset(*facts.feedVariable, kMacroFeed);
-    if (!set->needsSkipPosition) continue;
+    if (set->callerValues.empty()) continue;
     for (const auto& radius : {facts.radiusX, facts.radiusY})
       if (radius) machine.preset(*radius, ballRadius);
-    for (const auto& [number, value] : kOwnMacros)
+    for (const auto& [number, value] : set->callerValues)
       machine.preset(number, value);
   }
   const std::string text = fmt::format("G21G17G40G49G80G90G94G{}\nG0X{:.6f}Y{:.6f}\nG43H1Z{:.6f}\nF{:.1f}\n",

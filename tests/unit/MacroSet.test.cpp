@@ -423,6 +423,9 @@ TEST_CASE("shared arguments and results, alarms, facts of probing: defects with 
       std::string::npos);
   CHECK(setError(kHead + "[caller]\nneeds = '#520'\n" + certain + any) == "");
   CHECK(setError(kHead + "[caller]\n" + certain + any).find("nothing is needed") != std::string::npos);
+  const std::string values = "[caller]\nvalues = [{variable=521,value=0.5}]\n";
+  CHECK(setError(kHead + values + certain + any).find("that `needs` tells of") != std::string::npos);
+  CHECK(setError(kHead + values + "needs = '#521'\n" + certain + any) == "");
   CHECK(setError(kHead + any + "[[refused]]\nprograms = [1]\nletters = 'ST'\n" + certain)
             .find("P1 has no argument `S`") != std::string::npos);
   // what intents need
