@@ -2,7 +2,7 @@
 //   bench_part [--cases N] [--check]
 // A case is a part that lies otherwise, ten touches (a face, a boss, a bore, a slot, a corner), and the way
 // to each. --check exits with 1 where the goal is missed.
-#include "sim/World.h"
+#include "sim/machine/World.h"
 
 #include <cstdint>
 #include <cstdlib>

@@ -20,7 +20,7 @@ find_library(ANTLR4_STATIC NAMES libantlr4-runtime.a antlr4-runtime REQUIRED)
 find_package(Threads REQUIRED)
 add_library(dotek_antlr INTERFACE)
 target_include_directories(dotek_antlr SYSTEM BEFORE INTERFACE ${ANTLR4_PATCHED} ${ANTLR4_INCLUDE_DIR})
-target_compile_options(dotek_antlr INTERFACE -fno-char8_t)
+target_compile_options(dotek_antlr INTERFACE -fno-char8_t) # as all sources, so that one precompiled header serves
 target_link_libraries(dotek_antlr INTERFACE ${ANTLR4_STATIC} Threads::Threads)
 
 # dotek_grammar(<Name>): grammar/<Name>Lexer.g4 and <Name>Parser.g4 become the library dotek_grammar_<Name>.

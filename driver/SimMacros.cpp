@@ -1,8 +1,8 @@
 #include "driver/SimMacros.h"
 
 #include "driver/Programs.h"
-#include "sim/Machine.h"
-#include "sim/Value.h"
+#include "sim/machine/Machine.h"
+#include "sim/machine/Value.h"
 #include "support/Files.h"
 #include "support/messages/Commands.h"
 

@@ -3,8 +3,8 @@
 
 #include "driver/ProgramLibrary.h"
 #include "driver/Session.h"
-#include "sim/Picture.h"
-#include "sim/VendorMacros.h"
+#include "sim/machine/VendorMacros.h"
+#include "sim/picture/Picture.h"
 #include "stdlib/Control.h"
 #include "stdlib/MacroSet.h"
 

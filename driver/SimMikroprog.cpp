@@ -4,7 +4,7 @@
 #include "driver/SimWorld.h"
 #include "frontend/mikroprog/Check.h"
 #include "frontend/mikroprog/Parse.h"
-#include "sim/Mikroprog.h"
+#include "sim/machine/Mikroprog.h"
 #include "stdlib/MikroprogControl.h"
 #include "support/Decimal.h"
 #include "support/messages/Commands.h"

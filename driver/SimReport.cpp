@@ -1,6 +1,6 @@
 #include "driver/SimReport.h"
 
-#include "sim/Value.h"
+#include "sim/machine/Value.h"
 #include "support/Decimal.h"
 #include "support/messages/Common.h"
 #include "support/messages/MacroB.h"

@@ -4,8 +4,8 @@
 #include "driver/Session.h"
 #include "driver/SimWorld.h"
 #include "frontend/nc/Scan.h"
-#include "sim/Machine.h"
-#include "sim/Run.h"
+#include "sim/machine/Machine.h"
+#include "sim/machine/Run.h"
 
 #include <string>
 

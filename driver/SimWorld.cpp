@@ -1,6 +1,6 @@
 #include "driver/SimWorld.h"
 
-#include "sim/PartFile.h"
+#include "sim/geometry/PartFile.h"
 #include "support/Decimal.h"
 #include "support/messages/Commands.h"
 #include "support/messages/Common.h"

@@ -3,11 +3,11 @@
 #pragma once
 
 #include "driver/Session.h"
-#include "sim/Machine.h"
-#include "sim/Mikroprog.h"
-#include "sim/PictureRecorder.h"
-#include "sim/Probe.h"
-#include "sim/World.h"
+#include "sim/geometry/Probe.h"
+#include "sim/machine/Machine.h"
+#include "sim/machine/Mikroprog.h"
+#include "sim/machine/World.h"
+#include "sim/picture/PictureRecorder.h"
 
 #include <array>
 #include <cstdint>

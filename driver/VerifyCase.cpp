@@ -10,9 +10,9 @@
 #include "frontend/macrob/Lower.h"
 #include "frontend/macrob/Parse.h"
 #include "ir/Program.h"
-#include "sim/Compile.h"
-#include "sim/Value.h"
-#include "sim/VendorMacros.h"
+#include "sim/machine/Compile.h"
+#include "sim/machine/Value.h"
+#include "sim/machine/VendorMacros.h"
 #include "stdlib/HostInputs.h"
 #include "support/messages/Verify.h"
 

@@ -2,8 +2,8 @@
 #include "driver/VerifyCaseParts.h"
 #include "driver/VerifyTargets.h"
 #include "frontend/gibbs/Ast.h"
-#include "sim/Value.h"
-#include "sim/VendorMacros.h"
+#include "sim/machine/Value.h"
+#include "sim/machine/VendorMacros.h"
 #include "support/messages/Verify.h"
 
 #include <algorithm>

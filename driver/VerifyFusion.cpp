@@ -5,8 +5,8 @@
 #include "frontend/macrob/Lower.h"
 #include "frontend/macrob/Parse.h"
 #include "ir/Program.h"
-#include "sim/Compile.h"
-#include "sim/VendorMacros.h"
+#include "sim/machine/Compile.h"
+#include "sim/machine/VendorMacros.h"
 #include "support/messages/Verify.h"
 
 #include <algorithm>

@@ -7,9 +7,9 @@
 #include "driver/VariableFlags.h"
 #include "driver/VerifyReport.h"
 #include "driver/VerifyRuns.h"
-#include "sim/Compile.h"
-#include "sim/Value.h"
-#include "sim/VendorMacros.h"
+#include "sim/machine/Compile.h"
+#include "sim/machine/Value.h"
+#include "sim/machine/VendorMacros.h"
 #include "support/Files.h"
 #include "support/messages/Commands.h"
 

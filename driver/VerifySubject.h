@@ -3,8 +3,8 @@
 #pragma once
 
 #include "driver/Session.h"
-#include "sim/Part.h"
-#include "sim/Probe.h"
+#include "sim/geometry/Part.h"
+#include "sim/geometry/Probe.h"
 #include "verify/Compare.h"
 #include "verify/Draw.h"
 #include "verify/Stand.h"

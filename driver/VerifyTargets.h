@@ -6,7 +6,7 @@
 #include "driver/Lowering.h"
 #include "driver/Session.h"
 #include "driver/VerifyCase.h"
-#include "sim/World.h"
+#include "sim/machine/World.h"
 #include "verify/Compare.h"
 #include "verify/Stand.h"
 

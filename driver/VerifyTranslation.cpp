@@ -2,8 +2,8 @@
 
 #include "frontend/macrob/Lower.h"
 #include "frontend/macrob/Parse.h"
-#include "sim/Compile.h"
-#include "sim/PartFile.h"
+#include "sim/geometry/PartFile.h"
+#include "sim/machine/Compile.h"
 #include "support/Files.h"
 #include "support/messages/Verify.h"
 

@@ -3,7 +3,7 @@
 
 #include "driver/VerifySubject.h"
 #include "ir/Program.h"
-#include "sim/Bytecode.h"
+#include "sim/machine/Bytecode.h"
 #include "stdlib/Control.h"
 #include "stdlib/MacroSet.h"
 

@@ -1,6 +1,6 @@
 #include "verify/Compare.h"
 
-#include "sim/Value.h"
+#include "sim/machine/Value.h"
 #include "support/Decimal.h"
 
 #include <algorithm>

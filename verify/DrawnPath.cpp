@@ -1,6 +1,6 @@
 #include "verify/DrawnPath.h"
 
-#include "sim/Contact.h"
+#include "sim/geometry/Contact.h"
 #include "support/Decimal.h"
 
 #include <algorithm>

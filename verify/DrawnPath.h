@@ -3,7 +3,7 @@
 #pragma once
 
 #include "frontend/gibbs/Run.h"
-#include "sim/Part.h"
+#include "sim/geometry/Part.h"
 #include "verify/Record.h"
 
 #include <cstddef>

@@ -1,6 +1,6 @@
 #include "verify/MikroprogCompare.h"
 
-#include "sim/Contact.h"
+#include "sim/geometry/Contact.h"
 #include "stdlib/MacroSet.h"
 #include "support/Decimal.h"
 

@@ -2,8 +2,8 @@
 // posted program stands in docs/verify.md.
 #pragma once
 
-#include "sim/Mikroprog.h"
-#include "sim/World.h"
+#include "sim/machine/Mikroprog.h"
+#include "sim/machine/World.h"
 
 #include <cstddef>
 #include <cstdint>

@@ -1,7 +1,7 @@
 #include "verify/Nominal.h"
 
 #include "ir/Arithmetic.h"
-#include "sim/Value.h"
+#include "sim/machine/Value.h"
 
 #include <array>
 #include <cmath>

@@ -3,9 +3,9 @@
 // without the tool's length (mm).
 #pragma once
 
-#include "sim/Machine.h"
-#include "sim/Picture.h"
-#include "sim/World.h"
+#include "sim/machine/Machine.h"
+#include "sim/machine/World.h"
+#include "sim/picture/Picture.h"
 #include "support/Source.h"
 
 #include <array>

@@ -1,6 +1,6 @@
 #include "verify/Recorder.h"
 
-#include "sim/Value.h"
+#include "sim/machine/Value.h"
 #include "verify/Nominal.h"
 
 #include <algorithm>

@@ -1,8 +1,8 @@
 // Writes a Record while a program runs on a machine in a world.
 #pragma once
 
-#include "sim/Run.h"
-#include "sim/World.h"
+#include "sim/machine/Run.h"
+#include "sim/machine/World.h"
 #include "stdlib/MacroSet.h"
 #include "verify/Record.h"
 

@@ -1,8 +1,8 @@
 // Runs a compiled program from a known state of the machine in a world, and records what it does.
 #pragma once
 
-#include "sim/Bytecode.h"
-#include "sim/MacroMeaning.h"
+#include "sim/machine/Bytecode.h"
+#include "sim/machine/MacroMeaning.h"
 #include "stdlib/Control.h"
 #include "stdlib/MacroSet.h"
 #include "support/Limits.h"
@@ -43,7 +43,8 @@ public:
   // The first program of `code`, in `world`, which is restarted; rehearsed it meets nothing of it.
   Record run(const sim::Bytecode& code, sim::World& world, const Entry& entry,
              const std::set<std::uint32_t>& stores, sim::MacroMeaning* meaning, Way way = Way::Run);
-  // Takes the trace of the runs to come (sim/Trace.h), without the state before the program. nullptr: nobody.
+  // Takes the trace of the runs to come (sim/machine/Trace.h), without the state before the program. nullptr:
+  // nobody.
   void setTrace(sim::Trace* trace) { trace_ = trace; }
 
 private:

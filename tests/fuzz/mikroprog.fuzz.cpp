@@ -1,4 +1,4 @@
-#include "sim/Mikroprog.h"
+#include "sim/machine/Mikroprog.h"
 #include "frontend/mikroprog/Check.h"
 #include "frontend/mikroprog/Parse.h"
 #include "stdlib/DataFiles.h"

@@ -1,7 +1,7 @@
 // Plain NC text through the scanner and the machine, in small chunks; what is read must not depend on the
 // buffer.
 #include "frontend/nc/Scan.h"
-#include "sim/Machine.h"
+#include "sim/machine/Machine.h"
 #include "stdlib/DataFiles.h"
 
 #include <cstdint>

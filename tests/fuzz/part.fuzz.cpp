@@ -1,7 +1,7 @@
 // Part and machine files: read, and what was read is probed. A contact has to be one.
-#include "sim/Contact.h"
-#include "sim/PartFile.h"
-#include "sim/Probe.h"
+#include "sim/geometry/Contact.h"
+#include "sim/geometry/PartFile.h"
+#include "sim/geometry/Probe.h"
 #include "support/Files.h"
 
 #include <algorithm>

@@ -2,8 +2,8 @@
 // crash, hang or grow, and two runs are the same.
 #include "frontend/macrob/Lower.h"
 #include "frontend/macrob/Parse.h"
-#include "sim/Compile.h"
-#include "sim/Run.h"
+#include "sim/machine/Compile.h"
+#include "sim/machine/Run.h"
 #include "stdlib/DataFiles.h"
 
 #include <cstdint>

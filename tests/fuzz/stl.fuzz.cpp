@@ -1,5 +1,5 @@
 // STL files: read in bounded memory, and a mesh that is read has an inside.
-#include "sim/Contact.h"
+#include "sim/geometry/Contact.h"
 
 #include <cmath>
 #include <cstdint>

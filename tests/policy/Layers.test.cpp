@@ -47,12 +47,13 @@ std::vector<const TreeFile*> productSources() {
   return out;
 }
 
-// "frontend/gibbs" of "frontend/gibbs/Ast.h", "cli" of "cli/main/main.cpp".
+// "frontend/gibbs" of "frontend/gibbs/Ast.h", "sim/machine" of "sim/machine/Trace.h", "cli" of
+// "cli/main/main.cpp".
 std::string unitOf(const std::string& path) {
   const std::size_t slash = path.find('/');
   if (slash == std::string::npos) return "";
   const std::string top = path.substr(0, slash);
-  if (top != "frontend" && top != "backends") return top;
+  if (top != "frontend" && top != "backends" && top != "sim") return top;
   const std::size_t next = path.find('/', slash + 1);
   return next == std::string::npos ? top : path.substr(0, next);
 }
@@ -64,17 +65,22 @@ bool isAntlr(const std::string& name) {
 }
 
 bool mayInclude(const std::string& from, const std::string& to) {
-  static const std::map<std::string, int> kLayer = {{"support", 1}, {"ir", 2},     {"stdlib", 3}, {"sim", 4},
-                                                    {"lint", 5},    {"verify", 5}, {"driver", 6}, {"cli", 7}};
+  static const std::map<std::string, int> kLayer = {{"support", 1}, {"ir", 2},     {"stdlib", 3}, {"lint", 5},
+                                                    {"verify", 5},  {"driver", 6}, {"cli", 7}};
+  // Rooms of the simulator, lowest first.
+  static const std::map<std::string, int> kRoom = {
+      {"sim/geometry", 1}, {"sim/machine", 2}, {"sim/picture", 3}};
   const auto layer = [](const std::string& unit) {
-    if (unit.starts_with("frontend/") || unit.starts_with("backends/")) return 4;
+    if (unit.starts_with("frontend/") || unit.starts_with("backends/") || kRoom.contains(unit)) return 4;
     const auto found = kLayer.find(unit);
     return found == kLayer.end() ? 0 : found->second;
   };
   if (from == to) return layer(from) != 0;
   if (layer(from) == 0 || layer(to) == 0) return false;
-  if (from == "lint" && (to.starts_with("backends/") || to == "sim")) return false;
+  if (from == "lint" && (to.starts_with("backends/") || kRoom.contains(to))) return false;
   if (layer(from) != layer(to)) return layer(from) > layer(to);
+  if (kRoom.contains(from) || kRoom.contains(to))
+    return kRoom.contains(from) && kRoom.contains(to) && kRoom.at(from) > kRoom.at(to);
   // Within layer 4 a language or a target sees what is common to its kind, nothing else.
   const std::string kind = from.substr(0, from.find('/') + 1);
   if (kind.empty() || !to.starts_with(kind)) return false;
@@ -124,13 +130,15 @@ TEST_CASE("policy: the layer rule itself") {
   CHECK_FALSE(mayInclude("frontend/common", "frontend/nc"));
   CHECK_FALSE(mayInclude("frontend/gibbs", "frontend/compost"));
   CHECK_FALSE(mayInclude("frontend/gibbs", "backends/common"));
-  CHECK_FALSE(mayInclude("backends/fanuc", "sim"));
-  CHECK_FALSE(mayInclude("sim", "frontend/common"));
+  CHECK_FALSE(mayInclude("backends/fanuc", "sim/machine"));
+  CHECK_FALSE(mayInclude("sim/machine", "frontend/common"));
+  CHECK_FALSE(mayInclude("sim/geometry", "sim/machine"));
+  CHECK(mayInclude("sim/picture", "sim/geometry"));
   CHECK_FALSE(mayInclude("ir", "stdlib"));
-  CHECK_FALSE(mayInclude("lint", "sim"));
+  CHECK_FALSE(mayInclude("lint", "sim/machine"));
   CHECK_FALSE(mayInclude("lint", "verify"));
   CHECK_FALSE(mayInclude("support", "tests"));
-  CHECK(mayInclude("verify", "sim"));
+  CHECK(mayInclude("verify", "sim/machine"));
   CHECK(mayInclude("cli", "driver"));
 }
 
@@ -189,11 +197,14 @@ TEST_CASE("policy: libraries do not leak") {
       {"ANTLR", isAntlr, {"frontend"}, "frontend"},
       {"JSON",
        [](const std::string& n) { return n.starts_with("nlohmann/"); },
-       {"support", "driver", "cli", "lint", "sim", "verify"},
+       {"support", "driver", "cli", "lint", "sim/picture", "verify"},
        ""},
       {"toml++", [](const std::string& n) { return n.starts_with("toml++/"); }, {"stdlib", "driver"}, ""},
       {"CLI11", [](const std::string& n) { return n.starts_with("CLI/"); }, {"cli"}, ""},
-      {"Eigen", [](const std::string& n) { return n.starts_with("Eigen/"); }, {"sim", "verify"}, ""},
+      {"Eigen",
+       [](const std::string& n) { return n.starts_with("Eigen/"); },
+       {"sim/geometry", "sim/picture", "verify"},
+       ""},
       {"doctest", [](const std::string& n) { return n.starts_with("doctest"); }, {}, ""},
   };
   std::map<std::string, std::vector<Include>> includes;

@@ -1,7 +1,7 @@
 // Bodies in machine coordinates that a probe's ball touches: exact geometry for tests.
 #pragma once
 
-#include "sim/Machine.h"
+#include "sim/machine/Machine.h"
 
 #include <algorithm>
 #include <array>

@@ -2,7 +2,7 @@
 #include "backends/fanuc/Program.h"
 #include "backends/fanuc/ProgramCalls.h"
 #include "frontend/macrob/Lower.h"
-#include "sim/VendorMacros.h"
+#include "sim/machine/VendorMacros.h"
 #include "stdlib/DataFiles.h"
 #include "tests/unit/ContactWorld.h"
 #include "tests/unit/RunHarness.h"

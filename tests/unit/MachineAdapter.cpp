@@ -1,8 +1,8 @@
 #include "tests/unit/MachineAdapter.h"
 
 #include "frontend/macrob/Lower.h"
-#include "sim/Compile.h"
-#include "sim/Run.h"
+#include "sim/machine/Compile.h"
+#include "sim/machine/Run.h"
 #include "tests/unit/MacroBHelper.h"
 
 #include <algorithm>

@@ -2,7 +2,7 @@
 // is true of them.
 #pragma once
 
-#include "sim/Part.h"
+#include "sim/geometry/Part.h"
 #include "verify/Random.h"
 
 #include <cstdint>

@@ -3,8 +3,8 @@
 
 #include "frontend/macrob/Lower.h"
 #include "frontend/macrob/Parse.h"
-#include "sim/Compile.h"
-#include "sim/VendorMacros.h"
+#include "sim/machine/Compile.h"
+#include "sim/machine/VendorMacros.h"
 #include "stdlib/DataFiles.h"
 #include "tests/unit/MeasuredFeatures.h"
 #include "verify/Stand.h"

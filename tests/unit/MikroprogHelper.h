@@ -5,7 +5,7 @@
 #include "backends/mikroprog/Emit.h"
 #include "frontend/mikroprog/Check.h"
 #include "frontend/mikroprog/Parse.h"
-#include "sim/Mikroprog.h"
+#include "sim/machine/Mikroprog.h"
 #include "stdlib/MikroprogControl.h"
 
 #include <cmath>

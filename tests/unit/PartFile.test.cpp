@@ -1,7 +1,7 @@
 // Files of parts, machines and meshes: what is read, and what is refused at its place.
-#include "sim/PartFile.h"
+#include "sim/geometry/PartFile.h"
 
-#include "sim/Probe.h"
+#include "sim/geometry/Probe.h"
 #include "support/Files.h"
 #include "support/messages/Part.h"
 #include "tests/GoldenRunner.h"

@@ -1,8 +1,8 @@
 // Random parts beside a membership test of their own, which shares no code with the part.
 #pragma once
 
-#include "sim/Contact.h"
-#include "sim/Part.h"
+#include "sim/geometry/Contact.h"
+#include "sim/geometry/Part.h"
 
 #include <cmath>
 #include <cstdint>

@@ -1,5 +1,5 @@
 // The probe in its machine: every outcome, and what a cycle measures.
-#include "sim/World.h"
+#include "sim/machine/World.h"
 
 #include "tests/unit/PartHelper.h"
 

@@ -1,7 +1,7 @@
 // Pictures made by hand: a plate with a bore that a cycle measures.
 #pragma once
 
-#include "sim/Picture.h"
+#include "sim/picture/Picture.h"
 #include "tests/unit/PartHelper.h"
 
 #include <cmath>

@@ -1,5 +1,5 @@
 // Pictures of a run: kinds of moves, contacts and errors at their moves, blocks, and what is bounded.
-#include "sim/PictureRecorder.h"
+#include "sim/picture/PictureRecorder.h"
 
 #include "tests/unit/PartHelper.h"
 

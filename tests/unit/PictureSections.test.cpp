@@ -1,5 +1,5 @@
-#include "sim/Sections.h"
-#include "sim/SurfaceMesh.h"
+#include "sim/picture/Sections.h"
+#include "sim/picture/SurfaceMesh.h"
 #include "tests/unit/PictureHelper.h"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
-#include "sim/PictureRegion.h"
-#include "sim/PictureText.h"
-#include "sim/PictureView.h"
+#include "sim/picture/PictureRegion.h"
+#include "sim/picture/PictureText.h"
+#include "sim/picture/PictureView.h"
 #include "tests/GoldenRunner.h"
 #include "tests/unit/PictureHelper.h"
 

@@ -1,6 +1,6 @@
 // Macro programs that run: values, functions, numbers (reference 1.3 to 1.6).
 #include "RunHarness.h"
-#include "sim/Decimal8.h"
+#include "sim/machine/Decimal8.h"
 
 using namespace dotek;
 using tests::MacroRun;

@@ -2,9 +2,9 @@
 #pragma once
 
 #include "frontend/macrob/Lower.h"
-#include "sim/Compile.h"
-#include "sim/Run.h"
-#include "sim/Value.h"
+#include "sim/machine/Compile.h"
+#include "sim/machine/Run.h"
+#include "sim/machine/Value.h"
 #include "stdlib/DataFiles.h"
 #include "support/Decimal.h"
 #include "tests/unit/MacroBHelper.h"

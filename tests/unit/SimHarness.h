@@ -2,7 +2,7 @@
 #pragma once
 
 #include "frontend/nc/Scan.h"
-#include "sim/Machine.h"
+#include "sim/machine/Machine.h"
 #include "stdlib/DataFiles.h"
 
 #include <doctest/doctest.h>

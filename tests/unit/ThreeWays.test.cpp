@@ -1,7 +1,7 @@
 // One cycle, three ways to the machine: what the post prints, and the converted program with a vendor's
 // macros by their meaning or with our own by their text. They leave the same offsets.
 #include "driver/Driver.h"
-#include "sim/VendorMacros.h"
+#include "sim/machine/VendorMacros.h"
 #include "tests/GoldenRunner.h"
 #include "tests/policy/Tree.h"
 #include "tests/unit/OwnMacros.h"

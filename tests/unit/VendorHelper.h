@@ -3,7 +3,7 @@
 
 #include "ContactWorld.h"
 #include "SimHarness.h"
-#include "sim/VendorMacros.h"
+#include "sim/machine/VendorMacros.h"
 
 #include <cstdlib>
 

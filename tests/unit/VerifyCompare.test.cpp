@@ -1,6 +1,6 @@
 // Two runs side by side: each aspect of a comparison tells a difference, and only that.
-#include "sim/Compile.h"
-#include "sim/VendorMacros.h"
+#include "sim/machine/Compile.h"
+#include "sim/machine/VendorMacros.h"
 #include "tests/unit/RunHarness.h"
 #include "verify/Compare.h"
 #include "verify/Stand.h"

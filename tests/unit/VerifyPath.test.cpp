@@ -1,5 +1,5 @@
 // Touches that a path shows, the parts they make, and ways that do not reach them.
-#include "sim/Contact.h"
+#include "sim/geometry/Contact.h"
 #include "tests/unit/VerifyFolder.h"
 
 #include <cmath>

@@ -1,7 +1,7 @@
 // Programs of macro B beside their conversion: what is drawn, where the part comes from, what is found.
 #include "driver/Driver.h"
 #include "driver/Programs.h"
-#include "sim/Value.h"
+#include "sim/machine/Value.h"
 #include "tests/GoldenRunner.h"
 #include "tests/unit/MacroBHelper.h"
 #include "tests/unit/RandomMacroB.h"

@@ -1,0 +1,92 @@
+// Private to Compile*.cpp.
+#pragma once
+
+#include "sim/machine/Compile.h"
+
+#include <map>
+#include <optional>
+#include <string>
+
+namespace dotek::sim {
+
+class Compiler {
+public:
+  Compiler(const stdlib::Control& control, const SourceMap& sources)
+      : control_(control), sources_(sources), layout_(control) {}
+  void add(const ir::Program& program);
+  Bytecode finish();
+
+private:
+  // ---- statements (Compile.cpp)
+  void findLoops();
+  void statement(const ir::Statement& statement);
+  void node(const ir::Label& label);
+  void node(const ir::Comment&) {}
+  void node(const ir::Store& store);
+  void node(const ir::Jump& jump);
+  void node(const ir::JumpTo& jump);
+  void node(const ir::Branch& branch);
+  void node(const ir::Loop& loop);
+  void node(const ir::LoopEnd& end);
+  void node(const ir::NcBlock& block);
+  void node(const ir::Call& call);
+  void node(const ir::Exit& exit);
+  void node(const ir::Raise& raise);
+  void node(const ir::Notice& notice);
+  void node(const ir::Port& port);
+  void node(const ir::Print& print);
+  void node(const ir::NameVariables& names);
+  void node(std::monostate) {}
+  template <class Other> void node(const Other&) { refuse("a statement of a cycle, which no control has"); }
+
+  std::uint32_t emit(Op op, std::uint32_t a = 0, std::uint32_t b = 0, std::uint32_t c = 0,
+                     std::uint8_t detail = 0);
+  void refuse(std::string why);
+  std::uint32_t text(std::string text);
+  void jumpTo(std::uint32_t instruction, ir::LabelId label); // its c, once the place of the label is known
+  bool reaches(ir::LabelId label) const;                     // without entering a loop
+
+  // ---- expressions (CompileExpression.cpp)
+  // The cell that holds the value; with `into` it is computed there. Null stays null.
+  std::uint32_t value(const ir::ExpressionPtr& expression, std::uint32_t into = kNoCell);
+  // The same where null counts as 0 for whoever reads the cell.
+  std::uint32_t operand(const ir::ExpressionPtr& expression);
+  std::uint32_t constant(double value);
+  std::uint32_t temporary(std::uint32_t into = kNoCell);
+  std::uint32_t read(const ir::MachineVariable& variable, std::uint32_t into);
+  std::uint32_t unary(const ir::Unary& unary, std::uint32_t into);
+  std::uint32_t binary(const ir::Binary& binary, std::uint32_t into);
+  // Jumps where the condition holds, or where it does not; gives the instruction whose c is open. nullopt: it
+  // never jumps.
+  std::optional<std::uint32_t> jumpIf(const ir::ConditionPtr& condition, bool holds);
+  std::uint32_t truth(const ir::ConditionPtr& condition); // cell of 1 or 0
+  std::optional<std::uint32_t> literalNumber(const ir::ExpressionPtr& expression) const;
+
+  const stdlib::Control& control_;
+  const SourceMap& sources_;
+  CellLayout layout_;
+  Bytecode code_;
+  std::map<double, std::uint32_t> constants_;
+
+  // Of the program that is compiled.
+  const ir::Program* program_ = nullptr;
+  std::uint32_t at_ = 0; // statement
+  std::uint32_t temporaries_ = 0;
+  std::uint32_t line_ = 0;
+  char letter_ = 0; // of the word that is computed
+  std::uint32_t loop_ = 0;
+  std::vector<std::uint32_t> labelPlaces_, labelLoops_; // by label
+  struct OpenLoop {
+    const ir::Loop* loop;
+    std::uint32_t body;
+  };
+  std::vector<OpenLoop> open_;
+  std::vector<std::uint32_t> loopIds_; // by statement, of each Loop
+  struct OpenJump {
+    std::uint32_t instruction;
+    ir::LabelId label;
+  };
+  std::vector<OpenJump> jumps_;
+};
+
+} // namespace dotek::sim

@@ -1,0 +1,321 @@
+// A virtual machine tool with its control: what the blocks of a program do to modal state, position, offsets
+// and variables. A scanner of plain text and a running macro program drive the same object. What the machine
+// does not know ends the run as inconclusive; it never skips a word or a code.
+#pragma once
+
+#include "ir/NcWords.h"
+#include "sim/machine/Cells.h"
+#include "sim/machine/CodeTable.h"
+#include "sim/machine/MotionWatcher.h"
+#include "sim/machine/Trace.h"
+#include "sim/machine/Value.h"
+#include "stdlib/Control.h"
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace dotek::sim {
+
+enum class Ending : std::uint8_t {
+  Running,
+  ProgramEnd,   // M2, M30
+  TextEnd,      // `%` behind the blocks, or the next program begins
+  Return,       // M99
+  Alarm,        // of the control, or #3000
+  Inconclusive, // Dotek does not know what the control would do
+  Limit,        // a limit of Dotek: `--limit`
+  Call,         // G65, G66, M98: the caller runs it
+};
+
+// Where a program stands, for alarms.
+struct Frame {
+  std::uint32_t program = 0;  // O number; 0: none
+  std::uint32_t sequence = 0; // last N number; 0: none
+  std::uint64_t line = 0;
+  bool macro = false; // called with arguments, so with locals of its own
+};
+
+// Why and where a run ended.
+struct RunEnd {
+  Ending ending = Ending::Running;
+  std::uint32_t number = 0; // of an alarm, as the control shows it; 0: its number is not known
+  std::string text;         // of an alarm what the control shows; else what Dotek does not know
+  char letter = 0;          // the word that the text speaks of; 0: the block
+  std::uint32_t which = 0;  // of several words with this letter, from 0
+  std::uint64_t line = 0;
+  std::vector<Frame> stack; // the outermost first
+};
+
+// A straight move that asks for the probe's contact.
+struct SkipMove {
+  Position from, to;               // of the active work system
+  Position machineFrom, machineTo; // of the machine, tool length included
+  double feed = 0;                 // as programmed
+};
+class SkipSignal {
+public:
+  virtual ~SkipSignal() = default;
+  // The share of the way, 0 to 1, at which the signal comes; nothing: it does not come.
+  virtual std::optional<double> contact(const SkipMove& move) = 0;
+  // Whether it is there while the machine stands; `here` has no length.
+  virtual bool isThere(const SkipMove& here) { return contact(here).has_value(); }
+};
+
+struct PlaneAxes;
+
+class Machine {
+public:
+  // `control` outlives the machine. Nothing else is needed; the trace and the signal may be added.
+  explicit Machine(const stdlib::Control& control);
+
+  void setTrace(Trace* trace) { trace_ = trace; }            // nullptr: quiet
+  void setSkipSignal(SkipSignal* signal) { skip_ = signal; } // nullptr: G31 ends the run as inconclusive
+  // nullptr: nobody watches. Watched blocks take the long way. The watcher, and the signal, may end the run
+  // by inconclusive().
+  void setWatcher(MotionWatcher* watcher);
+  // Where the machine stands before the program begins; without it all axes stand at its zero.
+  void startAt(const Position& machine);
+  MotionWatcher* watcher() const { return watcher_; }
+  void setCallLimit(std::uint32_t calls) { callLimit_ = calls; }        // calls within calls
+  void setBlockDelete(std::uint32_t levels) { deleteLevels_ = levels; } // bit n: the switch of `/n` is on
+
+  std::uint32_t blockDelete() const { return deleteLevels_; }
+
+  // Runs one block. false: the run has ended, end() says how; blocks after that do nothing.
+  bool execute(const ir::NcWords& words);
+  const RunEnd& end() const { return end_; }
+  bool running() const { return end_.ending == Ending::Running; }
+  std::uint64_t blocks() const { return blocks_; }
+
+  // ---- state
+  const Position& position() const { return work_; } // of the active work system, mm and degrees
+  Position machinePosition() const;                  // the tool's length included
+  // Where the zero of G54 (0) to G59 (5) lies, in coordinates of the machine: with the external offset.
+  Position zeroOf(std::uint32_t system) const;
+  // Before the program begins: the same, and the length of a tool, whatever variables the control has for
+  // them.
+  void setZero(std::uint32_t system, const Position& zero);
+  void setToolLength(std::uint32_t tool, double length);
+  const Position& skipPosition() const { return skipped_; }
+  std::uint8_t mode(Slot slot) const { return modes_[slot]; }
+  // Code in force of a modal group, times ten; 0: none was given and none is in force at the start.
+  std::uint32_t modalCode(std::uint32_t group) const { return group < kGroups ? groups_[group] : 0; }
+  double feed() const { return feed_; } // mm/min or mm per revolution
+  double spindleSpeed() const { return speed_; }
+  std::uint8_t spindle() const { return spindle_; } // 0 off, 1 clockwise, 2 counterclockwise
+  enum class Coolant : std::uint8_t { NotSwitched, Off, Flood, Mist };
+  Coolant coolant() const { return coolant_; } // what the program switched last
+  // Axes (bits in the order of kAxisLetters) whose position is not known, since what moved them is not.
+  std::uint32_t uncertain() const { return uncertain_; }
+  std::uint32_t movedAxes() const { return shown_; }
+  double seconds() const { return seconds_; }
+  // The last block moved an axis, or told one to move to where it stands.
+  bool moved() const { return moved_; }
+  const stdlib::Control& control() const { return control_; }
+  Trace* trace() const { return trace_; }
+
+  // ---- variables of macros
+  // The value (kNull: null). nullopt: the run has ended, with alarm 115 or as inconclusive.
+  std::optional<double> read(std::uint32_t number);
+  // false: the run has ended (115, 116, or inconclusive). #3000 and #3006 are `raise` and `message`.
+  bool write(std::uint32_t number, double value);
+  // Before the program begins: system variables that a program cannot write, too.
+  bool preset(std::uint32_t number, double value);
+  double local(std::uint32_t number) const { return cells_[number]; } // 1 to control.locals
+  void setLocal(std::uint32_t number, double value) { cells_[number] = value; }
+  std::uint32_t level() const { return level_; } // of macro calls, 0 in the main program
+  // The cells of the layout, then those that were added; good until the next addCells().
+  const CellLayout& layout() const { return layout_; }
+  double* cells() { return cells_.data(); }
+  // More cells for a running program; gives the first.
+  std::uint32_t addCells(std::uint32_t count);
+  // A value that a motion still in the queue may change: a position, the window of the PMC.
+  bool changesWithMotion(std::uint32_t number) const;
+  // The common variables and the locals of the main program that were written, by number.
+  std::vector<std::pair<std::uint32_t, double>> written() const;
+  // Of a common variable as it stands; kFresh: nobody wrote it, or there is none of this number.
+  double common(std::uint32_t number) const {
+    const std::uint32_t cell = layout_.cellOf(number);
+    return cell == CellLayout::kNone ? kFresh : cells_[cell];
+  }
+  // To the least input increment, as a word of a length is; in the unit in force.
+  double toIncrement(double value) const {
+    return rounded(value, control_.decimals + (modes_[kUnits] != 0 ? 1 : 0));
+  }
+
+  // ---- calls; the caller finds the program and runs it
+  // A call with arguments gets a level of its own, its locals are null. false: too deep, an alarm.
+  bool enter(const Frame& callee);
+  void leave();
+  Frame& frame() { return stack_.back(); }
+  // The block with this N number is reached.
+  void sequence(std::uint32_t number) {
+    stack_.back().sequence = number;
+    modalWords_['N' - 'A'] = number;
+  }
+  void beginProgram(std::uint32_t number);   // the main one
+  void noteModal(stdlib::Function function); // a code that the caller carries out
+
+  // ---- macros that run by their meaning (MacroMeaning.h)
+  enum class Probe : std::uint8_t { NotSwitched, On, Off };
+  Probe probe() const { return probe_; } // what the program switched last
+  void switchProbe(bool on);
+  // Straight to `end` of the active system, at a feed that is not stated; the probe's contact ends the move
+  // there: true. nullopt: the run has ended.
+  std::optional<bool> probeTo(const Position& end);
+  bool travelTo(const Position& end); // without watching for contact; false: the run has ended
+  // What the macro leaves there is not known: who reads it ends the run. `number`: of a common variable.
+  void forget(std::uint32_t number);
+  bool hasUnknown() const { return hasUnknown_; } // a cell may hold kUnknown (Value.h)
+  void forgetMotion(std::optional<double> feed);  // the code of group 1, and the feed unless it is given
+  std::size_t extendedSystem() const { return extendedNow_; }  // n of G54.1 Pn
+  void remark(std::string_view action, std::string_view text); // a line of the trace
+  bool raiseUnnumbered(std::string_view text);                 // an alarm whose number is not known; false
+
+  // ---- ends
+  bool raise(stdlib::Alarm alarm, char letter = 0);                             // false
+  bool raise(std::uint32_t n, std::string_view text);                           // #3000 = n (text); false
+  void message(std::string_view text);                                          // #3006
+  bool finish() { return stop(Ending::TextEnd); }                               // false
+  bool overLimit(std::string what);                                             // false
+  bool inconclusive(std::string why, char letter = 0, std::uint32_t which = 0); // false
+  // Time goes by: #3001, #3002. Dwells do it by themselves; moves take no time.
+  void advance(double seconds) { seconds_ += seconds; }
+
+private:
+  struct ToolOffset {
+    double wear = 0, geometry = 0;
+  };
+
+  bool stop(Ending ending); // false
+  bool motionKnown();       // false: the run has ended
+  bool feedKnown();
+  bool executeLong(const ir::NcWords& words);
+  bool runBlock(const ir::NcWords& words);
+  bool readCodes(const ir::NcWords& words);
+  bool checkWords(const ir::NcWords& words);
+  bool settings(const ir::NcWords& words);
+  bool miscellaneous(const ir::NcWords& words);
+  bool stops(const ir::NcWords& words);
+  bool oneShot(const ir::NcWords& words);
+  bool changeToolLength(const ir::NcWords& words);
+  bool changeSystem(const ir::NcWords& words);
+
+  bool dwell(const ir::NcWords& words);
+  bool dataInput(const ir::NcWords& words);
+  bool localShift(const ir::NcWords& words);
+  bool setPosition(const ir::NcWords& words);
+  bool machineMove(const ir::NcWords& words);
+  bool reference(const ir::NcWords& words, bool first);
+  bool skipMove(const ir::NcWords& words);
+  bool move(const ir::NcWords& words);
+  bool cannedCycle(const ir::NcWords& words);
+  bool arc(const ir::NcWords& words, const Position& end);
+  bool plainArc(const ir::NcWords& words, const PlaneAxes& plane, const Position& end) const;
+
+  // End point of the axes in the block; false where an axis is not known or the value does not fit.
+  bool target(const ir::NcWords& words, Position& end);
+  double lengthOf(const ir::NcWords& words,
+                  char letter) const; // mm or degrees, rounded to the least increment
+  double rounded(double value, int places) const;
+  void updateOffsets();
+  void traceMove(std::string_view action, const Position& end, bool feed);
+  // Tells the watcher of a motion of `axes` (bits) to where the machine stands now. `certain`: it is known.
+  void tellMotion(MotionKind kind, std::uint32_t axes, bool certain = true);
+  void tellTo(MotionKind kind, const Position& to, std::uint32_t lost);
+  // An arc about a centre that lies by `first` and `second` from its begin, as chords. `work_` is its end.
+  void tellArc(const PlaneAxes& plane, std::uint32_t axes, double first, double second,
+               const Position& begin);
+  void tellHole(const Position& hole, std::uint32_t axes, std::size_t depth);
+  const Code* cannedCode() const; // in force; nullptr: none
+  const Position& systemOffset() const {
+    return modes_[kSystem] == kExtended ? extended_[extendedNow_] : systems_[modes_[kSystem]];
+  }
+
+  struct Place; // what a system variable stands for
+  bool find(std::uint32_t number, Place& place) const;
+  std::optional<double> readSystem(std::uint32_t number, const Place& place);
+  bool findState(std::uint32_t number, Place& place) const;
+  std::optional<double> readState(std::uint32_t number, const Place& place);
+  bool writeState(std::uint32_t number, const Place& place, double value, bool preset);
+  bool store(std::uint32_t number, double value, bool preset);
+  std::uint32_t windowBytes(const Place& place) const; // 0: the address lies outside
+
+  const stdlib::Control& control_;
+  CodeTable table_;
+  Trace* trace_ = nullptr;
+  SkipSignal* skip_ = nullptr;
+  MotionWatcher* watcher_ = nullptr;
+  std::uint32_t deleteLevels_ = 0;
+
+  // What the short way of execute() reads, together.
+  std::array<std::uint8_t, kSlots> modes_{};
+  std::uint32_t long_ = 0;      // not 0: every block goes the long way, also when the run has ended
+  std::uint32_t uncertain_ = 0; // part of that
+  std::uint32_t shown_ = 7;
+  std::uint32_t needPoint_ = 0; // letters that count increments without a point
+  std::uint32_t mostPlaces_ = 3;
+  double widest_ = 1e5; // a word of this size has too many digits
+  double feed_ = 0;
+  double arcTolerance_ = -1; // negative: not known
+  std::uint64_t blocks_ = 0;
+  Position work_{};
+
+  std::array<std::uint32_t, kGroups> groups_{};
+  std::array<double, 26> modalWords_{}; // B D F H M N O S T; others unused
+  double speed_ = 0;
+  std::uint8_t spindle_ = 0; // 0 off, 1 clockwise, 2 counterclockwise
+  std::uint8_t shownSpindle_ = 0;
+  Coolant coolant_ = Coolant::NotSwitched;
+  double shownSpeed_ = 0;
+  Position offset_{}; // sum of what lies between work and machine, tool length aside
+  Position external_{}, local_{}, shift_{};
+  std::array<Position, 6> systems_{};
+  std::vector<Position> extended_;
+  std::size_t extendedNow_ = 0;
+  double toolLength_ = 0; // added to Z
+  std::uint32_t toolNumber_ = 0;
+  std::vector<ToolOffset> tools_;
+  Position skipped_{};
+  // Canned cycles: the level at the cycle's begin, and what stays in force within it.
+  double initialLevel_ = 0, cycleR_ = 0, cycleDepth_ = 0;
+  bool hasR_ = false, hasDepth_ = false;
+  double seconds_ = 0, timerBase_ = 0, hoursBase_ = 0;
+
+  CellLayout layout_;
+  std::vector<double> cells_;
+  std::vector<double> saved_;                             // locals of the levels below
+  std::vector<std::pair<std::uint32_t, double>> presets_; // cell and value
+  std::vector<double> state_;                             // by range of the control; kFresh: not known
+  std::vector<std::uint8_t> pmc_;
+  double pmcAddress_ = -1;
+  Probe probe_ = Probe::NotSwitched;
+  bool motionForgotten_ = false, feedForgotten_ = false;
+  bool hasUnknown_ = false; // a cell may hold kUnknown
+  std::uint32_t level_ = 0;
+  std::uint32_t callLimit_ = 32;
+  bool moved_ = false;
+  // For the watcher: where the machine stands, axes of which that is not known, and whether the tool's length
+  // may have been cancelled by a reference return.
+  Position at_{};
+  std::uint32_t lost_ = 0;
+  bool lengthInDoubt_ = false;
+  std::vector<Frame> stack_;
+  RunEnd end_;
+
+  // Of the block that runs the long way.
+  struct BlockCodes {
+    stdlib::Function oneShot = stdlib::Function::Other;
+    bool hasOneShot = false;
+    std::uint32_t slots = 0;                   // bit by Slot
+    std::array<std::uint8_t, kSlots> before{}; // modes before the block
+    std::uint32_t call = 0;                    // not 0: a call or a return stands in the block
+  } block_;
+};
+
+} // namespace dotek::sim

@@ -1,0 +1,316 @@
+// Motion: where a block ends, and what keeps the machine from getting there.
+#include "sim/machine/Axes.h"
+#include "sim/machine/Machine.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace dotek::sim {
+
+using ir::NcWords;
+using stdlib::Alarm;
+using stdlib::Function;
+
+void Machine::traceMove(std::string_view action, const Position& end, bool feed) {
+  trace_->begin(action).position(end, shown_);
+  if (feed) trace_->word(modes_[kFeedMode] == 0 ? "F" : "FR", feed_);
+  trace_->end();
+}
+
+bool Machine::target(const NcWords& w, Position& end) {
+  end = work_;
+  const bool incremental = modes_[kDistance] != 0;
+  for (std::size_t i = 0; i < kAxes; ++i) {
+    if (!has(w, i)) continue;
+    const char letter = kAxisLetters[i];
+    if (incremental && (uncertain_ >> i & 1) != 0)
+      return inconclusive("where this axis stands is not known", letter);
+    const double value = lengthOf(w, letter);
+    if (!(std::abs(w.of(letter)) < widest_)) return raise(Alarm::TooManyDigits, letter);
+    end[i] = incremental ? snap(work_[i] + value) : value;
+    shown_ |= 1u << i;
+    uncertain_ &= ~(1u << i);
+  }
+  return true;
+}
+
+bool Machine::move(const NcWords& w) {
+  const bool isArc = modes_[kMotion] >= kArcClockwise;
+  const bool centre = (w.present & ir::addressBits("IJKR")) != 0;
+  if ((w.present & kAxisBits) == 0 && !(isArc && centre)) return true;
+  moved_ = true;
+  if (!motionKnown() || (modes_[kMotion] != kRapid && !feedKnown())) return false;
+  const std::uint32_t unknown = uncertain_;
+  Position end;
+  if (!target(w, end)) return false;
+  if (modes_[kMotion] != kRapid && !(feed_ > 0)) return raise(Alarm::NoFeed);
+  if (isArc) {
+    const PlaneAxes& plane = kPlanes[modes_[kPlane]];
+    if ((unknown & (1u << plane.first | 1u << plane.second)) != 0)
+      return inconclusive("where the arc begins is not known", 'G');
+    return arc(w, end);
+  }
+  if (trace_ != nullptr)
+    traceMove(modes_[kMotion] == kRapid ? "rapid" : "feed", end, modes_[kMotion] != kRapid);
+  work_ = end;
+  if (watcher_ != nullptr)
+    tellMotion(modes_[kMotion] == kRapid ? MotionKind::Rapid : MotionKind::Feed,
+               axisNumbers(w.present & kAxisBits));
+  return true;
+}
+
+bool Machine::arc(const NcWords& w, const Position& end) {
+  const PlaneAxes& plane = kPlanes[modes_[kPlane]];
+  if (w.has(plane.unusedCentre)) return inconclusive("it is no address of this plane", plane.unusedCentre);
+  double first = 0, second = 0; // from the start to the centre
+  const double du = end[plane.first] - work_[plane.first];
+  const double dv = end[plane.second] - work_[plane.second];
+  if (w.has('R')) { // holds where I, J, K stand beside it
+    const double radius = lengthOf(w, 'R');
+    const double chord = std::hypot(du, dv);
+    if (radius == 0) return inconclusive("an arc of radius 0", 'R');
+    if (chord == 0) return inconclusive("a full circle has no end that R could be measured from", 'R');
+    double height = radius * radius - chord * chord / 4;
+    if (height < 0) {
+      // Half a circle, up to the tolerance.
+      if (arcTolerance_ < 0 && chord / 2 - std::abs(radius) > 1e-6)
+        return inconclusive("how far the radius may be off is not known", 'R');
+      if (chord / 2 - std::abs(radius) > std::max(arcTolerance_, 1e-6)) return raise(Alarm::ArcRadius, 'R');
+      height = 0;
+    }
+    height = std::sqrt(height);
+    // The centre lies left of the chord for a counterclockwise arc of at most half a turn.
+    const bool left = (modes_[kMotion] == kArcCounterClockwise) == (radius > 0);
+    const double side = (left ? height : -height) / chord;
+    first = du / 2 - dv * side;
+    second = dv / 2 + du * side;
+  } else {
+    if (!w.has(plane.firstCentre) && !w.has(plane.secondCentre))
+      return inconclusive("an arc without centre and radius", 'G');
+    if (w.has(plane.firstCentre)) first = lengthOf(w, plane.firstCentre);
+    if (w.has(plane.secondCentre)) second = lengthOf(w, plane.secondCentre);
+    const double difference = std::abs(std::hypot(first, second) - std::hypot(first - du, second - dv));
+    if (arcTolerance_ < 0 && difference > control_.increment)
+      return inconclusive("how far the radius may be off is not known", 'G');
+    if (arcTolerance_ >= 0 && difference > arcTolerance_) return raise(Alarm::ArcRadius);
+  }
+  if (trace_ != nullptr) {
+    trace_->begin(modes_[kMotion] == kArcClockwise ? "arc-cw" : "arc-ccw").text(plane.name);
+    trace_->position(end, shown_);
+    trace_->text("centre")
+        .word("", snap(work_[plane.first] + first))
+        .word("", snap(work_[plane.second] + second));
+    trace_->word(modes_[kFeedMode] == 0 ? "F" : "FR", feed_).end();
+  }
+  const Position begin = work_;
+  work_ = end;
+  if (watcher_ != nullptr) tellArc(plane, axisNumbers(w.present & kAxisBits), first, second, begin);
+  return true;
+}
+
+bool Machine::oneShot(const NcWords& w) {
+  switch (block_.oneShot) {
+  case Function::Dwell: return dwell(w);
+  case Function::DataInput: return dataInput(w);
+  case Function::LocalShift: return localShift(w);
+  case Function::SetPosition: return setPosition(w);
+  case Function::MachineCoordinates: return machineMove(w);
+  case Function::ReferenceReturn: return reference(w, true);
+  case Function::SecondReferenceReturn: return reference(w, false);
+  case Function::Skip: return skipMove(w);
+  default: return inconclusive("what it does here is not known to Dotek", 'G');
+  }
+}
+
+// G53: without axes it only waits for the moves before.
+bool Machine::machineMove(const NcWords& w) {
+  if ((w.present & kAxisBits) == 0) return true;
+  if (!motionKnown() || (modes_[kMotion] == kFeed && !feedKnown())) return false;
+  if (modes_[kDistance] != 0)
+    return inconclusive("machine coordinates in incremental mode are not known", 'G');
+  if (modes_[kMotion] > kFeed || modes_[kCanned] != 0)
+    return inconclusive("machine coordinates go with rapid or feed", 'G');
+  if (modes_[kMotion] == kFeed && !(feed_ > 0)) return raise(Alarm::NoFeed);
+  moved_ = true;
+  for (std::size_t i = 0; i < kAxes; ++i) {
+    if (!has(w, i)) continue;
+    const double value = lengthOf(w, kAxisLetters[i]);
+    if (!(std::abs(w.of(kAxisLetters[i])) < widest_)) return raise(Alarm::TooManyDigits, kAxisLetters[i]);
+    work_[i] = snap(value - offset_[i] - (i == 2 ? toolLength_ : 0));
+    shown_ |= 1u << i;
+    uncertain_ &= ~(1u << i);
+    // Whether the tool's length stays in force depends on a parameter.
+    if (i == 2 && toolLength_ != 0) uncertain_ |= 1u << 2;
+  }
+  if (trace_ != nullptr)
+    traceMove(modes_[kMotion] == kRapid ? "machine rapid" : "machine feed", machinePosition(),
+              modes_[kMotion] != kRapid);
+  if (watcher_ == nullptr) return true;
+  lengthInDoubt_ = false;
+  tellMotion(modes_[kMotion] == kRapid ? MotionKind::Rapid : MotionKind::Feed,
+             axisNumbers(w.present & kAxisBits));
+  lengthInDoubt_ = (uncertain_ >> 2 & 1) != 0;
+  return true;
+}
+
+// G28: through a point to the reference point, which is the zero of the machine. G30: its points are not
+// known.
+bool Machine::reference(const NcWords& w, bool first) {
+  if (modes_[kCanned] != 0) return inconclusive("a reference return within a canned cycle", 'G');
+  if (modes_[kComp] != 0) return inconclusive("a reference return under cutter compensation", 'G');
+  if (w.has('P') && !(w.of('P') >= 2 && w.of('P') <= 4))
+    return inconclusive("reference points are P2 to P4", 'P');
+  if ((w.present & kAxisBits) == 0) return true;
+  moved_ = true;
+  Position via;
+  const std::uint32_t unknown = uncertain_;
+  for (std::size_t i = 0; i < kAxes; ++i) {
+    // From an unknown place straight to the reference point: the way is not known either, its end is.
+    if (has(w, i) && (unknown >> i & 1) != 0 && modes_[kDistance] != 0 && w.of(kAxisLetters[i]) == 0)
+      uncertain_ &= ~(1u << i);
+  }
+  if (!target(w, via)) return false;
+  if (watcher_ != nullptr) {
+    // In incremental mode the point counts from where the machine stands, whatever its coordinates are.
+    Position to = at_;
+    std::uint32_t lost = lost_;
+    for (std::size_t i = 0; i < kAxes; ++i) {
+      if (!has(w, i)) continue;
+      if (modes_[kDistance] != 0) {
+        to[i] = snap(at_[i] + lengthOf(w, kAxisLetters[i]));
+      } else {
+        to[i] = snap(via[i] + offset_[i] + (i == 2 ? toolLength_ : 0));
+        lost = (lost & ~(1u << i)) | (i == 2 && lengthInDoubt_ ? 1u << 2 : 0);
+      }
+    }
+    if (to != at_ || lost != lost_) tellTo(MotionKind::Rapid, to, lost);
+  }
+  for (std::size_t i = 0; i < kAxes; ++i) {
+    if (!has(w, i)) continue;
+    work_[i] = snap(-offset_[i] - (i == 2 ? toolLength_ : 0));
+    // Whether the tool's length stays in force depends on a parameter.
+    if (!first || (i == 2 && toolLength_ != 0)) uncertain_ |= 1u << i;
+  }
+  if (trace_ != nullptr) {
+    std::string axes;
+    for (std::size_t i = 0; i < kAxes; ++i)
+      if (has(w, i)) axes += kAxisLetters[i];
+    trace_->begin(first ? "reference" : "second-reference").text(axes).text("via");
+    trace_->position(via, shown_).end();
+  }
+  if (watcher_ == nullptr || !running()) return true;
+  const bool doubt = lengthInDoubt_ || (has(w, 2) && toolLength_ != 0);
+  lengthInDoubt_ = false;
+  tellMotion(MotionKind::Rapid, axisNumbers(w.present & kAxisBits), first);
+  lengthInDoubt_ = doubt;
+  return true;
+}
+
+bool Machine::skipMove(const NcWords& w) {
+  if ((w.present & kAxisBits) == 0) return true;
+  if (modes_[kCanned] != 0 || modes_[kComp] != 0)
+    return inconclusive("a skip move within a canned cycle or under cutter compensation", 'G');
+  if (uncertain_ != 0) return inconclusive("where the move begins is not known", 'G');
+  Position end;
+  if (!target(w, end) || !feedKnown()) return false;
+  if (!(feed_ > 0)) return raise(Alarm::NoFeed);
+  moved_ = true;
+  if (skip_ == nullptr)
+    return inconclusive("no part is given, so whether the probe touches is not known", 'G');
+  SkipMove skip;
+  skip.from = work_;
+  skip.to = end;
+  skip.machineFrom = machinePosition();
+  skip.feed = feed_;
+  work_ = end;
+  skip.machineTo = machinePosition();
+  const std::optional<double> share = skip_->contact(skip);
+  if (share && *share >= 0 && *share <= 1) {
+    for (std::size_t i = 0; i < kAxes; ++i)
+      work_[i] = snap(skip.from[i] + (end[i] - skip.from[i]) * *share);
+  }
+  skipped_ = work_; // without a contact the end of the block
+  if (watcher_ != nullptr) tellMotion(MotionKind::Skip, axisNumbers(w.present & kAxisBits));
+  if (trace_ != nullptr) {
+    trace_->begin("skip").position(end, shown_).word("F", feed_).text(share ? "contact" : "no-contact");
+    trace_->position(work_, shown_).end();
+  }
+  return true;
+}
+
+const Code* Machine::cannedCode() const {
+  for (std::uint32_t group = 0; group < kGroups; ++group) {
+    const Code& one = table_.g(groups_[group]);
+    if (one.slot == kCanned && one.value != 0 && one.group == group) return &one;
+  }
+  return nullptr;
+}
+
+// G73 to G89. Only their ends are followed: over the hole, at the initial level or at level R.
+bool Machine::cannedCycle(const NcWords& w) {
+  const PlaneAxes& plane = kPlanes[modes_[kPlane]];
+  const std::size_t depth = plane.third;
+  const bool begins = (block_.slots >> kCanned & 1) != 0;
+  if ((block_.slots >> kPlane & 1) != 0 && !begins)
+    return inconclusive("another plane within a canned cycle", 'G');
+  if (begins && !hasDepth_) {
+    if ((uncertain_ >> depth & 1) != 0) return inconclusive("the initial level is not known", 'G');
+    initialLevel_ = work_[depth];
+  }
+  const std::uint32_t drills = (w.present & kAxisBits) | (w.present & ir::addressBit('R'));
+  if (drills == 0) return true;
+  moved_ = true;
+  const bool incremental = modes_[kDistance] != 0;
+  Position hole;
+  const double level = work_[depth];
+  if (!target(w, hole) || !feedKnown()) return false;
+  if (!(feed_ > 0)) return raise(Alarm::NoFeed);
+  if (w.has('R')) {
+    cycleR_ = incremental ? snap(initialLevel_ + lengthOf(w, 'R')) : lengthOf(w, 'R');
+    hasR_ = true;
+  }
+  if (!hasR_) return inconclusive("a canned cycle without a level R", 'G');
+  if (has(w, depth)) {
+    const double value = lengthOf(w, kAxisLetters[depth]);
+    cycleDepth_ = incremental ? snap(cycleR_ + value) : value;
+    hasDepth_ = true;
+  }
+  if (!hasDepth_) return inconclusive("a canned cycle without a depth", 'G');
+  double repeats = 1;
+  if (control_.repeatLetter != 0 && w.has(control_.repeatLetter)) repeats = w.of(control_.repeatLetter);
+  if (!(repeats >= 1 && repeats <= 9999) || repeats != std::floor(repeats))
+    return inconclusive("how the cycle repeats is not known", control_.repeatLetter);
+  if (modes_[kCanned] == 2 && modes_[kReturn] != 0)
+    return inconclusive("back boring returns to the initial level only", 'G');
+  // In incremental mode each repeat is a step further.
+  const Position start = work_;
+  hole[depth] = level;
+  for (int i = 1; i <= static_cast<int>(repeats); ++i) {
+    Position at = hole;
+    for (std::size_t axis = 0; incremental && axis < kAxes; ++axis)
+      if (axis != depth) at[axis] = snap(start[axis] + (hole[axis] - start[axis]) * i);
+    at[depth] = modes_[kReturn] == 0 ? initialLevel_ : cycleR_;
+    if (trace_ != nullptr) {
+      const Code* const code = cannedCode();
+      trace_->begin("cycle").text(code == nullptr ? "?" : fmt::format("G{}", code->tenths / 10));
+      Position bottom = at;
+      bottom[depth] = cycleDepth_;
+      trace_->position(bottom, shown_)
+          .word("R", cycleR_)
+          .word("F", feed_)
+          .text("ends")
+          .position(at, shown_)
+          .end();
+    }
+    if (watcher_ != nullptr) {
+      tellHole(at, axisNumbers(w.present & kAxisBits), depth);
+      if (!running()) return false;
+    }
+    work_ = at;
+  }
+  return true;
+}
+
+} // namespace dotek::sim

@@ -1,0 +1,223 @@
+// Variables of macros by number: locals, commons, and the system variables that the control's table places.
+#include "sim/machine/Axes.h"
+#include "sim/machine/Place.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace dotek::sim {
+
+using stdlib::Alarm;
+
+bool Machine::find(std::uint32_t number, Place& place) const {
+  using Kind = Place::Kind;
+  const stdlib::SystemVariables& v = control_.variables;
+  const auto n = static_cast<long>(number);
+  const auto axisOf = [&](std::optional<int> first, Kind kind) {
+    if (!first || n < *first || n >= *first + static_cast<long>(kAxes)) return false;
+    place = {kind, 0, static_cast<std::size_t>(n - *first)};
+    return true;
+  };
+  // Offsets stand in steps of systems and of axes, the smaller one within the larger.
+  const auto offset = [&](std::optional<int> first, int step, int count, Kind kind) {
+    if (!first || n < *first) return false;
+    const long at = n - *first;
+    const long axisStep = v.axisStep;
+    const long system = step > axisStep || count == 1 ? (count == 1 ? 0 : at / step) : at % axisStep / step;
+    const long rest = at - system * step;
+    if (axisStep == 0 || rest < 0 || rest % axisStep != 0) return false;
+    const long axis = rest / axisStep;
+    if (system >= count || axis >= static_cast<long>(kAxes)) return false;
+    place = {kind, static_cast<std::size_t>(system), static_cast<std::size_t>(axis)};
+    return true;
+  };
+  const auto tool = [&](std::optional<int> first, Kind kind) {
+    if (!first || n < *first || n > *first + v.toolCount) return false;
+    place = {kind, static_cast<std::size_t>(n - *first), 0};
+    return true;
+  };
+  const auto one = [&](std::optional<int> first, Kind kind) {
+    if (!first || n != *first) return false;
+    place = {kind, 0, 0};
+    return true;
+  };
+  if (one(v.alarm, Kind::Write) || one(v.message, Kind::Write) || one(v.timer, Kind::Timer) ||
+      one(v.hours, Kind::Hours) || one(v.extendedNumber, Kind::ExtendedNumber) || findState(number, place))
+    return true;
+  if (v.modalFirst && n > *v.modalFirst && n < *v.modalFirst + kGroups) {
+    place = {Kind::Modal, static_cast<std::size_t>(n - *v.modalFirst), 0};
+    return true;
+  }
+  if (v.modalFeed && n == *v.modalFeed) {
+    place = {Kind::Word, slotOf('F'), 0};
+    return true;
+  }
+  if (v.modalWords) {
+    for (const auto& [at, letter] :
+         {std::pair(2, 'B'), std::pair(7, 'D'), std::pair(11, 'H'), std::pair(13, 'M'), std::pair(14, 'N'),
+          std::pair(15, 'O'), std::pair(19, 'S'), std::pair(20, 'T')}) {
+      if (n != *v.modalWords + at) continue;
+      place = {Kind::Word, slotOf(letter), 0};
+      return true;
+    }
+  }
+  return axisOf(v.blockEnd, Kind::BlockEnd) || axisOf(v.machine, Kind::MachinePosition) ||
+         axisOf(v.position, Kind::Now) || axisOf(v.skip, Kind::Skip) ||
+         axisOf(v.toolLength, Kind::ToolLength) || offset(v.externalX, 0, 1, Kind::External) ||
+         offset(v.workOffsetX, v.systemStep, 6, Kind::System) ||
+         offset(v.extendedX, v.extendedStep, v.extendedCount, Kind::Extended) ||
+         tool(v.toolWear, Kind::Wear) || tool(v.toolGeometry, Kind::Geometry);
+}
+
+std::optional<double> Machine::read(std::uint32_t number) {
+  if (number == 0) return kNull;
+  if (const std::uint32_t cell = layout_.cellOf(number); cell != CellLayout::kNone) {
+    if (!isUnknown(cells_[cell])) return isNull(cells_[cell]) ? kNull : cells_[cell];
+    inconclusive(fmt::format("#{} is read, and what a macro left there is not known", number));
+    return std::nullopt;
+  }
+  Place place;
+  if (number >= 1000 && find(number, place)) return readSystem(number, place);
+  if (number < 1000 || number == UINT32_MAX)
+    raise(Alarm::NoSuchVariable);
+  else
+    inconclusive(fmt::format("what #{} holds is not known to Dotek", number));
+  return std::nullopt;
+}
+
+bool Machine::changesWithMotion(std::uint32_t number) const {
+  using Kind = Place::Kind;
+  Place place;
+  return number >= 1000 && find(number, place) &&
+         (place.kind == Kind::BlockEnd || place.kind == Kind::MachinePosition || place.kind == Kind::Now ||
+          place.kind == Kind::Skip || place.kind == Kind::Window);
+}
+
+std::optional<double> Machine::readSystem(std::uint32_t number, const Place& place) {
+  using Kind = Place::Kind;
+  const auto position = [&](const Position& of, bool exact) -> std::optional<double> {
+    // Under cutter compensation the tool's centre does not stand where the program says.
+    if ((uncertain_ >> place.axis & 1) != 0 || (exact && modes_[kComp] != 0)) {
+      inconclusive(
+          fmt::format("#{} is read while the position of {} is not known", number, kAxisLetters[place.axis]));
+      return std::nullopt;
+    }
+    return of[place.axis];
+  };
+  switch (place.kind) {
+  case Kind::Modal: {
+    const std::uint32_t tenths = groups_[place.index];
+    if (motionForgotten_ && place.index == table_.g(10).group && !motionKnown()) return std::nullopt;
+    const Code& code = table_.g(tenths);
+    if (tenths == 0 && (code.flags & Code::Unknown) == 0 && code.group == place.index) return 0.0; // G0
+    if (tenths == 0) {
+      inconclusive(fmt::format("what #{} holds at the start is not known", number));
+      return std::nullopt;
+    }
+    return tenths / 10.0;
+  }
+  case Kind::Word:
+    if (place.index == slotOf('F') && !feedKnown()) return std::nullopt;
+    return place.index == slotOf('F') ? feed_ : modalWords_[place.index];
+  case Kind::BlockEnd: return position(work_, false);
+  case Kind::MachinePosition: return position(machinePosition(), true);
+  case Kind::Now: {
+    Position out = work_; // the tool's length is not taken off
+    out[2] = snap(out[2] + toolLength_);
+    return position(out, true);
+  }
+  case Kind::Skip: {
+    Position out = skipped_;
+    out[2] = snap(out[2] + toolLength_);
+    return out[place.axis];
+  }
+  case Kind::ToolLength: return place.axis == 2 ? toolLength_ : 0.0;
+  case Kind::External: return external_[place.axis];
+  case Kind::System: return systems_[place.index][place.axis];
+  case Kind::Extended: return extended_[place.index + 1][place.axis];
+  case Kind::Wear: return tools_[place.index].wear;
+  case Kind::Geometry: return tools_[place.index].geometry;
+  case Kind::Timer: return std::floor((seconds_ - timerBase_) * 1000 + 1e-6);
+  case Kind::Hours: return (seconds_ - hoursBase_) / 3600;
+  case Kind::ExtendedNumber:
+    if (modes_[kSystem] == kExtended) return static_cast<double>(extendedNow_);
+    inconclusive(fmt::format("#{} is read while no additional work system is in force", number));
+    return std::nullopt;
+  case Kind::State:
+  case Kind::StateWord:
+  case Kind::WindowAddress:
+  case Kind::Window: return readState(number, place);
+  case Kind::Write:
+  case Kind::None: break;
+  }
+  inconclusive(fmt::format("what #{} holds is not known to Dotek", number));
+  return std::nullopt;
+}
+
+bool Machine::write(std::uint32_t number, double value) {
+  return store(number, value, false);
+}
+
+bool Machine::preset(std::uint32_t number, double value) {
+  if (const std::uint32_t cell = layout_.cellOf(number); cell != CellLayout::kNone)
+    presets_.emplace_back(cell, value);
+  return store(number, value, true);
+}
+
+std::uint32_t Machine::addCells(std::uint32_t count) {
+  const auto first = static_cast<std::uint32_t>(cells_.size());
+  cells_.resize(cells_.size() + count, kNull);
+  return first;
+}
+
+std::vector<std::pair<std::uint32_t, double>> Machine::written() const {
+  std::vector<std::pair<std::uint32_t, double>> out;
+  for (std::uint32_t cell = 1; cell < layout_.size(); ++cell) {
+    const bool below = cell <= layout_.locals() && !saved_.empty(); // the main program's lie lowest
+    const double value = below ? saved_[cell - 1] : cells_[cell];
+    bool given = isFresh(value);
+    for (const auto& [at, preset] : presets_)
+      given = given || (at == cell && value == preset);
+    if (!given) out.emplace_back(layout_.numberOf(cell), value);
+  }
+  std::sort(out.begin(), out.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  return out;
+}
+
+bool Machine::store(std::uint32_t number, double value, bool preset) {
+  using Kind = Place::Kind;
+  if (number == 0) return raise(Alarm::WriteProtected);
+  if (const std::uint32_t cell = layout_.cellOf(number); cell != CellLayout::kNone) {
+    cells_[cell] = isNull(value) ? kNull : value;
+    return true;
+  }
+  if (number < 1000 || number == UINT32_MAX) return raise(Alarm::NoSuchVariable);
+  Place place;
+  if (!find(number, place)) return inconclusive(fmt::format("what #{} sets is not known to Dotek", number));
+  // A system variable holds numbers: null counts as 0 there.
+  const double given = isNull(value) ? 0 : value;
+  const double length = snap(given);
+  switch (place.kind) {
+  case Kind::External: external_[place.axis] = length; break;
+  case Kind::System: systems_[place.index][place.axis] = length; break;
+  case Kind::Extended: extended_[place.index + 1][place.axis] = length; break;
+  case Kind::Wear:
+  case Kind::Geometry:
+    if (place.index == 0) return raise(Alarm::WriteProtected);
+    (place.kind == Kind::Wear ? tools_[place.index].wear : tools_[place.index].geometry) = length;
+    return true;
+  case Kind::Timer: timerBase_ = seconds_ - given / 1000; return true;
+  case Kind::Hours: hoursBase_ = seconds_ - given * 3600; return true;
+  case Kind::State:
+  case Kind::StateWord:
+  case Kind::WindowAddress:
+  case Kind::Window: return writeState(number, place, given, preset);
+  case Kind::Write: return inconclusive(fmt::format("#{} needs a message", number));
+  default: return raise(Alarm::WriteProtected);
+  }
+  updateOffsets();
+  return true;
+}
+
+} // namespace dotek::sim

@@ -1,0 +1,33 @@
+// Who wants to know of every motion of the machine, and of what else a probe's safety hangs on.
+#pragma once
+
+#include "sim/machine/Trace.h"
+
+#include <cstdint>
+#include <span>
+
+namespace dotek::sim {
+
+enum class MotionKind : std::uint8_t { Rapid, Feed, Skip };
+
+// A straight motion of the machine, tool length included; an arc comes as chords. A Skip ends where the
+// machine stopped.
+struct MachineMotion {
+  MotionKind kind = MotionKind::Feed;
+  Position from, to;      // of the machine
+  std::uint64_t line = 0; // of the program; 0: not known
+  bool known = true;      // false: where it began or ended is not certain
+};
+
+class MotionWatcher {
+public:
+  virtual ~MotionWatcher() = default;
+  virtual void moved(const MachineMotion& motion) = 0;
+  virtual void probeSwitched(bool /*on*/) {}
+  // A call with arguments (G65 and its like), by text or by meaning: `locals` by number from #0 (unused) on,
+  // kNull where there is none. Each call that begins ends, but for those in which the run ends.
+  virtual void callBegins(std::uint32_t /*program*/, std::span<const double> /*locals*/) {}
+  virtual void callEnded(std::uint32_t /*program*/) {}
+};
+
+} // namespace dotek::sim

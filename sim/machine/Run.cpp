@@ -1,0 +1,468 @@
+#include "sim/machine/Run.h"
+
+#include "ir/Arithmetic.h"
+#include "sim/machine/Decimal8.h"
+#include "sim/machine/Value.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <limits>
+
+namespace dotek::sim {
+
+using ir::AngleUnit;
+using ir::ArithmeticError;
+using ir::BinaryOp;
+using ir::Computed;
+using ir::UnaryOp;
+using stdlib::Alarm;
+
+namespace {
+
+Computed compute(UnaryOp op, double a) {
+  switch (op) {
+  case UnaryOp::Negate: return {a == 0 ? 0 : -a, ArithmeticError::None};
+  case UnaryOp::Absolute: return ir::absolute(a);
+  case UnaryOp::Truncate: return ir::truncate(a);
+  case UnaryOp::RoundUp: return ir::roundUp(a);
+  case UnaryOp::Round: return ir::roundNearest(a);
+  case UnaryOp::SquareRoot: return ir::squareRoot(a);
+  case UnaryOp::Sine: return ir::sine(a, AngleUnit::Degrees);
+  case UnaryOp::Cosine: return ir::cosine(a, AngleUnit::Degrees);
+  case UnaryOp::Tangent: return ir::tangent(a, AngleUnit::Degrees);
+  case UnaryOp::ArcSine: return ir::arcSine(a, AngleUnit::Degrees);
+  case UnaryOp::ArcCosine: return ir::arcCosine(a, AngleUnit::Degrees);
+  case UnaryOp::ArcTangent: return ir::arcTangent(a, AngleUnit::Degrees);
+  case UnaryOp::Logarithm: return ir::logarithm(a);
+  case UnaryOp::Exponential: return ir::exponential(a);
+  case UnaryOp::FromBcd: return ir::fromBcd(a);
+  case UnaryOp::ToBcd: return ir::toBcd(a);
+  case UnaryOp::NullAsZero: return {a, ArithmeticError::None};
+  case UnaryOp::RoundIncrement:
+  case UnaryOp::AddPoint: break; // have instructions of their own
+  }
+  return {0, ArithmeticError::NoValue};
+}
+
+Computed compute(BinaryOp op, double a, double b) {
+  switch (op) {
+  case BinaryOp::Add: return ir::add(a, b);
+  case BinaryOp::Subtract: return ir::subtract(a, b);
+  case BinaryOp::Multiply: return ir::multiply(a, b);
+  case BinaryOp::Divide: return ir::divide(a, b);
+  case BinaryOp::Modulo: return ir::modulo(a, b);
+  case BinaryOp::Direction: return ir::direction(a, b, AngleUnit::Degrees);
+  case BinaryOp::BitAnd: return ir::bitAnd(a, b);
+  case BinaryOp::BitOr: return ir::bitOr(a, b);
+  case BinaryOp::BitXor: return ir::bitXor(a, b);
+  case BinaryOp::RoundedAnd: return ir::roundedAnd(a, b);
+  case BinaryOp::RoundedOr: return ir::roundedOr(a, b);
+  case BinaryOp::RoundedXor: return ir::roundedXor(a, b);
+  case BinaryOp::RoundedModulo: return ir::roundedModulo(a, b);
+  case BinaryOp::Power: return ir::power(a, b);
+  case BinaryOp::Bearing: return ir::bearing(a, b);
+  case BinaryOp::ValueOr: break; // of cycles
+  }
+  return {0, ArithmeticError::NoValue};
+}
+
+bool isBits(BinaryOp op) {
+  return op == BinaryOp::BitAnd || op == BinaryOp::BitOr || op == BinaryOp::BitXor ||
+         op == BinaryOp::RoundedAnd || op == BinaryOp::RoundedOr || op == BinaryOp::RoundedXor;
+}
+
+// Bit patterns tell null from numbers; there is no -0.
+bool same(double a, double b) {
+  return isNull(a) ? isNull(b) : a == b;
+}
+
+bool test(ir::Relation relation, double a, double b) {
+  switch (relation) {
+  case ir::Relation::Same: return same(a, b);
+  case ir::Relation::Different: return !same(a, b);
+  default: break;
+  }
+  a = nullAsZero(a);
+  b = nullAsZero(b);
+  switch (relation) {
+  case ir::Relation::Equal: return a == b;
+  case ir::Relation::NotEqual: return a != b;
+  case ir::Relation::Less: return a < b;
+  case ir::Relation::Greater: return a > b;
+  case ir::Relation::LessEqual: return a <= b;
+  case ir::Relation::GreaterEqual: return a >= b;
+  case ir::Relation::Same:
+  case ir::Relation::Different: break;
+  }
+  return false;
+}
+
+// Bit 0: a is a cell that is read; bit 1: b is one.
+unsigned operandsOf(Op op) {
+  switch (op) {
+  case Op::Copy:
+  case Op::Number:
+  case Op::Sine:
+  case Op::Cosine:
+  case Op::SquareRoot:
+  case Op::Unary:
+  case Op::NegateGiven:
+  case Op::ToIncrement:
+  case Op::ReadAt:
+  case Op::JumpTrue:
+  case Op::JumpFalse:
+  case Op::Not:
+  case Op::JumpTo:
+  case Op::Exit:
+  case Op::Raise: return 1;
+  case Op::Write: return 2;
+  case Op::Add:
+  case Op::Subtract:
+  case Op::Multiply:
+  case Op::Divide:
+  case Op::Binary:
+  case Op::WriteAt:
+  case Op::JumpLess:
+  case Op::JumpGreater:
+  case Op::JumpLessEqual:
+  case Op::JumpGreaterEqual:
+  case Op::JumpSame:
+  case Op::JumpDifferent:
+  case Op::Test:
+  case Op::And:
+  case Op::Or: return 3;
+  case Op::Read:
+  case Op::Jump:
+  case Op::SkipDelete:
+  case Op::Sequence:
+  case Op::Block:
+  case Op::Call:
+  case Op::Notice:
+  case Op::OpenPort:
+  case Op::Print:
+  case Op::Name:
+  case Op::Refuse:
+  case Op::End: break;
+  }
+  return 0;
+}
+
+} // namespace
+
+Run::Run(Machine& machine, const Bytecode& code, const Limits& limits, MacroMeaning* meaning)
+    : machine_(machine), code_(code), limits_(limits), meaning_(meaning), control_(machine.control()),
+      fuel_(limits.simSteps) {
+  machine_.setCallLimit(limits.callDepth);
+  const std::uint32_t first =
+      machine_.addCells(kTemporaries + static_cast<std::uint32_t>(code.constants.size()));
+  cells_ = machine_.cells();
+  std::copy(code.constants.begin(), code.constants.end(), cells_ + first + kTemporaries);
+  locals_.assign(machine_.layout().locals() + 1, kNull);
+  readEarly_.assign(code.instructions.size(), false);
+}
+
+void Run::run() {
+  if (code_.routines.empty()) {
+    machine_.finish();
+    return;
+  }
+  Level main;
+  main.routine = &code_.routines.front();
+  levels_.push_back(main);
+  place_ = main.routine->begin;
+  if (main.routine->number <= UINT32_MAX)
+    machine_.beginProgram(static_cast<std::uint32_t>(main.routine->number));
+  const bool decimal = control_.arithmetic == stdlib::Arithmetic::Decimal8;
+  for (bool goesOn = true; goesOn;) {
+    if (machine_.hasUnknown())
+      goesOn = decimal ? execute<true, true>() : execute<false, true>();
+    else
+      goesOn = decimal ? execute<true, false>() : execute<false, false>();
+  }
+}
+
+bool Run::knows(std::uint32_t cell) {
+  if (cell >= machine_.layout().size() || !isUnknown(cells_[cell])) return true;
+  return refuse(
+      fmt::format("#{} is read, and what a macro left there is not known", machine_.layout().numberOf(cell)));
+}
+
+bool Run::spend(std::uint32_t steps) {
+  if (fuel_ > steps) {
+    fuel_ -= steps;
+    return true;
+  }
+  fuel_ = 0;
+  return machine_.overLimit(fmt::format(
+      "the program took more than {} steps; `--limit sim-steps=N` allows more", limits_.simSteps));
+}
+
+bool Run::fail(ArithmeticError error, bool tangent, bool bits) {
+  switch (error) {
+  case ArithmeticError::DivisionByZero: return machine_.raise(Alarm::DivideByZero);
+  case ArithmeticError::Overflow: return machine_.raise(Alarm::Overflow);
+  case ArithmeticError::Domain:
+    return machine_.raise(bits      ? Alarm::IntegerOverflow
+                          : tangent ? Alarm::DivideByZero
+                                    : Alarm::ArgumentRange);
+  case ArithmeticError::None:
+  case ArithmeticError::NoValue: break;
+  }
+  return refuse("what this computes is not known to Dotek");
+}
+
+void Run::noteRead(std::uint32_t number) {
+  if (readEarly_[place_] || !machine_.changesWithMotion(number)) return;
+  readEarly_[place_] = true;
+  early_.push_back({code_.statementOf(place_).origin.range(), number});
+}
+
+bool Run::readAt(double number, double& value) {
+  const double whole = std::round(nullAsZero(number));
+  if (whole >= 1 && whole <= control_.locals) {
+    value = cells_[static_cast<std::size_t>(whole)];
+    return true;
+  }
+  if (!(whole >= 0 && whole < 1e9)) return machine_.raise(Alarm::NoSuchVariable);
+  const auto n = static_cast<std::uint32_t>(whole);
+  if (ahead_) noteRead(n);
+  const std::optional<double> read = machine_.read(n);
+  if (read) value = *read;
+  return read.has_value();
+}
+
+bool Run::writeAt(double number, double value) {
+  const double whole = std::round(nullAsZero(number));
+  if (!(whole >= 0 && whole < 1e9)) return machine_.raise(Alarm::NoSuchVariable);
+  return machine_.write(static_cast<std::uint32_t>(whole), value);
+}
+
+// Runs until a block, a call or whatever else changes more than cells; false: the run has ended. The places
+// of instructions are 32 bits; each list of instructions ends in an End.
+template <bool kDecimal8, bool kWatched> bool Run::execute() {
+  const Instruction* const all = code_.instructions.data();
+  double* const cells = cells_;
+  const Instruction* at = all + place_;
+  std::uint64_t fuel = fuel_;
+  const auto leave = [&] {
+    place_ = static_cast<std::uint32_t>(at - all);
+    machine_.frame().line = code_.lines[place_];
+    fuel_ = fuel;
+  };
+  const auto number = [&](std::uint32_t cell) { return nullAsZero(cells[cell]); };
+  // false: the result does not fit.
+  const auto put = [&](double result) -> bool {
+    if constexpr (kDecimal8) {
+      result = toDecimal8(result);
+      if (!fitsDecimal8(result)) return false;
+    } else if (!(std::abs(result) <= std::numeric_limits<double>::max())) {
+      return false;
+    }
+    cells[at->c] = result + 0.0; // no -0
+    return true;
+  };
+  const auto overflow = [&] {
+    leave();
+    return fail(ArithmeticError::Overflow, false, false);
+  };
+  const auto jump = [&] {
+    at = all + at->c;
+    return --fuel != 0;
+  };
+  for (;;) {
+    if constexpr (kWatched) {
+      const unsigned operands = operandsOf(at->op);
+      leave();
+      if (((operands & 1) != 0 && !knows(at->a)) || ((operands & 2) != 0 && !knows(at->b))) return false;
+    }
+    switch (at->op) {
+    case Op::Copy: {
+      const double value = cells[at->a];
+      cells[at->c] = isNull(value) ? kNull : value;
+      break;
+    }
+    case Op::Number: cells[at->c] = number(at->a); break;
+    case Op::Add:
+      if (!put(number(at->a) + number(at->b))) return overflow();
+      break;
+    case Op::Subtract:
+      if (!put(number(at->a) - number(at->b))) return overflow();
+      break;
+    case Op::Multiply:
+      if (!put(number(at->a) * number(at->b))) return overflow();
+      break;
+    case Op::Divide: {
+      const double divisor = number(at->b);
+      if (divisor == 0) {
+        leave();
+        return fail(ArithmeticError::DivisionByZero, false, false);
+      }
+      if (!put(number(at->a) / divisor)) return overflow();
+      break;
+    }
+    case Op::Sine:
+      if (!put(ir::sine(number(at->a), AngleUnit::Degrees).value)) return overflow();
+      break;
+    case Op::Cosine:
+      if (!put(ir::cosine(number(at->a), AngleUnit::Degrees).value)) return overflow();
+      break;
+    case Op::SquareRoot: {
+      const double a = number(at->a);
+      if (a < 0) {
+        leave();
+        return fail(ArithmeticError::Domain, false, false);
+      }
+      if (!put(std::sqrt(a))) return overflow();
+      break;
+    }
+    case Op::Unary: {
+      const auto op = static_cast<UnaryOp>(at->detail);
+      const Computed result = compute(op, number(at->a));
+      if (!result.ok()) {
+        leave();
+        return fail(result.error, op == UnaryOp::Tangent, false);
+      }
+      if (!put(result.value)) return overflow();
+      break;
+    }
+    case Op::Binary: {
+      const auto op = static_cast<BinaryOp>(at->detail);
+      const Computed result = compute(op, number(at->a), number(at->b));
+      if (!result.ok()) {
+        leave();
+        return fail(result.error, false, isBits(op));
+      }
+      if (!put(result.value)) return overflow();
+      break;
+    }
+    case Op::NegateGiven:
+      if (isNull(cells[at->a])) {
+        leave();
+        return refuse("a minus before a variable without a value: whether the word is left out is not known");
+      }
+      cells[at->c] = 0 - cells[at->a];
+      break;
+    case Op::ToIncrement: {
+      double value = number(at->a);
+      leave();
+      if (!toIncrement(static_cast<char>(at->detail), value)) return false;
+      cells[at->c] = value;
+      break;
+    }
+    case Op::Read: {
+      leave();
+      if (ahead_) noteRead(at->a);
+      const std::optional<double> value = machine_.read(at->a);
+      if (!value) return false;
+      if (isNull(*value))
+        cells[at->c] = kNull;
+      else if (!put(*value))
+        return overflow();
+      break;
+    }
+    case Op::ReadAt: {
+      leave();
+      double value = 0;
+      if (!readAt(cells[at->a], value)) return false;
+      if (isNull(value))
+        cells[at->c] = kNull;
+      else if (!put(value))
+        return overflow();
+      break;
+    }
+    case Op::Write:
+      leave();
+      if (!machine_.write(at->a, cells[at->b])) return false;
+      break;
+    case Op::WriteAt:
+      leave();
+      if (!writeAt(cells[at->a], cells[at->b])) return false;
+      break;
+#define DOTEK_JUMP(condition)                                                                                \
+  if (condition) {                                                                                           \
+    if (jump()) continue;                                                                                    \
+    leave();                                                                                                 \
+    return spend(0);                                                                                         \
+  }                                                                                                          \
+  break
+    case Op::JumpLess: DOTEK_JUMP(number(at->a) < number(at->b));
+    case Op::JumpGreater: DOTEK_JUMP(number(at->a) > number(at->b));
+    case Op::JumpLessEqual: DOTEK_JUMP(number(at->a) <= number(at->b));
+    case Op::JumpGreaterEqual: DOTEK_JUMP(number(at->a) >= number(at->b));
+    case Op::JumpSame: DOTEK_JUMP(same(cells[at->a], cells[at->b]));
+    case Op::JumpDifferent: DOTEK_JUMP(!same(cells[at->a], cells[at->b]));
+    case Op::JumpTrue: DOTEK_JUMP(cells[at->a] != 0);
+    case Op::JumpFalse: DOTEK_JUMP(cells[at->a] == 0);
+    case Op::Jump: DOTEK_JUMP(true);
+    case Op::SkipDelete: DOTEK_JUMP((machine_.blockDelete() >> at->detail & 1) != 0);
+#undef DOTEK_JUMP
+    case Op::Test:
+      cells[at->c] =
+          (at->detail == kIsNull ? isNull(cells[at->a])
+                                 : test(static_cast<ir::Relation>(at->detail), cells[at->a], cells[at->b]))
+              ? 1
+              : 0;
+      break;
+    case Op::And: cells[at->c] = cells[at->a] != 0 && cells[at->b] != 0 ? 1 : 0; break;
+    case Op::Or: cells[at->c] = cells[at->a] != 0 || cells[at->b] != 0 ? 1 : 0; break;
+    case Op::Not: cells[at->c] = cells[at->a] == 0 ? 1 : 0; break;
+    case Op::Sequence: machine_.sequence(at->a); break;
+    // What follows may go on elsewhere: place_ is then the next instruction.
+    case Op::JumpTo: leave(); return spend(1) && jumpTo(*levels_.back().routine, place_, cell(at->a));
+    case Op::Block: leave(); return spend(10) && block(code_.blocks[at->a]);
+    case Op::Call: leave(); return spend(10) && call(code_.calls[at->a]);
+    case Op::Exit: leave(); return spend(10) && exit(at->a);
+    case Op::Raise: leave(); return raise(number(at->a), code_.texts[at->b]);
+    case Op::Notice:
+      leave();
+      machine_.message(code_.texts[at->b]);
+      break;
+    case Op::OpenPort:
+      leave();
+      if (!openPort(at->detail != 0)) return false;
+      break;
+    case Op::Print:
+      leave();
+      if (!spend(10) || !print(*code_.prints[at->a])) return false;
+      fuel = fuel_;
+      break;
+    case Op::Name: {
+      const ir::NameVariables& names = *code_.names[at->a];
+      if (Trace* const trace = machine_.trace(); trace != nullptr) {
+        trace->begin("names").text(std::to_string(names.first));
+        for (const std::string& name : names.names)
+          trace->text(name);
+        trace->end();
+      }
+      break;
+    }
+    case Op::Refuse: leave(); return refuse(code_.texts[at->b]);
+    case Op::End: leave(); return textEnd();
+    }
+    ++at;
+  }
+}
+
+SourceRange Run::place() const {
+  if (place_ >= code_.instructions.size()) return {};
+  const ir::Program& program = *code_.routineOf(place_).program;
+  if (program.body.empty()) return program.range;
+  const ir::Statement& statement = code_.statementOf(place_);
+  const RunEnd& end = machine_.end();
+  if (const auto* block = std::get_if<ir::NcBlock>(&statement.node); block != nullptr && end.letter != 0) {
+    std::uint32_t seen = 0;
+    for (const ir::Word& word : block->words)
+      if (word.address == end.letter && seen++ == end.which && word.range.hasPlace()) return word.range;
+  }
+  return statement.origin.range();
+}
+
+std::vector<SourceRange> Run::openCalls() const {
+  std::vector<SourceRange> out;
+  for (std::size_t i = 1; i < levels_.size(); ++i)
+    out.push_back(code_.statementOf(levels_[i].caller).origin.range());
+  return out;
+}
+
+} // namespace dotek::sim

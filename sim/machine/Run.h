@@ -1,0 +1,122 @@
+// Runs compiled programs on a machine.
+#pragma once
+
+#include "ir/Arithmetic.h"
+#include "sim/machine/Arguments.h"
+#include "sim/machine/Bytecode.h"
+#include "sim/machine/Machine.h"
+#include "sim/machine/MacroMeaning.h"
+#include "support/Limits.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace dotek::sim {
+
+// A variable that motion changes was read while blocks of motion may still have been waiting.
+struct EarlyRead {
+  SourceRange range; // of the block
+  std::uint32_t number = 0;
+};
+
+class Run {
+public:
+  // All outlive the run. `meaning`: macros without text; nullptr: none.
+  Run(Machine& machine, const Bytecode& code, const Limits& limits, MacroMeaning* meaning = nullptr);
+
+  // The first program, to its end: Machine::end() says how it came.
+  void run();
+  // What DPRNT and BPRNT printed, bytes.
+  const std::string& output() const { return output_; }
+  // Each place once, in the order of the run.
+  const std::vector<EarlyRead>& earlyReads() const { return early_; }
+  // The block, or the word of it, at which the run ended.
+  SourceRange place() const;
+  // The calls that were open then, the outermost first.
+  std::vector<SourceRange> openCalls() const;
+
+private:
+  struct Level {
+    const Routine* routine = nullptr;
+    std::uint32_t caller = 0;  // place of the instruction that called
+    std::uint32_t repeats = 1; // passes that are left, this one too
+    bool macro = false;
+    bool byCode = false;           // codes that call programs are ordinary ones here
+    std::uint32_t modalCalls = 0;  // of those in force, how many act here
+    std::vector<double> arguments; // kept for repeats alone
+  };
+  // What a call hands over: locals by number.
+  struct Request {
+    std::uint64_t program = 0;
+    std::uint32_t repeats = 1;
+    bool macro = true, byCode = false;
+    std::uint32_t modalCalls = 0;
+  };
+  struct ModalCall {
+    std::uint64_t program = 0;
+    std::uint32_t repeats = 1;
+    bool eachBlock = false;
+    std::vector<double> arguments;
+  };
+
+  // Watched: a cell may hold what a macro left and nobody knows; who reads it ends the run.
+  template <bool kDecimal8, bool kWatched> bool execute();
+  bool knows(std::uint32_t cell); // false: it does not, and the run has ended
+  bool spend(std::uint32_t steps);
+  bool fail(ir::ArithmeticError error, bool tangent, bool bits);
+
+  // ---- RunBlock.cpp
+  bool block(const BlockSlots& slots);
+  bool fill(const BlockSlots& slots, std::uint32_t without);
+  void addCode(char letter, double value, bool exact);
+  bool callByCode(const BlockSlots& slots, std::uint32_t at, const stdlib::CallCode& code);
+  bool callOnBlock(const BlockSlots& slots, const ModalCall& modal);
+  bool executeWords(const BlockSlots& slots);
+  bool toIncrement(char letter, double& value);
+
+  // ---- RunCall.cpp
+  bool call(const CallSlots& slots);
+  bool modalOff();
+  bool begin(const Request& request);
+  bool beginPass(const Level& level);
+  void leaveLevel(const Level& level);
+  bool repeatsOf(double value, std::uint32_t& repeats);
+  bool exit(std::uint32_t cell);
+  bool textEnd();
+  bool jumpTo(const Routine& routine, std::uint32_t from, double number);
+  bool raise(double number, const std::string& text);
+
+  // ---- RunPrint.cpp
+  bool openPort(bool open);
+  bool print(const ir::Print& print);
+  bool printDecimal(const ir::PrintPiece& piece, double value, std::string& out);
+  bool printBinary(const ir::PrintPiece& piece, double value, std::string& out);
+
+  bool readAt(double number, double& value);
+  bool writeAt(double number, double value);
+  void noteRead(std::uint32_t number);
+  bool refuse(std::string why) { return machine_.inconclusive(std::move(why)); }
+  double cell(std::uint32_t at) const { return cells_[at]; }
+
+  Machine& machine_;
+  const Bytecode& code_;
+  const Limits& limits_;
+  MacroMeaning* meaning_;
+  const stdlib::Control& control_;
+  double* cells_ = nullptr;
+  std::uint32_t place_ = 0; // of the instruction that runs, then of the next
+  std::uint64_t fuel_ = 0;  // steps that are left
+  std::vector<Level> levels_;
+  std::vector<ModalCall> modal_;
+  std::vector<double> locals_; // of the next call, by number
+  ir::NcWords words_;
+  bool ahead_ = false; // blocks of motion may be waiting
+  bool portOpen_ = false;
+  std::string output_;
+  std::vector<EarlyRead> early_;
+  std::vector<bool> readEarly_; // by instruction
+};
+
+} // namespace dotek::sim

@@ -1,0 +1,212 @@
+// Blocks of words: what is handed to the machine, and codes that call programs.
+#include "sim/machine/Run.h"
+#include "sim/machine/Value.h"
+
+#include <cmath>
+#include <fmt/format.h>
+#include <string_view>
+
+namespace dotek::sim {
+
+using ir::NcWords;
+
+namespace {
+
+// Numbers of things: rounded, as a control does; G is exact.
+bool counts(char letter) {
+  return std::string_view("DHLMNOPST").find(letter) != std::string_view::npos;
+}
+bool isLength(char letter) {
+  return std::string_view("ABCIJKQRUVWXYZ").find(letter) != std::string_view::npos;
+}
+
+} // namespace
+
+// ROUND behind an address. What it rounds to behind F and E no source says.
+bool Run::toIncrement(char letter, double& value) {
+  if (isLength(letter)) {
+    value = machine_.toIncrement(value);
+    return true;
+  }
+  if (counts(letter)) {
+    value = std::round(value) + 0.0;
+    return true;
+  }
+  return machine_.inconclusive("what ROUND rounds to behind this address is not known", letter);
+}
+
+void Run::addCode(char letter, double value, bool exact) {
+  constexpr double kMost = 99999;
+  if (letter == 'M') {
+    const double whole = exact ? value : std::round(value);
+    words_.addM(whole >= 0 && whole <= 99'999'999 && whole == std::floor(whole)
+                    ? static_cast<std::uint32_t>(whole)
+                    : NcWords::kNoCode);
+    return;
+  }
+  const double tenths = std::round(value * 10);
+  const bool good = value >= 0 && value <= kMost && std::abs(value * 10 - tenths) < 1e-6;
+  words_.addG(good ? static_cast<std::uint32_t>(tenths) : NcWords::kNoCode);
+}
+
+// The words of the block but the one at `without`.
+bool Run::fill(const BlockSlots& slots, std::uint32_t without) {
+  NcWords& w = words_;
+  w.clear();
+  w.line = slots.line;
+  for (std::uint32_t i = 0; i < slots.words; ++i) {
+    if (i == without) continue;
+    const WordSlot& slot = code_.words[slots.firstWord + i];
+    double value = cells_[slot.cell];
+    if (isNull(value)) continue;
+    if (slot.letter < 'A' || slot.letter > 'Z') return machine_.inconclusive("an address that is no letter");
+    const auto index = static_cast<std::size_t>(slot.letter - 'A');
+    if (slot.letter == 'G' || slot.letter == 'M') {
+      addCode(slot.letter, value, !slot.computed);
+      w.value[index] = value;
+      if (!slot.computed && slot.point && slot.letter == 'M') w.m[w.mCount - 1] = NcWords::kNoCode;
+      continue;
+    }
+    const std::uint32_t bit = ir::addressBit(slot.letter);
+    w.repeated |= w.present & bit;
+    w.present |= bit;
+    if (slot.computed) {
+      w.pointed |= bit;
+      // Rounded here, so that the block may take the short way.
+      if (counts(slot.letter))
+        value = std::round(value) + 0.0;
+      else if (isLength(slot.letter))
+        value = machine_.toIncrement(value);
+      else
+        w.mostPlaces = 99;
+      if (machine_.mode(kUnits) != 0) w.mostPlaces = 99;
+    } else {
+      if (slot.point) w.pointed |= bit;
+      w.mostPlaces = std::max<std::uint32_t>(w.mostPlaces, slot.places);
+    }
+    w.value[index] = value;
+  }
+  return true;
+}
+
+bool Run::block(const BlockSlots& slots) {
+  for (std::uint32_t i = 0; machine_.hasUnknown() && i < slots.words; ++i)
+    if (!knows(code_.words[slots.firstWord + i].cell)) return false;
+  const Level& level = levels_.back();
+  if (slots.mayCall && !level.byCode) {
+    const stdlib::CallCode* found = nullptr;
+    std::uint32_t at = 0;
+    for (std::uint32_t i = 0; i < slots.words; ++i) {
+      const WordSlot& slot = code_.words[slots.firstWord + i];
+      const double value = cells_[slot.cell];
+      if ((slot.letter != 'G' && slot.letter != 'M' && slot.letter != 'T') || isNull(value)) continue;
+      const stdlib::CallCode* one = findCallCode(control_, slot.letter, value);
+      if (one == nullptr) continue;
+      if (found != nullptr) return refuse("two codes of one block call programs");
+      found = one;
+      at = i;
+    }
+    if (found != nullptr) return callByCode(slots, at, *found);
+  }
+  if (level.modalCalls > 0 && modal_[level.modalCalls - 1].eachBlock)
+    return callOnBlock(slots, modal_[level.modalCalls - 1]);
+  if (!fill(slots, slots.words) || !executeWords(slots)) return false;
+  if (words_.present == 0 || !machine_.moved() || level.modalCalls == 0) {
+    ++place_;
+    return true;
+  }
+  const ModalCall& modal = modal_[level.modalCalls - 1];
+  locals_ = modal.arguments;
+  Request request;
+  request.program = modal.program;
+  request.repeats = modal.repeats;
+  request.byCode = level.byCode;
+  request.modalCalls = level.modalCalls - 1;
+  return begin(request);
+}
+
+bool Run::executeWords(const BlockSlots& slots) {
+  if (words_.present == 0) return true;
+  if (!machine_.execute(words_)) {
+    const Ending ending = machine_.end().ending;
+    if (ending == Ending::Call || ending == Ending::Return)
+      return machine_.inconclusive("a call or a return by a computed code");
+    return false;
+  }
+  if (machine_.moved()) ahead_ = true;
+  if (!slots.mayStop) return true;
+  for (std::uint32_t i = 0; i < words_.gCount; ++i)
+    if (stopsReadingAhead(control_, 'G', words_.g[i] / 10.0)) ahead_ = false;
+  for (std::uint32_t i = 0; i < words_.mCount; ++i)
+    if (stopsReadingAhead(control_, 'M', words_.m[i])) ahead_ = false;
+  return true;
+}
+
+// G and M codes of macros: the words behind the code are its arguments. Codes of subprograms, and T: the rest
+// of the block comes first.
+bool Run::callByCode(const BlockSlots& slots, std::uint32_t at, const stdlib::CallCode& code) {
+  const WordSlot& caller = code_.words[slots.firstWord + at];
+  const double number = std::round(cells_[caller.cell]);
+  Request request;
+  request.program =
+      code.letter == 'T' ? code.program : code.program + static_cast<std::uint32_t>(number) - code.first;
+  request.macro = code.macro;
+  request.byCode = true;
+  request.modalCalls = levels_.back().modalCalls;
+  std::fill(locals_.begin(), locals_.end(), kNull);
+  if (code.macro) {
+    ArgumentLetters letters;
+    for (std::uint32_t i = 0; i < slots.words; ++i) {
+      const WordSlot& slot = code_.words[slots.firstWord + i];
+      const double value = cells_[slot.cell];
+      if (i == at) continue;
+      if (i < at) return machine_.inconclusive("a word before the code that calls a program", slot.letter);
+      if (isNull(value)) continue;
+      if (slot.letter == 'L') {
+        if (!repeatsOf(value, request.repeats)) return false;
+        continue;
+      }
+      const std::uint32_t local = letters.next(slot.letter);
+      if (local == 0) return machine_.inconclusive("it is no argument of a call by a code", slot.letter);
+      const bool bare = control_.decimal == stdlib::DecimalMode::Increment && !slot.computed && !slot.point &&
+                        countsIncrements(slot.letter);
+      if (bare && machine_.mode(kUnits) != 0)
+        return machine_.inconclusive("what it counts without a point is not known", slot.letter);
+      if (local < locals_.size()) locals_[local] = bare ? value * control_.increment : value;
+    }
+  } else {
+    if (!fill(slots, at)) return false;
+    if (words_.mCount != 0)
+      return machine_.inconclusive("whether the call or the M code comes first is not known", 'M');
+    if (!executeWords(slots)) return false;
+    if (machine_.moved() && words_.present != 0 && levels_.back().modalCalls > 0)
+      return refuse("a motion and a call by a code in one block while G66 is in force");
+  }
+  if (code.holds && !machine_.write(*code.holds, number)) return false;
+  return begin(request);
+}
+
+// G66.1: the words of the block are the arguments, and nothing else of it is carried out.
+bool Run::callOnBlock(const BlockSlots& slots, const ModalCall& modal) {
+  Request request;
+  request.program = modal.program;
+  request.repeats = modal.repeats;
+  request.byCode = levels_.back().byCode;
+  request.modalCalls = levels_.back().modalCalls - 1;
+  std::fill(locals_.begin(), locals_.end(), kNull);
+  ArgumentLetters letters;
+  for (std::uint32_t i = 0; i < slots.words; ++i) {
+    const WordSlot& slot = code_.words[slots.firstWord + i];
+    const double value = cells_[slot.cell];
+    if (isNull(value)) continue;
+    const std::uint32_t local = letters.next(slot.letter);
+    if (local == 0)
+      return machine_.inconclusive("which variable it sets under G66.1 is not known", slot.letter);
+    const bool bare = control_.decimal == stdlib::DecimalMode::Increment && !slot.computed && !slot.point &&
+                      countsIncrements(slot.letter);
+    if (local < locals_.size()) locals_[local] = bare ? value * control_.increment : value;
+  }
+  return begin(request);
+}
+
+} // namespace dotek::sim

@@ -1,0 +1,188 @@
+// Calls, returns and jumps by number.
+#include "sim/machine/Compile.h"
+#include "sim/machine/Run.h"
+#include "sim/machine/Value.h"
+
+#include <cmath>
+#include <fmt/format.h>
+#include <span>
+
+namespace dotek::sim {
+
+using stdlib::Alarm;
+
+bool Run::repeatsOf(double value, std::uint32_t& repeats) {
+  if (isNull(value)) return true; // the word is left out
+  const double whole = std::round(value);
+  if (!(whole >= 1 && whole <= 9999)) return machine_.inconclusive("a call repeats 1 to 9999 times", 'L');
+  repeats = static_cast<std::uint32_t>(whole);
+  return true;
+}
+
+bool Run::call(const CallSlots& slots) {
+  if (slots.kind == ir::CallKind::Off) return modalOff();
+  if (!knows(slots.program) || !knows(slots.repeats)) return false;
+  const double program = slots.program == kNoCell ? kNull : cell(slots.program);
+  if (isNull(program)) return machine_.raise(Alarm::NoProgramNumber);
+  Request request;
+  double number = std::round(program);
+  if (slots.repeats != kNoCell && !repeatsOf(cell(slots.repeats), request.repeats)) return false;
+  if (slots.kind == ir::CallKind::Subprogram && number > 9999 && number <= 99'999'999 &&
+      control_.repeatInProgram && slots.repeats == kNoCell) {
+    request.repeats = static_cast<std::uint32_t>(number / 10000);
+    number -= request.repeats * 10000.0;
+  }
+  if (!(number >= 1 && number <= control_.programLast))
+    return machine_.inconclusive(fmt::format("its programs have numbers from 1 to {}", control_.programLast),
+                                 'P');
+  request.program = static_cast<std::uint64_t>(number);
+  request.macro = slots.kind != ir::CallKind::Subprogram;
+  request.byCode = levels_.back().byCode;
+  request.modalCalls = levels_.back().modalCalls;
+  std::fill(locals_.begin(), locals_.end(), kNull);
+  for (std::uint32_t i = 0; i < slots.arguments; ++i) {
+    const ArgumentSlot& argument = code_.arguments[slots.firstArgument + i];
+    if (!knows(argument.cell)) return false;
+    const double value = cells_[argument.cell];
+    if (isNull(value)) continue;
+    // A length as written counts increments where the control does not calculate.
+    const bool bare = argument.bare && control_.decimal == stdlib::DecimalMode::Increment;
+    if (bare && machine_.mode(kUnits) != 0)
+      return refuse("what an argument without a point counts in inches is not known");
+    locals_[argument.local] = bare ? value * control_.increment : value;
+  }
+  if (slots.kind == ir::CallKind::Macro || slots.kind == ir::CallKind::Subprogram) return begin(request);
+
+  // G66, G66.1: in force from the next block on.
+  if (levels_.back().modalCalls != modal_.size()) return refuse("G66 within a macro that G66 called");
+  if (modal_.size() >= control_.macroLevels) return machine_.raise(Alarm::MacroDepth);
+  modal_.push_back({request.program, request.repeats, slots.kind == ir::CallKind::EachBlock, locals_});
+  for (Level& level : levels_)
+    if (level.modalCalls + 1 == modal_.size()) ++level.modalCalls;
+  machine_.noteModal(stdlib::Function::ModalCall);
+  ++place_;
+  return true;
+}
+
+bool Run::modalOff() {
+  if (levels_.back().modalCalls != modal_.size()) return refuse("G67 within a macro that G66 called");
+  if (!modal_.empty()) modal_.pop_back();
+  for (Level& level : levels_)
+    level.modalCalls = std::min<std::uint32_t>(level.modalCalls, static_cast<std::uint32_t>(modal_.size()));
+  if (modal_.empty()) machine_.noteModal(stdlib::Function::ModalCallOff);
+  ++place_;
+  return true;
+}
+
+// The place of the caller is place_; the arguments lie in locals_.
+bool Run::begin(const Request& request) {
+  Level level;
+  level.caller = place_;
+  level.repeats = request.repeats;
+  level.macro = request.macro;
+  level.byCode = request.byCode;
+  level.modalCalls = request.modalCalls;
+  level.routine = code_.find(request.program);
+  if (level.routine != nullptr) {
+    if (request.macro && request.repeats > 1) level.arguments = locals_;
+    if (!beginPass(level)) return false;
+    levels_.push_back(std::move(level));
+    return true;
+  }
+  const auto number = static_cast<std::uint32_t>(request.program);
+  if (meaning_ == nullptr || !request.macro || !meaning_->knows(number))
+    return machine_.raise(Alarm::NoSuchProgram);
+  for (std::uint32_t i = 0; i < request.repeats; ++i) {
+    if (!spend(10) || !machine_.enter({number, 0, 0, true})) return false;
+    std::copy(locals_.begin() + 1, locals_.end(), cells_ + 1);
+    if (MotionWatcher* const watcher = machine_.watcher(); watcher != nullptr)
+      watcher->callBegins(number, locals_);
+    if (!meaning_->run(machine_, number, std::span<const double>(cells_, locals_.size()))) return false;
+    machine_.leave();
+    if (MotionWatcher* const watcher = machine_.watcher(); watcher != nullptr) watcher->callEnded(number);
+  }
+  ahead_ = false;
+  ++place_;
+  return true;
+}
+
+// Each pass of a macro begins with the arguments of the call.
+bool Run::beginPass(const Level& level) {
+  Frame frame;
+  frame.program = static_cast<std::uint32_t>(level.routine->number);
+  frame.macro = level.macro;
+  if (!machine_.enter(frame)) return false;
+  if (level.macro) {
+    std::copy(locals_.begin() + 1, locals_.end(), cells_ + 1);
+    if (MotionWatcher* const watcher = machine_.watcher(); watcher != nullptr)
+      watcher->callBegins(frame.program, locals_);
+  }
+  place_ = level.routine->begin;
+  return true;
+}
+
+bool Run::exit(std::uint32_t at) {
+  const double block = at == kNoCell ? kNull : cell(at);
+  if (levels_.size() == 1) {
+    if (!isNull(block)) return jumpTo(*levels_.back().routine, place_, block);
+    place_ = levels_.back().routine->begin;
+    return true;
+  }
+  Level& level = levels_.back();
+  if (!isNull(block) && level.repeats > 1)
+    return refuse("M99 with P within a call that repeats: whether it ends the repeats is not known");
+  if (level.repeats > 1) {
+    --level.repeats;
+    leaveLevel(level);
+    if (level.macro) locals_ = level.arguments;
+    return beginPass(level);
+  }
+  const std::uint32_t caller = level.caller;
+  if (isNull(block)) {
+    leaveLevel(level);
+    levels_.pop_back();
+    place_ = caller + 1;
+    return true;
+  }
+  // Where there is no such block the alarm comes here, in the program that asks for it.
+  const Routine& routine = *levels_[levels_.size() - 2].routine;
+  const std::uint32_t here = place_;
+  if (!jumpTo(routine, caller, block)) {
+    place_ = here;
+    return false;
+  }
+  leaveLevel(level);
+  levels_.pop_back();
+  return true;
+}
+
+void Run::leaveLevel(const Level& level) {
+  machine_.leave();
+  if (MotionWatcher* const watcher = machine_.watcher(); watcher != nullptr && level.macro)
+    watcher->callEnded(static_cast<std::uint32_t>(level.routine->number));
+}
+
+bool Run::textEnd() {
+  if (levels_.size() == 1) return machine_.finish();
+  return refuse("the program ends without M99; what the control does then is not known");
+}
+
+bool Run::jumpTo(const Routine& routine, std::uint32_t from, double value) {
+  const std::uint64_t number = sequenceNumber(nullAsZero(value), control_);
+  const NumberedPlace* const to = number == 0 ? nullptr : code_.search(routine, from, number);
+  if (to == nullptr) return machine_.raise(Alarm::NoSuchSequence);
+  if (code_.entersLoop(code_.loops[from], to->loop))
+    return refuse("a jump into a loop from outside: the control does not know how it was begun");
+  place_ = to->place;
+  return true;
+}
+
+bool Run::raise(double number, const std::string& text) {
+  const double whole = std::round(number);
+  if (!(whole >= control_.alarmFirst && whole <= control_.alarmLast))
+    return refuse(fmt::format("the alarm {} lies outside of {} to {}; what the control shows is not known",
+                              whole, control_.alarmFirst, control_.alarmLast));
+  return machine_.raise(static_cast<std::uint32_t>(whole), text);
+}
+
+} // namespace dotek::sim

@@ -1,0 +1,133 @@
+#include "sim/machine/VendorMacros.h"
+
+#include "sim/machine/VendorRun.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace dotek::sim {
+
+using stdlib::Intent;
+
+bool VendorMacros::run(Machine& machine, std::uint32_t program, std::span<const double> locals) {
+  const auto inconclusive = [&](const std::string& what, char letter = '\0') {
+    return machine.inconclusive(fmt::format("P{} of `{}`: {}", program, set_.name, what), letter);
+  };
+  std::string letters;
+  for (std::uint32_t local = 1; local < locals.size(); ++local) {
+    if (isNull(locals[local])) continue;
+    const char letter = stdlib::letterOfLocal(local);
+    if (letter == 0) return inconclusive(fmt::format("what #{} of the call means is not known", local));
+    letters += letter;
+  }
+  const stdlib::SignatureMatch match = stdlib::match(set_, program, letters);
+  if (match.unknown != 0)
+    return inconclusive("what the macro does with this argument is not known", match.unknown);
+  if (match.refused != nullptr)
+    return machine.raiseUnnumbered(
+        match.refused->text.empty()
+            ? fmt::format("P{} takes {} never together", program, fmt::join(match.refused->letters, " and "))
+            : match.refused->text);
+  if (!match.missing.empty())
+    return inconclusive(
+        fmt::format("the call lacks {}; what the macro does then is not known", match.missing));
+  if (match.signature == nullptr)
+    return inconclusive(fmt::format("what the letters {} mean together is not known", letters));
+  return VendorRun(machine, set_, control_, *match.signature, locals, memory_).run();
+}
+
+const stdlib::MacroArgument* VendorRun::argument(Role role, ir::Axis axis) const {
+  const stdlib::MacroArgument* found = signature_.find(role, axis);
+  if (found == nullptr) return nullptr;
+  const std::uint32_t local = stdlib::localOf(found->letter);
+  return local < locals_.size() && !isNull(locals_[local]) ? found : nullptr;
+}
+
+std::optional<double> VendorRun::value(Role role, ir::Axis axis) const {
+  const stdlib::MacroArgument* found = argument(role, axis);
+  return found == nullptr ? std::nullopt : std::optional<double>(locals_[stdlib::localOf(found->letter)]);
+}
+
+bool VendorRun::notKnown(std::string_view what, char letter) {
+  return machine_.inconclusive(
+      fmt::format("P{} of `{}`, {}: {}", signature_.program, set_.name, signature_.title, what), letter);
+}
+
+bool VendorRun::alarm(stdlib::MacroAlarm alarm) {
+  const stdlib::MacroAlarmInfo* info = set_.find(alarm);
+  if (info != nullptr && info->number) return machine_.raise(*info->number, info->text);
+  return machine_.raiseUnnumbered(info == nullptr ? stdlib::macroAlarmName(alarm)
+                                                  : std::string_view(info->text));
+}
+
+void VendorRun::sayOnce(std::string_view action, const std::string& text) {
+  if (memory_.said.insert(std::string(action) + " " + text).second) machine_.remark(action, text);
+}
+
+bool VendorRun::run() {
+  if (signature_.intent == Intent::ProbeOn || signature_.intent == Intent::ProbeOff) {
+    machine_.switchProbe(signature_.intent == Intent::ProbeOn);
+    if (const auto print = value(Role::Print)) machine_.remark("print", fmt::format("{:g}", *print));
+    machine_.forgetMotion(std::nullopt);
+    writeResults();
+    return true;
+  }
+  return begin() && features() && finish();
+}
+
+// What the machine has to be like, and what of the call is known.
+bool VendorRun::begin() {
+  if (!signature_.unknown.empty()) return notKnown(signature_.unknown + " is in no source");
+  for (const stdlib::MacroArgument& one : signature_.arguments) {
+    const std::uint32_t local = stdlib::localOf(one.letter);
+    const bool given = local < locals_.size() && !isNull(locals_[local]);
+    if (given && (!one.unknown.empty() || one.role == Role::Unstated))
+      return notKnown((one.unknown.empty() ? "what the argument means" : one.unknown) + " is in no source",
+                      one.letter);
+    if (given && isUnknown(locals_[local])) return notKnown("the value is not known", one.letter);
+  }
+  if (machine_.mode(kDistance) != 0) return notKnown("what it does under G91 is in no source");
+  if (machine_.mode(kUnits) != 0) return notKnown("Dotek runs it under G21 alone");
+  if (machine_.mode(kComp) != 0 || machine_.mode(kCanned) != 0)
+    return notKnown("what it does under cutter compensation or in a canned cycle is in no source");
+  if (machine_.mode(kPlane) != 0) return notKnown("what it does outside of G17 is in no source");
+  if (machine_.uncertain() != 0) return notKnown("where the probe stands is not known");
+  switch (machine_.probe()) {
+  case Machine::Probe::Off:
+    return notKnown("the probe was switched off before; what the macro does then is in no source");
+  case Machine::Probe::NotSwitched: sayOnce("probe", "not-switched"); break;
+  case Machine::Probe::On: break;
+  }
+  return true;
+}
+
+bool VendorRun::features() {
+  if (signature_.intent == Intent::ProtectedMove) return protectedMove();
+  if (!findStylus()) return false;
+  switch (signature_.intent) {
+  case Intent::Surface: return surface();
+  case Intent::Bore:
+  case Intent::Boss: return round();
+  case Intent::Pocket:
+  case Intent::Web: return flat();
+  case Intent::InnerCorner: return innerCorner();
+  case Intent::Angle: return faceAngle();
+  case Intent::AngledSurface: return angledSurface();
+  case Intent::AngledPocket:
+  case Intent::AngledWeb: return angledFlat();
+  case Intent::ThreePointBore:
+  case Intent::ThreePointBoss: return threePoints();
+  case Intent::OuterCorner:
+  case Intent::BoltCircle:
+  case Intent::StockAllowance:
+  case Intent::FeatureToFeature:
+  case Intent::ToolUpdate:
+  case Intent::Calibration:
+  case Intent::ProtectedMove:
+  case Intent::ProbeOn:
+  case Intent::ProbeOff: break;
+  }
+  return notKnown("how it measures is in no source");
+}
+
+} // namespace dotek::sim

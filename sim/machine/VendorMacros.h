@@ -1,0 +1,39 @@
+// The macros of a vendor's pack by their meaning: a call probes and sets what its signature says
+// (docs/vendor-macros.md). Whatever no source tells ends the run as inconclusive, naming the macro.
+#pragma once
+
+#include "sim/machine/MacroMeaning.h"
+#include "stdlib/Control.h"
+#include "stdlib/MacroSet.h"
+
+#include <optional>
+#include <set>
+#include <string>
+
+namespace dotek::sim {
+
+// What one run remembers between calls.
+struct VendorMemory {
+  std::optional<double> stylusRadius; // of a calibrated stylus, mm, where the set's variables do not hold it
+  std::set<std::string> said;         // remarks that stand once in a trace
+};
+
+class VendorMacros final : public MacroMeaning {
+public:
+  // `set` and `control` outlive the object. One object serves one run.
+  VendorMacros(const stdlib::MacroSet& set, const stdlib::Control& control) : set_(set), control_(control) {}
+
+  // The radius, mm, that the calibration of the stylus would have found. Without it, and with empty variables
+  // of the calibration, the macros count with 0 as on a machine that was never calibrated.
+  void setStylusRadius(double radius) { memory_.stylusRadius = radius; }
+
+  bool knows(std::uint32_t program) const override { return set_.calls(program); }
+  bool run(Machine& machine, std::uint32_t program, std::span<const double> locals) override;
+
+private:
+  const stdlib::MacroSet& set_;
+  const stdlib::Control& control_;
+  VendorMemory memory_;
+};
+
+} // namespace dotek::sim

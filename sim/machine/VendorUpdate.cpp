@@ -1,0 +1,194 @@
+// What a call leaves behind: tolerances that stop, offsets, results.
+#include "sim/machine/VendorRun.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace dotek::sim {
+
+using stdlib::Intent;
+using stdlib::MacroAlarm;
+using stdlib::SystemCode;
+
+namespace {
+
+constexpr double kNothing = 1e-9; // no difference of lengths on a grid of a nanometre
+constexpr std::uint32_t kFirstSystem = 54, kSystems = 6;
+
+std::string fixed(double value) {
+  std::string out;
+  appendFixed6(out, value);
+  return out;
+}
+
+// A number that chooses something; nothing: it is none.
+std::optional<std::uint32_t> whole(double value) {
+  if (!(value >= 0 && value < 1e6) || value != std::floor(value)) return std::nullopt;
+  return static_cast<std::uint32_t>(value);
+}
+
+} // namespace
+
+bool VendorRun::finish() {
+  if (signature_.intent != Intent::ProtectedMove) {
+    if (!machine_.travelTo(start_) || !addExperience()) return false;
+    if (size_) {
+      found_[Output::Size] = *size_;
+      found_[Output::SizeError] = *size_ - *expectedSize_;
+    }
+    found_[Output::OutOfTolerance] = 0;
+    found_[Output::ProbeError] = 0;
+  }
+  if (!checkTolerances()) return false;
+  writeResults();
+  if (!setSystem() || !setTool()) return false;
+  if (const auto print = value(Role::Print)) machine_.remark("print", fmt::format("{:g}", *print));
+  machine_.forgetMotion(feed_);
+  return true;
+}
+
+// The value of a tool offset is added to the measured size.
+bool VendorRun::addExperience() {
+  const auto given = value(Role::Experience);
+  if (!given) return true;
+  const auto& v = control_.variables;
+  const auto number = whole(*given);
+  if (!size_)
+    return notKnown("what an experience value does without a size is in no source",
+                    argument(Role::Experience)->letter);
+  if (!number || *number == 0 || static_cast<int>(*number) > v.toolCount || !v.toolWear)
+    return notKnown("it is no tool offset of the control", argument(Role::Experience)->letter);
+  double sum = 0;
+  bool both = true;
+  for (const auto& first : {v.toolWear, v.toolGeometry}) {
+    if (!first) continue;
+    const auto part = machine_.read(static_cast<std::uint32_t>(*first) + *number);
+    if (!part) return false;
+    both = both && *part != 0;
+    sum += *part;
+  }
+  if (v.toolGeometry && sum != 0)
+    return notKnown("whether the wear or the geometry holds the experience value is in no source",
+                    argument(Role::Experience)->letter);
+  *size_ += sum;
+  return true;
+}
+
+bool VendorRun::checkTolerances() {
+  double largest = 0, square = 0;
+  for (const auto& error : error_) {
+    if (!error) continue;
+    largest = std::max(largest, std::abs(*error));
+    square += *error * *error;
+  }
+  const double off = std::sqrt(square);
+  const double size = size_ ? std::abs(*size_ - *expectedSize_) : off;
+  const auto beyond = [&](Role role, double error) {
+    const auto limit = value(role);
+    return limit && error > std::abs(*limit) + kNothing;
+  };
+  if (beyond(Role::UpperLimit, std::max(largest, size))) return alarm(MacroAlarm::UpperLimit);
+  if (beyond(Role::SizeTolerance, size)) return alarm(MacroAlarm::OutOfTolerance);
+  if (beyond(Role::PositionTolerance, 2 * off)) return alarm(MacroAlarm::OutOfPosition);
+  if (angleError_ && beyond(Role::AngleTolerance, std::abs(*angleError_)))
+    return alarm(MacroAlarm::OutOfAngle);
+  if (!angleError_ && argument(Role::AngleTolerance) != nullptr)
+    return notKnown("which angle it compares without a second touch of each face is in no source",
+                    argument(Role::AngleTolerance)->letter);
+  return true;
+}
+
+// The variable of a work offset: `system` from 0, of G54.1 from 1.
+std::optional<std::uint32_t> VendorRun::offsetVariable(std::uint32_t system, bool extended,
+                                                       ir::Axis axis) const {
+  const auto& v = control_.variables;
+  const int step = static_cast<int>(ir::indexOf(axis)) * v.axisStep;
+  if (extended) {
+    if (!v.extendedX || system == 0 || static_cast<int>(system) > v.extendedCount) return std::nullopt;
+    return static_cast<std::uint32_t>(*v.extendedX + (static_cast<int>(system) - 1) * v.extendedStep + step);
+  }
+  if (!v.workOffsetX || system >= kSystems) return std::nullopt;
+  return static_cast<std::uint32_t>(*v.workOffsetX + static_cast<int>(system) * v.systemStep + step);
+}
+
+// New value = offset in force + measured - expected: right for both rules, since only what is expected
+// differs.
+bool VendorRun::setSystem() {
+  const auto* chosen = argument(Role::System);
+  if (chosen == nullptr) return true;
+  const auto number = whole(*value(Role::System));
+  const std::uint32_t first = chosen->systemCode == SystemCode::GNumber ? kFirstSystem : 1;
+  const bool extended = number && chosen->extendedFirst != 0 && *number >= chosen->extendedFirst &&
+                        *number <= chosen->extendedLast;
+  if (!number || (!extended && (*number < first || *number >= first + kSystems)))
+    return notKnown("which work offset this number names is in no source", chosen->letter);
+  const std::uint32_t system = extended ? *number - chosen->extendedFirst + 1 : *number - first;
+  const bool activeExtended = machine_.mode(kSystem) == kExtended;
+  const auto active = activeExtended ? static_cast<std::uint32_t>(machine_.extendedSystem())
+                                     : static_cast<std::uint32_t>(machine_.mode(kSystem));
+  for (const ir::Axis axis : ir::kAxes) {
+    const auto& error = error_[ir::indexOf(axis)];
+    if (!error) continue;
+    const auto from = offsetVariable(active, activeExtended, axis);
+    const auto to = offsetVariable(system, extended, axis);
+    if (!from || !to) return notKnown("the control has no such work offset", chosen->letter);
+    const auto before = machine_.read(*from);
+    if (!before || !machine_.write(*to, *before + *error)) return false;
+    const auto after = machine_.read(*to);
+    if (!after) return false;
+    const std::string name =
+        extended ? fmt::format("54.1 P{}", system) : std::to_string(kFirstSystem + system);
+    machine_.remark("offset", fmt::format("{} {}{}", name, ir::letterOf(axis), fixed(*after)));
+  }
+  return true;
+}
+
+// A surface that lies too high by the error: the tool that cut it counts as shorter by as much, so that it
+// cuts lower next time.
+bool VendorRun::setTool() {
+  const auto* chosen = argument(Role::Tool);
+  if (chosen == nullptr) return true;
+  const auto number = whole(*value(Role::Tool));
+  const auto& error = error_[ir::indexOf(ir::Axis::Z)];
+  if (!error || size_) return notKnown("Dotek keeps no offsets of the tool's radius", chosen->letter);
+  if (const auto band = value(Role::NullBand); band && std::abs(*error) < *band) return true;
+  const auto share = value(Role::Feedback);
+  if (!share)
+    return notKnown("which share of the error corrects the tool without F is in no source", chosen->letter);
+  if (!(*share >= 0 && *share <= 1))
+    return notKnown("a feedback goes from 0 to 1", argument(Role::Feedback)->letter);
+  const auto& v = control_.variables;
+  using Register = stdlib::ProbingFacts::ToolRegister;
+  if (set_.probing.toolLength == Register::Unknown)
+    return notKnown("whether it corrects the wear or the geometry is in no source", chosen->letter);
+  const bool geometry = set_.probing.toolLength == Register::Geometry && v.toolGeometry;
+  const auto& firstOffset = geometry ? v.toolGeometry : v.toolWear;
+  if (!number || *number == 0 || static_cast<int>(*number) > v.toolCount || !firstOffset)
+    return notKnown("it is no tool offset of the control", chosen->letter);
+  const std::uint32_t variable = static_cast<std::uint32_t>(*firstOffset) + *number;
+  const auto before = machine_.read(variable);
+  if (!before || !machine_.write(variable, *before - *share * *error)) return false;
+  machine_.remark("tool-offset", fmt::format("{} Z{}", *number, fixed(*before - *share * *error)));
+  return true;
+}
+
+void VendorRun::writeResults() {
+  for (const auto& [first, last] : set_.overwritten)
+    for (std::uint32_t variable = first; variable <= last; ++variable)
+      if (variable != set_.probing.feedVariable) machine_.forget(variable);
+  if (feed_ && set_.probing.feedVariable) machine_.write(*set_.probing.feedVariable, *feed_);
+  for (const stdlib::MacroResult& result : signature_.results) {
+    const auto holds = result.documented ? std::optional<Output>(result.output) : result.taken;
+    const auto found = holds ? found_.find(*holds) : found_.end();
+    if (found == found_.end()) {
+      machine_.forget(result.variable);
+      continue;
+    }
+    if (!result.documented)
+      sayOnce("assumed", fmt::format("#{} {}", result.variable, stdlib::outputName(*holds)));
+    machine_.write(result.variable, found->second);
+  }
+}
+
+} // namespace dotek::sim

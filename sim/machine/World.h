@@ -1,0 +1,102 @@
+// A part and a probe in a machine: whether and where the probe signals, and what goes wrong on the way.
+#pragma once
+
+#include "sim/geometry/Contact.h"
+#include "sim/geometry/Probe.h"
+#include "sim/machine/Machine.h"
+#include "sim/machine/MotionWatcher.h"
+#include "support/Diagnostics.h"
+
+#include <string_view>
+#include <vector>
+
+namespace dotek::sim {
+
+enum class Outcome : std::uint8_t {
+  Contact,       // of a skip move that began free
+  EarlyContact,  // the ball touched before the skip move began, or in a feed that measures nothing
+  Miss,          // a skip move to its end without a touch
+  NotArmed,      // the ball touched and the probe was off
+  NoSignal,      // the ball touched, and the way ended before the signal
+  Overtravel,    // the stylus is pushed farther than it bears
+  StemCollision, // the stem touches
+  BodyCollision, // the body touches
+  RapidIntoPart, // the ball touches in rapid
+  OutsideTravel, // the machine would leave its travel
+  NotModelled,   // a rotary or a second axis stands off zero, or where the machine stands is not known
+};
+std::string_view outcomeName(Outcome outcome); // "contact", "rapid-into-part"
+
+struct ProbeEvent {
+  Outcome outcome = Outcome::Miss;
+  MotionKind kind = MotionKind::Feed;
+  double share = 0;     // of the motion
+  double depth = 0;     // mm of the way that lie behind the touch
+  Point3 centre;        // of the ball, in the machine
+  Point3 point, normal; // touched, of the part; Contact, EarlyContact, NotArmed, NoSignal, Overtravel, rapid
+  std::uint64_t line = 0;    // of the program
+  bool placeUnknown = false; // of NotModelled: where the machine stands
+};
+
+// Coordinates of the machine are those of the spindle's gauge line, with the probe pointing along -Z. Rapids
+// are taken to be straight. One world goes with one machine, in one thread; the part is shared.
+class World : public SkipSignal, public MotionWatcher {
+public:
+  // An empty part touches nothing; then only the travel is looked at.
+  World(Part part, const Probe& probe, const MachineLimits& limits = {});
+
+  // The share of the way at which the machine stops; nothing: no signal comes. Each call is a touch of its
+  // own for the noise.
+  std::optional<double> contact(const SkipMove& move) override;
+  // The probe is on and the part deflects it. No event.
+  bool isThere(const SkipMove& here) override;
+  // Rapids and feeds; a Skip has been looked at by contact() and is passed over.
+  void moved(const MachineMotion& motion) override;
+
+  void probeSwitched(bool on) override { on_ = on; }
+  void setOn(bool on) { on_ = on; }
+  bool on() const { return on_; }
+  void setLine(std::uint64_t line) { line_ = line; } // of the skip moves to come
+  void setPart(Part part) { part_ = std::move(part); }
+  // As at the start: the events are forgotten, the noise begins anew with `seed`.
+  void restart(std::uint64_t seed);
+
+  const std::vector<ProbeEvent>& events() const { return events_; }
+  void forgetEvents() { events_.clear(); } // of a run that is too long to keep them all
+  const Probe& probe() const { return probe_; }
+  const Part& part() const { return part_; }
+  // Of the ball, where the machine stands at `position`.
+  Point3 centreAt(const Position& position) const;
+
+private:
+  std::optional<Touch> touchOf(double radius, const Point3& from, const Point3& to) const;
+  struct Obstacle {
+    Outcome outcome;
+    double share;
+  };
+  bool isModelled(const Position& from, const Position& to) const;
+  std::optional<double> leavesTravel(const Position& from, const Position& to) const;
+  std::optional<Obstacle> obstacle(const Point3& from, const Point3& way) const;
+  // Stands where the last motion ended, which was told.
+  bool isOld(const Obstacle& hit, double length) const;
+  double noise();
+  ProbeEvent& add(Outcome outcome, MotionKind kind, double share, const Point3& centre);
+  ProbeEvent& addTouch(Outcome outcome, MotionKind kind, const Touch& touch, double length);
+  void settle(const Touch& touch, const MachineMotion& motion, double length);
+
+  Part part_;
+  Probe probe_;
+  MachineLimits limits_;
+  bool on_;
+  bool pressed_ = false; // the last motion ended in the part, which was told
+  std::uint64_t line_ = 0;
+  std::uint64_t seed_;
+  std::uint64_t touches_ = 0;
+  std::vector<ProbeEvent> events_;
+};
+
+// What went wrong, as a finding at `range`. A contact is none; a miss is a note, since a protected move is
+// meant to miss.
+void reportEvent(const ProbeEvent& event, SourceRange range, Diagnostics& diagnostics);
+
+} // namespace dotek::sim

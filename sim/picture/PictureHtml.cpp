@@ -1,0 +1,235 @@
+#include "sim/picture/Picture.h"
+#include "sim/picture/PicturePage.h"
+#include "sim/picture/PictureRegion.h"
+#include "sim/picture/PictureText.h"
+#include "sim/picture/PictureView.h"
+#include "sim/picture/SurfaceMesh.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <numeric>
+
+namespace dotek::sim {
+namespace {
+
+// What the page holds at most; its head tells of the rest.
+constexpr std::size_t kMostMoves = 250'000;
+constexpr std::size_t kMostBlocks = 300'000;
+constexpr std::size_t kMostMarks = 20'000; // contacts, and errors
+constexpr double kMeshUnit = 0.001;        // mm
+
+std::string number(double value) {
+  return std::isfinite(value) ? shortNumber(value, 6) : "null";
+}
+std::string numbers(const Point3& p) {
+  return number(p.x) + ',' + number(p.y) + ',' + number(p.z);
+}
+
+class Page {
+public:
+  explicit Page(const Picture& picture) : picture_(picture), region_(regionOf(picture)) {}
+
+  std::string make() {
+    choose();
+    const std::string all = data();
+    std::string out;
+    out.reserve(all.size() + 64'000);
+    const std::string_view frame = pageFrame();
+    for (std::size_t at = 0; at < frame.size();) {
+      const std::size_t open = frame.find('@', at);
+      const std::size_t close = open == std::string_view::npos ? open : frame.find('@', open + 1);
+      if (close == std::string_view::npos) {
+        out += frame.substr(at);
+        break;
+      }
+      out += frame.substr(at, open - at);
+      const std::string_view mark = frame.substr(open + 1, close - open - 1);
+      if (mark == "TITLE") out += xmlText(picture_.title, 300);
+      if (mark == "STYLE") out += pageStyle();
+      if (mark == "NOTES") out += notes();
+      if (mark == "LEGEND") out += legend();
+      if (mark == "DATA") out += all;
+      if (mark == "VIEW") out += pageView();
+      if (mark == "SCRIPT") out += pageScript();
+      at = close + 1;
+    }
+    return out;
+  }
+
+private:
+  // Which moves the page holds: all, or every n-th and those with a contact or an error.
+  void choose() {
+    const std::size_t count = picture_.moves.size();
+    chosen_.resize(count);
+    std::iota(chosen_.begin(), chosen_.end(), std::size_t{0});
+    place_ = chosen_;
+    if (count <= kMostMoves) return;
+    every_ = (count + kMostMoves - 1) / kMostMoves;
+    std::vector<bool> marked(count);
+    for (std::size_t i = 0; i < picture_.contacts.size() && i < kMostMarks; ++i)
+      if (picture_.contacts[i].move < count) marked[picture_.contacts[i].move] = true;
+    for (std::size_t i = 0; i < picture_.errors.size() && i < kMostMarks; ++i)
+      if (picture_.errors[i].move < count) marked[picture_.errors[i].move] = true;
+    chosen_.clear();
+    for (std::size_t i = 0; i < count; ++i) {
+      place_[i] = chosen_.size();
+      if (i % every_ == every_ - 1 || marked[i] || i + 1 == count) chosen_.push_back(i);
+    }
+  }
+
+  std::string notes() const {
+    std::string out;
+    const auto note = [&](const std::string& text) {
+      out += fmt::format("<p class=\"note\">{}</p>\n", text);
+    };
+    if (every_ > 1)
+      note(fmt::format("{} moves: one of {} is on the page, and those with a contact or an error",
+                       picture_.moves.size(), every_));
+    if (picture_.blocks.size() > kMostBlocks)
+      note(fmt::format("{} blocks: the first {} are listed", picture_.blocks.size(), kMostBlocks));
+    if (picture_.contacts.size() > kMostMarks)
+      note(fmt::format("{} contacts: the first {} are drawn", picture_.contacts.size(), kMostMarks));
+    if (picture_.errors.size() > kMostMarks)
+      note(fmt::format("{} errors: the first {} are listed", picture_.errors.size(), kMostMarks));
+    const auto lost = std::count_if(picture_.moves.begin(), picture_.moves.end(),
+                                    [](const PictureMove& move) { return !isDrawn(move); });
+    if (lost > 0)
+      note(fmt::format("moves without a number, or farther than 1 km: {}; they are not drawn", lost));
+    if (!hasProbe(picture_)) note("no probe is stated: the way is that of the spindle's gauge line");
+    if (!picture_.part) note("no part: only the way is drawn");
+    return out;
+  }
+
+  static std::string legend() {
+    std::string out;
+    for (const PathKind kind : {PathKind::Rapid, PathKind::Feed, PathKind::Protected, PathKind::Measuring}) {
+      const PathStyle& style = pathStyle(kind);
+      out += fmt::format("<div><svg width=\"44\" height=\"10\"><path d=\"M0 5h44\" stroke=\"{}\" "
+                         "stroke-width=\"{}\" stroke-dasharray=\"{}\"/></svg>{}</div>\n",
+                         style.colour, style.width, *style.dashes == '\0' ? "none" : style.dashes,
+                         pathKindName(kind));
+    }
+    out += fmt::format(
+        "<div><svg width=\"44\" height=\"10\"><circle cx=\"22\" cy=\"5\" r=\"3.4\" fill=\"{}\"/></svg>"
+        "contact</div>\n<div><svg width=\"44\" height=\"12\"><path d=\"M17 1l10 10m0 -10l-10 10\" "
+        "stroke=\"{}\" stroke-width=\"2.6\"/></svg>error</div>\n"
+        "<div><svg width=\"44\" height=\"14\"><circle cx=\"13\" cy=\"7\" r=\"6\" fill=\"#f0a614\"/>"
+        "<circle cx=\"31\" cy=\"7\" r=\"6\" fill=\"#545c66\"/></svg>probe on, off</div>",
+        kContactColour, kErrorColour);
+    return out;
+  }
+
+  std::string data() const {
+    const Probe& probe = picture_.probe;
+    const auto size = [](double value) {
+      return std::isfinite(value) && value > 0 && value < kDrawn ? value : 0;
+    };
+    std::string out = fmt::format("{{\"count\":{},\"errorColour\":\"{}\",\n\"kinds\":[",
+                                  picture_.moves.size(), kErrorColour);
+    for (int i = 0; i < 4; ++i) {
+      const auto kind = static_cast<PathKind>(i);
+      const PathStyle& style = pathStyle(kind);
+      std::string dashes = style.dashes;
+      std::replace(dashes.begin(), dashes.end(), ' ', ',');
+      out += fmt::format("{}{{\"name\":\"{}\",\"colour\":\"{}\",\"width\":{},\"dashes\":[{}]}}",
+                         i == 0 ? "" : ",", pathKindName(kind), style.colour, style.width, dashes);
+    }
+    out += fmt::format("],\n\"region\":[{},{}],\n", numbers(region_.least), numbers(region_.most));
+    out += "\"probe\":";
+    out += !hasProbe(picture_)
+               ? "null,\n"
+               : fmt::format("{{\"ball\":{},\"stem\":[{},{}],\"body\":[{},{}],\"length\":{}}},\n",
+                             number(size(probe.ballRadius())), number(size(probe.stemDiameter) / 2),
+                             number(size(probe.stemLength)), number(size(probe.bodyDiameter) / 2),
+                             number(size(probe.bodyLength)),
+                             number(std::isfinite(probe.centreLength()) ? probe.centreLength() : 0));
+    way(out);
+    marks(out);
+    out += "\"blocks\":[";
+    for (std::size_t i = 0; i < picture_.blocks.size() && i < kMostBlocks; ++i)
+      out += fmt::format("{}[{},{}]", i == 0 ? "" : ",\n", jsonText(picture_.blocks[i].text, 200),
+                         jsonText(picture_.blocks[i].place, 200));
+    out += "],\n";
+    surface(out);
+    return out + "}";
+  }
+
+  void way(std::string& out) const {
+    out += "\"way\":[";
+    std::string jumps;
+    const PictureMove* before = nullptr;
+    for (std::size_t i = 0; i < chosen_.size(); ++i) {
+      const PictureMove& move = picture_.moves[chosen_[i]];
+      out += fmt::format("{}{},{},{},{}", i == 0 ? "" : ",\n", static_cast<int>(move.kind),
+                         move.probeOn ? 1 : 0, move.block, numbers(move.to));
+      const Point3 from =
+          picture_.moves[i == 0 ? 0 : chosen_[i - 1] + 1].from; // the first of those it stands for
+      if (before == nullptr || !(before->to == from))
+        jumps += fmt::format("{}[{},{}]", jumps.empty() ? "" : ",", i, numbers(from));
+      before = &move;
+    }
+    out += "],\n\"jumps\":[" + jumps + "],\n\"numbers\":";
+    if (every_ == 1) {
+      out += "null,\n";
+      return;
+    }
+    out += '[';
+    for (std::size_t i = 0; i < chosen_.size(); ++i)
+      out += fmt::format("{}{}", i == 0 ? "" : ",", chosen_[i]);
+    out += "],\n";
+  }
+
+  std::size_t placeOf(std::size_t move) const {
+    return move < place_.size() ? place_[move] : place_.empty() ? 0 : chosen_.size() - 1;
+  }
+
+  void marks(std::string& out) const {
+    out += "\"contacts\":[";
+    for (std::size_t i = 0; i < picture_.contacts.size() && i < kMostMarks; ++i) {
+      const PictureContact& contact = picture_.contacts[i];
+      out += fmt::format("{}[{},{}]", i == 0 ? "" : ",", numbers(contact.point), placeOf(contact.move));
+    }
+    out += "],\n\"errors\":[";
+    for (std::size_t i = 0; i < picture_.errors.size() && i < kMostMarks; ++i) {
+      const PictureError& error = picture_.errors[i];
+      out += fmt::format("{}[{},{},{}]", i == 0 ? "" : ",\n", numbers(error.at), placeOf(error.move),
+                         jsonText(error.text, 600));
+    }
+    out += "],\n";
+  }
+
+  void surface(std::string& out) const {
+    SurfaceMesh mesh;
+    if (picture_.part) mesh = surfaceOf(*picture_.part, region_);
+    const double longest = std::max({region_.most.x - region_.least.x, region_.most.y - region_.least.y,
+                                     region_.most.z - region_.least.z});
+    const double unit = std::max(kMeshUnit, std::pow(10, std::ceil(std::log10(longest)) - 6));
+    out += fmt::format("\"mesh\":{{\"unit\":{},\n\"vertices\":[", number(unit));
+    const auto whole = [&](double value) { return static_cast<std::int64_t>(std::llround(value / unit)); };
+    for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
+      const Point3 p = mesh.vertices[i] - region_.least;
+      out += fmt::format("{}{},{},{}", i == 0 ? "" : ",", whole(p.x), whole(p.y), whole(p.z));
+    }
+    out += "],\n\"triangles\":[";
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+      const auto& t = mesh.triangles[i];
+      out += fmt::format("{}{},{},{}", i == 0 ? "" : ",", t[0], t[1], t[2]);
+    }
+    out += "]}";
+  }
+
+  const Picture& picture_;
+  Region region_;
+  std::size_t every_ = 1;
+  std::vector<std::size_t> chosen_; // places in Picture::moves
+  std::vector<std::size_t> place_;  // of each move in chosen_, of the next one that is there
+};
+
+} // namespace
+
+std::string pictureHtml(const Picture& picture) {
+  return Page(picture).make();
+}
+
+} // namespace dotek::sim

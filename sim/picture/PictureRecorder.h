@@ -1,0 +1,59 @@
+// Collects what pictures draw while a program runs. It stands between a machine and its world: it is the skip
+// signal and the watcher of the machine, and hands every call on.
+#pragma once
+
+#include "sim/machine/World.h"
+#include "sim/picture/Picture.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace dotek::sim {
+
+class PictureRecorder final : public SkipSignal, public MotionWatcher {
+public:
+  // What comes later is not drawn; contacts and errors neither.
+  static constexpr std::size_t kMostMoves = 200'000;
+
+  // What a call with arguments makes of the skip moves within it; nothing: it has no say.
+  using CallKind =
+      std::function<std::optional<PathKind>(std::uint32_t program, std::span<const double> locals)>;
+  // The block that runs now; asked once a motion.
+  using BlockNow = std::function<PictureBlock()>;
+
+  // `empty`: title, part and probe. `world`: gets every call and outlives the recorder; nullptr: no signal
+  // comes, and the moves are those of the spindle's gauge line.
+  PictureRecorder(Picture empty, World* world, CallKind callKind, BlockNow blockNow);
+
+  std::optional<double> contact(const SkipMove& move) override;
+  bool isThere(const SkipMove& here) override;
+  void moved(const MachineMotion& motion) override;
+  void probeSwitched(bool on) override;
+  void callBegins(std::uint32_t program, std::span<const double> locals) override;
+  void callEnded(std::uint32_t program) override;
+
+  bool isFull() const { return full_; } // motions are missing
+  const Picture& picture() const { return picture_; }
+
+private:
+  void addEvents(std::size_t from, std::size_t move);
+  std::size_t blockNow();
+  PathKind kindOf(MotionKind kind) const;
+
+  Picture picture_;
+  World* world_;
+  CallKind callKind_;
+  BlockNow block_;
+  std::map<std::string, std::size_t> places_;  // of blocks
+  std::vector<std::optional<PathKind>> calls_; // that are open
+  bool on_;
+  bool full_ = false;
+};
+
+} // namespace dotek::sim

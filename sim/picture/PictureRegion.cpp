@@ -1,0 +1,274 @@
+#include "sim/picture/PictureRegion.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace dotek::sim {
+namespace {
+
+// From here a distance tells how far the part reaches, to a few micrometres.
+constexpr double kAway = 1e6;
+
+class Bounds {
+public:
+  void add(const Point3& p) {
+    least_ = any_ ? Point3{std::min(least_.x, p.x), std::min(least_.y, p.y), std::min(least_.z, p.z)} : p;
+    most_ = any_ ? Point3{std::max(most_.x, p.x), std::max(most_.y, p.y), std::max(most_.z, p.z)} : p;
+    any_ = true;
+  }
+  bool any() const { return any_; }
+  Region region() const { return {least_, most_}; }
+
+private:
+  bool any_ = false;
+  Point3 least_, most_;
+};
+
+double longest(const Region& region) {
+  const Point3 size = region.most - region.least;
+  return std::max({size.x, size.y, size.z});
+}
+
+Region grown(const Region& region, double by) {
+  const Point3 step{by, by, by};
+  return {region.least - step, region.most + step};
+}
+
+Region common(const Region& a, const Region& b) {
+  return {{std::max(a.least.x, b.least.x), std::max(a.least.y, b.least.y), std::max(a.least.z, b.least.z)},
+          {std::min(a.most.x, b.most.x), std::min(a.most.y, b.most.y), std::min(a.most.z, b.most.z)}};
+}
+
+bool isEmpty(const Region& region) {
+  return region.least.x > region.most.x || region.least.y > region.most.y || region.least.z > region.most.z;
+}
+
+// No side much shorter than the longest one: a view has room for its labels.
+Region squat(Region region) {
+  const double least = std::max(8.0, 0.16 * longest(region));
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double low = coordinate(region.least, axis), high = coordinate(region.most, axis);
+    if (high - low >= least) continue;
+    setCoordinate(region.least, axis, (low + high - least) / 2);
+    setCoordinate(region.most, axis, (low + high + least) / 2);
+  }
+  return region;
+}
+
+// What the picture is about.
+Region focusOf(const Picture& picture) {
+  Bounds bounds;
+  for (const PictureMove& move : picture.moves) {
+    if (move.kind == PathKind::Rapid || !isDrawn(move)) continue;
+    bounds.add(move.from);
+    bounds.add(move.to);
+  }
+  for (const PictureContact& contact : picture.contacts) {
+    if (isDrawn(contact.point)) bounds.add(contact.point);
+  }
+  for (const PictureError& error : picture.errors) {
+    if (isDrawn(error.at)) bounds.add(error.at);
+  }
+  if (bounds.any()) return bounds.region();
+  for (const PictureMove& move : picture.moves) {
+    if (!isDrawn(move)) continue;
+    bounds.add(move.from);
+    bounds.add(move.to);
+  }
+  if (bounds.any()) return bounds.region();
+  if (picture.part) {
+    const Region reach =
+        common(reachOf(*picture.part), {{-kDrawn, -kDrawn, -kDrawn}, {kDrawn, kDrawn, kDrawn}});
+    if (!isEmpty(reach) && longest(reach) < kDrawn / 10) return reach;
+  }
+  return {{-10, -10, -10}, {10, 10, 10}};
+}
+
+// The deepest place of the material in the region, of a coarse grid.
+std::optional<Point3> insideOf(const Part& part, const Region& region) {
+  constexpr int kSteps = 12;
+  std::optional<Point3> best;
+  double deepest = 0;
+  const Point3 size = region.most - region.least;
+  for (int i = 0; i < kSteps; ++i) {
+    for (int j = 0; j < kSteps; ++j) {
+      for (int k = 0; k < kSteps; ++k) {
+        const Point3 p = region.least + Point3{size.x * (i + 0.5) / kSteps, size.y * (j + 0.5) / kSteps,
+                                               size.z * (k + 0.5) / kSteps};
+        const double distance = part.distance(p);
+        if (distance >= deepest) continue;
+        deepest = distance;
+        best = p;
+      }
+    }
+  }
+  return best;
+}
+
+// Whether the plane across `axis` cuts material in the region, seen on a coarse grid.
+bool cutsMaterial(const Part& part, const Region& region, std::size_t axis, double at) {
+  constexpr int kSteps = 24;
+  const Point3 size = region.most - region.least;
+  for (int i = 0; i < kSteps; ++i) {
+    for (int j = 0; j < kSteps; ++j) {
+      const double u = (i + 0.5) / kSteps, v = (j + 0.5) / kSteps;
+      Point3 p = region.least + (axis == 0   ? Point3{0, size.y * u, size.z * v}
+                                 : axis == 1 ? Point3{size.x * u, 0, size.z * v}
+                                             : Point3{size.x * u, size.y * v, 0});
+      setCoordinate(p, axis, at);
+      if (part.distance(p) < 0) return true;
+    }
+  }
+  return false;
+}
+
+// A place in the material next to a touched point, at most `depth` along the axis.
+std::optional<double> behindFace(const Part& part, const Point3& touched, std::size_t axis, double depth) {
+  for (int i = 0; i < 8; ++i, depth /= 2) {
+    for (const double step : {-depth, depth}) {
+      Point3 p = touched;
+      setCoordinate(p, axis, coordinate(touched, axis) + step);
+      if (part.distance(p) < -1e-6) return coordinate(p, axis);
+    }
+  }
+  return std::nullopt;
+}
+
+} // namespace
+
+bool Region::contains(const Point3& p) const {
+  return p.x >= least.x && p.x <= most.x && p.y >= least.y && p.y <= most.y && p.z >= least.z &&
+         p.z <= most.z;
+}
+
+double coordinate(const Point3& p, std::size_t axis) {
+  return axis == 0 ? p.x : axis == 1 ? p.y : p.z;
+}
+
+void setCoordinate(Point3& p, std::size_t axis, double value) {
+  (axis == 0 ? p.x : axis == 1 ? p.y : p.z) = value;
+}
+
+bool isDrawn(const Point3& p) {
+  return std::abs(p.x) <= kDrawn && std::abs(p.y) <= kDrawn && std::abs(p.z) <= kDrawn; // false for no number
+}
+
+bool isDrawn(const PictureMove& move) {
+  return isDrawn(move.from) && isDrawn(move.to);
+}
+
+bool hasProbe(const Picture& picture) {
+  return picture.probe.length > 0 || !picture.probe.lengthToTip;
+}
+
+Region reachOf(const Part& part) {
+  Region out;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    Point3 p = part.toMachine({});
+    const double middle = coordinate(p, axis);
+    setCoordinate(p, axis, middle + kAway);
+    setCoordinate(out.most, axis, middle + kAway - part.distance(p));
+    setCoordinate(p, axis, middle - kAway);
+    setCoordinate(out.least, axis, middle - kAway + part.distance(p));
+  }
+  return out;
+}
+
+Region regionOf(const Picture& picture) {
+  const Region focus = focusOf(picture);
+  const Region near = grown(focus, std::max(25.0, 0.75 * longest(focus)));
+  Bounds bounds;
+  bounds.add(focus.least);
+  bounds.add(focus.most);
+  for (const PictureMove& move : picture.moves) {
+    if (!isDrawn(move)) continue;
+    for (const Point3& p : {move.from, move.to}) {
+      if (near.contains(p)) bounds.add(p);
+    }
+  }
+  if (picture.part) {
+    // A side that ends near by is shown whole; of one that does not, a piece is enough.
+    Region seen = reachOf(*picture.part);
+    const Region piece = grown(focus, std::max(15.0, 0.3 * longest(focus)));
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      if (coordinate(seen.least, axis) < coordinate(near.least, axis))
+        setCoordinate(seen.least, axis, coordinate(piece.least, axis));
+      if (coordinate(seen.most, axis) > coordinate(near.most, axis))
+        setCoordinate(seen.most, axis, coordinate(piece.most, axis));
+    }
+    seen = common(seen, near);
+    if (!isEmpty(seen)) {
+      bounds.add(seen.least);
+      bounds.add(seen.most);
+    }
+  }
+  const Region region = bounds.region();
+  return squat(grown(region, std::max(1.0, 0.05 * longest(region))));
+}
+
+SectionPlanes sectionPlanesOf(const Picture& picture, const Region& region) {
+  SectionPlanes out;
+  const Point3 middle = (region.least + region.most) * 0.5;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    out.at[axis] = coordinate(middle, axis);
+  if (!picture.part) return out;
+
+  const double depth = std::max(0.5, 0.01 * longest(region)); // behind a face that was touched
+  std::optional<Point3> inside;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    struct Candidate {
+      double at;
+      std::size_t contact;
+    };
+    std::vector<Candidate> sideways;
+    std::optional<double> behind[2]; // behind faces that look against the axis, along it
+    for (std::size_t i = 0; i < picture.contacts.size() && i < 1000; ++i) {
+      const Point3& p = picture.contacts[i].point;
+      if (!region.contains(p)) continue;
+      if (std::abs(coordinate(picture.part->nearest(p).normal, axis)) < 0.3) {
+        sideways.push_back({coordinate(p, axis), i});
+        continue;
+      }
+      const std::optional<double> side = behindFace(*picture.part, p, axis, depth);
+      if (!side) continue;
+      std::optional<double>& first = behind[*side < coordinate(p, axis) ? 1 : 0];
+      if (!first) first = side;
+    }
+    if (!sideways.empty()) {
+      // The coordinate that most contacts share; of equals the first.
+      std::size_t best = 0, most = 0;
+      for (std::size_t i = 0; i < sideways.size(); ++i) {
+        const auto same =
+            static_cast<std::size_t>(std::count_if(sideways.begin(), sideways.end(), [&](const Candidate& c) {
+              return std::abs(c.at - sideways[i].at) < 1e-3;
+            }));
+        if (same > most) {
+          most = same;
+          best = i;
+        }
+      }
+      out.at[axis] = sideways[best].at;
+      out.contact[axis] = sideways[best].contact;
+      continue;
+    }
+    if (behind[0] || behind[1]) { // touched from both sides: between them
+      out.at[axis] = behind[0] && behind[1] ? (*behind[0] + *behind[1]) / 2
+                     : behind[0]            ? *behind[0]
+                                            : *behind[1];
+      continue;
+    }
+    Bounds way;
+    for (const PictureMove& move : picture.moves) {
+      if (isDrawn(move) && move.kind != PathKind::Rapid) way.add(move.to);
+    }
+    if (way.any()) out.at[axis] = coordinate((way.region().least + way.region().most) * 0.5, axis);
+    if (cutsMaterial(*picture.part, region, axis, out.at[axis])) continue;
+    if (!inside) inside = insideOf(*picture.part, region);
+    if (inside) out.at[axis] = coordinate(*inside, axis);
+  }
+  return out;
+}
+
+} // namespace dotek::sim

@@ -1,0 +1,47 @@
+// Which part of the machine's space a picture shows, and where it cuts the part.
+#pragma once
+
+#include "sim/picture/Picture.h"
+
+#include <array>
+#include <cstddef>
+#include <optional>
+
+namespace dotek::sim {
+
+// A box parallel to the axes of the machine, mm.
+struct Region {
+  Point3 least, most;
+
+  bool contains(const Point3& p) const;
+};
+
+// X, Y or Z of a point: 0, 1 or 2.
+double coordinate(const Point3& p, std::size_t axis);
+void setCoordinate(Point3& p, std::size_t axis, double value);
+
+// Coordinates beyond this (mm) are of no machine: a picture leaves such points out and says so.
+inline constexpr double kDrawn = 1e6;
+bool isDrawn(const Point3& p);
+bool isDrawn(const PictureMove& move);
+
+// Whether the picture has a probe, so that its way is that of the ball's centre.
+bool hasProbe(const Picture& picture);
+
+// The box that holds the part. A side without end stands at kDrawn or beyond.
+Region reachOf(const Part& part);
+
+// What is drawn: the slow moves, contacts and errors, and around them what is near of rapids and part. A box
+// of at least a few millimetres; where nothing can be drawn, one about zero.
+Region regionOf(const Picture& picture);
+
+// Where the sections lie: X of YZ, Y of XZ, Z of XY. At a contact that the plane cuts from the side, so that
+// the touched surface is seen; else just behind a touched face, or between two touched from both sides; else
+// in the middle of the way, or of the part where there is no material.
+struct SectionPlanes {
+  std::array<double, 3> at{};                          // by axis
+  std::array<std::optional<std::size_t>, 3> contact{}; // that it goes through, place in Picture::contacts
+};
+SectionPlanes sectionPlanesOf(const Picture& picture, const Region& region);
+
+} // namespace dotek::sim

@@ -1,0 +1,249 @@
+#include "sim/picture/Picture.h"
+#include "sim/picture/PictureRegion.h"
+#include "sim/picture/PictureText.h"
+#include "sim/picture/PictureView.h"
+#include "sim/picture/Sections.h"
+#include "support/Decimal.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace dotek::sim {
+namespace {
+
+// Of the sheet, px.
+constexpr double kLeft = 64, kTop = 74, kRight = 30, kBottom = 26;
+constexpr double kGap = 72;     // between views: room for numbers and letters
+constexpr double kViews = 1000; // width of two views
+constexpr double kHeight = 720; // height of two views
+constexpr double kLegend = 380; // width of the legend
+constexpr double kLine = 19;    // of the legend
+
+std::string px(double value) {
+  return shortNumber(value, 2);
+}
+
+double finite(double value) {
+  return std::isfinite(value) ? value : 0;
+}
+
+// Text in lines of at most `width` characters, broken at blanks where there are any.
+std::vector<std::string> wrapped(std::string_view text, std::size_t width) {
+  std::vector<std::string> out;
+  while (text.size() > width) {
+    std::size_t at = text.rfind(' ', width);
+    if (at == std::string_view::npos || at < width / 2) {
+      at = width;
+      while (at > 1 && (static_cast<unsigned char>(text[at]) & 0xC0) == 0x80)
+        --at;
+    }
+    out.emplace_back(text.substr(0, at));
+    text.remove_prefix(at);
+    while (text.starts_with(' '))
+      text.remove_prefix(1);
+  }
+  if (!text.empty() || out.empty()) out.emplace_back(text);
+  return out;
+}
+
+class Legend {
+public:
+  Legend(double left, double top) : left_(left), at_(top) {}
+
+  void sample(PathKind kind) {
+    const PathStyle& style = pathStyle(kind);
+    out_ += fmt::format("<path d=\"M{} {}h44\" stroke=\"{}\" stroke-width=\"{}\"{} fill=\"none\"/>",
+                        px(left_), px(at_ - 4), style.colour, style.width,
+                        *style.dashes == '\0' ? "" : fmt::format(" stroke-dasharray=\"{}\"", style.dashes));
+    text(fmt::format("{} move", pathKindName(kind)), 56);
+  }
+  void mark(const std::string& shape, const std::string& what) {
+    out_ += fmt::format("<g transform=\"translate({} {})\">{}</g>", px(left_ + 22), px(at_ - 4), shape);
+    text(what, 56);
+  }
+  void text(const std::string& line, double indent = 0, const char* colour = "#20262d") {
+    out_ += fmt::format("<text x=\"{}\" y=\"{}\" fill=\"{}\">{}</text>\n", px(left_ + indent), px(at_),
+                        colour, xmlText(line));
+    at_ += kLine;
+  }
+  void gap(double height) { at_ += height; }
+  void raw(const std::string& svg) { out_ += svg; }
+  double left() const { return left_; }
+  double at() const { return at_; }
+  std::string take() { return std::move(out_); }
+
+private:
+  double left_, at_; // base line of the next text
+  std::string out_;
+};
+
+void addScale(Legend& legend, double scale) {
+  const double length = roundLength(std::min(170 / scale, 1e6));
+  const double width = length * scale;
+  const double y = legend.at() - 3;
+  legend.raw(fmt::format("<g id=\"scale\"><path d=\"M{0} {1}v8h{2}v-8\" fill=\"none\" stroke=\"#20262d\" "
+                         "stroke-width=\"1.4\"/><path d=\"M{0} {3}h{4}v4h-{4}z\" fill=\"#20262d\"/>"
+                         "<text x=\"{5}\" y=\"{6}\" fill=\"#20262d\">{7} mm</text></g>\n",
+                         px(legend.left()), px(y), px(width), px(y + 4), px(width / 2),
+                         px(legend.left() + width + 8), px(y + 9), shortNumber(length, 6)));
+  legend.gap(kLine + 8);
+}
+
+// What the picture leaves out.
+std::vector<std::string> notesOf(const Picture& picture, const Region& region) {
+  std::vector<std::string> out;
+  std::size_t lost = 0, beyond = 0, hidden = 0;
+  for (const PictureMove& move : picture.moves) {
+    if (!isDrawn(move))
+      ++lost;
+    else if (!region.contains(move.from) || !region.contains(move.to))
+      ++beyond;
+  }
+  const auto plural = [](std::size_t n, const char* what) {
+    return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s");
+  };
+  for (const PictureContact& contact : picture.contacts)
+    hidden += isDrawn(contact.point) ? 0 : 1;
+  for (const PictureError& error : picture.errors)
+    hidden += isDrawn(error.at) ? 0 : 1;
+  if (beyond > 0) out.push_back(fmt::format("the way leaves the picture in {}", plural(beyond, "move")));
+  if (lost > 0)
+    out.push_back(fmt::format("{} not drawn: no number, or farther than 1 km", plural(lost, "move")));
+  if (hidden > 0) out.push_back(fmt::format("{} without a place on the sheet", plural(hidden, "mark")));
+  if (picture.moves.size() > kThinFrom)
+    out.push_back(fmt::format("{} moves: what is shorter than half a pixel is joined", picture.moves.size()));
+  if (picture.contacts.size() > kMostNumbered)
+    out.push_back(fmt::format("{} contacts: the first {} are drawn", picture.contacts.size(), kMostNumbered));
+  return out;
+}
+
+struct Sheet {
+  const Picture& picture;
+  Region region;
+  SectionPlanes planes;
+  double scale = 1;
+};
+
+std::string drawLegend(const Sheet& sheet, double left, double top, double& bottom) {
+  const Picture& picture = sheet.picture;
+  Legend legend(left, top + 12);
+  for (const PathKind kind : {PathKind::Rapid, PathKind::Feed, PathKind::Protected, PathKind::Measuring})
+    legend.sample(kind);
+  legend.mark("<rect x=\"-14.5\" y=\"-3.5\" width=\"7\" height=\"7\" fill=\"#ffffff\" stroke=\"#20262d\" "
+              "stroke-width=\"1.3\"/><rect x=\"7.5\" y=\"-3.5\" width=\"7\" height=\"7\" fill=\"#20262d\" "
+              "stroke=\"#20262d\" stroke-width=\"1.3\"/>",
+              "start, end of the way");
+  legend.mark(fmt::format("<circle r=\"3.2\" fill=\"{}\"/>", kContactColour),
+              fmt::format("contact ({}), numbered in order", picture.contacts.size()));
+  legend.mark(fmt::format("<path d=\"M-5.5 -5.5l11 11m0 -11l-11 11\" fill=\"none\" stroke=\"{}\" "
+                          "stroke-width=\"2.6\"/>",
+                          kErrorColour),
+              fmt::format("error ({})", picture.errors.size()));
+  if (picture.part) {
+    legend.mark("<rect x=\"-22\" y=\"-6\" width=\"44\" height=\"12\" fill=\"url(#cut)\" stroke=\"#39424d\"/>",
+                "material in the section");
+    constexpr const char* kNames[] = {"YZ", "XZ", "XY"};
+    constexpr const char* kAxes[] = {"X", "Y", "Z"};
+    for (std::size_t axis = 3; axis-- > 0;) {
+      std::string line =
+          fmt::format("{} at {} {}", kNames[axis], kAxes[axis], fixedText(sheet.planes.at[axis], 3));
+      if (sheet.planes.contact[axis])
+        line += fmt::format(", through contact {}", *sheet.planes.contact[axis] + 1);
+      legend.text(line, 56);
+    }
+  } else {
+    legend.text("no part: only the way is drawn", 56);
+  }
+  if (picture.moves.empty()) legend.text("no moves", 56);
+  legend.gap(6);
+  addScale(legend, sheet.scale);
+  legend.text("mm, in coordinates of the machine;", 0, "#4a525c");
+  legend.text(hasProbe(picture) ? fmt::format("the way is that of the ball's centre (ball {})",
+                                              shortNumber(finite(picture.probe.ballDiameter), 3))
+                                : "the way is that of the spindle's gauge line: no probe is stated",
+              0, "#4a525c");
+  for (const std::string& note : notesOf(picture, sheet.region))
+    legend.text(note, 0, "#8a4b00");
+  bottom = legend.at();
+  return legend.take();
+}
+
+// Numbered texts below the views.
+std::string drawErrors(const Picture& picture, double& at) {
+  if (picture.errors.empty()) return "";
+  std::string out = fmt::format("<g id=\"errors\" fill=\"{}\">\n", kErrorColour);
+  const auto line = [&](const std::string& text, double indent, bool bold) {
+    out += fmt::format("<text x=\"{}\" y=\"{}\"{}>{}</text>\n", px(kLeft + indent), px(at),
+                       bold ? " font-weight=\"bold\"" : "", xmlText(text));
+    at += kLine;
+  };
+  for (std::size_t i = 0; i < picture.errors.size() && i < kMostErrors; ++i) {
+    const PictureError& error = picture.errors[i];
+    std::string text = error.text;
+    if (error.move < picture.moves.size() && picture.moves[error.move].block < picture.blocks.size())
+      text = fmt::format("{}: {}", picture.blocks[picture.moves[error.move].block].place, text);
+    line(fmt::format("E{}", i + 1), 0, true);
+    at -= kLine;
+    for (const std::string& part : wrapped(text.substr(0, 900), 150))
+      line(part, 36, false);
+  }
+  if (picture.errors.size() > kMostErrors)
+    line(fmt::format("and {} more", picture.errors.size() - kMostErrors), 36, false);
+  return out + "</g>\n";
+}
+
+} // namespace
+
+std::string pictureSvg(const Picture& picture) {
+  Sheet sheet{picture, regionOf(picture), {}, 1};
+  sheet.planes = sectionPlanesOf(picture, sheet.region);
+  const Point3 size = sheet.region.most - sheet.region.least;
+  sheet.scale = std::min(kViews / (size.x + size.y), kHeight / (size.y + size.z));
+  const double s = sheet.scale;
+
+  // XY above XZ, YZ beside it: edges line up as in a drawing. The legend has the fourth corner.
+  const double right = kLeft + std::max(size.x * s, 200.0) + kGap;
+  double legendBottom = 0;
+  const std::string legend = drawLegend(sheet, right - 20, kTop, legendBottom);
+  const double low = std::max(kTop + size.y * s, legendBottom) + kGap;
+  std::string views, clips;
+  for (const std::size_t across : {2u, 1u, 0u}) {
+    const std::array<std::size_t, 2> axes = planeAxes(across);
+    ViewFrame frame{across, across == 0 ? right : kLeft, across == 2 ? kTop : low, s, ""};
+    clips += fmt::format(
+        "<clipPath id=\"clip{}\"><rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\"/></clipPath>\n", across,
+        px(frame.left), px(frame.top), px(coordinate(size, axes[0]) * s), px(coordinate(size, axes[1]) * s));
+    if (!picture.part) {
+      views += drawView(picture, sheet.region, frame, nullptr);
+      continue;
+    }
+    const Section section = sectionOf(*picture.part, across, sheet.planes.at[across], sheet.region);
+    frame.heading =
+        fmt::format("{} at {} {}", section.areas.empty() ? "no material" : "section",
+                    std::string_view("XYZ").substr(across, 1), fixedText(sheet.planes.at[across], 3));
+    views += drawView(picture, sheet.region, frame, &section);
+  }
+  double bottom = low + size.z * s + 56;
+  const std::string errors = drawErrors(picture, bottom);
+  const double width = std::max(right + size.y * s, right - 20 + kLegend) + kRight;
+  const double height = bottom + kBottom - (errors.empty() ? 14 : 0);
+
+  std::string out = fmt::format(
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" viewBox=\"0 0 {0} {1}\" "
+      "font-family=\"Helvetica, Arial, sans-serif\" font-size=\"12.5\">\n<title>{2}</title>\n",
+      px(width), px(height), xmlText(picture.title, 300));
+  out += "<defs>\n<pattern id=\"cut\" width=\"7\" height=\"7\" patternUnits=\"userSpaceOnUse\" "
+         "patternTransform=\"rotate(45)\"><rect width=\"7\" height=\"7\" fill=\"#edf0f3\"/>"
+         "<path d=\"M0 0v7\" stroke=\"#c3cad3\" stroke-width=\"1.6\"/></pattern>\n" +
+         clips + "</defs>\n";
+  out += fmt::format("<rect width=\"{}\" height=\"{}\" fill=\"#f7f8fa\"/>\n", px(width), px(height));
+  out += fmt::format(
+      "<text x=\"{}\" y=\"34\" font-size=\"19\" font-weight=\"bold\" fill=\"#20262d\">{}</text>\n", px(kLeft),
+      xmlText(picture.title, static_cast<std::size_t>((width - 2 * kLeft) / 10)));
+  out += views;
+  out += "<g id=\"legend\">\n" + legend + "</g>\n" + errors + "</svg>\n";
+  return out;
+}
+
+} // namespace dotek::sim

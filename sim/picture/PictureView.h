@@ -1,0 +1,43 @@
+// One of the three views of an SVG: a section of the part, the way, contacts and errors on it.
+#pragma once
+
+#include "sim/picture/PictureRegion.h"
+#include "sim/picture/Sections.h"
+
+#include <string>
+#include <vector>
+
+namespace dotek::sim {
+
+// Where a view stands on the sheet, px.
+struct ViewFrame {
+  std::size_t across = 2; // the axis that is not seen
+  double left = 0, top = 0;
+  double scale = 1;    // px per mm
+  std::string heading; // behind the view's name; XML
+};
+
+// How a kind of move is drawn: told apart by colour and by line, so that grey is enough.
+struct PathStyle {
+  const char* colour;
+  const char* dashes; // "": solid
+  const char* width;  // px
+};
+const PathStyle& pathStyle(PathKind kind);
+
+inline constexpr const char* kErrorColour = "#c8102e";
+inline constexpr const char* kContactColour = "#111111";
+
+// What a picture shows of its lists at most; the legend tells of the rest.
+inline constexpr std::size_t kMostNumbered = 400; // contacts with a number
+inline constexpr std::size_t kMostErrors = 30;
+inline constexpr std::size_t kThinFrom = 5000; // from here on moves below half a px are joined
+
+// A length of 1, 2 or 5 times a power of ten, at most `most`.
+double roundLength(double most);
+
+// The <g> of a view.
+std::string drawView(const Picture& picture, const Region& region, const ViewFrame& frame,
+                     const Section* section);
+
+} // namespace dotek::sim
