@@ -46,6 +46,12 @@ bool fits(const CommandSignature& signature, const Command& c) {
   return true;
 }
 
+bool isOwn(std::string_view family, const Symbol* number) {
+  if (number == nullptr) return false;
+  if (family.starts_with("tool")) return *number == Symbol::host("tool_number");
+  return *number == Symbol::named("CALLBACK_PROC") || *number == Symbol::named("CALLBACK_OP");
+}
+
 bool isWritten(const ArgumentSpec& spec) {
   return spec.kind == ArgumentSpec::Kind::Result || spec.kind == ArgumentSpec::Kind::ReadWrite;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "frontend/gibbs/Ast.h"
+#include "frontend/gibbs/Value.h"
 #include "stdlib/GibbsKeywords.h"
 
 #include <string>
@@ -19,5 +20,8 @@ std::string bareWord(const Expression& e);
 bool fits(const stdlib::CommandSignature& signature, const Command& c);
 // The command writes this argument.
 bool isWritten(const stdlib::ArgumentSpec& spec);
+
+// `number`, the first argument of a command of `family`, is that of the cycle's own tool or operation.
+bool isOwn(std::string_view family, const Symbol* number);
 
 } // namespace dotek::frontend::gibbs

@@ -21,11 +21,11 @@ bool Machine::assumes(std::string_view assumption, SourceRange range) {
   return false;
 }
 
-Value Machine::opaque(State& state, const std::string& symbol, const std::vector<Value>& from,
+Value Machine::opaque(State& state, std::string name, const std::vector<Value>& from,
                       const std::string& reason, bool text) {
-  std::string name = symbol;
-  if (name.empty() || name.size() > kMaxSymbol) name = fmt::format("?{}", ++state.fresh);
-  return opaqueValue(name, hostsOf(from), reason, text);
+  const bool own = name.empty() || name.size() > kMaxSymbol;
+  return opaqueValue(own ? Symbol::fresh(++state.fresh) : Symbol::named(std::move(name)), sourcesOf(from),
+                     reason, text);
 }
 
 std::optional<Value> Machine::computed(ir::Computed result, SourceRange range) {
@@ -282,7 +282,7 @@ std::optional<bool> Machine::compare(State& state, const Value& left, Relation r
     question = {std::min(leftText, rightText) + " is " + std::max(leftText, rightText),
                 relation,
                 0,
-                hostsOf({left, right}),
+                sourcesOf({left, right}),
                 unknown.reason,
                 range};
   } else {

@@ -134,9 +134,9 @@ bool Flattener::takeInputs(State& state, const Dialog* dialog, SourceRange range
       value = lower(state, *control.initial);
       if (!value) return false;
     } else {
-      value =
-          Lowered{nullptr, opaqueValue("dialog " + key, {}, "the dialog's input " + control.variable->text,
-                                       control.variable->isText())};
+      value = Lowered{nullptr, opaqueValue(Symbol::named("dialog " + key), {},
+                                           "the dialog's input " + control.variable->text,
+                                           control.variable->isText())};
     }
     if (!write(state, {*control.variable, nullptr, 0}, *value, range)) return false;
   }
@@ -233,8 +233,7 @@ Flattener::Flow Flattener::unknownCommand(State& state, const Command& c, const 
         (context_.keywords.isConstant(key) || context_.keywords.isSystemVariable(key)))
       continue;
     writes = true;
-    const Value unknown = opaqueValue(fmt::format("?{}:{}", argument->range.file, argument->range.begin), {},
-                                      name, ref->name.isText());
+    const Value unknown = opaqueValue(Symbol::place(argument->range), {}, name, ref->name.isText());
     if (!write(state, *ref, {nullptr, unknown}, argument->range)) return Flow::Failed;
   }
   if (writes) context_.diagnostics.report<diag::UnknownCommandRun>(c.name.range, name);
@@ -288,7 +287,7 @@ Value Flattener::dataValue(State& state, const Command& c, const CommandSignatur
     if (const auto mapped = context_.keywords.hostInput(family, word)) host = std::string(*mapped);
   }
   const auto unknown = [&](const std::string& why) {
-    return opaqueValue(fmt::format("?{}:{}", c.name.range.file, c.name.range.begin), {}, why, text);
+    return opaqueValue(Symbol::place(c.name.range), {}, why, text);
   };
   if (!host || text) return unknown(reason);
   // The number before the parameter says of which tool or operation: only the cycle's own is the host's.
@@ -297,15 +296,13 @@ Value Flattener::dataValue(State& state, const Command& c, const CommandSignatur
     const auto number = lower(state, *c.arguments[0]);
     lenient_ = false;
     failure_.reset();
-    const std::string key = number && !number->number ? canonical(number->fixed) : "";
-    const bool own =
-        family.starts_with("tool") ? key == "tool_number" : key == "CALLBACK_PROC" || key == "CALLBACK_OP";
-    if (!own) {
+    if (!isOwn(family, number && !number->number ? symbolIn(number->fixed) : nullptr)) {
       const std::string which = context_.sources.textUtf8(c.arguments[0]->range);
       return unknown(reason + " of number `" + which + "`");
     }
   }
-  return state.written.contains(*host) ? unknown(reason + " behind its change") : hostValue(*host);
+  return state.written.contains(*host) ? unknown(reason + " behind its change")
+                                       : sourceValue(Symbol::host(*host));
 }
 
 } // namespace dotek::frontend::gibbs

@@ -18,10 +18,10 @@ bool isText(const Lowered& value) {
 
 // The host input that the value is, "" for any other.
 std::string hostOf(const Value& value) {
-  const Unknown* unknown = unknownIn(value);
-  if (unknown == nullptr || unknown->text || unknown->constant != 0 || unknown->terms.size() != 1) return "";
-  const auto& [symbol, factor] = *unknown->terms.begin();
-  return factor == 1 && unknown->hosts.contains(symbol) && stdlib::isHostInput(symbol) ? symbol : "";
+  const Symbol* symbol = symbolIn(value);
+  const bool host =
+      symbol != nullptr && symbol->kind == Symbol::Kind::Host && stdlib::isHostInput(symbol->name);
+  return host ? symbol->name : "";
 }
 
 // Data of the CAM that no program can ask for.
@@ -31,7 +31,7 @@ bool isOpaque(const Lowered& value) {
 
 // Only ever refused where it is used: the place tells it apart from others.
 Value unknownAt(SourceRange range, const std::string& reason, bool text) {
-  return opaqueValue(fmt::format("?{}:{}", range.file, range.begin), {}, reason, text);
+  return opaqueValue(Symbol::place(range), {}, reason, text);
 }
 
 bool isAngleFunction(std::string_view name) {
@@ -309,7 +309,7 @@ std::optional<Lowered> Flattener::read(State& state, const VariableRef& ref) {
       (name.starts_with("CALLBACK_") || context_.keywords.isSystemVariable(name) ||
        context_.keywords.isConstant(name))) {
     return Lowered{nullptr, name.starts_with("NEXT_") ? unknownAt(ref.name.range, name, text)
-                                                      : opaqueValue(name, {}, name, text)};
+                                                      : opaqueValue(Symbol::named(name), {}, name, text)};
   }
   if (!text && !lenient_) return Lowered{ir::variable(variableOf(key, ref.name), ref.name.range)};
   if (lenient_) return Lowered{nullptr, unknownAt(ref.name.range, ref.name.text, text)};

@@ -165,13 +165,9 @@ private:
     const Unknown& unknown = *unknownIn(*value);
     std::vector<Term> sum;
     for (const auto& [symbol, factor] : unknown.terms) {
-      ir::VariableId id = kNoVariable;
-      for (const std::string& host : unknown.hosts) {
-        if (host != symbol || !symbol.starts_with('v')) continue;
-        id = static_cast<ir::VariableId>(std::stoul(symbol.substr(1)));
-      }
-      if (id == kNoVariable || cycle_.variables[id].role == ir::Role::Local || assigned_.contains(id))
-        return nullptr;
+      if (symbol.kind != Symbol::Kind::Variable) return nullptr;
+      const auto id = static_cast<ir::VariableId>(symbol.number);
+      if (cycle_.variables[id].role == ir::Role::Local || assigned_.contains(id)) return nullptr;
       ir::ExpressionPtr term = ir::variable(id, range);
       const double size = factor < 0 ? -factor : factor;
       if (size != 1) term = ir::binary(ir::BinaryOp::Multiply, ir::constant(size, range), term, range);
@@ -195,13 +191,8 @@ private:
       addTerm(sum, false, ir::variable(origin));
       return {sumOf(sum, written->range), ir::Frame::Work, nullptr};
     }
-    const Unknown* unknown = form ? unknownIn(*form) : nullptr;
-    const auto part = unknown == nullptr ? std::map<std::string, double>::const_iterator{}
-                                         : unknown->terms.find(symbolOf(origin));
-    if (unknown == nullptr || part == unknown->terms.end() || part->second != -1)
-      return {written, own, nullptr};
-    const std::string symbol = symbolOf(origin);
-    const auto rest = linear(*form, 1, opaqueValue(symbol, {symbol}, symbol, false), 1);
+    if (!form || factorOf(Symbol::variable(origin), *form) != -1) return {written, own, nullptr};
+    const auto rest = linear(*form, 1, sourceValue(Symbol::variable(origin)), 1);
     const ir::ExpressionPtr work = expressionOf(rest, written->range);
     if (!work) return {written, own, nullptr};
     return {work, ir::Frame::Work, nullptr};
@@ -255,11 +246,7 @@ private:
     std::vector<Term> sum = terms(target);
     addTerm(sum, side < 0, ir::variable(radius, target->range));
     // A variable may hold the radius that cancels.
-    const Unknown* unknown = form ? unknownIn(*form) : nullptr;
-    const auto part = unknown == nullptr ? std::map<std::string, double>::const_iterator{}
-                                         : unknown->terms.find(symbolOf(radius));
-    const double inForm = unknown == nullptr || part == unknown->terms.end() ? 0 : part->second;
-    if (form && inForm != count(sum, radius)) {
+    if (form && factorOf(Symbol::variable(radius), *form) != count(sum, radius)) {
       if (const ir::ExpressionPtr known = expressionOf(form, target->range))
         return coordinate(axis, known, form);
     }
@@ -336,9 +323,9 @@ private:
     const ir::ExpressionPtr& target = move.axes[at];
     if (axis == ir::Axis::Z) return {measure(step, axis, coordinate(axis, target, notes.target[at].value))};
     const auto form = [&](int side) -> std::optional<Value> {
-      const std::string symbol = symbolOf(context_.host("tool_radius"));
+      const Value radius = sourceValue(Symbol::variable(context_.host("tool_radius")));
       if (!notes.target[at].value) return std::nullopt;
-      return linear(*notes.target[at].value, 1, opaqueValue(symbol, {symbol}, symbol, false), side);
+      return linear(*notes.target[at].value, 1, radius, side);
     };
     const Emitted up = measure(step, axis, contact(axis, target, 1, form(1)));
     const Emitted down = measure(step, axis, contact(axis, target, -1, form(-1)));

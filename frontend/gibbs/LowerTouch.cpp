@@ -178,12 +178,9 @@ void TouchNotes::note(WalkState& state, Leg& leg) {
   notes.above = notes.above && way && provenAbove(state.facts, *way);
   notes.below = notes.below && way && provenBelow(state.facts, *way);
   if (!leg.forced && leg.axis != ir::Axis::Z && way && radius_ != kNoVariable) {
-    const std::string symbol = symbolOf(radius_);
-    const Value radius = opaqueValue(symbol, {symbol}, symbol, false);
-    const auto holds = [&](const Value& value) {
-      const Unknown* unknown = unknownIn(value);
-      return unknown != nullptr && unknown->terms.contains(symbol);
-    };
+    const Symbol symbol = Symbol::variable(radius_);
+    const Value radius = sourceValue(symbol);
+    const auto holds = [&](const Value& value) { return factorOf(symbol, value) != 0; };
     for (const int sign : {1, -1}) {
       // The radius stands in the target, and nowhere in the way from the begin to the contact.
       const auto contact = linear(leg.target, 1, radius, sign);

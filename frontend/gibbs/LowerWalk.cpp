@@ -61,10 +61,6 @@ CycleChanges changesAround(const Flat& flat, std::size_t head) {
   return changes;
 }
 
-std::string symbolOf(ir::VariableId variable) {
-  return fmt::format("v{}", variable);
-}
-
 Walk::Walk(const Flat& flat, const ir::Cycle& cycle, const Limits& limits, WalkOptions options)
     : flat_(flat), cycle_(cycle), options_(std::move(options)),
       maxStates_(std::size_t{std::min(limits.paths, 1u << 16)} * kStatesAPath),
@@ -105,9 +101,8 @@ void Walk::start() {
   for (ir::VariableId id = 0; id < cycle_.variables.size(); ++id) {
     if (cycle_.variables[id].role == ir::Role::Local) continue;
     const auto known = options_.values.find(id);
-    const std::string symbol = symbolOf(id);
     first.values[id] =
-        known != options_.values.end() ? Value(known->second) : opaqueValue(symbol, {symbol}, symbol, false);
+        known != options_.values.end() ? Value(known->second) : sourceValue(Symbol::variable(id));
   }
   first.track.at = {Value(0.0), Value(0.0), std::nullopt};
   if (size > 0) waiting_.push_back(std::move(first));
@@ -177,10 +172,10 @@ bool Walk::isNew(WalkState& state) {
 // Facts that no later condition can ask for: one of their symbols is in no value that is read again.
 void Walk::forget(WalkState& state) const {
   if (!options_.forget || state.facts.empty()) return;
-  std::set<std::string> symbols;
+  std::set<Symbol> symbols;
   const auto add = [&](const std::optional<Value>& value) {
     const Unknown* unknown = value ? unknownIn(*value) : nullptr;
-    if (unknown != nullptr) symbols.insert(unknown->hosts.begin(), unknown->hosts.end());
+    if (unknown != nullptr) symbols.insert(unknown->sources.begin(), unknown->sources.end());
   };
   for (ir::VariableId id = 0; id < state.values.size(); ++id)
     if (live(state.at, id)) add(state.values[id]);
@@ -248,44 +243,44 @@ void Walk::compareVisit(Head& head, const WalkState& state) const {
 
 // The place was visited so often that what changes between two visits counts as unknown.
 void Walk::widen(WalkState& state, const Head& head) {
-  const std::string prefix = fmt::format("w{}:", state.at);
+  const auto isOfThisPlace = [at = state.at](const Symbol& symbol) {
+    return symbol.kind == Symbol::Kind::Widened && symbol.number == at;
+  };
   std::size_t made = 0;
   // An unknown of an earlier visit is not the one of this visit.
   const auto stale = [&](const std::optional<Value>& value) {
     const Unknown* unknown = value ? unknownIn(*value) : nullptr;
-    return unknown != nullptr &&
-           std::any_of(unknown->hosts.begin(), unknown->hosts.end(),
-                       [&](const std::string& symbol) { return symbol.starts_with(prefix); });
+    return unknown != nullptr && std::any_of(unknown->sources.begin(), unknown->sources.end(), isOfThisPlace);
   };
-  const auto fresh = [&](const std::string& name) {
-    const std::string symbol = prefix + name;
+  // Parts: the variables, the axes, the legs.
+  const auto fresh = [&](std::size_t part) {
     ++made;
-    return opaqueValue(symbol, {symbol}, symbol, false);
+    return sourceValue(Symbol::widened(state.at, part));
   };
+  const std::size_t axes = state.values.size();
   for (ir::VariableId id = 0; id < state.values.size(); ++id) {
     if (state.values[id] &&
         ((head.varies[id] && head.changes.variables.contains(id)) || stale(state.values[id])))
-      state.values[id] = fresh(std::to_string(id));
+      state.values[id] = fresh(id);
   }
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const bool varies = head.changes.axes[axis] && head.varies[state.values.size() + axis];
+    const bool varies = head.changes.axes[axis] && head.varies[axes + axis];
     if (state.track.at[axis] && (varies || stale(state.track.at[axis])))
-      state.track.at[axis] = fresh(fmt::format("at{}", axis));
+      state.track.at[axis] = fresh(axes + axis);
   }
-  int number = 0;
+  std::size_t part = axes + 3;
   for (auto* leg : {&state.track.before, &state.track.last}) {
-    ++number;
+    ++part;
     if (!*leg) continue;
     const std::size_t axis = ir::indexOf((*leg)->axis);
-    const bool varies = head.changes.axes[axis] && head.varies[state.values.size() + axis];
+    const bool varies = head.changes.axes[axis] && head.varies[axes + axis];
     if (!varies && !stale((*leg)->begin) && !stale((*leg)->target)) continue;
     (*leg)->begin.reset();
-    (*leg)->target = fresh(fmt::format("leg{}", number));
+    (*leg)->target = fresh(part);
   }
   if (made == 0) return;
   std::erase_if(state.facts, [&](const auto& fact) {
-    return std::any_of(fact.second.symbols.begin(), fact.second.symbols.end(),
-                       [&](const std::string& symbol) { return symbol.starts_with(prefix); });
+    return std::any_of(fact.second.symbols.begin(), fact.second.symbols.end(), isOfThisPlace);
   });
 }
 

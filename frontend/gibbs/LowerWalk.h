@@ -3,8 +3,8 @@
 #pragma once
 
 #include "frontend/gibbs/LowerFlat.h"
-#include "frontend/gibbs/RunProgram.h"
-#include "frontend/gibbs/RunValue.h"
+#include "frontend/gibbs/Program.h"
+#include "frontend/gibbs/Value.h"
 #include "ir/Arithmetic.h"
 #include "support/Limits.h"
 
@@ -23,7 +23,7 @@ namespace dotek::frontend::gibbs {
 struct Fact {
   Range range;
   std::set<std::pair<Relation, double>> learnt;
-  std::set<std::string> symbols;
+  std::set<Symbol> symbols;
 };
 using Facts = std::map<std::string, Fact>;
 
@@ -167,8 +167,6 @@ private:
 std::vector<std::size_t> followers(const Flat& flat, std::size_t at);
 CycleChanges changesAround(const Flat& flat, std::size_t head);
 
-// Symbol of a parameter or host input as linear forms name it.
-std::string symbolOf(ir::VariableId variable);
 bool provenAbove(const Facts& facts, const Value& value); // value > 0
 bool provenBelow(const Facts& facts, const Value& value);
 bool provenZero(const Facts& facts, const Value& value);

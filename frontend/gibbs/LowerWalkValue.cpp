@@ -71,14 +71,15 @@ bool provenNotBelow(const Facts& facts, const Value& value) {
 
 bool isWidened(const Value& value) {
   const Unknown* unknown = unknownIn(value);
-  return unknown != nullptr && std::any_of(unknown->hosts.begin(), unknown->hosts.end(),
-                                           [](const std::string& symbol) { return symbol.starts_with('w'); });
+  return unknown != nullptr &&
+         std::any_of(unknown->sources.begin(), unknown->sources.end(),
+                     [](const Symbol& symbol) { return symbol.kind == Symbol::Kind::Widened; });
 }
 
 // Equal texts are equal values.
 Value Walk::opaque(const std::string& text, const std::vector<Value>& from) {
   const std::size_t number = interned_.emplace(text, interned_.size()).first->second;
-  return opaqueValue(fmt::format("?{}", number), hostsOf(from), "", false);
+  return opaqueValue(Symbol::derived(number), sourcesOf(from), "", false);
 }
 
 std::optional<Value> Walk::read(WalkState& state, ir::VariableId variable, SourceRange range) {
@@ -231,7 +232,7 @@ void Walk::learn(WalkState& state, const Question& question, Relation relation) 
     return sideOf(known.first) != 0 && sideOf(known.first) == sideOf(relation);
   });
   fact.learnt.insert({relation, question.bound});
-  fact.symbols = question.hosts;
+  fact.symbols = question.sources;
 }
 
 } // namespace dotek::frontend::gibbs

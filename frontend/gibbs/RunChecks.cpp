@@ -66,8 +66,9 @@ private:
   // Both answers to the open question. false: the waiting paths would take too much memory.
   bool follow(State state) {
     const Question& question = machine_.question();
-    hosts_.insert(question.hosts.begin(), question.hosts.end());
-    if (question.hosts.empty()) open_.push_back({question.range, question.reason});
+    for (const Symbol& source : question.sources)
+      hosts_.insert(source.name);
+    if (question.sources.empty()) open_.push_back({question.range, question.reason});
     State other = state;
     state.learnt[question.key].restrict(question.relation, question.bound);
     other.learnt[question.key].restrict(opposite(question.relation), question.bound);

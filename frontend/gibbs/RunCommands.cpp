@@ -135,7 +135,7 @@ std::optional<double> Machine::coordinate(State& state, const Expression& e) {
   if (!value) return std::nullopt;
   if (const double* number = std::get_if<double>(&*value)) return *number;
   const Unknown& unknown = *unknownIn(*value);
-  if (unknown.hosts.empty()) {
+  if (unknown.sources.empty()) {
     fault<diag::UnknownValue>(e.range, false, unknownText(unknown));
   } else {
     fault<diag::HostInputUnknown>(e.range, false, unknownText(unknown));
@@ -260,18 +260,17 @@ Value Machine::dataValue(State& state, const Command& c, const CommandSignature&
     const auto number = evaluate(state, *c.arguments[0]);
     lenient_ = false;
     fault_.reset();
-    const std::string key = number ? canonical(*number) : "";
+    const Symbol* symbol = number ? symbolIn(*number) : nullptr;
     const auto toolNumber = context_.hosts.find("tool_number");
-    const bool own = family.starts_with("tool")
-                         ? key == "tool_number" || (toolNumber != context_.hosts.end() &&
-                                                    !state.written.contains("tool_number") && number &&
-                                                    *number == Value(toolNumber->second))
-                         : key == "CALLBACK_PROC" || key == "CALLBACK_OP";
-    if (!own) return opaque(state, "", {}, reason + " of number " + (key.empty() ? "?" : key), false);
+    const bool known = toolNumber != context_.hosts.end() && !state.written.contains("tool_number") &&
+                       number && *number == Value(toolNumber->second);
+    const bool own = isOwn(family, symbol) || (family.starts_with("tool") && known);
+    if (!own)
+      return opaque(state, "", {}, reason + " of number " + (number ? canonical(*number) : "?"), false);
   }
   if (const auto written = state.written.find(*host); written != state.written.end()) return written->second;
   if (const auto known = context_.hosts.find(*host); known != context_.hosts.end()) return known->second;
-  return hostValue(*host);
+  return sourceValue(Symbol::host(*host));
 }
 
 } // namespace dotek::frontend::gibbs

@@ -2,9 +2,9 @@
 // something unknown.
 #pragma once
 
+#include "frontend/gibbs/Program.h"
 #include "frontend/gibbs/Run.h"
-#include "frontend/gibbs/RunProgram.h"
-#include "frontend/gibbs/RunValue.h"
+#include "frontend/gibbs/Value.h"
 #include "ir/Arithmetic.h"
 
 #include <map>
@@ -149,8 +149,9 @@ private:
   std::optional<bool> compare(State& state, const Value& left, Relation relation, const Value& right,
                               SourceRange range);
   bool assumes(std::string_view assumption, SourceRange range);
-  Value opaque(State& state, const std::string& symbol, const std::vector<Value>& from,
-               const std::string& reason, bool text);
+  // `name`: what equal values share; "": this value is its own.
+  Value opaque(State& state, std::string name, const std::vector<Value>& from, const std::string& reason,
+               bool text);
   std::optional<Value> computed(ir::Computed result, SourceRange range);
 
   // ---- EvaluateFunctions.cpp

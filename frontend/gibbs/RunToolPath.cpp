@@ -7,10 +7,11 @@ namespace dotek::frontend::gibbs {
 namespace {
 
 void reportQuestion(Machine& machine, const Question& question) {
-  if (question.hosts.empty()) {
+  if (question.sources.empty()) {
     machine.reportOnce(makeDiagnostic<diag::UnknownValue>(question.range, question.reason));
   } else {
-    machine.reportOnce(makeDiagnostic<diag::HostInputUnknown>(question.range, *question.hosts.begin()));
+    machine.reportOnce(
+        makeDiagnostic<diag::HostInputUnknown>(question.range, question.sources.begin()->name));
   }
 }
 

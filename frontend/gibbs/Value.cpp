@@ -1,9 +1,10 @@
-#include "frontend/gibbs/RunValue.h"
+#include "frontend/gibbs/Value.h"
 
 #include "support/Decimal.h"
 
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
 
 namespace dotek::frontend::gibbs {
 namespace {
@@ -11,7 +12,7 @@ namespace {
 constexpr std::size_t kMaxTerms = 8;
 
 // terms += factor * value's terms; the constant part is returned.
-double addTerms(std::map<std::string, double>& terms, const Value& value, double factor) {
+double addTerms(std::map<Symbol, double>& terms, const Value& value, double factor) {
   if (const double* number = std::get_if<double>(&value)) return *number * factor;
   const Unknown* unknown = unknownIn(value);
   if (unknown == nullptr) return 0;
@@ -23,12 +24,24 @@ double addTerms(std::map<std::string, double>& terms, const Value& value, double
   return unknown->constant * factor;
 }
 
-std::string termsText(const std::map<std::string, double>& terms, double scale) {
+void append(std::string& text, const Symbol& symbol) {
+  switch (symbol.kind) {
+  case Symbol::Kind::Fresh: text += fmt::format("?{}", symbol.number); return;
+  case Symbol::Kind::Place: text += fmt::format("?{}:{}", symbol.number, symbol.part); return;
+  case Symbol::Kind::Derived: text += fmt::format("={}", symbol.number); return;
+  case Symbol::Kind::Named:
+  case Symbol::Kind::Host: text += symbol.name; return;
+  case Symbol::Kind::Variable: text += fmt::format("v{}", symbol.number); return;
+  case Symbol::Kind::Widened: text += fmt::format("w{}:{}", symbol.number, symbol.part); return;
+  }
+}
+
+std::string termsText(const std::map<Symbol, double>& terms, double scale) {
   std::string text;
   for (const auto& [symbol, factor] : terms) {
     if (!text.empty()) text += " + ";
     if (factor / scale != 1) text += numberText(factor / scale) + "*";
-    text += symbol;
+    append(text, symbol);
   }
   return text;
 }
@@ -55,13 +68,27 @@ bool isTextValue(const Value& value) {
   return unknown != nullptr ? unknown->text : std::holds_alternative<std::string>(value);
 }
 
-Value hostValue(const std::string& host) {
-  return std::make_shared<const Unknown>(Unknown{{{host, 1.0}}, 0, {host}, host, false});
+Value sourceValue(const Symbol& symbol) {
+  return opaqueValue(symbol, {symbol}, symbol.name, false);
 }
 
-Value opaqueValue(const std::string& symbol, std::set<std::string> hosts, std::string reason, bool text) {
+Value opaqueValue(const Symbol& symbol, std::set<Symbol> sources, std::string reason, bool text) {
   return std::make_shared<const Unknown>(
-      Unknown{{{symbol, 1.0}}, 0, std::move(hosts), std::move(reason), text});
+      Unknown{{{symbol, 1.0}}, 0, std::move(sources), std::move(reason), text});
+}
+
+const Symbol* symbolIn(const Value& value) {
+  const Unknown* unknown = unknownIn(value);
+  const bool alone = unknown != nullptr && !unknown->text && unknown->constant == 0 &&
+                     unknown->terms.size() == 1 && unknown->terms.begin()->second == 1;
+  return alone ? &unknown->terms.begin()->first : nullptr;
+}
+
+double factorOf(const Symbol& symbol, const Value& value) {
+  const Unknown* unknown = unknownIn(value);
+  if (unknown == nullptr) return 0;
+  const auto term = unknown->terms.find(symbol);
+  return term == unknown->terms.end() ? 0 : term->second;
 }
 
 std::string canonical(const Value& value) {
@@ -83,25 +110,25 @@ std::optional<Value> linear(const Value& a, double factorA, const Value& b, doub
   }
   if (sum.terms.empty()) return Value(sum.constant == 0 ? 0.0 : sum.constant);
   if (sum.terms.size() > kMaxTerms) return std::nullopt;
-  sum.hosts = hostsOf({a, b});
+  sum.sources = sourcesOf({a, b});
   for (const Value* part : {&a, &b}) {
     const Unknown* unknown = unknownIn(*part);
-    if (unknown != nullptr && (sum.reason.empty() || sum.hosts.empty())) sum.reason = unknown->reason;
+    if (unknown != nullptr && (sum.reason.empty() || sum.sources.empty())) sum.reason = unknown->reason;
   }
   return Value(std::make_shared<const Unknown>(std::move(sum)));
 }
 
-std::set<std::string> hostsOf(const std::vector<Value>& values) {
-  std::set<std::string> hosts;
+std::set<Symbol> sourcesOf(const std::vector<Value>& values) {
+  std::set<Symbol> sources;
   for (const Value& value : values) {
     const Unknown* unknown = unknownIn(value);
-    if (unknown != nullptr) hosts.insert(unknown->hosts.begin(), unknown->hosts.end());
+    if (unknown != nullptr) sources.insert(unknown->sources.begin(), unknown->sources.end());
   }
-  return hosts;
+  return sources;
 }
 
-std::string unknownText(const Unknown& unknown) {
-  return unknown.hosts.empty() ? unknown.reason : *unknown.hosts.begin();
+const std::string& unknownText(const Unknown& unknown) {
+  return unknown.sources.empty() ? unknown.reason : unknown.sources.begin()->name;
 }
 
 Relation opposite(Relation relation) {
@@ -154,7 +181,7 @@ Question questionOf(const Unknown& difference, Relation relation, SourceRange ra
   return {termsText(difference.terms, scale),
           scale < 0 ? mirrored(relation) : relation,
           bound,
-          difference.hosts,
+          difference.sources,
           difference.reason,
           range};
 }

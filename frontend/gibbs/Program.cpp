@@ -1,4 +1,4 @@
-#include "frontend/gibbs/RunProgram.h"
+#include "frontend/gibbs/Program.h"
 
 #include <algorithm>
 

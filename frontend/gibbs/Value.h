@@ -1,0 +1,106 @@
+// Values of a running macro. What the host alone knows is carried as a linear form over named unknowns, so
+// that `r - 1 < 4` and `r >= 5` are seen to exclude each other.
+#pragma once
+
+#include "frontend/gibbs/Ast.h"
+
+#include <compare>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace dotek::frontend::gibbs {
+
+// A quantity that is not known: equal symbols are the same quantity. Forms list them in the order of `kind`,
+// `number`, `part` and `name`.
+struct Symbol {
+  enum class Kind : std::uint8_t {
+    Fresh,    // the `number`-th that has no name
+    Place,    // what the text at byte `part` of file `number` gives
+    Derived,  // the `number`-th expression over others that is no linear form
+    Named,    // what only the CAM knows, or a function of it; `name` says which
+    Host,     // the host input `name`
+    Variable, // the parameter or host input that is the variable `number` of an IR cycle
+    Widened,  // what a loop through step `number` has changed too often to be followed
+  };
+  Kind kind = Kind::Named;
+  std::size_t number = 0;
+  std::size_t part = 0;
+  std::string name;
+
+  static Symbol fresh(std::size_t number) { return {Kind::Fresh, number, 0, {}}; }
+  static Symbol place(SourceRange range) { return {Kind::Place, range.file, range.begin, {}}; }
+  static Symbol derived(std::size_t number) { return {Kind::Derived, number, 0, {}}; }
+  static Symbol named(std::string name) { return {Kind::Named, 0, 0, std::move(name)}; }
+  static Symbol host(std::string name) { return {Kind::Host, 0, 0, std::move(name)}; }
+  static Symbol variable(std::size_t id) { return {Kind::Variable, id, 0, {}}; }
+  static Symbol widened(std::size_t step, std::size_t part) { return {Kind::Widened, step, part, {}}; }
+
+  auto operator<=>(const Symbol&) const = default;
+};
+
+// constant + sum of factor * symbol.
+struct Unknown {
+  std::map<Symbol, double> terms; // never empty, factors never 0
+  double constant = 0;
+  std::set<Symbol> sources; // host inputs and variables that it is computed from
+  std::string reason;       // for messages, where `sources` is empty: GET_TOOL_DATA MTOOL_LENGTH
+  bool text = false;        // a text: one term with factor 1
+};
+using UnknownPtr = std::shared_ptr<const Unknown>;
+
+using Value = std::variant<double, std::string, UnknownPtr>;
+
+const Unknown* unknownIn(const Value& value);
+bool isTextValue(const Value& value);
+// A source of its own: a host input or a variable.
+Value sourceValue(const Symbol& symbol);
+Value opaqueValue(const Symbol& symbol, std::set<Symbol> sources, std::string reason, bool text);
+// The symbol that the value is; nullptr for a text and for any other form.
+const Symbol* symbolIn(const Value& value);
+// The factor of the symbol in the form; 0 where it has none.
+double factorOf(const Symbol& symbol, const Value& value);
+// Canonical text: equal texts mean equal values.
+std::string canonical(const Value& value);
+// a * factorA + b * factorB with at least one unknown; nullopt where it is no short linear form.
+std::optional<Value> linear(const Value& a, double factorA, const Value& b, double factorB);
+// Sources of all of them.
+std::set<Symbol> sourcesOf(const std::vector<Value>& values);
+// What a message calls the unknown parts: "tool_radius" or the reason.
+const std::string& unknownText(const Unknown& unknown);
+
+Relation opposite(Relation relation);
+bool holds(double left, Relation relation, double right);
+
+// What a path has learnt of one unknown quantity.
+class Range {
+public:
+  // Keeps the part where the quantity stands in `relation` to `bound`; false: nothing is left.
+  bool restrict(Relation relation, double bound);
+  bool canBe(Relation relation, double bound) const { return Range(*this).restrict(relation, bound); }
+
+private:
+  std::optional<double> low_, high_;
+  bool lowOpen_ = false, highOpen_ = false;
+  std::vector<double> excluded_;
+};
+
+// A comparison that hangs on an unknown: `key` stands in `relation` to `bound`, or does not.
+struct Question {
+  std::string key;
+  Relation relation = Relation::Equal;
+  double bound = 0;
+  std::set<Symbol> sources;
+  std::string reason;
+  SourceRange range;
+};
+
+// `difference` relation 0 as a question of one normalised quantity.
+Question questionOf(const Unknown& difference, Relation relation, SourceRange range);
+
+} // namespace dotek::frontend::gibbs
