@@ -1,6 +1,5 @@
 #include "frontend/gibbs/LowerFlatten.h"
 
-#include "frontend/gibbs/Assumptions.h"
 #include "frontend/gibbs/LowerTerms.h"
 #include "support/messages/Gibbs.h"
 
@@ -16,20 +15,15 @@ constexpr std::size_t kMaxKeyBytes = 32u << 20;
 } // namespace
 
 Flattener::Flattener(ir::Cycle& cycle, LowerContext& context, Purpose purpose)
-    : cycle_(cycle), context_(context), purpose_(purpose),
-      compiling_{context.sources, context.keywords,  context.limits, context.diagnostics, {}, {}, {},
-                 context.load,    context.loadDialog} {
+    : Interpreter(context, purpose), cycle_(cycle), context_(context) {
   for (ir::VariableId id = 0; id < cycle.variables.size(); ++id) {
     const std::string key = foldCase(cycle.variables[id].name);
-    if (cycle.variables[id].role == ir::Role::Parameter) fields_.emplace(key, id);
+    if (cycle.variables[id].role == ir::Role::Parameter) {
+      fields_.emplace(key, id);
+      around_.fields.insert(key);
+    }
     names_.insert(key);
   }
-}
-
-const Program& Flattener::programOf(const Macro& macro) {
-  auto& program = programs_[&macro];
-  if (!program) program = std::make_unique<const Program>(compileProgram(macro, compiling_));
-  return *program;
 }
 
 Flat Flattener::flatten(const Macro& macro) {
@@ -52,16 +46,19 @@ std::string Flattener::keyOf(const State& state) const {
   std::string key;
   for (const Frame& frame : state.frames) {
     key += fmt::format("{}@{}", frame.instance, frame.at);
-    for (const std::string& name : frame.locals)
-      key += "," + name;
-    for (const LoopAt& loop : frame.loops)
+    for (const auto& [name, value] : frame.locals)
+      key += "," + name + (value ? "=" + canonical(*value) : "");
+    for (const LoopRun& loop : frame.loops)
       key += fmt::format(" {}/{}", loop.index, loop.instance);
     if (frame.onError != nullptr) key += "!" + foldCase(frame.onError->text);
     key += ';';
   }
-  for (const auto& [name, value] : state.fixed)
+  for (const auto& [name, value] : state.globals)
     key += name + "=" + canonical(value) + ";";
-  for (const auto* names : {&state.written, &state.dialogs, &state.shadowed, &state.changed}) {
+  for (const auto& [host, value] : state.written)
+    key += host + ",";
+  key += ';';
+  for (const auto* names : {&state.dialogs, &state.shadowed, &state.changed}) {
     for (const std::string& name : *names)
       key += name + ",";
     key += ';';
@@ -121,7 +118,7 @@ void Flattener::follow(State state) {
     runningLoops_.clear();
     for (const Frame& frame : state.frames) {
       order.push_back(frame.at);
-      for (const LoopAt& loop : frame.loops)
+      for (const LoopRun& loop : frame.loops)
         runningLoops_.push_back(loop.instance);
     }
     waiting_.erase({std::move(order), id});
@@ -133,19 +130,19 @@ void Flattener::follow(State state) {
                   FlatRefuse{makeDiagnostic<diag::CannotTranslate>(
                       instruction.range, "the macro and what it calls become too much code")});
     }
-    failure_.reset();
     switch (step(state, instruction)) {
     case Flow::Next: ++state.frames.back().at; break;
     case Flow::Jumped: break;
-    case Flow::Ended: return;
-    case Flow::Failed: return emit(instruction.range, FlatRefuse{std::move(*failure_)});
+    case Flow::Failed: return emit(instruction.range, FlatRefuse{std::move(fault_->diagnostic)});
+    case Flow::Ended:
+    case Flow::Stopped:
+    case Flow::DialogAgain:
+    case Flow::NeedsUser: return;
     }
   }
 }
 
 void Flattener::leaveFrame(State& state) {
-  const std::string prefix = fmt::format("#{}:", state.frames.back().instance);
-  std::erase_if(state.fixed, [&](const auto& entry) { return entry.first.starts_with(prefix); });
   state.frames.pop_back();
   ++state.frames.back().at;
 }
@@ -153,11 +150,11 @@ void Flattener::leaveFrame(State& state) {
 // Fields that were assigned where no dialog overwrites them.
 void Flattener::ended(State& state) {
   for (const std::string& field : state.shadowed) {
-    const auto fixed = state.fixed.find("~" + field);
+    const auto known = state.globals.find("~" + field);
     const ir::VariableId target = fields_.at(field);
     const Name name{{}, cycle_.variables[target].name};
-    const auto value = fixed == state.fixed.end() ? ir::variable(variableOf("~" + field, name))
-                                                  : number({nullptr, fixed->second}, {}).value_or(nullptr);
+    const auto value = known == state.globals.end() ? ir::variable(variableOf("~" + field, name))
+                                                    : number(known->second, {}).value_or(nullptr);
     if (value) emit({}, FlatAssign{target, value});
   }
   emit({}, FlatReturn{});
@@ -183,79 +180,27 @@ void Flattener::checkLoopEnds() {
     const bool changes = std::any_of(loop.bounds.begin(), loop.bounds.end(),
                                      [&](ir::VariableId id) { return loop.changed.contains(id); });
     if (!changes) continue;
-    failure_.reset();
     assumes("for-end-at-entry", loop.endRange);
-    flat_.steps.front() = {loop.endRange, FlatRefuse{std::move(*failure_)}};
+    flat_.steps.front() = {loop.endRange, FlatRefuse{std::move(fault_->diagnostic)}};
     return;
   }
 }
 
 // ---- instructions ---------------------------------------------------------------------------------------
 
-Flattener::Flow Flattener::step(State& state, const Instruction& instruction) {
-  const SourceRange range = instruction.range;
-  if (const auto* s = std::get_if<AssignStep>(&instruction.step)) {
-    const auto value = lower(state, *s->assignment->value);
-    return value && write(state, s->assignment->target, *value, range) ? Flow::Next : Flow::Failed;
-  }
-  if (const auto* s = std::get_if<BranchStep>(&instruction.step)) return branch(state, *s, range);
-  if (const auto* s = std::get_if<JumpStep>(&instruction.step)) return jump(state, s->target, range);
-  if (const auto* s = std::get_if<ForStep>(&instruction.step)) return loop(state, *s, range);
-  if (const auto* s = std::get_if<NextStep>(&instruction.step)) return next(state, *s, range);
-  if (const auto* s = std::get_if<GotoStep>(&instruction.step)) return jumpTo(state, *s->label, range);
-  if (const auto* s = std::get_if<CallStep>(&instruction.step)) return call(state, *s, range);
-  if (const auto* s = std::get_if<DeclareStep>(&instruction.step)) return declare(state, *s->declaration);
-  if (const auto* s = std::get_if<CommandStep>(&instruction.step)) return command(state, *s->command, range);
-  if (const auto* s = std::get_if<OnErrorStep>(&instruction.step)) {
-    state.frames.back().onError = s->label;
-    return Flow::Next;
-  }
-  if (const auto* s = std::get_if<UnverifiedStep>(&instruction.step))
-    return assumes(s->assumption, range) ? Flow::Next : Flow::Failed;
-  if (const auto* s = std::get_if<ArgsStep>(&instruction.step)) {
-    fail<diag::ArgsMismatch>(range, 0, s->args->names.size());
-    return Flow::Failed;
-  }
-  if (const auto* s = std::get_if<RefuseStep>(&instruction.step)) fail<diag::CannotTranslate>(range, s->why);
-  return Flow::Failed;
+void Flattener::refuse(SourceRange range, std::string_view why) {
+  fault<diag::CannotTranslate>(range, false, why);
 }
 
-Flattener::Flow Flattener::branch(State& state, const BranchStep& s, SourceRange range) {
-  const auto holds = condition(state, *s.condition);
-  if (!holds) return Flow::Failed;
-  State otherwise = state;
-  otherwise.frames.back().at = s.otherwise;
-  if (const auto* truth = std::get_if<ir::Truth>(&(*holds)->node)) {
-    if (truth->value) return Flow::Next;
-    state = std::move(otherwise);
-    return Flow::Jumped;
-  }
-  emit(range, FlatBranch{ir::negate(*holds), later(std::move(otherwise))});
+Interpreter::Flow Flattener::fork(State& state, const ir::ConditionPtr& condition, std::size_t otherwise,
+                                  SourceRange range) {
+  State other = state;
+  other.frames.back().at = otherwise;
+  emit(range, FlatBranch{ir::negate(condition), later(std::move(other))});
   return Flow::Next;
 }
 
-Flattener::Flow Flattener::jump(State& state, std::size_t target, SourceRange range) {
-  Frame& frame = state.frames.back();
-  const Program& program = *frame.program;
-  std::vector<std::size_t> around; // loops around the target
-  if (target < program.instructions.size()) {
-    for (std::size_t loop = program.instructions[target].loop; loop != kNowhere;
-         loop = program.loops[loop].parent) {
-      around.push_back(loop);
-    }
-  }
-  std::reverse(around.begin(), around.end());
-  std::size_t running = 0;
-  while (running < std::min(around.size(), frame.loops.size()) &&
-         frame.loops[running].index == around[running]) {
-    ++running;
-  }
-  if (running < around.size() && !assumes("goto-into-for", range)) return Flow::Failed;
-  frame.loops.resize(running);
-  for (std::size_t i = running; i < around.size(); ++i) {
-    if (!enterLoop(state, around[i])) return Flow::Failed;
-  }
-  state.frames.back().at = target;
+Interpreter::Flow Flattener::arrive(State& state, SourceRange range) {
   if (showsDialogAgain(state)) {
     emit(range, FlatEnd{true});
   } else {
@@ -264,61 +209,38 @@ Flattener::Flow Flattener::jump(State& state, std::size_t target, SourceRange ra
   return Flow::Ended;
 }
 
-Flattener::Flow Flattener::jumpTo(State& state, const Name& label, SourceRange range) {
-  const auto& labels = state.frames.back().program->labels;
-  const auto found = labels.find(foldCase(label.text));
-  if (found == labels.end()) {
-    fail<diag::CannotTranslate>(label.range, "no label of this name stands in the macro");
-    return Flow::Failed;
-  }
-  if (found->second == kNowhere) {
-    fail<diag::CannotTranslate>(label.range, "the label stands twice, and where the jump leads is not known");
-    return Flow::Failed;
-  }
-  return jump(state, found->second, range);
+// The next instruction shows a dialog that was shown before.
+bool Flattener::showsDialogAgain(State& state) {
+  const Frame& frame = state.frames.back();
+  if (purpose_ != Purpose::Checks || frame.at >= frame.program->instructions.size()) return false;
+  const Instruction& instruction = frame.program->instructions[frame.at];
+  const auto* step = std::get_if<CommandStep>(&instruction.step);
+  if (step == nullptr || foldCase(step->command->name.text) != "DIALOG") return false;
+  const auto name = dialogName(state, *step->command, instruction.range, nullptr);
+  fault_.reset();
+  return name && state.dialogs.contains(*name);
 }
 
 // ---- loops ----------------------------------------------------------------------------------------------
 
-Flattener::Flow Flattener::loop(State& state, const ForStep& s, SourceRange range) {
-  const Loop& loop = state.frames.back().program->loops[s.index];
-  if (loop.next == kNowhere) {
-    fail<diag::CannotTranslate>(range, "the FOR has no NEXT");
-    return Flow::Failed;
-  }
-  const auto from = lowerNumber(state, *s.loop->from);
-  if (!from || !enterLoop(state, s.index)) return Flow::Failed;
-  return write(state, {s.loop->variable, nullptr, 0}, {*from, 0.0}, range) ? Flow::Next : Flow::Failed;
-}
-
-bool Flattener::enterLoop(State& state, std::size_t index) {
+bool Flattener::openLoop(State& state, std::size_t index, const Value& end, double step) {
   Frame& frame = state.frames.back();
   const For& loop = *frame.program->loops[index].statement;
-  const auto end = lowerNumber(state, *loop.to);
-  if (!end) return false;
+  const auto bound = number(end, loop.to->range);
+  if (!bound) return false;
   LoopInstance made;
   made.endRange = loop.to->range;
-  if (loop.step) {
-    const auto given = lowerNumber(state, *loop.step);
-    if (!given) return false;
-    const double* size = ir::constantValue(*given);
-    if (size == nullptr) {
-      fail<diag::CannotTranslate>(loop.step->range,
-                                  "the STEP is no constant, so which way the loop counts is not known");
-      return false;
-    }
-    made.step = *size;
-    if (made.step < 0 && !assumes("negative-step", loop.step->range)) return false;
-  }
-  const double* constant = ir::constantValue(*end);
+  made.step = step;
+  const double* constant = ir::constantValue(*bound);
   std::string key = fmt::format("{}:{}", frame.instance, index);
-  if (constant != nullptr) key += fmt::format("={}", *constant);
-  made.end =
-      constant != nullptr ? *end : ir::variable(freshLocal("end " + key, "end_of_" + loop.variable.text));
-  if (constant == nullptr) {
-    collectVariables(*end, made.bounds);
-    const auto* use = std::get_if<ir::VariableUse>(&made.end->node);
-    emit(loop.to->range, FlatAssign{use->variable, *end});
+  if (constant != nullptr) {
+    key += fmt::format("={}", *constant);
+    made.end = *bound;
+  } else {
+    const ir::VariableId variable = freshLocal("end " + key, "end_of_" + loop.variable.text);
+    made.end = ir::variable(variable);
+    collectVariables(*bound, made.bounds);
+    emit(loop.to->range, FlatAssign{variable, *bound});
   }
   const auto [found, isNew] = loopIds_.emplace(std::move(key), loops_.size());
   if (isNew) {
@@ -326,111 +248,72 @@ bool Flattener::enterLoop(State& state, std::size_t index) {
   } else {
     loops_[found->second].bounds.insert(made.bounds.begin(), made.bounds.end());
   }
-  state.frames.back().loops.push_back({index, found->second});
+  frame.loops.push_back({index, 0.0, step, found->second});
   runningLoops_.push_back(found->second);
   return true;
 }
 
-Flattener::Flow Flattener::next(State& state, const NextStep& s, SourceRange range) {
-  Frame& frame = state.frames.back();
-  const Loop& loop = frame.program->loops[s.index];
-  if (frame.loops.empty() || frame.loops.back().index != s.index) {
-    fail<diag::CannotTranslate>(range, "the NEXT is reached without its FOR");
-    return Flow::Failed;
-  }
-  const LoopInstance run = loops_[frame.loops.back().instance];
-  const VariableRef variable{loop.statement->variable, nullptr, 0};
-  const auto before = read(state, variable);
-  if (!before) return Flow::Failed;
-  const auto counter = number(*before, range);
+Interpreter::Flow Flattener::advance(State& state, const Loop& loop, const VariableRef& variable,
+                                     const Value& before, SourceRange range) {
+  const LoopInstance run = loops_[state.frames.back().loops.back().instance];
+  const auto counter = number(before, range);
   if (!counter) return Flow::Failed;
-  if (!write(state, variable,
-             {ir::binary(ir::BinaryOp::Add, *counter, ir::constant(run.step, range), range), 0.0}, range))
-    return Flow::Failed;
+  const ir::ExpressionPtr sum = ir::binary(ir::BinaryOp::Add, *counter, ir::constant(run.step, range), range);
+  if (!write(state, variable, sum, range)) return Flow::Failed;
   const auto after = read(state, variable);
-  if (!after || !after->number) return Flow::Failed;
+  const auto now = after ? number(*after, range) : std::nullopt;
+  if (!now) return Flow::Failed;
   State body = state;
   body.frames.back().at = loop.body;
   const ir::Relation goesOn = run.step < 0 ? ir::Relation::GreaterEqual : ir::Relation::LessEqual;
-  emit(range, FlatBranch{ir::compare(goesOn, after->number, run.end, range), later(std::move(body))});
+  emit(range, FlatBranch{ir::compare(goesOn, *now, run.end, range), later(std::move(body))});
   state.frames.back().loops.pop_back();
   return Flow::Next;
 }
 
 // ---- calls and declarations -----------------------------------------------------------------------------
 
-Flattener::Flow Flattener::call(State& state, const CallStep& s, SourceRange range) {
-  const CallMacro& call = *s.call;
-  if (!call.macro && !assumes("bare-file", call.macroRange)) return Flow::Failed;
-  std::string name = call.bareName;
-  if (call.macro) {
-    const auto text = lower(state, *call.macro);
-    if (!text) return Flow::Failed;
-    const std::string* known = text->number ? nullptr : std::get_if<std::string>(&text->fixed);
-    if (known == nullptr) {
-      fail<diag::CannotTranslate>(call.macroRange, "which macro CALL names is not known");
-      return Flow::Failed;
-    }
-    name = *known;
-  }
-  std::vector<Lowered> arguments;
-  for (const ExpressionPtr& argument : call.arguments) {
-    auto value = lower(state, *argument);
-    if (!value) return Flow::Failed;
-    arguments.push_back(std::move(*value));
-  }
-  if (state.frames.size() > context_.limits.callDepth) {
-    fail<diag::CallTooDeep>(range, context_.limits.callDepth);
-    return Flow::Failed;
-  }
-  const Macro* macro = context_.load ? context_.load(name, call.macroRange) : nullptr;
-  if (macro == nullptr) {
-    fail<diag::CannotTranslate>(call.macroRange, "the macro that CALL names is not there");
-    return Flow::Failed;
-  }
-  Frame frame;
-  frame.called = range;
-  frame.program = &programOf(*macro);
+// The values go to the names of an ARGS that begins the macro.
+Interpreter::Flow Flattener::enter(State& state, Frame frame, const CallMacro& call, const Macro& macro,
+                                   std::vector<Value> arguments) {
   const std::string place =
-      fmt::format("{}:{}:{}", state.frames.back().instance, state.frames.back().at, macro->file);
+      fmt::format("{}:{}:{}", state.frames.back().instance, state.frames.back().at, macro.file);
   frame.instance = instances_.emplace(place, instances_.size() + 1).first->second;
   const auto& code = frame.program->instructions;
   const ArgsStep* args = code.empty() ? nullptr : std::get_if<ArgsStep>(&code.front().step);
   const std::size_t taken = args != nullptr ? args->args->names.size() : 0;
   if (taken != arguments.size()) {
-    fail<diag::ArgsMismatch>(range, arguments.size(), taken);
+    fault<diag::ArgsMismatch>(frame.called, false, arguments.size(), taken);
     return Flow::Failed;
   }
   if (args != nullptr) {
     frame.at = 1;
     for (const VariableRef& ref : args->args->names)
-      frame.locals.insert(foldCase(ref.name.text));
+      frame.locals.try_emplace(foldCase(ref.name.text));
   }
   state.frames.push_back(std::move(frame));
   for (std::size_t i = 0; i < arguments.size(); ++i) {
-    if (!write(state, {args->args->names[i].name, nullptr, 0}, arguments[i], call.arguments[i]->range))
+    if (!write(state, {args->args->names[i].name, nullptr, 0}, std::move(arguments[i]),
+               call.arguments[i]->range))
       return Flow::Failed;
   }
   return Flow::Jumped;
 }
 
-Flattener::Flow Flattener::declare(State& state, const Declaration& declaration) {
-  for (const VariableRef& ref : declaration.names) {
-    const std::string key = foldCase(ref.name.text);
-    if (ref.index) {
-      fail<diag::CannotTranslate>(ref.name.range, "an array is declared");
-      return Flow::Failed;
-    }
-    Frame& frame = state.frames.back();
-    if (declaration.scope != Scope::Local) {
-      frame.locals.erase(key);
-    } else if (frame.locals.insert(key).second) {
-      const std::string own = fixedKey(state, key);
-      state.fixed.erase(own);
-      if (!ref.name.isText()) emit(ref.name.range, FlatUnset{variableOf(own, ref.name)});
-    }
-  }
-  return Flow::Next;
+Interpreter::Flow Flattener::takeArguments(State&, const Args& args, SourceRange range) {
+  fault<diag::ArgsMismatch>(range, false, 0, args.names.size());
+  return Flow::Failed;
+}
+
+bool Flattener::declareArray(State&, const VariableRef& ref, Scope) {
+  refuse(ref.name.range, "an array is declared");
+  return false;
+}
+
+void Flattener::declared(State& state, const VariableRef& local) {
+  if (local.name.isText()) return;
+  const std::string key = variableKey(state, foldCase(local.name.text));
+  emit(local.name.range, FlatUnset{variableOf(key, local.name)});
 }
 
 } // namespace dotek::frontend::gibbs

@@ -121,49 +121,12 @@ std::optional<Value> Walk::evaluate(WalkState& state, const ir::Binary& node) {
   if (!left) return std::nullopt;
   const auto right = evaluate(state, node.right);
   if (!right) return std::nullopt;
-  const double* a = std::get_if<double>(&*left);
-  const double* b = std::get_if<double>(&*right);
-  std::optional<Value> form;
-  std::optional<ir::Computed> known;
-  const bool both = a != nullptr && b != nullptr;
-  switch (node.op) {
-  case ir::BinaryOp::Add:
-    if (both)
-      known = ir::add(*a, *b);
-    else
-      form = linear(*left, 1, *right, 1);
-    break;
-  case ir::BinaryOp::Subtract:
-    if (both)
-      known = ir::subtract(*a, *b);
-    else
-      form = linear(*left, 1, *right, -1);
-    break;
-  case ir::BinaryOp::Multiply:
-    if (both)
-      known = ir::multiply(*a, *b);
-    else if (a != nullptr)
-      form = linear(*right, *a, 0.0, 0);
-    else if (b != nullptr)
-      form = linear(*left, *b, 0.0, 0);
-    break;
-  case ir::BinaryOp::Divide:
-    if (both || (b != nullptr && *b == 0))
-      known = ir::divide(a != nullptr ? *a : 1, *b);
-    else if (b != nullptr)
-      form = linear(*left, 1 / *b, 0.0, 0);
-    break;
-  case ir::BinaryOp::Direction:
-    if (both) known = ir::direction(*a, *b, ir::AngleUnit::Degrees);
-    break;
-  default: break;
-  }
-  if (known) {
-    if (known->ok()) return Value(known->value);
+  const Combined result = combine(node.op, *left, *right);
+  if (result.value) return result.value;
+  if (result.error != ir::ArithmeticError::None) {
     failed_ = true;
     return std::nullopt;
   }
-  if (form) return form;
   return opaque(fmt::format("({}){}({})", canonical(*left), static_cast<int>(node.op), canonical(*right)),
                 {*left, *right});
 }

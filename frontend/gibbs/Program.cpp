@@ -7,7 +7,7 @@ namespace {
 
 class Compiler {
 public:
-  explicit Compiler(RunContext& context) : context_(context) {}
+  Compiler(const Limits& limits, const MacroLoader& load) : limits_(limits), load_(load) {}
 
   Program compile(const Macro& macro) {
     including_.push_back(&macro);
@@ -26,7 +26,7 @@ private:
   };
 
   std::size_t here() const { return program_.instructions.size(); }
-  std::size_t limit() const { return std::max<std::size_t>(1, context_.limits.steps); }
+  std::size_t limit() const { return std::max<std::size_t>(1, limits_.steps); }
 
   template <class Step> std::size_t emit(SourceRange range, Step step) {
     if (here() >= limit()) return here() - 1; // tooLarge() will say so
@@ -143,12 +143,12 @@ private:
       emit(range, RefuseStep{"an #INCLUDE behind THEN brings in lines on one way only"});
       return;
     }
-    if (including_.size() > context_.limits.includeDepth) {
+    if (including_.size() > limits_.includeDepth) {
       emit(node.fileRange,
            RefuseStep{"#INCLUDE is nested too deep; `--limit include-depth=N` raises the limit"});
       return;
     }
-    const Macro* macro = context_.load ? context_.load(node.file, node.fileRange) : nullptr;
+    const Macro* macro = load_ ? load_(node.file, node.fileRange) : nullptr;
     if (macro == nullptr) {
       emit(node.fileRange, RefuseStep{"the file that #INCLUDE names is not there"});
     } else if (std::find(including_.begin(), including_.end(), macro) != including_.end()) {
@@ -185,7 +185,8 @@ private:
       loop.parent = closed(loop.parent);
   }
 
-  RunContext& context_;
+  const Limits& limits_;
+  const MacroLoader& load_;
   Program program_;
   std::vector<Open> open_;
   std::vector<const Macro*> including_;
@@ -193,8 +194,8 @@ private:
 
 } // namespace
 
-Program compileProgram(const Macro& macro, RunContext& context) {
-  return Compiler(context).compile(macro);
+Program compileProgram(const Macro& macro, const Limits& limits, const MacroLoader& load) {
+  return Compiler(limits, load).compile(macro);
 }
 
 } // namespace dotek::frontend::gibbs

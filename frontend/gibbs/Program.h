@@ -3,8 +3,9 @@
 #pragma once
 
 #include "frontend/gibbs/Ast.h"
-#include "frontend/gibbs/Run.h"
+#include "support/Limits.h"
 
+#include <functional>
 #include <limits>
 #include <map>
 #include <optional>
@@ -85,6 +86,7 @@ struct Program {
 };
 
 // Never fails: what cannot be run becomes an instruction that says so when it is reached.
-Program compileProgram(const Macro& macro, RunContext& context);
+using MacroLoader = std::function<const Macro*(const std::string& name, SourceRange where)>;
+Program compileProgram(const Macro& macro, const Limits& limits, const MacroLoader& load);
 
 } // namespace dotek::frontend::gibbs

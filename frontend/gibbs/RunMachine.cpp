@@ -15,24 +15,6 @@ State Machine::start(const Macro& macro) {
   return state;
 }
 
-const Program& Machine::programOf(const Macro& macro) {
-  auto& program = programs_[&macro];
-  if (!program) program = std::make_unique<const Program>(compileProgram(macro, context_));
-  return *program;
-}
-
-void Machine::reportOnce(Diagnostic diagnostic) {
-  const SourceRange range = diagnostic.range;
-  for (const Diagnostic& other : context_.diagnostics.all()) {
-    const bool overlaps =
-        other.range.file == range.file && other.range.begin <= range.end && range.begin <= other.range.end;
-    if (diagnostic.severity == Severity::Error && other.severity == Severity::Error && range.hasPlace() &&
-        overlaps)
-      return;
-  }
-  context_.diagnostics.add(std::move(diagnostic));
-}
-
 std::vector<Rejection> Machine::messagesSince(const State& state, std::size_t until) const {
   std::vector<Rejection> found;
   for (std::size_t at = state.message; at != kNoMessage && at != until; at = messages_[at].earlier) {
@@ -56,7 +38,8 @@ PathEnd Machine::run(State& state) {
       return PathEnd::Failed;
     }
     const std::size_t fresh = state.fresh;
-    Flow flow = execute(state, instruction);
+    question_.reset();
+    Flow flow = step(state, instruction);
     if (flow == Flow::Failed) {
       // A question is asked again after the answer, with the same names for what is unknown.
       if (question_ && !fault_) {
@@ -68,6 +51,7 @@ PathEnd Machine::run(State& state) {
     switch (flow) {
     case Flow::Next: ++state.frames.back().at; break;
     case Flow::Jumped: break;
+    case Flow::Ended: return PathEnd::Ended;
     case Flow::Stopped: return PathEnd::Stopped;
     case Flow::DialogAgain: return PathEnd::DialogAgain;
     case Flow::NeedsUser: return PathEnd::NeedsUser;
@@ -76,13 +60,7 @@ PathEnd Machine::run(State& state) {
   }
 }
 
-Machine::Flow Machine::execute(State& state, const Instruction& instruction) {
-  fault_.reset();
-  question_.reset();
-  return std::visit([&](const auto& s) { return step(state, s, instruction.range); }, instruction.step);
-}
-
-Machine::Flow Machine::handleFault(State& state) {
+Interpreter::Flow Machine::handleFault(State& state) {
   const Fault fault = std::move(*fault_);
   fault_.reset();
   if (fault.catchable && state.frames.back().onError != nullptr) {
@@ -106,96 +84,20 @@ bool Machine::leaveFrame(State& state) {
   return true;
 }
 
-// ---- jumps ----------------------------------------------------------------------------------------------
-
-Machine::Flow Machine::jump(State& state, std::size_t target, SourceRange range) {
-  Frame& frame = state.frames.back();
-  const Program& program = *frame.program;
-  std::vector<std::size_t> around; // loops around the target, innermost first
-  if (target < program.instructions.size()) {
-    for (std::size_t loop = program.instructions[target].loop; loop != kNowhere;
-         loop = program.loops[loop].parent) {
-      around.push_back(loop);
-    }
-  }
-  std::reverse(around.begin(), around.end());
-  std::size_t running = 0; // loops around the target that run
-  while (running < std::min(around.size(), frame.loops.size()) &&
-         frame.loops[running].index == around[running]) {
-    ++running;
-  }
-  if (running < around.size() && !assumes("goto-into-for", range)) return Flow::Failed;
-  frame.loops.resize(running);
-  for (std::size_t i = running; i < around.size(); ++i) {
-    if (!enterLoop(state, around[i])) return Flow::Failed;
-  }
-  frame.at = target;
-  return Flow::Jumped;
+void Machine::refuse(SourceRange range, std::string_view why) {
+  fault<diag::CannotRun>(range, false, why);
 }
 
-Machine::Flow Machine::jumpToLabel(State& state, const Name& label, SourceRange range) {
-  const auto& labels = state.frames.back().program->labels;
-  const auto found = labels.find(foldCase(label.text));
-  if (found == labels.end()) {
-    fault<diag::CannotRun>(label.range, false, "no label of this name stands in the macro");
-    return Flow::Failed;
-  }
-  if (found->second == kNowhere) {
-    fault<diag::CannotRun>(label.range, false,
-                           "the label stands twice, and where the jump leads is not known");
-    return Flow::Failed;
-  }
-  state.jumped = range;
-  return jump(state, found->second, range);
+// ---- jumps and loops ------------------------------------------------------------------------------------
+
+// Conditions of a run are decided.
+Interpreter::Flow Machine::fork(State&, const ir::ConditionPtr&, std::size_t, SourceRange range) {
+  refuse(range, "the condition is broken");
+  return Flow::Failed;
 }
 
-Machine::Flow Machine::step(State& state, const JumpStep& s, SourceRange range) {
-  return jump(state, s.target, range);
-}
-
-Machine::Flow Machine::step(State& state, const GotoStep& s, SourceRange range) {
-  return jumpToLabel(state, *s.label, range);
-}
-
-Machine::Flow Machine::step(State& state, const BranchStep& s, SourceRange) {
-  const auto truth = decide(state, *s.condition);
-  if (!truth) return Flow::Failed;
-  if (*truth) return Flow::Next;
-  state.frames.back().at = s.otherwise;
-  return Flow::Jumped;
-}
-
-// ---- loops ----------------------------------------------------------------------------------------------
-
-Machine::Flow Machine::step(State& state, const ForStep& s, SourceRange range) {
-  const Loop& loop = state.frames.back().program->loops[s.index];
-  if (loop.next == kNowhere) {
-    fault<diag::CannotRun>(range, false, "the FOR has no NEXT");
-    return Flow::Failed;
-  }
-  const auto from = evaluateNumber(state, *s.loop->from);
-  if (!from || !enterLoop(state, s.index)) return Flow::Failed;
-  return write(state, {s.loop->variable, nullptr, 0}, *from) ? Flow::Next : Flow::Failed;
-}
-
-bool Machine::enterLoop(State& state, std::size_t index) {
-  Frame& frame = state.frames.back();
-  const For& loop = *frame.program->loops[index].statement;
-  const auto end = evaluateNumber(state, *loop.to);
-  if (!end) return false;
-  double size = 1;
-  if (loop.step) {
-    const auto given = evaluateNumber(state, *loop.step);
-    if (!given) return false;
-    const double* number = std::get_if<double>(&*given);
-    if (number == nullptr) {
-      fault<diag::UnknownValue>(loop.step->range, false, unknownText(*unknownIn(*given)));
-      return false;
-    }
-    size = *number;
-    if (size < 0 && !assumes("negative-step", loop.step->range)) return false;
-  }
-  frame.loops.push_back({index, *end, size});
+bool Machine::openLoop(State& state, std::size_t index, const Value& end, double step) {
+  state.frames.back().loops.push_back({index, end, step});
   return true;
 }
 
@@ -204,22 +106,15 @@ std::optional<bool> Machine::loopGoesOn(State& state, const Value& value, const 
   return compare(state, value, step < 0 ? Relation::GreaterEqual : Relation::LessEqual, end, range);
 }
 
-Machine::Flow Machine::step(State& state, const NextStep& s, SourceRange range) {
+Interpreter::Flow Machine::advance(State& state, const Loop& loop, const VariableRef& variable,
+                                   const Value& before, SourceRange range) {
   Frame& frame = state.frames.back();
-  const Loop& loop = frame.program->loops[s.index];
-  if (frame.loops.empty() || frame.loops.back().index != s.index) {
-    fault<diag::CannotRun>(range, false, "the NEXT is reached without its FOR");
-    return Flow::Failed;
-  }
   const LoopRun run = frame.loops.back();
-  const VariableRef variable{loop.statement->variable, nullptr, 0};
-  const auto before = read(state, variable);
-  if (!before) return Flow::Failed;
-  const auto stepped = [&](double size) -> std::optional<Value> {
-    if (const double* number = std::get_if<double>(&*before)) return computed(ir::add(*number, size), range);
-    return linear(*before, 1, size, 1);
-  };
-  const auto after = stepped(run.step);
+  const Combined sum = gibbs::combine(ir::BinaryOp::Add, before, run.step);
+  std::optional<Value> after = sum.value;
+  if (!after && sum.error == ir::ArithmeticError::None)
+    after = opaque(state, "", {before}, loop.statement->variable.text, false, range);
+  if (!after) after = computed({0, sum.error}, range);
   if (!after) return Flow::Failed;
   const auto goesOn = loopGoesOn(state, *after, run.end, run.step, range);
   if (!goesOn) return Flow::Failed;
@@ -231,14 +126,14 @@ Machine::Flow Machine::step(State& state, const NextStep& s, SourceRange range) 
     if (!size) return Flow::Failed;
     const auto goesOnNow = loopGoesOn(state, *after, *end, run.step, range);
     if (!goesOnNow) return Flow::Failed;
-    const double* number = std::get_if<double>(&*size);
-    if (*goesOnNow != *goesOn || number == nullptr || *number != run.step) {
-      assumes("for-end-at-entry", number == nullptr || *number != run.step ? loop.statement->step->range
-                                                                           : loop.statement->to->range);
+    const double* number = numberIn(*size);
+    const bool stepMoves = number == nullptr || *number != run.step;
+    if (*goesOnNow != *goesOn || stepMoves) {
+      assumes("for-end-at-entry", stepMoves ? loop.statement->step->range : loop.statement->to->range);
       return Flow::Failed;
     }
   }
-  if (!write(state, variable, *after)) return Flow::Failed;
+  if (!write(state, variable, *after, range)) return Flow::Failed;
   if (*goesOn) {
     frame.at = loop.body;
     return Flow::Jumped;
@@ -249,109 +144,46 @@ Machine::Flow Machine::step(State& state, const NextStep& s, SourceRange range) 
 
 // ---- calls and declarations -----------------------------------------------------------------------------
 
-Machine::Flow Machine::step(State& state, const CallStep& s, SourceRange range) {
-  if (!s.call->macro && !assumes("bare-file", s.call->macroRange)) return Flow::Failed;
-  std::string name = s.call->bareName;
-  if (s.call->macro) {
-    const auto text = evaluateText(state, *s.call->macro);
-    if (!text) return Flow::Failed;
-    if (const Unknown* unknown = unknownIn(*text)) {
-      fault<diag::UnknownValue>(s.call->macroRange, false, unknownText(*unknown));
-      return Flow::Failed;
-    }
-    name = std::get<std::string>(*text);
-  }
-  std::vector<Value> arguments;
-  for (const ExpressionPtr& argument : s.call->arguments) {
-    const auto value = evaluate(state, *argument);
-    if (!value) return Flow::Failed;
-    arguments.push_back(*value);
-  }
-  if (state.frames.size() > context_.limits.callDepth) {
-    fault<diag::CallTooDeep>(range, false, context_.limits.callDepth);
-    return Flow::Failed;
-  }
-  const Macro* macro = context_.load ? context_.load(name, s.call->macroRange) : nullptr;
-  if (macro == nullptr) {
-    fault<diag::CannotRun>(s.call->macroRange, false, "the macro that CALL names is not there");
-    return Flow::Failed;
-  }
-  Frame frame;
-  frame.program = &programOf(*macro);
+Interpreter::Flow Machine::enter(State& state, Frame frame, const CallMacro&, const Macro&,
+                                 std::vector<Value> arguments) {
   frame.arguments = std::move(arguments);
-  frame.called = range;
   state.frames.push_back(std::move(frame));
   return Flow::Jumped;
 }
 
-Machine::Flow Machine::step(State& state, const ArgsStep& s, SourceRange range) {
+Interpreter::Flow Machine::takeArguments(State& state, const Args& args, SourceRange range) {
   Frame& frame = state.frames.back();
   const std::size_t given = frame.arguments ? frame.arguments->size() : 0;
-  if (!frame.arguments || given != s.args->names.size()) {
+  if (!frame.arguments || given != args.names.size()) {
     fault<diag::ArgsMismatch>(frame.called.hasPlace() ? frame.called : range, false, given,
-                              s.args->names.size());
+                              args.names.size());
     return Flow::Failed;
   }
   const std::vector<Value> values = std::move(*frame.arguments);
   frame.arguments.reset();
   for (std::size_t i = 0; i < values.size(); ++i) {
-    frame.locals[foldCase(s.args->names[i].name.text)].reset();
-    if (!write(state, {s.args->names[i].name, nullptr, 0}, values[i])) return Flow::Failed;
+    frame.locals[foldCase(args.names[i].name.text)].reset();
+    if (!write(state, {args.names[i].name, nullptr, 0}, values[i], range)) return Flow::Failed;
   }
   return Flow::Next;
 }
 
-Machine::Flow Machine::step(State& state, const DeclareStep& s, SourceRange) {
-  Frame& frame = state.frames.back();
-  for (const VariableRef& ref : s.declaration->names) {
-    const std::string key = foldCase(ref.name.text);
-    if (ref.index) {
-      if (!assumes(ref.bracket == '[' ? "array-square" : "array-round", ref.name.range)) return Flow::Failed;
-      const auto size = evaluateNumber(state, *ref.index);
-      if (!size) return Flow::Failed;
-      const double* number = std::get_if<double>(&*size);
-      if (number == nullptr || *number < 1 || *number > context_.limits.steps) {
-        fault<diag::CannotRun>(ref.index->range, false, "the array has no such number of elements");
-        return Flow::Failed;
-      }
-      // Elements are shared with called macros, whatever the declaration says.
-      if (s.declaration->scope == Scope::Local && state.frames.size() > 1 && state.arrays.contains(key)) {
-        fault<diag::CannotRun>(ref.name.range, false,
-                               "the array of this name is declared in the calling macro as well");
-        return Flow::Failed;
-      }
-      state.arrays[key] = static_cast<std::size_t>(*number);
-    } else if (s.declaration->scope == Scope::Local) {
-      frame.locals.try_emplace(key);
-    } else {
-      frame.locals.erase(key);
-    }
+bool Machine::declareArray(State& state, const VariableRef& ref, Scope scope) {
+  const auto size = evaluateNumber(state, *ref.index);
+  if (!size) return false;
+  const double* number = numberIn(*size);
+  if (number == nullptr || *number < 1 || *number > context_.limits.steps) {
+    refuse(ref.index->range, "the array has no such number of elements");
+    return false;
   }
-  return Flow::Next;
-}
-
-Machine::Flow Machine::step(State& state, const OnErrorStep& s, SourceRange) {
-  state.frames.back().onError = s.label;
-  return Flow::Next;
-}
-
-Machine::Flow Machine::step(State& state, const CommandStep& s, SourceRange range) {
-  return command(state, *s.command, range);
-}
-
-Machine::Flow Machine::step(State&, const UnverifiedStep& s, SourceRange range) {
-  return assumes(s.assumption, range) ? Flow::Next : Flow::Failed;
-}
-
-Machine::Flow Machine::step(State&, const RefuseStep& s, SourceRange range) {
-  fault<diag::CannotRun>(range, false, s.why);
-  return Flow::Failed;
-}
-
-Machine::Flow Machine::step(State& state, const AssignStep& s, SourceRange) {
-  const auto value = evaluate(state, *s.assignment->value);
-  if (!value) return Flow::Failed;
-  return write(state, s.assignment->target, *value) ? Flow::Next : Flow::Failed;
+  // Elements are shared with called macros, whatever the declaration says.
+  const std::string key = foldCase(ref.name.text);
+  if (scope == Scope::Local && state.frames.size() > 1 && state.arrays.contains(key)) {
+    refuse(ref.name.range, "the array of this name is declared in the calling macro as well");
+    return false;
+  }
+  state.arrays[key] = static_cast<std::size_t>(*number);
+  return true;
 }
 
 } // namespace dotek::frontend::gibbs

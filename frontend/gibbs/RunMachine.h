@@ -1,63 +1,18 @@
-// The machine that runs compiled macros. A state is one path; it can be copied where a condition hangs on
-// something unknown.
+// The macro language on numbers: one path runs until it ends, or asks about something unknown.
 #pragma once
 
-#include "frontend/gibbs/Program.h"
-#include "frontend/gibbs/Run.h"
-#include "frontend/gibbs/Value.h"
-#include "ir/Arithmetic.h"
+#include "frontend/gibbs/Interpreter.h"
 
-#include <map>
-#include <memory>
 #include <optional>
-#include <set>
 #include <string>
-#include <string_view>
 #include <vector>
 
 namespace dotek::frontend::gibbs {
-
-struct LoopRun {
-  std::size_t index = 0; // in Program::loops
-  Value end;
-  double step = 1;
-};
-
-// One macro that runs, called or first.
-struct Frame {
-  const Program* program = nullptr;
-  std::size_t at = 0;
-  std::map<std::string, std::optional<Value>> locals; // declared; nothing: not assigned yet
-  std::vector<LoopRun> loops;                         // outermost first
-  const Name* onError = nullptr;
-  std::optional<std::vector<Value>> arguments; // of CALL, until ARGS takes them
-  SourceRange called;
-};
-
-inline constexpr std::size_t kNoMessage = kNowhere;
-
-struct State {
-  std::map<std::string, Value> globals;
-  std::vector<Frame> frames;
-  std::map<std::string, std::size_t> arrays; // declared number of elements
-  std::map<std::string, Range> learnt;       // of unknowns, by question key
-  std::map<std::string, Value> written;      // host inputs that a SET_ command has changed
-  std::optional<ir::AngleUnit> angles;
-  std::size_t message = kNoMessage;       // last one shown, in Machine::messages
-  std::size_t messageBefore = kNoMessage; // last one before the first dialog
-  std::set<std::string> dialogs;          // shown
-  SourceRange jumped;                     // last GOTO
-  SourceRange returnCodeSet;
-  std::map<std::string, SourceRange> fieldSet; // last assignment to each field
-  std::size_t fresh = 0;                       // unknowns without a name of their own
-};
 
 struct ShownMessage {
   Rejection shown;
   std::size_t earlier = kNoMessage;
 };
-
-enum class Purpose : std::uint8_t { Checks, ToolPath };
 
 // How a stretch of a path ended.
 enum class PathEnd : std::uint8_t {
@@ -69,15 +24,13 @@ enum class PathEnd : std::uint8_t {
   Failed,    // reported
 };
 
-// A mistake at run time that ON_ERROR may catch; reported only where it is not caught.
-struct Fault {
-  Diagnostic diagnostic;
-  bool catchable = false;
-};
-
-class Machine {
+class Machine final : public Interpreter {
 public:
-  Machine(RunContext& context, Purpose purpose) : context_(context), purpose_(purpose) {}
+  Machine(RunContext& context, Purpose purpose) : Interpreter(context, purpose), context_(context) {
+    around_.hosts = context.hosts;
+    for (const auto& [name, value] : context.fields)
+      around_.fields.insert(name);
+  }
 
   State start(const Macro& macro);
   // Runs until the path ends or asks.
@@ -91,91 +44,63 @@ public:
   std::vector<Rejection> messagesSince(const State& state, std::size_t until) const;
   std::vector<PathMove>& moves() { return moves_; }
 
-  // Reports unless an error is there already at this place.
-  void reportOnce(Diagnostic diagnostic);
-
 private:
-  // ---- RunMachine.cpp: statements
-  // Failed: `fault_` or, without one, `question_` says why.
-  enum class Flow : std::uint8_t { Next, Jumped, Failed, Stopped, DialogAgain, NeedsUser };
-  Flow execute(State& state, const Instruction& instruction);
+  // ---- RunMachine.cpp
   Flow handleFault(State& state);
   bool leaveFrame(State& state);
-  const Program& programOf(const Macro& macro);
-  Flow jump(State& state, std::size_t target, SourceRange range);
-  Flow jumpToLabel(State& state, const Name& label, SourceRange range);
-  Flow step(State& state, const AssignStep& s, SourceRange range);
-  Flow step(State& state, const BranchStep& s, SourceRange range);
-  Flow step(State& state, const JumpStep& s, SourceRange range);
-  Flow step(State& state, const ForStep& s, SourceRange range);
-  Flow step(State& state, const NextStep& s, SourceRange range);
-  Flow step(State& state, const GotoStep& s, SourceRange range);
-  Flow step(State& state, const CallStep& s, SourceRange range);
-  Flow step(State& state, const ArgsStep& s, SourceRange range);
-  Flow step(State& state, const DeclareStep& s, SourceRange range);
-  Flow step(State& state, const OnErrorStep& s, SourceRange range);
-  Flow step(State& state, const CommandStep& s, SourceRange range);
-  Flow step(State& state, const UnverifiedStep& s, SourceRange range);
-  Flow step(State& state, const RefuseStep& s, SourceRange range);
-  // Takes end and step of a FOR of the running macro.
-  bool enterLoop(State& state, std::size_t index);
   std::optional<bool> loopGoesOn(State& state, const Value& value, const Value& end, double step,
                                  SourceRange range);
+  void refuse(SourceRange range, std::string_view why) override;
+  Flow fork(State& state, const ir::ConditionPtr& condition, std::size_t otherwise,
+            SourceRange range) override;
+  bool openLoop(State& state, std::size_t index, const Value& end, double step) override;
+  Flow advance(State& state, const Loop& loop, const VariableRef& variable, const Value& before,
+               SourceRange range) override;
+  Flow enter(State& state, Frame frame, const CallMacro& call, const Macro& macro,
+             std::vector<Value> arguments) override;
+  Flow takeArguments(State& state, const Args& args, SourceRange range) override;
+  bool declareArray(State& state, const VariableRef& ref, Scope scope) override;
 
   // ---- RunCommands.cpp
-  Flow command(State& state, const Command& c, SourceRange range);
-  Flow showMessage(State& state, const Command& c, SourceRange range);
-  Flow showDialog(State& state, const Command& c, SourceRange range);
-  Flow needsUser(const Command& c, const std::string& name);
-  Flow swapValues(State& state, const Command& c, SourceRange range);
-  Flow addMove(State& state, const Command& c, SourceRange range);
-  Flow unknownCommand(State& state, const Command& c, const std::string& name);
-  Flow tableCommand(State& state, const Command& c, const std::string& name);
-  Value dataValue(State& state, const Command& c, const stdlib::CommandSignature& signature,
-                  const std::string& name, bool text);
-  std::optional<double> coordinate(State& state, const Expression& e);
+  Flow show(State& state, const Command& c, const std::vector<std::optional<std::string>>& parts,
+            SourceRange range) override;
+  Flow needsUser(const Command& c, const std::string& name) override;
+  void dialogOpens(State& state, SourceRange range) override;
+  bool storeField(State& state, const std::string& field, SourceRange range) override;
+  std::optional<Value> coordinate(const Value& value, SourceRange range) override;
+  bool addMove(PathMove::Kind kind, const std::array<std::optional<Value>, 3>& axes,
+               SourceRange range) override;
+  void fillArray(State& state, const VariableRef& ref, const std::string& reason) override;
 
-  // ---- Evaluate.cpp; nullopt: `fault_` or `question_` says why
-  std::optional<Value> evaluate(State& state, const Expression& e);
-  std::optional<Value> evaluateNumber(State& state, const Expression& e);
-  std::optional<Value> evaluateText(State& state, const Expression& e);
-  std::optional<Value> binary(State& state, const Binary& node, SourceRange range);
-  std::optional<Value> read(State& state, const VariableRef& ref);
-  std::optional<Value> readUnassigned(State& state, const std::string& key, const Name& name);
-  std::optional<std::string> keyOf(State& state, const VariableRef& ref);
-  bool write(State& state, const VariableRef& ref, Value value);
-  std::optional<bool> decide(State& state, const Condition& condition);
-  std::optional<bool> decide(State& state, const Comparison& comparison);
+  // ---- RunValue.cpp
+  Value opaque(State& state, std::string name, const std::vector<Value>& from, const std::string& reason,
+               bool text, SourceRange range) override;
+  Value literal(double value, const std::string&, SourceRange) override { return value; }
+  std::optional<Value> combine(State& state, const Binary& node, const Value& left, const Value& right,
+                               SourceRange range) override;
+  std::optional<Value> apply(State& state, const NumberFunction& function,
+                             const std::vector<Value>& arguments, SourceRange range) override;
+  std::optional<Truth> compareNumbers(State& state, const Comparison& c, const Value& left,
+                                      const Value& right) override;
+  std::optional<Truth> compareTexts(State& state, const Comparison& c, const Value& left,
+                                    const Value& right) override;
   std::optional<bool> compare(State& state, const Value& left, Relation relation, const Value& right,
                               SourceRange range);
-  bool assumes(std::string_view assumption, SourceRange range);
-  // `name`: what equal values share; "": this value is its own.
-  Value opaque(State& state, std::string name, const std::vector<Value>& from, const std::string& reason,
-               bool text);
-  std::optional<Value> computed(ir::Computed result, SourceRange range);
-
-  // ---- EvaluateFunctions.cpp
-  std::optional<Value> function(State& state, const FunctionCall& call, SourceRange range);
-  std::optional<Value> numberFunction(State& state, const std::string& name,
-                                      const std::vector<Value>& arguments, SourceRange range, bool& known);
-  std::optional<Value> textFunction(const std::string& name, const std::vector<Value>& arguments,
-                                    SourceRange range, bool& known);
-
-  template <class Id, class... Args> void fault(SourceRange range, bool catchable, const Args&... args) {
-    fault_ = Fault{makeDiagnostic<Id>(range, args...), catchable};
-  }
+  std::optional<bool> ask(const State& state, Question question);
+  std::optional<std::string> element(State& state, const std::string& key, const VariableRef& ref,
+                                     bool reads) override;
+  std::optional<Value> lookUp(State& state, const std::string& key, const VariableRef& ref,
+                              bool ofCam) override;
+  bool store(State& state, const std::string& key, const VariableRef& ref, Value value,
+             SourceRange range) override;
 
   RunContext& context_;
-  Purpose purpose_;
-  std::map<const Macro*, std::unique_ptr<const Program>> programs_;
   std::vector<ShownMessage> messages_;
   std::size_t messageBytes_ = 0;
   std::vector<PathMove> moves_;
   std::size_t steps_ = 0;
   SourceRange place_;
-  std::optional<Fault> fault_;
   std::optional<Question> question_;
-  bool lenient_ = false; // arguments without an effect: what is not set is merely unknown
 };
 
 } // namespace dotek::frontend::gibbs

@@ -68,6 +68,11 @@ bool isTextValue(const Value& value) {
   return unknown != nullptr ? unknown->text : std::holds_alternative<std::string>(value);
 }
 
+const double* numberIn(const Value& value) {
+  const auto* expression = std::get_if<ir::ExpressionPtr>(&value);
+  return expression != nullptr ? ir::constantValue(*expression) : std::get_if<double>(&value);
+}
+
 Value sourceValue(const Symbol& symbol) {
   return opaqueValue(symbol, {symbol}, symbol.name, false);
 }
@@ -94,6 +99,7 @@ double factorOf(const Symbol& symbol, const Value& value) {
 std::string canonical(const Value& value) {
   if (const double* number = std::get_if<double>(&value)) return numberText(*number);
   if (const std::string* text = std::get_if<std::string>(&value)) return '"' + *text + '"';
+  if (unknownIn(value) == nullptr) return "";
   const Unknown& unknown = *unknownIn(value);
   std::string text = termsText(unknown.terms, 1);
   if (unknown.constant != 0) text += " + " + numberText(unknown.constant);
@@ -116,6 +122,47 @@ std::optional<Value> linear(const Value& a, double factorA, const Value& b, doub
     if (unknown != nullptr && (sum.reason.empty() || sum.sources.empty())) sum.reason = unknown->reason;
   }
   return Value(std::make_shared<const Unknown>(std::move(sum)));
+}
+
+Combined combine(ir::BinaryOp op, const Value& left, const Value& right) {
+  const double* a = std::get_if<double>(&left);
+  const double* b = std::get_if<double>(&right);
+  const bool both = a != nullptr && b != nullptr;
+  const auto known = [](const ir::Computed& result) {
+    return result.ok() ? Combined{Value(result.value)} : Combined{{}, result.error};
+  };
+  switch (op) {
+  case ir::BinaryOp::Add:
+    if (both) return known(ir::add(*a, *b));
+    return {linear(left, 1, right, 1)};
+  case ir::BinaryOp::Subtract:
+    if (both) return known(ir::subtract(*a, *b));
+    return {linear(left, 1, right, -1)};
+  case ir::BinaryOp::Multiply:
+    if (both) return known(ir::multiply(*a, *b));
+    if (a != nullptr) return {linear(right, *a, 0.0, 0)};
+    if (b != nullptr) return {linear(left, *b, 0.0, 0)};
+    return {};
+  case ir::BinaryOp::Divide:
+    if (both || (b != nullptr && *b == 0)) return known(ir::divide(a != nullptr ? *a : 1, *b));
+    if (b != nullptr) return {linear(left, 1 / *b, 0.0, 0)};
+    return {};
+  case ir::BinaryOp::Direction:
+    if (both) return known(ir::direction(*a, *b, ir::AngleUnit::Degrees));
+    return {};
+  case ir::BinaryOp::Modulo:
+  case ir::BinaryOp::BitAnd:
+  case ir::BinaryOp::BitOr:
+  case ir::BinaryOp::BitXor:
+  case ir::BinaryOp::ValueOr:
+  case ir::BinaryOp::RoundedAnd:
+  case ir::BinaryOp::RoundedOr:
+  case ir::BinaryOp::RoundedXor:
+  case ir::BinaryOp::RoundedModulo:
+  case ir::BinaryOp::Power:
+  case ir::BinaryOp::Bearing: return {}; // no macro of the CAM has these
+  }
+  return {};
 }
 
 std::set<Symbol> sourcesOf(const std::vector<Value>& values) {

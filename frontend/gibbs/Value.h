@@ -1,8 +1,10 @@
-// Values of a running macro. What the host alone knows is carried as a linear form over named unknowns, so
-// that `r - 1 < 4` and `r >= 5` are seen to exclude each other.
+// Values of a macro that runs or is translated. What the host alone knows is carried as a linear form over
+// named unknowns, so that `r - 1 < 4` and `r >= 5` are seen to exclude each other.
 #pragma once
 
 #include "frontend/gibbs/Ast.h"
+#include "ir/Arithmetic.h"
+#include "ir/Expression.h"
 
 #include <compare>
 #include <cstdint>
@@ -54,10 +56,13 @@ struct Unknown {
 };
 using UnknownPtr = std::shared_ptr<const Unknown>;
 
-using Value = std::variant<double, std::string, UnknownPtr>;
+// An expression of the IR is a number that the translated program computes; only a translation holds one.
+using Value = std::variant<double, std::string, UnknownPtr, ir::ExpressionPtr>;
 
 const Unknown* unknownIn(const Value& value);
 bool isTextValue(const Value& value);
+// The number that is known, as such or as a constant of the IR; nullptr for any other value.
+const double* numberIn(const Value& value);
 // A source of its own: a host input or a variable.
 Value sourceValue(const Symbol& symbol);
 Value opaqueValue(const Symbol& symbol, std::set<Symbol> sources, std::string reason, bool text);
@@ -65,10 +70,17 @@ Value opaqueValue(const Symbol& symbol, std::set<Symbol> sources, std::string re
 const Symbol* symbolIn(const Value& value);
 // The factor of the symbol in the form; 0 where it has none.
 double factorOf(const Symbol& symbol, const Value& value);
-// Canonical text: equal texts mean equal values.
+// Canonical text: equal texts mean equal values. An expression of the IR has none.
 std::string canonical(const Value& value);
 // a * factorA + b * factorB with at least one unknown; nullopt where it is no short linear form.
 std::optional<Value> linear(const Value& a, double factorA, const Value& b, double factorB);
+// What an operator makes of two numbers, or of one; angles in degrees. Neither value nor error: one of them
+// is not known, and the result is no short linear form.
+struct Combined {
+  std::optional<Value> value;
+  ir::ArithmeticError error = ir::ArithmeticError::None;
+};
+Combined combine(ir::BinaryOp op, const Value& left, const Value& right);
 // Sources of all of them.
 std::set<Symbol> sourcesOf(const std::vector<Value>& values);
 // What a message calls the unknown parts: "tool_radius" or the reason.
