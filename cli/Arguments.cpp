@@ -1,8 +1,8 @@
 #include "cli/Arguments.h"
 
 #include "cli/Cli.h"
-#include "driver/InputKind.h"
 #include "lint/Rule.h"
+#include "project/InputKind.h"
 #include "support/Decimal.h"
 #include "support/NearestName.h"
 
@@ -130,7 +130,7 @@ driver::CommonOptions commonOf(const Raw& raw) {
     applyLimit(text, out.limits);
   out.data = raw.data;
   if (!raw.from.empty()) {
-    if (!driver::kindByName(raw.from))
+    if (!project::kindByName(raw.from))
       throw UsageError("--from takes prog, mac, dlg, define, nc or suf, not `" + raw.from + "`");
     out.from = raw.from;
   }

@@ -1,13 +1,13 @@
 #include "driver/ConvertFusion.h"
 #include "driver/ConvertMikroprog.h"
 #include "driver/ConvertPrograms.h"
-#include "driver/ConvertValues.h"
 #include "driver/ConvertVerify.h"
 #include "driver/Driver.h"
-#include "driver/Lowering.h"
-#include "driver/PostProgram.h"
-#include "driver/Programs.h"
 #include "driver/Targets.h"
+#include "project/Lowering.h"
+#include "project/Prog.h"
+#include "project/Programs.h"
+#include "project/Values.h"
 
 #include "backends/fanuc/Emit.h"
 #include "frontend/gibbs/Ast.h"
@@ -67,7 +67,7 @@ private:
       text += file.text;
     std::string map = renderLineMap(maps_, session_.sources());
     std::vector<MappedResult> maps = maps_;
-    Outcome outcome = session_.finish(std::move(text));
+    Outcome outcome = outcomeOf(session_, std::move(text));
     if (outcome.status != 0) return outcome;
     outcome.files = std::move(files_);
     outcome.map = std::move(map);
@@ -80,7 +80,7 @@ private:
 
   Outcome refuse() {
     keepStrongest(session_.diagnostics());
-    return session_.finish("");
+    return outcomeOf(session_, "");
   }
 
   bool load() {

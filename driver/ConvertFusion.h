@@ -2,7 +2,8 @@
 #pragma once
 
 #include "backends/fusion/Emit.h"
-#include "driver/Lowering.h"
+#include "driver/Command.h"
+#include "project/Lowering.h"
 #include "support/LineMap.h"
 
 namespace dotek::driver {

@@ -1,7 +1,8 @@
 // Private to Convert.cpp and Verify*.cpp: cycles as programs for a control by Mikronex.
 #pragma once
 
-#include "driver/ConvertValues.h"
+#include "driver/Command.h"
+#include "project/Values.h"
 #include "stdlib/MikroprogControl.h"
 #include "support/LineMap.h"
 

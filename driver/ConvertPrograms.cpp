@@ -2,8 +2,8 @@
 
 #include "backends/fanuc/Program.h"
 #include "backends/fanuc/ProgramCalls.h"
-#include "driver/Lowering.h"
-#include "driver/Programs.h"
+#include "project/Lowering.h"
+#include "project/Programs.h"
 #include "support/messages/Commands.h"
 
 #include <algorithm>

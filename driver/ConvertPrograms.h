@@ -1,7 +1,7 @@
 // Private to Convert*.cpp: inputs that are programs of a control.
 #pragma once
 
-#include "driver/Session.h"
+#include "driver/Command.h"
 #include "ir/Program.h"
 #include "stdlib/Control.h"
 #include "stdlib/MacroSet.h"

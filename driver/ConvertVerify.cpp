@@ -1,7 +1,7 @@
 #include "driver/ConvertVerify.h"
 
-#include "driver/Programs.h"
-#include "driver/Session.h"
+#include "driver/Command.h"
+#include "project/Programs.h"
 #include "support/messages/Verify.h"
 
 #include <algorithm>

@@ -1,18 +1,18 @@
-#include "driver/CycleFolder.h"
+#include "driver/Command.h"
 #include "driver/Driver.h"
-#include "driver/Fields.h"
-#include "driver/Hosts.h"
-#include "driver/InputKind.h"
-#include "driver/Lowering.h"
-#include "driver/PostProgram.h"
-#include "driver/Programs.h"
-#include "driver/Session.h"
 #include "frontend/compost/Parse.h"
 #include "frontend/gibbs/Run.h"
 #include "frontend/macrob/Parse.h"
 #include "frontend/mikroprog/Parse.h"
 #include "ir/Fold.h"
 #include "ir/Print.h"
+#include "project/CycleFolder.h"
+#include "project/Fields.h"
+#include "project/Hosts.h"
+#include "project/InputKind.h"
+#include "project/Lowering.h"
+#include "project/Prog.h"
+#include "project/Programs.h"
 #include "support/Decimal.h"
 #include "support/Files.h"
 #include "support/messages/Commands.h"
@@ -40,12 +40,12 @@ public:
     if (options_.stage == Stage::Ir) {
       ir();
       keepStrongest(session_.diagnostics());
-      return session_.finish(std::move(out_));
+      return outcomeOf(session_, std::move(out_));
     }
     for (const std::string& input : options_.inputs)
       one(input);
     if (options_.stage == Stage::Path) keepStrongest(session_.diagnostics());
-    return session_.finish(std::move(out_), true);
+    return outcomeOf(session_, std::move(out_), true);
   }
 
 private:

@@ -1,8 +1,8 @@
-#include "driver/Assumptions.h"
+#include "driver/Command.h"
 #include "driver/Driver.h"
-#include "driver/Session.h"
 #include "driver/Targets.h"
 #include "lint/Rule.h"
+#include "project/Assumptions.h"
 #include "stdlib/Control.h"
 #include "stdlib/HostInputs.h"
 #include "stdlib/MacroSet.h"
@@ -155,14 +155,14 @@ Outcome list(const std::string& what, const CommonOptions& options) {
       for (const stdlib::DataFile* file : session.data().list(what))
         rows.emplace_back(file->name, file->origin);
       if (rows.empty())
-        return session.finish("none in this release; a folder given with --data can add some\n");
+        return outcomeOf(session, "none in this release; a folder given with --data can add some\n");
     } else if (what == "targets") {
       for (std::size_t i = 0; i < kTargets.size(); ++i)
         rows.emplace_back(kTargets[i], kTargetTexts[i]);
     } else {
       session.diagnostics().report<diag::UnknownList>({}, what);
     }
-    return session.finish(table(rows), true);
+    return outcomeOf(session, table(rows), true);
   });
 }
 

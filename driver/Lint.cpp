@@ -1,13 +1,8 @@
 #include "support/messages/Lint.h"
-#include "driver/CycleFolder.h"
+#include "driver/Command.h"
 #include "driver/Driver.h"
-#include "driver/InputKind.h"
-#include "driver/Job.h"
 #include "driver/LintConfig.h"
 #include "driver/LintFix.h"
-#include "driver/Lowering.h"
-#include "driver/PostProgram.h"
-#include "driver/Session.h"
 #include "frontend/compost/Summary.h"
 #include "frontend/macrob/Check.h"
 #include "frontend/macrob/Lower.h"
@@ -16,6 +11,11 @@
 #include "frontend/mikroprog/Parse.h"
 #include "lint/Project.h"
 #include "lint/Suppressions.h"
+#include "project/CycleFolder.h"
+#include "project/InputKind.h"
+#include "project/Job.h"
+#include "project/Lowering.h"
+#include "project/Prog.h"
 #include "support/Files.h"
 #include "support/messages/ComPost.h"
 #include "support/messages/Commands.h"
@@ -69,7 +69,7 @@ public:
     suppress(project);
     select();
     const bool fails = failsNow();
-    Outcome outcome = session_.finish("", true);
+    Outcome outcome = outcomeOf(session_, "", true);
     // Findings are the result of lint, not its failure.
     if (outcome.status == 1) outcome.status = 0;
     if (outcome.status == 0 && fails) outcome.status = 1;
@@ -78,7 +78,7 @@ public:
 
 private:
   Outcome failed() {
-    Outcome outcome = session_.finish("", true);
+    Outcome outcome = outcomeOf(session_, "", true);
     outcome.status = 2;
     return outcome;
   }

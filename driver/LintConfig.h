@@ -1,8 +1,8 @@
 // dotek.toml: what a project wants of the linter.
 #pragma once
 
+#include "driver/Command.h"
 #include "driver/Driver.h"
-#include "driver/Session.h"
 
 #include <map>
 #include <memory>

@@ -1,13 +1,13 @@
 #include "frontend/compost/Post.h"
-#include "driver/CycleFolder.h"
+#include "driver/Command.h"
 #include "driver/Driver.h"
-#include "driver/Fields.h"
-#include "driver/Hosts.h"
-#include "driver/Job.h"
-#include "driver/PostChecks.h"
-#include "driver/PostProgram.h"
-#include "driver/Session.h"
 #include "frontend/compost/Summary.h"
+#include "project/CycleChecks.h"
+#include "project/CycleFolder.h"
+#include "project/Fields.h"
+#include "project/Hosts.h"
+#include "project/Job.h"
+#include "project/Prog.h"
 #include "support/Decimal.h"
 #include "support/NearestName.h"
 #include "support/messages/Commands.h"
@@ -278,7 +278,7 @@ void PostCommand::checkProgramNumber(const std::vector<compost::PostedLine>& lin
 Outcome PostCommand::run() {
   if (!load()) {
     keepStrongest(session_.diagnostics());
-    return session_.finish("");
+    return outcomeOf(session_, "");
   }
   compost::PostSettings settings{session_.sources(), *form_, session_.limits(), options_.common.assume};
   const auto sequence = options_.sequence ? options_.sequence : job_ ? job_->sequence : options_.sequence;
@@ -290,7 +290,7 @@ Outcome PostCommand::run() {
   for (const JobOperation& one : all)
     prepare(one);
   if (prepared_.size() == all.size()) reportUnknownSets();
-  if (session_.diagnostics().hasErrors()) return session_.finish("");
+  if (session_.diagnostics().hasErrors()) return outcomeOf(session_, "");
   compost::PostRun run(*program_, settings, session_.diagnostics());
   if (job_) boundary(job_->startRoutine, job_->startRange, run);
   for (Prepared& one : prepared_)
@@ -302,7 +302,7 @@ Outcome PostCommand::run() {
   std::string out;
   for (const compost::PostedLine& line : lines)
     out += line.text + "\n";
-  return session_.finish(std::move(out));
+  return outcomeOf(session_, std::move(out));
 }
 
 } // namespace

@@ -1,14 +1,14 @@
 #include "support/messages/Sim.h"
+#include "driver/Command.h"
 #include "driver/Driver.h"
-#include "driver/InputKind.h"
-#include "driver/ProgramLibrary.h"
-#include "driver/Session.h"
 #include "driver/SimMacros.h"
 #include "driver/SimMikroprog.h"
 #include "driver/SimReport.h"
 #include "driver/SimWorld.h"
-#include "driver/VariableFlags.h"
 #include "frontend/nc/Scan.h"
+#include "project/InputKind.h"
+#include "project/ProgramLibrary.h"
+#include "project/VariableFlags.h"
 #include "sim/machine/Arguments.h"
 #include "sim/machine/Compile.h"
 #include "sim/machine/Machine.h"
@@ -36,20 +36,20 @@ public:
       diagnostics().report<diag::MissingOption>({}, "sim", "PROGRAM", "an NC program");
     if (isMikroprog()) return simMikroprog(options_, session_);
     control_ = loadControl();
-    if (diagnostics().hasErrors()) return session_.finish("");
+    if (diagnostics().hasErrors()) return outcomeOf(session_, "");
     world_ = SimWorld::load(options_, session_);
-    if (!world_) return session_.finish("");
+    if (!world_) return outcomeOf(session_, "");
     std::unique_ptr<LineChunks> chunks = LineChunks::open(options_.program, diagnostics());
-    if (!chunks) return session_.finish("");
+    if (!chunks) return outcomeOf(session_, "");
     // What cannot be read twice, a pipe, is kept; so its size is bounded.
     std::optional<std::string> kept;
     if (!chunks->rewind()) {
       kept = readAll(*chunks);
-      if (!kept) return session_.finish("");
+      if (!kept) return outcomeOf(session_, "");
       chunks = std::make_unique<LineChunks>(*kept);
     }
     sim::Machine machine(*control_);
-    if (!setVariables(machine)) return session_.finish("");
+    if (!setVariables(machine)) return outcomeOf(session_, "");
     if (!options_.programs.empty() || frontend::nc::mayHoldMacros(*chunks)) return runLoaded(kept, machine);
     chunks->rewind();
     return runStreamed(*chunks, machine);
@@ -66,7 +66,7 @@ private:
 
   Outcome finish(sim::Machine& machine, const sim::Run* run) {
     world_->reportRest();
-    Outcome out = session_.finish(options_.json ? summary(machine, run, *world_, session_) : "", true);
+    Outcome out = outcomeOf(session_, options_.json ? summary(machine, run, *world_, session_) : "", true);
     world_->finish(out);
     return out;
   }
@@ -118,12 +118,12 @@ private:
         kept ? addText(options_.program, std::move(*kept), Encoding::Cp1250, session_.options().encoding,
                        session_.sources(), diagnostics())
              : session_.read(options_.program, Encoding::Cp1250);
-    if (!id) return session_.finish("");
+    if (!id) return outcomeOf(session_, "");
     std::optional<ProgramLibrary> library = ProgramLibrary::load(*id, options_.programs, *control_, session_);
-    if (!library) return session_.finish("");
+    if (!library) return outcomeOf(session_, "");
     const std::unique_ptr<SimMacros> macros =
         SimMacros::load(options_.probeMacros, world_->hasPicture(), *control_, *library, session_);
-    if (!macros) return session_.finish("");
+    if (!macros) return outcomeOf(session_, "");
     if (const auto radius = world_->calibratedRadius()) macros->setStylusRadius(*radius);
     const sim::Bytecode code = sim::compile(library->programs(), *control_, session_.sources());
     std::optional<sim::Trace> trace;

@@ -1,6 +1,6 @@
 #include "driver/SimMacros.h"
 
-#include "driver/Programs.h"
+#include "project/Programs.h"
 #include "sim/machine/Machine.h"
 #include "sim/machine/Value.h"
 #include "support/Files.h"

@@ -1,8 +1,8 @@
 // The probing macros that a run may call: by their text, where Dotek has it, else by their meaning.
 #pragma once
 
-#include "driver/ProgramLibrary.h"
-#include "driver/Session.h"
+#include "driver/Command.h"
+#include "project/ProgramLibrary.h"
 #include "sim/machine/VendorMacros.h"
 #include "sim/picture/Picture.h"
 #include "stdlib/Control.h"

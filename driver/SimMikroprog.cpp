@@ -40,16 +40,16 @@ public:
   SimMikroprog(const SimOptions& options, Session& session) : options_(options), session_(session) {}
 
   Outcome run() {
-    if (!refuseOptions()) return session_.finish("");
+    if (!refuseOptions()) return outcomeOf(session_, "");
     const std::optional<FileId> id = session_.read(options_.program, Encoding::Cp852);
-    if (!id) return session_.finish("");
+    if (!id) return outcomeOf(session_, "");
     const auto program = frontend::mikroprog::parse(*id, session_.sources(), session_.diagnostics());
-    if (diagnostics().hasErrors()) return session_.finish("");
+    if (diagnostics().hasErrors()) return outcomeOf(session_, "");
     control_ = loadControl(program);
-    if (!control_ || !check(program)) return session_.finish("");
+    if (!control_ || !check(program)) return outcomeOf(session_, "");
     const auto blocks = frontend::mikroprog::lower(program, session_.sources());
     const std::unique_ptr<SimWorld> world = SimWorld::load(options_, session_);
-    if (!blocks || !world) return session_.finish("");
+    if (!blocks || !world) return outcomeOf(session_, "");
     for (const frontend::mikroprog::Line& line : program.lines)
       lines_.emplace(session_.sources().line(line.range), line.range);
 
@@ -64,7 +64,7 @@ public:
     trace.reset();
     report(machine);
     world->reportRest();
-    Outcome out = session_.finish(options_.json ? summary(machine, *world) : "", true);
+    Outcome out = outcomeOf(session_, options_.json ? summary(machine, *world) : "", true);
     world->finish(out);
     return out;
   }

@@ -1,7 +1,7 @@
 // `dotek sim` of a program of Mikroprog.
 #pragma once
 
-#include "driver/Session.h"
+#include "driver/Command.h"
 
 namespace dotek::driver {
 

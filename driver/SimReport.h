@@ -1,7 +1,7 @@
 // Private to `sim`: how a run ended, as diagnostics and as JSON.
 #pragma once
 
-#include "driver/Session.h"
+#include "driver/Command.h"
 #include "driver/SimWorld.h"
 #include "frontend/nc/Scan.h"
 #include "sim/machine/Machine.h"

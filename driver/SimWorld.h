@@ -2,7 +2,7 @@
 // happens there becomes findings at the block that runs, with the calls that are open.
 #pragma once
 
-#include "driver/Session.h"
+#include "driver/Command.h"
 #include "sim/geometry/Probe.h"
 #include "sim/machine/Machine.h"
 #include "sim/machine/Mikroprog.h"

@@ -1,8 +1,6 @@
 #include "support/messages/Verify.h"
 #include "backends/mikroprog/Emit.h"
-#include "driver/CycleFolder.h"
 #include "driver/Driver.h"
-#include "driver/Programs.h"
 #include "driver/Targets.h"
 #include "driver/VerifyCase.h"
 #include "driver/VerifyPrograms.h"
@@ -12,6 +10,8 @@
 #include "driver/VerifyTranslation.h"
 #include "frontend/gibbs/Cycle.h"
 #include "ir/Rewrite.h"
+#include "project/CycleFolder.h"
+#include "project/Programs.h"
 #include "stdlib/HostInputs.h"
 #include "support/Files.h"
 #include "support/messages/Commands.h"
@@ -29,10 +29,10 @@ public:
       : options_(options), session_(session), main_(options, plan_) {}
 
   Outcome run() {
-    if (!checkOptions()) return session_.finish("");
-    if (!main_.load() || !makePlan()) return main_.session().finish("");
+    if (!checkOptions()) return outcomeOf(session_, "");
+    if (!main_.load() || !makePlan()) return outcomeOf(main_.session(), "");
     main_.session().diagnostics() = Diagnostics();
-    if (!main_.prepare()) return main_.session().finish("");
+    if (!main_.prepare()) return outcomeOf(main_.session(), "");
     VerifyReport report(options_, plan_, main_);
     const auto another = [&]() -> std::unique_ptr<CaseSubject> {
       auto runner = std::make_unique<CaseRunner>(options_, plan_);
@@ -41,7 +41,7 @@ public:
       return runner->prepare() ? std::move(runner) : nullptr;
     };
     const bool edges = !options_.to.empty() && !options_.replay;
-    if (!runCases(options_, edges, main_, another, report)) return main_.session().finish("");
+    if (!runCases(options_, edges, main_, another, report)) return outcomeOf(main_.session(), "");
     main_.session().diagnostics() = Diagnostics();
     return report.finish();
   }

@@ -1,13 +1,13 @@
 // Private to Verify*.cpp: one case of a cycle, drawn and run on both sides. A runner is used by one thread.
 #pragma once
 
-#include "driver/CycleFolder.h"
-#include "driver/Fields.h"
-#include "driver/Lowering.h"
-#include "driver/Session.h"
+#include "driver/Command.h"
 #include "driver/VerifySubject.h"
 #include "driver/VerifyTranslation.h"
 #include "frontend/compost/Post.h"
+#include "project/CycleFolder.h"
+#include "project/Fields.h"
+#include "project/Lowering.h"
 #include "sim/geometry/Probe.h"
 #include "sim/machine/Bytecode.h"
 #include "stdlib/MacroSet.h"

@@ -1,12 +1,12 @@
 #include "driver/VerifyPrograms.h"
 
 #include "backends/fanuc/ProgramCalls.h"
-#include "driver/Hosts.h"
-#include "driver/Lowering.h"
-#include "driver/Programs.h"
-#include "driver/VariableFlags.h"
 #include "driver/VerifyReport.h"
 #include "driver/VerifyRuns.h"
+#include "project/Hosts.h"
+#include "project/Lowering.h"
+#include "project/Programs.h"
+#include "project/VariableFlags.h"
 #include "sim/machine/Compile.h"
 #include "sim/machine/Value.h"
 #include "sim/machine/VendorMacros.h"
@@ -387,7 +387,7 @@ public:
     if (options_.to.empty()) {
       session_.diagnostics().report<diag::MissingOption>({}, "verify", "--to TARGET",
                                                          "what the programs are compared with");
-      return session_.finish("");
+      return outcomeOf(session_, "");
     }
     ConvertOptions convert;
     convert.inputs = options_.inputs;
@@ -405,19 +405,19 @@ public:
     plan_.programs = true;
     Translation translation = translationOf(converted);
     if (options_.translation && !takeEdited(*options_.translation, translation, session_))
-      return session_.finish("");
+      return outcomeOf(session_, "");
     plan_.translation = std::move(translation);
-    if (!loadWorld(options_, plan_, session_)) return session_.finish("");
+    if (!loadWorld(options_, plan_, session_)) return outcomeOf(session_, "");
     Session& own = main_.session();
-    if (!main_.load()) return own.finish("");
+    if (!main_.load()) return outcomeOf(own, "");
     auto fields = main_.fields();
-    if (!fields) return own.finish("");
+    if (!fields) return outcomeOf(own, "");
     plan_.fields = std::move(*fields);
     plan_.fixedHosts = main_.hosts();
     if (main_.sourceSet() != nullptr) plan_.sourceMacros = main_.sourceSet()->name;
     if (main_.targetSet() != nullptr) plan_.targetMacros = main_.targetSet()->name;
     own.diagnostics() = Diagnostics();
-    if (!main_.prepare()) return own.finish("");
+    if (!main_.prepare()) return outcomeOf(own, "");
     VerifyReport report(options_, plan_, main_);
     const auto another = [&]() -> std::unique_ptr<CaseSubject> {
       auto runner = std::make_unique<ProgramRunner>(options_, plan_);
@@ -425,7 +425,7 @@ public:
       runner->session().diagnostics() = Diagnostics();
       return runner->prepare() ? std::move(runner) : nullptr;
     };
-    if (!runCases(options_, !options_.replay, main_, another, report)) return own.finish("");
+    if (!runCases(options_, !options_.replay, main_, another, report)) return outcomeOf(own, "");
     own.diagnostics() = Diagnostics();
     return report.finish();
   }

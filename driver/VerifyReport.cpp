@@ -265,7 +265,7 @@ Outcome VerifyReport::finish() {
                        edges_.proved + edges_.idle, edges_.refused, edges_.none, edges_.differ, edges_.all());
   out += fmt::format("proved {}, idle {}, differ {} of {}\n", cases_.proved,
                      cases_.idle + cases_.refused + cases_.none, cases_.differ, all);
-  return session.finish(std::move(out), true);
+  return outcomeOf(session, std::move(out), true);
 }
 
 } // namespace dotek::driver

@@ -2,7 +2,7 @@
 // runs them on both sides; the report puts together what they come to.
 #pragma once
 
-#include "driver/Session.h"
+#include "driver/Command.h"
 #include "sim/geometry/Part.h"
 #include "sim/geometry/Probe.h"
 #include "verify/Compare.h"

@@ -2,10 +2,10 @@
 // is run and compared with the posted program.
 #pragma once
 
-#include "driver/CycleFolder.h"
-#include "driver/Lowering.h"
-#include "driver/Session.h"
+#include "driver/Command.h"
 #include "driver/VerifyCase.h"
+#include "project/CycleFolder.h"
+#include "project/Lowering.h"
 #include "sim/machine/World.h"
 #include "verify/Compare.h"
 #include "verify/Stand.h"

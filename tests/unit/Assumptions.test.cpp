@@ -1,4 +1,4 @@
-#include "driver/Assumptions.h"
+#include "project/Assumptions.h"
 #include "tests/GoldenRunner.h"
 
 #include <doctest/doctest.h>
@@ -7,7 +7,7 @@ using namespace dotek;
 
 TEST_CASE("docs/gibbs.md lists every assumption") {
   const std::string page = tests::readAll(tests::root() / "docs" / "gibbs.md");
-  for (const auto& [name, reading] : driver::assumptionTable()) {
+  for (const auto& [name, reading] : project::assumptionTable()) {
     INFO(name);
     CHECK(page.find("`" + name + "`") != std::string::npos);
   }
@@ -15,10 +15,10 @@ TEST_CASE("docs/gibbs.md lists every assumption") {
 
 TEST_CASE("a misspelt assumption is refused") {
   Diagnostics diagnostics;
-  driver::checkAssumptions({"block-if", "Drilling?=yes", "Drilling?=no"}, diagnostics);
+  project::checkAssumptions({"block-if", "Drilling?=yes", "Drilling?=no"}, diagnostics);
   CHECK(diagnostics.empty());
-  driver::checkAssumptions({"blok-if"}, diagnostics);
-  driver::checkAssumptions({"Drilling?=maybe"}, diagnostics);
+  project::checkAssumptions({"blok-if"}, diagnostics);
+  project::checkAssumptions({"Drilling?=maybe"}, diagnostics);
   REQUIRE(diagnostics.all().size() == 2);
   CHECK(diagnostics.all()[0].code == "unknown-assumption");
   CHECK(diagnostics.all()[0].message.find("`block-if`") != std::string::npos);

@@ -1,5 +1,5 @@
 // What convert leaves on disk: all or nothing. And what a defect of Dotek itself ends in.
-#include "driver/Session.h"
+#include "driver/Command.h"
 #include "support/Files.h"
 #include "support/messages/Commands.h"
 #include "tests/GoldenRunner.h"
@@ -74,9 +74,9 @@ TEST_CASE("a file that cannot be renamed leaves no temporary file") {
 
 TEST_CASE("internal-defect ends with status 3 and writes nothing") {
   const driver::CommonOptions options;
-  driver::Session session(options);
+  project::Session session(options);
   session.diagnostics().report<diag::InternalDefect>({}, "a label stands twice");
-  const driver::Outcome outcome = session.finish("half a program");
+  const driver::Outcome outcome = driver::outcomeOf(session, "half a program");
   CHECK(outcome.diagnostics.all().front().code == "internal-defect");
   CHECK(outcome.status == 3);
   CHECK(outcome.output.empty());

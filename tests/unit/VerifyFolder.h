@@ -1,8 +1,8 @@
 // A cycle folder whose cases are drawn, for tests of the drawing.
 #pragma once
 
-#include "driver/CycleFolder.h"
 #include "frontend/gibbs/Run.h"
+#include "project/CycleFolder.h"
 #include "verify/Draw.h"
 
 #include <functional>
@@ -28,7 +28,7 @@ inline sim::Probe drawnProbe(double ballRadius) {
 class VerifyFolder {
 public:
   explicit VerifyFolder(const std::string& path)
-      : session_(options_), folder_(driver::loadCycleFolder(path, session_)) {}
+      : session_(options_), folder_(project::loadCycleFolder(path, session_)) {}
 
   std::vector<verify::DrawField> fields() const {
     std::vector<verify::DrawField> out;
@@ -100,9 +100,9 @@ private:
         [this](const std::string& name, SourceRange where) { return folder_.loader->dialog(name, where); }};
   }
 
-  driver::CommonOptions options_;
-  driver::Session session_;
-  driver::CycleFolder folder_;
+  project::CommonOptions options_;
+  project::Session session_;
+  project::CycleFolder folder_;
 };
 
 } // namespace dotek::tests

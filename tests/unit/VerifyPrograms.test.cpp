@@ -1,6 +1,6 @@
 // Programs of macro B beside their conversion: what is drawn, where the part comes from, what is found.
 #include "driver/Driver.h"
-#include "driver/Programs.h"
+#include "project/Programs.h"
 #include "sim/machine/Value.h"
 #include "tests/GoldenRunner.h"
 #include "tests/unit/MacroBHelper.h"

@@ -1,7 +1,7 @@
 #include "WordCheck.h"
 
-#include "driver/CycleFolder.h"
-#include "driver/Lowering.h"
+#include "project/CycleFolder.h"
+#include "project/Lowering.h"
 #include "support/Decimal.h"
 #include "tests/policy/Tree.h"
 
@@ -137,13 +137,13 @@ ResultLine ResultLine::without(std::size_t word) const {
 }
 
 std::vector<SourceBlock> sourceBlocks(const driver::ConvertOptions& options) {
-  driver::Session session(options.common);
+  project::Session session(options.common);
   const auto inputs =
-      driver::loadLoweringInputs(options.source, std::string(driver::kDefaultControl), session);
+      project::loadLoweringInputs(options.source, std::string(project::kDefaultControl), session);
   REQUIRE(inputs);
-  const driver::CycleFolder folder = driver::loadCycleFolder(options.inputs.front(), session);
+  const project::CycleFolder folder = project::loadCycleFolder(options.inputs.front(), session);
   std::set<std::string> used;
-  const auto lowered = driver::lowerCycle(folder, *inputs, used, session);
+  const auto lowered = project::lowerCycle(folder, *inputs, used, session);
   REQUIRE_MESSAGE(lowered, renderText(session.diagnostics(), session.sources(), 5));
   std::vector<SourceBlock> out;
   for (const ir::PrintedBlock& block : lowered->printed) {

@@ -1,6 +1,6 @@
-#include "driver/ProgramLibrary.h"
+#include "project/ProgramLibrary.h"
 
-#include "driver/Programs.h"
+#include "project/Programs.h"
 #include "support/messages/Common.h"
 #include "support/messages/Sim.h"
 
@@ -10,7 +10,7 @@
 #include <system_error>
 #include <utility>
 
-namespace dotek::driver {
+namespace dotek::project {
 namespace {
 
 namespace fs = std::filesystem;
@@ -95,4 +95,4 @@ std::vector<const ir::Program*> ProgramLibrary::programs() const {
   return out;
 }
 
-} // namespace dotek::driver
+} // namespace dotek::project

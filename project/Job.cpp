@@ -1,11 +1,11 @@
-#include "driver/Job.h"
+#include "project/Job.h"
 
-#include "driver/Hosts.h"
+#include "project/Hosts.h"
 #include "stdlib/HostInputs.h"
 #include "stdlib/Toml.h"
 #include "support/Files.h"
 
-namespace dotek::driver {
+namespace dotek::project {
 
 using stdlib::TomlDocument;
 using stdlib::TomlEntry;
@@ -114,4 +114,4 @@ std::optional<Job> loadJob(const std::string& path, const Limits& limits, Source
   return job;
 }
 
-} // namespace dotek::driver
+} // namespace dotek::project

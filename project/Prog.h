@@ -1,13 +1,13 @@
 // Private to Post*.cpp: the Prog of a post, read, checked and repaired.
 #pragma once
 
-#include "driver/Session.h"
 #include "frontend/compost/Ast.h"
+#include "project/Session.h"
 
 #include <optional>
 #include <string>
 
-namespace dotek::driver {
+namespace dotek::project {
 
 // Reads, parses and checks the Prog. Under --recover its repairable errors become warnings that state the
 // reading. nullopt where the file could not be read.
@@ -26,4 +26,4 @@ const frontend::compost::Routine* chooseRoutine(const frontend::compost::Program
 // of this run stands out; a note counts the warnings. Repairs and unverified readings stay.
 void leaveFindingsToLint(Session& session);
 
-} // namespace dotek::driver
+} // namespace dotek::project

@@ -1,11 +1,11 @@
-#include "driver/VariableFlags.h"
+#include "project/VariableFlags.h"
 
 #include "support/Decimal.h"
 #include "support/messages/Sim.h"
 
 #include <charconv>
 
-namespace dotek::driver {
+namespace dotek::project {
 
 std::vector<std::pair<std::uint32_t, double>> variablesOf(const NamedTexts& given, Diagnostics& diagnostics) {
   std::vector<std::pair<std::uint32_t, double>> out;
@@ -24,4 +24,4 @@ std::vector<std::pair<std::uint32_t, double>> variablesOf(const NamedTexts& give
   return out;
 }
 
-} // namespace dotek::driver
+} // namespace dotek::project

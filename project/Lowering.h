@@ -1,12 +1,12 @@
 // From a cycle folder and a Prog to the IR: what convert, dump and verify begin with.
 #pragma once
 
-#include "driver/CycleFolder.h"
-#include "driver/Job.h"
-#include "driver/Session.h"
 #include "frontend/compost/Ast.h"
 #include "ir/Cycle.h"
 #include "ir/PrintedText.h"
+#include "project/CycleFolder.h"
+#include "project/Job.h"
+#include "project/Session.h"
 #include "stdlib/Control.h"
 #include "stdlib/Form.h"
 #include "stdlib/MacroSet.h"
@@ -17,7 +17,7 @@
 #include <string>
 #include <vector>
 
-namespace dotek::driver {
+namespace dotek::project {
 
 // Profile where no --control is given.
 inline constexpr std::string_view kDefaultControl = "fanuc-0i-md";
@@ -59,4 +59,4 @@ struct LoweredCycle {
 std::optional<LoweredCycle> lowerCycle(const CycleFolder& folder, const LoweringInputs& inputs,
                                        std::set<std::string>& usedSets, Session& session);
 
-} // namespace dotek::driver
+} // namespace dotek::project

@@ -1,10 +1,5 @@
-#include "driver/Lowering.h"
+#include "project/Lowering.h"
 
-#include "driver/Assumptions.h"
-#include "driver/ConvertValues.h"
-#include "driver/Fields.h"
-#include "driver/Hosts.h"
-#include "driver/PostProgram.h"
 #include "frontend/compost/Lower.h"
 #include "frontend/compost/Summary.h"
 #include "frontend/gibbs/Lower.h"
@@ -13,6 +8,11 @@
 #include "ir/Positions.h"
 #include "ir/Rewrite.h"
 #include "ir/Verify.h"
+#include "project/Assumptions.h"
+#include "project/Fields.h"
+#include "project/Hosts.h"
+#include "project/Prog.h"
+#include "project/Values.h"
 #include "stdlib/HostInputs.h"
 #include "support/Decimal.h"
 #include "support/messages/Commands.h"
@@ -20,7 +20,7 @@
 
 #include <algorithm>
 
-namespace dotek::driver {
+namespace dotek::project {
 
 namespace compost = frontend::compost;
 namespace gibbs = frontend::gibbs;
@@ -346,4 +346,4 @@ std::optional<LoweredCycle> lowerCycle(const CycleFolder& folder, const Lowering
   return Lowering(folder, inputs, session).run(usedSets);
 }
 
-} // namespace dotek::driver
+} // namespace dotek::project

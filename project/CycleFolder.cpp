@@ -1,11 +1,11 @@
-#include "driver/CycleFolder.h"
+#include "project/CycleFolder.h"
 #include "support/messages/Commands.h"
 #include "support/messages/Common.h"
 
 #include <algorithm>
 #include <array>
 
-namespace dotek::driver {
+namespace dotek::project {
 
 namespace fs = std::filesystem;
 namespace gibbs = frontend::gibbs;
@@ -297,4 +297,4 @@ CycleFolder loadCycleFolder(const std::string& path, Session& session) {
   return folder;
 }
 
-} // namespace dotek::driver
+} // namespace dotek::project

@@ -1,4 +1,4 @@
-#include "driver/Assumptions.h"
+#include "project/Assumptions.h"
 
 #include "frontend/gibbs/Assumptions.h"
 #include "support/NearestName.h"
@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-namespace dotek::driver {
+namespace dotek::project {
 namespace {
 
 constexpr std::string_view kTouch = "touch=";
@@ -86,4 +86,4 @@ std::vector<SourceRange> touchLines(const SourceMap& sources, const std::set<std
   return out;
 }
 
-} // namespace dotek::driver
+} // namespace dotek::project

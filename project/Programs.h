@@ -1,14 +1,14 @@
 // Programs of macro B: from a file that was read to the IR.
 #pragma once
 
-#include "driver/Session.h"
 #include "ir/Program.h"
+#include "project/Session.h"
 #include "stdlib/Control.h"
 
 #include <optional>
 #include <string>
 
-namespace dotek::driver {
+namespace dotek::project {
 
 // By content, or by --from; false for a folder and for what cannot be read.
 bool isProgramFile(const std::string& path, Session& session);
@@ -18,4 +18,4 @@ bool isProgramFile(const std::string& path, Session& session);
 std::optional<ir::ProgramFile> loadPrograms(FileId file, const stdlib::Control& control, Session& session,
                                             SourceRange* leader = nullptr);
 
-} // namespace dotek::driver
+} // namespace dotek::project

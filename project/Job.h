@@ -1,14 +1,16 @@
 // The job file: a whole program as a list of operations (docs/cli.md, "Job file").
 #pragma once
 
-#include "driver/Driver.h"
+#include "support/Diagnostics.h"
+#include "support/Limits.h"
+#include "support/Source.h"
 
 #include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
-namespace dotek::driver {
+namespace dotek::project {
 
 struct JobValue {
   std::string name;
@@ -42,4 +44,4 @@ struct Job {
 std::optional<Job> loadJob(const std::string& path, const Limits& limits, SourceMap& sources,
                            Diagnostics& diagnostics);
 
-} // namespace dotek::driver
+} // namespace dotek::project

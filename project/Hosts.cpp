@@ -1,11 +1,11 @@
-#include "driver/Hosts.h"
+#include "project/Hosts.h"
 
 #include "stdlib/HostInputs.h"
 #include "support/Decimal.h"
 #include "support/NearestName.h"
 #include "support/messages/Commands.h"
 
-namespace dotek::driver {
+namespace dotek::project {
 
 std::string nearestHost(const std::string& name) {
   return nearestName(name, stdlib::hostInputNames());
@@ -30,4 +30,4 @@ std::map<std::string, double> parseHosts(const NamedTexts& given, Diagnostics& d
   return out;
 }
 
-} // namespace dotek::driver
+} // namespace dotek::project

@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-namespace dotek::driver {
+namespace dotek::project {
 
 enum class InputKind : unsigned char { Prog, Macro, Dialog, DefineData, Nc, Suf };
 
@@ -16,4 +16,4 @@ std::optional<InputKind> kindByName(std::string_view name);
 // nullopt: neither content nor name tells.
 std::optional<InputKind> recognise(std::string_view fileName, std::string_view bytes);
 
-} // namespace dotek::driver
+} // namespace dotek::project

@@ -1,9 +1,9 @@
 // Which value a field of the post gets: the macro's defaults, `--set`, `--field`.
 #pragma once
 
-#include "driver/CycleFolder.h"
-#include "driver/Session.h"
 #include "frontend/compost/Ast.h"
+#include "project/CycleFolder.h"
+#include "project/Session.h"
 
 #include <map>
 #include <optional>
@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-namespace dotek::driver {
+namespace dotek::project {
 
 // Where the value of a post's field comes from: a variable of the macro as it declares it, or a number.
 struct FieldOrigin {
@@ -66,4 +66,4 @@ private:
   std::set<std::string> told_;                // post fields of which a finding was reported
 };
 
-} // namespace dotek::driver
+} // namespace dotek::project

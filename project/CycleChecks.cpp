@@ -1,4 +1,4 @@
-#include "driver/PostChecks.h"
+#include "project/CycleChecks.h"
 
 #include "frontend/gibbs/Labels.h"
 #include "frontend/gibbs/Run.h"
@@ -7,7 +7,7 @@
 
 #include <algorithm>
 
-namespace dotek::driver {
+namespace dotek::project {
 
 namespace gibbs = frontend::gibbs;
 
@@ -103,4 +103,4 @@ void runCycleChecks(const CycleFolder& folder, FieldTable& fields, const std::ma
   takeChanges(result, folder, fields, session);
 }
 
-} // namespace dotek::driver
+} // namespace dotek::project

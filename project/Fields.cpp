@@ -1,4 +1,4 @@
-#include "driver/Fields.h"
+#include "project/Fields.h"
 
 #include "frontend/gibbs/Assumptions.h"
 #include "frontend/gibbs/Labels.h"
@@ -9,7 +9,7 @@
 
 #include <algorithm>
 
-namespace dotek::driver {
+namespace dotek::project {
 
 namespace gibbs = frontend::gibbs;
 
@@ -192,4 +192,4 @@ void FieldTable::change(const std::string& folded, double value) {
   }
 }
 
-} // namespace dotek::driver
+} // namespace dotek::project

@@ -1,11 +1,11 @@
 // Private to Convert*.cpp and Lowering.cpp: values of parameters against the cycle's own checks.
 #pragma once
 
-#include "driver/Lowering.h"
+#include "project/Lowering.h"
 
 #include <set>
 
-namespace dotek::driver {
+namespace dotek::project {
 
 // Where the fixed values leave no way through the checks, whatever the rest is: an alarm that they end in.
 std::optional<ir::Statement> certainAlarm(const LoweredCycle& lowered);
@@ -19,4 +19,4 @@ void applyDefaults(const NamedTexts& given, LoweredCycle& lowered, std::set<std:
 // warning, and is taken away: the argument becomes mandatory.
 void settleValues(const CycleFolder& folder, LoweredCycle& lowered, Session& session);
 
-} // namespace dotek::driver
+} // namespace dotek::project

@@ -1,4 +1,4 @@
-#include "driver/PostProgram.h"
+#include "project/Prog.h"
 
 #include "frontend/compost/Check.h"
 #include "frontend/compost/Parse.h"
@@ -11,7 +11,7 @@
 #include <algorithm>
 #include <array>
 
-namespace dotek::driver {
+namespace dotek::project {
 
 namespace compost = frontend::compost;
 
@@ -114,4 +114,4 @@ void leaveFindingsToLint(Session& session) {
     session.diagnostics().report<diag::WarningsLeftToLint>({}, warnings);
 }
 
-} // namespace dotek::driver
+} // namespace dotek::project

@@ -1,4 +1,4 @@
-#include "driver/ConvertValues.h"
+#include "project/Values.h"
 
 #include "frontend/gibbs/Ast.h"
 #include "ir/Evaluate.h"
@@ -10,7 +10,7 @@
 
 #include <algorithm>
 
-namespace dotek::driver {
+namespace dotek::project {
 
 namespace gibbs = frontend::gibbs;
 
@@ -197,4 +197,4 @@ void settleValues(const CycleFolder& folder, LoweredCycle& lowered, Session& ses
   Values(folder, lowered, session).settle();
 }
 
-} // namespace dotek::driver
+} // namespace dotek::project

@@ -1,12 +1,13 @@
 // Host inputs: what the CAM knows of an operation and the macro does not say. No value is built in.
 #pragma once
 
-#include "driver/Driver.h"
+#include "project/Options.h"
+#include "support/Diagnostics.h"
 
 #include <map>
 #include <string>
 
-namespace dotek::driver {
+namespace dotek::project {
 
 // The nearest known name of a host input; "" for none.
 std::string nearestHost(const std::string& name);
@@ -15,4 +16,4 @@ std::string nearestHost(const std::string& name);
 // error.
 std::map<std::string, double> parseHosts(const NamedTexts& given, Diagnostics& diagnostics);
 
-} // namespace dotek::driver
+} // namespace dotek::project

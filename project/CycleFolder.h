@@ -1,10 +1,10 @@
 // A cycle folder on disk: finds and parses its four files, and the macros they call.
 #pragma once
 
-#include "driver/Session.h"
 #include "frontend/gibbs/Ast.h"
 #include "frontend/gibbs/Cycle.h"
 #include "frontend/gibbs/Parse.h"
+#include "project/Session.h"
 
 #include <deque>
 #include <filesystem>
@@ -13,7 +13,7 @@
 #include <optional>
 #include <string>
 
-namespace dotek::driver {
+namespace dotek::project {
 
 // Macros and dialogs of one folder, parsed once each. Names in CALL, #INCLUDE and DIALOG are taken relative
 // to the folder; case does not matter, `.mac` may be left out.
@@ -63,4 +63,4 @@ bool isCycleFolder(const std::filesystem::path& path);
 // Reads, parses and checks the folder. Missing and unreadable files are reported.
 CycleFolder loadCycleFolder(const std::string& path, Session& session);
 
-} // namespace dotek::driver
+} // namespace dotek::project

@@ -1,8 +1,5 @@
-#include "driver/Session.h"
+#include "driver/Command.h"
 
-#include "driver/Assumptions.h"
-#include "support/Files.h"
-#include "support/messages/Commands.h"
 #include "support/messages/Common.h"
 #include "support/messages/Fanuc.h"
 #include "support/messages/Gibbs.h"
@@ -12,54 +9,15 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 #include <set>
 #include <tuple>
 
 namespace dotek::driver {
 
-Session::Session(const CommonOptions& options) : options_(options) {
-  checkAssumptions(options.assume, diagnostics_);
-  for (const std::string& folder : options.data)
-    data_.addFolder(folder, options.limits, diagnostics_);
-}
-
-const stdlib::GibbsKeywords& Session::gibbsKeywords() {
-  if (!gibbs_) gibbs_.emplace(stdlib::GibbsKeywords::load(data_));
-  return *gibbs_;
-}
-
-const stdlib::ComPostKeywords& Session::compostKeywords() {
-  if (!compost_) compost_.emplace(stdlib::ComPostKeywords::load(data_));
-  return *compost_;
-}
-
-std::optional<stdlib::Form> Session::form(const std::string& name) {
-  std::optional<stdlib::Form> form = stdlib::Form::load(data_, name, compostKeywords());
-  if (!form) {
-    std::string known;
-    for (const stdlib::DataFile* file : data_.list("forms"))
-      known += (known.empty() ? "" : ", ") + file->name;
-    diagnostics_.report<diag::UnknownForm>({}, name, known);
-  }
-  return form;
-}
-
-std::optional<FileId> Session::read(const std::string& path, Encoding fallback) {
-  const auto known = read_.find(path);
-  if (known != read_.end()) return known->second;
-  if (read_.size() >= options_.limits.files) {
-    diagnostics_.report<diag::TooManyFiles>({}, options_.limits.files);
-    return std::nullopt;
-  }
-  const std::optional<FileId> id =
-      readText(path, fallback, options_.encoding, options_.limits, sources_, diagnostics_);
-  read_.emplace(path, id);
-  return id;
-}
-
-Outcome Session::finish(std::string output, bool keepOutput) {
+Outcome outcomeOf(Session& session, std::string output, bool keepOutput) {
   Outcome outcome;
-  auto& all = diagnostics_.all();
+  auto& all = session.diagnostics().all();
   // A run that stopped at a construct has said all that the note says.
   std::set<SourceRange, bool (*)(const SourceRange&, const SourceRange&)> stopped(
       [](const SourceRange& a, const SourceRange& b) {
@@ -77,10 +35,10 @@ Outcome Session::finish(std::string output, bool keepOutput) {
   });
   const bool defect = std::any_of(all.begin(), all.end(),
                                   [](const Diagnostic& d) { return d.code == diag::InternalDefect::code; });
-  outcome.status = defect ? 3 : usage ? 2 : diagnostics_.hasErrors() ? 1 : 0;
+  outcome.status = defect ? 3 : usage ? 2 : session.diagnostics().hasErrors() ? 1 : 0;
   if (outcome.status == 0 || keepOutput) outcome.output = std::move(output);
-  outcome.sources = std::move(sources_);
-  outcome.diagnostics = std::move(diagnostics_);
+  outcome.sources = std::move(session.sources());
+  outcome.diagnostics = std::move(session.diagnostics());
   outcome.diagnostics.sort();
   return outcome;
 }

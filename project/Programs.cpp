@@ -1,14 +1,14 @@
-#include "driver/Programs.h"
+#include "project/Programs.h"
 
-#include "driver/InputKind.h"
 #include "frontend/macrob/Lower.h"
 #include "frontend/macrob/Parse.h"
+#include "project/InputKind.h"
 #include "support/Files.h"
 
 #include <filesystem>
 #include <utility>
 
-namespace dotek::driver {
+namespace dotek::project {
 
 bool isProgramFile(const std::string& path, Session& session) {
   std::error_code error;
@@ -30,4 +30,4 @@ std::optional<ir::ProgramFile> loadPrograms(FileId file, const stdlib::Control& 
   return frontend::macrob::lower(tree, control, session.sources(), session.diagnostics());
 }
 
-} // namespace dotek::driver
+} // namespace dotek::project

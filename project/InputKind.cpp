@@ -1,4 +1,4 @@
-#include "driver/InputKind.h"
+#include "project/InputKind.h"
 
 #include <algorithm>
 #include <array>
@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace dotek::driver {
+namespace dotek::project {
 namespace {
 
 std::string upper(std::string_view text) {
@@ -186,4 +186,4 @@ std::optional<InputKind> recognise(std::string_view fileName, std::string_view b
   return std::nullopt;
 }
 
-} // namespace dotek::driver
+} // namespace dotek::project

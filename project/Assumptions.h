@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-namespace dotek::driver {
+namespace dotek::project {
 
 // Name and reading of every assumption, sorted by name. `Word?=yes` and `Word?=no` stand for all words.
 std::vector<std::pair<std::string, std::string>> assumptionTable();
@@ -20,4 +20,4 @@ void checkAssumptions(const std::set<std::string>& given, Diagnostics& diagnosti
 std::vector<SourceRange> touchLines(const SourceMap& sources, const std::set<std::string>& given,
                                     Diagnostics& diagnostics);
 
-} // namespace dotek::driver
+} // namespace dotek::project

@@ -1,8 +1,8 @@
 // The programs of a run: those of the file, and those of folders, which it may call.
 #pragma once
 
-#include "driver/Session.h"
 #include "ir/Program.h"
+#include "project/Session.h"
 #include "stdlib/Control.h"
 
 #include <deque>
@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-namespace dotek::driver {
+namespace dotek::project {
 
 class ProgramLibrary {
 public:
@@ -31,4 +31,4 @@ private:
   std::deque<ir::Program> programs_;
 };
 
-} // namespace dotek::driver
+} // namespace dotek::project

@@ -1,0 +1,40 @@
+// What every command that reads inputs is told of them.
+#pragma once
+
+#include "support/Limits.h"
+#include "support/Source.h"
+
+#include <optional>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace dotek::project {
+
+// NAME=VALUE of a repeated flag, in the order given.
+using NamedTexts = std::vector<std::pair<std::string, std::string>>;
+
+// Flags of every command that reads an input.
+struct CommonOptions {
+  std::optional<std::string> job;
+  NamedTexts set;   // a field's value, mm and degrees
+  NamedTexts field; // the post's field = the macro's variable
+  NamedTexts host;  // host inputs, mm and mm/min
+  std::set<std::string> assume;
+  bool recover = false;
+  std::optional<Encoding> encoding;
+  Limits limits;
+  std::vector<std::string> data;   // folders of data files
+  std::optional<std::string> from; // kind of the inputs
+};
+
+// Flags that say where the post stands.
+struct SourceOptions {
+  std::optional<std::string> prog;
+  std::string form = "thesis-a";
+  std::optional<std::string> routine;
+  std::optional<std::string> cycle;
+};
+
+} // namespace dotek::project

@@ -1,0 +1,49 @@
+#include "project/Session.h"
+
+#include "project/Assumptions.h"
+#include "support/Files.h"
+#include "support/messages/Commands.h"
+
+namespace dotek::project {
+
+Session::Session(const CommonOptions& options) : options_(options) {
+  checkAssumptions(options.assume, diagnostics_);
+  for (const std::string& folder : options.data)
+    data_.addFolder(folder, options.limits, diagnostics_);
+}
+
+const stdlib::GibbsKeywords& Session::gibbsKeywords() {
+  if (!gibbs_) gibbs_.emplace(stdlib::GibbsKeywords::load(data_));
+  return *gibbs_;
+}
+
+const stdlib::ComPostKeywords& Session::compostKeywords() {
+  if (!compost_) compost_.emplace(stdlib::ComPostKeywords::load(data_));
+  return *compost_;
+}
+
+std::optional<stdlib::Form> Session::form(const std::string& name) {
+  std::optional<stdlib::Form> form = stdlib::Form::load(data_, name, compostKeywords());
+  if (!form) {
+    std::string known;
+    for (const stdlib::DataFile* file : data_.list("forms"))
+      known += (known.empty() ? "" : ", ") + file->name;
+    diagnostics_.report<diag::UnknownForm>({}, name, known);
+  }
+  return form;
+}
+
+std::optional<FileId> Session::read(const std::string& path, Encoding fallback) {
+  const auto known = read_.find(path);
+  if (known != read_.end()) return known->second;
+  if (read_.size() >= options_.limits.files) {
+    diagnostics_.report<diag::TooManyFiles>({}, options_.limits.files);
+    return std::nullopt;
+  }
+  const std::optional<FileId> id =
+      readText(path, fallback, options_.encoding, options_.limits, sources_, diagnostics_);
+  read_.emplace(path, id);
+  return id;
+}
+
+} // namespace dotek::project
