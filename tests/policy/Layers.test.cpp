@@ -212,7 +212,7 @@ TEST_CASE("policy: libraries do not leak") {
       {"Eigen",
        [](const std::string& n) { return n.starts_with("Eigen/"); },
        {"sim/geometry", "sim/picture", "verify"},
-       ""},
+       "sim"},
       {"doctest", [](const std::string& n) { return n.starts_with("doctest"); }, {}, ""},
   };
   std::map<std::string, std::vector<Include>> includes;

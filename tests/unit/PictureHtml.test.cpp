@@ -190,10 +190,10 @@ TEST_CASE("html: node finds no fault in the scripts") {
     return;
   }
   for (const char* name : {"picture.js", "picture-view.js"}) {
-    const std::string command = "node --check '" + (root() / "sim" / name).string() + "'";
+    const std::string command = "node --check '" + (root() / "sim" / "picture" / name).string() + "'";
     CHECK_MESSAGE(std::system(command.c_str()) == 0, name);
   }
-  CHECK(pictureHtml(Picture{}).find(readAll(root() / "sim" / "picture.js")) != std::string::npos);
+  CHECK(pictureHtml(Picture{}).find(readAll(root() / "sim" / "picture" / "picture.js")) != std::string::npos);
 }
 
 TEST_CASE("html: in Chromium the slider moves the probe and the numbers are those of the picture") {
