@@ -61,24 +61,31 @@ std::optional<Value> Interpreter::evaluateText(State& state, const Expression& e
 }
 
 std::optional<Value> Interpreter::evaluate(State& state, const Expression& e) {
-  if (const auto* literal = std::get_if<NumberLiteral>(&e.node)) return number(*literal, e.range);
-  if (const auto* literal = std::get_if<TextLiteral>(&e.node)) return text(*literal, e.range);
-  if (const auto* variable = std::get_if<VariableRef>(&e.node)) return read(state, *variable);
-  if (const auto* call = std::get_if<FunctionCall>(&e.node)) return function(state, *call, e.range);
-  if (const auto* node = std::get_if<Binary>(&e.node)) return binary(state, *node, e.range);
-  if (const auto* bracketed = std::get_if<Bracketed>(&e.node)) return evaluate(state, *bracketed->inner);
-  if (const auto* unary = std::get_if<Unary>(&e.node)) {
-    const auto operand = evaluateNumber(state, *unary->operand);
-    if (!operand || unary->op == UnaryOperator::Plus) return operand;
-    auto negated = apply(state, kNegation, {*operand}, e.range);
-    if (negated || fault_) return negated;
-    return opaque(state, "-(" + canonical(*operand) + ")", {*operand}, reasonOf({*operand}), false, e.range);
-  }
-  refuse(e.range, "the expression is broken");
+  return std::visit([&](const auto& node) { return evaluate(state, node, e.range); }, e.node);
+}
+
+std::optional<Value> Interpreter::evaluate(State& state, const VariableRef& ref, SourceRange) {
+  return read(state, ref);
+}
+
+std::optional<Value> Interpreter::evaluate(State& state, const Bracketed& node, SourceRange) {
+  return evaluate(state, *node.inner);
+}
+
+std::optional<Value> Interpreter::evaluate(State&, const ErrorExpression&, SourceRange range) {
+  refuse(range, "the expression is broken");
   return std::nullopt;
 }
 
-std::optional<Value> Interpreter::number(const NumberLiteral& literal, SourceRange range) {
+std::optional<Value> Interpreter::evaluate(State& state, const Unary& node, SourceRange range) {
+  const auto operand = evaluateNumber(state, *node.operand);
+  if (!operand || node.op == UnaryOperator::Plus) return operand;
+  auto negated = apply(state, kNegation, {*operand}, range);
+  if (negated || fault_) return negated;
+  return opaque(state, "-(" + canonical(*operand) + ")", {*operand}, reasonOf({*operand}), false, range);
+}
+
+std::optional<Value> Interpreter::evaluate(State&, const NumberLiteral& literal, SourceRange range) {
   const std::string& digits = literal.text;
   const bool exponent = digits.find_first_of("eE") != std::string::npos;
   const bool bare = !digits.empty() && (digits.front() == '.' || digits.back() == '.');
@@ -89,7 +96,7 @@ std::optional<Value> Interpreter::number(const NumberLiteral& literal, SourceRan
   return this->literal(std::get<double>(*value), exponent || bare ? "" : digits, range);
 }
 
-std::optional<Value> Interpreter::text(const TextLiteral& literal, SourceRange range) {
+std::optional<Value> Interpreter::evaluate(State&, const TextLiteral& literal, SourceRange range) {
   if (literal.quote == '\'' && !assumes("single-quotes", range)) return std::nullopt;
   std::string text = literal.text;
   for (std::size_t at = text.find("\"\""); literal.quote == '"' && at != std::string::npos;
@@ -100,7 +107,7 @@ std::optional<Value> Interpreter::text(const TextLiteral& literal, SourceRange r
   return Value(std::move(text));
 }
 
-std::optional<Value> Interpreter::binary(State& state, const Binary& node, SourceRange range) {
+std::optional<Value> Interpreter::evaluate(State& state, const Binary& node, SourceRange range) {
   const auto left = evaluate(state, *node.left);
   if (!left) return std::nullopt;
   const auto right = evaluate(state, *node.right);
@@ -130,7 +137,7 @@ std::optional<Value> Interpreter::binary(State& state, const Binary& node, Sourc
   return std::nullopt;
 }
 
-std::optional<Value> Interpreter::function(State& state, const FunctionCall& call, SourceRange range) {
+std::optional<Value> Interpreter::evaluate(State& state, const FunctionCall& call, SourceRange range) {
   const std::string name = foldCase(call.name.text);
   const stdlib::FunctionSpec* spec = around_.keywords.function(name);
   const bool givesText = spec != nullptr ? spec->result == 't' : call.name.isText();

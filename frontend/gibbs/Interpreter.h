@@ -234,10 +234,14 @@ private:
   std::optional<Value> evaluateLeniently(State& state, const Expression& e);
 
   // ---- InterpretExpression.cpp
-  std::optional<Value> number(const NumberLiteral& literal, SourceRange range);
-  std::optional<Value> text(const TextLiteral& literal, SourceRange range);
-  std::optional<Value> binary(State& state, const Binary& node, SourceRange range);
-  std::optional<Value> function(State& state, const FunctionCall& call, SourceRange range);
+  std::optional<Value> evaluate(State&, const NumberLiteral& literal, SourceRange range);
+  std::optional<Value> evaluate(State&, const TextLiteral& literal, SourceRange range);
+  std::optional<Value> evaluate(State& state, const VariableRef& ref, SourceRange);
+  std::optional<Value> evaluate(State& state, const FunctionCall& call, SourceRange range);
+  std::optional<Value> evaluate(State& state, const Unary& node, SourceRange range);
+  std::optional<Value> evaluate(State& state, const Binary& node, SourceRange range);
+  std::optional<Value> evaluate(State& state, const Bracketed& node, SourceRange);
+  std::optional<Value> evaluate(State&, const ErrorExpression&, SourceRange range);
   std::optional<Truth> decide(State& state, const Comparison& c);
   std::optional<std::string> keyOf(State& state, const VariableRef& ref, bool reads);
   bool isOfCam(const std::string& key) const;

@@ -287,36 +287,43 @@ void Walk::widen(WalkState& state, const Head& head) {
 // ---- steps ----------------------------------------------------------------------------------------------
 
 bool Walk::step(WalkState& state) {
-  const FlatStep& here = flat_.steps[state.at];
-  if (const auto* s = std::get_if<FlatAssign>(&here.step)) return step(state, *s);
-  if (const auto* s = std::get_if<FlatBranch>(&here.step)) return step(state, *s);
-  if (const auto* s = std::get_if<FlatMove>(&here.step)) return step(state, *s);
-  if (const auto* s = std::get_if<FlatReturn>(&here.step)) return step(state, *s);
-  if (const auto* s = std::get_if<FlatJump>(&here.step)) {
-    state.at = s->target;
-    return true;
-  }
-  if (const auto* s = std::get_if<FlatEnd>(&here.step)) {
-    if (s->rejects) result_.codes[state.at];
-    ended(state, s->rejects);
-    return false;
-  }
-  if (const auto* s = std::get_if<FlatRefuse>(&here.step)) {
-    result_.refusals.push_back(s->diagnostic);
-    return false;
-  }
-  if (std::holds_alternative<FlatMessage>(here.step)) {
-    result_.behind[state.at];
-    if (options_.alarms.contains(state.at)) return false;
-    state.messages.insert(state.at);
-  }
-  // What was shown before the dialog does not turn away what is typed into it.
-  if (std::holds_alternative<FlatDialog>(here.step)) {
-    for (const std::size_t message : state.messages)
-      result_.behind[message].passes = true;
-    state.messages.clear();
-  }
-  if (const auto* s = std::get_if<FlatUnset>(&here.step)) state.values[s->variable].reset();
+  return std::visit([&](const auto& s) { return step(state, s); }, flat_.steps[state.at].step);
+}
+
+bool Walk::step(WalkState& state, const FlatJump& s) {
+  state.at = s.target;
+  return true;
+}
+
+bool Walk::step(WalkState& state, const FlatEnd& s) {
+  if (s.rejects) result_.codes[state.at];
+  ended(state, s.rejects);
+  return false;
+}
+
+bool Walk::step(WalkState&, const FlatRefuse& s) {
+  result_.refusals.push_back(s.diagnostic);
+  return false;
+}
+
+bool Walk::step(WalkState& state, const FlatMessage&) {
+  result_.behind[state.at];
+  if (options_.alarms.contains(state.at)) return false;
+  state.messages.insert(state.at++);
+  return true;
+}
+
+// What was shown before the dialog does not turn away what is typed into it.
+bool Walk::step(WalkState& state, const FlatDialog&) {
+  for (const std::size_t message : state.messages)
+    result_.behind[message].passes = true;
+  state.messages.clear();
+  ++state.at;
+  return true;
+}
+
+bool Walk::step(WalkState& state, const FlatUnset& s) {
+  state.values[s.variable].reset();
   ++state.at;
   return true;
 }

@@ -125,6 +125,12 @@ private:
   bool step(WalkState& state, const FlatBranch& s);
   bool step(WalkState& state, const FlatMove& s);
   bool step(WalkState& state, const FlatReturn& s);
+  bool step(WalkState& state, const FlatJump& s);
+  bool step(WalkState& state, const FlatEnd& s);
+  bool step(WalkState&, const FlatRefuse& s);
+  bool step(WalkState& state, const FlatMessage&);
+  bool step(WalkState& state, const FlatDialog&);
+  bool step(WalkState& state, const FlatUnset& s);
   void ended(const WalkState& state, bool rejects);
   bool isNew(WalkState& state);
   void forget(WalkState& state) const;

@@ -47,7 +47,7 @@ bool proven(const Facts& facts, const Value& value, Relation relation) {
   if (const double* number = std::get_if<double>(&value)) return holds(*number, relation, 0);
   const Question question = questionOf(*unknownIn(value), relation, {});
   const auto known = facts.find(question.key);
-  return known != facts.end() && !known->second.range.canBe(opposite(question.relation), question.bound);
+  return known != facts.end() && known->second.range.answer(question.relation, question.bound) == true;
 }
 
 } // namespace
@@ -178,9 +178,7 @@ std::optional<bool> Walk::compare(const WalkState& state, const Value& left, Rel
   Question question = questionOf(*unknown, relation, {});
   const auto learnt = state.facts.find(question.key);
   if (learnt != state.facts.end()) {
-    const Range& known = learnt->second.range;
-    if (!known.canBe(opposite(question.relation), question.bound)) return true;
-    if (!known.canBe(question.relation, question.bound)) return false;
+    if (const auto answer = learnt->second.range.answer(question.relation, question.bound)) return answer;
   }
   question_ = std::move(question);
   return std::nullopt;

@@ -105,8 +105,7 @@ std::optional<bool> Machine::compare(State& state, const Value& left, Relation r
 std::optional<bool> Machine::ask(const State& state, Question question) {
   const auto learnt = state.learnt.find(question.key);
   const Range known = learnt == state.learnt.end() ? Range() : learnt->second;
-  if (!known.canBe(opposite(question.relation), question.bound)) return true;
-  if (!known.canBe(question.relation, question.bound)) return false;
+  if (const auto answer = known.answer(question.relation, question.bound)) return answer;
   question_ = std::move(question);
   return std::nullopt;
 }

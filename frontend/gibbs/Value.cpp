@@ -52,8 +52,10 @@ Relation mirrored(Relation relation) {
   case Relation::Greater: return Relation::Less;
   case Relation::LessEqual: return Relation::GreaterEqual;
   case Relation::GreaterEqual: return Relation::LessEqual;
-  default: return relation;
+  case Relation::Equal:
+  case Relation::NotEqual: return relation;
   }
+  return relation;
 }
 
 } // namespace
@@ -220,6 +222,12 @@ bool Range::restrict(Relation relation, double bound) {
   if (!low_ || !high_ || *low_ < *high_) return true;
   return *low_ == *high_ && !lowOpen_ && !highOpen_ &&
          std::find(excluded_.begin(), excluded_.end(), *low_) == excluded_.end();
+}
+
+std::optional<bool> Range::answer(Relation relation, double bound) const {
+  if (!Range(*this).restrict(opposite(relation), bound)) return true;
+  if (!Range(*this).restrict(relation, bound)) return false;
+  return std::nullopt;
 }
 
 Question questionOf(const Unknown& difference, Relation relation, SourceRange range) {

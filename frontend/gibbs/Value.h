@@ -94,7 +94,8 @@ class Range {
 public:
   // Keeps the part where the quantity stands in `relation` to `bound`; false: nothing is left.
   bool restrict(Relation relation, double bound);
-  bool canBe(Relation relation, double bound) const { return Range(*this).restrict(relation, bound); }
+  // Whether the quantity stands in `relation` to `bound`; nothing: it may or may not.
+  std::optional<bool> answer(Relation relation, double bound) const;
 
 private:
   std::optional<double> low_, high_;
