@@ -5,6 +5,7 @@
 #include "project/InputKind.h"
 #include "support/Decimal.h"
 #include "support/NearestName.h"
+#include "targets/Target.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -331,7 +332,7 @@ void addConvert(CLI::App& app, Raw& raw) {
   CLI::App* convert = app.add_subcommand(
       "convert", "turn cycles into programs that stay on the control, or programs into those of another");
   convert->add_option("INPUT", raw.inputs, "folders of cycles, files of programs");
-  convert->add_option("--to", raw.to, "language to write: fanuc, mikroprog or fusion")->type_name("TARGET");
+  convert->add_option("--to", raw.to, "language to write: " + targets::targetNames())->type_name("TARGET");
   addTarget(*convert, raw);
   convert
       ->add_option("--from-control", raw.fromControl,
@@ -434,10 +435,9 @@ void addVerify(CLI::App& app, Raw& raw) {
       "verify", "run a source and its translation on many drawn cases and compare what they do");
   verify->add_option("INPUT", raw.inputs, "folder of a cycle, or file of programs");
   verify
-      ->add_option(
-          "--to", raw.to,
-          "language of the translation: fanuc, mikroprog or fusion; without it the path of the macro "
-          "stands beside the posted program")
+      ->add_option("--to", raw.to,
+                   "language of the translation: " + targets::targetNames() +
+                       "; without it the path of the macro stands beside the posted program")
       ->type_name("TARGET");
   addTarget(*verify, raw);
   verify

@@ -47,12 +47,17 @@ function(dotek_precompile target)
   target_precompile_headers(${target} REUSE_FROM dotek_precompiled)
 endfunction()
 
-# dotek_layer(<folder> PRECOMPILE <headers>... LINK <public>... PRIVATE_LINK <private>... SOURCES <generated>... LATE <generated>...)
-# LATE sources are written by a tool that is built from the others (dotek_<folder>_objects).
+# dotek_layer(<folder> EXCLUDE <prefix> PRECOMPILE <headers>... LINK <public>... PRIVATE_LINK <private>... SOURCES <generated>...
+#             LATE <generated>...)
+# Sources of the folder whose names begin with EXCLUDE belong to another layer. LATE sources are written by a
+# tool that is built from the others (dotek_<folder>_objects).
 function(dotek_layer folder)
-  cmake_parse_arguments(ARG "" "" "PRECOMPILE;LINK;PRIVATE_LINK;SOURCES;LATE" ${ARGN})
+  cmake_parse_arguments(ARG "" "EXCLUDE" "PRECOMPILE;LINK;PRIVATE_LINK;SOURCES;LATE" ${ARGN})
   string(REPLACE "/" "_" name ${folder})
   file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/${folder}/[A-Za-z]*.cpp)
+  if(ARG_EXCLUDE)
+    list(FILTER sources EXCLUDE REGEX "/${ARG_EXCLUDE}[^/]*$")
+  endif()
   set(sources ${sources} ${ARG_SOURCES})
   if(ARG_LATE)
     add_library(dotek_${name}_objects OBJECT ${sources})

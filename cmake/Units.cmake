@@ -41,3 +41,51 @@ std::span<const NamedRule> rules() { return kRules; }
 " @ONLY)
   set(${variable} ${sources} ${output} PARENT_SCOPE)
 endfunction()
+
+# dotek_targets(<output.cpp> <sources variable> <libraries variable>): each backends/<name>/ but `common` is the
+# target <name>. Its Target*.cpp, which look up to front ends, simulator and verify, belong to the layer of
+# targets; the others are the back end, from IR to text. Libraries.cmake, where there is one, adds what only
+# this folder needs. Stops where a target has no Target.cpp or no document.
+function(dotek_targets output sources_variable libraries_variable)
+  file(GLOB folders CONFIGURE_DEPENDS LIST_DIRECTORIES true ${CMAKE_SOURCE_DIR}/backends/*)
+  list(SORT folders)
+  set(sources ${output})
+  set(libraries "")
+  set(references "")
+  set(rows "")
+  foreach(folder IN LISTS folders)
+    get_filename_component(name ${folder} NAME)
+    if(NOT IS_DIRECTORY ${folder} OR name STREQUAL "common")
+      continue()
+    endif()
+    if(NOT EXISTS ${folder}/Target.cpp)
+      message(FATAL_ERROR "backends/${name} has no Target.cpp, which says what the target takes and how it is written")
+    endif()
+    if(NOT EXISTS ${CMAKE_SOURCE_DIR}/docs/${name}.md)
+      message(FATAL_ERROR "the target ${name} has no docs/${name}.md, which documents it")
+    endif()
+    dotek_layer(backends/${name} EXCLUDE Target LINK dotek_backends_common dotek_ir dotek_stdlib)
+    if(EXISTS ${folder}/Libraries.cmake)
+      include(${folder}/Libraries.cmake)
+    endif()
+    file(GLOB own CONFIGURE_DEPENDS ${folder}/Target*.cpp)
+    list(APPEND sources ${own})
+    list(APPEND libraries dotek_backends_${name})
+    string(APPEND references "extern const Target ${name};\n")
+    string(APPEND rows "    {\"${name}\", &target::${name}},\n")
+  endforeach()
+  file(CONFIGURE OUTPUT ${output} CONTENT "#include \"targets/Target.h\"
+
+namespace dotek::targets {
+namespace target {
+@references@} // namespace target
+namespace {
+const NamedTarget kTargets[] = {
+@rows@};
+} // namespace
+std::span<const NamedTarget> allTargets() { return kTargets; }
+} // namespace dotek::targets
+" @ONLY)
+  set(${sources_variable} ${sources} PARENT_SCOPE)
+  set(${libraries_variable} ${libraries} PARENT_SCOPE)
+endfunction()

@@ -11,8 +11,9 @@
 
 namespace dotek::driver {
 
-// A command is a view of a project and speaks of its parts by their names.
+// A command is a view of a project and of its targets, and speaks of their parts by their names.
 using namespace project; // NOLINT(google-build-using-namespace)
+using namespace targets; // NOLINT(google-build-using-namespace)
 
 // Hands over what the command found; the session is empty afterwards. The status is 1 with errors, 2 with
 // errors of the command line or of reading and writing files; `output` is dropped with either unless

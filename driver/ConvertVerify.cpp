@@ -39,12 +39,12 @@ std::string lastLine(std::string text) {
 }
 
 // The result of one input by itself; `cycle`: its place among the cycles.
-std::shared_ptr<const Outcome> resultOf(const Outcome& all, std::size_t file, std::size_t cycle) {
-  auto out = std::make_shared<Outcome>();
-  out->files = {all.files[file]};
-  out->maps = {all.maps[file]};
+std::shared_ptr<const ConvertedInput> resultOf(const Outcome& all, std::size_t file, std::size_t cycle) {
+  auto out = std::make_shared<ConvertedInput>();
+  out->file = all.files[file];
+  out->map = all.maps[file];
   if (cycle < all.arguments.size()) {
-    out->arguments = {all.arguments[cycle]};
+    out->arguments = all.arguments[cycle];
     out->macros = all.macrosByCycle[cycle];
   }
   out->sources = all.sources;
@@ -71,14 +71,17 @@ VerifyOptions optionsOf(const ConvertOptions& options, const std::string& input)
 
 Outcome verified(const ConvertOptions& options, Outcome outcome) {
   Session session(options.common);
+  const auto isProgram = [&](const std::string& input) { return isProgramFile(input, session); };
+  const auto programs = std::count_if(options.inputs.begin(), options.inputs.end(), isProgram);
+  // Each cycle has its own result; else verify converts it by itself.
+  const bool own = outcome.macrosByCycle.size() + static_cast<std::size_t>(programs) == options.inputs.size();
   std::size_t cycles = 0;
   int status = 0;
   for (std::size_t i = 0; i < options.inputs.size(); ++i) {
     const std::string& input = options.inputs[i];
     VerifyOptions one = optionsOf(options, input);
-    const bool program = isProgramFile(input, session);
-    if (options.to == "fanuc")
-      one.converted = resultOf(outcome, i, program ? outcome.arguments.size() : cycles);
+    const bool program = isProgram(input);
+    if (own) one.converted = resultOf(outcome, i, program ? outcome.arguments.size() : cycles);
     if (!program) ++cycles;
     Outcome found = driver::verify(one);
     status = std::max(status, found.status);

@@ -5,12 +5,10 @@
 #include "support/Diagnostics.h"
 #include "support/LineMap.h"
 #include "support/Source.h"
+#include "targets/Options.h"
 
-#include <array>
 #include <cstdint>
 #include <functional>
-#include <map>
-#include <memory>
 #include <optional>
 #include <set>
 #include <string>
@@ -23,32 +21,17 @@ namespace dotek::driver {
 using project::CommonOptions;
 using project::NamedTexts;
 using project::SourceOptions;
+using targets::ConvertedInput;
+using targets::ConvertOptions;
+using targets::OutputArgument;
+using targets::OutputFile;
+using targets::VerifyOptions;
 
 struct PostOptions {
   std::vector<std::string> folders;
   CommonOptions common;
   SourceOptions source;
   std::optional<std::pair<std::uint64_t, std::uint64_t>> sequence; // start, step
-};
-
-struct ConvertOptions {
-  std::vector<std::string> inputs; // folders of cycles, files of programs
-  CommonOptions common;
-  SourceOptions source;
-  std::string to;
-  std::string control;                    // "": the target's first
-  std::string fromControl;                // that programs are written for; "": the same
-  std::optional<std::string> probeMacros; // nothing: the set that the source calls
-  std::optional<std::uint32_t> programNumber;
-  NamedTexts letters;                                              // --arg NAME=LETTER
-  NamedTexts defaults;                                             // --default NAME=VALUE
-  bool useDefaults = false;                                        // --defaults use
-  bool switchProbe = false;                                        // --probe-power macro
-  bool oneFile = false;                                            // -o: several inputs are an error
-  std::optional<std::pair<std::uint64_t, std::uint64_t>> renumber; // first N number of programs, step
-  std::string datum;      // --datum of mikroprog: "", "g92" or "operator"
-  bool wholePost = false; // --whole-post, of fusion
-  bool verify = false;    // --verify: what does not agree with its source is not given
 };
 
 // From which severity on lint fails.
@@ -89,55 +72,6 @@ struct SimOptions {
   bool json = false;                        // the output is the summary as JSON
   // Takes the trace while the program runs, in pieces of whole lines. Empty: no trace is made.
   std::function<void(std::string_view)> trace;
-};
-
-struct Outcome;
-
-struct VerifyOptions {
-  std::vector<std::string> inputs; // one folder of a cycle, or one file of programs
-  CommonOptions common;
-  SourceOptions source;
-  std::string to;      // "": the path of the macro against the posted program
-  std::string control; // "": the target's first
-  std::string fromControl;
-  std::optional<std::string> probeMacros;
-  std::optional<std::string> part, machine; // paths
-  // A program that is looked at instead of what convert writes now: the same arguments, edited by hand. Path.
-  std::optional<std::string> translation;
-  std::uint64_t cases = 1000;
-  std::uint64_t seed = 1;
-  double minProved = 95;   // percent
-  double tolerance = 1e-6; // mm
-  std::uint32_t jobs = 0;  // 0: one for each processor
-  std::string datum;       // of mikroprog, as of convert
-  NamedTexts variables;    // --var N=VALUE, of programs: not drawn
-  // A result of convert with one file, which is looked at; nullptr: verify converts the input itself.
-  std::shared_ptr<const Outcome> converted;
-  // Of a replay: values of fields and host inputs, which the translation gets as arguments like drawn ones.
-  NamedTexts values;
-  // Of a replay: where the part stands, X, Y, Z, mm, and turned about Z, degrees; the system that is active.
-  std::optional<std::array<double, 4>> partError;
-  std::optional<std::uint32_t> activeSystem; // 54 to 59
-  bool replay = false; // one case, all of whose values are given: nothing is made smaller
-  // Told from time to time how many of how many cases are done; from one thread at a time.
-  std::function<void(std::uint64_t done, std::uint64_t all)> progress;
-  // Told of each case by its number, edge cases behind the others: whether it is proved, and what the
-  // translation did, as `sim` traces it (docs/sim.md). Before it stands a line `start X Y Z`, behind it the
-  // zeros of the work systems and the variables that the source stores. In any order, from one thread at a
-  // time.
-  std::function<void(std::uint64_t number, bool proved, const std::string& trace)> traces;
-};
-
-// One file of a result that may have several; `output` holds them one behind the other.
-struct OutputFile {
-  std::string name; // "O8000.nc"
-  std::string text;
-};
-
-// An argument of a program that convert has written.
-struct OutputArgument {
-  std::string name; // of the parameter or the host input
-  char letter = 0;
 };
 
 // What a command gives. `status` is 0, 1 or 2 as docs/cli.md says; with a status other than 0 of post,

@@ -1,6 +1,5 @@
 #include "driver/Command.h"
 #include "driver/Driver.h"
-#include "driver/Targets.h"
 #include "lint/Rule.h"
 #include "project/Assumptions.h"
 #include "stdlib/Control.h"
@@ -9,6 +8,7 @@
 #include "stdlib/MikroprogControl.h"
 #include "support/NearestName.h"
 #include "support/messages/Commands.h"
+#include "targets/Target.h"
 
 #include <algorithm>
 
@@ -157,8 +157,8 @@ Outcome list(const std::string& what, const CommonOptions& options) {
       if (rows.empty())
         return outcomeOf(session, "none in this release; a folder given with --data can add some\n");
     } else if (what == "targets") {
-      for (std::size_t i = 0; i < kTargets.size(); ++i)
-        rows.emplace_back(kTargets[i], kTargetTexts[i]);
+      for (const NamedTarget& one : allTargets())
+        rows.emplace_back(one.name, one.target->text);
     } else {
       session.diagnostics().report<diag::UnknownList>({}, what);
     }

@@ -1,20 +1,17 @@
 #include "support/messages/Verify.h"
-#include "backends/mikroprog/Emit.h"
 #include "driver/Driver.h"
-#include "driver/Targets.h"
 #include "driver/VerifyCase.h"
 #include "driver/VerifyPrograms.h"
 #include "driver/VerifyReport.h"
 #include "driver/VerifyRuns.h"
-#include "driver/VerifyTargets.h"
 #include "driver/VerifyTranslation.h"
 #include "frontend/gibbs/Cycle.h"
 #include "ir/Rewrite.h"
 #include "project/CycleFolder.h"
 #include "project/Programs.h"
-#include "stdlib/HostInputs.h"
 #include "support/Files.h"
 #include "support/messages/Commands.h"
+#include "targets/Target.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -26,7 +23,7 @@ namespace {
 class VerifyCommand {
 public:
   VerifyCommand(const VerifyOptions& options, Session& session)
-      : options_(options), session_(session), main_(options, plan_) {}
+      : options_(options), session_(session), target_(findTarget(options.to)), main_(options, plan_) {}
 
   Outcome run() {
     if (!checkOptions()) return outcomeOf(session_, "");
@@ -52,9 +49,10 @@ private:
     if (options_.inputs.size() != 1)
       diagnostics.report<diag::MissingOption>({}, "verify", "INPUT",
                                               "one folder of a cycle, or one file of programs");
-    if (!options_.to.empty() && std::find(kTargets.begin(), kTargets.end(), options_.to) == kTargets.end())
+    if (target_ != nullptr)
+      checkTargetOptions(*target_, options_, diagnostics);
+    else if (!options_.to.empty())
       diagnostics.report<diag::UnknownTarget>({}, options_.to);
-    checkTargetOptions(options_, diagnostics);
     const auto none = [&]<class Message>(bool given, std::string_view flag, Message) {
       if (given) diagnostics.report<Message>({}, flag);
     };
@@ -140,7 +138,7 @@ private:
   }
 
   bool translate() {
-    if (options_.to == "mikroprog") return plannedForEachCase();
+    if (target_->fixesValues) return plannedForEachCase();
     ConvertOptions convert;
     convert.inputs = options_.inputs;
     convert.common = options_.common;
@@ -150,23 +148,24 @@ private:
     convert.control = options_.control;
     convert.probeMacros = options_.probeMacros;
     convert.datum = options_.datum;
-    Outcome outcome = options_.converted ? *options_.converted : driver::convert(convert);
-    if (outcome.status != 0 || outcome.files.size() != 1) {
-      refused_ = std::move(outcome);
+    Outcome refused;
+    const auto converted = convertedFor(options_, convert, refused);
+    if (!converted) {
+      refused_ = std::move(refused);
       return false;
     }
-    Translation translation = translationOf(outcome);
+    Translation translation = translationOf(*converted);
     if (options_.translation && !takeEdited(*options_.translation, translation, main_.session()))
       return false;
-    plan_.targetMacros = outcome.macros;
+    plan_.targetMacros = converted->macros;
     plan_.translation = std::move(translation);
     return true;
   }
 
-  // A program of Mikroprog has no arguments: it is written for each case, or edited for one.
+  // A program without arguments is written for each case, or edited for one.
   bool plannedForEachCase() {
     Translation translation;
-    translation.name = backends::mikroprog::shortFileName(main_.folder().name) + ".SUF";
+    translation.name = main_.folder().name;
     if (options_.translation) {
       Session& session = main_.session();
       const auto bytes = readBytes(*options_.translation, session.limits(), session.diagnostics());
@@ -175,8 +174,8 @@ private:
       translation.text = *bytes;
       for (const verify::DrawField& field : plan_.fields)
         if (!field.fixed) session.diagnostics().report<diag::EditedNeedsValues>({}, "--set " + field.name);
-      for (const std::string_view host : stdlib::hostInputNames())
-        if (mikroprogNeeds(host) && !plan_.fixedHosts.contains(std::string(host)))
+      for (const std::string_view host : target_->hosts)
+        if (!plan_.fixedHosts.contains(std::string(host)))
           session.diagnostics().report<diag::EditedNeedsValues>({}, fmt::format("--host {}", host));
       if (session.diagnostics().hasErrors()) return false;
     }
@@ -184,13 +183,9 @@ private:
     return true;
   }
 
-  static bool mikroprogNeeds(std::string_view host) {
-    return host == "tool_radius" || host == "clearance" || host == "overtravel" || host == "return_feed" ||
-           host == "start_x" || host == "start_y";
-  }
-
   const VerifyOptions& options_;
   Session& session_;
+  const Target* const target_; // nullptr: none is named
   VerifyPlan plan_;
   CaseRunner main_;
 

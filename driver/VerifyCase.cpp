@@ -1,7 +1,6 @@
 #include "driver/VerifyCaseParts.h"
 
-#include "driver/ConvertMikroprog.h"
-#include "driver/VerifyTargets.h"
+#include "driver/VerifyNominal.h"
 #include "frontend/compost/Summary.h"
 #include "frontend/gibbs/Run.h"
 #include "frontend/macrob/Lower.h"
@@ -10,11 +9,15 @@
 #include "project/CycleChecks.h"
 #include "project/Prog.h"
 #include "project/Programs.h"
+#include "project/Values.h"
 #include "sim/machine/Compile.h"
 #include "sim/machine/Value.h"
 #include "sim/machine/VendorMacros.h"
 #include "stdlib/HostInputs.h"
 #include "support/messages/Verify.h"
+#include "targets/Stage.h"
+#include "targets/Target.h"
+#include "targets/Verification.h"
 
 #include <algorithm>
 #include <cmath>
@@ -67,16 +70,15 @@ CaseRunner::CaseRunner(const VerifyOptions& options, const VerifyPlan& plan)
 CaseRunner::~CaseRunner() = default;
 
 bool CaseRunner::load() {
+  const Target* target = findTarget(options_.to);
+  const bool first = options_.control.empty() || (target != nullptr && target->ownControls);
   inputs_ =
-      loadLoweringInputs(options_.source,
-                         options_.control.empty() || options_.to == "mikroprog" ? std::string(kDefaultControl)
-                                                                                : options_.control,
-                         session_);
+      loadLoweringInputs(options_.source, first ? std::string(kDefaultControl) : options_.control, session_);
   if (!inputs_) return false;
   folder_ = loadCycleFolder(options_.inputs.front(), session_);
   if (options_.source.cycle) folder_->name = *options_.source.cycle;
-  if (options_.to == "mikroprog" && !session_.diagnostics().hasErrors())
-    if (const JobOperation* operation = mikroprogOperation(*inputs_, *folder_, session_))
+  if (target != nullptr && target->fixesValues && !session_.diagnostics().hasErrors())
+    if (const JobOperation* operation = operationOf(*folder_, *inputs_, session_))
       takeOperation(*operation, options_.common, *inputs_);
   return !session_.diagnostics().hasErrors();
 }
@@ -104,28 +106,13 @@ bool CaseRunner::prepare() {
     hosts.emplace_back(name);
   draws_.emplace(plan_.fields, std::move(hosts), plan_.fixedHosts, options_.seed);
   sourceSet_ = inputs_->macroSet(plan_.sourceMacros);
-  targetSet_ = inputs_->macroSet(plan_.targetMacros);
-  const auto listOf = [](const stdlib::MacroSet* set) {
-    return set == nullptr ? std::vector<const stdlib::MacroSet*>{}
-                          : std::vector<const stdlib::MacroSet*>{set};
-  };
-  sourceStand_.emplace(*inputs_->sourceControl, listOf(sourceSet_), session_.limits());
+  std::vector<const stdlib::MacroSet*> sets;
+  if (sourceSet_ != nullptr) sets.push_back(sourceSet_);
+  sourceStand_.emplace(*inputs_->sourceControl, sets, session_.limits());
   if (!plan_.translation) return true;
-  target_ = verifyTarget({options_, plan_, session_, *inputs_, *folder_});
-  if (target_ != nullptr && target_->needsNominal()) nominal_ = std::make_unique<NominalFields>(plan_.fields);
-  if (target_ != nullptr) return target_->prepare();
-  targetStand_.emplace(*inputs_->control, listOf(targetSet_), session_.limits());
-
-  ready_ = std::make_shared<TargetPrograms>();
-  // The arguments stand in the locals of the caller; one that is null is left out of the call.
-  std::string call = fmt::format("O1\nG65P{}", plan_.translation->number);
-  for (const OutputArgument& argument : plan_.translation->arguments)
-    call += fmt::format("{}#{}", argument.letter, stdlib::localOf(argument.letter));
-  const stdlib::Control& control = *inputs_->control;
-  return ready_->read("call", call + "\nM30\n", control, session_) &&
-         ready_->readTranslation(*plan_.translation, control, session_) &&
-         (targetSet_ == nullptr || ready_->readMacros(*targetSet_, control, session_)) &&
-         ready_->compile(control);
+  target_ = findTarget(options_.to)->verify({options_, plan_, session_, *inputs_, *folder_});
+  if (target_->needsNominal()) nominal_ = std::make_unique<NominalFields>(plan_.fields);
+  return target_->prepare();
 }
 
 // To the last place that the post prints of them.
@@ -242,7 +229,8 @@ std::optional<verify::Case> CaseRunner::draw(std::uint64_t index) {
         const double off =
             plan_.translation ? verify::mostOff(values->path->nominal(), values->drawn.error) : 0;
         refusal_ = verify::whyNotReached(*values->path, *values->part, probeFor(plan_, values->drawn), off);
-        if (refusal_.empty() && options_.to == "mikroprog") refusal_ = whyNotCorrected(*values, nominal, off);
+        if (refusal_.empty() && target_ != nullptr && target_->datumsMovePath())
+          refusal_ = whyNotCorrected(*values, nominal, off);
       } else if (plan_.part) {
         values->part = plan_.part;
       } else {

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "driver/Command.h"
-#include "driver/VerifySubject.h"
 #include "driver/VerifyTranslation.h"
 #include "frontend/compost/Post.h"
 #include "project/CycleFolder.h"
@@ -11,6 +10,8 @@
 #include "sim/geometry/Probe.h"
 #include "sim/machine/Bytecode.h"
 #include "stdlib/MacroSet.h"
+#include "targets/Subject.h"
+#include "targets/Verification.h"
 #include "verify/Compare.h"
 #include "verify/Draw.h"
 #include "verify/Stand.h"
@@ -27,8 +28,6 @@
 namespace dotek::driver {
 
 class NominalFields;
-class VerifyTarget;
-struct TargetRun;
 
 class CaseRunner final : public CaseSubject {
 public:
@@ -57,7 +56,6 @@ private:
   std::unique_ptr<Values> check(const verify::Case& drawn, bool settle);
   verify::Case settled(const verify::Case& drawn);
   void takeValues(verify::Case& drawn) const;
-  bool writesActive(const verify::Record& record, const Values& values) const;
   bool knowsValues();
   void roundHosts(verify::Case& drawn) const;
   bool leadToNominal(std::unique_ptr<Values>& values);
@@ -71,15 +69,13 @@ private:
   bool readPosted(Values& values);
   verify::Record runPosted(const Values& values, sim::World& world, bool probeOn, verify::Stand::Way way);
   std::string whyNotMeasured(Values& values);
-  verify::Record runTranslation(const Values& values, sim::World& world, bool probeOn, std::string& trace);
+  TargetRun runTarget(const Values& values, sim::World& world, bool probeOn,
+                      const verify::Record* source) const;
   void addFinding(CaseResult& result, const verify::Difference& difference, const Values& values) const;
-  void takeRun(CaseResult& result, const TargetRun& ran, const Values& values) const;
-  void compareRejection(CaseResult& result, const Values& values, const verify::Record& target) const;
+  void takeRun(CaseResult& result, TargetRun ran, const Values& values) const;
   void noteProbe(CaseResult& result, const verify::Record& record, const Values& values) const;
   void comparePath(CaseResult& result, const Values& values) const;
-  void compareGeometry(CaseResult& result, const Values& values, const verify::Record& target) const;
   SourceRange sourceOf(SourceRange posted, const Values& values) const;
-  std::uint32_t targetLine(SourceRange range) const;
 
   const VerifyOptions& options_;
   const VerifyPlan& plan_;
@@ -92,11 +88,9 @@ private:
   std::string refusal_;
   std::unique_ptr<Values> drawn_; // of draw(), for the next run()
 
-  std::shared_ptr<TargetPrograms> ready_; // nullptr: no translation
   const stdlib::MacroSet* sourceSet_ = nullptr;
-  const stdlib::MacroSet* targetSet_ = nullptr;
-  std::optional<verify::Stand> sourceStand_, targetStand_;
-  std::unique_ptr<VerifyTarget> target_;   // instead of ready_, of translations that no call reaches
+  std::optional<verify::Stand> sourceStand_;
+  std::unique_ptr<Verification> target_;   // nullptr: no translation
   std::unique_ptr<NominalFields> nominal_; // where target_ wants it
 };
 

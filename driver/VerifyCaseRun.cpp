@@ -1,10 +1,7 @@
 // One case: both sides run, and what they did is compared.
 #include "driver/VerifyCaseParts.h"
-#include "driver/VerifyTargets.h"
-#include "frontend/gibbs/Ast.h"
-#include "sim/machine/Value.h"
-#include "sim/machine/VendorMacros.h"
 #include "support/messages/Verify.h"
+#include "targets/Stage.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,57 +9,17 @@
 namespace dotek::driver {
 
 namespace compost = frontend::compost;
-namespace gibbs = frontend::gibbs;
 
-namespace {
-
-// What the program leaves: zeros of the systems in coordinates of the machine, variables.
-void traceResults(const verify::Record& record, sim::Trace& trace) {
-  for (const auto& [key, value] : record.zeros) {
-    trace.begin("zero").text(std::to_string(key.first));
-    trace.word(std::string_view("XYZ").substr(key.second, 1), value).end();
-  }
-  for (const auto& [number, value] : record.stores) {
-    trace.begin("variable").text(std::to_string(number));
-    if (sim::isNull(value))
-      trace.text("null").end();
-    else
-      trace.word("", value).end();
-  }
-}
-
-} // namespace
-
-verify::Record CaseRunner::runTranslation(const Values& values, sim::World& world, bool probeOn,
-                                          std::string& trace) {
-  verify::Entry entry = entryFor(plan_, values.drawn, probeOn);
-  for (const OutputArgument& argument : plan_.translation->arguments) {
-    const std::uint32_t local = stdlib::localOf(argument.letter);
-    const std::string folded = gibbs::foldCase(argument.name);
-    const auto field = std::find_if(values.drawn.values.begin(), values.drawn.values.end(),
-                                    [&](const auto& one) { return gibbs::foldCase(one.first) == folded; });
-    if (field != values.drawn.values.end())
-      entry.variables.emplace_back(local, field->second);
-    else if (const auto host = values.drawn.hosts.find(argument.name); host != values.drawn.hosts.end())
-      entry.variables.emplace_back(local, host->second);
-  }
-  std::optional<sim::VendorMacros> meaning;
-  if (targetSet_ != nullptr) {
-    meaning.emplace(*targetSet_, *inputs_->control);
-    meaning->setStylusRadius(values.drawn.hosts.at("tool_radius"));
-  }
-  std::optional<sim::Trace> writer;
-  if (options_.traces) {
-    writer.emplace([&](std::string_view lines) { trace += lines; });
-    const sim::Point3& at = entry.start;
-    writer->begin("start").word("X", at.x).word("Y", at.y).word("Z", at.z).end();
-  }
-  targetStand_->setTrace(writer ? &*writer : nullptr);
-  verify::Record record = targetStand_->run(ready_->code(), world, entry,
-                                            values.posted ? values.posted->stores : std::set<std::uint32_t>{},
-                                            meaning ? &*meaning : nullptr);
-  if (writer) traceResults(record, *writer);
-  return record;
+TargetRun CaseRunner::runTarget(const Values& values, sim::World& world, bool probeOn,
+                                const verify::Record* source) const {
+  const verify::Entry entry = entryFor(plan_, values.drawn, probeOn);
+  const std::set<std::uint32_t> none;
+  TargetCase now{values.drawn, entry, values.posted ? values.posted->stores : none, world, source, nullptr,
+                 false,        {}};
+  if (routine_ == nullptr && values.path) now.path = &*values.path;
+  now.rejected = values.rejected;
+  now.sourceOf = [&](SourceRange posted) { return sourceOf(posted, values); };
+  return target_->run(now);
 }
 
 SourceRange CaseRunner::sourceOf(SourceRange posted, const Values& values) const {
@@ -77,18 +34,13 @@ SourceRange CaseRunner::sourceOf(SourceRange posted, const Values& values) const
   return {};
 }
 
-std::uint32_t CaseRunner::targetLine(SourceRange range) const {
-  return ready_ ? ready_->line(range) : 0;
-}
-
 void CaseRunner::addFinding(CaseResult& result, const verify::Difference& difference,
                             const Values& values) const {
   CaseFinding finding;
   finding.aspect = difference.aspect;
   finding.text = difference.text;
-  finding.source = plan_.translation ? sourceOf(difference.source, values) : difference.source;
-  finding.targetLine = targetLine(difference.target);
-  if (!plan_.translation) finding.posted = sourceOf(difference.target, values);
+  finding.source = difference.source;
+  finding.posted = sourceOf(difference.target, values);
   result.findings.push_back(std::move(finding));
 }
 
@@ -112,7 +64,9 @@ CaseResult CaseRunner::run(const verify::Case& drawn) {
                    plan_.machine ? plan_.machine->limits : sim::MachineLimits{});
 
   if (routine_ == nullptr) {
-    compareGeometry(result, *values, runTranslation(*values, world, true, result.trace));
+    result.why = "measurement not stated by the source";
+    takeRun(result, runTarget(*values, world, true, nullptr), *values);
+    result.verdict = result.findings.empty() ? CaseVerdict::Idle : CaseVerdict::Differ;
     return result;
   }
   std::optional<verify::Record> source;
@@ -137,59 +91,23 @@ CaseResult CaseRunner::run(const verify::Case& drawn) {
     return result;
   }
   if (target_ != nullptr) {
-    const verify::Entry entry = entryFor(plan_, values->drawn, probeOn);
-    const std::set<std::uint32_t> none;
-    const TargetRun ran = target_->run({values->drawn, entry, values->posted ? values->posted->stores : none,
-                                        world, values->rejected ? nullptr : &*source});
+    TargetRun ran = runTarget(*values, world, probeOn, values->rejected ? nullptr : &*source);
     if (ran.refused && !values->rejected) {
       result.verdict = CaseVerdict::Refused;
       result.why = "the translation refuses the values: " + ran.why;
       result.whyAt = {};
+      result.trace = std::move(ran.trace);
       return result;
     }
     if (ran.undecided) {
       result.verdict = CaseVerdict::NoProgram;
-      result.why = ran.why;
+      result.trace = std::move(ran.trace);
+      if (ran.why.empty()) return result;
+      result.why = std::move(ran.why);
       result.whyAt = {};
       return result;
     }
-    takeRun(result, ran, *values);
-  } else if (plan_.translation) {
-    const verify::Record target = runTranslation(*values, world, probeOn, result.trace);
-    verify::CompareRules rules;
-    rules.results = std::max(options_.tolerance, resultTolerance(*inputs_->control, *inputs_->sourceControl));
-    // Behind a write of the system that is active, what follows stands as exactly as the control computes.
-    rules.tolerance = source && writesActive(*source, *values) ? rules.results : options_.tolerance;
-    // Of eight digits the last one is a ten millionth at most; two of them.
-    rules.relative = rules.results > options_.tolerance ? 2e-7 : 0;
-    rules.mayRestoreModes = true;
-    rules.sameAlarmNumbers = sourceSet_ == targetSet_ && !values->rejected;
-    rules.samePlace = [&](SourceRange one, SourceRange other) {
-      return plan_.translation->stemsFrom(values->rejected ? values->rejectedAt : sourceOf(one, *values),
-                                          targetLine(other), session_.sources());
-    };
-    if (!values->rejected && target.ending == verify::Ending::Alarm && target.pieces.empty() &&
-        plan_.translation->madeUp(targetLine(target.endedAt))) {
-      result.verdict = CaseVerdict::Refused;
-      result.why = "the translation refuses the values: " + target.text;
-      result.whyAt = {};
-      return result;
-    }
-    // How far another vendor's macro searches is its own business: it may find what the source's does not.
-    const bool searches = source && source->ending == verify::Ending::Alarm &&
-                          source->alarmKind == stdlib::macroAlarmName(stdlib::MacroAlarm::ProbeFail);
-    if (!values->rejected && sourceSet_ != targetSet_ && searches &&
-        !rules.samePlace(source->endedAt, target.endedAt)) {
-      result.verdict = CaseVerdict::NoProgram;
-      return result;
-    }
-    if (values->rejected) {
-      compareRejection(result, *values, target);
-    } else {
-      for (const verify::Difference& difference : verify::compare(*source, target, rules))
-        addFinding(result, difference, *values);
-      comparePath(result, *values);
-    }
+    takeRun(result, std::move(ran), *values);
   } else if (values->path && !values->rejected) {
     for (const verify::Difference& difference :
          verify::compare(*values->path, {}, *source, options_.tolerance))
@@ -201,7 +119,8 @@ CaseResult CaseRunner::run(const verify::Case& drawn) {
   return result;
 }
 
-void CaseRunner::takeRun(CaseResult& result, const TargetRun& ran, const Values& values) const {
+void CaseRunner::takeRun(CaseResult& result, TargetRun ran, const Values& values) const {
+  result.trace = std::move(ran.trace);
   if (values.rejected && !ran.refused && ran.differences.empty()) {
     CaseFinding finding;
     finding.aspect = verify::Aspect::Ending;
@@ -209,31 +128,18 @@ void CaseRunner::takeRun(CaseResult& result, const TargetRun& ran, const Values&
     finding.source = values.rejectedAt;
     result.findings.push_back(std::move(finding));
   }
-  for (const TargetDifference& one : ran.differences) {
+  for (TargetDifference& one : ran.differences) {
     CaseFinding finding;
     finding.aspect = one.difference.aspect;
-    finding.text = one.difference.text + (one.line.empty() ? "" : ", in `" + one.line + "`");
-    finding.source = values.rejected ? values.rejectedAt : sourceOf(one.difference.source, values);
+    finding.text = one.difference.text + (one.text.empty() ? "" : ", in `" + one.text + "`");
+    // Without a Prog it is the place in the macro.
+    finding.source = values.rejected       ? values.rejectedAt
+                     : routine_ == nullptr ? one.difference.source
+                                           : sourceOf(one.difference.source, values);
+    finding.targetLine = one.line;
     result.findings.push_back(std::move(finding));
   }
   if (!values.rejected) comparePath(result, values);
-}
-
-// The dialog has turned the values away: the translation raises an alarm that stems from there, and nothing
-// has moved.
-void CaseRunner::compareRejection(CaseResult& result, const Values& values,
-                                  const verify::Record& target) const {
-  CaseFinding finding;
-  finding.aspect = verify::Aspect::Ending;
-  finding.source = values.rejectedAt;
-  finding.targetLine = targetLine(target.endedAt);
-  if (target.ending != verify::Ending::Alarm)
-    finding.text = "the dialog turns the values away, and the program runs";
-  else if (!target.pieces.empty())
-    finding.text = "the dialog turns the values away, and the program moves before its alarm";
-  else
-    return;
-  result.findings.push_back(std::move(finding));
 }
 
 // What the path touches and what the source measures, whatever the translation is: nominal contacts alone.
@@ -246,29 +152,6 @@ void CaseRunner::comparePath(CaseResult& result, const Values& values) const {
                         difference.source, sourceOf(difference.target, values), 0};
     result.findings.push_back(std::move(finding));
   }
-}
-
-// Without a Prog: the way and the touches alone.
-void CaseRunner::compareGeometry(CaseResult& result, const Values& values,
-                                 const verify::Record& target) const {
-  result.why = "measurement not stated by the source";
-  if (values.rejected) {
-    compareRejection(result, values, target);
-  } else if (target.ending != verify::Ending::Finished) {
-    result.findings.push_back({verify::Aspect::Ending,
-                               "the path ends against an alarm: " + target.text,
-                               {},
-                               {},
-                               targetLine(target.endedAt)});
-  } else if (values.path) {
-    for (const verify::Difference& difference :
-         verify::compare(*values.path, {}, target, options_.tolerance)) {
-      CaseFinding finding{
-          difference.aspect, difference.text, difference.source, {}, targetLine(difference.target)};
-      result.findings.push_back(std::move(finding));
-    }
-  }
-  result.verdict = result.findings.empty() ? CaseVerdict::Idle : CaseVerdict::Differ;
 }
 
 void CaseRunner::noteProbe(CaseResult& result, const verify::Record& record, const Values& values) const {
@@ -302,17 +185,6 @@ std::vector<std::pair<std::string, SourceRange>> CaseRunner::droppedDigits(const
       if (std::find(always.begin(), always.end(), place) == always.end()) out.emplace_back(field.name, place);
   }
   return out;
-}
-
-// The zero of the system in which the case begins is another one at the end.
-bool CaseRunner::writesActive(const verify::Record& record, const Values& values) const {
-  const sim::Point3 zero = zeroOf(values.drawn);
-  const double before[] = {zero.x, zero.y, zero.z};
-  for (std::uint32_t axis = 0; axis < 3; ++axis) {
-    const auto after = record.zeros.find({values.drawn.system, axis});
-    if (after != record.zeros.end() && after->second != before[axis]) return true;
-  }
-  return false;
 }
 
 } // namespace dotek::driver

@@ -1,387 +1,18 @@
 #include "driver/VerifyPrograms.h"
 
-#include "backends/fanuc/ProgramCalls.h"
 #include "driver/VerifyReport.h"
 #include "driver/VerifyRuns.h"
-#include "project/Hosts.h"
-#include "project/Lowering.h"
-#include "project/Programs.h"
-#include "project/VariableFlags.h"
-#include "sim/machine/Compile.h"
-#include "sim/machine/Value.h"
-#include "sim/machine/VendorMacros.h"
-#include "support/Files.h"
+#include "driver/VerifyTranslation.h"
 #include "support/messages/Commands.h"
-
-#include <algorithm>
-#include <cmath>
+#include "targets/Target.h"
 
 namespace dotek::driver {
 
 namespace {
 
-constexpr std::uint32_t kAttempts = 24;       // to find values with which the program comes to its end
-constexpr std::uint32_t kEndless = 3;         // of them, that come to the limit of steps
-constexpr std::uint32_t kMostSteps = 200'000; // of one run: --limit sim-steps may make it less
-constexpr std::uint64_t kMostCalled = 9999;   // by M98 on every control
-constexpr double kReach = 12;                 // how far a search goes beyond a surface, mm
-// Where one control computes with eight digits and the other with fifteen: an increment of a word, and what
-// eight digits leave of a value.
-constexpr double kOtherArithmetic = 0.0011, kEightDigits = 1e-6;
-
-double toStep(double value) {
-  return std::round(value * 1000) / 1000;
-}
-
-} // namespace
-
-struct ProgramRunner::Played {
-  verify::Case drawn;
-  std::optional<sim::Part> part;
-  verify::Record record;
-  bool played = false;
-  std::string why; // nothing is proved; "" where it may be
-  SourceRange whyAt;
-};
-
-ProgramRunner::ProgramRunner(const VerifyOptions& options, const VerifyPlan& plan)
-    : options_(options), plan_(plan), session_(options.common), sourceLimits_(options.common.limits),
-      targetLimits_(options.common.limits) {
-  sourceLimits_.simSteps = std::min(sourceLimits_.simSteps, kMostSteps);
-  targetLimits_.simSteps = 2 * sourceLimits_.simSteps; // a translation may jump more often
-}
-
-ProgramRunner::~ProgramRunner() = default;
-
-bool ProgramRunner::load() {
-  const std::string target = options_.control.empty() ? std::string(kDefaultControl) : options_.control;
-  targetControl_ = loadControl(target, session_);
-  sourceControl_ =
-      options_.fromControl.empty() ? targetControl_ : loadControl(options_.fromControl, session_);
-  hosts_ = parseHosts(options_.common.host, session_.diagnostics());
-  if (!targetControl_ || !sourceControl_ || session_.diagnostics().hasErrors()) return false;
-  for (const stdlib::DataFile* file : session_.data().list("macros"))
-    if (auto set = stdlib::MacroSet::load(session_.data(), file->name)) sets_.push_back(std::move(*set));
-  const std::optional<FileId> id = session_.read(options_.inputs.front(), Encoding::Cp1250);
-  if (!id) return false;
-  file_ = *id;
-  programs_ = loadPrograms(*id, *sourceControl_, session_);
-  if (!programs_ || programs_->programs.empty()) return false;
-  sourceSet_ = backends::fanuc::calledSet(*programs_, sets_);
-  // A program of the file stands before a macro of that number.
-  if (sourceSet_ != nullptr &&
-      std::any_of(programs_->programs.begin(), programs_->programs.end(), [&](const ir::Program& program) {
-        return program.number != 0 && sourceSet_->calls(static_cast<std::uint32_t>(program.number));
-      }))
-    sourceSet_ = nullptr;
-  targetSet_ = sourceSet_;
-  for (const stdlib::MacroSet& set : sets_)
-    if (sourceSet_ != nullptr && options_.probeMacros == set.name) targetSet_ = &set;
-  std::vector<const stdlib::MacroSet*> used;
-  if (sourceSet_ != nullptr) used.push_back(sourceSet_);
-  if (targetSet_ != sourceSet_) used.push_back(targetSet_);
-  variables_ = verify::variablesOf(*programs_, *sourceControl_, used);
-  // Signals go by the same number on both.
-  std::erase_if(variables_, [&](const verify::ProgramVariable& one) {
-    return one.use == verify::VariableUse::Signal && !sim::Machine(*targetControl_).preset(one.number, 0);
-  });
-  for (const stdlib::VariableRange& range : sourceControl_->common)
-    for (std::uint32_t number = range.first; number <= range.last; ++number)
-      if (used.size() < 2 || std::none_of(used.begin(), used.end(), [&](const stdlib::MacroSet* set) {
-            return verify::usesVariable(*set, number);
-          }))
-        stores_.insert(number);
-  return true;
-}
-
-std::optional<std::vector<verify::DrawField>> ProgramRunner::fields() {
-  for (const auto& [number, value] : variablesOf(options_.variables, session_.diagnostics()))
-    fixed_[number] = value;
-  if (session_.diagnostics().hasErrors()) return std::nullopt;
-  std::vector<verify::DrawField> out;
-  const auto add = [&](std::uint32_t number, std::optional<double> value) {
-    verify::DrawField field;
-    field.name = std::to_string(number);
-    field.fixed = value;
-    out.push_back(std::move(field));
-  };
-  for (const verify::ProgramVariable& variable : variables_)
-    if (!fixed_.contains(variable.number)) add(variable.number, std::nullopt);
-  for (const auto& [number, value] : fixed_)
-    add(number, value);
-  return out;
-}
-
-// A program that returns is called: M98 leaves it the locals that were set before.
-bool ProgramRunner::addCaller() {
-  const std::vector<ir::Program>& programs = programs_->programs;
-  const auto& body = programs.front().body;
-  const bool returns = std::any_of(body.begin(), body.end(), [](const ir::Statement& statement) {
-    return std::holds_alternative<ir::Exit>(statement.node);
-  });
-  if (!returns) return true;
-  std::set<std::uint64_t> taken;
-  for (const ir::Program& program : programs) {
-    taken.insert(program.number);
-    for (const ir::Statement& statement : program.body) {
-      const auto* call = std::get_if<ir::Call>(&statement.node);
-      const double* number = call != nullptr && call->program ? ir::constantValue(call->program) : nullptr;
-      if (number != nullptr && *number >= 1 && *number < 1e8)
-        taken.insert(static_cast<std::uint64_t>(std::lround(*number)));
-    }
-  }
-  const auto next = [&] {
-    std::uint32_t number = 1;
-    while (taken.contains(number))
-      ++number;
-    taken.insert(number);
-    return number;
-  };
-  const std::uint64_t own = programs.front().number;
-  caller_ = Caller();
-  caller_->callee = own >= 1 && own <= kMostCalled ? static_cast<std::uint32_t>(own) : next();
-  caller_->text = fmt::format("O{}\nM98P{}\nM30\n", next(), caller_->callee);
-  programs_->programs.front().nameKind = ir::Program::NameKind::Number;
-  programs_->programs.front().number = caller_->callee;
-  const std::optional<FileId> id = addText("call", caller_->text, Encoding::Utf8, std::nullopt,
-                                           session_.sources(), session_.diagnostics());
-  if (id) caller_->source = loadPrograms(*id, *sourceControl_, session_);
-  return caller_->source.has_value();
-}
-
-bool ProgramRunner::compileSource(const stdlib::Control& control, sim::Bytecode& out) {
-  std::vector<const ir::Program*> programs;
-  if (caller_) programs.push_back(&caller_->source->programs.front());
-  for (const ir::Program& program : programs_->programs)
-    programs.push_back(&program);
-  if (sourceSet_ != nullptr && !macros_) {
-    if (const stdlib::DataFile* text = session_.data().find("macrob", sourceSet_->name)) {
-      const std::optional<FileId> id =
-          addText("macrob/" + sourceSet_->name + ".nc", std::string(text->text), Encoding::Utf8, std::nullopt,
-                  session_.sources(), session_.diagnostics());
-      if (id) macros_ = loadPrograms(*id, control, session_);
-      if (!macros_) return false;
-    }
-  }
-  if (macros_)
-    for (const ir::Program& program : macros_->programs)
-      programs.push_back(&program);
-  out = sim::compile(programs, control, session_.sources());
-  return true;
-}
-
-bool ProgramRunner::prepare() {
-  const auto listOf = [](const stdlib::MacroSet* set) {
-    return set == nullptr ? std::vector<const stdlib::MacroSet*>{}
-                          : std::vector<const stdlib::MacroSet*>{set};
-  };
-  if (!addCaller() || !compileSource(*sourceControl_, sourceCode_)) return false;
-  sourceStand_ = std::make_unique<verify::Stand>(*sourceControl_, listOf(sourceSet_), sourceLimits_);
-  if (sourceControl_->arithmetic != targetControl_->arithmetic) {
-    sourceAsTarget_ = sourceControl_;
-    sourceAsTarget_->arithmetic = targetControl_->arithmetic;
-    if (!compileSource(*sourceAsTarget_, sourceAsTargetCode_)) return false;
-    sourceAsTargetStand_ =
-        std::make_unique<verify::Stand>(*sourceAsTarget_, listOf(sourceSet_), sourceLimits_);
-  }
-  targetStand_ = std::make_unique<verify::Stand>(*targetControl_, listOf(targetSet_), targetLimits_);
-  if (caller_ && !translation_.read("call", caller_->text, *targetControl_, session_)) return false;
-  if (!translation_.readTranslation(*plan_.translation, *targetControl_, session_)) return false;
-  if (caller_) translation_.numberFirst(caller_->callee);
-  return (targetSet_ == nullptr || translation_.readMacros(*targetSet_, *targetControl_, session_)) &&
-         translation_.compile(*targetControl_);
-}
-
-// Each name has numbers of its own, so that none hangs on what is drawn beside it.
-verify::Case ProgramRunner::propose(std::uint64_t index, std::uint32_t attempt) const {
-  const std::uint64_t stream = verify::Random::sub(verify::Random::sub(options_.seed, index), attempt);
-  const auto randomOf = [&](const std::string& name) {
-    return verify::Random(verify::Random::sub(stream, verify::Random::hash(name)));
-  };
-  verify::Case out;
-  out.stream = stream;
-  for (const verify::ProgramVariable& variable : variables_) {
-    const std::string name = std::to_string(variable.number);
-    verify::Random random = randomOf(name);
-    const std::optional<double> value = verify::drawValue(variable, random);
-    if (value && !options_.replay) out.values[name] = *value;
-  }
-  for (const auto& [number, value] : fixed_)
-    out.values[std::to_string(number)] = value;
-  const auto host = [&](const std::string& name, double least, double most) {
-    verify::Random random = randomOf(name);
-    out.hosts[name] = toStep(random.between(least, most));
-  };
-  host("tool_radius", 0.5, 3);
-  host("start_x", -100, 100);
-  host("start_y", -100, 100);
-  host("start_z", 10, 100);
-  for (const auto& [name, value] : hosts_)
-    out.hosts[name] = value;
-  out.system = 54 + static_cast<std::uint32_t>(randomOf("system").below(6));
-  if (options_.activeSystem) out.system = *options_.activeSystem;
-  if (options_.partError) {
-    const auto& [x, y, z, turn] = *options_.partError;
-    out.error = {{x, y, z}, turn};
-  }
-  return out;
-}
-
-// Values that turn the program away from what cannot be run here would hide it.
-bool ProgramRunner::otherValuesMayDo(const verify::Record& record) const {
-  if (record.ending == verify::Ending::Inconclusive) return record.overLimit;
-  const stdlib::AlarmInfo* const missing = sourceControl_->find(stdlib::Alarm::NoSuchProgram);
-  return record.ending != verify::Ending::Alarm || missing == nullptr || record.alarm != missing->number;
-}
-
-std::optional<verify::Case> ProgramRunner::draw(std::uint64_t index) {
-  std::uint32_t endless = 0; // they take long
-  for (std::uint32_t attempt = 0; attempt < kAttempts && endless < kEndless; ++attempt) {
-    drawn_ = play(propose(index, attempt), !options_.partError);
-    if (drawn_->record.overLimit) ++endless;
-    if (drawn_->why.empty() || options_.replay || !otherValuesMayDo(drawn_->record)) break;
-    // It proves nothing; a difference shows all the same.
-    if (!drawn_->record.overLimit && !differences(*drawn_, runTarget(*drawn_)).empty()) break;
-  }
-  return drawn_->drawn; // the last one, whatever it comes to
-}
-
-verify::Case ProgramRunner::edge(std::uint64_t index) {
-  verify::Case out = propose(~index, 0);
-  std::vector<const verify::ProgramVariable*> free;
-  for (const verify::ProgramVariable& variable : variables_)
-    if (!fixed_.contains(variable.number)) free.push_back(&variable);
-  if (!free.empty()) {
-    const verify::ProgramVariable& variable = *free[index % free.size()];
-    const std::string name = std::to_string(variable.number);
-    out.values.erase(name);
-    if (const auto value = verify::edgeValue(variable, index / free.size())) out.values[name] = *value;
-  }
-  out.edge = true;
-  drawn_ = play(std::move(out), true);
-  return drawn_->drawn;
-}
-
-verify::Record ProgramRunner::runSide(const Side& side, const verify::Case& drawn, sim::World& world,
-                                      verify::Stand::Way way) const {
-  verify::Entry entry = entryFor(plan_, drawn, assumesProbe());
-  for (const auto& [name, value] : drawn.values)
-    entry.variables.emplace_back(static_cast<std::uint32_t>(std::stoul(name)), value);
-  std::optional<sim::VendorMacros> meaning;
-  if (side.set != nullptr) {
-    meaning.emplace(*side.set, *side.control);
-    meaning->setStylusRadius(drawn.hosts.at("tool_radius"));
-  }
-  return side.stand->run(*side.code, world, entry, stores_, meaning ? &*meaning : nullptr, way);
-}
-
-// The source's side: a rehearsal tells what is measured, the part is made for that, then it runs.
-std::unique_ptr<ProgramRunner::Played> ProgramRunner::play(verify::Case drawn, bool drawError) {
-  auto out = std::make_unique<Played>();
-  out->drawn = std::move(drawn);
-  const sim::Probe probe = probeFor(plan_, out->drawn);
-  const sim::Point3 zero = entryFor(plan_, out->drawn, false).zeros[out->drawn.system - 54];
-  const Side source{&*sourceControl_, sourceSet_, &sourceCode_, sourceStand_.get()};
-  if (plan_.part) {
-    out->part = plan_.part;
-  } else {
-    sim::World nothing(emptyPart(zero), probe);
-    verify::Record rehearsal = runSide(source, out->drawn, nothing, verify::Stand::Way::Rehearse);
-    if (drawError) {
-      verify::Random random(verify::Random::sub(out->drawn.stream, verify::Random::hash("part")));
-      out->drawn.error = verify::drawError(rehearsal, probe.ballRadius(), random);
-    }
-    const std::vector<verify::Touch> touches = verify::touchesOf(rehearsal, probe.ballRadius());
-    out->part =
-        verify::partOf(touches, probe.ballRadius(), std::max(probe.ballRadius(), kReach), out->drawn.error);
-    if (!out->part) out->part = emptyPart(zero);
-    // Nothing to meet: the run would be the same.
-    if ((rehearsal.measures.empty() && !plan_.machine) || rehearsal.overLimit) {
-      out->record = std::move(rehearsal);
-      out->played = true;
-    }
-  }
-  if (!out->played) {
-    sim::World world(*out->part, probe, limits());
-    out->record = runSide(source, out->drawn, world, verify::Stand::Way::Run);
-  }
-  const verify::Record& record = out->record;
-  const bool measures = !record.measures.empty();
-  if (measures || record.ending != verify::Ending::Finished || !record.events.empty())
-    out->why = verify::whyNothingProved(record, out->whyAt);
-  out->whyAt = record.overLimit ? SourceRange{} : inSource(out->whyAt);
-  return out;
-}
-
-verify::Record ProgramRunner::runTarget(const Played& played) const {
-  sim::World world(*played.part, probeFor(plan_, played.drawn), limits());
-  const Side side{&*targetControl_, targetSet_, &translation_.code(), targetStand_.get()};
-  return runSide(side, played.drawn, world, verify::Stand::Way::Run);
-}
-
-verify::CompareRules ProgramRunner::rules() const {
-  verify::CompareRules out;
-  const bool otherArithmetic = sourceControl_->arithmetic != targetControl_->arithmetic;
-  out.tolerance = std::max(options_.tolerance, otherArithmetic ? kOtherArithmetic : 0);
-  out.results = std::max(out.tolerance,
-                         sourceSet_ != targetSet_ ? resultTolerance(*sourceControl_, *targetControl_) : 0);
-  out.relative = otherArithmetic ? kEightDigits : 0;
-  out.sameProgram = true;
-  out.sameAlarmNumbers = sourceSet_ == targetSet_;
-  out.samePlace = [this](SourceRange one, SourceRange other) {
-    return plan_.translation->stemsFrom(inSource(one), translation_.line(other), session_.sources());
-  };
-  return out;
-}
-
-std::vector<verify::Difference> ProgramRunner::differences(const Played& played,
-                                                           const verify::Record& target) {
-  const verify::CompareRules loose = rules();
-  std::vector<verify::Difference> out = verify::compare(played.record, target, loose);
-  if (out.empty() || !sourceAsTarget_) return out;
-  // Whether the digits alone make the difference.
-  sim::World world(*played.part, probeFor(plan_, played.drawn), limits());
-  const Side source{&*sourceAsTarget_, sourceSet_, &sourceAsTargetCode_, sourceAsTargetStand_.get()};
-  const verify::Record again = runSide(source, played.drawn, world, verify::Stand::Way::Run);
-  if (!verify::compare(again, target, loose).empty()) return out;
-  for (verify::Difference& one : out)
-    one.text += "; with the arithmetic of " + targetControl_->name + " the source does the same";
-  return out;
-}
-
-CaseResult ProgramRunner::run(const verify::Case& drawn) {
-  std::unique_ptr<Played> played = std::move(drawn_); // of draw()
-  if (!played) played = play(drawn, false);
-  CaseResult result;
-  result.why = played->why;
-  result.whyAt = played->whyAt;
-  const verify::ProbeOff off = verify::probeOffIn(played->record);
-  if (off.measuring) result.unarmed = inSource(*off.measuring);
-  if (off.protectedMove) result.unprotected = inSource(*off.protectedMove);
-  if (played->record.ending == verify::Ending::Inconclusive) {
-    result.verdict = CaseVerdict::NoProgram;
-    return result;
-  }
-  for (const verify::Difference& one : differences(*played, runTarget(*played))) {
-    CaseFinding finding;
-    finding.aspect = one.aspect;
-    finding.text = one.text;
-    finding.source = inSource(one.source);
-    finding.targetLine = translation_.line(one.target);
-    result.findings.push_back(std::move(finding));
-  }
-  result.verdict = !result.findings.empty() ? CaseVerdict::Differ
-                   : result.why.empty()     ? CaseVerdict::Proved
-                                            : CaseVerdict::Idle;
-  return result;
-}
-
-namespace {
-
 class ProgramsCommand {
 public:
-  ProgramsCommand(const VerifyOptions& options, Session& session)
-      : options_(options), session_(session), main_(options, plan_) {}
+  ProgramsCommand(const VerifyOptions& options, Session& session) : options_(options), session_(session) {}
 
   Outcome run() {
     if (options_.to.empty()) {
@@ -400,32 +31,36 @@ public:
     convert.fromControl = options_.fromControl;
     convert.probeMacros = options_.probeMacros;
     convert.datum = options_.datum;
-    Outcome converted = options_.converted ? *options_.converted : driver::convert(convert);
-    if (converted.status != 0 || converted.files.size() != 1) return converted;
+    Outcome refused;
+    const auto converted = convertedFor(options_, convert, refused);
+    if (!converted) return refused;
+    const auto make = findTarget(options_.to)->programs;
+    const std::unique_ptr<ProgramSubject> subject = make(options_, plan_);
+    ProgramSubject& main = *subject;
     plan_.programs = true;
-    Translation translation = translationOf(converted);
+    Translation translation = translationOf(*converted);
     if (options_.translation && !takeEdited(*options_.translation, translation, session_))
       return outcomeOf(session_, "");
     plan_.translation = std::move(translation);
     if (!loadWorld(options_, plan_, session_)) return outcomeOf(session_, "");
-    Session& own = main_.session();
-    if (!main_.load()) return outcomeOf(own, "");
-    auto fields = main_.fields();
+    Session& own = main.session();
+    if (!main.load()) return outcomeOf(own, "");
+    auto fields = main.fields();
     if (!fields) return outcomeOf(own, "");
     plan_.fields = std::move(*fields);
-    plan_.fixedHosts = main_.hosts();
-    if (main_.sourceSet() != nullptr) plan_.sourceMacros = main_.sourceSet()->name;
-    if (main_.targetSet() != nullptr) plan_.targetMacros = main_.targetSet()->name;
+    plan_.fixedHosts = main.hosts();
+    plan_.sourceMacros = main.sourceMacros();
+    plan_.targetMacros = main.targetMacros();
     own.diagnostics() = Diagnostics();
-    if (!main_.prepare()) return outcomeOf(own, "");
-    VerifyReport report(options_, plan_, main_);
+    if (!main.prepare()) return outcomeOf(own, "");
+    VerifyReport report(options_, plan_, main);
     const auto another = [&]() -> std::unique_ptr<CaseSubject> {
-      auto runner = std::make_unique<ProgramRunner>(options_, plan_);
+      std::unique_ptr<ProgramSubject> runner = make(options_, plan_);
       if (!runner->load() || !runner->fields()) return nullptr;
       runner->session().diagnostics() = Diagnostics();
       return runner->prepare() ? std::move(runner) : nullptr;
     };
-    if (!runCases(options_, !options_.replay, main_, another, report)) return outcomeOf(own, "");
+    if (!runCases(options_, !options_.replay, main, another, report)) return outcomeOf(own, "");
     own.diagnostics() = Diagnostics();
     return report.finish();
   }
@@ -434,7 +69,6 @@ private:
   const VerifyOptions& options_;
   Session& session_;
   VerifyPlan plan_;
-  ProgramRunner main_;
 };
 
 } // namespace

@@ -3,6 +3,7 @@
 #include "stdlib/HostInputs.h"
 #include "support/Decimal.h"
 #include "support/messages/Verify.h"
+#include "targets/Target.h"
 
 #include <algorithm>
 #include <cmath>
@@ -144,7 +145,8 @@ std::string VerifyReport::replay(const verify::Case& drawn) const {
   for (const std::string& folder : options_.common.data)
     flag("--data", folder);
   // What the user has fixed belongs to the translation; the values of the case do not.
-  const bool writtenForCase = options_.to == "mikroprog";
+  const Target* target = findTarget(options_.to);
+  const bool writtenForCase = target != nullptr && target->fixesValues;
   std::set<std::string> known;
   for (const auto& [name, value] : drawn.values) {
     flag(plan_.programs ? "--var" : writtenForCase ? "--set" : "--value", name + "=" + numberText(value));

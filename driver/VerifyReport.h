@@ -1,7 +1,8 @@
 // Private to Verify*.cpp: what the cases come to. The order in which they are added does not matter.
 #pragma once
 
-#include "driver/VerifySubject.h"
+#include "driver/Command.h"
+#include "targets/Subject.h"
 
 #include <map>
 #include <string>

@@ -7,6 +7,7 @@
 #include "ir/Rewrite.h"
 #include "support/Decimal.h"
 #include "support/messages/Commands.h"
+#include "support/messages/Mikroprog.h"
 
 #include <algorithm>
 
@@ -195,6 +196,39 @@ void applyDefaults(const NamedTexts& given, LoweredCycle& lowered, std::set<std:
 
 void settleValues(const CycleFolder& folder, LoweredCycle& lowered, Session& session) {
   Values(folder, lowered, session).settle();
+}
+
+const JobOperation* operationOf(const CycleFolder& folder, const LoweringInputs& inputs, Session& session) {
+  if (!inputs.job) return nullptr;
+  const JobOperation* found = nullptr;
+  std::size_t points = 0;
+  for (const JobOperation& operation : inputs.job->operations) {
+    if (operation.cycle != folder.name) continue;
+    found = found == nullptr ? &operation : found;
+    points += std::max<std::size_t>(operation.at.size(), 1);
+  }
+  if (points <= 1) return found;
+  session.diagnostics().report<diag::PointsOfOperation>(found->cycleRange, folder.name, points);
+  return nullptr;
+}
+
+void takeOperation(const JobOperation& operation, const CommonOptions& options, LoweringInputs& inputs) {
+  std::map<std::string, double> own = operation.hosts;
+  if (!operation.at.empty()) {
+    own.emplace("start_x", operation.at.front().first);
+    own.emplace("start_y", operation.at.front().second);
+  }
+  for (const auto& [name, value] : own) {
+    const bool flag = std::any_of(options.host.begin(), options.host.end(),
+                                  [&, &key = name](const auto& given) { return given.first == key; });
+    if (!flag) inputs.hosts[name] = value;
+  }
+  for (const JobValue& value : operation.set) {
+    const bool flag = std::any_of(inputs.sets.begin(), inputs.sets.end(), [&](const auto& set) {
+      return gibbs::foldCase(set.first) == gibbs::foldCase(value.name);
+    });
+    if (!flag) inputs.sets.emplace_back(value.name, value.value);
+  }
 }
 
 } // namespace dotek::project

@@ -1,4 +1,4 @@
-// Private to Convert*.cpp and Lowering.cpp: values of parameters against the cycle's own checks.
+// Values of parameters against the cycle's own checks.
 #pragma once
 
 #include "project/Lowering.h"
@@ -18,5 +18,11 @@ void applyDefaults(const NamedTexts& given, LoweredCycle& lowered, std::set<std:
 // Reports defaults of `--default` that the checks turn away. A default of the source that they turn away is a
 // warning, and is taken away: the argument becomes mandatory.
 void settleValues(const CycleFolder& folder, LoweredCycle& lowered, Session& session);
+
+// ---- one operation, for programs without arguments
+// The operation of the job for this folder; nullptr: none, or several, which is reported.
+const JobOperation* operationOf(const CycleFolder& folder, const LoweringInputs& inputs, Session& session);
+// Its start point, host inputs and values, as far as no flag gives them.
+void takeOperation(const JobOperation& operation, const CommonOptions& options, LoweringInputs& inputs);
 
 } // namespace dotek::project

@@ -1,7 +1,4 @@
-#include "driver/VerifyTargets.h"
-
-#include "support/messages/Commands.h"
-#include "support/messages/Mikroprog.h"
+#include "driver/VerifyNominal.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,13 +10,6 @@ namespace {
 constexpr double kSame = 1e-7; // mm
 
 } // namespace
-
-void TargetRun::differs(verify::Aspect aspect, std::string text, std::string line) {
-  TargetDifference& one = differences.emplace_back();
-  one.difference.aspect = aspect;
-  one.difference.text = std::move(text);
-  one.line = std::move(line);
-}
 
 void NominalFields::roundStart(verify::Case& drawn) const {
   int places = 3;
@@ -62,29 +52,6 @@ NominalFields::settle(verify::Case drawn,
   }
   if (!now) return std::nullopt;
   return drawn;
-}
-
-std::unique_ptr<VerifyTarget> verifyTarget(const TargetSource& source) {
-  if (source.options.to == "fusion") return fusionTarget(source);
-  if (source.options.to == "mikroprog") return mikroprogTarget(source);
-  return nullptr;
-}
-
-bool checkTargetOptions(const VerifyOptions& options, Diagnostics& diagnostics) {
-  const auto none = [&](bool given, std::string_view flag) {
-    if (given) diagnostics.report<diag::FlagOfOtherTarget>({}, flag, options.to);
-  };
-  if ((options.to == "mikroprog" || options.to == "fusion") && !options.source.prog)
-    diagnostics.report<diag::MissingOption>(
-        {}, "verify", "--prog PROG.txt", "a drawn path states no measurement that such a program could make");
-  if (options.to == "mikroprog") {
-    none(options.probeMacros.has_value(), "--probe-macros");
-    if (!options.datum.empty() && options.datum != "g92" && options.datum != "operator")
-      diagnostics.report<diag::UnknownDatum>({}, options.datum);
-  } else if (!options.to.empty()) {
-    none(!options.datum.empty(), "--datum");
-  }
-  return !diagnostics.hasErrors();
 }
 
 } // namespace dotek::driver

@@ -1,27 +1,17 @@
-// Private to Convert*.cpp: inputs that are programs of a control.
+// Private to Target*.cpp: inputs that are programs of a control.
 #pragma once
 
-#include "driver/Command.h"
 #include "ir/Program.h"
 #include "stdlib/Control.h"
 #include "stdlib/MacroSet.h"
-#include "support/LineMap.h"
+#include "targets/Conversion.h"
 
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
 
-namespace dotek::driver {
-
-// Reports options of the command line that none of the inputs takes.
-void refuseOptions(const ConvertOptions& options, bool programs, bool cycles, Session& session);
-
-struct ConvertedFile {
-  OutputFile file;
-  MappedResult map;
-  std::vector<std::uint64_t> numbers; // of its programs
-};
+namespace dotek::targets {
 
 class ProgramConversion {
 public:
@@ -29,8 +19,8 @@ public:
 
   // Reads the profiles. False where there is no such one: reported.
   bool load();
-  // nullopt where the file cannot be read or translated: reported.
-  std::optional<ConvertedFile> convert(const std::string& path);
+  // Adds the file to `result`, or reports why it cannot be read or translated.
+  void convert(const std::string& path, ConversionResult& result);
 
 private:
   bool translateCalls(ir::ProgramFile& file);
@@ -42,4 +32,4 @@ private:
   const stdlib::MacroSet* wanted_ = nullptr; // nullptr: calls stay as they are
 };
 
-} // namespace dotek::driver
+} // namespace dotek::targets

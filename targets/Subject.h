@@ -1,10 +1,11 @@
-// Private to Verify*.cpp: what all kinds of sources share that verify looks at. A subject draws cases and
-// runs them on both sides; the report puts together what they come to.
+// What all kinds of sources share that verify looks at. A subject draws cases and runs them on both sides;
+// the report puts together what they come to.
 #pragma once
 
-#include "driver/Command.h"
+#include "project/Session.h"
 #include "sim/geometry/Part.h"
 #include "sim/geometry/Probe.h"
+#include "targets/Options.h"
 #include "verify/Compare.h"
 #include "verify/Draw.h"
 #include "verify/Stand.h"
@@ -17,12 +18,11 @@
 #include <utility>
 #include <vector>
 
-namespace dotek::driver {
+namespace dotek::targets {
 
 // A translation as text, with what its lines come from.
 struct Translation {
   std::string name, text;
-  std::uint32_t number = 0; // O number
   std::vector<OutputArgument> arguments;
   // By line from 0: files and lines; empty: made up. Nothing: not known, of a line that was edited.
   std::vector<std::optional<std::set<std::pair<std::string, std::uint32_t>>>> sources;
@@ -91,4 +91,19 @@ public:
   virtual const std::string& lastRefusal() const = 0;
 };
 
-} // namespace dotek::driver
+// Programs of macro B, whose translations take the same values: variables by number.
+class ProgramSubject : public CaseSubject {
+public:
+  // Reads the source; false: reported to session().
+  virtual bool load() = 0;
+  // What is drawn, with what `--var` gives; after load(). nullopt: reported.
+  virtual std::optional<std::vector<verify::DrawField>> fields() = 0;
+  virtual const std::map<std::string, double>& hosts() const = 0; // given
+  // Names of the sets that both sides call; "": none.
+  virtual std::string sourceMacros() const = 0;
+  virtual std::string targetMacros() const = 0;
+  // Before the first case, once the plan is complete.
+  virtual bool prepare() = 0;
+};
+
+} // namespace dotek::targets

@@ -1,7 +1,7 @@
 // Cases of verify --to fusion.
+#include "backends/fusion/TargetVerify.h"
 #include "backends/fusion/Emit.h"
 #include "backends/fusion/Run.h"
-#include "driver/VerifyTargets.h"
 #include "frontend/macrob/Lower.h"
 #include "frontend/macrob/Parse.h"
 #include "ir/Program.h"
@@ -14,7 +14,7 @@
 #include <deque>
 #include <fmt/format.h>
 
-namespace dotek::driver {
+namespace dotek::targets {
 
 namespace fusion = backends::fusion;
 namespace macrob = frontend::macrob;
@@ -23,9 +23,9 @@ namespace {
 
 constexpr double kEightDigits = 5e-5; // left of a result beside another way to compute it
 
-class FusionTarget final : public VerifyTarget {
+class FusionVerification final : public Verification {
 public:
-  explicit FusionTarget(const TargetSource& source)
+  explicit FusionVerification(const VerificationSource& source)
       : from_(source), control_(*source.inputs.sourceControl),
         sourceSet_(source.inputs.macroSet(source.plan.sourceMacros)),
         set_(source.inputs.macroSet(source.plan.targetMacros)),
@@ -138,11 +138,11 @@ private:
       std::string line;
       if (difference.target.hasPlace() && difference.target.file == id)
         line = sources_.file(id).line(sources_.line(difference.target));
-      out.differences.push_back({std::move(difference), std::move(line)});
+      out.differences.push_back({std::move(difference), 0, std::move(line)});
     }
   }
 
-  const TargetSource from_;
+  const VerificationSource from_;
   const stdlib::Control& control_;
   const stdlib::MacroSet *sourceSet_, *set_;
   verify::Stand stand_;
@@ -154,8 +154,8 @@ private:
 
 } // namespace
 
-std::unique_ptr<VerifyTarget> fusionTarget(const TargetSource& source) {
-  return std::make_unique<FusionTarget>(source);
+std::unique_ptr<Verification> fusionVerification(const VerificationSource& source) {
+  return std::make_unique<FusionVerification>(source);
 }
 
-} // namespace dotek::driver
+} // namespace dotek::targets

@@ -1,6 +1,5 @@
 // Cases of verify --to mikroprog.
-#include "driver/ConvertMikroprog.h"
-#include "driver/VerifyTargets.h"
+#include "backends/mikroprog/TargetProgram.h"
 #include "frontend/gibbs/Ast.h"
 #include "frontend/mikroprog/Check.h"
 #include "frontend/mikroprog/Parse.h"
@@ -9,15 +8,17 @@
 
 #include <fmt/format.h>
 
-namespace dotek::driver {
+namespace dotek::targets {
 
 namespace mikroprog = frontend::mikroprog;
 
 namespace {
 
-class MikroprogTarget final : public VerifyTarget {
+class MikroprogVerification final : public Verification {
 public:
-  explicit MikroprogTarget(const TargetSource& source) : from_(source) {}
+  explicit MikroprogVerification(const VerificationSource& source) : from_(source) {}
+
+  bool datumsMovePath() const override { return true; }
 
   bool prepare() override {
     if (from_.inputs.job && from_.inputs.job->lengthToCentre) {
@@ -90,7 +91,7 @@ public:
     }
     for (verify::Difference& difference : compared.differences) {
       std::string line = difference.target.hasPlace() ? lineOf(sources.line(difference.target)) : "";
-      out.differences.push_back({std::move(difference), std::move(line)});
+      out.differences.push_back({std::move(difference), 0, std::move(line)});
     }
     if (out.differences.empty() && now.source->ending == verify::Ending::Finished)
       interfere(stand, now, start, zero, ran, out);
@@ -119,7 +120,10 @@ private:
         false,     drawn.hosts,         [](const std::string&) { return std::string("--set"); }};
     auto program = writeMikroprog(from_.folder, std::move(lowered), writing, from_.session);
     if (!program) return std::nullopt;
-    return std::move(program->file.text);
+    std::string out;
+    for (const backends::mikroprog::EmittedLine& line : program->lines)
+      out.append(line.text).append("\r\n");
+    return out;
   }
 
   std::string firstError() const {
@@ -150,15 +154,15 @@ private:
       out.differs(verify::Aspect::Ending, "nothing asks for contact before the first probe move");
   }
 
-  const TargetSource from_;
+  const VerificationSource from_;
   std::optional<LoweredCycle> lowered_;
   std::optional<stdlib::MikroprogControl> control_;
 };
 
 } // namespace
 
-std::unique_ptr<VerifyTarget> mikroprogTarget(const TargetSource& source) {
-  return std::make_unique<MikroprogTarget>(source);
+std::unique_ptr<Verification> mikroprogVerification(const VerificationSource& source) {
+  return std::make_unique<MikroprogVerification>(source);
 }
 
-} // namespace dotek::driver
+} // namespace dotek::targets

@@ -1,0 +1,159 @@
+// convert --to fanuc.
+#include "targets/Target.h"
+#include "backends/fanuc/Emit.h"
+#include "backends/fanuc/TargetPrograms.h"
+#include "backends/fanuc/TargetVerify.h"
+#include "backends/fanuc/TargetVerifyPrograms.h"
+#include "frontend/gibbs/Ast.h"
+#include "ir/Fold.h"
+#include "ir/Positions.h"
+#include "ir/Walk.h"
+#include "support/messages/Commands.h"
+#include "support/messages/Fanuc.h"
+#include "targets/Conversion.h"
+
+#include <algorithm>
+
+namespace dotek::targets {
+
+namespace fanuc = backends::fanuc;
+
+namespace {
+
+constexpr std::uint32_t kFirstProgram = 8000;
+
+// A program that is called with G65 for each cycle; files of programs for another control.
+class FanucConversion final : public Conversion {
+public:
+  explicit FanucConversion(ConversionContext& context)
+      : context_(context), options_(context.options), session_(context.session),
+        programs_(context.options, context.session) {}
+
+  bool beginPrograms() override { return programs_.load(); }
+  bool beginCycles() override { return numbersDiffer(); }
+
+  bool cycle(const CycleFolder& folder, std::size_t index) override {
+    std::optional<LoweredSource> source = lowerSource(folder, context_);
+    if (!source) return false;
+    LoweredCycle& lowered = source->lowered;
+    const LoweringInputs& inputs = *context_.inputs;
+    const stdlib::MacroSet* macros = macrosOf(lowered);
+    if (macros == nullptr || session_.diagnostics().hasErrors()) return true;
+    for (const auto& [id, value] : lowered.fixed) {
+      const ir::Variable& variable = lowered.cycle.variable(id);
+      const bool plane = variable.name == "retract" && ir::countsFrom(lowered.cycle, ir::Frame::Retract);
+      if (!ir::uses(lowered.cycle, id) && !plane && variable.role == ir::Role::Host)
+        lowered.fixedByName.erase(variable.name);
+    }
+    ir::fold(lowered.cycle, lowered.fixed);
+    fanuc::EmitOptions emit{*inputs.control, *macros, *inputs.sourceControl, 0, {}, {}, {}, {}};
+    emit.plainMessages = options_.common.assume.contains("plain-messages");
+    emit.foreignMacros = macros != lowered.macros;
+    emit.programNumber = numberOf(index);
+    emit.defaults = options_.useDefaults ? fanuc::Defaults::Use : fanuc::Defaults::Alarm;
+    emit.probePower = options_.switchProbe ? fanuc::ProbePowerMode::Macro : fanuc::ProbePowerMode::Source;
+    emit.letters = lettersOf(lowered);
+    emit.fixed = lowered.fixedByName;
+    for (const char* place : {"start_x", "start_y", "start_z"}) {
+      if (const auto given = inputs.hosts.find(place); given != inputs.hosts.end()) emit.fixed.insert(*given);
+    }
+    const auto lines = fanuc::emit(lowered.cycle, emit, session_.sources(), session_.diagnostics());
+    if (!lines) return true;
+    Diagnostics told; // by emit() already
+    std::vector<OutputArgument> arguments;
+    if (const auto letters = fanuc::assignLetters(lowered.cycle, emit, told))
+      for (const fanuc::Argument& one : *letters)
+        arguments.push_back({lowered.cycle.variable(one.variable).name, one.letter});
+    ConversionResult& result = context_.result;
+    result.arguments.push_back(std::move(arguments));
+    result.macros = macros->name;
+    result.macrosByCycle.push_back(macros->name);
+    result.numbers.emplace_back(emit.programNumber, folder.name);
+    result.add(fmt::format("O{:04}.nc", emit.programNumber), *lines);
+    return true;
+  }
+
+  void program(const std::string& path) override { programs_.convert(path, context_.result); }
+
+private:
+  std::uint32_t numberOf(std::size_t index) const {
+    if (options_.programNumber) return *options_.programNumber;
+    if (context_.inputs->job && context_.inputs->job->number)
+      return static_cast<std::uint32_t>(*context_.inputs->job->number);
+    return kFirstProgram + static_cast<std::uint32_t>(index);
+  }
+
+  bool numbersDiffer() {
+    if (context_.folders.size() < 2 || numberOf(0) != numberOf(1)) return true;
+    session_.diagnostics().report<diag::ProgramNumberTwice>({}, numberOf(0), context_.folders[0].name,
+                                                            context_.folders[1].name);
+    return false;
+  }
+
+  // The set that the program calls: given, else the source's; a path alone takes the first that touches
+  // without setting an offset.
+  const stdlib::MacroSet* macrosOf(const LoweredCycle& lowered) {
+    if (options_.probeMacros) return context_.inputs->macroSet(*options_.probeMacros);
+    if (lowered.macros != nullptr) return lowered.macros;
+    for (const stdlib::MacroSet& set : context_.inputs->macroSets) {
+      const stdlib::MacroSignature* surface = set.find(stdlib::Intent::Surface);
+      const stdlib::MacroArgument* system =
+          surface == nullptr ? nullptr : surface->find(stdlib::ArgumentRole::System, ir::Axis::X);
+      if (surface == nullptr || (system != nullptr && system->required)) continue;
+      // A vendor's set before one whose text has to be brought along.
+      if (session_.data().find("macrob", set.name) != nullptr) continue;
+      session_.diagnostics().report<diag::MacroSetChosen>({}, lowered.cycle.name, set.name);
+      return &set;
+    }
+    session_.diagnostics().report<diag::MissingOption>({}, "convert", "--probe-macros SET",
+                                                       "the macros that the program calls");
+    return nullptr;
+  }
+
+  // --arg names are those of this cycle, as it spells them.
+  std::map<std::string, char> lettersOf(const LoweredCycle& lowered) {
+    std::map<std::string, char> out;
+    for (const auto& [name, letter] : context_.letters) {
+      const std::string folded = frontend::gibbs::foldCase(name);
+      for (const ir::Variable& variable : lowered.cycle.variables) {
+        if (variable.role == ir::Role::Local || frontend::gibbs::foldCase(variable.name) != folded) continue;
+        context_.usedLetters.insert(name);
+        out.emplace(variable.name, letter);
+      }
+    }
+    return out;
+  }
+
+  ConversionContext& context_;
+  const ConvertOptions& options_;
+  Session& session_;
+  ProgramConversion programs_;
+};
+
+std::unique_ptr<Conversion> fanucConversion(ConversionContext& context) {
+  return std::make_unique<FanucConversion>(context);
+}
+
+std::unique_ptr<ProgramSubject> fanucPrograms(const VerifyOptions& options, const VerifyPlan& plan) {
+  return std::make_unique<ProgramRunner>(options, plan);
+}
+
+constexpr TargetFlag kFlags[] = {TargetFlag::Arg, TargetFlag::ProgramNumber, TargetFlag::ProbeMacros,
+                                 TargetFlag::DefaultsUse, TargetFlag::ProbePower};
+
+} // namespace
+
+namespace target {
+
+DOTEK_TARGET(fanuc) = {
+    .text = "program that is called with G65",
+    .flags = kFlags,
+    .provesPath = true,
+    .convert = fanucConversion,
+    .verify = fanucVerification,
+    .programs = fanucPrograms,
+};
+
+} // namespace target
+
+} // namespace dotek::targets

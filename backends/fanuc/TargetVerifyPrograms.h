@@ -1,0 +1,95 @@
+// Private to Target*.cpp: programs of macro B against their conversion.
+#pragma once
+
+#include "backends/fanuc/TargetText.h"
+#include "ir/Program.h"
+#include "sim/machine/Bytecode.h"
+#include "stdlib/Control.h"
+#include "stdlib/MacroSet.h"
+#include "targets/Stage.h"
+#include "targets/Subject.h"
+#include "verify/Rehearsal.h"
+#include "verify/Stand.h"
+#include "verify/Variables.h"
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace dotek::targets {
+
+class ProgramRunner final : public ProgramSubject {
+public:
+  ProgramRunner(const VerifyOptions& options, const VerifyPlan& plan);
+  ~ProgramRunner() override;
+
+  bool load() override;
+  std::optional<std::vector<verify::DrawField>> fields() override;
+  const std::map<std::string, double>& hosts() const override { return hosts_; }
+  std::string sourceMacros() const override { return sourceSet_ == nullptr ? "" : sourceSet_->name; }
+  std::string targetMacros() const override { return targetSet_ == nullptr ? "" : targetSet_->name; }
+  bool prepare() override;
+
+  Session& session() override { return session_; }
+  SourceRange place() const override { return {file_, 0, 0}; }
+  std::optional<verify::Case> draw(std::uint64_t index) override;
+  verify::Case edge(std::uint64_t index) override;
+  CaseResult run(const verify::Case& drawn) override;
+  const std::string& lastRefusal() const override { return refusal_; }
+
+private:
+  // One side: what runs, on which control.
+  struct Side {
+    const stdlib::Control* control = nullptr;
+    const stdlib::MacroSet* set = nullptr;
+    const sim::Bytecode* code = nullptr;
+    verify::Stand* stand = nullptr;
+  };
+  // Of a program that ends with M99: what calls it, on both sides.
+  struct Caller {
+    std::string text;
+    std::uint32_t callee = 0; // O number
+    std::optional<ir::ProgramFile> source;
+  };
+  // What a case comes to on the source's side.
+  struct Played;
+
+  bool addCaller();
+  bool compileSource(const stdlib::Control& control, sim::Bytecode& out);
+  verify::Case propose(std::uint64_t index, std::uint32_t attempt) const;
+  bool otherValuesMayDo(const verify::Record& record) const;
+  std::unique_ptr<Played> play(verify::Case drawn, bool drawError);
+  verify::Record runSide(const Side& side, const verify::Case& drawn, sim::World& world,
+                         verify::Stand::Way way) const;
+  verify::Record runTarget(const Played& played) const;
+  verify::CompareRules rules() const;
+  std::vector<verify::Difference> differences(const Played& played, const verify::Record& target);
+  SourceRange inSource(SourceRange range) const { return range.file == file_ ? range : SourceRange{}; }
+  sim::MachineLimits limits() const { return plan_.machine ? plan_.machine->limits : sim::MachineLimits{}; }
+  bool assumesProbe() const { return options_.common.assume.contains("probe-on"); }
+
+  const VerifyOptions& options_;
+  const VerifyPlan& plan_;
+  Session session_;
+  Limits sourceLimits_, targetLimits_; // of one run
+  FileId file_ = kNoFile;
+  std::optional<stdlib::Control> sourceControl_, targetControl_, sourceAsTarget_;
+  std::vector<stdlib::MacroSet> sets_;
+  const stdlib::MacroSet* sourceSet_ = nullptr; // nullptr: none is called
+  const stdlib::MacroSet* targetSet_ = nullptr;
+  std::map<std::string, double> hosts_; // given
+  std::optional<ir::ProgramFile> programs_, macros_;
+  std::optional<Caller> caller_;
+  std::vector<verify::ProgramVariable> variables_; // to draw
+  std::map<std::uint32_t, double> fixed_;
+  std::set<std::uint32_t> stores_; // common variables that count
+  sim::Bytecode sourceCode_, sourceAsTargetCode_;
+  std::unique_ptr<verify::Stand> sourceStand_, targetStand_, sourceAsTargetStand_;
+  FanucText translation_;
+  std::string refusal_;
+  std::unique_ptr<Played> drawn_; // of draw(), for the next run()
+};
+
+} // namespace dotek::targets

@@ -1,0 +1,188 @@
+// convert --to fusion.
+#include "backends/fusion/TargetVerify.h"
+
+#include "backends/fusion/Emit.h"
+#include "frontend/gibbs/Ast.h"
+#include "ir/Fold.h"
+#include "support/messages/Commands.h"
+#include "support/messages/Fusion.h"
+#include "support/messages/Nc.h"
+#include "targets/Conversion.h"
+#include "targets/Target.h"
+
+#include <algorithm>
+
+namespace dotek::targets {
+
+namespace fusion = backends::fusion;
+namespace gibbs = frontend::gibbs;
+
+namespace {
+
+std::optional<double> numberOf(const gibbs::Expression& expression) {
+  const auto* unary = std::get_if<gibbs::Unary>(&expression.node);
+  const auto* number =
+      std::get_if<gibbs::NumberLiteral>(unary != nullptr ? &unary->operand->node : &expression.node);
+  if (number == nullptr) return std::nullopt;
+  const bool minus = unary != nullptr && unary->op == gibbs::UnaryOperator::Minus;
+  return minus && number->value != 0 ? -number->value : number->value;
+}
+
+// What the dialog offers for its fields: both states of a check box, the entries of a list.
+std::map<ir::VariableId, std::vector<fusion::Choice>>
+choicesOf(const CycleFolder& folder, const ir::Cycle& cycle, const SourceMap& sources) {
+  std::map<ir::VariableId, std::vector<fusion::Choice>> out;
+  if (!folder.cycle->dialog) return out;
+  const Encoding encoding = sources.file(folder.cycle->dialog->file).encoding();
+  std::map<std::string, ir::VariableId> ids;
+  for (ir::VariableId id = 0; id < cycle.variables.size(); ++id)
+    if (cycle.variable(id).role == ir::Role::Parameter)
+      ids.emplace(gibbs::foldCase(cycle.variable(id).name), id);
+  std::vector<std::optional<ir::VariableId>> lists; // in the order of creation, which is their number
+  for (const gibbs::Control& control : folder.cycle->dialog->controls) {
+    const std::string kind = gibbs::foldCase(control.kind.text);
+    const auto found = control.variable ? ids.find(gibbs::foldCase(control.variable->text)) : ids.end();
+    if (kind == gibbs::foldCase("CHECK") && found != ids.end()) out[found->second] = {{0, "no"}, {1, "yes"}};
+    if (kind == gibbs::foldCase("DROPDOWN_NEW"))
+      lists.push_back(found == ids.end() ? std::nullopt : std::optional(found->second));
+    if (kind != gibbs::foldCase("DROPDOWN_ADD") || control.arguments.size() != 3) continue;
+    const auto list = numberOf(*control.arguments[0]);
+    const auto value = numberOf(*control.arguments[2]);
+    const auto* text = std::get_if<gibbs::TextLiteral>(&control.arguments[1]->node);
+    if (!list || !value || text == nullptr || *list < 1 || *list > static_cast<double>(lists.size()))
+      continue;
+    if (const auto id = lists[static_cast<std::size_t>(*list) - 1])
+      out[*id].push_back({*value, toUtf8(text->text, encoding)});
+  }
+  return out;
+}
+
+// Notes on what a program on a control changes; a post prints the Prog's text as it is.
+void dropNotesOfPrograms(Diagnostics& diagnostics) {
+  auto& all = diagnostics.all();
+  std::erase_if(all, [](const Diagnostic& one) {
+    return one.code == diag::PictureDecimals::code || one.code == diag::AlarmRenumbered::code ||
+           one.code == diag::WordLeftOut::code;
+  });
+}
+
+void checkFusionConvert(const ConvertOptions& options, Diagnostics& diagnostics) {
+  if (!options.source.prog) diagnostics.report<diag::FusionNeedsProg>({});
+}
+
+void refuseFlag(std::string_view flag, Diagnostics& diagnostics) {
+  diagnostics.report<diag::FanucOption>({}, flag);
+}
+
+// Parts of a post, one for each cycle of the command; with --whole-post one file.
+class FusionConversion final : public Conversion {
+public:
+  explicit FusionConversion(ConversionContext& context)
+      : context_(context), options_(context.options), session_(context.session) {}
+
+  bool cycle(const CycleFolder& folder, std::size_t /*index*/) override {
+    std::optional<LoweredSource> source = lowerSource(folder, context_);
+    if (!source) return false;
+    const stdlib::MacroSet* called = source->lowered.macros;
+    context_.result.macros = options_.probeMacros ? *options_.probeMacros
+                             : called != nullptr  ? called->name
+                                                  : "";
+    if (!session_.diagnostics().hasErrors()) add(folder, source->lowered, std::move(source->defaults));
+    return true;
+  }
+
+  void finish() override {
+    if (!options_.probeMacros) dropNotesOfPrograms(session_.diagnostics());
+    // An alarm is printed with its number, whatever the macros are.
+    std::erase_if(session_.diagnostics().all(),
+                  [](const Diagnostic& one) { return one.code == diag::AlarmRenumbered::code; });
+    if (parts_.empty()) return;
+    if (!options_.wholePost) {
+      for (Part& part : parts_)
+        write(part.prefix + ".js", std::move(part.lines));
+      return;
+    }
+    std::vector<std::vector<fusion::EmittedLine>> fragments;
+    std::vector<std::string> prefixes;
+    for (const Part& part : parts_) {
+      fragments.push_back(part.lines);
+      prefixes.push_back(part.prefix);
+    }
+    write((parts_.size() == 1 ? parts_.front().prefix : std::string("cycles")) + ".cps",
+          fusion::postAround(fragments, prefixes));
+  }
+
+private:
+  struct Part {
+    std::string cycle, prefix;
+    std::vector<fusion::EmittedLine> lines;
+  };
+
+  void write(const std::string& name, std::vector<fusion::EmittedLine> lines) {
+    for (fusion::EmittedLine& line : lines)
+      std::erase_if(line.ranges, [](const SourceRange& range) { return !range.hasPlace(); });
+    context_.result.add(name, lines);
+  }
+
+  void add(const CycleFolder& folder, LoweredCycle& lowered, std::map<ir::VariableId, double> defaults) {
+    const LoweringInputs& inputs = *context_.inputs;
+    const std::string& control = inputs.sourceControl->name;
+    if (!options_.control.empty() && options_.control != control)
+      session_.diagnostics().report<diag::ControlOfForm>(lowered.cycle.range, control, options_.control);
+    const stdlib::MacroSet none = [] {
+      stdlib::MacroSet set;
+      set.title = "no set";
+      return set;
+    }();
+    const stdlib::MacroSet* macros =
+        options_.probeMacros ? inputs.macroSet(*options_.probeMacros) : lowered.macros;
+    const bool foreign = macros != lowered.macros && lowered.macros != nullptr;
+    if (macros == nullptr) macros = &none;
+    ir::fold(lowered.cycle, lowered.fixed);
+    fusion::EmitOptions emit{*inputs.sourceControl,
+                             *macros,
+                             foreign,
+                             std::move(lowered.printed),
+                             lowered.fixed,
+                             lowered.fixedByName,
+                             {},
+                             std::move(defaults)};
+    emit.choices = choicesOf(folder, lowered.cycle, session_.sources());
+    emit.fixedByName.insert(inputs.hosts.begin(), inputs.hosts.end());
+    const std::string prefix = fusion::prefixOf(lowered.cycle.name);
+    for (const Part& part : parts_)
+      if (part.prefix == prefix)
+        session_.diagnostics().report<diag::FragmentNameTwice>({}, part.cycle, lowered.cycle.name, prefix);
+    auto lines = fusion::emit(lowered.cycle, emit, session_.diagnostics());
+    if (options_.probeMacros && !foreign) dropNotesOfPrograms(session_.diagnostics());
+    if (lines) parts_.push_back({lowered.cycle.name, prefix, std::move(*lines)});
+  }
+
+  ConversionContext& context_;
+  const ConvertOptions& options_;
+  Session& session_;
+  std::vector<Part> parts_;
+};
+
+std::unique_ptr<Conversion> fusionConversion(ConversionContext& context) {
+  return std::make_unique<FusionConversion>(context);
+}
+
+constexpr TargetFlag kFlags[] = {TargetFlag::ProbeMacros, TargetFlag::WholePost};
+
+} // namespace
+
+namespace target {
+
+DOTEK_TARGET(fusion) = {
+    .text = "part of a Fusion post",
+    .flags = kFlags,
+    .refuseFlag = refuseFlag,
+    .checkConvert = checkFusionConvert,
+    .convert = fusionConversion,
+    .verify = fusionVerification,
+};
+
+} // namespace target
+
+} // namespace dotek::targets

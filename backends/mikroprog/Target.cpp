@@ -1,0 +1,238 @@
+// convert --to mikroprog.
+#include "backends/mikroprog/TargetProgram.h"
+
+#include "backends/mikroprog/Emit.h"
+#include "frontend/gibbs/Ast.h"
+#include "ir/Fold.h"
+#include "ir/Walk.h"
+#include "stdlib/HostInputs.h"
+#include "support/Decimal.h"
+#include "support/messages/Commands.h"
+#include "support/messages/Mikroprog.h"
+#include "support/messages/Nc.h"
+#include "targets/Conversion.h"
+#include "targets/Target.h"
+
+#include <algorithm>
+#include <charconv>
+
+namespace dotek::targets {
+
+namespace mikroprog = backends::mikroprog;
+
+namespace {
+
+constexpr std::string_view kMill = "mikroprog-mill"; // of cycles that move Y
+
+std::set<std::uint32_t> questionsOf(const std::set<std::string>& assume) {
+  std::set<std::uint32_t> out;
+  for (const std::string& name : assume) {
+    std::uint32_t number = 0;
+    const char* end = name.data() + name.size();
+    if (name.size() > 1 && name[0] == 'Q' && std::from_chars(name.data() + 1, end, number).ptr == end)
+      out.insert(number);
+  }
+  return out;
+}
+
+// Values for the time of one folder.
+class Restore {
+public:
+  explicit Restore(LoweringInputs& inputs) : inputs_(inputs), hosts_(inputs.hosts), sets_(inputs.sets) {}
+  ~Restore() {
+    inputs_.hosts = std::move(hosts_);
+    inputs_.sets = std::move(sets_);
+  }
+  Restore(const Restore&) = delete;
+  Restore& operator=(const Restore&) = delete;
+
+private:
+  LoweringInputs& inputs_;
+  std::map<std::string, double> hosts_;
+  std::vector<std::pair<std::string, double>> sets_;
+};
+
+bool sameName(const std::string& a, const std::string& b) {
+  return frontend::gibbs::foldCase(a) == frontend::gibbs::foldCase(b);
+}
+
+} // namespace
+
+std::optional<stdlib::MikroprogControl> loadMikroprogControl(const std::string& name, Session& session) {
+  auto control = stdlib::MikroprogControl::load(session.data(), name);
+  if (!control) {
+    std::string known;
+    for (const stdlib::DataFile* file : session.data().list("mikroprog"))
+      known += (known.empty() ? "" : ", ") + file->name;
+    session.diagnostics().report<diag::UnknownProfile>({}, name, known);
+  }
+  return control;
+}
+
+std::optional<std::string> mikroprogControlFor(const std::string& given, const CycleFolder& folder,
+                                               const LoweredCycle& lowered, Session& session) {
+  if (!given.empty()) return given;
+  if (mikroprog::movesY(lowered.cycle)) return std::string(kMill);
+  session.diagnostics().report<diag::ControlNotChosen>(lowered.cycle.range, folder.name);
+  return std::nullopt;
+}
+
+std::optional<MikroprogProgram> writeMikroprog(const CycleFolder& folder, LoweredCycle lowered,
+                                               const MikroprogWriting& writing, Session& session) {
+  Diagnostics& diagnostics = session.diagnostics();
+  ir::Cycle& cycle = lowered.cycle;
+  for (const std::string& host : mikroprog::missingHosts(cycle, writing.control, writing.hosts)) {
+    const auto info = std::find_if(std::begin(stdlib::kHostInputs), std::end(stdlib::kHostInputs),
+                                   [&](const stdlib::HostInput& one) { return one.name == host; });
+    diagnostics.report<diag::HostNeeded>(cycle.range, folder.name, host, info->meaning, host);
+  }
+  if (diagnostics.hasErrors()) return std::nullopt;
+  if (const std::optional<ir::Statement> alarm = certainAlarm(lowered)) {
+    reportRejected(folder, *alarm, session);
+    return std::nullopt;
+  }
+
+  mikroprog::EmitOptions emit{writing.control, mikroprog::shortFileName(folder.name), {}, {}, {}, false, {}};
+  emit.datum = writing.datum == "operator" ? mikroprog::Datum::Operator : mikroprog::Datum::SetPosition;
+  emit.assumed = questionsOf(writing.assume);
+  emit.hosts = writing.hosts;
+  emit.lengthToCentre = writing.lengthToCentre;
+  for (ir::VariableId id = 0; id < cycle.variables.size(); ++id) {
+    const ir::Variable& variable = cycle.variable(id);
+    if (variable.role != ir::Role::Parameter || !lowered.fixed.contains(id)) continue;
+    emit.values.push_back({variable.name, lowered.fixed.at(id), writing.fromWhere(variable.name)});
+  }
+  ir::fold(cycle, lowered.fixed, {true, session.limits().steps});
+  if (!cycle.checks.empty()) {
+    diagnostics.report<diag::ChecksUndecided>(cycle.checks.front().origin.range(), folder.name);
+    return std::nullopt;
+  }
+  // The back end says what becomes of an alarm.
+  std::erase_if(diagnostics.all(),
+                [](const Diagnostic& one) { return one.code == diag::AlarmRenumbered::code; });
+  auto lines = mikroprog::emit(cycle, emit, diagnostics);
+  if (!lines) return std::nullopt;
+  return MikroprogProgram{emit.fileName + "." + writing.control.programEnding, std::move(*lines)};
+}
+
+namespace {
+
+// Programs without arguments, one for each cycle.
+class MikroprogConversion final : public Conversion {
+public:
+  explicit MikroprogConversion(ConversionContext& context)
+      : context_(context), options_(context.options), session_(context.session) {}
+
+  bool beginCycles() override {
+    return options_.control.empty() || loadMikroprogControl(options_.control, session_);
+  }
+
+  bool cycle(const CycleFolder& folder, std::size_t /*index*/) override {
+    std::optional<MikroprogProgram> program = write(folder);
+    if (!program) return false;
+    context_.result.add(program->name, program->lines, "\r\n");
+    return true;
+  }
+
+private:
+  // Where the value of a parameter comes from, for the header.
+  std::string fromWhere(const std::string& name) const {
+    const auto names = [&](const auto& list) {
+      return std::any_of(list.begin(), list.end(),
+                         [&](const auto& one) { return sameName(one.first, name); });
+    };
+    if (names(options_.common.set)) return "--set";
+    if (names(context_.inputs->sets)) return "job";
+    if (names(options_.defaults)) return "--default";
+    return "default";
+  }
+
+  // A value for each parameter: given, or its default.
+  bool fixParameters(LoweredCycle& lowered) {
+    bool good = true;
+    for (ir::VariableId id = 0; id < lowered.cycle.variables.size(); ++id) {
+      const ir::Variable& variable = lowered.cycle.variable(id);
+      if (variable.role != ir::Role::Parameter || lowered.fixed.contains(id)) continue;
+      if (variable.defaultValue) {
+        lowered.fixed.emplace(id, *variable.defaultValue);
+      } else if (ir::uses(lowered.cycle, id)) {
+        session_.diagnostics().report<diag::FieldNeeded>(variable.range, variable.name, variable.name);
+        good = false;
+      }
+    }
+    return good;
+  }
+
+  std::optional<MikroprogProgram> write(const CycleFolder& folder) {
+    Diagnostics& diagnostics = session_.diagnostics();
+    LoweringInputs& inputs = *context_.inputs;
+    const Restore restore(inputs);
+    const JobOperation* operation = operationOf(folder, inputs, session_);
+    if (diagnostics.hasErrors()) return std::nullopt;
+    if (operation != nullptr) takeOperation(*operation, options_.common, inputs);
+
+    std::optional<LoweredSource> source = lowerSource(folder, context_);
+    if (!source) return std::nullopt;
+    LoweredCycle& lowered = source->lowered;
+    if (operation != nullptr) {
+      for (const JobValue& value : operation->set)
+        if (!context_.usedSets.contains(value.name))
+          diagnostics.report<diag::NoSuchField>(value.range, value.name, folder.name, "");
+    }
+    const std::optional<std::string> name = mikroprogControlFor(options_.control, folder, lowered, session_);
+    if (!name || diagnostics.hasErrors()) return std::nullopt;
+    const auto control = loadMikroprogControl(*name, session_);
+    if (!control) return std::nullopt;
+    const bool fixed = fixParameters(lowered);
+    const MikroprogWriting writing{*control,
+                                   options_.datum,
+                                   options_.common.assume,
+                                   inputs.job && inputs.job->lengthToCentre,
+                                   inputs.hosts,
+                                   [&](const std::string& parameter) { return fromWhere(parameter); }};
+    std::optional<MikroprogProgram> out = writeMikroprog(folder, std::move(lowered), writing, session_);
+    if (!fixed || !out) return std::nullopt;
+    const auto [other, added] = written_.emplace(out->name, folder.name);
+    if (!added) {
+      diagnostics.report<diag::FileNameTwice>({}, mikroprog::shortFileName(folder.name), other->second,
+                                              folder.name);
+      return std::nullopt;
+    }
+    return out;
+  }
+
+  ConversionContext& context_;
+  const ConvertOptions& options_;
+  Session& session_;
+  std::map<std::string, std::string> written_; // names of files, by folder
+};
+
+std::unique_ptr<Conversion> mikroprogConversion(ConversionContext& context) {
+  return std::make_unique<MikroprogConversion>(context);
+}
+
+void checkDatum(const std::string& datum, Diagnostics& diagnostics) {
+  if (datum != "g92" && datum != "operator") diagnostics.report<diag::UnknownDatum>({}, datum);
+}
+
+// What its programs need beside the values of fields.
+constexpr std::string_view kHosts[] = {"clearance",   "start_x",    "start_y",
+                                       "tool_radius", "overtravel", "return_feed"};
+
+} // namespace
+
+namespace target {
+
+DOTEK_TARGET(mikroprog) = {
+    .text = "program without arguments, for Mikroprog",
+    .checkDatum = checkDatum,
+    .ownControls = true,
+    .fixesValues = true,
+    .hosts = kHosts,
+    .convert = mikroprogConversion,
+    .verify = mikroprogVerification,
+};
+
+} // namespace target
+
+} // namespace dotek::targets

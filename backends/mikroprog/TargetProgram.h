@@ -1,0 +1,48 @@
+// Private to Target*.cpp: cycles as programs for a control by Mikronex.
+#pragma once
+
+#include "backends/mikroprog/Emit.h"
+#include "project/Values.h"
+#include "stdlib/MikroprogControl.h"
+#include "targets/Verification.h"
+
+#include <functional>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace dotek::targets {
+
+// The program of one folder.
+struct MikroprogProgram {
+  std::string name;                                    // of its file, "SURFACEX.SUF"
+  std::vector<backends::mikroprog::EmittedLine> lines; // without their CR LF
+};
+
+// The profile of this name. nullopt: there is none, reported.
+std::optional<stdlib::MikroprogControl> loadMikroprogControl(const std::string& name, Session& session);
+// The profile for a cycle: the given one, else the mill where it moves Y. nullopt: reported.
+std::optional<std::string> mikroprogControlFor(const std::string& given, const CycleFolder& folder,
+                                               const LoweredCycle& lowered, Session& session);
+
+// How one program is written.
+struct MikroprogWriting {
+  const stdlib::MikroprogControl& control;
+  std::string datum;            // of --datum; "": g92
+  std::set<std::string> assume; // of --assume
+  bool lengthToCentre = false;
+  std::map<std::string, double> hosts;
+  std::function<std::string(const std::string&)> fromWhere; // where the value of a parameter comes from
+};
+
+// The program of a cycle; a value is fixed for each of its parameters. nullopt where something is missing,
+// cannot be said, or is turned away by the cycle's own checks: reported.
+std::optional<MikroprogProgram> writeMikroprog(const CycleFolder& folder, LoweredCycle lowered,
+                                               const MikroprogWriting& writing, Session& session);
+
+// A program that is written anew for each case.
+std::unique_ptr<Verification> mikroprogVerification(const VerificationSource& source);
+
+} // namespace dotek::targets

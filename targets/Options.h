@@ -1,0 +1,99 @@
+// What convert and verify are told, and the pieces of what convert gives.
+#pragma once
+
+#include "project/Options.h"
+#include "support/LineMap.h"
+#include "support/Source.h"
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace dotek::targets {
+
+// A target is a view of a project and speaks of its parts by their names.
+using namespace project; // NOLINT(google-build-using-namespace)
+
+struct ConvertOptions {
+  std::vector<std::string> inputs; // folders of cycles, files of programs
+  CommonOptions common;
+  SourceOptions source;
+  std::string to;
+  std::string control;                    // "": the target's first
+  std::string fromControl;                // that programs are written for; "": the same
+  std::optional<std::string> probeMacros; // nothing: the set that the source calls
+  std::optional<std::uint32_t> programNumber;
+  NamedTexts letters;                                              // --arg NAME=LETTER
+  NamedTexts defaults;                                             // --default NAME=VALUE
+  bool useDefaults = false;                                        // --defaults use
+  bool switchProbe = false;                                        // --probe-power macro
+  bool oneFile = false;                                            // -o: several inputs are an error
+  std::optional<std::pair<std::uint64_t, std::uint64_t>> renumber; // first N number of programs, step
+  std::string datum;      // --datum of mikroprog: "", "g92" or "operator"
+  bool wholePost = false; // --whole-post, of fusion
+  bool verify = false;    // --verify: what does not agree with its source is not given
+};
+
+// One file of a result that may have several; `output` holds them one behind the other.
+struct OutputFile {
+  std::string name; // "O8000.nc"
+  std::string text;
+};
+
+// An argument of a program that convert has written.
+struct OutputArgument {
+  std::string name; // of the parameter or the host input
+  char letter = 0;
+};
+
+// The result of one input, by itself.
+struct ConvertedInput {
+  OutputFile file;
+  MappedResult map; // places are of `sources`
+  std::vector<OutputArgument> arguments;
+  std::string macros; // the set that it calls; "": none
+  SourceMap sources;
+};
+
+struct VerifyOptions {
+  std::vector<std::string> inputs; // one folder of a cycle, or one file of programs
+  CommonOptions common;
+  SourceOptions source;
+  std::string to;      // "": the path of the macro against the posted program
+  std::string control; // "": the target's first
+  std::string fromControl;
+  std::optional<std::string> probeMacros;
+  std::optional<std::string> part, machine; // paths
+  // A program that is looked at instead of what convert writes now: the same arguments, edited by hand. Path.
+  std::optional<std::string> translation;
+  std::uint64_t cases = 1000;
+  std::uint64_t seed = 1;
+  double minProved = 95;   // percent
+  double tolerance = 1e-6; // mm
+  std::uint32_t jobs = 0;  // 0: one for each processor
+  std::string datum;       // of mikroprog, as of convert
+  NamedTexts variables;    // --var N=VALUE, of programs: not drawn
+  // What convert wrote; nullptr: verify converts the input itself.
+  std::shared_ptr<const ConvertedInput> converted;
+  // Of a replay: values of fields and host inputs, which the translation gets as arguments like drawn ones.
+  NamedTexts values;
+  // Of a replay: where the part stands, X, Y, Z, mm, and turned about Z, degrees; the system that is active.
+  std::optional<std::array<double, 4>> partError;
+  std::optional<std::uint32_t> activeSystem; // 54 to 59
+  bool replay = false; // one case, all of whose values are given: nothing is made smaller
+  // Told from time to time how many of how many cases are done; from one thread at a time.
+  std::function<void(std::uint64_t done, std::uint64_t all)> progress;
+  // Told of each case by its number, edge cases behind the others: whether it is proved, and what the
+  // translation did, as `sim` traces it (docs/sim.md). Before it stands a line `start X Y Z`, behind it the
+  // zeros of the work systems and the variables that the source stores. In any order, from one thread at a
+  // time.
+  std::function<void(std::uint64_t number, bool proved, const std::string& trace)> traces;
+};
+
+} // namespace dotek::targets

@@ -1,0 +1,74 @@
+#include "targets/Stage.h"
+
+namespace dotek::targets {
+
+namespace {
+
+// A stylus where no machine file states one, by its ball: stem and body.
+constexpr double kStemShare = 0.6, kStemLength = 60, kBodyDiameter = 40, kBodyLength = 60;
+
+} // namespace
+
+sim::Probe probeFor(const VerifyPlan& plan, const verify::Case& drawn) {
+  const double radius = drawn.hosts.at("tool_radius");
+  sim::Probe probe;
+  if (plan.machine) {
+    probe = plan.machine->probe;
+  } else {
+    probe.length = verify::kToolLength;
+    probe.stemDiameter = 2 * radius * kStemShare;
+    probe.stemLength = kStemLength;
+    probe.bodyDiameter = kBodyDiameter;
+    probe.bodyLength = kBodyLength;
+  }
+  probe.ballDiameter = 2 * radius;
+  probe.effectiveRadius = radius;
+  probe.lengthToTip = true;
+  probe.preTravel = 0; // a calibrated probe, as exact as its signal
+  probe.noise = 0;
+  probe.on = false;
+  return probe;
+}
+
+verify::Entry entryFor(const VerifyPlan& plan, const verify::Case& drawn, bool probeOn) {
+  verify::Entry entry;
+  const auto host = [&](const char* name) {
+    const auto found = drawn.hosts.find(name);
+    return found == drawn.hosts.end() ? 0.0 : found->second;
+  };
+  entry.start = {host("start_x"), host("start_y"), host("start_z")};
+  entry.system = drawn.system;
+  entry.probeOn = probeOn;
+  if (plan.machine) {
+    // Where the machine's travel is stated, the cycle stands in its middle.
+    double middle[3] = {};
+    const sim::Point3 zero = entry.zeros[drawn.system - 54];
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      if (const auto& span = plan.machine->limits.travel[axis])
+        middle[axis] = (span->least + span->most) / 2 - (axis == 0   ? zero.x + entry.start.x
+                                                         : axis == 1 ? zero.y + entry.start.y
+                                                                     : zero.z + entry.start.z);
+    for (sim::Point3& one : entry.zeros)
+      one = one + sim::Point3{middle[0], middle[1], middle[2]};
+  }
+  return entry;
+}
+
+sim::Part emptyPart(const sim::Point3& middle) {
+  constexpr double kAway = 10000;
+  sim::PartBuilder builder;
+  const sim::Point3 corner = middle + sim::Point3{0, 0, -kAway};
+  builder.box(corner, corner + sim::Point3{1, 1, 1});
+  std::string fault;
+  return *builder.finish(fault);
+}
+
+double resultTolerance(const stdlib::Control& one, const stdlib::Control& other) {
+  constexpr double kEightDigits = 5e-5;
+  const auto digits = [](const stdlib::Control& control) {
+    return control.arithmetic == stdlib::Arithmetic::Decimal8;
+  };
+  return digits(one) || digits(other) ? kEightDigits : 0;
+}
+
+} // namespace dotek::targets

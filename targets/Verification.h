@@ -1,0 +1,83 @@
+// How a target runs its text on the cases of `verify` and compares it with the source.
+#pragma once
+
+#include "project/CycleFolder.h"
+#include "project/Lowering.h"
+#include "project/Session.h"
+#include "sim/machine/World.h"
+#include "targets/Subject.h"
+#include "verify/Compare.h"
+#include "verify/DrawnPath.h"
+#include "verify/Stand.h"
+
+#include <cstdint>
+#include <functional>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace dotek::targets {
+
+// One case as a translation sees it.
+struct TargetCase {
+  const verify::Case& drawn;
+  const verify::Entry& entry;
+  const std::set<std::uint32_t>& stores; // common variables that the source writes
+  sim::World& world;
+  // What the source did. nullptr: the dialog rejects the values, or there is no Prog.
+  const verify::Record* source = nullptr;
+  // Without a Prog: what is compared instead; nullptr: there is one, or the macro draws nothing.
+  const verify::DrawnPath* path = nullptr;
+  bool rejected = false; // by the dialog
+  // Where the source says what its record shows at a place of the posted program.
+  std::function<SourceRange(SourceRange)> sourceOf;
+};
+
+// A difference, and the line of the translation that shows it: by number where the plan holds its text, as
+// text where that is of this case alone.
+struct TargetDifference {
+  verify::Difference difference;
+  std::uint32_t line = 0; // from 1; 0: none
+  std::string text;       // "" where there is none
+};
+
+struct TargetRun {
+  // Nothing is written for these values, or the translation stops with an error before anything moves.
+  bool refused = false;
+  bool undecided = false; // the two cannot be compared
+  std::string why;        // it is refused or undecided; "": the reason is that of the source
+  std::vector<TargetDifference> differences;
+  std::string trace; // only where VerifyOptions::traces wants it
+
+  void differs(verify::Aspect aspect, std::string text, std::string line = "");
+  // The same, shown by a line of the plan's translation.
+  void differsAt(verify::Aspect aspect, std::string text, std::uint32_t line);
+};
+
+class Verification {
+public:
+  Verification() = default;
+  virtual ~Verification() = default;
+  Verification(const Verification&) = delete;
+  Verification& operator=(const Verification&) = delete;
+  // Whether it takes only values with which start and travel lead to the coordinate that a surface gets.
+  virtual bool needsNominal() const { return false; }
+  // Whether each datum moves the path that follows: it then has to fit the part wherever the datums are.
+  virtual bool datumsMovePath() const { return false; }
+  // Before the first case. false: reported to the session.
+  virtual bool prepare() = 0;
+  // The session's diagnostics are this run's own.
+  virtual TargetRun run(const TargetCase& now) = 0;
+};
+
+// What both sides share; all outlive the verification.
+struct VerificationSource {
+  const VerifyOptions& options;
+  const VerifyPlan& plan;
+  Session& session;
+  LoweringInputs& inputs;
+  const CycleFolder& folder;
+};
+
+} // namespace dotek::targets
