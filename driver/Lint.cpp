@@ -7,7 +7,6 @@
 #include "frontend/macrob/Check.h"
 #include "frontend/macrob/Lower.h"
 #include "frontend/macrob/Parse.h"
-#include "frontend/mikroprog/Check.h"
 #include "frontend/mikroprog/Parse.h"
 #include "lint/Project.h"
 #include "lint/Suppressions.h"
@@ -112,6 +111,7 @@ private:
                           {},
                           {},
                           {},
+                          {},
                           {}};
     for (const stdlib::DataFile* file : session_.data().list("macros")) {
       if (auto set = stdlib::MacroSet::load(session_.data(), file->name))
@@ -138,6 +138,8 @@ private:
       project.defines.push_back(&data);
     for (const macrob::File& file : programs_)
       project.programs.push_back({&file, lowered(file)});
+    for (const frontend::mikroprog::Reading& reading : sufReadings_)
+      project.sufPrograms.push_back(&reading);
     lint::join(project);
     return project;
   }
@@ -290,16 +292,22 @@ private:
   // Without --control a program with Y is taken for one of a mill, else for one of the lathe.
   void suf(FileId id) {
     using namespace frontend;
-    const mikroprog::Program program = mikroprog::parse(id, session_.sources(), session_.diagnostics());
+    const mikroprog::Program& program =
+        sufPrograms_.emplace_back(mikroprog::parse(id, session_.sources(), session_.diagnostics()));
     const bool mill =
         std::any_of(program.lines.begin(), program.lines.end(), [](const mikroprog::Line& line) {
           return line.find('Y') != nullptr || line.find('J') != nullptr;
         });
-    const auto control =
-        mikroprog_
-            ? mikroprog_
-            : stdlib::MikroprogControl::load(session_.data(), mill ? "mikroprog-mill" : "mikroprog-s280");
-    if (control) mikroprog::checkProgram(program, *control, session_.sources(), session_.diagnostics());
+    const stdlib::MikroprogControl* control =
+        mikroprog_ ? &*mikroprog_ : sufControl(mill ? "mikroprog-mill" : "mikroprog-s280");
+    if (control != nullptr) sufReadings_.emplace_back(program, *control, session_.sources());
+  }
+
+  // nullptr: there is none, because --data took it away.
+  const stdlib::MikroprogControl* sufControl(const std::string& name) {
+    auto [at, isNew] = sufControls_.try_emplace(name);
+    if (isNew) at->second = stdlib::MikroprogControl::load(session_.data(), name);
+    return at->second ? &*at->second : nullptr;
   }
 
   // A routine that prints for a cycle is called for its operations; others are named by a job.
@@ -352,6 +360,9 @@ private:
   std::deque<gibbs::Dialog> dialogs_;
   std::deque<gibbs::DefineData> defines_;
   std::deque<macrob::File> programs_;
+  std::deque<frontend::mikroprog::Program> sufPrograms_;
+  std::deque<frontend::mikroprog::Reading> sufReadings_;
+  std::map<std::string, std::optional<stdlib::MikroprogControl>> sufControls_; // loaded once, by name
 };
 
 const LintConfig LintCommand::kNone;

@@ -99,12 +99,9 @@ private:
     return control;
   }
 
-  // What the control would not take is told before anything runs; the rest is for lint.
+  // What the control would not take is reported before anything runs; the rest is for lint.
   bool check(const frontend::mikroprog::Program& program) {
-    Diagnostics found;
-    frontend::mikroprog::checkProgram(program, *control_, session_.sources(), found);
-    for (Diagnostic& one : found.all())
-      if (one.severity == Severity::Error) diagnostics().add(std::move(one));
+    frontend::mikroprog::refuse({program, *control_, session_.sources()}, diagnostics());
     return !diagnostics().hasErrors();
   }
 

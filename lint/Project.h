@@ -5,6 +5,7 @@
 #include "frontend/compost/Summary.h"
 #include "frontend/gibbs/Cycle.h"
 #include "frontend/macrob/Ast.h"
+#include "frontend/mikroprog/Reading.h"
 #include "ir/Cycle.h"
 #include "ir/Program.h"
 #include "lint/Rule.h"
@@ -25,6 +26,7 @@ namespace dotek::lint {
 namespace compost = frontend::compost;
 namespace gibbs = frontend::gibbs;
 namespace macrob = frontend::macrob;
+namespace mikroprog = frontend::mikroprog;
 
 // A cycle folder with a Prog that has a branch for it.
 struct Joined {
@@ -61,6 +63,7 @@ struct Project {
   std::vector<NcFile> programs;
   std::vector<Joined> joined;
   std::vector<stdlib::Control> controls; // all profiles, where --control names none
+  std::vector<const mikroprog::Reading*> sufPrograms;
 
   // Those of cycle folders too, in the order of reading.
   std::vector<const gibbs::Macro*> allMacros() const;

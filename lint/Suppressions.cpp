@@ -40,6 +40,9 @@ std::vector<Remark> remarksOf(const Project& project) {
         take(block.comments);
     }
   }
+  for (const mikroprog::Reading* reading : project.sufPrograms)
+    for (const mikroprog::Line& line : reading->program.lines)
+      if (line.comment) out.push_back({line.commentRange, project.sources.text(line.commentRange)});
   std::sort(out.begin(), out.end(), [](const Remark& a, const Remark& b) {
     return std::pair(a.range.file, a.range.begin) < std::pair(b.range.file, b.range.begin);
   });
@@ -60,7 +63,7 @@ std::vector<DirectiveWord> wordsOf(const Remark& remark) {
   std::string lower(remark.text);
   std::transform(lower.begin(), lower.end(), lower.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  std::size_t at = lower.find_first_not_of("{!( \t");
+  std::size_t at = lower.find_first_not_of("{!(; \t");
   if (at == std::string::npos || lower.compare(at, 5, "dotek") != 0) return {};
   at = lower.find_first_not_of(" \t", at + 5);
   if (at == std::string::npos || lower[at] != ':') return {};

@@ -1,5 +1,5 @@
 // Comments that suppress findings, in the comment syntax of each language:
-//   { dotek: ignore CODE, CODE }   ! dotek: ignore CODE   (DOTEK: IGNORE CODE)
+//   { dotek: ignore CODE, CODE }   ! dotek: ignore CODE   (DOTEK: IGNORE CODE)   ;dotek: ignore CODE
 #pragma once
 
 #include "lint/Project.h"

@@ -54,7 +54,7 @@ public:
     Diagnostics found;
     const FileId id = sources.add(SourceFile("program", std::move(*text), Encoding::Cp852));
     const mikroprog::Program tree = mikroprog::parse(id, sources, found);
-    mikroprog::checkProgram(tree, *control_, sources, found);
+    mikroprog::refuse({tree, *control_, sources}, found);
     const auto program = mikroprog::lower(tree, sources);
     if (!program || found.hasErrors()) {
       for (const Diagnostic& one : found.all())

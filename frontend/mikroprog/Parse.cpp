@@ -43,6 +43,11 @@ public:
 
   Line read() {
     line_.range = {file_, begin_, begin_ + static_cast<std::uint32_t>(text_.size())};
+    // First, so that a line that cannot be read keeps its comment.
+    if (const std::size_t comment = text_.find(';'); comment != std::string_view::npos) {
+      line_.commentRange = range(comment, text_.size());
+      line_.comment = std::string(text_.substr(comment + 1));
+    }
     blanks();
     if (at('N') && isDigit(peek(1))) {
       const std::size_t from = at_++;
@@ -56,10 +61,6 @@ public:
     }
     for (blanks(); at_ < text_.size() && text_[at_] != ';'; blanks())
       if (!item()) return std::move(line_);
-    if (at(';')) {
-      line_.commentRange = range(at_, text_.size());
-      line_.comment = std::string(text_.substr(at_ + 1));
-    }
     return std::move(line_);
   }
 

@@ -24,7 +24,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const stdlib::MikroprogControl& control = (data[0] & 2) != 0 ? lathe : mill;
   Diagnostics diagnostics;
   const mikroprog::Program program = mikroprog::parse(id, sources, diagnostics);
-  mikroprog::checkProgram(program, control, sources, diagnostics);
+  mikroprog::refuse({program, control, sources}, diagnostics);
   renderText(diagnostics, sources, 0);
   mikroprog::dumpTokens(program, sources);
   mikroprog::dumpAst(program, sources);

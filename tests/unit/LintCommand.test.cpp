@@ -84,6 +84,30 @@ TEST_CASE("lint: suppressions in macros, dialogs, DefineData.txt and programs, o
   CHECK(lint(folder, {"touch", "--ignore", "cycle-file-missing"}).findings.empty());
 }
 
+TEST_CASE("lint: suppressions in the comments of Mikroprog") {
+  const DataFolder folder;
+  const auto findings = [&](const std::string& text) {
+    folder.write("p.suf", text);
+    return lint(folder, {"p.suf", "--select", "all"}).findings;
+  };
+  const std::string begin = "N10 G18 G90 G94\n", end = "N90 M30\n";
+  CHECK(findings(begin + "N20 G92 Z0\n" + end) == Findings{"p.suf:2 suf-datum-lasts"});
+  CHECK(findings(begin + "N20 G92 Z0 ;dotek: ignore suf-datum-lasts\n" + end).empty());
+  CHECK(findings(begin + "; DOTEK: IGNORE SUF-DATUM-LASTS -- MEANT\nN20 G92 Z0\n" + end).empty());
+  CHECK(findings(";dotek: ignore-file suf-no-end\n" + begin).empty());
+  CHECK(
+      findings(";dotek: ignore-start suf-datum-lasts\nN20 G92 Z0\n;dotek: ignore-end suf-datum-lasts\n" + end)
+          .empty());
+  // A line that cannot be read keeps its comment, and messages of the reader are findings, too.
+  CHECK(findings(begin + "N20 (WORK ;dotek: ignore suf-other-control\n" + end).empty());
+  CHECK(findings(begin + "N20 G92 Z0 ;dotek: ignore suf-datum-last\n" + end) ==
+        Findings{"p.suf:2 suf-datum-lasts", "p.suf:2 suppression-unknown"});
+  CHECK(findings(begin + "N20 G92 Z0 ;dotek: ignored suf-datum-lasts\n" + end) ==
+        Findings{"p.suf:2 suf-datum-lasts", "p.suf:2 suppression-form"});
+  CHECK(findings(begin + "N20 G0 Z0 ;dotek: ignore suf-datum-lasts\n" + end) ==
+        Findings{"p.suf:2 suppression-unused"});
+}
+
 TEST_CASE("lint: what is wrong with a suppression") {
   const DataFolder folder;
   const auto findings = [&](const std::string& comment) {

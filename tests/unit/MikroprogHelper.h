@@ -73,14 +73,14 @@ struct MikroprogTarget {
   }
 };
 
-// A program as the machine takes it; what lint finds goes to `findings`.
+// A program as the machine takes it; what the control would refuse goes to `findings`.
 inline stdlib::MikroprogProgram readBack(const std::string& text, const stdlib::MikroprogControl& control,
                                          std::set<std::string>* findings = nullptr) {
   SourceMap sources;
   Diagnostics diagnostics;
   const FileId file = sources.add(SourceFile("test.suf", text, Encoding::Cp852));
   const auto program = frontend::mikroprog::parse(file, sources, diagnostics);
-  if (findings != nullptr) frontend::mikroprog::checkProgram(program, control, sources, diagnostics);
+  if (findings != nullptr) frontend::mikroprog::refuse({program, control, sources}, diagnostics);
   for (const Diagnostic& d : diagnostics.all())
     if (findings != nullptr) findings->emplace(d.code);
   auto out = frontend::mikroprog::lower(program, sources);

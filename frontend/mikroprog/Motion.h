@@ -1,0 +1,35 @@
+// Where the tool stands and what is in force, in the order of the text. What is not certain is unknown: after
+// a jump target, a contact, a change of the system, a code that nobody knows.
+#pragma once
+
+#include "frontend/mikroprog/Reading.h"
+
+#include <array>
+#include <functional>
+#include <optional>
+#include <string>
+
+namespace dotek::frontend::mikroprog {
+
+struct MotionState {
+  std::array<std::optional<double>, 3> at; // X, Y, Z in mm, X of a lathe as a radius; nothing: not known
+  std::optional<bool> absolute = true;     // G90
+  std::optional<bool> radius = false;      // G24
+  std::string motion = "rapid";            // the function of the motion group in force
+  std::string plane;                       // "XZ"; "": not known
+  bool feed = false;                       // some F was given
+  bool compensated = false;                // G41, G42
+
+  // By how much the block moves along the axis ('X', 'Y', 'Z'), mm; nothing: not known.
+  std::optional<double> travel(const Line& line, char axis, const stdlib::MikroprogControl& control) const;
+};
+
+// Calls `visit` for each block that could be read, with what is in force in it and where the tool stands
+// before it.
+void walkMotion(const Reading& reading,
+                const std::function<void(const Block& block, const MotionState& state)>& visit);
+
+// All codes of the block are of the motion group or take no address.
+bool onlyMoves(const Block& block);
+
+} // namespace dotek::frontend::mikroprog

@@ -1,0 +1,43 @@
+#include "lint/SufPrograms.h"
+
+#include <algorithm>
+
+namespace dotek::lint::rule {
+namespace {
+
+// The first feed move without one.
+void checkProgram(const mikroprog::Reading& reading, Report& report) {
+  bool feeds = false; // the motion in force needs a feed
+  for (const mikroprog::Block& block : reading.blocks) {
+    const mikroprog::Line& line = *block.line;
+    if (line.unread) continue;
+    if (line.find('F') != nullptr) return;
+    for (const std::string_view motion : {"rapid", "feed", "arc-clockwise", "arc-counter-clockwise"})
+      if (block.does(motion)) feeds = motion != "rapid";
+    const bool axes = std::any_of(line.words.begin(), line.words.end(), [&](const mikroprog::Word& word) {
+      return reading.control.hasAxis(word.address);
+    });
+    const bool other = std::any_of(block.codes.begin(), block.codes.end(), [](const mikroprog::Code& code) {
+      return code.function != nullptr && !code.function->addresses.empty() &&
+             code.function->group != "motion";
+    });
+    if (!feeds || !axes || other) continue;
+    report.at(line.range, "no feed was given before this feed move; the control begins with F0");
+    return;
+  }
+}
+
+void check(const Project& project, Report& report) {
+  for (const mikroprog::Reading* reading : project.sufPrograms)
+    checkProgram(*reading, report);
+}
+
+} // namespace
+
+DOTEK_LINT_RULE(suf_feed_missing){
+    .severity = Severity::Warning,
+    .explanation = "F may come from an earlier block; the control begins with F0.",
+    .check = check,
+};
+
+} // namespace dotek::lint::rule

@@ -1,0 +1,21 @@
+#include "lint/SufPrograms.h"
+
+namespace dotek::lint::rule {
+namespace {
+
+void check(const Project& project, Report& report) {
+  forEachSufBlock(project, [&](const mikroprog::Reading&, const mikroprog::Block& block) {
+    if (block.does("probe-move") && block.line->find('L') == nullptr)
+      report.at(block.line->range, "G31 without L: a path without contact ends in a fault message");
+  });
+}
+
+} // namespace
+
+DOTEK_LINT_RULE(suf_probe_no_target){
+    .severity = Severity::Warning,
+    .explanation = "With L the program goes on there where nothing is found.",
+    .check = check,
+};
+
+} // namespace dotek::lint::rule

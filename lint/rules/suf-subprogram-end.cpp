@@ -1,0 +1,11 @@
+#include "lint/SufPrograms.h"
+
+namespace dotek::lint::rule {
+
+DOTEK_LINT_RULE(suf_subprogram_end){
+    .severity = Severity::Error,
+    .explanation = "M17 ends a subprogram.",
+    .check = reportFound<mikroprog::subprogramsWithoutReturn>,
+};
+
+} // namespace dotek::lint::rule

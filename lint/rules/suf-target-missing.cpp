@@ -1,0 +1,11 @@
+#include "lint/SufPrograms.h"
+
+namespace dotek::lint::rule {
+
+DOTEK_LINT_RULE(suf_target_missing){
+    .severity = Severity::Error,
+    .explanation = "L names an N number of this program.",
+    .check = reportFound<mikroprog::missingTargets>,
+};
+
+} // namespace dotek::lint::rule
