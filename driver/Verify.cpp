@@ -1,6 +1,5 @@
 #include "support/messages/Verify.h"
 #include "driver/Driver.h"
-#include "driver/VerifyCase.h"
 #include "driver/VerifyPrograms.h"
 #include "driver/VerifyReport.h"
 #include "driver/VerifyRuns.h"
@@ -11,6 +10,7 @@
 #include "project/Programs.h"
 #include "support/Files.h"
 #include "support/messages/Commands.h"
+#include "targets/CycleCases.h"
 #include "targets/Target.h"
 
 #include <algorithm>

@@ -1,19 +1,15 @@
 #include "backends/fanuc/TargetText.h"
 
-#include "frontend/macrob/Lower.h"
-#include "frontend/macrob/Parse.h"
 #include "sim/machine/Compile.h"
 #include "support/messages/Verify.h"
+#include "targets/ReadBack.h"
 
 namespace dotek::targets {
 
 bool FanucText::read(const std::string& name, std::string text, const stdlib::Control& control,
                      Session& session) {
-  const FileId id = sources_.add(SourceFile(name, std::move(text), Encoding::Utf8));
   Diagnostics found;
-  const frontend::macrob::File tree = frontend::macrob::parse(id, sources_, session.limits(), found);
-  std::optional<ir::ProgramFile> file;
-  if (!found.hasErrors()) file = frontend::macrob::lower(tree, control, sources_, found);
+  auto file = readBack(name, std::move(text), control, session.limits(), sources_, found);
   if (!file) {
     for (const Diagnostic& one : found.all())
       if (one.severity == Severity::Error)

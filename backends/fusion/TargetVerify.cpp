@@ -2,12 +2,11 @@
 #include "backends/fusion/TargetVerify.h"
 #include "backends/fusion/Emit.h"
 #include "backends/fusion/Run.h"
-#include "frontend/macrob/Lower.h"
-#include "frontend/macrob/Parse.h"
 #include "ir/Program.h"
 #include "sim/machine/Compile.h"
 #include "sim/machine/VendorMacros.h"
 #include "support/messages/Verify.h"
+#include "targets/ReadBack.h"
 
 #include <algorithm>
 #include <cmath>
@@ -17,7 +16,6 @@
 namespace dotek::targets {
 
 namespace fusion = backends::fusion;
-namespace macrob = frontend::macrob;
 
 namespace {
 
@@ -43,10 +41,11 @@ public:
     fragment_ = std::make_unique<fusion::Fragment>(translation.text, prefix_);
     if (set_ != nullptr) {
       if (const stdlib::DataFile* text = from_.session.data().find("macrob", set_->name)) {
-        std::string why;
-        auto file = read(set_->name, std::string(text->text), sources_, why);
+        Diagnostics found;
+        auto file =
+            readBack(set_->name, std::string(text->text), control_, from_.session.limits(), sources_, found);
         if (!file) {
-          from_.session.diagnostics().report<diag::TranslationNotRead>({}, set_->name, why);
+          from_.session.diagnostics().report<diag::TranslationNotRead>({}, set_->name, firstError(found));
           return false;
         }
         macros_.emplace(std::move(*file));
@@ -76,17 +75,6 @@ public:
   }
 
 private:
-  std::optional<ir::ProgramFile> read(const std::string& name, std::string text, SourceMap& sources,
-                                      std::string& why) const {
-    const FileId id = sources.add(SourceFile(name, std::move(text), Encoding::Utf8));
-    Diagnostics found;
-    const macrob::File tree = macrob::parse(id, sources, from_.session.limits(), found);
-    std::optional<ir::ProgramFile> file;
-    if (!found.hasErrors()) file = macrob::lower(tree, control_, sources, found);
-    if (!file) why = found.all().empty() ? "no reason is told" : found.all().front().message;
-    return file;
-  }
-
   fusion::RunInput inputOf(const verify::Case& drawn) const {
     const auto host = [&](const char* name, double otherwise) {
       const auto found = drawn.hosts.find(name);
@@ -108,11 +96,12 @@ private:
   }
 
   void runText(const TargetCase& now, const std::string& text, TargetRun& out) {
-    std::string why;
-    auto file = read("posted by the fragment", "O1\n" + text + "M30\n", sources_, why);
+    Diagnostics found;
+    auto file = readBack("posted by the fragment", "O1\n" + text + "M30\n", control_, from_.session.limits(),
+                         sources_, found);
     const FileId id = static_cast<FileId>(sources_.size() - 1);
     if (!file) {
-      out.differs(verify::Aspect::Ending, "the text of the fragment cannot be read: " + why);
+      out.differs(verify::Aspect::Ending, "the text of the fragment cannot be read: " + firstError(found));
       return;
     }
     std::vector<const ir::Program*> programs;

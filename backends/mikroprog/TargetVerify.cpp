@@ -4,6 +4,7 @@
 #include "frontend/mikroprog/Check.h"
 #include "frontend/mikroprog/Parse.h"
 #include "support/messages/Verify.h"
+#include "targets/ReadBack.h"
 #include "verify/MikroprogCompare.h"
 
 #include <fmt/format.h>
@@ -41,7 +42,7 @@ public:
     if (text->empty()) text = write(now.drawn);
     if (!text) {
       out.refused = true;
-      out.why = "the conversion is refused: " + firstError();
+      out.why = "the conversion is refused: " + firstError(from_.session.diagnostics());
       return out;
     }
     if (now.source == nullptr) return out;
@@ -124,12 +125,6 @@ private:
     for (const backends::mikroprog::EmittedLine& line : program->lines)
       out.append(line.text).append("\r\n");
     return out;
-  }
-
-  std::string firstError() const {
-    for (const Diagnostic& one : from_.session.diagnostics().all())
-      if (one.severity == Severity::Error) return one.message;
-    return "no reason is told";
   }
 
   // Each search once without its surface, each protected move with an obstacle half way, each guard with

@@ -1,9 +1,9 @@
-#include "driver/VerifyNominal.h"
+#include "targets/NominalFields.h"
 
 #include <algorithm>
 #include <cmath>
 
-namespace dotek::driver {
+namespace dotek::targets {
 
 namespace {
 
@@ -54,4 +54,4 @@ NominalFields::settle(verify::Case drawn,
   return drawn;
 }
 
-} // namespace dotek::driver
+} // namespace dotek::targets

@@ -1,12 +1,11 @@
-// Private to Verify*.cpp: one case of a cycle, drawn and run on both sides. A runner is used by one thread.
+// One case of a cycle, drawn and run on both sides. A runner is used by one thread.
 #pragma once
 
-#include "driver/Command.h"
-#include "driver/VerifyTranslation.h"
 #include "frontend/compost/Post.h"
 #include "project/CycleFolder.h"
 #include "project/Fields.h"
 #include "project/Lowering.h"
+#include "project/Session.h"
 #include "sim/geometry/Probe.h"
 #include "sim/machine/Bytecode.h"
 #include "stdlib/MacroSet.h"
@@ -25,7 +24,7 @@
 #include <utility>
 #include <vector>
 
-namespace dotek::driver {
+namespace dotek::targets {
 
 class NominalFields;
 
@@ -94,4 +93,4 @@ private:
   std::unique_ptr<NominalFields> nominal_; // where target_ wants it
 };
 
-} // namespace dotek::driver
+} // namespace dotek::targets

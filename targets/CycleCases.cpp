@@ -1,10 +1,7 @@
-#include "driver/VerifyCaseParts.h"
+#include "targets/CycleCasesParts.h"
 
-#include "driver/VerifyNominal.h"
 #include "frontend/compost/Summary.h"
 #include "frontend/gibbs/Run.h"
-#include "frontend/macrob/Lower.h"
-#include "frontend/macrob/Parse.h"
 #include "ir/Program.h"
 #include "project/CycleChecks.h"
 #include "project/Prog.h"
@@ -14,7 +11,10 @@
 #include "sim/machine/Value.h"
 #include "sim/machine/VendorMacros.h"
 #include "stdlib/HostInputs.h"
+#include "support/messages/Commands.h"
 #include "support/messages/Verify.h"
+#include "targets/NominalFields.h"
+#include "targets/ReadBack.h"
 #include "targets/Stage.h"
 #include "targets/Target.h"
 #include "targets/Verification.h"
@@ -23,7 +23,7 @@
 #include <cmath>
 #include <fmt/format.h>
 
-namespace dotek::driver {
+namespace dotek::targets {
 
 namespace compost = frontend::compost;
 namespace gibbs = frontend::gibbs;
@@ -371,13 +371,10 @@ bool CaseRunner::readPosted(Values& values) {
   text += "M30\n";
   auto posted = std::make_unique<Posted>();
   Diagnostics found;
-  const FileId id = posted->sources.add(SourceFile("posted", std::move(text), Encoding::Utf8));
-  const frontend::macrob::File tree = frontend::macrob::parse(id, posted->sources, session_.limits(), found);
-  std::optional<ir::ProgramFile> file;
-  if (!found.hasErrors())
-    file = frontend::macrob::lower(tree, *inputs_->sourceControl, posted->sources, found);
+  auto file =
+      readBack("posted", std::move(text), *inputs_->sourceControl, session_.limits(), posted->sources, found);
   if (!file) {
-    refusal_ = found.all().empty() ? "the posted program cannot be read" : found.all().front().message;
+    refusal_ = firstError(found);
     return false;
   }
   posted->file = std::move(*file);
@@ -413,4 +410,4 @@ std::string CaseRunner::whyNotMeasured(Values& values) {
   return "";
 }
 
-} // namespace dotek::driver
+} // namespace dotek::targets

@@ -1,10 +1,10 @@
-// Private to VerifyCase*.cpp: one case on its way from values to what is compared.
+// Private to CycleCases*.cpp: one case on its way from values to what is compared.
 #pragma once
 
-#include "driver/VerifyCase.h"
 #include "ir/Program.h"
+#include "targets/CycleCases.h"
 
-namespace dotek::driver {
+namespace dotek::targets {
 
 // The posted program, ready to run.
 struct CaseRunner::Posted {
@@ -28,4 +28,4 @@ struct CaseRunner::Values {
   std::optional<verify::Record> rehearsal;
 };
 
-} // namespace dotek::driver
+} // namespace dotek::targets

@@ -1,12 +1,12 @@
 // One case: both sides run, and what they did is compared.
-#include "driver/VerifyCaseParts.h"
 #include "support/messages/Verify.h"
+#include "targets/CycleCasesParts.h"
 #include "targets/Stage.h"
 
 #include <algorithm>
 #include <cmath>
 
-namespace dotek::driver {
+namespace dotek::targets {
 
 namespace compost = frontend::compost;
 
@@ -187,4 +187,4 @@ std::vector<std::pair<std::string, SourceRange>> CaseRunner::droppedDigits(const
   return out;
 }
 
-} // namespace dotek::driver
+} // namespace dotek::targets

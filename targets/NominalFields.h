@@ -1,4 +1,4 @@
-// Private to Verify*.cpp: values with which start and travel lead to the coordinate that a surface gets.
+// Private to CycleCases*.cpp: values with which start and travel lead to the coordinate that a surface gets.
 #pragma once
 
 #include "verify/Draw.h"
@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace dotek::driver {
+namespace dotek::targets {
 
 // Looks for the fields that say which coordinate a surface gets, by trying: a change of one moves one zero
 // and no other.
@@ -30,4 +30,4 @@ private:
   std::map<std::size_t, std::string> known_; // field by number of the zero
 };
 
-} // namespace dotek::driver
+} // namespace dotek::targets
