@@ -19,7 +19,7 @@ std::set<std::uint32_t> missing(const ProgramLibrary& library) {
   std::set<std::uint32_t> out;
   const std::vector<const ir::Program*> programs = library.programs();
   for (const ir::Program* program : programs) {
-    for (const ir::Statement& statement : program->body) {
+    for (const ir::ProgramStatement& statement : program->body) {
       const auto* call = std::get_if<ir::Call>(&statement.node);
       const double* number = call != nullptr && call->program ? ir::constantValue(call->program) : nullptr;
       if (number != nullptr && *number >= 1 && *number < 1e8)

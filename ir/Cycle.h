@@ -41,8 +41,8 @@ struct Cycle {
   std::vector<Variable> variables;
   std::vector<LabelName> labels;
   // Run first, on the arguments: ends in an Alarm or falls off its end. No motion.
-  std::vector<Statement> checks;
-  std::vector<Statement> body;
+  std::vector<CycleStatement> checks;
+  std::vector<CycleStatement> body;
   // The source says what is measured and which offset is set (a branch of a Prog); else only a path is known.
   bool measurementStated = true;
   SourceRange range;

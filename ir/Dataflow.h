@@ -14,7 +14,7 @@ namespace dotek::ir {
 // The fact before each statement; nothing where no path leads. `transfer(index, fact)` gives the fact behind
 // a statement, `meet(into, other)` what holds on both paths and whether `into` changed. A fact may change a
 // bounded number of times only.
-template <class Fact, class Transfer, class Meet>
+template <class Fact, AnyStatement Statement, class Transfer, class Meet>
 std::vector<std::optional<Fact>> factsBefore(const std::vector<Statement>& list, Fact entry,
                                              const Transfer& transfer, const Meet& meet) {
   const auto next = successors(list);

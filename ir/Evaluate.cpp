@@ -177,7 +177,7 @@ std::optional<bool> holds(const Condition& condition, const Environment& environ
 
 CheckRun runChecks(const Cycle& cycle, Environment environment, std::uint32_t maxSteps) {
   using End = CheckRun::End;
-  const std::vector<Statement>& list = cycle.checks;
+  const std::vector<CycleStatement>& list = cycle.checks;
   std::unordered_map<LabelId, std::size_t> places;
   for (std::size_t i = 0; i < list.size(); ++i)
     if (const auto* label = std::get_if<Label>(&list[i].node)) places.try_emplace(label->label, i);
@@ -185,7 +185,7 @@ CheckRun runChecks(const Cycle& cycle, Environment environment, std::uint32_t ma
 
   std::size_t at = 0;
   for (std::uint32_t steps = 0; at < list.size(); ++steps) {
-    const Statement& statement = list[at];
+    const CycleStatement& statement = list[at];
     if (steps >= maxSteps) return {End::Endless, &statement};
     std::optional<LabelId> target;
     if (const auto* assign = std::get_if<Assign>(&statement.node)) {

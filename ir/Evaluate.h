@@ -39,7 +39,7 @@ std::optional<bool> holds(const Condition& condition, const Environment& environ
 struct CheckRun {
   enum class End : std::uint8_t { Passes, Alarm, Unknown, Failed, Endless };
   End end = End::Passes;
-  const Statement* at = nullptr; // in cycle.checks: the alarm, or what could not be decided
+  const CycleStatement* at = nullptr; // in cycle.checks: the alarm, or what could not be decided
 };
 CheckRun runChecks(const Cycle& cycle, Environment environment, std::uint32_t maxSteps);
 

@@ -4,8 +4,17 @@
 #include <unordered_map>
 
 namespace dotek::ir {
+namespace {
 
-std::vector<std::vector<std::size_t>> successors(const std::vector<Statement>& list) {
+std::uint8_t blockDeleteOf(const CycleStatement&) {
+  return 0;
+}
+std::uint8_t blockDeleteOf(const ProgramStatement& statement) {
+  return statement.blockDelete;
+}
+
+template <AnyStatement Statement>
+std::vector<std::vector<std::size_t>> successorsOf(const std::vector<Statement>& list) {
   std::unordered_map<LabelId, std::size_t> places;
   for (std::size_t i = 0; i < list.size(); ++i)
     if (const auto* label = std::get_if<Label>(&list[i].node)) places.try_emplace(label->label, i);
@@ -17,33 +26,37 @@ std::vector<std::vector<std::size_t>> successors(const std::vector<Statement>& l
     if (out[from].empty() || out[from].front() != found->second) out[from].push_back(found->second);
   };
   for (std::size_t i = 0; i < list.size(); ++i) {
-    const auto& node = list[i].node;
-    if (const auto* go = std::get_if<Jump>(&node)) {
-      jump(i, go->target);
-    } else if (std::holds_alternative<Return>(node)) {
-      out[i].push_back(list.size());
-    } else if (const auto* end = std::get_if<LoopEnd>(&node)) {
-      jump(i, end->begin);
-    } else if (const auto* number = std::get_if<JumpTo>(&node)) {
-      for (const auto& [label, place] : places)
-        if (number->number) out[i].push_back(place);
-      std::sort(out[i].begin(), out[i].end());
-    } else if (std::holds_alternative<Exit>(node)) {
-      out[i].push_back(list.size());
-    } else if (!std::holds_alternative<Alarm>(node) && !std::holds_alternative<Raise>(node)) {
-      out[i].push_back(i + 1);
-      if (const auto* loop = std::get_if<Loop>(&node); loop && loop->condition) jump(i, loop->end);
-      if (const auto* branch = std::get_if<Branch>(&node)) jump(i, branch->target);
-    }
+    match(
+        list[i], [&](const Jump& node) { jump(i, node.target); },
+        [&](const Branch& node) {
+          out[i].push_back(i + 1);
+          jump(i, node.target);
+        },
+        [&](const Loop& node) {
+          out[i].push_back(i + 1);
+          if (node.condition) jump(i, node.end);
+        },
+        [&](const LoopEnd& node) { jump(i, node.begin); },
+        [&](const JumpTo& node) {
+          for (const auto& [label, place] : places)
+            if (node.number) out[i].push_back(place);
+          std::sort(out[i].begin(), out[i].end());
+        },
+        [&](const OneOf<Return, Exit> auto&) { out[i].push_back(list.size()); },
+        [](const OneOf<Alarm, Raise> auto&) {},
+        [&](const OneOf<Label, Store, Move, Measure, ProbePower, Comment, Assign, Spindle, Coolant, SetMode,
+                        Dwell, Stop, OpaqueBlock, NcBlock, Call, Notice, Port, Print, NameVariables> auto&) {
+          out[i].push_back(i + 1);
+        });
     // Block delete leaves a statement out.
-    if (list[i].blockDelete != 0 && std::find(out[i].begin(), out[i].end(), i + 1) == out[i].end())
+    if (blockDeleteOf(list[i]) != 0 && std::find(out[i].begin(), out[i].end(), i + 1) == out[i].end())
       out[i].push_back(i + 1);
   }
   return out;
 }
 
-std::vector<bool> reachable(const std::vector<Statement>& list) {
-  const auto next = successors(list);
+template <AnyStatement Statement> std::vector<bool> reachableIn(const std::vector<Statement>& list) {
+  const auto next = successorsOf(list);
   std::vector<bool> seen(list.size());
   std::vector<std::size_t> open;
   const auto visit = [&](std::size_t at) {
@@ -59,6 +72,24 @@ std::vector<bool> reachable(const std::vector<Statement>& list) {
       visit(to);
   }
   return seen;
+}
+
+} // namespace
+
+std::vector<std::vector<std::size_t>> successors(const std::vector<CycleStatement>& list) {
+  return successorsOf(list);
+}
+
+std::vector<std::vector<std::size_t>> successors(const std::vector<ProgramStatement>& list) {
+  return successorsOf(list);
+}
+
+std::vector<bool> reachable(const std::vector<CycleStatement>& list) {
+  return reachableIn(list);
+}
+
+std::vector<bool> reachable(const std::vector<ProgramStatement>& list) {
+  return reachableIn(list);
 }
 
 } // namespace dotek::ir

@@ -15,7 +15,7 @@ namespace {
 constexpr int kMostRounds = 8;
 
 // Folds the list; what is known at its end, nothing where no path ends there.
-std::optional<Environment> foldList(std::vector<Statement>& list, const Environment& entry,
+std::optional<Environment> foldList(std::vector<CycleStatement>& list, const Environment& entry,
                                     const FoldOptions& options) {
   if (options.unroll) {
     if (auto run = unroll(list, entry, options.maxSteps)) {
@@ -28,7 +28,7 @@ std::optional<Environment> foldList(std::vector<Statement>& list, const Environm
   return std::move(constants.atEnd);
 }
 
-bool mayFailAssigning(const Statement& statement) {
+bool mayFailAssigning(const CycleStatement& statement) {
   const auto* set = std::get_if<Assign>(&statement.node);
   return set && mayFail(set->value);
 }
@@ -44,7 +44,7 @@ std::vector<bool> neededVariables(const Cycle& cycle) {
     open.push_back(id);
   };
   for (const auto* list : {&cycle.checks, &cycle.body}) {
-    for (const Statement& statement : *list) {
+    for (const CycleStatement& statement : *list) {
       const auto* set = std::get_if<Assign>(&statement.node);
       const bool stays = !set || set->variable >= needed.size() || mayFailAssigning(statement);
       eachNode(statement, [&](const Expression& node) {
@@ -71,7 +71,7 @@ bool removeDeadAssignments(Cycle& cycle) {
   bool changed = false;
   for (auto* list : {&cycle.checks, &cycle.body}) {
     changed |=
-        std::erase_if(*list, [&](const Statement& statement) {
+        std::erase_if(*list, [&](const CycleStatement& statement) {
           const auto* set = std::get_if<Assign>(&statement.node);
           return set && set->variable < needed.size() && !needed[set->variable] && !mayFail(set->value);
         }) > 0;
@@ -80,7 +80,7 @@ bool removeDeadAssignments(Cycle& cycle) {
 }
 
 // Jumps to what follows anyway, then labels that nothing jumps to.
-bool removeJumps(std::vector<Statement>& list) {
+bool removeJumps(std::vector<CycleStatement>& list) {
   std::vector<bool> gone(list.size());
   std::set<LabelId> following; // labels between here and the next statement that does something
   std::set<LabelId> targets;
@@ -124,7 +124,7 @@ void fold(Cycle& cycle, const std::map<VariableId, double>& values, const FoldOp
 
   // What the body begins with where the checks have no end: nothing that they assign.
   Environment rest = entry;
-  for (const Statement& statement : cycle.checks) {
+  for (const CycleStatement& statement : cycle.checks) {
     const auto* set = std::get_if<Assign>(&statement.node);
     if (set && set->variable < rest.size()) rest[set->variable] = Scalar{};
   }
@@ -142,7 +142,7 @@ void fold(Cycle& cycle, const std::map<VariableId, double>& values, const FoldOp
 bool uses(const Cycle& cycle, VariableId variable) {
   bool found = false;
   for (const auto* list : {&cycle.checks, &cycle.body}) {
-    for (const Statement& statement : *list) {
+    for (const CycleStatement& statement : *list) {
       const auto* set = std::get_if<Assign>(&statement.node);
       if (set && set->variable == variable) return true;
       eachNode(statement, [&](const Expression& node) {

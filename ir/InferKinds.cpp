@@ -15,7 +15,7 @@ struct Group {
   Kind kind = Kind::Number;
 };
 
-bool hasRequirements(const Statement& statement) {
+bool hasRequirements(const CycleStatement& statement) {
   return std::holds_alternative<Move>(statement.node) || std::holds_alternative<Measure>(statement.node) ||
          std::holds_alternative<SetMode>(statement.node);
 }
@@ -25,7 +25,7 @@ public:
   explicit Inference(Cycle& cycle)
       : cycle_(cycle), groupsOf_(cycle.variables.size()), assigned_(cycle.variables.size()) {
     for (const auto* list : {&cycle.checks, &cycle.body})
-      for (const Statement& statement : *list) {
+      for (const CycleStatement& statement : *list) {
         const auto* set = std::get_if<Assign>(&statement.node);
         if (set != nullptr && set->variable < assigned_.size()) ++assigned_[set->variable];
       }
@@ -33,7 +33,7 @@ public:
 
   void run() {
     for (const auto* list : {&cycle_.checks, &cycle_.body})
-      for (const Statement& statement : *list)
+      for (const CycleStatement& statement : *list)
         read(statement);
     for (std::size_t i = 0; i < groups_.size(); ++i)
       for (const VariableId id : groups_[i].variables)
@@ -79,7 +79,7 @@ private:
     }
   }
 
-  void read(const Statement& statement) {
+  void read(const CycleStatement& statement) {
     if (const auto* set = std::get_if<Assign>(&statement.node)) {
       Group group;
       if (holdsOneKind(set->variable)) group.variables.push_back(set->variable);

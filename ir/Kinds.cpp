@@ -42,7 +42,7 @@ bool addsKinds(BinaryOp op) {
   }
 }
 
-void eachRequirement(const Statement& statement,
+void eachRequirement(const CycleStatement& statement,
                      const std::function<void(const ExpressionPtr&, Kind)>& visit) {
   const auto require = [&](const ExpressionPtr& value, Kind kind) {
     if (value) visit(value, kind);

@@ -17,7 +17,7 @@ Kind resultKind(UnaryOp op);
 bool addsKinds(BinaryOp op);
 
 // The expressions of the statement that have to be of a kind.
-void eachRequirement(const Statement& statement,
+void eachRequirement(const CycleStatement& statement,
                      const std::function<void(const ExpressionPtr&, Kind)>& visit);
 
 // Number where no kind is known; of a mixture the first. `mixed` is called with each expression that is added

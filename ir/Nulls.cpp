@@ -14,7 +14,7 @@ constexpr std::size_t kMostWork = 4'000'000;
 // Length of a chain of copies that is looked at beyond that.
 constexpr int kMostRounds = 50;
 
-Set behind(const std::vector<Statement>& list, std::size_t from, std::size_t to, Set nulls) {
+Set behind(const std::vector<CycleStatement>& list, std::size_t from, std::size_t to, Set nulls) {
   const auto& node = list[from].node;
   if (const auto* set = std::get_if<Assign>(&node)) {
     if (mayBeNull(set->value, nulls))
@@ -40,7 +40,7 @@ Set anywhere(const Cycle& cycle, Set nulls) {
   for (int round = 0; round < kMostRounds && before != nulls.size(); ++round) {
     before = nulls.size();
     for (const auto* list : {&cycle.checks, &cycle.body})
-      for (const Statement& statement : *list)
+      for (const CycleStatement& statement : *list)
         if (const auto* set = std::get_if<Assign>(&statement.node))
           if (mayBeNull(set->value, nulls)) nulls.insert(set->variable);
   }
@@ -48,10 +48,10 @@ Set anywhere(const Cycle& cycle, Set nulls) {
 }
 
 // Gives what may be null at the end of the list.
-Set follow(const std::vector<Statement>& list, Set entry, std::vector<Set>& out) {
+Set follow(const std::vector<CycleStatement>& list, Set entry, std::vector<Set>& out) {
   // One statement more: the end.
-  std::vector<Statement> extended = list;
-  extended.emplace_back();
+  std::vector<CycleStatement> extended = list;
+  extended.push_back({Return{}, {}});
   auto facts = factsBefore(
       extended, std::move(entry),
       [&](std::size_t from, std::size_t to, const Set& nulls) { return behind(extended, from, to, nulls); },

@@ -86,7 +86,7 @@ bool mayBeActive(const ExpressionPtr& set, const Fact& fact) {
   return !a || !b || *a == *b;
 }
 
-Fact behind(const Statement& statement, Fact fact) {
+Fact behind(const CycleStatement& statement, Fact fact) {
   if (const auto* move = std::get_if<Move>(&statement.node)) {
     for (const Axis axis : kAxes)
       if (const auto& target = move->axes[indexOf(axis)]) moveAxis(fact, indexOf(axis), *target, move->point);
@@ -179,7 +179,7 @@ bool countsFrom(const Cycle& cycle, Frame frame) {
   const auto counts = [&](const std::optional<Coordinate>& coordinate) {
     return coordinate && coordinate->frame == frame;
   };
-  return std::any_of(cycle.body.begin(), cycle.body.end(), [&](const Statement& statement) {
+  return std::any_of(cycle.body.begin(), cycle.body.end(), [&](const CycleStatement& statement) {
     if (const auto* measure = std::get_if<Measure>(&statement.node)) return counts(measure->target);
     const auto* move = std::get_if<Move>(&statement.node);
     return move != nullptr && std::any_of(move->axes.begin(), move->axes.end(), counts);

@@ -53,7 +53,7 @@ private:
   void declareLabels() {
     LabelId next = 0;
     for (const auto* list : {&cycle_.checks, &cycle_.body})
-      for (const Statement& statement : *list)
+      for (const CycleStatement& statement : *list)
         if (const auto* label = std::get_if<Label>(&statement.node))
           next = label->label == next ? next + 1 : static_cast<LabelId>(cycle_.labels.size() + 1);
     if (next == cycle_.labels.size()) return;
@@ -63,9 +63,9 @@ private:
     line(2, std::move(text), {}, "");
   }
 
-  void list(const char* title, const std::vector<Statement>& statements) {
+  void list(const char* title, const std::vector<CycleStatement>& statements) {
     line(2, title, {}, "");
-    for (const Statement& statement : statements) {
+    for (const CycleStatement& statement : statements) {
       const bool label = std::holds_alternative<Label>(statement.node);
       line(label ? 2 : 4, statementText(statement, names_), statement.origin.range(),
            statement.origin.reason);

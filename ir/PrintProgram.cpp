@@ -51,7 +51,7 @@ std::string print(const ProgramFile& file, const SourceMap* sources) {
       out += "  comment " + quoted(comment) + "\n";
     out += structureText(program, sources);
     out += "  body\n";
-    for (const Statement& statement : program.body) {
+    for (const ProgramStatement& statement : program.body) {
       const bool label = std::holds_alternative<Label>(statement.node);
       out += withOrigin((label ? "  " : "    ") + statementText(statement, names), statement.origin.range(),
                         statement.origin.reason, sources) +

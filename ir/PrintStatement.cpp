@@ -9,12 +9,25 @@ namespace {
 
 constexpr std::size_t kCommentColumn = 56;
 
-std::string_view keyword(const Statement& statement) {
+std::string_view keyword(const CycleStatement& statement) {
   static constexpr std::string_view kTexts[] = {
-#define DOTEK_STATEMENT(Type, text) text,
+#define DOTEK_COMMON_STATEMENT(Type, text) text,
+#define DOTEK_CYCLE_STATEMENT(Type, text) text,
 #include "ir/Nodes.def"
-#undef DOTEK_STATEMENT
-      "nothing"};
+#undef DOTEK_CYCLE_STATEMENT
+#undef DOTEK_COMMON_STATEMENT
+  };
+  return kTexts[statement.node.index()];
+}
+
+std::string_view keyword(const ProgramStatement& statement) {
+  static constexpr std::string_view kTexts[] = {
+#define DOTEK_COMMON_STATEMENT(Type, text) text,
+#define DOTEK_PROGRAM_STATEMENT(Type, text) text,
+#include "ir/Nodes.def"
+#undef DOTEK_PROGRAM_STATEMENT
+#undef DOTEK_COMMON_STATEMENT
+  };
   return kTexts[statement.node.index()];
 }
 
@@ -71,58 +84,39 @@ class StatementPrinter {
 public:
   explicit StatementPrinter(const Names& names) : names_(names) {}
 
-  std::string run(const Statement& statement) {
+  std::string run(const CycleStatement& statement) {
+    text_ = keyword(statement);
+    match(statement, *this);
+    return std::move(text_);
+  }
+  std::string run(const ProgramStatement& statement) {
     text_ = keyword(statement);
     if (statement.blockDelete != 0) word(fmt::format("unless-skipped {}", statement.blockDelete));
-    std::visit([&](const auto& node) { write(node); }, statement.node);
+    match(statement, *this);
     return std::move(text_);
   }
 
-private:
-  void word(std::string_view text) {
-    text_ += ' ';
-    text_ += text;
-  }
-  void put(const ExpressionPtr& expression) {
-    text_ += ' ';
-    ir::write(*expression, names_, text_);
-  }
-  // ` title expression` where there is one.
-  void put(const char* title, const ExpressionPtr& expression) {
-    if (!expression) return;
-    word(title);
-    put(expression);
-  }
-  void put(const Coordinate& place) {
-    word(frameName(place.frame));
-    if (place.system) {
-      put("of", place.system);
-      text_ += ':';
-    }
-    put(place.value);
-  }
-
-  void write(const Assign& node) {
+  void operator()(const Assign& node) {
     word(names_.variable(node.variable));
     word("=");
     put(node.value);
   }
-  void write(const Store& node) {
+  void operator()(const Store& node) {
     text_ += " #";
     writePrimary(*node.number, names_, text_);
     word("=");
     put(node.value);
   }
-  void write(const Label& node) { word(names_.label(node.label)); }
-  void write(const Jump& node) { word(names_.label(node.target)); }
-  void write(const Branch& node) {
+  void operator()(const Label& node) { word(names_.label(node.label)); }
+  void operator()(const Jump& node) { word(names_.label(node.target)); }
+  void operator()(const Branch& node) {
     text_ += ' ';
     ir::write(*node.condition, names_, text_);
     word("goto");
     word(names_.label(node.target));
   }
-  void write(const Return&) {}
-  void write(const Move& node) {
+  void operator()(const Return&) {}
+  void operator()(const Move& node) {
     word(motionText(node.motion));
     bool first = true;
     for (const Axis axis : kAxes) {
@@ -140,7 +134,7 @@ private:
     word("point");
     word(pointName(node.point));
   }
-  void write(const Measure& node) {
+  void operator()(const Measure& node) {
     if (node.feature == Feature::Surface) {
       word("surface");
       text_ += ' ';
@@ -167,26 +161,100 @@ private:
       put("=", nominal);
     }
   }
-  void write(const ProbePower& node) { word(node.on ? "on" : "off"); }
-  void write(const Spindle& node) {
+  void operator()(const ProbePower& node) { word(node.on ? "on" : "off"); }
+  void operator()(const Spindle& node) {
     word(spindleText(node.state));
     put("speed", node.speed);
   }
-  void write(const Coolant& node) { word(coolantText(node.state)); }
-  void write(const SetMode& node) {
+  void operator()(const Coolant& node) { word(coolantText(node.state)); }
+  void operator()(const SetMode& node) {
     word(modeText(node.mode));
     if (node.system) put(node.system);
   }
-  void write(const Dwell& node) { put(node.seconds); }
-  void write(const Stop& node) {
+  void operator()(const Dwell& node) { put(node.seconds); }
+  void operator()(const Stop& node) {
     if (node.optional) word("optional");
     if (!node.message.empty()) word(quoted(node.message));
   }
-  void write(const Alarm& node) {
+  void operator()(const Alarm& node) {
     if (!node.message.empty()) word(quoted(node.message));
   }
-  void write(const Comment& node) { word(quoted(node.text)); }
-  void write(const OpaqueBlock& node) { words(node.words); }
+  void operator()(const Comment& node) { word(quoted(node.text)); }
+  void operator()(const OpaqueBlock& node) { words(node.words); }
+  void operator()(const NcBlock& node) { words(node.words); }
+  void operator()(const JumpTo& node) { put(node.number); }
+  void operator()(const Loop& node) {
+    word(std::to_string(node.number));
+    if (node.condition) {
+      text_ += ' ';
+      ir::write(*node.condition, names_, text_);
+    }
+    word("else");
+    word(names_.label(node.end));
+  }
+  void operator()(const LoopEnd& node) {
+    word(std::to_string(node.number));
+    word("goto");
+    word(names_.label(node.begin));
+  }
+  void operator()(const Call& node) {
+    static constexpr std::string_view kKinds[] = {"macro", "after-moves", "each-block", "off", "subprogram"};
+    word(kKinds[static_cast<std::size_t>(node.kind)]);
+    if (node.program) put(node.program);
+    put("times", node.repeats);
+    for (const CallArgument& argument : node.arguments) {
+      text_ += std::string(", ") + argument.letter + " #" + std::to_string(argument.local) + " =";
+      put(argument.value);
+    }
+  }
+  void operator()(const Exit& node) { put("to", node.block); }
+  void operator()(const Raise& node) {
+    put(node.number);
+    word(quoted(node.text));
+  }
+  void operator()(const Notice& node) {
+    put(node.number);
+    word(quoted(node.text));
+  }
+  void operator()(const Port& node) { word(node.open ? "open" : "close"); }
+  void operator()(const Print& node) {
+    if (node.binary) word("binary");
+    for (const PrintPiece& piece : node.pieces) {
+      if (piece.number)
+        word(fmt::format("#{}[{}{}]", *piece.number, piece.integerDigits, piece.decimals));
+      else
+        word(quoted(piece.text));
+    }
+  }
+  void operator()(const NameVariables& node) {
+    word(std::to_string(node.first));
+    for (const std::string& name : node.names)
+      word(quoted(name));
+  }
+
+private:
+  void word(std::string_view text) {
+    text_ += ' ';
+    text_ += text;
+  }
+  void put(const ExpressionPtr& expression) {
+    text_ += ' ';
+    ir::write(*expression, names_, text_);
+  }
+  // ` title expression` where there is one.
+  void put(const char* title, const ExpressionPtr& expression) {
+    if (!expression) return;
+    word(title);
+    put(expression);
+  }
+  void put(const Coordinate& place) {
+    word(frameName(place.frame));
+    if (place.system) {
+      put("of", place.system);
+      text_ += ':';
+    }
+    put(place.value);
+  }
   void words(const std::vector<Word>& list) {
     for (const Word& it : list) {
       text_ += ' ';
@@ -203,57 +271,6 @@ private:
       }
     }
   }
-  void write(const NcBlock& node) { words(node.words); }
-  void write(const JumpTo& node) { put(node.number); }
-  void write(const Loop& node) {
-    word(std::to_string(node.number));
-    if (node.condition) {
-      text_ += ' ';
-      ir::write(*node.condition, names_, text_);
-    }
-    word("else");
-    word(names_.label(node.end));
-  }
-  void write(const LoopEnd& node) {
-    word(std::to_string(node.number));
-    word("goto");
-    word(names_.label(node.begin));
-  }
-  void write(const Call& node) {
-    static constexpr std::string_view kKinds[] = {"macro", "after-moves", "each-block", "off", "subprogram"};
-    word(kKinds[static_cast<std::size_t>(node.kind)]);
-    if (node.program) put(node.program);
-    put("times", node.repeats);
-    for (const CallArgument& argument : node.arguments) {
-      text_ += std::string(", ") + argument.letter + " #" + std::to_string(argument.local) + " =";
-      put(argument.value);
-    }
-  }
-  void write(const Exit& node) { put("to", node.block); }
-  void write(const Raise& node) {
-    put(node.number);
-    word(quoted(node.text));
-  }
-  void write(const Notice& node) {
-    put(node.number);
-    word(quoted(node.text));
-  }
-  void write(const Port& node) { word(node.open ? "open" : "close"); }
-  void write(const Print& node) {
-    if (node.binary) word("binary");
-    for (const PrintPiece& piece : node.pieces) {
-      if (piece.number)
-        word(fmt::format("#{}[{}{}]", *piece.number, piece.integerDigits, piece.decimals));
-      else
-        word(quoted(piece.text));
-    }
-  }
-  void write(const NameVariables& node) {
-    word(std::to_string(node.first));
-    for (const std::string& name : node.names)
-      word(quoted(name));
-  }
-  void write(std::monostate) {}
 
   const Names& names_;
   std::string text_;
@@ -261,7 +278,11 @@ private:
 
 } // namespace
 
-std::string statementText(const Statement& statement, const Names& names) {
+std::string statementText(const CycleStatement& statement, const Names& names) {
+  return StatementPrinter(names).run(statement);
+}
+
+std::string statementText(const ProgramStatement& statement, const Names& names) {
   return StatementPrinter(names).run(statement);
 }
 

@@ -8,7 +8,8 @@
 
 namespace dotek::ir {
 
-std::string statementText(const Statement& statement, const Names& names);
+std::string statementText(const CycleStatement& statement, const Names& names);
+std::string statementText(const ProgramStatement& statement, const Names& names);
 
 // `text` with `; file:line, reason` behind it.
 std::string withOrigin(std::string text, SourceRange range, const std::string& reason,

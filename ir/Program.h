@@ -18,8 +18,8 @@ struct ProgramLabel {
 };
 
 // All variables are MachineVariables, locals too; any of them may be null. Arithmetic reads null as 0 through
-// NullAsZero, conditions compare it by Same and Different. No statement of cycles stands in a body but
-// Label, Jump, Branch, Store and Comment, and what raising put there (Measure, protected Move, ProbePower).
+// NullAsZero, conditions compare it by Same and Different. Nothing raises a call to a Measure, a Move or a
+// ProbePower yet, and what reads programs refuses these three.
 //
 // Each block of the text becomes one run of statements with the same Origin::block, from 1 and rising; a
 // block without statements (a number alone) is its Label. IF [c] THEN s is a Branch by the opposite of c to a
@@ -31,7 +31,7 @@ struct Program {
   std::string name;                       // digits as written, or the name
   std::vector<std::string> titleComments; // on the line of the header; bytes of the source
   std::vector<ProgramLabel> labels;
-  std::vector<Statement> body;
+  std::vector<ProgramStatement> body;
   SourceRange range; // of the header, or of the first block
 
   LabelId addLabel(ProgramLabel label);

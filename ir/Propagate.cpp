@@ -15,7 +15,7 @@ namespace {
 constexpr std::size_t kMostEntries = 300'000;
 constexpr std::size_t kMostWork = 20'000'000;
 
-std::unordered_map<LabelId, std::size_t> labelPlaces(const std::vector<Statement>& list) {
+std::unordered_map<LabelId, std::size_t> labelPlaces(const std::vector<CycleStatement>& list) {
   std::unordered_map<LabelId, std::size_t> out;
   for (std::size_t i = 0; i < list.size(); ++i)
     if (const auto* label = std::get_if<Label>(&list[i].node)) out.try_emplace(label->label, i);
@@ -46,7 +46,7 @@ void assign(const Assign& node, Environment& environment) {
 
 class Propagation {
 public:
-  Propagation(const std::vector<Statement>& list, Environment entry)
+  Propagation(const std::vector<CycleStatement>& list, Environment entry)
       : list_(list), places_(labelPlaces(list)) {
     out_.entry = std::move(entry);
   }
@@ -107,7 +107,7 @@ private:
   // Every label is reached, with nothing known of what the list assigns: one environment for all.
   Constants cautious() {
     Environment rest = out_.entry;
-    for (const Statement& statement : list_) {
+    for (const CycleStatement& statement : list_) {
       const auto* set = std::get_if<Assign>(&statement.node);
       if (set && set->variable < rest.size()) rest[set->variable] = Scalar{};
     }
@@ -118,7 +118,7 @@ private:
     return out;
   }
 
-  const std::vector<Statement>& list_;
+  const std::vector<CycleStatement>& list_;
   std::unordered_map<LabelId, std::size_t> places_;
   Constants out_;
   std::deque<std::size_t> open_; // labels whose statements are to be walked (again)
@@ -126,8 +126,8 @@ private:
   std::size_t work_ = 0;
 };
 
-Statement specialisedStatement(const Statement& statement, const Environment& environment) {
-  Statement out = statement;
+CycleStatement specialisedStatement(const CycleStatement& statement, const Environment& environment) {
+  CycleStatement out = statement;
   const bool takesNull =
       std::holds_alternative<Assign>(out.node) || std::holds_alternative<OpaqueBlock>(out.node);
   eachSlot(out, [&](ExpressionPtr& slot) {
@@ -139,18 +139,18 @@ Statement specialisedStatement(const Statement& statement, const Environment& en
 
 } // namespace
 
-Constants propagate(const std::vector<Statement>& list, Environment entry) {
+Constants propagate(const std::vector<CycleStatement>& list, Environment entry) {
   return Propagation(list, std::move(entry)).run();
 }
 
-std::vector<Statement> specialised(const std::vector<Statement>& list, const Constants& constants) {
-  std::vector<Statement> out;
+std::vector<CycleStatement> specialised(const std::vector<CycleStatement>& list, const Constants& constants) {
+  std::vector<CycleStatement> out;
   Environment environment = constants.entry;
   bool reached = true;
   bool inRest = false;              // `environment` began as atOthers
   std::vector<VariableId> assigned; // since the last label
   for (std::size_t i = 0; i < list.size(); ++i) {
-    const Statement& statement = list[i];
+    const CycleStatement& statement = list[i];
     if (std::holds_alternative<Label>(statement.node)) {
       const auto entry = constants.atLabel.find(i);
       reached = constants.atOthers || entry != constants.atLabel.end();
@@ -170,7 +170,7 @@ std::vector<Statement> specialised(const std::vector<Statement>& list, const Con
       ConditionPtr condition = substitute(branch->condition, environment);
       const auto* known = std::get_if<Truth>(&condition->node);
       if (known && !known->value) continue;
-      Statement next;
+      CycleStatement next;
       next.origin = statement.origin;
       if (known)
         next.node = Jump{branch->target};
@@ -192,7 +192,7 @@ std::vector<Statement> specialised(const std::vector<Statement>& list, const Con
   return out;
 }
 
-std::optional<Unrolled> unroll(const std::vector<Statement>& list, Environment entry,
+std::optional<Unrolled> unroll(const std::vector<CycleStatement>& list, Environment entry,
                                std::uint32_t maxSteps) {
   const auto places = labelPlaces(list);
   Environment environment = std::move(entry);
@@ -200,7 +200,7 @@ std::optional<Unrolled> unroll(const std::vector<Statement>& list, Environment e
   std::size_t at = 0;
   for (std::uint32_t steps = 0; at < list.size(); ++steps) {
     if (steps >= maxSteps) return std::nullopt;
-    const Statement& statement = list[at++];
+    const CycleStatement& statement = list[at++];
     std::optional<LabelId> target;
     if (std::holds_alternative<Return>(statement.node)) break;
     if (const auto* jump = std::get_if<Jump>(&statement.node)) {

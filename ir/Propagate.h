@@ -20,17 +20,18 @@ struct Constants {
   // Of a list too large to follow its paths: holds at every label, and each counts as reached.
   std::optional<Environment> atOthers;
 };
-Constants propagate(const std::vector<Statement>& list, Environment entry);
+Constants propagate(const std::vector<CycleStatement>& list, Environment entry);
 
 // The list under these constants: what is known put in, decided branches and unreachable statements gone.
-std::vector<Statement> specialised(const std::vector<Statement>& list, const Constants& constants);
+std::vector<CycleStatement> specialised(const std::vector<CycleStatement>& list, const Constants& constants);
 
 // The statements in the order in which they run from `entry`, if each branch is decided and the list ends
 // within `maxSteps`; labels and jumps are left out.
 struct Unrolled {
-  std::vector<Statement> statements;
+  std::vector<CycleStatement> statements;
   std::optional<Environment> atEnd; // nothing: it ends in an alarm
 };
-std::optional<Unrolled> unroll(const std::vector<Statement>& list, Environment entry, std::uint32_t maxSteps);
+std::optional<Unrolled> unroll(const std::vector<CycleStatement>& list, Environment entry,
+                               std::uint32_t maxSteps);
 
 } // namespace dotek::ir

@@ -1,7 +1,10 @@
-// Statements of the IR. A body is a flat list; labels and jumps are the base form of control flow.
+// Statements of the IR. A body is a flat list; labels and jumps are the base form of control flow. The
+// statements of cycles and those of programs are two closed sets that share the kinds that both have
+// (Nodes.def).
 #pragma once
 
 #include "ir/Expression.h"
+#include "ir/Match.h"
 
 #include <array>
 #include <optional>
@@ -127,8 +130,7 @@ struct OpaqueBlock {
   std::vector<Word> words;
 };
 
-// ---- of programs only (Program.h): what the macro language of a control adds
-// -----------------------------------------------------------------------------
+// ---- of programs only (Program.h): what the macro language of a control adds ------------------------------
 
 // A block as the control reads it, words in the order of the text. A word whose value is null is left out.
 struct NcBlock {
@@ -217,16 +219,33 @@ struct Origin {
   SourceRange range() const { return ranges.empty() ? SourceRange{} : ranges.front(); }
 };
 
-struct Statement {
-#define DOTEK_STATEMENT(Type, text) Type,
-  std::variant<
+// The variant of what follows a first type, which lets each line of Nodes.def begin with its comma.
+template <class, class... Kinds> struct KindsOf { using Variant = std::variant<Kinds...>; };
+
+#define DOTEK_COMMON_STATEMENT(Type, text) , Type
+struct CycleStatement {
+  KindsOf<void
+#define DOTEK_CYCLE_STATEMENT(Type, text) , Type
 #include "ir/Nodes.def"
-      std::monostate>
-#undef DOTEK_STATEMENT
-      node;
+#undef DOTEK_CYCLE_STATEMENT
+          >::Variant node;
   Origin origin;
-  // Of programs: 0: always carried out; 1 to 9: passed over where this switch of block delete is on.
+};
+
+struct ProgramStatement {
+  KindsOf<void
+#define DOTEK_PROGRAM_STATEMENT(Type, text) , Type
+#include "ir/Nodes.def"
+#undef DOTEK_PROGRAM_STATEMENT
+          >::Variant node;
+  Origin origin;
+  // 0: always carried out; 1 to 9: passed over where this switch of block delete is on.
   std::uint8_t blockDelete = 0;
 };
+#undef DOTEK_COMMON_STATEMENT
+
+// What analyses of both take.
+template <class Type>
+concept AnyStatement = OneOf<Type, CycleStatement, ProgramStatement>;
 
 } // namespace dotek::ir

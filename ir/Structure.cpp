@@ -76,7 +76,7 @@ private:
     if (jumps * body_.size() > kMostWork)
       return refuse("the program is too long to look for its structure", 0);
     std::map<std::uint64_t, int> numbers;
-    for (const Statement& statement : body_) {
+    for (const ProgramStatement& statement : body_) {
       const auto* label = std::get_if<Label>(&statement.node);
       if (label != nullptr && label->label < program_.labels.size())
         ++numbers[program_.labels[label->label].number];
@@ -264,7 +264,7 @@ private:
   }
 
   const Program& program_;
-  const std::vector<Statement>& body_;
+  const std::vector<ProgramStatement>& body_;
   const std::vector<std::vector<Index>> next_;
   std::vector<std::vector<Index>> before_;
   std::map<LabelId, Index> places_;

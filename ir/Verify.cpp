@@ -21,7 +21,7 @@ public:
     declarations();
     shapes(cycle_.checks);
     shapes(cycle_.body);
-    for (const Statement& statement : cycle_.checks)
+    for (const CycleStatement& statement : cycle_.checks)
       if (const std::string_view what = notInChecks(statement); !what.empty())
         report(statement.origin.range(), "the checks hold " + std::string(what));
     if (broken_) return std::move(out_);
@@ -38,7 +38,7 @@ private:
     out_.push_back({range, std::move(message), mixedKinds});
   }
   // The narrowest place that is known.
-  static SourceRange place(SourceRange inner, const Statement& statement) {
+  static SourceRange place(SourceRange inner, const CycleStatement& statement) {
     return inner.hasPlace() ? inner : statement.origin.range();
   }
   std::string text(const Expression& expression) const {
@@ -57,8 +57,8 @@ private:
         report(variable.range, "the default of `" + variable.name + "` is no finite number");
   }
 
-  void shapes(const std::vector<Statement>& list) {
-    for (const Statement& statement : list) {
+  void shapes(const std::vector<CycleStatement>& list) {
+    for (const CycleStatement& statement : list) {
       for (ShapeFault& fault : shapeFaults(statement, cycle_)) {
         report(place(fault.range, statement), std::move(fault.message));
         broken_ |= fault.breaks;
@@ -66,14 +66,14 @@ private:
     }
   }
 
-  void labels(const std::vector<Statement>& list) {
+  void labels(const std::vector<CycleStatement>& list) {
     std::unordered_set<LabelId> placed;
-    for (const Statement& statement : list) {
+    for (const CycleStatement& statement : list) {
       const auto* label = std::get_if<Label>(&statement.node);
       if (label && !placed.insert(label->label).second)
         report(statement.origin.range(), "label `" + names_.label(label->label) + "` is placed twice");
     }
-    for (const Statement& statement : list) {
+    for (const CycleStatement& statement : list) {
       const auto* jump = std::get_if<Jump>(&statement.node);
       const auto* branch = std::get_if<Branch>(&statement.node);
       if (!jump && !branch) continue;
@@ -84,7 +84,7 @@ private:
     }
   }
 
-  void meanings(const std::vector<Statement>& list, const std::vector<std::set<VariableId>>& nulls) {
+  void meanings(const std::vector<CycleStatement>& list, const std::vector<std::set<VariableId>>& nulls) {
     for (std::size_t i = 0; i < list.size(); ++i) {
       kinds(list[i]);
       nullsOf(list[i], nulls[i]);
@@ -93,13 +93,14 @@ private:
 
   // ---- kinds ----------------------------------------------------------------------------------------------
 
-  Kind kindOf(const ExpressionPtr& expression, const Statement& statement) {
+  Kind kindOf(const ExpressionPtr& expression, const CycleStatement& statement) {
     return ir::kindOf(expression, cycle_, [&](const Expression& whole, Kind left, Kind right) {
       mixed(whole.range, text(whole), left, right, statement);
     });
   }
 
-  void mixed(SourceRange range, const std::string& what, Kind left, Kind right, const Statement& statement) {
+  void mixed(SourceRange range, const std::string& what, Kind left, Kind right,
+             const CycleStatement& statement) {
     report(place(range, statement),
            what + " mixes the kinds " + std::string(kindName(left)) + " and " + std::string(kindName(right)),
            true);
@@ -107,7 +108,7 @@ private:
 
   static bool differ(Kind a, Kind b) { return a != b && a != Kind::Number && b != Kind::Number; }
 
-  void kinds(const Statement& statement) {
+  void kinds(const CycleStatement& statement) {
     if (const auto* branch = std::get_if<Branch>(&statement.node)) return kinds(branch->condition, statement);
     if (const auto* set = std::get_if<Assign>(&statement.node)) {
       const Kind value = kindOf(set->value, statement);
@@ -132,7 +133,7 @@ private:
     });
   }
 
-  void kinds(const ConditionPtr& condition, const Statement& statement) {
+  void kinds(const ConditionPtr& condition, const CycleStatement& statement) {
     if (const auto* comparison = std::get_if<Comparison>(&condition->node)) {
       const Kind left = kindOf(comparison->left, statement);
       const Kind right = kindOf(comparison->right, statement);
@@ -152,7 +153,7 @@ private:
 
   // ---- null -----------------------------------------------------------------------------------------------
 
-  void nullsOf(const Statement& statement, const std::set<VariableId>& nulls) {
+  void nullsOf(const CycleStatement& statement, const std::set<VariableId>& nulls) {
     if (const auto* branch = std::get_if<Branch>(&statement.node))
       return nullsOf(branch->condition, statement, nulls);
     const bool free =
@@ -161,7 +162,7 @@ private:
   }
 
   // `free`: the value itself may be null.
-  void nullsOf(const ExpressionPtr& expression, bool free, const Statement& statement,
+  void nullsOf(const ExpressionPtr& expression, bool free, const CycleStatement& statement,
                const std::set<VariableId>& nulls) {
     if (!free && mayBeNull(expression, nulls))
       report(place(expression->range, statement),
@@ -178,7 +179,8 @@ private:
     }
   }
 
-  void nullsOf(const ConditionPtr& condition, const Statement& statement, const std::set<VariableId>& nulls) {
+  void nullsOf(const ConditionPtr& condition, const CycleStatement& statement,
+               const std::set<VariableId>& nulls) {
     if (const auto* comparison = std::get_if<Comparison>(&condition->node)) {
       nullsOf(comparison->left, false, statement, nulls);
       nullsOf(comparison->right, false, statement, nulls);

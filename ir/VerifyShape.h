@@ -14,10 +14,10 @@ struct ShapeFault {
   std::string message;
   bool breaks = false; // an expression is missing, or an id does not exist: the rest cannot be looked at
 };
-std::vector<ShapeFault> shapeFaults(const Statement& statement, const Cycle& cycle);
+std::vector<ShapeFault> shapeFaults(const CycleStatement& statement, const Cycle& cycle);
 
 // What a statement does that checks do not: "a move"; "" for one that may stand there.
-std::string_view notInChecks(const Statement& statement);
+std::string_view notInChecks(const CycleStatement& statement);
 
 bool isFinite(double value);
 

@@ -3,11 +3,8 @@
 namespace dotek::ir {
 namespace {
 
-template <class... Types> struct Cases : Types... { using Types::operator()...; };
-template <class... Types> Cases(Types...) -> Cases<Types...>; // clang 14 asks for it
-
-// `S` is Statement or const Statement.
-template <class S, class Visit> void slots(S& statement, const Visit& visit) {
+// `statement` is const or not, and so is what `visit` gets.
+template <class Statement, class Visit> void slots(Statement& statement, const Visit& visit) {
   const auto slot = [&](auto& pointer) {
     if (pointer) visit(pointer);
   };
@@ -16,91 +13,128 @@ template <class S, class Visit> void slots(S& statement, const Visit& visit) {
     slot(place->value);
     slot(place->system);
   };
-  std::visit(
-      Cases{[&](auto&) {},
-            [&](std::conditional_t<std::is_const_v<S>, const Assign, Assign>& node) { slot(node.value); },
-            [&](std::conditional_t<std::is_const_v<S>, const Store, Store>& node) {
-              slot(node.number);
-              slot(node.value);
-            },
-            [&](std::conditional_t<std::is_const_v<S>, const Move, Move>& node) {
-              for (auto& axis : node.axes)
-                coordinate(axis);
-              slot(node.feed);
-            },
-            [&](std::conditional_t<std::is_const_v<S>, const Measure, Measure>& node) {
-              coordinate(node.target);
-              slot(node.diameter);
-              if (!node.setting) return;
-              slot(node.setting->system);
-              for (auto& nominal : node.setting->nominal)
-                slot(nominal);
-            },
-            [&](std::conditional_t<std::is_const_v<S>, const Spindle, Spindle>& node) { slot(node.speed); },
-            [&](std::conditional_t<std::is_const_v<S>, const SetMode, SetMode>& node) { slot(node.system); },
-            [&](std::conditional_t<std::is_const_v<S>, const Dwell, Dwell>& node) { slot(node.seconds); },
-            [&](std::conditional_t<std::is_const_v<S>, const OpaqueBlock, OpaqueBlock>& node) {
-              for (auto& word : node.words)
-                slot(word.value);
-            },
-            [&](std::conditional_t<std::is_const_v<S>, const NcBlock, NcBlock>& node) {
-              for (auto& word : node.words)
-                slot(word.value);
-            },
-            [&](std::conditional_t<std::is_const_v<S>, const JumpTo, JumpTo>& node) { slot(node.number); },
-            [&](std::conditional_t<std::is_const_v<S>, const Call, Call>& node) {
-              slot(node.program);
-              slot(node.repeats);
-              for (auto& argument : node.arguments)
-                slot(argument.value);
-            },
-            [&](std::conditional_t<std::is_const_v<S>, const Exit, Exit>& node) { slot(node.block); },
-            [&](std::conditional_t<std::is_const_v<S>, const Raise, Raise>& node) { slot(node.number); },
-            [&](std::conditional_t<std::is_const_v<S>, const Notice, Notice>& node) { slot(node.number); }},
-      statement.node);
+  match(
+      statement, [&](OneOf<Assign> auto& node) { slot(node.value); },
+      [&](OneOf<Store> auto& node) {
+        slot(node.number);
+        slot(node.value);
+      },
+      [&](OneOf<Move> auto& node) {
+        for (auto& axis : node.axes)
+          coordinate(axis);
+        slot(node.feed);
+      },
+      [&](OneOf<Measure> auto& node) {
+        coordinate(node.target);
+        slot(node.diameter);
+        if (!node.setting) return;
+        slot(node.setting->system);
+        for (auto& nominal : node.setting->nominal)
+          slot(nominal);
+      },
+      [&](OneOf<Spindle> auto& node) { slot(node.speed); },
+      [&](OneOf<SetMode> auto& node) { slot(node.system); },
+      [&](OneOf<Dwell> auto& node) { slot(node.seconds); },
+      [&](OneOf<OpaqueBlock, NcBlock> auto& node) {
+        for (auto& word : node.words)
+          slot(word.value);
+      },
+      [&](OneOf<JumpTo, Raise, Notice> auto& node) { slot(node.number); },
+      [&](OneOf<Call> auto& node) {
+        slot(node.program);
+        slot(node.repeats);
+        for (auto& argument : node.arguments)
+          slot(argument.value);
+      },
+      [&](OneOf<Exit> auto& node) { slot(node.block); },
+      [](const OneOf<Label, Jump, Branch, Return, ProbePower, Coolant, Stop, Alarm, Comment, Loop, LoopEnd,
+                     Port, Print, NameVariables> auto&) {});
+}
+
+// `Condition` is ConditionPtr, const or not.
+template <class Condition, class Statement> Condition* conditionIn(Statement& statement) {
+  return match(
+      statement, [](OneOf<Branch> auto& node) -> Condition* { return &node.condition; },
+      [](OneOf<Loop> auto& node) -> Condition* { return node.condition ? &node.condition : nullptr; },
+      [](const OneOf<Assign, Store, Label, Jump, Return, Move, Measure, ProbePower, Spindle, Coolant, SetMode,
+                     Dwell, Stop, Alarm, Comment, OpaqueBlock, NcBlock, JumpTo, LoopEnd, Call, Exit, Raise,
+                     Notice, Port, Print, NameVariables> auto&) -> Condition* { return nullptr; });
+}
+
+template <class Statement>
+void nodesOf(const Statement& statement, const std::function<void(const Expression&)>& visit) {
+  if (const ConditionPtr* condition = conditionOf(statement)) eachNode(*condition, visit);
+  eachSlot(statement, [&](const ExpressionPtr& slot) { eachNode(slot, visit); });
 }
 
 } // namespace
 
-void eachSlot(Statement& statement, const std::function<void(ExpressionPtr&)>& visit) {
+void eachSlot(CycleStatement& statement, const std::function<void(ExpressionPtr&)>& visit) {
   slots(statement, visit);
 }
 
-void eachSlot(const Statement& statement, const std::function<void(const ExpressionPtr&)>& visit) {
+void eachSlot(const CycleStatement& statement, const std::function<void(const ExpressionPtr&)>& visit) {
   slots(statement, visit);
+}
+
+void eachSlot(ProgramStatement& statement, const std::function<void(ExpressionPtr&)>& visit) {
+  slots(statement, visit);
+}
+
+void eachSlot(const ProgramStatement& statement, const std::function<void(const ExpressionPtr&)>& visit) {
+  slots(statement, visit);
+}
+
+ConditionPtr* conditionOf(CycleStatement& statement) {
+  return conditionIn<ConditionPtr>(statement);
+}
+
+const ConditionPtr* conditionOf(const CycleStatement& statement) {
+  return conditionIn<const ConditionPtr>(statement);
+}
+
+ConditionPtr* conditionOf(ProgramStatement& statement) {
+  return conditionIn<ConditionPtr>(statement);
+}
+
+const ConditionPtr* conditionOf(const ProgramStatement& statement) {
+  return conditionIn<const ConditionPtr>(statement);
+}
+
+void eachNode(const CycleStatement& statement, const std::function<void(const Expression&)>& visit) {
+  nodesOf(statement, visit);
+}
+
+void eachNode(const ProgramStatement& statement, const std::function<void(const Expression&)>& visit) {
+  nodesOf(statement, visit);
 }
 
 void eachNode(const ExpressionPtr& expression, const std::function<void(const Expression&)>& visit) {
   visit(*expression);
-  if (const auto* machine = std::get_if<MachineVariable>(&expression->node)) {
-    eachNode(machine->number, visit);
-  } else if (const auto* one = std::get_if<Unary>(&expression->node)) {
-    eachNode(one->operand, visit);
-  } else if (const auto* two = std::get_if<Binary>(&expression->node)) {
-    eachNode(two->left, visit);
-    eachNode(two->right, visit);
-  }
+  match(
+      *expression, [&](const MachineVariable& node) { eachNode(node.number, visit); },
+      [&](const Unary& node) { eachNode(node.operand, visit); },
+      [&](const Binary& node) {
+        eachNode(node.left, visit);
+        eachNode(node.right, visit);
+      },
+      [](const OneOf<Constant, NullValue, VariableUse, MeasuredResult> auto&) {});
 }
 
 void eachNode(const ConditionPtr& condition, const std::function<void(const Expression&)>& visit) {
-  if (const auto* comparison = std::get_if<Comparison>(&condition->node)) {
-    eachNode(comparison->left, visit);
-    eachNode(comparison->right, visit);
-  } else if (const auto* null = std::get_if<IsNull>(&condition->node)) {
-    eachNode(null->value, visit);
-  } else if (const auto* negated = std::get_if<Not>(&condition->node)) {
-    eachNode(negated->inner, visit);
-  } else if (const auto* junction = std::get_if<Junction>(&condition->node)) {
-    eachNode(junction->left, visit);
-    eachNode(junction->right, visit);
-  }
-}
-
-void eachNode(const Statement& statement, const std::function<void(const Expression&)>& visit) {
-  if (const auto* branch = std::get_if<Branch>(&statement.node)) eachNode(branch->condition, visit);
-  if (const auto* loop = std::get_if<Loop>(&statement.node); loop && loop->condition)
-    eachNode(loop->condition, visit);
-  eachSlot(statement, [&](const ExpressionPtr& slot) { eachNode(slot, visit); });
+  match(
+      *condition,
+      [&](const Comparison& node) {
+        eachNode(node.left, visit);
+        eachNode(node.right, visit);
+      },
+      [&](const IsNull& node) { eachNode(node.value, visit); },
+      [&](const Not& node) { eachNode(node.inner, visit); },
+      [&](const Junction& node) {
+        eachNode(node.left, visit);
+        eachNode(node.right, visit);
+      },
+      [](const Truth&) {});
 }
 
 } // namespace dotek::ir

@@ -10,7 +10,7 @@ bool isEmpty(const ir::ExpressionPtr& expression) {
 }
 
 // What stands at the label is an alarm.
-bool raisesAt(const std::vector<ir::Statement>& body, ir::LabelId label) {
+bool raisesAt(const std::vector<ir::ProgramStatement>& body, ir::LabelId label) {
   for (std::size_t i = 0; i < body.size(); ++i) {
     const auto* target = std::get_if<ir::Label>(&body[i].node);
     if (target == nullptr || target->label != label) continue;
@@ -27,7 +27,7 @@ bool raisesAt(const std::vector<ir::Statement>& body, ir::LabelId label) {
 std::map<std::uint32_t, std::vector<OwnCall>> callsByProgram(const Project& project) {
   std::map<std::uint32_t, std::vector<OwnCall>> out;
   eachProgram(project, [&](const ir::Program& program, const macrob::File&) {
-    for (const ir::Statement& statement : program.body) {
+    for (const ir::ProgramStatement& statement : program.body) {
       const ir::Call* call = callOf(statement);
       const double* number = call == nullptr || !call->program ? nullptr : ir::constantValue(call->program);
       if (number == nullptr || *number < 1 || *number > 1e8 || call->kind != ir::CallKind::Macro) continue;
@@ -59,7 +59,7 @@ std::optional<std::uint32_t> nullTested(const ir::ConditionPtr& condition) {
 
 std::set<std::uint32_t> requiredLocals(const ir::Program& program) {
   std::set<std::uint32_t> out;
-  for (const ir::Statement& statement : program.body) {
+  for (const ir::ProgramStatement& statement : program.body) {
     if (std::holds_alternative<ir::Comment>(statement.node)) continue;
     const auto* branch = std::get_if<ir::Branch>(&statement.node);
     if (branch == nullptr) {

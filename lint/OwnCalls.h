@@ -11,7 +11,7 @@
 namespace dotek::lint {
 
 struct OwnCall {
-  const ir::Statement* statement = nullptr;
+  const ir::ProgramStatement* statement = nullptr;
   std::set<std::uint32_t> given; // locals that the arguments set
 };
 // G65 with a number that is written out, by the number.

@@ -56,7 +56,7 @@ Probing::Probing(const Project& project) : project_(project) {
   readOwn();
   if (project.control) return;
   eachProgram(project, [&](const ir::Program& program, const macrob::File&) {
-    for (const ir::Statement& statement : program.body) {
+    for (const ir::ProgramStatement& statement : program.body) {
       const auto* block = std::get_if<ir::NcBlock>(&statement.node);
       const ProbeStep::Kind kind = step(statement).kind;
       guessCodes_ = guessCodes_ || (block != nullptr && hasCode(*block, 'G', 31)) ||
@@ -76,7 +76,7 @@ void Probing::readOwn() {
   std::map<std::uint32_t, Own> all;
   eachProgram(project_, [&](const ir::Program& program, const macrob::File&) {
     Own& own = all[static_cast<std::uint32_t>(program.number)];
-    for (const ir::Statement& statement : program.body) {
+    for (const ir::ProgramStatement& statement : program.body) {
       const auto* block = std::get_if<ir::NcBlock>(&statement.node);
       own.skips = own.skips || (block != nullptr && hasCode(*block, 'G', 31));
       if (block != nullptr)
@@ -128,28 +128,23 @@ ProbeStep::Kind Probing::codeStep(double code) const {
   return ProbeStep::Kind::None;
 }
 
-ProbeStep Probing::step(const ir::Statement& statement) const {
+ProbeStep Probing::callStep(const ir::Call& call) const {
   using Kind = ProbeStep::Kind;
-  if (const auto* power = std::get_if<ir::ProbePower>(&statement.node))
-    return {power->on ? Kind::On : Kind::Off, 0};
-  if (std::holds_alternative<ir::Measure>(statement.node)) return {Kind::Measure, 0};
-  if (const auto* move = std::get_if<ir::Move>(&statement.node))
-    return {move->motion == ir::Motion::Protected ? Kind::Protected : Kind::None, 0};
-  if (const auto* call = std::get_if<ir::Call>(&statement.node)) {
-    if (call->kind == ir::CallKind::Off) return {};
-    const double* number = call->program ? ir::constantValue(call->program) : nullptr;
-    if (number == nullptr || *number < 0) return {Kind::Call, 0};
-    const auto program = static_cast<std::uint32_t>(std::lround(*number));
-    std::string letters;
-    for (const ir::CallArgument& argument : call->arguments)
-      letters += argument.letter;
-    if (const auto kind = meaning(project_, program, letters)) return {*kind, program};
-    if (quiet_.contains(program)) return {Kind::OwnCall, program};
-    return {inPack(project_, program) ? Kind::PackCall : Kind::Call, program};
-  }
-  const auto* block = std::get_if<ir::NcBlock>(&statement.node);
-  if (block == nullptr) return {};
-  for (const ir::Word& word : block->words) {
+  if (call.kind == ir::CallKind::Off) return {};
+  const double* number = call.program ? ir::constantValue(call.program) : nullptr;
+  if (number == nullptr || *number < 0) return {Kind::Call, 0};
+  const auto program = static_cast<std::uint32_t>(std::lround(*number));
+  std::string letters;
+  for (const ir::CallArgument& argument : call.arguments)
+    letters += argument.letter;
+  if (const auto kind = meaning(project_, program, letters)) return {*kind, program};
+  if (quiet_.contains(program)) return {Kind::OwnCall, program};
+  return {inPack(project_, program) ? Kind::PackCall : Kind::Call, program};
+}
+
+ProbeStep Probing::blockStep(const ir::NcBlock& block) const {
+  using Kind = ProbeStep::Kind;
+  for (const ir::Word& word : block.words) {
     const double* code = word.address == 'M' ? ir::constantValue(word.value) : nullptr;
     const Kind kind = code == nullptr || *code < 0 ? Kind::None : codeStep(*code);
     if (kind != Kind::None) return {kind, 0};
@@ -157,7 +152,38 @@ ProbeStep Probing::step(const ir::Statement& statement) const {
   return {};
 }
 
-std::vector<std::optional<ProbeState>> Probing::states(const std::vector<ir::Statement>& body) const {
+template <ir::AnyStatement Statement> ProbeStep Probing::stepOf(const Statement& statement) const {
+  using Kind = ProbeStep::Kind;
+  return match(
+      statement,
+      [](const ir::ProbePower& node) -> ProbeStep {
+        return {node.on ? Kind::On : Kind::Off, 0};
+      },
+      [](const ir::Measure&) -> ProbeStep {
+        return {Kind::Measure, 0};
+      },
+      [](const ir::Move& node) -> ProbeStep {
+        return {node.motion == ir::Motion::Protected ? Kind::Protected : Kind::None, 0};
+      },
+      [&](const ir::Call& node) { return callStep(node); },
+      [&](const ir::NcBlock& node) { return blockStep(node); },
+      // A block of a cycle whose meaning is not known may do anything, but none is taken to switch the probe.
+      [](const ir::OneOf<ir::Label, ir::Jump, ir::Branch, ir::Store, ir::Comment, ir::Assign, ir::Return,
+                         ir::Spindle, ir::Coolant, ir::SetMode, ir::Dwell, ir::Stop, ir::Alarm,
+                         ir::OpaqueBlock, ir::JumpTo, ir::Loop, ir::LoopEnd, ir::Exit, ir::Raise, ir::Notice,
+                         ir::Port, ir::Print, ir::NameVariables> auto&) -> ProbeStep { return {}; });
+}
+
+ProbeStep Probing::step(const ir::CycleStatement& statement) const {
+  return stepOf(statement);
+}
+
+ProbeStep Probing::step(const ir::ProgramStatement& statement) const {
+  return stepOf(statement);
+}
+
+template <ir::AnyStatement Statement>
+std::vector<std::optional<ProbeState>> Probing::statesOf(const std::vector<Statement>& body) const {
   return ir::factsBefore<ProbeState>(
       body, ProbeState::AsBefore,
       [&](std::size_t at, std::size_t, ProbeState before) {
@@ -181,21 +207,33 @@ std::vector<std::optional<ProbeState>> Probing::states(const std::vector<ir::Sta
       });
 }
 
+std::vector<std::optional<ProbeState>> Probing::states(const std::vector<ir::CycleStatement>& body) const {
+  return statesOf(body);
+}
+
+std::vector<std::optional<ProbeState>> Probing::states(const std::vector<ir::ProgramStatement>& body) const {
+  return statesOf(body);
+}
+
 bool Probing::probes(const ir::Program& program) const {
-  return std::any_of(program.body.begin(), program.body.end(), [&](const ir::Statement& statement) {
+  return std::any_of(program.body.begin(), program.body.end(), [&](const ir::ProgramStatement& statement) {
     const ProbeStep::Kind kind = step(statement).kind;
     return kind != ProbeStep::Kind::None && kind != ProbeStep::Kind::Call && kind != ProbeStep::Kind::OwnCall;
   });
 }
 
-bool endsProgram(const ir::Statement& statement) {
+bool endsProgram(const ir::CycleStatement&) {
+  return false;
+}
+
+bool endsProgram(const ir::ProgramStatement& statement) {
   const auto* block = std::get_if<ir::NcBlock>(&statement.node);
   return block != nullptr && (hasCode(*block, 'M', 30) || hasCode(*block, 'M', 2));
 }
 
 bool endsProgram(const ir::Program& program) {
   return std::any_of(program.body.begin(), program.body.end(),
-                     [](const ir::Statement& statement) { return endsProgram(statement); });
+                     [](const ir::ProgramStatement& statement) { return endsProgram(statement); });
 }
 
 void eachProgram(const Project& project,
@@ -235,14 +273,14 @@ std::optional<std::uint32_t> variableNumber(const ir::Expression& expression) {
   return static_cast<std::uint32_t>(std::lround(*number));
 }
 
-std::optional<std::uint32_t> storedNumber(const ir::Statement& statement) {
+std::optional<std::uint32_t> storedNumber(const ir::ProgramStatement& statement) {
   const auto* store = std::get_if<ir::Store>(&statement.node);
   const double* number = store == nullptr ? nullptr : ir::constantValue(store->number);
   if (number == nullptr || *number < 0 || *number > 1e6) return std::nullopt;
   return static_cast<std::uint32_t>(std::lround(*number));
 }
 
-void eachRead(const ir::Statement& statement,
+void eachRead(const ir::ProgramStatement& statement,
               const std::function<void(std::uint32_t number, SourceRange range)>& visit) {
   ir::eachNode(statement, [&](const ir::Expression& node) {
     if (const auto number = variableNumber(node)) visit(*number, node.range);

@@ -39,9 +39,11 @@ class Probing {
 public:
   explicit Probing(const Project& project);
 
-  ProbeStep step(const ir::Statement& statement) const;
+  ProbeStep step(const ir::CycleStatement& statement) const;
+  ProbeStep step(const ir::ProgramStatement& statement) const;
   // State before each statement; nothing where no path leads.
-  std::vector<std::optional<ProbeState>> states(const std::vector<ir::Statement>& body) const;
+  std::vector<std::optional<ProbeState>> states(const std::vector<ir::CycleStatement>& body) const;
+  std::vector<std::optional<ProbeState>> states(const std::vector<ir::ProgramStatement>& body) const;
   // Calls some macro of a probing set.
   bool probes(const ir::Program& program) const;
   // The program is one of these files, and a G31 stands in it or in one that it calls.
@@ -49,6 +51,11 @@ public:
 
 private:
   ProbeStep::Kind codeStep(double code) const;
+  ProbeStep blockStep(const ir::NcBlock& block) const;
+  ProbeStep callStep(const ir::Call& call) const;
+  template <ir::AnyStatement Statement> ProbeStep stepOf(const Statement& statement) const;
+  template <ir::AnyStatement Statement>
+  std::vector<std::optional<ProbeState>> statesOf(const std::vector<Statement>& body) const;
 
   void readOwn();
 
@@ -59,8 +66,9 @@ private:
   bool guessCodes_ = false;
 };
 
-// M30 or M2.
-bool endsProgram(const ir::Statement& statement);
+// M30 or M2, which no cycle has.
+bool endsProgram(const ir::CycleStatement& statement);
+bool endsProgram(const ir::ProgramStatement& statement);
 bool endsProgram(const ir::Program& program);
 
 // All programs of all files that could be lowered, up to 20000 statements each.
@@ -73,9 +81,9 @@ bool hasWord(const ir::NcBlock& block, char address);
 bool hasCode(const ir::NcBlock& block, char address, double code);
 // #n of a variable whose number is written out.
 std::optional<std::uint32_t> variableNumber(const ir::Expression& expression);
-std::optional<std::uint32_t> storedNumber(const ir::Statement& statement);
+std::optional<std::uint32_t> storedNumber(const ir::ProgramStatement& statement);
 // Numbers of the variables that the statement reads, with their places.
-void eachRead(const ir::Statement& statement,
+void eachRead(const ir::ProgramStatement& statement,
               const std::function<void(std::uint32_t number, SourceRange range)>& visit);
 
 } // namespace dotek::lint

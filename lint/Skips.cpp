@@ -19,16 +19,19 @@ AxisSet axesOf(const ir::NcBlock& block) {
                               (hasWord(block, 'Z') ? 4 : 0));
 }
 
-const ir::NcBlock* skipOf(const ir::Statement& statement) {
+const ir::NcBlock* skipOf(const ir::ProgramStatement& statement) {
   const auto* block = std::get_if<ir::NcBlock>(&statement.node);
   return block != nullptr && hasCode(*block, 'G', 31) ? block : nullptr;
 }
 
-bool isPlainMove(const ir::Statement& statement) {
+bool isPlainMove(const ir::NcBlock& block) {
+  return axesOf(block) != 0 &&
+         std::none_of(kNoMove.begin(), kNoMove.end(), [&](double code) { return hasCode(block, 'G', code); });
+}
+
+bool isPlainMove(const ir::ProgramStatement& statement) {
   const auto* block = std::get_if<ir::NcBlock>(&statement.node);
-  if (block == nullptr || axesOf(*block) == 0) return false;
-  return std::none_of(kNoMove.begin(), kNoMove.end(),
-                      [&](double code) { return hasCode(*block, 'G', code); });
+  return block != nullptr && isPlainMove(*block);
 }
 
 std::optional<AxisSet> contactAxis(std::uint32_t variable) {
@@ -36,7 +39,7 @@ std::optional<AxisSet> contactAxis(std::uint32_t variable) {
   return static_cast<AxisSet>(1U << (variable - kContact));
 }
 
-std::optional<DistanceMode> statedMode(const ir::Statement& statement) {
+std::optional<DistanceMode> statedMode(const ir::ProgramStatement& statement) {
   if (callOf(statement) != nullptr) return std::nullopt; // a macro gives back what it changes
   const auto* block = std::get_if<ir::NcBlock>(&statement.node);
   if (block == nullptr) return std::nullopt;
@@ -51,7 +54,7 @@ std::optional<DistanceMode> statedMode(const ir::Statement& statement) {
   return out;
 }
 
-std::vector<std::optional<DistanceMode>> distanceModes(const std::vector<ir::Statement>& body) {
+std::vector<std::optional<DistanceMode>> distanceModes(const std::vector<ir::ProgramStatement>& body) {
   return ir::factsBefore<DistanceMode>(
       body, DistanceMode::AsBefore,
       [&](std::size_t at, std::size_t, DistanceMode mode) { return statedMode(body[at]).value_or(mode); },
@@ -66,7 +69,7 @@ std::vector<std::optional<DistanceMode>> distanceModes(const std::vector<ir::Sta
       });
 }
 
-const ir::Call* callOf(const ir::Statement& statement) {
+const ir::Call* callOf(const ir::ProgramStatement& statement) {
   const auto* call = std::get_if<ir::Call>(&statement.node);
   return call != nullptr && call->kind != ir::CallKind::Off ? call : nullptr;
 }

@@ -14,20 +14,21 @@ using AxisSet = std::uint8_t;
 AxisSet axesOf(const ir::NcBlock& block);
 
 // The block of a G31; nullptr: another statement.
-const ir::NcBlock* skipOf(const ir::Statement& statement);
+const ir::NcBlock* skipOf(const ir::ProgramStatement& statement);
 // A block that moves X, Y or Z by G0, G1, or by the motion in force: no skip move, no reference point, no
 // dwell, no offset.
-bool isPlainMove(const ir::Statement& statement);
+bool isPlainMove(const ir::NcBlock& block);
+bool isPlainMove(const ir::ProgramStatement& statement);
 // #5061 to #5063: the axis of the contact position; nothing: another variable.
 std::optional<AxisSet> contactAxis(std::uint32_t variable);
 
 // G90 and G91 before a statement. Both: paths disagree. Unknown: a computed code, or a called program.
 enum class DistanceMode : std::uint8_t { AsBefore, Absolute, Incremental, Both, Unknown };
 // The mode that the block states; nothing: none.
-std::optional<DistanceMode> statedMode(const ir::Statement& statement);
-std::vector<std::optional<DistanceMode>> distanceModes(const std::vector<ir::Statement>& body);
+std::optional<DistanceMode> statedMode(const ir::ProgramStatement& statement);
+std::vector<std::optional<DistanceMode>> distanceModes(const std::vector<ir::ProgramStatement>& body);
 
 // G65 or M98 that is carried out here; nullptr: another statement.
-const ir::Call* callOf(const ir::Statement& statement);
+const ir::Call* callOf(const ir::ProgramStatement& statement);
 
 } // namespace dotek::lint

@@ -207,7 +207,7 @@ bool Lowering::checks() {
 }
 
 bool Lowering::turnedAway() {
-  const std::optional<ir::Statement> alarm = certainAlarm(out_);
+  const std::optional<ir::CycleStatement> alarm = certainAlarm(out_);
   if (alarm) reportRejected(folder_, *alarm, session_);
   return alarm.has_value();
 }
@@ -217,7 +217,7 @@ bool Lowering::settleChangedFields() {
   const auto& assume = session_.options().assume;
   std::map<ir::VariableId, ir::VariableId> shadows;
   bool settled = true;
-  for (const ir::Statement& statement : cycle().checks) {
+  for (const ir::CycleStatement& statement : cycle().checks) {
     const auto* assign = std::get_if<ir::Assign>(&statement.node);
     if (assign == nullptr || cycle().variable(assign->variable).role != ir::Role::Parameter) continue;
     const std::string name = cycle().variable(assign->variable).name;
@@ -238,12 +238,12 @@ bool Lowering::settleChangedFields() {
     }
   }
   if (!settled || shadows.empty()) return settled;
-  std::vector<ir::Statement> copies;
+  std::vector<ir::CycleStatement> copies;
   for (auto& [original, shadow] : shadows) {
     ir::Variable copy = cycle().variable(original);
     copy.role = ir::Role::Local;
     shadow = cycle().add(std::move(copy));
-    ir::Statement statement;
+    ir::CycleStatement statement;
     statement.node = ir::Assign{shadow, ir::variable(original)};
     statement.origin.reason = "copy that the checks may change";
     copies.push_back(std::move(statement));

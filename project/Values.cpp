@@ -37,7 +37,7 @@ std::vector<std::pair<double, double>> hostValues(const ir::Cycle& cycle) {
   return out;
 }
 
-std::string messageOf(const ir::Statement& alarm) {
+std::string messageOf(const ir::CycleStatement& alarm) {
   const std::string& text = std::get<ir::Alarm>(alarm.node).message;
   return text.empty() ? "no message" : "`" + text + "`";
 }
@@ -143,9 +143,9 @@ private:
 
 } // namespace
 
-std::optional<ir::Statement> certainAlarm(const LoweredCycle& lowered) {
+std::optional<ir::CycleStatement> certainAlarm(const LoweredCycle& lowered) {
   if (lowered.fixed.empty()) return std::nullopt;
-  std::optional<ir::Statement> alarm;
+  std::optional<ir::CycleStatement> alarm;
   for (const auto& [radius, place] : hostValues(lowered.cycle)) {
     ir::Cycle trial = lowered.cycle;
     trial.body.clear();
@@ -168,7 +168,7 @@ std::optional<ir::Statement> certainAlarm(const LoweredCycle& lowered) {
   return alarm;
 }
 
-void reportRejected(const CycleFolder& folder, const ir::Statement& alarm, Session& session) {
+void reportRejected(const CycleFolder& folder, const ir::CycleStatement& alarm, Session& session) {
   session.diagnostics().report<diag::ValuesRejected>(alarm.origin.range(), folder.name, messageOf(alarm));
 }
 

@@ -8,8 +8,8 @@
 namespace dotek::project {
 
 // Where the fixed values leave no way through the checks, whatever the rest is: an alarm that they end in.
-std::optional<ir::Statement> certainAlarm(const LoweredCycle& lowered);
-void reportRejected(const CycleFolder& folder, const ir::Statement& alarm, Session& session);
+std::optional<ir::CycleStatement> certainAlarm(const LoweredCycle& lowered);
+void reportRejected(const CycleFolder& folder, const ir::CycleStatement& alarm, Session& session);
 
 // Takes `--default NAME=VALUE`; `used` collects the names that the cycle knows. Errors are reported.
 void applyDefaults(const NamedTexts& given, LoweredCycle& lowered, std::set<std::string>& used,

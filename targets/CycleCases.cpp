@@ -38,7 +38,7 @@ constexpr double kReach = 12;             // how far a search goes beyond a surf
 std::set<std::uint32_t> storesOf(const std::vector<ir::Program>& programs) {
   std::set<std::uint32_t> out;
   for (const ir::Program& program : programs) {
-    for (const ir::Statement& statement : program.body) {
+    for (const ir::ProgramStatement& statement : program.body) {
       const auto* store = std::get_if<ir::Store>(&statement.node);
       const double* number = store != nullptr && store->number ? ir::constantValue(store->number) : nullptr;
       if (number != nullptr && *number >= 100 && *number < 1000)
@@ -49,7 +49,7 @@ std::set<std::uint32_t> storesOf(const std::vector<ir::Program>& programs) {
 }
 
 std::optional<SourceRange> spindleOffIn(const ir::Program& program, const stdlib::Control& control) {
-  for (const ir::Statement& statement : program.body) {
+  for (const ir::ProgramStatement& statement : program.body) {
     const auto* block = std::get_if<ir::NcBlock>(&statement.node);
     if (block == nullptr) continue;
     for (const ir::Word& word : block->words) {

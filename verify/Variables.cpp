@@ -53,7 +53,7 @@ public:
     for (std::size_t i = 0; i < file_.programs.size(); ++i)
       readsOf(file_.programs[i], i == 0);
     for (const ir::Program& program : file_.programs)
-      for (const ir::Statement& statement : program.body)
+      for (const ir::ProgramStatement& statement : program.body)
         usesIn(statement);
     std::vector<ProgramVariable> out;
     for (const auto& [number, variable] : found_)
@@ -66,7 +66,7 @@ private:
 
   void readsOf(const ir::Program& program, bool main) {
     const auto behind = [&](std::size_t at, std::size_t, Written fact) {
-      const ir::Statement& statement = program.body[at];
+      const ir::ProgramStatement& statement = program.body[at];
       const auto* store = std::get_if<ir::Store>(&statement.node);
       if (store != nullptr && statement.blockDelete == 0)
         if (const auto number = numberOf(store->number)) fact.insert(*number);
@@ -128,7 +128,7 @@ private:
         at->second.use = std::max(at->second.use, use);
   }
 
-  void usesIn(const ir::Statement& statement) {
+  void usesIn(const ir::ProgramStatement& statement) {
     ir::eachNode(statement, [&](const ir::Expression& node) {
       if (const auto* use = std::get_if<ir::MachineVariable>(&node.node))
         mark(use->number, VariableUse::Whole);

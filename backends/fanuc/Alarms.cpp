@@ -72,7 +72,7 @@ AlarmText shownText(State& state, const std::string& message, std::string_view o
   return out;
 }
 
-AlarmText messageOf(State& state, const ir::Statement& statement, const std::string& message) {
+AlarmText messageOf(State& state, const ir::CycleStatement& statement, const std::string& message) {
   const SourceRange range = statement.origin.range();
   if (message.find_first_not_of(" \t") != std::string::npos)
     return shownText(state, message, "VALUES REFUSED", range);
@@ -115,7 +115,7 @@ std::string commentText(State& state, std::string_view utf8, SourceRange range) 
 
 void collectAlarms(State& state) {
   for (const auto* list : {&state.cycle.checks, &state.cycle.body})
-    for (const ir::Statement& statement : *list) {
+    for (const ir::CycleStatement& statement : *list) {
       const auto* alarm = std::get_if<ir::Alarm>(&statement.node);
       if (alarm == nullptr) continue;
       AlarmText text = messageOf(state, statement, alarm->message);
@@ -132,7 +132,7 @@ std::string stopText(State& state, const std::string& message, const ir::Origin&
   return "#" + std::to_string(*state.control.variables.message) + "=1(" + text.shown + ")";
 }
 
-std::string sourceAlarm(State& state, const ir::Statement& statement) {
+std::string sourceAlarm(State& state, const ir::CycleStatement& statement) {
   const AlarmText& alarm = state.alarms[state.sourceAlarms.at(&statement)];
   if (!alarm.full.empty()) state.sheet.comment(alarm.full, statement.origin);
   return alarmText(alarm);

@@ -23,7 +23,7 @@ public:
   explicit Block(State& state) : state_(state) {}
 
   // Adds the words of a statement that may share a line.
-  void add(const ir::Statement& statement) {
+  void add(const ir::CycleStatement& statement) {
     const ir::Origin& origin = statement.origin;
     if (const auto* move = std::get_if<ir::Move>(&statement.node))
       plainMove(*move, origin);
@@ -212,7 +212,7 @@ private:
 };
 
 // Stands on a line of its own.
-bool isAlone(const State& state, const ir::Statement& statement) {
+bool isAlone(const State& state, const ir::CycleStatement& statement) {
   if (const auto* move = std::get_if<ir::Move>(&statement.node)) return move->motion == ir::Motion::Protected;
   if (const auto* power = std::get_if<ir::ProbePower>(&statement.node))
     return state.macros.find(power->on ? stdlib::Intent::ProbeOn : stdlib::Intent::ProbeOff) != nullptr ||
@@ -221,7 +221,7 @@ bool isAlone(const State& state, const ir::Statement& statement) {
          std::holds_alternative<ir::OpaqueBlock>(statement.node);
 }
 
-bool isBlock(const ir::Statement& statement) {
+bool isBlock(const ir::CycleStatement& statement) {
   return std::holds_alternative<ir::Move>(statement.node) ||
          std::holds_alternative<ir::SetMode>(statement.node) ||
          std::holds_alternative<ir::Spindle>(statement.node) ||
@@ -246,7 +246,7 @@ void writeOpaque(State& state, const ir::OpaqueBlock& block, const ir::Origin& o
   state.sheet.add(text, origin);
 }
 
-void writeAlone(State& state, const ir::Statement& statement) {
+void writeAlone(State& state, const ir::CycleStatement& statement) {
   if (const auto* move = std::get_if<ir::Move>(&statement.node))
     writeProtectedMove(state, *move, statement.origin);
   else if (const auto* measure = std::get_if<ir::Measure>(&statement.node))
@@ -259,7 +259,7 @@ void writeAlone(State& state, const ir::Statement& statement) {
 
 } // namespace
 
-std::size_t writeBlock(State& state, const std::vector<ir::Statement>& list, std::size_t at) {
+std::size_t writeBlock(State& state, const std::vector<ir::CycleStatement>& list, std::size_t at) {
   if (isAlone(state, list[at])) {
     writeAlone(state, list[at]);
     return at + 1;

@@ -74,7 +74,7 @@ public:
   CopiedModes find() {
     const auto& list = state_.cycle.body;
     const bool same = state_.control.name == state_.options.sourceControl.name; // else they are refused
-    if (!same || std::none_of(list.begin(), list.end(), [](const ir::Statement& statement) {
+    if (!same || std::none_of(list.begin(), list.end(), [](const ir::CycleStatement& statement) {
           return std::holds_alternative<ir::OpaqueBlock>(statement.node);
         }))
       return {};
@@ -121,7 +121,7 @@ private:
   bool isExtendedPutBack() const { return state_.guards.extended == Guard::Checked; }
 
   InForce behind(std::size_t at, InForce now) const {
-    const ir::Statement& statement = state_.cycle.body[at];
+    const ir::CycleStatement& statement = state_.cycle.body[at];
     if (const auto* mode = std::get_if<ir::SetMode>(&statement.node)) {
       if (mode->mode == ir::Mode::CutterCompOff) clear(now, Function::CutterCompOff);
       if (mode->mode == ir::Mode::CannedCycleOff) clear(now, Function::CannedCycleOff);
@@ -195,7 +195,7 @@ private:
   }
 
   // What is saved, and what the user has to know, for each block that may run.
-  void report(const ir::Statement& statement) {
+  void report(const ir::CycleStatement& statement) {
     const auto* block = std::get_if<ir::OpaqueBlock>(&statement.node);
     if (block == nullptr) return;
     for (const ir::Word& word : block->words) {
@@ -230,7 +230,7 @@ private:
   }
 
   void refuse(const Key& key, const Cause& cause) {
-    const ir::Statement& statement = state_.cycle.body[cause.at];
+    const ir::CycleStatement& statement = state_.cycle.body[cause.at];
     std::string how = "under it", remedy = "take the block out of the branch";
     const auto end = [&](std::string_view what, Function off) {
       how = what;

@@ -23,14 +23,14 @@ ir::Origin made(std::string reason) {
 }
 
 bool switches(const ir::Cycle& cycle, bool on) {
-  return std::any_of(cycle.body.begin(), cycle.body.end(), [&](const ir::Statement& statement) {
+  return std::any_of(cycle.body.begin(), cycle.body.end(), [&](const ir::CycleStatement& statement) {
     const auto* power = std::get_if<ir::ProbePower>(&statement.node);
     return power != nullptr && power->on == on;
   });
 }
 
 bool probes(const ir::Cycle& cycle) {
-  return std::any_of(cycle.body.begin(), cycle.body.end(), [](const ir::Statement& statement) {
+  return std::any_of(cycle.body.begin(), cycle.body.end(), [](const ir::CycleStatement& statement) {
     const auto* move = std::get_if<ir::Move>(&statement.node);
     return std::holds_alternative<ir::Measure>(statement.node) ||
            (move != nullptr && move->motion == ir::Motion::Protected);
@@ -55,7 +55,7 @@ void writeBody(State& state) {
 // Variables of the machine that the source reads: common ones, and others of its own control.
 void checkMachineVariables(State& state) {
   for (const auto* list : {&state.cycle.checks, &state.cycle.body})
-    for (const ir::Statement& statement : *list)
+    for (const ir::CycleStatement& statement : *list)
       ir::eachNode(statement, [&](const ir::Expression& node) {
         const auto* machine = std::get_if<ir::MachineVariable>(&node.node);
         if (machine == nullptr) return;

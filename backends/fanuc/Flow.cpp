@@ -11,7 +11,7 @@ namespace {
 
 class List {
 public:
-  List(State& state, const std::vector<ir::Statement>& list, bool body)
+  List(State& state, const std::vector<ir::CycleStatement>& list, bool body)
       : state_(state), list_(list), body_(body), end_(state.mark()) {}
 
   void write() {
@@ -31,7 +31,7 @@ private:
 
   // Writes the statement at `i`; gives the index behind what was written.
   std::size_t one(std::size_t i) {
-    const ir::Statement& statement = list_[i];
+    const ir::CycleStatement& statement = list_[i];
     const ir::Origin& origin = statement.origin;
     if (state_.body != nullptr && body_) state_.at = i;
     if (const auto* assignment = std::get_if<ir::Assign>(&statement.node)) {
@@ -70,7 +70,7 @@ private:
     return i + 1;
   }
 
-  bool writeGuarded(const ir::Branch& branch, const ir::Statement& guarded) {
+  bool writeGuarded(const ir::Branch& branch, const ir::CycleStatement& guarded) {
     ir::Origin origin = guarded.origin;
     if (std::holds_alternative<ir::Alarm>(guarded.node)) {
       const std::string text = sourceAlarm(state_, guarded);
@@ -131,7 +131,7 @@ private:
   }
 
   State& state_;
-  const std::vector<ir::Statement>& list_;
+  const std::vector<ir::CycleStatement>& list_;
   bool body_;
   Mark end_;
   std::map<ir::LabelId, Mark> marks_;
@@ -139,7 +139,7 @@ private:
 
 } // namespace
 
-void writeList(State& state, const std::vector<ir::Statement>& list, bool body) {
+void writeList(State& state, const std::vector<ir::CycleStatement>& list, bool body) {
   List(state, list, body).write();
 }
 

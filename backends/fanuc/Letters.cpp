@@ -94,7 +94,7 @@ bool takeOverrides(Assignment& out, const EmitOptions& options, Diagnostics& dia
 
 void takeDirect(Assignment& out) {
   for (const auto* list : {&out.cycle.checks, &out.cycle.body})
-    for (const ir::Statement& statement : *list)
+    for (const ir::CycleStatement& statement : *list)
       for (const auto& [given, id] : statement.origin.arguments) {
         const char letter = upper(given);
         if (kOrder.find(letter) == std::string_view::npos || !out.needs(id) || out.taken.contains(letter) ||

@@ -55,7 +55,7 @@ const stdlib::MacroSignature* signatureFor(State& state, stdlib::Intent intent, 
 
 void warnIfOff(State& state, const ir::Origin& origin) {
   const auto& body = state.cycle.body;
-  const bool switched = std::any_of(body.begin(), body.end(), [](const ir::Statement& statement) {
+  const bool switched = std::any_of(body.begin(), body.end(), [](const ir::CycleStatement& statement) {
     const auto* power = std::get_if<ir::ProbePower>(&statement.node);
     return power != nullptr && power->on;
   });

@@ -17,7 +17,7 @@ ir::Origin made(std::string reason) {
 }
 
 bool setsWorkSystem(const ir::Cycle& cycle) {
-  return std::any_of(cycle.body.begin(), cycle.body.end(), [](const ir::Statement& statement) {
+  return std::any_of(cycle.body.begin(), cycle.body.end(), [](const ir::CycleStatement& statement) {
     const auto* mode = std::get_if<ir::SetMode>(&statement.node);
     return mode != nullptr && mode->mode == ir::Mode::WorkSystem;
   });

@@ -40,7 +40,7 @@ bool merge(Facts& into, const Facts& from) {
   return changed;
 }
 
-Facts behind(const ir::Statement& statement, Facts facts) {
+Facts behind(const ir::CycleStatement& statement, Facts facts) {
   if (const auto* mode = std::get_if<ir::SetMode>(&statement.node)) {
     if (mode->mode == ir::Mode::Absolute) facts.distance = Distance::Absolute;
     if (mode->mode == ir::Mode::Incremental) facts.distance = Distance::Incremental;

@@ -62,7 +62,7 @@ private:
   }
 
   void callsItself(const ir::Program& program) {
-    for (const ir::Statement& statement : program.body) {
+    for (const ir::ProgramStatement& statement : program.body) {
       const auto* call = std::get_if<ir::Call>(&statement.node);
       const double* value = call != nullptr && call->program ? ir::constantValue(call->program) : nullptr;
       if (value != nullptr && std::round(*value) == static_cast<double>(program.number))

@@ -66,7 +66,7 @@ ProgramBlocks::ProgramBlocks(const ir::Program& program, ProgramNumbers& numbers
 
 void ProgramBlocks::run() {
   nameLabels();
-  const std::vector<ir::Statement>& body = program_.body;
+  const std::vector<ir::ProgramStatement>& body = program_.body;
   for (std::size_t begin = 0; begin < body.size();) {
     std::size_t end = begin + 1;
     const std::uint32_t block = body[begin].origin.block;
@@ -81,7 +81,7 @@ void ProgramBlocks::run() {
 
 // Behind the one statement that the branch passes over; 0: it is no IF with THEN.
 std::size_t ProgramBlocks::endOfThen(std::size_t branch) const {
-  const std::vector<ir::Statement>& body = program_.body;
+  const std::vector<ir::ProgramStatement>& body = program_.body;
   const auto* node = std::get_if<ir::Branch>(&body[branch].node);
   if (node == nullptr || branch + 2 >= body.size() || !numbers_.digits(node->target).empty()) return 0;
   const std::uint32_t block = body[branch].origin.block;
@@ -164,7 +164,7 @@ void ProgramBlocks::line(std::string statement) {
 }
 
 void ProgramBlocks::statements(std::size_t begin, std::size_t end) {
-  const std::vector<ir::Statement>& body = program_.body;
+  const std::vector<ir::ProgramStatement>& body = program_.body;
   blockDelete_.clear();
   range_ = body[begin].origin.range();
   for (std::size_t i = begin; i < end; ++i) {
@@ -267,7 +267,7 @@ std::size_t ProgramBlocks::branch(std::size_t at) {
     return at + 1;
   }
   const ir::ConditionPtr condition = ir::negate(node.condition);
-  const ir::Statement& inner = program_.body[at + 1];
+  const ir::ProgramStatement& inner = program_.body[at + 1];
   if (const auto* jump = std::get_if<ir::Jump>(&inner.node)) {
     jumpWhere(condition, numbers_.target(jump->target));
   } else if (const auto* computed = std::get_if<ir::JumpTo>(&inner.node)) {
@@ -371,7 +371,7 @@ std::string ProgramBlocks::printed(const ir::Print& print) const {
   return out + "]";
 }
 
-std::string ProgramBlocks::macro(const ir::Statement& statement) {
+std::string ProgramBlocks::macro(const ir::ProgramStatement& statement) {
   const std::uint32_t most = context_.to().bracketDepth;
   const stdlib::SystemVariables& variables = context_.to().variables;
   const auto& node = statement.node;

@@ -44,7 +44,7 @@ private:
   void call(const ir::Call& call);
   void exit(const ir::Exit& exit);
   // The text of a macro statement that may stand behind THEN; "": none.
-  std::string macro(const ir::Statement& statement);
+  std::string macro(const ir::ProgramStatement& statement);
   std::string message(const std::string& text);
   std::string printed(const ir::Print& print) const;
 
@@ -62,7 +62,7 @@ private:
   std::vector<EmittedLine>& out_;
   ir::LabelId made_; // next label that is made up
   // The block that is being written.
-  const ir::Statement* statement_ = nullptr;
+  const ir::ProgramStatement* statement_ = nullptr;
   std::string blockDelete_;
   std::string number_;
   std::vector<std::string> words_;

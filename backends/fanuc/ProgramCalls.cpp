@@ -15,7 +15,7 @@ namespace dotek::backends::fanuc {
 namespace {
 
 // P of a macro call with a literal number that some set knows.
-std::optional<std::uint32_t> knownCall(const ir::Statement& statement,
+std::optional<std::uint32_t> knownCall(const ir::ProgramStatement& statement,
                                        const std::vector<stdlib::MacroSet>& sets) {
   const auto* call = std::get_if<ir::Call>(&statement.node);
   if (call == nullptr || !call->program) return std::nullopt;
@@ -30,12 +30,12 @@ std::optional<std::uint32_t> knownCall(const ir::Statement& statement,
 // `fits`: sets that know all calls so far.
 struct Found {
   std::vector<const stdlib::MacroSet*> fits;
-  const ir::Statement* first = nullptr;
-  const ir::Statement* mixed = nullptr;
+  const ir::ProgramStatement* first = nullptr;
+  const ir::ProgramStatement* mixed = nullptr;
 };
 
 void look(const ir::Program& program, const std::vector<stdlib::MacroSet>& sets, Found& found) {
-  for (const ir::Statement& statement : program.body) {
+  for (const ir::ProgramStatement& statement : program.body) {
     const auto number = knownCall(statement, sets);
     if (!number || found.mixed != nullptr) continue;
     if (found.first == nullptr) {
@@ -54,7 +54,7 @@ constexpr std::uint32_t kFirstAlarm = 150; // #3000 of the checks before calls, 
 std::uint32_t freeAlarm(const ir::ProgramFile& file, const stdlib::Control& control) {
   std::set<std::uint32_t> taken;
   for (const ir::Program& program : file.programs)
-    for (const ir::Statement& statement : program.body)
+    for (const ir::ProgramStatement& statement : program.body)
       if (const auto* raise = std::get_if<ir::Raise>(&statement.node))
         if (const double* value = ir::constantValue(raise->number); value != nullptr && *value >= 0)
           taken.insert(static_cast<std::uint32_t>(std::lround(*value)));
@@ -85,7 +85,7 @@ public:
       : program_(program), file_(file), settings_(settings), diagnostics_(diagnostics) {}
 
   void run() {
-    std::vector<ir::Statement> body = std::move(program_.body);
+    std::vector<ir::ProgramStatement> body = std::move(program_.body);
     program_.body.clear();
     for (std::size_t begin = 0; begin < body.size();) {
       std::size_t end = begin + 1;
@@ -105,13 +105,13 @@ public:
   }
 
 private:
-  void add(ir::Statement statement) {
+  void add(ir::ProgramStatement statement) {
     if (statement.origin.block != 0) statement.origin.block = block_;
     program_.body.push_back(std::move(statement));
   }
 
   // `behindWords`: something is carried out before it in its block.
-  void statement(ir::Statement one, bool behindWords) {
+  void statement(ir::ProgramStatement one, bool behindWords) {
     if (const auto* block = std::get_if<ir::NcBlock>(&one.node)) probeSwitch(*block, one.origin.range());
     const auto* call = std::get_if<ir::Call>(&one.node);
     if (call == nullptr || call->kind == ir::CallKind::Off) return add(std::move(one));
@@ -140,13 +140,13 @@ private:
   }
 
   // Each block and each check of `before` on a line of its own; the label of the call's block stays first.
-  void write(ir::Statement one, TranslatedCall there, bool behindWords) {
+  void write(ir::ProgramStatement one, TranslatedCall there, bool behindWords) {
     bool fresh = !behindWords; // nothing stands on the line
     bool open = false;         // a check reaches to its label
     const auto line = [&] {
       if (!std::exchange(fresh, false)) ++block_;
     };
-    for (ir::Statement& before : there.before) {
+    for (ir::ProgramStatement& before : there.before) {
       if (!open) line();
       open = std::holds_alternative<ir::Branch>(before.node) ||
              (open && !std::holds_alternative<ir::Label>(before.node));
@@ -190,9 +190,9 @@ private:
 };
 
 // A call whose program is computed, or nullptr.
-const ir::Statement* computedCall(const ir::ProgramFile& file) {
+const ir::ProgramStatement* computedCall(const ir::ProgramFile& file) {
   for (const ir::Program& program : file.programs)
-    for (const ir::Statement& statement : program.body)
+    for (const ir::ProgramStatement& statement : program.body)
       if (const auto* call = std::get_if<ir::Call>(&statement.node))
         if (call->program && ir::constantValue(call->program) == nullptr) return &statement;
   return nullptr;
@@ -201,7 +201,7 @@ const ir::Statement* computedCall(const ir::ProgramFile& file) {
 } // namespace
 
 const stdlib::MacroSet* calledSet(const ir::ProgramFile& file, const std::vector<stdlib::MacroSet>& sets,
-                                  const ir::Statement** mixed) {
+                                  const ir::ProgramStatement** mixed) {
   Found found;
   for (const ir::Program& program : file.programs)
     look(program, sets, found);
@@ -215,7 +215,7 @@ bool translateCalls(ir::ProgramFile& file, const CallOptions& options, Diagnosti
     look(program, options.sets, found);
   const stdlib::MacroSet& wanted = options.wanted;
   if (found.first == nullptr) {
-    const ir::Statement* computed = computedCall(file);
+    const ir::ProgramStatement* computed = computedCall(file);
     if (computed == nullptr) return true;
     diagnostics.report<diag::CallNotTranslated>(
         computed->origin.range(), wanted.name,
@@ -226,7 +226,7 @@ bool translateCalls(ir::ProgramFile& file, const CallOptions& options, Diagnosti
                                 [&](const stdlib::MacroSet* set) { return set->name == wanted.name; });
   if (same && found.mixed == nullptr) return true;
   if (found.fits.size() != 1) {
-    const ir::Statement& at = found.mixed != nullptr ? *found.mixed : *found.first;
+    const ir::ProgramStatement& at = found.mixed != nullptr ? *found.mixed : *found.first;
     diagnostics.report<diag::CallsOfSeveralSets>(at.origin.range(), wanted.name,
                                                  *knownCall(at, options.sets));
     return false;

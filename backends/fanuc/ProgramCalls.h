@@ -15,7 +15,7 @@ namespace dotek::backends::fanuc {
 // The set whose programs the file calls: the one that knows every called number that some set knows. nullptr:
 // none is called, or they belong to no single set (`mixed` is a call that does not fit).
 const stdlib::MacroSet* calledSet(const ir::ProgramFile& file, const std::vector<stdlib::MacroSet>& sets,
-                                  const ir::Statement** mixed = nullptr);
+                                  const ir::ProgramStatement** mixed = nullptr);
 
 struct CallOptions {
   const stdlib::MacroSet& wanted;

@@ -44,7 +44,7 @@ public:
   Variables(ir::Program& program, const ProgramContext& context) : program_(program), context_(context) {}
 
   void run() {
-    for (ir::Statement& statement : program_.body) {
+    for (ir::ProgramStatement& statement : program_.body) {
       statement_ = &statement;
       if (auto* store = std::get_if<ir::Store>(&statement.node)) stored(*store);
       ir::rewrite(statement, [&](const ir::ExpressionPtr& expression) { return used(expression); });
@@ -114,7 +114,7 @@ private:
 
   ir::Program& program_;
   const ProgramContext& context_;
-  ir::Statement* statement_ = nullptr;
+  ir::ProgramStatement* statement_ = nullptr;
   bool told_ = false;
 };
 
@@ -124,7 +124,7 @@ public:
       : program_(program), file_(file), context_(context) {}
 
   void run() {
-    for (const ir::Statement& statement : program_.body) {
+    for (const ir::ProgramStatement& statement : program_.body) {
       statement_ = &statement;
       ir::eachNode(statement, [&](const ir::Expression& node) { expression(node); });
       if (context_.same()) continue;
@@ -266,7 +266,7 @@ private:
       if (const auto known = depth.find(&program); known != depth.end()) return known->second;
       if (open.size() > kMostCalls || !open.insert(&program).second) return 0u;
       std::uint32_t most = 0;
-      for (const ir::Statement& statement : program.body) {
+      for (const ir::ProgramStatement& statement : program.body) {
         const auto* call = std::get_if<ir::Call>(&statement.node);
         if (call == nullptr || call->kind == ir::CallKind::Off) continue;
         const auto number = wholeOf(call->program);
@@ -286,7 +286,7 @@ private:
   const ir::Program& program_;
   const ir::ProgramFile& file_;
   const ProgramContext& context_;
-  const ir::Statement* statement_ = nullptr;
+  const ir::ProgramStatement* statement_ = nullptr;
   bool outputTold_ = false;
   bool arithmeticTold_ = false;
 };

@@ -26,7 +26,7 @@ struct Called {
   bool computed = false;
 };
 
-Called calledBy(const ir::Statement& statement, const stdlib::Control& control) {
+Called calledBy(const ir::ProgramStatement& statement, const stdlib::Control& control) {
   Called out;
   if (const auto* call = std::get_if<ir::Call>(&statement.node); call && call->kind != ir::CallKind::Off) {
     if (const auto number = wholeOf(call->program)) {
@@ -58,7 +58,7 @@ std::string digitsOf(const ir::ProgramLabel& label) {
   return label.digits.empty() ? std::to_string(label.number) : label.digits;
 }
 
-std::optional<ir::LabelId> targetOf(const ir::Statement& statement) {
+std::optional<ir::LabelId> targetOf(const ir::ProgramStatement& statement) {
   if (const auto* jump = std::get_if<ir::Jump>(&statement.node)) return jump->target;
   if (const auto* branch = std::get_if<ir::Branch>(&statement.node)) return branch->target;
   return std::nullopt;
@@ -69,7 +69,7 @@ std::optional<ir::LabelId> targetOf(const ir::Statement& statement) {
 std::map<ir::LabelId, std::uint64_t> renumbered(const ir::Program& program, std::uint64_t start,
                                                 std::uint64_t step) {
   std::map<ir::LabelId, std::uint64_t> out;
-  for (const ir::Statement& statement : program.body) {
+  for (const ir::ProgramStatement& statement : program.body) {
     const auto* label = std::get_if<ir::Label>(&statement.node);
     if (label == nullptr || !isNumbered(program.labels[label->label])) continue;
     if (out.emplace(label->label, start).second) start += step;
@@ -85,7 +85,7 @@ ProgramNumbers::ProgramNumbers(const ir::ProgramFile& file, const ir::Program& p
   if (context.options.renumber) renumber();
   for (const auto& [id, text] : digits_)
     used_.insert(std::stoull(text));
-  for (const ir::Statement& statement : program.body) {
+  for (const ir::ProgramStatement& statement : program.body) {
     const auto* jump = std::get_if<ir::JumpTo>(&statement.node);
     if (jump == nullptr) continue;
     if (const auto number = wholeOf(jump->number))
@@ -94,7 +94,7 @@ ProgramNumbers::ProgramNumbers(const ir::ProgramFile& file, const ir::Program& p
       computed_ = statement.origin.range();
   }
   for (const ir::Program& one : file.programs) {
-    for (const ir::Statement& statement : one.body) {
+    for (const ir::ProgramStatement& statement : one.body) {
       const auto* exit = std::get_if<ir::Exit>(&statement.node);
       if (exit == nullptr || !exit->block) continue;
       if (const auto number = wholeOf(exit->block))
@@ -110,7 +110,7 @@ void ProgramNumbers::renumber() {
   Diagnostics& diagnostics = context_.diagnostics;
   const std::uint32_t last = context_.to().sequenceLast;
   bool callsOut = false;
-  for (const ir::Statement& statement : program_.body) {
+  for (const ir::ProgramStatement& statement : program_.body) {
     const SourceRange range = statement.origin.range();
     if (std::holds_alternative<ir::JumpTo>(statement.node))
       diagnostics.report<diag::RenumberComputed>(range, "GOTO");
@@ -141,7 +141,7 @@ void ProgramNumbers::renumber() {
 // A GOTO names a number, and the control searches for it: forward, then from the top.
 void ProgramNumbers::checkJumps() {
   std::map<std::uint64_t, std::vector<std::size_t>> places;
-  const std::vector<ir::Statement>& body = program_.body;
+  const std::vector<ir::ProgramStatement>& body = program_.body;
   for (std::size_t i = 0; i < body.size(); ++i)
     if (const auto* label = std::get_if<ir::Label>(&body[i].node); label && digits_.contains(label->label))
       places[program_.labels[label->label].number].push_back(i);
@@ -207,7 +207,7 @@ void ProgramNumbers::findCallers() {
   callers_ = Callers{{}, false};
   for (const ir::Program& caller : file_.programs) {
     bool calls = false;
-    for (const ir::Statement& statement : caller.body) {
+    for (const ir::ProgramStatement& statement : caller.body) {
       const Called called = calledBy(statement, context_.from());
       callers_->open = callers_->open || called.computed;
       calls = calls || (program_.number != 0 &&

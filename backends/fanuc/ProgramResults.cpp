@@ -64,7 +64,7 @@ public:
               changed = into[i].insert(one).second || changed;
           return changed;
         });
-    const std::vector<ir::Statement> source = program_.body; // calls as they were
+    const std::vector<ir::ProgramStatement> source = program_.body; // calls as they were
     source_ = &source;
     for (std::size_t at = 0; at < program_.body.size(); ++at) {
       fact_ = facts[at] ? *facts[at] : Fact(numbers_.size(), Setters{kOutside});
@@ -91,7 +91,7 @@ private:
     const auto add = [&](std::optional<std::uint32_t> number) {
       if (number && concerns(*number)) indices_.try_emplace(*number, 0);
     };
-    for (const ir::Statement& statement : program_.body) {
+    for (const ir::ProgramStatement& statement : program_.body) {
       ir::eachNode(statement, [&](const ir::Expression& node) {
         if (const auto* machine = std::get_if<ir::MachineVariable>(&node.node)) add(wholeOf(machine->number));
       });
@@ -128,7 +128,7 @@ private:
       calls_[at] = first.try_emplace(key, static_cast<int>(at)).first->second;
     }
     for (const ir::Program& one : file_.programs)
-      for (const ir::Statement& statement : one.body)
+      for (const ir::ProgramStatement& statement : one.body)
         if (const auto* exit = std::get_if<ir::Exit>(&statement.node))
           returnsElsewhere_ = returnsElsewhere_ || exit->block != nullptr;
   }
@@ -145,7 +145,7 @@ private:
     for (bool changed = true; changed;) {
       changed = false;
       for (const ir::Program& one : file_.programs) {
-        const bool keep = std::all_of(one.body.begin(), one.body.end(), [&](const ir::Statement& statement) {
+        const bool keep = std::all_of(one.body.begin(), one.body.end(), [&](const ir::ProgramStatement& statement) {
           if (const auto* store = std::get_if<ir::Store>(&statement.node)) {
             const auto stored = wholeOf(store->number);
             return stored && !concerns(*stored);
@@ -160,7 +160,7 @@ private:
 
   Fact behind(std::size_t at, const Fact& before) {
     Fact fact = before;
-    const ir::Statement& statement = program_.body[at];
+    const ir::ProgramStatement& statement = program_.body[at];
     const bool maybe = statement.blockDelete != 0;
     const auto set = [&](std::size_t index, int setter, bool alone) {
       if (alone && !maybe) fact[index].clear();
@@ -198,7 +198,7 @@ private:
 
   // ---- reads and stores
 
-  void statement(ir::Statement& statement) {
+  void statement(ir::ProgramStatement& statement) {
     range_ = statement.origin.range();
     if (const auto* store = std::get_if<ir::Store>(&statement.node)) stored(*store);
     ir::rewrite(statement, [&](const ir::ExpressionPtr& expression) { return used(expression); });
@@ -261,7 +261,7 @@ private:
   TranslatedVariable behindSetter(std::uint32_t number, int setter) {
     if (setter == kOwn) return {"", number};
     if (setter >= 0) {
-      const ir::Statement& call = (*source_)[static_cast<std::size_t>(setter)];
+      const ir::ProgramStatement& call = (*source_)[static_cast<std::size_t>(setter)];
       if (!isSkip(number)) return translateResult(std::get<ir::Call>(call.node), number, settings_);
       return {fmt::format("#{} is where the last touch of a macro ended, and other macros touch otherwise",
                           number),
@@ -326,7 +326,7 @@ private:
   std::set<std::uint32_t> keeps_;                // programs of the file that leave all of them alone
   bool modal_ = false;                           // a G66 may run something behind any move
   bool returnsElsewhere_ = false;                // a program of the file ends with M99 P
-  const std::vector<ir::Statement>* source_ = nullptr;
+  const std::vector<ir::ProgramStatement>* source_ = nullptr;
   Fact fact_; // before the statement
   SourceRange range_;
   std::set<std::uint32_t> told_; // variables; 0: a computed number

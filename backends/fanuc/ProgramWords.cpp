@@ -59,12 +59,12 @@ public:
     counts_ = to().decimal != from().decimal ||
               (to().decimal == stdlib::DecimalMode::Increment && to().increment != from().increment);
     for (const ir::Program& one : file.programs)
-      for (const ir::Statement& statement : one.body)
+      for (const ir::ProgramStatement& statement : one.body)
         seen(statement);
   }
 
   void run() {
-    for (ir::Statement& statement : program_.body) {
+    for (ir::ProgramStatement& statement : program_.body) {
       range_ = statement.origin.range();
       if (auto* block = std::get_if<ir::NcBlock>(&statement.node)) words(*block);
       if (auto* call = std::get_if<ir::Call>(&statement.node)) arguments(*call);
@@ -82,7 +82,7 @@ private:
   }
 
   // Modes of the file under which the numbers or addresses of a block mean something else.
-  void seen(const ir::Statement& statement) {
+  void seen(const ir::ProgramStatement& statement) {
     if (const auto* call = std::get_if<ir::Call>(&statement.node))
       eachBlock_ = eachBlock_ || call->kind == ir::CallKind::EachBlock;
     const auto* block = std::get_if<ir::NcBlock>(&statement.node);

@@ -24,7 +24,7 @@ std::map<ir::VariableId, std::set<ir::VariableId>> sources(const ir::Cycle& cycl
     if (cycle.variable(id).role != ir::Role::Local) out[id].insert(id);
   for (bool changed = true; changed;) {
     changed = false;
-    for (const ir::Statement& statement : cycle.checks) {
+    for (const ir::CycleStatement& statement : cycle.checks) {
       const auto* assign = std::get_if<ir::Assign>(&statement.node);
       if (assign == nullptr) continue;
       auto& into = out[assign->variable];
@@ -57,7 +57,7 @@ void visit(const ir::ConditionPtr& condition, const std::function<void(const ir:
 Compared comparedWith(const ir::Cycle& cycle, ir::VariableId id) {
   const auto from = sources(cycle);
   Compared out;
-  for (const ir::Statement& statement : cycle.checks) {
+  for (const ir::CycleStatement& statement : cycle.checks) {
     ir::eachNode(statement, [&](const ir::Expression& node) {
       if (const auto* constant = std::get_if<ir::Constant>(&node.node)) {
         out.constants.insert(constant->value);

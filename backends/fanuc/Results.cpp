@@ -55,7 +55,7 @@ std::optional<std::uint32_t> common(const stdlib::MacroSet& macros, ir::ResultNa
   return out;
 }
 
-bool callsMacro(const State& state, const ir::Statement& statement) {
+bool callsMacro(const State& state, const ir::CycleStatement& statement) {
   if (const auto* move = std::get_if<ir::Move>(&statement.node)) return move->motion == ir::Motion::Protected;
   if (const auto* power = std::get_if<ir::ProbePower>(&statement.node))
     return state.macros.find(power->on ? stdlib::Intent::ProbeOn : stdlib::Intent::ProbeOff) != nullptr;
@@ -91,7 +91,7 @@ void planResults(State& state, Body& body) {
       if (const auto* result = std::get_if<ir::MeasuredResult>(&node.node)) names.insert(result->name);
     });
     if (names.empty()) continue;
-    const auto at = std::find_if(list.begin(), list.end(), [&](const ir::Statement& statement) {
+    const auto at = std::find_if(list.begin(), list.end(), [&](const ir::CycleStatement& statement) {
       return std::get_if<ir::Measure>(&statement.node) == last;
     });
     if (!overwritten(state, static_cast<std::size_t>(at - list.begin()), i)) continue;

@@ -101,7 +101,7 @@ struct State {
 
   // Alarms: those of the source by statement, then ours, in the order of their numbers.
   std::vector<AlarmText> alarms;
-  std::map<const ir::Statement*, std::size_t> sourceAlarms; // index in `alarms`
+  std::map<const ir::CycleStatement*, std::size_t> sourceAlarms; // index in `alarms`
   Guards guards;
   CopiedModes copied;
   std::vector<ir::ExpressionPtr> systems; // work systems to be checked at entry
@@ -157,7 +157,7 @@ void doIf(State& state, const ir::ConditionPtr& condition, const std::string& st
 // Numbers for the alarms of checks and body, in source order.
 void collectAlarms(State& state);
 // `#3000=n(TEXT)` of an alarm statement of the source; its full text goes to the sheet as a comment.
-std::string sourceAlarm(State& state, const ir::Statement& statement);
+std::string sourceAlarm(State& state, const ir::CycleStatement& statement);
 // `#3006=1(TEXT)`, where the control has that; the full text goes to the sheet where it is cut.
 std::string stopText(State& state, const std::string& message, const ir::Origin& origin);
 // An alarm of our own where the condition holds.
@@ -171,12 +171,12 @@ std::string headerText(std::string_view utf8);
 // ---- Flow.cpp ----
 
 // Writes checks or body.
-void writeList(State& state, const std::vector<ir::Statement>& list, bool body);
+void writeList(State& state, const std::vector<ir::CycleStatement>& list, bool body);
 
 // ---- Blocks.cpp ----
 
 // Writes the block that begins at `at` of the body; gives the index behind it.
-std::size_t writeBlock(State& state, const std::vector<ir::Statement>& list, std::size_t at);
+std::size_t writeBlock(State& state, const std::vector<ir::CycleStatement>& list, std::size_t at);
 
 // ---- Places.cpp ----
 

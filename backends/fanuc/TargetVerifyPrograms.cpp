@@ -114,14 +114,14 @@ std::optional<std::vector<verify::DrawField>> ProgramRunner::fields() {
 bool ProgramRunner::addCaller() {
   const std::vector<ir::Program>& programs = programs_->programs;
   const auto& body = programs.front().body;
-  const bool returns = std::any_of(body.begin(), body.end(), [](const ir::Statement& statement) {
+  const bool returns = std::any_of(body.begin(), body.end(), [](const ir::ProgramStatement& statement) {
     return std::holds_alternative<ir::Exit>(statement.node);
   });
   if (!returns) return true;
   std::set<std::uint64_t> taken;
   for (const ir::Program& program : programs) {
     taken.insert(program.number);
-    for (const ir::Statement& statement : program.body) {
+    for (const ir::ProgramStatement& statement : program.body) {
       const auto* call = std::get_if<ir::Call>(&statement.node);
       const double* number = call != nullptr && call->program ? ir::constantValue(call->program) : nullptr;
       if (number != nullptr && *number >= 1 && *number < 1e8)

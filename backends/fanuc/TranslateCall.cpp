@@ -280,7 +280,7 @@ private:
   }
 
   template <class Node> void add(Node node) {
-    ir::Statement statement;
+    ir::ProgramStatement statement;
     statement.node = std::move(node);
     out_.before.push_back(std::move(statement));
   }

@@ -23,7 +23,7 @@ struct TranslateSettings {
 
 struct TranslatedCall {
   std::string refusal;               // why it cannot be written; "": the rest holds
-  std::vector<ir::Statement> before; // without origin; in this order before the call
+  std::vector<ir::ProgramStatement> before; // without origin; in this order before the call
   std::optional<ir::Call> call;      // nothing: `before` says it all
   std::vector<std::string> notes;    // what a reader of the program has to know, in lower case
 };

@@ -28,7 +28,7 @@ void collect(Ids& out, const ir::ExpressionPtr& expression) {
 }
 
 // What a move or a measurement moves by.
-Ids movesBy(const ir::Statement& statement) {
+Ids movesBy(const ir::CycleStatement& statement) {
   Ids out;
   if (const auto* move = std::get_if<ir::Move>(&statement.node)) {
     for (const auto& axis : move->axes)
@@ -44,7 +44,7 @@ Ids movesBy(const ir::Statement& statement) {
   return out;
 }
 
-bool mayMove(const ir::Statement& statement) {
+bool mayMove(const ir::CycleStatement& statement) {
   return std::holds_alternative<ir::Move>(statement.node) ||
          std::holds_alternative<ir::Measure>(statement.node) ||
          std::holds_alternative<ir::OpaqueBlock>(statement.node);
@@ -82,7 +82,7 @@ Ids variablesOf(const ir::ConditionPtr& condition) {
 Ids usedVariables(const ir::Cycle& cycle) {
   Ids out;
   for (const auto* list : {&cycle.checks, &cycle.body})
-    for (const ir::Statement& statement : *list) {
+    for (const ir::CycleStatement& statement : *list) {
       if (const auto* assign = std::get_if<ir::Assign>(&statement.node)) out.insert(assign->variable);
       ir::eachNode(statement, [&](const ir::Expression& node) {
         if (const auto* use = std::get_if<ir::VariableUse>(&node.node)) out.insert(use->variable);
@@ -91,8 +91,8 @@ Ids usedVariables(const ir::Cycle& cycle) {
   return out;
 }
 
-bool isAssigned(const std::vector<ir::Statement>& list, ir::VariableId id) {
-  return std::any_of(list.begin(), list.end(), [&](const ir::Statement& statement) {
+bool isAssigned(const std::vector<ir::CycleStatement>& list, ir::VariableId id) {
+  return std::any_of(list.begin(), list.end(), [&](const ir::CycleStatement& statement) {
     const auto* assign = std::get_if<ir::Assign>(&statement.node);
     return assign != nullptr && assign->variable == id;
   });
@@ -121,13 +121,13 @@ std::vector<bool> reachableFrom(const std::vector<std::vector<std::size_t>>& nex
 
 Ids movingVariables(const ir::Cycle& cycle) {
   Ids out;
-  for (const ir::Statement& statement : cycle.body)
+  for (const ir::CycleStatement& statement : cycle.body)
     out.merge(movesBy(statement));
   const auto next = ir::successors(cycle.body);
   for (std::size_t before = out.size() + 1; before != out.size();) {
     before = out.size();
     for (const auto* list : {&cycle.checks, &cycle.body})
-      for (const ir::Statement& statement : *list) {
+      for (const ir::CycleStatement& statement : *list) {
         const auto* assign = std::get_if<ir::Assign>(&statement.node);
         if (assign != nullptr && out.contains(assign->variable)) collect(out, assign->value);
       }

@@ -11,7 +11,7 @@ std::set<ir::VariableId> variablesOf(const ir::ExpressionPtr& expression);
 std::set<ir::VariableId> variablesOf(const ir::ConditionPtr& condition);
 // Read or assigned in checks or body.
 std::set<ir::VariableId> usedVariables(const ir::Cycle& cycle);
-bool isAssigned(const std::vector<ir::Statement>& list, ir::VariableId id);
+bool isAssigned(const std::vector<ir::CycleStatement>& list, ir::VariableId id);
 // start_x, start_y, start_z.
 bool isStartHost(const ir::Variable& variable);
 // Variables that reach a coordinate, travel, diameter or feed of a move or a measurement, directly, through

@@ -145,8 +145,8 @@ void writeBlocks(State& state) {
       lines.push_back(printed(state, texts, blocks[i]));
       continue;
     }
-    std::vector<const ir::Statement*> statements;
-    for (const ir::Statement& statement : state.cycle.body)
+    std::vector<const ir::CycleStatement*> statements;
+    for (const ir::CycleStatement& statement : state.cycle.body)
       if (statement.origin.block == i + 1) statements.push_back(&statement);
     if (statements.empty()) continue; // it says nothing, or nobody reaches it
     std::vector<Text> own;

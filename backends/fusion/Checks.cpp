@@ -92,7 +92,7 @@ private:
   }
 
   // Assignments and alarms.
-  void plain(const ir::Statement& statement) {
+  void plain(const ir::CycleStatement& statement) {
     const ir::Origin& origin = statement.origin;
     if (const auto* assign = std::get_if<ir::Assign>(&statement.node)) {
       guardArithmetic(state_, assign->value, origin);
@@ -146,7 +146,7 @@ private:
   }
 
   State& state_;
-  const std::vector<ir::Statement>& list_;
+  const std::vector<ir::CycleStatement>& list_;
   std::map<ir::LabelId, std::size_t> places_;
   std::map<std::size_t, std::vector<std::size_t>> from_; // label's index: jumps to it
 };
@@ -156,7 +156,7 @@ private:
 void writeChecks(State& state) {
   // Declared first: a function has one level of names.
   std::set<ir::VariableId> assigned;
-  for (const ir::Statement& statement : state.cycle.checks)
+  for (const ir::CycleStatement& statement : state.cycle.checks)
     if (const auto* assign = std::get_if<ir::Assign>(&statement.node)) assigned.insert(assign->variable);
   for (const ir::VariableId id : assigned)
     if (state.cycle.variable(id).role == ir::Role::Local) state.script.add("var " + state.name(id) + ";");

@@ -11,7 +11,7 @@ namespace dotek::backends::fusion {
 namespace {
 
 bool isStraight(const ir::Cycle& cycle) {
-  return std::none_of(cycle.body.begin(), cycle.body.end(), [](const ir::Statement& statement) {
+  return std::none_of(cycle.body.begin(), cycle.body.end(), [](const ir::CycleStatement& statement) {
     return std::holds_alternative<ir::Label>(statement.node) ||
            std::holds_alternative<ir::Jump>(statement.node) ||
            std::holds_alternative<ir::Branch>(statement.node) ||
@@ -20,7 +20,7 @@ bool isStraight(const ir::Cycle& cycle) {
 }
 
 bool probes(const ir::Cycle& cycle) {
-  return std::any_of(cycle.body.begin(), cycle.body.end(), [](const ir::Statement& statement) {
+  return std::any_of(cycle.body.begin(), cycle.body.end(), [](const ir::CycleStatement& statement) {
     const auto* move = std::get_if<ir::Move>(&statement.node);
     return std::holds_alternative<ir::Measure>(statement.node) ||
            (move != nullptr && move->motion == ir::Motion::Protected);

@@ -26,14 +26,14 @@ ir::ExpressionPtr difference(const ir::ExpressionPtr& a, const ir::ExpressionPtr
   return ir::simplify(ir::binary(ir::BinaryOp::Subtract, a, b));
 }
 
-bool isMacro(const State& state, const ir::Statement& statement) {
+bool isMacro(const State& state, const ir::CycleStatement& statement) {
   if (const auto* power = std::get_if<ir::ProbePower>(&statement.node))
     return state.options.macros.find(power->on ? stdlib::Intent::ProbeOn : stdlib::Intent::ProbeOff) !=
            nullptr;
   return std::holds_alternative<ir::Measure>(statement.node);
 }
 
-bool readsResult(const ir::Statement& statement) {
+bool readsResult(const ir::CycleStatement& statement) {
   bool found = false;
   ir::eachNode(statement, [&](const ir::Expression& node) {
     found = found || std::holds_alternative<ir::MeasuredResult>(node.node);
@@ -82,11 +82,11 @@ MacroBlocks::MacroBlocks(State& state, Texts& texts) : state_(state), texts_(tex
   }
 }
 
-bool MacroBlocks::block(const std::vector<const ir::Statement*>& statements, std::vector<Text>& lines) {
-  const bool rewritten = std::any_of(statements.begin(), statements.end(), [&](const ir::Statement* one) {
+bool MacroBlocks::block(const std::vector<const ir::CycleStatement*>& statements, std::vector<Text>& lines) {
+  const bool rewritten = std::any_of(statements.begin(), statements.end(), [&](const ir::CycleStatement* one) {
     return isMacro(state_, *one) || std::holds_alternative<ir::Move>(one->node) || readsResult(*one);
   });
-  for (const ir::Statement* one : statements) {
+  for (const ir::CycleStatement* one : statements) {
     const ir::Origin& origin = one->origin;
     if (std::holds_alternative<ir::OpaqueBlock>(one->node)) {
       state_.refuse<diag::FusionOpaque>(origin.range(), state_.options.macros.title);
@@ -103,7 +103,7 @@ bool MacroBlocks::block(const std::vector<const ir::Statement*>& statements, std
   }
   if (!rewritten) return false;
   Text codes;
-  for (const ir::Statement* one : statements) {
+  for (const ir::CycleStatement* one : statements) {
     const ir::Origin& origin = one->origin;
     if (const auto* go = std::get_if<ir::Move>(&one->node)) {
       move(*go, origin, lines);
@@ -139,7 +139,7 @@ void MacroBlocks::code(Function function, std::string_view what, const ir::Origi
 }
 
 // A code beside a move in the source's block; it acts before the move.
-bool MacroBlocks::otherCode(const ir::Statement& statement, Text& text) {
+bool MacroBlocks::otherCode(const ir::CycleStatement& statement, Text& text) {
   const ir::Origin& origin = statement.origin;
   if (const auto* mode = std::get_if<ir::SetMode>(&statement.node)) {
     switch (mode->mode) {

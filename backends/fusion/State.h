@@ -115,7 +115,7 @@ class MacroBlocks {
 public:
   MacroBlocks(State& state, Texts& texts);
   // The lines that stand for the statements of one block; false: the Prog's own text does.
-  bool block(const std::vector<const ir::Statement*>& statements, std::vector<Text>& lines);
+  bool block(const std::vector<const ir::CycleStatement*>& statements, std::vector<Text>& lines);
   // Behind the last block: G91 where the source leaves it in force and our moves have written G90; nullptr:
   // no line, else the origin of the line.
   const ir::Origin* putBack(Text& text);
@@ -132,7 +132,7 @@ private:
   void code(stdlib::Function function, std::string_view what, const ir::Origin& origin, Text& text);
   void store(const ir::Store& store, const ir::Origin& origin, std::vector<Text>& lines);
   void switchProbe(bool on, std::vector<Text>& lines);
-  bool otherCode(const ir::Statement& statement, Text& text);
+  bool otherCode(const ir::CycleStatement& statement, Text& text);
   bool requireNominal(const ir::Measure& measure, const ir::Origin& origin);
   // The coordinate in the frame that the macro wants; null pointer: refused.
   ir::ExpressionPtr place(const ir::Coordinate& coordinate, ir::Axis axis, ir::Frame wanted,

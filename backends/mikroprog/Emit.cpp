@@ -22,14 +22,14 @@ constexpr std::uint32_t kEnd = 90;       // from there
 constexpr std::uint32_t kTailStep = 5;
 constexpr std::uint32_t kSubprograms = 5000; // the first, each at a thousand
 
-bool probes(const ir::Statement& statement) {
+bool probes(const ir::CycleStatement& statement) {
   const auto* move = std::get_if<ir::Move>(&statement.node);
   return std::holds_alternative<ir::Measure>(statement.node) ||
          (move != nullptr && move->motion == ir::Motion::Protected);
 }
 
 bool measures(const ir::Cycle& cycle) {
-  return std::any_of(cycle.body.begin(), cycle.body.end(), [](const ir::Statement& statement) {
+  return std::any_of(cycle.body.begin(), cycle.body.end(), [](const ir::CycleStatement& statement) {
     return std::holds_alternative<ir::Measure>(statement.node);
   });
 }
@@ -89,7 +89,7 @@ private:
     missing(coolant, "the coolant", "coolant-off");
   }
 
-  void one(const ir::Statement& statement, std::size_t index) {
+  void one(const ir::CycleStatement& statement, std::size_t index) {
     const auto& node = statement.node;
     const ir::Origin& origin = statement.origin;
     const SourceRange range = origin.range();
@@ -365,7 +365,7 @@ void numberSheets(State& state, std::vector<EmittedLine>& out) {
 
 bool movesY(const ir::Cycle& cycle) {
   constexpr std::size_t kY = ir::indexOf(ir::Axis::Y);
-  return std::any_of(cycle.body.begin(), cycle.body.end(), [](const ir::Statement& statement) {
+  return std::any_of(cycle.body.begin(), cycle.body.end(), [](const ir::CycleStatement& statement) {
     if (const auto* measure = std::get_if<ir::Measure>(&statement.node))
       return measure->feature == ir::Feature::Bore || measure->axis == ir::Axis::Y;
     const auto* move = std::get_if<ir::Move>(&statement.node);

@@ -55,7 +55,7 @@ struct State {
   std::set<std::uint32_t> relied;      // questions that the program relies on
   std::vector<std::string> remarks;    // of the header: what is dropped or changed
   std::set<std::string> remarked;      // what is said once
-  std::set<const ir::Statement*> done; // written before their place
+  std::set<const ir::CycleStatement*> done; // written before their place
   bool failed = false;
 };
 

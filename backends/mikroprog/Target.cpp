@@ -87,7 +87,7 @@ std::optional<MikroprogProgram> writeMikroprog(const CycleFolder& folder, Lowere
     diagnostics.report<diag::HostNeeded>(cycle.range, folder.name, host, info->meaning, host);
   }
   if (diagnostics.hasErrors()) return std::nullopt;
-  if (const std::optional<ir::Statement> alarm = certainAlarm(lowered)) {
+  if (const std::optional<ir::CycleStatement> alarm = certainAlarm(lowered)) {
     reportRejected(folder, *alarm, session);
     return std::nullopt;
   }

@@ -34,7 +34,7 @@ struct LowerSettings {
 };
 
 struct Lowered {
-  std::vector<ir::Statement> body;
+  std::vector<ir::CycleStatement> body;
   const stdlib::MacroSet* macros = nullptr; // the set that the blocks call; nullptr: none
   std::vector<ir::PrintedBlock> printed;    // the text of the blocks
 };

@@ -10,7 +10,7 @@ public:
   Emitter(const Flat& flat, const WalkResult& walk, const EmitOptions& options, ir::Cycle& cycle)
       : flat_(flat), walk_(walk), options_(options), cycle_(cycle) {}
 
-  std::vector<ir::Statement> run() {
+  std::vector<ir::CycleStatement> run() {
     const std::size_t size = flat_.steps.size();
     for (const ir::VariableId id : walk_.unset) {
       if (options_.unsetZero || id == flat_.returnCode) zero(id, {});
@@ -27,7 +27,7 @@ public:
   }
 
 private:
-  void add(decltype(ir::Statement::node) node, SourceRange range, std::size_t target = kNowhere) {
+  void add(decltype(ir::CycleStatement::node) node, SourceRange range, std::size_t target = kNowhere) {
     out_.push_back({statementOf(std::move(node), range), target, false});
   }
 
@@ -79,7 +79,7 @@ private:
       add(ir::Branch{ir::compare(ir::Relation::Equal, ir::variable(s.code), ir::constant(0, {}, "0")), 0}, {},
           flat_.steps.size());
     }
-    ir::Statement alarm = statementOf(ir::Alarm{}, {});
+    ir::CycleStatement alarm = statementOf(ir::Alarm{}, {});
     alarm.origin.ranges.clear();
     const auto codes = walk_.codes.find(at);
     if (codes != walk_.codes.end()) {
@@ -138,14 +138,14 @@ private:
     return changed;
   }
 
-  static std::vector<SourceRange> mergedRanges(const ir::Statement& a, const ir::Statement& b) {
+  static std::vector<SourceRange> mergedRanges(const ir::CycleStatement& a, const ir::CycleStatement& b) {
     std::vector<SourceRange> ranges = a.origin.ranges;
     for (const SourceRange& range : b.origin.ranges)
       if (std::find(ranges.begin(), ranges.end(), range) == ranges.end()) ranges.push_back(range);
     return ranges;
   }
 
-  std::vector<ir::Statement> placed() {
+  std::vector<ir::CycleStatement> placed() {
     std::map<std::size_t, ir::LabelId> labels; // by place
     std::set<std::string> names;
     for (const ir::LabelName& label : cycle_.labels)
@@ -160,7 +160,7 @@ private:
       } while (!names.insert(name).second);
       id = cycle_.addLabel({name, {}});
     }
-    std::vector<ir::Statement> list;
+    std::vector<ir::CycleStatement> list;
     for (std::size_t i = 0; i <= out_.size(); ++i) {
       if (const auto label = labels.find(i); label != labels.end())
         list.push_back(statementOf(ir::Label{label->second}, {}));
@@ -185,15 +185,15 @@ private:
 
 } // namespace
 
-ir::Statement statementOf(decltype(ir::Statement::node) node, SourceRange range, std::string reason) {
-  ir::Statement statement;
+ir::CycleStatement statementOf(decltype(ir::CycleStatement::node) node, SourceRange range, std::string reason) {
+  ir::CycleStatement statement;
   statement.node = std::move(node);
   if (range.hasPlace()) statement.origin.ranges = {range};
   statement.origin.reason = std::move(reason);
   return statement;
 }
 
-std::vector<ir::Statement> emitStatements(const Flat& flat, const WalkResult& walk,
+std::vector<ir::CycleStatement> emitStatements(const Flat& flat, const WalkResult& walk,
                                           const EmitOptions& options, ir::Cycle& cycle) {
   return Emitter(flat, walk, options, cycle).run();
 }

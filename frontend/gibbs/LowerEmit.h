@@ -11,7 +11,7 @@ namespace dotek::frontend::gibbs {
 // A statement; `target` is the step that a jump or branch goes to, the number of steps for the end. A mark is
 // no statement but the place `target`, above the number of steps: two for each step may be made.
 struct Emitted {
-  ir::Statement statement;
+  ir::CycleStatement statement;
   std::size_t target = kNowhere;
   bool mark = false;
 };
@@ -23,9 +23,9 @@ struct EmitOptions {
   std::function<std::vector<Emitted>(std::size_t step, const FlatMove& move)> move;
 };
 
-ir::Statement statementOf(decltype(ir::Statement::node) node, SourceRange range, std::string reason = "");
+ir::CycleStatement statementOf(decltype(ir::CycleStatement::node) node, SourceRange range, std::string reason = "");
 
-std::vector<ir::Statement> emitStatements(const Flat& flat, const WalkResult& walk,
+std::vector<ir::CycleStatement> emitStatements(const Flat& flat, const WalkResult& walk,
                                           const EmitOptions& options, ir::Cycle& cycle);
 
 // A reached step from which no way leads out; kNowhere: there is none.

@@ -346,7 +346,7 @@ private:
 
   void reportFields() {
     std::set<ir::VariableId> used;
-    for (const ir::Statement& each : cycle_.body) {
+    for (const ir::CycleStatement& each : cycle_.body) {
       if (const auto* s = std::get_if<ir::Assign>(&each.node)) collectVariables(s->value, used);
       if (const auto* s = std::get_if<ir::Branch>(&each.node)) collectVariables(s->condition, used);
       if (const auto* s = std::get_if<ir::Measure>(&each.node)) collectVariables(s->target->value, used);

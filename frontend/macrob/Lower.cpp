@@ -67,8 +67,8 @@ private:
 
   const Block& here() const { return program_.blocks[at_]; }
 
-  template <class Node> ir::Statement& add(Node node) {
-    ir::Statement& statement = out_.body.emplace_back();
+  template <class Node> ir::ProgramStatement& add(Node node) {
+    ir::ProgramStatement& statement = out_.body.emplace_back();
     statement.node = std::move(node);
     statement.origin.ranges = {here().range};
     statement.origin.block = static_cast<std::uint32_t>(at_ + 1);
@@ -87,7 +87,7 @@ private:
     const Comment* message = messageOf(block);
     for (const Comment& comment : block.comments) {
       if (&comment == message) continue;
-      ir::Statement& statement = add(ir::Comment{comment.text});
+      ir::ProgramStatement& statement = add(ir::Comment{comment.text});
       statement.blockDelete = 0;
       statement.origin.place = comment.place;
     }

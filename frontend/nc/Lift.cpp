@@ -36,11 +36,11 @@ void noteModal(const Block& block, const stdlib::Control& control, std::map<int,
   }
 }
 
-bool lift(const Block& block, LiftContext& context, std::vector<ir::Statement>& out) {
+bool lift(const Block& block, LiftContext& context, std::vector<ir::CycleStatement>& out) {
   return Lifter(block, context, out).run();
 }
 
-Lifter::Lifter(const Block& block, LiftContext& context, std::vector<ir::Statement>& out)
+Lifter::Lifter(const Block& block, LiftContext& context, std::vector<ir::CycleStatement>& out)
     : block_(block), context_(context), out_(out) {
   origin_.ranges.push_back(block.range);
   origin_.block = context.nextBlock++;

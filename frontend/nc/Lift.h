@@ -52,7 +52,7 @@ struct LiftContext {
 // integer digits that do not fit a hole's picture where its value is fixed, and (once per hole name) a
 // picture with fewer decimals than the control. A macro call leaves motion and feed unknown. Block numbers
 // and a feed alone make no statement.
-bool lift(const Block& block, LiftContext& context, std::vector<ir::Statement>& out);
+bool lift(const Block& block, LiftContext& context, std::vector<ir::CycleStatement>& out);
 
 // The programs that the block calls with G65, for choosing the macro set.
 std::vector<std::uint32_t> programsCalled(const Block& block);

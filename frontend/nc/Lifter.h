@@ -26,7 +26,7 @@ struct Reading {
 
 class Lifter {
 public:
-  Lifter(const Block& block, LiftContext& context, std::vector<ir::Statement>& out);
+  Lifter(const Block& block, LiftContext& context, std::vector<ir::CycleStatement>& out);
 
   bool run();
 
@@ -102,7 +102,7 @@ private:
 
   const Block& block_;
   LiftContext& context_;
-  std::vector<ir::Statement>& out_;
+  std::vector<ir::CycleStatement>& out_;
   ir::Origin origin_;
   std::vector<Code> codes_; // G and M words, in source order
 };

@@ -43,7 +43,7 @@ void check(const Project& project, Report& report) {
         axis, travel, std::abs(travel));
   };
   eachProgram(project, [&](const ir::Program& program, const macrob::File&) {
-    for (const ir::Statement& statement : program.body)
+    for (const ir::ProgramStatement& statement : program.body)
       if (const ir::Call* call = callOf(statement))
         if (const auto travel = travelOf(*call, project); travel && std::abs(travel->value) <= kSmallest)
           tell(statement.origin.range(), travel->letter, travel->value);
@@ -51,7 +51,7 @@ void check(const Project& project, Report& report) {
   for (const Joined& joined : project.joined) {
     if (!joined.lowered) continue;
     const ir::Cycle& cycle = *joined.lowered;
-    for (const ir::Statement& statement : cycle.body) {
+    for (const ir::CycleStatement& statement : cycle.body) {
       const auto* measure = std::get_if<ir::Measure>(&statement.node);
       if (measure == nullptr || measure->feature != ir::Feature::Surface || !measure->target ||
           measure->axis == ir::Axis::Z || measure->target->frame != ir::Frame::Here)

@@ -17,11 +17,11 @@ void check(const Project& project, Report& report) {
     if (!joined.lowered || !joined.checksLowered) continue;
     const ir::Cycle& cycle = *joined.lowered;
     std::set<ir::VariableId> checked;
-    for (const ir::Statement& statement : cycle.checks)
+    for (const ir::CycleStatement& statement : cycle.checks)
       if (const auto* branch = std::get_if<ir::Branch>(&statement.node)) collect(branch->condition, checked);
     if (checked.empty()) continue;
     std::set<ir::VariableId> told;
-    for (const ir::Statement& statement : cycle.body) {
+    for (const ir::CycleStatement& statement : cycle.body) {
       const auto* measure = std::get_if<ir::Measure>(&statement.node);
       if (measure == nullptr || measure->feature != ir::Feature::Surface || !measure->target) continue;
       if (measure->target->frame != ir::Frame::Here) continue;

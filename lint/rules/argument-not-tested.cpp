@@ -17,7 +17,7 @@ void checkProgram(const ir::Program& program, Report& report) {
   std::set<std::uint32_t> compared;
   std::set<std::uint32_t> stored;
   std::map<std::uint32_t, SourceRange> read;
-  for (const ir::Statement& statement : body) {
+  for (const ir::ProgramStatement& statement : body) {
     if (const auto number = storedNumber(statement)) stored.insert(*number);
     if (const auto* branch = std::get_if<ir::Branch>(&statement.node)) {
       ir::eachNode(branch->condition, [&](const ir::Expression& node) {

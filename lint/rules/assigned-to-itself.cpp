@@ -5,7 +5,7 @@ namespace {
 
 void check(const Project& project, Report& report) {
   eachProgram(project, [&](const ir::Program& program, const macrob::File&) {
-    for (const ir::Statement& statement : program.body) {
+    for (const ir::ProgramStatement& statement : program.body) {
       const auto* store = std::get_if<ir::Store>(&statement.node);
       if (store == nullptr) continue;
       const auto* source = std::get_if<ir::MachineVariable>(&store->value->node);

@@ -8,8 +8,8 @@ constexpr std::size_t kTimes = 6; // so many times as many have one
 void check(const Project& project, Report& report) {
   const Probing probing(project);
   eachProgram(project, [&](const ir::Program& program, const macrob::File&) {
-    std::vector<const ir::Statement*> with, without;
-    for (const ir::Statement& statement : program.body) {
+    std::vector<const ir::ProgramStatement*> with, without;
+    for (const ir::ProgramStatement& statement : program.body) {
       const auto* call = std::get_if<ir::Call>(&statement.node);
       if (call == nullptr || probing.step(statement).kind != ProbeStep::Kind::Protected) continue;
       bool feed = false;
@@ -18,7 +18,7 @@ void check(const Project& project, Report& report) {
       (feed ? with : without).push_back(&statement);
     }
     if (without.empty() || with.size() < kTimes * without.size()) return;
-    for (const ir::Statement* statement : without)
+    for (const ir::ProgramStatement* statement : without)
       report
           .at(statement->origin.range(), "this protected move has no F and goes at the feed of the one "
                                          "before, on the way down maybe at that "

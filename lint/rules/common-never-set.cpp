@@ -19,7 +19,7 @@ void check(const Project& project, Report& report) {
   bool main = false;
   eachProgram(project, [&](const ir::Program& program, const macrob::File&) {
     main = main || endsProgram(program);
-    for (const ir::Statement& statement : program.body) {
+    for (const ir::ProgramStatement& statement : program.body) {
       const auto number = storedNumber(statement);
       computed = computed || (std::holds_alternative<ir::Store>(statement.node) && !number);
       if (number) stored.insert(*number);

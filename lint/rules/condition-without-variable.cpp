@@ -19,7 +19,7 @@ bool isFixed(const ir::ExpressionPtr& expression) {
 
 void check(const Project& project, Report& report) {
   eachProgram(project, [&](const ir::Program& program, const macrob::File&) {
-    for (const ir::Statement& statement : program.body) {
+    for (const ir::ProgramStatement& statement : program.body) {
       // WHILE [1 EQ 1] is meant.
       const auto* branch = std::get_if<ir::Branch>(&statement.node);
       const auto* comparison =

@@ -8,14 +8,14 @@
 namespace dotek::lint::rule {
 namespace {
 
-bool moves(const ir::Statement& statement) {
+bool moves(const ir::ProgramStatement& statement) {
   const auto* block = std::get_if<ir::NcBlock>(&statement.node);
   return block != nullptr &&
          ((skipOf(statement) != nullptr && axesOf(*block) != 0) || isPlainMove(statement));
 }
 
 // Coordinates that are written out, 0 aside.
-std::set<std::pair<char, double>> coordinates(const ir::Statement& statement) {
+std::set<std::pair<char, double>> coordinates(const ir::ProgramStatement& statement) {
   std::set<std::pair<char, double>> out;
   for (const ir::Word& word : std::get<ir::NcBlock>(statement.node).words) {
     const double* value = ir::constantValue(word.value);
@@ -25,7 +25,7 @@ std::set<std::pair<char, double>> coordinates(const ir::Statement& statement) {
   return out;
 }
 
-bool takesOffset(const ir::Statement& statement) {
+bool takesOffset(const ir::ProgramStatement& statement) {
   const auto& block = std::get<ir::NcBlock>(statement.node);
   if (hasCode(block, 'G', 43) || hasCode(block, 'G', 44)) return true;
   for (int system = 54; system <= 59; ++system)

@@ -17,7 +17,7 @@ void checkProgram(const ir::Program& program, const Probing& probing, Report& re
   if (!endsProgram(program)) return;
   double highest = -1e9;
   bool touches = false;
-  for (const ir::Statement& statement : body) {
+  for (const ir::ProgramStatement& statement : body) {
     const auto* block = std::get_if<ir::NcBlock>(&statement.node);
     touches = touches || skipOf(statement) != nullptr;
     if (block != nullptr && isPlainMove(statement))

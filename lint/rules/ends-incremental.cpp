@@ -6,7 +6,7 @@ namespace {
 void check(const Project& project, Report& report) {
   eachProgram(project, [&](const ir::Program& program, const macrob::File&) {
     const auto modes = distanceModes(program.body);
-    const ir::Statement* set = nullptr;
+    const ir::ProgramStatement* set = nullptr;
     for (std::size_t i = 0; i < program.body.size(); ++i) {
       if (statedMode(program.body[i]) == DistanceMode::Incremental) set = &program.body[i];
       if (!endsProgram(program.body[i]) || !modes[i] || set == nullptr) continue;

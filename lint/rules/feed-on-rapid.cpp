@@ -24,7 +24,7 @@ void check(const Project& project, Report& report) {
     }
   });
   eachProgram(project, [&](const ir::Program& program, const macrob::File&) {
-    for (const ir::Statement& statement : program.body) {
+    for (const ir::ProgramStatement& statement : program.body) {
       const auto* block = std::get_if<ir::NcBlock>(&statement.node);
       if (block == nullptr || !isPlainMove(statement) || !hasCode(*block, 'G', 0) || hasCode(*block, 'G', 1))
         continue;

@@ -14,7 +14,7 @@ void checkProgram(const ir::Program& program, const Probing& probing, Report& re
   const auto feeds = ir::factsBefore<bool>(
       program.body, false,
       [&](std::size_t at, std::size_t, bool known) {
-        const ir::Statement& statement = program.body[at];
+        const ir::ProgramStatement& statement = program.body[at];
         const ProbeStep::Kind kind = probing.step(statement).kind;
         if (kind == ProbeStep::Kind::Call || kind == ProbeStep::Kind::OwnCall ||
             kind == ProbeStep::Kind::PackCall)

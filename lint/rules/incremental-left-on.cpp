@@ -7,7 +7,7 @@ namespace {
 
 enum class Distance : std::uint8_t { AsBefore, Incremental, Absolute, Mixed };
 
-std::optional<Distance> modeOf(const ir::Statement& statement) {
+std::optional<Distance> modeOf(const ir::ProgramStatement& statement) {
   const auto* block = std::get_if<ir::NcBlock>(&statement.node);
   if (block == nullptr) return std::nullopt;
   std::optional<Distance> out;
@@ -35,8 +35,8 @@ void checkProgram(const ir::Program& program, Report& report) {
         into = merged;
         return changed;
       });
-  const ir::Statement* set = nullptr;
-  for (const ir::Statement& statement : program.body)
+  const ir::ProgramStatement* set = nullptr;
+  for (const ir::ProgramStatement& statement : program.body)
     if (modeOf(statement) == Distance::Incremental) set = &statement;
   for (std::size_t i = 0; i < program.body.size(); ++i) {
     if (!std::holds_alternative<ir::Exit>(program.body[i].node) || !before[i]) continue;

@@ -7,10 +7,10 @@ namespace {
 
 void checkProgram(const ir::Program& program, const Probing& probing, Report& report) {
   if (!endsProgram(program)) return;
-  const ir::Statement* change = nullptr;
+  const ir::ProgramStatement* change = nullptr;
   bool measures = false;
   bool offset = false;
-  for (const ir::Statement& statement : program.body) {
+  for (const ir::ProgramStatement& statement : program.body) {
     const ProbeStep::Kind kind = probing.step(statement).kind;
     measures = measures || skipOf(statement) != nullptr || kind == ProbeStep::Kind::Measure ||
                kind == ProbeStep::Kind::Protected || probing.skips(probing.step(statement).program);

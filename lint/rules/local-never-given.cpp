@@ -19,14 +19,14 @@ void checkProgram(const ir::Program& program, const std::vector<OwnCall>* calls,
   if (calls != nullptr)
     for (const OwnCall& call : *calls)
       given.insert(call.given.begin(), call.given.end());
-  for (const ir::Statement& statement : program.body) {
+  for (const ir::ProgramStatement& statement : program.body) {
     if (std::holds_alternative<ir::Store>(statement.node) && !storedNumber(statement)) return;
     if (const auto number = storedNumber(statement)) given.insert(*number);
     const ir::Call* call = callOf(statement);
     if (call != nullptr && call->kind == ir::CallKind::Subprogram) return;
   }
   std::set<std::uint32_t> told, tested, asked;
-  for (const ir::Statement& statement : program.body) {
+  for (const ir::ProgramStatement& statement : program.body) {
     const auto* branch = std::get_if<ir::Branch>(&statement.node);
     if (branch == nullptr) continue;
     ir::eachNode(branch->condition, [&](const ir::Expression& node) {
@@ -44,7 +44,7 @@ void checkProgram(const ir::Program& program, const std::vector<OwnCall>* calls,
                 *number);
   }
   if (calls == nullptr) return;
-  for (const ir::Statement& statement : program.body) {
+  for (const ir::ProgramStatement& statement : program.body) {
     const auto* branch = std::get_if<ir::Branch>(&statement.node);
     if ((branch != nullptr && nullCompared(branch->condition)) || callOf(statement) != nullptr) continue;
     // A flag that is compared as such may be left out.

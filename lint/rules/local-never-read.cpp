@@ -12,7 +12,7 @@ constexpr std::uint32_t kLastLocal = 33;
 void checkProgram(const ir::Program& program, Report& report) {
   std::set<std::uint32_t> read;
   std::map<std::uint32_t, SourceRange> stored;
-  for (const ir::Statement& statement : program.body) {
+  for (const ir::ProgramStatement& statement : program.body) {
     bool computed = false;
     ir::eachNode(statement, [&](const ir::Expression& node) {
       computed =

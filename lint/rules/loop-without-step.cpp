@@ -12,7 +12,7 @@ struct Loop {
   std::size_t begin = 0, end = 0; // statements of the head and of the END
 };
 
-std::vector<Loop> loopsOf(const std::vector<ir::Statement>& body) {
+std::vector<Loop> loopsOf(const std::vector<ir::ProgramStatement>& body) {
   std::vector<Loop> out;
   for (std::size_t i = 0; i < body.size(); ++i) {
     const auto* loop = std::get_if<ir::Loop>(&body[i].node);
@@ -28,7 +28,7 @@ std::vector<Loop> loopsOf(const std::vector<ir::Statement>& body) {
 }
 
 // Variables that the loop may set; nothing where it may set any.
-std::optional<std::set<std::uint32_t>> storedIn(const std::vector<ir::Statement>& body, const Loop& loop,
+std::optional<std::set<std::uint32_t>> storedIn(const std::vector<ir::ProgramStatement>& body, const Loop& loop,
                                                 bool computedToo) {
   std::set<std::uint32_t> out;
   for (std::size_t i = loop.begin; i < loop.end; ++i) {

@@ -52,7 +52,7 @@ void check(const Project& project, Report& report) {
   std::vector<Called> calls;
   eachProgram(project, [&](const ir::Program& program, const macrob::File&) {
     defined.insert(static_cast<std::uint32_t>(program.number));
-    for (const ir::Statement& statement : program.body) {
+    for (const ir::ProgramStatement& statement : program.body) {
       const ir::Call* call = callOf(statement);
       const double* number = call == nullptr || !call->program ? nullptr : ir::constantValue(call->program);
       if (number != nullptr && *number > 0 && *number < 1e8)

@@ -4,7 +4,8 @@ namespace dotek::lint::rule {
 namespace {
 
 // A measurement that every path reaches with the probe switched off before.
-void checkBody(const std::vector<ir::Statement>& body, const Probing& probing, Report& report) {
+template <ir::AnyStatement Statement>
+void checkBody(const std::vector<Statement>& body, const Probing& probing, Report& report) {
   const auto states = probing.states(body);
   SourceRange off;
   for (std::size_t i = 0; i < body.size(); ++i) {

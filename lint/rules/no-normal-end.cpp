@@ -7,7 +7,7 @@ namespace dotek::lint::rule {
 namespace {
 
 // M30, M2, M99, or a code that is computed.
-bool endsNormally(const ir::Statement& statement) {
+bool endsNormally(const ir::ProgramStatement& statement) {
   if (std::holds_alternative<ir::Exit>(statement.node) || std::holds_alternative<ir::JumpTo>(statement.node))
     return true;
   const auto* block = std::get_if<ir::NcBlock>(&statement.node);
@@ -25,7 +25,7 @@ void check(const Project& project, Report& report) {
     const std::vector<bool> reached = ir::reachable(body);
     bool ends = false;
     bool alarms = false;
-    const ir::Statement* past = nullptr;
+    const ir::ProgramStatement* past = nullptr;
     for (std::size_t i = 0; i < body.size(); ++i) {
       if (!reached[i]) continue;
       ends = ends || endsNormally(body[i]);

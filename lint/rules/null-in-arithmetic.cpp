@@ -13,12 +13,12 @@ constexpr std::array<std::uint32_t, 12> kWithoutLetter = {10, 12, 14, 15, 16, 27
 
 bool returns(const ir::Program& program) {
   return std::any_of(program.body.begin(), program.body.end(),
-                     [](const ir::Statement& s) { return std::holds_alternative<ir::Exit>(s.node); });
+                     [](const ir::ProgramStatement& s) { return std::holds_alternative<ir::Exit>(s.node); });
 }
 
 // A computed number may write any variable.
 bool storesAnywhere(const ir::Program& program) {
-  return std::any_of(program.body.begin(), program.body.end(), [](const ir::Statement& statement) {
+  return std::any_of(program.body.begin(), program.body.end(), [](const ir::ProgramStatement& statement) {
     return std::holds_alternative<ir::Store>(statement.node) && !storedNumber(statement);
   });
 }
@@ -29,7 +29,7 @@ void checkProgram(const ir::Program& program, Report& report) {
   // A macro gets arguments: only the locals that no letter sets are known to be empty. Its argument sets of
   // I, J and K reach them, too, so some statement has to show that the macro takes the local for its own.
   std::set<std::uint32_t> own;
-  for (const ir::Statement& statement : program.body)
+  for (const ir::ProgramStatement& statement : program.body)
     if (const auto number = storedNumber(statement)) own.insert(*number);
   const auto known = [&](std::uint32_t number) {
     if (number == 0 || number > kLastLocal) return false;

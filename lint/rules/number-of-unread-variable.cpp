@@ -21,7 +21,7 @@ void check(const Project& project, Report& report) {
   std::set<std::uint32_t> read;
   std::map<std::uint32_t, SourceRange> numbers; // without a point, in calculations
   eachProgram(project, [&](const ir::Program& program, const macrob::File&) {
-    for (const ir::Statement& statement : program.body) {
+    for (const ir::ProgramStatement& statement : program.body) {
       if (const auto number = storedNumber(statement)) stored.emplace(*number, statement.origin.range());
       eachRead(statement, [&](std::uint32_t number, SourceRange) { read.insert(number); });
       std::set<const ir::Expression*> indices; // numbers of variables

@@ -16,7 +16,7 @@ struct Number {
   SourceRange range;
 };
 
-void collect(const ir::Statement& statement, std::vector<Number>& with, std::vector<Number>& without) {
+void collect(const ir::ProgramStatement& statement, std::vector<Number>& with, std::vector<Number>& without) {
   const auto take = [&](char letter, const ir::ExpressionPtr& value, SourceRange range) {
     if (kLengths.find(letter) == std::string_view::npos || value == nullptr) return;
     const auto* constant = std::get_if<ir::Constant>(&value->node);
@@ -42,7 +42,7 @@ void check(const Project& project, Report& report) {
     if (!nc.lowered) continue;
     std::vector<Number> with, without;
     for (const ir::Program& program : nc.lowered->programs)
-      for (const ir::Statement& statement : program.body)
+      for (const ir::ProgramStatement& statement : program.body)
         collect(statement, with, without);
     if (without.empty() || with.size() < kTimes * without.size()) continue;
     for (const Number& number : without)

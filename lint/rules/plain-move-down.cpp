@@ -9,7 +9,7 @@ namespace {
 // Height of the last move along Z, where it is written out in coordinates.
 using Height = std::optional<double>;
 
-Height heightOf(const ir::Statement& statement) {
+Height heightOf(const ir::ProgramStatement& statement) {
   if (const auto* block = std::get_if<ir::NcBlock>(&statement.node)) return wordValue(*block, 'Z');
   if (const ir::Call* call = callOf(statement))
     for (const ir::CallArgument& argument : call->arguments)
@@ -21,7 +21,7 @@ Height heightOf(const ir::Statement& statement) {
 
 void checkProgram(const ir::Program& program, const Probing& probing, Report& report) {
   const auto& body = program.body;
-  const bool guarded = std::any_of(body.begin(), body.end(), [&](const ir::Statement& s) {
+  const bool guarded = std::any_of(body.begin(), body.end(), [&](const ir::ProgramStatement& s) {
     return probing.step(s).kind == ProbeStep::Kind::Protected;
   });
   if (!guarded) return;

@@ -6,18 +6,16 @@
 namespace dotek::lint::rule {
 namespace {
 
-bool leaves(const ir::Statement& statement) {
-  if (std::holds_alternative<ir::Exit>(statement.node) || std::holds_alternative<ir::Return>(statement.node))
-    return true;
-  return endsProgram(statement);
+bool leaves(const ir::ProgramStatement& statement) {
+  return std::holds_alternative<ir::Exit>(statement.node) || endsProgram(statement);
 }
 
 // A path on which the probe is on at the end.
-void checkBody(const std::vector<ir::Statement>& body, const Probing& probing, Report& report) {
+void checkBody(const std::vector<ir::ProgramStatement>& body, const Probing& probing, Report& report) {
   const auto states = probing.states(body);
-  const ir::Statement* on = nullptr;
+  const ir::ProgramStatement* on = nullptr;
   bool off = false;
-  for (const ir::Statement& statement : body) {
+  for (const ir::ProgramStatement& statement : body) {
     const ProbeStep::Kind kind = probing.step(statement).kind;
     if (kind == ProbeStep::Kind::On) on = &statement;
     if (kind == ProbeStep::Kind::Off) off = true;
@@ -40,9 +38,9 @@ void check(const Project& project, Report& report) {
     checkBody(program.body, probing, report);
     if (!endsProgram(program)) return;
     // A main program that switches it on and never off.
-    const ir::Statement* on = nullptr;
+    const ir::ProgramStatement* on = nullptr;
     bool other = false;
-    for (const ir::Statement& statement : program.body) {
+    for (const ir::ProgramStatement& statement : program.body) {
       const ProbeStep::Kind kind = probing.step(statement).kind;
       if (kind == ProbeStep::Kind::On) on = &statement;
       if (kind == ProbeStep::Kind::Off || kind == ProbeStep::Kind::Call || kind == ProbeStep::Kind::PackCall)

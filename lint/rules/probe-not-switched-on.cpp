@@ -13,7 +13,8 @@ struct Unswitched {
 };
 
 // The first measurement that is reached without a switch in this body.
-SourceRange firstUnswitched(const std::vector<ir::Statement>& body, const Probing& probing) {
+template <ir::AnyStatement Statement>
+SourceRange firstUnswitched(const std::vector<Statement>& body, const Probing& probing) {
   const auto states = probing.states(body);
   for (std::size_t i = 0; i < body.size(); ++i)
     if (probing.step(body[i]).kind == ProbeStep::Kind::Measure && states[i] == ProbeState::AsBefore)
@@ -21,8 +22,9 @@ SourceRange firstUnswitched(const std::vector<ir::Statement>& body, const Probin
   return {};
 }
 
-SourceRange firstSwitch(const std::vector<ir::Statement>& body, const Probing& probing) {
-  for (const ir::Statement& statement : body)
+template <ir::AnyStatement Statement>
+SourceRange firstSwitch(const std::vector<Statement>& body, const Probing& probing) {
+  for (const Statement& statement : body)
     if (probing.step(statement).kind == ProbeStep::Kind::On) return statement.origin.range();
   return {};
 }

@@ -91,9 +91,9 @@ void checkBranches(const Project& project, Report& report) {
 }
 
 void checkProgram(const ir::Program& program, const Probing& probing, Report& report) {
-  const ir::Statement* off = nullptr;
+  const ir::ProgramStatement* off = nullptr;
   bool touches = false;
-  for (const ir::Statement& statement : program.body) {
+  for (const ir::ProgramStatement& statement : program.body) {
     switch (probing.step(statement).kind) {
     case ProbeStep::Kind::On: return;
     case ProbeStep::Kind::Off:

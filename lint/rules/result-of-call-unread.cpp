@@ -12,7 +12,7 @@ namespace {
 std::map<std::uint32_t, std::set<std::uint32_t>> results(const Project& project) {
   std::map<std::uint32_t, std::set<std::uint32_t>> out;
   eachProgram(project, [&](const ir::Program& program, const macrob::File&) {
-    for (const ir::Statement& statement : program.body)
+    for (const ir::ProgramStatement& statement : program.body)
       if (const auto number = storedNumber(statement); number && *number >= 100 && *number <= 999)
         out[static_cast<std::uint32_t>(program.number)].insert(*number);
   });
@@ -20,7 +20,7 @@ std::map<std::uint32_t, std::set<std::uint32_t>> results(const Project& project)
 }
 
 struct Use {
-  const ir::Statement* call = nullptr;
+  const ir::ProgramStatement* call = nullptr;
   bool read = false;
   bool again = false; // the next statement calls the same: a fast touch and a slow one
 };
@@ -28,12 +28,12 @@ struct Use {
 void checkProgram(const ir::Program& program, const std::map<std::uint32_t, std::set<std::uint32_t>>& sets,
                   Report& report) {
   std::map<std::uint32_t, std::vector<Use>> uses;
-  const ir::Statement* before = nullptr;
-  for (const ir::Statement& statement : program.body) {
+  const ir::ProgramStatement* before = nullptr;
+  for (const ir::ProgramStatement& statement : program.body) {
     if (std::holds_alternative<ir::Label>(statement.node) ||
         std::holds_alternative<ir::Comment>(statement.node))
       continue;
-    const ir::Statement* const last = std::exchange(before, &statement);
+    const ir::ProgramStatement* const last = std::exchange(before, &statement);
     eachRead(statement, [&](std::uint32_t number, SourceRange) {
       for (auto& [called, list] : uses)
         if (sets.at(called).contains(number)) list.back().read = true;
@@ -50,7 +50,7 @@ void checkProgram(const ir::Program& program, const std::map<std::uint32_t, std:
   for (const auto& [called, list] : uses) {
     const auto read = std::count_if(list.begin(), list.end(), [](const Use& use) { return use.read; });
     // A loop may read behind its END what stands before in the text.
-    const bool loops = std::any_of(program.body.begin(), program.body.end(), [](const ir::Statement& s) {
+    const bool loops = std::any_of(program.body.begin(), program.body.end(), [](const ir::ProgramStatement& s) {
       return std::holds_alternative<ir::Loop>(s.node);
     });
     if (read == 0 || loops) continue;

@@ -8,7 +8,7 @@ namespace {
 std::set<std::uint32_t> resultsOf(const Project& project, const ir::Program& program,
                                   const Probing& probing) {
   std::set<std::uint32_t> out;
-  for (const ir::Statement& statement : program.body) {
+  for (const ir::ProgramStatement& statement : program.body) {
     const ProbeStep step = probing.step(statement);
     if (step.kind != ProbeStep::Kind::Measure) continue;
     for (const stdlib::MacroSet& set : project.macroSets)

@@ -5,18 +5,25 @@ namespace dotek::lint::rule {
 namespace {
 
 // Axes of a move; a call of a protected move included.
-AxisSet movedBy(const ir::Statement& statement, const Probing& probing) {
-  if (const auto* move = std::get_if<ir::Move>(&statement.node))
-    return static_cast<AxisSet>((move->axes[0] ? 1 : 0) | (move->axes[1] ? 2 : 0) | (move->axes[2] ? 4 : 0));
-  if (const auto* block = std::get_if<ir::NcBlock>(&statement.node))
-    return isPlainMove(statement) ? axesOf(*block) : AxisSet{0};
-  const ir::Call* call = callOf(statement);
-  if (call == nullptr || probing.step(statement).kind != ProbeStep::Kind::Protected) return 0;
-  AxisSet out = 0;
-  for (const ir::CallArgument& argument : call->arguments)
-    if (argument.letter >= 'X' && argument.letter <= 'Z')
-      out = static_cast<AxisSet>(out | (1U << (argument.letter - 'X')));
-  return out;
+template <ir::AnyStatement Statement> AxisSet movedBy(const Statement& statement, const Probing& probing) {
+  return match(
+      statement,
+      [](const ir::Move& move) {
+        return static_cast<AxisSet>((move.axes[0] ? 1 : 0) | (move.axes[1] ? 2 : 0) | (move.axes[2] ? 4 : 0));
+      },
+      [](const ir::NcBlock& block) { return isPlainMove(block) ? axesOf(block) : AxisSet{0}; },
+      [&](const ir::Call& call) {
+        AxisSet out = 0;
+        if (probing.step(statement).kind != ProbeStep::Kind::Protected) return out;
+        for (const ir::CallArgument& argument : call.arguments)
+          if (argument.letter >= 'X' && argument.letter <= 'Z')
+            out = static_cast<AxisSet>(out | (1U << (argument.letter - 'X')));
+        return out;
+      },
+      [](const ir::OneOf<ir::Label, ir::Jump, ir::Branch, ir::Store, ir::Measure, ir::ProbePower, ir::Comment,
+                         ir::Assign, ir::Return, ir::Spindle, ir::Coolant, ir::SetMode, ir::Dwell, ir::Stop,
+                         ir::Alarm, ir::OpaqueBlock, ir::JumpTo, ir::Loop, ir::LoopEnd, ir::Exit, ir::Raise,
+                         ir::Notice, ir::Port, ir::Print, ir::NameVariables> auto&) { return AxisSet{0}; });
 }
 
 struct Travel {
@@ -26,7 +33,8 @@ struct Travel {
 
 // Moves along X or Y behind a measurement, up to the next one: the first of each, and whether a move along Z
 // alone stands between.
-std::vector<Travel> travels(const std::vector<ir::Statement>& body, const Probing& probing) {
+template <ir::AnyStatement Statement>
+std::vector<Travel> travels(const std::vector<Statement>& body, const Probing& probing) {
   std::vector<Travel> out;
   bool measured = false;
   bool lifted = false;
@@ -47,7 +55,8 @@ std::vector<Travel> travels(const std::vector<ir::Statement>& body, const Probin
   return out;
 }
 
-void checkBody(const std::vector<ir::Statement>& body, const Probing& probing, Report& report) {
+template <ir::AnyStatement Statement>
+void checkBody(const std::vector<Statement>& body, const Probing& probing, Report& report) {
   const std::vector<Travel> all = travels(body, probing);
   const Travel* lifted = nullptr;
   for (const Travel& travel : all)

@@ -6,13 +6,13 @@ namespace dotek::lint::rule {
 namespace {
 
 struct Skip {
-  const ir::Statement* statement = nullptr;
+  const ir::ProgramStatement* statement = nullptr;
   bool read = false;
 };
 
 void checkProgram(const ir::Program& program, Report& report) {
   std::vector<Skip> skips;
-  for (const ir::Statement& statement : program.body) {
+  for (const ir::ProgramStatement& statement : program.body) {
     // Where the order of running is another one, nothing is known.
     if (std::holds_alternative<ir::JumpTo>(statement.node)) return;
     bool computed = false;

@@ -8,8 +8,8 @@ namespace {
 
 void checkProgram(const ir::Program& program, Report& report) {
   const auto& body = program.body;
-  const ir::Statement* withFeed = nullptr;
-  for (const ir::Statement& statement : body) {
+  const ir::ProgramStatement* withFeed = nullptr;
+  for (const ir::ProgramStatement& statement : body) {
     const ir::NcBlock* skip = skipOf(statement);
     if (skip != nullptr && hasWord(*skip, 'F') && withFeed == nullptr) withFeed = &statement;
   }

@@ -8,7 +8,7 @@ namespace dotek::lint::rule {
 namespace {
 
 // Doing the same once more changes nothing: codes and moves to a place that is written out.
-bool isIdle(const ir::Statement& statement) {
+bool isIdle(const ir::ProgramStatement& statement) {
   const auto* block = std::get_if<ir::NcBlock>(&statement.node);
   if (block == nullptr || block->words.empty() || skipOf(statement) != nullptr) return false;
   return std::all_of(block->words.begin(), block->words.end(), [&](const ir::Word& word) {

@@ -18,21 +18,32 @@ struct State {
 };
 
 // Z of a protected move that goes along no other axis; an empty value inside where it is computed.
-std::optional<std::optional<double>> protectedZ(const ir::Statement& statement) {
+std::optional<std::optional<double>> zOf(const ir::Move& move) {
+  if (move.axes[0] || move.axes[1] || !move.axes[2]) return std::nullopt;
+  const double* value = ir::constantValue(move.axes[2]->value);
+  return value == nullptr ? std::optional<double>() : std::optional(*value);
+}
+
+std::optional<std::optional<double>> zOf(const ir::Call& call) {
   std::optional<std::optional<double>> z;
-  if (const auto* move = std::get_if<ir::Move>(&statement.node)) {
-    if (move->axes[0] || move->axes[1] || !move->axes[2]) return std::nullopt;
-    const double* value = ir::constantValue(move->axes[2]->value);
-    return value == nullptr ? std::optional<double>() : std::optional(*value);
-  }
-  const auto* call = std::get_if<ir::Call>(&statement.node);
-  if (call == nullptr) return std::nullopt;
-  for (const ir::CallArgument& argument : call->arguments) {
+  for (const ir::CallArgument& argument : call.arguments) {
     if (argument.letter == 'X' || argument.letter == 'Y') return std::nullopt;
     const double* value = argument.letter == 'Z' ? ir::constantValue(argument.value) : nullptr;
     if (argument.letter == 'Z') z = value == nullptr ? std::optional<double>() : std::optional(*value);
   }
   return z;
+}
+
+template <ir::AnyStatement Statement>
+std::optional<std::optional<double>> protectedZ(const Statement& statement) {
+  return match(
+      statement, [](const ir::OneOf<ir::Move, ir::Call> auto& node) { return zOf(node); },
+      [](const ir::OneOf<ir::Label, ir::Jump, ir::Branch, ir::Store, ir::Measure, ir::ProbePower, ir::Comment,
+                         ir::Assign, ir::Return, ir::Spindle, ir::Coolant, ir::SetMode, ir::Dwell, ir::Stop,
+                         ir::Alarm, ir::OpaqueBlock, ir::NcBlock, ir::JumpTo, ir::Loop, ir::LoopEnd, ir::Exit,
+                         ir::Raise, ir::Notice, ir::Port, ir::Print, ir::NameVariables> auto&) {
+        return std::optional<std::optional<double>>();
+      });
 }
 
 // Down unless it leads up: higher than before, or, where that is not written out, the first one behind a
@@ -53,33 +64,64 @@ struct Motion {
   bool z = false;
 };
 
-Motion motionOf(const ir::Statement& statement, const State& before) {
+Motion motionOf(const ir::Move& move) {
   Motion out;
-  if (const auto* move = std::get_if<ir::Move>(&statement.node)) {
-    out.plain = move->motion != ir::Motion::Protected;
-    out.rapid = move->motion == ir::Motion::Rapid;
-    const auto inPart = [&](std::size_t axis) {
-      return move->axes[axis] && move->axes[axis]->frame != ir::Frame::Machine;
-    };
-    out.xy = inPart(0) || inPart(1);
-    out.z = move->axes[2].has_value();
-    return out;
-  }
-  const auto* block = std::get_if<ir::NcBlock>(&statement.node);
-  if (block == nullptr) return out;
-  for (const double code : {4.0, 10.0, 28.0, 30.0, 31.0, 52.0, 53.0, 65.0, 92.0})
-    if (hasCode(*block, 'G', code)) return out;
-  const bool rapid = hasCode(*block, 'G', 0);
-  const bool feed = hasCode(*block, 'G', 1);
-  const bool arc = hasCode(*block, 'G', 2) || hasCode(*block, 'G', 3);
-  out.plain = !arc && (rapid || feed || before.motion >= 0);
-  out.rapid = rapid || (!feed && before.motion == 0);
-  out.xy = hasWord(*block, 'X') || hasWord(*block, 'Y');
-  out.z = hasWord(*block, 'Z');
+  out.plain = move.motion != ir::Motion::Protected;
+  out.rapid = move.motion == ir::Motion::Rapid;
+  const auto inPart = [&](std::size_t axis) {
+    return move.axes[axis] && move.axes[axis]->frame != ir::Frame::Machine;
+  };
+  out.xy = inPart(0) || inPart(1);
+  out.z = move.axes[2].has_value();
   return out;
 }
 
-void checkBody(const std::vector<ir::Statement>& body, const Probing& probing, Report& report) {
+Motion motionOf(const ir::NcBlock& block, const State& before) {
+  Motion out;
+  for (const double code : {4.0, 10.0, 28.0, 30.0, 31.0, 52.0, 53.0, 65.0, 92.0})
+    if (hasCode(block, 'G', code)) return out;
+  const bool rapid = hasCode(block, 'G', 0);
+  const bool feed = hasCode(block, 'G', 1);
+  const bool arc = hasCode(block, 'G', 2) || hasCode(block, 'G', 3);
+  out.plain = !arc && (rapid || feed || before.motion >= 0);
+  out.rapid = rapid || (!feed && before.motion == 0);
+  out.xy = hasWord(block, 'X') || hasWord(block, 'Y');
+  out.z = hasWord(block, 'Z');
+  return out;
+}
+
+template <ir::AnyStatement Statement> Motion motionOf(const Statement& statement, const State& before) {
+  return match(
+      statement, [](const ir::Move& move) { return motionOf(move); },
+      [&](const ir::NcBlock& block) { return motionOf(block, before); },
+      [](const ir::OneOf<ir::Label, ir::Jump, ir::Branch, ir::Store, ir::Measure, ir::ProbePower, ir::Comment,
+                         ir::Assign, ir::Return, ir::Spindle, ir::Coolant, ir::SetMode, ir::Dwell, ir::Stop,
+                         ir::Alarm, ir::OpaqueBlock, ir::JumpTo, ir::Loop, ir::LoopEnd, ir::Call, ir::Exit,
+                         ir::Raise, ir::Notice, ir::Port, ir::Print, ir::NameVariables> auto&) {
+        return Motion{};
+      });
+}
+
+// What G codes and a tool change make of it.
+void passBlock(State& state, const ir::NcBlock& block) {
+  for (const double code : {28.0, 30.0, 53.0})
+    if (hasCode(block, 'G', code)) state.down = false;
+  if (hasCode(block, 'M', 6)) state.down = false;
+  for (const ir::Word& word : block.words) {
+    const double* code = word.address == 'G' ? ir::constantValue(word.value) : nullptr;
+    if (code != nullptr && *code <= 3) state.motion = *code <= 1 ? static_cast<int>(*code) : -1;
+  }
+}
+
+const ir::NcBlock* blockOf(const ir::CycleStatement&) {
+  return nullptr;
+}
+const ir::NcBlock* blockOf(const ir::ProgramStatement& statement) {
+  return std::get_if<ir::NcBlock>(&statement.node);
+}
+
+template <ir::AnyStatement Statement>
+void checkBody(const std::vector<Statement>& body, const Probing& probing, Report& report) {
   const auto states = ir::factsBefore<State>(
       body, State{},
       [&](std::size_t at, std::size_t, State state) {
@@ -92,15 +134,7 @@ void checkBody(const std::vector<ir::Statement>& body, const Probing& probing, R
         if (kind == ProbeStep::Kind::Call || kind == ProbeStep::Kind::PackCall ||
             kind == ProbeStep::Kind::OwnCall)
           state.motion = -1;
-        if (const auto* block = std::get_if<ir::NcBlock>(&body[at].node)) {
-          for (const double code : {28.0, 30.0, 53.0})
-            if (hasCode(*block, 'G', code)) state.down = false;
-          if (hasCode(*block, 'M', 6)) state.down = false;
-          for (const ir::Word& word : block->words) {
-            const double* code = word.address == 'G' ? ir::constantValue(word.value) : nullptr;
-            if (code != nullptr && *code <= 3) state.motion = *code <= 1 ? static_cast<int>(*code) : -1;
-          }
-        }
+        if (const ir::NcBlock* block = blockOf(body[at])) passBlock(state, *block);
         const Motion motion = motionOf(body[at], state);
         if (motion.plain && motion.z && !motion.xy) state.down = false;
         return state;

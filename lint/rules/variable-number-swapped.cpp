@@ -26,7 +26,7 @@ void check(const Project& project, Report& report) {
   // Over all files: a common variable may be set in one and read in another.
   std::map<std::uint32_t, SourceRange> stored, read;
   eachProgram(project, [&](const ir::Program& program, const macrob::File&) {
-    for (const ir::Statement& statement : program.body) {
+    for (const ir::ProgramStatement& statement : program.body) {
       if (const auto number = storedNumber(statement)) stored.emplace(*number, statement.origin.range());
       eachRead(statement, [&](std::uint32_t number, SourceRange range) {
         read.emplace(number, range.hasPlace() ? range : statement.origin.range());

@@ -5,10 +5,10 @@ namespace {
 
 void checkProgram(const ir::Program& program, const Probing& probing, Report& report) {
   if (!endsProgram(program)) return;
-  const ir::Statement* first = nullptr;
+  const ir::ProgramStatement* first = nullptr;
   bool change = false;
   bool measures = false;
-  for (const ir::Statement& statement : program.body) {
+  for (const ir::ProgramStatement& statement : program.body) {
     const ProbeStep step = probing.step(statement);
     measures = measures || skipOf(statement) != nullptr || step.kind == ProbeStep::Kind::Measure ||
                probing.skips(step.program);

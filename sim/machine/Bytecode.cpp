@@ -16,7 +16,7 @@ const Routine& Bytecode::routineOf(std::uint32_t place) const {
   return *(behind - 1);
 }
 
-const ir::Statement& Bytecode::statementOf(std::uint32_t place) const {
+const ir::ProgramStatement& Bytecode::statementOf(std::uint32_t place) const {
   return routineOf(place).program->body[statements[place]];
 }
 

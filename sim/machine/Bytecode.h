@@ -124,7 +124,7 @@ struct Bytecode {
 
   const Routine* find(std::uint64_t number) const; // nullptr: there is none
   const Routine& routineOf(std::uint32_t place) const;
-  const ir::Statement& statementOf(std::uint32_t place) const;
+  const ir::ProgramStatement& statementOf(std::uint32_t place) const;
   // Where a search from `place` meets the block: forward, then from the first block. nullptr: there is none.
   const NumberedPlace* search(const Routine& routine, std::uint32_t place, std::uint64_t number) const;
   // A jump from a place within loop `from` to one within loop `to` stays within or leaves; it enters none.

@@ -75,7 +75,7 @@ void Compiler::findLoops() {
   loopIds_.assign(program_->body.size(), 0);
   std::vector<std::uint32_t> open = {0};
   for (std::size_t i = 0; i < program_->body.size(); ++i) {
-    const ir::Statement& one = program_->body[i];
+    const ir::ProgramStatement& one = program_->body[i];
     if (std::holds_alternative<ir::Loop>(one.node)) {
       loopIds_[i] = static_cast<std::uint32_t>(code_.outerLoops.size());
       code_.outerLoops.push_back(open.back());
@@ -114,23 +114,23 @@ bool Compiler::reaches(ir::LabelId label) const {
   return label < labelLoops_.size() && !code_.entersLoop(loop_, labelLoops_[label]);
 }
 
-void Compiler::statement(const ir::Statement& statement) {
+void Compiler::statement(const ir::ProgramStatement& statement) {
   temporaries_ = 0;
   line_ = sources_.line(statement.origin.range());
   std::optional<std::uint32_t> over;
   if (statement.blockDelete != 0) over = emit(Op::SkipDelete, 0, 0, 0, statement.blockDelete);
-  std::visit([&](const auto& one) { node(one); }, statement.node);
+  match(statement, *this);
   if (over) code_.instructions[*over].c = static_cast<std::uint32_t>(code_.instructions.size());
 }
 
-void Compiler::node(const ir::Label& label) {
+void Compiler::operator()(const ir::Label& label) {
   if (label.label >= labelPlaces_.size()) return refuse("a label that the program does not list");
   labelPlaces_[label.label] = static_cast<std::uint32_t>(code_.instructions.size());
   const std::uint64_t number = program_->labels[label.label].number;
   if (number != 0 && number < UINT32_MAX) emit(Op::Sequence, static_cast<std::uint32_t>(number));
 }
 
-void Compiler::node(const ir::Store& store) {
+void Compiler::operator()(const ir::Store& store) {
   const std::optional<std::uint32_t> number = literalNumber(store.number);
   if (number) {
     if (const std::uint32_t cell = layout_.cellOf(*number); cell != CellLayout::kNone) {
@@ -152,16 +152,16 @@ constexpr const char* kIntoLoop =
     "a jump into a loop from outside: the control does not know how it was begun";
 }
 
-void Compiler::node(const ir::Jump& jump) {
+void Compiler::operator()(const ir::Jump& jump) {
   if (!reaches(jump.target)) return refuse(kIntoLoop);
   jumpTo(emit(Op::Jump), jump.target);
 }
 
-void Compiler::node(const ir::JumpTo& jump) {
+void Compiler::operator()(const ir::JumpTo& jump) {
   emit(Op::JumpTo, operand(jump.number));
 }
 
-void Compiler::node(const ir::Branch& branch) {
+void Compiler::operator()(const ir::Branch& branch) {
   if (reaches(branch.target)) {
     if (const auto place = jumpIf(branch.condition, true)) jumpTo(*place, branch.target);
     return;
@@ -172,7 +172,7 @@ void Compiler::node(const ir::Branch& branch) {
 }
 
 // The condition stands at both ends, so that a pass takes one jump.
-void Compiler::node(const ir::Loop& loop) {
+void Compiler::operator()(const ir::Loop& loop) {
   const std::uint32_t outer = loop_;
   loop_ = loopIds_[at_];
   if (loop.condition != nullptr) {
@@ -183,7 +183,7 @@ void Compiler::node(const ir::Loop& loop) {
   open_.push_back({&loop, static_cast<std::uint32_t>(code_.instructions.size())});
 }
 
-void Compiler::node(const ir::LoopEnd&) {
+void Compiler::operator()(const ir::LoopEnd&) {
   if (open_.empty()) return refuse("END without a loop");
   const OpenLoop loop = open_.back();
   open_.pop_back();
@@ -194,7 +194,7 @@ void Compiler::node(const ir::LoopEnd&) {
   loop_ = code_.outerLoops[loop_];
 }
 
-void Compiler::node(const ir::NcBlock& block) {
+void Compiler::operator()(const ir::NcBlock& block) {
   BlockSlots slots;
   std::vector<WordSlot> words;
   for (const ir::Word& word : block.words) {
@@ -230,7 +230,7 @@ void Compiler::node(const ir::NcBlock& block) {
   emit(Op::Block, static_cast<std::uint32_t>(code_.blocks.size() - 1));
 }
 
-void Compiler::node(const ir::Call& call) {
+void Compiler::operator()(const ir::Call& call) {
   CallSlots slots;
   slots.kind = call.kind;
   if (call.program != nullptr) slots.program = value(call.program);
@@ -254,30 +254,30 @@ void Compiler::node(const ir::Call& call) {
   emit(Op::Call, static_cast<std::uint32_t>(code_.calls.size() - 1));
 }
 
-void Compiler::node(const ir::Exit& exit) {
+void Compiler::operator()(const ir::Exit& exit) {
   emit(Op::Exit, exit.block == nullptr ? kNoCell : value(exit.block));
 }
 
-void Compiler::node(const ir::Raise& raise) {
+void Compiler::operator()(const ir::Raise& raise) {
   const std::uint32_t number = operand(raise.number);
   emit(Op::Raise, number, text(raise.text));
 }
 
-void Compiler::node(const ir::Notice& notice) {
+void Compiler::operator()(const ir::Notice& notice) {
   operand(notice.number); // what it computes may raise an alarm
   emit(Op::Notice, 0, text(notice.text));
 }
 
-void Compiler::node(const ir::Port& port) {
+void Compiler::operator()(const ir::Port& port) {
   emit(Op::OpenPort, 0, 0, 0, port.open ? 1 : 0);
 }
 
-void Compiler::node(const ir::Print& print) {
+void Compiler::operator()(const ir::Print& print) {
   code_.prints.push_back(&print);
   emit(Op::Print, static_cast<std::uint32_t>(code_.prints.size() - 1));
 }
 
-void Compiler::node(const ir::NameVariables& names) {
+void Compiler::operator()(const ir::NameVariables& names) {
   code_.names.push_back(&names);
   emit(Op::Name, static_cast<std::uint32_t>(code_.names.size() - 1));
 }

@@ -16,28 +16,31 @@ public:
   void add(const ir::Program& program);
   Bytecode finish();
 
+  // The code of one statement (Compile.cpp).
+  void operator()(const ir::Label& label);
+  void operator()(const ir::Comment&) {}
+  void operator()(const ir::Store& store);
+  void operator()(const ir::Jump& jump);
+  void operator()(const ir::JumpTo& jump);
+  void operator()(const ir::Branch& branch);
+  void operator()(const ir::Loop& loop);
+  void operator()(const ir::LoopEnd& end);
+  void operator()(const ir::NcBlock& block);
+  void operator()(const ir::Call& call);
+  void operator()(const ir::Exit& exit);
+  void operator()(const ir::Raise& raise);
+  void operator()(const ir::Notice& notice);
+  void operator()(const ir::Port& port);
+  void operator()(const ir::Print& print);
+  void operator()(const ir::NameVariables& names);
+  void operator()(const ir::OneOf<ir::Move, ir::Measure, ir::ProbePower> auto&) {
+    refuse("a statement of a cycle, which no control has");
+  }
+
 private:
   // ---- statements (Compile.cpp)
   void findLoops();
-  void statement(const ir::Statement& statement);
-  void node(const ir::Label& label);
-  void node(const ir::Comment&) {}
-  void node(const ir::Store& store);
-  void node(const ir::Jump& jump);
-  void node(const ir::JumpTo& jump);
-  void node(const ir::Branch& branch);
-  void node(const ir::Loop& loop);
-  void node(const ir::LoopEnd& end);
-  void node(const ir::NcBlock& block);
-  void node(const ir::Call& call);
-  void node(const ir::Exit& exit);
-  void node(const ir::Raise& raise);
-  void node(const ir::Notice& notice);
-  void node(const ir::Port& port);
-  void node(const ir::Print& print);
-  void node(const ir::NameVariables& names);
-  void node(std::monostate) {}
-  template <class Other> void node(const Other&) { refuse("a statement of a cycle, which no control has"); }
+  void statement(const ir::ProgramStatement& statement);
 
   std::uint32_t emit(Op op, std::uint32_t a = 0, std::uint32_t b = 0, std::uint32_t c = 0,
                      std::uint8_t detail = 0);

@@ -448,7 +448,7 @@ SourceRange Run::place() const {
   if (place_ >= code_.instructions.size()) return {};
   const ir::Program& program = *code_.routineOf(place_).program;
   if (program.body.empty()) return program.range;
-  const ir::Statement& statement = code_.statementOf(place_);
+  const ir::ProgramStatement& statement = code_.statementOf(place_);
   const RunEnd& end = machine_.end();
   if (const auto* block = std::get_if<ir::NcBlock>(&statement.node); block != nullptr && end.letter != 0) {
     std::uint32_t seen = 0;

@@ -69,7 +69,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t siz
   nc::LiftContext context{data.controls[choice & 1],
                           (choice & 2) != 0 ? nullptr : &data.sets[(choice >> 2) & 1], cycle, diagnostics};
   if ((choice & 8) != 0) context.fixed = [](ir::VariableId id) { return id == 0 ? 56.0 : 9770.0; };
-  std::vector<ir::Statement> body;
+  std::vector<ir::CycleStatement> body;
   for (std::size_t i = 0; i < text.size();) {
     const std::size_t end = std::min(text.find('\n', i), text.size());
     const auto before = diagnostics.all().size();

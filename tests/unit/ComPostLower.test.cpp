@@ -72,7 +72,7 @@ struct Lowering {
 
   std::string shown() const {
     std::string out;
-    for (const ir::Statement& statement : result->body)
+    for (const ir::CycleStatement& statement : result->body)
       out += show(statement, cycle) + "\n";
     return out;
   }
@@ -134,7 +134,7 @@ void sameWords(Lowering& one, const std::string& cycleId, const std::string& rou
   }
   std::vector<std::string> found;
   std::uint32_t last = 0;
-  for (const ir::Statement& statement : one.result->body) {
+  for (const ir::CycleStatement& statement : one.result->body) {
     if (statement.origin.block == last && !found.empty()) continue;
     last = statement.origin.block;
     std::string letters = statement.origin.addresses;
@@ -353,7 +353,7 @@ TEST_CASE("random branches: the same blocks as the post, refused where the post 
     }
     sound(one);
     std::string found;
-    for (const ir::Statement& statement : one.result->body)
+    for (const ir::CycleStatement& statement : one.result->body)
       found += statement.origin.addresses;
     CHECK(found == wanted);
     several += wanted.size() > 4 ? 1 : 0;

@@ -99,7 +99,7 @@ Converted convert(const std::string& text, const stdlib::Control& from, const st
   if (!file) return out;
   for (const ir::Program& program : file->programs) {
     out.before.emplace_back();
-    for (const ir::Statement& statement : program.body)
+    for (const ir::ProgramStatement& statement : program.body)
       if (const auto* label = std::get_if<ir::Label>(&statement.node))
         if (const std::uint64_t number = program.labels[label->label].number; number != 0)
           out.before.back().push_back(number);

@@ -22,8 +22,8 @@ ir::Move travel(ir::Motion motion, ir::Axis axis, double value, ir::Frame frame)
 
 TEST_CASE("fanuc blocks: statements of one block share a line in the source's order") {
   Maker cycle;
-  const auto joined = [&](auto node) -> ir::Statement& {
-    ir::Statement& out = cycle.add(node);
+  const auto joined = [&](auto node) -> ir::CycleStatement& {
+    ir::CycleStatement& out = cycle.add(node);
     out.origin.block = 4;
     out.origin.addresses = "GGXMGF";
     return out;
@@ -105,7 +105,7 @@ TEST_CASE("fanuc blocks: codes come from the control's table") {
 TEST_CASE("fanuc blocks: switching the probe") {
   SurfaceCycle cycle;
   CHECK(Target("easyprobe", "fanuc-31i-b").emit(cycle.cycle).codes().contains("no-probe-code"));
-  std::erase_if(cycle.cycle.body, [](const ir::Statement& statement) {
+  std::erase_if(cycle.cycle.body, [](const ir::CycleStatement& statement) {
     return std::holds_alternative<ir::ProbePower>(statement.node);
   });
   SUBCASE("a source that never switches it on is told") {

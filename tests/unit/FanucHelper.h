@@ -57,13 +57,13 @@ public:
   VariableId host(std::string name) {
     return cycle.add(named(std::move(name), ir::Role::Host, ir::Kind::Length));
   }
-  ir::Statement& add(ir::Statement statement) {
+  ir::CycleStatement& add(ir::CycleStatement statement) {
     cycle.body.push_back(std::move(statement));
     return cycle.body.back();
   }
-  template <class Node> ir::Statement& add(Node node) { return add(statement(std::move(node))); }
+  template <class Node> ir::CycleStatement& add(Node node) { return add(statement(std::move(node))); }
 
-  ir::Statement& move(ir::Motion motion, ir::Axis axis, ExpressionPtr value, ExpressionPtr feed = nullptr,
+  ir::CycleStatement& move(ir::Motion motion, ir::Axis axis, ExpressionPtr value, ExpressionPtr feed = nullptr,
                       ir::Frame frame = ir::Frame::Work) {
     ir::Move out;
     out.motion = motion;
@@ -71,7 +71,7 @@ public:
     out.feed = std::move(feed);
     return add(std::move(out));
   }
-  ir::Statement& surface(ir::Axis axis, ExpressionPtr travel, ExpressionPtr system, ExpressionPtr nominal) {
+  ir::CycleStatement& surface(ir::Axis axis, ExpressionPtr travel, ExpressionPtr system, ExpressionPtr nominal) {
     ir::Measure out;
     out.axis = axis;
     out.target = ir::Coordinate{std::move(travel), ir::Frame::Here, nullptr};

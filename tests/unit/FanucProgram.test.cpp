@@ -216,7 +216,7 @@ TEST_CASE("fanuc: every line knows where it comes from") {
   SourceMap sources;
   const FileId file = sources.add(SourceFile("post.txt", "one line\n", Encoding::Utf8));
   for (auto* list : {&cycle.cycle.checks, &cycle.cycle.body})
-    for (ir::Statement& statement : *list)
+    for (ir::CycleStatement& statement : *list)
       statement.origin.ranges = {{file, 0, 3}};
   const Emission out = Target().emit(cycle.cycle);
   REQUIRE(out.lines);

@@ -116,7 +116,7 @@ TEST_CASE("calls of another set: what is put before a call has lines of its own,
                     "G65 P9023 S54. X[#24-#5041] I#24\nN20 G53\nG65 P9023 S54. Z[5.-[#5043-#5083]] K5.\n"
                     "/N30 M31\nGOTO 10\nM99\n");
   std::uint32_t last = 0;
-  for (const ir::Statement& statement : out.file.programs[0].body) {
+  for (const ir::ProgramStatement& statement : out.file.programs[0].body) {
     CHECK(statement.origin.block >= last);
     CHECK(statement.origin.block <= last + 1);
     last = statement.origin.block;

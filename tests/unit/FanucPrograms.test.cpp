@@ -129,13 +129,13 @@ TEST_CASE("macro B programs: statements of cycles are no part of them") {
   ir::Program& program = file.programs.emplace_back();
   const stdlib::Control here = control("fanuc-0i-md");
   const fanuc::ProgramOptions options{here, here, {}, {}, false};
-  const auto told = [&](ir::Statement statement) {
+  const auto told = [&](ir::ProgramStatement statement) {
     program.body = {std::move(statement)};
     Diagnostics found;
     CHECK_FALSE(fanuc::emitPrograms(file, options, SourceMap(), found));
     return codes(found);
   };
-  ir::Statement statement;
+  ir::ProgramStatement statement;
   statement.node = ir::ProbePower{true};
   CHECK(told(statement) == diag::StatementNotOfProgram::code);
   statement.node = ir::Store{ir::constant(500), ir::variable(0)};

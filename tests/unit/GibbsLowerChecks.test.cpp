@@ -200,7 +200,7 @@ TEST_CASE("gibbs lower: many independent checks stay few ways") {
   CHECK(project.lowerChecks());
   CHECK(project.findings() == "");
   int alarms = 0;
-  for (const ir::Statement& each : project.cycle.checks)
+  for (const ir::CycleStatement& each : project.cycle.checks)
     if (std::holds_alternative<ir::Alarm>(each.node)) ++alarms;
   CHECK(alarms == 24);
 }

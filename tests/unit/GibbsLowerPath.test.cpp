@@ -307,7 +307,7 @@ TEST_CASE("gibbs lower: points of the probe, ranges, and fields that no move use
   CHECK(project.diagnostics.all()[0].code == "fields-without-move");
   CHECK(project.diagnostics.all()[0].message.find("`b` and `c`") != std::string::npos);
   int measures = 0;
-  for (const ir::Statement& each : project.cycle.body) {
+  for (const ir::CycleStatement& each : project.cycle.body) {
     if (const auto* move = std::get_if<ir::Move>(&each.node)) {
       CHECK(move->motion == ir::Motion::Protected);
       CHECK(move->point == ir::ProbePoint::Lowest);

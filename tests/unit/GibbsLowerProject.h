@@ -118,9 +118,9 @@ struct LowerProject : GibbsProject {
     return std::string(1, "MWSRH"[static_cast<int>(c.frame)]) + " " + text(c.value);
   }
   // One statement a line: `G<54 -> L1`, `L1:`, `alarm [text]`, `move X S a Z R (Z-5)`, `measure X W a`.
-  std::string text(const std::vector<ir::Statement>& list) const {
+  std::string text(const std::vector<ir::CycleStatement>& list) const {
     std::string out;
-    for (const ir::Statement& each : list) {
+    for (const ir::CycleStatement& each : list) {
       if (const auto* s = std::get_if<ir::Assign>(&each.node))
         out += cycle.variables[s->variable].name + " = " + text(s->value);
       if (const auto* s = std::get_if<ir::Label>(&each.node)) out += cycle.labels[s->label].name + ":";
@@ -172,7 +172,7 @@ struct LowerProject : GibbsProject {
       }
     };
     for (int steps = 0; place < cycle.body.size() && steps < 10000; ++steps) {
-      const ir::Statement& each = cycle.body[place++];
+      const ir::CycleStatement& each = cycle.body[place++];
       if (const auto* s = std::get_if<ir::Assign>(&each.node))
         environment[s->variable] = ir::evaluate(*s->value, environment);
       if (const auto* s = std::get_if<ir::Jump>(&each.node)) go(s->target);

@@ -40,15 +40,15 @@ bool proven(const ExpressionPtr& a, const ExpressionPtr& b) {
   return provenEqual(a, b, abc());
 }
 
-Statement to(std::size_t axis, const ExpressionPtr& value, Frame frame,
-             ProbePoint point = ProbePoint::Centre) {
+CycleStatement to(std::size_t axis, const ExpressionPtr& value, Frame frame,
+                  ProbePoint point = ProbePoint::Centre) {
   Move move;
   move.axes[axis] = Coordinate{value, frame, nullptr};
   move.point = point;
   return statement(move);
 }
 
-Statement touchX(const ExpressionPtr& system) {
+CycleStatement touchX(const ExpressionPtr& system) {
   Measure measure;
   measure.target = Coordinate{constant(10), Frame::Here, nullptr};
   if (system) measure.setting = OffsetSetting{system, {constant(0), nullptr, nullptr}};
@@ -56,7 +56,7 @@ Statement touchX(const ExpressionPtr& system) {
 }
 
 // Position behind the statements.
-Position behind(std::vector<Statement> body) {
+Position behind(std::vector<CycleStatement> body) {
   Cycle cycle = abc();
   cycle.addLabel({"l", {}});
   body.push_back(statement(Return{}));
@@ -186,7 +186,7 @@ TEST_CASE("ir: positions meet where paths do") {
 }
 
 TEST_CASE("ir: many travels do not make a large position") {
-  std::vector<Statement> body;
+  std::vector<CycleStatement> body;
   for (int i = 0; i < 5000; ++i)
     body.push_back(to(0, kA, Frame::Here));
   CHECK(behind(body)[0].state == State::Unknown);

@@ -77,7 +77,7 @@ TEST_CASE("ir: names of labels are unique") {
 
 TEST_CASE("ir: flow") {
   const auto condition = compare(Relation::Less, variable(0), constant(1));
-  const std::vector<Statement> list = {
+  const std::vector<CycleStatement> list = {
       statement(Branch{condition, 0}), // 0: to 1 or 3
       statement(Jump{1}),              // 1: to 5
       statement(Comment{"nobody"}),    // 2
@@ -97,6 +97,32 @@ TEST_CASE("ir: flow") {
   CHECK(next[6] == Next{8});
   CHECK(next[7].empty());
   CHECK(reachable(list) == std::vector<bool>{true, true, false, true, true, true, true, false});
-  CHECK(successors({statement(Branch{condition, 0}), statement(Label{0})})[0] == Next{1});
-  CHECK(reachable({}).empty());
+  CHECK(successors(std::vector{statement(Branch{condition, 0}), statement(Label{0})})[0] == Next{1});
+  CHECK(reachable(std::vector<CycleStatement>{}).empty());
+}
+
+TEST_CASE("ir: flow of a program") {
+  const auto condition = compare(Relation::Less, machineVariable(constant(1)), constant(1));
+  std::vector<ProgramStatement> list = {
+      {Label{0}, {}},                  // 0
+      {Loop{1, condition, 1}, {}},     // 1: to 2 or 4
+      {NcBlock{}, {}},                 // 2
+      {LoopEnd{1, 0}, {}},             // 3: to 0
+      {Label{1}, {}},                  // 4
+      {JumpTo{constant(7)}, {}},       // 5: to any label
+      {Exit{}, {}},                    // 6
+      {Raise{constant(1), "end"}, {}}, // 7
+  };
+  using Next = std::vector<std::size_t>;
+  auto next = successors(list);
+  CHECK(next[1] == Next{2, 4});
+  CHECK(next[3] == Next{0});
+  CHECK(next[5] == Next{0, 4});
+  CHECK(next[6] == Next{8});
+  CHECK(next[7].empty());
+  CHECK(reachable(list) == std::vector<bool>{true, true, true, true, true, true, false, false});
+  list[5].blockDelete = 1;
+  next = successors(list);
+  CHECK(next[5] == Next{0, 4, 6});
+  CHECK(reachable(list)[6]);
 }

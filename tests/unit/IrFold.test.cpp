@@ -35,11 +35,11 @@ Cycle small() {
   return cycle;
 }
 
-Statement store(double number, const ExpressionPtr& value) {
+CycleStatement store(double number, const ExpressionPtr& value) {
   return statement(Store{constant(number), value});
 }
 
-const ExpressionPtr& stored(const Statement& statement) {
+const ExpressionPtr& stored(const CycleStatement& statement) {
   return std::get<Store>(statement.node).value;
 }
 

@@ -8,8 +8,8 @@
 
 namespace dotek::tests {
 
-template <class Node> ir::Statement statement(Node node) {
-  ir::Statement out;
+template <class Node> ir::CycleStatement statement(Node node) {
+  ir::CycleStatement out;
   out.node = std::move(node);
   return out;
 }

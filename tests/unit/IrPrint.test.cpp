@@ -141,7 +141,7 @@ TEST_CASE("ir: a module as text") {
   bore.feature = Feature::Bore;
   bore.diameter = zb;
   bore.setting = OffsetSetting{g, {zb, zb, nullptr}};
-  Statement placed = statement(down);
+  CycleStatement placed = statement(down);
   placed.origin.ranges = {{file, 8, 9}};
   placed.origin.reason = "argument omitted";
   cycle.body = {

@@ -46,14 +46,14 @@ Measure bore() {
   return measure;
 }
 
-std::vector<Violation> inBody(std::vector<Statement> body) {
+std::vector<Violation> inBody(std::vector<CycleStatement> body) {
   Cycle cycle = good();
   cycle.body = std::move(body);
   return verify(cycle);
 }
 
 // The one violation of a body of one statement.
-Violation only(Statement it) {
+Violation only(CycleStatement it) {
   it.origin.ranges = {{7, 1, 2}};
   const auto found = inBody({std::move(it)});
   REQUIRE(found.size() == 1);
@@ -61,13 +61,13 @@ Violation only(Statement it) {
   return found[0];
 }
 
-void defect(Statement it, const std::string& message) {
+void defect(CycleStatement it, const std::string& message) {
   const Violation found = only(std::move(it));
   CHECK(found.message == message);
   CHECK_FALSE(found.mixedKinds);
 }
 
-void mixed(Statement it, const std::string& message) {
+void mixed(CycleStatement it, const std::string& message) {
   const Violation found = only(std::move(it));
   CHECK(found.message == message);
   CHECK(found.mixedKinds);
@@ -96,8 +96,7 @@ TEST_CASE("ir: verify: what does not exist or is missing") {
   defect(statement(Jump{99}), "a label does not exist");
   defect(statement(Branch{nullptr, 0}), "a condition is missing");
   defect(statement(Dwell{nullptr}), "the time of a dwell is missing");
-  defect(statement(std::monostate{}), "a statement does nothing");
-  Statement named = statement(Return{});
+  CycleStatement named = statement(Return{});
   named.origin.arguments = {{'A', 99}};
   defect(std::move(named), "a variable of the origin does not exist");
 }
@@ -207,7 +206,7 @@ TEST_CASE("ir: verify: kinds") {
 
 TEST_CASE("ir: verify: a finding stands at the narrowest place") {
   const auto wrong = binary(BinaryOp::Add, variable(kLength), variable(kOffset), {7, 10, 15});
-  Statement it = statement(Store{constant(1), wrong});
+  CycleStatement it = statement(Store{constant(1), wrong});
   it.origin.ranges = {{7, 0, 20}};
   const auto found = inBody({it});
   REQUIRE(found.size() == 1);
@@ -261,7 +260,7 @@ TEST_CASE("ir: verify: null") {
 }
 
 TEST_CASE("ir: verify: checks do nothing but decide") {
-  const auto inChecks = [](Statement it) {
+  const auto inChecks = [](CycleStatement it) {
     Cycle cycle = good();
     cycle.checks = {std::move(it)};
     const auto found = verify(cycle);

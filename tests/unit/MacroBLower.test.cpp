@@ -72,7 +72,7 @@ TEST_CASE("macro B lowering: a jump goes forward first, then to the first block 
   REQUIRE(forward.file);
   const ir::Program& program = forward.file->programs.front();
   std::vector<std::size_t> targets;
-  for (const ir::Statement& statement : program.body)
+  for (const ir::ProgramStatement& statement : program.body)
     if (const auto* jump = std::get_if<ir::Jump>(&statement.node)) targets.push_back(jump->target);
   CHECK(targets == std::vector<std::size_t>{1, 0});
   CHECK(lower("GOTO#1\n").body == "    goto-number or_zero(#1)\n");

@@ -34,7 +34,7 @@ inline std::string show(const ir::Coordinate& c, const ir::Cycle& cycle) {
   return std::string(kNames[static_cast<int>(c.frame)]) + ":" + show(c.value, cycle);
 }
 
-inline std::string show(const ir::Statement& s, const ir::Cycle& cycle) {
+inline std::string show(const ir::CycleStatement& s, const ir::Cycle& cycle) {
   const auto number = [](auto value) { return std::to_string(static_cast<int>(value)); };
   if (const auto* m = std::get_if<ir::Move>(&s.node)) {
     static const char* const kNames[] = {"rapid", "feed", "protected"};
@@ -140,7 +140,7 @@ public:
   // The statements, one a line.
   std::string shown() const {
     std::string out;
-    for (const ir::Statement& statement : body)
+    for (const ir::CycleStatement& statement : body)
       out += show(statement, cycle) + "\n";
     return out;
   }
@@ -165,7 +165,7 @@ public:
   stdlib::Control control;
   std::optional<stdlib::MacroSet> macros;
   std::map<std::string, double> fixed; // by --set
-  std::vector<ir::Statement> body;
+  std::vector<ir::CycleStatement> body;
   frontend::nc::ModalState state;
 
 private:

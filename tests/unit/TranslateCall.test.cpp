@@ -82,7 +82,7 @@ std::string translated(Case one, const std::string& text) {
     return "refused: " + out.refusal;
   }
   std::string shown;
-  for (const ir::Statement& statement : out.before) {
+  for (const ir::ProgramStatement& statement : out.before) {
     if (const auto* block = std::get_if<ir::NcBlock>(&statement.node))
       shown += fmt::format("{}{} ", block->words[0].address, show(block->words[0].value));
     else if (const auto* branch = std::get_if<ir::Branch>(&statement.node))
