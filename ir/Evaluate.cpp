@@ -12,55 +12,6 @@ Scalar scalar(Computed computed) {
   return computed.ok() ? Scalar::of(computed.value) : Scalar::failed(computed.error);
 }
 
-Computed compute(UnaryOp op, double a) {
-  constexpr auto kDegrees = AngleUnit::Degrees;
-  switch (op) {
-  case UnaryOp::Negate: return subtract(0, a);
-  case UnaryOp::Absolute: return absolute(a);
-  case UnaryOp::Truncate: return truncate(a);
-  case UnaryOp::RoundUp: return roundUp(a);
-  case UnaryOp::Round: return roundNearest(a);
-  case UnaryOp::SquareRoot: return squareRoot(a);
-  case UnaryOp::Sine: return sine(a, kDegrees);
-  case UnaryOp::Cosine: return cosine(a, kDegrees);
-  case UnaryOp::Tangent: return tangent(a, kDegrees);
-  case UnaryOp::ArcSine: return arcSine(a, kDegrees);
-  case UnaryOp::ArcCosine: return arcCosine(a, kDegrees);
-  case UnaryOp::ArcTangent: return arcTangent(a, kDegrees);
-  case UnaryOp::Logarithm: return logarithm(a);
-  case UnaryOp::Exponential: return exponential(a);
-  case UnaryOp::NullAsZero: return {a, ArithmeticError::None};
-  case UnaryOp::FromBcd: return fromBcd(a);
-  case UnaryOp::ToBcd: return toBcd(a);
-  // What these give hangs on the control.
-  case UnaryOp::RoundIncrement:
-  case UnaryOp::AddPoint: break;
-  }
-  return {0, ArithmeticError::Domain};
-}
-
-Computed compute(BinaryOp op, double a, double b) {
-  switch (op) {
-  case BinaryOp::Add: return add(a, b);
-  case BinaryOp::Subtract: return subtract(a, b);
-  case BinaryOp::Multiply: return multiply(a, b);
-  case BinaryOp::Divide: return divide(a, b);
-  case BinaryOp::Modulo: return modulo(a, b);
-  case BinaryOp::Direction: return direction(a, b, AngleUnit::Degrees);
-  case BinaryOp::BitAnd: return bitAnd(a, b);
-  case BinaryOp::BitOr: return bitOr(a, b);
-  case BinaryOp::BitXor: return bitXor(a, b);
-  case BinaryOp::ValueOr: return {a, ArithmeticError::None};
-  case BinaryOp::RoundedAnd: return roundedAnd(a, b);
-  case BinaryOp::RoundedOr: return roundedOr(a, b);
-  case BinaryOp::RoundedXor: return roundedXor(a, b);
-  case BinaryOp::RoundedModulo: return roundedModulo(a, b);
-  case BinaryOp::Power: return power(a, b);
-  case BinaryOp::Bearing: return bearing(a, b);
-  }
-  return {0, ArithmeticError::Domain};
-}
-
 // The operand of arithmetic: Null fails.
 Scalar operand(const Scalar& value) {
   return value.state == State::Null ? Scalar::failed(ArithmeticError::NoValue) : value;
@@ -145,28 +96,79 @@ Verdict decideJunction(const Junction& node, const Environment& environment) {
 }
 
 Verdict decide(const Condition& condition, const Environment& environment) {
-  if (const auto* comparison = std::get_if<Comparison>(&condition.node))
-    return decideComparison(*comparison, environment);
-  if (const auto* null = std::get_if<IsNull>(&condition.node)) return decideNull(*null, environment);
-  if (const auto* junction = std::get_if<Junction>(&condition.node))
-    return decideJunction(*junction, environment);
-  if (const auto* negated = std::get_if<Not>(&condition.node)) {
-    const Verdict inner = decide(*negated->inner, environment);
-    if (inner == Verdict::True) return Verdict::False;
-    return inner == Verdict::False ? Verdict::True : inner;
-  }
-  return std::get<Truth>(condition.node).value ? Verdict::True : Verdict::False;
+  return match(
+      condition, [&](const Comparison& node) { return decideComparison(node, environment); },
+      [&](const IsNull& node) { return decideNull(node, environment); },
+      [&](const Junction& node) { return decideJunction(node, environment); },
+      [&](const Not& node) {
+        const Verdict inner = decide(*node.inner, environment);
+        if (inner == Verdict::True) return Verdict::False;
+        return inner == Verdict::False ? Verdict::True : inner;
+      },
+      [](const Truth& node) { return node.value ? Verdict::True : Verdict::False; });
 }
 
 } // namespace
 
+Computed compute(UnaryOp op, double a) {
+  constexpr auto kDegrees = AngleUnit::Degrees;
+  switch (op) {
+  case UnaryOp::Negate: return subtract(0, a);
+  case UnaryOp::Absolute: return absolute(a);
+  case UnaryOp::Truncate: return truncate(a);
+  case UnaryOp::RoundUp: return roundUp(a);
+  case UnaryOp::Round: return roundNearest(a);
+  case UnaryOp::SquareRoot: return squareRoot(a);
+  case UnaryOp::Sine: return sine(a, kDegrees);
+  case UnaryOp::Cosine: return cosine(a, kDegrees);
+  case UnaryOp::Tangent: return tangent(a, kDegrees);
+  case UnaryOp::ArcSine: return arcSine(a, kDegrees);
+  case UnaryOp::ArcCosine: return arcCosine(a, kDegrees);
+  case UnaryOp::ArcTangent: return arcTangent(a, kDegrees);
+  case UnaryOp::Logarithm: return logarithm(a);
+  case UnaryOp::Exponential: return exponential(a);
+  case UnaryOp::NullAsZero: return {a, ArithmeticError::None};
+  case UnaryOp::FromBcd: return fromBcd(a);
+  case UnaryOp::ToBcd: return toBcd(a);
+  // What these give hangs on the control.
+  case UnaryOp::RoundIncrement:
+  case UnaryOp::AddPoint: break;
+  }
+  return {0, ArithmeticError::Domain};
+}
+
+Computed compute(BinaryOp op, double a, double b) {
+  switch (op) {
+  case BinaryOp::Add: return add(a, b);
+  case BinaryOp::Subtract: return subtract(a, b);
+  case BinaryOp::Multiply: return multiply(a, b);
+  case BinaryOp::Divide: return divide(a, b);
+  case BinaryOp::Modulo: return modulo(a, b);
+  case BinaryOp::Direction: return direction(a, b, AngleUnit::Degrees);
+  case BinaryOp::BitAnd: return bitAnd(a, b);
+  case BinaryOp::BitOr: return bitOr(a, b);
+  case BinaryOp::BitXor: return bitXor(a, b);
+  case BinaryOp::ValueOr: return {a, ArithmeticError::None};
+  case BinaryOp::RoundedAnd: return roundedAnd(a, b);
+  case BinaryOp::RoundedOr: return roundedOr(a, b);
+  case BinaryOp::RoundedXor: return roundedXor(a, b);
+  case BinaryOp::RoundedModulo: return roundedModulo(a, b);
+  case BinaryOp::Power: return power(a, b);
+  case BinaryOp::Bearing: return bearing(a, b);
+  }
+  return {0, ArithmeticError::Domain};
+}
+
 Scalar evaluate(const Expression& expression, const Environment& environment) {
-  if (const auto* constant = std::get_if<Constant>(&expression.node)) return Scalar::of(constant->value);
-  if (const auto* use = std::get_if<VariableUse>(&expression.node))
-    return use->variable < environment.size() ? environment[use->variable] : Scalar{};
-  if (const auto* node = std::get_if<Unary>(&expression.node)) return evaluateUnary(*node, environment);
-  if (const auto* node = std::get_if<Binary>(&expression.node)) return evaluateBinary(*node, environment);
-  return std::holds_alternative<NullValue>(expression.node) ? Scalar::null() : Scalar{};
+  return match(
+      expression, [](const Constant& node) { return Scalar::of(node.value); },
+      [](const NullValue&) { return Scalar::null(); },
+      [&](const VariableUse& node) {
+        return node.variable < environment.size() ? environment[node.variable] : Scalar{};
+      },
+      [&](const Unary& node) { return evaluateUnary(node, environment); },
+      [&](const Binary& node) { return evaluateBinary(node, environment); },
+      [](const OneOf<MachineVariable, MeasuredResult> auto&) { return Scalar{}; });
 }
 
 std::optional<bool> holds(const Condition& condition, const Environment& environment) {
@@ -188,24 +190,32 @@ CheckRun runChecks(const Cycle& cycle, Environment environment, std::uint32_t ma
     const CycleStatement& statement = list[at];
     if (steps >= maxSteps) return {End::Endless, &statement};
     std::optional<LabelId> target;
-    if (const auto* assign = std::get_if<Assign>(&statement.node)) {
-      const Scalar value = evaluate(*assign->value, environment);
-      if (value.state == State::Failed) return {End::Failed, &statement};
-      if (assign->variable < environment.size()) environment[assign->variable] = value;
-    } else if (const auto* branch = std::get_if<Branch>(&statement.node)) {
-      const Verdict verdict = decide(*branch->condition, environment);
-      if (verdict == Verdict::Unknown) return {End::Unknown, &statement};
-      if (verdict == Verdict::Failed) return {End::Failed, &statement};
-      if (verdict == Verdict::True) target = branch->target;
-    } else if (const auto* jump = std::get_if<Jump>(&statement.node)) {
-      target = jump->target;
-    } else if (std::holds_alternative<Alarm>(statement.node)) {
-      return {End::Alarm, &statement};
-    } else if (std::holds_alternative<Return>(statement.node)) {
-      return {End::Passes, nullptr};
-    } else if (std::holds_alternative<OpaqueBlock>(statement.node)) {
-      return {End::Unknown, &statement};
-    }
+    const std::optional<End> end = match(
+        statement,
+        [&](const Assign& node) -> std::optional<End> {
+          const Scalar value = evaluate(*node.value, environment);
+          if (value.state == State::Failed) return End::Failed;
+          if (node.variable < environment.size()) environment[node.variable] = value;
+          return std::nullopt;
+        },
+        [&](const Branch& node) -> std::optional<End> {
+          const Verdict verdict = decide(*node.condition, environment);
+          if (verdict == Verdict::Unknown) return End::Unknown;
+          if (verdict == Verdict::Failed) return End::Failed;
+          if (verdict == Verdict::True) target = node.target;
+          return std::nullopt;
+        },
+        [&](const Jump& node) -> std::optional<End> {
+          target = node.target;
+          return std::nullopt;
+        },
+        [](const Alarm&) -> std::optional<End> { return End::Alarm; },
+        [](const Return&) -> std::optional<End> { return End::Passes; },
+        [](const OpaqueBlock&) -> std::optional<End> { return End::Unknown; },
+        // What verify() refuses in checks, and what changes no variable of the cycle.
+        [](const OneOf<Store, Label, Move, Measure, ProbePower, Spindle, Coolant, SetMode, Dwell, Stop,
+                       Comment> auto&) -> std::optional<End> { return std::nullopt; });
+    if (end) return {*end, *end == End::Passes ? nullptr : &statement};
     if (!target) {
       ++at;
       continue;

@@ -26,6 +26,11 @@ struct Scalar {
 // By VariableId; shorter than the cycle's variables: the rest is unknown.
 using Environment = std::vector<Scalar>;
 
+// What the operator gives for numbers, angles in degrees. What a number cannot tell fails (Domain): rounding
+// to the increment of a word, the point that ADP adds. NullAsZero and ValueOr give `a`.
+Computed compute(UnaryOp op, double a);
+Computed compute(BinaryOp op, double a, double b);
+
 // Machine variables and measured results are unknown. Null in arithmetic fails (NoValue); what fails
 // outweighs what is unknown.
 Scalar evaluate(const Expression& expression, const Environment& environment);

@@ -1,12 +1,11 @@
 #include "ir/Expression.h"
 
+#include "ir/Match.h"
+
 #include <utility>
 
 namespace dotek::ir {
 namespace {
-
-template <class... Types> struct Cases : Types... { using Types::operator()...; };
-template <class... Types> Cases(Types...) -> Cases<Types...>; // clang 14 asks for it
 
 template <class Node> ExpressionPtr make(SourceRange range, Node node) {
   return std::make_shared<const Expression>(Expression{range, std::move(node)});
@@ -55,42 +54,41 @@ const double* constantValue(const ExpressionPtr& expression) {
 bool equal(const ExpressionPtr& a, const ExpressionPtr& b) {
   if (a == b) return true;
   if (!a || !b || a->node.index() != b->node.index()) return false;
-  return std::visit(
-      Cases{[&](const Constant& left) { return left.value == std::get<Constant>(b->node).value; },
-            [&](const NullValue&) { return true; },
-            [&](const VariableUse& left) { return left.variable == std::get<VariableUse>(b->node).variable; },
-            [&](const MachineVariable& left) {
-              return equal(left.number, std::get<MachineVariable>(b->node).number);
-            },
-            [&](const MeasuredResult& left) { return left.name == std::get<MeasuredResult>(b->node).name; },
-            [&](const Unary& left) {
-              const auto& right = std::get<Unary>(b->node);
-              return left.op == right.op && equal(left.operand, right.operand);
-            },
-            [&](const Binary& left) {
-              const auto& right = std::get<Binary>(b->node);
-              return left.op == right.op && equal(left.left, right.left) && equal(left.right, right.right);
-            }},
-      a->node);
+  return match(
+      *a, [&](const Constant& left) { return left.value == std::get<Constant>(b->node).value; },
+      [&](const NullValue&) { return true; },
+      [&](const VariableUse& left) { return left.variable == std::get<VariableUse>(b->node).variable; },
+      [&](const MachineVariable& left) {
+        return equal(left.number, std::get<MachineVariable>(b->node).number);
+      },
+      [&](const MeasuredResult& left) { return left.name == std::get<MeasuredResult>(b->node).name; },
+      [&](const Unary& left) {
+        const auto& right = std::get<Unary>(b->node);
+        return left.op == right.op && equal(left.operand, right.operand);
+      },
+      [&](const Binary& left) {
+        const auto& right = std::get<Binary>(b->node);
+        return left.op == right.op && equal(left.left, right.left) && equal(left.right, right.right);
+      });
 }
 
 bool equal(const ConditionPtr& a, const ConditionPtr& b) {
   if (a == b) return true;
   if (!a || !b || a->node.index() != b->node.index()) return false;
-  return std::visit(
-      Cases{[&](const Comparison& left) {
-              const auto& right = std::get<Comparison>(b->node);
-              return left.relation == right.relation && equal(left.left, right.left) &&
-                     equal(left.right, right.right);
-            },
-            [&](const IsNull& left) { return equal(left.value, std::get<IsNull>(b->node).value); },
-            [&](const Not& left) { return equal(left.inner, std::get<Not>(b->node).inner); },
-            [&](const Junction& left) {
-              const auto& right = std::get<Junction>(b->node);
-              return left.op == right.op && equal(left.left, right.left) && equal(left.right, right.right);
-            },
-            [&](const Truth& left) { return left.value == std::get<Truth>(b->node).value; }},
-      a->node);
+  return match(
+      *a,
+      [&](const Comparison& left) {
+        const auto& right = std::get<Comparison>(b->node);
+        return left.relation == right.relation && equal(left.left, right.left) &&
+               equal(left.right, right.right);
+      },
+      [&](const IsNull& left) { return equal(left.value, std::get<IsNull>(b->node).value); },
+      [&](const Not& left) { return equal(left.inner, std::get<Not>(b->node).inner); },
+      [&](const Junction& left) {
+        const auto& right = std::get<Junction>(b->node);
+        return left.op == right.op && equal(left.left, right.left) && equal(left.right, right.right);
+      },
+      [&](const Truth& left) { return left.value == std::get<Truth>(b->node).value; });
 }
 
 Relation opposite(Relation relation) {
@@ -128,24 +126,24 @@ namespace {
 // The condition with its negations pushed inward; negated where `wanted` is false.
 ConditionPtr pushed(const ConditionPtr& condition, bool wanted) {
   const SourceRange range = condition->range;
-  return std::visit(
-      Cases{[&](const Comparison& node) {
-              return wanted ? condition : compare(opposite(node.relation), node.left, node.right, range);
-            },
-            [&](const IsNull&) { return wanted ? condition : makeCondition(range, Not{condition}); },
-            [&](const Not& node) {
-              const bool plain = wanted && std::holds_alternative<IsNull>(node.inner->node);
-              return plain ? condition : pushed(node.inner, !wanted);
-            },
-            [&](const Junction& node) {
-              ConditionPtr left = pushed(node.left, wanted);
-              ConditionPtr right = pushed(node.right, wanted);
-              if (left == node.left && right == node.right) return condition;
-              const Connective op = (node.op == Connective::And) == wanted ? Connective::And : Connective::Or;
-              return join(op, std::move(left), std::move(right), range);
-            },
-            [&](const Truth& node) { return wanted ? condition : truth(!node.value, range); }},
-      condition->node);
+  return match(
+      *condition,
+      [&](const Comparison& node) {
+        return wanted ? condition : compare(opposite(node.relation), node.left, node.right, range);
+      },
+      [&](const IsNull&) { return wanted ? condition : makeCondition(range, Not{condition}); },
+      [&](const Not& node) {
+        const bool plain = wanted && std::holds_alternative<IsNull>(node.inner->node);
+        return plain ? condition : pushed(node.inner, !wanted);
+      },
+      [&](const Junction& node) {
+        ConditionPtr left = pushed(node.left, wanted);
+        ConditionPtr right = pushed(node.right, wanted);
+        if (left == node.left && right == node.right) return condition;
+        const Connective op = (node.op == Connective::And) == wanted ? Connective::And : Connective::Or;
+        return join(op, std::move(left), std::move(right), range);
+      },
+      [&](const Truth& node) { return wanted ? condition : truth(!node.value, range); });
 }
 
 } // namespace

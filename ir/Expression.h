@@ -79,6 +79,9 @@ enum class BinaryOp : std::uint8_t {
   Power,
   Bearing, // as Direction, from 0 up to below 360
 };
+// The last ones, for who goes through all of them.
+inline constexpr UnaryOp kLastUnaryOp = UnaryOp::AddPoint;
+inline constexpr BinaryOp kLastBinaryOp = BinaryOp::Bearing;
 struct Unary {
   UnaryOp op = UnaryOp::Negate;
   ExpressionPtr operand;
@@ -122,6 +125,7 @@ enum class Relation : std::uint8_t {
   Same,
   Different
 };
+inline constexpr Relation kLastRelation = Relation::Different;
 // Equal with NotEqual, Less with GreaterEqual, Greater with LessEqual, Same with Different: exact, as no
 // value is a NaN.
 Relation opposite(Relation relation);

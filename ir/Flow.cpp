@@ -55,6 +55,22 @@ std::vector<std::vector<std::size_t>> successorsOf(const std::vector<Statement>&
   return out;
 }
 
+template <AnyStatement Statement> std::optional<LabelId> targetIn(const Statement& statement) {
+  return match(
+      statement, [](const OneOf<Jump, Branch> auto& node) { return std::optional(node.target); },
+      [](const OneOf<Label, Store, Move, Measure, ProbePower, Comment, Assign, Return, Spindle, Coolant,
+                     SetMode, Dwell, Stop, Alarm, OpaqueBlock, NcBlock, JumpTo, Loop, LoopEnd, Call, Exit,
+                     Raise, Notice, Port, Print, NameVariables> auto&) { return std::optional<LabelId>(); });
+}
+
+template <AnyStatement Statement> bool layoutOnly(const Statement& statement) {
+  return match(
+      statement, [](const OneOf<Label, Comment> auto&) { return true; },
+      [](const OneOf<Jump, Branch, Store, Move, Measure, ProbePower, Assign, Return, Spindle, Coolant,
+                     SetMode, Dwell, Stop, Alarm, OpaqueBlock, NcBlock, JumpTo, Loop, LoopEnd, Call, Exit,
+                     Raise, Notice, Port, Print, NameVariables> auto&) { return false; });
+}
+
 template <AnyStatement Statement> std::vector<bool> reachableIn(const std::vector<Statement>& list) {
   const auto next = successorsOf(list);
   std::vector<bool> seen(list.size());
@@ -82,6 +98,22 @@ std::vector<std::vector<std::size_t>> successors(const std::vector<CycleStatemen
 
 std::vector<std::vector<std::size_t>> successors(const std::vector<ProgramStatement>& list) {
   return successorsOf(list);
+}
+
+std::optional<LabelId> targetOf(const CycleStatement& statement) {
+  return targetIn(statement);
+}
+
+std::optional<LabelId> targetOf(const ProgramStatement& statement) {
+  return targetIn(statement);
+}
+
+bool isLayout(const CycleStatement& statement) {
+  return layoutOnly(statement);
+}
+
+bool isLayout(const ProgramStatement& statement) {
+  return layoutOnly(statement);
 }
 
 std::vector<bool> reachable(const std::vector<CycleStatement>& list) {

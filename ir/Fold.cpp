@@ -85,20 +85,18 @@ bool removeJumps(std::vector<CycleStatement>& list) {
   std::set<LabelId> following; // labels between here and the next statement that does something
   std::set<LabelId> targets;
   for (std::size_t i = list.size(); i-- > 0;) {
-    const auto& node = list[i].node;
-    const auto* jump = std::get_if<Jump>(&node);
-    const auto* branch = std::get_if<Branch>(&node);
-    if (const auto* label = std::get_if<Label>(&node)) {
-      following.insert(label->label);
-      continue;
-    }
-    if (jump || branch) {
-      const LabelId target = jump ? jump->target : branch->target;
-      gone[i] = following.contains(target) && (jump || !mayFail(branch->condition));
-      if (gone[i]) continue;
+    const auto jumps = [&](LabelId target, bool mayGo) {
+      gone[i] = mayGo && following.contains(target);
+      if (gone[i]) return;
       targets.insert(target);
-    }
-    following.clear();
+      following.clear();
+    };
+    match(
+        list[i], [&](const Label& node) { following.insert(node.label); },
+        [&](const Jump& node) { jumps(node.target, true); },
+        [&](const Branch& node) { jumps(node.target, !mayFail(node.condition)); },
+        [&](const OneOf<Assign, Store, Return, Move, Measure, ProbePower, Spindle, Coolant, SetMode, Dwell,
+                        Stop, Alarm, Comment, OpaqueBlock> auto&) { following.clear(); });
   }
   for (std::size_t i = 0; i < list.size(); ++i) {
     const auto* label = std::get_if<Label>(&list[i].node);

@@ -15,11 +15,6 @@ struct Group {
   Kind kind = Kind::Number;
 };
 
-bool hasRequirements(const CycleStatement& statement) {
-  return std::holds_alternative<Move>(statement.node) || std::holds_alternative<Measure>(statement.node) ||
-         std::holds_alternative<SetMode>(statement.node);
-}
-
 class Inference {
 public:
   explicit Inference(Cycle& cycle)
@@ -80,34 +75,40 @@ private:
   }
 
   void read(const CycleStatement& statement) {
-    if (const auto* set = std::get_if<Assign>(&statement.node)) {
-      Group group;
-      if (holdsOneKind(set->variable)) group.variables.push_back(set->variable);
-      collect(set->value, group);
-      groups_.push_back(std::move(group));
-    } else if (const auto* branch = std::get_if<Branch>(&statement.node)) {
-      read(branch->condition);
-    } else if (!hasRequirements(statement)) {
-      eachSlot(statement, [&](const ExpressionPtr& value) { add(value, Kind::Number); });
-    } else {
-      eachRequirement(statement, [&](const ExpressionPtr& value, Kind kind) { add(value, kind); });
-    }
+    match(
+        statement,
+        [&](const Assign& node) {
+          Group group;
+          if (holdsOneKind(node.variable)) group.variables.push_back(node.variable);
+          collect(node.value, group);
+          groups_.push_back(std::move(group));
+        },
+        [&](const Branch& node) { read(node.condition); },
+        [&](const OneOf<Move, Measure, SetMode> auto&) {
+          eachRequirement(statement, [&](const ExpressionPtr& value, Kind kind) { add(value, kind); });
+        },
+        [&](const OneOf<Store, Label, Jump, Return, ProbePower, Spindle, Coolant, Dwell, Stop, Alarm, Comment,
+                        OpaqueBlock> auto&) {
+          eachSlot(statement, [&](const ExpressionPtr& value) { add(value, Kind::Number); });
+        });
   }
 
   void read(const ConditionPtr& condition) {
-    if (const auto* comparison = std::get_if<Comparison>(&condition->node)) {
-      Group group;
-      collect(comparison->left, group);
-      collect(comparison->right, group);
-      groups_.push_back(std::move(group));
-    } else if (const auto* null = std::get_if<IsNull>(&condition->node)) {
-      add(null->value, Kind::Number);
-    } else if (const auto* negated = std::get_if<Not>(&condition->node)) {
-      read(negated->inner);
-    } else if (const auto* junction = std::get_if<Junction>(&condition->node)) {
-      read(junction->left);
-      read(junction->right);
-    }
+    match(
+        *condition,
+        [&](const Comparison& node) {
+          Group group;
+          collect(node.left, group);
+          collect(node.right, group);
+          groups_.push_back(std::move(group));
+        },
+        [&](const IsNull& node) { add(node.value, Kind::Number); },
+        [&](const Not& node) { read(node.inner); },
+        [&](const Junction& node) {
+          read(node.left);
+          read(node.right);
+        },
+        [](const Truth&) {});
   }
 
   void add(const ExpressionPtr& value, Kind kind) {
@@ -119,17 +120,19 @@ private:
 
   // Puts the variables that are of the kind of the whole into `group`; the others form groups of their own.
   void collect(const ExpressionPtr& expression, Group& group) {
-    if (const auto* use = std::get_if<VariableUse>(&expression->node)) {
-      if (holdsOneKind(use->variable)) group.variables.push_back(use->variable);
-    } else if (const auto* machine = std::get_if<MachineVariable>(&expression->node)) {
-      add(machine->number, Kind::Number);
-    } else if (const auto* one = std::get_if<Unary>(&expression->node)) {
-      if (keepsKind(one->op)) return collect(one->operand, group);
-      add(one->operand, operandKind(one->op));
-      if (group.kind == Kind::Number) group.kind = resultKind(one->op);
-    } else if (const auto* two = std::get_if<Binary>(&expression->node)) {
-      collectBinary(*two, group);
-    }
+    match(
+        *expression,
+        [&](const VariableUse& node) {
+          if (holdsOneKind(node.variable)) group.variables.push_back(node.variable);
+        },
+        [&](const MachineVariable& node) { add(node.number, Kind::Number); },
+        [&](const Unary& node) {
+          if (keepsKind(node.op)) return collect(node.operand, group);
+          add(node.operand, operandKind(node.op));
+          if (group.kind == Kind::Number) group.kind = resultKind(node.op);
+        },
+        [&](const Binary& node) { collectBinary(node, group); },
+        [](const OneOf<Constant, NullValue, MeasuredResult> auto&) {});
   }
 
   void collectBinary(const Binary& node, Group& group) {

@@ -10,8 +10,21 @@ bool keepsKind(UnaryOp op) {
   case UnaryOp::RoundUp:
   case UnaryOp::Round:
   case UnaryOp::NullAsZero: return true;
-  default: return false;
+  case UnaryOp::SquareRoot:
+  case UnaryOp::Sine:
+  case UnaryOp::Cosine:
+  case UnaryOp::Tangent:
+  case UnaryOp::ArcSine:
+  case UnaryOp::ArcCosine:
+  case UnaryOp::ArcTangent:
+  case UnaryOp::Logarithm:
+  case UnaryOp::Exponential:
+  case UnaryOp::RoundIncrement:
+  case UnaryOp::FromBcd:
+  case UnaryOp::ToBcd:
+  case UnaryOp::AddPoint: break;
   }
+  return false;
 }
 
 Kind operandKind(UnaryOp op) {
@@ -19,8 +32,24 @@ Kind operandKind(UnaryOp op) {
   case UnaryOp::Sine:
   case UnaryOp::Cosine:
   case UnaryOp::Tangent: return Kind::Angle;
-  default: return Kind::Number;
+  case UnaryOp::Negate:
+  case UnaryOp::Absolute:
+  case UnaryOp::Truncate:
+  case UnaryOp::RoundUp:
+  case UnaryOp::Round:
+  case UnaryOp::SquareRoot:
+  case UnaryOp::ArcSine:
+  case UnaryOp::ArcCosine:
+  case UnaryOp::ArcTangent:
+  case UnaryOp::Logarithm:
+  case UnaryOp::Exponential:
+  case UnaryOp::NullAsZero:
+  case UnaryOp::RoundIncrement:
+  case UnaryOp::FromBcd:
+  case UnaryOp::ToBcd:
+  case UnaryOp::AddPoint: break;
   }
+  return Kind::Number;
 }
 
 Kind resultKind(UnaryOp op) {
@@ -28,8 +57,24 @@ Kind resultKind(UnaryOp op) {
   case UnaryOp::ArcSine:
   case UnaryOp::ArcCosine:
   case UnaryOp::ArcTangent: return Kind::Angle;
-  default: return Kind::Number;
+  case UnaryOp::Negate:
+  case UnaryOp::Absolute:
+  case UnaryOp::Truncate:
+  case UnaryOp::RoundUp:
+  case UnaryOp::Round:
+  case UnaryOp::SquareRoot:
+  case UnaryOp::Sine:
+  case UnaryOp::Cosine:
+  case UnaryOp::Tangent:
+  case UnaryOp::Logarithm:
+  case UnaryOp::Exponential:
+  case UnaryOp::NullAsZero:
+  case UnaryOp::RoundIncrement:
+  case UnaryOp::FromBcd:
+  case UnaryOp::ToBcd:
+  case UnaryOp::AddPoint: break;
   }
+  return Kind::Number;
 }
 
 bool addsKinds(BinaryOp op) {
@@ -38,8 +83,20 @@ bool addsKinds(BinaryOp op) {
   case BinaryOp::Subtract:
   case BinaryOp::Modulo:
   case BinaryOp::ValueOr: return true;
-  default: return false;
+  case BinaryOp::Multiply:
+  case BinaryOp::Divide:
+  case BinaryOp::Direction:
+  case BinaryOp::BitAnd:
+  case BinaryOp::BitOr:
+  case BinaryOp::BitXor:
+  case BinaryOp::RoundedAnd:
+  case BinaryOp::RoundedOr:
+  case BinaryOp::RoundedXor:
+  case BinaryOp::RoundedModulo:
+  case BinaryOp::Power:
+  case BinaryOp::Bearing: break;
   }
+  return false;
 }
 
 void eachRequirement(const CycleStatement& statement,
@@ -52,20 +109,24 @@ void eachRequirement(const CycleStatement& statement,
     require(place->value, Kind::Length);
     require(place->system, Kind::WorkOffset);
   };
-  if (const auto* move = std::get_if<Move>(&statement.node)) {
-    for (const auto& axis : move->axes)
-      coordinate(axis);
-    require(move->feed, Kind::Feed);
-  } else if (const auto* measure = std::get_if<Measure>(&statement.node)) {
-    coordinate(measure->target);
-    require(measure->diameter, Kind::Length);
-    if (!measure->setting) return;
-    require(measure->setting->system, Kind::WorkOffset);
-    for (const auto& nominal : measure->setting->nominal)
-      require(nominal, Kind::Length);
-  } else if (const auto* mode = std::get_if<SetMode>(&statement.node)) {
-    require(mode->system, Kind::WorkOffset);
-  }
+  match(
+      statement,
+      [&](const Move& node) {
+        for (const auto& axis : node.axes)
+          coordinate(axis);
+        require(node.feed, Kind::Feed);
+      },
+      [&](const Measure& node) {
+        coordinate(node.target);
+        require(node.diameter, Kind::Length);
+        if (!node.setting) return;
+        require(node.setting->system, Kind::WorkOffset);
+        for (const auto& nominal : node.setting->nominal)
+          require(nominal, Kind::Length);
+      },
+      [&](const SetMode& node) { require(node.system, Kind::WorkOffset); },
+      [](const OneOf<Assign, Store, Label, Jump, Branch, Return, ProbePower, Spindle, Coolant, Dwell, Stop,
+                     Alarm, Comment, OpaqueBlock> auto&) {});
 }
 
 namespace {
@@ -81,28 +142,35 @@ Kind productKind(BinaryOp op, Kind left, Kind right) {
 } // namespace
 
 Kind kindOf(const ExpressionPtr& expression, const Cycle& cycle, const Mixed& mixed) {
-  if (const auto* use = std::get_if<VariableUse>(&expression->node))
-    return use->variable < cycle.variables.size() ? cycle.variables[use->variable].kind : Kind::Number;
-  if (const auto* machine = std::get_if<MachineVariable>(&expression->node)) {
-    kindOf(machine->number, cycle, mixed);
-  } else if (const auto* one = std::get_if<Unary>(&expression->node)) {
-    const Kind kind = kindOf(one->operand, cycle, mixed);
-    if (keepsKind(one->op)) return kind;
-    const Kind wanted = operandKind(one->op);
-    if (wanted != Kind::Number && kind != Kind::Number && kind != wanted) mixed(*expression, wanted, kind);
-    return resultKind(one->op);
-  } else if (const auto* two = std::get_if<Binary>(&expression->node)) {
-    const Kind left = kindOf(two->left, cycle, mixed);
-    const Kind right = kindOf(two->right, cycle, mixed);
-    if (two->op == BinaryOp::Multiply || two->op == BinaryOp::Divide)
-      return productKind(two->op, left, right);
-    const bool alike = addsKinds(two->op) || two->op == BinaryOp::Direction;
-    if (alike && left != right && left != Kind::Number && right != Kind::Number)
-      mixed(*expression, left, right);
-    if (two->op == BinaryOp::Direction) return Kind::Angle;
-    if (addsKinds(two->op)) return left == Kind::Number ? right : left;
-  }
-  return Kind::Number;
+  return match(
+      *expression,
+      [&](const VariableUse& node) {
+        return node.variable < cycle.variables.size() ? cycle.variables[node.variable].kind : Kind::Number;
+      },
+      [&](const MachineVariable& node) {
+        kindOf(node.number, cycle, mixed);
+        return Kind::Number;
+      },
+      [&](const Unary& node) {
+        const Kind kind = kindOf(node.operand, cycle, mixed);
+        if (keepsKind(node.op)) return kind;
+        const Kind wanted = operandKind(node.op);
+        if (wanted != Kind::Number && kind != Kind::Number && kind != wanted)
+          mixed(*expression, wanted, kind);
+        return resultKind(node.op);
+      },
+      [&](const Binary& node) {
+        const Kind left = kindOf(node.left, cycle, mixed);
+        const Kind right = kindOf(node.right, cycle, mixed);
+        if (node.op == BinaryOp::Multiply || node.op == BinaryOp::Divide)
+          return productKind(node.op, left, right);
+        const bool alike = addsKinds(node.op) || node.op == BinaryOp::Direction;
+        if (alike && left != right && left != Kind::Number && right != Kind::Number)
+          mixed(*expression, left, right);
+        if (node.op == BinaryOp::Direction) return Kind::Angle;
+        return !addsKinds(node.op) ? Kind::Number : left == Kind::Number ? right : left;
+      },
+      [](const OneOf<Constant, NullValue, MeasuredResult> auto&) { return Kind::Number; });
 }
 
 } // namespace dotek::ir

@@ -15,22 +15,26 @@ constexpr std::size_t kMostWork = 4'000'000;
 constexpr int kMostRounds = 50;
 
 Set behind(const std::vector<CycleStatement>& list, std::size_t from, std::size_t to, Set nulls) {
-  const auto& node = list[from].node;
-  if (const auto* set = std::get_if<Assign>(&node)) {
-    if (mayBeNull(set->value, nulls))
-      nulls.insert(set->variable);
-    else
-      nulls.erase(set->variable);
-  } else if (const auto* branch = std::get_if<Branch>(&node)) {
-    bool negated = false;
-    const auto* use = nullTest(branch->condition, negated);
-    if (!use) return nulls;
-    // A target right behind the branch: both ways lead there.
-    const auto* label = from + 1 < list.size() ? std::get_if<Label>(&list[from + 1].node) : nullptr;
-    if (label && label->label == branch->target) return nulls;
-    const bool taken = to != from + 1;
-    if (taken == negated) nulls.erase(use->variable);
-  }
+  match(
+      list[from],
+      [&](const Assign& node) {
+        if (mayBeNull(node.value, nulls))
+          nulls.insert(node.variable);
+        else
+          nulls.erase(node.variable);
+      },
+      [&](const Branch& node) {
+        bool negated = false;
+        const auto* use = nullTest(node.condition, negated);
+        if (!use) return;
+        // A target right behind the branch: both ways lead there.
+        const auto* label = from + 1 < list.size() ? std::get_if<Label>(&list[from + 1].node) : nullptr;
+        if (label && label->label == node.target) return;
+        const bool taken = to != from + 1;
+        if (taken == negated) nulls.erase(use->variable);
+      },
+      [](const OneOf<Store, Label, Jump, Return, Move, Measure, ProbePower, Spindle, Coolant, SetMode, Dwell,
+                     Stop, Alarm, Comment, OpaqueBlock> auto&) {});
   return nulls;
 }
 

@@ -87,30 +87,39 @@ bool mayBeActive(const ExpressionPtr& set, const Fact& fact) {
 }
 
 Fact behind(const CycleStatement& statement, Fact fact) {
-  if (const auto* move = std::get_if<Move>(&statement.node)) {
-    for (const Axis axis : kAxes)
-      if (const auto& target = move->axes[indexOf(axis)]) moveAxis(fact, indexOf(axis), *target, move->point);
-  } else if (const auto* measure = std::get_if<Measure>(&statement.node)) {
-    // An offset that changes moves the coordinates of the place where the probe stands.
-    if (measure->setting && mayBeActive(measure->setting->system, fact))
-      for (const Axis axis : kAxes)
-        if (measure->setting->nominal[indexOf(axis)]) forget(fact.position[indexOf(axis)]);
-    forgetValues(fact, readsResult);
-  } else if (const auto* mode = std::get_if<SetMode>(&statement.node)) {
-    if (mode->mode != Mode::WorkSystem) return fact;
-    for (AxisPosition& axis : fact.position)
-      forget(axis);
-    fact.system = anyNode(mode->system, readsMachine) ? nullptr : mode->system;
-  } else if (const auto* set = std::get_if<Assign>(&statement.node)) {
-    forgetValues(fact, [&](const Expression& node) {
-      const auto* use = std::get_if<VariableUse>(&node.node);
-      return use && use->variable == set->variable;
-    });
-  } else if (std::holds_alternative<OpaqueBlock>(statement.node)) {
-    for (AxisPosition& axis : fact.position)
-      forget(axis);
-    fact.system = nullptr;
-  }
+  match(
+      statement,
+      [&](const Move& node) {
+        for (const Axis axis : kAxes)
+          if (const auto& target = node.axes[indexOf(axis)])
+            moveAxis(fact, indexOf(axis), *target, node.point);
+      },
+      [&](const Measure& node) {
+        // An offset that changes moves the coordinates of the place where the probe stands.
+        if (node.setting && mayBeActive(node.setting->system, fact))
+          for (const Axis axis : kAxes)
+            if (node.setting->nominal[indexOf(axis)]) forget(fact.position[indexOf(axis)]);
+        forgetValues(fact, readsResult);
+      },
+      [&](const SetMode& node) {
+        if (node.mode != Mode::WorkSystem) return;
+        for (AxisPosition& axis : fact.position)
+          forget(axis);
+        fact.system = anyNode(node.system, readsMachine) ? nullptr : node.system;
+      },
+      [&](const Assign& node) {
+        forgetValues(fact, [&](const Expression& read) {
+          const auto* use = std::get_if<VariableUse>(&read.node);
+          return use && use->variable == node.variable;
+        });
+      },
+      [&](const OpaqueBlock&) {
+        for (AxisPosition& axis : fact.position)
+          forget(axis);
+        fact.system = nullptr;
+      },
+      [](const OneOf<Store, Label, Jump, Branch, Return, ProbePower, Spindle, Coolant, Dwell, Stop, Alarm,
+                     Comment> auto&) {});
   return fact;
 }
 
@@ -158,10 +167,11 @@ std::vector<const Measure*> lastMeasurements(const Cycle& cycle) {
   const auto facts = factsBefore<const Measure*>(
       cycle.body, nullptr,
       [&](std::size_t at, std::size_t, const Measure* last) -> const Measure* {
-        const auto& node = cycle.body[at].node;
-        if (std::holds_alternative<OpaqueBlock>(node)) return nullptr;
-        const auto* measure = std::get_if<Measure>(&node);
-        return measure ? measure : last;
+        return match(
+            cycle.body[at], [](const OpaqueBlock&) -> const Measure* { return nullptr; },
+            [](const Measure& node) { return &node; },
+            [&](const OneOf<Assign, Store, Label, Jump, Branch, Return, Move, ProbePower, Spindle, Coolant,
+                            SetMode, Dwell, Stop, Alarm, Comment> auto&) { return last; });
       },
       [](const Measure*& into, const Measure* other) {
         if (!into || into == other) return false;
@@ -175,14 +185,29 @@ std::vector<const Measure*> lastMeasurements(const Cycle& cycle) {
   return out;
 }
 
+bool probes(const CycleStatement& statement) {
+  return match(
+      statement, [](const Measure&) { return true; },
+      [](const Move& node) { return node.motion == Motion::Protected; },
+      [](const OneOf<Assign, Store, Label, Jump, Branch, Return, ProbePower, Spindle, Coolant, SetMode, Dwell,
+                     Stop, Alarm, Comment, OpaqueBlock> auto&) { return false; });
+}
+
+bool probes(const Cycle& cycle) {
+  return std::any_of(cycle.body.begin(), cycle.body.end(),
+                     [](const CycleStatement& statement) { return probes(statement); });
+}
+
 bool countsFrom(const Cycle& cycle, Frame frame) {
   const auto counts = [&](const std::optional<Coordinate>& coordinate) {
     return coordinate && coordinate->frame == frame;
   };
   return std::any_of(cycle.body.begin(), cycle.body.end(), [&](const CycleStatement& statement) {
-    if (const auto* measure = std::get_if<Measure>(&statement.node)) return counts(measure->target);
-    const auto* move = std::get_if<Move>(&statement.node);
-    return move != nullptr && std::any_of(move->axes.begin(), move->axes.end(), counts);
+    return match(
+        statement, [&](const Measure& node) { return counts(node.target); },
+        [&](const Move& node) { return std::any_of(node.axes.begin(), node.axes.end(), counts); },
+        [](const OneOf<Assign, Store, Label, Jump, Branch, Return, ProbePower, Spindle, Coolant, SetMode,
+                       Dwell, Stop, Alarm, Comment, OpaqueBlock> auto&) { return false; });
   });
 }
 

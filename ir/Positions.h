@@ -30,6 +30,11 @@ std::vector<Position> positions(const Cycle& cycle);
 // opaque block, which may measure, stands between. Points into `cycle.body`.
 std::vector<const Measure*> lastMeasurements(const Cycle& cycle);
 
+// The statement touches: a measurement or a protected move.
+bool probes(const CycleStatement& statement);
+// Whether a statement of the body does.
+bool probes(const Cycle& cycle);
+
 // Whether a coordinate of the body counts from `frame`. With Retract the cycle needs the plane's height
 // though no expression names it.
 bool countsFrom(const Cycle& cycle, Frame frame);

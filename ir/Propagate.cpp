@@ -65,25 +65,39 @@ public:
 
 private:
   void walk(std::size_t at, Environment environment) {
-    for (; at < list_.size() && work_ <= kMostWork; ++at, ++work_) {
-      const auto& node = list_[at].node;
-      if (const auto* set = std::get_if<Assign>(&node)) {
-        assign(*set, environment);
-      } else if (std::holds_alternative<Label>(node)) {
-        return reach(at, environment);
-      } else if (const auto* jump = std::get_if<Jump>(&node)) {
-        return reachLabel(jump->target, environment);
-      } else if (std::holds_alternative<Return>(node)) {
-        return reachEnd(environment);
-      } else if (std::holds_alternative<Alarm>(node)) {
-        return;
-      } else if (const auto* branch = std::get_if<Branch>(&node)) {
-        const auto taken = holds(*branch->condition, environment);
-        if (taken != false) reachLabel(branch->target, environment);
-        if (taken == true) return;
-      }
-    }
+    for (; at < list_.size() && work_ <= kMostWork; ++at, ++work_)
+      if (!step(at, environment)) return;
     reachEnd(environment);
+  }
+
+  // Whether the next statement follows.
+  bool step(std::size_t at, Environment& environment) {
+    return match(
+        list_[at],
+        [&](const Assign& node) {
+          assign(node, environment);
+          return true;
+        },
+        [&](const Label&) {
+          reach(at, environment);
+          return false;
+        },
+        [&](const Jump& node) {
+          reachLabel(node.target, environment);
+          return false;
+        },
+        [&](const Return&) {
+          reachEnd(environment);
+          return false;
+        },
+        [](const Alarm&) { return false; },
+        [&](const Branch& node) {
+          const auto taken = holds(*node.condition, environment);
+          if (taken != false) reachLabel(node.target, environment);
+          return taken != true;
+        },
+        [](const OneOf<Store, Move, Measure, ProbePower, Spindle, Coolant, SetMode, Dwell, Stop, Comment,
+                       OpaqueBlock> auto&) { return true; });
   }
 
   void reachLabel(LabelId label, const Environment& environment) {
@@ -128,8 +142,10 @@ private:
 
 CycleStatement specialisedStatement(const CycleStatement& statement, const Environment& environment) {
   CycleStatement out = statement;
-  const bool takesNull =
-      std::holds_alternative<Assign>(out.node) || std::holds_alternative<OpaqueBlock>(out.node);
+  const bool takesNull = match(
+      out, [](const OneOf<Assign, OpaqueBlock> auto&) { return true; },
+      [](const OneOf<Store, Label, Jump, Branch, Return, Move, Measure, ProbePower, Spindle, Coolant, SetMode,
+                     Dwell, Stop, Alarm, Comment> auto&) { return false; });
   eachSlot(out, [&](ExpressionPtr& slot) {
     ExpressionPtr value = substitute(slot, environment);
     if (takesNull || !std::holds_alternative<NullValue>(value->node)) slot = std::move(value);
@@ -181,13 +197,15 @@ std::vector<CycleStatement> specialised(const std::vector<CycleStatement>& list,
       continue;
     }
     out.push_back(specialisedStatement(statement, environment));
-    if (const auto* set = std::get_if<Assign>(&statement.node)) {
-      assign(*set, environment);
-      if (set->variable < environment.size()) assigned.push_back(set->variable);
-    }
-    if (std::holds_alternative<Jump>(statement.node) || std::holds_alternative<Return>(statement.node) ||
-        std::holds_alternative<Alarm>(statement.node))
-      reached = false;
+    match(
+        statement,
+        [&](const Assign& node) {
+          assign(node, environment);
+          if (node.variable < environment.size()) assigned.push_back(node.variable);
+        },
+        [&](const OneOf<Jump, Return, Alarm> auto&) { reached = false; },
+        [](const OneOf<Store, Label, Branch, Move, Measure, ProbePower, Spindle, Coolant, SetMode, Dwell,
+                       Stop, Comment, OpaqueBlock> auto&) {});
   }
   return out;
 }
@@ -201,21 +219,38 @@ std::optional<Unrolled> unroll(const std::vector<CycleStatement>& list, Environm
   for (std::uint32_t steps = 0; at < list.size(); ++steps) {
     if (steps >= maxSteps) return std::nullopt;
     const CycleStatement& statement = list[at++];
-    std::optional<LabelId> target;
-    if (std::holds_alternative<Return>(statement.node)) break;
-    if (const auto* jump = std::get_if<Jump>(&statement.node)) {
-      target = jump->target;
-    } else if (const auto* branch = std::get_if<Branch>(&statement.node)) {
-      const auto taken = holds(*branch->condition, environment);
-      if (!taken) return std::nullopt;
-      if (*taken) target = branch->target;
-    } else if (!std::holds_alternative<Label>(statement.node)) {
-      out.statements.push_back(specialisedStatement(statement, environment));
-      if (std::holds_alternative<Alarm>(statement.node)) return out;
-      if (const auto* set = std::get_if<Assign>(&statement.node)) assign(*set, environment);
-    }
-    if (!target) continue;
-    const auto place = places.find(*target);
+    enum class Then : std::uint8_t { Next, Jump, End, Alarm, Undecided };
+    LabelId target = 0;
+    const Then then = match(
+        statement, [](const Label&) { return Then::Next; }, [](const Return&) { return Then::End; },
+        [&](const Jump& node) {
+          target = node.target;
+          return Then::Jump;
+        },
+        [&](const Branch& node) {
+          const auto taken = holds(*node.condition, environment);
+          target = node.target;
+          return !taken ? Then::Undecided : *taken ? Then::Jump : Then::Next;
+        },
+        [&](const Assign& node) {
+          out.statements.push_back(specialisedStatement(statement, environment));
+          assign(node, environment);
+          return Then::Next;
+        },
+        [&](const Alarm&) {
+          out.statements.push_back(specialisedStatement(statement, environment));
+          return Then::Alarm;
+        },
+        [&](const OneOf<Store, Move, Measure, ProbePower, Spindle, Coolant, SetMode, Dwell, Stop, Comment,
+                        OpaqueBlock> auto&) {
+          out.statements.push_back(specialisedStatement(statement, environment));
+          return Then::Next;
+        });
+    if (then == Then::End) break;
+    if (then == Then::Alarm) return out;
+    if (then == Then::Undecided) return std::nullopt;
+    if (then == Then::Next) continue;
+    const auto place = places.find(target);
     if (place == places.end()) return std::nullopt;
     at = place->second;
   }

@@ -91,7 +91,18 @@ ExpressionPtr simplifiedBinary(const ExpressionPtr& whole, const Binary& node) {
     if (isConstant(b, 1)) return a;
     if (isConstant(b, -1)) return negated(a, range);
     break;
-  default: break;
+  case BinaryOp::Modulo:
+  case BinaryOp::Direction:
+  case BinaryOp::BitAnd:
+  case BinaryOp::BitOr:
+  case BinaryOp::BitXor:
+  case BinaryOp::ValueOr:
+  case BinaryOp::RoundedAnd:
+  case BinaryOp::RoundedOr:
+  case BinaryOp::RoundedXor:
+  case BinaryOp::RoundedModulo:
+  case BinaryOp::Power:
+  case BinaryOp::Bearing: break;
   }
   return fixed(a) && fixed(b) ? computed(whole) : whole;
 }
@@ -199,15 +210,24 @@ bool mayFail(const ExpressionPtr& expression) {
     case UnaryOp::Logarithm:
     case UnaryOp::Exponential:
     case UnaryOp::FromBcd:
-    case UnaryOp::ToBcd: return true;
-    default: return mayFail(node->operand);
+    case UnaryOp::ToBcd:
+    case UnaryOp::RoundIncrement:
+    case UnaryOp::AddPoint: return true;
+    case UnaryOp::Negate:
+    case UnaryOp::Absolute:
+    case UnaryOp::Truncate:
+    case UnaryOp::RoundUp:
+    case UnaryOp::Round:
+    case UnaryOp::Sine:
+    case UnaryOp::Cosine:
+    case UnaryOp::ArcTangent:
+    case UnaryOp::NullAsZero: return mayFail(node->operand);
     }
   }
   if (const auto* node = std::get_if<Binary>(&expression->node)) {
     if (mayFail(node->left) || mayFail(node->right)) return true;
     switch (node->op) {
     case BinaryOp::Divide:
-    case BinaryOp::RoundedModulo:
     case BinaryOp::Modulo: {
       const double* divisor = constantValue(node->right);
       return !divisor || *divisor == 0;
@@ -219,9 +239,13 @@ bool mayFail(const ExpressionPtr& expression) {
     case BinaryOp::RoundedAnd:
     case BinaryOp::RoundedOr:
     case BinaryOp::RoundedXor:
+    case BinaryOp::RoundedModulo: // a divisor of 0.3 is rounded to 0
     case BinaryOp::Power:
     case BinaryOp::Bearing: return true;
-    default: return false;
+    case BinaryOp::Add:
+    case BinaryOp::Subtract:
+    case BinaryOp::Multiply:
+    case BinaryOp::ValueOr: return false;
     }
   }
   return false;

@@ -54,11 +54,7 @@ public:
 
 private:
   // The label that the statement jumps to, by a jump of the text.
-  std::optional<LabelId> targetOf(Index at) const {
-    if (const auto* jump = std::get_if<Jump>(&body_[at].node)) return jump->target;
-    if (const auto* branch = std::get_if<Branch>(&body_[at].node)) return branch->target;
-    return std::nullopt;
-  }
+  std::optional<LabelId> targetOf(Index at) const { return ir::targetOf(body_[at]); }
   std::optional<Index> placeOf(LabelId label) const {
     const auto found = places_.find(label);
     return found == places_.end() ? std::nullopt : std::optional(found->second);

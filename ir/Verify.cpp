@@ -1,11 +1,13 @@
 #include "ir/Verify.h"
 
+#include "ir/Flow.h"
 #include "ir/Kinds.h"
 #include "ir/Names.h"
 #include "ir/Nulls.h"
 #include "ir/VerifyShape.h"
 #include "ir/Walk.h"
 
+#include <optional>
 #include <unordered_map>
 #include <unordered_set>
 #include <utility>
@@ -74,13 +76,10 @@ private:
         report(statement.origin.range(), "label `" + names_.label(label->label) + "` is placed twice");
     }
     for (const CycleStatement& statement : list) {
-      const auto* jump = std::get_if<Jump>(&statement.node);
-      const auto* branch = std::get_if<Branch>(&statement.node);
-      if (!jump && !branch) continue;
-      const LabelId target = jump ? jump->target : branch->target;
-      if (!placed.contains(target))
+      const std::optional<LabelId> target = targetOf(statement);
+      if (target && !placed.contains(*target))
         report(statement.origin.range(),
-               "a jump goes to label `" + names_.label(target) + "`, which its list does not hold");
+               "a jump goes to label `" + names_.label(*target) + "`, which its list does not hold");
     }
   }
 
@@ -109,15 +108,20 @@ private:
   static bool differ(Kind a, Kind b) { return a != b && a != Kind::Number && b != Kind::Number; }
 
   void kinds(const CycleStatement& statement) {
-    if (const auto* branch = std::get_if<Branch>(&statement.node)) return kinds(branch->condition, statement);
-    if (const auto* set = std::get_if<Assign>(&statement.node)) {
-      const Kind value = kindOf(set->value, statement);
-      const Kind variable = cycle_.variables[set->variable].kind;
-      if (differ(value, variable))
-        mixed(set->value->range, "`" + names_.variable(set->variable) + "` = " + text(*set->value), variable,
-              value, statement);
-      return;
-    }
+    match(
+        statement, [&](const Branch& node) { kinds(node.condition, statement); },
+        [&](const Assign& node) {
+          const Kind value = kindOf(node.value, statement);
+          const Kind variable = cycle_.variables[node.variable].kind;
+          if (differ(value, variable))
+            mixed(node.value->range, "`" + names_.variable(node.variable) + "` = " + text(*node.value),
+                  variable, value, statement);
+        },
+        [&](const OneOf<Store, Label, Jump, Return, Move, Measure, ProbePower, Spindle, Coolant, SetMode,
+                        Dwell, Stop, Alarm, Comment, OpaqueBlock> auto&) { slotKinds(statement); });
+  }
+
+  void slotKinds(const CycleStatement& statement) {
     std::set<const Expression*> required;
     eachRequirement(statement, [&](const ExpressionPtr& expression, Kind wanted) {
       required.insert(expression.get());
@@ -134,30 +138,36 @@ private:
   }
 
   void kinds(const ConditionPtr& condition, const CycleStatement& statement) {
-    if (const auto* comparison = std::get_if<Comparison>(&condition->node)) {
-      const Kind left = kindOf(comparison->left, statement);
-      const Kind right = kindOf(comparison->right, statement);
-      if (!differ(left, right)) return;
-      std::string what = "`";
-      write(*condition, names_, what);
-      mixed(condition->range, what + "`", left, right, statement);
-    } else if (const auto* null = std::get_if<IsNull>(&condition->node)) {
-      kindOf(null->value, statement);
-    } else if (const auto* negated = std::get_if<Not>(&condition->node)) {
-      kinds(negated->inner, statement);
-    } else if (const auto* junction = std::get_if<Junction>(&condition->node)) {
-      kinds(junction->left, statement);
-      kinds(junction->right, statement);
-    }
+    match(
+        *condition,
+        [&](const Comparison& node) {
+          const Kind left = kindOf(node.left, statement);
+          const Kind right = kindOf(node.right, statement);
+          if (!differ(left, right)) return;
+          std::string what = "`";
+          write(*condition, names_, what);
+          mixed(condition->range, what + "`", left, right, statement);
+        },
+        [&](const IsNull& node) { kindOf(node.value, statement); },
+        [&](const Not& node) { kinds(node.inner, statement); },
+        [&](const Junction& node) {
+          kinds(node.left, statement);
+          kinds(node.right, statement);
+        },
+        [](const Truth&) {});
   }
 
   // ---- null -----------------------------------------------------------------------------------------------
 
   void nullsOf(const CycleStatement& statement, const std::set<VariableId>& nulls) {
-    if (const auto* branch = std::get_if<Branch>(&statement.node))
-      return nullsOf(branch->condition, statement, nulls);
-    const bool free =
-        std::holds_alternative<Assign>(statement.node) || std::holds_alternative<OpaqueBlock>(statement.node);
+    match(
+        statement, [&](const Branch& node) { nullsOf(node.condition, statement, nulls); },
+        [&](const OneOf<Assign, OpaqueBlock> auto&) { slotNulls(true, statement, nulls); },
+        [&](const OneOf<Store, Label, Jump, Return, Move, Measure, ProbePower, Spindle, Coolant, SetMode,
+                        Dwell, Stop, Alarm, Comment> auto&) { slotNulls(false, statement, nulls); });
+  }
+
+  void slotNulls(bool free, const CycleStatement& statement, const std::set<VariableId>& nulls) {
     eachSlot(statement, [&](const ExpressionPtr& slot) { nullsOf(slot, free, statement, nulls); });
   }
 
@@ -167,36 +177,38 @@ private:
     if (!free && mayBeNull(expression, nulls))
       report(place(expression->range, statement),
              text(*expression) + " may be null where a number is needed");
-    if (const auto* machine = std::get_if<MachineVariable>(&expression->node)) {
-      nullsOf(machine->number, false, statement, nulls);
-    } else if (const auto* one = std::get_if<Unary>(&expression->node)) {
-      nullsOf(one->operand, one->op == UnaryOp::NullAsZero, statement, nulls);
-    } else if (const auto* two = std::get_if<Binary>(&expression->node)) {
-      // Whether ValueOr as a whole may be null was looked at above.
-      const bool valueOr = two->op == BinaryOp::ValueOr;
-      nullsOf(two->left, valueOr, statement, nulls);
-      nullsOf(two->right, valueOr, statement, nulls);
-    }
+    match(
+        *expression, [&](const MachineVariable& node) { nullsOf(node.number, false, statement, nulls); },
+        [&](const Unary& node) { nullsOf(node.operand, node.op == UnaryOp::NullAsZero, statement, nulls); },
+        [&](const Binary& node) {
+          // Whether ValueOr as a whole may be null was looked at above.
+          const bool valueOr = node.op == BinaryOp::ValueOr;
+          nullsOf(node.left, valueOr, statement, nulls);
+          nullsOf(node.right, valueOr, statement, nulls);
+        },
+        [](const OneOf<Constant, NullValue, VariableUse, MeasuredResult> auto&) {});
   }
 
   void nullsOf(const ConditionPtr& condition, const CycleStatement& statement,
                const std::set<VariableId>& nulls) {
-    if (const auto* comparison = std::get_if<Comparison>(&condition->node)) {
-      nullsOf(comparison->left, false, statement, nulls);
-      nullsOf(comparison->right, false, statement, nulls);
-    } else if (const auto* null = std::get_if<IsNull>(&condition->node)) {
-      nullsOf(null->value, true, statement, nulls);
-    } else if (const auto* negated = std::get_if<Not>(&condition->node)) {
-      nullsOf(negated->inner, statement, nulls);
-    } else if (const auto* junction = std::get_if<Junction>(&condition->node)) {
-      nullsOf(junction->left, statement, nulls);
-      // `x is not null and x < 5`: the right side is looked at where x is a number.
-      bool isNot = false; // of the test: `is not null`
-      const auto* use = nullTest(junction->left, isNot);
-      std::set<VariableId> rest = nulls;
-      if (use && isNot == (junction->op == Connective::And)) rest.erase(use->variable);
-      nullsOf(junction->right, statement, rest);
-    }
+    match(
+        *condition,
+        [&](const Comparison& node) {
+          nullsOf(node.left, false, statement, nulls);
+          nullsOf(node.right, false, statement, nulls);
+        },
+        [&](const IsNull& node) { nullsOf(node.value, true, statement, nulls); },
+        [&](const Not& node) { nullsOf(node.inner, statement, nulls); },
+        [&](const Junction& node) {
+          nullsOf(node.left, statement, nulls);
+          // `x is not null and x < 5`: the right side is looked at where x is a number.
+          bool isNot = false; // of the test: `is not null`
+          const auto* use = nullTest(node.left, isNot);
+          std::set<VariableId> rest = nulls;
+          if (use && isNot == (node.op == Connective::And)) rest.erase(use->variable);
+          nullsOf(node.right, statement, rest);
+        },
+        [](const Truth&) {});
   }
 
   const Cycle& cycle_;

@@ -14,8 +14,7 @@ bool raisesAt(const std::vector<ir::ProgramStatement>& body, ir::LabelId label) 
   for (std::size_t i = 0; i < body.size(); ++i) {
     const auto* target = std::get_if<ir::Label>(&body[i].node);
     if (target == nullptr || target->label != label) continue;
-    while (i < body.size() && (std::holds_alternative<ir::Label>(body[i].node) ||
-                               std::holds_alternative<ir::Comment>(body[i].node)))
+    while (i < body.size() && ir::isLayout(body[i]))
       ++i;
     return i < body.size() && std::holds_alternative<ir::Raise>(body[i].node);
   }
@@ -60,16 +59,18 @@ std::optional<std::uint32_t> nullTested(const ir::ConditionPtr& condition) {
 std::set<std::uint32_t> requiredLocals(const ir::Program& program) {
   std::set<std::uint32_t> out;
   for (const ir::ProgramStatement& statement : program.body) {
-    if (std::holds_alternative<ir::Comment>(statement.node)) continue;
-    const auto* branch = std::get_if<ir::Branch>(&statement.node);
-    if (branch == nullptr) {
-      if (std::holds_alternative<ir::Store>(statement.node) ||
-          std::holds_alternative<ir::NcBlock>(statement.node))
-        continue;
-      break;
-    }
-    if (!raisesAt(program.body, branch->target)) break;
-    if (const auto number = nullTested(branch->condition)) out.insert(*number);
+    const bool open = match(
+        statement,
+        [&](const ir::Branch& node) {
+          if (!raisesAt(program.body, node.target)) return false;
+          if (const auto number = nullTested(node.condition)) out.insert(*number);
+          return true;
+        },
+        [](const ir::OneOf<ir::Comment, ir::Store, ir::NcBlock> auto&) { return true; },
+        [](const ir::OneOf<ir::Label, ir::Jump, ir::Move, ir::Measure, ir::ProbePower, ir::JumpTo, ir::Loop,
+                           ir::LoopEnd, ir::Call, ir::Exit, ir::Raise, ir::Notice, ir::Port, ir::Print,
+                           ir::NameVariables> auto&) { return false; });
+    if (!open) break;
   }
   return out;
 }

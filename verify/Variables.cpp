@@ -133,23 +133,26 @@ private:
       if (const auto* use = std::get_if<ir::MachineVariable>(&node.node))
         mark(use->number, VariableUse::Whole);
     });
-    if (const auto* store = std::get_if<ir::Store>(&statement.node)) {
-      mark(store->number, VariableUse::Whole);
-    } else if (const auto* block = std::get_if<ir::NcBlock>(&statement.node)) {
-      for (const ir::Word& word : block->words)
-        mark(word.value, useOfLetter(word.address));
-    } else if (const auto* jump = std::get_if<ir::JumpTo>(&statement.node)) {
-      mark(jump->number, VariableUse::Whole);
-    } else if (const auto* call = std::get_if<ir::Call>(&statement.node)) {
-      mark(call->program, VariableUse::Whole);
-      mark(call->repeats, VariableUse::Whole);
-      for (const ir::CallArgument& argument : call->arguments)
-        mark(argument.value, useOfArgument(*call, argument.letter));
-    } else if (const auto* branch = std::get_if<ir::Branch>(&statement.node)) {
-      compared(branch->condition);
-    } else if (const auto* loop = std::get_if<ir::Loop>(&statement.node)) {
-      if (loop->condition) compared(loop->condition);
-    }
+    match(
+        statement,
+        [&](const ir::OneOf<ir::Store, ir::JumpTo> auto& node) { mark(node.number, VariableUse::Whole); },
+        [&](const ir::NcBlock& node) {
+          for (const ir::Word& word : node.words)
+            mark(word.value, useOfLetter(word.address));
+        },
+        [&](const ir::Call& node) {
+          mark(node.program, VariableUse::Whole);
+          mark(node.repeats, VariableUse::Whole);
+          for (const ir::CallArgument& argument : node.arguments)
+            mark(argument.value, useOfArgument(node, argument.letter));
+        },
+        [&](const ir::Branch& node) { compared(node.condition); },
+        [&](const ir::Loop& node) {
+          if (node.condition) compared(node.condition);
+        },
+        [](const ir::OneOf<ir::Label, ir::Jump, ir::Move, ir::Measure, ir::ProbePower, ir::Comment,
+                           ir::LoopEnd, ir::Exit, ir::Raise, ir::Notice, ir::Port, ir::Print,
+                           ir::NameVariables> auto&) {});
   }
 
   static VariableUse useOfLetter(char letter) {

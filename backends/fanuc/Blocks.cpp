@@ -25,20 +25,19 @@ public:
   // Adds the words of a statement that may share a line.
   void add(const ir::CycleStatement& statement) {
     const ir::Origin& origin = statement.origin;
-    if (const auto* move = std::get_if<ir::Move>(&statement.node))
-      plainMove(*move, origin);
-    else if (const auto* mode = std::get_if<ir::SetMode>(&statement.node))
-      setMode(*mode, origin);
-    else if (const auto* spindle = std::get_if<ir::Spindle>(&statement.node))
-      setSpindle(*spindle, origin);
-    else if (const auto* coolant = std::get_if<ir::Coolant>(&statement.node))
-      code(coolantCode(coolant->state), "this coolant", origin);
-    else if (const auto* dwell = std::get_if<ir::Dwell>(&statement.node))
-      pause(*dwell, origin);
-    else if (const auto* stop = std::get_if<ir::Stop>(&statement.node))
-      setStop(*stop, origin);
-    else if (const auto* power = std::get_if<ir::ProbePower>(&statement.node))
-      code(power->on ? Function::ProbeOn : Function::ProbeOff, "the probe", origin);
+    match(
+        statement, [&](const ir::Move& node) { plainMove(node, origin); },
+        [&](const ir::SetMode& node) { setMode(node, origin); },
+        [&](const ir::Spindle& node) { setSpindle(node, origin); },
+        [&](const ir::Coolant& node) { code(coolantCode(node.state), "this coolant", origin); },
+        [&](const ir::Dwell& node) { pause(node, origin); },
+        [&](const ir::Stop& node) { setStop(node, origin); },
+        [&](const ir::ProbePower& node) {
+          code(node.on ? Function::ProbeOn : Function::ProbeOff, "the probe", origin);
+        },
+        // Lines of their own (isAlone), and what Flow.cpp writes.
+        [](const ir::OneOf<ir::Measure, ir::OpaqueBlock, ir::Assign, ir::Store, ir::Label, ir::Jump,
+                           ir::Branch, ir::Return, ir::Alarm, ir::Comment> auto&) {});
     ranges_.insert(ranges_.end(), origin.ranges.begin(), origin.ranges.end());
   }
 
@@ -213,22 +212,26 @@ private:
 
 // Stands on a line of its own.
 bool isAlone(const State& state, const ir::CycleStatement& statement) {
-  if (const auto* move = std::get_if<ir::Move>(&statement.node)) return move->motion == ir::Motion::Protected;
-  if (const auto* power = std::get_if<ir::ProbePower>(&statement.node))
-    return state.macros.find(power->on ? stdlib::Intent::ProbeOn : stdlib::Intent::ProbeOff) != nullptr ||
-           state.control.find(power->on ? Function::ProbeOn : Function::ProbeOff) == nullptr;
-  return std::holds_alternative<ir::Measure>(statement.node) ||
-         std::holds_alternative<ir::OpaqueBlock>(statement.node);
+  return match(
+      statement, [](const ir::Move& node) { return node.motion == ir::Motion::Protected; },
+      [&](const ir::ProbePower& node) {
+        return state.macros.find(node.on ? stdlib::Intent::ProbeOn : stdlib::Intent::ProbeOff) != nullptr ||
+               state.control.find(node.on ? Function::ProbeOn : Function::ProbeOff) == nullptr;
+      },
+      [](const ir::OneOf<ir::Measure, ir::OpaqueBlock> auto&) { return true; },
+      [](const ir::OneOf<ir::SetMode, ir::Spindle, ir::Coolant, ir::Dwell, ir::Stop, ir::Assign, ir::Store,
+                         ir::Label, ir::Jump, ir::Branch, ir::Return, ir::Alarm, ir::Comment> auto&) {
+        return false;
+      });
 }
 
 bool isBlock(const ir::CycleStatement& statement) {
-  return std::holds_alternative<ir::Move>(statement.node) ||
-         std::holds_alternative<ir::SetMode>(statement.node) ||
-         std::holds_alternative<ir::Spindle>(statement.node) ||
-         std::holds_alternative<ir::Coolant>(statement.node) ||
-         std::holds_alternative<ir::ProbePower>(statement.node) ||
-         std::holds_alternative<ir::Dwell>(statement.node) ||
-         std::holds_alternative<ir::Stop>(statement.node);
+  return match(
+      statement,
+      [](const ir::OneOf<ir::Move, ir::SetMode, ir::Spindle, ir::Coolant, ir::ProbePower, ir::Dwell,
+                         ir::Stop> auto&) { return true; },
+      [](const ir::OneOf<ir::Measure, ir::OpaqueBlock, ir::Assign, ir::Store, ir::Label, ir::Jump, ir::Branch,
+                         ir::Return, ir::Alarm, ir::Comment> auto&) { return false; });
 }
 
 void writeOpaque(State& state, const ir::OpaqueBlock& block, const ir::Origin& origin) {
@@ -247,14 +250,14 @@ void writeOpaque(State& state, const ir::OpaqueBlock& block, const ir::Origin& o
 }
 
 void writeAlone(State& state, const ir::CycleStatement& statement) {
-  if (const auto* move = std::get_if<ir::Move>(&statement.node))
-    writeProtectedMove(state, *move, statement.origin);
-  else if (const auto* measure = std::get_if<ir::Measure>(&statement.node))
-    writeMeasure(state, *measure, statement.origin);
-  else if (const auto* power = std::get_if<ir::ProbePower>(&statement.node))
-    writeProbePower(state, power->on, statement.origin);
-  else if (const auto* block = std::get_if<ir::OpaqueBlock>(&statement.node))
-    writeOpaque(state, *block, statement.origin);
+  match(
+      statement, [&](const ir::Move& node) { writeProtectedMove(state, node, statement.origin); },
+      [&](const ir::Measure& node) { writeMeasure(state, node, statement.origin); },
+      [&](const ir::ProbePower& node) { writeProbePower(state, node.on, statement.origin); },
+      [&](const ir::OpaqueBlock& node) { writeOpaque(state, node, statement.origin); },
+      // isAlone() says no.
+      [](const ir::OneOf<ir::SetMode, ir::Spindle, ir::Coolant, ir::Dwell, ir::Stop, ir::Assign, ir::Store,
+                         ir::Label, ir::Jump, ir::Branch, ir::Return, ir::Alarm, ir::Comment> auto&) {});
 }
 
 } // namespace

@@ -122,13 +122,17 @@ private:
 
   InForce behind(std::size_t at, InForce now) const {
     const ir::CycleStatement& statement = state_.cycle.body[at];
-    if (const auto* mode = std::get_if<ir::SetMode>(&statement.node)) {
-      if (mode->mode == ir::Mode::CutterCompOff) clear(now, Function::CutterCompOff);
-      if (mode->mode == ir::Mode::CannedCycleOff) clear(now, Function::CannedCycleOff);
-      if (mode->mode == ir::Mode::WorkSystem) now.erase(extendedKey());
-    } else if (const auto* block = std::get_if<ir::OpaqueBlock>(&statement.node)) {
-      apply(at, *block, now);
-    }
+    match(
+        statement,
+        [&](const ir::SetMode& node) {
+          if (node.mode == ir::Mode::CutterCompOff) clear(now, Function::CutterCompOff);
+          if (node.mode == ir::Mode::CannedCycleOff) clear(now, Function::CannedCycleOff);
+          if (node.mode == ir::Mode::WorkSystem) now.erase(extendedKey());
+        },
+        [&](const ir::OpaqueBlock& node) { apply(at, node, now); },
+        [](const ir::OneOf<ir::Label, ir::Jump, ir::Branch, ir::Store, ir::Move, ir::Measure, ir::ProbePower,
+                           ir::Comment, ir::Assign, ir::Return, ir::Spindle, ir::Coolant, ir::Dwell, ir::Stop,
+                           ir::Alarm> auto&) {});
     return now;
   }
   void clear(InForce& now, Function function) const {

@@ -2,6 +2,7 @@
 
 #include "backends/fanuc/State.h"
 #include "backends/fanuc/Uses.h"
+#include "ir/Positions.h"
 #include "ir/Walk.h"
 #include "support/Decimal.h"
 #include "support/messages/Fanuc.h"
@@ -29,21 +30,13 @@ bool switches(const ir::Cycle& cycle, bool on) {
   });
 }
 
-bool probes(const ir::Cycle& cycle) {
-  return std::any_of(cycle.body.begin(), cycle.body.end(), [](const ir::CycleStatement& statement) {
-    const auto* move = std::get_if<ir::Move>(&statement.node);
-    return std::holds_alternative<ir::Measure>(statement.node) ||
-           (move != nullptr && move->motion == ir::Motion::Protected);
-  });
-}
-
 // Between the modes: the cycle's blocks.
 void writeBody(State& state) {
   Body body = findBody(state);
   planResults(state, body);
   if (state.failed) return;
   state.body = &body;
-  const bool macro = state.options.probePower == ProbePowerMode::Macro && probes(state.cycle);
+  const bool macro = state.options.probePower == ProbePowerMode::Macro && ir::probes(state.cycle);
   if (macro && !switches(state.cycle, true)) writeProbePower(state, true, made("probe on"));
   writeList(state, state.cycle.body, true);
   if (macro && !switches(state.cycle, false)) writeProbePower(state, false, made("probe off"));
@@ -95,7 +88,7 @@ std::optional<std::vector<EmittedLine>> emit(const ir::Cycle& cycle, const EmitO
   auto arguments = assignLetters(cycle, options, diagnostics);
   if (!arguments) return std::nullopt;
   State state(cycle, options, sources, diagnostics, std::move(*arguments));
-  if (state.macros.needsSkipPosition && !state.control.variables.skip && probes(cycle))
+  if (state.macros.needsSkipPosition && !state.control.variables.skip && ir::probes(cycle))
     state.refuse<diag::NoSkipPosition>(cycle.range, "macros of " + state.macros.title, state.control.title);
   state.guards = findGuards(state.control);
   state.moving = movingVariables(state.cycle);

@@ -57,7 +57,14 @@ std::string_view nameOf(ir::BinaryOp op) {
   case ir::BinaryOp::BitAnd: return " AND ";
   case ir::BinaryOp::BitOr: return " OR ";
   case ir::BinaryOp::BitXor: return " XOR ";
-  default: break;
+  case ir::BinaryOp::Direction:
+  case ir::BinaryOp::ValueOr:
+  case ir::BinaryOp::RoundedAnd:
+  case ir::BinaryOp::RoundedOr:
+  case ir::BinaryOp::RoundedXor:
+  case ir::BinaryOp::RoundedModulo:
+  case ir::BinaryOp::Power:
+  case ir::BinaryOp::Bearing: break;
   }
   return "";
 }
@@ -100,8 +107,18 @@ public:
     case ir::BinaryOp::Divide: return {name, kMultiplicative};
     case ir::BinaryOp::BitOr:
     case ir::BinaryOp::BitXor: return {has(state_.control, trimmed(name)) ? name : "", kAdditive};
-    default: return {has(state_.control, trimmed(name)) && !name.empty() ? name : "", kMultiplicative};
+    case ir::BinaryOp::Modulo:
+    case ir::BinaryOp::BitAnd: return {has(state_.control, trimmed(name)) ? name : "", kMultiplicative};
+    case ir::BinaryOp::Direction:
+    case ir::BinaryOp::ValueOr:
+    case ir::BinaryOp::RoundedAnd:
+    case ir::BinaryOp::RoundedOr:
+    case ir::BinaryOp::RoundedXor:
+    case ir::BinaryOp::RoundedModulo:
+    case ir::BinaryOp::Power:
+    case ir::BinaryOp::Bearing: break;
     }
+    return {"", kMultiplicative};
   }
 
 private:

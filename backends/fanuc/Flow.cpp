@@ -34,28 +34,43 @@ private:
     const ir::CycleStatement& statement = list_[i];
     const ir::Origin& origin = statement.origin;
     if (state_.body != nullptr && body_) state_.at = i;
-    if (const auto* assignment = std::get_if<ir::Assign>(&statement.node)) {
-      assign(state_, state_.local(assignment->variable), assignment->value, origin);
-    } else if (const auto* store = std::get_if<ir::Store>(&statement.node)) {
-      if (const auto left = storeTarget(*store, origin)) assign(state_, *left, store->value, origin);
-    } else if (const auto* label = std::get_if<ir::Label>(&statement.node)) {
-      state_.sheet.place(markOf(label->label));
-    } else if (const auto* goTo = std::get_if<ir::Jump>(&statement.node)) {
-      state_.sheet.jump("GOTO ", markOf(goTo->target), origin);
-    } else if (const auto* branch = std::get_if<ir::Branch>(&statement.node)) {
-      return writeBranch(i, *branch);
-    } else if (std::holds_alternative<ir::Return>(statement.node)) {
-      if (i + 1 < list_.size()) state_.sheet.jump("GOTO ", end_, origin);
-    } else if (std::holds_alternative<ir::Alarm>(statement.node)) {
-      const std::string text = sourceAlarm(state_, statement);
-      state_.sheet.add(text, origin);
-    } else if (const auto* comment = std::get_if<ir::Comment>(&statement.node)) {
-      const std::string text = commentText(state_, comment->text, origin.range());
-      state_.sheet.comment(text, origin);
-    } else {
-      return writeBlock(state_, list_, i);
-    }
-    return i + 1;
+    return match(
+        statement,
+        [&](const ir::Assign& node) {
+          assign(state_, state_.local(node.variable), node.value, origin);
+          return i + 1;
+        },
+        [&](const ir::Store& node) {
+          if (const auto left = storeTarget(node, origin)) assign(state_, *left, node.value, origin);
+          return i + 1;
+        },
+        [&](const ir::Label& node) {
+          state_.sheet.place(markOf(node.label));
+          return i + 1;
+        },
+        [&](const ir::Jump& node) {
+          state_.sheet.jump("GOTO ", markOf(node.target), origin);
+          return i + 1;
+        },
+        [&](const ir::Branch& node) { return writeBranch(i, node); },
+        [&](const ir::Return&) {
+          if (i + 1 < list_.size()) state_.sheet.jump("GOTO ", end_, origin);
+          return i + 1;
+        },
+        [&](const ir::Alarm&) {
+          const std::string text = sourceAlarm(state_, statement);
+          state_.sheet.add(text, origin);
+          return i + 1;
+        },
+        [&](const ir::Comment& node) {
+          const std::string text = commentText(state_, node.text, origin.range());
+          state_.sheet.comment(text, origin);
+          return i + 1;
+        },
+        [&](const ir::OneOf<ir::Move, ir::Measure, ir::ProbePower, ir::Spindle, ir::Coolant, ir::SetMode,
+                            ir::Dwell, ir::Stop, ir::OpaqueBlock> auto&) {
+          return writeBlock(state_, list_, i);
+        });
   }
 
   // A branch over one statement is an IF .. THEN with that statement.
@@ -71,26 +86,32 @@ private:
   }
 
   bool writeGuarded(const ir::Branch& branch, const ir::CycleStatement& guarded) {
-    ir::Origin origin = guarded.origin;
-    if (std::holds_alternative<ir::Alarm>(guarded.node)) {
-      const std::string text = sourceAlarm(state_, guarded);
-      doIf(state_, ir::negate(branch.condition), text, origin);
-      return true;
-    }
-    ir::ExpressionPtr value;
-    std::optional<std::string> left;
-    const auto* assignment = std::get_if<ir::Assign>(&guarded.node);
-    const auto* store = std::get_if<ir::Store>(&guarded.node);
-    if (assignment == nullptr && store == nullptr) return false;
+    return match(
+        guarded,
+        [&](const ir::Alarm&) {
+          const std::string text = sourceAlarm(state_, guarded);
+          doIf(state_, ir::negate(branch.condition), text, guarded.origin);
+          return true;
+        },
+        [&](const ir::Assign& node) {
+          return writeGuarded(branch, guarded.origin, node.value,
+                              [&] { return std::optional(state_.local(node.variable)); });
+        },
+        [&](const ir::Store& node) {
+          return writeGuarded(branch, guarded.origin, node.value,
+                              [&] { return storeTarget(node, guarded.origin); });
+        },
+        [](const ir::OneOf<ir::Label, ir::Jump, ir::Branch, ir::Move, ir::Measure, ir::ProbePower,
+                           ir::Comment, ir::Return, ir::Spindle, ir::Coolant, ir::SetMode, ir::Dwell,
+                           ir::Stop, ir::OpaqueBlock> auto&) { return false; });
+  }
+
+  template <class Target>
+  bool writeGuarded(const ir::Branch& branch, const ir::Origin& origin, const ir::ExpressionPtr& value,
+                    const Target& target) {
     // Lines that compute parts of the value would run whatever the condition says: tried aside.
     const Sheet::Checkpoint before = state_.sheet.checkpoint();
-    if (assignment != nullptr) {
-      left = state_.local(assignment->variable);
-      value = assignment->value;
-    } else {
-      left = storeTarget(*store, origin);
-      value = store->value;
-    }
+    const std::optional<std::string> left = target();
     if (!left) return true; // refused
     const std::string text = *left + "=" + valueText(state_, value, origin);
     if (state_.sheet.size() != before.lines) {

@@ -41,26 +41,30 @@ bool merge(Facts& into, const Facts& from) {
 }
 
 Facts behind(const ir::CycleStatement& statement, Facts facts) {
-  if (const auto* mode = std::get_if<ir::SetMode>(&statement.node)) {
-    if (mode->mode == ir::Mode::Absolute) facts.distance = Distance::Absolute;
-    if (mode->mode == ir::Mode::Incremental) facts.distance = Distance::Incremental;
-    if (mode->mode == ir::Mode::WorkSystem) facts.start = {true, true, true};
-  } else if (const auto* measure = std::get_if<ir::Measure>(&statement.node)) {
-    for (std::size_t i = 0; measure->setting && i < 3; ++i)
-      if (measure->setting->nominal[i] != nullptr) facts.start[i] = true;
-  } else if (std::holds_alternative<ir::OpaqueBlock>(statement.node)) {
-    facts.distance = Distance::Unknown;
-    facts.start = {true, true, true};
-  }
-  if (const auto* move = std::get_if<ir::Move>(&statement.node)) {
-    const bool macro = move->motion == ir::Motion::Protected;
-    facts.feed = !macro && (facts.feed || move->feed != nullptr);
-  } else if (std::holds_alternative<ir::Measure>(statement.node)) {
-    facts.feed = false;
-  } else if (const auto* block = std::get_if<ir::OpaqueBlock>(&statement.node)) {
-    facts.feed = facts.feed || std::any_of(block->words.begin(), block->words.end(),
-                                           [](const ir::Word& word) { return word.address == 'F'; });
-  }
+  match(
+      statement,
+      [&](const ir::SetMode& node) {
+        if (node.mode == ir::Mode::Absolute) facts.distance = Distance::Absolute;
+        if (node.mode == ir::Mode::Incremental) facts.distance = Distance::Incremental;
+        if (node.mode == ir::Mode::WorkSystem) facts.start = {true, true, true};
+      },
+      [&](const ir::Move& node) {
+        const bool macro = node.motion == ir::Motion::Protected;
+        facts.feed = !macro && (facts.feed || node.feed != nullptr);
+      },
+      [&](const ir::Measure& node) {
+        for (std::size_t i = 0; node.setting && i < 3; ++i)
+          if (node.setting->nominal[i] != nullptr) facts.start[i] = true;
+        facts.feed = false;
+      },
+      [&](const ir::OpaqueBlock& node) {
+        facts.distance = Distance::Unknown;
+        facts.start = {true, true, true};
+        facts.feed = facts.feed || std::any_of(node.words.begin(), node.words.end(),
+                                               [](const ir::Word& word) { return word.address == 'F'; });
+      },
+      [](const ir::OneOf<ir::Label, ir::Jump, ir::Branch, ir::Store, ir::ProbePower, ir::Comment, ir::Assign,
+                         ir::Return, ir::Spindle, ir::Coolant, ir::Dwell, ir::Stop, ir::Alarm> auto&) {});
   return facts;
 }
 

@@ -1,6 +1,7 @@
 #include "backends/fanuc/ProgramBlocks.h"
 
 #include "backends/common/PlainText.h"
+#include "ir/Flow.h"
 #include "support/messages/Fanuc.h"
 
 #include <algorithm>
@@ -95,10 +96,8 @@ void ProgramBlocks::nameLabels() {
   std::vector<std::pair<ir::LabelId, SourceRange>> named;
   for (std::size_t i = 0; i < program_.body.size(); ++i) {
     const SourceRange range = program_.body[i].origin.range();
-    if (const auto* jump = std::get_if<ir::Jump>(&program_.body[i].node))
-      named.emplace_back(jump->target, range);
-    const auto* branch = std::get_if<ir::Branch>(&program_.body[i].node);
-    if (branch != nullptr && endOfThen(i) == 0) named.emplace_back(branch->target, range);
+    const auto target = ir::targetOf(program_.body[i]);
+    if (target && endOfThen(i) == 0) named.emplace_back(*target, range);
   }
   for (const auto& [id, range] : named)
     if (numbers_.digits(id).empty()) numbers_.add(id, range);
@@ -177,29 +176,21 @@ void ProgramBlocks::statements(std::size_t begin, std::size_t end) {
   for (std::size_t i = begin; i < end;) {
     statement_ = &body[i];
     if (body[i].origin.range().hasPlace()) range_ = body[i].origin.range();
-    const auto& node = body[i].node;
     std::size_t next = i + 1;
-    if (const auto* place = std::get_if<ir::Label>(&node)) {
-      label(place->label);
-    } else if (const auto* block = std::get_if<ir::NcBlock>(&node)) {
-      words(block->words);
-    } else if (const auto* called = std::get_if<ir::Call>(&node)) {
-      call(*called);
-    } else if (const auto* back = std::get_if<ir::Exit>(&node)) {
-      exit(*back);
-    } else if (std::holds_alternative<ir::Branch>(node)) {
-      next = branch(i);
-    } else if (const auto* begins = std::get_if<ir::Loop>(&node)) {
-      loop(*begins);
-    } else if (const auto* ends = std::get_if<ir::LoopEnd>(&node)) {
-      line(fmt::format("END{}", ends->number));
-    } else if (!std::holds_alternative<ir::Comment>(node)) {
-      const std::string text = macro(body[i]);
-      if (text.empty())
-        refuse("this statement");
-      else
-        line(text);
-    }
+    match(
+        body[i], [&](const ir::Label& node) { label(node.label); },
+        [&](const ir::NcBlock& node) { words(node.words); }, [&](const ir::Call& node) { call(node); },
+        [&](const ir::Exit& node) { exit(node); }, [&](const ir::Branch&) { next = branch(i); },
+        [&](const ir::Loop& node) { loop(node); },
+        [&](const ir::LoopEnd& node) { line(fmt::format("END{}", node.number)); }, [](const ir::Comment&) {},
+        [&](const ir::OneOf<ir::Store, ir::Jump, ir::JumpTo, ir::Raise, ir::Notice, ir::Port, ir::Print,
+                            ir::NameVariables, ir::Move, ir::Measure, ir::ProbePower> auto&) {
+          const std::string text = macro(body[i]);
+          if (text.empty())
+            refuse("this statement");
+          else
+            line(text);
+        });
     i = next;
   }
   flush();
@@ -268,17 +259,20 @@ std::size_t ProgramBlocks::branch(std::size_t at) {
   }
   const ir::ConditionPtr condition = ir::negate(node.condition);
   const ir::ProgramStatement& inner = program_.body[at + 1];
-  if (const auto* jump = std::get_if<ir::Jump>(&inner.node)) {
-    jumpWhere(condition, numbers_.target(jump->target));
-  } else if (const auto* computed = std::get_if<ir::JumpTo>(&inner.node)) {
-    jumpWhere(condition, bounded(text_.target(computed->number), context_.to().bracketDepth));
-  } else {
-    const std::string text = macro(inner);
-    if (text.empty())
-      refuse("what stands behind THEN");
-    else
-      skipUnless(condition, node.target, text);
-  }
+  match(
+      inner, [&](const ir::Jump& jump) { jumpWhere(condition, numbers_.target(jump.target)); },
+      [&](const ir::JumpTo& jump) {
+        jumpWhere(condition, bounded(text_.target(jump.number), context_.to().bracketDepth));
+      },
+      [&](const ir::OneOf<ir::Store, ir::Raise, ir::Notice, ir::Port, ir::Print, ir::NameVariables, ir::Label,
+                          ir::Branch, ir::Move, ir::Measure, ir::ProbePower, ir::Comment, ir::NcBlock,
+                          ir::Loop, ir::LoopEnd, ir::Call, ir::Exit> auto&) {
+        const std::string text = macro(inner);
+        if (text.empty())
+          refuse("what stands behind THEN");
+        else
+          skipUnless(condition, node.target, text);
+      });
   return end;
 }
 
@@ -374,24 +368,33 @@ std::string ProgramBlocks::printed(const ir::Print& print) const {
 std::string ProgramBlocks::macro(const ir::ProgramStatement& statement) {
   const std::uint32_t most = context_.to().bracketDepth;
   const stdlib::SystemVariables& variables = context_.to().variables;
-  const auto& node = statement.node;
-  if (const auto* store = std::get_if<ir::Store>(&node))
-    return bounded(text_.variable(store->number) + "=" + text_.value(store->value), most);
-  if (const auto* jump = std::get_if<ir::Jump>(&node)) return "GOTO " + numbers_.target(jump->target);
-  if (const auto* computed = std::get_if<ir::JumpTo>(&node))
-    return "GOTO " + bounded(text_.target(computed->number), most);
-  if (const auto* raise = std::get_if<ir::Raise>(&node))
-    return bounded(fmt::format("#{}={}", variables.alarm.value_or(3000), text_.number(raise->number)), most) +
-           message(raise->text);
-  if (const auto* notice = std::get_if<ir::Notice>(&node))
-    return bounded(fmt::format("#{}={}", variables.message.value_or(3006), text_.number(notice->number)),
-                   most) +
-           message(notice->text);
-  if (const auto* port = std::get_if<ir::Port>(&node)) return port->open ? "POPEN" : "PCLOS";
-  if (const auto* print = std::get_if<ir::Print>(&node)) return printed(*print);
-  if (const auto* names = std::get_if<ir::NameVariables>(&node))
-    return fmt::format("SETVN {}[{}]", names->first, fmt::join(names->names, ","));
-  return "";
+  return match(
+      statement,
+      [&](const ir::Store& node) {
+        return bounded(text_.variable(node.number) + "=" + text_.value(node.value), most);
+      },
+      [&](const ir::Jump& node) { return "GOTO " + numbers_.target(node.target); },
+      [&](const ir::JumpTo& node) { return "GOTO " + bounded(text_.target(node.number), most); },
+      [&](const ir::Raise& node) {
+        return bounded(fmt::format("#{}={}", variables.alarm.value_or(3000), text_.number(node.number)),
+                       most) +
+               message(node.text);
+      },
+      [&](const ir::Notice& node) {
+        return bounded(fmt::format("#{}={}", variables.message.value_or(3006), text_.number(node.number)),
+                       most) +
+               message(node.text);
+      },
+      [](const ir::Port& node) { return std::string(node.open ? "POPEN" : "PCLOS"); },
+      [&](const ir::Print& node) { return printed(node); },
+      [](const ir::NameVariables& node) {
+        return fmt::format("SETVN {}[{}]", node.first, fmt::join(node.names, ","));
+      },
+      // What is no macro statement, and what raising has not lowered.
+      [](const ir::OneOf<ir::Label, ir::Branch, ir::Move, ir::Measure, ir::ProbePower, ir::Comment,
+                         ir::NcBlock, ir::Loop, ir::LoopEnd, ir::Call, ir::Exit> auto&) {
+        return std::string();
+      });
 }
 
 } // namespace dotek::backends::fanuc

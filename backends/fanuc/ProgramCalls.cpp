@@ -1,6 +1,7 @@
 #include "backends/fanuc/ProgramCalls.h"
 
 #include "backends/fanuc/ProgramResults.h"
+#include "ir/Flow.h"
 #include "support/messages/Fanuc.h"
 
 #include <algorithm>
@@ -95,8 +96,7 @@ public:
       if (old != 0) ++block_;
       bool behindWords = false;
       for (std::size_t i = begin; i < end; ++i) {
-        const bool layout = std::holds_alternative<ir::Label>(body[i].node) ||
-                            std::holds_alternative<ir::Comment>(body[i].node);
+        const bool layout = ir::isLayout(body[i]);
         statement(std::move(body[i]), behindWords);
         behindWords = behindWords || !layout;
       }

@@ -48,12 +48,20 @@ public:
       statement_ = &statement;
       if (auto* store = std::get_if<ir::Store>(&statement.node)) stored(*store);
       ir::rewrite(statement, [&](const ir::ExpressionPtr& expression) { return used(expression); });
-      if (auto* print = std::get_if<ir::Print>(&statement.node))
-        for (ir::PrintPiece& piece : print->pieces)
-          if (piece.number) piece.number = there(*piece.number, statement.origin.range());
-      if (auto* names = std::get_if<ir::NameVariables>(&statement.node))
-        for (std::uint32_t i = 0; i < names->names.size(); ++i)
-          there(names->first + i, statement.origin.range());
+      match(
+          statement,
+          [&](ir::OneOf<ir::Print> auto& node) {
+            for (ir::PrintPiece& piece : node.pieces)
+              if (piece.number) piece.number = there(*piece.number, statement.origin.range());
+          },
+          [&](const ir::OneOf<ir::NameVariables> auto& node) {
+            for (std::uint32_t i = 0; i < node.names.size(); ++i)
+              there(node.first + i, statement.origin.range());
+          },
+          // Their variables are in expressions.
+          [](const ir::OneOf<ir::Label, ir::Jump, ir::Branch, ir::Store, ir::Move, ir::Measure,
+                             ir::ProbePower, ir::Comment, ir::NcBlock, ir::JumpTo, ir::Loop, ir::LoopEnd,
+                             ir::Call, ir::Exit, ir::Raise, ir::Notice, ir::Port> auto&) {});
     }
   }
 
@@ -128,16 +136,18 @@ public:
       statement_ = &statement;
       ir::eachNode(statement, [&](const ir::Expression& node) { expression(node); });
       if (context_.same()) continue;
-      if (const auto* raise = std::get_if<ir::Raise>(&statement.node)) alarm(*raise);
-      if (const auto* call = std::get_if<ir::Call>(&statement.node)) called(*call);
-      if (std::holds_alternative<ir::Print>(statement.node) ||
-          std::holds_alternative<ir::Port>(statement.node) ||
-          std::holds_alternative<ir::NameVariables>(statement.node))
-        output();
-      if (std::holds_alternative<ir::Notice>(statement.node) && !context_.to().variables.message)
-        context_.diagnostics.report<diag::VariableElsewhere>(
-            statement.origin.range(), 3006,
-            "waits for the operator, which " + context_.to().title + " has no variable for");
+      match(
+          statement, [&](const ir::Raise& node) { alarm(node); }, [&](const ir::Call& node) { called(node); },
+          [&](const ir::OneOf<ir::Print, ir::Port, ir::NameVariables> auto&) { output(); },
+          [&](const ir::Notice&) {
+            if (!context_.to().variables.message)
+              context_.diagnostics.report<diag::VariableElsewhere>(
+                  statement.origin.range(), 3006,
+                  "waits for the operator, which " + context_.to().title + " has no variable for");
+          },
+          [](const ir::OneOf<ir::Label, ir::Jump, ir::Branch, ir::Store, ir::Move, ir::Measure,
+                             ir::ProbePower, ir::Comment, ir::NcBlock, ir::JumpTo, ir::Loop, ir::LoopEnd,
+                             ir::Exit> auto&) {});
     }
     if (!context_.same()) levels();
   }

@@ -1,5 +1,6 @@
 #include "backends/fanuc/ProgramNumbers.h"
 
+#include "ir/Flow.h"
 #include "ir/Walk.h"
 #include "support/messages/Fanuc.h"
 
@@ -26,42 +27,45 @@ struct Called {
   bool computed = false;
 };
 
+void callsOf(const ir::Word& word, const stdlib::Control& control, Called& out) {
+  for (const stdlib::CallCode& code : control.callCodes) {
+    if (word.address != code.letter) continue;
+    const auto number = wholeOf(word.value);
+    if (code.letter == 'T')
+      out.programs.push_back(code.program);
+    else if (!number)
+      for (std::uint32_t i = 0; i < code.count; ++i)
+        out.programs.push_back(code.program + i);
+    else if (*number >= code.first && *number - code.first < code.count)
+      out.programs.push_back(code.program + (*number - code.first));
+  }
+}
+
 Called calledBy(const ir::ProgramStatement& statement, const stdlib::Control& control) {
   Called out;
-  if (const auto* call = std::get_if<ir::Call>(&statement.node); call && call->kind != ir::CallKind::Off) {
-    if (const auto number = wholeOf(call->program)) {
-      const bool repeats = call->kind == ir::CallKind::Subprogram && !call->repeats && *number > 9999;
-      out.programs.push_back(repeats && control.repeatInProgram ? *number % 10000 : *number);
-    } else {
-      out.computed = true;
-    }
-  }
-  if (const auto* block = std::get_if<ir::NcBlock>(&statement.node)) {
-    for (const ir::Word& word : block->words) {
-      for (const stdlib::CallCode& code : control.callCodes) {
-        if (word.address != code.letter) continue;
-        const auto number = wholeOf(word.value);
-        if (code.letter == 'T')
-          out.programs.push_back(code.program);
-        else if (!number)
-          for (std::uint32_t i = 0; i < code.count; ++i)
-            out.programs.push_back(code.program + i);
-        else if (*number >= code.first && *number - code.first < code.count)
-          out.programs.push_back(code.program + (*number - code.first));
-      }
-    }
-  }
+  match(
+      statement,
+      [&](const ir::Call& call) {
+        if (call.kind == ir::CallKind::Off) return;
+        if (const auto number = wholeOf(call.program)) {
+          const bool repeats = call.kind == ir::CallKind::Subprogram && !call.repeats && *number > 9999;
+          out.programs.push_back(repeats && control.repeatInProgram ? *number % 10000 : *number);
+        } else {
+          out.computed = true;
+        }
+      },
+      [&](const ir::NcBlock& block) {
+        for (const ir::Word& word : block.words)
+          callsOf(word, control, out);
+      },
+      [](const ir::OneOf<ir::Label, ir::Jump, ir::Branch, ir::Store, ir::Move, ir::Measure, ir::ProbePower,
+                         ir::Comment, ir::JumpTo, ir::Loop, ir::LoopEnd, ir::Exit, ir::Raise, ir::Notice,
+                         ir::Port, ir::Print, ir::NameVariables> auto&) {});
   return out;
 }
 
 std::string digitsOf(const ir::ProgramLabel& label) {
   return label.digits.empty() ? std::to_string(label.number) : label.digits;
-}
-
-std::optional<ir::LabelId> targetOf(const ir::ProgramStatement& statement) {
-  if (const auto* jump = std::get_if<ir::Jump>(&statement.node)) return jump->target;
-  if (const auto* branch = std::get_if<ir::Branch>(&statement.node)) return branch->target;
-  return std::nullopt;
 }
 
 } // namespace
@@ -146,7 +150,7 @@ void ProgramNumbers::checkJumps() {
     if (const auto* label = std::get_if<ir::Label>(&body[i].node); label && digits_.contains(label->label))
       places[program_.labels[label->label].number].push_back(i);
   for (std::size_t i = 0; i < body.size(); ++i) {
-    const auto target = targetOf(body[i]);
+    const auto target = ir::targetOf(body[i]);
     if (!target || !digits_.contains(*target)) continue;
     const SourceRange range = body[i].origin.range();
     const std::uint64_t number = program_.labels[*target].number;

@@ -145,14 +145,20 @@ private:
     for (bool changed = true; changed;) {
       changed = false;
       for (const ir::Program& one : file_.programs) {
-        const bool keep = std::all_of(one.body.begin(), one.body.end(), [&](const ir::ProgramStatement& statement) {
-          if (const auto* store = std::get_if<ir::Store>(&statement.node)) {
-            const auto stored = wholeOf(store->number);
-            return stored && !concerns(*stored);
-          }
-          const auto* call = std::get_if<ir::Call>(&statement.node);
-          return call == nullptr || call->kind == ir::CallKind::Off || keeps(*call);
-        });
+        const bool keep =
+            std::all_of(one.body.begin(), one.body.end(), [&](const ir::ProgramStatement& statement) {
+              return match(
+                  statement,
+                  [&](const ir::Store& node) {
+                    const auto stored = wholeOf(node.number);
+                    return stored && !concerns(*stored);
+                  },
+                  [&](const ir::Call& node) { return node.kind == ir::CallKind::Off || keeps(node); },
+                  [](const ir::OneOf<ir::Move, ir::Measure, ir::ProbePower> auto&) { return false; },
+                  [](const ir::OneOf<ir::Label, ir::Jump, ir::Branch, ir::Comment, ir::NcBlock, ir::JumpTo,
+                                     ir::Loop, ir::LoopEnd, ir::Exit, ir::Raise, ir::Notice, ir::Port,
+                                     ir::Print, ir::NameVariables> auto&) { return true; });
+            });
         changed = (!keep && keeps_.erase(static_cast<std::uint32_t>(one.number)) != 0) || changed;
       }
     }
@@ -166,24 +172,36 @@ private:
       if (alone && !maybe) fact[index].clear();
       fact[index].insert(setter);
     };
-    if (const auto* call = std::get_if<ir::Call>(&statement.node)) {
-      const auto known = calls_.find(at);
-      const bool outside = known == calls_.end() && call->kind != ir::CallKind::Off && !keeps(*call);
-      for (std::size_t i = 0; i < fact.size() && (outside || known != calls_.end()); ++i)
-        set(i, outside ? kOutside : known->second, true);
-    } else if (const auto* store = std::get_if<ir::Store>(&statement.node)) {
-      const auto number = wholeOf(store->number);
-      if (const auto found = number ? indices_.find(*number) : indices_.end(); found != indices_.end())
-        set(found->second, kOwn, true);
-    } else if (const auto* block = std::get_if<ir::NcBlock>(&statement.node)) {
-      for (std::size_t i = 0; i < fact.size(); ++i) {
-        if (isSkip(numbers_[i]) && skips(*block)) set(i, kOwn, true);
-        if (modal_) set(i, kOutside, false);
-      }
-    } else if (std::holds_alternative<ir::Label>(statement.node) && returnsElsewhere_) {
-      for (std::size_t i = 0; i < fact.size(); ++i)
-        set(i, kOutside, false);
-    }
+    match(
+        statement,
+        [&](const ir::Call& node) {
+          const auto known = calls_.find(at);
+          const bool outside = known == calls_.end() && node.kind != ir::CallKind::Off && !keeps(node);
+          for (std::size_t i = 0; i < fact.size() && (outside || known != calls_.end()); ++i)
+            set(i, outside ? kOutside : known->second, true);
+        },
+        [&](const ir::Store& node) {
+          const auto number = wholeOf(node.number);
+          if (const auto found = number ? indices_.find(*number) : indices_.end(); found != indices_.end())
+            set(found->second, kOwn, true);
+        },
+        [&](const ir::NcBlock& node) {
+          for (std::size_t i = 0; i < fact.size(); ++i) {
+            if (isSkip(numbers_[i]) && skips(node)) set(i, kOwn, true);
+            if (modal_) set(i, kOutside, false);
+          }
+        },
+        [&](const ir::Label&) {
+          for (std::size_t i = 0; i < fact.size() && returnsElsewhere_; ++i)
+            set(i, kOutside, false);
+        },
+        // What touches without a call of the source's set.
+        [&](const ir::OneOf<ir::Move, ir::Measure, ir::ProbePower> auto&) {
+          for (std::size_t i = 0; i < fact.size(); ++i)
+            set(i, kOutside, true);
+        },
+        [](const ir::OneOf<ir::Jump, ir::Branch, ir::Comment, ir::JumpTo, ir::Loop, ir::LoopEnd, ir::Exit,
+                           ir::Raise, ir::Notice, ir::Port, ir::Print, ir::NameVariables> auto&) {});
     return fact;
   }
 

@@ -117,8 +117,18 @@ std::string_view functionKey(ir::BinaryOp op) {
   case Op::RoundedModulo: return "MOD";
   case Op::Power: return "POW";
   case Op::Bearing: return "ATAN";
-  default: return "";
+  case Op::Add:
+  case Op::Subtract:
+  case Op::Multiply:
+  case Op::Divide:
+  case Op::Modulo:
+  case Op::Direction:
+  case Op::BitAnd:
+  case Op::BitOr:
+  case Op::BitXor:
+  case Op::ValueOr: break;
   }
+  return "";
 }
 
 std::uint32_t bracketDepth(std::string_view text) {

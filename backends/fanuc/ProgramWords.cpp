@@ -66,9 +66,13 @@ public:
   void run() {
     for (ir::ProgramStatement& statement : program_.body) {
       range_ = statement.origin.range();
-      if (auto* block = std::get_if<ir::NcBlock>(&statement.node)) words(*block);
-      if (auto* call = std::get_if<ir::Call>(&statement.node)) arguments(*call);
-      if (std::holds_alternative<ir::Exit>(statement.node)) code('M', 990, range_, true);
+      match(
+          statement, [&](ir::OneOf<ir::NcBlock> auto& node) { words(node); },
+          [&](ir::OneOf<ir::Call> auto& node) { arguments(node); },
+          [&](const ir::OneOf<ir::Exit> auto&) { code('M', 990, range_, true); },
+          [](const ir::OneOf<ir::Label, ir::Jump, ir::Branch, ir::Store, ir::Move, ir::Measure,
+                             ir::ProbePower, ir::Comment, ir::JumpTo, ir::Loop, ir::LoopEnd, ir::Raise,
+                             ir::Notice, ir::Port, ir::Print, ir::NameVariables> auto&) {});
     }
   }
 
@@ -83,11 +87,17 @@ private:
 
   // Modes of the file under which the numbers or addresses of a block mean something else.
   void seen(const ir::ProgramStatement& statement) {
-    if (const auto* call = std::get_if<ir::Call>(&statement.node))
-      eachBlock_ = eachBlock_ || call->kind == ir::CallKind::EachBlock;
-    const auto* block = std::get_if<ir::NcBlock>(&statement.node);
-    if (block == nullptr) return;
-    for (const ir::Word& word : block->words) {
+    match(
+        statement,
+        [&](const ir::Call& node) { eachBlock_ = eachBlock_ || node.kind == ir::CallKind::EachBlock; },
+        [&](const ir::NcBlock& node) { seen(node); },
+        [](const ir::OneOf<ir::Label, ir::Jump, ir::Branch, ir::Store, ir::Move, ir::Measure, ir::ProbePower,
+                           ir::Comment, ir::JumpTo, ir::Loop, ir::LoopEnd, ir::Exit, ir::Raise, ir::Notice,
+                           ir::Port, ir::Print, ir::NameVariables> auto&) {});
+  }
+
+  void seen(const ir::NcBlock& block) {
+    for (const ir::Word& word : block.words) {
       if (word.address != 'G') continue;
       const auto tenths = tenthsOf(word.value);
       const CodeInfo* info = tenths ? from().find('G', *tenths) : nullptr;

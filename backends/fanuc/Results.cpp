@@ -56,11 +56,16 @@ std::optional<std::uint32_t> common(const stdlib::MacroSet& macros, ir::ResultNa
 }
 
 bool callsMacro(const State& state, const ir::CycleStatement& statement) {
-  if (const auto* move = std::get_if<ir::Move>(&statement.node)) return move->motion == ir::Motion::Protected;
-  if (const auto* power = std::get_if<ir::ProbePower>(&statement.node))
-    return state.macros.find(power->on ? stdlib::Intent::ProbeOn : stdlib::Intent::ProbeOff) != nullptr;
-  return std::holds_alternative<ir::Measure>(statement.node) ||
-         std::holds_alternative<ir::OpaqueBlock>(statement.node);
+  return match(
+      statement, [](const ir::Move& node) { return node.motion == ir::Motion::Protected; },
+      [&](const ir::ProbePower& node) {
+        return state.macros.find(node.on ? stdlib::Intent::ProbeOn : stdlib::Intent::ProbeOff) != nullptr;
+      },
+      [](const ir::OneOf<ir::Measure, ir::OpaqueBlock> auto&) { return true; },
+      [](const ir::OneOf<ir::Label, ir::Jump, ir::Branch, ir::Store, ir::Comment, ir::Assign, ir::Return,
+                         ir::Spindle, ir::Coolant, ir::SetMode, ir::Dwell, ir::Stop, ir::Alarm> auto&) {
+        return false;
+      });
 }
 
 // Whether a call of a macro may stand between the measurement and the use.

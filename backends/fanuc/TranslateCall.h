@@ -22,10 +22,10 @@ struct TranslateSettings {
 };
 
 struct TranslatedCall {
-  std::string refusal;               // why it cannot be written; "": the rest holds
+  std::string refusal;                      // why it cannot be written; "": the rest holds
   std::vector<ir::ProgramStatement> before; // without origin; in this order before the call
-  std::optional<ir::Call> call;      // nothing: `before` says it all
-  std::vector<std::string> notes;    // what a reader of the program has to know, in lower case
+  std::optional<ir::Call> call;             // nothing: `before` says it all
+  std::vector<std::string> notes;           // what a reader of the program has to know, in lower case
 };
 
 // The call in the target's words. Coordinates and travels are turned into one another by the position at the

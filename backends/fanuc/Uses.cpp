@@ -30,24 +30,33 @@ void collect(Ids& out, const ir::ExpressionPtr& expression) {
 // What a move or a measurement moves by.
 Ids movesBy(const ir::CycleStatement& statement) {
   Ids out;
-  if (const auto* move = std::get_if<ir::Move>(&statement.node)) {
-    for (const auto& axis : move->axes)
-      if (axis) collect(out, axis->value);
-    collect(out, move->feed);
-  } else if (const auto* measure = std::get_if<ir::Measure>(&statement.node)) {
-    if (measure->target) collect(out, measure->target->value);
-    collect(out, measure->diameter);
-  } else if (const auto* block = std::get_if<ir::OpaqueBlock>(&statement.node)) {
-    for (const ir::Word& word : block->words)
-      collect(out, word.value);
-  }
+  match(
+      statement,
+      [&](const ir::Move& node) {
+        for (const auto& axis : node.axes)
+          if (axis) collect(out, axis->value);
+        collect(out, node.feed);
+      },
+      [&](const ir::Measure& node) {
+        if (node.target) collect(out, node.target->value);
+        collect(out, node.diameter);
+      },
+      [&](const ir::OpaqueBlock& node) {
+        for (const ir::Word& word : node.words)
+          collect(out, word.value);
+      },
+      [](const ir::OneOf<ir::Label, ir::Jump, ir::Branch, ir::Store, ir::ProbePower, ir::Comment, ir::Assign,
+                         ir::Return, ir::Spindle, ir::Coolant, ir::SetMode, ir::Dwell, ir::Stop,
+                         ir::Alarm> auto&) {});
   return out;
 }
 
 bool mayMove(const ir::CycleStatement& statement) {
-  return std::holds_alternative<ir::Move>(statement.node) ||
-         std::holds_alternative<ir::Measure>(statement.node) ||
-         std::holds_alternative<ir::OpaqueBlock>(statement.node);
+  return match(
+      statement, [](const ir::OneOf<ir::Move, ir::Measure, ir::OpaqueBlock> auto&) { return true; },
+      [](const ir::OneOf<ir::Label, ir::Jump, ir::Branch, ir::Store, ir::ProbePower, ir::Comment, ir::Assign,
+                         ir::Return, ir::Spindle, ir::Coolant, ir::SetMode, ir::Dwell, ir::Stop,
+                         ir::Alarm> auto&) { return false; });
 }
 
 // Whether the branch decides on a move, or on an assignment to one of `moving`.

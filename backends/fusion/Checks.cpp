@@ -1,6 +1,7 @@
 // Checks: the source's own, before anything is written.
 #include "backends/fusion/State.h"
 #include "ir/Expression.h"
+#include "ir/Flow.h"
 #include "support/messages/Fusion.h"
 
 #include <algorithm>
@@ -30,9 +31,8 @@ public:
 private:
   // Index of the label that the statement may jump to.
   std::optional<std::size_t> targetOf(std::size_t at) const {
-    if (const auto* branch = std::get_if<ir::Branch>(&list_[at].node)) return places_.at(branch->target);
-    if (const auto* jump = std::get_if<ir::Jump>(&list_[at].node)) return places_.at(jump->target);
-    return std::nullopt;
+    const auto label = ir::targetOf(list_[at]);
+    return label ? std::optional(places_.at(*label)) : std::nullopt;
   }
 
   bool isBranch(std::size_t at) const { return std::holds_alternative<ir::Branch>(list_[at].node); }
@@ -94,20 +94,23 @@ private:
   // Assignments and alarms.
   void plain(const ir::CycleStatement& statement) {
     const ir::Origin& origin = statement.origin;
-    if (const auto* assign = std::get_if<ir::Assign>(&statement.node)) {
-      guardArithmetic(state_, assign->value, origin);
-      state_.script.add(state_.name(assign->variable) + " = " +
-                            valueText(state_, assign->value, origin.range()) + ";",
-                        origin);
-    } else if (const auto* alarm = std::get_if<ir::Alarm>(&statement.node)) {
-      const std::string text = alarm->message.empty() ? "the values are not allowed" : alarm->message;
-      state_.script.add("error(localize(" + quoted(text) + "));", origin);
-      state_.script.add("return;", origin);
-    } else if (const auto* comment = std::get_if<ir::Comment>(&statement.node)) {
-      state_.script.comment(comment->text);
-    } else if (!std::holds_alternative<ir::Label>(statement.node)) {
-      state_.refuse<diag::FusionRunTime>(origin.range());
-    }
+    match(
+        statement,
+        [&](const ir::Assign& node) {
+          guardArithmetic(state_, node.value, origin);
+          state_.script.add(state_.name(node.variable) + " = " +
+                                valueText(state_, node.value, origin.range()) + ";",
+                            origin);
+        },
+        [&](const ir::Alarm& node) {
+          const std::string text = node.message.empty() ? "the values are not allowed" : node.message;
+          state_.script.add("error(localize(" + quoted(text) + "));", origin);
+          state_.script.add("return;", origin);
+        },
+        [&](const ir::Comment& node) { state_.script.comment(node.text); }, [](const ir::Label&) {},
+        [&](const ir::OneOf<ir::Jump, ir::Branch, ir::Store, ir::Move, ir::Measure, ir::ProbePower,
+                            ir::Return, ir::Spindle, ir::Coolant, ir::SetMode, ir::Dwell, ir::Stop,
+                            ir::OpaqueBlock> auto&) { state_.refuse<diag::FusionRunTime>(origin.range()); });
   }
 
   // Jumps that are no ifs: a switch in a loop, a case for each label.

@@ -1,6 +1,7 @@
 #include "backends/fusion/Emit.h"
 
 #include "backends/fusion/State.h"
+#include "ir/Positions.h"
 #include "support/messages/Fanuc.h"
 #include "support/messages/Fusion.h"
 
@@ -11,19 +12,12 @@ namespace dotek::backends::fusion {
 namespace {
 
 bool isStraight(const ir::Cycle& cycle) {
-  return std::none_of(cycle.body.begin(), cycle.body.end(), [](const ir::CycleStatement& statement) {
-    return std::holds_alternative<ir::Label>(statement.node) ||
-           std::holds_alternative<ir::Jump>(statement.node) ||
-           std::holds_alternative<ir::Branch>(statement.node) ||
-           std::holds_alternative<ir::Assign>(statement.node);
-  });
-}
-
-bool probes(const ir::Cycle& cycle) {
-  return std::any_of(cycle.body.begin(), cycle.body.end(), [](const ir::CycleStatement& statement) {
-    const auto* move = std::get_if<ir::Move>(&statement.node);
-    return std::holds_alternative<ir::Measure>(statement.node) ||
-           (move != nullptr && move->motion == ir::Motion::Protected);
+  return std::all_of(cycle.body.begin(), cycle.body.end(), [](const ir::CycleStatement& statement) {
+    return match(
+        statement, [](const ir::OneOf<ir::Label, ir::Jump, ir::Branch, ir::Assign> auto&) { return false; },
+        [](const ir::OneOf<ir::Store, ir::Move, ir::Measure, ir::ProbePower, ir::Comment, ir::Return,
+                           ir::Spindle, ir::Coolant, ir::SetMode, ir::Dwell, ir::Stop, ir::Alarm,
+                           ir::OpaqueBlock> auto&) { return true; });
   });
 }
 
@@ -47,7 +41,7 @@ std::optional<std::vector<EmittedLine>> emit(const ir::Cycle& cycle, const EmitO
     state.refuse<diag::FusionNeedsProg>(cycle.range);
     return std::nullopt;
   }
-  if (options.macros.needsSkipPosition && !options.control.variables.skip && probes(cycle)) {
+  if (options.macros.needsSkipPosition && !options.control.variables.skip && ir::probes(cycle)) {
     state.refuse<diag::NoSkipPosition>(cycle.range, "macros of " + options.macros.title,
                                        options.control.title);
     return std::nullopt;

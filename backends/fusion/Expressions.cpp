@@ -22,14 +22,16 @@ public:
 
 private:
   std::string node(const ir::Expression& value, bool operand) {
-    if (const auto* constant = std::get_if<ir::Constant>(&value.node))
-      return numberLiteral(constant->value, operand);
-    if (const auto* use = std::get_if<ir::VariableUse>(&value.node)) return state_.name(use->variable);
-    if (std::holds_alternative<ir::NullValue>(value.node)) return "undefined";
-    if (const auto* op = std::get_if<ir::Unary>(&value.node)) return unary(*op, operand);
-    if (const auto* op = std::get_if<ir::Binary>(&value.node)) return binary(*op, operand);
-    state_.refuse<diag::FusionRunTime>(range_);
-    return "0";
+    return match(
+        value, [&](const ir::Constant& node) { return std::string(numberLiteral(node.value, operand)); },
+        [&](const ir::VariableUse& node) { return std::string(state_.name(node.variable)); },
+        [](const ir::NullValue&) { return std::string("undefined"); },
+        [&](const ir::Unary& node) { return unary(node, operand); },
+        [&](const ir::Binary& node) { return binary(node, operand); },
+        [&](const ir::OneOf<ir::MachineVariable, ir::MeasuredResult> auto&) {
+          state_.refuse<diag::FusionRunTime>(range_);
+          return std::string("0");
+        });
   }
 
   std::string call(Helper helper, const ir::ExpressionPtr& operand) {
@@ -125,30 +127,71 @@ std::string_view relationText(ir::Relation relation) {
 }
 
 // Whether the operator itself may have no result, whatever its operands are.
-bool isPartial(const ir::Expression& node) {
-  if (const auto* unary = std::get_if<ir::Unary>(&node.node))
-    return unary->op == ir::UnaryOp::SquareRoot || unary->op == ir::UnaryOp::Tangent ||
-           unary->op == ir::UnaryOp::ArcSine || unary->op == ir::UnaryOp::ArcCosine ||
-           unary->op == ir::UnaryOp::Logarithm || unary->op == ir::UnaryOp::Exponential;
-  const auto* binary = std::get_if<ir::Binary>(&node.node);
-  if (binary == nullptr) return false;
-  if (binary->op == ir::BinaryOp::Divide || binary->op == ir::BinaryOp::Modulo) {
-    const double* divisor = ir::constantValue(binary->right);
+bool isPartial(ir::UnaryOp op) {
+  switch (op) {
+  case ir::UnaryOp::SquareRoot:
+  case ir::UnaryOp::Tangent:
+  case ir::UnaryOp::ArcSine:
+  case ir::UnaryOp::ArcCosine:
+  case ir::UnaryOp::Logarithm:
+  case ir::UnaryOp::Exponential: return true;
+  case ir::UnaryOp::Negate:
+  case ir::UnaryOp::Absolute:
+  case ir::UnaryOp::Truncate:
+  case ir::UnaryOp::RoundUp:
+  case ir::UnaryOp::Round:
+  case ir::UnaryOp::Sine:
+  case ir::UnaryOp::Cosine:
+  case ir::UnaryOp::ArcTangent:
+  case ir::UnaryOp::NullAsZero:
+  case ir::UnaryOp::RoundIncrement: // refused, as the next three
+  case ir::UnaryOp::FromBcd:
+  case ir::UnaryOp::ToBcd:
+  case ir::UnaryOp::AddPoint: break;
+  }
+  return false;
+}
+
+bool isPartial(const ir::Binary& node) {
+  switch (node.op) {
+  case ir::BinaryOp::Divide:
+  case ir::BinaryOp::Modulo: {
+    const double* divisor = ir::constantValue(node.right);
     return divisor == nullptr || *divisor == 0;
   }
-  return binary->op == ir::BinaryOp::Direction || binary->op == ir::BinaryOp::BitAnd ||
-         binary->op == ir::BinaryOp::BitOr || binary->op == ir::BinaryOp::BitXor;
+  case ir::BinaryOp::Direction:
+  case ir::BinaryOp::BitAnd:
+  case ir::BinaryOp::BitOr:
+  case ir::BinaryOp::BitXor: return true;
+  case ir::BinaryOp::Add:
+  case ir::BinaryOp::Subtract:
+  case ir::BinaryOp::Multiply:
+  case ir::BinaryOp::ValueOr:
+  case ir::BinaryOp::RoundedAnd: // refused, as the next five
+  case ir::BinaryOp::RoundedOr:
+  case ir::BinaryOp::RoundedXor:
+  case ir::BinaryOp::RoundedModulo:
+  case ir::BinaryOp::Power:
+  case ir::BinaryOp::Bearing: break;
+  }
+  return false;
 }
 
 // Operands first: a result that is not finite is seen before something hides it (1/(1/0) is 0).
 void collectPartial(const ir::ExpressionPtr& value, std::vector<ir::ExpressionPtr>& out) {
-  if (const auto* unary = std::get_if<ir::Unary>(&value->node)) {
-    collectPartial(unary->operand, out);
-  } else if (const auto* binary = std::get_if<ir::Binary>(&value->node)) {
-    collectPartial(binary->left, out);
-    collectPartial(binary->right, out);
-  }
-  if (isPartial(*value)) out.push_back(value);
+  match(
+      *value,
+      [&](const ir::Unary& node) {
+        collectPartial(node.operand, out);
+        if (isPartial(node.op)) out.push_back(value);
+      },
+      [&](const ir::Binary& node) {
+        collectPartial(node.left, out);
+        collectPartial(node.right, out);
+        if (isPartial(node)) out.push_back(value);
+      },
+      [](const ir::OneOf<ir::Constant, ir::NullValue, ir::VariableUse, ir::MachineVariable,
+                         ir::MeasuredResult> auto&) {});
 }
 
 void collectPartial(const ir::ConditionPtr& condition, std::vector<ir::ExpressionPtr>& out) {

@@ -27,10 +27,16 @@ ir::ExpressionPtr difference(const ir::ExpressionPtr& a, const ir::ExpressionPtr
 }
 
 bool isMacro(const State& state, const ir::CycleStatement& statement) {
-  if (const auto* power = std::get_if<ir::ProbePower>(&statement.node))
-    return state.options.macros.find(power->on ? stdlib::Intent::ProbeOn : stdlib::Intent::ProbeOff) !=
-           nullptr;
-  return std::holds_alternative<ir::Measure>(statement.node);
+  return match(
+      statement,
+      [&](const ir::ProbePower& node) {
+        const auto intent = node.on ? stdlib::Intent::ProbeOn : stdlib::Intent::ProbeOff;
+        return state.options.macros.find(intent) != nullptr;
+      },
+      [](const ir::Measure&) { return true; },
+      [](const ir::OneOf<ir::Label, ir::Jump, ir::Branch, ir::Store, ir::Move, ir::Comment, ir::Assign,
+                         ir::Return, ir::Spindle, ir::Coolant, ir::SetMode, ir::Dwell, ir::Stop, ir::Alarm,
+                         ir::OpaqueBlock> auto&) { return false; });
 }
 
 bool readsResult(const ir::CycleStatement& statement) {
@@ -83,40 +89,50 @@ MacroBlocks::MacroBlocks(State& state, Texts& texts) : state_(state), texts_(tex
 }
 
 bool MacroBlocks::block(const std::vector<const ir::CycleStatement*>& statements, std::vector<Text>& lines) {
-  const bool rewritten = std::any_of(statements.begin(), statements.end(), [&](const ir::CycleStatement* one) {
-    return isMacro(state_, *one) || std::holds_alternative<ir::Move>(one->node) || readsResult(*one);
-  });
+  const bool rewritten =
+      std::any_of(statements.begin(), statements.end(), [&](const ir::CycleStatement* one) {
+        return isMacro(state_, *one) || std::holds_alternative<ir::Move>(one->node) || readsResult(*one);
+      });
   for (const ir::CycleStatement* one : statements) {
     const ir::Origin& origin = one->origin;
-    if (std::holds_alternative<ir::OpaqueBlock>(one->node)) {
-      state_.refuse<diag::FusionOpaque>(origin.range(), state_.options.macros.title);
-      continue;
-    }
-    const auto* mode = std::get_if<ir::SetMode>(&one->node);
-    if (mode != nullptr && mode->mode == ir::Mode::WorkSystem) {
-      for (Place& place : at_)
-        place.value = nullptr;
-    } else if (mode != nullptr && (mode->mode == ir::Mode::Absolute || mode->mode == ir::Mode::Incremental)) {
-      incremental_ = mode->mode == ir::Mode::Incremental ? &origin : nullptr;
-      overwritten_ = false;
-    }
+    match(
+        *one,
+        [&](const ir::OpaqueBlock&) {
+          state_.refuse<diag::FusionOpaque>(origin.range(), state_.options.macros.title);
+        },
+        [&](const ir::SetMode& node) {
+          if (node.mode == ir::Mode::WorkSystem) {
+            for (Place& place : at_)
+              place.value = nullptr;
+          } else if (node.mode == ir::Mode::Absolute || node.mode == ir::Mode::Incremental) {
+            incremental_ = node.mode == ir::Mode::Incremental ? &origin : nullptr;
+            overwritten_ = false;
+          }
+        },
+        [](const ir::OneOf<ir::Label, ir::Jump, ir::Branch, ir::Store, ir::Move, ir::Measure, ir::ProbePower,
+                           ir::Comment, ir::Assign, ir::Return, ir::Spindle, ir::Coolant, ir::Dwell, ir::Stop,
+                           ir::Alarm> auto&) {});
   }
   if (!rewritten) return false;
   Text codes;
   for (const ir::CycleStatement* one : statements) {
     const ir::Origin& origin = one->origin;
-    if (const auto* go = std::get_if<ir::Move>(&one->node)) {
-      move(*go, origin, lines);
-    } else if (const auto* touch = std::get_if<ir::Measure>(&one->node)) {
-      measure(*touch, origin, lines);
-    } else if (const auto* power = std::get_if<ir::ProbePower>(&one->node);
-               power != nullptr && isMacro(state_, *one)) {
-      switchProbe(power->on, lines);
-    } else if (const auto* keep = std::get_if<ir::Store>(&one->node)) {
-      store(*keep, origin, lines);
-    } else if (!otherCode(*one, codes)) {
-      state_.refuse<diag::FusionMixedBlock>(origin.range());
-    }
+    const auto other = [&] {
+      if (!otherCode(*one, codes)) state_.refuse<diag::FusionMixedBlock>(origin.range());
+    };
+    match(
+        *one, [&](const ir::Move& node) { move(node, origin, lines); },
+        [&](const ir::Measure& node) { measure(node, origin, lines); },
+        [&](const ir::ProbePower& node) {
+          if (isMacro(state_, *one))
+            switchProbe(node.on, lines);
+          else
+            other();
+        },
+        [&](const ir::Store& node) { store(node, origin, lines); },
+        [&](const ir::OneOf<ir::Label, ir::Jump, ir::Branch, ir::Comment, ir::Assign, ir::Return, ir::Spindle,
+                            ir::Coolant, ir::SetMode, ir::Dwell, ir::Stop, ir::Alarm,
+                            ir::OpaqueBlock> auto&) { other(); });
   }
   if (codes.expression() != "\"\"") lines.insert(lines.begin(), std::move(codes));
   return true;
@@ -141,30 +157,41 @@ void MacroBlocks::code(Function function, std::string_view what, const ir::Origi
 // A code beside a move in the source's block; it acts before the move.
 bool MacroBlocks::otherCode(const ir::CycleStatement& statement, Text& text) {
   const ir::Origin& origin = statement.origin;
-  if (const auto* mode = std::get_if<ir::SetMode>(&statement.node)) {
-    switch (mode->mode) {
-    case ir::Mode::Absolute:
-    case ir::Mode::Incremental: return true; // each move says its own
-    case ir::Mode::FeedPerMinute: code(Function::FeedPerMinute, "feed per minute", origin, text); return true;
-    case ir::Mode::PlaneXY: code(Function::PlaneXY, "the plane XY", origin, text); return true;
-    case ir::Mode::CutterCompOff:
-      code(Function::CutterCompOff, "cutter compensation off", origin, text);
-      return true;
-    case ir::Mode::CannedCycleOff:
-      code(Function::CannedCycleOff, "canned cycles off", origin, text);
-      return true;
-    default: return false;
-    }
-  }
-  if (const auto* spindle = std::get_if<ir::Spindle>(&statement.node)) {
-    if (spindle->state != ir::Spindle::State::Off) return false;
-    code(Function::SpindleOff, "the spindle off", origin, text);
+  return match(
+      statement, [&](const ir::SetMode& node) { return modeCode(node, origin, text); },
+      [&](const ir::Spindle& node) {
+        if (node.state != ir::Spindle::State::Off) return false;
+        code(Function::SpindleOff, "the spindle off", origin, text);
+        return true;
+      },
+      [&](const ir::Coolant& node) {
+        if (node.state != ir::Coolant::State::Off) return false;
+        code(Function::CoolantOff, "the coolant off", origin, text);
+        return true;
+      },
+      [](const ir::OneOf<ir::Label, ir::Jump, ir::Branch, ir::Store, ir::Move, ir::Measure, ir::ProbePower,
+                         ir::Comment, ir::Assign, ir::Return, ir::Dwell, ir::Stop, ir::Alarm,
+                         ir::OpaqueBlock> auto&) { return false; });
+}
+
+bool MacroBlocks::modeCode(const ir::SetMode& mode, const ir::Origin& origin, Text& text) {
+  const auto write = [&](Function function, std::string_view what) {
+    code(function, what, origin, text);
     return true;
-  }
-  if (const auto* coolant = std::get_if<ir::Coolant>(&statement.node)) {
-    if (coolant->state != ir::Coolant::State::Off) return false;
-    code(Function::CoolantOff, "the coolant off", origin, text);
-    return true;
+  };
+  switch (mode.mode) {
+  case ir::Mode::Absolute:
+  case ir::Mode::Incremental: return true; // each move says its own
+  case ir::Mode::FeedPerMinute: return write(Function::FeedPerMinute, "feed per minute");
+  case ir::Mode::PlaneXY: return write(Function::PlaneXY, "the plane XY");
+  case ir::Mode::CutterCompOff: return write(Function::CutterCompOff, "cutter compensation off");
+  case ir::Mode::CannedCycleOff: return write(Function::CannedCycleOff, "canned cycles off");
+  case ir::Mode::FeedPerRevolution:
+  case ir::Mode::PlaneZX:
+  case ir::Mode::PlaneYZ:
+  case ir::Mode::WorkSystem:
+  case ir::Mode::RapidMotion:
+  case ir::Mode::FeedMotion: break;
   }
   return false;
 }

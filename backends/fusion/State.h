@@ -133,6 +133,7 @@ private:
   void store(const ir::Store& store, const ir::Origin& origin, std::vector<Text>& lines);
   void switchProbe(bool on, std::vector<Text>& lines);
   bool otherCode(const ir::CycleStatement& statement, Text& text);
+  bool modeCode(const ir::SetMode& mode, const ir::Origin& origin, Text& text);
   bool requireNominal(const ir::Measure& measure, const ir::Origin& origin);
   // The coordinate in the frame that the macro wants; null pointer: refused.
   ir::ExpressionPtr place(const ir::Coordinate& coordinate, ir::Axis axis, ir::Frame wanted,

@@ -3,6 +3,7 @@
 #include "backends/mikroprog/State.h"
 #include "ir/Fold.h"
 #include "ir/Linear.h"
+#include "ir/Positions.h"
 #include "support/Decimal.h"
 
 #include <algorithm>
@@ -22,12 +23,6 @@ constexpr std::uint32_t kEnd = 90;       // from there
 constexpr std::uint32_t kTailStep = 5;
 constexpr std::uint32_t kSubprograms = 5000; // the first, each at a thousand
 
-bool probes(const ir::CycleStatement& statement) {
-  const auto* move = std::get_if<ir::Move>(&statement.node);
-  return std::holds_alternative<ir::Measure>(statement.node) ||
-         (move != nullptr && move->motion == ir::Motion::Protected);
-}
-
 bool measures(const ir::Cycle& cycle) {
   return std::any_of(cycle.body.begin(), cycle.body.end(), [](const ir::CycleStatement& statement) {
     return std::holds_alternative<ir::Measure>(statement.node);
@@ -46,7 +41,7 @@ public:
   void write() {
     const auto& list = s_.cycle.body;
     for (std::size_t i = 0; i < list.size() && !s_.failed; ++i) {
-      if (probes(list[i]) && !probed_) {
+      if (ir::probes(list[i]) && !probed_) {
         probed_ = true;
         settle(i);
       }
@@ -61,21 +56,29 @@ private:
     const auto& list = s_.cycle.body;
     bool spindle = false, coolant = false; // switched off
     for (std::size_t i = 0; i < list.size(); ++i) {
-      const auto* turns = std::get_if<ir::Spindle>(&list[i].node);
-      const auto* flows = std::get_if<ir::Coolant>(&list[i].node);
-      if (turns == nullptr && flows == nullptr) continue;
-      const bool off = turns != nullptr ? turns->state == ir::Spindle::State::Off
-                                        : flows->state == ir::Coolant::State::Off;
-      bool& settled = turns != nullptr ? spindle : coolant;
+      std::optional<bool> off; // of a switch of the spindle or the coolant
+      bool turns = false;
+      match(
+          list[i],
+          [&](const ir::Spindle& node) {
+            off = node.state == ir::Spindle::State::Off;
+            turns = true;
+          },
+          [&](const ir::Coolant& node) { off = node.state == ir::Coolant::State::Off; },
+          [](const ir::OneOf<ir::Label, ir::Jump, ir::Branch, ir::Store, ir::Move, ir::Measure,
+                             ir::ProbePower, ir::Comment, ir::Assign, ir::Return, ir::SetMode, ir::Dwell,
+                             ir::Stop, ir::Alarm, ir::OpaqueBlock> auto&) {});
+      if (!off) continue;
+      bool& settled = turns ? spindle : coolant;
       if (i < first) {
-        settled = off;
+        settled = *off;
         continue;
       }
       if (settled) continue;
-      if (!off) break;
+      if (!*off) break;
       settled = true;
       s_.diagnostics.report<diag::MovedBefore>(list[i].origin.range(),
-                                               s_.code(turns != nullptr ? "spindle-off" : "coolant-off"));
+                                               s_.code(turns ? "spindle-off" : "coolant-off"));
       s_.done.insert(&list[i]);
       one(list[i], i);
     }
@@ -90,65 +93,58 @@ private:
   }
 
   void one(const ir::CycleStatement& statement, std::size_t index) {
-    const auto& node = statement.node;
     const ir::Origin& origin = statement.origin;
     const SourceRange range = origin.range();
-    if (const auto* move = std::get_if<ir::Move>(&node)) return this->move(*move, origin);
-    if (const auto* measured = std::get_if<ir::Measure>(&node)) return measure(s_, *measured, index);
-    if (const auto* comment = std::get_if<ir::Comment>(&node)) {
-      if (isOfStop(index))
-        stopText_ += (stopText_.empty() ? "" : " ") + comment->text;
-      else
-        s_.sheet.comment(asciiText(s_, comment->text, range), origin);
-      return;
-    }
-    if (const auto* spindle = std::get_if<ir::Spindle>(&node)) return this->spindle(*spindle, origin);
-    if (const auto* coolant = std::get_if<ir::Coolant>(&node)) return this->coolant(*coolant, origin);
-    if (const auto* power = std::get_if<ir::ProbePower>(&node)) return probePower(*power, origin);
-    if (const auto* mode = std::get_if<ir::SetMode>(&node)) return this->mode(*mode, origin);
-    if (const auto* store = std::get_if<ir::Store>(&node)) return this->store(*store, origin);
-    if (const auto* dwell = std::get_if<ir::Dwell>(&node)) {
-      const auto seconds = rangedValueOf(s_, 'E', dwell->seconds, "a dwell", true, range);
-      if (seconds) s_.sheet.add(s_.code("dwell") + " E" + numberWord(s_, *seconds, range), origin);
-      return;
-    }
-    if (const auto* stop = std::get_if<ir::Stop>(&node)) {
-      if (stop->optional) {
-        s_.refuse<diag::MikroprogCannot>(range, "a stop that the operator switches",
-                                         "M1 needs a condition, and how its field is set is not known (Q14)");
-        return;
-      }
-      const std::string beside = std::exchange(stopText_, "");
-      return this->stop(stop->message.empty() ? beside : stop->message, origin);
-    }
-    if (const auto* alarm = std::get_if<ir::Alarm>(&node)) {
-      s_.diagnostics.report<diag::AlarmStops>(range, s_.code("stop"));
-      if (s_.remarked.insert("alarm").second)
-        s_.remarks.push_back("AN ALARM IS A STOP WITH ITS TEXT AND THE END; ITS NUMBER IS NOT KEPT");
-      this->stop(alarm->message, origin);
-      return toEnd(origin);
-    }
-    if (std::holds_alternative<ir::Return>(node)) return toEnd(origin);
-    if (std::holds_alternative<ir::OpaqueBlock>(node)) {
-      s_.refuse<diag::OpaqueBlockRefused>(range, addresses(std::get<ir::OpaqueBlock>(node)),
-                                          "the source's control");
-      return;
-    }
-    if (const auto* branch = std::get_if<ir::Branch>(&node)) {
-      (void)branch;
-      s_.refuse<diag::FlowRefused>(range, "what only the running program knows");
-      return;
-    }
-    if (std::holds_alternative<ir::Assign>(node)) {
-      s_.refuse<diag::MikroprogCannot>(range, "a value that only the running program knows",
-                                       "whether parameters take sums is not known (Q10)");
-      return;
-    }
-    if (std::holds_alternative<ir::Label>(node)) {
-      s_.refuse<diag::FlowRefused>(range, "a loop without an end");
-      return;
-    }
-    s_.refuse<diag::MikroprogCannot>(range, "this statement", "the control has no function for it");
+    match(
+        statement, [&](const ir::Move& node) { move(node, origin); },
+        [&](const ir::Measure& node) { measure(s_, node, index); },
+        [&](const ir::Comment& node) {
+          if (isOfStop(index))
+            stopText_ += (stopText_.empty() ? "" : " ") + node.text;
+          else
+            s_.sheet.comment(asciiText(s_, node.text, range), origin);
+        },
+        [&](const ir::Spindle& node) { spindle(node, origin); },
+        [&](const ir::Coolant& node) { coolant(node, origin); },
+        [&](const ir::ProbePower& node) { probePower(node, origin); },
+        [&](const ir::SetMode& node) { mode(node, origin); },
+        [&](const ir::Store& node) { store(node, origin); },
+        [&](const ir::Dwell& node) {
+          const auto seconds = rangedValueOf(s_, 'E', node.seconds, "a dwell", true, range);
+          if (seconds) s_.sheet.add(s_.code("dwell") + " E" + numberWord(s_, *seconds, range), origin);
+        },
+        [&](const ir::Stop& node) {
+          if (node.optional) {
+            s_.refuse<diag::MikroprogCannot>(
+                range, "a stop that the operator switches",
+                "M1 needs a condition, and how its field is set is not known (Q14)");
+            return;
+          }
+          const std::string beside = std::exchange(stopText_, "");
+          stop(node.message.empty() ? beside : node.message, origin);
+        },
+        [&](const ir::Alarm& node) {
+          s_.diagnostics.report<diag::AlarmStops>(range, s_.code("stop"));
+          if (s_.remarked.insert("alarm").second)
+            s_.remarks.push_back("AN ALARM IS A STOP WITH ITS TEXT AND THE END; ITS NUMBER IS NOT KEPT");
+          stop(node.message, origin);
+          toEnd(origin);
+        },
+        [&](const ir::Return&) { toEnd(origin); },
+        [&](const ir::OpaqueBlock& node) {
+          s_.refuse<diag::OpaqueBlockRefused>(range, addresses(node), "the source's control");
+        },
+        [&](const ir::Branch&) {
+          s_.refuse<diag::FlowRefused>(range, "what only the running program knows");
+        },
+        [&](const ir::Assign&) {
+          s_.refuse<diag::MikroprogCannot>(range, "a value that only the running program knows",
+                                           "whether parameters take sums is not known (Q10)");
+        },
+        [&](const ir::Label&) { s_.refuse<diag::FlowRefused>(range, "a loop without an end"); },
+        [&](const ir::Jump&) {
+          s_.refuse<diag::MikroprogCannot>(range, "this statement", "the control has no function for it");
+        });
   }
 
   // Whether the comment at `index` stands in the block of a stop, which shows it to the operator.
@@ -366,10 +362,13 @@ void numberSheets(State& state, std::vector<EmittedLine>& out) {
 bool movesY(const ir::Cycle& cycle) {
   constexpr std::size_t kY = ir::indexOf(ir::Axis::Y);
   return std::any_of(cycle.body.begin(), cycle.body.end(), [](const ir::CycleStatement& statement) {
-    if (const auto* measure = std::get_if<ir::Measure>(&statement.node))
-      return measure->feature == ir::Feature::Bore || measure->axis == ir::Axis::Y;
-    const auto* move = std::get_if<ir::Move>(&statement.node);
-    return move != nullptr && move->axes[kY].has_value();
+    return match(
+        statement,
+        [](const ir::Measure& node) { return node.feature == ir::Feature::Bore || node.axis == ir::Axis::Y; },
+        [](const ir::Move& node) { return node.axes[kY].has_value(); },
+        [](const ir::OneOf<ir::Label, ir::Jump, ir::Branch, ir::Store, ir::ProbePower, ir::Comment,
+                           ir::Assign, ir::Return, ir::Spindle, ir::Coolant, ir::SetMode, ir::Dwell, ir::Stop,
+                           ir::Alarm, ir::OpaqueBlock> auto&) { return false; });
   });
 }
 

@@ -28,20 +28,29 @@ double contactAt(const State& state, ir::Axis axis, double face, double way) {
 bool leavesByItself(State& state, std::size_t index, ir::Axis axis, double to, double back) {
   const auto& list = state.cycle.body;
   for (std::size_t i = index + 1; i < list.size(); ++i) {
-    const auto& node = list[i].node;
-    if (std::holds_alternative<ir::Comment>(node) || std::holds_alternative<ir::Store>(node)) continue;
-    const auto* mode = std::get_if<ir::SetMode>(&node);
-    if (mode != nullptr && (mode->mode == ir::Mode::Absolute || mode->mode == ir::Mode::RapidMotion ||
-                            mode->mode == ir::Mode::FeedMotion))
-      continue;
-    const auto* move = std::get_if<ir::Move>(&node);
-    if (move == nullptr || move->motion == ir::Motion::Protected) return false;
-    for (const ir::Axis other : ir::kAxes)
-      if (move->axes[ir::indexOf(other)].has_value() != (other == axis)) return false;
-    const ir::Coordinate& target = *move->axes[ir::indexOf(axis)];
-    const double* value = ir::constantValue(target.value);
-    if (target.frame != ir::Frame::Work || target.system != nullptr || value == nullptr) return false;
-    return (*value - to) * back >= 0;
+    enum class Goes : std::uint8_t { On, Away, Back };
+    const Goes goes = match(
+        list[i], [](const ir::OneOf<ir::Comment, ir::Store> auto&) { return Goes::On; },
+        [](const ir::SetMode& node) {
+          return node.mode == ir::Mode::Absolute || node.mode == ir::Mode::RapidMotion ||
+                         node.mode == ir::Mode::FeedMotion
+                     ? Goes::On
+                     : Goes::Away;
+        },
+        [&](const ir::Move& node) {
+          if (node.motion == ir::Motion::Protected) return Goes::Away;
+          for (const ir::Axis other : ir::kAxes)
+            if (node.axes[ir::indexOf(other)].has_value() != (other == axis)) return Goes::Away;
+          const ir::Coordinate& target = *node.axes[ir::indexOf(axis)];
+          const double* value = ir::constantValue(target.value);
+          if (target.frame != ir::Frame::Work || target.system != nullptr || value == nullptr)
+            return Goes::Away;
+          return (*value - to) * back >= 0 ? Goes::Back : Goes::Away;
+        },
+        [](const ir::OneOf<ir::Label, ir::Jump, ir::Branch, ir::Measure, ir::ProbePower, ir::Assign,
+                           ir::Return, ir::Spindle, ir::Coolant, ir::Dwell, ir::Stop, ir::Alarm,
+                           ir::OpaqueBlock> auto&) { return Goes::Away; });
+    if (goes != Goes::On) return goes == Goes::Back;
   }
   return false;
 }

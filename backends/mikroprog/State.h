@@ -52,9 +52,9 @@ struct State {
   std::optional<double> feed;                 // in force in the source, mm/min
   bool guarded = false;                       // O7 was asked since the last stop
   std::size_t guards = 0, probeMoves = 0;
-  std::set<std::uint32_t> relied;      // questions that the program relies on
-  std::vector<std::string> remarks;    // of the header: what is dropped or changed
-  std::set<std::string> remarked;      // what is said once
+  std::set<std::uint32_t> relied;           // questions that the program relies on
+  std::vector<std::string> remarks;         // of the header: what is dropped or changed
+  std::set<std::string> remarked;           // what is said once
   std::set<const ir::CycleStatement*> done; // written before their place
   bool failed = false;
 };

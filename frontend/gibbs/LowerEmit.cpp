@@ -185,7 +185,8 @@ private:
 
 } // namespace
 
-ir::CycleStatement statementOf(decltype(ir::CycleStatement::node) node, SourceRange range, std::string reason) {
+ir::CycleStatement statementOf(decltype(ir::CycleStatement::node) node, SourceRange range,
+                               std::string reason) {
   ir::CycleStatement statement;
   statement.node = std::move(node);
   if (range.hasPlace()) statement.origin.ranges = {range};
@@ -194,7 +195,7 @@ ir::CycleStatement statementOf(decltype(ir::CycleStatement::node) node, SourceRa
 }
 
 std::vector<ir::CycleStatement> emitStatements(const Flat& flat, const WalkResult& walk,
-                                          const EmitOptions& options, ir::Cycle& cycle) {
+                                               const EmitOptions& options, ir::Cycle& cycle) {
   return Emitter(flat, walk, options, cycle).run();
 }
 

@@ -23,10 +23,11 @@ struct EmitOptions {
   std::function<std::vector<Emitted>(std::size_t step, const FlatMove& move)> move;
 };
 
-ir::CycleStatement statementOf(decltype(ir::CycleStatement::node) node, SourceRange range, std::string reason = "");
+ir::CycleStatement statementOf(decltype(ir::CycleStatement::node) node, SourceRange range,
+                               std::string reason = "");
 
 std::vector<ir::CycleStatement> emitStatements(const Flat& flat, const WalkResult& walk,
-                                          const EmitOptions& options, ir::Cycle& cycle);
+                                               const EmitOptions& options, ir::Cycle& cycle);
 
 // A reached step from which no way leads out; kNowhere: there is none.
 std::size_t endlessStep(const Flat& flat, const WalkResult& walk, const std::set<std::size_t>& alarms);

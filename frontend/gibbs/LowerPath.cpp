@@ -347,12 +347,18 @@ private:
   void reportFields() {
     std::set<ir::VariableId> used;
     for (const ir::CycleStatement& each : cycle_.body) {
-      if (const auto* s = std::get_if<ir::Assign>(&each.node)) collectVariables(s->value, used);
-      if (const auto* s = std::get_if<ir::Branch>(&each.node)) collectVariables(s->condition, used);
-      if (const auto* s = std::get_if<ir::Measure>(&each.node)) collectVariables(s->target->value, used);
-      const auto* move = std::get_if<ir::Move>(&each.node);
-      for (std::size_t axis = 0; move != nullptr && axis < 3; ++axis)
-        if (move->axes[axis]) collectVariables(move->axes[axis]->value, used);
+      match(
+          each, [&](const ir::Assign& node) { collectVariables(node.value, used); },
+          [&](const ir::Branch& node) { collectVariables(node.condition, used); },
+          [&](const ir::Measure& node) { collectVariables(node.target->value, used); },
+          [&](const ir::Move& node) {
+            for (const auto& axis : node.axes)
+              if (axis) collectVariables(axis->value, used);
+          },
+          // What no path has, or what holds no field.
+          [](const ir::OneOf<ir::Label, ir::Jump, ir::Store, ir::ProbePower, ir::Comment, ir::Return,
+                             ir::Spindle, ir::Coolant, ir::SetMode, ir::Dwell, ir::Stop, ir::Alarm,
+                             ir::OpaqueBlock> auto&) {});
     }
     std::vector<std::string> names;
     for (ir::VariableId id = 0; id < cycle_.variables.size(); ++id)

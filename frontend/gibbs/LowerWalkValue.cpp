@@ -1,4 +1,5 @@
 #include "frontend/gibbs/LowerWalk.h"
+#include "ir/Evaluate.h"
 #include "support/messages/Gibbs.h"
 
 #include <algorithm>
@@ -18,22 +19,6 @@ Relation relationOf(ir::Relation relation) {
   case ir::Relation::GreaterEqual: return Relation::GreaterEqual;
   }
   return Relation::Equal;
-}
-
-ir::Computed compute(ir::UnaryOp op, double a) {
-  constexpr auto kDegrees = ir::AngleUnit::Degrees;
-  switch (op) {
-  case ir::UnaryOp::Absolute: return ir::absolute(a);
-  case ir::UnaryOp::Truncate: return ir::truncate(a);
-  case ir::UnaryOp::SquareRoot: return ir::squareRoot(a);
-  case ir::UnaryOp::Sine: return ir::sine(a, kDegrees);
-  case ir::UnaryOp::Cosine: return ir::cosine(a, kDegrees);
-  case ir::UnaryOp::Tangent: return ir::tangent(a, kDegrees);
-  case ir::UnaryOp::ArcSine: return ir::arcSine(a, kDegrees);
-  case ir::UnaryOp::ArcCosine: return ir::arcCosine(a, kDegrees);
-  case ir::UnaryOp::ArcTangent: return ir::arcTangent(a, kDegrees);
-  default: return ir::subtract(0, a);
-  }
 }
 
 // 1: bounds from below; -1: from above.
@@ -93,19 +78,23 @@ std::optional<Value> Walk::read(WalkState& state, ir::VariableId variable, Sourc
 }
 
 std::optional<Value> Walk::evaluate(WalkState& state, const ir::ExpressionPtr& e) {
-  if (const auto* constant = std::get_if<ir::Constant>(&e->node)) return Value(constant->value);
-  if (const auto* use = std::get_if<ir::VariableUse>(&e->node)) return read(state, use->variable, e->range);
-  if (const auto* unary = std::get_if<ir::Unary>(&e->node)) return evaluate(state, *unary);
-  if (const auto* binary = std::get_if<ir::Binary>(&e->node)) return evaluate(state, *binary);
-  failed_ = true;
-  return std::nullopt;
+  using Result = std::optional<Value>;
+  return match(
+      *e, [](const ir::Constant& node) -> Result { return Value(node.value); },
+      [&](const ir::VariableUse& node) { return read(state, node.variable, e->range); },
+      [&](const ir::Unary& node) { return evaluate(state, node); },
+      [&](const ir::Binary& node) { return evaluate(state, node); },
+      [&](const ir::OneOf<ir::NullValue, ir::MachineVariable, ir::MeasuredResult> auto&) -> Result {
+        failed_ = true;
+        return std::nullopt;
+      });
 }
 
 std::optional<Value> Walk::evaluate(WalkState& state, const ir::Unary& node) {
   const auto operand = evaluate(state, node.operand);
   if (!operand) return std::nullopt;
   if (const double* known = std::get_if<double>(&*operand)) {
-    const ir::Computed result = compute(node.op, *known);
+    const ir::Computed result = ir::compute(node.op, *known);
     if (result.ok()) return Value(result.value);
     failed_ = true; // the control stops here with an alarm
     return std::nullopt;

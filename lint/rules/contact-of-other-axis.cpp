@@ -18,8 +18,8 @@ std::string names(AxisSet axes) {
 
 void checkProgram(const ir::Program& program, Report& report) {
   const auto& body = program.body;
-  const bool skips =
-      std::any_of(body.begin(), body.end(), [](const ir::ProgramStatement& s) { return skipOf(s) != nullptr; });
+  const bool skips = std::any_of(body.begin(), body.end(),
+                                 [](const ir::ProgramStatement& s) { return skipOf(s) != nullptr; });
   // A macro may evaluate what its caller measured.
   if (!skips && !endsProgram(program)) return;
   const auto moved = ir::factsBefore<AxisSet>(

@@ -18,7 +18,7 @@ void check(const Project& project, Report& report) {
                     "#3000 or M0");
           break;
         }
-        if (label == nullptr && !std::holds_alternative<ir::Comment>(program.body[back].node)) break;
+        if (!ir::isLayout(program.body[back])) break;
       }
     }
   });

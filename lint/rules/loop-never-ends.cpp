@@ -26,20 +26,25 @@ void checkProgram(const ir::Program& program, Report& report) {
     if (!known || read.empty()) continue;
     bool may = false; // something may change the condition, or lead out
     for (std::size_t i = at + 1; i < body.size() && !may; ++i) {
-      const auto& node = body[i].node;
-      const auto* end = std::get_if<ir::LoopEnd>(&node);
+      const auto* end = std::get_if<ir::LoopEnd>(&body[i].node);
       if (end != nullptr && end->number == loop->number) break;
-      const auto number = storedNumber(body[i]);
-      may = std::holds_alternative<ir::Call>(node) || std::holds_alternative<ir::Exit>(node) ||
-            std::holds_alternative<ir::Raise>(node) || std::holds_alternative<ir::JumpTo>(node) ||
-            std::holds_alternative<ir::Jump>(node) || endsProgram(body[i]) ||
-            (std::holds_alternative<ir::Store>(node) && (!number || read.contains(*number)));
-      if (const auto* branch = std::get_if<ir::Branch>(&node)) {
-        // A label with a number is one that a GOTO of the text names.
-        may = may || program.labels[branch->target].number != 0;
-      }
-      // A code of the builder may call a macro.
-      if (const auto* block = std::get_if<ir::NcBlock>(&node)) may = may || hasWord(*block, 'M');
+      may =
+          endsProgram(body[i]) ||
+          match(
+              body[i],
+              [](const ir::OneOf<ir::Call, ir::Exit, ir::Raise, ir::JumpTo, ir::Jump> auto&) { return true; },
+              [&](const ir::Store&) {
+                const auto number = storedNumber(body[i]);
+                return !number || read.contains(*number);
+              },
+              // A label with a number is one that a GOTO of the text names.
+              [&](const ir::Branch& branch) { return program.labels[branch.target].number != 0; },
+              // A code of the builder may call a macro.
+              [](const ir::NcBlock& block) { return hasWord(block, 'M'); },
+              [](const ir::OneOf<ir::Label, ir::Move, ir::Measure, ir::ProbePower, ir::Comment, ir::Loop,
+                                 ir::LoopEnd, ir::Notice, ir::Port, ir::Print, ir::NameVariables> auto&) {
+                return false;
+              });
     }
     if (may) continue;
     report.at(body[at].origin.range(),

@@ -28,8 +28,8 @@ std::vector<Loop> loopsOf(const std::vector<ir::ProgramStatement>& body) {
 }
 
 // Variables that the loop may set; nothing where it may set any.
-std::optional<std::set<std::uint32_t>> storedIn(const std::vector<ir::ProgramStatement>& body, const Loop& loop,
-                                                bool computedToo) {
+std::optional<std::set<std::uint32_t>> storedIn(const std::vector<ir::ProgramStatement>& body,
+                                                const Loop& loop, bool computedToo) {
   std::set<std::uint32_t> out;
   for (std::size_t i = loop.begin; i < loop.end; ++i) {
     if (callOf(body[i]) != nullptr) return std::nullopt;

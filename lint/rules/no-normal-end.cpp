@@ -8,13 +8,17 @@ namespace {
 
 // M30, M2, M99, or a code that is computed.
 bool endsNormally(const ir::ProgramStatement& statement) {
-  if (std::holds_alternative<ir::Exit>(statement.node) || std::holds_alternative<ir::JumpTo>(statement.node))
-    return true;
-  const auto* block = std::get_if<ir::NcBlock>(&statement.node);
   return endsProgram(statement) ||
-         (block != nullptr && std::any_of(block->words.begin(), block->words.end(), [](const ir::Word& word) {
-            return word.address == 'M' && ir::constantValue(word.value) == nullptr;
-          }));
+         match(
+             statement, [](const ir::OneOf<ir::Exit, ir::JumpTo> auto&) { return true; },
+             [](const ir::NcBlock& block) {
+               return std::any_of(block.words.begin(), block.words.end(), [](const ir::Word& word) {
+                 return word.address == 'M' && ir::constantValue(word.value) == nullptr;
+               });
+             },
+             [](const ir::OneOf<ir::Label, ir::Jump, ir::Branch, ir::Store, ir::Move, ir::Measure,
+                                ir::ProbePower, ir::Comment, ir::Loop, ir::LoopEnd, ir::Call, ir::Raise,
+                                ir::Notice, ir::Port, ir::Print, ir::NameVariables> auto&) { return false; });
 }
 
 void check(const Project& project, Report& report) {

@@ -30,9 +30,7 @@ void checkProgram(const ir::Program& program, const std::map<std::uint32_t, std:
   std::map<std::uint32_t, std::vector<Use>> uses;
   const ir::ProgramStatement* before = nullptr;
   for (const ir::ProgramStatement& statement : program.body) {
-    if (std::holds_alternative<ir::Label>(statement.node) ||
-        std::holds_alternative<ir::Comment>(statement.node))
-      continue;
+    if (ir::isLayout(statement)) continue;
     const ir::ProgramStatement* const last = std::exchange(before, &statement);
     eachRead(statement, [&](std::uint32_t number, SourceRange) {
       for (auto& [called, list] : uses)
@@ -50,9 +48,9 @@ void checkProgram(const ir::Program& program, const std::map<std::uint32_t, std:
   for (const auto& [called, list] : uses) {
     const auto read = std::count_if(list.begin(), list.end(), [](const Use& use) { return use.read; });
     // A loop may read behind its END what stands before in the text.
-    const bool loops = std::any_of(program.body.begin(), program.body.end(), [](const ir::ProgramStatement& s) {
-      return std::holds_alternative<ir::Loop>(s.node);
-    });
+    const bool loops =
+        std::any_of(program.body.begin(), program.body.end(),
+                    [](const ir::ProgramStatement& s) { return std::holds_alternative<ir::Loop>(s.node); });
     if (read == 0 || loops) continue;
     for (const Use& use : list)
       if (!use.read && !use.again)

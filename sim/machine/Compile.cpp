@@ -75,16 +75,22 @@ void Compiler::findLoops() {
   loopIds_.assign(program_->body.size(), 0);
   std::vector<std::uint32_t> open = {0};
   for (std::size_t i = 0; i < program_->body.size(); ++i) {
-    const ir::ProgramStatement& one = program_->body[i];
-    if (std::holds_alternative<ir::Loop>(one.node)) {
-      loopIds_[i] = static_cast<std::uint32_t>(code_.outerLoops.size());
-      code_.outerLoops.push_back(open.back());
-      open.push_back(loopIds_[i]);
-    } else if (std::holds_alternative<ir::LoopEnd>(one.node)) {
-      if (open.size() > 1) open.pop_back();
-    } else if (const auto* label = std::get_if<ir::Label>(&one.node)) {
-      if (label->label < labelLoops_.size()) labelLoops_[label->label] = open.back();
-    }
+    match(
+        program_->body[i],
+        [&](const ir::Loop&) {
+          loopIds_[i] = static_cast<std::uint32_t>(code_.outerLoops.size());
+          code_.outerLoops.push_back(open.back());
+          open.push_back(loopIds_[i]);
+        },
+        [&](const ir::LoopEnd&) {
+          if (open.size() > 1) open.pop_back();
+        },
+        [&](const ir::Label& node) {
+          if (node.label < labelLoops_.size()) labelLoops_[node.label] = open.back();
+        },
+        [](const ir::OneOf<ir::Jump, ir::Branch, ir::Store, ir::Move, ir::Measure, ir::ProbePower,
+                           ir::Comment, ir::NcBlock, ir::JumpTo, ir::Call, ir::Exit, ir::Raise, ir::Notice,
+                           ir::Port, ir::Print, ir::NameVariables> auto&) {});
   }
 }
 

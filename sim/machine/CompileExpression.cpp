@@ -38,14 +38,16 @@ std::uint32_t Compiler::operand(const ir::ExpressionPtr& expression) {
 }
 
 std::uint32_t Compiler::value(const ir::ExpressionPtr& expression, std::uint32_t into) {
-  if (const auto* number = std::get_if<ir::Constant>(&expression->node)) return constant(number->value);
-  if (std::holds_alternative<ir::NullValue>(expression->node)) return 0; // the cell of #0
-  if (const auto* variable = std::get_if<ir::MachineVariable>(&expression->node))
-    return read(*variable, into);
-  if (const auto* one = std::get_if<ir::Unary>(&expression->node)) return unary(*one, into);
-  if (const auto* two = std::get_if<ir::Binary>(&expression->node)) return binary(*two, into);
-  refuse("a value of a cycle, which no control has");
-  return 0;
+  return match(
+      *expression, [&](const ir::Constant& node) { return constant(node.value); },
+      [](const ir::NullValue&) { return std::uint32_t{0}; }, // the cell of #0
+      [&](const ir::MachineVariable& node) { return read(node, into); },
+      [&](const ir::Unary& node) { return unary(node, into); },
+      [&](const ir::Binary& node) { return binary(node, into); },
+      [&](const ir::OneOf<ir::VariableUse, ir::MeasuredResult> auto&) {
+        refuse("a value of a cycle, which no control has");
+        return std::uint32_t{0};
+      });
 }
 
 std::uint32_t Compiler::read(const ir::MachineVariable& variable, std::uint32_t into) {
@@ -80,7 +82,18 @@ std::uint32_t Compiler::unary(const ir::Unary& unary, std::uint32_t into) {
   case UnaryOp::SquareRoot: emit(Op::SquareRoot, a, 0, to); break;
   case UnaryOp::RoundIncrement: emit(Op::ToIncrement, a, 0, to, static_cast<std::uint8_t>(letter_)); break;
   case UnaryOp::AddPoint: refuse("what ADP adds depends on a parameter of the machine"); break;
-  default: emit(Op::Unary, a, 0, to, static_cast<std::uint8_t>(unary.op)); break;
+  case UnaryOp::Absolute:
+  case UnaryOp::Truncate:
+  case UnaryOp::RoundUp:
+  case UnaryOp::Round:
+  case UnaryOp::Tangent:
+  case UnaryOp::ArcSine:
+  case UnaryOp::ArcCosine:
+  case UnaryOp::ArcTangent:
+  case UnaryOp::Logarithm:
+  case UnaryOp::Exponential:
+  case UnaryOp::FromBcd:
+  case UnaryOp::ToBcd: emit(Op::Unary, a, 0, to, static_cast<std::uint8_t>(unary.op)); break;
   }
   return to;
 }
@@ -99,7 +112,18 @@ std::uint32_t Compiler::binary(const ir::Binary& binary, std::uint32_t into) {
   case BinaryOp::Subtract: emit(Op::Subtract, a, b, to); break;
   case BinaryOp::Multiply: emit(Op::Multiply, a, b, to); break;
   case BinaryOp::Divide: emit(Op::Divide, a, b, to); break;
-  default: emit(Op::Binary, a, b, to, static_cast<std::uint8_t>(binary.op)); break;
+  case BinaryOp::ValueOr: // refused above
+  case BinaryOp::Modulo:
+  case BinaryOp::Direction:
+  case BinaryOp::BitAnd:
+  case BinaryOp::BitOr:
+  case BinaryOp::BitXor:
+  case BinaryOp::RoundedAnd:
+  case BinaryOp::RoundedOr:
+  case BinaryOp::RoundedXor:
+  case BinaryOp::RoundedModulo:
+  case BinaryOp::Power:
+  case BinaryOp::Bearing: emit(Op::Binary, a, b, to, static_cast<std::uint8_t>(binary.op)); break;
   }
   return to;
 }

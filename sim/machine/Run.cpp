@@ -1,6 +1,6 @@
 #include "sim/machine/Run.h"
 
-#include "ir/Arithmetic.h"
+#include "ir/Evaluate.h"
 #include "sim/machine/Decimal8.h"
 #include "sim/machine/Value.h"
 
@@ -20,56 +20,26 @@ using stdlib::Alarm;
 
 namespace {
 
-Computed compute(UnaryOp op, double a) {
-  switch (op) {
-  case UnaryOp::Negate: return {a == 0 ? 0 : -a, ArithmeticError::None};
-  case UnaryOp::Absolute: return ir::absolute(a);
-  case UnaryOp::Truncate: return ir::truncate(a);
-  case UnaryOp::RoundUp: return ir::roundUp(a);
-  case UnaryOp::Round: return ir::roundNearest(a);
-  case UnaryOp::SquareRoot: return ir::squareRoot(a);
-  case UnaryOp::Sine: return ir::sine(a, AngleUnit::Degrees);
-  case UnaryOp::Cosine: return ir::cosine(a, AngleUnit::Degrees);
-  case UnaryOp::Tangent: return ir::tangent(a, AngleUnit::Degrees);
-  case UnaryOp::ArcSine: return ir::arcSine(a, AngleUnit::Degrees);
-  case UnaryOp::ArcCosine: return ir::arcCosine(a, AngleUnit::Degrees);
-  case UnaryOp::ArcTangent: return ir::arcTangent(a, AngleUnit::Degrees);
-  case UnaryOp::Logarithm: return ir::logarithm(a);
-  case UnaryOp::Exponential: return ir::exponential(a);
-  case UnaryOp::FromBcd: return ir::fromBcd(a);
-  case UnaryOp::ToBcd: return ir::toBcd(a);
-  case UnaryOp::NullAsZero: return {a, ArithmeticError::None};
-  case UnaryOp::RoundIncrement:
-  case UnaryOp::AddPoint: break; // have instructions of their own
-  }
-  return {0, ArithmeticError::NoValue};
-}
-
-Computed compute(BinaryOp op, double a, double b) {
-  switch (op) {
-  case BinaryOp::Add: return ir::add(a, b);
-  case BinaryOp::Subtract: return ir::subtract(a, b);
-  case BinaryOp::Multiply: return ir::multiply(a, b);
-  case BinaryOp::Divide: return ir::divide(a, b);
-  case BinaryOp::Modulo: return ir::modulo(a, b);
-  case BinaryOp::Direction: return ir::direction(a, b, AngleUnit::Degrees);
-  case BinaryOp::BitAnd: return ir::bitAnd(a, b);
-  case BinaryOp::BitOr: return ir::bitOr(a, b);
-  case BinaryOp::BitXor: return ir::bitXor(a, b);
-  case BinaryOp::RoundedAnd: return ir::roundedAnd(a, b);
-  case BinaryOp::RoundedOr: return ir::roundedOr(a, b);
-  case BinaryOp::RoundedXor: return ir::roundedXor(a, b);
-  case BinaryOp::RoundedModulo: return ir::roundedModulo(a, b);
-  case BinaryOp::Power: return ir::power(a, b);
-  case BinaryOp::Bearing: return ir::bearing(a, b);
-  case BinaryOp::ValueOr: break; // of cycles
-  }
-  return {0, ArithmeticError::NoValue};
-}
-
 bool isBits(BinaryOp op) {
-  return op == BinaryOp::BitAnd || op == BinaryOp::BitOr || op == BinaryOp::BitXor ||
-         op == BinaryOp::RoundedAnd || op == BinaryOp::RoundedOr || op == BinaryOp::RoundedXor;
+  switch (op) {
+  case BinaryOp::BitAnd:
+  case BinaryOp::BitOr:
+  case BinaryOp::BitXor:
+  case BinaryOp::RoundedAnd:
+  case BinaryOp::RoundedOr:
+  case BinaryOp::RoundedXor: return true;
+  case BinaryOp::Add:
+  case BinaryOp::Subtract:
+  case BinaryOp::Multiply:
+  case BinaryOp::Divide:
+  case BinaryOp::Modulo:
+  case BinaryOp::Direction:
+  case BinaryOp::ValueOr:
+  case BinaryOp::RoundedModulo:
+  case BinaryOp::Power:
+  case BinaryOp::Bearing: break;
+  }
+  return false;
 }
 
 // Bit patterns tell null from numbers; there is no -0.
@@ -81,19 +51,12 @@ bool test(ir::Relation relation, double a, double b) {
   switch (relation) {
   case ir::Relation::Same: return same(a, b);
   case ir::Relation::Different: return !same(a, b);
-  default: break;
-  }
-  a = nullAsZero(a);
-  b = nullAsZero(b);
-  switch (relation) {
-  case ir::Relation::Equal: return a == b;
-  case ir::Relation::NotEqual: return a != b;
-  case ir::Relation::Less: return a < b;
-  case ir::Relation::Greater: return a > b;
-  case ir::Relation::LessEqual: return a <= b;
-  case ir::Relation::GreaterEqual: return a >= b;
-  case ir::Relation::Same:
-  case ir::Relation::Different: break;
+  case ir::Relation::Equal: return nullAsZero(a) == nullAsZero(b);
+  case ir::Relation::NotEqual: return nullAsZero(a) != nullAsZero(b);
+  case ir::Relation::Less: return nullAsZero(a) < nullAsZero(b);
+  case ir::Relation::Greater: return nullAsZero(a) > nullAsZero(b);
+  case ir::Relation::LessEqual: return nullAsZero(a) <= nullAsZero(b);
+  case ir::Relation::GreaterEqual: return nullAsZero(a) >= nullAsZero(b);
   }
   return false;
 }

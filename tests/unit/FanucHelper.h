@@ -63,15 +63,16 @@ public:
   }
   template <class Node> ir::CycleStatement& add(Node node) { return add(statement(std::move(node))); }
 
-  ir::CycleStatement& move(ir::Motion motion, ir::Axis axis, ExpressionPtr value, ExpressionPtr feed = nullptr,
-                      ir::Frame frame = ir::Frame::Work) {
+  ir::CycleStatement& move(ir::Motion motion, ir::Axis axis, ExpressionPtr value,
+                           ExpressionPtr feed = nullptr, ir::Frame frame = ir::Frame::Work) {
     ir::Move out;
     out.motion = motion;
     out.axes[ir::indexOf(axis)] = ir::Coordinate{std::move(value), frame, nullptr};
     out.feed = std::move(feed);
     return add(std::move(out));
   }
-  ir::CycleStatement& surface(ir::Axis axis, ExpressionPtr travel, ExpressionPtr system, ExpressionPtr nominal) {
+  ir::CycleStatement& surface(ir::Axis axis, ExpressionPtr travel, ExpressionPtr system,
+                              ExpressionPtr nominal) {
     ir::Measure out;
     out.axis = axis;
     out.target = ir::Coordinate{std::move(travel), ir::Frame::Here, nullptr};

@@ -37,10 +37,10 @@ public:
       return once(8) ? result(ResultName::Main) : constant(number());
     }
     if (once(3)) {
-      const auto op = static_cast<UnaryOp>(below(static_cast<std::uint32_t>(UnaryOp::NullAsZero) + 1));
+      const auto op = static_cast<UnaryOp>(below(static_cast<std::uint32_t>(kLastUnaryOp) + 1));
       return unary(op, expression(depth - 1, op == UnaryOp::NullAsZero));
     }
-    auto op = static_cast<BinaryOp>(below(static_cast<std::uint32_t>(BinaryOp::ValueOr) + 1));
+    auto op = static_cast<BinaryOp>(below(static_cast<std::uint32_t>(kLastBinaryOp) + 1));
     if (!once(3)) op = static_cast<BinaryOp>(below(4)); // + - * / mostly
     const bool valueOr = op == BinaryOp::ValueOr;
     return binary(op, expression(depth - 1, valueOr), expression(depth - 1, valueOr && nullable));
@@ -53,7 +53,8 @@ public:
       return std::make_shared<const Condition>(Condition{{}, Not{condition(depth - 1)}});
     if (once(5)) return isNull(expression(2, true));
     if (once(12)) return truth(once(2));
-    return compare(static_cast<Relation>(below(6)), expression(2, false), expression(2, false));
+    return compare(static_cast<Relation>(below(static_cast<std::uint32_t>(kLastRelation) + 1)),
+                   expression(2, false), expression(2, false));
   }
 
   // The last variable is the only one that may be null.
