@@ -61,8 +61,9 @@ struct State {
   std::size_t fresh = 0;                       // unknowns without a name of their own
 
   // ---- of a translation
-  std::set<std::string> shadowed; // fields that were assigned before the first dialog
-  std::set<std::string> changed;  // fields that were assigned after it
+  // Fields that were assigned before the first dialog, with values as of locals.
+  std::map<std::string, std::optional<Value>> shadowed;
+  std::set<std::string> changed; // fields that were assigned after it
 };
 
 enum class Purpose : std::uint8_t { Checks, ToolPath };

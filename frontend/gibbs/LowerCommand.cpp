@@ -2,6 +2,7 @@
 #include "support/messages/Gibbs.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace dotek::frontend::gibbs {
 
@@ -54,14 +55,10 @@ Interpreter::Flow Flattener::dialogAgain(State& state, SourceRange range) {
 
 // What no input overwrites stays as the macro has set it.
 bool Flattener::dialogCloses(State& state, SourceRange range) {
-  for (const std::string& field : std::set<std::string>(state.shadowed)) {
+  for (const auto& [field, known] : std::exchange(state.shadowed, {})) {
     const Name name{range, cycle_.variables[fields_.at(field)].name};
-    const auto known = state.globals.find("~" + field);
-    const Value value = known == state.globals.end()
-                            ? Value(ir::variable(variableOf("~" + field, name), range))
-                            : known->second;
-    state.globals.erase("~" + field);
-    state.shadowed.erase(field);
+    const Value value =
+        known ? *known : Value(ir::variable(variableOf({VariableKey::Kind::Shadow, field}, name), range));
     const auto given = number(value, range);
     if (!given) return false;
     emit(range, FlatAssign{fields_.at(field), *given});
@@ -80,10 +77,9 @@ bool Flattener::storeField(State& state, const std::string& field, SourceRange r
   if (state.frames.back().locals.contains(field)) {
     setFixed(state, field, std::nullopt);
     const Name name{range, cycle_.variables[id].name};
-    emit(range, FlatAssign{variableOf(variableKey(state, field), name), ir::variable(id, range)});
+    emit(range, FlatAssign{variableOf(keyFor(state, field), name), ir::variable(id, range)});
     return true;
   }
-  state.globals.erase("~" + field);
   state.shadowed.erase(field);
   return true;
 }
@@ -93,7 +89,7 @@ bool Flattener::storeField(State& state, const std::string& field, SourceRange r
 Value Flattener::kept(const Value& value, SourceRange range) {
   const auto* expression = std::get_if<ir::ExpressionPtr>(&value);
   if (expression == nullptr) return value;
-  const ir::VariableId copy = freshLocal("swap", "swapped");
+  const ir::VariableId copy = freshLocal({VariableKey::Kind::Swap, ""}, "swapped");
   emit(range, FlatAssign{copy, *expression});
   return ir::variable(copy, range);
 }

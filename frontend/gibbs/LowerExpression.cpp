@@ -114,32 +114,33 @@ std::optional<Value> Flattener::apply(State& state, const NumberFunction& functi
 // ---- variables ------------------------------------------------------------------------------------------
 
 // A field that was assigned before the dialog is kept apart from what is typed in.
-std::optional<Value> Flattener::fixed(const State& state, const std::string& key) const {
-  const auto& locals = state.frames.back().locals;
-  if (const auto local = locals.find(key); local != locals.end()) return local->second;
-  const auto global = state.globals.find(state.shadowed.contains(key) ? "~" + key : key);
+std::optional<Value> Flattener::fixed(const State& state, const std::string& name) const {
+  for (const auto* own : {&state.frames.back().locals, &state.shadowed})
+    if (const auto found = own->find(name); found != own->end()) return found->second;
+  const auto global = state.globals.find(name);
   return global == state.globals.end() ? std::nullopt : std::optional(global->second);
 }
 
-void Flattener::setFixed(State& state, const std::string& key, std::optional<Value> value) {
-  auto& locals = state.frames.back().locals;
-  const std::string name = state.shadowed.contains(key) ? "~" + key : key;
-  if (const auto local = locals.find(key); local != locals.end())
-    local->second = std::move(value);
-  else if (value)
+void Flattener::setFixed(State& state, const std::string& name, std::optional<Value> value) {
+  for (auto* own : {&state.frames.back().locals, &state.shadowed}) {
+    const auto found = own->find(name);
+    if (found == own->end()) continue;
+    found->second = std::move(value);
+    return;
+  }
+  if (value)
     state.globals[name] = std::move(*value);
   else
     state.globals.erase(name);
 }
 
-// A local of the running macro, a field that was assigned before the dialog, or the folded name itself.
-std::string Flattener::variableKey(const State& state, const std::string& key) const {
+Flattener::VariableKey Flattener::keyFor(const State& state, const std::string& name) const {
   const Frame& frame = state.frames.back();
-  if (frame.locals.contains(key)) return fmt::format("#{}:{}", frame.instance, key);
-  return state.shadowed.contains(key) ? "~" + key : key;
+  if (frame.locals.contains(name)) return {VariableKey::Kind::Local, name, frame.instance};
+  return {state.shadowed.contains(name) ? VariableKey::Kind::Shadow : VariableKey::Kind::Global, name};
 }
 
-ir::VariableId Flattener::freshLocal(const std::string& key, const std::string& name) {
+ir::VariableId Flattener::freshLocal(const VariableKey& key, const std::string& name) {
   const auto found = variables_.find(key);
   if (found != variables_.end()) return found->second;
   std::string text = name;
@@ -151,8 +152,9 @@ ir::VariableId Flattener::freshLocal(const std::string& key, const std::string& 
   return variables_.emplace(key, cycle_.add(std::move(made))).first->second;
 }
 
-ir::VariableId Flattener::variableOf(const std::string& key, const Name& name) {
-  if (const auto field = fields_.find(key); field != fields_.end()) return field->second;
+ir::VariableId Flattener::variableOf(const VariableKey& key, const Name& name) {
+  const auto field = key.kind == VariableKey::Kind::Global ? fields_.find(key.name) : fields_.end();
+  if (field != fields_.end()) return field->second;
   const bool isNew = !variables_.contains(key);
   const ir::VariableId id = freshLocal(key, name.text);
   if (isNew) cycle_.variables[id].range = name.range;
@@ -172,7 +174,7 @@ std::optional<Value> Flattener::lookUp(State& state, const std::string& key, con
   const bool own = !ofCam || isField(key) || key == "CALLBACK_RETURNCODE";
   if (!own || ref.name.isText()) return std::nullopt;
   if (lenient_) return opaque(state, "", {}, ref.name.text, false, ref.name.range);
-  return ir::variable(variableOf(variableKey(state, key), ref.name), ref.name.range);
+  return ir::variable(variableOf(keyFor(state, key), ref.name), ref.name.range);
 }
 
 bool Flattener::store(State& state, const std::string& key, const VariableRef& ref, Value value,
@@ -181,7 +183,7 @@ bool Flattener::store(State& state, const std::string& key, const VariableRef& r
   const bool field = !local && isField(key);
   const bool code = !local && key == "CALLBACK_RETURNCODE";
   const bool beforeDialog = purpose_ == Purpose::Checks && state.dialogs.empty();
-  if (field && beforeDialog) state.shadowed.insert(key);
+  if (field && beforeDialog) state.shadowed.try_emplace(key);
   if (field && !beforeDialog && purpose_ == Purpose::Checks) state.changed.insert(key);
   const bool isFixed = unknownIn(value) != nullptr || isTextValue(value);
   if (isFixed && !code && !(field && !beforeDialog)) {
@@ -191,7 +193,7 @@ bool Flattener::store(State& state, const std::string& key, const VariableRef& r
   const auto given = number(value, range);
   if (!given) return false;
   setFixed(state, key, std::nullopt);
-  emit(range, FlatAssign{variableOf(variableKey(state, key), ref.name), *given});
+  emit(range, FlatAssign{variableOf(keyFor(state, key), ref.name), *given});
   return true;
 }
 

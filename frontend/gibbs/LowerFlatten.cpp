@@ -58,7 +58,10 @@ std::string Flattener::keyOf(const State& state) const {
   for (const auto& [host, value] : state.written)
     key += host + ",";
   key += ';';
-  for (const auto* names : {&state.dialogs, &state.shadowed, &state.changed}) {
+  for (const auto& [name, value] : state.shadowed)
+    key += name + (value ? "=" + canonical(*value) : "") + ",";
+  key += ';';
+  for (const auto* names : {&state.dialogs, &state.changed}) {
     for (const std::string& name : *names)
       key += name + ",";
     key += ';';
@@ -149,12 +152,11 @@ void Flattener::leaveFrame(State& state) {
 
 // Fields that were assigned where no dialog overwrites them.
 void Flattener::ended(State& state) {
-  for (const std::string& field : state.shadowed) {
-    const auto known = state.globals.find("~" + field);
+  for (const auto& [field, known] : state.shadowed) {
     const ir::VariableId target = fields_.at(field);
     const Name name{{}, cycle_.variables[target].name};
-    const auto value = known == state.globals.end() ? ir::variable(variableOf("~" + field, name))
-                                                    : number(known->second, {}).value_or(nullptr);
+    const auto value = known ? number(*known, {}).value_or(nullptr)
+                             : ir::variable(variableOf({VariableKey::Kind::Shadow, field}, name));
     if (value) emit({}, FlatAssign{target, value});
   }
   emit({}, FlatReturn{});
@@ -162,7 +164,7 @@ void Flattener::ended(State& state) {
 
 // States become places.
 void Flattener::resolve() {
-  const auto code = variables_.find("CALLBACK_RETURNCODE");
+  const auto code = variables_.find({VariableKey::Kind::Global, "CALLBACK_RETURNCODE"});
   if (code != variables_.end()) flat_.returnCode = code->second;
   for (FlatStep& each : flat_.steps) {
     if (auto* jump = std::get_if<FlatJump>(&each.step)) jump->target = placeOf_[jump->target];
@@ -231,18 +233,18 @@ bool Flattener::openLoop(State& state, std::size_t index, const Value& end, doub
   LoopInstance made;
   made.endRange = loop.to->range;
   made.step = step;
-  const double* constant = ir::constantValue(*bound);
-  std::string key = fmt::format("{}:{}", frame.instance, index);
-  if (constant != nullptr) {
-    key += fmt::format("={}", *constant);
+  std::optional<double> constant;
+  if (const double* known = ir::constantValue(*bound)) {
+    constant = *known;
     made.end = *bound;
   } else {
-    const ir::VariableId variable = freshLocal("end " + key, "end_of_" + loop.variable.text);
+    const ir::VariableId variable =
+        freshLocal({VariableKey::Kind::LoopEnd, "", frame.instance, index}, "end_of_" + loop.variable.text);
     made.end = ir::variable(variable);
     collectVariables(*bound, made.bounds);
     emit(loop.to->range, FlatAssign{variable, *bound});
   }
-  const auto [found, isNew] = loopIds_.emplace(std::move(key), loops_.size());
+  const auto [found, isNew] = loopIds_.try_emplace({frame.instance, index, constant}, loops_.size());
   if (isNew) {
     loops_.push_back(std::move(made));
   } else {
@@ -276,9 +278,9 @@ Interpreter::Flow Flattener::advance(State& state, const Loop& loop, const Varia
 // The values go to the names of an ARGS that begins the macro.
 Interpreter::Flow Flattener::enter(State& state, Frame frame, const CallMacro& call, const Macro& macro,
                                    std::vector<Value> arguments) {
-  const std::string place =
-      fmt::format("{}:{}:{}", state.frames.back().instance, state.frames.back().at, macro.file);
-  frame.instance = instances_.emplace(place, instances_.size() + 1).first->second;
+  const Frame& from = state.frames.back();
+  frame.instance =
+      instances_.try_emplace({from.instance, from.at, macro.file}, instances_.size() + 1).first->second;
   const auto& code = frame.program->instructions;
   const ArgsStep* args = code.empty() ? nullptr : std::get_if<ArgsStep>(&code.front().step);
   const std::size_t taken = args != nullptr ? args->args->names.size() : 0;
@@ -312,7 +314,7 @@ bool Flattener::declareArray(State&, const VariableRef& ref, Scope) {
 
 void Flattener::declared(State& state, const VariableRef& local) {
   if (local.name.isText()) return;
-  const std::string key = variableKey(state, foldCase(local.name.text));
+  const VariableKey key = keyFor(state, foldCase(local.name.text));
   emit(local.name.range, FlatUnset{variableOf(key, local.name)});
 }
 

@@ -10,6 +10,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <tuple>
 #include <vector>
 
 namespace dotek::frontend::gibbs {
@@ -28,6 +29,22 @@ private:
     std::set<ir::VariableId> bounds;  // variables that the end is computed from
     std::set<ir::VariableId> changed; // variables that are assigned while it runs
     SourceRange endRange;
+  };
+
+  // What a variable of the program was made for.
+  struct VariableKey {
+    enum class Kind : std::uint8_t {
+      Global,
+      Local,   // of the call `instance`
+      Shadow,  // of a field that was assigned before the first dialog
+      LoopEnd, // of the loop `index` of the call `instance`
+      Swap,
+    };
+    Kind kind = Kind::Global;
+    std::string name; // folded
+    std::size_t instance = 0;
+    std::size_t index = 0;
+    auto operator<=>(const VariableKey&) const = default;
   };
 
   // ---- LowerFlatten.cpp: paths through the macro
@@ -93,21 +110,23 @@ private:
   std::optional<ir::ExpressionPtr> number(const Value& value, SourceRange range);
   // No number of the run: data that only the CAM knows, or nothing is to be emitted.
   bool isClosed(const Value& value) const;
-  // Where a value of the variable is kept that is known when translating; nothing: none is.
-  std::optional<Value> fixed(const State& state, const std::string& key) const;
-  void setFixed(State& state, const std::string& key, std::optional<Value> value);
-  std::string variableKey(const State& state, const std::string& key) const;
-  ir::VariableId variableOf(const std::string& key, const Name& name);
-  ir::VariableId freshLocal(const std::string& key, const std::string& name);
+  // The value of the variable where it is known when translating.
+  std::optional<Value> fixed(const State& state, const std::string& name) const;
+  void setFixed(State& state, const std::string& name, std::optional<Value> value);
+  VariableKey keyFor(const State& state, const std::string& name) const;
+  ir::VariableId variableOf(const VariableKey& key, const Name& name);
+  ir::VariableId freshLocal(const VariableKey& key, const std::string& name);
   bool mayFail(const State& state, SourceRange range);
 
   ir::Cycle& cycle_;
   LowerContext& context_;
-  std::map<std::string, ir::VariableId> fields_;    // by folded name
-  std::map<std::string, ir::VariableId> variables_; // by key
-  std::set<std::string> names_;                     // of variables, folded
-  std::map<std::string, std::size_t> instances_;    // of calls
-  std::map<std::string, std::size_t> loopIds_;
+  std::map<std::string, ir::VariableId> fields_; // by folded name
+  std::map<VariableKey, ir::VariableId> variables_;
+  std::set<std::string> names_; // of variables, folded
+  // Of calls: by instance and place of the CALL and the file that it names.
+  std::map<std::tuple<std::size_t, std::size_t, FileId>, std::size_t> instances_;
+  // By instance, index in Program::loops and, where it is one, constant end.
+  std::map<std::tuple<std::size_t, std::size_t, std::optional<double>>, std::size_t> loopIds_;
   std::vector<LoopInstance> loops_;
   std::map<std::string, std::size_t> states_; // key to id
   std::vector<std::size_t> placeOf_;          // of states by id; kNowhere: not placed
