@@ -45,6 +45,12 @@ ExpressionPtr binary(BinaryOp op, ExpressionPtr left, ExpressionPtr right, Sourc
   return make(range, Binary{op, std::move(left), std::move(right)});
 }
 
+const Constant* numberWithoutPoint(const ExpressionPtr& value) {
+  const auto* node = value ? std::get_if<Constant>(&value->node) : nullptr;
+  return node != nullptr && !node->digits.empty() && node->digits.find('.') == std::string::npos ? node
+                                                                                                 : nullptr;
+}
+
 const double* constantValue(const ExpressionPtr& expression) {
   if (!expression) return nullptr;
   const auto* node = std::get_if<Constant>(&expression->node);

@@ -98,6 +98,8 @@ struct Expression {
 
 // -0 becomes 0.
 ExpressionPtr constant(double value, SourceRange range = {}, std::string digits = "");
+// The number where the source writes one without a decimal point; nullptr: it has one, or something else.
+const Constant* numberWithoutPoint(const ExpressionPtr& value);
 ExpressionPtr nullValue(SourceRange range = {});
 ExpressionPtr variable(VariableId id, SourceRange range = {});
 ExpressionPtr machineVariable(ExpressionPtr number, SourceRange range = {});

@@ -18,6 +18,13 @@ constexpr std::uint32_t addressBits(const char* letters) {
     out |= addressBit(*letters);
   return out;
 }
+// Codes, and numbers of tools, offsets, programs, blocks and repeats: whole on every control, with or without
+// a point. E and F are neither these nor lengths.
+inline constexpr std::uint32_t kWholeAddresses = addressBits("DGHLMNOPST");
+// Whether `letter` is one of `addresses`; what is no capital letter never is.
+constexpr bool isAddressIn(std::uint32_t addresses, char letter) {
+  return letter >= 'A' && letter <= 'Z' && (addresses & addressBit(letter)) != 0;
+}
 
 // One block. G and M may stand in it several times and are kept in order; of every other address the order
 // has no meaning. A null word (Macro B) is simply not present. Values are in the units of the text: the

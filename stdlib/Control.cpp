@@ -21,6 +21,7 @@ constexpr std::string_view kMacroFunctions[] = {
 Control ControlReader::read() {
   control_.title = root_.require("title", "what lists print").text();
   decimal();
+  lengths();
   words();
   language();
   common();
@@ -57,6 +58,25 @@ void ControlReader::decimal() {
       table.require("mode", "increment or calculator").choice({"increment", "calculator"}, "calculator");
   control_.decimal = mode == "increment" ? DecimalMode::Increment : DecimalMode::Calculator;
   control_.decimalGrade = origin(table).grade;
+}
+
+void ControlReader::lengths() {
+  const TomlValue value = root_.value("lengths");
+  if (!value) return;
+  const TomlTable table = value.table();
+  origin(table);
+  const TomlValue letters = table.require("addresses", "the letters that count lengths, as XYZIJK");
+  control_.lengths = 0;
+  for (const char letter : letters.text()) {
+    if (letter < 'A' || letter > 'Z')
+      document_.fail(letters.range(), fmt::format("`{}` is no address; capital letters are", letter));
+    else if (ir::isAddressIn(ir::kWholeAddresses, letter))
+      document_.fail(letters.range(), fmt::format("`{}` counts whole units on every control", letter));
+    else if (control_.isLength(letter))
+      document_.fail(letters.range(), fmt::format("`{}` is given twice", letter));
+    else
+      control_.lengths |= ir::addressBit(letter);
+  }
 }
 
 void ControlReader::words() {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "ir/Kind.h"
+#include "ir/NcWords.h"
 
 #include <cstdint>
 #include <map>
@@ -17,6 +18,9 @@ class DataFiles;
 
 // How a number without a decimal point is read where the address counts a length or an angle.
 enum class DecimalMode : std::uint8_t { Increment, Calculator };
+
+// Addresses that count lengths, angles or seconds where a control does not list its own.
+inline constexpr std::uint32_t kLengthAddresses = ir::addressBits("ABCIJKQRUVWXYZ");
 
 // How macro statements compute. Decimal8: each result has eight significant decimal digits, is 0 or lies
 // between 1e-29 and 1e47 in magnitude.
@@ -223,14 +227,15 @@ struct Control {
   DecimalMode decimal = DecimalMode::Calculator;
   std::string decimalGrade; // a grade, as of a code
   Arithmetic arithmetic = Arithmetic::Double;
-  double increment = 0.001;      // mm, least input increment
-  int decimals = 3;              // most digits behind the point of a word, mm
-  int integerDigits = 5;         // most digits before the point
-  std::uint32_t digits = 8;      // most digits of a number, leading zeros too
-  bool ifThen = true;            // IF [..] THEN statement
-  bool joinedConditions = false; // [[..] AND [..]]
-  bool thenGoto = false;         // IF [..] THEN GOTO n is known to run
-  bool bareFunctions = false;    // ABS#1 without brackets is known to run
+  std::uint32_t lengths = kLengthAddresses; // ir::addressBit of each that counts lengths, angles or seconds
+  double increment = 0.001;                 // mm, least input increment
+  int decimals = 3;                         // most digits behind the point of a word, mm
+  int integerDigits = 5;                    // most digits before the point
+  std::uint32_t digits = 8;                 // most digits of a number, leading zeros too
+  bool ifThen = true;                       // IF [..] THEN statement
+  bool joinedConditions = false;            // [[..] AND [..]]
+  bool thenGoto = false;                    // IF [..] THEN GOTO n is known to run
+  bool bareFunctions = false;               // ABS#1 without brackets is known to run
   std::uint32_t bracketDepth = 5;
   std::uint32_t locals = 33;
   std::uint32_t macroLevels = 4;
@@ -258,6 +263,12 @@ struct Control {
   std::optional<bool> printPadding; // DPRNT writes blanks for missing digits; nothing: not known
   std::vector<AlarmInfo> alarms;    // each alarm once
   std::vector<CodeInfo> codes;      // G and M, in the order of the file; each letter and code once
+
+  // The address counts a length, an angle or seconds.
+  bool isLength(char letter) const { return ir::isAddressIn(lengths, letter); }
+  // Its number counts least increments where it has no point. Words that mean something else in their block,
+  // such as the repeats K of a canned cycle, are for the caller to tell apart.
+  bool countsIncrements(char letter) const { return decimal == DecimalMode::Increment && isLength(letter); }
 
   const CodeInfo* find(char letter, std::uint32_t tenths) const; // nullptr: not in the table
   const CodeInfo* find(Function function) const;                 // the first with that meaning

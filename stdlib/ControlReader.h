@@ -37,6 +37,7 @@ private:
 
   // Control.cpp
   void decimal();
+  void lengths();
   void words();
   void language();
   void common();

@@ -157,8 +157,7 @@ private:
 
   static VariableUse useOfLetter(char letter) {
     if (letter == 'F') return VariableUse::Feed;
-    return std::string_view("GMTHDONPLS").find(letter) != std::string_view::npos ? VariableUse::Whole
-                                                                                 : VariableUse::Length;
+    return ir::isAddressIn(ir::kWholeAddresses, letter) ? VariableUse::Whole : VariableUse::Length;
   }
 
   VariableUse useOfArgument(const ir::Call& call, char letter) const {

@@ -9,7 +9,6 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <set>
-#include <string_view>
 
 namespace dotek::backends::fanuc {
 
@@ -17,16 +16,6 @@ namespace {
 
 using stdlib::CodeInfo;
 using stdlib::Function;
-
-// Words that count whole units, whatever the control does with lengths.
-constexpr std::string_view kWholeWords = "GMNOPSTDHL";
-constexpr std::string_view kLengthWords = "XYZABCUVWIJR";
-// Arguments of G65 that count whole units on every control.
-constexpr std::string_view kWholeArguments = "DEFHMST";
-
-bool isOneOf(char letter, std::string_view letters) {
-  return letters.find(letter) != std::string_view::npos;
-}
 
 std::optional<std::uint32_t> tenthsOf(const ir::ExpressionPtr& value) {
   const double* number = ir::constantValue(value);
@@ -39,12 +28,10 @@ std::string codeName(char letter, std::uint32_t tenths) {
                           : fmt::format("{}{}.{}", letter, tenths / 10, tenths % 10);
 }
 
-// Digits without a point, other than 0: what controls count in ways of their own.
+// Digits without a point, other than 0: what controls count each in its own unit.
 const ir::Constant* withoutPoint(const ir::ExpressionPtr& value) {
-  const auto* constant = std::get_if<ir::Constant>(&value->node);
-  const bool bare = constant != nullptr && constant->value != 0 && !constant->digits.empty() &&
-                    constant->digits.find('.') == std::string::npos;
-  return bare ? constant : nullptr;
+  const ir::Constant* constant = ir::numberWithoutPoint(value);
+  return constant != nullptr && constant->value != 0 ? constant : nullptr;
 }
 
 std::string withPoint(double value) {
@@ -57,7 +44,8 @@ public:
   Words(ir::Program& program, const ir::ProgramFile& file, const ProgramContext& context)
       : program_(program), context_(context), text_(context.to()) {
     counts_ = to().decimal != from().decimal ||
-              (to().decimal == stdlib::DecimalMode::Increment && to().increment != from().increment);
+              (to().decimal == stdlib::DecimalMode::Increment &&
+               (to().increment != from().increment || to().lengths != from().lengths));
     for (const ir::Program& one : file.programs)
       for (const ir::ProgramStatement& statement : one.body)
         seen(statement);
@@ -226,11 +214,13 @@ private:
     if (inch_ || eachBlock_ || computed_ || block.unknown) return false;
     if (address == 'F') return !perRevolution_ && !block.thread;
     if (address == 'K') return block.arc;
-    return isOneOf(address, kLengthWords) && !(block.dwell && (address == 'X' || address == 'U'));
+    // Whether Q takes a point in every cycle that has it no source says.
+    return address != 'Q' && from().isLength(address) && to().isLength(address) &&
+           !(block.dwell && (address == 'X' || address == 'U'));
   }
 
   void point(ir::Word& word, const Block& block) {
-    if (isOneOf(word.address, kWholeWords) && !eachBlock_) return;
+    if (ir::isAddressIn(ir::kWholeAddresses, word.address) && !eachBlock_) return;
     if (!isCertain(word.address, block)) return uncertain(word.address, word.value, word.range);
     if (word.address != 'F') word.value = pointed(word.value);
   }
@@ -260,9 +250,10 @@ private:
     case ir::CallKind::Subprogram: code('M', 980, range_, true); break;
     }
     for (ir::CallArgument& argument : call.arguments) {
-      if (!counts_ || withoutPoint(argument.value) == nullptr || isOneOf(argument.letter, kWholeArguments))
+      if (!counts_ || withoutPoint(argument.value) == nullptr ||
+          (!from().isLength(argument.letter) && !to().isLength(argument.letter)))
         continue;
-      if (inch_)
+      if (inch_ || from().isLength(argument.letter) != to().isLength(argument.letter))
         uncertain(argument.letter, argument.value, argument.range);
       else
         argument.value = pointed(argument.value);

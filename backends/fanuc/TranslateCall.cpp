@@ -69,15 +69,8 @@ bool same(const ir::ExpressionPtr& a, const ir::ExpressionPtr& b) {
   return ir::provenEqual(number(a), number(b), ir::Cycle());
 }
 
-// These count whole units where others count increments without a point.
-constexpr std::string_view kWholeUnits = "DEFHMST";
-
 bool countsIncrements(char letter, const ir::ExpressionPtr& value, const stdlib::Control& control) {
-  const auto* constant = std::get_if<ir::Constant>(&value->node);
-  return constant != nullptr && !constant->digits.empty() &&
-         constant->digits.find('.') == std::string::npos &&
-         control.decimal == stdlib::DecimalMode::Increment &&
-         kWholeUnits.find(letter) == std::string_view::npos;
+  return ir::numberWithoutPoint(value) != nullptr && control.countsIncrements(letter);
 }
 
 // What a call says, by the signature of its set.

@@ -152,9 +152,7 @@ private:
   // F9 where the program has F#9
   void wordsAt(const Words& words) {
     for (const nc::Word& word : words.words) {
-      if (word.value == nullptr ||
-          std::string_view("GMNOPTHDSL").find(word.address) != std::string_view::npos)
-        continue;
+      if (word.value == nullptr || ir::isAddressIn(ir::kWholeAddresses, word.address)) continue;
       const auto* number = std::get_if<nc::Number>(&word.value->node);
       if (number == nullptr || number->point || number->value < 1 || number->value > 999) continue;
       if (variableWords_.contains({word.address, static_cast<std::uint32_t>(number->value)}))

@@ -7,6 +7,7 @@
 #include "support/messages/Nc.h"
 
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 #include <map>
 
@@ -17,11 +18,6 @@ bool isOneOf(char letter, std::string_view letters) {
   return letters.find(letter) != std::string_view::npos;
 }
 
-// Axes and the centre or radius of arcs. Q and K are left out: canned cycles count there.
-constexpr std::string_view kLengthWords = "XYZABCUVWIJR";
-// Arguments that a control without calculator input counts in least increments; D E F H M S T are whole
-// units.
-constexpr std::string_view kLengthArguments = "ABCIJKQRUVWXYZ";
 constexpr std::string_view kAxes = "XYZABCUVW";
 
 class WordCheck {
@@ -47,8 +43,25 @@ public:
 
 private:
   const stdlib::Control* control() const { return context_.control; }
-  bool countsIncrements() const {
-    return control() != nullptr && control()->decimal == stdlib::DecimalMode::Increment;
+  bool countsIncrements(char letter) const {
+    return control() != nullptr && control()->countsIncrements(letter);
+  }
+
+  // The word is a length in this block. K is one of an arc, and counts the repeats of a canned cycle; Q is
+  // one of a canned cycle, and chooses a mode elsewhere (G5.1 Q1).
+  bool measures(const Words& words, char address) const {
+    if (address != 'K' && address != 'Q') return true;
+    return std::any_of(words.words.begin(), words.words.end(), [&](const nc::Word& word) {
+      const std::optional<double> code = word.address == 'G' ? literal(word) : std::nullopt;
+      if (!code || !(*code >= 0 && *code < 1e5)) return false;
+      const stdlib::CodeInfo* info =
+          control()->find('G', static_cast<std::uint32_t>(std::lround(*code * 10)));
+      if (info == nullptr) return false;
+      using stdlib::Function;
+      return address == 'K'
+                 ? info->function == Function::ArcClockwise || info->function == Function::ArcCounterClockwise
+                 : info->function == Function::CannedCycle || info->function == Function::BackBoring;
+    });
   }
 
   // Digits without a point, other than 0.
@@ -79,7 +92,7 @@ private:
       const auto* number = std::get_if<nc::Number>(&word.value->node);
       if (isOneOf(word.address, "MST") && number != nullptr && number->point && word.value->brackets == 0)
         context_.report<diag::CodeWithPoint>(word.range, wordText(word));
-      if (countsIncrements() && isOneOf(word.address, kLengthWords)) {
+      if (countsIncrements(word.address) && measures(words, word.address)) {
         if (const nc::Number* digits = withoutPoint(word))
           context_.report<diag::WordWithoutPoint>(word.range, wordText(word), millimetres(*digits),
                                                   wordText(word) + ".");
@@ -123,7 +136,7 @@ private:
         other->second = argument.word;
       }
       const nc::Number* digits = withoutPoint(*argument.word);
-      if (digits != nullptr && countsIncrements() && isOneOf(argument.word->address, kLengthArguments))
+      if (digits != nullptr && countsIncrements(argument.word->address))
         context_.report<diag::ArgumentWithoutPoint>(argument.word->range, wordText(*argument.word),
                                                     millimetres(*digits), wordText(*argument.word) + ".");
     }

@@ -97,7 +97,7 @@ ir::ExpressionPtr Lifter::argument(const stdlib::MacroArgument& argument) {
   if (argument.selector) reading.kind = ir::Kind::Number;
   if (argument.role == stdlib::ArgumentRole::Feed && !inRange(word, "a feed", false)) return nullptr;
   if (argument.role == stdlib::ArgumentRole::Diameter && !inRange(word, "a diameter", false)) return nullptr;
-  reading.increments = measures && countsIncrements(argument.letter);
+  reading.increments = measures && context_.control.isLength(argument.letter);
   const ir::ExpressionPtr out = value(word, reading);
   if (!out) return nullptr;
   if (const auto* use = std::get_if<ir::VariableUse>(&out->node))

@@ -61,10 +61,6 @@ double power10(int exponent) {
 
 } // namespace
 
-bool countsIncrements(char address) {
-  return std::string_view("ABCIJKQRUVWXYZ").find(address) != std::string_view::npos;
-}
-
 std::optional<double> literalOf(const Expression& value) {
   if (const auto* number = std::get_if<Number>(&value.node)) return number->value;
   const auto* negated = std::get_if<Negated>(&value.node);
@@ -119,7 +115,7 @@ ir::ExpressionPtr Lifter::value(const Word& word, Reading reading) {
 
 ir::ExpressionPtr Lifter::rawValue(const Word& word) {
   // The control reads a literal as it stands; the target writes a value with a point.
-  const bool counts = !literalOf(*word.value) && countsIncrements(word.address);
+  const bool counts = !literalOf(*word.value) && context_.control.isLength(word.address);
   return value(word, {ir::Kind::Number, counts});
 }
 

@@ -12,9 +12,6 @@ namespace dotek::frontend::nc {
 std::optional<std::uint32_t> codeTenths(const Word& word);
 // The word's number where it is one, sign included.
 std::optional<double> literalOf(const Expression& value);
-// D, E, F, H, L, M, P, S, T and the codes count whole units; the rest least increments where the control does
-// so.
-bool countsIncrements(char address);
 // `Z-5.`; of a word with a hole or a formula its address.
 std::string wordText(const Word& word);
 

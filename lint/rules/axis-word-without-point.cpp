@@ -6,11 +6,14 @@
 namespace dotek::lint::rule {
 namespace {
 
-constexpr std::string_view kAxes = "XYZABCUVWIJKRQ";
-
 bool isWhole(const std::string& digits) {
   const auto value = parseNumber(digits);
   return value && *value != 0 && digits.find('.') == std::string::npos;
+}
+
+bool isLength(const Project& project, char letter) {
+  return project.postControl ? project.postControl->isLength(letter)
+                             : ir::isAddressIn(stdlib::kLengthAddresses, letter);
 }
 
 bool isDwell(const std::vector<ProgWord>& words) {
@@ -65,7 +68,7 @@ void checkProg(const compost::Program& prog, const Project& project, Report& rep
     if (isDwell(words)) continue;
     const std::uint32_t program = macroCalled(words);
     for (const ProgWord& word : words) {
-      if (word.hole != nullptr || kAxes.find(word.address) == std::string_view::npos) continue;
+      if (word.hole != nullptr || !isLength(project, word.address)) continue;
       if (!isWhole(word.digits) || !withPoint.contains(word.address)) continue;
       if (isSelector(project, program, word.address)) continue;
       report.at(word.range,

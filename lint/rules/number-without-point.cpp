@@ -5,8 +5,8 @@
 namespace dotek::lint::rule {
 namespace {
 
-// Lengths; the other letters count, choose or are feeds.
-constexpr std::string_view kLengths = "XYZIJKR";
+// Angles and Q are left out: arguments with these letters often choose, as A1, and Q1 chooses a mode.
+constexpr std::uint32_t kLengths = stdlib::kLengthAddresses & ~ir::addressBits("ABCQ");
 // So many times as many have a point.
 constexpr std::size_t kTimes = 4;
 
@@ -18,11 +18,10 @@ struct Number {
 
 void collect(const ir::ProgramStatement& statement, std::vector<Number>& with, std::vector<Number>& without) {
   const auto take = [&](char letter, const ir::ExpressionPtr& value, SourceRange range) {
-    if (kLengths.find(letter) == std::string_view::npos || value == nullptr) return;
+    if (!ir::isAddressIn(kLengths, letter) || value == nullptr) return;
     const auto* constant = std::get_if<ir::Constant>(&value->node);
     if (constant == nullptr || constant->digits.empty() || constant->value == 0) return;
-    (constant->digits.find('.') == std::string::npos ? without : with)
-        .push_back({constant->digits, letter, range});
+    (ir::numberWithoutPoint(value) != nullptr ? without : with).push_back({constant->digits, letter, range});
   };
   if (const auto* block = std::get_if<ir::NcBlock>(&statement.node)) {
     // Seconds, and the table of an offset.

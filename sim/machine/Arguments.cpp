@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string_view>
 #include <utility>
 
 namespace dotek::sim {
@@ -22,10 +21,6 @@ bool stopsReadingAhead(const stdlib::Control& control, char letter, double value
   return tenths >= 0 && tenths < 1e9 &&
          std::binary_search(control.readAheadStops.begin(), control.readAheadStops.end(),
                             std::pair(letter, static_cast<std::uint32_t>(tenths)));
-}
-
-bool countsIncrements(char letter) {
-  return std::string_view("ABCIJKQRUVWXYZ").find(letter) != std::string_view::npos;
 }
 
 std::uint32_t ArgumentLetters::next(char letter) {

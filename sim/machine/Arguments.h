@@ -11,9 +11,6 @@ namespace dotek::sim {
 const stdlib::CallCode* findCallCode(const stdlib::Control& control, char letter, double value);
 bool stopsReadingAhead(const stdlib::Control& control, char letter, double value);
 
-// Lengths and angles: without a point they count increments where the control does not calculate.
-bool countsIncrements(char letter);
-
 // The locals of the words of a call: of I, J, K each set has its own (argument specification II).
 class ArgumentLetters {
 public:

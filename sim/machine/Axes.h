@@ -11,7 +11,7 @@
 namespace dotek::sim {
 
 inline constexpr std::uint32_t kAxisBits = ir::addressBits("XYZABCUVW");
-inline constexpr std::uint32_t kLinearBits = ir::addressBits("XYZUVW");
+inline constexpr std::uint32_t kRotaryBits = ir::addressBits("ABC");
 
 // Index into NcWords::value.
 constexpr unsigned slotOf(char letter) {

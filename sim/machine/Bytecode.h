@@ -85,7 +85,7 @@ struct BlockSlots {
 };
 struct ArgumentSlot {
   std::uint32_t local = 0, cell = 0;
-  bool bare = false; // a length as written, without a point
+  bool bare = false; // counts least increments
 };
 struct CallSlots {
   ir::CallKind kind = ir::CallKind::Macro;

@@ -245,9 +245,8 @@ void Compiler::operator()(const ir::Call& call) {
   for (const ir::CallArgument& argument : call.arguments) {
     ArgumentSlot slot;
     slot.local = argument.local;
-    const auto* constant = std::get_if<ir::Constant>(&argument.value->node);
-    slot.bare = constant != nullptr && !constant->digits.empty() &&
-                constant->digits.find('.') == std::string::npos && countsIncrements(argument.letter);
+    slot.bare =
+        ir::numberWithoutPoint(argument.value) != nullptr && control_.countsIncrements(argument.letter);
     slot.cell = value(argument.value);
     if (slot.local == 0 || slot.local > layout_.locals())
       return refuse(fmt::format("the argument {} sets no local variable", argument.letter));

@@ -18,8 +18,6 @@ namespace {
 constexpr std::uint32_t kMoveWords = kAxisBits | ir::addressBits("GNF");
 constexpr std::uint32_t kQuickWords[4] = {kMoveWords, kMoveWords, kMoveWords | ir::addressBits("IJK"),
                                           kMoveWords | ir::addressBits("IJK")};
-// Without a point these count increments where the control does not calculate: lengths, angles, seconds.
-constexpr std::uint32_t kIncrementWords = kAxisBits | ir::addressBits("IJKRQ");
 
 } // namespace
 
@@ -35,7 +33,7 @@ Machine::Machine(const stdlib::Control& control) : control_(control), table_(con
   }
   if (const Code* code = &table_.g(540); code->group != 0) groups_[code->group] = 540;
   if (const Code* code = &table_.g(640); code->group != 0) groups_[code->group] = 640;
-  needPoint_ = control.decimal == stdlib::DecimalMode::Increment ? kIncrementWords : 0;
+  needPoint_ = control.decimal == stdlib::DecimalMode::Increment ? control.lengths : 0;
   mostPlaces_ = static_cast<std::uint32_t>(control.decimals);
   widest_ = std::pow(10.0, control.integerDigits);
   if (control.arcTolerance) arcTolerance_ = *control.arcTolerance;

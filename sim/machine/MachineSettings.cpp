@@ -34,7 +34,7 @@ double Machine::rounded(double value, int places) const {
 
 double Machine::lengthOf(const NcWords& w, char letter) const {
   const double value = w.of(letter);
-  const bool linear = (ir::addressBit(letter) & (kLinearBits | ir::addressBits("IJKRQ"))) != 0;
+  const bool linear = (ir::addressBit(letter) & kRotaryBits) == 0;
   const bool inch = linear && modes_[kUnits] != 0;
   const int places = control_.decimals + (inch ? 1 : 0);
   const bool bare = (needPoint_ & ~w.pointed & ir::addressBit(letter)) != 0;

@@ -4,7 +4,6 @@
 
 #include <cmath>
 #include <fmt/format.h>
-#include <string_view>
 
 namespace dotek::sim {
 
@@ -14,17 +13,14 @@ namespace {
 
 // Numbers of things: rounded, as a control does; G is exact.
 bool counts(char letter) {
-  return std::string_view("DHLMNOPST").find(letter) != std::string_view::npos;
-}
-bool isLength(char letter) {
-  return std::string_view("ABCIJKQRUVWXYZ").find(letter) != std::string_view::npos;
+  return letter != 'G' && ir::isAddressIn(ir::kWholeAddresses, letter);
 }
 
 } // namespace
 
 // ROUND behind an address. What it rounds to behind F and E no source says.
 bool Run::toIncrement(char letter, double& value) {
-  if (isLength(letter)) {
+  if (control_.isLength(letter)) {
     value = machine_.toIncrement(value);
     return true;
   }
@@ -75,7 +71,7 @@ bool Run::fill(const BlockSlots& slots, std::uint32_t without) {
       // Rounded here, so that the block may take the short way.
       if (counts(slot.letter))
         value = std::round(value) + 0.0;
-      else if (isLength(slot.letter))
+      else if (control_.isLength(slot.letter))
         value = machine_.toIncrement(value);
       else
         w.mostPlaces = 99;
@@ -168,8 +164,7 @@ bool Run::callByCode(const BlockSlots& slots, std::uint32_t at, const stdlib::Ca
       }
       const std::uint32_t local = letters.next(slot.letter);
       if (local == 0) return machine_.inconclusive("it is no argument of a call by a code", slot.letter);
-      const bool bare = control_.decimal == stdlib::DecimalMode::Increment && !slot.computed && !slot.point &&
-                        countsIncrements(slot.letter);
+      const bool bare = !slot.computed && !slot.point && control_.countsIncrements(slot.letter);
       if (bare && machine_.mode(kUnits) != 0)
         return machine_.inconclusive("what it counts without a point is not known", slot.letter);
       if (local < locals_.size()) locals_[local] = bare ? value * control_.increment : value;
@@ -202,8 +197,7 @@ bool Run::callOnBlock(const BlockSlots& slots, const ModalCall& modal) {
     const std::uint32_t local = letters.next(slot.letter);
     if (local == 0)
       return machine_.inconclusive("which variable it sets under G66.1 is not known", slot.letter);
-    const bool bare = control_.decimal == stdlib::DecimalMode::Increment && !slot.computed && !slot.point &&
-                      countsIncrements(slot.letter);
+    const bool bare = !slot.computed && !slot.point && control_.countsIncrements(slot.letter);
     if (local < locals_.size()) locals_[local] = bare ? value * control_.increment : value;
   }
   return begin(request);

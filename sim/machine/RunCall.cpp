@@ -46,10 +46,9 @@ bool Run::call(const CallSlots& slots) {
     const double value = cells_[argument.cell];
     if (isNull(value)) continue;
     // A length as written counts increments where the control does not calculate.
-    const bool bare = argument.bare && control_.decimal == stdlib::DecimalMode::Increment;
-    if (bare && machine_.mode(kUnits) != 0)
+    if (argument.bare && machine_.mode(kUnits) != 0)
       return refuse("what an argument without a point counts in inches is not known");
-    locals_[argument.local] = bare ? value * control_.increment : value;
+    locals_[argument.local] = argument.bare ? value * control_.increment : value;
   }
   if (slots.kind == ir::CallKind::Macro || slots.kind == ir::CallKind::Subprogram) return begin(request);
 

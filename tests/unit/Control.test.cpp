@@ -336,3 +336,25 @@ TEST_CASE("defects of a control, with line and column: codes") {
     many += fmt::format("'G{}: x',", i);
   CHECK(changed("'G4 dwell: d'", many + "'G4 dwell: d'").ends_with("more than 2000 codes"));
 }
+
+TEST_CASE("addresses that count lengths are data of the control") {
+  for (const char* name : {"fanuc-0i-md", "fanuc-31i-b", "fanuc-6m"}) {
+    CAPTURE(name);
+    const Control one = control(name);
+    for (char letter = 'A'; letter <= 'Z'; ++letter) {
+      CAPTURE(letter);
+      const bool length = std::string_view("ABCIJKQRUVWXYZ").find(letter) != std::string_view::npos;
+      CHECK(one.isLength(letter) == length);
+      CHECK(one.countsIncrements(letter) == (length && one.decimal == DecimalMode::Increment));
+    }
+    CHECK_FALSE(one.isLength('#'));
+  }
+  const auto with = [](const char* letters) {
+    return changed("words =", "lengths = {addresses='" + std::string(letters) +
+                                  "',grade='assumed',source='x'}\nwords =");
+  };
+  CHECK(with("XYZE") == "");
+  CHECK(with("XX") == "4:22: `X` is given twice");
+  CHECK(with("xyz") == "4:22: `x` is no address; capital letters are");
+  CHECK(with("XYP") == "4:22: `P` counts whole units on every control");
+}

@@ -178,6 +178,10 @@ TEST_CASE("macrob check: decimal points, where the control counts increments (1.
   CHECK(program("G1 X10 F100", k31) == "");
   CHECK(program("G1 X10 F100", k6m) == "W 2:4 word-without-point");
   CHECK(program("G1 X0 Y5. Z#1 A-#2 B[5]", k6m) == "");
+  // Q of a canned cycle and K of an arc are lengths; K of the one repeats it, Q elsewhere chooses.
+  CHECK(program("G83 Z-9. R2. Q4 F100", k6m) == "W 2:14 word-without-point");
+  CHECK(program("G3 Y5. J0 K5 F100", k6m) == "W 2:11 word-without-point");
+  CHECK(program("G81 Z-9. R2. K3 F100\nG8 Q1", k6m) == "");
   CHECK(program("G65P9811Y-1Q5", k31) == "");
   CHECK(program("G65P9811Y-1Q5.", k6m) == "E 2:9 argument-without-point");
   CHECK(program("G65 P10 D5 F20 T4 S1 H3 M1 E1 X0", k6m) == ""); // whole units
