@@ -1,8 +1,9 @@
 #include "driver/SimMacros.h"
 
 #include "project/Programs.h"
+#include "sim/machine/Arguments.h"
 #include "sim/machine/Machine.h"
-#include "sim/machine/Value.h"
+#include "stdlib/ReadCall.h"
 #include "support/Files.h"
 #include "support/messages/Commands.h"
 
@@ -72,15 +73,11 @@ std::unique_ptr<SimMacros> SimMacros::load(const std::optional<std::string>& cho
 }
 
 std::optional<sim::PathKind> SimMacros::kindOf(std::uint32_t program, std::span<const double> locals) const {
-  std::string letters;
-  for (std::uint32_t local = 1; local < locals.size(); ++local) {
-    const char letter = sim::isNull(locals[local]) ? '\0' : stdlib::letterOfLocal(local);
-    if (letter != 0) letters += letter;
-  }
+  const std::string letters = sim::givenLetters(locals).letters;
   std::optional<sim::PathKind> out;
   for (const stdlib::MacroSet& set : sets_) {
     if (!set.calls(program)) continue;
-    const stdlib::MacroSignature* const signature = stdlib::match(set, program, letters).signature;
+    const stdlib::MacroSignature* const signature = stdlib::readCall(set, program, letters).signature;
     const bool moves = signature != nullptr && signature->intent == stdlib::Intent::ProtectedMove;
     if (!out || moves) out = moves ? sim::PathKind::Protected : sim::PathKind::Measuring;
   }

@@ -44,12 +44,16 @@ std::optional<ProbeStep::Kind> meaning(const Project& project, std::uint32_t pro
 } // namespace
 
 bool mayBeOf(const stdlib::MacroSet& set, std::uint32_t program, std::string_view letters) {
-  const auto signatures = set.of(program);
   return std::all_of(letters.begin(), letters.end(), [&](char letter) {
-    return kOptional.find(letter) != std::string_view::npos ||
-           std::any_of(signatures.begin(), signatures.end(),
-                       [&](const stdlib::MacroSignature* s) { return s->find(letter) != nullptr; });
+    return kOptional.find(letter) != std::string_view::npos || stdlib::takesLetter(set, program, letter);
   });
+}
+
+stdlib::CallReading readKnown(const stdlib::MacroSet& set, std::uint32_t program, std::string_view letters) {
+  std::string known;
+  for (const char letter : letters)
+    if (stdlib::takesLetter(set, program, letter) && known.find(letter) == std::string::npos) known += letter;
+  return stdlib::readCall(set, program, known);
 }
 
 Probing::Probing(const Project& project) : project_(project) {

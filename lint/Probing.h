@@ -3,6 +3,7 @@
 
 #include "ir/Dataflow.h"
 #include "lint/Project.h"
+#include "stdlib/ReadCall.h"
 
 #include <cstdint>
 #include <functional>
@@ -34,6 +35,9 @@ enum class ProbeState : std::uint8_t { AsBefore, Off, On, Mixed, Ended };
 // Whether a call with these letters can be one of the set: letters that its signatures do not have are
 // optional ones of the vendor's. Another vendor may have a macro of the same number.
 bool mayBeOf(const stdlib::MacroSet& set, std::uint32_t program, std::string_view letters);
+
+// The call as the set reads it, each letter once and those aside that no signature of the program has.
+stdlib::CallReading readKnown(const stdlib::MacroSet& set, std::uint32_t program, std::string_view letters);
 
 class Probing {
 public:

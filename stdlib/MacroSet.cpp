@@ -1,8 +1,6 @@
 #include "stdlib/MacroSet.h"
 
 #include <algorithm>
-#include <fmt/format.h>
-#include <fmt/ranges.h>
 
 namespace dotek::stdlib {
 namespace {
@@ -35,27 +33,6 @@ constexpr std::string_view kAlarmNames[] = {
 // By letter from A: #n; 0: never an argument.
 constexpr std::uint32_t kLocals[] = {1, 2, 3, 7,  8,  9,  0,  11, 4,  5,  6,  0,  13,
                                      0, 0, 0, 17, 18, 19, 20, 21, 22, 23, 24, 25, 26};
-
-// "X or Y or Z"
-std::string alternatives(std::string_view letters) {
-  return fmt::format("{}", fmt::join(letters, " or "));
-}
-
-// What the letters lack for the signature, in the words of SignatureMatch::missing.
-std::string lack(const MacroSignature& signature, std::string_view letters, std::size_t& count) {
-  std::vector<std::string> parts;
-  for (const MacroArgument& argument : signature.arguments) {
-    if (argument.required && letters.find(argument.letter) == std::string_view::npos)
-      parts.push_back(std::string(1, argument.letter));
-  }
-  if (!signature.anyOf.empty() && letters.find_first_of(signature.anyOf) == std::string_view::npos) {
-    const bool alone = parts.empty();
-    parts.push_back(alone ? alternatives(signature.anyOf)
-                          : fmt::format("({})", alternatives(signature.anyOf)));
-  }
-  count = parts.size();
-  return fmt::format("{}", fmt::join(parts, " and "));
-}
 
 } // namespace
 
@@ -144,52 +121,6 @@ const MacroAlarmInfo* MacroSet::find(MacroAlarm alarm) const {
   const auto at = std::find_if(alarms.begin(), alarms.end(),
                                [&](const MacroAlarmInfo& info) { return info.alarm == alarm; });
   return at == alarms.end() ? nullptr : &*at;
-}
-
-SignatureMatch match(const MacroSet& set, std::uint32_t program, std::string_view letters) {
-  const std::vector<const MacroSignature*> signatures = set.of(program);
-  SignatureMatch out;
-  if (signatures.empty()) return out;
-  for (const char letter : letters) {
-    const bool known = std::any_of(signatures.begin(), signatures.end(),
-                                   [&](const MacroSignature* s) { return s->find(letter) != nullptr; });
-    if (!known) {
-      out.unknown = letter;
-      return out;
-    }
-  }
-  for (const RefusedLetters& rule : set.refused) {
-    const bool here = std::find(rule.programs.begin(), rule.programs.end(), program) != rule.programs.end();
-    const bool all = std::all_of(rule.letters.begin(), rule.letters.end(),
-                                 [&](char letter) { return letters.find(letter) != std::string_view::npos; });
-    if (!here || !all) continue;
-    out.refused = &rule;
-    return out;
-  }
-  std::size_t least = SIZE_MAX;
-  for (const MacroSignature* signature : signatures) {
-    if (signature->fits(letters)) {
-      out.ambiguous = out.signature != nullptr;
-      if (out.ambiguous) {
-        out.signature = nullptr;
-        return out;
-      }
-      out.signature = signature;
-      continue;
-    }
-    const bool takesAll = std::all_of(letters.begin(), letters.end(),
-                                      [&](char letter) { return signature->find(letter) != nullptr; });
-    if (!takesAll) continue;
-    std::size_t count = 0;
-    const std::string missing = lack(*signature, letters, count);
-    if (count > least) continue;
-    out.missing = count < least ? missing : out.missing + " or " + missing;
-    least = count;
-  }
-  if (out.signature != nullptr) out.missing.clear();
-  // Every letter is known, and no reading takes them all: those of two readings stand together.
-  out.ambiguous = out.signature == nullptr && least == SIZE_MAX;
-  return out;
 }
 
 } // namespace dotek::stdlib

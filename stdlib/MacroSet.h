@@ -253,16 +253,6 @@ struct MacroSet {
   static std::optional<MacroSet> load(const DataFiles& files, std::string_view name);
 };
 
-// How the letters of a call fit the signatures of its program. All empty: the set does not have the program.
-struct SignatureMatch {
-  const MacroSignature* signature = nullptr; // the only one that fits; nullptr: see the rest
-  char unknown = 0;                          // letter that no signature of the program has
-  const RefusedLetters* refused = nullptr;   // letters that the macro does not take together
-  std::string missing;    // letters that the nearest signatures need: "S", "X or Y or Z", "S and I"
-  bool ambiguous = false; // every letter is known, and they belong to different readings: XY of one surface
-};
-SignatureMatch match(const MacroSet& set, std::uint32_t program, std::string_view letters);
-
 // #n that a letter of G65 sets, argument specification I; 0: the letter is no argument.
 std::uint32_t localOf(char letter);
 // The letter that sets #n; 0: none does.

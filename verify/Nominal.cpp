@@ -1,12 +1,13 @@
 #include "verify/Nominal.h"
 
 #include "ir/Arithmetic.h"
+#include "sim/machine/Arguments.h"
 #include "sim/machine/Value.h"
+#include "stdlib/ReadCall.h"
 
 #include <array>
 #include <cmath>
 #include <optional>
-#include <string>
 
 namespace dotek::verify {
 
@@ -141,13 +142,7 @@ private:
 
 const stdlib::MacroSignature* signatureOf(const stdlib::MacroSet& set, std::uint32_t program,
                                           std::span<const double> locals) {
-  std::string letters;
-  for (std::uint32_t local = 1; local < locals.size(); ++local) {
-    if (sim::isNull(locals[local])) continue;
-    const char letter = stdlib::letterOfLocal(local);
-    if (letter != 0) letters += letter;
-  }
-  return stdlib::match(set, program, letters).signature;
+  return stdlib::readCall(set, program, sim::givenLetters(locals).letters).signature;
 }
 
 std::vector<Touch> nominalTouches(const stdlib::MacroSignature& signature, std::span<const double> locals,

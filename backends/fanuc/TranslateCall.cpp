@@ -1,6 +1,7 @@
 #include "backends/fanuc/TranslateCall.h"
 
 #include "ir/Linear.h"
+#include "stdlib/ReadCall.h"
 #include "support/Decimal.h"
 
 #include <algorithm>
@@ -73,38 +74,21 @@ bool countsIncrements(char letter, const ir::ExpressionPtr& value, const stdlib:
   return ir::numberWithoutPoint(value) != nullptr && control.countsIncrements(letter);
 }
 
-// What a call says, by the signature of its set.
-struct Reading {
-  std::string refusal;
-  const MacroSignature* signature = nullptr;
-};
-
-Reading read(const ir::Call& call, const stdlib::MacroSet& set) {
-  if (call.kind != ir::CallKind::Macro) return {"only G65 calls are translated"};
-  if (call.repeats != nullptr) return {"what repeated measurements leave behind is not known"};
+// What a call says, by the signature of its set: why nothing is known, or the reading that fits.
+std::string read(const ir::Call& call, const stdlib::MacroSet& set, stdlib::CallReading& out) {
+  if (call.kind != ir::CallKind::Macro) return "only G65 calls are translated";
+  if (call.repeats != nullptr) return "what repeated measurements leave behind is not known";
   const double* program = call.program == nullptr ? nullptr : ir::constantValue(call.program);
-  if (program == nullptr) return {"which macro it calls is computed"};
-  if (!(*program >= 1 && *program < 1e8) || *program != std::floor(*program)) return {"P names no program"};
-  const auto called = static_cast<std::uint32_t>(*program);
-  if (!set.calls(called)) return {fmt::format("`{}` has no macro P{}", set.name, called)};
+  if (program == nullptr) return "which macro it calls is computed";
+  if (!(*program >= 1 && *program < 1e8) || *program != std::floor(*program)) return "P names no program";
   std::string letters;
   for (const ir::CallArgument& argument : call.arguments) {
-    if (argument.local != stdlib::localOf(argument.letter) ||
-        letters.find(argument.letter) != std::string::npos)
-      return {fmt::format("`{}` is repeated: it sets #{}", argument.letter, argument.local)};
+    if (argument.local != stdlib::localOf(argument.letter))
+      return fmt::format("`{}` is repeated: it sets #{}", argument.letter, argument.local);
     letters += argument.letter;
   }
-  const stdlib::SignatureMatch match = stdlib::match(set, called, letters);
-  if (match.unknown != 0)
-    return {
-        fmt::format("P{} of `{}` has no argument `{}` that Dotek knows", called, set.name, match.unknown)};
-  if (match.refused != nullptr)
-    return {fmt::format("P{} of `{}` does not take {} together", called, set.name,
-                        fmt::join(match.refused->letters, " and "))};
-  if (!match.missing.empty()) return {fmt::format("the call of P{} lacks {}", called, match.missing)};
-  if (match.signature == nullptr)
-    return {fmt::format("what the letters {} mean together is not known", letters)};
-  return {"", match.signature};
+  out = stdlib::readCall(set, static_cast<std::uint32_t>(*program), letters);
+  return stdlib::refusalText(out);
 }
 
 ir::Axis axisOf(const MacroSignature& signature) {
@@ -118,12 +102,9 @@ public:
   Translation(const ir::Call& call, const TranslateSettings& settings) : call_(call), settings_(settings) {}
 
   TranslatedCall run() {
-    Reading reading = read(call_, settings_.source);
-    if (!reading.refusal.empty()) {
-      out_.refusal = std::move(reading.refusal);
-      return std::move(out_);
-    }
-    from_ = reading.signature;
+    out_.refusal = read(call_, settings_.source, reading_);
+    if (refused()) return std::move(out_);
+    from_ = reading_.signature;
     if (settings_.source.name == settings_.target.name) {
       out_.call = call_;
       return std::move(out_);
@@ -158,8 +139,8 @@ private:
     return at == call_.arguments.end() ? nullptr : &at->value;
   }
   const ir::ExpressionPtr* given(ArgumentRole role, ir::Axis axis = ir::Axis::X) const {
-    const MacroArgument* argument = from_->find(role, axis);
-    return argument == nullptr ? nullptr : given(argument->letter);
+    const stdlib::ReadArgument* argument = reading_.find(role, axis);
+    return argument == nullptr ? nullptr : &call_.arguments[argument->at].value;
   }
 
   // The length that a word hands over: within an expression a number without a point counts millimetres.
@@ -196,8 +177,8 @@ private:
     for (const MacroSignature* signature : {from_, to_})
       if (!signature->unknown.empty())
         return refuse(fmt::format("{}: {} is in no source", title(), signature->unknown));
-    for (const ir::CallArgument& argument : call_.arguments)
-      carry(*from_->find(argument.letter), argument);
+    for (const stdlib::ReadArgument& argument : reading_.arguments)
+      carry(*argument.meaning, call_.arguments[argument.at]);
     nominals();
     if (refused()) return;
     finish();
@@ -377,8 +358,11 @@ private:
       call.arguments.push_back(*at);
       letters += place.letter;
     }
-    if (const auto match = stdlib::match(settings_.target, to_->program, letters); match.signature != to_)
-      return refuse(fmt::format("P{} of `{}` does not take {} together", to_->program, target(), letters));
+    if (const stdlib::CallReading there = stdlib::readCall(settings_.target, to_->program, letters);
+        there.signature != to_)
+      return refuse(there.signature == nullptr ? stdlib::refusalText(there)
+                                               : fmt::format("P{} of `{}` with {} is another measurement",
+                                                             to_->program, target(), letters));
     if (from_->intent == Intent::ProtectedMove && given(ArgumentRole::Feed) == nullptr)
       note(fmt::format("P{} takes its own feed or the last one: the call states none", to_->program));
     out_.call = std::move(call);
@@ -386,7 +370,8 @@ private:
 
   const ir::Call& call_;
   const TranslateSettings& settings_;
-  const MacroSignature* from_ = nullptr;
+  stdlib::CallReading reading_;
+  const MacroSignature* from_ = nullptr; // of the reading
   const MacroSignature* to_ = nullptr;
   TranslatedCall out_;
   std::vector<ir::CallArgument> arguments_;
@@ -417,19 +402,18 @@ TranslatedVariable translateResult(const ir::Call& call, std::uint32_t variable,
   const stdlib::MacroSet& source = settings.source;
   const stdlib::MacroSet& target = settings.target;
   if (source.name == target.name) return {"", variable};
-  const Reading reading = read(call, source);
-  if (!reading.refusal.empty()) return {reading.refusal, 0};
+  stdlib::CallReading reading;
+  if (std::string refusal = read(call, source, reading); !refusal.empty()) return {std::move(refusal), 0};
   const stdlib::MacroResult* result = resultIn(*reading.signature, variable);
   if (result == nullptr) {
     if (within(source.scratch, variable))
-      return {fmt::format("what #{} holds behind P{} is not known", variable, reading.signature->program), 0};
+      return {fmt::format("what #{} holds behind P{} is not known", variable, reading.program), 0};
     if (within(target.scratch, variable))
       return {fmt::format("the macros of `{}` overwrite #{}", target.name, variable), 0};
     return {"", variable};
   }
   if (!result->documented)
-    return {fmt::format("#{} behind P{} is {}, and no source says what it holds", variable,
-                        reading.signature->program,
+    return {fmt::format("#{} behind P{} is {}, and no source says what it holds", variable, reading.program,
                         result->output == stdlib::Output::Main ? "the result of the macro"
                                                                : stdlib::outputName(result->output)),
             0};

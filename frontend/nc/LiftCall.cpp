@@ -1,12 +1,12 @@
 // Calls of a vendor's macros by their signatures.
 #include "frontend/nc/Lifter.h"
+#include "stdlib/ReadCall.h"
 #include "support/Decimal.h"
 #include "support/messages/Nc.h"
 
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 namespace dotek::frontend::nc {
 namespace {
@@ -28,44 +28,46 @@ bool Lifter::call(std::uint32_t program, const Word& programWord) {
       std::count_if(codes_.begin(), codes_.end(), [](const Code& c) { return c.word->address == 'G'; }) > 1)
     return refuse<diag::CallForm>(programWord.range, program);
   std::string letters;
+  std::vector<const Word*> words; // of the letters
   for (const Word& word : block_.words) {
     if (word.address == 'G' || word.address == 'P') continue;
-    if (letters.find(word.address) != std::string::npos)
-      return refuse<diag::AddressTwice>(word.range, word.address);
     letters += word.address;
+    words.push_back(&word);
   }
-  const stdlib::SignatureMatch match = stdlib::match(*context_.macros, program, letters);
-  if (match.unknown != 0) {
-    const Word* word = find(match.unknown);
-    return refuse<diag::UnknownMacroLetter>(word == nullptr ? programWord.range : word->range, program,
-                                            context_.macros->name, match.unknown);
+  const stdlib::CallReading reading = stdlib::readCall(*context_.macros, program, letters);
+  using stdlib::CallRefusal;
+  switch (reading.refusal) {
+  case CallRefusal::None: break;
+  case CallRefusal::UnknownProgram:
+    return refuse<diag::UnknownMacro>(programWord.range, program, context_.macros->name);
+  case CallRefusal::RepeatedLetter:
+    return refuse<diag::AddressTwice>(words[reading.at]->range, reading.letter());
+  case CallRefusal::UnknownLetter:
+    return refuse<diag::UnknownMacroLetter>(words[reading.at]->range, refusalText(reading));
+  case CallRefusal::Excluded:
+    return refuse<diag::MacroLettersRefused>(block_.range, refusalText(reading),
+                                             reading.excluded->text.empty() ? ""
+                                                                            : ": " + reading.excluded->text);
+  case CallRefusal::Missing: return refuse<diag::MissingMacroLetter>(block_.range, refusalText(reading));
+  case CallRefusal::Ambiguous: return refuse<diag::AmbiguousMacro>(block_.range, refusalText(reading));
   }
-  if (match.refused != nullptr)
-    return refuse<diag::MacroLettersRefused>(block_.range, program, context_.macros->name,
-                                             fmt::format("{}", fmt::join(match.refused->letters, " and ")),
-                                             match.refused->text.empty() ? "" : ": " + match.refused->text);
-  if (!match.missing.empty())
-    return refuse<diag::MissingMacroLetter>(block_.range, program, context_.macros->name, match.missing);
-  if (match.signature == nullptr)
-    return refuse<diag::AmbiguousMacro>(block_.range, program, context_.macros->name, letters);
-  if (context_.state.absolute != true && match.signature->intent != stdlib::Intent::ProbeOn &&
-      match.signature->intent != stdlib::Intent::ProbeOff)
+  const stdlib::MacroSignature& signature = *reading.signature;
+  if (context_.state.absolute != true && signature.intent != stdlib::Intent::ProbeOn &&
+      signature.intent != stdlib::Intent::ProbeOff)
     return refuse<diag::CallUnderIncremental>(block_.range, program);
   // The macro moves at a feed of its own and leaves its motion behind; G90 it restores.
   context_.state.motion = std::nullopt;
   context_.state.feed = nullptr;
   context_.stored.clear();
-  switch (match.signature->intent) {
-  case stdlib::Intent::ProtectedMove: return protectedMove(*match.signature);
+  switch (signature.intent) {
+  case stdlib::Intent::ProtectedMove: return protectedMove(reading, words);
   case stdlib::Intent::Surface:
-  case stdlib::Intent::Bore: return measure(*match.signature);
+  case stdlib::Intent::Bore: return measure(reading, words);
   case stdlib::Intent::ProbeOn:
   case stdlib::Intent::ProbeOff:
-    for (const Word& word : block_.words)
-      if (const auto* found = match.signature->find(word.address))
-        return refuse<diag::MacroLetterNotTranslated>(word.range, program, word.address,
-                                                      stdlib::roleName(found->role));
-    add(ir::ProbePower{match.signature->intent == stdlib::Intent::ProbeOn});
+    if (!reading.arguments.empty())
+      return notTranslated(*words[reading.arguments[0].at], *reading.arguments[0].meaning, program);
+    add(ir::ProbePower{signature.intent == stdlib::Intent::ProbeOn});
     return true;
   case stdlib::Intent::Boss:
   case stdlib::Intent::Pocket:
@@ -85,12 +87,15 @@ bool Lifter::call(std::uint32_t program, const Word& programWord) {
   case stdlib::Intent::Calibration: break;
   }
   return refuse<diag::MacroNotTranslated>(programWord.range, program, context_.macros->name,
-                                          "`" + match.signature->title + "`");
+                                          "`" + signature.title + "`");
 }
 
-// The argument stands in the call.
-ir::ExpressionPtr Lifter::argument(const stdlib::MacroArgument& argument) {
-  const Word& word = *find(argument.letter);
+bool Lifter::notTranslated(const Word& word, const stdlib::MacroArgument& argument, std::uint32_t program) {
+  return refuse<diag::MacroLetterNotTranslated>(word.range, program, word.address,
+                                                stdlib::roleName(argument.role));
+}
+
+ir::ExpressionPtr Lifter::argument(const stdlib::MacroArgument& argument, const Word& word) {
   Reading reading{argument.kind, false};
   const bool measures =
       !argument.selector && (argument.kind == ir::Kind::Length || argument.kind == ir::Kind::Angle);
@@ -105,37 +110,36 @@ ir::ExpressionPtr Lifter::argument(const stdlib::MacroArgument& argument) {
   return out;
 }
 
-bool Lifter::protectedMove(const stdlib::MacroSignature& signature) {
+bool Lifter::protectedMove(const stdlib::CallReading& reading, const std::vector<const Word*>& words) {
   ir::Move move;
   move.motion = ir::Motion::Protected;
-  for (const Word& word : block_.words) {
-    const stdlib::MacroArgument* found = signature.find(word.address);
-    if (found == nullptr || word.address == 'G' || word.address == 'P') continue;
-    const ir::ExpressionPtr read = argument(*found);
+  for (const stdlib::ReadArgument& one : reading.arguments) {
+    const stdlib::MacroArgument& meaning = *one.meaning;
+    const ir::ExpressionPtr read = argument(meaning, *words[one.at]);
     if (!read) return false;
-    if (found->role == stdlib::ArgumentRole::Target)
-      move.axes[ir::indexOf(found->axis)] = ir::Coordinate{read, found->frame, nullptr};
-    else if (found->role == stdlib::ArgumentRole::Feed)
+    if (meaning.role == stdlib::ArgumentRole::Target)
+      move.axes[ir::indexOf(meaning.axis)] = ir::Coordinate{read, meaning.frame, nullptr};
+    else if (meaning.role == stdlib::ArgumentRole::Feed)
       move.feed = read;
     else
-      return refuse<diag::MacroLetterNotTranslated>(word.range, signature.program, word.address,
-                                                    stdlib::roleName(found->role));
+      return notTranslated(*words[one.at], meaning, reading.program);
   }
   add(std::move(move));
   return true;
 }
 
-bool Lifter::measure(const stdlib::MacroSignature& signature) {
+bool Lifter::measure(const stdlib::CallReading& reading, const std::vector<const Word*>& words) {
+  const stdlib::MacroSignature& signature = *reading.signature;
   ir::Measure measure;
   measure.feature = signature.intent == stdlib::Intent::Bore ? ir::Feature::Bore : ir::Feature::Surface;
   ir::OffsetSetting setting;
   bool nominals = false;
   bool sets = false;
-  const stdlib::MacroArgument* system = nullptr;
-  for (const Word& word : block_.words) {
-    const stdlib::MacroArgument* found = signature.find(word.address);
-    if (found == nullptr || word.address == 'G' || word.address == 'P') continue;
-    const ir::ExpressionPtr read = argument(*found);
+  const stdlib::ReadArgument* system = nullptr;
+  for (const stdlib::ReadArgument& one : reading.arguments) {
+    const stdlib::MacroArgument* found = one.meaning;
+    const Word& word = *words[one.at];
+    const ir::ExpressionPtr read = argument(*found, word);
     if (!read) return false;
     switch (found->role) {
     case stdlib::ArgumentRole::Target:
@@ -148,27 +152,25 @@ bool Lifter::measure(const stdlib::MacroSignature& signature) {
       nominals = true;
       break;
     case stdlib::ArgumentRole::System:
-      system = found;
+      system = &one;
       setting.system = workSystem(*found, word, read);
       if (!setting.system) return false;
       sets = true;
       break;
-    default:
-      return refuse<diag::MacroLetterNotTranslated>(word.range, signature.program, word.address,
-                                                    stdlib::roleName(found->role));
+    default: return notTranslated(word, *found, signature.program);
     }
   }
-  if (sets && system->systemRule == stdlib::SystemRule::Error) {
+  if (sets && system->meaning->systemRule == stdlib::SystemRule::Error) {
     // Where the probe stands is the nominal centre of a bore: the source does not write it.
     if (!measure.target)
-      return refuse<diag::OffsetWithoutNominal>(find(system->letter)->range, signature.program,
-                                                system->letter);
+      return refuse<diag::OffsetWithoutNominal>(words[system->at]->range, signature.program,
+                                                system->meaning->letter);
     setting.nominal[ir::indexOf(measure.axis)] = measure.target->value;
     nominals = true;
   }
   if (sets != nominals)
-    return refuse<diag::MissingMacroLetter>(block_.range, signature.program, context_.macros->name,
-                                            sets ? "the nominal coordinate" : "the work offset");
+    return refuse<diag::MissingMacroLetter>(
+        block_.range, lacks(reading, sets ? "the nominal coordinate" : "the work offset"));
   if (sets) measure.setting = std::move(setting);
   context_.measured = &signature;
   add(std::move(measure));

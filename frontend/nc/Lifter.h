@@ -2,6 +2,7 @@
 #pragma once
 
 #include "frontend/nc/Lift.h"
+#include "stdlib/ReadCall.h"
 
 #include <map>
 #include <string_view>
@@ -66,11 +67,13 @@ private:
 
   // LiftCall
   bool call(std::uint32_t program, const Word& programWord);
-  bool protectedMove(const stdlib::MacroSignature& signature);
-  bool measure(const stdlib::MacroSignature& signature);
+  // `words`: of the letters of the reading.
+  bool protectedMove(const stdlib::CallReading& reading, const std::vector<const Word*>& words);
+  bool measure(const stdlib::CallReading& reading, const std::vector<const Word*>& words);
+  bool notTranslated(const Word& word, const stdlib::MacroArgument& argument, std::uint32_t program);
   ir::ExpressionPtr workSystem(const stdlib::MacroArgument& argument, const Word& word,
                                const ir::ExpressionPtr& read);
-  ir::ExpressionPtr argument(const stdlib::MacroArgument& argument);
+  ir::ExpressionPtr argument(const stdlib::MacroArgument& argument, const Word& word);
 
   // LiftValue: null pointers are reported.
   ir::ExpressionPtr value(const Word& word, Reading reading);

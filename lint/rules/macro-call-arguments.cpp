@@ -1,8 +1,6 @@
 #include "frontend/macrob/Calls.h"
 #include "lint/Probing.h"
 
-#include <algorithm>
-
 namespace dotek::lint::rule {
 namespace {
 
@@ -15,29 +13,23 @@ void checkCall(const macrob::Words& words, const Project& project, Report& repor
   if (!number || *number < 1) return;
   const auto program = static_cast<std::uint32_t>(*number);
   for (const stdlib::MacroSet& set : project.macroSets) {
-    const auto signatures = set.of(program);
-    if (signatures.empty()) continue;
-    std::string all;
-    std::string letters; // those that some signature has
-    for (const macrob::CallArgument& argument : call->arguments) {
-      const char letter = argument.word->address;
-      all += letter;
-      if (std::any_of(signatures.begin(), signatures.end(),
-                      [&](const stdlib::MacroSignature* s) { return s->find(letter) != nullptr; }))
-        letters += letter;
-    }
-    if (!mayBeOf(set, program, all)) return;
-    const stdlib::SignatureMatch match = stdlib::match(set, program, letters);
-    if (match.ambiguous || match.refused != nullptr)
+    if (!set.calls(program)) continue;
+    std::string letters;
+    for (const macrob::CallArgument& argument : call->arguments)
+      letters += argument.word->address;
+    if (!mayBeOf(set, program, letters)) return;
+    const stdlib::CallReading reading = readKnown(set, program, letters);
+    using stdlib::CallRefusal;
+    if (reading.refusal == CallRefusal::Ambiguous || reading.refusal == CallRefusal::Excluded)
       report.at(call->program->range,
                 "`{}` measures one thing at a time, and the letters {} of this call belong to "
                 "several; the macro stops with an alarm; write a call for each",
-                project.sources.textUtf8(call->program->range), letters);
-    else if (!match.missing.empty())
+                project.sources.textUtf8(call->program->range), reading.letters);
+    else if (reading.refusal == CallRefusal::Missing)
       report.at(call->program->range,
                 "`{}` needs {}, which this call does not have; the macro stops with an alarm; "
                 "write it",
-                project.sources.textUtf8(call->program->range), match.missing);
+                project.sources.textUtf8(call->program->range), reading.missing);
     return;
   }
 }

@@ -1,8 +1,6 @@
 #include "lint/Probing.h"
 #include "lint/ProgBlocks.h"
 
-#include <algorithm>
-
 namespace dotek::lint::rule {
 namespace {
 
@@ -11,16 +9,11 @@ void checkBlock(const ProgBlock& block, const Project& project, Report& report) 
   const std::uint32_t program = macroCalled(words);
   if (program == 0) return;
   for (const stdlib::MacroSet& set : project.macroSets) {
-    const auto signatures = set.of(program);
-    if (signatures.empty()) continue;
-    const auto isKnown = [&](char letter) {
-      return std::any_of(signatures.begin(), signatures.end(),
-                         [&](const stdlib::MacroSignature* s) { return s->find(letter) != nullptr; });
-    };
+    if (!set.calls(program)) continue;
     std::string known;
     for (const ProgWord& word : words) {
       if (word.address == 'G' || word.address == 'P' || word.address == 'N') continue;
-      if (isKnown(word.address)) {
+      if (stdlib::takesLetter(set, program, word.address)) {
         // A letter that is printed twice is another finding.
         if (known.find(word.address) != std::string::npos) return;
         known += word.address;
@@ -34,18 +27,19 @@ void checkBlock(const ProgBlock& block, const Project& project, Report& report) 
       }
     }
     const ProgWord* call = findWord(words, 'P');
-    const stdlib::SignatureMatch match = stdlib::match(set, program, known);
     if (call == nullptr) return;
-    if (match.ambiguous || match.refused != nullptr)
+    const stdlib::CallReading reading = stdlib::readCall(set, program, known);
+    using stdlib::CallRefusal;
+    if (reading.refusal == CallRefusal::Ambiguous || reading.refusal == CallRefusal::Excluded)
       report.at(
           call->range,
           "P{} measures one thing at a time, and the letters {} of this call belong to several; the macro "
           "stops with an alarm; print a call for each",
           program, known);
-    else if (!match.missing.empty())
+    else if (reading.refusal == CallRefusal::Missing)
       report.at(call->range,
                 "P{} needs {}, which this call does not print; the macro stops with an alarm; print it",
-                program, match.missing);
+                program, reading.missing);
     return;
   }
 }

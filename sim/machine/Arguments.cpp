@@ -1,5 +1,8 @@
 #include "sim/machine/Arguments.h"
 
+#include "sim/machine/Value.h"
+#include "stdlib/MacroSet.h"
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -21,6 +24,19 @@ bool stopsReadingAhead(const stdlib::Control& control, char letter, double value
   return tenths >= 0 && tenths < 1e9 &&
          std::binary_search(control.readAheadStops.begin(), control.readAheadStops.end(),
                             std::pair(letter, static_cast<std::uint32_t>(tenths)));
+}
+
+GivenLetters givenLetters(std::span<const double> locals) {
+  GivenLetters out;
+  for (std::uint32_t local = 1; local < locals.size(); ++local) {
+    if (isNull(locals[local])) continue;
+    const char letter = stdlib::letterOfLocal(local);
+    if (letter != 0)
+      out.letters += letter;
+    else if (out.unlettered == 0)
+      out.unlettered = local;
+  }
+  return out;
 }
 
 std::uint32_t ArgumentLetters::next(char letter) {

@@ -1,39 +1,36 @@
 #include "sim/machine/VendorMacros.h"
 
+#include "sim/machine/Arguments.h"
 #include "sim/machine/VendorRun.h"
+#include "stdlib/ReadCall.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 namespace dotek::sim {
 
 using stdlib::Intent;
 
 bool VendorMacros::run(Machine& machine, std::uint32_t program, std::span<const double> locals) {
-  const auto inconclusive = [&](const std::string& what, char letter = '\0') {
-    return machine.inconclusive(fmt::format("P{} of `{}`: {}", program, set_.name, what), letter);
-  };
-  std::string letters;
-  for (std::uint32_t local = 1; local < locals.size(); ++local) {
-    if (isNull(locals[local])) continue;
-    const char letter = stdlib::letterOfLocal(local);
-    if (letter == 0) return inconclusive(fmt::format("what #{} of the call means is not known", local));
-    letters += letter;
+  const GivenLetters given = givenLetters(locals);
+  if (given.unlettered != 0)
+    return machine.inconclusive(fmt::format("P{} of `{}`: what #{} of the call means is not known", program,
+                                            set_.name, given.unlettered));
+  const stdlib::CallReading reading = stdlib::readCall(set_, program, given.letters);
+  using stdlib::CallRefusal;
+  switch (reading.refusal) {
+  case CallRefusal::None: break;
+  case CallRefusal::Excluded:
+    return machine.raiseUnnumbered(reading.excluded->text.empty() ? stdlib::refusalText(reading)
+                                                                  : reading.excluded->text);
+  case CallRefusal::UnknownProgram:
+  case CallRefusal::RepeatedLetter:
+  case CallRefusal::UnknownLetter:
+  case CallRefusal::Missing:
+  case CallRefusal::Ambiguous:
+    return machine.inconclusive(stdlib::refusalText(reading) + "; what the macro does then is not known",
+                                reading.letter());
   }
-  const stdlib::SignatureMatch match = stdlib::match(set_, program, letters);
-  if (match.unknown != 0)
-    return inconclusive("what the macro does with this argument is not known", match.unknown);
-  if (match.refused != nullptr)
-    return machine.raiseUnnumbered(
-        match.refused->text.empty()
-            ? fmt::format("P{} takes {} never together", program, fmt::join(match.refused->letters, " and "))
-            : match.refused->text);
-  if (!match.missing.empty())
-    return inconclusive(
-        fmt::format("the call lacks {}; what the macro does then is not known", match.missing));
-  if (match.signature == nullptr)
-    return inconclusive(fmt::format("what the letters {} mean together is not known", letters));
-  return VendorRun(machine, set_, control_, *match.signature, locals, memory_).run();
+  return VendorRun(machine, set_, control_, *reading.signature, locals, memory_).run();
 }
 
 const stdlib::MacroArgument* VendorRun::argument(Role role, ir::Axis axis) const {

@@ -3,7 +3,7 @@
 #include "DataFolder.h"
 #include "stdlib/Control.h"
 #include "stdlib/DataFiles.h"
-#include "stdlib/MacroSet.h"
+#include "stdlib/ReadCall.h"
 
 #include <doctest/doctest.h>
 
@@ -39,7 +39,7 @@ TEST_CASE("the examples of docs/data-files.md load") {
 
   const std::optional<MacroSet> set = MacroSet::load(files, "example-probe");
   REQUIRE(set);
-  CHECK(match(*set, 9500, "XS").signature == set->find(Intent::Surface, ir::Axis::X));
+  CHECK(readCall(*set, 9500, "XS").signature == set->find(Intent::Surface, ir::Axis::X));
 }
 
 TEST_CASE("docs/data-files.md names every meaning, intent, role and function that files may hold") {

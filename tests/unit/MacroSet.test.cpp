@@ -2,6 +2,7 @@
 
 #include "DataFolder.h"
 #include "stdlib/DataFiles.h"
+#include "stdlib/ReadCall.h"
 
 #include <doctest/doctest.h>
 
@@ -233,11 +234,12 @@ TEST_CASE("letters of a call and the signature that they fit") {
     CAPTURE(row.program);
     CAPTURE(row.letters);
     const MacroSet& set = sets[row.set == sets[0].name ? 0 : 1];
-    const SignatureMatch got = match(set, row.program, row.letters);
+    const CallReading got = readCall(set, row.program, row.letters);
     CHECK((got.signature == nullptr ? "" : got.signature->title) == row.title);
-    CHECK(got.unknown == row.unknown);
+    CHECK((got.refusal == CallRefusal::UnknownLetter ? got.letter() : 0) == row.unknown);
+    CHECK(refusalText(got).empty() == (got.signature != nullptr));
     CHECK(got.missing == row.missing);
-    CHECK(got.ambiguous == row.ambiguous);
+    CHECK((got.refusal == CallRefusal::Ambiguous) == row.ambiguous);
   }
 }
 
@@ -253,13 +255,13 @@ TEST_CASE("two signatures that fit are ambiguous, and the letters that lack stan
   };
   one.arguments.push_back(argument('X', true));
   set.signatures = {one, one};
-  CHECK(match(set, 1, "X").ambiguous);
-  CHECK(match(set, 1, "X").signature == nullptr);
+  CHECK(readCall(set, 1, "X").refusal == CallRefusal::Ambiguous);
+  CHECK(readCall(set, 1, "X").signature == nullptr);
   set.signatures.pop_back();
   set.signatures[0].arguments.push_back(argument('Y', false));
   set.signatures[0].arguments.push_back(argument('Z', false));
   set.signatures[0].anyOf = "YZ";
-  CHECK(match(set, 1, "").missing == "X and (Y or Z)");
+  CHECK(readCall(set, 1, "").missing == "X and (Y or Z)");
 }
 
 TEST_CASE("a macro set of one's own") {
@@ -369,7 +371,7 @@ TEST_CASE("defects of a macro set, with line and column") {
 TEST_CASE("letters that exclude each other: the rule that a call breaks") {
   const MacroSet set = macros("inspection-plus");
   const auto refused = [&](std::uint32_t program, std::string_view letters) {
-    const RefusedLetters* rule = match(set, program, letters).refused;
+    const RefusedLetters* rule = readCall(set, program, letters).excluded;
     return rule == nullptr ? std::string() : rule->letters + ":" + rule->text;
   };
   CHECK(refused(9811, "XST") == "ST:");
@@ -441,4 +443,39 @@ TEST_CASE("shared arguments and results, alarms, facts of probing: defects with 
   CHECK(round("angled-surface", d).starts_with("8:1: an angled surface has an argument `direction`"));
   CHECK(round("three-point-bore", d)
             .starts_with("8:1: what three points measure has an argument `first-angle`"));
+}
+
+TEST_CASE("a call is read once: arguments by role, or one refusal in words") {
+  const MacroSet set = macros("easyprobe");
+  const CallReading call = readCall(set, 9023, "SXI");
+  REQUIRE(call.signature != nullptr);
+  CHECK(call.signature == set.find(Intent::Surface, ir::Axis::X));
+  REQUIRE(call.arguments.size() == 3);
+  for (std::size_t i = 0; i < 3; ++i) {
+    CHECK(call.arguments[i].at == i);
+    CHECK(call.arguments[i].meaning->letter == "SXI"[i]);
+  }
+  CHECK(call.find(ArgumentRole::System)->at == 0);
+  CHECK(call.find(ArgumentRole::Target, ir::Axis::X)->at == 1);
+  CHECK(call.find(ArgumentRole::Target, ir::Axis::Y) == nullptr);
+  CHECK(call.find(ArgumentRole::Diameter) == nullptr);
+  CHECK(refusalText(call) == "");
+
+  const auto refused = [](std::string_view name, std::uint32_t program, std::string_view letters) {
+    const MacroSet of = macros(name);
+    const CallReading reading = readCall(of, program, letters);
+    CHECK(reading.arguments.empty());
+    CHECK(reading.find(ArgumentRole::Target) == nullptr);
+    return refusalText(reading);
+  };
+  CHECK(refused("easyprobe", 9811, "X") == "`easyprobe` has no macro P9811");
+  CHECK(refused("easyprobe", 9023, "SXXI") ==
+        "the call of program `9023` of `easyprobe` has `X` more than once");
+  CHECK(refused("easyprobe", 9023, "SXIW") ==
+        "program `9023` of `easyprobe` has no argument `W` that Dotek knows");
+  CHECK(refused("easyprobe", 9023, "XI") == "the call of program `9023` of `easyprobe` lacks S");
+  CHECK(refused("easyprobe", 9023, "SXYIJ") ==
+        "the call of program `9023` of `easyprobe` with `SXYIJ` has more than one meaning");
+  CHECK(refused("inspection-plus", 9811, "XST") ==
+        "program `9811` of `inspection-plus` does not take S and T together");
 }

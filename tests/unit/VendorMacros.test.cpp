@@ -370,12 +370,15 @@ TEST_CASE("letters that the macro refuses together, and letters that are not kno
     CHECK_FALSE(probe.call(text));
     return probe.state() + ": " + probe.machine->end().text;
   };
-  CHECK(end("9814 D40. S1 T5") == "alarm 0: P9814 takes S and T never together");
-  CHECK(end("9814 D40. S1 H.1") == "alarm 0: P9814 takes S and H never together");
+  CHECK(end("9814 D40. S1 T5") ==
+        "alarm 0: program `9814` of `inspection-plus` does not take S and T together");
+  CHECK(end("9814 D40. S1 H.1") ==
+        "alarm 0: program `9814` of `inspection-plus` does not take S and H together");
   CHECK(end("9814 D40. T5 M.1") == "alarm 0: TM INPUT MIXED");
   CHECK(end("9811 X1. Y1.") == "alarm 0: XY INPUT MIXED");
-  CHECK(end("9814 D40. A1.").starts_with("inconclusive A: P9814 of `inspection-plus`"));
-  CHECK(end("9814 S1").starts_with("inconclusive: P9814 of `inspection-plus`: the call lacks D"));
+  CHECK(end("9814 D40. A1.")
+            .starts_with("inconclusive A: program `9814` of `inspection-plus` has no argument `A`"));
+  CHECK(end("9814 S1").starts_with("inconclusive: the call of program `9814` of `inspection-plus` lacks D"));
   CHECK(end("9816 X1. Y1.").find("the way round the corner") != std::string::npos);
   for (const char* text : {"9819 C100. D10. A0. B4. K5.", "9820 Z0. I1. J1.", "9834", "9834 X1. Y1.",
                            "9835 T1 M2 C3", "9801 K2 D50."})

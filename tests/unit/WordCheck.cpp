@@ -1,5 +1,6 @@
 #include "WordCheck.h"
 
+#include "stdlib/ReadCall.h"
 #include "support/Decimal.h"
 
 #include <algorithm>
@@ -76,7 +77,7 @@ public:
         if (std::string_view("GP(").find(word.letter) == std::string_view::npos) letters += word.letter;
       const auto number = parseNumber(program->value);
       REQUIRE_MESSAGE((number && how_.source != nullptr), block.text);
-      signature_ = stdlib::match(*how_.source, static_cast<std::uint32_t>(*number), letters).signature;
+      signature_ = stdlib::readCall(*how_.source, static_cast<std::uint32_t>(*number), letters).signature;
       REQUIRE_MESSAGE(signature_ != nullptr, block.text);
     }
     for (const NcWord& word : block.words) {
