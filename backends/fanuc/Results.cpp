@@ -1,4 +1,5 @@
 // Which variable holds what a macro measured, and keeping it where a later call would overwrite it.
+#include "backends/common/MacroCall.h"
 #include "backends/fanuc/State.h"
 #include "backends/fanuc/Uses.h"
 #include "ir/Flow.h"
@@ -14,40 +15,11 @@ namespace {
 // Beyond this, every result is kept.
 constexpr std::size_t kMostStatements = 2000;
 
-std::string_view describe(ir::ResultName name) {
-  switch (name) {
-  case ir::ResultName::Main: return "the result";
-  case ir::ResultName::PositionX: return "the position in X";
-  case ir::ResultName::PositionY: return "the position in Y";
-  case ir::ResultName::PositionZ: return "the position in Z";
-  case ir::ResultName::Size: return "the size";
-  }
-  return "";
-}
-
-const stdlib::MacroResult* find(const stdlib::MacroSignature& signature, ir::ResultName name) {
-  const auto found = std::find_if(signature.results.begin(), signature.results.end(),
-                                  [&](const stdlib::MacroResult& result) { return result.name == name; });
-  return found == signature.results.end() ? nullptr : &*found;
-}
-
-const stdlib::MacroSignature* signatureOf(const State& state, const ir::Measure& measure) {
-  return state.macros.find(
-      measure.feature == ir::Feature::Bore ? stdlib::Intent::Bore : stdlib::Intent::Surface, measure.axis);
-}
-
-// What stands for "the result" in a set that has none.
-ir::ResultName nearestOf(const ir::Measure& measure) {
-  constexpr ir::ResultName kPositions[] = {ir::ResultName::PositionX, ir::ResultName::PositionY,
-                                           ir::ResultName::PositionZ};
-  return measure.feature == ir::Feature::Bore ? ir::ResultName::Size : kPositions[ir::indexOf(measure.axis)];
-}
-
 // The variable that every signature of the set names for the result; nothing where they differ.
 std::optional<std::uint32_t> common(const stdlib::MacroSet& macros, ir::ResultName name) {
   std::optional<std::uint32_t> out;
   for (const stdlib::MacroSignature& signature : macros.signatures) {
-    const auto* result = find(signature, name);
+    const auto* result = findResult(signature, name);
     if (result == nullptr) continue;
     if (out && *out != result->variable) return std::nullopt;
     out = result->variable;
@@ -104,7 +76,7 @@ void planResults(State& state, Body& body) {
       if (body.kept.contains({last, name})) continue;
       const std::uint32_t local = state.pool.take();
       if (local == 0)
-        state.refuse<diag::TooManyLocals>(list[i].origin.range(), describe(name), state.control.locals);
+        state.refuse<diag::TooManyLocals>(list[i].origin.range(), resultName(name), state.control.locals);
       body.kept[{last, name}] = local;
     }
   }
@@ -117,16 +89,14 @@ std::optional<std::uint32_t> variableOf(State& state, ir::ResultName name, const
                                         SourceRange range) {
   if (measure == nullptr) {
     if (const auto shared = common(state.macros, name)) return shared;
-  } else if (const auto* signature = signatureOf(state, *measure)) {
-    if (const auto* result = find(*signature, name)) return result->variable;
-    const auto* instead = name == ir::ResultName::Main ? find(*signature, nearestOf(*measure)) : nullptr;
-    if (instead != nullptr) {
-      state.diagnostics.report<diag::ResultDiffers>(range, instead->variable, state.macros.title,
-                                                    describe(nearestOf(*measure)));
-      return instead->variable;
-    }
+  } else if (const auto* signature = signatureOf(state.macros, *measure)) {
+    const FoundResult found = resultAfter(*signature, *measure, name);
+    if (found.instead)
+      state.diagnostics.report<diag::ResultDiffers>(range, found.result->variable, state.macros.title,
+                                                    resultName(*found.instead));
+    if (found.result != nullptr) return found.result->variable;
   }
-  state.refuse<diag::ResultUnknown>(range, state.macros.title, describe(name));
+  state.refuse<diag::ResultUnknown>(range, state.macros.title, resultName(name));
   return std::nullopt;
 }
 
@@ -149,7 +119,7 @@ std::string resultText(State& state, ir::ResultName name, SourceRange range) {
     if (const auto kept = state.body->kept.find({measure, name}); kept != state.body->kept.end())
       return "#" + std::to_string(kept->second);
   if (state.body == nullptr) {
-    state.refuse<diag::ResultUnknown>(range, state.macros.title, describe(name));
+    state.refuse<diag::ResultUnknown>(range, state.macros.title, resultName(name));
     return "#0";
   }
   const auto variable = variableOf(state, name, measure, range);

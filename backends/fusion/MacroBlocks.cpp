@@ -1,4 +1,5 @@
 // Blocks of another macro set than the source's: from what they mean, by the signatures of the set.
+#include "backends/common/MacroCall.h"
 #include "backends/fusion/State.h"
 #include "ir/Fold.h"
 #include "ir/Linear.h"
@@ -45,35 +46,6 @@ bool readsResult(const ir::CycleStatement& statement) {
     found = found || std::holds_alternative<ir::MeasuredResult>(node.node);
   });
   return found;
-}
-
-const stdlib::MacroResult* find(const stdlib::MacroSignature& signature, ir::ResultName name) {
-  const auto found = std::find_if(signature.results.begin(), signature.results.end(),
-                                  [&](const stdlib::MacroResult& result) { return result.name == name; });
-  return found == signature.results.end() ? nullptr : &*found;
-}
-
-// What stands for "the result" in a set that has none.
-ir::ResultName nearestOf(const ir::Measure& measure) {
-  constexpr ir::ResultName kPositions[] = {ir::ResultName::PositionX, ir::ResultName::PositionY,
-                                           ir::ResultName::PositionZ};
-  return measure.feature == ir::Feature::Bore ? ir::ResultName::Size : kPositions[ir::indexOf(measure.axis)];
-}
-
-std::string_view describe(ir::ResultName name) {
-  switch (name) {
-  case ir::ResultName::Main: return "the result";
-  case ir::ResultName::PositionX: return "the position in X";
-  case ir::ResultName::PositionY: return "the position in Y";
-  case ir::ResultName::PositionZ: return "the position in Z";
-  case ir::ResultName::Size: return "the size";
-  }
-  return "";
-}
-
-std::vector<ir::Axis> measuredAxes(const ir::Measure& measure) {
-  if (measure.feature == ir::Feature::Bore) return {ir::Axis::X, ir::Axis::Y};
-  return {measure.axis};
 }
 
 } // namespace
@@ -254,16 +226,10 @@ void MacroBlocks::move(const ir::Move& move, const ir::Origin& origin, std::vect
       state_.refuse<diag::MacroSetCannot>(origin.range(), state_.options.macros.title, "a protected move");
       return;
     }
-    std::vector<std::pair<const stdlib::MacroArgument*, ir::ExpressionPtr>> arguments;
-    for (const stdlib::MacroArgument& argument : signature->arguments) {
-      if (argument.role == stdlib::ArgumentRole::Feed && move.feed != nullptr)
-        arguments.emplace_back(&argument, move.feed);
-      if (argument.role != stdlib::ArgumentRole::Target) continue;
-      const auto& coordinate = move.axes[ir::indexOf(argument.axis)];
-      if (coordinate)
-        arguments.emplace_back(&argument, place(*coordinate, argument.axis, argument.frame, origin));
-    }
-    call(*signature, arguments, origin, lines);
+    if (const auto axis = axisNotTaken(*signature, move))
+      state_.refuse<diag::MacroSetCannot>(origin.range(), state_.options.macros.title,
+                                          std::string("a protected move along ") + ir::letterOf(*axis));
+    call(macroCall(*signature, move, values(origin)), origin, lines);
     last_ = nullptr; // the macro works in the variables of the results
   } else {
     Text text;
@@ -324,79 +290,26 @@ bool MacroBlocks::requireNominal(const ir::Measure& measure, const ir::Origin& o
 }
 
 void MacroBlocks::measure(const ir::Measure& measure, const ir::Origin& origin, std::vector<Text>& lines) {
-  const bool bore = measure.feature == ir::Feature::Bore;
-  const auto* signature =
-      state_.options.macros.find(bore ? stdlib::Intent::Bore : stdlib::Intent::Surface, measure.axis);
-  if (signature == nullptr) {
-    state_.refuse<diag::MacroSetCannot>(origin.range(), state_.options.macros.title,
-                                        bore ? std::string("a bore")
-                                             : std::string("a surface along ") + ir::letterOf(measure.axis));
-    return;
-  }
+  const auto* signature = signatureOf(state_.options.macros, measure);
+  const auto cannot = [&](const std::string& what) {
+    state_.refuse<diag::MacroSetCannot>(origin.range(), state_.options.macros.title, what);
+  };
+  if (signature == nullptr) return cannot(featureName(measure));
   const auto* system = signature->find(stdlib::ArgumentRole::System, measure.axis);
-  if (measure.setting && system == nullptr) {
-    state_.refuse<diag::MacroSetCannot>(origin.range(), state_.options.macros.title, "a work offset");
-    return;
-  }
   if (measure.setting) {
-    for (const ir::Axis axis : ir::kAxes) {
-      const auto axes = measuredAxes(measure);
-      if (measure.setting->nominal[ir::indexOf(axis)] != nullptr &&
-          std::find(axes.begin(), axes.end(), axis) == axes.end())
-        state_.refuse<diag::MacroSetCannot>(origin.range(), state_.options.macros.title,
-                                            "an offset of an axis that it does not measure");
-    }
+    if (system == nullptr) return cannot("a work offset");
+    if (setsAnotherAxis(measure)) cannot("an offset of an axis that it does not measure");
     if (system->systemRule == stdlib::SystemRule::Error && !requireNominal(measure, origin)) return;
+    guardSystem(measure.setting->system, origin);
   }
-  std::vector<std::pair<const stdlib::MacroArgument*, ir::ExpressionPtr>> arguments;
-  for (const stdlib::MacroArgument& argument : signature->arguments) {
-    ir::ExpressionPtr value;
-    switch (argument.role) {
-    case stdlib::ArgumentRole::Target:
-      if (measure.target) value = place(*measure.target, argument.axis, argument.frame, origin);
-      break;
-    case stdlib::ArgumentRole::Diameter: value = measure.diameter; break;
-    case stdlib::ArgumentRole::Overtravel: {
-      const auto fixed = state_.options.fixedByName.find("overtravel");
-      value = fixed != state_.options.fixedByName.end() ? ir::constant(fixed->second)
-                                                        : ir::variable(state_.host("overtravel"));
-      break;
-    }
-    case stdlib::ArgumentRole::Nominal:
-      if (measure.setting) value = measure.setting->nominal[ir::indexOf(argument.axis)];
-      break;
-    case stdlib::ArgumentRole::System:
-      if (!measure.setting) break;
-      value = measure.setting->system;
-      if (const double* known = ir::constantValue(ir::simplify(value))) {
-        if (*known < kFirstSystem || *known > kLastSystem || *known != std::trunc(*known))
-          state_.refuse<diag::SystemRange>(origin.range(), *known);
-      } else {
-        const std::string text = valueText(state_, value, origin.range(), true);
-        state_.errorIf(text + " < 54 || " + text + " > 59 || " + text + " % 1 !== 0",
-                       "the work offset is not 54 to 59", origin);
-      }
-      if (argument.systemCode == stdlib::SystemCode::Index)
-        value = difference(value, ir::constant(kFirstSystem - 1));
-      break;
-    default: break; // a cycle says nothing of it
-    }
-    if (value != nullptr) arguments.emplace_back(&argument, value);
-    if (value == nullptr && argument.required && !state_.failed) {
-      const std::string letter(1, argument.letter);
-      if (argument.role == stdlib::ArgumentRole::System || argument.role == stdlib::ArgumentRole::Nominal)
-        state_.refuse<diag::NeedsOffset>(origin.range(), state_.options.macros.title, letter);
-      else
-        state_.refuse<diag::MacroArgumentMissing>(origin.range(), signature->program, letter);
-    }
-  }
-  if (state_.failed) return;
+  MacroCall out = macroCall(*signature, measure, values(origin));
   // A system that the call corrects stands last, as posts write it.
-  std::stable_partition(arguments.begin(), arguments.end(), [](const auto& one) {
-    return one.first->role != stdlib::ArgumentRole::System ||
-           one.first->systemRule != stdlib::SystemRule::Error;
+  std::stable_partition(out.arguments.begin(), out.arguments.end(), [](const GivenArgument& one) {
+    return one.argument->role != stdlib::ArgumentRole::System ||
+           one.argument->systemRule != stdlib::SystemRule::Error;
   });
-  call(*signature, arguments, origin, lines);
+  call(out, origin, lines);
+  if (state_.failed) return;
   last_ = &measure;
   // The system that was set may be the active one.
   for (const ir::Axis axis : ir::kAxes)
@@ -404,14 +317,39 @@ void MacroBlocks::measure(const ir::Measure& measure, const ir::Origin& origin, 
       at_[ir::indexOf(axis)].value = nullptr;
 }
 
-void MacroBlocks::call(
-    const stdlib::MacroSignature& signature,
-    const std::vector<std::pair<const stdlib::MacroArgument*, ir::ExpressionPtr>>& arguments,
-    const ir::Origin& origin, std::vector<Text>& lines) {
+// The system of a measurement is 54 to 59.
+void MacroBlocks::guardSystem(const ir::ExpressionPtr& system, const ir::Origin& origin) {
+  if (const double* known = ir::constantValue(ir::simplify(system))) {
+    if (*known < kFirstSystem || *known > kLastSystem || *known != std::trunc(*known))
+      state_.refuse<diag::SystemRange>(origin.range(), *known);
+    return;
+  }
+  const std::string text = valueText(state_, system, origin.range(), true);
+  state_.errorIf(text + " < 54 || " + text + " > 59 || " + text + " % 1 !== 0",
+                 "the work offset is not 54 to 59", origin);
+}
+
+CallValues MacroBlocks::values(const ir::Origin& origin) {
+  CallValues out;
+  out.place = [this, &origin](const ir::Coordinate& coordinate, ir::Axis axis, ir::Frame frame) {
+    return place(coordinate, axis, frame, origin);
+  };
+  out.overtravel = [this] {
+    const auto fixed = state_.options.fixedByName.find("overtravel");
+    return fixed != state_.options.fixedByName.end() ? ir::constant(fixed->second)
+                                                     : ir::variable(state_.host("overtravel"));
+  };
+  return out;
+}
+
+// Nothing is written where something was refused.
+void MacroBlocks::call(const MacroCall& call, const ir::Origin& origin, std::vector<Text>& lines) {
+  if (!state_.failed) refuseMissing(state_, state_.options.macros, call, origin.range());
+  if (state_.failed) return;
+  const stdlib::MacroSignature& signature = *call.signature;
   Text text;
   text.add("G65 P" + std::to_string(signature.program));
-  for (const auto& [argument, value] : arguments) {
-    if (value == nullptr) return; // refused
+  for (const auto& [argument, value] : call.arguments) {
     const bool positive =
         argument->role == stdlib::ArgumentRole::Feed || argument->role == stdlib::ArgumentRole::Diameter;
     if (positive && ir::constantValue(ir::simplify(value)) == nullptr)
@@ -442,21 +380,16 @@ void MacroBlocks::store(const ir::Store& store, const ir::Origin& origin, std::v
     return;
   }
   const stdlib::MacroSignature* signature =
-      last_ == nullptr
-          ? nullptr
-          : state_.options.macros.find(last_->feature == ir::Feature::Bore ? stdlib::Intent::Bore
-                                                                           : stdlib::Intent::Surface,
-                                       last_->axis);
-  const stdlib::MacroResult* found = signature == nullptr ? nullptr : find(*signature, result->name);
-  if (found == nullptr && signature != nullptr && result->name == ir::ResultName::Main) {
-    found = find(*signature, nearestOf(*last_));
-    if (found != nullptr)
-      state_.diagnostics.report<diag::ResultDiffers>(
-          store.value->range, found->variable, state_.options.macros.title, describe(nearestOf(*last_)));
-  }
+      last_ == nullptr ? nullptr : signatureOf(state_.options.macros, *last_);
+  const FoundResult known =
+      signature == nullptr ? FoundResult() : resultAfter(*signature, *last_, result->name);
+  const stdlib::MacroResult* found = known.result;
+  if (known.instead)
+    state_.diagnostics.report<diag::ResultDiffers>(store.value->range, found->variable,
+                                                   state_.options.macros.title, resultName(*known.instead));
   if (found == nullptr) {
     if (state_.failed) return; // the measurement was refused
-    state_.refuse<diag::ResultUnknown>(origin.range(), state_.options.macros.title, describe(result->name));
+    state_.refuse<diag::ResultUnknown>(origin.range(), state_.options.macros.title, resultName(result->name));
     return;
   }
   Text text;

@@ -1,6 +1,7 @@
 // What the parts of the back end share while they write one fragment.
 #pragma once
 
+#include "backends/common/MacroCall.h"
 #include "backends/fusion/Script.h"
 
 #include <set>
@@ -126,9 +127,9 @@ private:
   };
   void move(const ir::Move& move, const ir::Origin& origin, std::vector<Text>& lines);
   void measure(const ir::Measure& measure, const ir::Origin& origin, std::vector<Text>& lines);
-  void call(const stdlib::MacroSignature& signature,
-            const std::vector<std::pair<const stdlib::MacroArgument*, ir::ExpressionPtr>>& arguments,
-            const ir::Origin& origin, std::vector<Text>& lines);
+  CallValues values(const ir::Origin& origin);
+  void guardSystem(const ir::ExpressionPtr& system, const ir::Origin& origin);
+  void call(const MacroCall& call, const ir::Origin& origin, std::vector<Text>& lines);
   void code(stdlib::Function function, std::string_view what, const ir::Origin& origin, Text& text);
   void store(const ir::Store& store, const ir::Origin& origin, std::vector<Text>& lines);
   void switchProbe(bool on, std::vector<Text>& lines);
