@@ -63,9 +63,14 @@ public:
   int simulation(driver::SimOptions& options, const Arguments& arguments) {
     Diagnostics writing;
     std::unique_ptr<AtomicFile> file;
+    bool ran = false; // each run has a last line; a refused program has no trace
     if (!arguments.traceFile.empty()) {
       file = AtomicFile::create(arguments.traceFile, writing);
-      if (file) options.trace = [&](std::string_view text) { file->write(text); };
+      if (file)
+        options.trace = [&](std::string_view text) {
+          ran = true;
+          file->write(text);
+        };
     } else if (!arguments.quiet && !options.json) {
       options.trace = [&](std::string_view text) { out_ << text; };
     }
@@ -73,7 +78,7 @@ public:
     if (writing.empty()) outcome = driver::sim(options);
     out_ << outcome.output;
     err_ << renderText(outcome.diagnostics, outcome.sources, maxErrors_);
-    if (file && outcome.status != 2) file->commit(writing);
+    if (file && ran && outcome.status != 2) file->commit(writing);
     std::vector<std::pair<std::string, const std::string*>> pictures;
     for (const driver::OutputFile& one : outcome.files)
       pictures.emplace_back(one.name == "svg" ? arguments.svgFile : arguments.htmlFile, &one.text);

@@ -178,7 +178,7 @@ void SimWorld::take(const sim::ProbeEvent& event, const RunPlace& place) {
 }
 
 bool SimWorld::isMeantToMiss(const sim::ProbeEvent& event) const {
-  return event.outcome == sim::Outcome::Miss && !protected_.empty() && protected_.back();
+  return event.outcome == sim::Outcome::Miss && (event.meant || (!protected_.empty() && protected_.back()));
 }
 
 bool SimWorld::isTold(const sim::ProbeEvent& event) const {

@@ -1,5 +1,7 @@
 #include "ir/PrintStatement.h"
 
+#include "support/Decimal.h"
+
 #include <algorithm>
 #include <fmt/format.h>
 #include <string_view>
@@ -174,6 +176,7 @@ public:
   void operator()(const Dwell& node) { put(node.seconds); }
   void operator()(const Stop& node) {
     if (node.optional) word("optional");
+    if (node.number != 1) word(numberText(node.number));
     if (!node.message.empty()) word(quoted(node.message));
   }
   void operator()(const Alarm& node) {

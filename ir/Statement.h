@@ -110,6 +110,7 @@ struct Dwell {
 struct Stop {
   bool optional = false;
   std::string message; // UTF-8
+  double number = 1;   // of the message: n of #3006=n
 };
 // Ends the program with a message.
 struct Alarm {

@@ -1,6 +1,7 @@
 // Alarms and comments: what a control shows of a text.
 #include "backends/common/PlainText.h"
 #include "backends/fanuc/State.h"
+#include "support/Decimal.h"
 #include "support/messages/Fanuc.h"
 
 #include <algorithm>
@@ -126,10 +127,11 @@ void collectAlarms(State& state) {
     }
 }
 
-std::string stopText(State& state, const std::string& message, const ir::Origin& origin) {
-  const AlarmText text = shownText(state, message, "STOP", origin.range());
+std::string stopText(State& state, const ir::Stop& stop, const ir::Origin& origin) {
+  const AlarmText text = shownText(state, stop.message, "STOP", origin.range());
   if (!text.full.empty()) state.sheet.comment(text.full, origin);
-  return "#" + std::to_string(*state.control.variables.message) + "=1(" + text.shown + ")";
+  return "#" + std::to_string(*state.control.variables.message) + "=" + numberText(stop.number) + "(" +
+         text.shown + ")";
 }
 
 std::string sourceAlarm(State& state, const ir::CycleStatement& statement) {

@@ -1,5 +1,6 @@
 // NC blocks: statements of one block of the source share a line.
 #include "backends/fanuc/State.h"
+#include "support/Decimal.h"
 #include "support/messages/Fanuc.h"
 
 #include <algorithm>
@@ -117,11 +118,15 @@ private:
   }
 
   void setStop(const ir::Stop& stop, const ir::Origin& origin) {
-    if (!stop.message.empty() && !stop.optional && state_.control.variables.message) {
-      const std::string text = stopText(state_, stop.message, origin);
+    const bool shows = !stop.message.empty() || stop.number != 1;
+    if (shows && !stop.optional && state_.control.variables.message) {
+      const std::string text = stopText(state_, stop, origin);
       state_.sheet.add(text, origin);
       return;
     }
+    if (stop.number != 1)
+      state_.diagnostics.report<diag::MessageNumberLost>(origin.range(), numberText(stop.number),
+                                                         state_.control.title);
     if (!stop.message.empty())
       state_.sheet.comment(commentText(state_, stop.message, origin.range()), origin);
     code(stop.optional ? Function::OptionalStop : Function::Stop, "a stop", origin);

@@ -158,8 +158,8 @@ void doIf(State& state, const ir::ConditionPtr& condition, const std::string& st
 void collectAlarms(State& state);
 // `#3000=n(TEXT)` of an alarm statement of the source; its full text goes to the sheet as a comment.
 std::string sourceAlarm(State& state, const ir::CycleStatement& statement);
-// `#3006=1(TEXT)`, where the control has that; the full text goes to the sheet where it is cut.
-std::string stopText(State& state, const std::string& message, const ir::Origin& origin);
+// `#3006=n(TEXT)`, where the control has that; the full text goes to the sheet where it is cut.
+std::string stopText(State& state, const ir::Stop& stop, const ir::Origin& origin);
 // An alarm of our own where the condition holds.
 void alarmIf(State& state, const ir::ConditionPtr& condition, std::string_view text,
              const ir::Origin& origin);

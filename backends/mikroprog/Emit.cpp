@@ -120,6 +120,8 @@ private:
                 "M1 needs a condition, and how its field is set is not known (Q14)");
             return;
           }
+          if (node.number != 1)
+            s_.diagnostics.report<diag::MessageNumberLost>(range, numberText(node.number), s_.control.title);
           const std::string beside = std::exchange(stopText_, "");
           stop(node.message.empty() ? beside : node.message, origin);
         },

@@ -95,7 +95,9 @@ bool Lifter::assignments() {
     return true;
   }
   if (*number == kMessageVariable) {
-    add(ir::Stop{false, message});
+    const double* given = ir::constantValue(read);
+    if (given == nullptr) context_.diagnostics.report<diag::MessageNumberComputed>(assignment.range);
+    add(ir::Stop{false, message, given == nullptr ? 1 : *given});
     return true;
   }
   context_.stored.insert(*number);

@@ -56,6 +56,7 @@ struct SkipMove {
   Position from, to;               // of the active work system
   Position machineFrom, machineTo; // of the machine, tool length included
   double feed = 0;                 // as programmed
+  bool positions = false;          // meant to meet nothing: a protected move of a vendor's macro
 };
 class SkipSignal {
 public:
@@ -166,8 +167,8 @@ public:
   Probe probe() const { return probe_; } // what the program switched last
   void switchProbe(bool on);
   // Straight to `end` of the active system, at a feed that is not stated; the probe's contact ends the move
-  // there: true. nullopt: the run has ended.
-  std::optional<bool> probeTo(const Position& end);
+  // there: true. nullopt: the run has ended. `positions`: it is meant to meet nothing.
+  std::optional<bool> probeTo(const Position& end, bool positions = false);
   bool travelTo(const Position& end); // without watching for contact; false: the run has ended
   // What the macro leaves there is not known: who reads it ends the run. `number`: of a common variable.
   void forget(std::uint32_t number);

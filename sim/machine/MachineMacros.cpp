@@ -20,7 +20,7 @@ void Machine::switchProbe(bool on) {
   if (trace_ != nullptr) trace_->begin("probe").text(on ? "on" : "off").end();
 }
 
-std::optional<bool> Machine::probeTo(const Position& end) {
+std::optional<bool> Machine::probeTo(const Position& end, bool positions) {
   if (skip_ == nullptr) {
     inconclusive("no part is given, so whether the probe touches is not known");
     return std::nullopt;
@@ -33,6 +33,7 @@ std::optional<bool> Machine::probeTo(const Position& end) {
   skip.from = work_;
   skip.machineFrom = machinePosition();
   skip.feed = feed_;
+  skip.positions = positions;
   for (std::size_t i = 0; i < kAxes; ++i)
     work_[i] = skip.to[i] = snap(end[i]);
   skip.machineTo = machinePosition();

@@ -62,7 +62,7 @@ bool VendorRun::protectedMove() {
     const std::size_t i = ir::indexOf(axis);
     end[i] = *value(Role::Target, axis) + (target->frame == ir::Frame::Here ? start_[i] : 0);
   }
-  const std::optional<bool> contact = machine_.probeTo(end);
+  const std::optional<bool> contact = machine_.probeTo(end, true);
   if (!contact) return false;
   const Position& now = machine_.position();
   const bool obstructed =

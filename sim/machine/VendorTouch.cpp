@@ -94,7 +94,7 @@ bool VendorRun::touch(const Direction& direction, double expected, Position& cen
 
 bool VendorRun::watched(const Position& end) {
   if (distance(machine_.position(), end) < kNothing) return true;
-  const std::optional<bool> contact = machine_.probeTo(end);
+  const std::optional<bool> contact = machine_.probeTo(end, true);
   if (!contact) return false;
   return !*contact || alarm(stdlib::MacroAlarm::PathObstructed);
 }

@@ -10,10 +10,6 @@
 namespace dotek::sim {
 namespace {
 
-double lengthOf(const Point3& p) {
-  return std::sqrt(p.dot(p));
-}
-
 std::uint64_t mixed(std::uint64_t x) { // SplitMix64
   x += 0x9E3779B97F4A7C15u;
   x = (x ^ x >> 30) * 0xBF58476D1CE4E5B9u;
@@ -136,7 +132,7 @@ std::optional<double> World::contact(const SkipMove& move) {
     return std::nullopt;
   }
   const Point3 way = to - from;
-  const double length = lengthOf(way);
+  const double length = way.length();
   const std::optional<Touch> touch = touchOf(probe_.ballRadius(), from, to);
   // Where the signal comes; more than 1: it does not.
   double signal = 2;
@@ -161,7 +157,7 @@ std::optional<double> World::contact(const SkipMove& move) {
   if (const auto leaves = leavesTravel(move.machineFrom, move.machineTo); leaves && *leaves < stop)
     add(Outcome::OutsideTravel, kKind, *leaves, from + way * *leaves);
   if (!touch) {
-    if (!blocked) add(Outcome::Miss, kKind, 1, to);
+    if (!blocked) add(Outcome::Miss, kKind, 1, to).meant = move.positions;
   } else if (blocked && touch->share > stop) {
     // The machine does not come as far.
   } else if (!on_) {
@@ -192,11 +188,11 @@ void World::moved(const MachineMotion& motion) {
   if (motion.from == motion.to) return;
   const std::optional<Touch> touch = touchOf(probe_.ballRadius(), from, to);
   const auto hit = obstacle(from, way);
-  if (hit && (!touch || hit->share < touch->share) && !isOld(*hit, lengthOf(way)))
+  if (hit && (!touch || hit->share < touch->share) && !isOld(*hit, way.length()))
     add(hit->outcome, motion.kind, hit->share, from + way * hit->share);
   // Backing off from where a stem was told to collide is no second collision.
   pressed_ = touch.has_value() || hit.has_value();
-  if (touch) settle(*touch, motion, lengthOf(way));
+  if (touch) settle(*touch, motion, way.length());
 }
 
 // A touch that no skip move asked for. Nothing stops the machine.

@@ -36,6 +36,7 @@ struct ProbeEvent {
   Point3 point, normal; // touched, of the part; Contact, EarlyContact, NotArmed, NoSignal, Overtravel, rapid
   std::uint64_t line = 0;    // of the program
   bool placeUnknown = false; // of NotModelled: where the machine stands
+  bool meant = false;        // of Miss: the move was to meet nothing
 };
 
 // Coordinates of the machine are those of the spindle's gauge line, with the probe pointing along -Z. Rapids

@@ -177,6 +177,14 @@ TEST_CASE("fanuc: a stop with a message shows it") {
   without.control.variables.message.reset();
   CHECK(without.emit(cycle.cycle).body() == Lines{"M0", "M0"});
   CHECK(without.emit(cycle.cycle).has("(Look here)"));
+  Maker numbered;
+  numbered.add(ir::Stop{false, "Look", 5});
+  const Emission kept = Target().emit(numbered.cycle);
+  CHECK(kept.body() == Lines{"#3006=5(LOOK)"});
+  CHECK(kept.codes().empty());
+  const Emission lost = without.emit(numbered.cycle);
+  CHECK(lost.body() == Lines{"M0"});
+  CHECK(lost.codes() == Codes{"message-number-lost"});
   Maker longer;
   longer.add(ir::Stop{false, "Clean the stylus and the surface"});
   const Emission cut = Target().emit(longer.cycle);

@@ -133,7 +133,7 @@ TEST_CASE("mikroprog: a long program keeps its tails and subprograms behind it")
 TEST_CASE("mikroprog: statements and their functions") {
   Statements list;
   list.add(ir::Dwell{number(1.5)});
-  list.add(ir::Stop{false, "Look"});
+  list.add(ir::Stop{false, "Look", 5});
   list.add(ir::SetMode{ir::Mode::PlaneYZ, nullptr});
   list.add(ir::SetMode{ir::Mode::CutterCompOff, nullptr});
   list.move(ir::Motion::Feed, ir::Axis::X, number(1.23456), number(250));
@@ -148,6 +148,7 @@ TEST_CASE("mikroprog: statements and their functions") {
   CHECK(emission.blocks() == wanted);
   CHECK(emission.text().find("M0 ;Look") != std::string::npos);
   CHECK(emission.codes().contains("number-rounded"));
+  CHECK(emission.codes().contains("message-number-lost"));
 }
 
 TEST_CASE("mikroprog: what the control cannot say is refused") {

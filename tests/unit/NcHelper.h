@@ -4,6 +4,7 @@
 #include "frontend/nc/Lift.h"
 #include "frontend/nc/Parse.h"
 #include "stdlib/DataFiles.h"
+#include "support/Decimal.h"
 
 #include <deque>
 #include <map>
@@ -69,7 +70,8 @@ inline std::string show(const ir::CycleStatement& s, const ir::Cycle& cycle) {
   }
   if (const auto* n = std::get_if<ir::Dwell>(&s.node)) return "dwell " + show(n->seconds, cycle);
   if (const auto* n = std::get_if<ir::Stop>(&s.node))
-    return std::string(n->optional ? "optional stop" : "stop") + (n->message.empty() ? "" : " " + n->message);
+    return std::string(n->optional ? "optional stop" : "stop") +
+           (n->number == 1 ? "" : " " + numberText(n->number)) + (n->message.empty() ? "" : " " + n->message);
   if (const auto* n = std::get_if<ir::Alarm>(&s.node)) return "alarm " + n->message;
   if (const auto* n = std::get_if<ir::Comment>(&s.node)) return "(" + n->text + ")";
   if (const auto* n = std::get_if<ir::OpaqueBlock>(&s.node)) {

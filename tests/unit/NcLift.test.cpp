@@ -232,6 +232,8 @@ TEST_CASE("assignments: variables of the machine, results, alarms") {
         "surface X=work:1\nstore 550=result1\nstore 551=result4\n");
   CHECK(lifted("#3000=1(TOO DEEP)") == "with [alarm-renumbered]");
   CHECK(lifted("#3006=1(CLEAN IT)") == "stop CLEAN IT\n");
+  CHECK(lifted("#3006=5(CLEAN IT)") == "stop 5 CLEAN IT\n");
+  CHECK(lifted("#3006=#551(CLEAN IT)") == "with [message-number-computed]");
   CHECK(lifted("#[500+1]=2") == "refused: [computed-variable]");
   CHECK(lifted("#550=#[#551]") == "refused: [computed-variable]");
   CHECK(lifted("#1=5") == "refused: [local-of-caller]");

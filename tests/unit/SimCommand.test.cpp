@@ -34,6 +34,15 @@ TEST_CASE("sim command: the trace file is complete or absent") {
   result = runDotek({"sim", "good.nc", "--trace", "no/such/folder/out"}, folder.path());
   CHECK(result.status == 2);
   CHECK(result.err.find("[file-not-writable]") != std::string::npos);
+  // A program that is refused before it runs leaves none.
+  folder.write("refused.nc", "#1=[2\nG0 X#1\nM30\n");
+  folder.write("REFUSED.SUF", "N10 G0 X10 Q\n");
+  for (const char* name : {"refused.nc", "REFUSED.SUF"}) {
+    CAPTURE(name);
+    result = runDotek({"sim", name, "--trace", "refused.trace"}, folder.path());
+    CHECK(result.status == 1);
+    CHECK_FALSE(fs::exists(fs::path(folder.path()) / "refused.trace"));
+  }
   int files = 0;
   for (const auto& entry : fs::directory_iterator(folder.path()))
     files += entry.path().string().find(".dotek-") != std::string::npos ? 1 : 0;
