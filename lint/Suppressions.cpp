@@ -1,5 +1,6 @@
 #include "lint/Suppressions.h"
 
+#include "support/Ascii.h"
 #include "support/NearestName.h"
 #include "support/messages/Lint.h"
 
@@ -60,9 +61,7 @@ struct DirectiveWord {
 
 // The words behind `dotek:`; empty: the comment is none of ours.
 std::vector<DirectiveWord> wordsOf(const Remark& remark) {
-  std::string lower(remark.text);
-  std::transform(lower.begin(), lower.end(), lower.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string lower = lowerCase(std::string_view(remark.text));
   std::size_t at = lower.find_first_not_of("{!(; \t");
   if (at == std::string::npos || lower.compare(at, 5, "dotek") != 0) return {};
   at = lower.find_first_not_of(" \t", at + 5);

@@ -1,5 +1,7 @@
 #include "project/InputKind.h"
 
+#include "support/Ascii.h"
+
 #include <algorithm>
 #include <array>
 #include <cctype>
@@ -8,13 +10,6 @@
 
 namespace dotek::project {
 namespace {
-
-std::string upper(std::string_view text) {
-  std::string out(text);
-  std::transform(out.begin(), out.end(), out.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
-  return out;
-}
 
 std::string_view trimmed(std::string_view text) {
   while (!text.empty() && (text.front() == ' ' || text.front() == '\t'))
@@ -58,7 +53,7 @@ void markProg(std::string_view line, Marks& marks) {
 void markDialog(std::string_view line, Marks& marks) {
   constexpr std::array<std::string_view, 8> kControls = {"LABEL", "INPUT",  "IMAGE", "FRAME",
                                                          "OK",    "CANCEL", "CHECK", "RADIO"};
-  const std::string name = upper(leadingName(line));
+  const std::string name = upperCase(leadingName(line));
   const std::string_view rest = trimmed(line.substr(name.size()));
   const auto commas = std::count(line.begin(), line.end(), ',');
   const bool boxed =
@@ -71,9 +66,9 @@ void markMacro(std::string_view line, Marks& marks) {
   constexpr std::array<std::string_view, 14> kWords = {"IF",        "FOR",     "NEXT",  "GOTO",   "CALL",
                                                        "ARGS",      "MESSAGE", "LOCAL", "GLOBAL", "CONTINUE",
                                                        "PERMANENT", "DIALOG",  "STOP",  "DEBUG"};
-  const std::string name = upper(leadingName(line));
+  const std::string name = upperCase(leadingName(line));
   const std::string_view rest = trimmed(line.substr(name.size()));
-  if (line.starts_with(':') || upper(line).starts_with("#INCLUDE")) marks.macro += 3;
+  if (line.starts_with(':') || upperCase(line).starts_with("#INCLUDE")) marks.macro += 3;
   if (std::find(kWords.begin(), kWords.end(), name) != kWords.end()) marks.macro += 2;
   if (name.find('_') != std::string::npos && !rest.starts_with('=')) marks.macro += 2;
   if (!name.empty() && rest.starts_with('=')) {
@@ -169,7 +164,7 @@ std::optional<InputKind> recognise(std::string_view fileName, std::string_view b
     markNc(line, marks);
   }
   const std::size_t slash = fileName.find_last_of("/\\");
-  const std::string name = upper(slash == std::string_view::npos ? fileName : fileName.substr(slash + 1));
+  const std::string name = upperCase(slash == std::string_view::npos ? fileName : fileName.substr(slash + 1));
   const auto named = byName(name);
   // A name that is fixed in GibbsCAM says more than a damaged content.
   // Words of Mikroprog look like any NC.

@@ -39,14 +39,6 @@ std::optional<std::string_view> viewOf(const std::string* text) {
 
 } // namespace
 
-std::string upperCase(std::string_view text) {
-  std::string out(text);
-  for (char& c : out) {
-    if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 'a' + 'A');
-  }
-  return out;
-}
-
 GibbsKeywords::GibbsKeywords() = default;
 GibbsKeywords::GibbsKeywords(GibbsKeywords&&) noexcept = default;
 GibbsKeywords& GibbsKeywords::operator=(GibbsKeywords&&) noexcept = default;

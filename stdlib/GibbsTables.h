@@ -2,6 +2,7 @@
 #pragma once
 
 #include "stdlib/GibbsKeywords.h"
+#include "support/Ascii.h"
 
 #include <functional>
 #include <string>
@@ -56,8 +57,5 @@ struct GibbsKeywords::Tables {
   NameMap<std::string> reserved;
   std::vector<SystemMacro> systemMacros;
 };
-
-// ASCII only: names of the language have no other letters.
-std::string upperCase(std::string_view text);
 
 } // namespace dotek::stdlib

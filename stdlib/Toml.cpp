@@ -1,6 +1,7 @@
 #include "stdlib/Toml.h"
 
 #include "stdlib/DataFiles.h"
+#include "support/Ascii.h"
 #include "support/NearestName.h"
 #include "support/messages/Commands.h"
 
@@ -38,11 +39,8 @@ const toml::node& nodeOf(const void* node) {
   return *static_cast<const toml::node*>(node);
 }
 
-bool isDigit(char c) {
-  return c >= '0' && c <= '9';
-}
 bool isBare(char c) {
-  return isDigit(c) || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' || c == '-';
+  return isDigit(c) || isLetter(c) || c == '_' || c == '-';
 }
 
 // Offset of the first line that may hold a name with more than kDotsPerLine parts; npos for none.

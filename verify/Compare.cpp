@@ -15,10 +15,6 @@ using sim::Point3;
 
 constexpr int kShown = 6; // decimals
 
-double lengthOf(const Point3& p) {
-  return std::sqrt(p.dot(p));
-}
-
 std::string textOf(const Point3& p) {
   return fmt::format("X{} Y{} Z{}", fixedText(p.x, kShown), fixedText(p.y, kShown), fixedText(p.z, kShown));
 }
@@ -31,10 +27,10 @@ bool near(const Point3& a, const Point3& b, double tolerance) {
 // `b` lies on the way from `a` to `c`.
 bool between(const Point3& a, const Point3& b, const Point3& c, double tolerance) {
   const Point3 way = c - a, part = b - a;
-  const double length = lengthOf(way);
+  const double length = way.length();
   if (!(length > 0)) return false;
   const double share = part.dot(way) / (length * length);
-  return share >= 0 && share <= 1 && lengthOf(part - way * share) <= tolerance;
+  return share >= 0 && share <= 1 && (part - way * share).length() <= tolerance;
 }
 
 // Without what moves nothing, and with straight runs of one kind as one piece. Measures stay.

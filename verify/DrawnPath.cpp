@@ -19,10 +19,6 @@ constexpr double kSame = 1e-9;     // mm: coordinates that differ by rounding
 constexpr double kExact = 1e-6;    // mm: a contact is where it was drawn
 constexpr double kLeastWay = 0.01; // mm to a touch; macros take less for a stylus that is deflected
 
-double lengthOf(const Point3& p) {
-  return std::sqrt(p.dot(p));
-}
-
 // The way of a move along one axis.
 struct Step {
   int axis = -1; // none: along several, or it stands
@@ -102,7 +98,7 @@ private:
     // A little farther than it may come, so that a contact at the limit is not lost to rounding.
     const auto touch = sim::firstContact(part_, probe_.ballRadius(), at_, end + direction * (2 * off_));
     if (!touch) return fmt::format("move {} does not reach the surface it touches", n);
-    if (touch->atStart || touch->share * lengthOf(end + direction * (2 * off_) - at_) < kLeastWay)
+    if (touch->atStart || touch->share * (end + direction * (2 * off_) - at_).length() < kLeastWay)
       return fmt::format("move {} touches where it begins", n);
     if (std::abs((touch->centre - end).dot(direction)) > off_)
       return fmt::format("move {} touches at {}, not where it ends", n, at(touch->centre - up()));
@@ -119,7 +115,7 @@ private:
 
   // Of the stem and the body.
   std::string collision(const Point3& way, std::size_t n) const {
-    if (!(probe_.stemDiameter > 0) || !(lengthOf(way) > 0)) return "";
+    if (!(probe_.stemDiameter > 0) || !(way.length() > 0)) return "";
     const Point3 top = at_ + Point3{0, 0, probe_.stemLength};
     if (collides({at_, top, probe_.stemDiameter / 2}, way))
       return fmt::format("the stem runs into the part in move {}", n);

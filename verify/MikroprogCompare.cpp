@@ -30,12 +30,8 @@ double part(const Point3& p, std::size_t axis) {
   return axis == 0 ? p.x : axis == 1 ? p.y : p.z;
 }
 
-double lengthOf(const Point3& p) {
-  return std::sqrt(p.dot(p));
-}
-
 bool near(const Point3& a, const Point3& b, double tolerance) {
-  return lengthOf(a - b) <= tolerance;
+  return (a - b).length() <= tolerance;
 }
 
 // The axis along which a touch leads; nothing: it is oblique.
@@ -137,7 +133,7 @@ private:
         const Measure& measure = expected_.measures[measures++];
         for (const Touch& touch : measure.nominal) {
           const Point3 start = measure.start + Point3{0, 0, radius_};
-          const double way = lengthOf(touch.point - start) + facts_.overtravel;
+          const double way = (touch.point - start).length() + facts_.overtravel;
           if (!ask(measure.start, measure.start + touch.direction * way)) return false;
         }
       } else if (piece.kind == sim::PathKind::Protected) {
@@ -334,7 +330,7 @@ private:
       const bool there = left && near(at, end, tolerance) && !(sides == kBoreSides && pendingDatum());
       if (there || step.kind == Kind::Search || step.kind == Kind::Protected) break;
       const Point3 way = step.to - at;
-      const double length = lengthOf(way);
+      const double length = way.length();
       const double share = length > 0 ? (end - at).dot(way) / (length * length) : -1;
       const bool passes = length > 0 && share >= 0 && share <= 1 + tolerance / length &&
                           near(at + way * share, end, tolerance);
@@ -376,7 +372,7 @@ private:
       const MikroprogStep& step = *group.searches[i];
       Touch touch;
       const Point3 way = step.aim - step.from;
-      const double length = lengthOf(way);
+      const double length = way.length();
       if (!(length > 0)) continue;
       touch.direction = way * (1 / length);
       touch.point = step.aim - touch.direction * facts_.overtravel;
@@ -430,7 +426,7 @@ private:
       if (sides == 1 && elsewhere) {
         const Point3 from = want.start + Point3{0, 0, radius_};
         const Point3 to =
-            from + touch.direction * (lengthOf(touch.point - from) + facts_.overtravel + radius_);
+            from + touch.direction * ((touch.point - from).length() + facts_.overtravel + radius_);
         if (const auto met = sim::firstContact(world_.part(), radius_, from, to)) {
           contact.centre = met->centre;
           contact.point = met->point;
@@ -490,7 +486,7 @@ private:
         return;
       }
       for (std::size_t i = 0; i < group.values.size(); ++i) {
-        const double size = lengthOf(group.searches[2 * i]->to - group.searches[2 * i + 1]->to);
+        const double size = (group.searches[2 * i]->to - group.searches[2 * i + 1]->to).length();
         if (std::abs(-2 * group.values[i]->value - size) <= kValueTolerance) continue;
         add(Aspect::Contact,
             fmt::format("a way of {} between the walls against {}", fixedText(size, kShown),
@@ -514,7 +510,7 @@ private:
     const Piece& want = expected_.pieces.back();
     Piece& got = found_.pieces.back();
     const Point3 a = want.to - want.from, b = got.to - got.from;
-    const double lengths = lengthOf(a) * lengthOf(b);
+    const double lengths = a.length() * b.length();
     if (want.kind != sim::PathKind::Protected || got.kind != want.kind || !(lengths > 0)) return;
     if (a.dot(b) / lengths < 1 - 1e-9) return;
     got.to = want.to;

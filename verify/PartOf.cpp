@@ -18,12 +18,8 @@ constexpr double kBehind = 2;   // mm of material behind a search that finds not
 constexpr double kAbove = 3;    // mm of a face above and below the ball's centre
 constexpr double kRim = 10;     // mm of a plate around its bore
 
-double lengthOf(const Point3& p) {
-  return std::sqrt(p.dot(p));
-}
-
 bool isSame(const Point3& a, const Point3& b) {
-  return lengthOf(a - b) <= kSame;
+  return (a - b).length() <= kSame;
 }
 
 // Each touch once; a second one of the same place adds no surface.
@@ -84,7 +80,7 @@ private:
         continue;
       }
       const Point3 between = rest[i].point - rest[other].point, direction = rest[i].direction;
-      out.push_back({(rest[i].point + rest[other].point) * 0.5, direction, lengthOf(between) / 2,
+      out.push_back({(rest[i].point + rest[other].point) * 0.5, direction, between.length() / 2,
                      between.dot(direction) > 0});
       rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(other));
       rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(i));
@@ -98,7 +94,7 @@ private:
       if (!isSame(rest[i].direction, rest[k].direction * -1)) continue;
       const Point3 between = rest[i].point - rest[k].point;
       const Point3 across = between - rest[i].direction * between.dot(rest[i].direction);
-      if (lengthOf(across) <= kSame && lengthOf(between) > kSame) return k;
+      if (across.length() <= kSame && between.length() > kSame) return k;
     }
     return rest.size();
   }
@@ -183,7 +179,7 @@ double mostOff(const std::vector<Touch>& touches, const PartError& error) {
     arm = std::max(arm, std::hypot(touch.point.x - middle.x, touch.point.y - middle.y));
   // On a face that is turned the ball touches a little beside its middle.
   const double beside = error.turn != 0 ? 0.001 : 0;
-  return lengthOf(error.shift) + arm * std::abs(error.turn) * std::numbers::pi / 180 + beside;
+  return error.shift.length() + arm * std::abs(error.turn) * std::numbers::pi / 180 + beside;
 }
 
 } // namespace dotek::verify

@@ -12,17 +12,13 @@ using stdlib::Intent;
 
 namespace {
 
-double lengthOf(const sim::Point3& p) {
-  return std::sqrt(p.dot(p));
-}
-
 bool isFault(sim::Outcome outcome) {
   return outcome != sim::Outcome::Contact && outcome != sim::Outcome::Miss;
 }
 
 // Touches of one place, a fast one and a slow one, are one contact.
 bool same(const sim::ProbeEvent& a, const sim::ProbeEvent& b) {
-  return lengthOf(a.point - b.point) < 1e-6;
+  return (a.point - b.point).length() < 1e-6;
 }
 
 } // namespace

@@ -12,17 +12,13 @@ namespace {
 constexpr double kMostShift = 0.3, kMostTurn = 0.3;
 constexpr double kNoWay = 1e-6;
 
-double lengthOf(const sim::Point3& p) {
-  return std::sqrt(p.dot(p));
-}
-
 bool isBare(const Measure& measure) {
-  return measure.nominal.empty() && lengthOf(measure.end - measure.start) > kNoWay;
+  return measure.nominal.empty() && (measure.end - measure.start).length() > kNoWay;
 }
 
 sim::Point3 directionOf(const Measure& bare) {
   const sim::Point3 way = bare.end - bare.start;
-  return way * (1 / lengthOf(way));
+  return way * (1 / way.length());
 }
 
 std::array<double, 3> parts(const sim::Point3& p) {
@@ -55,7 +51,7 @@ PartError drawError(const Record& rehearsal, double ballRadius, Random& random) 
   for (const Measure& measure : rehearsal.measures) {
     if (!isBare(measure)) continue;
     bare = true;
-    most = std::min(most, lengthOf(measure.end - measure.start) / 3);
+    most = std::min(most, (measure.end - measure.start).length() / 3);
     const std::array<double, 3> way = parts(directionOf(measure));
     for (std::size_t axis = 0; axis < 3; ++axis) {
       up[axis] = up[axis] || way[axis] > 1e-9;

@@ -88,13 +88,6 @@ PlainText plainText(std::string_view utf8) {
   return out;
 }
 
-std::string upperCase(std::string_view ascii) {
-  std::string out(ascii);
-  for (char& c : out)
-    if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 'a' + 'A');
-  return out;
-}
-
 std::vector<std::string> wrapWords(std::string_view text, std::size_t width) {
   std::vector<std::string> out;
   std::string line;

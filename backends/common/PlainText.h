@@ -1,6 +1,8 @@
 // Texts for controls: ASCII, accents dropped, folded into lines.
 #pragma once
 
+#include "support/Ascii.h"
+
 #include <cstddef>
 #include <string>
 #include <string_view>
@@ -17,8 +19,6 @@ struct PlainText {
 // `utf8` without accents: the base letter of each accented one, plain quotes and dashes. Control characters
 // become blanks.
 PlainText plainText(std::string_view utf8);
-
-std::string upperCase(std::string_view ascii);
 
 // Lines of at most `width` characters, split at blanks; a longer word is cut. No line is empty; an empty text
 // gives none.

@@ -3,6 +3,7 @@
 #include "backends/fanuc/Uses.h"
 #include "ir/Fold.h"
 #include "ir/Positions.h"
+#include "support/Ascii.h"
 #include "support/NearestName.h"
 #include "support/messages/Fanuc.h"
 
@@ -21,10 +22,6 @@ std::uint32_t localOf(char letter) {
   constexpr std::uint32_t kLocals[] = {1,  2,  3,  4,  5,  6,  7,  8,  9,  11, 13,
                                        17, 18, 19, 20, 21, 22, 23, 24, 25, 26};
   return kLocals[kLetters.find(letter)];
-}
-
-char upper(char c) {
-  return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
 }
 
 struct Assignment {
@@ -68,7 +65,7 @@ std::string listed(const Assignment& assignment) {
 bool takeOverrides(Assignment& out, const EmitOptions& options, Diagnostics& diagnostics) {
   bool fine = true;
   for (const auto& [name, given] : options.letters) {
-    const char letter = upper(given);
+    const char letter = upperCase(given);
     std::optional<ir::VariableId> id;
     for (const ir::VariableId candidate : out.wanted)
       if (out.cycle.variable(candidate).name == name) id = candidate;
@@ -96,7 +93,7 @@ void takeDirect(Assignment& out) {
   for (const auto* list : {&out.cycle.checks, &out.cycle.body})
     for (const ir::CycleStatement& statement : *list)
       for (const auto& [given, id] : statement.origin.arguments) {
-        const char letter = upper(given);
+        const char letter = upperCase(given);
         if (kOrder.find(letter) == std::string_view::npos || !out.needs(id) || out.taken.contains(letter) ||
             out.cycle.variable(id).role != ir::Role::Parameter)
           continue;
@@ -108,7 +105,7 @@ void takeOwnNames(Assignment& out) {
   for (const ir::VariableId id : out.wanted) {
     const std::string& name = out.cycle.variable(id).name;
     if (name.size() != 1 || !out.needs(id)) continue;
-    const char letter = upper(name[0]);
+    const char letter = upperCase(name[0]);
     if (kOrder.find(letter) != std::string_view::npos && !out.taken.contains(letter)) out.give(id, letter);
   }
 }
@@ -118,7 +115,7 @@ void warnOfOtherFields(const Assignment& assignment, Diagnostics& diagnostics) {
     for (ir::VariableId other = 0; other < assignment.cycle.variables.size(); ++other) {
       const ir::Variable& variable = assignment.cycle.variable(other);
       if (other == id || variable.role != ir::Role::Parameter || variable.name.size() != 1 ||
-          upper(variable.name[0]) != letter)
+          upperCase(variable.name[0]) != letter)
         continue;
       const ir::Variable& own = assignment.cycle.variable(id);
       diagnostics.report<diag::LetterOfOtherField>(own.range, std::string(1, letter), own.name,

@@ -1,5 +1,6 @@
 #include "frontend/compost/Check.h"
 
+#include "support/Ascii.h"
 #include "support/NearestName.h"
 #include "support/Picture.h"
 #include "support/messages/ComPost.h"
@@ -42,20 +43,13 @@ WordKind wordKindOf(const ComPostKeyword& keyword) {
   }
 }
 
-std::string lower(std::string_view text) {
-  std::string result(text);
-  for (char& c : result)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  return result;
-}
-
 bool isAscii(std::string_view text) {
   return std::all_of(text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < 0x80; });
 }
 
 // What ComPost writes instead of a flow word of other languages; "" for no such word.
 std::string_view foreignFlow(std::string_view word) {
-  const std::string folded = lower(word);
+  const std::string folded = lowerCase(word);
   if (folded == "elseif" || folded == "elsif" || folded == "elif")
     return "; ComPost is not known to have it: write an IF with its own END inside ELSE";
   if (folded == "endif" || folded == "fi") return "; an IF ends with `END`";
@@ -74,7 +68,7 @@ public:
     for (const Item& item : program_.items) {
       if (const auto* routine = std::get_if<Routine>(&item)) {
         routines_.try_emplace(routine->name, routine->nameRange);
-        std::string& first = routineCases_.try_emplace(lower(routine->name), routine->name).first->second;
+        std::string& first = routineCases_.try_emplace(lowerCase(routine->name), routine->name).first->second;
         first = std::min(first, routine->name);
         lastRoutine = routine->range;
         if (!isAscii(routine->name)) unverified("a letter outside A to Z in a name", routine->nameRange);
@@ -172,7 +166,7 @@ private:
     if (const ComPostKeyword* other = keywords_.find(variant)) {
       variant += suffixOf(wordKindOf(*other));
     } else if (kind == WordKind::Command) {
-      const auto same = routineCases_.find(lower(spelt));
+      const auto same = routineCases_.find(lowerCase(spelt));
       if (same != routineCases_.end()) variant = same->second;
     }
     if (!variant.empty()) {

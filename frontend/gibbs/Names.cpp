@@ -1,12 +1,10 @@
 #include "frontend/gibbs/Ast.h"
+#include "support/Ascii.h"
 
 namespace dotek::frontend::gibbs {
 
 std::string foldCase(const std::string& name) {
-  std::string folded = name;
-  for (char& c : folded)
-    if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 'a' + 'A');
-  return folded;
+  return upperCase(std::string_view(name));
 }
 
 } // namespace dotek::frontend::gibbs

@@ -1,5 +1,6 @@
 #include "frontend/macrob/BuildAst.h"
 
+#include "support/Ascii.h"
 #include "support/Decimal.h"
 #include "support/messages/Common.h"
 #include "support/messages/MacroB.h"
@@ -27,10 +28,6 @@ ExpressionPtr expressionOf(SourceRange range, decltype(Expression::node) node) {
   out->range = range;
   out->node = std::move(node);
   return out;
-}
-
-bool isDigit(char c) {
-  return c >= '0' && c <= '9';
 }
 
 // The call that the text of `left` ends with, if it is ATAN with one operand in brackets; what holds it is

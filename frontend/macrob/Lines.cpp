@@ -1,6 +1,7 @@
 #include "frontend/macrob/Lines.h"
 
 #include "frontend/macrob/Keywords.h"
+#include "support/Ascii.h"
 #include "support/messages/Common.h"
 #include "support/messages/MacroB.h"
 
@@ -16,9 +17,6 @@ constexpr int kMostCommentLines = 3;
 
 bool isBlank(char c) {
   return c == ' ' || c == '\t' || c == '\v' || c == '\f';
-}
-bool isDigit(char c) {
-  return c >= '0' && c <= '9';
 }
 bool isEnd(char c) {
   return c == '\n' || c == '\r';

@@ -1,5 +1,6 @@
 #include "frontend/macrob/Scan.h"
 
+#include "support/Ascii.h"
 #include "support/Decimal.h"
 
 namespace dotek::frontend::macrob {
@@ -10,9 +11,6 @@ constexpr std::size_t kMostWords = 200;
 
 bool isBlank(char c) {
   return c == ' ' || c == '\t' || c == '\v' || c == '\f';
-}
-bool isDigit(char c) {
-  return c >= '0' && c <= '9';
 }
 
 class Scanner {

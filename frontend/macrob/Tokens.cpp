@@ -3,8 +3,8 @@
 #include "frontend/macrob/Keywords.h"
 #include "frontend/macrob/Lines.h"
 #include "frontend/macrob/Parse.h"
+#include "support/Ascii.h"
 
-#include <cctype>
 #include <fmt/format.h>
 
 namespace dotek::frontend::macrob {
@@ -33,10 +33,6 @@ std::size_t tokenType(WordKind kind, char letter) {
   case WordKind::Address: break;
   }
   return letter == 'N' ? Lexer::ADDRESS_N : letter == 'O' ? Lexer::ADDRESS_O : Lexer::ADDRESS;
-}
-
-bool isLetter(char c) {
-  return std::isalpha(static_cast<unsigned char>(c)) != 0;
 }
 
 } // namespace
@@ -71,7 +67,7 @@ void TokenReader::takeApart(const antlr4::Token& run) {
   std::vector<std::size_t> places;
   for (std::size_t i = 0; i < text.size(); ++i) {
     if (!isLetter(text[i])) continue;
-    letters += static_cast<char>(std::toupper(static_cast<unsigned char>(text[i])));
+    letters += upperCase(text[i]);
     places.push_back(run.getStartIndex() + i);
   }
   for (std::size_t at = 0; at < letters.size();) {
@@ -107,7 +103,7 @@ Tok tokOf(const antlr4::Token& token, std::string_view source) {
     if (verbatim)
       out.text += c;
     else if (c != ' ' && c != '\t' && c != '\v' && c != '\f')
-      out.text += isLetter(c) ? static_cast<char>(std::toupper(static_cast<unsigned char>(c))) : c;
+      out.text += upperCase(c);
   }
   return out;
 }

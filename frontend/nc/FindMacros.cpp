@@ -1,6 +1,7 @@
 // Whether a text holds macro statements or calls: one pass at the speed of memory.
 #include "frontend/nc/Scan.h"
 #include "frontend/nc/ScanNumber.h"
+#include "support/Ascii.h"
 
 #include <bit>
 #include <cstring>
@@ -38,10 +39,6 @@ unsigned candidates(const char*) {
   return (1u << kStep) - 1;
 }
 #endif
-
-bool isLetter(char c) {
-  return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z');
-}
 
 enum class Finding : std::uint8_t { Nothing, Macro, Comment, Name };
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "frontend/nc/Block.h"
+#include "support/Ascii.h"
 
 #include <string_view>
 
@@ -42,12 +43,5 @@ private:
   std::vector<Start> starts_; // of pieces that are not empty
   std::size_t position_ = 0;
 };
-
-constexpr bool isDigit(char c) {
-  return c >= '0' && c <= '9';
-}
-constexpr bool isCapital(char c) {
-  return c >= 'A' && c <= 'Z';
-}
 
 } // namespace dotek::frontend::nc

@@ -19,10 +19,6 @@ using Action = PartBuilder::Action;
 
 constexpr double kThrough = 5000; // mm: how far a through hole goes, both ways
 
-double lengthOf(const Point3& p) {
-  return std::sqrt(p.dot(p));
-}
-
 class Reader {
 public:
   Reader(const TomlDocument& document, const ReadMesh& readMesh, Diagnostics& diagnostics)
@@ -58,7 +54,7 @@ private:
   Point3 direction(const TomlTable& table, std::string_view key, const Point3& fallback) {
     const TomlValue value = table.value(key);
     const Point3 d = point(value, fallback);
-    const double length = lengthOf(d);
+    const double length = d.length();
     if (length > 1e-6 && length < 1e6) return d * (1 / length);
     document_.fail(value.range(), fmt::format("`{}` is no direction; write [0, 0, 1], say", key));
     return fallback;
@@ -182,7 +178,7 @@ private:
     double corner = 0;
     if (name == "slot") {
       const Point3 from = needPoint(table, "from"), to = needPoint(table, "to");
-      const double width = size(table, "width"), length = lengthOf(to - from);
+      const double width = size(table, "width"), length = (to - from).length();
       mouth = (from + to) * 0.5;
       side = to - from;
       half.x = (length + width) / 2;
