@@ -1,5 +1,7 @@
 #include "lint/ProgBlocks.h"
 
+#include "frontend/compost/Walk.h"
+
 #include <algorithm>
 #include <cctype>
 #include <charconv>
@@ -12,7 +14,8 @@ constexpr std::size_t kCallDepth = 16;
 // Routines that call one another many times would give more blocks than anybody prints.
 constexpr std::size_t kMostCalls = 2000;
 
-class Collector {
+// The sink that rules look at: both sides of an IF, one after the other.
+class Collector : private compost::Walk {
 public:
   Collector(const compost::Program& prog, const Project& project) : prog_(prog), project_(project) {}
 
@@ -23,38 +26,35 @@ public:
   }
 
 private:
-  void body(const std::vector<compost::Statement>& statements) {
-    for (const compost::Statement& statement : statements) {
-      if (const auto* literal = std::get_if<compost::Literal>(&statement)) {
-        if (!literal->text.empty()) add({ProgPiece::Kind::Text, literal->range, literal, nullptr, "", 0});
-      } else if (const auto* word = std::get_if<compost::Word>(&statement)) {
-        this->word(*word);
-      } else if (std::holds_alternative<compost::EndOfLine>(statement)) {
-        close();
-      } else if (const auto* branch = std::get_if<std::unique_ptr<compost::If>>(&statement)) {
-        ++conditions_;
-        const std::uint32_t outer = arm_;
-        arm_ = ++arms_;
-        body((*branch)->thenBody);
-        arm_ = ++arms_;
-        body((*branch)->elseBody);
-        arm_ = outer;
-        --conditions_;
-      }
-    }
+  const compost::Routine* routineOf(const compost::Word& word) const override {
+    return word.kind == compost::WordKind::Command ? compost::findRoutine(prog_, word.name) : nullptr;
   }
 
-  void word(const compost::Word& word) {
-    const compost::Routine* routine =
-        word.kind == compost::WordKind::Command ? compost::findRoutine(prog_, word.name) : nullptr;
-    if (routine != nullptr) {
-      const bool open = std::find(open_.begin(), open_.end(), routine) != open_.end();
-      if (open || open_.size() >= kCallDepth || ++calls_ > kMostCalls) return;
-      open_.push_back(routine);
-      body(routine->body);
-      open_.pop_back();
-      return;
-    }
+  bool enter(const compost::Routine& routine, SourceRange) override {
+    const bool open = std::find(open_.begin(), open_.end(), &routine) != open_.end();
+    if (open || open_.size() >= kCallDepth || ++calls_ > kMostCalls) return false;
+    open_.push_back(&routine);
+    return true;
+  }
+  void leave(const compost::Routine&) override { open_.pop_back(); }
+
+  void literal(const compost::Literal& literal) override {
+    if (!literal.text.empty()) add({ProgPiece::Kind::Text, literal.range, &literal, nullptr, "", 0});
+  }
+  void endLine(SourceRange) override { close(); }
+
+  void branch(const compost::If& branch) override {
+    ++conditions_;
+    const std::uint32_t outer = arm_;
+    arm_ = ++arms_;
+    body(branch.thenBody);
+    arm_ = ++arms_;
+    body(branch.elseBody);
+    arm_ = outer;
+    --conditions_;
+  }
+
+  void word(const compost::Word& word) override {
     if (word.kind == compost::WordKind::Boolean) return;
     const stdlib::ComPostKeyword* keyword = project_.compostKeywords.find(word.name);
     if (keyword != nullptr && keyword->prints == stdlib::Prints::No) return;

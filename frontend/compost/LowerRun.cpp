@@ -70,69 +70,31 @@ ir::PrintedBlock printedBlock(const std::vector<nc::Piece>& line, bool numbered,
 
 LowerRun::LowerRun(const Program& program, const std::string& cycleId, const LowerSettings& settings,
                    Diagnostics& diagnostics)
-    : settings_(settings), diagnostics_(&diagnostics),
-      tables_(program, settings.form), state_{Conditions(program, settings.form, settings.assumptions),
-                                              {},
-                                              {},
-                                              {}} {
-  state_.conditions.cycle = cycleId;
+    : FormWalk(program, settings.form, settings.assumptions, settings.limits, diagnostics),
+      settings_(settings) {
+  conditions_.cycle = cycleId;
 }
 
 void LowerRun::run(const Routine& routine) {
   call(routine, routine.nameRange);
-  if (state_.line.empty() || stopped_) return;
+  if (state_.line.empty() || stopped()) return;
   if (!failed_) diagnostics_->report<diag::UnfinishedLine>(state_.lineRange, shown(state_.line));
   endLine(state_.lineRange);
 }
 
-bool LowerRun::step(SourceRange where) {
-  if (stopped_) return false;
-  if (++steps_ <= settings_.limits.steps) return true;
-  refuse<diag::PostRunsForever>(where, settings_.limits.steps);
-  stopped_ = true;
-  return false;
-}
-
-void LowerRun::call(const Routine& routine, SourceRange where) {
-  if (stopped_) return;
-  if (depth_ >= settings_.limits.callDepth) {
-    refuse<diag::CallsTooDeep>(where, routine.name, settings_.limits.callDepth);
-    stopped_ = true;
-    return;
+void LowerRun::literal(const Literal& literal) {
+  // Without the apostrophes.
+  SourceRange inside = literal.range;
+  if (inside.end - inside.begin == literal.text.size() + 2) {
+    ++inside.begin;
+    --inside.end;
   }
-  ++depth_;
-  body(routine.body);
-  --depth_;
-}
-
-void LowerRun::body(const std::vector<Statement>& statements) {
-  for (const Statement& statement : statements) {
-    if (const auto* literal = std::get_if<Literal>(&statement)) {
-      if (!step(literal->range)) return;
-      // Without the apostrophes.
-      SourceRange inside = literal->range;
-      if (inside.end - inside.begin == literal->text.size() + 2) {
-        ++inside.begin;
-        --inside.end;
-      }
-      text(literal->text, inside);
-    } else if (const auto* keyword = std::get_if<Word>(&statement)) {
-      if (!step(keyword->range)) return;
-      word(*keyword);
-    } else if (const auto* eol = std::get_if<EndOfLine>(&statement)) {
-      if (!step(eol->range)) return;
-      endLine(eol->range);
-    } else if (const auto* inner = std::get_if<std::unique_ptr<If>>(&statement)) {
-      if (!step((*inner)->ifRange)) return;
-      branch(**inner);
-    }
-    if (stopped_) return;
-  }
+  text(literal.text, inside);
 }
 
 void LowerRun::branch(const If& branch) {
   Diagnostics findings;
-  const Truth truth = state_.conditions.truth(branch.condition, findings);
+  const Truth truth = conditions_.truth(branch.condition, findings);
   if (!truth) {
     undecided(branch, findings);
     return;
@@ -178,6 +140,7 @@ void LowerRun::undecided(const If& branch, const Diagnostics& findings) {
 
 std::map<int, std::string> LowerRun::modalAfter(const std::vector<Statement>& statements) {
   const State before = state_;
+  const Conditions conditions = conditions_;
   Diagnostics elsewhere;
   Diagnostics* const reported = diagnostics_;
   diagnostics_ = &elsewhere;
@@ -189,29 +152,38 @@ std::map<int, std::string> LowerRun::modalAfter(const std::vector<Statement>& st
   stopped_ = false; // the next step reports it
   std::map<int, std::string> modal = std::move(state_.modal);
   state_ = before;
+  conditions_ = conditions;
   return modal;
 }
 
-void LowerRun::grow(std::size_t bytes, SourceRange where) {
-  bytes_ += bytes;
+void LowerRun::add(nc::Piece piece, std::size_t bytes, SourceRange where) {
   state_.lineRange = state_.line.empty() ? where : spanning(state_.lineRange, where);
-  if (bytes_ <= settings_.limits.outputBytes) return;
-  refuse<diag::OutputTooLarge>(where, settings_.limits.outputBytes);
-  stopped_ = true;
+  grow(bytes, where);
+  state_.line.push_back(std::move(piece));
+}
+
+// Some number: the emitted program counts its own blocks.
+void LowerRun::sequenceNumber(const std::string& address, SourceRange range) {
+  text(address + "1", range);
 }
 
 void LowerRun::text(std::string_view bytes, SourceRange range) {
-  if (bytes.empty()) return;
-  grow(bytes.size(), range);
-  state_.line.emplace_back(nc::TextPiece{std::string(bytes), range});
+  if (!bytes.empty()) add(nc::TextPiece{std::string(bytes), range}, bytes.size(), range);
 }
 
-void LowerRun::hole(std::optional<ir::VariableId> variable, const Picture* picture, const std::string& what,
-                    SourceRange range) {
-  grow(1, range);
-  if (!comparing_ && (!variable || picture == nullptr)) failed_ = true; // reported
-  nc::Hole hole{variable ? ir::variable(*variable, range) : ir::constant(0, range), picture, what};
-  state_.line.emplace_back(nc::HolePiece{std::move(hole), range});
+void LowerRun::value(const PrintedValue& value, const std::function<const Picture*()>& picture) {
+  const SourceRange range = value.word.range;
+  const std::string name(value.name);
+  const bool field = value.from == PrintedValue::From::Field;
+  std::optional<ir::VariableId> variable;
+  if (!comparing_) variable = field ? settings_.field(name, range) : settings_.host(name, range);
+  const Picture* numberPicture = picture();
+  if (!comparing_ && (!variable || numberPicture == nullptr)) failed_ = true; // reported
+  const std::string what =
+      field ? "the field `" + toUtf8(name, settings_.sources.file(range.file).encoding()) + "`"
+            : "the host input `" + name + "`";
+  nc::Hole hole{variable ? ir::variable(*variable, range) : ir::constant(0, range), numberPicture, what};
+  add(nc::HolePiece{std::move(hole), range}, 1, range);
 }
 
 void LowerRun::endLine(SourceRange where) {
@@ -223,7 +195,7 @@ void LowerRun::endLine(SourceRange where) {
   const std::vector<nc::Piece> line = std::move(state_.line);
   state_.line.clear();
   if (blank(line)) return;
-  std::optional<nc::Block> block = nc::parseBlock(line, settings_.limits, *diagnostics_);
+  std::optional<nc::Block> block = nc::parseBlock(line, limits_, *diagnostics_);
   if (!block) {
     failed_ = true;
     return;
@@ -232,80 +204,6 @@ void LowerRun::endLine(SourceRange where) {
   if (comparing_) return;
   printed_.push_back(printedBlock(line, block->sequenceNumber.has_value(), settings_.sources));
   blocks_.push_back(std::move(*block));
-}
-
-void LowerRun::word(const Word& word) {
-  switch (word.kind) {
-  case WordKind::Command: command(word); return;
-  case WordKind::Numeric: numeric(word); return;
-  case WordKind::Boolean: refuse<diag::BooleanAsStatement>(word.range, word.name); return;
-  }
-}
-
-void LowerRun::command(const Word& word) {
-  if (word.name == kSetFlagKeyword || word.name == kClearFlagKeyword) {
-    if (word.arguments.size() != 1) failed_ = true;
-    state_.conditions.setFlag(word, *diagnostics_);
-    return;
-  }
-  if (word.arguments.empty()) {
-    if (const Routine* routine = tables_.routine(word.name)) {
-      call(*routine, word.nameRange);
-      return;
-    }
-    const auto& form = settings_.form;
-    // Some number: the emitted program counts its own blocks.
-    if (const auto entry = form.sequences.find(word.name); entry != form.sequences.end()) {
-      text(entry->second.text + "1", word.range);
-      return;
-    }
-    if (const auto entry = form.commands.find(word.name); entry != form.commands.end()) {
-      text(entry->second.text, word.range);
-      if (entry->second.value.empty()) return;
-      if (const SourceRange* format = tables_.commandFormat(word.name)) {
-        refuse<diag::FormatOfCommand>(*format, word.name, form.name);
-        return;
-      }
-      auto parsed = Picture::parse(entry->second.picture);
-      const Picture* picture = nullptr;
-      if (auto* one = std::get_if<Picture>(&parsed))
-        picture = &commandPictures_.emplace_back(std::move(*one));
-      const std::string& host = entry->second.value;
-      hole(comparing_ ? std::nullopt : settings_.host(host, word.range), picture,
-           "the host input `" + host + "`", word.range);
-      return;
-    }
-  }
-  failed_ = true;
-  if (!told_.insert(word.name).second) return;
-  refuse<diag::CommandNotInForm>(word.nameRange, word.name, settings_.form.name, settings_.form.origin);
-}
-
-void LowerRun::numeric(const Word& word) {
-  const Picture* picture = nullptr;
-  if (word.name == kFieldKeyword) {
-    if (word.arguments.size() != 1 || word.arguments.front().text.empty()) {
-      refuse<diag::FieldNeedsName>(word.range);
-      return;
-    }
-    const std::string& field = word.arguments.front().text;
-    const auto variable = comparing_ ? std::nullopt : settings_.field(field, word.range);
-    picture = tables_.picture(word.name, word.range, *diagnostics_);
-    hole(variable, picture,
-         "the field `" + toUtf8(field, settings_.sources.file(word.range.file).encoding()) + "`", word.range);
-    return;
-  }
-  const auto entry = settings_.form.numerics.find(word.name);
-  if (entry == settings_.form.numerics.end() || entry->second.value.empty()) {
-    failed_ = true;
-    if (told_.insert(word.name + "#").second)
-      refuse<diag::NumericNotInForm>(word.nameRange, word.name, settings_.form.name, settings_.form.origin);
-    return;
-  }
-  const std::string& host = entry->second.value;
-  const auto variable = comparing_ ? std::nullopt : settings_.host(host, word.range);
-  picture = tables_.picture(word.name, word.range, *diagnostics_);
-  hole(variable, picture, "the host input `" + host + "`", word.range);
 }
 
 } // namespace dotek::frontend::compost
