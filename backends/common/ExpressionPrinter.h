@@ -18,6 +18,7 @@ struct Infix {
 };
 inline constexpr int kAdditive = 1;
 inline constexpr int kMultiplicative = 2;
+inline constexpr int kAtom = 100; // needs no bracket anywhere
 
 // What a target's language has. A name that is empty: it has no such thing.
 class Notation {
@@ -26,18 +27,22 @@ public:
   // Name of a function of one argument.
   virtual std::string_view function(ir::UnaryOp op) const = 0;
   virtual Infix infix(ir::BinaryOp op) const = 0;
+  // The left operand, printed, would be read together with the operator.
+  virtual bool bracketsLeft(ir::BinaryOp /*op*/, std::string_view /*left*/) const { return false; }
   virtual char open() const { return '['; }
   virtual char close() const { return ']'; }
 };
 
-// Prints one expression. Texts are atoms or sums: an atom needs no bracket anywhere.
+// Prints one expression with the fewest brackets.
 class ExpressionPrinter {
 public:
   explicit ExpressionPrinter(const Notation& notation) : notation_(notation) {}
   virtual ~ExpressionPrinter() = default;
 
   // At most `depth` brackets inside one another.
-  std::string print(const ir::ExpressionPtr& expression, std::uint32_t depth);
+  std::string print(const ir::ExpressionPtr& expression, std::uint32_t depth) {
+    return text(expression, depth, true);
+  }
 
 protected:
   // Text of a constant, variable or machine variable; of a negative constant with its sign.
@@ -46,12 +51,28 @@ protected:
   // has no such operator.
   virtual std::string aside(const ir::ExpressionPtr& expression) = 0;
 
+  // What is printed for the expression. Here: x - 5 for x + (-5), a sum with 0 for what null makes 0 and for
+  // a minus before anything but a variable.
+  virtual ir::ExpressionPtr shown(const ir::ExpressionPtr& expression) const;
+  // Of shown(): its text begins with a sign.
+  virtual bool isSigned(const ir::ExpressionPtr& expression) const;
+  // The left operand may begin with a sign; `first`: nothing stands before it in its brackets.
+  virtual bool leftTakesSign(const Infix& infix, bool /*first*/) const { return infix.level == kAdditive; }
+  // A minus that shown() keeps.
+  virtual std::string negated(const ir::ExpressionPtr& operand, std::uint32_t depth);
+  // An operator that is no infix in the notation.
+  virtual std::string operation(const ir::Binary& /*binary*/, const ir::ExpressionPtr& whole,
+                                std::uint32_t /*depth*/) {
+    return aside(whole);
+  }
+  // How tightly what shown() gives holds together.
+  virtual int levelOf(const ir::ExpressionPtr& expression) const;
+
 private:
-  std::string operand(const ir::ExpressionPtr& expression, std::uint32_t depth, int level, bool right);
+  std::string text(const ir::ExpressionPtr& expression, std::uint32_t depth, bool first);
+  std::string operand(const ir::ExpressionPtr& expression, std::uint32_t depth, const Infix& infix,
+                      bool right, bool first);
   std::string bracketed(const ir::ExpressionPtr& expression, std::uint32_t depth);
-  std::string function(const ir::Unary& unary, const ir::ExpressionPtr& whole, std::uint32_t depth);
-  std::string sum(const ir::Binary& binary, const ir::ExpressionPtr& whole, std::uint32_t depth);
-  int levelOf(const ir::ExpressionPtr& expression) const;
 
   const Notation& notation_;
 };

@@ -1,4 +1,5 @@
 // Conditions as jumps: joined in one IF where the control has that, else as several.
+#include "backends/fanuc/MacroNames.h"
 #include "backends/fanuc/State.h"
 #include "ir/Fold.h"
 #include "support/messages/Fanuc.h"
@@ -8,20 +9,6 @@
 namespace dotek::backends::fanuc {
 
 namespace {
-
-std::string_view nameOf(ir::Relation relation) {
-  switch (relation) {
-  case ir::Relation::Same:
-  case ir::Relation::Equal: return " EQ ";
-  case ir::Relation::Different:
-  case ir::Relation::NotEqual: return " NE ";
-  case ir::Relation::Less: return " LT ";
-  case ir::Relation::Greater: return " GT ";
-  case ir::Relation::LessEqual: return " LE ";
-  case ir::Relation::GreaterEqual: return " GE ";
-  }
-  return "";
-}
 
 // Negations only around IsNull.
 ir::ConditionPtr pushedIn(const ir::ConditionPtr& condition) {
@@ -61,7 +48,7 @@ std::string atomText(State& state, const ir::ConditionPtr& condition, const ir::
   }
   const auto& comparison = std::get<ir::Comparison>(condition->node);
   const std::string left = operandText(state, comparison.left, origin, depth);
-  return left + std::string(nameOf(comparison.relation)) +
+  return left + " " + std::string(relationName(comparison.relation)) + " " +
          operandText(state, comparison.right, origin, depth);
 }
 

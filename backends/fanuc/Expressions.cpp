@@ -1,5 +1,5 @@
 // Values in the control's macro language: words, assignments, helper locals for what one line cannot say.
-#include "backends/common/ExpressionPrinter.h"
+#include "backends/fanuc/MacroNames.h"
 #include "backends/fanuc/State.h"
 #include "ir/Fold.h"
 #include "support/Decimal.h"
@@ -17,56 +17,9 @@ constexpr int kConstantDigits = 8;
 // A difference that binary arithmetic makes is no lost digit.
 constexpr double kSame = 1e-9;
 
-std::string_view nameOf(ir::UnaryOp op) {
-  switch (op) {
-  case ir::UnaryOp::Absolute: return "ABS";
-  case ir::UnaryOp::Truncate: return "FIX";
-  case ir::UnaryOp::RoundUp: return "FUP";
-  case ir::UnaryOp::Round: return "ROUND";
-  case ir::UnaryOp::SquareRoot: return "SQRT";
-  case ir::UnaryOp::Sine: return "SIN";
-  case ir::UnaryOp::Cosine: return "COS";
-  case ir::UnaryOp::Tangent: return "TAN";
-  case ir::UnaryOp::ArcSine: return "ASIN";
-  case ir::UnaryOp::ArcCosine: return "ACOS";
-  case ir::UnaryOp::ArcTangent: return "ATAN";
-  case ir::UnaryOp::Logarithm: return "LN";
-  case ir::UnaryOp::Exponential: return "EXP";
-  case ir::UnaryOp::FromBcd: return "BIN";
-  case ir::UnaryOp::ToBcd: return "BCD";
-  case ir::UnaryOp::Negate:
-  case ir::UnaryOp::NullAsZero:
-  case ir::UnaryOp::RoundIncrement:
-  case ir::UnaryOp::AddPoint: break;
-  }
-  return "";
-}
-
 // Name of the function in the control's list.
 std::string_view listedAs(ir::UnaryOp op) {
-  return op == ir::UnaryOp::ArcTangent ? "ATAN[y]" : nameOf(op);
-}
-
-std::string_view nameOf(ir::BinaryOp op) {
-  switch (op) {
-  case ir::BinaryOp::Add: return "+";
-  case ir::BinaryOp::Subtract: return "-";
-  case ir::BinaryOp::Multiply: return "*";
-  case ir::BinaryOp::Divide: return "/";
-  case ir::BinaryOp::Modulo: return " MOD ";
-  case ir::BinaryOp::BitAnd: return " AND ";
-  case ir::BinaryOp::BitOr: return " OR ";
-  case ir::BinaryOp::BitXor: return " XOR ";
-  case ir::BinaryOp::Direction:
-  case ir::BinaryOp::ValueOr:
-  case ir::BinaryOp::RoundedAnd:
-  case ir::BinaryOp::RoundedOr:
-  case ir::BinaryOp::RoundedXor:
-  case ir::BinaryOp::RoundedModulo:
-  case ir::BinaryOp::Power:
-  case ir::BinaryOp::Bearing: break;
-  }
-  return "";
+  return op == ir::UnaryOp::ArcTangent ? "ATAN[y]" : functionKey(op);
 }
 
 std::string_view trimmed(std::string_view text) {
@@ -90,35 +43,19 @@ bool isWhole(const State& state, const ir::ExpressionPtr& expression) {
   return kind == ir::Kind::Count || kind == ir::Kind::WorkOffset || kind == ir::Kind::ToolOffset;
 }
 
-class FanucNotation : public Notation {
+// What the control of the program has.
+class ControlNotation : public MacroNotation {
 public:
-  explicit FanucNotation(const State& state) : state_(state) {}
+  explicit ControlNotation(const State& state) : state_(state) {}
   std::string_view function(ir::UnaryOp op) const override {
     // Behind an address ROUND rounds to the increment of the word.
     if (op == ir::UnaryOp::Round && state_.inWord) return "";
-    return has(state_.control, listedAs(op)) ? nameOf(op) : "";
+    return has(state_.control, listedAs(op)) ? functionKey(op) : "";
   }
   Infix infix(ir::BinaryOp op) const override {
-    const std::string_view name = nameOf(op);
-    switch (op) {
-    case ir::BinaryOp::Add:
-    case ir::BinaryOp::Subtract: return {name, kAdditive};
-    case ir::BinaryOp::Multiply:
-    case ir::BinaryOp::Divide: return {name, kMultiplicative};
-    case ir::BinaryOp::BitOr:
-    case ir::BinaryOp::BitXor: return {has(state_.control, trimmed(name)) ? name : "", kAdditive};
-    case ir::BinaryOp::Modulo:
-    case ir::BinaryOp::BitAnd: return {has(state_.control, trimmed(name)) ? name : "", kMultiplicative};
-    case ir::BinaryOp::Direction:
-    case ir::BinaryOp::ValueOr:
-    case ir::BinaryOp::RoundedAnd:
-    case ir::BinaryOp::RoundedOr:
-    case ir::BinaryOp::RoundedXor:
-    case ir::BinaryOp::RoundedModulo:
-    case ir::BinaryOp::Power:
-    case ir::BinaryOp::Bearing: break;
-    }
-    return {"", kMultiplicative};
+    const Infix out = infixOf(op);
+    const bool sign = out.text.size() == 1;
+    return sign || has(state_.control, trimmed(out.text)) ? out : Infix();
   }
 
 private:
@@ -197,7 +134,7 @@ private:
   // Whether the control can compute the topmost operation at all.
   bool canWrite(const ir::ExpressionPtr& expression) {
     if (const auto* unary = std::get_if<ir::Unary>(&expression->node)) {
-      const std::string_view name = nameOf(unary->op);
+      const std::string_view name = functionKey(unary->op);
       if (name.empty() || has(state_.control, listedAs(unary->op))) return true;
       state_.refuse<diag::FunctionMissing>(rangeOf(expression), state_.control.title, listedAs(unary->op));
       return false;
@@ -205,7 +142,7 @@ private:
     const auto* binary = std::get_if<ir::Binary>(&expression->node);
     if (binary == nullptr || binary->op == ir::BinaryOp::ValueOr) return true;
     const std::string_view name =
-        binary->op == ir::BinaryOp::Direction ? "ATAN[y]/[x]" : trimmed(nameOf(binary->op));
+        binary->op == ir::BinaryOp::Direction ? "ATAN[y]/[x]" : trimmed(infixOf(binary->op).text);
     if (notation_.infix(binary->op).text.empty() && !has(state_.control, name)) {
       state_.refuse<diag::FunctionMissing>(rangeOf(expression), state_.control.title, name);
       return false;
@@ -216,7 +153,7 @@ private:
   State& state_;
   Form form_;
   const ir::Origin& origin_;
-  FanucNotation notation_;
+  ControlNotation notation_;
 };
 
 bool isVariable(const ir::ExpressionPtr& expression) {

@@ -1,5 +1,6 @@
 #include "backends/fanuc/ProgramChecks.h"
 
+#include "backends/fanuc/MacroNames.h"
 #include "backends/fanuc/ProgramText.h"
 #include "backends/fanuc/ProgramVariables.h"
 #include "ir/Rewrite.h"

@@ -28,20 +28,12 @@ public:
   std::string condition(const ir::ConditionPtr& condition) const;
 
 private:
-  std::string text(const ir::ExpressionPtr& expression, bool first) const;
-  std::string operand(const ir::ExpressionPtr& expression, int level, bool right, bool first) const;
-  std::string negated(const ir::ExpressionPtr& operand) const;
-  std::string binary(const ir::Binary& binary, bool first) const;
-  std::string unary(const ir::Unary& unary) const;
+  std::string text(const ir::ExpressionPtr& expression) const;
   std::string comparison(const ir::Comparison& comparison) const;
   std::string joined(const ir::Junction& junction) const;
 
   bool comma_ = false; // ATAN[y,x] is the only form with two operands
 };
-
-// The name that the profile's list of functions has for it; "": no function, or no Macro B has it.
-std::string_view functionKey(ir::UnaryOp op);
-std::string_view functionKey(ir::BinaryOp op);
 
 // How deep brackets lie in the text, comments aside.
 std::uint32_t bracketDepth(std::string_view text);
