@@ -50,16 +50,16 @@ MacroCall macroCall(const stdlib::MacroSignature& signature, const ir::Move& mov
 // An axis that the move names and the protected move of the set does not take; nothing: it takes all.
 std::optional<ir::Axis> axisNotTaken(const stdlib::MacroSignature& signature, const ir::Move& move);
 
-// Reports what the call lacks. `state` has refuse<Id>(range, arguments...).
+// Reports the first argument that the call lacks. `state` has refuse<Id>(range, arguments...).
 template <class State>
 void refuseMissing(State& state, const stdlib::MacroSet& macros, const MacroCall& call, SourceRange range) {
-  for (const stdlib::MacroArgument* argument : call.missing) {
-    const std::string letter(1, argument->letter);
-    if (argument->role == stdlib::ArgumentRole::System || argument->role == stdlib::ArgumentRole::Nominal)
-      state.template refuse<diag::NeedsOffset>(range, macros.title, letter);
-    else
-      state.template refuse<diag::MacroArgumentMissing>(range, call.signature->program, letter);
-  }
+  if (call.missing.empty()) return;
+  const stdlib::MacroArgument& argument = *call.missing.front();
+  const std::string letter(1, argument.letter);
+  if (argument.role == stdlib::ArgumentRole::System || argument.role == stdlib::ArgumentRole::Nominal)
+    state.template refuse<diag::NeedsOffset>(range, macros.title, letter);
+  else
+    state.template refuse<diag::MacroArgumentMissing>(range, call.signature->program, letter);
 }
 
 // "the result", "the position in X"

@@ -83,7 +83,8 @@ std::string read(const ir::Call& call, const stdlib::MacroSet& set, stdlib::Call
   if (!(*program >= 1 && *program < 1e8) || *program != std::floor(*program)) return "P names no program";
   std::string letters;
   for (const ir::CallArgument& argument : call.arguments) {
-    if (argument.local != stdlib::localOf(argument.letter))
+    if (argument.local != stdlib::localOf(argument.letter) ||
+        letters.find(argument.letter) != std::string::npos)
       return fmt::format("`{}` is repeated: it sets #{}", argument.letter, argument.local);
     letters += argument.letter;
   }
