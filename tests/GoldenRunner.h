@@ -15,6 +15,7 @@ struct Settings {
   int rewritten = 0;
   int corpusRun = 0;
   int corpusSkipped = 0;
+  int toolSkipped = 0; // test cases whose tool is not on this machine
 };
 Settings& settings();
 

@@ -52,6 +52,7 @@ int main(int argc, char** argv) {
   fmt::print("goldens: {} run, {} rewritten; corpus cases: {} run, {} skipped{}\n", settings.run,
              settings.rewritten, settings.corpusRun, settings.corpusSkipped,
              settings.corpusSkipped > 0 ? " (no corpus: set DOTEK_CORPUS)" : "");
+  if (settings.toolSkipped > 0) fmt::print("skipped without their tool: {}\n", settings.toolSkipped);
   fmt::print("{} passed, {} failed\n", ran - failed, failed);
   // A filter that matches nothing proves nothing.
   return ran == 0 ? 1 : result;
