@@ -3,6 +3,7 @@
 #include "frontend/compost/Parse.h"
 #include "frontend/gibbs/Run.h"
 #include "frontend/macrob/Parse.h"
+#include "frontend/mikroprog/Lower.h"
 #include "frontend/mikroprog/Parse.h"
 #include "ir/Fold.h"
 #include "ir/Print.h"
@@ -122,13 +123,17 @@ private:
 
   // What convert works on: fixed values are folded in.
   void ir() {
+    std::vector<std::string> rest;
+    for (const std::string& input : options_.inputs)
+      if (!mikroprogIr(input)) rest.push_back(input);
+    if (rest.empty() && !options_.inputs.empty()) return;
     const auto inputs = loadLoweringInputs(
         options_.source, options_.control.empty() ? std::string(kDefaultControl) : options_.control,
         session_);
     if (!inputs || session_.diagnostics().hasErrors()) return;
     ir::Module module;
     std::set<std::string> usedSets;
-    for (const std::string& input : options_.inputs) {
+    for (const std::string& input : rest) {
       if (isProgramFile(input, session_)) {
         programs(input, *inputs->control);
         continue;
@@ -143,6 +148,25 @@ private:
       module.cycles.push_back(std::move(lowered->cycle));
     }
     if (!module.cycles.empty()) out_ += ir::print(module, &session_.sources());
+  }
+
+  // false: it is no program of Mikroprog. These need no control: what a code does is not part of the IR.
+  bool mikroprogIr(const std::string& input) {
+    std::error_code error;
+    if (fs::is_directory(input, error)) return false;
+    if (options_.common.from) {
+      if (kindByName(*options_.common.from) != InputKind::Suf) return false;
+    } else {
+      Diagnostics ignored; // the other readers report
+      const std::optional<std::string> bytes = readBytes(input, session_.limits(), ignored);
+      if (!bytes || recognise(input, *bytes) != InputKind::Suf) return false;
+    }
+    const std::optional<FileId> id = session_.read(input, Encoding::Cp852);
+    if (!id) return true;
+    const auto program = frontend::mikroprog::parse(*id, session_.sources(), session_.diagnostics());
+    if (const auto file = frontend::mikroprog::lower(program, session_.sources()))
+      out_ += ir::print(*file, &session_.sources());
+    return true;
   }
 
   void programs(const std::string& input, const stdlib::Control& control) {

@@ -3,6 +3,7 @@
 #include "driver/SimReport.h"
 #include "driver/SimWorld.h"
 #include "frontend/mikroprog/Check.h"
+#include "frontend/mikroprog/Lower.h"
 #include "frontend/mikroprog/Parse.h"
 #include "sim/machine/Mikroprog.h"
 #include "stdlib/MikroprogControl.h"
@@ -47,13 +48,14 @@ public:
     if (diagnostics().hasErrors()) return outcomeOf(session_, "");
     control_ = loadControl(program);
     if (!control_ || !check(program)) return outcomeOf(session_, "");
-    const auto blocks = frontend::mikroprog::lower(program, session_.sources());
+    auto lowered = frontend::mikroprog::lower(program, session_.sources());
     const std::unique_ptr<SimWorld> world = SimWorld::load(options_, session_);
-    if (!blocks || !world) return outcomeOf(session_, "");
+    if (!lowered || !world) return outcomeOf(session_, "");
     for (const frontend::mikroprog::Line& line : program.lines)
       lines_.emplace(session_.sources().line(line.range), line.range);
 
-    sim::MikroprogMachine machine(*control_, *blocks);
+    const sim::BlockList blocks(std::move(lowered->programs.front()), session_.sources());
+    sim::MikroprogMachine machine(*control_, blocks);
     world->setPlace([&] { return place(machine); });
     world->attach(machine);
     std::optional<sim::Trace> trace;

@@ -264,7 +264,8 @@ private:
       text_ += it.address;
       if (!it.value) continue;
       const auto* number = std::get_if<Constant>(&it.value->node);
-      const std::string text = number ? names_.number(*number) : "";
+      const bool isFile = it.address == '@' && number != nullptr; // its digits are the name
+      const std::string text = isFile ? number->digits : number ? names_.number(*number) : "";
       if (number && text.find(' ') == std::string::npos) { // is one word
         text_ += text;
       } else {

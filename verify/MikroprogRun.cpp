@@ -22,13 +22,14 @@ struct Shape {
   bool empty = true;
 };
 
-Shape shapeOf(const stdlib::MikroprogBlock& block, const stdlib::MikroprogControl& control) {
+Shape shapeOf(const sim::ListedBlock& block, const stdlib::MikroprogControl& control) {
   Shape out;
-  out.empty = !block.assignment && block.words.empty();
-  for (const stdlib::MikroprogWord& word : block.words) {
-    const double number = word.value.number;
-    const bool whole = !word.value.parameter && number >= 0 && number < 1e9 && number == std::floor(number);
-    if (!whole) continue;
+  out.empty = block.store == nullptr && block.words.empty();
+  for (const ir::Word& word : block.words) {
+    const double* constant = ir::constantValue(word.value);
+    if (constant == nullptr) continue;
+    const double number = *constant;
+    if (number < 0 || number >= 1e9 || number != std::floor(number)) continue;
     if (word.address == 'L') out.target = static_cast<std::uint64_t>(number);
     if (word.address != 'G' && word.address != 'M') continue;
     const auto* function = control.find(word.address, static_cast<std::uint32_t>(number));
@@ -172,26 +173,23 @@ private:
 
 } // namespace
 
-MikroprogStand::MikroprogStand(const stdlib::MikroprogControl& control,
-                               const stdlib::MikroprogProgram& program)
+MikroprogStand::MikroprogStand(const stdlib::MikroprogControl& control, const sim::BlockList& program)
     : control_(control), program_(program) {
-  for (std::size_t i = 0; i < program.size(); ++i)
-    if (program[i].number) numbers_.emplace(*program[i].number, i);
   classify();
 }
 
 // The tail that the program is in from this block on; None: it goes on, or ends without a word.
 MikroprogStand::Tail MikroprogStand::tailAt(std::size_t block) const {
-  for (std::size_t steps = 0; block < program_.size() && steps <= program_.size(); ++steps) {
-    const Shape shape = shapeOf(program_[block], control_);
+  for (std::size_t steps = 0; block < program_.blocks.size() && steps <= program_.blocks.size(); ++steps) {
+    const Shape shape = shapeOf(program_.blocks[block], control_);
     if (shape.empty) {
       ++block;
     } else if (shape.functions.size() == 1 && has(shape, "jump") && shape.target) {
-      const auto to = numbers_.find(*shape.target);
-      if (to == numbers_.end()) return Tail::None;
+      const auto to = program_.numbers.find(*shape.target);
+      if (to == program_.numbers.end()) return Tail::None;
       block = to->second;
     } else if (has(shape, "stop")) {
-      const std::string& text = program_[block].text;
+      const std::string& text = program_.blocks[block].text;
       return text == control_.notFound    ? Tail::NotFound
              : text == control_.collision ? Tail::Collision
                                           : Tail::None;
@@ -204,22 +202,23 @@ MikroprogStand::Tail MikroprogStand::tailAt(std::size_t block) const {
 
 // What each G31 is, by the ways that lead on from it.
 void MikroprogStand::classify() {
-  for (std::size_t i = 0; i < program_.size(); ++i) {
-    const Shape shape = shapeOf(program_[i], control_);
+  for (std::size_t i = 0; i < program_.blocks.size(); ++i) {
+    const Shape shape = shapeOf(program_.blocks[i], control_);
     if (!has(shape, "probe-move")) continue;
-    const auto to = shape.target ? numbers_.find(*shape.target) : numbers_.end();
-    if (to == numbers_.end()) {
-      if (fault_.empty()) faultLine_ = program_[i].line, fault_ = "a G31 without a block to go to";
+    const auto to = shape.target ? program_.numbers.find(*shape.target) : program_.numbers.end();
+    if (to == program_.numbers.end()) {
+      if (fault_.empty()) faultLine_ = program_.blocks[i].line, fault_ = "a G31 without a block to go to";
       continue;
     }
     const Tail contact = tailAt(i + 1), nothing = tailAt(to->second);
     if (contact == Tail::Collision && nothing == Tail::None)
-      probeMoves_[program_[i].line] = Kind::Protected;
+      probeMoves_[program_.blocks[i].line] = Kind::Protected;
     else if (contact == Tail::None && nothing == Tail::NotFound)
-      probeMoves_[program_[i].line] = Kind::Search;
+      probeMoves_[program_.blocks[i].line] = Kind::Search;
     else if (fault_.empty())
-      faultLine_ = program_[i].line, fault_ = "a G31 that neither guards nor searches: of contact and no "
-                                              "contact one has to go on and the other to end in its tail";
+      faultLine_ = program_.blocks[i].line, fault_ =
+                                                "a G31 that neither guards nor searches: of contact and no "
+                                                "contact one has to go on and the other to end in its tail";
   }
 }
 
@@ -245,8 +244,8 @@ MikroprogRecord MikroprogStand::run(sim::World& world, const sim::Point3& start,
   out = std::move(watch.record);
   for (MikroprogStep& step : out.steps) {
     if (step.moves()) continue;
-    const auto found = numbers_.find(step.line);
-    step.line = found == numbers_.end() ? 0 : program_[found->second].line;
+    const auto found = program_.numbers.find(step.line);
+    step.line = found == program_.numbers.end() ? 0 : program_.blocks[found->second].line;
   }
   out.start = start;
   out.end = watch.lowest(machine.machinePosition());

@@ -70,7 +70,7 @@ struct Interference {
 class MikroprogStand {
 public:
   // Both outlive the stand. The tool's length ends at the ball's lowest point.
-  MikroprogStand(const stdlib::MikroprogControl& control, const stdlib::MikroprogProgram& program);
+  MikroprogStand(const stdlib::MikroprogControl& control, const sim::BlockList& program);
 
   // `start` and `zero`: where the stylus's lowest point stands and the active system has its zero, in
   // coordinates of the machine. The probe is on all the time. The world is restarted.
@@ -83,8 +83,7 @@ private:
   void classify();
 
   const stdlib::MikroprogControl& control_;
-  const stdlib::MikroprogProgram& program_;
-  std::map<std::uint64_t, std::size_t> numbers_;            // N to its block
+  const sim::BlockList& program_;
   std::map<std::uint32_t, MikroprogStep::Kind> probeMoves_; // by line
   std::string fault_;                                       // of the program's shape; "": none
   std::uint32_t faultLine_ = 0;

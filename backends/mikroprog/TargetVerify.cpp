@@ -2,6 +2,7 @@
 #include "backends/mikroprog/TargetProgram.h"
 #include "frontend/gibbs/Ast.h"
 #include "frontend/mikroprog/Check.h"
+#include "frontend/mikroprog/Lower.h"
 #include "frontend/mikroprog/Parse.h"
 #include "support/messages/Verify.h"
 #include "targets/ReadBack.h"
@@ -56,7 +57,7 @@ public:
     const FileId id = sources.add(SourceFile("program", std::move(*text), Encoding::Cp852));
     const mikroprog::Program tree = mikroprog::parse(id, sources, found);
     mikroprog::refuse({tree, *control_, sources}, found);
-    const auto program = mikroprog::lower(tree, sources);
+    auto program = mikroprog::lower(tree, sources);
     if (!program || found.hasErrors()) {
       for (const Diagnostic& one : found.all())
         if (one.severity == Severity::Error && out.differences.empty())
@@ -66,7 +67,8 @@ public:
       if (out.differences.empty()) out.differs(verify::Aspect::Ending, "the program cannot be read");
       return out;
     }
-    const verify::MikroprogStand stand(*control_, *program);
+    const sim::BlockList blocks(std::move(program->programs.front()), sources);
+    const verify::MikroprogStand stand(*control_, blocks);
     const sim::Point3 zero = now.entry.zeros[now.entry.system - 54];
     const sim::Point3 start = now.entry.start + zero;
     const verify::MikroprogRecord ran = stand.run(now.world, start, zero);

@@ -187,10 +187,6 @@ private:
   Line line_;
 };
 
-stdlib::MikroprogValue lowered(const Value& value) {
-  return {value.parameter.has_value() && value.negative, value.parameter, value.number.value_or(0)};
-}
-
 std::string place(const SourceMap& sources, SourceRange range) {
   const LineColumn at = sources.file(range.file).place(range.begin);
   return fmt::format("{}:{}", at.line, at.column);
@@ -214,32 +210,6 @@ Program parse(FileId file, const SourceMap& sources, Diagnostics& diagnostics) {
       text.remove_suffix(1);
     if (text.empty()) continue;
     out.lines.push_back(LineReader(file, source.lineStart(number), text, diagnostics).read());
-  }
-  return out;
-}
-
-std::optional<stdlib::MikroprogProgram> lower(const Program& program, const SourceMap& sources) {
-  stdlib::MikroprogProgram out;
-  for (const Line& line : program.lines) {
-    if (line.unread) return std::nullopt;
-    if (!line.number && !line.assignment && line.words.empty()) continue;
-    stdlib::MikroprogBlock block;
-    block.number = line.number;
-    block.line = sources.line(line.range);
-    block.text = line.comment.value_or("");
-    if (line.assignment) {
-      block.assignment.emplace();
-      block.assignment->parameter = line.assignment->parameter;
-      for (const Term& term : line.assignment->terms)
-        block.assignment->terms.push_back({term.op, lowered(term.value)});
-    }
-    for (const Word& word : line.words) {
-      if (word.address == '@')
-        block.file = word.file;
-      else
-        block.words.push_back({word.address, lowered(word.value)});
-    }
-    out.push_back(std::move(block));
   }
   return out;
 }

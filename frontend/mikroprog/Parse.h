@@ -1,4 +1,4 @@
-// Text of a program of Mikroprog to its syntax tree, and on to what a machine runs. Plain word-address lines:
+// Text of a program of Mikroprog to its syntax tree. Plain word-address lines:
 //
 //   program : line* ;
 //   line    : ('N' digits)? (assign | word*) (';' text)? ;
@@ -10,7 +10,6 @@
 #pragma once
 
 #include "frontend/mikroprog/Ast.h"
-#include "stdlib/MikroprogProgram.h"
 #include "support/Diagnostics.h"
 #include "support/Limits.h"
 
@@ -18,9 +17,6 @@ namespace dotek::frontend::mikroprog {
 
 // Never fails: problems go to `diagnostics`, at most one a line; its line is `unread`.
 Program parse(FileId file, const SourceMap& sources, Diagnostics& diagnostics);
-
-// nullopt where a line is unread.
-std::optional<stdlib::MikroprogProgram> lower(const Program& program, const SourceMap& sources);
 
 // `dump --stage tokens`: one token a line: line:column, kind, text.
 std::string dumpTokens(const Program& program, const SourceMap& sources);

@@ -1,5 +1,7 @@
 #include "sim/machine/Mikroprog.h"
 
+#include "ir/Evaluate.h"
+#include "ir/Rewrite.h"
 #include "sim/machine/Axes.h"
 
 #include <algorithm>
@@ -10,7 +12,6 @@ namespace dotek::sim {
 
 namespace {
 
-using stdlib::MikroprogBlock;
 using stdlib::MikroprogFunction;
 
 constexpr std::string_view kLetters = "XYZ";
@@ -42,11 +43,9 @@ Position wide(const std::array<double, 3>& point) {
 
 } // namespace
 
-MikroprogMachine::MikroprogMachine(const stdlib::MikroprogControl& control,
-                                   const stdlib::MikroprogProgram& program)
+MikroprogMachine::MikroprogMachine(const stdlib::MikroprogControl& control, const BlockList& program)
     : control_(control), program_(program) {
-  for (std::size_t i = 0; i < program.size(); ++i)
-    if (program[i].number) numbers_.emplace(*program[i].number, i);
+  if (!program.refused.empty()) stop(MikroprogEnding::Inconclusive, program.refused);
 }
 
 bool MikroprogMachine::stop(MikroprogEnding ending, std::string why) {
@@ -89,10 +88,10 @@ void MikroprogMachine::run(std::uint64_t mostBlocks) {
   for (std::uint64_t done = 0; ending_ == MikroprogEnding::Running; ++done) {
     if (done == mostBlocks) {
       stop(MikroprogEnding::Endless, fmt::format("more than {} blocks", mostBlocks));
-    } else if (next_ >= program_.size()) {
+    } else if (next_ >= program_.blocks.size()) {
       stop(MikroprogEnding::Inconclusive, "the program has no M30");
     } else {
-      const MikroprogBlock& now = program_[next_++];
+      const ListedBlock& now = program_.blocks[next_++];
       number_ = now.number.value_or(0);
       line_ = now.line;
       ++blocks_;
@@ -102,48 +101,55 @@ void MikroprogMachine::run(std::uint64_t mostBlocks) {
   }
 }
 
-std::optional<double> MikroprogMachine::value(const stdlib::MikroprogValue& value) {
-  if (!value.parameter) return value.number;
-  const auto found = parameters_.find(*value.parameter);
-  if (found == parameters_.end()) {
-    stop(MikroprogEnding::Inconclusive, fmt::format("P{} has no value", *value.parameter));
+std::optional<double> MikroprogMachine::value(const ir::ExpressionPtr& expression) {
+  if (const double* number = ir::constantValue(expression)) return *number;
+  std::optional<std::uint32_t> unset;
+  const ir::ExpressionPtr known = ir::rewrite(expression, [&](const ir::ExpressionPtr& one) {
+    const auto* variable = std::get_if<ir::MachineVariable>(&one->node);
+    const double* number = variable == nullptr ? nullptr : ir::constantValue(variable->number);
+    if (number == nullptr) return one;
+    const auto found = parameters_.find(wholeOf(*number));
+    if (found != parameters_.end()) return ir::constant(found->second, one->range);
+    if (!unset) unset = wholeOf(*number);
+    return one;
+  });
+  if (unset) {
+    stop(MikroprogEnding::Inconclusive, fmt::format("P{} has no value", *unset));
     return std::nullopt;
   }
-  return value.negative ? -found->second : found->second;
+  const ir::Scalar result = ir::evaluate(*known, {});
+  if (result.known()) return result.value;
+  stop(MikroprogEnding::Inconclusive,
+       result.error == ir::ArithmeticError::DivisionByZero ? "a division by 0" : "a sum without a value");
+  return std::nullopt;
 }
 
-std::optional<double> MikroprogMachine::word(const MikroprogBlock& block, char address) {
-  for (const stdlib::MikroprogWord& one : block.words)
+std::optional<double> MikroprogMachine::word(const ListedBlock& block, char address) {
+  for (const ir::Word& one : block.words)
     if (one.address == address) return value(one.value);
   return std::nullopt;
 }
 
-bool MikroprogMachine::assign(const stdlib::MikroprogAssignment& assignment) {
-  double sum = 0;
-  for (const stdlib::MikroprogTerm& term : assignment.terms) {
-    const std::optional<double> next = value(term.value);
-    if (!next) return false;
-    if (term.op == '/' && *next == 0) return stop(MikroprogEnding::Inconclusive, "a division by 0");
-    sum = term.op == '+'   ? sum + *next
-          : term.op == '-' ? sum - *next
-          : term.op == '*' ? sum * *next
-                           : sum / *next;
-  }
-  parameters_[assignment.parameter] = snap(sum);
+bool MikroprogMachine::assign(const ir::Store& store) {
+  const std::optional<double> number = value(store.number);
+  const std::optional<double> sum = value(store.value);
+  if (!number || !sum) return false;
+  parameters_[wholeOf(*number)] = snap(*sum);
   return true;
 }
 
 // All functions of a block, in the order of the text, then the short form.
-bool MikroprogMachine::block(const MikroprogBlock& block) {
-  if (block.assignment) return assign(*block.assignment);
+bool MikroprogMachine::block(const ListedBlock& block) {
+  if (block.store != nullptr) return assign(*block.store);
   std::vector<std::string> functions;
-  for (const stdlib::MikroprogWord& one : block.words) {
+  for (const ir::Word& one : block.words) {
     if (one.address != 'G' && one.address != 'M') continue;
-    const std::uint32_t number = wholeOf(one.value.number);
-    const MikroprogFunction* function = one.value.parameter ? nullptr : control_.find(one.address, number);
+    const double* number = ir::constantValue(one.value);
+    const MikroprogFunction* function =
+        number == nullptr ? nullptr : control_.find(one.address, wholeOf(*number));
     if (function == nullptr || !function->usable)
       return stop(MikroprogEnding::Inconclusive,
-                  fmt::format("{}{} is not known", one.address, one.value.number));
+                  fmt::format("{}{} is not known", one.address, number == nullptr ? 0 : *number));
     functions.push_back(function->function);
   }
   bool moves = false;
@@ -158,7 +164,7 @@ bool MikroprogMachine::block(const MikroprogBlock& block) {
   return true;
 }
 
-bool MikroprogMachine::function(const MikroprogBlock& block, const std::string& what) {
+bool MikroprogMachine::function(const ListedBlock& block, const std::string& what) {
   if (what == "rapid" || what == "feed") {
     motion_ = what;
     return move(block, what);
@@ -230,7 +236,7 @@ bool MikroprogMachine::function(const MikroprogBlock& block, const std::string& 
 }
 
 // A word of an axis, X of a lathe as a radius.
-std::optional<double> MikroprogMachine::scaled(const MikroprogBlock& block, std::size_t axis) {
+std::optional<double> MikroprogMachine::scaled(const ListedBlock& block, std::size_t axis) {
   const std::optional<double> given = word(block, kLetters[axis]);
   if (!given) return std::nullopt;
   if (!control_.hasAxis(kLetters[axis])) {
@@ -241,7 +247,7 @@ std::optional<double> MikroprogMachine::scaled(const MikroprogBlock& block, std:
 }
 
 // End point in coordinates of the machine.
-bool MikroprogMachine::target(const MikroprogBlock& block, std::array<double, 3>& to, bool& any) {
+bool MikroprogMachine::target(const ListedBlock& block, std::array<double, 3>& to, bool& any) {
   to = machine_;
   for (std::size_t i = 0; i < 3; ++i) {
     const std::optional<double> given = scaled(block, i);
@@ -278,7 +284,7 @@ void MikroprogMachine::traceMove(std::string_view action, bool feed) {
   trace_->end();
 }
 
-bool MikroprogMachine::move(const MikroprogBlock& block, const std::string& motion) {
+bool MikroprogMachine::move(const ListedBlock& block, const std::string& motion) {
   if (motion != "rapid" && motion != "feed")
     return stop(MikroprogEnding::Inconclusive, motion + " is not followed");
   if (const std::optional<double> feed = word(block, 'F')) feed_ = *feed;
@@ -302,7 +308,7 @@ bool MikroprogMachine::move(const MikroprogBlock& block, const std::string& moti
   return ending_ == MikroprogEnding::Running;
 }
 
-bool MikroprogMachine::probe(const MikroprogBlock& block) {
+bool MikroprogMachine::probe(const ListedBlock& block) {
   if (signal_ == nullptr) return stop(MikroprogEnding::Inconclusive, "G31 without a part");
   if (incremental_) return stop(MikroprogEnding::Inconclusive, "G31 under G91 (Q20)");
   std::array<double, 3> to{};
@@ -328,7 +334,7 @@ bool MikroprogMachine::probe(const MikroprogBlock& block) {
   return jump(block);
 }
 
-bool MikroprogMachine::setPosition(const MikroprogBlock& block) {
+bool MikroprogMachine::setPosition(const ListedBlock& block) {
   bool any = false;
   for (std::size_t i = 0; i < 3; ++i) {
     const std::optional<double> given = scaled(block, i);
@@ -343,16 +349,17 @@ bool MikroprogMachine::setPosition(const MikroprogBlock& block) {
   return true;
 }
 
-bool MikroprogMachine::jump(const MikroprogBlock& block) {
+bool MikroprogMachine::jump(const ListedBlock& block) {
   const std::optional<double> number = word(block, 'L');
   if (!number) return stop(MikroprogEnding::Fault, "a jump without L");
-  const auto found = numbers_.find(wholeOf(*number));
-  if (found == numbers_.end()) return stop(MikroprogEnding::Fault, fmt::format("no block N{}", *number));
+  const auto found = program_.numbers.find(wholeOf(*number));
+  if (found == program_.numbers.end())
+    return stop(MikroprogEnding::Fault, fmt::format("no block N{}", *number));
   next_ = found->second;
   return true;
 }
 
-bool MikroprogMachine::call(const MikroprogBlock& block) {
+bool MikroprogMachine::call(const ListedBlock& block) {
   const std::optional<double> runs = word(block, 'H');
   if (runs && *runs != 1) return stop(MikroprogEnding::Inconclusive, "G26 with H (Q8)");
   returns_.push_back(next_);
@@ -362,7 +369,7 @@ bool MikroprogMachine::call(const MikroprogBlock& block) {
 std::vector<std::uint32_t> MikroprogMachine::openCalls() const {
   std::vector<std::uint32_t> out;
   for (const std::size_t next : returns_)
-    out.push_back(program_[next - 1].line);
+    out.push_back(program_.blocks[next - 1].line);
   return out;
 }
 

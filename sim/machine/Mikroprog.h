@@ -3,9 +3,9 @@
 // unknown beyond that ends the run as inconclusive. Lengths are mm, X of a lathe is kept as a radius.
 #pragma once
 
+#include "sim/machine/BlockList.h"
 #include "sim/machine/Machine.h"
 #include "stdlib/MikroprogControl.h"
-#include "stdlib/MikroprogProgram.h"
 
 #include <array>
 #include <map>
@@ -44,7 +44,7 @@ struct MikroprogEvent {
 class MikroprogMachine {
 public:
   // `control` and `program` outlive the machine.
-  MikroprogMachine(const stdlib::MikroprogControl& control, const stdlib::MikroprogProgram& program);
+  MikroprogMachine(const stdlib::MikroprogControl& control, const BlockList& program);
 
   // nullptr: no part, G31 ends the run as inconclusive. O7 asks it with a move of no length.
   void setSkipSignal(SkipSignal* signal) { signal_ = signal; }
@@ -80,19 +80,19 @@ public:
 
 private:
   bool stop(MikroprogEnding ending, std::string why); // false
-  bool block(const stdlib::MikroprogBlock& block);
-  bool assign(const stdlib::MikroprogAssignment& assignment);
-  std::optional<double> value(const stdlib::MikroprogValue& value);
-  std::optional<double> word(const stdlib::MikroprogBlock& block, char address);
-  std::optional<double> scaled(const stdlib::MikroprogBlock& block, std::size_t axis);
-  bool target(const stdlib::MikroprogBlock& block, std::array<double, 3>& to, bool& any);
-  bool jump(const stdlib::MikroprogBlock& block);
+  bool block(const ListedBlock& block);
+  bool assign(const ir::Store& store);
+  std::optional<double> value(const ir::ExpressionPtr& expression);
+  std::optional<double> word(const ListedBlock& block, char address);
+  std::optional<double> scaled(const ListedBlock& block, std::size_t axis);
+  bool target(const ListedBlock& block, std::array<double, 3>& to, bool& any);
+  bool jump(const ListedBlock& block);
   std::optional<bool> condition(std::uint32_t number);
-  bool move(const stdlib::MikroprogBlock& block, const std::string& motion);
-  bool probe(const stdlib::MikroprogBlock& block);
-  bool setPosition(const stdlib::MikroprogBlock& block);
-  bool call(const stdlib::MikroprogBlock& block);
-  bool function(const stdlib::MikroprogBlock& block, const std::string& what);
+  bool move(const ListedBlock& block, const std::string& motion);
+  bool probe(const ListedBlock& block);
+  bool setPosition(const ListedBlock& block);
+  bool call(const ListedBlock& block);
+  bool function(const ListedBlock& block, const std::string& what);
   std::array<double, 3> inSystem(const std::array<double, 3>& machine) const;
   SkipMove skipMove(const std::array<double, 3>& to) const;
   void tell(MotionKind kind, const std::array<double, 3>& from);
@@ -100,11 +100,10 @@ private:
   void event(MikroprogEvent::Kind kind, std::string text = "", double value = 0);
 
   const stdlib::MikroprogControl& control_;
-  const stdlib::MikroprogProgram& program_;
+  const BlockList& program_;
   SkipSignal* signal_ = nullptr;
   MotionWatcher* watcher_ = nullptr;
   Trace* trace_ = nullptr;
-  std::map<std::uint64_t, std::size_t> numbers_; // N to its block
   std::array<double, 3> machine_{}, offset_{};
   std::map<std::uint32_t, double> parameters_;
   std::vector<std::size_t> returns_;

@@ -1,5 +1,6 @@
 #include "sim/machine/Mikroprog.h"
 #include "frontend/mikroprog/Check.h"
+#include "frontend/mikroprog/Lower.h"
 #include "frontend/mikroprog/Parse.h"
 #include "stdlib/DataFiles.h"
 
@@ -28,8 +29,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   renderText(diagnostics, sources, 0);
   mikroprog::dumpTokens(program, sources);
   mikroprog::dumpAst(program, sources);
-  if (const auto blocks = mikroprog::lower(program, sources)) {
-    sim::MikroprogMachine machine(control, *blocks);
+  if (auto lowered = mikroprog::lower(program, sources)) {
+    const sim::BlockList blocks(std::move(lowered->programs.front()), sources);
+    sim::MikroprogMachine machine(control, blocks);
     machine.setSkipSignal(&room);
     machine.run(1000);
   }

@@ -4,6 +4,7 @@
 #include "FanucHelper.h"
 #include "backends/mikroprog/Emit.h"
 #include "frontend/mikroprog/Check.h"
+#include "frontend/mikroprog/Lower.h"
 #include "frontend/mikroprog/Parse.h"
 #include "sim/machine/Mikroprog.h"
 #include "stdlib/MikroprogControl.h"
@@ -74,8 +75,8 @@ struct MikroprogTarget {
 };
 
 // A program as the machine takes it; what the control would refuse goes to `findings`.
-inline stdlib::MikroprogProgram readBack(const std::string& text, const stdlib::MikroprogControl& control,
-                                         std::set<std::string>* findings = nullptr) {
+inline sim::BlockList readBack(const std::string& text, const stdlib::MikroprogControl& control,
+                               std::set<std::string>* findings = nullptr) {
   SourceMap sources;
   Diagnostics diagnostics;
   const FileId file = sources.add(SourceFile("test.suf", text, Encoding::Cp852));
@@ -85,7 +86,7 @@ inline stdlib::MikroprogProgram readBack(const std::string& text, const stdlib::
     if (findings != nullptr) findings->emplace(d.code);
   auto out = frontend::mikroprog::lower(program, sources);
   REQUIRE_MESSAGE(out, text);
-  return std::move(*out);
+  return {std::move(out->programs.front()), sources};
 }
 
 // A block of material between `low` and `high`, in coordinates of the machine at which the probe has contact.

@@ -31,7 +31,7 @@ struct Touch : Maker {
 struct Run {
   MikroprogTarget& target;
   MikroprogEmission emission;
-  stdlib::MikroprogProgram program;
+  sim::BlockList program;
   sim::MikroprogMachine machine;
 
   Run(MikroprogTarget& to, const ir::Cycle& cycle, sim::SkipSignal& part)

@@ -10,7 +10,7 @@ namespace {
 
 struct Watched : sim::MotionWatcher, sim::SkipSignal {
   stdlib::MikroprogControl control;
-  stdlib::MikroprogProgram program;
+  sim::BlockList program;
   sim::MikroprogMachine machine;
   std::string told, trace;
   std::optional<double> share;
