@@ -1,16 +1,11 @@
 #include "frontend/gibbs/Interpreter.h"
 
+#include "ir/Match.h"
 #include "support/messages/Gibbs.h"
 
 #include <algorithm>
 
 namespace dotek::frontend::gibbs {
-namespace {
-
-template <class... Types> struct Cases : Types... { using Types::operator()...; };
-template <class... Types> Cases(Types...) -> Cases<Types...>; // clang 14 asks for it
-
-} // namespace
 
 const Program& Interpreter::programOf(const Macro& macro) {
   auto& program = programs_[&macro];
@@ -35,39 +30,39 @@ Interpreter::Flow Interpreter::step(State& state, const Instruction& instruction
   const SourceRange range = instruction.range;
   const auto flow = [](bool done) { return done ? Flow::Next : Flow::Failed; };
   fault_.reset();
-  return std::visit(Cases{[&](const AssignStep& s) {
-                            auto value = evaluate(state, *s.assignment->value);
-                            return flow(value &&
-                                        write(state, s.assignment->target, std::move(*value), range));
-                          },
-                          [&](const BranchStep& s) {
-                            const auto truth = decide(state, *s.condition);
-                            if (!truth) return Flow::Failed;
-                            const bool* known = std::get_if<bool>(&*truth);
-                            if (known == nullptr)
-                              return fork(state, std::get<ir::ConditionPtr>(*truth), s.otherwise, range);
-                            if (*known) return Flow::Next;
-                            state.frames.back().at = s.otherwise;
-                            return Flow::Jumped;
-                          },
-                          [&](const JumpStep& s) { return jump(state, s.target, range); },
-                          [&](const ForStep& s) { return loop(state, s, range); },
-                          [&](const NextStep& s) { return next(state, s, range); },
-                          [&](const GotoStep& s) { return jumpToLabel(state, *s.label, range); },
-                          [&](const CallStep& s) { return call(state, s, range); },
-                          [&](const ArgsStep& s) { return takeArguments(state, *s.args, range); },
-                          [&](const DeclareStep& s) { return declare(state, *s.declaration); },
-                          [&](const OnErrorStep& s) {
-                            state.frames.back().onError = s.label;
-                            return Flow::Next;
-                          },
-                          [&](const CommandStep& s) { return command(state, *s.command, range); },
-                          [&](const UnverifiedStep& s) { return flow(assumes(s.assumption, range)); },
-                          [&](const RefuseStep& s) {
-                            refuse(range, s.why);
-                            return Flow::Failed;
-                          }},
-                    instruction.step);
+  return std::visit(
+      ir::Overloaded{[&](const AssignStep& s) {
+                       auto value = evaluate(state, *s.assignment->value);
+                       return flow(value && write(state, s.assignment->target, std::move(*value), range));
+                     },
+                     [&](const BranchStep& s) {
+                       const auto truth = decide(state, *s.condition);
+                       if (!truth) return Flow::Failed;
+                       const bool* known = std::get_if<bool>(&*truth);
+                       if (known == nullptr)
+                         return fork(state, std::get<ir::ConditionPtr>(*truth), s.otherwise, range);
+                       if (*known) return Flow::Next;
+                       state.frames.back().at = s.otherwise;
+                       return Flow::Jumped;
+                     },
+                     [&](const JumpStep& s) { return jump(state, s.target, range); },
+                     [&](const ForStep& s) { return loop(state, s, range); },
+                     [&](const NextStep& s) { return next(state, s, range); },
+                     [&](const GotoStep& s) { return jumpToLabel(state, *s.label, range); },
+                     [&](const CallStep& s) { return call(state, s, range); },
+                     [&](const ArgsStep& s) { return takeArguments(state, *s.args, range); },
+                     [&](const DeclareStep& s) { return declare(state, *s.declaration); },
+                     [&](const OnErrorStep& s) {
+                       state.frames.back().onError = s.label;
+                       return Flow::Next;
+                     },
+                     [&](const CommandStep& s) { return command(state, *s.command, range); },
+                     [&](const UnverifiedStep& s) { return flow(assumes(s.assumption, range)); },
+                     [&](const RefuseStep& s) {
+                       refuse(range, s.why);
+                       return Flow::Failed;
+                     }},
+      instruction.step);
 }
 
 // ---- jumps ----------------------------------------------------------------------------------------------
