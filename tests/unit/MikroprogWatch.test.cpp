@@ -104,3 +104,18 @@ TEST_CASE("mikroprog: a program that records for ever ends") {
   CHECK(w.machine.ending() == MikroprogEnding::Endless);
   CHECK(w.machine.events().size() == 100'000);
 }
+
+TEST_CASE("mikroprog: a statement that is no plain block ends a run before it moves anything") {
+  SourceMap sources;
+  ir::Program program;
+  program.body.emplace_back();
+  program.body.back().node = ir::Port{true};
+  const sim::BlockList list(std::move(program), sources);
+  CHECK_FALSE(list.refused.empty());
+  const auto control = loadMikroprog("mikroprog-mill");
+  sim::MikroprogMachine machine(control, list);
+  machine.run();
+  CHECK(machine.ending() == MikroprogEnding::Inconclusive);
+  CHECK(machine.why() == list.refused);
+  CHECK(machine.blocks() == 0);
+}
