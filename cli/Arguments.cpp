@@ -132,7 +132,7 @@ driver::CommonOptions commonOf(const Raw& raw) {
   out.data = raw.data;
   if (!raw.from.empty()) {
     if (!project::kindByName(raw.from))
-      throw UsageError("--from takes prog, mac, dlg, define, nc or suf, not `" + raw.from + "`");
+      throw UsageError("--from takes prog, mac, dlg, define, nc, listing or suf, not `" + raw.from + "`");
     out.from = raw.from;
   }
   return out;
@@ -278,7 +278,7 @@ void fill(const Raw& raw, Arguments& parsed) {
 
 void addCommon(CLI::App& app, Raw& raw) {
   app.add_option("--encoding", raw.encoding, "utf-8, cp1250 or cp852 instead of the recognised encoding");
-  app.add_option("--from", raw.from, "kind of the inputs: prog, mac, dlg, define, nc or suf");
+  app.add_option("--from", raw.from, "kind of the inputs: prog, mac, dlg, define, nc, listing or suf");
   app.add_option("--max-errors", raw.maxErrors, "print at most N errors; 0 prints all")->type_name("N");
   app.add_option("--limit", raw.limit, "set a limit (see `dotek list limits`)")
       ->type_name("NAME=N")

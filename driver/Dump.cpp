@@ -91,7 +91,8 @@ private:
                                       session_.diagnostics()};
     if (options_.stage == Stage::Tokens) {
       if (*kind == InputKind::Nc) {
-        out_ += macrob::dumpTokens(*id, session_.sources(), session_.limits(), session_.diagnostics());
+        out_ += macrob::dumpTokens(*id, session_.sources(), session_.limits(), session_.diagnostics(),
+                                   textOf(options_.common));
         return;
       }
       out_ += *kind == InputKind::Prog
@@ -101,9 +102,9 @@ private:
     }
     switch (*kind) {
     case InputKind::Nc:
-      out_ +=
-          macrob::dumpAst(macrob::parse(*id, session_.sources(), session_.limits(), session_.diagnostics()),
-                          session_.sources());
+      out_ += macrob::dumpAst(macrob::parse(*id, session_.sources(), session_.limits(),
+                                            session_.diagnostics(), textOf(options_.common)),
+                              session_.sources());
       break;
     case InputKind::Prog:
       out_ +=

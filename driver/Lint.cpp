@@ -15,6 +15,7 @@
 #include "project/Job.h"
 #include "project/Lowering.h"
 #include "project/Prog.h"
+#include "project/Programs.h"
 #include "support/Files.h"
 #include "support/messages/ComPost.h"
 #include "support/messages/Commands.h"
@@ -268,8 +269,8 @@ private:
     if (!id) return;
     if (*kind == InputKind::Suf) return suf(*id);
     if (*kind == InputKind::Nc) {
-      macrob::File program =
-          macrob::parse(*id, session_.sources(), session_.limits(), session_.diagnostics());
+      macrob::File program = macrob::parse(*id, session_.sources(), session_.limits(), session_.diagnostics(),
+                                           textOf(options_.common));
       macrob::checkFile(program, control_ ? &*control_ : nullptr, session_.sources(), session_.diagnostics());
       programs_.push_back(std::move(program));
       return;

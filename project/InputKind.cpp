@@ -129,6 +129,8 @@ std::optional<InputKind> byName(const std::string& name) {
 
 } // namespace
 
+constexpr std::string_view kListing = "listing";
+
 std::string_view kindName(InputKind kind) {
   switch (kind) {
   case InputKind::Prog: return "prog";
@@ -141,7 +143,12 @@ std::string_view kindName(InputKind kind) {
   return "";
 }
 
+bool isListing(const std::optional<std::string>& from) {
+  return from == kListing;
+}
+
 std::optional<InputKind> kindByName(std::string_view name) {
+  if (name == kListing) return InputKind::Nc;
   for (const InputKind kind : {InputKind::Prog, InputKind::Macro, InputKind::Dialog, InputKind::DefineData,
                                InputKind::Nc, InputKind::Suf}) {
     if (kindName(kind) == name) return kind;

@@ -10,6 +10,10 @@
 
 namespace dotek::project {
 
+frontend::macrob::Text textOf(const CommonOptions& options) {
+  return isListing(options.from) ? frontend::macrob::Text::Listing : frontend::macrob::Text::Program;
+}
+
 bool isProgramFile(const std::string& path, Session& session) {
   std::error_code error;
   if (std::filesystem::is_directory(path, error)) return false;
@@ -23,7 +27,7 @@ std::optional<ir::ProgramFile> loadPrograms(FileId file, const stdlib::Control& 
                                             SourceRange* leader) {
   Diagnostics found;
   const frontend::macrob::File tree =
-      frontend::macrob::parse(file, session.sources(), session.limits(), found);
+      frontend::macrob::parse(file, session.sources(), session.limits(), found, textOf(session.options()));
   for (Diagnostic& one : found.all())
     if (one.severity == Severity::Error) session.diagnostics().add(std::move(one));
   if (leader != nullptr) *leader = tree.leader;

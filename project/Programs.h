@@ -1,6 +1,7 @@
 // Programs of macro B: from a file that was read to the IR.
 #pragma once
 
+#include "frontend/macrob/Parse.h"
 #include "ir/Program.h"
 #include "project/Session.h"
 #include "stdlib/Control.h"
@@ -9,6 +10,9 @@
 #include <string>
 
 namespace dotek::project {
+
+// What --from says of NC files.
+frontend::macrob::Text textOf(const CommonOptions& options);
 
 // By content, or by --from; false for a folder and for what cannot be read.
 bool isProgramFile(const std::string& path, Session& session);

@@ -1,6 +1,6 @@
 #include "frontend/macrob/Calls.h"
 
-#include "frontend/macrob/Lines.h"
+#include "frontend/macrob/Keywords.h"
 
 #include <algorithm>
 

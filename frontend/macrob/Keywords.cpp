@@ -53,4 +53,31 @@ bool isExpressionWord(std::string_view letters) {
   return true;
 }
 
+std::uint32_t argumentVariable(char letter) {
+  switch (letter) {
+  case 'A': return 1;
+  case 'B': return 2;
+  case 'C': return 3;
+  case 'D': return 7;
+  case 'E': return 8;
+  case 'F': return 9;
+  case 'H': return 11;
+  case 'I': return 4;
+  case 'J': return 5;
+  case 'K': return 6;
+  case 'M': return 13;
+  case 'Q': return 17;
+  case 'R': return 18;
+  case 'S': return 19;
+  case 'T': return 20;
+  case 'U': return 21;
+  case 'V': return 22;
+  case 'W': return 23;
+  case 'X': return 24;
+  case 'Y': return 25;
+  case 'Z': return 26;
+  default: return 0;
+  }
+}
+
 } // namespace dotek::frontend::macrob

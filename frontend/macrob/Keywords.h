@@ -37,4 +37,7 @@ WordMatch wordAt(std::string_view letters);
 // A function, an operator or a relation, and nothing else.
 bool isExpressionWord(std::string_view letters);
 
+// Local variable of an argument's letter (A is 1, X is 24); 0: the letter is none.
+std::uint32_t argumentVariable(char letter);
+
 } // namespace dotek::frontend::macrob

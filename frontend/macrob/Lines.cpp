@@ -1,6 +1,6 @@
 #include "frontend/macrob/Lines.h"
 
-#include "frontend/macrob/Keywords.h"
+#include "frontend/macrob/Legend.h"
 #include "support/Ascii.h"
 #include "support/messages/Common.h"
 #include "support/messages/MacroB.h"
@@ -24,15 +24,10 @@ bool isEnd(char c) {
 bool isOperator(char c) {
   return c == '*' || c == '/' || c == '+' || c == '-';
 }
-// Bytes above 127 are letters of texts.
-bool isTextLetter(char c) {
-  return std::isalpha(static_cast<unsigned char>(c)) != 0 || static_cast<unsigned char>(c) > 127;
-}
-
 class Splitter {
 public:
-  Splitter(FileId file, const SourceMap& sources, const Limits& limits, Diagnostics& diagnostics)
-      : file_(file), limits_(limits), diagnostics_(diagnostics) {
+  Splitter(FileId file, const SourceMap& sources, const Limits& limits, Diagnostics& diagnostics, Text text)
+      : file_(file), limits_(limits), diagnostics_(diagnostics), text_(text) {
     out_.bytes = sources.file(file).bytes();
   }
 
@@ -238,6 +233,7 @@ private:
     return text;
   }
 
+  // Finds what a listing explains beside its blocks, and takes it out where the file is one.
   void legend(Line& line) {
     const bool behindLegend = legendBefore_;
     legendBefore_ = false;
@@ -250,22 +246,14 @@ private:
     legendBefore_ = true;
     const std::size_t end = text.find_last_not_of(" \t") + 1;
     const SourceRange where = range(line.range.begin + begin, line.range.begin + end);
+    line.legend = where;
+    if (text_ != Text::Listing) return;
     diagnostics_.report<diag::LegendLine>(where);
     out_.legends.push_back(where);
     blank(where.begin, where.end);
     // A line without anything else is no block.
     if (!line.header && line.comments.empty() && text.find_first_not_of(" \t") == begin)
       line.range.end = line.range.begin;
-  }
-
-  // Letters, and not only capitals.
-  static bool isPlainText(std::string_view text) {
-    bool lower = false;
-    for (const char c : text) {
-      if (!isTextLetter(c) && !isBlank(c) && c != '.') return false;
-      lower = lower || std::islower(static_cast<unsigned char>(c)) != 0;
-    }
-    return lower;
   }
 
   // ---- %
@@ -305,6 +293,7 @@ private:
   FileId file_;
   const Limits& limits_;
   Diagnostics& diagnostics_;
+  Text text_;
   Lines out_;
   std::size_t at_ = 0;
   bool legendBefore_ = false;
@@ -315,67 +304,9 @@ private:
 
 } // namespace
 
-Lines splitLines(FileId file, const SourceMap& sources, const Limits& limits, Diagnostics& diagnostics) {
-  return Splitter(file, sources, limits, diagnostics).run();
-}
-
-std::uint32_t argumentVariable(char letter) {
-  switch (letter) {
-  case 'A': return 1;
-  case 'B': return 2;
-  case 'C': return 3;
-  case 'D': return 7;
-  case 'E': return 8;
-  case 'F': return 9;
-  case 'H': return 11;
-  case 'I': return 4;
-  case 'J': return 5;
-  case 'K': return 6;
-  case 'M': return 13;
-  case 'Q': return 17;
-  case 'R': return 18;
-  case 'S': return 19;
-  case 'T': return 20;
-  case 'U': return 21;
-  case 'V': return 22;
-  case 'W': return 23;
-  case 'X': return 24;
-  case 'Y': return 25;
-  case 'Z': return 26;
-  default: return 0;
-  }
-}
-
-std::size_t findLegend(std::string_view line) {
-  const auto skip = [&](std::size_t at) {
-    while (at < line.size() && isBlank(line[at]))
-      ++at;
-    return at;
-  };
-  const std::size_t first = skip(0);
-  for (std::size_t at = first; at < line.size(); ++at) {
-    const std::uint32_t variable = argumentVariable(line[at]);
-    if (variable == 0) continue;
-    if (at != first && (at < 2 || !isBlank(line[at - 1]) || !isBlank(line[at - 2]))) continue;
-    std::size_t next = skip(at + 1);
-    if (next >= line.size() || line[next] != '#') continue;
-    next = skip(next + 1);
-    std::uint32_t number = 0;
-    const std::size_t digits = next;
-    while (next < line.size() && isDigit(line[next]) && next - digits < 4)
-      number = number * 10 + static_cast<std::uint32_t>(line[next++] - '0');
-    next = skip(next);
-    if (number != variable || next >= line.size() || line[next] != '=') continue;
-    // Words, not an expression.
-    for (++next; next < line.size();) {
-      std::string letters;
-      while (next < line.size() && isTextLetter(line[next]))
-        letters += line[next++];
-      if (!letters.empty() && !isExpressionWord(letters)) return at;
-      if (letters.empty()) ++next;
-    }
-  }
-  return std::string_view::npos;
+Lines splitLines(FileId file, const SourceMap& sources, const Limits& limits, Diagnostics& diagnostics,
+                 Text text) {
+  return Splitter(file, sources, limits, diagnostics, text).run();
 }
 
 } // namespace dotek::frontend::macrob

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "frontend/macrob/Ast.h"
+#include "frontend/macrob/Parse.h"
 #include "support/Diagnostics.h"
 #include "support/Limits.h"
 
@@ -20,6 +21,7 @@ struct Line {
   std::optional<ProgramName> header;
   bool reported = false; // an error was reported: the block counts as repaired
   SourceRange dropped;   // limits cut it: nothing is read of it; empty: whole
+  SourceRange legend;    // what a listing leaves out as text of a drawing; empty: nothing
 };
 
 struct Lines {
@@ -33,13 +35,8 @@ struct Lines {
   std::string bytes;
 };
 
-Lines splitLines(FileId file, const SourceMap& sources, const Limits& limits, Diagnostics& diagnostics);
-
-// Where in `line` the text of a drawing such as `D #7 = CUTTER DIA` begins: a letter of arguments, its own
-// local variable, `=`, and words. npos: nowhere.
-std::size_t findLegend(std::string_view line);
-
-// Local variable of an argument's letter (A is 1, X is 24); 0: the letter is none.
-std::uint32_t argumentVariable(char letter);
+// Of a `text` that is no listing, texts of drawings are found (Line::legend) and left where they are.
+Lines splitLines(FileId file, const SourceMap& sources, const Limits& limits, Diagnostics& diagnostics,
+                 Text text);
 
 } // namespace dotek::frontend::macrob

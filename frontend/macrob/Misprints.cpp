@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cctype>
-#include <charconv>
 #include <fmt/format.h>
 
 namespace dotek::frontend::macrob {
@@ -12,40 +11,10 @@ using Lexer = grammar::MacroBLexer;
 
 namespace {
 
-bool isOperator(std::size_t type) {
-  switch (type) {
-  case Lexer::PLUS:
-  case Lexer::MINUS:
-  case Lexer::STAR:
-  case Lexer::SLASH:
-  case Lexer::KW_AND:
-  case Lexer::KW_OR:
-  case Lexer::KW_XOR:
-  case Lexer::KW_MOD: return true;
-  default: return false;
-  }
-}
-
-bool isAddress(std::size_t type) {
-  return type == Lexer::ADDRESS || type == Lexer::ADDRESS_N;
-}
-
-// A value may begin behind it.
-bool expectsValue(std::size_t type) {
-  return isOperator(type) || type == Lexer::LBRACKET || type == Lexer::EQUALS || type == Lexer::RELATION ||
-         type == Lexer::COMMA;
-}
-
-std::uint32_t wholeNumber(const std::string& digits) {
-  std::uint32_t value = UINT32_MAX;
-  std::from_chars(digits.data(), digits.data() + digits.size(), value);
-  return value;
-}
-
 class Repairer {
 public:
-  Repairer(std::vector<Tok>& tokens, FileId file, std::string_view source, const UsesVariable& uses)
-      : tokens_(tokens), file_(file), source_(source), uses_(uses) {}
+  Repairer(std::vector<Tok>& tokens, FileId file, std::string_view source)
+      : tokens_(tokens), file_(file), source_(source) {}
 
   Misprints run() {
     if (isText()) return {};
@@ -56,11 +25,6 @@ public:
       gotoWithZero(i);
       letterO(i);
       decimalComma(i);
-    }
-    for (std::size_t i = 0; i < tokens_.size(); ++i) {
-      starForHash(i);
-      pointedVariable(i);
-      strayIf(i);
     }
     bracketedAssignment();
     conditionBracket();
@@ -74,7 +38,7 @@ public:
   }
 
 private:
-  std::size_t type(std::size_t i) const { return i < tokens_.size() ? tokens_[i].type : antlr4::Token::EOF; }
+  std::size_t type(std::size_t i) const { return typeAt(tokens_, i); }
   SourceRange rangeOf(const Tok& tok) const { return {file_, tok.begin, tok.end}; }
   SourceRange at(std::uint32_t place) const { return {file_, place, place}; }
   std::string textOf(SourceRange range) const {
@@ -252,50 +216,6 @@ private:
     erase(i, 2);
   }
 
-  // ---- expressions
-
-  // `*130` and `**100` where a variable belongs.
-  void starForHash(std::size_t i) {
-    if (type(i) != Lexer::STAR || i == 0 || !expectsValue(type(i - 1)) || type(i + 1) != Lexer::NUMBER)
-      return;
-    const std::string& digits = tokens_[i + 1].text;
-    if (digits.find('.') != std::string::npos || !uses_(wholeNumber(digits))) return;
-    const SourceRange range = rangeOf(tokens_[i]);
-    report<diag::StarForHash>(range, fmt::format("write `#{}`", digits), {{range, "#"}}, digits);
-    tokens_[i].type = Lexer::HASH;
-    tokens_[i].text = "#";
-  }
-
-  // `#54.` and `#106.`
-  void pointedVariable(std::size_t i) {
-    if (type(i) != Lexer::HASH || type(i + 1) != Lexer::NUMBER || !tokens_[i + 1].text.ends_with('.')) return;
-    Tok& number = tokens_[i + 1];
-    const std::uint32_t n = wholeNumber(number.text);
-    const SourceRange range = spanning(rangeOf(tokens_[i]), rangeOf(number));
-    if (n >= 34 && n <= 99) {
-      report<diag::VariableNumberForm>(range, fmt::format("write `{}`", number.text),
-                                       {{rangeOf(tokens_[i]), ""}}, number.text);
-      erase(i);
-    } else if (uses_(n)) {
-      report<diag::VariableNumberForm>(range, fmt::format("write `#{}`", n),
-                                       {{{file_, number.end - 1, number.end}, ""}}, number.text);
-      number.text.pop_back();
-    }
-  }
-
-  // `X5. IF #9` where F belongs.
-  void strayIf(std::size_t i) {
-    if (type(i) != Lexer::KW_IF || type(i + 1) != Lexer::HASH || type(i + 2) != Lexer::NUMBER) return;
-    const bool words = i > 0 && std::any_of(tokens_.begin(), tokens_.begin() + static_cast<std::ptrdiff_t>(i),
-                                            [](const Tok& tok) { return tok.type == Lexer::ADDRESS; });
-    if (!words || (type(i + 3) != antlr4::Token::EOF && !isAddress(type(i + 3)))) return;
-    const SourceRange range = rangeOf(tokens_[i]);
-    report<diag::StrayIf>(range, fmt::format("write `F#{}`", tokens_[i + 2].text), {{range, "F"}},
-                          tokens_[i + 2].text);
-    tokens_[i].type = Lexer::ADDRESS;
-    tokens_[i].text = "F";
-  }
-
   // ---- brackets
 
   // The bracket that closes the one at `open`; tokens_.size(): none.
@@ -394,15 +314,13 @@ private:
   std::vector<Tok>& tokens_;
   FileId file_;
   std::string_view source_;
-  const UsesVariable& uses_;
   Misprints out_;
 };
 
 } // namespace
 
-Misprints repairMisprints(std::vector<Tok>& tokens, FileId file, std::string_view source,
-                          const UsesVariable& uses) {
-  return Repairer(tokens, file, source, uses).run();
+Misprints repairMisprints(std::vector<Tok>& tokens, FileId file, std::string_view source) {
+  return Repairer(tokens, file, source).run();
 }
 
 } // namespace dotek::frontend::macrob

@@ -1,11 +1,10 @@
-// Misprints of programs that were typed from a listing: what the tokens of one block show, and the repair
-// where there is one only. Included by builder sources only.
+// Misprints of a typist: O for 0, a decimal comma, brackets. What the tokens of one block show, and the
+// repair where there is one only. Included by builder sources only.
 #pragma once
 
 #include "frontend/macrob/Tokens.h"
 #include "support/Diagnostics.h"
 
-#include <functional>
 #include <string>
 #include <vector>
 
@@ -18,12 +17,8 @@ struct Misprints {
   std::vector<Diagnostic> remarks;
 };
 
-// Tells whether the program has `#n` elsewhere.
-using UsesVariable = std::function<bool(std::uint32_t)>;
-
 // Repairs `tokens` (without the end of the block).
-Misprints repairMisprints(std::vector<Tok>& tokens, FileId file, std::string_view source,
-                          const UsesVariable& uses);
+Misprints repairMisprints(std::vector<Tok>& tokens, FileId file, std::string_view source);
 
 // The one error of a block that the grammar does not take; `at` is the token that does not fit, tokens.size()
 // for the end of the block.

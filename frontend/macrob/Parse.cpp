@@ -2,6 +2,7 @@
 
 #include "frontend/macrob/BuildAst.h"
 #include "frontend/macrob/Lines.h"
+#include "frontend/macrob/Listing.h"
 #include "frontend/macrob/Misprints.h"
 #include "frontend/macrob/Scan.h"
 #include "support/messages/MacroB.h"
@@ -9,6 +10,7 @@
 #include <algorithm>
 #include <cctype>
 #include <fmt/format.h>
+#include <iterator>
 #include <map>
 #include <set>
 
@@ -62,9 +64,9 @@ std::vector<std::unique_ptr<antlr4::Token>> onlyEnd() {
 class GrammarReader {
 public:
   GrammarReader(FileId file, const SourceMap& sources, const Limits& limits, Diagnostics& diagnostics,
-                Lines& lines)
-      : file_(file), source_(sources.file(file).bytes()), diagnostics_(diagnostics), lines_(lines),
-        language_(language()), bytes_(lines.bytes), lexer_(&bytes_),
+                Lines& lines, Text text)
+      : text_(text), file_(file), source_(sources.file(file).bytes()), diagnostics_(diagnostics),
+        lines_(lines), language_(language()), bytes_(lines.bytes), lexer_(&bytes_),
         buffer_(lexer_, file, sources, language_, limits, problems_), emptySource_(onlyEnd()),
         emptyStream_(&emptySource_), parser_(&emptyStream_),
         session_(parser_, file, language_, limits, ignored_) {
@@ -88,13 +90,11 @@ public:
       unread(block, line, tokens);
       return block;
     }
-    const std::set<std::uint32_t>* used = nullptr;
-    Misprints misprints = repairMisprints(tokens, file_, source_, [&](std::uint32_t n) {
-      if (used == nullptr) used = &variablesOf(index);
-      return used->contains(n);
-    });
+    const std::vector<Tok> written = tokens;
+    Misprints misprints = repair(tokens, index, text_);
     std::optional<Diagnostic> error = parse(tokens, block, line.range.end);
     if (error) {
+      if (text_ == Text::Program) hintAtListing(*error, written, index);
       unread(block, line, tokens);
     } else {
       block.repaired = line.reported || !misprints.found.empty();
@@ -116,6 +116,43 @@ public:
   }
 
 private:
+  Misprints repair(std::vector<Tok>& tokens, std::size_t index, Text text) {
+    std::vector<Diagnostic> found;
+    if (text == Text::Listing) {
+      const std::set<std::uint32_t>* used = nullptr;
+      found = repairListing(tokens, file_, [&](std::uint32_t n) {
+        if (used == nullptr) used = &variablesOf(index);
+        return used->contains(n);
+      });
+    }
+    Misprints out = repairMisprints(tokens, file_, source_);
+    out.found.insert(out.found.end(), std::make_move_iterator(found.begin()),
+                     std::make_move_iterator(found.end()));
+    const auto before = [](const Diagnostic& a, const Diagnostic& b) {
+      return a.range.begin < b.range.begin;
+    };
+    std::stable_sort(out.found.begin(), out.found.end(), before);
+    return out;
+  }
+
+  // Says that the block can be read as one of a listing, if it can.
+  void hintAtListing(Diagnostic& error, std::vector<Tok> tokens, std::size_t index) {
+    const Line& line = lines_.lines[index];
+    const bool legend = line.legend.begin < line.legend.end;
+    if (legend)
+      std::erase_if(tokens, [&](const Tok& tok) {
+        return tok.begin >= line.legend.begin && tok.begin < line.legend.end;
+      });
+    std::vector<Tok> plain = tokens;
+    if (!tokens.empty()) {
+      const Misprints misprints = repair(tokens, index, Text::Listing);
+      if (!legend && repair(plain, index, Text::Program).found.size() == misprints.found.size()) return;
+      Block ignored;
+      if (parse(tokens, ignored, line.range.end)) return;
+    }
+    error.note(error.range, "a program from a book or a scan? `--from listing` can read this block");
+  }
+
   // The next line's visible tokens; lines are asked for in their order.
   std::vector<Tok> tokensOf(const Line& line) {
     std::vector<Tok> out;
@@ -198,6 +235,7 @@ private:
     return used;
   }
 
+  Text text_;
   FileId file_;
   std::string_view source_;
   Diagnostics& diagnostics_;
@@ -264,9 +302,9 @@ bool isBare(const Block& block) {
 
 } // namespace
 
-File parse(FileId file, const SourceMap& sources, const Limits& limits, Diagnostics& diagnostics,
+File parse(FileId file, const SourceMap& sources, const Limits& limits, Diagnostics& diagnostics, Text text,
            Reader reader) {
-  Lines lines = splitLines(file, sources, limits, diagnostics);
+  Lines lines = splitLines(file, sources, limits, diagnostics, text);
   File out;
   out.file = file;
   out.markFirst = lines.markFirst;
@@ -290,7 +328,7 @@ File parse(FileId file, const SourceMap& sources, const Limits& limits, Diagnost
     std::fill(lines.bytes.begin() + line.range.begin, lines.bytes.begin() + line.end, ' ');
   }
   if (!all) {
-    GrammarReader grammar(file, sources, limits, diagnostics, lines);
+    GrammarReader grammar(file, sources, limits, diagnostics, lines, text);
     for (std::size_t i = 0; i < blocks.size(); ++i)
       if (!blocks[i]) blocks[i] = grammar.read(i);
   }

@@ -13,14 +13,19 @@ namespace dotek::frontend::macrob {
 // Which reader takes the plain NC blocks. Both give the same tree and findings; tests compare.
 enum class Reader : std::uint8_t { Fast, GrammarOnly };
 
+// What the file holds: a program of a machine, or the print of one (`--from listing`), of which texts of
+// drawings are left out and mixed-up signs are repaired.
+enum class Text : std::uint8_t { Program, Listing };
+
 // Parses one file of the map. Never fails: problems go to `diagnostics`, at most one error a block; blocks
 // that cannot be read become `Unread`. A misprint with one certain repair is reported with it, and the tree
-// is that of the repaired block.
+// is that of the repaired block. An error of a block that a listing would be read without has a note.
 File parse(FileId file, const SourceMap& sources, const Limits& limits, Diagnostics& diagnostics,
-           Reader reader = Reader::Fast);
+           Text text = Text::Program, Reader reader = Reader::Fast);
 
 // `dump --stage tokens`: one token a line: line:column, kind, text.
-std::string dumpTokens(FileId file, const SourceMap& sources, const Limits& limits, Diagnostics& diagnostics);
+std::string dumpTokens(FileId file, const SourceMap& sources, const Limits& limits, Diagnostics& diagnostics,
+                       Text text = Text::Program);
 
 // `dump --stage ast`: an indented tree, one node a line; with places unless told otherwise.
 std::string dumpAst(const File& file, const SourceMap& sources, bool places = true);

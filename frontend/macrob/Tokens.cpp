@@ -108,6 +108,33 @@ Tok tokOf(const antlr4::Token& token, std::string_view source) {
   return out;
 }
 
+std::size_t typeAt(const std::vector<Tok>& tokens, std::size_t i) {
+  return i < tokens.size() ? tokens[i].type : antlr4::Token::EOF;
+}
+
+bool isOperator(std::size_t type) {
+  switch (type) {
+  case Lexer::PLUS:
+  case Lexer::MINUS:
+  case Lexer::STAR:
+  case Lexer::SLASH:
+  case Lexer::KW_AND:
+  case Lexer::KW_OR:
+  case Lexer::KW_XOR:
+  case Lexer::KW_MOD: return true;
+  default: return false;
+  }
+}
+
+bool isAddress(std::size_t type) {
+  return type == Lexer::ADDRESS || type == Lexer::ADDRESS_N;
+}
+
+bool expectsValue(std::size_t type) {
+  return isOperator(type) || type == Lexer::LBRACKET || type == Lexer::EQUALS || type == Lexer::RELATION ||
+         type == Lexer::COMMA;
+}
+
 Language language() {
   Language result;
   result.unitStops = {Lexer::EOL};
@@ -117,9 +144,9 @@ Language language() {
   return result;
 }
 
-std::string dumpTokens(FileId file, const SourceMap& sources, const Limits& limits,
-                       Diagnostics& diagnostics) {
-  Lines lines = splitLines(file, sources, limits, diagnostics);
+std::string dumpTokens(FileId file, const SourceMap& sources, const Limits& limits, Diagnostics& diagnostics,
+                       Text text) {
+  Lines lines = splitLines(file, sources, limits, diagnostics, text);
   ByteStream bytes(std::move(lines.bytes));
   TokenReader reader(&bytes);
   const Language macrob = language();
@@ -127,10 +154,10 @@ std::string dumpTokens(FileId file, const SourceMap& sources, const Limits& limi
   std::string out;
   const auto print = [&](SourceRange range, std::string_view kind) {
     const LineColumn place = sources.file(file).place(range.begin);
-    std::string text;
+    std::string written;
     for (const char c : sources.textUtf8(range))
-      text += c == '\n' ? "\\n" : c == '\r' ? "\\r" : std::string(1, c);
-    out += fmt::format("{}:{} {} {}\n", place.line, place.column, kind, text);
+      written += c == '\n' ? "\\n" : c == '\r' ? "\\r" : std::string(1, c);
+    out += fmt::format("{}:{} {} {}\n", place.line, place.column, kind, written);
   };
   std::size_t line = 0;
   for (const antlr4::Token* token : tokens.all()) {

@@ -38,6 +38,12 @@ struct Tok {
 // Visible tokens as they are read, with their text.
 Tok tokOf(const antlr4::Token& token, std::string_view source);
 
+// The kind of the token at `i`; that of the end behind the last one.
+std::size_t typeAt(const std::vector<Tok>& tokens, std::size_t i);
+bool isOperator(std::size_t type); // of two values; comparisons are none
+bool isAddress(std::size_t type);
+bool expectsValue(std::size_t type); // a value may follow
+
 Language language();
 
 } // namespace dotek::frontend::macrob

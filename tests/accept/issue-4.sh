@@ -26,7 +26,7 @@ check "ram: the real errors and nothing else" exactly \
 check "ram: lint fails" hasStatus 1
 
 # ---- the programs of a 6M: a misprint is one finding, a bad block has one error
-dotek lint --control fanuc-6m --max-errors 0 "$pocket"/*.ocr.nc
+dotek lint --control fanuc-6m --from listing --max-errors 0 "$pocket"/*.ocr.nc
 check "pocket: at most one error a block" bash -c '! grep " error " | cut -d" " -f1 | uniq -d | grep .' < <(findings)
 oneOf() { findings | grep -qx -- "$1" || { printf 'nowhere: %s\n' "$1"; findings; return 1; }; }
 for expected in \
@@ -39,7 +39,10 @@ check "pocket: a legend is one note" oneOf "O20.ocr.nc:20 note legend-line"
 for file in O10 O30 O50 O500; do
   check "pocket: $file is right" bash -c '! grep -q "$1.ocr.nc:[0-9]* \(error\|warning\)"' _ "$file" < <(findings)
 done
-dotek lint "$pocket"/*.ocr.nc
+dotek lint --max-errors 0 "$pocket"/*.ocr.nc
+check "pocket: without --from listing text of drawings is no block" oneOf "O20.ocr.nc:20 error assignment-target"
+check "pocket: and the error says what reads it" says "--from listing"
+dotek lint --from listing "$pocket"/*.ocr.nc
 check "without a control nothing is said of points" bash -c '! grep -q without-point' < <(findings)
 
 # ---- the machine

@@ -8,14 +8,21 @@
 namespace fs = std::filesystem;
 using namespace dotek;
 using namespace dotek::tests;
+using dotek::frontend::macrob::Text;
 
 namespace {
 
-void expect(const fs::path& path, const std::string& control, const std::vector<std::string>& findings) {
+void expect(const fs::path& path, const std::string& control, const std::vector<std::string>& findings,
+            Text kind = Text::Program) {
   CAPTURE(path.string());
-  MacroFile file(readAll(path));
+  MacroFile file(readAll(path), kind);
   file.check(control);
   CHECK(file.findings() == findings);
+}
+
+void expectListing(const fs::path& path, const std::string& control,
+                   const std::vector<std::string>& findings) {
+  expect(path, control, findings, Text::Listing);
 }
 
 std::vector<std::string> zeros(std::initializer_list<const char*> places) {
@@ -65,47 +72,49 @@ TEST_CASE("macrob corpus: programs of a 6M from a book, one finding a misprint")
   const std::string control = "fanuc-6m";
   const fs::path folder = corpus / "pocket";
   for (const char* good : {"O10.ocr.nc", "O30.ocr.nc", "O50.ocr.nc", "O500.ocr.nc"})
-    expect(folder / good, control, {});
-  expect(folder / "O20.ocr.nc", control,
-         merged({zeros({"E 7:2", "E 8:2", "W 8:5", "E 19:2", "E 28:6", "E 55:5"}),
-                 legends({"20:1", "21:1", "22:1", "23:1", "24:1", "25:1"}),
-                 {"E 3:20 decimal-comma", "E 17:13 decimal-comma", "E 27:1 do-as-offset",
-                  "E 30:6 brackets-do-not-match", "W 39:8 hash-missing", "E 41:14 second-equals",
-                  "E 44:1 do-as-offset", "E 57:34 brackets-do-not-match"}}));
-  expect(folder / "O40.ocr.nc", control,
-         merged({zeros({"E 11:2", "E 12:2", "W 12:5", "E 24:5", "E 25:5"}),
-                 legends({"4:1", "6:1", "8:1", "10:1"}),
-                 {"E 3:20 decimal-comma", "E 31:18 word-needs-brackets", "E 38:22 word-needs-brackets",
-                  "W 38:31 stray-if", "E 41:3 assignment-target", "E 44:22 word-needs-brackets",
-                  "E 76:5 brackets-do-not-match", "W 77:19 hash-missing", "E 90:41 brackets-do-not-match"}}));
-  expect(folder / "O60.ocr.nc", control,
-         merged({zeros({"E 7:2", "E 8:2", "W 8:5", "E 19:5"}),
-                 legends({"3:42", "4:42"}),
-                 {"W 12:15 table-base-read", "E 15:8 brackets-do-not-match", "W 15:12 decimal-comma",
-                  "E 30:31 variable-number-form", "E 47:45 block-over-lines", "E 62:23 star-for-hash",
-                  "E 63:29 star-for-hash", "E 65:32 decimal-comma"}}));
-  expect(folder / "O70.ocr.nc", control,
-         merged({zeros({"E 11:2", "E 12:2", "E 26:2", "E 27:2"}),
-                 legends({"4:1", "6:1", "8:1", "10:1"}),
-                 {"W 16:14 table-base-read", "E 41:4 bracketed-assignment", "E 47:22 goto-target-missing",
-                  "E 51:20 word-needs-brackets", "W 55:10 decimal-comma", "E 55:13 missing-operator",
-                  "E 56:24 decimal-comma"}}));
-  expect(folder / "O80.ocr.nc", control,
-         merged({zeros({"E 10:2", "E 11:2", "E 20:2", "E 21:2"}),
-                 legends({"4:1", "6:1", "8:1"}),
-                 {"E 3:20 decimal-comma", "W 5:1 offset-overwritten", "W 20:4 small-letter",
-                  "E 23:21 word-needs-brackets", "E 24:1 do-as-offset", "E 30:26 decimal-comma",
-                  "W 33:7 small-letter", "W 40:8 small-letter", "E 41:64 block-over-lines",
-                  "E 44:8 variable-number-form"}}));
-  expect(folder / "O90.ocr.nc", control, zeros({"E 3:2", "W 3:13", "E 4:2", "W 4:9", "W 4:13"}));
-  expect(folder / "O100.ocr.nc", control,
-         merged({zeros({"E 9:2", "E 10:2", "E 14:2", "E 15:2", "E 20:2"}),
-                 legends({"4:1", "6:1"}),
-                 {"E 16:7 decimal-comma"}}));
-  expect(folder / "O110.ocr.nc", control,
-         merged({zeros({"W 10:2", "E 11:2", "E 15:2", "E 16:2", "E 24:2"}),
-                 legends({"4:1", "6:1", "7:1"}),
-                 {"E 10:4 number-without-address", "W 16:4 word-without-point", "W 18:19 hash-missing"}}));
+    expectListing(folder / good, control, {});
+  expectListing(folder / "O20.ocr.nc", control,
+                merged({zeros({"E 7:2", "E 8:2", "W 8:5", "E 19:2", "E 28:6", "E 55:5"}),
+                        legends({"20:1", "21:1", "22:1", "23:1", "24:1", "25:1"}),
+                        {"E 3:20 decimal-comma", "E 17:13 decimal-comma", "E 27:1 do-as-offset",
+                         "E 30:6 brackets-do-not-match", "W 39:8 hash-missing", "E 41:14 second-equals",
+                         "E 44:1 do-as-offset", "E 57:34 brackets-do-not-match"}}));
+  expectListing(
+      folder / "O40.ocr.nc", control,
+      merged({zeros({"E 11:2", "E 12:2", "W 12:5", "E 24:5", "E 25:5"}),
+              legends({"4:1", "6:1", "8:1", "10:1"}),
+              {"E 3:20 decimal-comma", "E 31:18 word-needs-brackets", "E 38:22 word-needs-brackets",
+               "W 38:31 stray-if", "E 41:3 assignment-target", "E 44:22 word-needs-brackets",
+               "E 76:5 brackets-do-not-match", "W 77:19 hash-missing", "E 90:41 brackets-do-not-match"}}));
+  expectListing(folder / "O60.ocr.nc", control,
+                merged({zeros({"E 7:2", "E 8:2", "W 8:5", "E 19:5"}),
+                        legends({"3:42", "4:42"}),
+                        {"W 12:15 table-base-read", "E 15:8 brackets-do-not-match", "W 15:12 decimal-comma",
+                         "E 30:31 variable-number-form", "E 47:45 block-over-lines", "E 62:23 star-for-hash",
+                         "E 63:29 star-for-hash", "E 65:32 decimal-comma"}}));
+  expectListing(folder / "O70.ocr.nc", control,
+                merged({zeros({"E 11:2", "E 12:2", "E 26:2", "E 27:2"}),
+                        legends({"4:1", "6:1", "8:1", "10:1"}),
+                        {"W 16:14 table-base-read", "E 41:4 bracketed-assignment",
+                         "E 47:22 goto-target-missing", "E 51:20 word-needs-brackets",
+                         "W 55:10 decimal-comma", "E 55:13 missing-operator", "E 56:24 decimal-comma"}}));
+  expectListing(folder / "O80.ocr.nc", control,
+                merged({zeros({"E 10:2", "E 11:2", "E 20:2", "E 21:2"}),
+                        legends({"4:1", "6:1", "8:1"}),
+                        {"E 3:20 decimal-comma", "W 5:1 offset-overwritten", "W 20:4 small-letter",
+                         "E 23:21 word-needs-brackets", "E 24:1 do-as-offset", "E 30:26 decimal-comma",
+                         "W 33:7 small-letter", "W 40:8 small-letter", "E 41:64 block-over-lines",
+                         "E 44:8 variable-number-form"}}));
+  expectListing(folder / "O90.ocr.nc", control, zeros({"E 3:2", "W 3:13", "E 4:2", "W 4:9", "W 4:13"}));
+  expectListing(folder / "O100.ocr.nc", control,
+                merged({zeros({"E 9:2", "E 10:2", "E 14:2", "E 15:2", "E 20:2"}),
+                        legends({"4:1", "6:1"}),
+                        {"E 16:7 decimal-comma"}}));
+  expectListing(
+      folder / "O110.ocr.nc", control,
+      merged({zeros({"W 10:2", "E 11:2", "E 15:2", "E 16:2", "E 24:2"}),
+              legends({"4:1", "6:1", "7:1"}),
+              {"E 10:4 number-without-address", "W 16:4 word-without-point", "W 18:19 hash-missing"}}));
 }
 
 TEST_CASE("macrob corpus: programs of a 0i-MD") {
@@ -126,7 +135,7 @@ TEST_CASE("macrob corpus: a repair where it is certain") {
   int fixes = 0;
   for (const auto& entry : fs::directory_iterator(corpus / "pocket")) {
     if (entry.path().extension() != ".nc") continue;
-    MacroFile file(readAll(entry.path()));
+    MacroFile file(readAll(entry.path()), Text::Listing);
     for (const Diagnostic& one : file.diagnostics.all()) {
       const bool certain =
           one.code == "letter-o-for-zero" || one.code == "decimal-comma" || one.code == "do-as-offset";

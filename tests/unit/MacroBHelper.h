@@ -19,9 +19,14 @@ struct MacroFile {
   frontend::macrob::File file;
 
   explicit MacroFile(std::string text, frontend::macrob::Reader reader = frontend::macrob::Reader::Fast,
-                     const Limits& limits = {}, Encoding encoding = Encoding::Utf8) {
+                     const Limits& limits = {}, Encoding encoding = Encoding::Utf8)
+      : MacroFile(std::move(text), frontend::macrob::Text::Program, reader, limits, encoding) {}
+  // As --from listing reads it, or not.
+  MacroFile(std::string text, frontend::macrob::Text kind,
+            frontend::macrob::Reader reader = frontend::macrob::Reader::Fast, const Limits& limits = {},
+            Encoding encoding = Encoding::Utf8) {
     const FileId id = sources.add(SourceFile("p.nc", std::move(text), encoding));
-    file = frontend::macrob::parse(id, sources, limits, diagnostics, reader);
+    file = frontend::macrob::parse(id, sources, limits, diagnostics, kind, reader);
   }
 
   // Runs the checks; "": without a control.

@@ -1,13 +1,26 @@
-// Misprints of programs that were typed from a listing: one finding each, with the repair where there is one
-// only.
+// Misprints of a typist, and those of listings (--from listing): one finding each, with the repair where
+// there is one only.
 #include "tests/unit/MacroBHelper.h"
 
 #include <doctest/doctest.h>
 
 using namespace dotek;
 using namespace dotek::tests;
+namespace macrob = dotek::frontend::macrob;
 
 namespace {
+
+constexpr auto kListing = macrob::Text::Listing;
+
+// Notes that point to --from listing.
+std::size_t hints(const std::string& text) {
+  const MacroFile file(text);
+  std::size_t out = 0;
+  for (const Diagnostic& one : file.diagnostics.all())
+    for (const DiagnosticNote& note : one.notes)
+      out += note.message.find("--from listing") != std::string::npos;
+  return out;
+}
 
 struct Case {
   std::string text;
@@ -16,14 +29,14 @@ struct Case {
   std::string fixed; // "": no fix
 };
 
-void holds(const Case& one) {
+void holds(const Case& one, macrob::Text kind = macrob::Text::Program) {
   CAPTURE(one.text);
-  MacroFile file(one.text + "\n");
+  MacroFile file(one.text + "\n", kind);
   CHECK(file.told() == one.told);
   CHECK(file.fixed(one.code) == (one.fixed.empty() ? "" : one.fixed + "\n"));
   if (one.fixed.empty()) return;
   // What the fix writes is the tree that the reader took.
-  MacroFile repaired(one.fixed + "\n");
+  MacroFile repaired(one.fixed + "\n", kind);
   CHECK_MESSAGE(repaired.told() == "", one.fixed);
   std::string dump = file.dump();
   for (std::size_t at = dump.find(" repaired"); at != std::string::npos; at = dump.find(" repaired"))
@@ -74,18 +87,49 @@ TEST_CASE("macrob: D and a zero for DO") {
   CHECK(told("O1\nG41 D02\nM99\n") == "");
 }
 
-TEST_CASE("macrob: texts of drawings") {
-  CHECK(MacroFile("B #2 = angle\n").told() == "N 1:1 legend-line");
-  CHECK(MacroFile("Z #26 = DEPTH Z = 12\n").told() == "N 1:1 legend-line");
-  CHECK(MacroFile("E#8 = width of\nthe groove\n").told() == "N 1:1 legend-line; N 2:1 legend-line");
-  MacroFile column("#2502 = #2501 + 7.5          H#11 = number\n");
+TEST_CASE("macrob: texts of drawings in a listing") {
+  CHECK(MacroFile("B #2 = angle\n", kListing).told() == "N 1:1 legend-line");
+  CHECK(MacroFile("Z #26 = DEPTH Z = 12\n", kListing).told() == "N 1:1 legend-line");
+  CHECK(MacroFile("E#8 = width of\nthe groove\n", kListing).told() == "N 1:1 legend-line; N 2:1 legend-line");
+  MacroFile column("#2502 = #2501 + 7.5          H#11 = number\n", kListing);
   CHECK(column.told() == "N 1:30 legend-line");
   CHECK(column.dump().find("assignment") != std::string::npos);
   CHECK_FALSE(column.format()); // the text would be lost
   // The letter has another variable, or the rest is a calculation.
-  CHECK(MacroFile("B #3 = angle\n").told() == "E 1:1 assignment-target");
-  CHECK(MacroFile("B#2=SIN[#3]\n").told() == "E 1:1 assignment-target");
-  CHECK(MacroFile("the groove\n").told() == "E 1:1 text-without-brackets");
+  CHECK(MacroFile("B #3 = angle\n", kListing).told() == "E 1:1 assignment-target");
+  CHECK(MacroFile("B#2=SIN[#3]\n", kListing).told() == "E 1:1 assignment-target");
+  CHECK(MacroFile("the groove\n", kListing).told() == "E 1:1 text-without-brackets");
+}
+
+TEST_CASE("macrob: without --from listing its lines are no blocks, and the error says what would read them") {
+  // Text of drawings: on a line, on the next one, beside a block.
+  CHECK(MacroFile("B #2 = angle\n").told() == "E 1:1 assignment-target");
+  CHECK(hints("B #2 = angle\n") == 1);
+  CHECK(MacroFile("B #2 = angle\n").file.legends.empty());
+  CHECK(MacroFile("B #2 = angle\n").dump().find("unread") != std::string::npos);
+  CHECK(hints("E#8 = width of\nthe groove\n") == 2);
+  CHECK(hints("#2502 = #2501 + 7.5          H#11 = number\n") == 1);
+  // Mixed-up signs.
+  CHECK(MacroFile("G1 X5. IF #9\n").told() != MacroFile("G1 X5. IF #9\n", kListing).told());
+  for (const char* text : {"G1 X5. IF #9\n", "#120=5.\n#1=[*120+#2]\n", "#120=5.\n#1=#2**120\n",
+                           "#120=5.\n#1=#120.-#2\n", "#1=[#72./#2]\n"}) {
+    CAPTURE(text);
+    MacroFile file(text);
+    CHECK(file.diagnostics.hasErrors());
+    CHECK(file.dump().find("unread") != std::string::npos);
+    CHECK(file.dump().find("repaired") == std::string::npos);
+    CHECK(hints(text) == 1);
+  }
+  // A listing would be no better.
+  for (const char* text : {"B #3 = angle\n", "B#2=SIN[#3]\n", "the groove\n", "#1=#2**120\n", "G1 X[[#3\n",
+                           "G1 X5. IF #9 [\n", "#1=[5,5+[#2]\n", "GO 543 G55\n"}) {
+    CAPTURE(text);
+    CHECK(MacroFile(text).diagnostics.hasErrors());
+    CHECK(hints(text) == 0);
+  }
+  // What a typist does needs no listing.
+  for (const char* text : {"GO X12.\n", "G1 Y31,25\n", "IF[#5AND2]EQ2]GOTO7\n"})
+    CHECK(hints(text) == 0);
 }
 
 TEST_CASE("macrob: brackets") {
@@ -108,16 +152,16 @@ TEST_CASE("macrob: brackets") {
 }
 
 TEST_CASE("macrob: letters and signs that recognition of text mixes up") {
-  holds({"G1 X5. IF #9", "E 1:8 stray-if", "stray-if", "G1 X5. F #9"});
+  holds({"G1 X5. IF #9", "E 1:8 stray-if", "stray-if", "G1 X5. F #9"}, kListing);
   // The variable is known.
-  MacroFile star("#120=5.\n#1=[*120+#2]\n#1=#2**120\n");
+  MacroFile star("#120=5.\n#1=[*120+#2]\n#1=#2**120\n", kListing);
   CHECK(star.told() == "E 2:5 star-for-hash; E 3:7 star-for-hash");
   CHECK(star.fixed("star-for-hash") == "#120=5.\n#1=[#120+#2]\n#1=#2**120\n");
-  CHECK(MacroFile("#1=#2**120\n").told() == "E 1:7 syntax-error");
-  MacroFile point("#120=5.\n#1=#120.-#2\n#1=[#72./#2]\n");
+  CHECK(MacroFile("#1=#2**120\n", kListing).told() == "E 1:7 syntax-error");
+  MacroFile point("#120=5.\n#1=#120.-#2\n#1=[#72./#2]\n", kListing);
   CHECK(point.told() == "E 2:4 variable-number-form; E 3:5 variable-number-form");
   CHECK(point.fixed("variable-number-form") == "#120=5.\n#1=#120-#2\n#1=[#72./#2]\n");
-  holds({"#1=[#72./#2]", "E 1:5 variable-number-form", "variable-number-form", "#1=[72./#2]"});
+  holds({"#1=[#72./#2]", "E 1:5 variable-number-form", "variable-number-form", "#1=[72./#2]"}, kListing);
   holds({"#1=SIN[30\xC2\xB0]", "E 1:10 degree-sign", "degree-sign", "#1=SIN[30]"});
   holds({"g1 X5.", "W 1:1 small-letter", "small-letter", "G1 X5."});
   holds({"G1 y5. Z#3", "W 1:4 small-letter", "small-letter", "G1 Y5. Z#3"});
