@@ -2,19 +2,19 @@
 
 # dotek_embed_data(<folder> <output.cpp>)
 function(dotek_embed_data folder output)
-  file(GLOB_RECURSE files CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/${folder}/*.toml
-       ${CMAKE_SOURCE_DIR}/${folder}/*.nc)
+  file(GLOB_RECURSE files CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${folder}/*.toml
+       ${PROJECT_SOURCE_DIR}/${folder}/*.nc)
   add_custom_command(
     OUTPUT ${output}
-    COMMAND ${CMAKE_COMMAND} -DROOT=${CMAKE_SOURCE_DIR}/${folder} -DOUTPUT=${output}
-            -P ${CMAKE_SOURCE_DIR}/cmake/EmbedScript.cmake
-    DEPENDS ${files} ${CMAKE_SOURCE_DIR}/cmake/EmbedScript.cmake
+    COMMAND ${CMAKE_COMMAND} -DROOT=${PROJECT_SOURCE_DIR}/${folder} -DOUTPUT=${output}
+            -P ${PROJECT_SOURCE_DIR}/cmake/EmbedScript.cmake
+    DEPENDS ${files} ${PROJECT_SOURCE_DIR}/cmake/EmbedScript.cmake
     VERBATIM COMMENT "Embedding data files")
 endfunction()
 
 # dotek_store_tables(<output.cpp>): the keyword tables in a form that needs no parser. The tool runs at build.
 function(dotek_store_tables output)
-  add_executable(dotek_store ${CMAKE_SOURCE_DIR}/stdlib/store/Main.cpp $<TARGET_OBJECTS:dotek_stdlib_objects>)
+  add_executable(dotek_store ${PROJECT_SOURCE_DIR}/stdlib/store/Main.cpp $<TARGET_OBJECTS:dotek_stdlib_objects>)
   target_link_libraries(dotek_store PRIVATE dotek_support dotek_options)
   add_custom_command(
     OUTPUT ${output}
@@ -27,8 +27,8 @@ endfunction()
 function(dotek_embed_text input output header namespace function)
   add_custom_command(
     OUTPUT ${output}
-    COMMAND ${CMAKE_COMMAND} -DINPUT=${CMAKE_SOURCE_DIR}/${input} -DOUTPUT=${output} -DHEADER=${header}
-            -DNAMESPACE=${namespace} -DFUNCTION=${function} -P ${CMAKE_SOURCE_DIR}/cmake/EmbedTextScript.cmake
-    DEPENDS ${CMAKE_SOURCE_DIR}/${input} ${CMAKE_SOURCE_DIR}/cmake/EmbedTextScript.cmake
+    COMMAND ${CMAKE_COMMAND} -DINPUT=${PROJECT_SOURCE_DIR}/${input} -DOUTPUT=${output} -DHEADER=${header}
+            -DNAMESPACE=${namespace} -DFUNCTION=${function} -P ${PROJECT_SOURCE_DIR}/cmake/EmbedTextScript.cmake
+    DEPENDS ${PROJECT_SOURCE_DIR}/${input} ${PROJECT_SOURCE_DIR}/cmake/EmbedTextScript.cmake
     VERBATIM COMMENT "Embedding ${input}")
 endfunction()

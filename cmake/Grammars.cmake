@@ -1,7 +1,7 @@
 # ANTLR4: generated at build, never committed. Only tool/runtime pairs that were tried are accepted.
 
 find_program(ANTLR4_TOOL antlr4 REQUIRED)
-find_package(antlr4-runtime REQUIRED)
+find_package(Antlr4Runtime REQUIRED)
 execute_process(COMMAND ${ANTLR4_TOOL} OUTPUT_VARIABLE ANTLR4_BANNER ERROR_VARIABLE ANTLR4_BANNER)
 string(REGEX MATCH "Version ([0-9.]+)" ANTLR4_UNUSED "${ANTLR4_BANNER}")
 set(ANTLR4_TOOL_VERSION "${CMAKE_MATCH_1}")
@@ -10,24 +10,22 @@ if(NOT ANTLR4_TOOL_VERSION VERSION_EQUAL "4.7.2")
 endif()
 
 # The runtime's umbrella header includes one file that clang rejects; a copy without it stands first on the path.
-set(ANTLR4_PATCHED ${CMAKE_BINARY_DIR}/generated/antlr4)
-file(READ ${ANTLR4_INCLUDE_DIR}/antlr4-runtime.h ANTLR4_UMBRELLA)
+set(ANTLR4_PATCHED ${PROJECT_BINARY_DIR}/generated/antlr4)
+file(READ ${ANTLR4_RUNTIME_INCLUDE_DIR}/antlr4-runtime.h ANTLR4_UMBRELLA)
 string(REPLACE "#include \"InterpreterDataReader.h\"" "" ANTLR4_UMBRELLA "${ANTLR4_UMBRELLA}")
 string(REPLACE "#include \"misc/InterpreterDataReader.h\"" "" ANTLR4_UMBRELLA "${ANTLR4_UMBRELLA}")
 file(CONFIGURE OUTPUT ${ANTLR4_PATCHED}/antlr4-runtime.h CONTENT "${ANTLR4_UMBRELLA}" @ONLY)
 
-find_library(ANTLR4_STATIC NAMES libantlr4-runtime.a antlr4-runtime REQUIRED)
-find_package(Threads REQUIRED)
 add_library(dotek_antlr INTERFACE)
-target_include_directories(dotek_antlr SYSTEM BEFORE INTERFACE ${ANTLR4_PATCHED} ${ANTLR4_INCLUDE_DIR})
+target_include_directories(dotek_antlr SYSTEM BEFORE INTERFACE ${ANTLR4_PATCHED})
 target_compile_options(dotek_antlr INTERFACE -fno-char8_t) # as all sources, so that one precompiled header serves
-target_link_libraries(dotek_antlr INTERFACE ${ANTLR4_STATIC} Threads::Threads)
+target_link_libraries(dotek_antlr INTERFACE Antlr4Runtime::Antlr4Runtime)
 
 # dotek_grammar(<Name>): grammar/<Name>Lexer.g4 and <Name>Parser.g4 become the library dotek_grammar_<Name>.
 function(dotek_grammar name)
-  set(out ${CMAKE_BINARY_DIR}/generated/grammar/${name})
-  set(lexer ${CMAKE_SOURCE_DIR}/grammar/${name}Lexer.g4)
-  set(parser ${CMAKE_SOURCE_DIR}/grammar/${name}Parser.g4)
+  set(out ${PROJECT_BINARY_DIR}/generated/grammar/${name})
+  set(lexer ${PROJECT_SOURCE_DIR}/grammar/${name}Lexer.g4)
+  set(parser ${PROJECT_SOURCE_DIR}/grammar/${name}Parser.g4)
   add_custom_command(
     OUTPUT ${out}/${name}Lexer.cpp ${out}/${name}Lexer.h ${out}/${name}Parser.cpp ${out}/${name}Parser.h
     COMMAND ${ANTLR4_TOOL} -Werror -Dlanguage=Cpp -no-listener -no-visitor -package dotek::grammar
@@ -39,6 +37,7 @@ function(dotek_grammar name)
   add_library(dotek_grammar_${name} STATIC ${out}/${name}Lexer.cpp ${out}/${name}Parser.cpp)
   target_include_directories(dotek_grammar_${name} SYSTEM PUBLIC ${out})
   target_link_libraries(dotek_grammar_${name} PUBLIC dotek_antlr)
+  set_property(GLOBAL APPEND PROPERTY DOTEK_LIBRARIES dotek_grammar_${name})
   target_compile_options(dotek_grammar_${name} PRIVATE -w)
   if(DOTEK_SANITIZE)
     target_compile_options(dotek_grammar_${name} PRIVATE -O1 -fsanitize=address)

@@ -1,5 +1,6 @@
 // Damaged input: a diagnostic, no crash, an end.
 #include "ComPostHelper.h"
+#include "tests/Draws.h"
 #include "tests/GoldenRunner.h"
 
 #include <doctest/doctest.h>
@@ -87,7 +88,7 @@ TEST_CASE("random bytes and mutated Progs are read to the end") {
     for (const Diagnostic& one : prog.diagnostics.all())
       CHECK(one.message.find(fallback) == std::string::npos);
   };
-  for (int round = 0; round < 3000; ++round) {
+  for (int round = 0; round < draws(3000); ++round) {
     std::string soup;
     for (std::size_t i = random() % 60; i > 0; --i)
       soup += pieces[random() % std::size(pieces)];

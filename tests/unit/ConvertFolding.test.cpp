@@ -2,6 +2,7 @@
 // Block for block both say the same.
 #include "driver/Driver.h"
 #include "support/Decimal.h"
+#include "tests/Draws.h"
 #include "tests/GoldenRunner.h"
 #include "tests/policy/Tree.h"
 
@@ -16,8 +17,6 @@ using namespace dotek::tests;
 namespace fs = std::filesystem;
 
 namespace {
-
-constexpr int kSets = 200;
 
 // A block with its blanks, its N number and the way numbers are written taken away: G65 P9770 Z5. ->
 // G65P9770Z5
@@ -86,8 +85,9 @@ void folds(const Case& one) {
   std::mt19937 random(20);
   std::uniform_int_distribution<int> place(-9999, 9999);
   std::uniform_int_distribution<int> system(54, 59);
+  const int sets = draws(200);
   int done = 0;
-  for (int attempt = 0; done < kSets && attempt < 20 * kSets; ++attempt) {
+  for (int attempt = 0; done < sets && attempt < 20 * sets; ++attempt) {
     driver::PostOptions post;
     post.folders = {one.folder};
     post.source.prog = one.prog;
@@ -108,7 +108,7 @@ void folds(const Case& one) {
     CHECK(convertedBlocks(converted, one.prog) == postedBlocks(posted.output));
     ++done;
   }
-  CHECK_MESSAGE(done == kSets, one.folder << ": only " << done << " value sets pass the checks");
+  CHECK_MESSAGE(done == sets, one.folder << ": only " << done << " value sets pass the checks");
 }
 
 std::string example(const std::string& name) {

@@ -1,6 +1,7 @@
 // A converted program does what its source does: both are run as text, and everything that a run shows is
 // compared.
 #include "backends/fanuc/Program.h"
+#include "tests/Draws.h"
 #include "tests/unit/RandomMacroB.h"
 #include "tests/unit/RunHarness.h"
 
@@ -215,7 +216,7 @@ std::string fault(const std::string& text, const Pair& pair, std::uint32_t delet
 std::uint32_t programs() {
   const char* text = std::getenv("DOTEK_RANDOM_PROGRAMS");
   const int number = text == nullptr ? 0 : std::atoi(text);
-  return number > 0 ? static_cast<std::uint32_t>(number) : 300;
+  return number > 0 ? static_cast<std::uint32_t>(number) : draws(300U, 60U);
 }
 
 // With the blocks taken away that a fault does not need.

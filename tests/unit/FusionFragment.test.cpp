@@ -1,6 +1,7 @@
 // Parts of Fusion posts, run on the double of the kernel.
 #include "FusionHelper.h"
 #include "support/Picture.h"
+#include "tests/Draws.h"
 
 #include <cstdlib>
 #include <fstream>
@@ -12,8 +13,6 @@ namespace fusion = backends::fusion;
 namespace fs = std::filesystem;
 
 namespace {
-
-constexpr int kSets = 60;
 
 std::string example(const std::string& name) {
   return (root() / "examples" / name).generic_string();
@@ -40,9 +39,10 @@ void equalsPost(const Case& one) {
   std::uniform_int_distribution<int> place(-99999, 99999);
   std::uniform_int_distribution<int> system(53, 60);
   std::uniform_int_distribution<int> scale(1, 3);
+  const int sets = draws(60);
   int printed = 0, refused = 0;
-  for (int set = 0; set < kSets || printed < kSets / 4; ++set) {
-    REQUIRE_MESSAGE(set < 50 * kSets, one.folder << ": only " << printed << " value sets pass the checks");
+  for (int set = 0; set < sets || printed < sets / 4; ++set) {
+    REQUIRE_MESSAGE(set < 50 * sets, one.folder << ": only " << printed << " value sets pass the checks");
     driver::PostOptions post;
     post.folders = {one.folder};
     post.source.prog = one.prog;
@@ -211,7 +211,7 @@ TEST_CASE("pictures of the fragment are the pictures of post") {
     const PictureCycle cycle(text);
     const auto parsed = Picture::parse(text);
     const auto& picture = std::get<Picture>(parsed);
-    for (int i = 0; i < 150; ++i) {
+    for (int i = 0; i < draws(150); ++i) {
       double value = digits(random);
       for (int place = places(random); place > 0; --place)
         value /= 10;

@@ -1,3 +1,4 @@
+#include "tests/Draws.h"
 #include "tests/unit/GibbsHarness.h"
 
 #include <doctest/doctest.h>
@@ -60,7 +61,7 @@ TEST_CASE("gibbs: mutated text never crashes") {
   const std::string pieces[] = {"(",   ")", "[",    "]",  "\n",   "\r",   "\"",           "'",   ",", "=",
                                 "!",   ":", "THEN", "IF", "else", "\x84", "\xE2\x80\x9C", "a_ ", "#", "next",
                                 "1e9", "."};
-  for (int round = 0; round < 1500; ++round) {
+  for (int round = 0; round < draws(1500); ++round) {
     std::string text = sample;
     for (std::uint32_t edit = 0; edit <= random.next(6); ++edit) {
       if (text.empty()) break;
@@ -78,7 +79,7 @@ TEST_CASE("gibbs: mutated text never crashes") {
 
 TEST_CASE("gibbs: random bytes never crash") {
   Sequence random;
-  for (int round = 0; round < 500; ++round) {
+  for (int round = 0; round < draws(500); ++round) {
     std::string text;
     for (std::uint32_t i = random.next(200); i > 0; --i)
       text += static_cast<char>(1 + random.next(255));

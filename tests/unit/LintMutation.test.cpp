@@ -2,6 +2,7 @@
 // the survivors, DOTEK_MUTANTS_SEEDS=N draws N times as many, DOTEK_MUTANTS_ALL=FILE writes every mutant.
 #include "driver/Driver.h"
 #include "lint/Rule.h"
+#include "tests/Draws.h"
 #include "tests/GoldenRunner.h"
 #include "tests/unit/DataFolder.h"
 #include "tests/unit/Mutants.h"
@@ -144,7 +145,7 @@ std::string verdict(const driver::Outcome& outcome) {
 }
 
 // Values of the fields of a folder: as they stand, each at the ends of what can be typed, and drawn ones.
-std::vector<driver::NamedTexts> draws(const InputFile& data) {
+std::vector<driver::NamedTexts> valuesOf(const InputFile& data) {
   static const std::regex field("(?:^|\n)\\s*(\\w+)\\s*=\\s*(-?[0-9.]+)");
   driver::NamedTexts given;
   for (std::sregex_iterator match(data.code.begin(), data.code.end(), field), none; match != none; ++match)
@@ -192,7 +193,7 @@ std::string dialogMeaning(const std::string& text) {
 std::optional<std::string> meaningOfCycle(const Written& written, const std::string& folder,
                                           std::size_t part) {
   if (part == 0) return dialogMeaning(readAll(written.path(folder + "/CycleData.dlg")));
-  const std::vector<driver::NamedTexts> values = draws(*written.bundle().find(folder + "/DefineData.txt"));
+  const std::vector<driver::NamedTexts> values = valuesOf(*written.bundle().find(folder + "/DefineData.txt"));
   driver::CommonOptions common;
   common.host = {
       {"tool_radius", "3"}, {"clearance", "12.5"}, {"retract", "4.25"}, {"start_x", "1"}, {"start_y", "2"}};
@@ -331,7 +332,7 @@ Tally run(const std::vector<Bundle>& bundles, std::uint64_t seed) {
   static const std::vector<Operator> operators = allOperators();
   Tally tally;
   std::vector<std::string> unfit;
-  const std::vector<Mutant> mutants = drawMutants(operators, bundles, seed, kMutants, unfit);
+  const std::vector<Mutant> mutants = drawMutants(operators, bundles, seed, tests::draws(kMutants), unfit);
   for (const std::string& id : unfit)
     std::cout << "lint mutation: " << id << " fits nowhere\n";
   std::vector<std::unique_ptr<Written>> written;
@@ -404,11 +405,12 @@ void check(const std::string& set, std::uint64_t firstSeed) {
     write("DOTEK_MUTANTS_OUT", {summary});
     write("DOTEK_MUTANTS_OUT", tally.survivors);
     write("DOTEK_MUTANTS_ALL", tally.all);
-    CHECK(tally.drawn == kMutants);
+    CHECK(tally.drawn == tests::draws(kMutants));
     std::string survivors;
     for (const std::string& row : tally.survivors)
       survivors += "\n" + row;
-    CHECK_MESSAGE(tally.rate() >= kLeast, survivors);
+    // A few scatter.
+    CHECK_MESSAGE(tally.rate() >= (fewDraws() ? kLeast - 0.25 : kLeast), survivors);
   }
 }
 

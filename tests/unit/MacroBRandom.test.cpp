@@ -1,5 +1,6 @@
 // Made-up programs by two ways: the slow evaluator of the tree, and the compiled machine behind parser and
 // lowering. DOTEK_RANDOM_PROGRAMS in the environment sets how many; the same numbers give the same programs.
+#include "tests/Draws.h"
 #include "tests/unit/MachineAdapter.h"
 #include "tests/unit/MacroBHelper.h"
 #include "tests/unit/RandomMacroB.h"
@@ -90,7 +91,7 @@ std::string disagreement(const std::string& text, const MacroSetup& setup) {
 std::uint32_t programs() {
   const char* text = std::getenv("DOTEK_RANDOM_PROGRAMS");
   const int number = text == nullptr ? 0 : std::atoi(text);
-  return number > 0 ? static_cast<std::uint32_t>(number) : 2000;
+  return number > 0 ? static_cast<std::uint32_t>(number) : draws(2000U);
 }
 
 } // namespace
@@ -128,7 +129,7 @@ TEST_CASE("random macro b: the programs are read without an error and end in eve
 }
 
 TEST_CASE("random macro b: the layout of a program does not change what it does") {
-  for (std::uint32_t seed = 1; seed <= 300; ++seed) {
+  for (std::uint32_t seed = 1; seed <= draws(300U); ++seed) {
     const Trial trial(seed);
     CAPTURE(seed);
     const MacroFile parsed(trial.text);

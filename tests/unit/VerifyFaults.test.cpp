@@ -2,6 +2,7 @@
 // what the machine does.
 #include "driver/Driver.h"
 #include "support/Decimal.h"
+#include "tests/Draws.h"
 #include "tests/GoldenRunner.h"
 #include "tests/policy/Tree.h"
 #include "tests/unit/DataFolder.h"
@@ -27,8 +28,8 @@ constexpr const char* kOwn = "dotek.nc";
 constexpr std::size_t kNamed = 7; // operators that the acceptance names stand first
 
 struct Size {
-  std::size_t faults = 60;
-  std::uint64_t cases = 40;
+  std::size_t faults = draws<std::size_t>(60);
+  std::uint64_t cases = draws<std::uint64_t>(40);
   std::uint64_t seed = 1;
 };
 

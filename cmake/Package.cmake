@@ -1,0 +1,36 @@
+# The library for other programs: docs/library.md.
+include(CMakePackageConfigHelpers)
+include(GNUInstallDirs)
+
+# dotek_package(): dotek::dotek, one archive of all layers declared so far, and the rules that install it.
+function(dotek_package)
+  get_property(libraries GLOBAL PROPERTY DOTEK_LIBRARIES)
+  list(TRANSFORM libraries REPLACE "(.+)" "$<TARGET_OBJECTS:\\1>" OUTPUT_VARIABLE objects)
+  add_library(dotek_library STATIC ${objects})
+  add_library(dotek::dotek ALIAS dotek_library)
+  set_target_properties(dotek_library PROPERTIES
+    OUTPUT_NAME dotek EXPORT_NAME dotek LINKER_LANGUAGE CXX ARCHIVE_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR})
+  target_compile_features(dotek_library PUBLIC cxx_std_20)
+  target_include_directories(dotek_library INTERFACE
+    $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/dotek>)
+  # What dotekConfig.cmake finds again; the other libraries are headers of ours alone.
+  target_link_libraries(dotek_library PUBLIC fmt::fmt PRIVATE Antlr4Runtime::Antlr4Runtime Duktape::Duktape)
+  if(DOTEK_SANITIZE)
+    target_link_options(dotek_library INTERFACE -fsanitize=address,undefined)
+  endif()
+  if(NOT DOTEK_INSTALL)
+    return()
+  endif()
+
+  set(package ${CMAKE_INSTALL_LIBDIR}/cmake/dotek)
+  install(TARGETS dotek_library EXPORT dotek)
+  install(EXPORT dotek NAMESPACE dotek:: FILE dotekTargets.cmake DESTINATION ${package})
+  write_basic_package_version_file(${PROJECT_BINARY_DIR}/generated/dotekConfigVersion.cmake
+    COMPATIBILITY SameMinorVersion)
+  install(FILES ${PROJECT_BINARY_DIR}/generated/dotekConfigVersion.cmake cmake/dotekConfig.cmake
+    cmake/FindAntlr4Runtime.cmake cmake/FindDuktape.cmake DESTINATION ${package})
+  install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
+  install(CODE "set(SOURCE \"${PROJECT_SOURCE_DIR}\")
+set(INCLUDES \"\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_INCLUDEDIR}/dotek\")")
+  install(SCRIPT cmake/InstallHeaders.cmake)
+endfunction()
