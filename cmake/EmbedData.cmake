@@ -1,15 +1,19 @@
-# Data files (TOML) become string literals: the program needs no files beside it.
+# Data files and pages become string literals: the program needs no files beside it.
 
-# dotek_embed_data(<folder> <output.cpp>)
-function(dotek_embed_data folder output)
-  file(GLOB_RECURSE files CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${folder}/*.toml
-       ${PROJECT_SOURCE_DIR}/${folder}/*.nc)
+# dotek_embed_folder(<folder> <output.cpp> <header> <namespace> <type> <function> <pattern>...): all files below the
+# folder that match, as a table of <type>{name, text} sorted by name, and a function that gives it.
+function(dotek_embed_folder folder output header namespace type function)
+  set(globs ${ARGN})
+  list(TRANSFORM globs PREPEND ${PROJECT_SOURCE_DIR}/${folder}/)
+  file(GLOB_RECURSE files CONFIGURE_DEPENDS ${globs})
+  string(REPLACE ";" "|" patterns "${ARGN}")
   add_custom_command(
     OUTPUT ${output}
-    COMMAND ${CMAKE_COMMAND} -DROOT=${PROJECT_SOURCE_DIR}/${folder} -DOUTPUT=${output}
+    COMMAND ${CMAKE_COMMAND} -DROOT=${PROJECT_SOURCE_DIR}/${folder} -DOUTPUT=${output} -DPATTERNS=${patterns}
+            -DHEADER=${header} -DNAMESPACE=${namespace} -DTYPE=${type} -DFUNCTION=${function}
             -P ${PROJECT_SOURCE_DIR}/cmake/EmbedScript.cmake
     DEPENDS ${files} ${PROJECT_SOURCE_DIR}/cmake/EmbedScript.cmake
-    VERBATIM COMMENT "Embedding data files")
+    VERBATIM COMMENT "Embedding ${folder}")
 endfunction()
 
 # dotek_store_tables(<output.cpp>): the keyword tables in a form that needs no parser. The tool runs at build.

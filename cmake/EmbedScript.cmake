@@ -1,5 +1,7 @@
-# Run by EmbedData.cmake: writes OUTPUT, a sorted table of every .toml and .nc below ROOT.
-file(GLOB_RECURSE files RELATIVE ${ROOT} ${ROOT}/*.toml ${ROOT}/*.nc)
+# Run by dotek_embed_folder: writes OUTPUT, a sorted table of the files below ROOT that match one of PATTERNS.
+string(REPLACE "|" ";" globs "${PATTERNS}")
+list(TRANSFORM globs PREPEND ${ROOT}/)
+file(GLOB_RECURSE files RELATIVE ${ROOT} ${globs})
 list(SORT files)
 set(rows "")
 foreach(file IN LISTS files)
@@ -17,15 +19,15 @@ foreach(file IN LISTS files)
   endif()
   string(APPEND rows "    {\"${file}\", ${literal}},\n")
 endforeach()
-file(WRITE ${OUTPUT}.tmp "#include \"stdlib/EmbeddedData.h\"
+file(WRITE ${OUTPUT}.tmp "#include \"${HEADER}\"
 
-namespace dotek::stdlib {
+namespace ${NAMESPACE} {
 namespace {
-constexpr EmbeddedFile kFiles[] = {
+constexpr ${TYPE} kFiles[] = {
 ${rows}};
 } // namespace
-std::span<const EmbeddedFile> embeddedFiles() { return kFiles; }
-} // namespace dotek::stdlib
+std::span<const ${TYPE}> ${FUNCTION}() { return kFiles; }
+} // namespace ${NAMESPACE}
 ")
 file(COPY_FILE ${OUTPUT}.tmp ${OUTPUT} ONLY_IF_DIFFERENT)
 file(TOUCH_NOCREATE ${OUTPUT})

@@ -1,12 +1,14 @@
 # A folder is the registry of its units: no list is edited to add one.
 
-# dotek_rules(<output.cpp> <sources variable>): each lint/rules/<id>.cpp is the rule <id>. Stops where its
-# document is missing, or where a document has no rule.
+# dotek_rules(<output.cpp> <sources variable>): each lint/rules/<id>.cpp and lint/rules/shared/<id>.cpp is the rule <id>.
+# Stops where its document is missing, or where a document has no rule. The shared ones, of one line each, are compiled
+# as one source.
 function(dotek_rules output variable)
   file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/lint/rules/*.cpp)
+  file(GLOB shared CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/lint/rules/shared/*.cpp)
   file(GLOB documents CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/docs/rules/*.md)
   set(ids "")
-  foreach(source IN LISTS sources)
+  foreach(source IN LISTS sources shared)
     get_filename_component(id ${source} NAME_WE)
     list(APPEND ids ${id})
   endforeach()
@@ -39,7 +41,11 @@ const NamedRule kRules[] = {
 std::span<const NamedRule> rules() { return kRules; }
 } // namespace dotek::lint
 " @ONLY)
-  set(${variable} ${sources} ${output} PARENT_SCOPE)
+  list(TRANSFORM shared REPLACE "${PROJECT_SOURCE_DIR}/(.*)" "#include \"\\1\"\n" OUTPUT_VARIABLE includes)
+  string(REPLACE ";" "" includes "${includes}")
+  get_filename_component(folder ${output} DIRECTORY)
+  file(CONFIGURE OUTPUT ${folder}/SharedRules.cpp CONTENT "@includes@" @ONLY)
+  set(${variable} ${sources} ${output} ${folder}/SharedRules.cpp PARENT_SCOPE)
 endfunction()
 
 # dotek_targets(<output.cpp> <sources variable> <libraries variable>): each backends/<name>/ but `common` is the

@@ -1,5 +1,6 @@
 #include "driver/Command.h"
 
+#include "frontend/gibbs/Check.h"
 #include "support/messages/Common.h"
 #include "support/messages/Fanuc.h"
 #include "support/messages/Gibbs.h"
@@ -27,7 +28,7 @@ Outcome outcomeOf(Session& session, std::string output, bool keepOutput) {
     if (d.code == diag::UnverifiedConstructRun::code) stopped.insert(d.range);
   }
   std::erase_if(all, [&](const Diagnostic& d) {
-    return d.code == diag::UnverifiedConstruct::code && stopped.contains(d.range);
+    return d.code == frontend::gibbs::unverifiedConstructCheck.code && stopped.contains(d.range);
   });
   const bool usage = std::any_of(all.begin(), all.end(), [](const Diagnostic& d) {
     // What stands in a file is an error of that input, not of the command line.

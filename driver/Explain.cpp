@@ -1,5 +1,6 @@
 #include "driver/Command.h"
 #include "driver/Driver.h"
+#include "lint/Page.h"
 #include "lint/Rule.h"
 #include "project/Assumptions.h"
 #include "stdlib/Control.h"
@@ -7,6 +8,7 @@
 #include "stdlib/MacroSet.h"
 #include "stdlib/MikroprogControl.h"
 #include "support/NearestName.h"
+#include "support/Wrap.h"
 #include "support/messages/Commands.h"
 #include "targets/Target.h"
 
@@ -14,27 +16,6 @@
 
 namespace dotek::driver {
 namespace {
-
-// Words of `text` in lines of at most 90 characters.
-std::string wrapped(std::string_view text) {
-  std::string out;
-  std::size_t column = 0;
-  for (std::size_t at = 0; at < text.size();) {
-    const std::size_t end = std::min(text.find(' ', at), text.size());
-    const std::string_view word = text.substr(at, end - at);
-    if (column > 0 && column + 1 + word.size() > 90) {
-      out += '\n';
-      column = 0;
-    } else if (column > 0) {
-      out += ' ';
-      ++column;
-    }
-    out += word;
-    column += word.size();
-    at = end + 1;
-  }
-  return out + "\n";
-}
 
 std::string table(const std::vector<std::pair<std::string, std::string>>& rows) {
   std::size_t width = 0;
@@ -115,12 +96,10 @@ Outcome explain(const std::string& code) {
   for (const lint::CodeInfo& info : lint::codeTable()) {
     codes.emplace_back(info.code);
     if (info.code != code) continue;
-    outcome.output =
-        fmt::format("{}: {}{}\n\n{}", info.code, severityName(info.severity),
-                    info.byDefault ? "" : ", off unless it is selected", wrapped(info.explanation));
-    if (info.rule != nullptr)
-      outcome.output += fmt::format("\nA rule of lint ({}); examples: docs/rules/{}.md\n",
-                                    lint::tierName(info.rule->tier), info.code);
+    outcome.output = fmt::format("{}: {}{}\n\n{}", info.code, severityName(info.severity),
+                                 info.byDefault ? "" : ", off unless it is selected",
+                                 info.rule != nullptr ? lint::shownPage(lint::pageOf(info.code))
+                                                      : wrapped(info.explanation));
     return outcome;
   }
   const std::string near = nearestName(code, codes);
@@ -143,8 +122,9 @@ Outcome list(const std::string& what, const CommonOptions& options) {
       rows = assumptionTable();
     } else if (what == "rules") {
       for (const lint::CodeInfo& info : lint::codeTable())
-        rows.emplace_back(info.code, std::string(severityName(info.severity)) +
-                                         (info.byDefault ? "" : ", off unless it is selected"));
+        rows.emplace_back(info.code, fmt::format("{:<7}  {}{}", severityName(info.severity),
+                                                 info.byDefault ? "" : "(off unless it is selected) ",
+                                                 lint::summaryOf(info)));
     } else if (what == "controls") {
       rows = loaded<stdlib::Control>(session, what);
       for (auto& row : loaded<stdlib::MikroprogControl>(session, "mikroprog"))

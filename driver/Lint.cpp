@@ -9,6 +9,7 @@
 #include "frontend/macrob/Parse.h"
 #include "frontend/mikroprog/Parse.h"
 #include "lint/Project.h"
+#include "lint/Shared.h"
 #include "lint/Suppressions.h"
 #include "project/CycleFolder.h"
 #include "project/InputKind.h"
@@ -60,12 +61,15 @@ public:
       control_ = loadControl(control, session_);
     for (const std::string& path : options_.paths)
       visit(path, true);
+    lint::Project project = gather(first);
+    // Shared rules all run, since one that nobody asked for may tell why another finding begins at its place.
+    lint::runRules(project, session_.diagnostics(),
+                   [&](const lint::NamedRule& rule) { return rule.rule->shared; });
     acceptEntryPoints();
     keepStrongest(session_.diagnostics());
-    lint::Project project = gather(first);
-    const auto wantedSomewhere = [&](std::string_view code) { return isWantedSomewhere(code); };
-    lint::runRules(project, session_.diagnostics(),
-                   [&](const lint::NamedRule& rule) { return wantedSomewhere(rule.id); });
+    lint::runRules(project, session_.diagnostics(), [&](const lint::NamedRule& rule) {
+      return !rule.rule->shared && isWantedSomewhere(rule.id);
+    });
     suppress(project);
     select();
     const bool fails = failsNow();
@@ -113,6 +117,7 @@ private:
                           {},
                           {},
                           {},
+                          {},
                           {}};
     for (const stdlib::DataFile* file : session_.data().list("macros")) {
       if (auto set = stdlib::MacroSet::load(session_.data(), file->name))
@@ -141,7 +146,14 @@ private:
       project.programs.push_back({&file, lowered(file)});
     for (const frontend::mikroprog::Reading& reading : sufReadings_)
       project.sufPrograms.push_back(&reading);
+    std::vector<const gibbs::CheckedFile*> checked;
+    for (const CycleFolder& folder : folders_)
+      for (const gibbs::CheckedFile& file : folder.checked)
+        checked.push_back(&file);
+    for (const gibbs::CheckedFile& file : checked_)
+      checked.push_back(&file);
     lint::join(project);
+    project.shared = lint::sharedInputs(project, std::move(checked));
     return project;
   }
 
@@ -181,7 +193,7 @@ private:
                             [&](std::string_view code, FileId file) {
                               if (!isWanted(code, options_, configOf(file))) return false;
                               const lint::NamedRule* named = lint::findRule(code);
-                              if (named == nullptr) return true;
+                              if (named == nullptr || named->rule->shared) return true;
                               if (named->rule->tier == lint::Tier::Bundle) return joined.contains(file);
                               if (named->rule->tier == lint::Tier::Ir) return lowered.contains(file);
                               return true;
@@ -209,7 +221,7 @@ private:
     }
     const bool cycle = isCycleFolder(path);
     // The folder's loader owns the trees of sub-macros; they are linted below as files of their own.
-    if (cycle) folders_.push_back(loadCycleFolder(path, session_));
+    if (cycle) folders_.push_back(loadCycleFolder(path, session_, false));
     std::vector<fs::path> entries;
     for (const auto& entry : fs::directory_iterator(path, error))
       entries.push_back(entry.path());
@@ -257,7 +269,7 @@ private:
       return;
     }
     if (*kind == InputKind::Prog) {
-      auto program = loadProg(path, session_);
+      auto program = loadProg(path, session_, false);
       if (!program) return;
       for (const auto* routine : compost::cycleRoutines(*program, session_.compostKeywords()))
         entryPoints_.insert(routine->name);
@@ -271,7 +283,6 @@ private:
     if (*kind == InputKind::Nc) {
       macrob::File program = macrob::parse(*id, session_.sources(), session_.limits(), session_.diagnostics(),
                                            textOf(options_.common));
-      macrob::checkFile(program, control_ ? &*control_ : nullptr, session_.sources(), session_.diagnostics());
       programs_.push_back(std::move(program));
       return;
     }
@@ -280,13 +291,13 @@ private:
     if (*kind == InputKind::Macro) {
       macros_.push_back(gibbs::parseMacro(*id, context));
       MacroLoader loader(session_, fs::path(path).parent_path());
-      gibbs::checkMacro(macros_.back(), loader.included(macros_.back()), context);
+      checked_.emplace_back(macros_.back(), loader.included(macros_.back()), context);
     } else if (*kind == InputKind::Dialog) {
       dialogs_.push_back(gibbs::parseDialog(*id, context));
-      gibbs::checkDialog(dialogs_.back(), context);
+      checked_.emplace_back(dialogs_.back(), context);
     } else {
       defines_.push_back(gibbs::parseDefineData(*id, context));
-      gibbs::checkDefineData(defines_.back(), context);
+      checked_.emplace_back(defines_.back(), context);
     }
   }
 
@@ -314,7 +325,7 @@ private:
   // A routine that prints for a cycle is called for its operations; others are named by a job.
   void acceptEntryPoints() {
     std::erase_if(session_.diagnostics().all(), [&](const Diagnostic& d) {
-      return d.code == diag::RoutineNeverCalled::code &&
+      return d.code == compost::routineNeverCalledCheck.code &&
              entryPoints_.contains(std::string(session_.sources().text(d.range)));
     });
   }
@@ -360,6 +371,7 @@ private:
   std::deque<gibbs::Macro> macros_;
   std::deque<gibbs::Dialog> dialogs_;
   std::deque<gibbs::DefineData> defines_;
+  std::deque<gibbs::CheckedFile> checked_; // files that are no part of a cycle's folder
   std::deque<macrob::File> programs_;
   std::deque<frontend::mikroprog::Program> sufPrograms_;
   std::deque<frontend::mikroprog::Reading> sufReadings_;

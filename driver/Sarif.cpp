@@ -13,7 +13,7 @@ std::string sarif(const Outcome& outcome) {
     told.insert(d.code);
   std::vector<SarifRule> rules;
   for (const lint::CodeInfo& info : lint::codeTable()) {
-    if (told.contains(info.code)) rules.push_back({info.code, info.severity, info.explanation});
+    if (told.contains(info.code)) rules.push_back({info.code, info.severity, lint::summaryOf(info)});
   }
   return renderSarif(outcome.diagnostics, outcome.sources, rules);
 }

@@ -1,5 +1,6 @@
 #include "driver/SimReport.h"
 
+#include "frontend/macrob/Check.h"
 #include "sim/machine/Value.h"
 #include "support/Decimal.h"
 #include "support/messages/Common.h"
@@ -137,8 +138,10 @@ void reportRun(const sim::Run& run, const sim::Machine& machine, Session& sessio
   std::string stops;
   for (const auto& [letter, tenths] : control.readAheadStops)
     stops += fmt::format("{}{}{}", stops.empty() ? "" : ", ", letter, numberText(tenths / 10.0));
+  using frontend::macrob::positionReadEarlyCheck;
+  Report earlyReads(positionReadEarlyCheck.code, positionReadEarlyCheck.severity, diagnostics);
   for (const sim::EarlyRead& early : run.earlyReads())
-    diagnostics.report<diag::PositionReadEarly>(early.range, early.number)
+    frontend::macrob::reportEarlyPosition(early.range, early.number, earlyReads)
         .note({},
               "the control waits at " + (stops.empty() ? std::string("codes that are not known") : stops));
   const sim::RunEnd& end = machine.end();

@@ -45,6 +45,8 @@ struct NcFile {
   std::shared_ptr<const ir::ProgramFile> lowered; // nullptr: some block cannot be read
 };
 
+struct SharedInputs; // lint/Shared.h
+
 // Everything outlives the run.
 struct Project {
   const SourceMap& sources;
@@ -64,13 +66,14 @@ struct Project {
   std::vector<Joined> joined;
   std::vector<stdlib::Control> controls; // all profiles, where --control names none
   std::vector<const mikroprog::Reading*> sufPrograms;
+  std::shared_ptr<const SharedInputs> shared; // what shared checks look at
 
   // Those of cycle folders too, in the order of reading.
   std::vector<const gibbs::Macro*> allMacros() const;
   std::vector<const gibbs::Dialog*> allDialogs() const;
 };
 
-// Fills `joined`: each cycle with each Prog that names it.
+// Fills `joined`, each cycle with each Prog that names it, and what shared checks look at.
 void join(Project& project);
 
 // Runs the rules for which `wanted` holds.

@@ -1,5 +1,7 @@
 #include "lint/Rule.h"
 
+#include "lint/Page.h"
+
 #include <algorithm>
 #include <vector>
 
@@ -22,14 +24,17 @@ const NamedRule* findRule(std::string_view id) {
   return found != all.end() && found->id == id ? &*found : nullptr;
 }
 
+std::string summaryOf(const CodeInfo& info) {
+  return firstSentence(info.rule != nullptr ? proseOf(pageOf(info.code)) : std::string(info.explanation));
+}
+
 std::span<const CodeInfo> codeTable() {
   static const std::vector<CodeInfo> kTable = [] {
     std::vector<CodeInfo> table;
     for (const MessageInfo& info : messageTable())
-      table.push_back({info.code, info.severity, info.explanation, true, nullptr});
+      table.push_back({info.code, info.severity, true, nullptr, info.explanation});
     for (const NamedRule& named : rules())
-      table.push_back(
-          {named.id, named.rule->severity, named.rule->explanation, named.rule->byDefault, named.rule});
+      table.push_back({named.id, named.rule->severity, named.rule->byDefault, named.rule, {}});
     std::sort(table.begin(), table.end(),
               [](const CodeInfo& a, const CodeInfo& b) { return a.code < b.code; });
     return table;

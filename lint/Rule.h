@@ -1,8 +1,8 @@
 // A rule of the linter: one file of lint/rules, whose name without suffix is the rule's id. The folder is the
-// registry; docs/rules/<id>.md documents the rule and tests it.
+// registry; docs/rules/<id>.md explains the rule and tests it (lint/Page.h).
 #pragma once
 
-#include "support/Diagnostics.h"
+#include "support/Check.h"
 
 #include <map>
 #include <span>
@@ -20,25 +20,6 @@ std::string_view tierName(Tier tier);
 
 enum class Maturity : std::uint8_t { Preview, Stable, Deprecated };
 
-// Where a rule puts its findings.
-class Report {
-public:
-  Report(std::string_view id, Severity severity, Diagnostics& diagnostics)
-      : id_(id), severity_(severity), diagnostics_(diagnostics) {}
-
-  // Worded as docs/diagnostics.md says. The reference is good until the next finding.
-  template <class... Args>
-  Diagnostic& at(SourceRange range, fmt::format_string<Args...> format, Args&&... args) {
-    return diagnostics_.add(
-        {id_, severity_, range, fmt::format(format, std::forward<Args>(args)...), {}, {}});
-  }
-
-private:
-  std::string_view id_;
-  Severity severity_;
-  Diagnostics& diagnostics_;
-};
-
 struct Rule {
   // Error: what is certain; Warning: what is likely; Note: what is worth knowing.
   Severity severity = Severity::Warning;
@@ -46,7 +27,9 @@ struct Rule {
   bool byDefault = true;
   Tier tier = Tier::Syntax;
   Maturity maturity = Maturity::Stable;
-  std::string_view explanation; // what `explain` prints
+  // The check of a front end that other commands run, too (lint/Shared.h). Of such findings and of messages
+  // that begin at one place only the most severe are kept.
+  bool shared = false;
   void (*check)(const Project& project, Report& report) = nullptr;
 };
 
@@ -63,10 +46,12 @@ const NamedRule* findRule(std::string_view id); // nullptr: there is none
 struct CodeInfo {
   std::string_view code;
   Severity severity = Severity::Warning;
-  std::string_view explanation;
   bool byDefault = true;
-  const Rule* rule = nullptr; // nullptr: a message
+  const Rule* rule = nullptr;   // nullptr: a message
+  std::string_view explanation; // of a message; "" for a rule, whose page explains it
 };
+// One sentence for tables: the first one of the page or of the explanation.
+std::string summaryOf(const CodeInfo& info);
 std::span<const CodeInfo> codeTable();
 
 } // namespace dotek::lint

@@ -181,8 +181,8 @@ template <class File> void addOnce(std::vector<const File*>& files, const File* 
   if (file != nullptr && std::find(files.begin(), files.end(), file) == files.end()) files.push_back(file);
 }
 
-// Checks a macro and, once each, the macros that it includes or calls; they become files of the cycle.
-void checkWithCallees(const gibbs::Macro& macro, CycleFolder& folder, const gibbs::ParseContext& context) {
+// Takes a macro and, once each, the macros that it includes or calls; they become files of the cycle.
+void addWithCallees(const gibbs::Macro& macro, CycleFolder& folder, const gibbs::ParseContext& context) {
   gibbs::Cycle& cycle = *folder.cycle;
   std::vector<const gibbs::Macro*> waiting{&macro};
   std::vector<const gibbs::Macro*> done;
@@ -192,7 +192,7 @@ void checkWithCallees(const gibbs::Macro& macro, CycleFolder& folder, const gibb
     if (std::find(done.begin(), done.end(), next) != done.end()) continue;
     done.push_back(next);
     const auto included = folder.loader->included(*next);
-    gibbs::checkMacro(*next, included, context);
+    folder.checked.emplace_back(*next, included, context);
     std::vector<Callee> callees;
     for (const gibbs::Line& line : next->lines) {
       if (line.statement) collectCallees(*line.statement, callees);
@@ -231,7 +231,7 @@ bool isCycleFolder(const fs::path& path) {
                      [&](std::string_view name) { return findEntry(path, name).has_value(); });
 }
 
-CycleFolder loadCycleFolder(const std::string& path, Session& session) {
+CycleFolder loadCycleFolder(const std::string& path, Session& session, bool checked) {
   CycleFolder folder;
   std::error_code error;
   fs::path real(path);
@@ -288,12 +288,16 @@ CycleFolder loadCycleFolder(const std::string& path, Session& session) {
     cycle.toolPath = gibbs::parseMacro(*ids[3], context);
     folder.loader->know(pathOf(*ids[3]), *cycle.toolPath);
   }
-  if (cycle.defineData) gibbs::checkDefineData(*cycle.defineData, context);
-  if (cycle.dialog) gibbs::checkDialog(*cycle.dialog, context);
+  if (cycle.defineData) folder.checked.emplace_back(*cycle.defineData, context);
+  if (cycle.dialog) folder.checked.emplace_back(*cycle.dialog, context);
   for (const auto* macro : {&cycle.cycleData, &cycle.toolPath}) {
-    if (*macro) checkWithCallees(**macro, folder, context);
+    if (*macro) addWithCallees(**macro, folder, context);
   }
-  gibbs::checkCycle(cycle, context);
+  if (checked) {
+    for (const gibbs::CheckedFile& file : folder.checked)
+      runChecks(gibbs::fileChecks(), file, session.diagnostics());
+    gibbs::checkCycle(cycle, context);
+  }
   return folder;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "frontend/gibbs/Ast.h"
+#include "frontend/gibbs/Check.h"
 #include "frontend/gibbs/Cycle.h"
 #include "frontend/gibbs/Parse.h"
 #include "project/Session.h"
@@ -52,6 +53,8 @@ struct CycleFolder {
   std::unique_ptr<frontend::gibbs::Cycle> cycle;
   std::unique_ptr<MacroLoader> loader;
   bool complete = false; // all four files are there and could be read
+  // The files of the cycle, macros that they call included, as checks look at them.
+  std::deque<frontend::gibbs::CheckedFile> checked;
 };
 
 // The file of a cycle's folder by its fixed name, in whatever case; nothing where there is none.
@@ -60,7 +63,8 @@ std::optional<std::filesystem::path> cycleFile(const std::filesystem::path& fold
 // true: `path` is a folder that holds at least one of the four files.
 bool isCycleFolder(const std::filesystem::path& path);
 
-// Reads, parses and checks the folder. Missing and unreadable files are reported.
-CycleFolder loadCycleFolder(const std::string& path, Session& session);
+// Reads, parses and checks the folder. Missing and unreadable files are reported. Without `checked` what the
+// files say is left to the rules of lint.
+CycleFolder loadCycleFolder(const std::string& path, Session& session, bool checked = true);
 
 } // namespace dotek::project

@@ -3,6 +3,7 @@
 #include "frontend/compost/Check.h"
 #include "frontend/compost/Parse.h"
 #include "frontend/compost/Summary.h"
+#include "frontend/gibbs/Check.h"
 #include "support/NearestName.h"
 #include "support/messages/ComPost.h"
 #include "support/messages/Commands.h"
@@ -52,7 +53,7 @@ std::string testedCycles(const compost::Program& program, const std::string& cyc
          (near.empty() ? "" : "; did you mean `--cycle " + near + "`?");
 }
 
-std::optional<compost::Program> loadProg(const std::string& path, Session& session) {
+std::optional<compost::Program> loadProg(const std::string& path, Session& session, bool checked) {
   const std::optional<FileId> id = session.read(path, Encoding::Cp1250);
   if (!id) return std::nullopt;
   if (session.sources().file(*id).bytes().empty()) {
@@ -64,7 +65,7 @@ std::optional<compost::Program> loadProg(const std::string& path, Session& sessi
     session.diagnostics().report<diag::EmptyFile>({*id, 0, 0}, path);
     return std::nullopt;
   }
-  compost::check(program, session.compostKeywords(), session.sources(), session.diagnostics());
+  if (checked) compost::check(program, session.compostKeywords(), session.sources(), session.diagnostics());
   if (session.options().recover) acceptRepairs(*id, session);
   return program;
 }
@@ -101,7 +102,8 @@ void leaveFindingsToLint(Session& session) {
   auto& all = session.diagnostics().all();
   // These change what is posted: a repair, a reading, a value that the user would see differ.
   constexpr std::array kKept = {diag::OpenIfAtReturn::code, diag::MissingReturn::code,
-                                diag::UnverifiedInProg::code, diag::InputOpensWithOther::code};
+                                compost::unverifiedInProgCheck.code,
+                                frontend::gibbs::inputOpensWithOtherCheck.code};
   const auto isFinding = [&](const Diagnostic& d) {
     return d.severity != Severity::Error && d.range.hasPlace() &&
            std::find(kKept.begin(), kKept.end(), d.code) == kKept.end();

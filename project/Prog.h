@@ -11,7 +11,8 @@ namespace dotek::project {
 
 // Reads, parses and checks the Prog. Under --recover its repairable errors become warnings that state the
 // reading. nullopt where the file could not be read.
-std::optional<frontend::compost::Program> loadProg(const std::string& path, Session& session);
+std::optional<frontend::compost::Program> loadProg(const std::string& path, Session& session,
+                                                   bool checked = true);
 
 // For messages: which cycles the Prog tells apart, and which of them `cycle` may have meant.
 std::string testedCycles(const frontend::compost::Program& program, const std::string& cycle);

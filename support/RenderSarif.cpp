@@ -98,7 +98,8 @@ std::string renderSarif(const Diagnostics& diagnostics, const SourceMap& sources
     index.emplace(rule.code, ruleRows.size());
     Json row;
     row["id"] = rule.code;
-    row["shortDescription"]["text"] = rule.explanation;
+    row["shortDescription"]["text"] = rule.summary;
+    row["help"]["text"] = rule.summary;
     row["defaultConfiguration"]["level"] = severityName(rule.severity);
     ruleRows.push_back(std::move(row));
   }

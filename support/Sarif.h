@@ -13,7 +13,7 @@ namespace dotek {
 struct SarifRule {
   std::string_view code;
   Severity severity = Severity::Warning;
-  std::string_view explanation;
+  std::string summary; // one sentence
 };
 
 // `rules` holds the code of each finding. Paths become relative or absolute URI references as they stand.

@@ -63,7 +63,6 @@ private:
   void routine(Parser::RoutineContext& context, antlr4::TokenStream& stream);
   void loose(Parser::LooseContext& context);
   void flushEnds(std::optional<SourceRange> strayEnd);
-  void reportDuplicates();
   static std::uint32_t lastStatementEnd(const Routine& routine);
 
   FileId file_;

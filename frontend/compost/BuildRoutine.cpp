@@ -160,21 +160,8 @@ void Builder::loose(Parser::LooseContext& context) {
   diagnostics_.report<diag::StatementOutsideRoutine>(first);
 }
 
-void Builder::reportDuplicates() {
-  std::map<std::string_view, SourceRange> first;
-  for (const Item& item : program_.items) {
-    const auto* routine = std::get_if<Routine>(&item);
-    if (routine == nullptr) continue;
-    const auto [at, added] = first.try_emplace(routine->name, routine->nameRange);
-    if (!added)
-      diagnostics_.report<diag::DuplicateRoutine>(routine->nameRange, sources_.textUtf8(routine->nameRange))
-          .note(at->second, "the first one");
-  }
-}
-
 Program Builder::finish(const TokenBuffer& tokens) {
   flushEnds(std::nullopt);
-  reportDuplicates();
   for (const antlr4::Token* token : tokens.all()) {
     if (token->getType() != Parser::COMMENT && token->getType() != Parser::UNTERMINATED_COMMENT) continue;
     const SourceRange range = rangeOf(*token);

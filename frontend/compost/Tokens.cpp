@@ -152,14 +152,6 @@ TokenFindings checkTokens(const TokenBuffer& tokens, FileId file, const SourceMa
             "the line has an odd number of apostrophes; the missing one may belong to a text before this");
       break;
     }
-    case Lexer::COMMENT: {
-      const std::size_t brace = sources.text(range).find('{', 1);
-      if (brace == std::string_view::npos) break;
-      const auto at = static_cast<std::uint32_t>(range.begin + brace);
-      diagnostics.report<diag::CommentBrace>({file, at, at + 1})
-          .note({file, range.begin, range.begin + 1}, "the comment begins here");
-      break;
-    }
     case Lexer::UNTERMINATED_COMMENT:
       found.broken = true;
       found.lost.push_back(range);

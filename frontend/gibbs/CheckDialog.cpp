@@ -1,159 +1,167 @@
-#include "frontend/gibbs/CheckCommand.h"
+// Controls of a dialog, definitions of DefineData.txt.
+#include "frontend/gibbs/Check.h"
 #include "frontend/gibbs/Unverified.h"
-#include "frontend/gibbs/Walk.h"
-#include "support/messages/Gibbs.h"
 
-#include <map>
+#include <algorithm>
 
 namespace dotek::frontend::gibbs {
 
 namespace {
 
-// Notes of constructs that a dialog or DefineData.txt shares with macros.
-class Notes {
-public:
-  explicit Notes(const ParseContext& context) : context_(context) {}
+template <class Visit> void eachControl(const CheckedFile& input, const Visit& visit) {
+  if (input.dialog == nullptr) return;
+  for (const Control& control : input.dialog->controls)
+    visit(control, foldCase(control.kind.text));
+}
 
-  void add(const Expression& expression) {
-    for (const Unverified& found : unverifiedIn(expression, context_.keywords)) {
-      if (found.assumption == "loose-caption" || !noted_.insert(found.assumption).second) continue;
-      const Assumption* assumption = findAssumption(found.assumption);
-      context_.diagnostics.report<diag::UnverifiedConstruct>(found.range, assumption->construct,
-                                                             assumption->reading, assumption->id);
-    }
-  }
+// The first control of the kind; nullptr: there is none.
+const Control* firstOf(const CheckedFile& input, std::string_view kind) {
+  for (const Control& control : input.dialog->controls)
+    if (foldCase(control.kind.text) == kind) return &control;
+  return nullptr;
+}
 
-private:
-  const ParseContext& context_;
-  std::set<std::string_view> noted_;
-};
+// A dialog whose lines were all read: a broken one may have been the one that is missing.
+bool isWhole(const CheckedFile& input) {
+  return input.dialog != nullptr && !input.dialog->controls.empty() && !input.dialog->hasErrorNodes;
+}
 
-class DialogCheck {
-public:
-  DialogCheck(const Dialog& dialog, const ParseContext& context)
-      : dialog_(dialog), context_(context), notes_(context) {}
-
-  void run() {
-    if (dialog_.controls.empty()) return;
-    for (const Control& control : dialog_.controls)
-      check(control);
-    // A broken line may have been the one that lacks.
-    if (dialog_.hasErrorNodes) return;
-    const auto window = first_.find("DIALOG");
-    const Control& head = dialog_.controls.front();
-    const SourceRange place = window == first_.end() ? head.kind.range : window->second->kind.range;
-    if (window == first_.end())
-      context_.diagnostics.report<diag::DialogNotFirst>(head.kind.range, "the file has no line DIALOG");
-    else if (window->second != &head)
-      context_.diagnostics.report<diag::DialogNotFirst>(place, "DIALOG is not the first line of the file");
-    if (first_.count("OK") == 0) context_.diagnostics.report<diag::DialogWithoutOk>(place);
-    if (first_.count("CANCEL") == 0) context_.diagnostics.report<diag::DialogWithoutCancel>(place);
-  }
-
-private:
-  void check(const Control& control) {
-    const std::string key = foldCase(control.kind.text);
-    const auto [place, isNew] = first_.try_emplace(key, &control);
-    if (!isNew && (key == "DIALOG" || key == "OK" || key == "CANCEL"))
-      context_.diagnostics.report<diag::ControlTwice>(control.kind.range, control.kind.text)
-          .note(place->second->kind.range, "the first one");
-    const auto signatures = context_.keywords.dialogControls(key);
-    if (signatures.empty()) {
-      if (!context_.keywords.isUnprovedControl(key) &&
-          !context_.diagnostics.full(diag::UnknownControl::code, control.range.file))
-        context_.diagnostics.report<diag::UnknownControl>(control.kind.range, control.kind.text,
-                                                          didYouMean(context_.keywords.nearestControl(key)));
-    } else if (!context_.keywords.isUnprovedControl(key)) {
-      checkArguments(signatures, control, key);
-    }
-    for (const ExpressionPtr& argument : control.arguments) {
-      notes_.add(*argument);
-      checkExpression(*argument, {}, context_);
-    }
-    checkVariable(control);
-    if (key == "IMAGE") checkImage(control);
-  }
-
-  void checkArguments(const std::vector<const stdlib::CommandSignature*>& signatures, const Control& control,
-                      const std::string& key) {
-    if (key == "FRAME" && control.arguments.size() == 5) {
-      const Expression& caption = *control.arguments[4];
-      const auto* word = std::get_if<VariableRef>(&caption.node);
-      const auto* text = std::get_if<TextLiteral>(&caption.node);
-      if ((text != nullptr && text->quote == 0) || (word != nullptr && !word->name.isText())) {
-        context_.diagnostics.report<diag::LooseCaption>(caption.range);
-        return;
-      }
-    }
-    gibbs::checkArguments(control.kind, control.arguments, signatures, control.range, context_);
-  }
-
-  void checkVariable(const Control& control) {
-    const std::string key = foldCase(control.kind.text);
-    // A button has a number, and buttons of a RADIO group share their variable.
-    if (!control.variable || key == "BUTTON" || key == "RADIO") return;
-    const auto [place, isNew] =
-        inputs_.try_emplace(foldCase(control.variable->text), control.variable->range);
-    if (!isNew)
-      context_.diagnostics.report<diag::VariableTwice>(control.variable->range, control.variable->text)
-          .note(place->second, "the first one");
-  }
-
-  void checkImage(const Control& control) {
-    if (control.arguments.size() < 5) return;
-    const auto* file = std::get_if<TextLiteral>(&control.arguments[4]->node);
-    if (file == nullptr) return;
-    const SourceRange range = control.arguments[4]->range;
-    const std::string suffix = fmt::format(".{}", context_.keywords.imageSuffix());
-    const std::string& name = file->text;
-    const bool matches =
-        name.size() > suffix.size() && foldCase(name.substr(name.size() - suffix.size())) == foldCase(suffix);
-    bool accent = false;
-    for (const char c : name)
-      accent = accent || static_cast<unsigned char>(c) > 127;
-    const std::string shown =
-        fmt::format("`{}`", context_.sources.textUtf8({range.file, range.begin + 1, range.end - 1}));
-    if (!matches)
-      context_.diagnostics.report<diag::ImageName>(
-          range, shown + " is no .bmp file; IMAGE shows nothing else; convert the picture");
-    else if (name.find(' ') != std::string::npos)
-      context_.diagnostics.report<diag::ImageName>(
-          range,
-          "the file name " + shown + " holds a blank; GibbsCAM does not find the picture; rename the file");
-    else if (accent)
-      context_.diagnostics.report<diag::ImageName>(
-          range,
-          "the file name " + shown +
-              " holds a letter that is not ASCII; GibbsCAM does not find the picture; rename the file");
-  }
-
-  const Dialog& dialog_;
-  const ParseContext& context_;
-  Notes notes_;
-  std::map<std::string, const Control*> first_;
-  std::map<std::string, SourceRange> inputs_;
-};
+// Where what the whole dialog lacks is reported: at its DIALOG, else at its first control.
+SourceRange headOf(const CheckedFile& input) {
+  const Control* window = firstOf(input, "DIALOG");
+  return (window != nullptr ? *window : input.dialog->controls.front()).kind.range;
+}
 
 } // namespace
 
-void checkDialog(const Dialog& dialog, const ParseContext& context) {
-  DialogCheck(dialog, context).run();
+void dialogNotFirst(const CheckedFile& input, Report& report) {
+  if (!isWhole(input)) return;
+  const Control* window = firstOf(input, "DIALOG");
+  if (window == &input.dialog->controls.front()) return;
+  report.at(headOf(input),
+            "{}; GibbsCAM opens no window for what stands before it; write `DIALOG caption, left, top, "
+            "width, height` "
+            "on the first line",
+            window == nullptr ? "the file has no line DIALOG" : "DIALOG is not the first line of the file");
 }
 
-void checkDefineData(const DefineData& data, const ParseContext& context) {
-  Notes notes(context);
-  std::map<std::string, SourceRange> names;
-  for (const Definition& definition : data.definitions) {
-    const auto [place, isNew] = names.try_emplace(foldCase(definition.name.text), definition.name.range);
+void dialogWithoutOk(const CheckedFile& input, Report& report) {
+  if (isWhole(input) && firstOf(input, "OK") == nullptr)
+    report.at(headOf(input),
+              "the dialog has no OK; the values cannot be taken over; add `OK left, top, width, height`");
+}
+
+void dialogWithoutCancel(const CheckedFile& input, Report& report) {
+  if (isWhole(input) && firstOf(input, "CANCEL") == nullptr)
+    report.at(headOf(input),
+              "the dialog has no CANCEL; the user cannot leave it without taking the values over; add "
+              "`CANCEL left, top, width, height`");
+}
+
+void controlTwice(const CheckedFile& input, Report& report) {
+  eachControl(input, [&](const Control& control, const std::string& key) {
+    if (key != "DIALOG" && key != "OK" && key != "CANCEL") return;
+    const Control* first = firstOf(input, key);
+    if (first != &control)
+      report.at(control.kind.range, "`{}` stands twice; a dialog has one", control.kind.text)
+          .note(first->kind.range, "the first one");
+  });
+}
+
+void unknownControl(const CheckedFile& input, Report& report) {
+  eachControl(input, [&](const Control& control, const std::string& key) {
+    if (!input.keywords.dialogControls(key).empty() || input.keywords.isUnprovedControl(key)) return;
+    if (report.full(input.file)) return;
+    report.at(control.kind.range, "no source knows a control `{}`{}", control.kind.text,
+              didYouMean(input.keywords.nearestControl(key)));
+  });
+}
+
+void variableTwice(const CheckedFile& input, Report& report) {
+  std::map<std::string, SourceRange> inputs;
+  eachControl(input, [&](const Control& control, const std::string& key) {
+    // A button has a number, and buttons of a RADIO group share their variable.
+    if (!control.variable || key == "BUTTON" || key == "RADIO") return;
+    const auto [first, isNew] = inputs.try_emplace(foldCase(control.variable->text), control.variable->range);
     if (!isNew)
-      context.diagnostics.report<diag::DuplicateDefinition>(definition.name.range, definition.name.text)
-          .note(place->second, "the first one");
-    notes.add(*definition.value);
-    checkExpression(*definition.value, {}, context);
-    const bool text = typeOf(*definition.value, context.keywords) == ValueType::Text;
-    if (text || definition.name.isText() || !definition.number)
-      context.diagnostics.report<diag::FieldValue>(definition.valueRange, definition.name.text,
-                                                   text || definition.name.isText() ? "a text" : "computed");
+      report
+          .at(control.variable->range,
+              "two inputs write `{}`; the one that GibbsCAM stores last wins; give each a variable of its "
+              "own",
+              control.variable->text)
+          .note(first->second, "the first one");
+  });
+}
+
+void imageName(const CheckedFile& input, Report& report) {
+  const std::string suffix = foldCase(fmt::format(".{}", input.keywords.imageSuffix()));
+  eachControl(input, [&](const Control& control, const std::string& key) {
+    if (key != "IMAGE" || control.arguments.size() < 5) return;
+    const auto* file = std::get_if<TextLiteral>(&control.arguments[4]->node);
+    if (file == nullptr) return;
+    const SourceRange range = control.arguments[4]->range;
+    const std::string shown = input.text({range.file, range.begin + 1, range.end - 1});
+    const std::string name = foldCase(file->text);
+    if (name.size() <= suffix.size() || !name.ends_with(suffix))
+      report.at(range, "`{}` is no .bmp file; IMAGE shows nothing else; convert the picture", shown);
+    else if (name.find(' ') != std::string::npos)
+      report.at(range,
+                "the file name `{}` holds a blank; GibbsCAM does not find the picture; rename the file",
+                shown);
+    else if (std::any_of(name.begin(), name.end(),
+                         [](char c) { return static_cast<unsigned char>(c) > 127; }))
+      report.at(
+          range,
+          "the file name `{}` holds a letter that is not ASCII; GibbsCAM does not find the picture; rename "
+          "the file",
+          shown);
+  });
+}
+
+const Expression* looseCaptionOf(const Control& control) {
+  if (foldCase(control.kind.text) != "FRAME" || control.arguments.size() != 5) return nullptr;
+  const Expression& caption = *control.arguments[4];
+  const auto* word = std::get_if<VariableRef>(&caption.node);
+  const auto* text = std::get_if<TextLiteral>(&caption.node);
+  const bool loose = (text != nullptr && text->quote == 0) || (word != nullptr && !word->name.isText());
+  return loose ? &caption : nullptr;
+}
+
+void looseCaption(const CheckedFile& input, Report& report) {
+  eachControl(input, [&](const Control& control, const std::string& key) {
+    if (input.keywords.dialogControls(key).empty() || input.keywords.isUnprovedControl(key)) return;
+    if (const Expression* caption = looseCaptionOf(control))
+      report.at(caption->range,
+                "the caption stands without quotes; Dotek takes it as text; put it between quotes");
+  });
+}
+
+// ---- DefineData.txt
+
+void duplicateDefinition(const CheckedFile& input, Report& report) {
+  if (input.defines == nullptr) return;
+  std::map<std::string, SourceRange> names;
+  for (const Definition& definition : input.defines->definitions) {
+    const auto [first, isNew] = names.try_emplace(foldCase(definition.name.text), definition.name.range);
+    if (!isNew)
+      report
+          .at(definition.name.range,
+              "`{}` is defined twice; which value GibbsCAM takes is not known; remove one",
+              definition.name.text)
+          .note(first->second, "the first one");
+  }
+}
+
+void fieldValue(const CheckedFile& input, Report& report) {
+  if (input.defines == nullptr) return;
+  for (const Definition& definition : input.defines->definitions) {
+    const bool text =
+        typeOf(*definition.value, input.keywords) == ValueType::Text || definition.name.isText();
+    if (text || !definition.number)
+      report.at(definition.valueRange,
+                "the first value of `{}` is {}; sources show numbers only, so what GibbsCAM makes of it is "
+                "unverified",
+                definition.name.text, text ? "a text" : "computed");
   }
 }
 

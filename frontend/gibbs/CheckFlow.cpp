@@ -2,8 +2,6 @@
 
 #include "frontend/gibbs/Walk.h"
 #include "support/NearestName.h"
-#include "support/messages/Common.h"
-#include "support/messages/Gibbs.h"
 
 #include <algorithm>
 #include <map>
@@ -15,15 +13,14 @@ namespace {
 
 class Flow {
 public:
-  Flow(const ParseContext& context, std::vector<SourceRange>& intoFor)
-      : context_(context), intoFor_(intoFor) {}
+  explicit Flow(const ParseContext& context) : context_(context) {}
 
-  void run(const Macro& macro, const std::vector<const Macro*>& included) {
+  FlowFindings run(const Macro& macro, const std::vector<const Macro*>& included) {
     readBroken(macro);
     visit(macro.lines);
-    if (tooDeep_) return;
+    if (found_.tooDeep) return std::move(found_);
     for (const Open& open : open_)
-      if (!broken_["NEXT"]) context_.diagnostics.report<diag::ForWithoutNext>(open.range, open.variable.text);
+      if (!broken_["NEXT"]) found_.forsWithoutNext.emplace_back(open.range, open.variable);
     std::size_t includes = 0;
     walkLines(macro.lines,
               [&](const Statement& s) { includes += std::holds_alternative<Include>(s.node) ? 1 : 0; });
@@ -34,7 +31,8 @@ public:
       if (other->hasErrorNodes) broken_[":"] = true;
     }
     if (included.size() < includes) broken_[":"] = true;
-    checkJumps(foreign);
+    jumps(foreign);
+    return std::move(found_);
   }
 
 private:
@@ -88,19 +86,17 @@ private:
   }
 
   void visit(const Statement& statement) {
-    if (tooDeep_) return;
+    if (found_.tooDeep) return;
     if (const auto* loop = std::get_if<For>(&statement.node)) {
       if (open_.size() >= context_.limits.nesting) {
-        context_.diagnostics.report<diag::NestingTooDeep>(statement.range, context_.limits.nesting);
-        tooDeep_ = true;
+        found_.tooDeep = statement.range; // each place keeps the FORs around it
         return;
       }
       open_.push_back({nextId_++, spanning(statement.range, loop->variable.range), loop->variable});
     } else if (const auto* next = std::get_if<Next>(&statement.node)) {
       endLoop(*next, statement.range);
     } else if (std::holds_alternative<Continue>(statement.node)) {
-      if (open_.empty() && !broken_["FOR"])
-        context_.diagnostics.report<diag::ContinueOutsideFor>(statement.range);
+      if (open_.empty() && !broken_["FOR"]) found_.continuesOutside.push_back(statement.range);
     } else if (const auto* jump = std::get_if<Goto>(&statement.node)) {
       jumps_.push_back({jump->label, loops()});
     } else if (const auto* handler = std::get_if<OnError>(&statement.node)) {
@@ -115,14 +111,12 @@ private:
 
   void addLabel(const Name& name) {
     const auto [place, isNew] = labels_.try_emplace(foldCase(name.text), Place{name, loops()});
-    if (isNew) return;
-    context_.diagnostics.report<diag::DuplicateLabel>(name.range, name.text)
-        .note(place->second.name.range, "the first one");
+    if (!isNew) found_.labelsTwice.emplace_back(name, place->second.name.range);
   }
 
   void endLoop(const Next& next, SourceRange range) {
     if (open_.empty()) {
-      if (!broken_["FOR"]) context_.diagnostics.report<diag::NextWithoutFor>(range);
+      if (!broken_["FOR"]) found_.nextsWithoutFor.push_back(range);
       return;
     }
     if (!next.variable || foldCase(next.variable->text) == foldCase(open_.back().variable.text)) {
@@ -135,23 +129,17 @@ private:
                                     [&](const Open& open) { return foldCase(open.variable.text) == key; });
     if (outer == open_.rend()) {
       if (!broken_["FOR"])
-        context_.diagnostics
-            .report<diag::NextOfOtherFor>(next.variable->range, next.variable->text,
-                                          open_.back().variable.text)
-            .note(open_.back().range, "the FOR that is open");
+        found_.nextsOfOther.push_back({&*next.variable, open_.back().variable, open_.back().range});
       open_.pop_back(); // most likely its end, misspelt
       return;
     }
     if (laterNext(open_.back().variable)) {
-      context_.diagnostics
-          .report<diag::NextOfOtherFor>(next.variable->range, next.variable->text, open_.back().variable.text)
-          .note(open_.back().range, "the FOR that is open");
+      found_.nextsOfOther.push_back({&*next.variable, open_.back().variable, open_.back().range});
       open_.erase(std::next(outer).base());
       return;
     }
     for (auto inner = open_.rbegin(); inner != outer; ++inner)
-      if (!broken_["NEXT"])
-        context_.diagnostics.report<diag::ForWithoutNext>(inner->range, inner->variable.text);
+      if (!broken_["NEXT"]) found_.forsWithoutNext.emplace_back(inner->range, inner->variable);
     open_.erase(std::next(outer).base(), open_.end());
   }
 
@@ -167,38 +155,28 @@ public:
   }
 
 private:
-  void checkJumps(const std::set<std::string>& foreign) {
+  void jumps(const std::set<std::string>& foreign) {
+    for (const auto& [key, place] : labels_)
+      found_.labels.push_back(place.name.text);
+    found_.labels.insert(found_.labels.end(), foreign.begin(), foreign.end());
     for (const Place& jump : jumps_) {
       const std::string key = foldCase(jump.name.text);
       const auto found = labels_.find(key);
       if (found == labels_.end()) {
-        if (foreign.count(key) == 0 && !broken_[":"]) reportUndefined(jump.name, foreign);
+        if (foreign.count(key) == 0 && !broken_[":"]) found_.undefinedLabels.push_back(jump.name);
         continue;
       }
       const std::vector<std::size_t>& inside = found->second.loops;
       const bool within =
           inside.size() <= jump.loops.size() && std::equal(inside.begin(), inside.end(), jump.loops.begin());
-      if (!within) intoFor_.push_back(jump.name.range);
+      if (!within) found_.intoFor.push_back(jump.name.range);
     }
   }
 
-  void reportUndefined(const Name& name, const std::set<std::string>& foreign) {
-    if (context_.diagnostics.full(diag::UndefinedLabel::code, name.range.file)) return;
-    NearestName nearest(name.text);
-    for (const auto& [key, place] : labels_)
-      nearest.offer(place.name.text);
-    for (const std::string& key : foreign)
-      nearest.offer(key);
-    const std::string remedy = nearest.result().empty() ? "; write a line `:" + name.text + "`"
-                                                        : "; did you mean `" + nearest.result() + "`?";
-    context_.diagnostics.report<diag::UndefinedLabel>(name.range, name.text, remedy);
-  }
-
   const ParseContext& context_;
-  std::vector<SourceRange>& intoFor_;
+  FlowFindings found_;
   std::map<std::string, bool> broken_;
   std::vector<Open> open_;
-  bool tooDeep_ = false; // FORs within one another: each place keeps those around it
   std::size_t nextId_ = 0;
   std::map<std::string, Place> labels_;
   std::vector<Place> jumps_;
@@ -207,11 +185,58 @@ private:
 
 } // namespace
 
-void checkFlow(const Macro& macro, const std::vector<const Macro*>& included, const ParseContext& context,
-               std::vector<SourceRange>& intoFor) {
-  Flow flow(context, intoFor);
+FlowFindings flowOf(const Macro& macro, const std::vector<const Macro*>& included,
+                    const ParseContext& context) {
+  Flow flow(context);
   flow.countNexts(macro);
-  flow.run(macro, included);
+  return flow.run(macro, included);
+}
+
+void undefinedLabel(const CheckedFile& input, Report& report) {
+  for (const Name& name : input.flow.undefinedLabels) {
+    if (report.full(input.file)) return;
+    NearestName nearest(name.text);
+    for (const std::string& label : input.flow.labels)
+      nearest.offer(label);
+    report.at(name.range, "there is no label `{}`; GibbsCAM stops when it reaches this line{}", name.text,
+              nearest.result().empty() ? "; write a line `:" + name.text + "`"
+                                       : didYouMean(nearest.result()));
+  }
+}
+
+void duplicateLabel(const CheckedFile& input, Report& report) {
+  for (const auto& [name, first] : input.flow.labelsTwice)
+    report
+        .at(name.range, "the label `{}` stands twice; which of them GOTO takes is not known; rename one",
+            name.text)
+        .note(first, "the first one");
+}
+
+void forWithoutNext(const CheckedFile& input, Report& report) {
+  for (const auto& [range, variable] : input.flow.forsWithoutNext)
+    report.at(
+        range,
+        "this FOR has no `NEXT {}`; its lines run once, or GibbsCAM stops; write NEXT where the loop ends",
+        variable.text);
+}
+
+void nextWithoutFor(const CheckedFile& input, Report& report) {
+  for (const SourceRange& range : input.flow.nextsWithoutFor)
+    report.at(range, "this NEXT has no FOR before it; GibbsCAM has nowhere to go back to");
+}
+
+void nextOfOtherFor(const CheckedFile& input, Report& report) {
+  for (const FlowFindings::OtherFor& one : input.flow.nextsOfOther)
+    report
+        .at(one.next->range,
+            "NEXT names `{}`, but the innermost open FOR counts `{}`; loops end in reverse order",
+            one.next->text, one.open.text)
+        .note(one.openRange, "the FOR that is open");
+}
+
+void continueOutsideFor(const CheckedFile& input, Report& report) {
+  for (const SourceRange& range : input.flow.continuesOutside)
+    report.at(range, "CONTINUE stands in no FOR; it has no NEXT to go to");
 }
 
 } // namespace dotek::frontend::gibbs

@@ -1,14 +1,13 @@
-// Findings on labels, GOTO, FOR and NEXT of one macro.
+// Labels, GOTO, FOR and NEXT of one macro. Private to the checks.
 #pragma once
 
-#include "frontend/gibbs/Parse.h"
+#include "frontend/gibbs/Check.h"
 
 #include <vector>
 
 namespace dotek::frontend::gibbs {
 
-// Unverified jumps into a FOR are added to `intoFor`.
-void checkFlow(const Macro& macro, const std::vector<const Macro*>& included, const ParseContext& context,
-               std::vector<SourceRange>& intoFor);
+FlowFindings flowOf(const Macro& macro, const std::vector<const Macro*>& included,
+                    const ParseContext& context);
 
 } // namespace dotek::frontend::gibbs

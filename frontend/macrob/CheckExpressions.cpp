@@ -1,8 +1,7 @@
 // What the control can calculate and compare.
-#include "frontend/macrob/CheckParts.h"
+#include "frontend/macrob/Check.h"
 #include "frontend/macrob/Format.h"
 #include "frontend/macrob/Walk.h"
-#include "support/messages/MacroB.h"
 
 #include <algorithm>
 #include <cmath>
@@ -27,7 +26,7 @@ std::optional<double> constant(const Expression& expression) {
   if (operation == nullptr) return std::nullopt;
   const auto left = constant(*operation->left);
   const auto right = constant(*operation->right);
-  // Nothing is left of a byte behind AND 0.
+  // Nothing is left of a byte after AND 0.
   if ((operation->op == "AND" || operation->op == "*") && (left == 0 || right == 0)) return 0;
   if (!left || !right) return std::nullopt;
   if (operation->op == "+") return *left + *right;
@@ -79,41 +78,80 @@ bool isApproximate(const Expression& expression, bool literals) {
   return isApproximate(*operation->left, literals) || isApproximate(*operation->right, literals);
 }
 
-class ExpressionCheck {
-public:
-  ExpressionCheck(const Program& program, const CheckContext& context)
-      : program_(program), context_(context) {}
+// FIX[#1/2] tells even from odd: halves are exact.
+bool isHalved(const Expression& expression) {
+  const auto* operation = std::get_if<nc::Operation>(&expression.node);
+  if (operation == nullptr || operation->op != "/") return false;
+  const auto divisor = constant(*operation->right);
+  return divisor && (*divisor == 2 || *divisor == 4 || *divisor == 8) && variableNumber(*operation->left);
+}
 
-  void run() {
-    for (const Block& block : program_.blocks)
-      if (const nc::Assignment* assignment = assignmentOf(block)) counters(*assignment);
-    for (const Block& block : program_.blocks) {
-      if (!std::holds_alternative<Unread>(block.body)) depth(block);
-      walk(block, [&](const Expression& expression, bool) {
-        function(expression);
-        digits(expression);
-      });
-      if (const Condition* condition = conditionOf(block)) {
-        joined(*condition, true);
-        compare(*condition);
-      }
-      if (const auto* branch = std::get_if<If>(&block.body)) then(*branch);
-    }
+bool isInexact(const Expression& side) {
+  return !constant(side) && isApproximate(side, true);
+}
+
+// Variables that grow in steps such as 0.1. Eighths and the like are exact.
+std::set<std::uint32_t> countersOf(const Program& program) {
+  std::set<std::uint32_t> out;
+  for (const Block& block : program.blocks) {
+    const nc::Assignment* assignment = assignmentOf(block);
+    if (assignment == nullptr) continue;
+    const auto* target = std::get_if<nc::Number>(&assignment->variable->node);
+    const auto* sum = std::get_if<nc::Operation>(&assignment->value->node);
+    if (target == nullptr || sum == nullptr || (sum->op != "+" && sum->op != "-")) continue;
+    const auto from = variableNumber(*sum->left);
+    const auto step = constant(*sum->right);
+    if (from && *from == target->value && step && !isWhole(*step * 8)) out.insert(*from);
   }
+  return out;
+}
 
-private:
-  const stdlib::Control* control() const { return context_.control; }
+// Comparisons of all conditions, those that AND and OR join included.
+template <class Visit> void eachComparison(const Condition& condition, const Visit& visit) {
+  if (const auto* both = std::get_if<JoinedConditions>(&condition.node)) {
+    eachComparison(*both->left, visit);
+    eachComparison(*both->right, visit);
+  } else {
+    visit(std::get<Comparison>(condition.node), condition.range);
+  }
+}
 
-  // ---- brackets
+// Whether the comparison holds, where that is the same whatever the variables in it are. `WHILE[1EQ1]` is
+// meant so.
+std::optional<bool> alwaysSame(const Comparison& comparison) {
+  if (!hasVariable(*comparison.left) && !hasVariable(*comparison.right)) return std::nullopt;
+  const auto left = constant(*comparison.left);
+  const auto right = constant(*comparison.right);
+  if (left && right) return holds(comparison.op, *left, *right);
+  if (print(*comparison.left) == print(*comparison.right)) return holds(comparison.op, 0, 0);
+  return std::nullopt;
+}
 
-  // Counted in the text: the tree does not know which pairs belong to functions.
-  void depth(const Block& block) {
-    const std::uint32_t most = control() != nullptr ? control()->bracketDepth : 5;
-    const std::string_view text = context_.sources.text(block.range);
+template <class Kind, class Visit> void eachPart(const CheckedProgram& input, const Visit& visit) {
+  for (const CheckedProgram::Part& part : input.parts)
+    if (const auto* node = std::get_if<Kind>(&part.expression->node)) visit(*node, part.expression->range);
+}
+
+template <class Visit> void eachIf(const CheckedProgram& input, const Visit& visit) {
+  for (const Block& block : input.program.blocks)
+    if (const auto* branch = std::get_if<If>(&block.body); branch != nullptr && branch->then) visit(*branch);
+}
+
+} // namespace
+
+// ---- numbers and brackets
+
+// Counted in the text: the tree does not know which pairs belong to functions.
+void bracketsTooDeep(const CheckedProgram& input, Report& report) {
+  const std::uint32_t most = input.control != nullptr ? input.control->bracketDepth : 5;
+  for (const Block& block : input.program.blocks) {
+    if (std::holds_alternative<Unread>(block.body) || std::holds_alternative<Print>(block.body) ||
+        std::holds_alternative<SetNames>(block.body))
+      continue;
     // The pair of the condition itself is not counted: no source says that it is.
+    const std::uint32_t first = most + (conditionOf(block) != nullptr ? 2 : 1);
+    const std::string_view text = input.sources.text(block.range);
     std::uint32_t open = 0;
-    const bool condition = conditionOf(block) != nullptr;
-    if (std::holds_alternative<Print>(block.body) || std::holds_alternative<SetNames>(block.body)) return;
     bool inComment = false;
     for (std::size_t i = 0; i < text.size(); ++i) {
       const char c = text[i];
@@ -121,139 +159,153 @@ private:
       if (c == ')') inComment = false;
       if (inComment) continue;
       if (c == ']' && open > 0) --open;
-      if (c != '[' || ++open != most + (condition ? 2 : 1)) continue;
+      if (c != '[' || ++open != first) continue;
       const auto place = static_cast<std::uint32_t>(block.range.begin + i);
-      context_.report<diag::BracketsTooDeep>({block.range.file, place, place + 1}, most);
-      return;
+      report.at({block.range.file, place, place + 1},
+                "brackets are nested deeper than {}; the control stops with alarm 118; calculate a part in a "
+                "block of "
+                "its own",
+                most);
+      break;
     }
   }
+}
 
-  // Zeros before the first digit count as well, `.5` has one digit.
-  void digits(const Expression& expression) {
-    const auto* number = std::get_if<nc::Number>(&expression.node);
-    if (number == nullptr || control() == nullptr) return;
-    const auto count = std::count_if(number->digits.begin(), number->digits.end(),
+// Zeros before the first digit count as well, `.5` has one digit.
+void numberDigits(const CheckedProgram& input, Report& report) {
+  if (input.control == nullptr) return;
+  eachPart<nc::Number>(input, [&](const nc::Number& number, SourceRange range) {
+    const auto count = std::count_if(number.digits.begin(), number.digits.end(),
                                      [](char c) { return c >= '0' && c <= '9'; });
-    if (count > static_cast<std::ptrdiff_t>(control()->digits))
-      context_.report<diag::NumberDigits>(expression.range, count, control()->title, control()->digits);
-  }
+    if (count > static_cast<std::ptrdiff_t>(input.control->digits))
+      report.at(range,
+                "the number has {} digits; {} takes {} by most accounts and stops with an alarm, or drops "
+                "the rest; "
+                "write fewer",
+                count, input.control->title, input.control->digits);
+  });
+}
 
-  // ---- functions
+// ---- functions
 
-  void function(const Expression& expression) {
-    if (const auto* operation = std::get_if<nc::Operation>(&expression.node)) {
-      if (operation->op.size() > 1) known(operation->op, operation->op, expression.range);
-      return;
-    }
-    const auto* call = std::get_if<nc::FunctionCall>(&expression.node);
-    if (call == nullptr) return;
-    if (known(call->name, call->name, expression.range) && call->name == "ATAN") {
-      const char* form = call->arguments.size() == 1 ? "ATAN[y]" : call->comma ? "ATAN[y,x]" : "ATAN[y]/[x]";
-      known(form, form, expression.range);
-    }
-    if (call->bare && (control() == nullptr || !control()->bareFunctions)) {
-      const SourceRange argument = call->arguments.front()->range;
-      context_.report<diag::FunctionWithoutBrackets>(expression.range, call->name).fix =
-          Fix{Fix::Applicability::Display,
-              "write the brackets",
-              {{{argument.file, argument.begin, argument.begin}, "["},
-               {{argument.file, argument.end, argument.end}, "]"}}};
-    }
-    if (call->name == "FIX" && isApproximate(*call->arguments.front(), true) &&
-        !halved(*call->arguments.front()))
-      context_.report<diag::FixOfComputed>(expression.range);
-  }
-
-  bool known(const std::string& key, const std::string& shown, SourceRange range) {
-    if (control() == nullptr || control()->functions.contains(key)) return true;
-    if (told_.insert(key).second) context_.report<diag::FunctionUnknownHere>(range, shown, control()->title);
+void functionUnknownHere(const CheckedProgram& input, Report& report) {
+  if (input.control == nullptr) return;
+  std::set<std::string> told;
+  const auto known = [&](const std::string& form, SourceRange range) {
+    if (input.control->functions.contains(form)) return true;
+    if (told.insert(form).second)
+      report.at(
+          range,
+          "{} is not known to {}; the control stops with an alarm; use another form, or another control",
+          form, input.control->title);
     return false;
-  }
-
-  // FIX[#1/2] tells even from odd: halves are exact.
-  static bool halved(const Expression& expression) {
-    const auto* operation = std::get_if<nc::Operation>(&expression.node);
-    if (operation == nullptr || operation->op != "/") return false;
-    const auto divisor = constant(*operation->right);
-    return divisor && (*divisor == 2 || *divisor == 4 || *divisor == 8) && variableNumber(*operation->left);
-  }
-
-  // ---- conditions
-
-  void joined(const Condition& condition, bool outer) {
-    const auto* both = std::get_if<JoinedConditions>(&condition.node);
-    if (both == nullptr) return;
-    if (outer && control() != nullptr && !control()->joinedConditions)
-      context_.report<diag::JoinedUnknownHere>(condition.range, both->op, control()->title);
-    joined(*both->left, false);
-    joined(*both->right, false);
-  }
-
-  void compare(const Condition& condition) {
-    if (const auto* both = std::get_if<JoinedConditions>(&condition.node)) {
-      compare(*both->left);
-      compare(*both->right);
-      return;
-    }
-    const auto& comparison = std::get<Comparison>(condition.node);
-    const auto left = constant(*comparison.left);
-    const auto right = constant(*comparison.right);
-    const bool variables = hasVariable(*comparison.left) || hasVariable(*comparison.right);
-    // `WHILE[1EQ1]` is meant so.
-    if (variables && left && right) {
-      const bool always = holds(comparison.op, *left, *right);
-      context_.report<diag::ConstantCondition>(condition.range, always ? "always" : "never");
-    } else if (variables && print(*comparison.left) == print(*comparison.right)) {
-      context_.report<diag::ConstantCondition>(condition.range,
-                                               holds(comparison.op, 0, 0) ? "always" : "never");
-    } else if (comparison.op == "EQ" || comparison.op == "NE") {
-      if (inexact(*comparison.left) || inexact(*comparison.right) ||
-          counts(*comparison.left, *comparison.right) || counts(*comparison.right, *comparison.left))
-        context_.report<diag::EqualityOfComputed>(condition.range, comparison.op);
+  };
+  for (const CheckedProgram::Part& part : input.parts) {
+    const Expression& expression = *part.expression;
+    if (const auto* operation = std::get_if<nc::Operation>(&expression.node)) {
+      if (operation->op.size() > 1) known(operation->op, expression.range);
+    } else if (const auto* call = std::get_if<nc::FunctionCall>(&expression.node)) {
+      if (!known(call->name, expression.range) || call->name != "ATAN") continue;
+      known(call->arguments.size() == 1 ? "ATAN[y]"
+            : call->comma               ? "ATAN[y,x]"
+                                        : "ATAN[y]/[x]",
+            expression.range);
     }
   }
+}
 
-  bool inexact(const Expression& side) const { return !constant(side) && isApproximate(side, true); }
+void functionWithoutBrackets(const CheckedProgram& input, Report& report) {
+  if (input.control != nullptr && input.control->bareFunctions) return;
+  eachPart<nc::FunctionCall>(input, [&](const nc::FunctionCall& call, SourceRange range) {
+    if (!call.bare) return;
+    const SourceRange argument = call.arguments.front()->range;
+    report
+        .at(range,
+            "the argument of {} has no brackets; some controls take that, others stop with an alarm; write "
+            "them",
+            call.name)
+        .fix = Fix{Fix::Applicability::Display,
+                   "write the brackets",
+                   {{{argument.file, argument.begin, argument.begin}, "["},
+                    {{argument.file, argument.end, argument.end}, "]"}}};
+  });
+}
 
-  // A variable that grows in steps such as 0.1, compared with a number.
-  bool counts(const Expression& side, const Expression& other) const {
+void fixOfComputed(const CheckedProgram& input, Report& report) {
+  eachPart<nc::FunctionCall>(input, [&](const nc::FunctionCall& call, SourceRange range) {
+    if (call.name != "FIX") return;
+    const Expression& argument = *call.arguments.front();
+    if (isApproximate(argument, true) && !isHalved(argument))
+      report.at(
+          range,
+          "FIX cuts a computed value; it may lie just below the whole number that is meant, and one less "
+          "comes out; add a little, `FIX[..+0.0001]`, or use ROUND");
+  });
+}
+
+// ---- conditions
+
+void joinedUnknownHere(const CheckedProgram& input, Report& report) {
+  if (input.control == nullptr || input.control->joinedConditions) return;
+  for (const Condition* condition : input.conditions)
+    if (const auto* both = std::get_if<JoinedConditions>(&condition->node))
+      report.at(condition->range,
+                "conditions joined by {} are not known to {}; it stops with an alarm; write one IF behind "
+                "the other",
+                both->op, input.control->title);
+}
+
+void constantCondition(const CheckedProgram& input, Report& report) {
+  for (const Condition* condition : input.conditions)
+    eachComparison(*condition, [&](const Comparison& comparison, SourceRange range) {
+      if (const auto result = alwaysSame(comparison))
+        report.at(range,
+                  "the condition {} holds, whatever the variables are; the branch is no test; one of the "
+                  "numbers is "
+                  "wrong",
+                  *result ? "always" : "never");
+    });
+}
+
+void equalityOfComputed(const CheckedProgram& input, Report& report) {
+  if (input.conditions.empty()) return;
+  const std::set<std::uint32_t> counters = countersOf(input.program);
+  // A variable that grows in steps, compared with a number.
+  const auto counts = [&](const Expression& side, const Expression& other) {
     const auto number = variableNumber(side);
-    return number && counters_.contains(*number) && constant(other);
-  }
+    return number && counters.contains(*number) && constant(other);
+  };
+  for (const Condition* condition : input.conditions)
+    eachComparison(*condition, [&](const Comparison& comparison, SourceRange range) {
+      if ((comparison.op != "EQ" && comparison.op != "NE") || alwaysSame(comparison)) return;
+      const Expression& left = *comparison.left;
+      const Expression& right = *comparison.right;
+      if (isInexact(left) || isInexact(right) || counts(left, right) || counts(right, left))
+        report.at(range,
+                  "{} compares a computed value exactly; a last digit decides, and the program may miss it; "
+                  "compare "
+                  "the difference, `ABS[..]LT 0.0001`",
+                  comparison.op);
+    });
+}
 
-  void counters(const nc::Assignment& assignment) {
-    const auto* target = std::get_if<nc::Number>(&assignment.variable->node);
-    const auto* sum = std::get_if<nc::Operation>(&assignment.value->node);
-    if (target == nullptr || sum == nullptr || (sum->op != "+" && sum->op != "-")) return;
-    const auto from = variableNumber(*sum->left);
-    const auto step = constant(*sum->right);
-    if (!from || *from != target->value || !step) return;
-    // Eighths and the like are exact.
-    if (!isWhole(*step * 8)) counters_.insert(*from);
-  }
+void thenUnknownHere(const CheckedProgram& input, Report& report) {
+  if (input.control == nullptr || input.control->ifThen) return;
+  eachIf(input, [&](const If& branch) {
+    report.at(branch.range,
+              "IF with THEN is not known to {}; it stops with an alarm; jump over the block with GOTO",
+              input.control->title);
+  });
+}
 
-  void then(const If& branch) {
-    if (!branch.then || control() == nullptr) return;
-    if (!control()->ifThen) {
-      context_.report<diag::ThenUnknownHere>(branch.range, control()->title);
-      return;
-    }
-    if (std::holds_alternative<Goto>(branch.statement) && !control()->thenGoto) {
-      const SourceRange range{branch.range.file, branch.condition->range.end, branch.range.end};
-      context_.report<diag::ThenGoto>(range);
-    }
-  }
-
-  const Program& program_;
-  const CheckContext& context_;
-  std::set<std::string> told_;
-  std::set<std::uint32_t> counters_;
-};
-
-} // namespace
-
-void checkExpressions(const Program& program, const CheckContext& context) {
-  ExpressionCheck(program, context).run();
+void thenGoto(const CheckedProgram& input, Report& report) {
+  if (input.control == nullptr || !input.control->ifThen || input.control->thenGoto) return;
+  eachIf(input, [&](const If& branch) {
+    if (std::holds_alternative<Goto>(branch.statement))
+      report.at(
+          {branch.range.file, branch.condition->range.end, branch.range.end},
+          "GOTO stands behind THEN; a 31i-B takes it, of this control it is not known; write `IF[..]GOTO`");
+  });
 }
 
 } // namespace dotek::frontend::macrob

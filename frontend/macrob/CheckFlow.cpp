@@ -1,8 +1,7 @@
 // Loops, jumps, and blocks that never run.
 #include "frontend/macrob/Calls.h"
-#include "frontend/macrob/CheckParts.h"
+#include "frontend/macrob/Check.h"
 #include "frontend/macrob/Walk.h"
-#include "support/messages/MacroB.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,10 +15,15 @@ namespace {
 
 constexpr std::size_t kNone = SIZE_MAX;
 
+// A DO with its END, as far as they belong together: indices of blocks; kNone: it has none.
+struct Loop {
+  std::size_t begin = 0, end = 0;
+};
+
 // Pairs DO and END; `told` hears of each defect.
 class LoopPairs {
 public:
-  struct Report {
+  struct Defects {
     std::function<void(std::size_t block, const Do&, std::optional<std::uint32_t> number)> noNumber;
     std::function<void(const LoopNumber&)> badNumber;
     std::function<void(std::size_t inner, std::size_t outer)> sameNumber;
@@ -31,19 +35,17 @@ public:
 
   explicit LoopPairs(const Program& program) : program_(program) {}
 
-  std::vector<Loop> run(const Report* report) {
-    report_ = report;
+  std::vector<Loop> run(const Defects& report) {
+    report_ = &report;
     for (std::size_t i = 0; i < program_.blocks.size(); ++i) {
       if (const auto* loop = std::get_if<Do>(&program_.blocks[i].body)) open(i, *loop);
       if (const auto* end = std::get_if<End>(&program_.blocks[i].body)) close(i, *end);
     }
     for (const std::size_t begin : stack_) {
       loops_.push_back({begin, kNone});
-      if (report_ != nullptr) {
-        const auto& loop = std::get<Do>(program_.blocks[begin].body);
-        if (!loop.loop) report_->noNumber(begin, loop, std::nullopt);
-        report_->noEnd(begin);
-      }
+      const auto& loop = std::get<Do>(program_.blocks[begin].body);
+      if (!loop.loop) report_->noNumber(begin, loop, std::nullopt);
+      report_->noEnd(begin);
     }
     return std::move(loops_);
   }
@@ -57,12 +59,12 @@ private:
   }
 
   void checkNumber(const std::optional<LoopNumber>& number) {
-    if (report_ != nullptr && number && (number->value < 1 || number->value > 3)) report_->badNumber(*number);
+    if (number && (number->value < 1 || number->value > 3)) report_->badNumber(*number);
   }
 
   void open(std::size_t block, const Do& loop) {
     checkNumber(loop.loop);
-    if (report_ != nullptr && loop.loop)
+    if (loop.loop)
       for (const std::size_t outer : stack_)
         if (numberAt(outer) == loop.loop->value) report_->sameNumber(block, outer);
     stack_.push_back(block);
@@ -70,9 +72,9 @@ private:
 
   void close(std::size_t block, const End& end) {
     checkNumber(end.loop);
-    if (!end.loop && report_ != nullptr) report_->endNoNumber(block);
+    if (!end.loop) report_->endNoNumber(block);
     if (stack_.empty()) {
-      if (report_ != nullptr) report_->noDo(block);
+      report_->noDo(block);
       return;
     }
     // The innermost with this number; else the innermost without one.
@@ -83,21 +85,19 @@ private:
         std::find_if(stack_.rbegin(), stack_.rend(), [&](std::size_t at) { return !numberAt(at); });
     if (bare != stack_.rend() && (found == stack_.rend() || bare < found)) found = bare;
     if (found == stack_.rend()) {
-      if (report_ != nullptr) report_->noDo(block);
+      report_->noDo(block);
       return;
     }
     const std::size_t begin = *found;
-    if (report_ != nullptr) {
-      if (begin != stack_.back()) report_->crosses(block, stack_.back());
-      const auto& loop = std::get<Do>(program_.blocks[begin].body);
-      if (!loop.loop) report_->noNumber(begin, loop, number);
-    }
+    if (begin != stack_.back()) report_->crosses(block, stack_.back());
+    const auto& loop = std::get<Do>(program_.blocks[begin].body);
+    if (!loop.loop) report_->noNumber(begin, loop, number);
     loops_.push_back({begin, block});
     stack_.erase(std::next(found).base());
   }
 
   const Program& program_;
-  const Report* report_ = nullptr;
+  const Defects* report_ = nullptr;
   std::vector<std::size_t> stack_;
   std::vector<Loop> loops_;
 };
@@ -109,15 +109,16 @@ bool unreadHolds(const Program& program, std::string_view word) {
   });
 }
 
-class FlowCheck {
+class Flow {
 public:
-  FlowCheck(const Program& program, const CheckContext& context) : program_(program), context_(context) {}
+  Flow(const Program& program, const SourceMap& sources) : program_(program), sources_(sources) {}
 
-  void run() {
+  FlowFindings run() {
     loops();
     numbers();
     jumps();
     dead();
+    return std::move(found_);
   }
 
 private:
@@ -127,40 +128,28 @@ private:
 
   // ---- loops
 
-  static Fix numberFix(SourceRange place, std::uint32_t number) {
-    const std::string digits = std::to_string(number);
-    return {Fix::Applicability::Display,
-            "write `DO" + digits + "`",
-            {{{place.file, place.end, place.end}, digits}}};
-  }
-
   void loops() {
     // What could not be read may hold the other half.
     const bool doubtful = unreadHolds(program_, "DO") || unreadHolds(program_, "END");
-    LoopPairs::Report report;
+    LoopPairs::Defects report;
     report.noNumber = [&](std::size_t, const Do& loop, std::optional<std::uint32_t> number) {
-      const SourceRange word{loop.range.file, loop.range.end - 2, loop.range.end};
-      Diagnostic& told = context_.report<diag::DoWithoutNumber>(word);
-      if (number) told.fix = numberFix(word, *number);
+      found_.dosWithoutNumber.emplace_back(&loop, number);
     };
-    report.badNumber = [&](const LoopNumber& number) {
-      context_.report<diag::LoopNumberRange>(number.range, number.digits);
-    };
+    report.badNumber = [&](const LoopNumber& number) { found_.badNumbers.push_back(&number); };
     report.sameNumber = [&](std::size_t inner, std::size_t outer) {
-      context_.report<diag::LoopNumberInUse>(loopAt(inner).loop->range, loopAt(inner).loop->digits)
-          .note(loopAt(outer).range, "the loop that is open");
+      found_.numbersInUse.emplace_back(&loopAt(inner), &loopAt(outer));
     };
     report.crosses = [&](std::size_t end, std::size_t open) {
-      context_.report<diag::LoopsCross>(endAt(end).range).note(loopAt(open).range, "this loop is still open");
+      found_.crossings.emplace_back(&endAt(end), &loopAt(open));
     };
     report.noDo = [&](std::size_t end) {
-      if (!doubtful) context_.report<diag::EndWithoutDo>(endAt(end).range);
+      if (!doubtful) found_.endsWithoutDo.push_back(&endAt(end));
     };
     report.noEnd = [&](std::size_t begin) {
-      if (!doubtful) context_.report<diag::DoWithoutEnd>(loopAt(begin).range);
+      if (!doubtful) found_.dosWithoutEnd.push_back(&loopAt(begin));
     };
-    report.endNoNumber = [&](std::size_t end) { context_.report<diag::EndWithoutNumber>(endAt(end).range); };
-    loops_ = LoopPairs(program_).run(&report);
+    report.endNoNumber = [&](std::size_t end) { found_.endsWithoutNumber.push_back(&endAt(end)); };
+    loops_ = LoopPairs(program_).run(report);
   }
 
   // ---- numbers of blocks, jumps
@@ -196,7 +185,6 @@ private:
   }
 
   void jumps() {
-    std::map<std::uint64_t, std::vector<SourceRange>> missing;
     std::vector<std::uint64_t> wanted;
     for (std::size_t i = 0; i < program_.blocks.size(); ++i) {
       const Goto* jump = gotoOf(block(i));
@@ -209,23 +197,17 @@ private:
       wanted.push_back(*number);
       const std::size_t target = targetOf(i, *number);
       if (target == kNone)
-        missing[*number].push_back(jump->target->range);
+        found_.missingTargets[*number].push_back(jump->target->range);
       else
         intoLoop(i, *jump, target);
     }
-    incomplete_ = !missing.empty() || unreadHolds(program_, "GOTO");
-    if (!isExcerpt()) {
-      for (const auto& [number, places] : missing) {
-        Diagnostic& told = context_.report<diag::GotoTargetMissing>(places.front(), number);
-        for (std::size_t i = 1; i < places.size(); ++i)
-          told.note(places[i], "this jump goes there as well");
-      }
-    }
+    incomplete_ = !found_.missingTargets.empty() || unreadHolds(program_, "GOTO");
+    if (isExcerpt()) found_.missingTargets.clear();
     for (const auto& [number, blocks] : numbered_) {
       if (blocks.size() < 2 || std::find(wanted.begin(), wanted.end(), number) == wanted.end()) continue;
       for (std::size_t i = 1; i < blocks.size(); ++i)
-        context_.report<diag::DuplicateTarget>(block(blocks[i]).sequenceNumber->range, number)
-            .note(block(blocks[0]).sequenceNumber->range, "the first");
+        found_.targetsTwice.push_back(
+            {number, block(blocks[i]).sequenceNumber->range, block(blocks[0]).sequenceNumber->range});
     }
   }
 
@@ -234,8 +216,7 @@ private:
       if (loop.end == kNone) continue;
       const auto inside = [&](std::size_t at) { return at > loop.begin && at <= loop.end; };
       if (!inside(target) || inside(from)) continue;
-      context_.report<diag::JumpIntoLoop>(jump.target->range, *numberOf(jump))
-          .note(loopAt(loop.begin).range, "the loop");
+      found_.jumpsIntoLoop.push_back({*numberOf(jump), jump.target->range, loopAt(loop.begin).range});
       return;
     }
   }
@@ -274,17 +255,15 @@ private:
       for (; behind < count && !reached[behind]; ++behind)
         if (first == kNone && doesSomething(block(behind))) first = behind;
       if (first != kNone && at > 0)
-        context_
-            .report<diag::BlockNeverRuns>(block(first).range, behind < count ? "up to " + nameOf(behind)
-                                                                             : "to the end of the program")
-            .note(block(at - 1).range, "the jump before it");
+        found_.dead.push_back({block(first).range, block(at - 1).range,
+                               behind < count ? "up to " + nameOf(behind) : "to the end of the program"});
       at = behind;
     }
   }
 
   std::string nameOf(std::size_t at) const {
     if (block(at).sequenceNumber) return "N" + block(at).sequenceNumber->digits;
-    return fmt::format("line {}", context_.sources.line(block(at).range));
+    return fmt::format("line {}", sources_.line(block(at).range));
   }
 
   // A comment or the END of a loop that is left by jumps alone.
@@ -293,7 +272,8 @@ private:
   }
 
   const Program& program_;
-  const CheckContext& context_;
+  const SourceMap& sources_;
+  FlowFindings found_;
   std::vector<Loop> loops_;
   std::map<std::uint64_t, std::vector<std::size_t>> numbered_;
   bool computed_ = false;   // a jump goes to a computed number
@@ -302,12 +282,112 @@ private:
 
 } // namespace
 
-std::vector<Loop> loopsOf(const Program& program) {
-  return LoopPairs(program).run(nullptr);
+FlowFindings flowOf(const Program& program, const SourceMap& sources) {
+  return Flow(program, sources).run();
 }
 
-void checkFlow(const Program& program, const CheckContext& context) {
-  FlowCheck(program, context).run();
+// ---- loops
+
+void doWithoutNumber(const CheckedProgram& input, Report& report) {
+  for (const auto& [loop, number] : input.flow.dosWithoutNumber) {
+    const SourceRange word{loop->range.file, loop->range.end - 2, loop->range.end};
+    Diagnostic& told = report.at(
+        word, "DO has no number; the control stops with alarm 126; write 1, 2 or 3, the number of its END");
+    if (!number) continue;
+    const std::string digits = std::to_string(*number);
+    told.fix = Fix{
+        Fix::Applicability::Display, "write `DO" + digits + "`", {{{word.file, word.end, word.end}, digits}}};
+  }
+}
+
+void endWithoutNumber(const CheckedProgram& input, Report& report) {
+  for (const End* end : input.flow.endsWithoutNumber)
+    report.at(end->range, "END has no number; the control stops with alarm 126; write the number of its DO");
+}
+
+void loopNumberRange(const CheckedProgram& input, Report& report) {
+  for (const LoopNumber* number : input.flow.badNumbers)
+    report.at(number->range,
+              "a loop cannot have the number {}; the control stops with alarm 126; write 1, 2 or 3",
+              number->digits);
+}
+
+void loopNumberInUse(const CheckedProgram& input, Report& report) {
+  for (const auto& [inner, outer] : input.flow.numbersInUse)
+    report
+        .at(inner->loop->range,
+            "loop {} is open already; the control cannot tell the two ENDs apart; give the inner loop "
+            "another number",
+            inner->loop->digits)
+        .note(outer->range, "the loop that is open");
+}
+
+void loopsCross(const CheckedProgram& input, Report& report) {
+  for (const auto& [end, open] : input.flow.crossings)
+    report
+        .at(end->range,
+            "this END closes an outer loop before the inner one; the control stops with alarm 124; close "
+            "the loops in the reverse order of opening")
+        .note(open->range, "this loop is still open");
+}
+
+void endWithoutDo(const CheckedProgram& input, Report& report) {
+  for (const End* end : input.flow.endsWithoutDo)
+    report.at(
+        end->range,
+        "no DO of this number is open; the control stops with alarm 126; write the DO or take the END out");
+}
+
+void doWithoutEnd(const CheckedProgram& input, Report& report) {
+  for (const Do* loop : input.flow.dosWithoutEnd)
+    report.at(loop->range,
+              "the loop has no END of its number; the control stops with alarm 124; write it where the "
+              "loop ends");
+}
+
+// ---- jumps
+
+void gotoTargetMissing(const CheckedProgram& input, Report& report) {
+  for (const auto& [number, places] : input.flow.missingTargets) {
+    Diagnostic& told = report.at(places.front(),
+                                 "the program has no block N{}; the control stops with alarm 128 when it "
+                                 "jumps; number the block that is meant",
+                                 number);
+    for (std::size_t i = 1; i < places.size(); ++i)
+      told.note(places[i], "this jump goes there as well");
+  }
+}
+
+void duplicateTarget(const CheckedProgram& input, Report& report) {
+  for (const FlowFindings::Numbered& one : input.flow.targetsTwice)
+    report
+        .at(one.range,
+            "the program has N{} twice, and a jump goes there; the control takes the first one it finds "
+            "forward from "
+            "the jump; number them apart",
+            one.number)
+        .note(one.other, "the first");
+}
+
+void jumpIntoLoop(const CheckedProgram& input, Report& report) {
+  for (const FlowFindings::Numbered& one : input.flow.jumpsIntoLoop)
+    report
+        .at(one.range,
+            "block N{} stands inside a loop, and the jump comes from outside; the control does not allow it; "
+            "jump to "
+            "the DO instead",
+            one.number)
+        .note(one.other, "the loop");
+}
+
+void blockNeverRuns(const CheckedProgram& input, Report& report) {
+  for (const FlowFindings::Dead& one : input.flow.dead)
+    report
+        .at(one.range,
+            "no path leads here: the program never runs this block, {}; take the jump before it out, or the "
+            "blocks",
+            one.extent)
+        .note(one.jump, "the jump before it");
 }
 
 } // namespace dotek::frontend::macrob

@@ -1,8 +1,7 @@
-// Numbers of variables, what is written, and places where a `#` is missing or stands at the wrong place.
-#include "frontend/macrob/CheckParts.h"
+// Numbers of variables, what is written, and places where a `#` is missing or misplaced.
+#include "frontend/macrob/Check.h"
 #include "frontend/macrob/Format.h"
 #include "frontend/macrob/Walk.h"
-#include "support/messages/MacroB.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -25,119 +24,169 @@ bool isWorkOffset(std::uint32_t number) {
          (number >= 7001 && number <= 7960) || (number >= 14001 && number <= 20000);
 }
 
-class VariableCheck {
-public:
-  VariableCheck(const Program& program, const CheckContext& context) : program_(program), context_(context) {}
+std::string printWithoutBrackets(const Expression& expression) {
+  std::string text = print(expression);
+  return text.substr(expression.brackets, text.size() - 2 * expression.brackets);
+}
 
-  void run() {
-    for (const Block& block : program_.blocks)
-      collect(block);
-    for (const Block& block : program_.blocks) {
-      walk(block, [&](const Expression& expression, bool subscript) { expressionAt(expression, subscript); });
-      if (const nc::Assignment* assignment = assignmentOf(block)) written(*assignment);
-      if (const auto* words = std::get_if<Words>(&block.body)) wordsAt(*words);
-    }
-    overwritten();
-  }
+template <class Visit> void eachAssignment(const CheckedProgram& input, const Visit& visit) {
+  for (const Block& block : input.program.blocks)
+    if (const nc::Assignment* assignment = assignmentOf(block)) visit(*assignment);
+}
 
-private:
-  void collect(const Block& block) {
+// The number of the variable that is assigned, with `#` and digits as its place; nothing where it is
+// computed.
+struct Written {
+  std::uint32_t number = 0;
+  SourceRange range;
+};
+std::optional<Written> writtenBy(const nc::Assignment& assignment) {
+  const auto* number = std::get_if<nc::Number>(&assignment.variable->node);
+  if (number == nullptr) return std::nullopt;
+  return Written{static_cast<std::uint32_t>(number->value > 999999 ? 999999 : number->value),
+                 {assignment.range.file, assignment.range.begin, assignment.variable->range.end}};
+}
+
+// Sums and the like that the program uses as the number of a variable, #[..].
+std::set<std::string> subscriptsOf(const CheckedProgram& input) {
+  std::set<std::string> out;
+  for (const CheckedProgram::Part& part : input.parts)
+    if (const auto* variable = std::get_if<nc::VariableRef>(&part.expression->node))
+      if (std::holds_alternative<nc::Operation>(variable->number->node))
+        out.insert(printWithoutBrackets(*variable->number));
+  eachAssignment(input, [&](const nc::Assignment& assignment) {
+    if (std::holds_alternative<nc::Operation>(assignment.variable->node))
+      out.insert(printWithoutBrackets(*assignment.variable));
+  });
+  return out;
+}
+
+} // namespace
+
+// ---- numbers
+
+void variableOutOfRange(const CheckedProgram& input, Report& report) {
+  const stdlib::Control* control = input.control;
+  std::set<std::uint32_t> told;
+  const auto judge = [&](std::uint32_t number, SourceRange range) {
+    if (number <= (control != nullptr ? control->locals : kLastLocal) || number >= kFirstSystem) return;
+    const bool known = control != nullptr
+                           ? control->isCommon(number)
+                           : (number >= 100 && number <= 199) || (number >= 500 && number <= 999);
+    if (known || !told.insert(number).second) return;
+    report.at(
+        range,
+        "{} has no variable #{}; the control stops with alarm 115; take one of the ranges that `dotek list "
+        "controls` prints",
+        control != nullptr ? "this control" : "a Fanuc control", number);
+  };
+  // Block by block, so that the first use is the one that is reported.
+  for (const Block& block : input.program.blocks) {
     walk(block, [&](const Expression& expression, bool) {
-      if (const auto* variable = std::get_if<nc::VariableRef>(&expression.node)) {
-        if (std::holds_alternative<nc::Operation>(variable->number->node))
-          subscripts_.insert(printWithoutBrackets(*variable->number));
-        if (const auto number = variableNumber(expression)) used_.insert(*number);
-      }
-      if (std::holds_alternative<nc::Operation>(expression.node))
-        operations_.insert(printWithoutBrackets(expression));
+      if (const auto number = variableNumber(expression)) judge(*number, expression.range);
     });
     if (const nc::Assignment* assignment = assignmentOf(block))
-      if (std::holds_alternative<nc::Operation>(assignment->variable->node))
-        subscripts_.insert(printWithoutBrackets(*assignment->variable));
-    if (const auto* words = std::get_if<Words>(&block.body))
-      for (const nc::Word& word : words->words)
-        if (word.value != nullptr)
-          if (const auto number = variableNumber(*word.value)) variableWords_.emplace(word.address, *number);
+      if (const auto written = writtenBy(*assignment)) judge(written->number, written->range);
   }
+}
 
-  static std::string printWithoutBrackets(const Expression& expression) {
-    std::string text = print(expression);
-    return text.substr(expression.brackets, text.size() - 2 * expression.brackets);
-  }
+void nullWritten(const CheckedProgram& input, Report& report) {
+  eachAssignment(input, [&](const nc::Assignment& assignment) {
+    if (const auto written = writtenBy(assignment); written && written->number == 0)
+      report.at(written->range,
+                "#0 takes no value; the control stops with alarm 116; write the variable that is meant");
+  });
+}
 
-  void expressionAt(const Expression& expression, bool subscript) {
-    if (const auto number = variableNumber(expression)) inRange(*number, expression.range);
-    if (const auto* call = std::get_if<nc::FunctionCall>(&expression.node)) subscriptValue(*call);
-    if (const auto* operation = std::get_if<nc::Operation>(&expression.node)) {
-      tableBase(expression, *operation);
-      if (!subscript) {
-        missingHash(*operation, true);
-        missingHash(*operation, false);
-      }
-    }
-  }
+void readOnlyWritten(const CheckedProgram& input, Report& report) {
+  if (input.control == nullptr) return;
+  eachAssignment(input, [&](const nc::Assignment& assignment) {
+    const auto written = writtenBy(assignment);
+    if (written && written->number != 0 && input.control->isReadOnly(written->number))
+      report.at(written->range, "#{} can only be read; the control stops with alarm 116", written->number);
+  });
+}
 
-  // ---- numbers
+// ---- `#` at the wrong place
 
-  void inRange(std::uint32_t number, SourceRange range) {
-    const std::uint32_t locals = context_.control != nullptr ? context_.control->locals : kLastLocal;
-    if (number <= locals || number >= kFirstSystem) return;
-    const bool known = context_.control != nullptr
-                           ? context_.control->isCommon(number)
-                           : (number >= 100 && number <= 199) || (number >= 500 && number <= 999);
-    if (known || !outOfRange_.insert(number).second) return;
-    context_.report<diag::VariableOutOfRange>(
-        range, number, context_.control != nullptr ? "this control" : "a Fanuc control");
-  }
-
-  void written(const nc::Assignment& assignment) {
-    const auto* number = std::get_if<nc::Number>(&assignment.variable->node);
-    if (number == nullptr) return;
-    const SourceRange range{assignment.range.file, assignment.range.begin, assignment.variable->range.end};
-    const auto n = static_cast<std::uint32_t>(number->value > 999999 ? 999999 : number->value);
-    inRange(n, range);
-    if (n == 0)
-      context_.report<diag::NullWritten>(range);
-    else if (context_.control != nullptr && context_.control->isReadOnly(n))
-      context_.report<diag::ReadOnlyWritten>(range, n);
-  }
-
-  // ---- `#` at the wrong place
-
-  // ABS[#13+#12] where the program has #[#13+#12]: the sum of two numbers of variables has no meaning.
-  void subscriptValue(const nc::FunctionCall& call) {
-    if (call.arguments.size() != 1 || call.bare) return;
-    const Expression& argument = *call.arguments.front();
+// ABS[#13+#12] where the program has #[#13+#12]: the sum of two numbers of variables has no meaning.
+void subscriptAsValue(const CheckedProgram& input, Report& report) {
+  std::optional<std::set<std::string>> subscripts;
+  for (const CheckedProgram::Part& part : input.parts) {
+    const auto* call = std::get_if<nc::FunctionCall>(&part.expression->node);
+    if (call == nullptr || call->arguments.size() != 1 || call->bare) continue;
+    const Expression& argument = *call->arguments.front();
     const auto* sum = std::get_if<nc::Operation>(&argument.node);
     if (sum == nullptr || (sum->op != "+" && sum->op != "-") || !variableNumber(*sum->left) ||
         !variableNumber(*sum->right))
-      return;
+      continue;
+    if (!subscripts) subscripts = subscriptsOf(input);
     const std::string text = printWithoutBrackets(argument);
-    if (!subscripts_.contains(text)) return;
+    if (!subscripts->contains(text)) continue;
     const SourceRange range = argument.range;
-    context_.report<diag::SubscriptAsValue>(range, text).fix =
+    report
+        .at(range,
+            "the function takes the sum `{0}` itself, which the program uses as the number of a variable "
+            "elsewhere; "
+            "the control calculates with the number and gives no alarm; write `#[{0}]` for the variable",
+            text)
+        .fix =
         Fix{Fix::Applicability::Display,
             "write `#[" + text + "]`",
             {{{range.file, range.begin, range.begin}, "#["}, {{range.file, range.end, range.end}, "]"}}};
   }
+}
 
-  // [#2000+#7] for #[2000+#7]
-  void tableBase(const Expression& expression, const nc::Operation& operation) {
-    if (operation.op != "+" || expression.brackets == 0) return;
-    const auto base = variableNumber(*operation.left);
-    if (!base || !isTableBase(*base) || !std::holds_alternative<nc::VariableRef>(operation.right->node))
-      return;
-    const SourceRange hash{expression.range.file, operation.left->range.begin,
-                           operation.left->range.begin + 1};
-    const SourceRange open{expression.range.file, expression.range.begin, expression.range.begin};
-    context_.report<diag::TableBaseRead>(operation.left->range, *base, print(*operation.right)).fix =
-        Fix{Fix::Applicability::Display,
-            fmt::format("write `#[{}+{}]`", *base, print(*operation.right)),
-            {{open, "#"}, {hash, ""}}};
+// [#2000+#7] for #[2000+#7]
+void tableBaseRead(const CheckedProgram& input, Report& report) {
+  for (const CheckedProgram::Part& part : input.parts) {
+    const Expression& expression = *part.expression;
+    const auto* operation = std::get_if<nc::Operation>(&expression.node);
+    if (operation == nullptr || operation->op != "+" || expression.brackets == 0) continue;
+    const auto base = variableNumber(*operation->left);
+    if (!base || !isTableBase(*base) || !std::holds_alternative<nc::VariableRef>(operation->right->node))
+      continue;
+    const SourceRange left = operation->left->range;
+    const SourceRange hash{left.file, left.begin, left.begin + 1};
+    const SourceRange open{left.file, expression.range.begin, expression.range.begin};
+    const std::string offset = print(*operation->right);
+    report
+        .at(left,
+            "#{0} is read and {1} added; #{0} holds nothing, so the offset is not read and no alarm comes; "
+            "write "
+            "`#[{0}+{1}]`",
+            *base, offset)
+        .fix = Fix{Fix::Applicability::Display,
+                   fmt::format("write `#[{}+{}]`", *base, offset),
+                   {{open, "#"}, {hash, ""}}};
+  }
+}
+
+namespace {
+
+// What a program writes with `#`, to find the place where it is lost.
+class Hashes {
+public:
+  explicit Hashes(const CheckedProgram& input) {
+    for (const CheckedProgram::Part& part : input.parts) {
+      if (const auto number = variableNumber(*part.expression)) used_.insert(*number);
+      if (std::holds_alternative<nc::Operation>(part.expression->node))
+        operations_.insert(printWithoutBrackets(*part.expression));
+    }
+    eachWord(input, [&](const nc::Word& word) {
+      if (const auto number = variableNumber(*word.value)) words_.emplace(word.address, *number);
+    });
+  }
+
+  template <class Visit> static void eachWord(const CheckedProgram& input, const Visit& visit) {
+    for (const Block& block : input.program.blocks)
+      if (const auto* words = std::get_if<Words>(&block.body))
+        for (const nc::Word& word : words->words)
+          if (word.value != nullptr) visit(word);
   }
 
   // 100*COS[#2] where the program has #100*COS[#2]
-  void missingHash(const nc::Operation& operation, bool onLeft) {
+  void operand(const nc::Operation& operation, bool onLeft, Report& report) const {
     const Expression& side = onLeft ? *operation.left : *operation.right;
     const auto* number = std::get_if<nc::Number>(&side.node);
     if (number == nullptr || number->point || side.brackets > 0) return;
@@ -146,74 +195,86 @@ private:
     const std::string op = operation.op.size() == 1 ? operation.op : " " + operation.op + " ";
     const std::string text =
         onLeft ? variable + op + print(*operation.right) : print(*operation.left) + op + variable;
-    if (operations_.contains(text)) context_.report<diag::HashMissing>(side.range, number->digits, text);
+    if (operations_.contains(text)) tell(side.range, number->digits, text, report);
   }
 
   // F9 where the program has F#9
-  void wordsAt(const Words& words) {
-    for (const nc::Word& word : words.words) {
-      if (word.value == nullptr || ir::isAddressIn(ir::kWholeAddresses, word.address)) continue;
-      const auto* number = std::get_if<nc::Number>(&word.value->node);
-      if (number == nullptr || number->point || number->value < 1 || number->value > 999) continue;
-      if (variableWords_.contains({word.address, static_cast<std::uint32_t>(number->value)}))
-        context_.report<diag::HashMissing>(word.range, number->digits,
-                                           fmt::format("{}#{}", word.address, number->digits));
-    }
+  void word(const nc::Word& word, Report& report) const {
+    if (ir::isAddressIn(ir::kWholeAddresses, word.address)) return;
+    const auto* number = std::get_if<nc::Number>(&word.value->node);
+    if (number == nullptr || number->point || number->value < 1 || number->value > 999) return;
+    if (words_.contains({word.address, static_cast<std::uint32_t>(number->value)}))
+      tell(word.range, number->digits, fmt::format("{}#{}", word.address, number->digits), report);
   }
 
-  // ---- offsets
+  bool hasWords() const { return !words_.empty(); }
 
-  // Two values for one zero point with nothing but assignments between them: the first is lost.
-  void overwritten() {
-    for (std::size_t i = 0; i < program_.blocks.size(); ++i) {
-      const auto first = offsetWritten(program_.blocks[i]);
-      if (!first) continue;
-      for (std::size_t j = i + 1; j < program_.blocks.size() && j < i + 50; ++j) {
-        const Block& block = program_.blocks[j];
-        const bool comment = std::holds_alternative<std::monostate>(block.body) && !block.sequenceNumber;
-        if (comment) continue;
-        if (block.sequenceNumber || block.blockDelete || !std::holds_alternative<nc::Assignment>(block.body))
-          break;
-        const auto& assignment = std::get<nc::Assignment>(block.body);
-        bool reads = false;
-        walk(*assignment.value, [&](const Expression& expression, bool) {
-          const auto* variable = std::get_if<nc::VariableRef>(&expression.node);
-          reads = reads || variableNumber(expression) == first ||
-                  (variable != nullptr && !std::holds_alternative<nc::Number>(variable->number->node));
-        });
-        if (reads) break;
-        if (offsetWritten(block) != first) continue;
-        const SourceRange range{assignment.range.file, assignment.range.begin,
-                                assignment.variable->range.end};
-        context_.report<diag::OffsetOverwritten>(range, *first)
-            .note(std::get<nc::Assignment>(program_.blocks[i].body).range, "the value that is lost");
-        break;
-      }
-    }
+private:
+  static void tell(SourceRange range, const std::string& digits, const std::string& text, Report& report) {
+    report.at(range,
+              "{0} is a number here, and the program has `{1}` elsewhere; the control calculates with {0} "
+              "and gives no "
+              "alarm; write `#{0}` if the variable is meant",
+              digits, text);
   }
 
-  static std::optional<std::uint32_t> offsetWritten(const Block& block) {
-    const auto* assignment = std::get_if<nc::Assignment>(&block.body);
-    const auto* number =
-        assignment == nullptr ? nullptr : std::get_if<nc::Number>(&assignment->variable->node);
-    if (number == nullptr || number->value > 20000) return std::nullopt;
-    const auto n = static_cast<std::uint32_t>(number->value);
-    return isWorkOffset(n) ? std::optional(n) : std::nullopt;
-  }
-
-  const Program& program_;
-  const CheckContext& context_;
-  std::set<std::string> subscripts_; // expressions in #[..]
-  std::set<std::string> operations_;
   std::set<std::uint32_t> used_;
-  std::set<std::uint32_t> outOfRange_;
-  std::set<std::pair<char, std::uint32_t>> variableWords_; // F#9
+  std::set<std::string> operations_;
+  std::set<std::pair<char, std::uint32_t>> words_;
 };
+
+std::optional<std::uint32_t> offsetWritten(const Block& block) {
+  const auto* assignment = std::get_if<nc::Assignment>(&block.body);
+  const auto written = assignment == nullptr ? std::nullopt : writtenBy(*assignment);
+  return written && isWorkOffset(written->number) ? std::optional(written->number) : std::nullopt;
+}
 
 } // namespace
 
-void checkVariables(const Program& program, const CheckContext& context) {
-  VariableCheck(program, context).run();
+void hashMissing(const CheckedProgram& input, Report& report) {
+  const Hashes hashes(input);
+  for (const CheckedProgram::Part& part : input.parts) {
+    const auto* operation = std::get_if<nc::Operation>(&part.expression->node);
+    if (operation == nullptr || part.subscript) continue;
+    hashes.operand(*operation, true, report);
+    hashes.operand(*operation, false, report);
+  }
+  if (hashes.hasWords()) Hashes::eachWord(input, [&](const nc::Word& word) { hashes.word(word, report); });
+}
+
+// ---- offsets
+
+// Two values for one zero point with nothing but assignments between them: the first is lost.
+void offsetOverwritten(const CheckedProgram& input, Report& report) {
+  const std::vector<Block>& blocks = input.program.blocks;
+  for (std::size_t i = 0; i < blocks.size(); ++i) {
+    const auto first = offsetWritten(blocks[i]);
+    if (!first) continue;
+    for (std::size_t j = i + 1; j < blocks.size() && j < i + 50; ++j) {
+      const Block& block = blocks[j];
+      const bool comment = std::holds_alternative<std::monostate>(block.body) && !block.sequenceNumber;
+      if (comment) continue;
+      if (block.sequenceNumber || block.blockDelete || !std::holds_alternative<nc::Assignment>(block.body))
+        break;
+      const auto& assignment = std::get<nc::Assignment>(block.body);
+      bool reads = false;
+      walk(*assignment.value, [&](const Expression& expression, bool) {
+        const auto* variable = std::get_if<nc::VariableRef>(&expression.node);
+        reads = reads || variableNumber(expression) == first ||
+                (variable != nullptr && !std::holds_alternative<nc::Number>(variable->number->node));
+      });
+      if (reads) break;
+      if (offsetWritten(block) != first) continue;
+      report
+          .at({assignment.range.file, assignment.range.begin, assignment.variable->range.end},
+              "#{} gets a second value before anything uses the first; the first zero point is lost; one of "
+              "the two "
+              "numbers is a misprint",
+              *first)
+          .note(std::get<nc::Assignment>(blocks[i].body).range, "the value that is lost");
+      break;
+    }
+  }
 }
 
 } // namespace dotek::frontend::macrob

@@ -18,9 +18,9 @@ namespace {
 
 // The control reaches these while it runs, if ever: an alarm there, no reason not to begin.
 bool isForRunTime(std::string_view code) {
-  return code == diag::GotoTargetMissing::code || code == diag::JumpIntoLoop::code ||
-         code == diag::VariableOutOfRange::code || code == diag::NullWritten::code ||
-         code == diag::ReadOnlyWritten::code || code == diag::ArgumentWithoutPoint::code;
+  return code == gotoTargetMissingCheck.code || code == jumpIntoLoopCheck.code ||
+         code == variableOutOfRangeCheck.code || code == nullWrittenCheck.code ||
+         code == readOnlyWrittenCheck.code || code == argumentWithoutPointCheck.code;
 }
 
 class ProgramLowering {
@@ -262,8 +262,8 @@ private:
     ir::Call out{kind, valueOf(call.program), valueOf(call.repeat), {}};
     for (const CallArgument& argument : call.arguments) {
       if (argument.variable == 0) {
-        diagnostics_.report<diag::NoArgument>(argument.word->range, std::string(1, argument.word->address),
-                                              "G65");
+        Report report(noArgumentCheck.code, noArgumentCheck.severity, diagnostics_);
+        reportNoArgument(argument.word->range, std::string(1, argument.word->address), "G65", report);
         continue;
       }
       out.arguments.push_back({argument.word->address, argument.variable,

@@ -1,5 +1,6 @@
 #include "frontend/nc/Lift.h"
 
+#include "frontend/nc/Findings.h"
 #include "frontend/nc/Lifter.h"
 #include "support/messages/Nc.h"
 
@@ -74,7 +75,7 @@ bool Lifter::run() {
   const Word* program = find('P');
   const std::optional<std::uint32_t> number = program == nullptr ? std::nullopt : knownTenths(*program);
   if (!number || *number % 10 != 0)
-    return refuse<diag::CallWithoutProgram>(program == nullptr ? call->word->range : program->range);
+    return refuse<CallWithoutProgram>(program == nullptr ? call->word->range : program->range);
   return this->call(*number / 10, *program);
 }
 

@@ -45,8 +45,6 @@ void check(const Project& project, Report& report) {
 DOTEK_LINT_RULE(address_printed_twice){
     .severity = Severity::Warning,
     .tier = Tier::Syntax,
-    .explanation = "One block of a post has an address twice: a field stands behind the letter of its "
-                   "neighbour.",
     .check = check,
 };
 

@@ -69,9 +69,6 @@ void check(const Project& project, Report& report) {
 DOTEK_LINT_RULE(approach_shorter_than_radius){
     .severity = Severity::Warning,
     .tier = Tier::Ir,
-    .explanation =
-        "The written travel of a measurement along X or Y is not longer than the radius of the smallest "
-        "usual stylus. With fields approach-unchecked and default-fails-check look at it.",
     .check = check,
 };
 

@@ -61,9 +61,6 @@ DOTEK_LINT_RULE(approach_step_missing){
     .severity = Severity::Note,
     .byDefault = false,
     .tier = Tier::Syntax,
-    .explanation =
-        "Most measurements of a routine are reached by way of a plane that a command prints, and this one "
-        "is not. That may be meant, since a touch from above needs no such step.",
     .check = check,
 };
 

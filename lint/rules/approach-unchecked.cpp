@@ -47,9 +47,6 @@ void check(const Project& project, Report& report) {
 DOTEK_LINT_RULE(approach_unchecked){
     .severity = Severity::Warning,
     .tier = Tier::Ir,
-    .explanation =
-        "The travel of a measurement is a field, and CycleData.mac checks fields, but not this one. An "
-        "approach that is shorter than the radius of the stylus begins inside the part.",
     .check = check,
 };
 

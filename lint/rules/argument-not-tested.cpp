@@ -50,9 +50,6 @@ void check(const Project& project, Report& report) {
 DOTEK_LINT_RULE(argument_not_tested){
     .severity = Severity::Note,
     .tier = Tier::Ir,
-    .explanation = "A macro tests two or more of its arguments for #0 and ends in an alarm where one is "
-                   "missing; another "
-                   "one that it reads is never looked at.",
     .check = check,
 };
 

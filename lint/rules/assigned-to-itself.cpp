@@ -24,7 +24,6 @@ void check(const Project& project, Report& report) {
 DOTEK_LINT_RULE(assigned_to_itself){
     .severity = Severity::Warning,
     .tier = Tier::Ir,
-    .explanation = "`#5=#5` changes nothing. Mostly a number was meant to be another one.",
     .check = check,
 };
 

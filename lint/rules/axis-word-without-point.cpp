@@ -89,9 +89,6 @@ void check(const Project& project, Report& report) {
 DOTEK_LINT_RULE(axis_word_without_point){
     .severity = Severity::Warning,
     .tier = Tier::Syntax,
-    .explanation =
-        "Many controls read a length without a decimal point in thousandths: `Z50` is 0.05 mm there. Told of "
-        "literals of a post whose pictures print the point for the same address.",
     .check = check,
 };
 

@@ -41,9 +41,6 @@ DOTEK_LINT_RULE(blank_before_argument){
     .severity = Severity::Note,
     .byDefault = false,
     .tier = Tier::Syntax,
-    .explanation =
-        "ComPost takes a blank between a keyword and the bracket of its argument. Nearly all code writes "
-        "them together, and a search for the one spelling misses the other.",
     .check = check,
 };
 

@@ -49,9 +49,6 @@ void check(const Project& project, Report& report) {
 DOTEK_LINT_RULE(branch_never_taken){
     .severity = Severity::Warning,
     .tier = Tier::Syntax,
-    .explanation =
-        "A branch for one cycle lies inside the branch for another, so that it is never taken. Mostly an END "
-        "stands in the wrong place: behind the inner branch instead of before it.",
     .check = check,
 };
 

@@ -91,9 +91,6 @@ DOTEK_LINT_RULE(branch_without_move){
     .severity = Severity::Note,
     .byDefault = false,
     .tier = Tier::Syntax,
-    .explanation =
-        "All branches of a choice but one print a move that the form knows. What follows starts from "
-        "another place there.",
     .check = check,
 };
 

@@ -33,7 +33,6 @@ DOTEK_LINT_RULE(call_feed_left_out){
     .severity = Severity::Note,
     .byDefault = false,
     .tier = Tier::Ir,
-    .explanation = "A program gives nearly all calls of its protected move a feed, and this one none.",
     .check = check,
 };
 

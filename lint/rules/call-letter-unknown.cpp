@@ -85,9 +85,6 @@ void check(const Project& project, Report& report) {
 DOTEK_LINT_RULE(call_letter_unknown){
     .severity = Severity::Warning,
     .tier = Tier::Syntax,
-    .explanation = "A file calls probing macros of one pack, and one call has a letter that no source of the "
-                   "pack has and "
-                   "that is none of its usual optional ones.",
     .check = check,
 };
 

@@ -56,9 +56,6 @@ DOTEK_LINT_RULE(common_never_set){
     .severity = Severity::Note,
     .byDefault = false,
     .tier = Tier::Ir,
-    .explanation =
-        "Files that set most of their common variables read one that they do not set. It may be set by "
-        "hand, or by a program that is not linted.",
     .check = check,
 };
 

@@ -62,9 +62,6 @@ void check(const Project& project, Report& report) {
 DOTEK_LINT_RULE(comparison_opposite){
     .severity = Severity::Warning,
     .tier = Tier::Syntax,
-    .explanation =
-        "Two tests of absolute values have the same bound and jump to the same block, one where the value "
-        "is above it and one where it is below.",
     .check = check,
 };
 

@@ -46,8 +46,6 @@ void check(const Project& project, Report& report) {
 DOTEK_LINT_RULE(condition_without_variable){
     .severity = Severity::Warning,
     .tier = Tier::Ir,
-    .explanation = "An IF compares numbers with numbers, or a number with #0. `IF[9EQ#0]` was meant to be "
-                   "`IF[#9EQ#0]`.",
     .check = check,
 };
 

@@ -66,9 +66,6 @@ void check(const Project& project, Report& report) {
 DOTEK_LINT_RULE(contact_of_other_axis){
     .severity = Severity::Warning,
     .tier = Tier::Ir,
-    .explanation =
-        "#5061 to #5063 hold where the last G31 stopped, axis by axis. Behind a G31 along X, #5062 is where "
-        "the machine stands anyway; before any G31 all of them are left over.",
     .check = check,
 };
 

@@ -35,9 +35,6 @@ void check(const Project& project, Report& report) {
 DOTEK_LINT_RULE(control_outside_window){
     .severity = Severity::Warning,
     .tier = Tier::Syntax,
-    .explanation =
-        "Controls of a dialog are placed in pixels from the window's top left corner. One that reaches over "
-        "its edge is cut off; an input or a button there cannot be used.",
     .check = check,
 };
 

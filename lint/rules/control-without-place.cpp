@@ -29,9 +29,6 @@ void check(const Project& project, Report& report) {
 DOTEK_LINT_RULE(control_without_place){
     .severity = Severity::Warning,
     .tier = Tier::Syntax,
-    .explanation =
-        "A control of a dialog begins with four numbers. With one of them lost the name of the variable "
-        "stands where the height belongs.",
     .check = check,
 };
 

@@ -76,10 +76,6 @@ void check(const Project& project, Report& report) {
 DOTEK_LINT_RULE(coordinate_as_distance){
     .severity = Severity::Warning,
     .tier = Tier::Ir,
-    .explanation =
-        "Behind G91 a move to a coordinate that the program uses under G90 elsewhere, a G31 where others are "
-        "absolute, or a move that takes up an offset: the G90 is forgotten. So it is where a loop or a jump "
-        "comes back with the other mode in force.",
     .check = check,
 };
 

@@ -78,10 +78,6 @@ void check(const Project& project, Report& report) {
 DOTEK_LINT_RULE(cycle_name_differs){
     .severity = Severity::Warning,
     .tier = Tier::Syntax,
-    .explanation =
-        "CycleType?('...') names a cycle by its folder, letter by letter. A branch with another name is "
-        "never taken, and the operation prints nothing. Told where a folder without a branch has nearly "
-        "this name.",
     .check = check,
 };
 

@@ -40,9 +40,6 @@ void check(const Project& project, Report& report) {
 DOTEK_LINT_RULE(cycle_printed_twice){
     .severity = Severity::Warning,
     .tier = Tier::Syntax,
-    .explanation = "Two branches of a routine test the same cycle, one behind the other, and both measure. A "
-                   "branch that "
-                   "was copied for another cycle keeps the old name easily.",
     .check = check,
 };
 

@@ -59,9 +59,6 @@ void check(const Project& project, Report& report) {
 DOTEK_LINT_RULE(cycle_tested_in_one_place){
     .severity = Severity::Warning,
     .tier = Tier::Syntax,
-    .explanation =
-        "Two routines keep the same list of cycles, and one cycle stands in one of them only. Mostly a "
-        "flag is not set for it, so that the spindle turns with the probe in it.",
     .check = check,
 };
 

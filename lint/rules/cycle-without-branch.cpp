@@ -37,7 +37,6 @@ void check(const Project& project, Report& report) {
 DOTEK_LINT_RULE(cycle_without_branch){
     .severity = Severity::Warning,
     .tier = Tier::Bundle,
-    .explanation = "A post has branches for the cycles that are linted with it, and none for this one.",
     .check = check,
 };
 

@@ -97,9 +97,6 @@ void check(const Project& project, Report& report) {
 DOTEK_LINT_RULE(default_fails_check){
     .severity = Severity::Warning,
     .tier = Tier::Bundle,
-    .explanation =
-        "CycleData.mac is run with the values of DefineData.txt and tools of several radii, and turns them "
-        "away each time. A first value that is no value is easily posted where the check is not run.",
     .check = check,
 };
 

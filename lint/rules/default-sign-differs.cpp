@@ -39,8 +39,6 @@ DOTEK_LINT_RULE(default_sign_differs){
     .severity = Severity::Note,
     .byDefault = false,
     .tier = Tier::Bundle,
-    .explanation =
-        "A field of the same name begins below 0 in all cycles but one, or above 0 in all but one.",
     .check = check,
 };
 

@@ -77,9 +77,6 @@ void check(const Project& project, Report& report) {
 DOTEK_LINT_RULE(dialog_not_shown_again){
     .severity = Severity::Warning,
     .tier = Tier::Syntax,
-    .explanation =
-        "Behind a message the dialog has to come again, else the values that were wrong are taken. The "
-        "jump back is missing here, or leads behind the dialog.",
     .check = check,
 };
 

@@ -84,8 +84,6 @@ void check(const Project& project, Report& report) {
 DOTEK_LINT_RULE(difference_without_abs){
     .severity = Severity::Warning,
     .tier = Tier::Syntax,
-    .explanation = "`IF[[#1-#2]LT0.01]` holds for each #1 below #2, however far. Two values are near one "
-                   "another where the absolute difference is small.",
     .check = check,
 };
 

@@ -30,7 +30,6 @@ void check(const Project& project, Report& report) {
 DOTEK_LINT_RULE(duplicate_program){
     .severity = Severity::Warning,
     .tier = Tier::Syntax,
-    .explanation = "A control keeps one program under a number. Leading zeros do not count.",
     .check = check,
 };
 

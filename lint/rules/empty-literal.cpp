@@ -27,9 +27,6 @@ DOTEK_LINT_RULE(empty_literal){
     .severity = Severity::Note,
     .byDefault = false,
     .tier = Tier::Syntax,
-    .explanation =
-        "Two apostrophes without text between them are accepted and print nothing. They are left over "
-        "where a text behind a number was deleted.",
     .check = check,
 };
 

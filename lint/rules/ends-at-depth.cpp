@@ -66,9 +66,6 @@ void check(const Project& project, Report& report) {
 DOTEK_LINT_RULE(ends_at_depth){
     .severity = Severity::Warning,
     .tier = Tier::Ir,
-    .explanation =
-        "A main program with G31 comes to its M30 while the last move along Z that is written out led "
-        "down, and nothing takes the probe up.",
     .check = check,
 };
 

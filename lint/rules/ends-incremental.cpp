@@ -27,7 +27,6 @@ DOTEK_LINT_RULE(ends_incremental){
     .severity = Severity::Note,
     .byDefault = false,
     .tier = Tier::Ir,
-    .explanation = "A main program comes to its end with G91 in force, mostly behind a way home.",
     .check = check,
 };
 

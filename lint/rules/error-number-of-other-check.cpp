@@ -63,9 +63,6 @@ void check(const Project& project, Report& report) {
 DOTEK_LINT_RULE(error_number_of_other_check){
     .severity = Severity::Warning,
     .tier = Tier::Bundle,
-    .explanation =
-        "The two checks of a range store the number of their message, and one of them stores that of a "
-        "message for another field.",
     .check = check,
 };
 

@@ -69,9 +69,6 @@ void check(const Project& project, Report& report) {
 DOTEK_LINT_RULE(error_number_unmatched){
     .severity = Severity::Warning,
     .tier = Tier::Syntax,
-    .explanation =
-        "Checks put the number of the mistake into a variable, and messages follow by number. A number "
-        "without message, or a message without number, is a check or a message that was lost.",
     .check = check,
 };
 

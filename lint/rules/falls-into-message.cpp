@@ -53,9 +53,6 @@ void check(const Project& project, Report& report) {
 DOTEK_LINT_RULE(falls_into_message){
     .severity = Severity::Warning,
     .tier = Tier::Syntax,
-    .explanation =
-        "Messages that stand one behind the other under labels of their own are jumped to one by one. "
-        "One of them has no jump behind it.",
     .check = check,
 };
 

@@ -43,9 +43,6 @@ DOTEK_LINT_RULE(feed_on_rapid){
     .severity = Severity::Note,
     .byDefault = false,
     .tier = Tier::Syntax,
-    .explanation =
-        "G0 does not look at F. The word reads as if the move were that slow, and the next feed move takes "
-        "it over.",
     .check = check,
 };
 

@@ -33,9 +33,6 @@ void check(const Project& project, Report& report) {
 DOTEK_LINT_RULE(field_case_differs){
     .severity = Severity::Warning,
     .tier = Tier::Bundle,
-    .explanation =
-        "Names of macro variables do not depend on case. Of the name inside OpFieldData#('...') nobody says "
-        "so; where it does, the post prints 0.",
     .check = check,
 };
 

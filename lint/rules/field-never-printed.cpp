@@ -65,9 +65,6 @@ void check(const Project& project, Report& report) {
 DOTEK_LINT_RULE(field_never_printed){
     .severity = Severity::Warning,
     .tier = Tier::Bundle,
-    .explanation =
-        "A field of the cycle is in no block of its branch. The simulation may use it, the machine does not: "
-        "what is shown is not what is cut.",
     .check = check,
 };
 

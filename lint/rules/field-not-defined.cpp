@@ -46,10 +46,6 @@ void check(const Project& project, Report& report) {
 DOTEK_LINT_RULE(field_not_defined){
     .severity = Severity::Error,
     .tier = Tier::Bundle,
-    .explanation =
-        "A branch of the post prints a field that the folder of its cycle declares neither in "
-        "DefineData.txt nor in its dialog, mostly because one of the two was renamed. With a picture that "
-        "has a text for zero the word comes out as 0, and a measuring move has no length.",
     .check = check,
 };
 

@@ -49,9 +49,6 @@ void check(const Project& project, Report& report) {
 DOTEK_LINT_RULE(field_on_other_axis){
     .severity = Severity::Warning,
     .tier = Tier::Bundle,
-    .explanation =
-        "ToolPath.mac uses a field along Z only, and the post prints it behind X or Y, or the other way "
-        "round.",
     .check = check,
 };
 

@@ -28,7 +28,6 @@ void check(const Project& project, Report& report) {
 DOTEK_LINT_RULE(field_overwritten){
     .severity = Severity::Warning,
     .tier = Tier::Bundle,
-    .explanation = "A command that fetches a value of the CAM puts it into a field of the dialog.",
     .check = check,
 };
 

@@ -59,9 +59,6 @@ DOTEK_LINT_RULE(field_role_differs){
     .severity = Severity::Note,
     .byDefault = false,
     .tier = Tier::Syntax,
-    .explanation =
-        "Cycles of one post use the same name for the travel to a surface and for the coordinate that the "
-        "surface gets.",
     .check = check,
 };
 

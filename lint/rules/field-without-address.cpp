@@ -57,8 +57,6 @@ void check(const Project& project, Report& report) {
 DOTEK_LINT_RULE(field_without_address){
     .severity = Severity::Warning,
     .tier = Tier::Syntax,
-    .explanation = "A field is printed into a block, and the text before it does not end in the letter of an "
-                   "address.",
     .check = check,
 };
 

@@ -42,7 +42,6 @@ void check(const Project& project, Report& report) {
 DOTEK_LINT_RULE(file_left_open){
     .severity = Severity::Warning,
     .tier = Tier::Syntax,
-    .explanation = "A macro opens a file and has no FILE_CLOSE with its unit.",
     .check = check,
 };
 

@@ -54,9 +54,6 @@ DOTEK_LINT_RULE(first_protected_move_without_feed){
     .severity = Severity::Note,
     .byDefault = false,
     .tier = Tier::Ir,
-    .explanation =
-        "A protected move goes at the feed of its F, or at the last one that was given. Nothing in this main "
-        "program gives one before.",
     .check = check,
 };
 

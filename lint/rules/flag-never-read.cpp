@@ -48,9 +48,6 @@ DOTEK_LINT_RULE(flag_never_read){
     .severity = Severity::Note,
     .byDefault = false,
     .tier = Tier::Syntax,
-    .explanation = "A flag is set and no condition looks at it, in a Prog that looks at others. Macros that "
-                   "the post calls "
-                   "may read flags, too.",
     .check = check,
 };
 

@@ -27,9 +27,6 @@ DOTEK_LINT_RULE(glued_literal){
     .severity = Severity::Note,
     .byDefault = false,
     .tier = Tier::Syntax,
-    .explanation =
-        "A literal may stand directly behind a command. Behind a number that is the usual spelling; behind "
-        "a word it hides where the word ends.",
     .check = check,
 };
 

@@ -74,9 +74,6 @@ void check(const Project& project, Report& report) {
 DOTEK_LINT_RULE(hardcoded_value){
     .severity = Severity::Warning,
     .tier = Tier::Syntax,
-    .explanation =
-        "Branches for several cycles print the same block, most of them with a field and one with a fixed "
-        "number. In that one the machine moves to the fixed place whatever the user typed.",
     .check = check,
 };
 

@@ -37,9 +37,6 @@ void check(const Project& project, Report& report) {
 DOTEK_LINT_RULE(image_covers_control){
     .severity = Severity::Warning,
     .tier = Tier::Syntax,
-    .explanation =
-        "The rectangle of an image and that of another control overlap. An input under an image cannot be "
-        "read, a label not either.",
     .check = check,
 };
 

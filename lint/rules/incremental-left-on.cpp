@@ -60,9 +60,6 @@ void check(const Project& project, Report& report) {
 DOTEK_LINT_RULE(incremental_left_on){
     .severity = Severity::Warning,
     .tier = Tier::Ir,
-    .explanation = "G91 stays in force behind M99. A macro that uses distances gives the caller back the "
-                   "mode in which it "
-                   "was called, most simply by G90.",
     .check = check,
 };
 

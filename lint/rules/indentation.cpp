@@ -66,9 +66,6 @@ DOTEK_LINT_RULE(indentation){
     .severity = Severity::Note,
     .byDefault = false,
     .tier = Tier::Text,
-    .explanation =
-        "Blanks at the beginning of a line mean nothing to the compiler. Lines of one branch that begin in "
-        "different columns hide where the branch ends, and a forgotten END with it.",
     .check = check,
 };
 

@@ -41,8 +41,6 @@ void check(const Project& project, Report& report) {
 DOTEK_LINT_RULE(input_without_label){
     .severity = Severity::Warning,
     .tier = Tier::Syntax,
-    .explanation =
-        "An input of a dialog has no label in its row, neither before nor behind it, and others have one.",
     .check = check,
 };
 

@@ -42,9 +42,6 @@ void check(const Project& project, Report& report) {
 DOTEK_LINT_RULE(inputs_overlap){
     .severity = Severity::Warning,
     .tier = Tier::Syntax,
-    .explanation =
-        "Two inputs or buttons of a dialog share a part of their rectangles. A copied line keeps its "
-        "place easily.",
     .check = check,
 };
 

@@ -29,9 +29,6 @@ void check(const Project& project, Report& report) {
 DOTEK_LINT_RULE(jump_to_itself){
     .severity = Severity::Warning,
     .tier = Tier::Ir,
-    .explanation =
-        "A GOTO without a condition to the block that it stands in never ends, and the operator sees a "
-        "program that runs.",
     .check = check,
 };
 

@@ -46,9 +46,6 @@ void check(const Project& project, Report& report) {
 DOTEK_LINT_RULE(label_names_other){
     .severity = Severity::Note,
     .tier = Tier::Syntax,
-    .explanation =
-        "A dialog shows the name of a field in front of its input. Where it shows another one, the post is "
-        "easily written with the name that is shown.",
     .check = check,
 };
 

@@ -37,9 +37,6 @@ void check(const Project& project, Report& report) {
 DOTEK_LINT_RULE(label_never_used){
     .severity = Severity::Note,
     .tier = Tier::Syntax,
-    .explanation = "A macro has labels that it jumps to, and this one is not among them. Mostly the way back "
-                   "to a dialog "
-                   "was deleted, or a label was renamed in one place.",
     .check = check,
 };
 

@@ -41,8 +41,6 @@ DOTEK_LINT_RULE(label_out_of_column){
     .severity = Severity::Note,
     .byDefault = false,
     .tier = Tier::Syntax,
-    .explanation =
-        "The labels before inputs that stand below one another begin at one place. One of them does not.",
     .check = check,
 };
 

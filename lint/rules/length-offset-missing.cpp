@@ -41,7 +41,6 @@ void check(const Project& project, Report& report) {
 DOTEK_LINT_RULE(length_offset_missing){
     .severity = Severity::Warning,
     .tier = Tier::Ir,
-    .explanation = "A main program changes the tool, probes, and never takes up a tool length with G43.",
     .check = check,
 };
 

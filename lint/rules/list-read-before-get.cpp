@@ -50,9 +50,6 @@ void check(const Project& project, Report& report) {
 DOTEK_LINT_RULE(list_read_before_get){
     .severity = Severity::Warning,
     .tier = Tier::Syntax,
-    .explanation =
-        "Names such as LAST_OP_NUMBER walk a list that a command takes first. Read before that they give the "
-        "last list, or nothing.",
     .check = check,
 };
 

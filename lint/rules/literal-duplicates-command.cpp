@@ -52,10 +52,6 @@ void check(const Project& project, Report& report) {
 DOTEK_LINT_RULE(literal_duplicates_command){
     .severity = Severity::Warning,
     .tier = Tier::Syntax,
-    .explanation =
-        "A literal goes past the state of the post: behind the text `M5` the engine still takes the "
-        "spindle for running. Told where the form gives a command the same text and the Prog uses that "
-        "command elsewhere.",
     .check = check,
 };
 

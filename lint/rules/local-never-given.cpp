@@ -79,8 +79,6 @@ void check(const Project& project, Report& report) {
 DOTEK_LINT_RULE(local_never_given){
     .severity = Severity::Warning,
     .tier = Tier::Ir,
-    .explanation =
-        "A macro reads a local that none of its calls in the files gives and that it does not set itself.",
     .check = check,
 };
 

@@ -45,9 +45,6 @@ void check(const Project& project, Report& report) {
 DOTEK_LINT_RULE(local_never_read){
     .severity = Severity::Warning,
     .tier = Tier::Ir,
-    .explanation =
-        "Locals, #1 to #33, belong to one run of one program. A value that is put there and never read is "
-        "mostly read under another number.",
     .check = check,
 };
 

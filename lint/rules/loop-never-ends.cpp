@@ -64,9 +64,6 @@ void check(const Project& project, Report& report) {
 DOTEK_LINT_RULE(loop_never_ends){
     .severity = Severity::Warning,
     .tier = Tier::Ir,
-    .explanation =
-        "The variables of a WHILE are set nowhere in its loop, and no jump, call or alarm leads out of it. "
-        "Mostly the line that counts is missing, or counts another variable.",
     .check = check,
 };
 

@@ -115,9 +115,6 @@ void check(const Project& project, Report& report) {
 DOTEK_LINT_RULE(loop_without_step){
     .severity = Severity::Warning,
     .tier = Tier::Ir,
-    .explanation =
-        "A loop leaves alone what its condition counts, or the number of the variable that it stores into. "
-        "The block that counts was lost, or counts another variable.",
     .check = check,
 };
 

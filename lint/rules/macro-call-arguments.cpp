@@ -46,10 +46,6 @@ void check(const Project& project, Report& report) {
 DOTEK_LINT_RULE(macro_call_arguments){
     .severity = Severity::Warning,
     .tier = Tier::Syntax,
-    .explanation =
-        "A call of a probing macro lacks a letter that every reading of the macro needs, or mixes the "
-        "letters "
-        "of two readings, such as X and Y of a single surface. What the macros take stands in stdlib/macros.",
     .check = check,
 };
 

@@ -81,9 +81,6 @@ void check(const Project& project, Report& report) {
 DOTEK_LINT_RULE(macro_number_swapped){
     .severity = Severity::Warning,
     .tier = Tier::Ir,
-    .explanation = "A call names a program that neither the files nor the data of probing macros know, and "
-                   "one that they "
-                   "know has the same digits in another order.",
     .check = check,
 };
 

@@ -34,8 +34,6 @@ void check(const Project& project, Report& report) {
 DOTEK_LINT_RULE(measure_with_probe_off){
     .severity = Severity::Error,
     .tier = Tier::Ir,
-    .explanation =
-        "A probe that is switched off gives no signal at the contact. The measuring move goes on to its end.",
     .check = check,
 };
 

@@ -26,7 +26,6 @@ void check(const Project& project, Report& report) {
 DOTEK_LINT_RULE(message_says_nothing){
     .severity = Severity::Warning,
     .tier = Tier::Syntax,
-    .explanation = "A MESSAGE without text stops the user and tells nothing.",
     .check = check,
 };
 

@@ -86,9 +86,6 @@ void check(const Project& project, Report& report) {
 DOTEK_LINT_RULE(mirrored_move_differs){
     .severity = Severity::Warning,
     .tier = Tier::Syntax,
-    .explanation =
-        "A path has two moves for the two signs of a travel. They go along the same axis, one subtracts "
-        "the radius of the ball and the other adds it.",
     .check = check,
 };
 

@@ -55,9 +55,6 @@ void check(const Project& project, Report& report) {
 DOTEK_LINT_RULE(no_normal_end){
     .severity = Severity::Warning,
     .tier = Tier::Ir,
-    .explanation =
-        "Behind the last block of the good way stand the blocks of the alarms. Where its M30 or M99 is lost, "
-        "the program runs into them, or out of the file.",
     .check = check,
 };
 

@@ -80,9 +80,6 @@ void check(const Project& project, Report& report) {
 DOTEK_LINT_RULE(null_in_arithmetic){
     .severity = Severity::Warning,
     .tier = Tier::Ir,
-    .explanation = "Local variables are empty when a program begins. In a calculation empty counts as 0, so "
-                   "a misprint of "
-                   "a number moves the machine to a wrong place instead of stopping it.",
     .check = check,
 };
 

@@ -83,9 +83,6 @@ void check(const Project& project, Report& report) {
 DOTEK_LINT_RULE(number_of_unread_variable){
     .severity = Severity::Warning,
     .tier = Tier::Ir,
-    .explanation =
-        "A calculation has a whole number that is the number of a common variable, and that variable is "
-        "set but never read: its `#` was lost.",
     .check = check,
 };
 

@@ -58,9 +58,6 @@ void check(const Project& project, Report& report) {
 DOTEK_LINT_RULE(number_without_point){
     .severity = Severity::Warning,
     .tier = Tier::Ir,
-    .explanation = "Many controls read X10 as 0.01 mm and X10. as 10 mm. A file that writes nearly all its "
-                   "lengths with a "
-                   "point means it everywhere.",
     .check = check,
 };
 

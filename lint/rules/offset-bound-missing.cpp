@@ -71,9 +71,6 @@ void check(const Project& project, Report& report) {
 DOTEK_LINT_RULE(offset_bound_missing){
     .severity = Severity::Warning,
     .tier = Tier::Bundle,
-    .explanation =
-        "Numbers of work offsets are a range. CycleData.mac checks one end of it, and the post prints the "
-        "field as the offset that a measurement sets.",
     .check = check,
 };
 

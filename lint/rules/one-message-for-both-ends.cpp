@@ -84,7 +84,6 @@ DOTEK_LINT_RULE(one_message_for_both_ends){
     .severity = Severity::Note,
     .byDefault = false,
     .tier = Tier::Syntax,
-    .explanation = "Both ends of a range set the same error code, and its text names neither bound.",
     .check = check,
 };
 

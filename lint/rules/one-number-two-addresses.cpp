@@ -48,9 +48,6 @@ DOTEK_LINT_RULE(one_number_two_addresses){
     .severity = Severity::Note,
     .byDefault = false,
     .tier = Tier::Syntax,
-    .explanation =
-        "One number under two addresses of a block, such as the offset of length and of diameter, cannot be "
-        "chosen apart by the user.",
     .check = check,
 };
 

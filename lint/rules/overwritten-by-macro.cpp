@@ -85,9 +85,6 @@ void check(const Project& project, Report& report) {
 DOTEK_LINT_RULE(overwritten_by_macro){
     .severity = Severity::Warning,
     .tier = Tier::Ir,
-    .explanation =
-        "Probing macros keep their inputs, results and the calibration of the stylus in common variables "
-        "(stdlib/macros, `scratch`). A value of the program's own does not survive a call there.",
     .check = check,
 };
 

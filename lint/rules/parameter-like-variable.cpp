@@ -27,9 +27,6 @@ DOTEK_LINT_RULE(parameter_like_variable){
     .severity = Severity::Note,
     .byDefault = false,
     .tier = Tier::Bundle,
-    .explanation =
-        "A word that a command takes by its place is no variable, even where the cycle has one of that name. "
-        "GibbsCAM is right, the reader is easily wrong.",
     .check = check,
 };
 

@@ -101,9 +101,6 @@ DOTEK_LINT_RULE(path_and_post_differ){
     .severity = Severity::Note,
     .byDefault = false,
     .tier = Tier::Bundle,
-    .explanation =
-        "ToolPath.mac draws what the operator checks, the post writes what the machine does. Here they "
-        "begin at different heights, or end at different places.",
     .check = check,
 };
 

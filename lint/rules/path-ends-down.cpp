@@ -66,9 +66,6 @@ void check(const Project& project, Report& report) {
 DOTEK_LINT_RULE(path_ends_down){
     .severity = Severity::Warning,
     .tier = Tier::Bundle,
-    .explanation =
-        "ToolPath.mac is run with the first values of the fields. Behind its last move the probe stands at "
-        "the depth of the touches.",
     .check = check,
 };
 

@@ -71,9 +71,6 @@ void check(const Project& project, Report& report) {
 DOTEK_LINT_RULE(path_height_differs){
     .severity = Severity::Warning,
     .tier = Tier::Syntax,
-    .explanation =
-        "Z of a path counts from the retract plane, so a height of the part is written `z-plane`. A move "
-        "along Z without the plane, or one along X or Y with it, has a wrong word.",
     .check = check,
 };
 

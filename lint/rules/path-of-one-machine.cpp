@@ -38,9 +38,6 @@ void check(const Project& project, Report& report) {
 DOTEK_LINT_RULE(path_of_one_machine){
     .severity = Severity::Warning,
     .tier = Tier::Syntax,
-    .explanation = "A text of a macro is a path into a user's own folder. Nearly every correction of the "
-                   "published macros "
-                   "is a correction of such a path.",
     .check = check,
 };
 

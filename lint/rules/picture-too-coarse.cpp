@@ -41,9 +41,6 @@ void check(const Project& project, Report& report) {
 DOTEK_LINT_RULE(picture_too_coarse){
     .severity = Severity::Warning,
     .tier = Tier::Syntax,
-    .explanation =
-        "The picture of OpFieldData# decides the digits of each coordinate that a cycle prints. One "
-        "decimal is a tenth of a millimetre.",
     .check = check,
 };
 

@@ -52,9 +52,6 @@ void check(const Project& project, Report& report) {
 DOTEK_LINT_RULE(picture_without_zero){
     .severity = Severity::Warning,
     .tier = Tier::Syntax,
-    .explanation =
-        "A picture of `#` alone prints no digit for 0 unless a text for zero follows it. Behind an address "
-        "the block then holds a letter without a number.",
     .check = check,
 };
 

@@ -74,9 +74,6 @@ void check(const Project& project, Report& report) {
 DOTEK_LINT_RULE(plain_move_down){
     .severity = Severity::Warning,
     .tier = Tier::Ir,
-    .explanation = "In a program that has protected moves, a G0 or G1 goes down with the probe switched on. "
-                   "Only protected "
-                   "moves stop at a contact.",
     .check = check,
 };
 

@@ -54,9 +54,6 @@ void check(const Project& project, Report& report) {
 DOTEK_LINT_RULE(position_read_at_entry){
     .severity = Severity::Note,
     .tier = Tier::Ir,
-    .explanation =
-        "A macro reads where the machine stands before a block that ends the reading ahead. Within one "
-        "program position-read-early tells it.",
     .check = check,
 };
 

@@ -57,9 +57,6 @@ void check(const Project& project, Report& report) {
 DOTEK_LINT_RULE(post_call_arguments){
     .severity = Severity::Warning,
     .tier = Tier::Syntax,
-    .explanation =
-        "A call of a probing macro that a post prints has a letter that the macro does not know, or "
-        "lacks one that it needs. What the macros take stands in stdlib/macros.",
     .check = check,
 };
 

@@ -59,8 +59,6 @@ void check(const Project& project, Report& report) {
 DOTEK_LINT_RULE(probe_left_on){
     .severity = Severity::Warning,
     .tier = Tier::Ir,
-    .explanation =
-        "A program that switches the probe on ends with it on: never switched off, or not on every way out.",
     .check = check,
 };
 

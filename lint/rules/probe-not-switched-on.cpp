@@ -88,9 +88,6 @@ void check(const Project& project, Report& report) {
 DOTEK_LINT_RULE(probe_not_switched_on){
     .severity = Severity::Warning,
     .tier = Tier::Ir,
-    .explanation =
-        "A cycle measures without switching the probe on, and its siblings in the same post switch it on "
-        "themselves; or a program does so that switches it later. A probe without power gives no signal.",
     .check = check,
 };
 

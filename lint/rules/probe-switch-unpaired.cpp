@@ -128,9 +128,6 @@ void check(const Project& project, Report& report) {
 DOTEK_LINT_RULE(probe_switch_unpaired){
     .severity = Severity::Warning,
     .tier = Tier::Bundle,
-    .explanation =
-        "A post, one branch of it, or a program switches the probe off that nothing switches on, or "
-        "the other way round.",
     .check = check,
 };
 

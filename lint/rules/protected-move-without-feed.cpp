@@ -30,9 +30,6 @@ DOTEK_LINT_RULE(protected_move_without_feed){
     .severity = Severity::Note,
     .byDefault = false,
     .tier = Tier::Syntax,
-    .explanation =
-        "A protected move without F goes at the feed that was in force. Behind a fast retract that is the "
-        "fast one, on the way down to the part.",
     .check = check,
 };
 

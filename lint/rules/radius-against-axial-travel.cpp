@@ -49,10 +49,6 @@ void check(const Project& project, Report& report) {
 DOTEK_LINT_RULE(radius_against_axial_travel){
     .severity = Severity::Note,
     .tier = Tier::Bundle,
-    .explanation =
-        "Along X and Y the ball touches one radius before its centre arrives, so a travel has to be longer "
-        "than the radius. Along Z the lowest point of the ball touches; the comparison is copied from a "
-        "cycle for another axis.",
     .check = check,
 };
 

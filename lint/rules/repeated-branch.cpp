@@ -56,9 +56,6 @@ DOTEK_LINT_RULE(repeated_branch){
     .severity = Severity::Note,
     .byDefault = false,
     .tier = Tier::Syntax,
-    .explanation =
-        "Three or more IFs in a row have the same body. The list of their conditions mostly stands elsewhere "
-        "too, and the two have to be kept alike by hand.",
     .check = check,
 };
 

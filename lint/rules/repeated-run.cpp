@@ -93,9 +93,6 @@ DOTEK_LINT_RULE(repeated_run){
     .severity = Severity::Note,
     .byDefault = false,
     .tier = Tier::Syntax,
-    .explanation =
-        "The same blocks, feeds and macro numbers included, are written out in several branches. A change "
-        "that reaches some of them only makes cycles that differ for no reason.",
     .check = check,
 };
 

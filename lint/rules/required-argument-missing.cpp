@@ -27,9 +27,6 @@ void check(const Project& project, Report& report) {
 DOTEK_LINT_RULE(required_argument_missing){
     .severity = Severity::Warning,
     .tier = Tier::Ir,
-    .explanation =
-        "A program of the files tests an argument for #0 and ends in an alarm without it. A call in the "
-        "files does not give it.",
     .check = check,
 };
 

@@ -84,9 +84,6 @@ void check(const Project& project, Report& report) {
 DOTEK_LINT_RULE(result_not_saved){
     .severity = Severity::Warning,
     .tier = Tier::Ir,
-    .explanation = "Probing macros leave their results in the same variables each time. Of two measurements "
-                   "in a row only "
-                   "the last one's result is read: the program reads it too late.",
     .check = check,
 };
 

@@ -73,9 +73,6 @@ void check(const Project& project, Report& report) {
 DOTEK_LINT_RULE(result_of_call_unread){
     .severity = Severity::Warning,
     .tier = Tier::Ir,
-    .explanation =
-        "A program of the files leaves results in common variables. Behind some of its calls they are "
-        "read, behind one they are not: the block that reads stands before the call, or is missing.",
     .check = check,
 };
 

@@ -65,8 +65,6 @@ void check(const Project& project, Report& report) {
 DOTEK_LINT_RULE(result_read_before_measuring){
     .severity = Severity::Warning,
     .tier = Tier::Ir,
-    .explanation =
-        "A program that measures reads a variable of results on a way on which nothing has measured yet.",
     .check = check,
 };
 

@@ -87,9 +87,6 @@ void check(const Project& project, Report& report) {
 DOTEK_LINT_RULE(retract_left_out){
     .severity = Severity::Warning,
     .tier = Tier::Ir,
-    .explanation = "Between a measurement and the travel to the next one most programs take the probe up. "
-                   "Here one travel "
-                   "of the program goes without, at the depth of the touch.",
     .check = check,
 };
 

@@ -33,9 +33,6 @@ DOTEK_LINT_RULE(return_code_constant){
     .severity = Severity::Note,
     .byDefault = false,
     .tier = Tier::Bundle,
-    .explanation =
-        "A return code other than 0 makes GibbsCAM report an error. A cycle that never sets one cannot turn "
-        "an operation away once its dialog is closed, when another tool is chosen for it, say.",
     .check = check,
 };
 

@@ -46,9 +46,6 @@ DOTEK_LINT_RULE(selector_with_point){
     .severity = Severity::Note,
     .byDefault = false,
     .tier = Tier::Syntax,
-    .explanation =
-        "A work offset is chosen by number, and the picture of lengths prints it with a decimal point. The "
-        "macros of EasyProbe are seen to take that.",
     .check = check,
 };
 

@@ -53,8 +53,6 @@ void check(const Project& project, Report& report) {
 DOTEK_LINT_RULE(sequence_inside_block){
     .severity = Severity::Warning,
     .tier = Tier::Syntax,
-    .explanation = "A block number is printed behind text of the same line: the EOL between the two is "
-                   "missing.",
     .check = check,
 };
 

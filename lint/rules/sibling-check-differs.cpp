@@ -64,9 +64,6 @@ DOTEK_LINT_RULE(sibling_check_differs){
     .severity = Severity::Note,
     .byDefault = false,
     .tier = Tier::Bundle,
-    .explanation =
-        "Cycles that are linted together check the same thing in two forms, `<` and `<=`. Told of the travel "
-        "that is compared with the radius of the tool.",
     .check = check,
 };
 

@@ -58,9 +58,6 @@ DOTEK_LINT_RULE(sibling_default_differs){
     .severity = Severity::Note,
     .byDefault = false,
     .tier = Tier::Bundle,
-    .explanation =
-        "A field of the same name and with the same text in the dialog has one first value in three or more "
-        "cycles and another one here: a safe height of 5 where all others have 50, say.",
     .check = check,
 };
 

@@ -34,7 +34,6 @@ void check(const Project& project, Report& report) {
 DOTEK_LINT_RULE(sign_before_field){
     .severity = Severity::Warning,
     .tier = Tier::Syntax,
-    .explanation = "A post prints a sign and then a value that may have one: `X-` before -5 gives `X--5.`.",
     .check = check,
 };
 

@@ -22,9 +22,6 @@ void check(const Project& project, Report& report) {
 DOTEK_LINT_RULE(skip_in_callers_mode){
     .severity = Severity::Warning,
     .tier = Tier::Ir,
-    .explanation =
-        "Whether the words of a G31 are coordinates or distances hangs on G90 and G91. A program that states "
-        "neither measures in the mode that happens to be in force.",
     .check = check,
 };
 

@@ -46,9 +46,6 @@ DOTEK_LINT_RULE(skip_result_unread){
     .severity = Severity::Note,
     .byDefault = false,
     .tier = Tier::Ir,
-    .explanation =
-        "A program reads the contact behind some of its G31 and not behind this one. As a guarded move it "
-        "may be meant so.",
     .check = check,
 };
 

@@ -49,8 +49,6 @@ void check(const Project& project, Report& report) {
 DOTEK_LINT_RULE(skip_starts_in_contact){
     .severity = Severity::Warning,
     .tier = Tier::Ir,
-    .explanation = "A G31 stands behind another one whose contact the program has taken over, and no move "
-                   "leads away between the two.",
     .check = check,
 };
 

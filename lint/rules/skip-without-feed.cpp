@@ -51,9 +51,6 @@ void check(const Project& project, Report& report) {
 DOTEK_LINT_RULE(skip_without_feed){
     .severity = Severity::Warning,
     .tier = Tier::Ir,
-    .explanation =
-        "A G31 without F, in a program whose other G31 have one, or before any F. It measures at the feed of "
-        "the last move, mostly a fast one.",
     .check = check,
 };
 

@@ -52,9 +52,6 @@ void check(const Project& project, Report& report) {
 DOTEK_LINT_RULE(statement_never_runs){
     .severity = Severity::Warning,
     .tier = Tier::Syntax,
-    .explanation =
-        "Behind a GOTO without a condition, up to the next label, nothing runs. A jump that was put in for a "
-        "test and left in looks like this; so does a check that was lost.",
     .check = check,
 };
 

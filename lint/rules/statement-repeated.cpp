@@ -87,8 +87,6 @@ void check(const Project& project, Report& report) {
 DOTEK_LINT_RULE(statement_repeated){
     .severity = Severity::Note,
     .tier = Tier::Syntax,
-    .explanation = "The same block or statement stands twice in a row, where the second one has nothing left "
-                   "to do. A line is copied to be changed, and the change is easily forgotten.",
     .check = check,
 };
 

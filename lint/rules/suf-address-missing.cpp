@@ -4,7 +4,6 @@ namespace dotek::lint::rule {
 
 DOTEK_LINT_RULE(suf_address_missing){
     .severity = Severity::Error,
-    .explanation = "Which addresses a function needs is data of the profile of the control.",
     .check = reportFound<mikroprog::missingAddresses>,
 };
 

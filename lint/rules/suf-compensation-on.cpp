@@ -35,7 +35,6 @@ void check(const Project& project, Report& report) {
 
 DOTEK_LINT_RULE(suf_compensation_on){
     .severity = Severity::Warning,
-    .explanation = "With functions other than G0 to G3 compensation means nothing.",
     .check = check,
 };
 

@@ -14,7 +14,6 @@ void check(const Project& project, Report& report) {
 
 DOTEK_LINT_RULE(suf_datum_lasts){
     .severity = Severity::Note,
-    .explanation = "Neither G50 nor the end of the program brings the old system back.",
     .check = check,
 };
 

@@ -4,7 +4,6 @@ namespace dotek::lint::rule {
 
 DOTEK_LINT_RULE(suf_decimals){
     .severity = Severity::Error,
-    .explanation = "Lengths have three decimals at most.",
     .check = reportFound<mikroprog::tooManyDecimals>,
 };
 

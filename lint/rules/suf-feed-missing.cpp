@@ -36,7 +36,6 @@ void check(const Project& project, Report& report) {
 
 DOTEK_LINT_RULE(suf_feed_missing){
     .severity = Severity::Warning,
-    .explanation = "F may come from an earlier block; the control begins with F0.",
     .check = check,
 };
 

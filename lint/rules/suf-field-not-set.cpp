@@ -37,7 +37,6 @@ void check(const Project& project, Report& report) {
 
 DOTEK_LINT_RULE(suf_field_not_set){
     .severity = Severity::Warning,
-    .explanation = "The one known use writes M42 H220 with the label and M42 H20 before.",
     .check = check,
 };
 

@@ -26,7 +26,6 @@ void check(const Project& project, Report& report) {
 
 DOTEK_LINT_RULE(suf_file_ending){
     .severity = Severity::Warning,
-    .explanation = "Files of positions end so in every program that is known.",
     .check = check,
 };
 

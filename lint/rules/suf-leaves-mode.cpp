@@ -16,7 +16,6 @@ void check(const Project& project, Report& report) {
 
 DOTEK_LINT_RULE(suf_leaves_mode){
     .severity = Severity::Warning,
-    .explanation = "On a Fanuc M99 returns from a subprogram; here it ends the program.",
     .check = check,
 };
 

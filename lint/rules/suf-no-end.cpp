@@ -14,8 +14,6 @@ void check(const Project& project, Report& report) {
 
 DOTEK_LINT_RULE(suf_no_end){
     .severity = Severity::Warning,
-    .explanation = "M30 ends the main program, stops spindle and coolant, and goes back to the "
-                   "start.",
     .check = check,
 };
 

@@ -23,7 +23,6 @@ void check(const Project& project, Report& report) {
 
 DOTEK_LINT_RULE(suf_non_ascii){
     .severity = Severity::Warning,
-    .explanation = "Programs that are known to have run are plain ASCII (Q4).",
     .check = check,
 };
 

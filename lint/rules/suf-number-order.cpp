@@ -24,7 +24,6 @@ void check(const Project& project, Report& report) {
 
 DOTEK_LINT_RULE(suf_number_order){
     .severity = Severity::Warning,
-    .explanation = "Whether the control takes repeated or unsorted numbers is not known (Q2).",
     .check = check,
 };
 

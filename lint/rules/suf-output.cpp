@@ -21,7 +21,6 @@ void check(const Project& project, Report& report) {
 
 DOTEK_LINT_RULE(suf_output){
     .severity = Severity::Warning,
-    .explanation = "Q1 to Q3 are spindle and coolant, which have functions of their own.",
     .check = check,
 };
 

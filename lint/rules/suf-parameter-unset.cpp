@@ -33,7 +33,6 @@ void check(const Project& project, Report& report) {
 
 DOTEK_LINT_RULE(suf_parameter_unset){
     .severity = Severity::Warning,
-    .explanation = "Parameters keep what another program has left in them.",
     .check = check,
 };
 

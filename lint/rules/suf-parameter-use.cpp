@@ -20,7 +20,6 @@ void check(const Project& project, Report& report) {
 
 DOTEK_LINT_RULE(suf_parameter_use){
     .severity = Severity::Warning,
-    .explanation = "Known are the assignment of a number and a parameter after F.",
     .check = check,
 };
 

@@ -29,7 +29,6 @@ void check(const Project& project, Report& report) {
 
 DOTEK_LINT_RULE(suf_peck_depth){
     .severity = Severity::Warning,
-    .explanation = "W of G83 is the depth of one peck; more than the hole is no peck.",
     .check = check,
 };
 

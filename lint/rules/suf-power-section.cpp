@@ -4,7 +4,6 @@ namespace dotek::lint::rule {
 
 DOTEK_LINT_RULE(suf_power_section){
     .severity = Severity::Error,
-    .explanation = "No program has a reason for it.",
     .check = reportFound<mikroprog::powerSection>,
 };
 

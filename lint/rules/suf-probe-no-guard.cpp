@@ -23,7 +23,6 @@ void check(const Project& project, Report& report) {
 
 DOTEK_LINT_RULE(suf_probe_no_guard){
     .severity = Severity::Warning,
-    .explanation = "O7 holds where touch probe A has contact.",
     .check = check,
 };
 

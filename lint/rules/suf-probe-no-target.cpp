@@ -14,7 +14,6 @@ void check(const Project& project, Report& report) {
 
 DOTEK_LINT_RULE(suf_probe_no_target){
     .severity = Severity::Warning,
-    .explanation = "With L the program goes on there where nothing is found.",
     .check = check,
 };
 

@@ -26,7 +26,6 @@ void check(const Project& project, Report& report) {
 
 DOTEK_LINT_RULE(suf_probe_turning){
     .severity = Severity::Warning,
-    .explanation = "A turning spindle breaks the stylus, and coolant deflects it.",
     .check = check,
 };
 

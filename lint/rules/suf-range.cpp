@@ -4,7 +4,6 @@ namespace dotek::lint::rule {
 
 DOTEK_LINT_RULE(suf_range){
     .severity = Severity::Error,
-    .explanation = "The ranges of addresses are data of the profile of the control.",
     .check = reportFound<mikroprog::valuesOutOfRange>,
 };
 

@@ -4,7 +4,6 @@ namespace dotek::lint::rule {
 
 DOTEK_LINT_RULE(suf_stray_return){
     .severity = Severity::Error,
-    .explanation = "M17 without a call is an error of the control.",
     .check = reportFound<mikroprog::strayReturns>,
 };
 

@@ -4,7 +4,6 @@ namespace dotek::lint::rule {
 
 DOTEK_LINT_RULE(suf_subprogram_end){
     .severity = Severity::Error,
-    .explanation = "M17 ends a subprogram.",
     .check = reportFound<mikroprog::subprogramsWithoutReturn>,
 };
 

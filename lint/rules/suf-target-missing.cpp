@@ -4,7 +4,6 @@ namespace dotek::lint::rule {
 
 DOTEK_LINT_RULE(suf_target_missing){
     .severity = Severity::Error,
-    .explanation = "L names an N number of this program.",
     .check = reportFound<mikroprog::missingTargets>,
 };
 

@@ -4,8 +4,6 @@ namespace dotek::lint::rule {
 
 DOTEK_LINT_RULE(suf_thread_feed){
     .severity = Severity::Error,
-    .explanation = "Found on the machine: the cycle does not run without a feed from before or in "
-                   "its block.",
     .check = reportFound<mikroprog::threadsWithoutFeed>,
 };
 

@@ -176,9 +176,6 @@ void check(const Project& project, Report& report) {
 DOTEK_LINT_RULE(unprotected_move){
     .severity = Severity::Warning,
     .tier = Tier::Ir,
-    .explanation =
-        "Behind a protected move or a measurement a plain G0 or G1 goes along X or Y, before a move along Z "
-        "alone has taken the probe up. Only protected moves stop at a contact.",
     .check = check,
 };
 

@@ -70,10 +70,6 @@ void check(const Project& project, Report& report) {
 DOTEK_LINT_RULE(value_never_used){
     .severity = Severity::Note,
     .tier = Tier::Bundle,
-    .explanation =
-        "A macro of a cycle sets a variable that neither it nor a dialog reads and that is no field. Mostly "
-        "a "
-        "line that was copied with the rest, or a correction by the tool's radius that was forgotten.",
     .check = check,
 };
 

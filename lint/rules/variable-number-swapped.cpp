@@ -53,8 +53,6 @@ void check(const Project& project, Report& report) {
 DOTEK_LINT_RULE(variable_number_swapped){
     .severity = Severity::Warning,
     .tier = Tier::Ir,
-    .explanation = "Of two common variables one is only set and the other one only read, and their numbers "
-                   "have the same digits in another order.",
     .check = check,
 };
 

@@ -47,9 +47,6 @@ void check(const Project& project, Report& report) {
 DOTEK_LINT_RULE(work_offset_not_chosen){
     .severity = Severity::Warning,
     .tier = Tier::Ir,
-    .explanation =
-        "A main program that changes the tool and probes states no G54 to G59. A misprint, G64 for G54, "
-        "leaves it without as well.",
     .check = check,
 };
 

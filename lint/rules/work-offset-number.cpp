@@ -68,11 +68,6 @@ void check(const Project& project, Report& report) {
 DOTEK_LINT_RULE(work_offset_number){
     .severity = Severity::Warning,
     .tier = Tier::Syntax,
-    .explanation =
-        "Packs of probing macros count work offsets in two ways: EasyProbe by the G number, S54. to S59., "
-        "Inspection Plus from 1 to 6 and from 101 for the extended ones. A number of the other pack is "
-        "easily "
-        "written.",
     .check = check,
 };
 

@@ -81,9 +81,6 @@ DOTEK_LINT_RULE(zero_skips_move){
     .severity = Severity::Note,
     .byDefault = false,
     .tier = Tier::Bundle,
-    .explanation =
-        "A path has a move for values above 0 and one for values below, and nothing keeps 0 out for every "
-        "tool: `abs(v) < radius` lets it pass where the radius is 0.",
     .check = check,
 };
 

@@ -3,10 +3,12 @@
 #include "tests/policy/Tree.h"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <doctest/doctest.h>
 #include <map>
 #include <set>
+#include <string_view>
 
 using namespace dotek;
 using namespace dotek::tests;
@@ -24,6 +26,9 @@ struct Message {
   std::string code;
   std::string format;
 };
+
+// Words that judge the user or beg.
+constexpr std::array<std::string_view, 5> kBlame = {"illegal", "invalid", "must", "please", "sorry"};
 
 // The string literal that begins at or behind `at`; `at` moves behind it.
 std::string literal(const std::string& text, std::size_t& at) {
@@ -125,7 +130,26 @@ TEST_CASE("policy: wording of messages") {
     CHECK((!capital || name));
     CHECK(!message.format.ends_with('.'));
     const std::string text = lowerCase(message.format);
-    for (const std::string word : {"illegal", "invalid", "must", "please", "sorry"})
+    for (const std::string_view word : kBlame)
       CHECK_MESSAGE(findWord(text, word) == std::string::npos, word);
   }
+}
+
+TEST_CASE("policy: wording of checks and rules") {
+  std::size_t literals = 0;
+  for (const TreeFile& file : tree()) {
+    const bool check = file.below("frontend") && file.path.find("/Check") != std::string::npos;
+    if (!file.path.ends_with(".cpp") || !(check || file.below("lint/rules"))) continue;
+    for (const std::string& line : linesOf(file.text)) {
+      const std::size_t comment = std::min(line.find("// "), line.size());
+      for (std::size_t at = line.find('"'); at < comment; at = line.find('"', at)) {
+        const std::string text = lowerCase(literal(line, at));
+        ++literals;
+        for (const std::string_view word : kBlame)
+          CHECK_MESSAGE(findWord(text, word) == std::string::npos, file.path << ": " << line);
+        if (at >= line.size()) break;
+      }
+    }
+  }
+  CHECK(literals > 500);
 }

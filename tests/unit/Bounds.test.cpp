@@ -1,4 +1,5 @@
 // Findings of one kind in one file are bounded, and nothing is lost in silence.
+#include "frontend/gibbs/Check.h"
 #include "support/messages/Common.h"
 #include "support/messages/Gibbs.h"
 #include "tests/unit/ComPostHelper.h"
@@ -27,12 +28,13 @@ TEST_CASE("a macro full of unknown commands gives a bounded list") {
   text += "a = noSuchFunction(1, 2)\n";
   GibbsHarness harness;
   harness.checked(text);
-  CHECK(count(harness.diagnostics, diag::UnknownCommand::code) == Diagnostics::kMostAlike);
+  CHECK(count(harness.diagnostics, frontend::gibbs::unknownCommandCheck.code) == Diagnostics::kMostAlike);
   CHECK(count(harness.diagnostics, diag::TooManyFindings::code) == 1);
-  CHECK(count(harness.diagnostics, diag::UnknownFunction::code) == 1); // other kinds are still found
+  CHECK(count(harness.diagnostics, frontend::gibbs::unknownFunctionCheck.code) ==
+        1); // other kinds are still found
   CHECK_FALSE(harness.diagnostics.hasErrors());
-  CHECK(harness.diagnostics.full(diag::UnknownCommand::code, 0));
-  CHECK_FALSE(harness.diagnostics.full(diag::UnknownFunction::code, 0));
+  CHECK(harness.diagnostics.full(frontend::gibbs::unknownCommandCheck.code, 0));
+  CHECK_FALSE(harness.diagnostics.full(frontend::gibbs::unknownFunctionCheck.code, 0));
 }
 
 TEST_CASE("findings of different files are counted apart; equal ones count once") {

@@ -48,6 +48,13 @@ TEST_CASE("unknown words are one note a name, with the nearest name") {
   CHECK(prog.at(0).severity == Severity::Note);
 }
 
+TEST_CASE("doubled routines, braces in comments") {
+  CHECK(Checked("progStart: RETURN\nshipped: RETURN\nprogStart: shipped RETURN").only() ==
+        "3:1 duplicate-routine");
+  CHECK(Checked("progStart: { x { y } RETURN").only() == "1:16 comment-brace");
+  CHECK(Checked("progStart: { x } RETURN\n{ y").only() == "2:1 unterminated-comment");
+}
+
 TEST_CASE("case, suffix and argument of known words") {
   CHECK(findings("spinoff eol if") == "2:1 keyword-case, 2:9 keyword-case, 2:13 keyword-case");
   CHECK(findings("Toolofst") == "2:1 keyword-case");

@@ -1,5 +1,9 @@
 // docs/rules/<id>.md is the documentation of a rule and its test: carets under a line mark what the rule
 // tells, blocks below `## Clean` give no finding at all.
+#include "frontend/compost/Check.h"
+#include "frontend/gibbs/Check.h"
+#include "frontend/macrob/Check.h"
+#include "lint/Page.h"
 #include "lint/Rule.h"
 #include "tests/GoldenRunner.h"
 #include "tests/unit/DataFolder.h"
@@ -8,6 +12,7 @@
 #include <doctest/doctest.h>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
@@ -177,13 +182,54 @@ TEST_CASE("lint rules: ids are unique over messages and rules, and each is expla
     codes.insert(info.code);
   for (const lint::NamedRule& named : lint::rules()) {
     CHECK_MESSAGE(codes.insert(named.id).second, named.id << " is a message, too");
-    CHECK(named.rule->explanation.size() > 40);
     CHECK(lint::findRule(named.id)->rule == named.rule);
+    const std::string_view page = lint::pageOf(named.id);
+    CHECK(page == readAll(root() / "docs" / "rules" / (std::string(named.id) + ".md")));
+    std::string severity(severityName(named.rule->severity));
+    severity[0] = static_cast<char>(severity[0] - 'a' + 'A');
+    if (!named.rule->byDefault) severity += ", off by default";
+    CHECK_MESSAGE(page.find("\n\n" + severity + ". ") == named.id.size() + 2,
+                  named.id << " begins otherwise");
     const CommandResult result = runDotek({"explain", std::string(named.id)}, root());
     CHECK(result.status == 0);
     CHECK(result.out.starts_with(std::string(named.id) + ": "));
+    CHECK(result.out.find("\nReported\n") != std::string::npos);
   }
   CHECK(lint::codeTable().size() == messageTable().size() + lint::rules().size());
+  CHECK(lint::rulePages().size() == lint::rules().size());
+  CHECK(lint::pageOf("no-such-rule").empty());
+  for (const lint::CodeInfo& info : lint::codeTable()) {
+    const std::string summary = lint::summaryOf(info);
+    CHECK_MESSAGE(summary.size() > 20, info.code << ": " << summary);
+    CHECK_MESSAGE(summary.back() == '.', info.code << ": " << summary);
+  }
+}
+
+TEST_CASE("lint rules: shared rules are the checks of the front ends") {
+  std::map<std::string_view, Severity> checks;
+  const auto take = [&](const auto& list) {
+    for (const auto* check : list)
+      CHECK_MESSAGE(checks.emplace(check->code, check->severity).second, check->code << " is listed twice");
+  };
+  take(frontend::compost::progChecks());
+  take(frontend::macrob::programChecks());
+  take(frontend::gibbs::fileChecks());
+  take(frontend::gibbs::cycleChecks());
+  std::map<std::string_view, Severity> shared;
+  for (const lint::NamedRule& named : lint::rules())
+    if (named.rule->shared) shared.emplace(named.id, named.rule->severity);
+  CHECK(checks == shared);
+}
+
+TEST_CASE("lint rules: a page in a terminal") {
+  const std::string page =
+      "# a-rule\n\nNote, off by default. One `a. B` sentence\non two lines. Another.\n\nMore.\n\n"
+      "## Reported\n\n### A case\n\nFlags: `--control x`\n\n```nc p.nc\nG0\n^^\n```\n\n## Clean\n";
+  CHECK(lint::proseOf(page) == "One `a. B` sentence on two lines. Another.\nMore.");
+  CHECK(lint::firstSentence(lint::proseOf(page)) == "One `a. B` sentence on two lines.");
+  CHECK(lint::shownPage(page) ==
+        "One `a. B` sentence on two lines. Another.\n\nMore.\n\nReported\n--------\n\nA case:\n\n"
+        "Flags: `--control x`\n\n  p.nc\n    G0\n    ^^\n\nClean\n-----\n");
 }
 
 TEST_CASE("lint: the examples give no finding at --select all") {

@@ -1,0 +1,68 @@
+// Rules whose checks are functions of a front end: `post`, `convert` and `sim` call them as well.
+#pragma once
+
+#include "frontend/compost/Check.h"
+#include "frontend/gibbs/Check.h"
+#include "frontend/macrob/Check.h"
+#include "lint/Project.h"
+
+#include <vector>
+
+namespace dotek::lint {
+
+// Everything that is linted, as the front ends check it.
+struct SharedInputs {
+  std::vector<compost::CheckedProg> progs;
+  std::vector<macrob::CheckedProgram> programs; // of NC
+  std::vector<const gibbs::CheckedFile*> files; // macros, dialogs, DefineData.txt
+  std::vector<gibbs::CheckedCycle> cycles;
+};
+
+// Those of the project. `files` are its macros, dialogs and DefineData.txt; they outlive the result.
+std::shared_ptr<const SharedInputs> sharedInputs(const Project& project,
+                                                 std::vector<const gibbs::CheckedFile*> files);
+
+// A rule of the check; `each` runs it on all inputs of its kind.
+template <class Input>
+constexpr Rule sharedRule(const Check<Input>& check, Tier tier, void (*each)(const Project&, Report&)) {
+  Rule rule;
+  rule.severity = check.severity;
+  rule.tier = tier;
+  rule.shared = true;
+  rule.check = each;
+  return rule;
+}
+
+// A check of one Prog.
+template <const Check<compost::CheckedProg>& check> constexpr Rule progRule() {
+  return sharedRule(check, Tier::Syntax, [](const Project& project, Report& report) {
+    for (const compost::CheckedProg& prog : project.shared->progs)
+      check.run(prog, report);
+  });
+}
+
+// A check of one macro, dialog or DefineData.txt.
+template <const Check<gibbs::CheckedFile>& check> constexpr Rule fileRule() {
+  return sharedRule(check, Tier::Syntax, [](const Project& project, Report& report) {
+    for (const gibbs::CheckedFile* file : project.shared->files)
+      check.run(*file, report);
+  });
+}
+
+// A check of the files of one cycle together.
+template <const Check<gibbs::CheckedCycle>& check> constexpr Rule cycleRule() {
+  return sharedRule(check, Tier::Bundle, [](const Project& project, Report& report) {
+    for (const gibbs::CheckedCycle& cycle : project.shared->cycles)
+      check.run(cycle, report);
+  });
+}
+
+// A check of one NC program.
+template <const Check<macrob::CheckedProgram>& check> constexpr Rule programRule() {
+  return sharedRule(check, Tier::Syntax, [](const Project& project, Report& report) {
+    for (const macrob::CheckedProgram& program : project.shared->programs)
+      check.run(program, report);
+  });
+}
+
+} // namespace dotek::lint

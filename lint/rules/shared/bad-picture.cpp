@@ -1,0 +1,7 @@
+#include "lint/Shared.h"
+
+namespace dotek::lint::rule {
+
+DOTEK_LINT_RULE(bad_picture) = progRule<compost::badPictureCheck>();
+
+} // namespace dotek::lint::rule

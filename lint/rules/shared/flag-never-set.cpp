@@ -1,0 +1,7 @@
+#include "lint/Shared.h"
+
+namespace dotek::lint::rule {
+
+DOTEK_LINT_RULE(flag_never_set) = progRule<compost::flagNeverSetCheck>();
+
+} // namespace dotek::lint::rule

@@ -1,0 +1,7 @@
+#include "lint/Shared.h"
+
+namespace dotek::lint::rule {
+
+DOTEK_LINT_RULE(image_name) = fileRule<gibbs::imageNameCheck>();
+
+} // namespace dotek::lint::rule

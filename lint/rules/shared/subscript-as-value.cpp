@@ -1,0 +1,7 @@
+#include "lint/Shared.h"
+
+namespace dotek::lint::rule {
+
+DOTEK_LINT_RULE(subscript_as_value) = programRule<macrob::subscriptAsValueCheck>();
+
+} // namespace dotek::lint::rule
