@@ -28,8 +28,7 @@ public:
 struct Raw {
   std::vector<std::string> inputs;
   std::vector<std::string> set, field, host, assume, limit, data;
-  std::string job, encoding, from, prog, routine, cycle, clearance, sequence, output;
-  std::string form = "thesis-a";
+  std::string job, encoding, from, prog, routine, cycle, form, clearance, sequence, output;
   std::string format = "text";
   std::string select, ignore;
   std::string failOn;
@@ -237,7 +236,7 @@ void fill(const Raw& raw, Arguments& parsed) {
   if (!raw.prog.empty()) parsed.source.prog = raw.prog;
   if (!raw.routine.empty()) parsed.source.routine = raw.routine;
   if (!raw.cycle.empty()) parsed.source.cycle = raw.cycle;
-  parsed.source.form = raw.form;
+  if (!raw.form.empty()) parsed.source.form = raw.form;
   parsed.convert = convertOf(raw);
   parsed.verify = verifyOf(raw);
   parsed.outputFolder = raw.outputFolder;
@@ -386,6 +385,10 @@ void addLint(CLI::App& app, Raw& raw) {
   lint->add_flag("--fix", raw.fix, "make the repairs that change no motion, coordinate or meaning");
   lint->add_option("--form", raw.form, "what the Form of the post decides (see `dotek list forms`)")
       ->type_name("NAME");
+  lint->add_option("--field", raw.field, "the post's field FIELD is the macro's variable VARIABLE")
+      ->type_name("FIELD=VARIABLE")
+      ->allow_extra_args(false);
+  addValues(*lint, raw);
   lint->add_option("--select", raw.select, "only these codes, separated by commas, or all")
       ->type_name("CODES");
   lint->add_option("--ignore", raw.ignore, "not these codes")->type_name("CODES");
@@ -481,6 +484,17 @@ void addVerify(CLI::App& app, Raw& raw) {
   addCommon(*verify, raw);
 }
 
+void addNew(CLI::App& app, Raw& raw) {
+  CLI::App* command = app.add_subcommand("new", "begin a data file");
+  command->require_subcommand(1);
+  CLI::App* form =
+      command->add_subcommand("form", "what the Form of a post decides, from the keywords of its Prog");
+  form->add_option("NAME", raw.inputs, "name of the form")->required()->expected(1);
+  form->add_option("--prog", raw.prog, "the Prog (text of the ComPost post)")->type_name("PROG.txt");
+  form->add_option("-o", raw.output, "write the form to a file")->type_name("FILE");
+  addCommon(*form, raw);
+}
+
 // CLI11 would only say that a command is missing.
 void checkCommand(const CLI::App& app, const std::vector<std::string>& arguments) {
   if (arguments.empty() || arguments.front().starts_with('-')) return;
@@ -535,6 +549,7 @@ std::optional<int> parseArguments(const std::vector<std::string>& arguments, Arg
   addDump(app, raw);
   addSim(app, raw);
   addVerify(app, raw);
+  addNew(app, raw);
   CLI::App* explain = app.add_subcommand("explain", "say what a message means and what to do");
   explain->add_option("CODE", raw.inputs, "the name in brackets behind a message")->required()->expected(1);
   CLI::App* list = app.add_subcommand("list", "print a table");
@@ -556,6 +571,7 @@ std::optional<int> parseArguments(const std::vector<std::string>& arguments, Arg
                      : command == "explain" ? Command::Explain
                      : command == "sim"     ? Command::Sim
                      : command == "verify"  ? Command::Verify
+                     : command == "new"     ? Command::New
                                             : Command::List;
     fill(raw, parsed);
     return std::nullopt;

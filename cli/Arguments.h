@@ -11,7 +11,7 @@
 
 namespace dotek::cli {
 
-enum class Command : unsigned char { Post, Convert, Lint, Dump, Explain, List, Sim, Verify };
+enum class Command : unsigned char { Post, Convert, Lint, Dump, Explain, List, New, Sim, Verify };
 
 struct Arguments {
   Command command = Command::Post;

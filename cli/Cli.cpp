@@ -154,6 +154,9 @@ int runCommand(Arguments& arguments, std::ostream& out, std::ostream& err) {
     arguments.verify.source = arguments.source;
     return printer.verification(arguments.verify, arguments);
   case Command::Explain: return printer.result(driver::explain(arguments.inputs.front()), "");
+  case Command::New:
+    return printer.result(driver::newForm({arguments.inputs.back(), arguments.source.prog, arguments.common}),
+                          arguments.output);
   case Command::List: return printer.result(driver::list(arguments.inputs.front(), arguments.common), "");
   }
   return kDefect;

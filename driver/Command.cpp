@@ -1,5 +1,6 @@
 #include "driver/Command.h"
 
+#include "support/messages/ComPost.h"
 #include "frontend/gibbs/Check.h"
 #include "support/messages/Common.h"
 #include "support/messages/Fanuc.h"
@@ -15,6 +16,18 @@
 #include <tuple>
 
 namespace dotek::driver {
+
+namespace {
+
+// Of findings that have one cause wherever they begin, the first one is kept. They are sorted.
+void keepFirstOfCause(Diagnostics& diagnostics) {
+  std::set<std::string> told;
+  std::erase_if(diagnostics.all(), [&](const Diagnostic& d) {
+    return d.code == diag::FormAssumed::code && !told.insert(d.message).second;
+  });
+}
+
+} // namespace
 
 Outcome outcomeOf(Session& session, std::string output, bool keepOutput) {
   Outcome outcome;
@@ -41,6 +54,7 @@ Outcome outcomeOf(Session& session, std::string output, bool keepOutput) {
   outcome.sources = std::move(session.sources());
   outcome.diagnostics = std::move(session.diagnostics());
   outcome.diagnostics.sort();
+  keepFirstOfCause(outcome.diagnostics);
   return outcome;
 }
 
@@ -60,20 +74,24 @@ void keepStrongest(Diagnostics& diagnostics) {
   });
 }
 
+bool isAboutForm(std::string_view code) {
+  return code == diag::FormTaken::code || code == diag::FormAssumed::code;
+}
+
 bool isUsageCode(std::string_view code) {
   constexpr std::array kCodes = {
-      diag::FileNotFound::code,     diag::FileNotReadable::code, diag::FileNotWritable::code,
-      diag::FileTooLarge::code,     diag::TooManyFiles::code,    diag::UnknownForm::code,
-      diag::UnknownHost::code,      diag::NotANumber::code,      diag::GivenTwice::code,
-      diag::UnknownName::code,      diag::MissingOption::code,   diag::DataFileDefect::code,
-      diag::UnknownKind::code,      diag::UnknownCode::code,     diag::UnknownList::code,
-      diag::NoSuchField::code,      diag::HostInputRange::code,  diag::UnknownAssumption::code,
-      diag::CycleWithSeveral::code, diag::CycleNameTwice::code,  diag::NotAFolder::code,
-      diag::UnknownTarget::code,    diag::UnknownProfile::code,  diag::UnknownMacroSet::code,
-      diag::LetterNotAllowed::code, diag::OutputForOne::code,    diag::ArgumentUnknown::code,
-      diag::LetterTwice::code,      diag::VariableFlag::code,    diag::FlagOfOtherTarget::code,
-      diag::UnknownDatum::code,     diag::OptionOfCycles::code,  diag::OptionOfPrograms::code,
-      diag::ProgramTarget::code,    diag::OptionOfMacroB::code,
+      diag::FileNotFound::code,      diag::FileNotReadable::code,  diag::FileNotWritable::code,
+      diag::FileTooLarge::code,      diag::TooManyFiles::code,     diag::UnknownForm::code,
+      diag::FormName::code,          diag::UnknownHost::code,      diag::NotANumber::code,
+      diag::GivenTwice::code,        diag::UnknownName::code,      diag::MissingOption::code,
+      diag::DataFileDefect::code,    diag::UnknownKind::code,      diag::UnknownCode::code,
+      diag::UnknownList::code,       diag::NoSuchField::code,      diag::HostInputRange::code,
+      diag::UnknownAssumption::code, diag::CycleWithSeveral::code, diag::CycleNameTwice::code,
+      diag::NotAFolder::code,        diag::UnknownTarget::code,    diag::UnknownProfile::code,
+      diag::UnknownMacroSet::code,   diag::LetterNotAllowed::code, diag::OutputForOne::code,
+      diag::ArgumentUnknown::code,   diag::LetterTwice::code,      diag::VariableFlag::code,
+      diag::FlagOfOtherTarget::code, diag::UnknownDatum::code,     diag::OptionOfCycles::code,
+      diag::OptionOfPrograms::code,  diag::ProgramTarget::code,    diag::OptionOfMacroB::code,
   };
   return std::find(kCodes.begin(), kCodes.end(), code) != kCodes.end();
 }

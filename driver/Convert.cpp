@@ -1,6 +1,7 @@
 #include "driver/Command.h"
 #include "driver/ConvertVerify.h"
 #include "frontend/gibbs/Ast.h"
+#include "project/Compilation.h"
 #include "project/Prog.h"
 #include "project/Programs.h"
 #include "support/NearestName.h"
@@ -29,7 +30,7 @@ std::vector<std::string> cycleOptions(const ConvertOptions& options) {
   add(!common.host.empty(), "--host");
   add(common.recover, "--recover");
   add(options.source.prog.has_value(), "--prog");
-  add(options.source.form != SourceOptions().form, "--form");
+  add(options.source.form.has_value(), "--form");
   add(options.source.routine.has_value(), "--routine");
   add(options.source.cycle.has_value(), "--cycle");
   add(!options.letters.empty(), "--arg");
@@ -56,7 +57,9 @@ void refuseOptions(const ConvertOptions& options, bool programs, bool cycles, Se
 class ConvertCommand {
 public:
   ConvertCommand(const ConvertOptions& options, Session& session)
-      : options_(options), session_(session), context_{options, session, {}, {}, {}, {}, {}, {}, {}} {}
+      : options_(options), session_(session),
+        compilation_(session), context_{options, compilation_, session, compilation_.folders(),
+                                        compilation_.usedSets()} {}
 
   Outcome run() {
     if (!load()) return refuse();
@@ -72,7 +75,7 @@ public:
 
 private:
   Outcome finish() {
-    if (context_.inputs) reportUnknownNames();
+    if (context_.inputs != nullptr) reportUnknownNames();
     if (!session_.diagnostics().hasErrors()) filesDiffer();
     if (session_.diagnostics().hasErrors()) return refuse();
     keepStrongest(session_.diagnostics());
@@ -94,7 +97,12 @@ private:
 
   Outcome refuse() {
     keepStrongest(session_.diagnostics());
-    return outcomeOf(session_, "");
+    Outcome outcome = outcomeOf(session_, "");
+    // Why there is nothing comes before what is only worth knowing.
+    std::vector<Diagnostic>& all = outcome.diagnostics.all();
+    std::stable_partition(all.begin(), all.end(),
+                          [](const Diagnostic& d) { return d.severity == Severity::Error; });
+    return outcome;
   }
 
   bool load() {
@@ -127,9 +135,9 @@ private:
   bool loadCycles(const Target& target) {
     Diagnostics& diagnostics = session_.diagnostics();
     const bool first = options_.control.empty() || target.ownControls;
-    context_.inputs = loadLoweringInputs(options_.source,
-                                         first ? std::string(kDefaultControl) : options_.control, session_);
-    if (!context_.inputs) return false;
+    context_.inputs =
+        compilation_.load(options_.source, first ? std::string(kDefaultControl) : options_.control);
+    if (context_.inputs == nullptr) return false;
     const LoweringInputs& inputs = *context_.inputs;
     if (options_.probeMacros && inputs.macroSet(*options_.probeMacros) == nullptr) {
       std::vector<std::string> known;
@@ -141,7 +149,7 @@ private:
       return false;
     }
     for (const std::string& path : folderPaths_)
-      context_.folders.push_back(loadCycleFolder(path, session_));
+      compilation_.addFolder(path);
     if (options_.source.cycle) context_.folders.front().name = *options_.source.cycle;
     leaveFindingsToLint(session_);
     if (!target.fixesValues && inputs.job && !inputs.job->operations.empty())
@@ -220,6 +228,7 @@ private:
 
   const ConvertOptions& options_;
   Session& session_;
+  Compilation compilation_;
   ConversionContext context_;
   std::unique_ptr<Conversion> conversion_;
   std::vector<Input> order_;

@@ -21,6 +21,7 @@ void take(Outcome& into, Outcome from) {
     if (range.hasPlace()) range.file += first;
   };
   for (Diagnostic& one : from.diagnostics.all()) {
+    if (isAboutForm(one.code)) continue; // convert has said it
     move(one.range);
     for (DiagnosticNote& note : one.notes)
       move(note.range);

@@ -74,6 +74,12 @@ struct SimOptions {
   std::function<void(std::string_view)> trace;
 };
 
+struct NewFormOptions {
+  std::string name; // of the form: letters, digits, `-` and `_`
+  std::optional<std::string> prog;
+  CommonOptions common;
+};
+
 // What a command gives. `status` is 0, 1 or 2 as docs/cli.md says; with a status other than 0 of post,
 // `output` is empty.
 struct Outcome {
@@ -105,6 +111,8 @@ Outcome sim(const SimOptions& options);
 // Runs source and translation on many drawn cases and compares what they do. The output is the report; its
 // last line counts: `proved P, idle I, differ D of N`.
 Outcome verify(const VerifyOptions& options);
+// The beginning of a form's data file: what the Prog's keywords print, as far as it is known.
+Outcome newForm(const NewFormOptions& options);
 // The text of one message or rule; status 2 for an unknown code.
 Outcome explain(const std::string& code);
 // `what`: cycles, controls, macros, forms, rules, targets, hosts, limits, assumptions.

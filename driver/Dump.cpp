@@ -7,11 +7,9 @@
 #include "frontend/mikroprog/Parse.h"
 #include "ir/Fold.h"
 #include "ir/Print.h"
-#include "project/CycleFolder.h"
+#include "project/Compilation.h"
 #include "project/Fields.h"
 #include "project/Hosts.h"
-#include "project/InputKind.h"
-#include "project/Lowering.h"
 #include "project/Prog.h"
 #include "project/Programs.h"
 #include "support/Decimal.h"
@@ -32,7 +30,8 @@ namespace {
 
 class DumpCommand {
 public:
-  DumpCommand(const DumpOptions& options, Session& session) : options_(options), session_(session) {}
+  DumpCommand(const DumpOptions& options, Session& session)
+      : options_(options), session_(session), compilation_(session) {}
 
   Outcome run() {
     if (options_.inputs.empty())
@@ -66,14 +65,11 @@ private:
   }
 
   void file(const std::string& input) {
-    std::optional<InputKind> kind;
-    if (options_.common.from) {
-      kind = kindByName(*options_.common.from);
-    } else {
-      const std::optional<std::string> bytes = readBytes(input, session_.limits(), session_.diagnostics());
-      if (!bytes) return;
-      kind = recognise(input, *bytes);
-    }
+    Diagnostics unreadable;
+    const std::optional<InputKind> kind = compilation_.kindOf(input, unreadable);
+    for (const Diagnostic& one : unreadable.all())
+      session_.diagnostics().add(one);
+    if (!unreadable.empty()) return;
     if (!kind) {
       if (session_.read(input, Encoding::Cp1250)) session_.diagnostics().report<diag::UnknownKind>({}, input);
       return;
@@ -128,22 +124,20 @@ private:
     for (const std::string& input : options_.inputs)
       if (!mikroprogIr(input)) rest.push_back(input);
     if (rest.empty() && !options_.inputs.empty()) return;
-    const auto inputs = loadLoweringInputs(
-        options_.source, options_.control.empty() ? std::string(kDefaultControl) : options_.control,
-        session_);
-    if (!inputs || session_.diagnostics().hasErrors()) return;
+    const LoweringInputs* inputs = compilation_.load(
+        options_.source, options_.control.empty() ? std::string(kDefaultControl) : options_.control);
+    if (inputs == nullptr || session_.diagnostics().hasErrors()) return;
     ir::Module module;
-    std::set<std::string> usedSets;
     for (const std::string& input : rest) {
       if (isProgramFile(input, session_)) {
         programs(input, *inputs->control);
         continue;
       }
-      CycleFolder folder = loadCycleFolder(input, session_);
+      CycleFolder& folder = compilation_.addFolder(input);
       if (options_.source.cycle && options_.inputs.size() == 1) folder.name = *options_.source.cycle;
       leaveFindingsToLint(session_);
       if (session_.diagnostics().hasErrors()) return;
-      std::optional<LoweredCycle> lowered = lowerCycle(folder, *inputs, usedSets, session_);
+      std::optional<LoweredCycle> lowered = compilation_.lower(folder);
       if (!lowered) return;
       if (!lowered->fixed.empty()) ir::fold(lowered->cycle, lowered->fixed);
       module.cycles.push_back(std::move(lowered->cycle));
@@ -179,7 +173,7 @@ private:
 
   // The moves that ToolPath.mac writes for the given values: a dry run outside the CAM.
   void path(const std::string& input) {
-    const CycleFolder folder = loadCycleFolder(input, session_);
+    const CycleFolder& folder = compilation_.addFolder(input);
     if (!folder.complete || session_.diagnostics().hasErrors()) return;
     FieldTable fields(folder, {}, session_);
     for (const auto& [name, text] : options_.common.set) {
@@ -207,6 +201,7 @@ private:
 
   const DumpOptions& options_;
   Session& session_;
+  Compilation compilation_;
   std::string out_;
 };
 

@@ -5,18 +5,15 @@
 #include "driver/LintFix.h"
 #include "frontend/compost/Summary.h"
 #include "frontend/macrob/Check.h"
-#include "frontend/macrob/Lower.h"
-#include "frontend/macrob/Parse.h"
 #include "frontend/mikroprog/Parse.h"
+#include "lint/Analyses.h"
 #include "lint/Project.h"
 #include "lint/Shared.h"
 #include "lint/Suppressions.h"
+#include "project/Compilation.h"
 #include "project/CycleFolder.h"
-#include "project/InputKind.h"
+#include "project/FormChoice.h"
 #include "project/Job.h"
-#include "project/Lowering.h"
-#include "project/Prog.h"
-#include "project/Programs.h"
 #include "support/Files.h"
 #include "support/messages/ComPost.h"
 #include "support/messages/Commands.h"
@@ -37,13 +34,10 @@ namespace macrob = frontend::macrob;
 
 namespace {
 
-// --form where none is given.
-const std::string kDefaultForm = SourceOptions().form;
-
 class LintCommand {
 public:
   LintCommand(const LintOptions& options, Session& session)
-      : options_(options), session_(session), configs_(session) {}
+      : options_(options), session_(session), configs_(session), compilation_(session) {}
 
   Outcome run() {
     if (options_.paths.empty())
@@ -55,10 +49,16 @@ public:
     const LintConfig* first = options_.paths.empty() ? nullptr : configs_.of(options_.paths.front());
     const std::string control =
         options_.control.empty() && first != nullptr ? first->control : options_.control;
-    if (session_.data().find("mikroprog", control) != nullptr)
-      mikroprog_ = stdlib::MikroprogControl::load(session_.data(), control);
-    else if (!control.empty())
-      control_ = loadControl(control, session_);
+    const bool suf = session_.data().find("mikroprog", control) != nullptr;
+    if (suf) mikroprog_ = stdlib::MikroprogControl::load(session_.data(), control);
+    // An unknown control is an error, and what holds on every control is said beside it.
+    const bool known = !control.empty() && !suf && session_.data().find("controls", control) != nullptr;
+    inputs_ = compilation_.load(options_.source, known ? control : std::string(kDefaultControl));
+    if (inputs_ == nullptr) return failed();
+    if (known)
+      control_ = &*inputs_->control;
+    else if (!control.empty() && !suf)
+      loadControl(control, session_);
     for (const std::string& path : options_.paths)
       visit(path, true);
     lint::Project project = gather(first);
@@ -101,76 +101,60 @@ private:
   }
 
   lint::Project gather(const LintConfig* config) {
-    lint::Project project{session_.sources(),
-                          session_.limits(),
-                          session_.gibbsKeywords(),
-                          session_.compostKeywords(),
-                          {},
-                          {},
-                          control_,
-                          {},
-                          {},
-                          {},
-                          {},
-                          {},
-                          {},
-                          {},
-                          {},
-                          {},
-                          {},
-                          {}};
-    for (const stdlib::DataFile* file : session_.data().list("macros")) {
-      if (auto set = stdlib::MacroSet::load(session_.data(), file->name))
-        project.macroSets.push_back(std::move(*set));
-    }
-    const bool formInConfig =
-        config != nullptr && !config->form.empty() && options_.source.form == kDefaultForm;
-    project.form = session_.form(formInConfig ? config->form : options_.source.form);
-    if (project.form && !project.form->control.empty())
-      project.postControl = stdlib::Control::load(session_.data(), project.form->control);
-    if (!control_)
-      for (const stdlib::DataFile* data : session_.data().list("controls"))
-        if (auto control = stdlib::Control::load(session_.data(), data->name))
-          project.controls.push_back(std::move(*control));
-    for (const compost::Program& prog : progs_)
-      project.progs.push_back(&prog);
-    for (const CycleFolder& folder : folders_)
+    const bool inConfig = config != nullptr && !config->form.empty();
+    const FormChoice form = options_.source.form ? FormChoice{*options_.source.form, true}
+                            : inConfig           ? FormChoice{config->form, true}
+                                                 : FormChoice{std::string(kDefaultForm), false};
+    useForm(*inputs_, form.name, session_);
+    for (const auto& prog : compilation_.progs())
+      noteForm(form, prog->file, session_);
+    lint::Project project{session_.sources(), session_.limits(), session_.gibbsKeywords(),
+                          session_.compostKeywords(), inputs_->macroSets};
+    project.form = inputs_->form ? &*inputs_->form : nullptr;
+    if (project.form != nullptr && !project.form->control.empty() && inputs_->sourceControl)
+      project.postControl = &*inputs_->sourceControl;
+    project.control = control_;
+    project.analyses = std::make_shared<lint::Analyses>();
+    if (control_ == nullptr) project.controls = compilation_.controls();
+    for (const auto& prog : compilation_.progs())
+      project.progs.push_back(prog.get());
+    for (const CycleFolder& folder : compilation_.folders())
       if (folder.cycle) project.cycles.push_back(folder.cycle.get());
-    for (const gibbs::Macro& macro : macros_)
+    for (const gibbs::Macro& macro : compilation_.macros())
       project.macros.push_back(&macro);
-    for (const gibbs::Dialog& dialog : dialogs_)
+    for (const gibbs::Dialog& dialog : compilation_.dialogs())
       project.dialogs.push_back(&dialog);
-    for (const gibbs::DefineData& data : defines_)
+    for (const gibbs::DefineData& data : compilation_.defines())
       project.defines.push_back(&data);
-    for (const macrob::File& file : programs_)
-      project.programs.push_back({&file, lowered(file)});
+    for (const macrob::File& file : compilation_.programs())
+      project.programs.push_back({&file, compilation_.lower(file, control_)});
     for (const frontend::mikroprog::Reading& reading : sufReadings_)
       project.sufPrograms.push_back(&reading);
     std::vector<const gibbs::CheckedFile*> checked;
-    for (const CycleFolder& folder : folders_)
+    for (const CycleFolder& folder : compilation_.folders())
       for (const gibbs::CheckedFile& file : folder.checked)
         checked.push_back(&file);
     for (const gibbs::CheckedFile& file : checked_)
       checked.push_back(&file);
-    lint::join(project);
+    // Without the control of the post nobody knows what its blocks mean.
+    lint::join(project, compilation_, project.postControl != nullptr);
+    reportUnknownSets(project);
     project.shared = lint::sharedInputs(project, std::move(checked));
     return project;
   }
 
-  // As the control of --control reads them, else the first that can.
-  std::shared_ptr<const ir::ProgramFile> lowered(const macrob::File& file) {
-    const auto as = [&](const stdlib::Control& control) -> std::shared_ptr<const ir::ProgramFile> {
-      Diagnostics ignored;
-      auto program = macrob::lower(file, control, session_.sources(), ignored);
-      return program ? std::make_shared<const ir::ProgramFile>(std::move(*program)) : nullptr;
-    };
-    if (control_) return as(*control_);
-    for (const stdlib::DataFile* data : session_.data().list("controls")) {
-      const auto control = stdlib::Control::load(session_.data(), data->name);
-      if (!control) continue;
-      if (auto program = as(*control)) return program;
+  void reportUnknownSets(const lint::Project& project) {
+    if (inputs_->sets.empty()) return;
+    std::string cycles;
+    std::set<std::string> declared; // also by cycles without a Prog
+    for (const gibbs::Cycle* cycle : project.cycles) {
+      cycles += (cycles.empty() ? "" : ", ") + cycle->name;
+      for (const gibbs::Field& field : gibbs::declaredFields(*cycle))
+        declared.insert(gibbs::foldCase(field.name.text));
     }
-    return nullptr;
+    for (const auto& [name, value] : inputs_->sets)
+      if (!compilation_.usedSets().contains(name) && !declared.contains(gibbs::foldCase(name)))
+        session_.diagnostics().report<diag::NoSuchField>({}, name, cycles, "");
   }
 
   void suppress(const lint::Project& project) {
@@ -221,7 +205,7 @@ private:
     }
     const bool cycle = isCycleFolder(path);
     // The folder's loader owns the trees of sub-macros; they are linted below as files of their own.
-    if (cycle) folders_.push_back(loadCycleFolder(path, session_, false));
+    if (cycle) compilation_.addFolder(path, false);
     std::vector<fs::path> entries;
     for (const auto& entry : fs::directory_iterator(path, error))
       entries.push_back(entry.path());
@@ -248,16 +232,12 @@ private:
   void file(const std::string& path, bool named) {
     if (!options_.common.from && path.ends_with(".toml") && job(path)) return;
     if (!named && !mayBeSource(path)) return;
-    std::optional<InputKind> kind;
-    if (options_.common.from) {
-      kind = kindByName(*options_.common.from);
-    } else {
-      Diagnostics ignored;
-      const std::optional<std::string> bytes =
-          readBytes(path, session_.limits(), named ? session_.diagnostics() : ignored);
-      if (!bytes) return;
-      kind = recognise(path, *bytes);
-    }
+    Diagnostics found;
+    const std::optional<InputKind> kind = compilation_.kindOf(path, found);
+    if (named)
+      for (const Diagnostic& one : found.all())
+        session_.diagnostics().add(one);
+    if (found.hasErrors()) return;
     if (!kind) {
       // A text that cannot be read says why; another one is none of ours.
       const std::optional<FileId> id = session_.read(path, Encoding::Cp1250);
@@ -269,11 +249,10 @@ private:
       return;
     }
     if (*kind == InputKind::Prog) {
-      auto program = loadProg(path, session_, false);
-      if (!program) return;
+      const compost::Program* program = compilation_.addProg(path, false);
+      if (program == nullptr) return;
       for (const auto* routine : compost::cycleRoutines(*program, session_.compostKeywords()))
         entryPoints_.insert(routine->name);
-      progs_.push_back(std::move(*program));
       return;
     }
     const std::optional<FileId> id =
@@ -281,23 +260,19 @@ private:
     if (!id) return;
     if (*kind == InputKind::Suf) return suf(*id);
     if (*kind == InputKind::Nc) {
-      macrob::File program = macrob::parse(*id, session_.sources(), session_.limits(), session_.diagnostics(),
-                                           textOf(options_.common));
-      programs_.push_back(std::move(program));
+      compilation_.addPrograms(*id);
       return;
     }
     const gibbs::ParseContext context{session_.sources(), session_.gibbsKeywords(), session_.limits(),
                                       session_.diagnostics()};
     if (*kind == InputKind::Macro) {
-      macros_.push_back(gibbs::parseMacro(*id, context));
+      const gibbs::Macro& macro = compilation_.addMacro(*id);
       MacroLoader loader(session_, fs::path(path).parent_path());
-      checked_.emplace_back(macros_.back(), loader.included(macros_.back()), context);
+      checked_.emplace_back(macro, loader.included(macro), context);
     } else if (*kind == InputKind::Dialog) {
-      dialogs_.push_back(gibbs::parseDialog(*id, context));
-      checked_.emplace_back(dialogs_.back(), context);
+      checked_.emplace_back(compilation_.addDialog(*id), context);
     } else {
-      defines_.push_back(gibbs::parseDefineData(*id, context));
-      checked_.emplace_back(defines_.back(), context);
+      checked_.emplace_back(compilation_.addDefineData(*id), context);
     }
   }
 
@@ -363,16 +338,12 @@ private:
   const LintOptions& options_;
   Session& session_;
   LintConfigs configs_;
-  std::optional<stdlib::Control> control_;            // --control
+  Compilation compilation_;
+  LoweringInputs* inputs_ = nullptr;
+  const stdlib::Control* control_ = nullptr;          // --control
   std::optional<stdlib::MikroprogControl> mikroprog_; // the same, for .SUF
   std::set<std::string> entryPoints_;                 // routines that run without a call in the Prog
-  std::deque<compost::Program> progs_;
-  std::deque<CycleFolder> folders_;
-  std::deque<gibbs::Macro> macros_;
-  std::deque<gibbs::Dialog> dialogs_;
-  std::deque<gibbs::DefineData> defines_;
   std::deque<gibbs::CheckedFile> checked_; // files that are no part of a cycle's folder
-  std::deque<macrob::File> programs_;
   std::deque<frontend::mikroprog::Program> sufPrograms_;
   std::deque<frontend::mikroprog::Reading> sufReadings_;
   std::map<std::string, std::optional<stdlib::MikroprogControl>> sufControls_; // loaded once, by name

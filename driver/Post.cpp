@@ -5,6 +5,7 @@
 #include "project/CycleChecks.h"
 #include "project/CycleFolder.h"
 #include "project/Fields.h"
+#include "project/FormChoice.h"
 #include "project/Hosts.h"
 #include "project/Job.h"
 #include "project/Prog.h"
@@ -107,7 +108,8 @@ bool PostCommand::load() {
   }
   if (options_.source.cycle && options_.folders.size() > 1) diagnostics.report<diag::CycleWithSeveral>({});
   if (common.job) job_ = loadJob(*common.job, common.limits, session_.sources(), diagnostics);
-  form_ = session_.form(options_.source.form);
+  const FormChoice choice = chooseForm(options_.source, session_);
+  form_ = session_.form(choice.name);
   if (diagnostics.hasErrors()) return false;
   for (const std::string& path : options_.folders)
     folders_.push_back(loadCycleFolder(path, session_));
@@ -119,7 +121,10 @@ bool PostCommand::load() {
     }
   }
   program_ = loadProg(*options_.source.prog, session_);
-  if (program_) leaveFindingsToLint(session_);
+  if (program_) {
+    leaveFindingsToLint(session_);
+    noteForm(choice, program_->file, session_);
+  }
   return program_ && !diagnostics.hasErrors();
 }
 

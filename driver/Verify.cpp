@@ -20,6 +20,16 @@
 namespace dotek::driver {
 namespace {
 
+// What is said of the form holds for all cases; everything else that was found on the way to them is not the
+// result of verify.
+void keepOfForm(const Diagnostics& found, Diagnostics& kept) {
+  std::set<std::string> told;
+  for (const Diagnostic& one : kept.all())
+    told.insert(one.message);
+  for (const Diagnostic& one : found.all())
+    if (isAboutForm(one.code) && told.insert(one.message).second) kept.add(one);
+}
+
 class VerifyCommand {
 public:
   VerifyCommand(const VerifyOptions& options, Session& session)
@@ -27,7 +37,11 @@ public:
 
   Outcome run() {
     if (!checkOptions()) return outcomeOf(session_, "");
-    if (!main_.load() || !makePlan()) return outcomeOf(main_.session(), "");
+    if (!main_.load()) return outcomeOf(main_.session(), "");
+    Diagnostics ofForm;
+    keepOfForm(main_.session().diagnostics(), ofForm);
+    if (!makePlan()) return outcomeOf(main_.session(), "");
+    keepOfForm(main_.session().diagnostics(), ofForm);
     main_.session().diagnostics() = Diagnostics();
     if (!main_.prepare()) return outcomeOf(main_.session(), "");
     VerifyReport report(options_, plan_, main_);
@@ -40,7 +54,11 @@ public:
     const bool edges = !options_.to.empty() && !options_.replay;
     if (!runCases(options_, edges, main_, another, report)) return outcomeOf(main_.session(), "");
     main_.session().diagnostics() = Diagnostics();
-    return report.finish();
+    Outcome outcome = report.finish();
+    for (const Diagnostic& one : ofForm.all())
+      outcome.diagnostics.add(one);
+    outcome.diagnostics.sort();
+    return outcome;
   }
 
 private:
@@ -87,8 +105,7 @@ private:
     plan_.fixedHosts = main_.inputs().hosts;
     takeOperation();
     if (!loadWorld(options_, plan_, session)) return false;
-    std::set<std::string> used;
-    std::optional<LoweredCycle> lowered = lowerCycle(main_.folder(), main_.inputs(), used, session);
+    std::optional<LoweredCycle> lowered = main_.compilation().lower(main_.folder());
     if (!lowered && (!options_.to.empty() || !main_.inputs().program)) return false;
     if (lowered) {
       if (lowered->macros != nullptr) plan_.sourceMacros = lowered->macros->name;

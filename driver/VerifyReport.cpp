@@ -125,7 +125,7 @@ std::string VerifyReport::replay(const verify::Case& drawn) const {
     out += fmt::format(" {} {}", name, quoted(value));
   };
   if (options_.source.prog) flag("--prog", *options_.source.prog);
-  if (options_.source.form != SourceOptions().form) flag("--form", options_.source.form);
+  if (options_.source.form) flag("--form", *options_.source.form);
   if (options_.source.routine) flag("--routine", *options_.source.routine);
   if (options_.source.cycle) flag("--cycle", *options_.source.cycle);
   if (!options_.to.empty()) flag("--to", options_.to);

@@ -211,12 +211,16 @@ std::vector<std::optional<ProbeState>> Probing::statesOf(const std::vector<State
       });
 }
 
-std::vector<std::optional<ProbeState>> Probing::states(const std::vector<ir::CycleStatement>& body) const {
-  return statesOf(body);
+const std::vector<std::optional<ProbeState>>&
+Probing::states(const std::vector<ir::CycleStatement>& body) const {
+  const auto known = states_.find(&body);
+  return known != states_.end() ? known->second : states_.emplace(&body, statesOf(body)).first->second;
 }
 
-std::vector<std::optional<ProbeState>> Probing::states(const std::vector<ir::ProgramStatement>& body) const {
-  return statesOf(body);
+const std::vector<std::optional<ProbeState>>&
+Probing::states(const std::vector<ir::ProgramStatement>& body) const {
+  const auto known = states_.find(&body);
+  return known != states_.end() ? known->second : states_.emplace(&body, statesOf(body)).first->second;
 }
 
 bool Probing::probes(const ir::Program& program) const {

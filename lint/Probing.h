@@ -7,8 +7,10 @@
 
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <optional>
 #include <set>
+#include <vector>
 
 namespace dotek::lint {
 
@@ -45,9 +47,9 @@ public:
 
   ProbeStep step(const ir::CycleStatement& statement) const;
   ProbeStep step(const ir::ProgramStatement& statement) const;
-  // State before each statement; nothing where no path leads.
-  std::vector<std::optional<ProbeState>> states(const std::vector<ir::CycleStatement>& body) const;
-  std::vector<std::optional<ProbeState>> states(const std::vector<ir::ProgramStatement>& body) const;
+  // State before each statement; nothing where no path leads. `body` is of the project: computed once.
+  const std::vector<std::optional<ProbeState>>& states(const std::vector<ir::CycleStatement>& body) const;
+  const std::vector<std::optional<ProbeState>>& states(const std::vector<ir::ProgramStatement>& body) const;
   // Calls some macro of a probing set.
   bool probes(const ir::Program& program) const;
   // The program is one of these files, and a G31 stands in it or in one that it calls.
@@ -68,7 +70,11 @@ private:
   // Without --control a code of the builder counts as the one known profile that has it says, where the files
   // probe at all: M31 is a conveyor elsewhere.
   bool guessCodes_ = false;
+  mutable std::map<const void*, std::vector<std::optional<ProbeState>>> states_; // by the address of the body
 };
+
+// Computed once a project.
+const Probing& probingOf(const Project& project);
 
 // M30 or M2, which no cycle has.
 bool endsProgram(const ir::CycleStatement& statement);

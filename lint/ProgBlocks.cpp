@@ -209,12 +209,12 @@ std::uint32_t macroCalled(const std::vector<ProgWord>& words) {
   return error == std::errc() && end == digits.data() + digits.size() ? number : 0;
 }
 
-std::vector<ProgBlock> blocksOf(const std::vector<compost::Statement>& statements,
-                                const compost::Program& prog, const Project& project) {
+std::vector<ProgBlock> collectBlocks(const std::vector<compost::Statement>& statements,
+                                     const compost::Program& prog, const Project& project) {
   return Collector(prog, project).run(statements);
 }
 
-std::vector<Siblings> siblingsOf(const Project& project) {
+std::vector<Siblings> findSiblings(const Project& project) {
   std::vector<Siblings> out;
   eachRoutine(project, [&](const compost::Program& prog, const compost::Routine& routine) {
     Siblings siblings{&prog, &routine, {}};

@@ -51,9 +51,11 @@ const ProgWord* findWord(const std::vector<ProgWord>& words, char address);
 std::uint32_t macroCalled(const std::vector<ProgWord>& words);
 
 // The blocks that the statements print, those of called routines included, both arms of an IF one after
-// the other.
-std::vector<ProgBlock> blocksOf(const std::vector<compost::Statement>& statements,
-                                const compost::Program& prog, const Project& project);
+// the other. Computed once a project; `statements` are of its Prog.
+const std::vector<ProgBlock>& blocksOf(const std::vector<compost::Statement>& statements,
+                                       const compost::Program& prog, const Project& project);
+std::vector<ProgBlock> collectBlocks(const std::vector<compost::Statement>& statements,
+                                     const compost::Program& prog, const Project& project);
 
 // A branch that is printed for one cycle.
 struct CycleBranch {
@@ -67,7 +69,9 @@ struct Siblings {
   const compost::Routine* routine = nullptr;
   std::vector<CycleBranch> branches;
 };
-std::vector<Siblings> siblingsOf(const Project& project);
+// Computed once a project.
+const std::vector<Siblings>& siblingsOf(const Project& project);
+std::vector<Siblings> findSiblings(const Project& project);
 
 // Visits all statements of a routine, outer ones first.
 void eachStatement(const std::vector<compost::Statement>& statements,

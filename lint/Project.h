@@ -17,11 +17,17 @@
 #include "support/Limits.h"
 
 #include <memory>
-#include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
+namespace dotek::project {
+class Compilation;
+}
+
 namespace dotek::lint {
+
+class Analyses;
 
 namespace compost = frontend::compost;
 namespace gibbs = frontend::gibbs;
@@ -33,8 +39,8 @@ struct Joined {
   const gibbs::Cycle* cycle = nullptr;
   const compost::Program* prog = nullptr;
   const compost::Routine* routine = nullptr; // that posts the cycle; nullptr: none or several
-  // The blocks of the routine and the checks of the macro, lowered; nothing where they have no single
-  // meaning. A field that the folder lacks is a parameter without default.
+  // What convert works on; nothing where the Prog's blocks have no single meaning. A field that the folder
+  // lacks is a parameter without default.
   std::shared_ptr<const ir::Cycle> lowered;
   bool checksLowered = false;
 };
@@ -53,28 +59,29 @@ struct Project {
   const Limits& limits;
   const stdlib::GibbsKeywords& gibbsKeywords;
   const stdlib::ComPostKeywords& compostKeywords;
-  std::vector<stdlib::MacroSet> macroSets;
-  std::optional<stdlib::Form> form;
-  std::optional<stdlib::Control> control;     // --control
-  std::optional<stdlib::Control> postControl; // of the form
-  std::vector<const compost::Program*> progs;
-  std::vector<const gibbs::Cycle*> cycles;
-  std::vector<const gibbs::Macro*> macros; // outside cycle folders, or called within one
-  std::vector<const gibbs::Dialog*> dialogs;
-  std::vector<const gibbs::DefineData*> defines;
-  std::vector<NcFile> programs;
-  std::vector<Joined> joined;
-  std::vector<stdlib::Control> controls; // all profiles, where --control names none
-  std::vector<const mikroprog::Reading*> sufPrograms;
-  std::shared_ptr<const SharedInputs> shared; // what shared checks look at
+  std::span<const stdlib::MacroSet> macroSets;
+  const stdlib::Form* form = nullptr;
+  const stdlib::Control* control = nullptr;     // --control
+  const stdlib::Control* postControl = nullptr; // of the form; nullptr: it names none
+  std::vector<const compost::Program*> progs = {};
+  std::vector<const gibbs::Cycle*> cycles = {};
+  std::vector<const gibbs::Macro*> macros = {}; // outside cycle folders, or called within one
+  std::vector<const gibbs::Dialog*> dialogs = {};
+  std::vector<const gibbs::DefineData*> defines = {};
+  std::vector<NcFile> programs = {};
+  std::vector<const mikroprog::Reading*> sufPrograms = {};
+  std::vector<Joined> joined = {};
+  std::span<const stdlib::Control> controls = {}; // all profiles, where --control names none
+  std::shared_ptr<Analyses> analyses = nullptr;   // of this project
+  std::shared_ptr<const SharedInputs> shared = nullptr; // what shared checks look at
 
   // Those of cycle folders too, in the order of reading.
   std::vector<const gibbs::Macro*> allMacros() const;
   std::vector<const gibbs::Dialog*> allDialogs() const;
 };
 
-// Fills `joined`, each cycle with each Prog that names it, and what shared checks look at.
-void join(Project& project);
+// Fills `joined`: each cycle with each Prog that names it, lowered where `lower` says so.
+void join(Project& project, dotek::project::Compilation& compilation, bool lower);
 
 // Runs the rules for which `wanted` holds.
 template <class Wanted>

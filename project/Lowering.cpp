@@ -10,6 +10,7 @@
 #include "ir/Verify.h"
 #include "project/Assumptions.h"
 #include "project/Fields.h"
+#include "project/FormChoice.h"
 #include "project/Hosts.h"
 #include "project/Prog.h"
 #include "project/Values.h"
@@ -19,6 +20,7 @@
 #include "support/messages/Nc.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace dotek::project {
 
@@ -56,8 +58,8 @@ void readSets(LoweringInputs& inputs, Session& session) {
 // One cycle on its way to the IR.
 class Lowering {
 public:
-  Lowering(const CycleFolder& folder, const LoweringInputs& inputs, Session& session)
-      : folder_(folder), inputs_(inputs), session_(session) {}
+  Lowering(const CycleFolder& folder, const LoweringInputs& inputs, Session& session, Strictness strictness)
+      : folder_(folder), inputs_(inputs), session_(session), lenient_(strictness == Strictness::Lenient) {}
 
   std::optional<LoweredCycle> run(std::set<std::string>& usedSets);
 
@@ -78,6 +80,7 @@ private:
   const CycleFolder& folder_;
   const LoweringInputs& inputs_;
   Session& session_;
+  const bool lenient_;
   LoweredCycle out_;
   std::map<std::string, ir::VariableId> parameters_; // by folded name
   std::map<std::string, ir::VariableId> postOnly_;   // fields that only the post knows
@@ -111,9 +114,16 @@ void Lowering::fix(ir::VariableId id, const std::string& name, double value) {
 
 std::optional<ir::VariableId> Lowering::fieldVariable(FieldTable& fields, const std::string& name,
                                                       SourceRange where) {
+  Diagnostics before;
+  if (lenient_) before = session_.diagnostics();
   const std::optional<FieldOrigin> origin = fields.origin(name, where);
-  if (!origin) return std::nullopt;
-  if (!origin->number) return parameters_.at(gibbs::foldCase(origin->variable));
+  if (lenient_) session_.diagnostics() = std::move(before);
+  if (!origin && !lenient_) return std::nullopt;
+  if (origin && !origin->number) return parameters_.at(gibbs::foldCase(origin->variable));
+  if (!origin) {
+    const auto alike = parameters_.find(gibbs::foldCase(name));
+    if (alike != parameters_.end()) return alike->second;
+  }
   const auto known = postOnly_.find(name);
   if (known != postOnly_.end()) return known->second;
   ir::Variable variable;
@@ -122,7 +132,7 @@ std::optional<ir::VariableId> Lowering::fieldVariable(FieldTable& fields, const 
   variable.range = where;
   const ir::VariableId id = cycle().add(std::move(variable));
   postOnly_.emplace(name, id);
-  fix(id, name, *origin->number);
+  if (origin) fix(id, name, *origin->number);
   return id;
 }
 
@@ -203,7 +213,12 @@ bool Lowering::checks() {
     return true;
   }
   gibbs::LowerContext context = gibbsContext();
-  return gibbs::lowerChecks(*folder_.cycle->cycleData, cycle(), context);
+  if (!lenient_) return gibbs::lowerChecks(*folder_.cycle->cycleData, cycle(), context);
+  out_.checked = !folder_.cycle->cycleData->hasErrorNodes &&
+                 gibbs::lowerChecks(*folder_.cycle->cycleData, cycle(), context);
+  if (!out_.checked) cycle().checks.clear();
+  session_.diagnostics() = Diagnostics(); // only errors of the body are in its way
+  return true;
 }
 
 bool Lowering::turnedAway() {
@@ -228,9 +243,10 @@ bool Lowering::settleChangedFields() {
         std::any_of(controls->controls.begin(), controls->controls.end(), [&](const gibbs::Control& control) {
           return control.variable && gibbs::foldCase(control.variable->text) == folded;
         });
-    if (!typed || assume.contains("changed-field=macro")) {
+    const bool given = assume.contains("changed-field=given");
+    if (!typed || assume.contains("changed-field=macro") || (lenient_ && !given)) {
       session_.diagnostics().report<diag::FieldAssigned>(statement.origin.range(), name);
-    } else if (assume.contains("changed-field=given")) {
+    } else if (given) {
       shadows.emplace(assign->variable, 0);
     } else {
       session_.diagnostics().report<diag::FieldAssignedByChecks>(statement.origin.range(), name);
@@ -288,15 +304,15 @@ std::optional<LoweredCycle> Lowering::run(std::set<std::string>& usedSets) {
   bool good = true;
   for (const auto& [postField, variable] : session_.options().field)
     good = fields.map(postField, variable) && good;
-  if (!good) return std::nullopt;
+  if (!good && !lenient_) return std::nullopt;
   good = checks();
   // What the dialog turns away is told before what its blocks would come to.
-  if (good && turnedAway()) return std::nullopt;
+  if (good && !lenient_ && turnedAway()) return std::nullopt;
   good = (routine != nullptr ? branch(*routine, fields) : path()) && good;
   if (!good || session_.diagnostics().hasErrors()) return std::nullopt;
   if (!settleChangedFields()) return std::nullopt;
   ir::inferKinds(cycle());
-  if (!verified()) return std::nullopt;
+  if (!lenient_ && !verified()) return std::nullopt;
   return std::move(out_);
 }
 
@@ -306,6 +322,12 @@ const stdlib::MacroSet* LoweringInputs::macroSet(const std::string& name) const 
   const auto found = std::find_if(macroSets.begin(), macroSets.end(),
                                   [&](const stdlib::MacroSet& set) { return set.name == name; });
   return found == macroSets.end() ? nullptr : &*found;
+}
+
+void useForm(LoweringInputs& inputs, const std::string& name, Session& session) {
+  inputs.form = session.form(name);
+  if (inputs.form && !inputs.form->control.empty())
+    inputs.sourceControl = loadControl(inputs.form->control, session);
 }
 
 std::optional<LoweringInputs> loadLoweringInputs(const SourceOptions& source, const std::string& control,
@@ -327,23 +349,27 @@ std::optional<LoweringInputs> loadLoweringInputs(const SourceOptions& source, co
     if (auto set = stdlib::MacroSet::load(session.data(), file->name))
       inputs.macroSets.push_back(std::move(*set));
   }
+  inputs.sourceControl = inputs.control;
   if (source.prog) {
-    inputs.form = session.form(source.form);
-    if (inputs.form && !inputs.form->control.empty())
-      inputs.sourceControl = loadControl(inputs.form->control, session);
-    else
-      inputs.sourceControl = inputs.control;
-    if (!diagnostics.hasErrors()) inputs.program = loadProg(*source.prog, session);
-  } else {
-    inputs.sourceControl = inputs.control;
+    const FormChoice choice = chooseForm(source, session);
+    useForm(inputs, choice.name, session);
+    std::optional<compost::Program> program;
+    if (!diagnostics.hasErrors()) program = loadProg(*source.prog, session);
+    if (program) noteForm(choice, program->file, session);
+    if (program) inputs.program = std::make_shared<const compost::Program>(std::move(*program));
   }
   if (diagnostics.hasErrors() || (source.prog && !inputs.program)) return std::nullopt;
   return inputs;
 }
 
 std::optional<LoweredCycle> lowerCycle(const CycleFolder& folder, const LoweringInputs& inputs,
-                                       std::set<std::string>& usedSets, Session& session) {
-  return Lowering(folder, inputs, session).run(usedSets);
+                                       std::set<std::string>& usedSets, Session& session,
+                                       Strictness strictness) {
+  if (strictness == Strictness::Strict) return Lowering(folder, inputs, session, strictness).run(usedSets);
+  Diagnostics kept = std::exchange(session.diagnostics(), Diagnostics());
+  std::optional<LoweredCycle> out = Lowering(folder, inputs, session, strictness).run(usedSets);
+  session.diagnostics() = std::move(kept);
+  return out;
 }
 
 } // namespace dotek::project

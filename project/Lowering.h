@@ -11,7 +11,9 @@
 #include "stdlib/Form.h"
 #include "stdlib/MacroSet.h"
 
+#include <cstdint>
 #include <map>
+#include <memory>
 #include <optional>
 #include <set>
 #include <string>
@@ -28,10 +30,10 @@ std::optional<stdlib::Control> loadControl(const std::string& name, Session& ses
 // What one command reads before its first cycle.
 struct LoweringInputs {
   std::optional<stdlib::Form> form;
-  std::optional<frontend::compost::Program> program; // nothing: no --prog
-  std::optional<stdlib::Control> control;            // --control, else the first of the target
-  std::optional<stdlib::Control> sourceControl;      // of the machine that the post writes for
-  std::vector<stdlib::MacroSet> macroSets;           // all, by name
+  std::shared_ptr<const frontend::compost::Program> program; // nullptr: no --prog
+  std::optional<stdlib::Control> control;                    // --control, else the first of the target
+  std::optional<stdlib::Control> sourceControl;              // of the machine that the post writes for
+  std::vector<stdlib::MacroSet> macroSets;                   // all, by name
   std::optional<Job> job;
   std::map<std::string, double> hosts;              // --host, then the job
   std::vector<std::pair<std::string, double>> sets; // --set
@@ -45,6 +47,9 @@ struct LoweringInputs {
 std::optional<LoweringInputs> loadLoweringInputs(const SourceOptions& source, const std::string& control,
                                                  Session& session);
 
+// The form of this name, and the control that it is of. What is missing is reported.
+void useForm(LoweringInputs& inputs, const std::string& name, Session& session);
+
 struct LoweredCycle {
   ir::Cycle cycle;
   const stdlib::MacroSet* macros = nullptr;  // the set that the source calls; nullptr: none
@@ -52,11 +57,18 @@ struct LoweredCycle {
   std::map<std::string, double> fixedByName; // the same, as the command line names them
   std::set<ir::VariableId> givenDefaults;    // defaults that the command line gave
   std::vector<ir::PrintedBlock> printed;     // what the Prog prints, block by block; empty without a Prog
+  bool checked = true; // the checks of the dialog are lowered; false of a lenient one that cannot read them
 };
 
+// Strict refuses and reports what has no single meaning, as a result that somebody runs needs it. Lenient
+// reports nothing: a field that the folder lacks is a parameter without default, checks that cannot be read
+// are left out, and values that they reject are taken. For who judges what is written.
+enum class Strictness : std::uint8_t { Strict, Lenient };
+
 // `usedSets` collects the names of --set that the cycle knows. nullopt where something has no single meaning:
-// reported.
+// reported by a strict lowering.
 std::optional<LoweredCycle> lowerCycle(const CycleFolder& folder, const LoweringInputs& inputs,
-                                       std::set<std::string>& usedSets, Session& session);
+                                       std::set<std::string>& usedSets, Session& session,
+                                       Strictness strictness = Strictness::Strict);
 
 } // namespace dotek::project

@@ -7,6 +7,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -29,10 +30,13 @@ struct CommonOptions {
   std::optional<std::string> from; // kind of the inputs
 };
 
+// The form of a Prog where nobody names one.
+inline constexpr std::string_view kDefaultForm = "thesis-a";
+
 // Flags that say where the post stands.
 struct SourceOptions {
   std::optional<std::string> prog;
-  std::string form = "thesis-a";
+  std::optional<std::string> form; // nothing: what dotek.toml says, else kDefaultForm
   std::optional<std::string> routine;
   std::optional<std::string> cycle;
 };

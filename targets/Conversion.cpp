@@ -6,7 +6,7 @@ namespace dotek::targets {
 
 std::optional<LoweredSource> lowerSource(const CycleFolder& folder, ConversionContext& context) {
   Session& session = context.session;
-  std::optional<LoweredCycle> lowered = lowerCycle(folder, *context.inputs, context.usedSets, session);
+  std::optional<LoweredCycle> lowered = context.compilation.lower(folder);
   if (!lowered) return std::nullopt;
   LoweredSource out{std::move(*lowered), {}};
   ir::Cycle& cycle = out.lowered.cycle;

@@ -1,6 +1,7 @@
 // How a target writes the inputs of one `convert`.
 #pragma once
 
+#include "project/Compilation.h"
 #include "project/CycleFolder.h"
 #include "project/Lowering.h"
 #include "project/Session.h"
@@ -8,6 +9,7 @@
 #include "targets/Options.h"
 
 #include <cstdint>
+#include <deque>
 #include <map>
 #include <optional>
 #include <set>
@@ -42,12 +44,14 @@ struct ConversionResult {
 // What one command works on; a conversion adds to `used...` and `result`.
 struct ConversionContext {
   const ConvertOptions& options;
-  Session& session;
-  std::map<std::string, char> letters;  // of --arg
-  std::optional<LoweringInputs> inputs; // nothing: no input is a cycle
-  std::vector<CycleFolder> folders;
-  std::set<std::string> usedSets, usedDefaults, usedLetters; // names that a cycle knows
-  ConversionResult result;
+  Compilation& compilation;
+  Session& session;                                          // of the compilation
+  std::deque<CycleFolder>& folders;                          // of the compilation
+  std::set<std::string>& usedSets;                           // of the compilation
+  LoweringInputs* inputs = nullptr;                          // nullptr: no input is a cycle
+  std::map<std::string, char> letters = {};                  // of --arg
+  std::set<std::string> usedDefaults = {}, usedLetters = {}; // names that a cycle knows
+  ConversionResult result = {};
 };
 
 class Conversion {

@@ -65,17 +65,16 @@ std::optional<SourceRange> spindleOffIn(const ir::Program& program, const stdlib
 } // namespace
 
 CaseRunner::CaseRunner(const VerifyOptions& options, const VerifyPlan& plan)
-    : options_(options), plan_(plan), session_(options.common) {}
+    : options_(options), plan_(plan), session_(options.common), compilation_(session_) {}
 
 CaseRunner::~CaseRunner() = default;
 
 bool CaseRunner::load() {
   const Target* target = findTarget(options_.to);
   const bool first = options_.control.empty() || (target != nullptr && target->ownControls);
-  inputs_ =
-      loadLoweringInputs(options_.source, first ? std::string(kDefaultControl) : options_.control, session_);
-  if (!inputs_) return false;
-  folder_ = loadCycleFolder(options_.inputs.front(), session_);
+  inputs_ = compilation_.load(options_.source, first ? std::string(kDefaultControl) : options_.control);
+  if (inputs_ == nullptr) return false;
+  folder_ = &compilation_.addFolder(options_.inputs.front());
   if (options_.source.cycle) folder_->name = *options_.source.cycle;
   if (target != nullptr && target->fixesValues && !session_.diagnostics().hasErrors())
     if (const JobOperation* operation = operationOf(*folder_, *inputs_, session_))

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "frontend/compost/Post.h"
+#include "project/Compilation.h"
 #include "project/CycleFolder.h"
 #include "project/Fields.h"
 #include "project/Lowering.h"
@@ -42,6 +43,7 @@ public:
   SourceRange place() const override { return {folder_->place, 0, 0}; }
   const CycleFolder& folder() const { return *folder_; }
   LoweringInputs& inputs() { return *inputs_; }
+  Compilation& compilation() { return compilation_; }
 
   std::optional<verify::Case> draw(std::uint64_t index) override;
   verify::Case edge(std::uint64_t index) override { return settled(draws_->edge(index)); }
@@ -79,8 +81,9 @@ private:
   const VerifyOptions& options_;
   const VerifyPlan& plan_;
   Session session_;
-  std::optional<LoweringInputs> inputs_;
-  std::optional<CycleFolder> folder_;
+  Compilation compilation_;
+  LoweringInputs* inputs_ = nullptr;
+  CycleFolder* folder_ = nullptr;
   const frontend::compost::Routine* routine_ = nullptr;
   std::optional<FieldTable> fields_;
   std::optional<verify::Draws> draws_;

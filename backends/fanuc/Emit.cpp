@@ -83,10 +83,12 @@ bool fits(const EmitOptions& options, SourceRange range, Diagnostics& diagnostic
 } // namespace
 
 std::optional<std::vector<EmittedLine>> emit(const ir::Cycle& cycle, const EmitOptions& options,
-                                             const SourceMap& sources, Diagnostics& diagnostics) {
+                                             const SourceMap& sources, Diagnostics& diagnostics,
+                                             std::vector<Argument>* assigned) {
   if (!fits(options, cycle.range, diagnostics)) return std::nullopt;
   auto arguments = assignLetters(cycle, options, diagnostics);
   if (!arguments) return std::nullopt;
+  if (assigned != nullptr) *assigned = *arguments;
   State state(cycle, options, sources, diagnostics, std::move(*arguments));
   if (state.macros.needsSkipPosition && !state.control.variables.skip && ir::probes(cycle))
     state.refuse<diag::NoSkipPosition>(cycle.range, "macros of " + state.macros.title, state.control.title);

@@ -52,7 +52,9 @@ std::optional<std::vector<Argument>> assignLetters(const ir::Cycle& cycle, const
                                                    Diagnostics& diagnostics);
 
 // The program, `%` lines included. nullopt where the control or the macro set cannot say something: reported.
+// `assigned`, unless it is nullptr, gets the letters of the program.
 std::optional<std::vector<EmittedLine>> emit(const ir::Cycle& cycle, const EmitOptions& options,
-                                             const SourceMap& sources, Diagnostics& diagnostics);
+                                             const SourceMap& sources, Diagnostics& diagnostics,
+                                             std::vector<Argument>* assigned = nullptr);
 
 } // namespace dotek::backends::fanuc

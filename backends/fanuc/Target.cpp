@@ -57,13 +57,12 @@ public:
     for (const char* place : {"start_x", "start_y", "start_z"}) {
       if (const auto given = inputs.hosts.find(place); given != inputs.hosts.end()) emit.fixed.insert(*given);
     }
-    const auto lines = fanuc::emit(lowered.cycle, emit, session_.sources(), session_.diagnostics());
+    std::vector<fanuc::Argument> letters;
+    const auto lines = fanuc::emit(lowered.cycle, emit, session_.sources(), session_.diagnostics(), &letters);
     if (!lines) return true;
-    Diagnostics told; // by emit() already
     std::vector<OutputArgument> arguments;
-    if (const auto letters = fanuc::assignLetters(lowered.cycle, emit, told))
-      for (const fanuc::Argument& one : *letters)
-        arguments.push_back({lowered.cycle.variable(one.variable).name, one.letter});
+    for (const fanuc::Argument& one : letters)
+      arguments.push_back({lowered.cycle.variable(one.variable).name, one.letter});
     ConversionResult& result = context_.result;
     result.arguments.push_back(std::move(arguments));
     result.macros = macros->name;

@@ -134,7 +134,14 @@ Truth Conditions::truth(const Word& boolean, Diagnostics& diagnostics) {
   if (assumptions_->contains(assumed(boolean) + "=no")) return false;
   if (!boolean.arguments.empty()) return std::nullopt;
   const auto known = form_->booleans.find(boolean.name);
-  if (known != form_->booleans.end()) return known->second.value;
+  if (known != form_->booleans.end()) {
+    const bool value = known->second.value;
+    if (!known->second.observed && told_.insert(boolean.name).second)
+      diagnostics.report<diag::FormAssumed>(boolean.range, boolean.name + "?", form_->name,
+                                            "that `" + boolean.name + "?` is " + (value ? "true" : "false"),
+                                            form_->origin);
+    return value;
+  }
   return std::nullopt;
 }
 

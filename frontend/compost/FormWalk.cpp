@@ -58,10 +58,12 @@ void FormWalk::command(const Word& word) {
   }
   if (word.arguments.empty()) {
     if (const auto entry = form_.sequences.find(word.name); entry != form_.sequences.end()) {
+      tables_.noteAssumed(word.name, entry->second, word.range, *diagnostics_);
       sequenceNumber(entry->second.text, word.range);
       return;
     }
     if (const auto entry = form_.commands.find(word.name); entry != form_.commands.end()) {
+      tables_.noteAssumed(word.name, entry->second, word.range, *diagnostics_);
       text(entry->second.text, word.range);
       if (entry->second.value.empty()) return;
       if (const SourceRange* format = tables_.commandFormat(word.name)) {
@@ -103,6 +105,7 @@ void FormWalk::numeric(const Word& word) {
         refuse<diag::NumericNotInForm>(word.nameRange, word.name, form_.name, form_.origin);
       return;
     }
+    tables_.noteAssumed(word.name, entry->second, word.range, *diagnostics_);
     from = PrintedValue::From::Host;
     name = entry->second.value;
   }

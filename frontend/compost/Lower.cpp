@@ -79,6 +79,7 @@ std::optional<Lowered> lowerRoutine(const Program& program, const Routine& routi
   for (const nc::Block& block : run.blocks()) {
     if (!nc::lift(block, context, lowered.body)) ok = false;
   }
+  nc::reportPictures(context);
   if (!ok || run.hasFailed()) return std::nullopt;
   lowered.printed = run.takePrinted();
   return lowered;

@@ -35,6 +35,16 @@ const SourceRange* ProgTables::commandFormat(std::string_view name) const {
   return found == commandFormats_.end() ? nullptr : &found->second;
 }
 
+void ProgTables::noteAssumed(const std::string& keyword, const stdlib::FormEntry& entry, SourceRange where,
+                             Diagnostics& diagnostics) {
+  if (entry.observed || !assumed_.insert(keyword).second) return;
+  std::string what = "that `" + keyword + "` prints";
+  if (!entry.text.empty()) what += " `" + entry.text + "`";
+  if (!entry.value.empty())
+    what += (entry.text.empty() ? " " : " and ") + entry.value + " with the picture `" + entry.picture + "`";
+  diagnostics.report<diag::FormAssumed>(where, keyword, form_.name, what, form_.origin);
+}
+
 const Picture* ProgTables::picture(const std::string& keyword, SourceRange where, Diagnostics& diagnostics) {
   const auto found = pictures_.find(keyword);
   if (found == pictures_.end()) {

@@ -21,6 +21,9 @@ public:
   // Of a numeric keyword: FORMAT, else the form. nullptr: none that may be printed with; reported, of one
   // keyword once. The picture lives as long as this object.
   const Picture* picture(const std::string& keyword, SourceRange where, Diagnostics& diagnostics);
+  // Reports what is printed by an entry that the form only assumes, of one keyword once.
+  void noteAssumed(const std::string& keyword, const stdlib::FormEntry& entry, SourceRange where,
+                   Diagnostics& diagnostics);
   // FORMAT of a command; nullptr: none.
   const SourceRange* commandFormat(std::string_view name) const;
 
@@ -29,7 +32,8 @@ private:
   std::map<std::string, const Routine*, std::less<>> routines_;
   std::map<std::string, Picture, std::less<>> pictures_;
   std::map<std::string, SourceRange, std::less<>> commandFormats_;
-  std::set<std::string, std::less<>> told_;
+  std::set<std::string, std::less<>> told_;    // keywords without a picture
+  std::set<std::string, std::less<>> assumed_; // keywords of which noteAssumed() reported
 };
 
 } // namespace dotek::frontend::compost

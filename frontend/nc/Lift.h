@@ -26,6 +26,14 @@ struct ModalState {
   bool operator==(const ModalState& other) const; // compares expressions by ir::equal
 };
 
+// A picture that a target cannot follow, and what is printed with it.
+struct PictureUse {
+  SourceRange first;
+  std::vector<std::string> names; // "the field `Z`", in the order of the blocks
+  int decimals = 0;
+};
+using PictureUses = std::map<std::string, PictureUse>; // by the text of the picture
+
 struct LiftContext {
   const stdlib::Control& control; // the source's machine: codes, decimal mode
   const stdlib::MacroSet* macros; // the set that the source calls; nullptr: it calls none
@@ -36,11 +44,11 @@ struct LiftContext {
   // Value of a variable that the command line fixes, for the checks of pictures; nullopt, or no function: it
   // varies.
   std::function<std::optional<double>(ir::VariableId)> fixed = {};
-  Encoding encoding = Encoding::Utf8;                  // of comments
-  const stdlib::MacroSignature* measured = nullptr;    // the last measurement; its results stand in variables
-  std::set<std::uint32_t> stored = {};                 // variables that were assigned since the last call
-  std::set<std::string, std::less<>> pictureTold = {}; // holes whose picture was noted
-  std::set<std::string, std::less<>> zeroTold = {};    // the same for pictures that print nothing for 0
+  Encoding encoding = Encoding::Utf8;               // of comments
+  const stdlib::MacroSignature* measured = nullptr; // the last measurement; its results stand in variables
+  std::set<std::uint32_t> stored = {};              // variables that were assigned since the last call
+  PictureUses coarse = {};                          // pictures with fewer decimals than the control
+  PictureUses blankZero = {};                       // pictures that print nothing for 0
 };
 
 // Appends the statements of the block to `out`: comments, modes, probe, spindle and coolant, dwell, motion or
@@ -49,10 +57,13 @@ struct LiftContext {
 // A block with a function that Dotek does not translate becomes opaque, with a note; its words keep the
 // number as written, whatever the decimal mode. Reads other numbers without a point under the control's
 // decimal mode; a literal that the other mode reads differently is a warning with both values. Reports
-// integer digits that do not fit a hole's picture where its value is fixed, and (once per hole name) a
-// picture with fewer decimals than the control. A macro call leaves motion and feed unknown. Block numbers
+// integer digits that do not fit a hole's picture where its value is fixed; what else is wrong with pictures
+// is left to reportPictures(). A macro call leaves motion and feed unknown. Block numbers
 // and a feed alone make no statement.
 bool lift(const Block& block, LiftContext& context, std::vector<ir::CycleStatement>& out);
+
+// After the last block: one finding for each picture, with all that is printed with it.
+void reportPictures(LiftContext& context);
 
 // The programs that the block calls with G65, for choosing the macro set.
 std::vector<std::uint32_t> programsCalled(const Block& block);

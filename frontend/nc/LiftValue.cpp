@@ -4,6 +4,7 @@
 #include "support/messages/ComPost.h"
 #include "support/messages/Nc.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -52,6 +53,38 @@ const char* otherMode(stdlib::DecimalMode mode) {
   return mode == stdlib::DecimalMode::Increment ? "calculator" : "increment";
 }
 
+void notePicture(PictureUses& uses, SourceRange where, const Hole& hole) {
+  PictureUse& use = uses[hole.picture->text()];
+  if (use.names.empty()) use.first = where;
+  use.decimals = hole.picture->decimals();
+  if (std::find(use.names.begin(), use.names.end(), hole.name) == use.names.end())
+    use.names.push_back(hole.name);
+}
+
+// "the fields `X` and `Z` and the host input `clearance`": names of one kind stand together.
+std::string listed(const std::vector<std::string>& names) {
+  std::vector<std::pair<std::string, std::vector<std::string>>> kinds;
+  for (const std::string& name : names) {
+    const std::size_t tick = std::min(name.find('`'), name.size());
+    const std::string kind = name.substr(0, tick);
+    auto at = std::find_if(kinds.begin(), kinds.end(), [&](const auto& one) { return one.first == kind; });
+    if (at == kinds.end()) at = kinds.insert(at, {kind, {}});
+    at->second.push_back(name.substr(tick));
+  }
+  const auto joined = [](const std::vector<std::string>& parts) {
+    std::string out;
+    for (std::size_t i = 0; i < parts.size(); ++i)
+      out += (i == 0 ? "" : i + 1 == parts.size() ? " and " : ", ") + parts[i];
+    return out;
+  };
+  std::vector<std::string> groups;
+  for (auto& [kind, members] : kinds) {
+    if (members.size() > 1 && kind.ends_with(' ')) kind.insert(kind.size() - 1, "s");
+    groups.push_back(kind + joined(members));
+  }
+  return joined(groups);
+}
+
 double power10(int exponent) {
   double out = 1;
   for (int i = 0; i < exponent; ++i)
@@ -60,6 +93,15 @@ double power10(int exponent) {
 }
 
 } // namespace
+
+void reportPictures(LiftContext& context) {
+  const auto verb = [](const PictureUse& use) { return use.names.size() > 1 ? "are" : "is"; };
+  for (const auto& [picture, use] : context.blankZero)
+    context.diagnostics.report<diag::PictureZero>(use.first, listed(use.names), verb(use), picture);
+  for (const auto& [picture, use] : context.coarse)
+    context.diagnostics.report<diag::PictureDecimals>(use.first, listed(use.names), verb(use), picture,
+                                                      use.decimals, context.control.decimals);
+}
 
 std::optional<double> literalOf(const Expression& value) {
   if (const auto* number = std::get_if<Number>(&value.node)) return number->value;
@@ -168,13 +210,11 @@ bool Lifter::checkPicture(SourceRange where, const Hole& hole, Reading reading) 
                                            *fixed == std::trunc(*fixed) ? "" : " once it is rounded");
     if (printed.text.empty())
       context_.diagnostics.report<diag::BareAddress>(where, bareName(hole), hole.picture->text());
-  } else if (reading.kind == ir::Kind::Length && hole.picture->zeroPrintsNothing() &&
-             context_.zeroTold.insert(hole.name).second)
-    context_.diagnostics.report<diag::PictureZero>(where, hole.name, hole.picture->text());
-  if (reading.kind != ir::Kind::Length || hole.picture->decimals() >= context_.control.decimals) return true;
-  if (context_.pictureTold.insert(hole.name).second)
-    context_.diagnostics.report<diag::PictureDecimals>(where, hole.name, hole.picture->text(),
-                                                       hole.picture->decimals(), context_.control.decimals);
+  } else if (reading.kind == ir::Kind::Length && hole.picture->zeroPrintsNothing()) {
+    notePicture(context_.blankZero, where, hole);
+  }
+  if (reading.kind == ir::Kind::Length && hole.picture->decimals() < context_.control.decimals)
+    notePicture(context_.coarse, where, hole);
   return true;
 }
 

@@ -17,7 +17,7 @@ void check(const Project& project, Report& report) {
     if (prog.hasErrorNodes || !routine.returnRange) return; // told already
     for (const ProgBlock& block : blocksOf(routine.body, prog, project)) {
       if (block.called) continue;
-      const std::vector<ProgWord> words = wordsOf(block, project.form ? &*project.form : nullptr);
+      const std::vector<ProgWord> words = wordsOf(block, project.form);
       for (std::size_t i = 1; i < words.size(); ++i) {
         const char address = words[i].address;
         // Several G and M are usual; I, J and K come in sets.

@@ -31,7 +31,7 @@ void check(const Project& project, Report& report) {
           for (const ProgPiece& piece : block.pieces)
             if (piece.kind == ProgPiece::Kind::Command && movesAxis(project, piece.word->name))
               approach.steps.insert(piece.word->name);
-        if (!meaningOf(project, macroCalled(wordsOf(block, &*project.form))).measures()) continue;
+        if (!meaningOf(project, macroCalled(wordsOf(block, project.form))).measures()) continue;
         approach.measure = block.range;
         all.push_back(std::move(approach));
         approach = {};

@@ -6,7 +6,7 @@ namespace {
 constexpr std::size_t kTimes = 6; // so many times as many have one
 
 void check(const Project& project, Report& report) {
-  const Probing probing(project);
+  const Probing& probing = probingOf(project);
   eachProgram(project, [&](const ir::Program& program, const macrob::File&) {
     std::vector<const ir::ProgramStatement*> with, without;
     for (const ir::ProgramStatement& statement : program.body) {

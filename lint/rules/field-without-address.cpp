@@ -31,7 +31,7 @@ void check(const Project& project, Report& report) {
     if (prog.hasErrorNodes || !routine.returnRange) return; // told already
     for (const ProgBlock& block : blocksOf(routine.body, prog, project)) {
       if (block.called) continue;
-      const std::vector<ProgWord> words = wordsOf(block, project.form ? &*project.form : nullptr);
+      const std::vector<ProgWord> words = wordsOf(block, project.form);
       if (words.empty()) continue;
       for (std::size_t i = 0; i < block.pieces.size(); ++i) {
         const ProgPiece& piece = block.pieces[i];

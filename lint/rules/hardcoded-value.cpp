@@ -31,7 +31,7 @@ std::string pattern(const std::vector<ProgWord>& words, std::size_t open) {
 
 void checkSiblings(const Siblings& siblings, const Project& project, Report& report) {
   std::map<std::string, std::vector<Place>> places;
-  const stdlib::Form* form = project.form ? &*project.form : nullptr;
+  const stdlib::Form* form = project.form;
   for (std::size_t b = 0; b < siblings.branches.size(); ++b) {
     for (const ProgBlock& block : siblings.branches[b].blocks) {
       if (block.called) continue;

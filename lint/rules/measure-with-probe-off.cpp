@@ -6,7 +6,7 @@ namespace {
 // A measurement that every path reaches with the probe switched off before.
 template <ir::AnyStatement Statement>
 void checkBody(const std::vector<Statement>& body, const Probing& probing, Report& report) {
-  const auto states = probing.states(body);
+  const auto& states = probing.states(body);
   SourceRange off;
   for (std::size_t i = 0; i < body.size(); ++i) {
     const ProbeStep step = probing.step(body[i]);
@@ -21,7 +21,7 @@ void checkBody(const std::vector<Statement>& body, const Probing& probing, Repor
 }
 
 void check(const Project& project, Report& report) {
-  const Probing probing(project);
+  const Probing& probing = probingOf(project);
   for (const Joined& joined : project.joined)
     if (joined.lowered) checkBody(joined.lowered->body, probing, report);
   eachProgram(project, [&](const ir::Program& program, const macrob::File&) {

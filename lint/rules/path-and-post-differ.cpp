@@ -60,7 +60,7 @@ void check(const Project& project, Report& report) {
     bool movesXY = false;
     bool movesBehind = false; // X or Y behind the last measurement
     for (const ProgBlock& block : blocks) {
-      const std::vector<ProgWord> words = wordsOf(block, project.form ? &*project.form : nullptr);
+      const std::vector<ProgWord> words = wordsOf(block, project.form);
       const MacroMeaning meaning = meaningOf(project, macroCalled(words));
       if (meaning.measures()) {
         measured = block.range;

@@ -25,7 +25,7 @@ void checkProgram(const ir::Program& program, const Probing& probing, Report& re
     return probing.step(s).kind == ProbeStep::Kind::Protected;
   });
   if (!guarded) return;
-  const auto states = probing.states(body);
+  const auto& states = probing.states(body);
   const auto modes = distanceModes(body);
   const auto heights = ir::factsBefore<Height>(
       body, Height{},
@@ -63,7 +63,7 @@ void checkProgram(const ir::Program& program, const Probing& probing, Report& re
 }
 
 void check(const Project& project, Report& report) {
-  const Probing probing(project);
+  const Probing& probing = probingOf(project);
   eachProgram(project, [&](const ir::Program& program, const macrob::File&) {
     checkProgram(program, probing, report);
   });

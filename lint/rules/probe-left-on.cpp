@@ -12,7 +12,7 @@ bool leaves(const ir::ProgramStatement& statement) {
 
 // A path on which the probe is on at the end.
 void checkBody(const std::vector<ir::ProgramStatement>& body, const Probing& probing, Report& report) {
-  const auto states = probing.states(body);
+  const auto& states = probing.states(body);
   const ir::ProgramStatement* on = nullptr;
   bool off = false;
   for (const ir::ProgramStatement& statement : body) {
@@ -33,7 +33,7 @@ void checkBody(const std::vector<ir::ProgramStatement>& body, const Probing& pro
 }
 
 void check(const Project& project, Report& report) {
-  const Probing probing(project);
+  const Probing& probing = probingOf(project);
   eachProgram(project, [&](const ir::Program& program, const macrob::File&) {
     checkBody(program.body, probing, report);
     if (!endsProgram(program)) return;

@@ -15,7 +15,7 @@ struct Unswitched {
 // The first measurement that is reached without a switch in this body.
 template <ir::AnyStatement Statement>
 SourceRange firstUnswitched(const std::vector<Statement>& body, const Probing& probing) {
-  const auto states = probing.states(body);
+  const auto& states = probing.states(body);
   for (std::size_t i = 0; i < body.size(); ++i)
     if (probing.step(body[i]).kind == ProbeStep::Kind::Measure && states[i] == ProbeState::AsBefore)
       return body[i].origin.range();
@@ -54,7 +54,7 @@ void checkCycles(const Project& project, const Probing& probing, Report& report)
 
 // A program that switches the probe off, or on later, is the one that switches it.
 void checkProgram(const ir::Program& program, const Probing& probing, Report& report) {
-  const auto states = probing.states(program.body);
+  const auto& states = probing.states(program.body);
   SourceRange first;
   SourceRange last;
   bool callsBefore = false;
@@ -76,7 +76,7 @@ void checkProgram(const ir::Program& program, const Probing& probing, Report& re
 }
 
 void check(const Project& project, Report& report) {
-  const Probing probing(project);
+  const Probing& probing = probingOf(project);
   checkCycles(project, probing, report);
   eachProgram(project, [&](const ir::Program& program, const macrob::File&) {
     checkProgram(program, probing, report);

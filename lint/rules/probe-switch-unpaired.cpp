@@ -54,7 +54,7 @@ void checkPost(const compost::Program& prog, const Project& project, Report& rep
     const auto* routine = std::get_if<compost::Routine>(&item);
     if (routine == nullptr) continue;
     if (!routine->returnRange) return; // told already; what is missing may be behind
-    const std::vector<ProgBlock> blocks = blocksOf(routine->body, prog, project);
+    const std::vector<ProgBlock>& blocks = blocksOf(routine->body, prog, project);
     add(all, blocks, project);
     for (const ProgBlock& block : blocks)
       measures = measures || meaningOf(project, macroCalled(wordsOf(block, nullptr))).measures();
@@ -117,7 +117,7 @@ void check(const Project& project, Report& report) {
   for (const compost::Program* prog : project.progs)
     if (!prog->hasErrorNodes) checkPost(*prog, project, report);
   checkBranches(project, report);
-  const Probing probing(project);
+  const Probing& probing = probingOf(project);
   eachProgram(project, [&](const ir::Program& program, const macrob::File&) {
     checkProgram(program, probing, report);
   });

@@ -8,7 +8,7 @@ void check(const Project& project, Report& report) {
     std::vector<SourceRange> without;
     bool others = false;
     for (const ProgBlock& block : blocksOf(routine.body, prog, project)) {
-      const std::vector<ProgWord> words = wordsOf(block, project.form ? &*project.form : nullptr);
+      const std::vector<ProgWord> words = wordsOf(block, project.form);
       const MacroMeaning meaning = meaningOf(project, macroCalled(words));
       if (meaning.set == nullptr || meaning.intent != stdlib::Intent::ProtectedMove) continue;
       if (findWord(words, 'F') != nullptr)

@@ -54,7 +54,7 @@ void checkProgram(const ir::Program& program, const Project& project, const Prob
 }
 
 void check(const Project& project, Report& report) {
-  const Probing probing(project);
+  const Probing& probing = probingOf(project);
   eachProgram(project, [&](const ir::Program& program, const macrob::File&) {
     checkProgram(program, project, probing, report);
   });

@@ -40,7 +40,7 @@ void checkPrograms(const Project& project, Report& report) {
 void checkPosts(const Project& project, Report& report) {
   eachRoutine(project, [&](const compost::Program& prog, const compost::Routine& routine) {
     if (prog.hasErrorNodes || !routine.returnRange) return; // told already
-    const std::vector<ProgBlock> blocks = blocksOf(routine.body, prog, project);
+    const std::vector<ProgBlock>& blocks = blocksOf(routine.body, prog, project);
     for (std::size_t i = 1; i < blocks.size(); ++i) {
       const std::string text = blocks[i].text();
       // Distances and waits add up.

@@ -162,7 +162,7 @@ void checkBody(const std::vector<Statement>& body, const Probing& probing, Repor
 }
 
 void check(const Project& project, Report& report) {
-  const Probing probing(project);
+  const Probing& probing = probingOf(project);
   for (const Joined& joined : project.joined)
     if (joined.lowered) checkBody(joined.lowered->body, probing, report);
   eachProgram(project, [&](const ir::Program& program, const macrob::File&) {

@@ -36,7 +36,7 @@ void checkProgram(const ir::Program& program, const Probing& probing, Report& re
 }
 
 void check(const Project& project, Report& report) {
-  const Probing probing(project);
+  const Probing& probing = probingOf(project);
   eachProgram(project, [&](const ir::Program& program, const macrob::File&) {
     checkProgram(program, probing, report);
   });

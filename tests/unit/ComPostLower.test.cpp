@@ -155,8 +155,9 @@ TEST_CASE("literals, fields and words of the form are joined up to EOL") {
       lowered("r: ' (TEXT)' EOL SeqC ' G65 P9770 Z'OpFieldData#('Zb')'' EOL SeqC SpinOff EOL SeqLabC CoolOff "
               "EOL SeqC ' G65 P9770' ZCP1 ' F1000' EOL RETURN") ==
       "(TEXT)\nprotected Z=work:Zb\nspindle 0\ncoolant 0\nprotected Z=work:clearance F=1000\n"
-      "[picture-decimals], [picture-decimals]");
-  CHECK(lowered("r: ' G43' ' H' ToolOffset# EOL RETURN") == "opaque G43 Htool_offset\n[opaque-block]");
+      "[form-assumed], [picture-decimals]");
+  CHECK(lowered("r: ' G43' ' H' ToolOffset# EOL RETURN") ==
+        "opaque G43 Htool_offset\n[form-assumed], [opaque-block]");
   CHECK(lowered("r: p ' Y1.' EOL RETURN p: ' G0' q RETURN q: ' X1.' RETURN") == "rapid X=work:1 Y=work:1\n");
   CHECK(lowered("r: SeqC EOL ' ' EOL '' EOL RETURN") == "[empty-block]");
   CHECK(lowered("r: ' G0 X1.' RETURN") == "rapid X=work:1\n[unfinished-line]");
@@ -171,7 +172,8 @@ TEST_CASE("conditions: the cycle, flags, the form, assumptions") {
       "spindle 0\n");
   CHECK(lowered("r: IF Flag?('f') 'M5' ELSE 'M9' END EOL RETURN q: SetFlag('f') RETURN") ==
         "coolant 0\n[flag-set-elsewhere]");
-  CHECK(lowered("r: IF RigidTap? AND Odd? 'M5' ELSE 'M9' END EOL RETURN") == "coolant 0\n");
+  CHECK(lowered("r: IF RigidTap? AND Odd? 'M5' ELSE 'M9' END EOL RETURN") ==
+        "coolant 0\n[form-assumed]");
   CHECK(lowered("r: IF Odd? 'M5' ELSE 'M9' END EOL RETURN", {"Odd?=yes"}) == "spindle 0\n");
   CHECK(lowered("r: IF Odd? 'M5' ELSE 'M9' END EOL RETURN") == "refused: [boolean-unknown]");
   CHECK(lowered("r: SetFlag 'M5' EOL RETURN") == "refused: [flag-needs-name]");

@@ -135,6 +135,7 @@ public:
       ok = block && frontend::nc::lift(*block, context, body) && ok;
       i = end + 1;
     }
+    frontend::nc::reportPictures(context);
     state = context.state;
     return ok;
   }

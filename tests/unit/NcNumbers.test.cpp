@@ -75,9 +75,9 @@ TEST_CASE("a hole of an opaque block is scaled: the target writes it with a poin
 
 TEST_CASE("a picture without a point prints increments where the control counts them") {
   CHECK(both("G0 X{a|###}", "fanuc-0i-md") ==
-        "rapid X=work:a\n[picture-zero], [picture-decimals], [decimal-point]");
+        "rapid X=work:a\n[decimal-point], [picture-zero], [picture-decimals]");
   CHECK(both("G0 X{a|###}", "fanuc-6m") ==
-        "rapid X=work:(a/1000)\n[picture-zero], [picture-decimals], [decimal-point]");
+        "rapid X=work:(a/1000)\n[decimal-point], [picture-zero], [picture-decimals]");
   CHECK(both("G0 X{a|###.###;0}", "fanuc-6m") == "rapid X=work:a\n"); // 0 is 0 either way
   CHECK(both("G0 X{a|}", "fanuc-6m") == "rapid X=work:a\n");
   CHECK(both("G1 X1. F{f|####}", "fanuc-6m") == "feed X=work:1 F=f\n");
@@ -86,14 +86,14 @@ TEST_CASE("a picture without a point prints increments where the control counts 
   CHECK(both("G0 X{a|###^000}", "fanuc-6m") == "rapid X=work:a\n[decimal-point]");
   CHECK(both("G0 X{a|###^000}", "fanuc-0i-md") == "rapid X=work:(a*1000)\n[decimal-point]");
   CHECK(both("G0 X{a|###^00}", "fanuc-6m") ==
-        "rapid X=work:((a*100)/1000)\n[picture-decimals], [decimal-point]");
+        "rapid X=work:((a*100)/1000)\n[decimal-point], [picture-decimals]");
 }
 
 TEST_CASE("the warning of a hole without a point says both factors") {
   Nc nc("fanuc-6m");
   nc.lift("G0 X{a|###^00}");
   REQUIRE(nc.diagnostics.all().size() == 2);
-  CHECK(nc.diagnostics.all()[1].message ==
+  CHECK(nc.diagnostics.all()[0].message ==
         "what is printed for the field `a` has no decimal point; the control `fanuc-6m` reads 0.1 times its "
         "value, with `decimal = \"calculator\"` it would be 100 times its value; write the point");
   Nc zero;
@@ -121,12 +121,19 @@ TEST_CASE("a value that does not fit its picture is an error where it is fixed")
   CHECK(bare.codes() == "[bare-address]");
 }
 
-TEST_CASE("a picture with fewer decimals than the control is one note for each field") {
+TEST_CASE("a picture with fewer decimals than the control is one note with all that it prints") {
   Nc nc;
   CHECK(nc.lift("G0 X{a|###.##;0} Y{b|###.##;0}\nG0 X{a|###.##;0}\nG1 X1. F{f|###.##;0}"));
-  CHECK(nc.codes() == "[picture-decimals], [picture-decimals]");
-  CHECK(nc.message() == "the field `a` is printed with the picture `###.##;0` of 2 decimals; the converted "
-                        "program keeps up to 3");
+  CHECK(nc.codes() == "[picture-decimals]");
+  CHECK(nc.message() == "the fields `a` and `b` are printed with the picture `###.##;0` of 2 decimals; the "
+                        "converted program keeps up to 3");
+  Nc several;
+  CHECK(several.lift("G0 X{a|###.##;0} Y{b|###.#;0} Z{c|###.##;0}\nG0 X{d|###.##;0}"));
+  CHECK(several.codes() == "[picture-decimals], [picture-decimals]");
+  CHECK(several.diagnostics.all()[0].message.starts_with("the fields `a`, `c` and `d` are printed"));
+  Nc one;
+  CHECK(one.lift("G0 X{a|###.##;0}"));
+  CHECK(one.message().starts_with("the field `a` is printed"));
   Nc selector;
   CHECK(selector.lift("G65 P9023 S{G|##.;0} X1. I0.")); // a system is no length
   CHECK(selector.codes() == "");

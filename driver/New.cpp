@@ -1,0 +1,32 @@
+#include "driver/Command.h"
+#include "project/FormDraft.h"
+#include "project/Prog.h"
+
+#include <algorithm>
+
+namespace dotek::driver {
+
+Outcome newForm(const NewFormOptions& options) {
+  return guarded(options.common, [&](Session& session) {
+    const bool plain =
+        !options.name.empty() && std::all_of(options.name.begin(), options.name.end(), [](char c) {
+          return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' ||
+                 c == '_';
+        });
+    if (!plain) session.diagnostics().report<diag::FormName>({}, options.name);
+    if (!options.prog)
+      session.diagnostics().report<diag::MissingOption>({}, "new form", "--prog PROG.txt",
+                                                        "the Prog whose keywords the form explains");
+    if (session.diagnostics().hasErrors()) return outcomeOf(session, "");
+    const auto program = loadProg(*options.prog, session);
+    leaveFindingsToLint(session);
+    if (!program || session.diagnostics().hasErrors()) return outcomeOf(session, "");
+    std::vector<stdlib::Form> known;
+    for (const stdlib::DataFile* file : session.data().list("forms"))
+      if (auto form = session.form(file->name)) known.push_back(std::move(*form));
+    return outcomeOf(session,
+                     draftForm(options.name, *program, session.sources(), session.compostKeywords(), known));
+  });
+}
+
+} // namespace dotek::driver

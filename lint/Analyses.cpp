@@ -1,0 +1,35 @@
+#include "lint/Analyses.h"
+
+namespace dotek::lint {
+
+const Probing& Analyses::probing(const Project& project) {
+  if (!probing_) probing_.emplace(project);
+  return *probing_;
+}
+
+const std::vector<Siblings>& Analyses::siblings(const Project& project) {
+  if (!siblings_) siblings_ = findSiblings(project);
+  return *siblings_;
+}
+
+const std::vector<ProgBlock>& Analyses::blocks(const std::vector<compost::Statement>& statements,
+                                               const compost::Program& prog, const Project& project) {
+  const auto known = blocks_.find(&statements);
+  if (known != blocks_.end()) return known->second;
+  return blocks_.emplace(&statements, collectBlocks(statements, prog, project)).first->second;
+}
+
+const Probing& probingOf(const Project& project) {
+  return project.analyses->probing(project);
+}
+
+const std::vector<Siblings>& siblingsOf(const Project& project) {
+  return project.analyses->siblings(project);
+}
+
+const std::vector<ProgBlock>& blocksOf(const std::vector<compost::Statement>& statements,
+                                       const compost::Program& prog, const Project& project) {
+  return project.analyses->blocks(statements, prog, project);
+}
+
+} // namespace dotek::lint

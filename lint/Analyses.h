@@ -1,0 +1,28 @@
+// What several rules ask of one project, computed when first asked for.
+#pragma once
+
+#include "lint/Probing.h"
+#include "lint/ProgBlocks.h"
+
+#include <map>
+#include <optional>
+#include <vector>
+
+namespace dotek::lint {
+
+// Belongs to one project; one thread uses it.
+class Analyses {
+public:
+  const Probing& probing(const Project& project);
+  const std::vector<Siblings>& siblings(const Project& project);
+  // Of statements of a Prog, known by their address.
+  const std::vector<ProgBlock>& blocks(const std::vector<compost::Statement>& statements,
+                                       const compost::Program& prog, const Project& project);
+
+private:
+  std::optional<Probing> probing_;
+  std::optional<std::vector<Siblings>> siblings_;
+  std::map<const std::vector<compost::Statement>*, std::vector<ProgBlock>> blocks_;
+};
+
+} // namespace dotek::lint

@@ -1,0 +1,105 @@
+#include "project/Compilation.h"
+
+#include "project/Programs.h"
+
+#include "frontend/gibbs/Parse.h"
+#include "frontend/macrob/Lower.h"
+#include "frontend/macrob/Parse.h"
+#include "project/Prog.h"
+#include "support/Files.h"
+
+#include <utility>
+
+namespace dotek::project {
+
+namespace compost = frontend::compost;
+namespace gibbs = frontend::gibbs;
+namespace macrob = frontend::macrob;
+
+namespace {
+
+gibbs::ParseContext contextOf(Session& session) {
+  return {session.sources(), session.gibbsKeywords(), session.limits(), session.diagnostics()};
+}
+
+} // namespace
+
+const std::vector<stdlib::Control>& Compilation::controls() {
+  if (controls_) return *controls_;
+  controls_.emplace();
+  for (const stdlib::DataFile* file : session_.data().list("controls"))
+    if (auto control = stdlib::Control::load(session_.data(), file->name))
+      controls_->push_back(std::move(*control));
+  return *controls_;
+}
+
+std::optional<InputKind> Compilation::kindOf(const std::string& path, Diagnostics& diagnostics) {
+  if (session_.options().from) return kindByName(*session_.options().from);
+  const auto known = kinds_.find(path);
+  if (known != kinds_.end()) return known->second;
+  const std::optional<std::string> bytes = readBytes(path, session_.limits(), diagnostics);
+  if (!bytes) return std::nullopt;
+  return kinds_.emplace(path, recognise(path, *bytes)).first->second;
+}
+
+LoweringInputs* Compilation::load(const SourceOptions& source, const std::string& control) {
+  inputs_ = loadLoweringInputs(source, control, session_);
+  return inputs_ ? &*inputs_ : nullptr;
+}
+
+const compost::Program* Compilation::addProg(const std::string& path, bool checked) {
+  std::optional<compost::Program> program = loadProg(path, session_, checked);
+  if (!program) return nullptr;
+  return progs_.emplace_back(std::make_shared<const compost::Program>(std::move(*program))).get();
+}
+
+CycleFolder& Compilation::addFolder(const std::string& path, bool checked) {
+  return folders_.emplace_back(loadCycleFolder(path, session_, checked));
+}
+
+const gibbs::Macro& Compilation::addMacro(FileId file) {
+  return macros_.emplace_back(gibbs::parseMacro(file, contextOf(session_)));
+}
+
+const gibbs::Dialog& Compilation::addDialog(FileId file) {
+  return dialogs_.emplace_back(gibbs::parseDialog(file, contextOf(session_)));
+}
+
+const gibbs::DefineData& Compilation::addDefineData(FileId file) {
+  return defines_.emplace_back(gibbs::parseDefineData(file, contextOf(session_)));
+}
+
+const macrob::File& Compilation::addPrograms(FileId file) {
+  return programs_.emplace_back(macrob::parse(file, session_.sources(), session_.limits(),
+                                              session_.diagnostics(), textOf(session_.options())));
+}
+
+std::optional<LoweredCycle> Compilation::lower(const CycleFolder& folder, Strictness strictness) {
+  return lowerCycle(folder, *inputs_, usedSets_, session_, strictness);
+}
+
+std::optional<LoweredCycle> Compilation::lower(const CycleFolder& folder,
+                                               std::shared_ptr<const compost::Program> prog,
+                                               const compost::Routine& routine, Strictness strictness) {
+  const auto program = std::exchange(inputs_->program, std::move(prog));
+  const auto named = std::exchange(inputs_->routine, routine.name);
+  std::optional<LoweredCycle> out = lower(folder, strictness);
+  inputs_->program = program;
+  inputs_->routine = named;
+  return out;
+}
+
+std::shared_ptr<const ir::ProgramFile> Compilation::lower(const macrob::File& file,
+                                                          const stdlib::Control* control) {
+  const auto as = [&](const stdlib::Control& one) -> std::shared_ptr<const ir::ProgramFile> {
+    Diagnostics ignored;
+    auto program = macrob::lower(file, one, session_.sources(), ignored);
+    return program ? std::make_shared<const ir::ProgramFile>(std::move(*program)) : nullptr;
+  };
+  if (control != nullptr) return as(*control);
+  for (const stdlib::Control& one : controls())
+    if (auto program = as(one)) return program;
+  return nullptr;
+}
+
+} // namespace dotek::project
