@@ -1,6 +1,6 @@
 // Cases of a probing cycle in three axes against a virtual part: how long 10,000 of them take.
 //   bench_part [--cases N] [--check]
-// A case is a part that lies otherwise, ten touches (a face, a boss, a bore, a slot, a corner), and the way
+// A case is a part that lies otherwise, ten touches (a face, a boss, a bore, a slot, a corner), and the path
 // to each. --check exits with 1 where the goal is missed.
 #include "sim/machine/World.h"
 

@@ -71,7 +71,7 @@ std::vector<fs::path> sortedEntries(const fs::path& folder) {
   return out;
 }
 
-// Cycles of the corpus that post with their default values, under numbers: names of a shop stand in its
+// Cycles of the corpus that post with their default values, under numbers: names of a shop are in its
 // data only.
 void addCorpus(std::vector<Case>& out, const std::string& dotek, const fs::path& corpus) {
   const std::vector<fs::path> posts = sortedEntries(corpus / "compost");

@@ -298,7 +298,7 @@ void addValues(CLI::App& app, Raw& raw) {
       ->allow_extra_args(false);
 }
 
-// What says where the post stands.
+// What says where the post is.
 void addSource(CLI::App& app, Raw& raw) {
   app.add_option("--prog", raw.prog, "the Prog (text of the ComPost post)")->type_name("PROG.txt");
   app.add_option("--form", raw.form, "what the post's Form decides, as data")->type_name("NAME");
@@ -440,7 +440,7 @@ void addVerify(CLI::App& app, Raw& raw) {
   verify
       ->add_option("--to", raw.to,
                    "language of the translation: " + targets::targetNames() +
-                       "; without it the path of the macro stands beside the posted program")
+                       "; without it the path of the macro is compared with the posted program")
       ->type_name("TARGET");
   addTarget(*verify, raw);
   verify
@@ -471,8 +471,7 @@ void addVerify(CLI::App& app, Raw& raw) {
   verify->add_option("--tolerance", raw.tolerance, "what counts as equal (0.000001)")->type_name("MM");
   verify->add_option("--jobs", raw.jobs, "cases that run at one time (one for each processor)")
       ->type_name("N");
-  verify
-      ->add_option("--part-error", raw.partError, "where the part stands, off its nominal place; of a replay")
+  verify->add_option("--part-error", raw.partError, "where the part is, off its nominal place; of a replay")
       ->type_name("X,Y,Z,TURN");
   verify->add_option("--active-system", raw.activeSystem, "work system in force at entry; of a replay")
       ->type_name("N");
@@ -551,7 +550,7 @@ std::optional<int> parseArguments(const std::vector<std::string>& arguments, Arg
   addVerify(app, raw);
   addNew(app, raw);
   CLI::App* explain = app.add_subcommand("explain", "say what a message means and what to do");
-  explain->add_option("CODE", raw.inputs, "the name in brackets behind a message")->required()->expected(1);
+  explain->add_option("CODE", raw.inputs, "the name in brackets after a message")->required()->expected(1);
   CLI::App* list = app.add_subcommand("list", "print a table");
   list->add_option("WHAT", raw.inputs,
                    "cycles, controls, macros, forms, rules, targets, hosts, limits or assumptions")

@@ -9,7 +9,7 @@ if(NOT ANTLR4_TOOL_VERSION VERSION_EQUAL "4.7.2")
   message(FATAL_ERROR "antlr4 tool ${ANTLR4_TOOL_VERSION}: tried and accepted is 4.7.2 with runtime 4.9")
 endif()
 
-# The runtime's umbrella header includes one file that clang rejects; a copy without it stands first on the path.
+# The runtime's umbrella header includes one file that clang rejects; a copy without it is first on the path.
 set(ANTLR4_PATCHED ${PROJECT_BINARY_DIR}/generated/antlr4)
 file(READ ${ANTLR4_RUNTIME_INCLUDE_DIR}/antlr4-runtime.h ANTLR4_UMBRELLA)
 string(REPLACE "#include \"InterpreterDataReader.h\"" "" ANTLR4_UMBRELLA "${ANTLR4_UMBRELLA}")

@@ -7,8 +7,10 @@ if(DOTEK_WERROR)
   target_compile_options(dotek_options INTERFACE -Werror)
 endif()
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
-  # GCC 12 warns of overlaps inside std::string's own operator+ (GCC bug 105329).
-  target_compile_options(dotek_options INTERFACE -Wno-restrict)
+  # GCC 12 warns of what cannot be inside std::string and std::variant (GCC bugs 105329, 105651, 105562), and a
+  # precompiled header hides from it that they are the system's.
+  target_compile_options(dotek_options INTERFACE
+    -Wno-restrict -Wno-stringop-overflow -Wno-stringop-overread -Wno-array-bounds -Wno-maybe-uninitialized)
 endif()
 target_include_directories(dotek_options INTERFACE ${PROJECT_SOURCE_DIR})
 if(DOTEK_SANITIZE)

@@ -1,7 +1,7 @@
 #include "driver/Command.h"
 
-#include "support/messages/ComPost.h"
 #include "frontend/gibbs/Check.h"
+#include "support/messages/ComPost.h"
 #include "support/messages/Common.h"
 #include "support/messages/Fanuc.h"
 #include "support/messages/Gibbs.h"
@@ -44,7 +44,7 @@ Outcome outcomeOf(Session& session, std::string output, bool keepOutput) {
     return d.code == frontend::gibbs::unverifiedConstructCheck.code && stopped.contains(d.range);
   });
   const bool usage = std::any_of(all.begin(), all.end(), [](const Diagnostic& d) {
-    // What stands in a file is an error of that input, not of the command line.
+    // What is in a file is an error of that input, not of the command line.
     return d.severity == Severity::Error && isUsageCode(d.code) && !d.range.hasPlace();
   });
   const bool defect = std::any_of(all.begin(), all.end(),
@@ -68,7 +68,7 @@ void keepStrongest(Diagnostics& diagnostics) {
     if (!added) at->second = std::max(at->second, d.severity);
   }
   std::erase_if(diagnostics.all(), [&](const Diagnostic& d) {
-    // Tells of another thing than the warning about the digits that stand there.
+    // Reports another thing than the warning about the digits that are there.
     if (d.code == diag::PictureDecimals::code) return false;
     return narrow(d) && d.severity < strongest.at({d.range.file, d.range.begin});
   });

@@ -26,7 +26,7 @@ bool isUsageCode(std::string_view code);
 // Which form a Prog is read through, and what it only assumes.
 bool isAboutForm(std::string_view code);
 
-// Of findings that begin at one place, keeps those of the highest severity: the others tell of the same
+// Of findings that begin at one place, keeps those of the highest severity: the others report the same
 // cause.
 void keepStrongest(Diagnostics& diagnostics);
 

@@ -56,7 +56,7 @@ VerifyOptions optionsOf(const ConvertOptions& options, const std::string& input)
   VerifyOptions out;
   out.inputs = {input};
   out.common = options.common;
-  // The program switches the probe by itself, so the source stands where it is on.
+  // The program switches the probe by itself, so the source is where it is on.
   if (options.switchProbe) out.common.assume.insert("probe-on");
   out.source = options.source;
   out.to = options.to;

@@ -46,7 +46,7 @@ struct LintOptions {
   std::set<std::string> ignore;
   std::string control;          // profile that programs are checked for; "": what holds on every control
   std::optional<FailOn> failOn; // nothing: what dotek.toml says, else Warning
-  bool fix = false;             // makes the safe repairs, then tells what is left
+  bool fix = false;             // makes the safe repairs, then says what is left
 };
 
 enum class Stage : std::uint8_t { Tokens, Ast, Path, Ir };

@@ -44,7 +44,7 @@ public:
       session_.diagnostics().report<diag::MissingOption>({}, "lint", "PATH", "a file or a folder");
     for (const std::string& path : options_.paths)
       configs_.of(path);
-    // A setting that is not understood would change what is told: nothing is told then.
+    // A setting that is not understood would change what is reported: nothing is reported then.
     if (session_.diagnostics().hasErrors()) return failed();
     const LintConfig* first = options_.paths.empty() ? nullptr : configs_.of(options_.paths.front());
     const std::string control =
@@ -106,8 +106,6 @@ private:
                             : inConfig           ? FormChoice{config->form, true}
                                                  : FormChoice{std::string(kDefaultForm), false};
     useForm(*inputs_, form.name, session_);
-    for (const auto& prog : compilation_.progs())
-      noteForm(form, prog->file, session_);
     lint::Project project{session_.sources(), session_.limits(), session_.gibbsKeywords(),
                           session_.compostKeywords(), inputs_->macroSets};
     project.form = inputs_->form ? &*inputs_->form : nullptr;
@@ -343,7 +341,7 @@ private:
   const stdlib::Control* control_ = nullptr;          // --control
   std::optional<stdlib::MikroprogControl> mikroprog_; // the same, for .SUF
   std::set<std::string> entryPoints_;                 // routines that run without a call in the Prog
-  std::deque<gibbs::CheckedFile> checked_; // files that are no part of a cycle's folder
+  std::deque<gibbs::CheckedFile> checked_;            // files that are no part of a cycle's folder
   std::deque<frontend::mikroprog::Program> sufPrograms_;
   std::deque<frontend::mikroprog::Reading> sufReadings_;
   std::map<std::string, std::optional<stdlib::MikroprogControl>> sufControls_; // loaded once, by name

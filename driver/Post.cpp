@@ -22,7 +22,7 @@ namespace compost = frontend::compost;
 
 namespace {
 
-// true: what the routine prints stands in branches of other cycles, whatever the values are.
+// true: what the routine prints is in branches of other cycles, whatever the values are.
 bool testsOtherCyclesOnly(const compost::Program& program, const compost::Routine& routine,
                           const std::string& cycle) {
   if (!compost::branchesOf(program, cycle).empty()) return false;

@@ -13,7 +13,7 @@ namespace dotek::driver {
 
 void reportScanError(const std::string& path, const frontend::nc::Scanner& scanner, const LineChunks& chunks,
                      Session& session);
-// Nothing where the program came to its end. The scanner stands at the block of the end.
+// Nothing where the program came to its end. The scanner is at the block of the end.
 void reportEnd(const std::string& path, const frontend::nc::Scanner& scanner, const sim::Machine& machine,
                Session& session);
 // The same of a program that was loaded, and what the run found besides.
@@ -23,7 +23,7 @@ void traceVariables(const sim::Machine& machine, sim::Trace& trace);
 // docs/sim.md says what is in it. `run`: of a program that was loaded; nullptr: of plain blocks.
 std::string summary(sim::Machine& machine, const sim::Run* run, const SimWorld& world, Session& session);
 
-// The line at which the scanner stands, as a file of its own, since the program itself is not kept.
+// The line at which the scanner is, as a file of its own, since the program itself is not kept.
 SourceRange placeOfLine(const std::string& path, const frontend::nc::Scanner& scanner, Session& session);
 // Texts of programs are bytes.
 std::string toUtf8Text(const std::string& bytes);

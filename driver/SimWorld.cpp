@@ -15,9 +15,9 @@ namespace dotek::driver {
 namespace {
 
 constexpr std::string_view kRotary =
-    "an axis besides X, Y and Z stands off zero; where the part is then is not known";
-constexpr std::string_view kNowhere = "where the machine stands in this move is not known, so what it meets "
-                                      "is not; write a Z word behind G43 or G49, "
+    "an axis besides X, Y and Z is off zero; where the part is then is not known";
+constexpr std::string_view kNowhere = "where the machine is in this move is not known, so what it meets "
+                                      "is not; write a Z word after G43 or G49, "
                                       "and keep G30 out of the run";
 
 std::string pointJson(const sim::Point3& p) {

@@ -20,7 +20,7 @@
 
 namespace dotek::driver {
 
-// Where a run stands.
+// Where a run is.
 struct RunPlace {
   SourceRange range;              // of the block
   std::vector<SourceRange> calls; // the outermost first
@@ -49,9 +49,9 @@ public:
   // The radius that the calibration of the stylus would have found; nothing: no machine was given.
   std::optional<double> calibratedRadius() const;
 
-  // Behind the run.
+  // After the run.
   void finish(Outcome& outcome) const;
-  void reportRest(); // what was too much to be told one by one
+  void reportRest(); // what was too much to be reported one by one
   // "contacts" and "events" of the summary, each on a line that ends with a comma.
   std::string summary() const;
 
@@ -74,7 +74,7 @@ private:
     std::uint32_t number = 0;
     std::string_view code;
     Severity severity = Severity::Note;
-    SourceRange next;        // the first that was not told
+    SourceRange next;        // the first that was not reported
     std::uint64_t block = 0; // the last: which block of the run
   };
 

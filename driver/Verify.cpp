@@ -20,7 +20,7 @@
 namespace dotek::driver {
 namespace {
 
-// What is said of the form holds for all cases; everything else that was found on the way to them is not the
+// What is said of the form holds for all cases; everything else that was found on the path to them is not the
 // result of verify.
 void keepOfForm(const Diagnostics& found, Diagnostics& kept) {
   std::set<std::string> told;
@@ -87,7 +87,7 @@ private:
     return !diagnostics.hasErrors();
   }
 
-  // What the job says of the first operation of this cycle: where it stands. Its fields are drawn.
+  // What the job says of the first operation of this cycle: where it is. Its fields are drawn.
   void takeOperation() {
     if (!main_.inputs().job) return;
     for (const JobOperation& one : main_.inputs().job->operations) {

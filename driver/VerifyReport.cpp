@@ -200,7 +200,7 @@ SourceRange VerifyReport::targetRange(std::uint32_t line) {
   return {*translationFile_, begin, begin + static_cast<std::uint32_t>(file.line(line).size())};
 }
 
-// Where a line of the translation stems from, as far as it stands in a file of the source.
+// Where a line of the translation stems from, as far as it is in a file of the source.
 SourceRange VerifyReport::sourceOfLine(std::uint32_t line) const {
   if (!plan_.translation || line == 0 || line > plan_.translation->sources.size()) return {};
   const auto& places = plan_.translation->sources[line - 1];
@@ -245,7 +245,7 @@ Outcome VerifyReport::finish() {
     if (told++ == kMostTold) break;
     tellDifference(group, (group.edge ? edges_ : cases_).all());
   }
-  // The most frequent reasons alone; a probe that is off has been told.
+  // The most frequent reasons alone; a probe that is off has been reported.
   std::vector<const Idle*> reasons;
   for (const auto& [key, idle] : idle_)
     if (!unarmed_ || idle.at != *unarmed_) reasons.push_back(&idle);

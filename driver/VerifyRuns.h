@@ -9,7 +9,7 @@
 namespace dotek::driver {
 
 // All cases of a command go to whoever is free: `main`, and what `another` gives to a thread of its own
-// (nullptr: none). The report does not hang on who ran which. Without values for a case nothing is reported
+// (nullptr: none). The report does not depend on who ran which. Without values for a case nothing is reported
 // to it, but to the session of `main`: false.
 bool runCases(const VerifyOptions& options, bool edges, CaseSubject& main,
               const std::function<std::unique_ptr<CaseSubject>()>& another, VerifyReport& report);

@@ -6,7 +6,7 @@ lexer grammar ComPostLexer;
 tokens {
   // an opening bracket where no argument and no condition can begin
   STRAY_LPAREN,
-  // The colon behind a keyword is a slip that is reported; as a label, `ELSE:` would name a routine.
+  // The colon after a keyword is a slip that is reported; as a label, `ELSE:` would name a routine.
   // begins a conditional, begins its other branch, closes it (T:3487)
   KW_IF, KW_ELSE, KW_END,
   // ends a routine (T:3511)
@@ -19,7 +19,7 @@ tokens {
   KW_EOL,
   // ties a picture to a numeric keyword (T:3576)
   KW_FORMAT,
-  // name: of a routine (T:3511); the colon stands directly behind the name
+  // name: of a routine (T:3511); the colon directly follows the name
   LABEL,
   // numeric keyword (T:3531), boolean keyword (T:3497)
   NUMERIC, BOOLEAN,
@@ -36,7 +36,7 @@ BLANK : [ \t\u000B\u000C]+ -> skip ;
 // a line end ends no statement (T:3920)
 NEWLINE : ('\r\n' | '\r' | '\n') -> skip ;
 
-// a word with what marks its kind: `#`, `?` or `:` directly behind it (T:3511, T:3497, T:3531). The token source
+// a word with what marks its kind: `#`, `?` or `:` directly after it (T:3511, T:3497, T:3531). The token source
 // makes one of the tokens above of it.
 WORD : Letter (Letter | [0-9])* [#?:]? ;
 // number of a picture that is being defined (T:3582)

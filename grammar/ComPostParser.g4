@@ -26,7 +26,7 @@ block : entry* ;
 // one piece of a body
 entry : (statement | directive) danglingTerm* ;
 
-// several may stand on a line (T:3833)
+// several may appear on a line (T:3833)
 statement
   : LITERAL     # literalStatement
   | KW_EOL      # endOfLine
@@ -89,7 +89,7 @@ stray
   | KW_NOT term # strayNot
   ;
 
-// AND or OR where no condition stands before it: reported
+// AND or OR where no condition is before it: reported
 danglingTerm : connective term ;
 
 // a token that begins no statement

@@ -25,7 +25,7 @@ tokens {
   NAME,
   // First word of a statement or of a control that is none of the statement words
   COMMAND,
-  // A label where it stands
+  // A label where it is
   LABEL_NAME,
   // Piece of a file name without quotes
   FILE_PART,
@@ -82,7 +82,7 @@ LEFT_SQUARE : '[' ;
 RIGHT_SQUARE : ']' ;
 // Between arguments (M1, M2, T)
 COMMA : ',' ;
-// Before or behind the name of a label (T 6.3, C:28)
+// Before or after the name of a label (T 6.3, C:28)
 COLON : ':' ;
 // In bare file names only (U)
 DOT : '.' ;

@@ -20,13 +20,13 @@ lineContent
     | KW_ELSE elsePart?                             # elseLine
     ;
 
-// A label stands alone (C:28); a statement behind it is accepted and reported
-// Leading colon (T 6.3), colon behind the name (C:28)
+// A label is alone (C:28); a statement after it is accepted and reported
+// Leading colon (T 6.3), colon after the name (C:28)
 label : COLON LABEL_NAME | LABEL_NAME COLON ;
 
 // ELSE on the line of its IF (U) belongs to the nearest IF before it
 oneLine : statement (KW_ELSE statement)* ;
-// (U) what may stand behind ELSE
+// (U) what may follow ELSE
 elsePart : LEFT_SQUARE | oneLine ;
 
 statement
@@ -36,7 +36,7 @@ statement
 
 // variable = expression (M1, M2, T)
 assignment : variable EQUAL sum ;
-// IF value relation value THEN statement (C:14-16); a comma before THEN (T 6.3); nothing or `[` behind THEN (U)
+// IF value relation value THEN statement (C:14-16); a comma before THEN (T 6.3); nothing or `[` after THEN (U)
 ifStatement : KW_IF condition COMMA? KW_THEN (LEFT_SQUARE | statement)? ;
 // FOR variable = start TO end [STEP value] (C:18-22)
 forStatement : KW_FOR NAME EQUAL sum KW_TO sum (KW_STEP sum)? ;
@@ -56,7 +56,7 @@ declaration : (KW_GLOBAL | KW_LOCAL | KW_PERMANENT) COMMA? variable (COMMA varia
 includeStatement : HASH_INCLUDE (textLiteral | bareFile) ;
 // ON_ERROR GOTO label (C:2571)
 onErrorStatement : KW_ON_ERROR KW_GOTO NAME ;
-// Command word, arguments separated by commas (M1, M2, T); a comma behind the word (M2)
+// Command word, arguments separated by commas (M1, M2, T); a comma after the word (M2)
 command : COMMAND COMMA? (sum (COMMA sum)*)? ;
 
 // A file name without quotes: words, numbers, `-` and, between them, `.`, `\`, `:` (U)
@@ -103,7 +103,7 @@ index : LEFT_ROUND sum RIGHT_ROUND | LEFT_SQUARE sum RIGHT_SQUARE ;
 controlLine : control? lineEnd ;
 // Control word, arguments (C:2765-2801)
 control : COMMAND COMMA? (controlArgument (COMMA controlArgument)*)? ;
-// SET_STATE takes a condition (C:2795); FRAME once stands with an unquoted caption (T 6.2.2)
+// SET_STATE takes a condition (C:2795); FRAME once is with an unquoted caption (T 6.2.2)
 controlArgument
     : sum (relation sum)?                           # valueArgument
     | LOOSE_TEXT+                                   # looseText

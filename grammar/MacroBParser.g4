@@ -72,5 +72,5 @@ factor
   ;
 // #5, #[..] (R:1.1)
 variable : HASH (NUMBER | bracket) ;
-// SIN[..], ATAN[y]/[x] and ATAN[y,x]; ABS#1 stands in programs that ran (R:1.5, T31)
+// SIN[..], ATAN[y]/[x] and ATAN[y,x]; ABS#1 is in programs that ran (R:1.5, T31)
 function : FUNCTION (LBRACKET comparison (COMMA comparison)? RBRACKET | variable) ;

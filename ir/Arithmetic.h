@@ -1,4 +1,4 @@
-// Arithmetic of doubles: the one evaluator behind folding, post and sim. Nothing throws; what has no finite
+// Arithmetic of doubles: the one evaluator after folding, post and sim. Nothing throws; what has no finite
 // result says why.
 #pragma once
 

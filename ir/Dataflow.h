@@ -11,7 +11,7 @@
 
 namespace dotek::ir {
 
-// The fact before each statement; nothing where no path leads. `transfer(index, fact)` gives the fact behind
+// The fact before each statement; nothing where no path leads. `transfer(index, fact)` gives the fact after
 // a statement, `meet(into, other)` what holds on both paths and whether `into` changed. A fact may change a
 // bounded number of times only.
 template <class Fact, AnyStatement Statement, class Transfer, class Meet>

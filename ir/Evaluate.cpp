@@ -130,7 +130,7 @@ Computed compute(UnaryOp op, double a) {
   case UnaryOp::NullAsZero: return {a, ArithmeticError::None};
   case UnaryOp::FromBcd: return fromBcd(a);
   case UnaryOp::ToBcd: return toBcd(a);
-  // What these give hangs on the control.
+  // What these give depends on the control.
   case UnaryOp::RoundIncrement:
   case UnaryOp::AddPoint: break;
   }

@@ -1,4 +1,4 @@
-// Values of expressions and conditions: the one evaluator behind folding, checks and (later) simulation.
+// Values of expressions and conditions: the one evaluator after folding, checks and (later) simulation.
 #pragma once
 
 #include "ir/Arithmetic.h"
@@ -34,12 +34,12 @@ Computed compute(BinaryOp op, double a, double b);
 // Machine variables and measured results are unknown. Null in arithmetic fails (NoValue); what fails
 // outweighs what is unknown.
 Scalar evaluate(const Expression& expression, const Environment& environment);
-// A side that is known decides AND and OR, whatever the other one is. nullopt: it hangs on something unknown
-// or failed; Null in a comparison fails.
+// A side that is known decides AND and OR, whatever the other one is. nullopt: it depends on something
+// unknown or failed; Null in a comparison fails.
 std::optional<bool> holds(const Condition& condition, const Environment& environment);
 
-// How the checks end for the values. Unknown: at a branch that hangs on an unknown value, or at a block whose
-// meaning is not known. Failed: at a branch or an assignment whose arithmetic fails. Endless: more than
+// How the checks end for the values. Unknown: at a branch that depends on an unknown value, or at a block
+// whose meaning is not known. Failed: at a branch or an assignment whose arithmetic fails. Endless: more than
 // `maxSteps` statements.
 struct CheckRun {
   enum class End : std::uint8_t { Passes, Alarm, Unknown, Failed, Endless };

@@ -22,7 +22,7 @@ struct Constant {
   double value = 0;   // finite
   std::string digits; // as the source writes it, sign included; "" where it was computed
 };
-// The value of a variable that nobody set (Macro B #0). Only in Assign, ValueOr and as a word's value.
+// The value of a variable that is not set (Macro B #0). Only in Assign, ValueOr and as a word's value.
 struct NullValue {};
 struct VariableUse {
   VariableId variable = 0;
@@ -31,7 +31,7 @@ struct VariableUse {
 struct MachineVariable {
   ExpressionPtr number;
 };
-// What the last measurement that was carried out left behind. `Documented` ones are defined by the macro set;
+// What the last measurement that was carried out left. `Documented` ones are defined by the macro set;
 // Main is "the result" of a set that does not say what it holds (EasyProbe #138).
 enum class ResultName : std::uint8_t { Main, PositionX, PositionY, PositionZ, Size };
 struct MeasuredResult {
@@ -55,7 +55,7 @@ enum class UnaryOp : std::uint8_t {
   Exponential,
   NullAsZero, // null becomes 0; anything else stays
   // Of macro programs:
-  RoundIncrement, // ROUND behind an address: to the least input increment of the word that holds it
+  RoundIncrement, // ROUND after an address: to the least input increment of the word that holds it
   FromBcd,        // BIN: the decimal digits of a number in BCD
   ToBcd,          // BCD
   AddPoint,       // ADP: an argument that was passed without a point gets it

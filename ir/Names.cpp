@@ -10,7 +10,7 @@
 namespace dotek::ir {
 namespace {
 
-// Words that stand where a name may stand, or behind one.
+// Words that are where a name may appear, or after one.
 constexpr std::string_view kWords[] = {
     "abs",     "acos",   "alarm",    "and",    "as",       "asin",     "atan",    "bitand",    "bitor",
     "bitxor",  "block",  "body",     "checks", "comment",  "coolant",  "cos",     "cycle",     "direction",

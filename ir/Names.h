@@ -37,7 +37,7 @@ private:
   std::string none_ = "\"?\""; // of an id that does not exist: verify() tells
 };
 
-// Append the text to `out`. A primary needs no brackets behind a sign, `#` or a letter.
+// Append the text to `out`. A primary needs no brackets after a sign, `#` or a letter.
 void write(const Expression& expression, const Names& names, std::string& out);
 void writePrimary(const Expression& expression, const Names& names, std::string& out);
 void write(const Condition& condition, const Names& names, std::string& out);

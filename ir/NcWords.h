@@ -26,7 +26,7 @@ constexpr bool isAddressIn(std::uint32_t addresses, char letter) {
   return letter >= 'A' && letter <= 'Z' && (addresses & addressBit(letter)) != 0;
 }
 
-// One block. G and M may stand in it several times and are kept in order; of every other address the order
+// One block. G and M may appear in it several times and are kept in order; of every other address the order
 // has no meaning. A null word (Macro B) is simply not present. Values are in the units of the text: the
 // machine knows inches, degrees and the meaning of a missing point.
 struct NcWords {
@@ -35,7 +35,7 @@ struct NcWords {
   enum Mark : std::uint8_t {
     None = 0,
     BlockDelete = 1,  // begins with `/`; `deleteLevel` says which
-    ProgramMark = 2,  // `%`; nothing else stands in the block
+    ProgramMark = 2,  // `%`; nothing else is in the block
     ProgramName = 4,  // O and a number (then present as O), or <NAME>
     TooManyCodes = 8, // more than kMostCodes of G or of M
   };
@@ -43,7 +43,7 @@ struct NcWords {
   std::uint32_t present = 0;    // addressBit of each word
   std::uint32_t pointed = 0;    // those written with a decimal point; those of a computed value too
   std::uint32_t repeated = 0;   // those given twice, G and M aside
-  std::uint32_t mostPlaces = 0; // most digits behind the point that a word of the block has
+  std::uint32_t mostPlaces = 0; // most digits after the point that a word of the block has
   std::uint32_t gCount = 0;
   std::uint32_t mCount = 0;
   std::uint8_t marks = None;

@@ -27,7 +27,7 @@ Set behind(const std::vector<CycleStatement>& list, std::size_t from, std::size_
         bool negated = false;
         const auto* use = nullTest(node.condition, negated);
         if (!use) return;
-        // A target right behind the branch: both ways lead there.
+        // A target right after the branch: both paths lead there.
         const auto* label = from + 1 < list.size() ? std::get_if<Label>(&list[from + 1].node) : nullptr;
         if (label && label->label == node.target) return;
         const bool taken = to != from + 1;

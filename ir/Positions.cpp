@@ -95,7 +95,7 @@ Fact behind(const CycleStatement& statement, Fact fact) {
             moveAxis(fact, indexOf(axis), *target, node.point);
       },
       [&](const Measure& node) {
-        // An offset that changes moves the coordinates of the place where the probe stands.
+        // An offset that changes moves the coordinates of the place where the probe is.
         if (node.setting && mayBeActive(node.setting->system, fact))
           for (const Axis axis : kAxes)
             if (node.setting->nominal[indexOf(axis)]) forget(fact.position[indexOf(axis)]);

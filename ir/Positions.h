@@ -1,4 +1,4 @@
-// Where the probe stands before each statement of a body, as far as the moves tell.
+// Where the probe is before each statement of a body, as far as the moves tell.
 #pragma once
 
 #include "ir/Cycle.h"
@@ -8,8 +8,8 @@
 
 namespace dotek::ir {
 
-// One axis. Work: `point` stands at coordinate `value` of the active work system. Start: entry position plus
-// `value`. Unknown where paths disagree, or where an opaque block or a variable that changed since stands
+// One axis. Work: `point` is at coordinate `value` of the active work system. Start: entry position plus
+// `value`. Unknown where paths disagree, or where an opaque block or a variable that changed since is
 // between. `point` is Centre or, along Z, Lowest; of a Start position that only relative travels reached it
 // is Centre whatever point the caller placed.
 struct AxisPosition {
@@ -21,13 +21,13 @@ struct AxisPosition {
 using Position = std::array<AxisPosition, 3>; // by Axis
 
 // One entry for each statement of `cycle.body`: before it. Unreachable statements: Unknown. A measurement
-// comes back to where it began; where it may set the active work system, the axes that it sets become
+// returns to where it began; where it may set the active work system, the axes that it sets become
 // Unknown. A change of the work system makes all axes Unknown; a coordinate in the machine's or the retract
 // frame, in another work system, of the contact point or read from a machine variable makes its axis Unknown.
 std::vector<Position> positions(const Cycle& cycle);
 
 // The last measurement before each statement of the body, on every path; nullptr: none, paths disagree, or an
-// opaque block, which may measure, stands between. Points into `cycle.body`.
+// opaque block, which may measure, is between. Points into `cycle.body`.
 std::vector<const Measure*> lastMeasurements(const Cycle& cycle);
 
 // The statement touches: a measurement or a protected move.

@@ -98,7 +98,7 @@ void writeAt(const Expression& expression, Level least, const Names& names, std:
   if (brackets) out += ')';
 }
 
-// No sign before it and nothing behind it.
+// No sign before it and nothing after it.
 bool isBareNumber(const std::string& text) {
   return text.front() != '-' && text.find(' ') == std::string::npos;
 }

@@ -11,7 +11,7 @@ namespace dotek::ir {
 std::string statementText(const CycleStatement& statement, const Names& names);
 std::string statementText(const ProgramStatement& statement, const Names& names);
 
-// `text` with `; file:line, reason` behind it.
+// `text` with `; file:line, reason` after it.
 std::string withOrigin(std::string text, SourceRange range, const std::string& reason,
                        const SourceMap* sources);
 

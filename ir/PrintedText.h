@@ -22,7 +22,7 @@ struct PrintedPiece {
 
 // One block. Its statements are those whose Origin::block is its place in the list, counted from 1.
 struct PrintedBlock {
-  bool numbered = false; // an N number stands before it; `pieces` hold it not
+  bool numbered = false; // an N number is before it; `pieces` hold it not
   std::vector<PrintedPiece> pieces;
   SourceRange range;
 };

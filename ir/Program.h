@@ -23,7 +23,7 @@ struct ProgramLabel {
 //
 // Each block of the text becomes one run of statements with the same Origin::block, from 1 and rising; a
 // block without statements (a number alone) is its Label. IF [c] THEN s is a Branch by the opposite of c to a
-// label without number right behind s, all in one block.
+// label without number right after s, all in one block.
 struct Program {
   enum class NameKind : std::uint8_t { None, Number, Colon, Name }; // blocks before any header, O12, :12, <N>
   NameKind nameKind = NameKind::None;
@@ -37,7 +37,7 @@ struct Program {
   LabelId addLabel(ProgramLabel label);
 };
 
-// The file of the programs: what stands around them.
+// The file of the programs: what is around them.
 struct ProgramFile {
   bool markFirst = false; // `%`
   bool markLast = false;

@@ -63,12 +63,12 @@ struct OffsetSetting {
   std::array<ExpressionPtr, 3> nominal; // by Axis; null pointer: axis not set
 };
 enum class Feature : std::uint8_t { Surface, Bore };
-// Touches a feature and comes back to where it began.
+// Touches a feature and returns to where it began.
 struct Measure {
   Feature feature = Feature::Surface;
   Axis axis = Axis::X;                  // of a surface
   std::optional<Coordinate> target;     // of a surface: expected contact point along `axis`, signed
-  ExpressionPtr diameter;               // of a bore; its expected centre is where the probe stands
+  ExpressionPtr diameter;               // of a bore; its expected centre is where the probe is
   std::optional<OffsetSetting> setting; // nothing: only measures
 };
 
@@ -142,20 +142,20 @@ struct NcBlock {
 struct JumpTo {
   ExpressionPtr number;
 };
-// WHILE and DO. Goes on where the condition holds, else at `end`, which stands right behind the LoopEnd.
+// WHILE and DO. Goes on where the condition holds, else at `end`, which follows the LoopEnd.
 struct Loop {
   std::uint32_t number = 1; // 1 to 3
   ConditionPtr condition;   // null pointer: for ever
   LabelId end = 0;
 };
-// END: goes on at `begin`, which stands right before the Loop.
+// END: goes on at `begin`, which precedes the Loop.
 struct LoopEnd {
   std::uint32_t number = 1;
   LabelId begin = 0;
 };
 enum class CallKind : std::uint8_t {
   Macro,      // G65: a level of locals of its own
-  AfterMoves, // G66: behind each later block that moves an axis
+  AfterMoves, // G66: after each later block that moves an axis
   EachBlock,  // G66.1: in the place of each later block, whose words are the arguments
   Off,        // G67: ends the last G66 or G66.1
   Subprogram, // M98: the locals of the caller
@@ -174,7 +174,7 @@ struct Call {
 };
 // M99. In the main program: goes on at its first block.
 struct Exit {
-  ExpressionPtr block; // P: N number in the caller to go on at; null pointer: behind the call
+  ExpressionPtr block; // P: N number in the caller to go on at; null pointer: after the call
 };
 // #3000 = number (text): ends the run.
 struct Raise {
@@ -213,7 +213,7 @@ struct Origin {
   std::string reason;              // "" or what made it: "argument omitted", "mode restored"
   std::uint32_t block = 0;         // statements lifted from one NC block share a number; 0: from none
   std::string addresses;           // letters of that block in the order written: layout only
-  std::uint32_t place = 0; // of a Comment of a program: words of its block that stand before it, layout only
+  std::uint32_t place = 0; // of a Comment of a program: words of its block that precede it, layout only
   // Letters of a macro call that a variable fills directly: they name the arguments of the result.
   std::vector<std::pair<char, VariableId>> arguments;
 

@@ -85,7 +85,7 @@ private:
       const auto target = targetOf(i);
       if (!target) continue;
       if (*target >= program_.labels.size() || !placeOf(*target))
-        return refuse("the target of this jump stands nowhere", i);
+        return refuse("the target of this jump is nowhere", i);
       const std::uint64_t number = program_.labels[*target].number;
       if (number != 0 && numbers[number] > 1)
         return refuse("several blocks are N" + std::to_string(number) + ", where this jump goes", i);
@@ -174,7 +174,7 @@ private:
     return a == b;
   }
 
-  // Each way back leads to a statement that all ways to its source pass.
+  // Each path back leads to a statement that all paths to its source pass.
   std::optional<Unstructured> reducible() {
     dominators();
     for (const Index from : reached_) {
@@ -205,7 +205,7 @@ private:
           if (order_[from] < body_.size()) open.push_back(from);
       }
       if (*members.begin() < header)
-        return refuse("the loop that this jump closes begins behind a part of it", sources.front());
+        return refuse("the loop that this jump closes begins after a part of it", sources.front());
       const Interval loop{header, *members.rbegin() + 1};
       if (const auto from = entrance(loop))
         return refuse("this jump goes into a loop that is made of jumps", *from);
@@ -217,8 +217,8 @@ private:
     return std::nullopt;
   }
 
-  // A statement outside that leads into the interval behind its begin. What nothing reaches counts, too: it
-  // stands in the text.
+  // A statement outside that leads into the interval after its begin. What nothing reaches counts, too: it
+  // is in the text.
   std::optional<Index> entrance(const Interval& region) const {
     for (Index at = region.begin + 1; at < region.end; ++at)
       for (const Index from : before_[at])
@@ -265,7 +265,7 @@ private:
   std::vector<std::vector<Index>> before_;
   std::map<LabelId, Index> places_;
   std::vector<Index> reached_, order_, dominator_;
-  std::map<Index, std::vector<Index>> back_; // sources of the ways back, by where they lead
+  std::map<Index, std::vector<Index>> back_; // sources of the paths back, by where they lead
   std::vector<Interval> loops_;
 };
 

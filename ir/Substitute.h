@@ -6,7 +6,7 @@
 namespace dotek::ir {
 
 // The expression with the variables that `environment` knows replaced, simplified. Null is put in where it
-// may stand only. The same pointer where nothing changes.
+// may appear only. The same pointer where nothing changes.
 ExpressionPtr substitute(const ExpressionPtr& expression, const Environment& environment);
 ConditionPtr substitute(const ConditionPtr& condition, const Environment& environment);
 

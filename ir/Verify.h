@@ -16,7 +16,7 @@ struct Violation {
 
 // Variables and labels exist, names of labels are unique, each label is placed once per list and jumps stay
 // in their list, what a statement needs is there, axes and frames agree with their statement, kinds do not
-// mix (Number mixes with all; Length times or divided by anything is free), null stands only where it may (a
+// mix (Number mixes with all; Length times or divided by anything is free), null is only where it may (a
 // word, an assignment, IsNull, NullAsZero, ValueOr), checks move, switch and measure nothing and do not
 // return, constants are finite. In the order of the statements; of one statement all that is found, of a tree
 // with a hole that alone.

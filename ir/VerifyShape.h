@@ -16,7 +16,7 @@ struct ShapeFault {
 };
 std::vector<ShapeFault> shapeFaults(const CycleStatement& statement, const Cycle& cycle);
 
-// What a statement does that checks do not: "a move"; "" for one that may stand there.
+// What a statement does that checks do not: "a move"; "" for one that may appear there.
 std::string_view notInChecks(const CycleStatement& statement);
 
 bool isFinite(double value);

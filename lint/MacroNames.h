@@ -33,7 +33,7 @@ std::vector<const gibbs::Macro*> macrosOf(const gibbs::Cycle& cycle);
 std::set<std::string> fieldsOf(const gibbs::Cycle& cycle);
 // Variables of the macro that hold the radius of the tool, folded.
 std::set<std::string> radiusNames(const gibbs::Macro& macro, const Project& project);
-// Folded name of the command behind a THEN, or of a statement of its own; "" for another statement.
+// Folded name of the command after a THEN, or of a statement of its own; "" for another statement.
 std::string commandName(const gibbs::Statement& statement);
 // IF with one comparison.
 const gibbs::Comparison* onlyComparison(const gibbs::Statement& statement);
@@ -41,7 +41,7 @@ const gibbs::Comparison* onlyComparison(const gibbs::Statement& statement);
 void eachStatement(const gibbs::Macro& macro, const std::function<void(const gibbs::Statement&)>& visit);
 // A number, maybe with a sign and brackets; nullopt: something else.
 std::optional<double> plainNumber(const gibbs::Expression& expression);
-// The variable that stands alone, brackets aside; nullptr: something else.
+// The variable that is alone, brackets aside; nullptr: something else.
 const gibbs::Name* plainName(const gibbs::Expression& expression);
 // v of ABS(v); nullptr: something else.
 const gibbs::Name* absoluteOf(const gibbs::Expression& expression);

@@ -9,7 +9,7 @@ bool isEmpty(const ir::ExpressionPtr& expression) {
   return std::holds_alternative<ir::NullValue>(expression->node) || variableNumber(*expression) == 0U;
 }
 
-// What stands at the label is an alarm.
+// What is at the label is an alarm.
 bool raisesAt(const std::vector<ir::ProgramStatement>& body, ir::LabelId label) {
   for (std::size_t i = 0; i < body.size(); ++i) {
     const auto* target = std::get_if<ir::Label>(&body[i].node);

@@ -1,4 +1,4 @@
-// Calls of programs that stand in the files, and what those programs need.
+// Calls of programs that are in the files, and what those programs need.
 #pragma once
 
 #include "lint/Skips.h"

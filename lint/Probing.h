@@ -52,7 +52,7 @@ public:
   const std::vector<std::optional<ProbeState>>& states(const std::vector<ir::ProgramStatement>& body) const;
   // Calls some macro of a probing set.
   bool probes(const ir::Program& program) const;
-  // The program is one of these files, and a G31 stands in it or in one that it calls.
+  // The program is one of these files, and a G31 is in it or in one that it calls.
   bool skips(std::uint32_t program) const { return skipping_.contains(program); }
 
 private:

@@ -18,7 +18,7 @@ struct ProgPiece {
   const compost::Literal* literal = nullptr; // of Text
   const compost::Word* word = nullptr;       // of the others
   std::string field;                         // of an OpFieldData#: the field; else ""
-  std::uint32_t arm = 0; // pieces of one number stand below the same part of an IF; 0: below none
+  std::uint32_t arm = 0; // pieces of one number are below the same part of an IF; 0: below none
 };
 
 // An NC word of a block: an address with digits, or with a hole that a piece fills.
@@ -32,7 +32,7 @@ struct ProgWord {
 struct ProgBlock {
   std::vector<ProgPiece> pieces; // EOL excepted
   SourceRange range;             // first to last piece
-  bool conditional = false;      // stands below an IF within the statements that were asked for
+  bool conditional = false;      // is below an IF within the statements that were asked for
   bool called = false;           // printed by a routine that the statements call
 
   // `G65 P9770 Z{}`: blanks as one, holes as braces, commands as `<SpinOff>`, no sequence word.

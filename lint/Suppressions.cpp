@@ -59,7 +59,7 @@ struct DirectiveWord {
   SourceRange range;
 };
 
-// The words behind `dotek:`; empty: the comment is none of ours.
+// The words after `dotek:`; empty: the comment is none of ours.
 std::vector<DirectiveWord> wordsOf(const Remark& remark) {
   const std::string lower = lowerCase(std::string_view(remark.text));
   std::size_t at = lower.find_first_not_of("{!(; \t");
@@ -101,7 +101,7 @@ public:
     }
     if (words.size() == 1)
       diagnostics_.report<diag::SuppressionForm>(
-          words.front().range, "no code stands behind `" + verb + "`; write the codes that are meant");
+          words.front().range, "no code follows `" + verb + "`; write the codes that are meant");
     for (std::size_t i = 1; i < words.size(); ++i)
       take(verb, words[i], remark);
   }
@@ -111,7 +111,7 @@ public:
       if (one.lastLine == kOpen)
         diagnostics_.report<diag::SuppressionForm>(one.range, "nothing ends the region of `" + one.code +
                                                                   "`; write `dotek: ignore-end " + one.code +
-                                                                  "` behind it");
+                                                                  "` after it");
     }
     return std::move(out_);
   }
@@ -161,7 +161,7 @@ private:
     return false;
   }
 
-  // Nothing but the comment stands on its lines.
+  // Nothing but the comment is on its lines.
   static bool alone(const SourceFile& file, const Remark& remark, std::uint32_t first, std::uint32_t last) {
     const std::string_view before =
         std::string_view(file.bytes())

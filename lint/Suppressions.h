@@ -22,7 +22,7 @@ struct Suppression {
 std::vector<Suppression> suppressionsOf(const Project& project, Diagnostics& diagnostics);
 
 // Takes out what is suppressed, and reports the suppressions that met nothing. `judged(code, file)`: the
-// finding could have been told there.
+// finding could have been reported there.
 void applySuppressions(std::vector<Suppression>& suppressions, const SourceMap& sources,
                        Diagnostics& diagnostics,
                        const std::function<bool(std::string_view code, FileId file)>& judged);

@@ -29,9 +29,8 @@ bool answersCondition(const std::string& name) {
 std::vector<std::pair<std::string, std::string>> assumptionTable() {
   std::vector<std::pair<std::string, std::string>> out{
       {"missing-field-zero", "a field that the post prints and nobody declares: it is 0"},
-      {"changed-field=macro",
-       "a field that the macro changes behind its dialog: the macro's value is stored"},
-      {"changed-field=given", "a field that the macro changes behind its dialog: the given value is stored"},
+      {"changed-field=macro", "a field that the macro changes after its dialog: the macro's value is stored"},
+      {"changed-field=given", "a field that the macro changes after its dialog: the given value is stored"},
       {"unchecked", "checks of CycleData.mac that cannot be made: the values pass"},
       {"touch=FILE:LINE", "a move of ToolPath.mac that could be a touch and does not show it: it is one"},
       {"probe-on", "verify: another routine has switched the probe on before the cycle"},
@@ -41,7 +40,7 @@ std::vector<std::pair<std::string, std::string>> assumptionTable() {
       {"Word?=yes", "a condition of a Prog that only the CAM can answer: it holds"},
       {"Q7", "Mikroprog: G23 inside a subprogram stores no return address"},
       {"Q10", "Mikroprog: P90 takes sums, P90=P90+constant"},
-      {"Q11", "Mikroprog: a parameter may stand in an axis word"},
+      {"Q11", "Mikroprog: a parameter may appear in an axis word"},
       {"Q13", "Mikroprog: O11 to O18 test the coordinate of the moment"},
       {"Word?=no", "a condition of a Prog that only the CAM can answer: it does not hold"},
   };

@@ -84,7 +84,7 @@ void runCycleChecks(const CycleFolder& folder, FieldTable& fields, const std::ma
   switch (result.verdict) {
   case gibbs::ChecksResult::Verdict::Rejected: rejected(result, folder, diagnostics); return;
   case gibbs::ChecksResult::Verdict::Depends: {
-    if (result.neededHosts.empty()) break; // no flag helps; what is unknown has been told
+    if (result.neededHosts.empty()) break; // no flag helps; what is unknown has been reported
     const SourceRange where = result.rejections.empty() ? SourceRange{folder.cycle->cycleData->file, 0, 0}
                                                         : result.rejections.front().range;
     // Where no host input decides it, the conditions that stay open are named one by one.

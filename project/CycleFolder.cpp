@@ -199,7 +199,7 @@ void addWithCallees(const gibbs::Macro& macro, CycleFolder& folder, const gibbs:
     }
     for (const Callee& callee : callees) {
       if (callee.dialog) {
-        // A file of the folder that is missing was told; checkCycle tells what CycleData.mac misses.
+        // A file of the folder that is missing was reported; checkCycle says what CycleData.mac misses.
         const bool plain = callee.name.find_first_of("/\\") == std::string::npos;
         const bool told =
             gibbs::foldCase(callee.name) == "CYCLEDATA.DLG" || (cycle.cycleData && next == &*cycle.cycleData);

@@ -55,7 +55,7 @@ void readSets(LoweringInputs& inputs, Session& session) {
   }
 }
 
-// One cycle on its way to the IR.
+// One cycle on its path to the IR.
 class Lowering {
 public:
   Lowering(const CycleFolder& folder, const LoweringInputs& inputs, Session& session, Strictness strictness)
@@ -217,7 +217,7 @@ bool Lowering::checks() {
   out_.checked = !folder_.cycle->cycleData->hasErrorNodes &&
                  gibbs::lowerChecks(*folder_.cycle->cycleData, cycle(), context);
   if (!out_.checked) cycle().checks.clear();
-  session_.diagnostics() = Diagnostics(); // only errors of the body are in its way
+  session_.diagnostics() = Diagnostics(); // only errors of the body are in its path
   return true;
 }
 
@@ -306,7 +306,7 @@ std::optional<LoweredCycle> Lowering::run(std::set<std::string>& usedSets) {
     good = fields.map(postField, variable) && good;
   if (!good && !lenient_) return std::nullopt;
   good = checks();
-  // What the dialog turns away is told before what its blocks would come to.
+  // What the dialog rejects is reported before what its blocks would come to.
   if (good && !lenient_ && turnedAway()) return std::nullopt;
   good = (routine != nullptr ? branch(*routine, fields) : path()) && good;
   if (!good || session_.diagnostics().hasErrors()) return std::nullopt;

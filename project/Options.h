@@ -1,4 +1,4 @@
-// What every command that reads inputs is told of them.
+// What every command that reads inputs is reported of them.
 #pragma once
 
 #include "support/Limits.h"
@@ -33,7 +33,7 @@ struct CommonOptions {
 // The form of a Prog where nobody names one.
 inline constexpr std::string_view kDefaultForm = "thesis-a";
 
-// Flags that say where the post stands.
+// Flags that say where the post is.
 struct SourceOptions {
   std::optional<std::string> prog;
   std::optional<std::string> form; // nothing: what dotek.toml says, else kDefaultForm

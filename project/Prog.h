@@ -24,7 +24,7 @@ const frontend::compost::Routine* chooseRoutine(const frontend::compost::Program
                                                 const std::string& cycle, Session& session);
 
 // Drops the notes and warnings of the front ends, which say how the inputs are written, so that what is said
-// of this run stands out; a note counts the warnings. Repairs and unverified readings stay.
+// of this run is out; a note counts the warnings. Repairs and unverified readings stay.
 void leaveFindingsToLint(Session& session);
 
 } // namespace dotek::project

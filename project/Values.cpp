@@ -59,7 +59,7 @@ public:
       session_.diagnostics()
           .report<diag::DefaultTurnedAway>(variable.range, variable.name, numberText(*variable.defaultValue),
                                            messageOf(*defaults.at))
-          .note(defaults.at->origin.range(), "this check turns it away");
+          .note(defaults.at->origin.range(), "this check rejects it");
       variable.defaultValue.reset();
     }
   }

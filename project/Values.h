@@ -7,7 +7,7 @@
 
 namespace dotek::project {
 
-// Where the fixed values leave no way through the checks, whatever the rest is: an alarm that they end in.
+// Where the fixed values leave no path through the checks, whatever the rest is: an alarm that they end in.
 std::optional<ir::CycleStatement> certainAlarm(const LoweredCycle& lowered);
 void reportRejected(const CycleFolder& folder, const ir::CycleStatement& alarm, Session& session);
 
@@ -15,7 +15,7 @@ void reportRejected(const CycleFolder& folder, const ir::CycleStatement& alarm, 
 void applyDefaults(const NamedTexts& given, LoweredCycle& lowered, std::set<std::string>& used,
                    Session& session);
 
-// Reports defaults of `--default` that the checks turn away. A default of the source that they turn away is a
+// Reports defaults of `--default` that the checks reject. A default of the source that they reject is a
 // warning, and is taken away: the argument becomes mandatory.
 void settleValues(const CycleFolder& folder, LoweredCycle& lowered, Session& session);
 

@@ -84,8 +84,7 @@ void ControlReader::words() {
   origin(table);
   const TomlValue increment = table.require("increment", "the least input increment in mm");
   control_.increment = increment.number();
-  control_.decimals =
-      static_cast<int>(whole(table, "decimals", "the most digits behind the point, mm", 0, 6));
+  control_.decimals = static_cast<int>(whole(table, "decimals", "the most digits after the point, mm", 0, 6));
   control_.integerDigits =
       static_cast<int>(whole(table, "integer_digits", "the most digits before the point", 1, 9));
   if (const TomlValue digits = table.value("digits"))

@@ -153,7 +153,7 @@ struct CodeInfo {
 
 // Where the control keeps its state; nothing: it has no such variable, or no source gives it.
 struct SystemVariables {
-  std::optional<int> modalFirst;  // of group 0: group g stands at modalFirst + g
+  std::optional<int> modalFirst;  // of group 0: group g is at modalFirst + g
   std::optional<int> modalFeed;   // F in force
   std::optional<int> blockEnd;    // X of the end point of the previous block, work coordinates; Y, Z follow
   std::optional<int> machine;     // X of the machine position
@@ -165,7 +165,7 @@ struct SystemVariables {
   int extendedStep = 0;           // from P1 to P2
   int extendedCount = 0;          // greatest P
   std::optional<int>
-      toolWear; // of offset 0: offset n stands at toolWear + n; the whole length where there is no geometry
+      toolWear; // of offset 0: offset n is at toolWear + n; the whole length where there is no geometry
   std::optional<int> toolGeometry;
   int toolCount = 0;                 // greatest offset number
   std::optional<int> modalWords;     // words in force: + 2 B, 7 D, 9 F, 11 H, 13 M, 14 N, 15 O, 19 S, 20 T
@@ -184,14 +184,14 @@ struct VariableRange {
   bool kept = false; // at power off
 };
 
-// A code that calls a program: G5101, or as many codes one behind the other as there are programs. Any T.
+// A code that calls a program: G5101, or as many codes one after the other as there are programs. Any T.
 struct CallCode {
   char letter = 'G';
   std::uint32_t first = 0; // code; of T unused
   std::uint32_t count = 1;
   std::uint32_t program = 0;          // of the first code; the next code calls the next program
   bool macro = true;                  // with arguments and locals of its own; else as a subprogram
-  std::optional<std::uint32_t> holds; // variable that gets the number behind the letter
+  std::optional<std::uint32_t> holds; // variable that gets the number after the letter
   std::string grade;
   std::string source;
 };
@@ -229,7 +229,7 @@ struct Control {
   Arithmetic arithmetic = Arithmetic::Double;
   std::uint32_t lengths = kLengthAddresses; // ir::addressBit of each that counts lengths, angles or seconds
   double increment = 0.001;                 // mm, least input increment
-  int decimals = 3;                         // most digits behind the point of a word, mm
+  int decimals = 3;                         // most digits after the point of a word, mm
   int integerDigits = 5;                    // most digits before the point
   std::uint32_t digits = 8;                 // most digits of a number, leading zeros too
   bool ifThen = true;                       // IF [..] THEN statement

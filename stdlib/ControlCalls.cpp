@@ -67,7 +67,7 @@ void ControlReader::calls() {
     }
     for (std::uint32_t i = 0; i < call.count && call.letter != 'T'; ++i) {
       if (control_.find(call.letter, (call.first + i) * 10) != nullptr)
-        document_.fail(code.range(), fmt::format("`{}` stands among the codes, too",
+        document_.fail(code.range(), fmt::format("`{}` is among the codes, too",
                                                  codeText(call.letter, (call.first + i) * 10)));
     }
     control_.callCodes.push_back(std::move(call));

@@ -175,7 +175,7 @@ void ControlReader::check(const CodeInfo& code, const TomlValue& item) {
                                              functionName(code.function), code.letter, name));
   if (code.letter == 'M' && code.group)
     document_.fail(item.range(),
-                   fmt::format("`{}` stands in modal group {}, which holds G codes", name, *code.group));
+                   fmt::format("`{}` is in modal group {}, which holds G codes", name, *code.group));
   if (code.function == Function::WorkSystem &&
       (code.tenths % 10 != 0 || code.tenths < 540 || code.tenths > 590))
     document_.fail(item.range(), fmt::format("`{}` is no work system; they are G54 to G59", name));
@@ -186,10 +186,10 @@ void ControlReader::check(const CodeInfo& code, const TomlValue& item) {
     if (otherFamily == Family::None) continue;
     const bool sameGroup = code.group == other.group;
     if (family == otherFamily && !sameGroup)
-      document_.fail(item.range(), fmt::format("`{}` belongs with `{}` and stands in another group", name,
+      document_.fail(item.range(), fmt::format("`{}` belongs with `{}` and is in another group", name,
                                                codeText(other.letter, other.tenths)));
     if (family != otherFamily && sameGroup && code.group)
-      document_.fail(item.range(), fmt::format("`{}` cannot stand in group {} with `{}`: one does not end "
+      document_.fail(item.range(), fmt::format("`{}` cannot appear in group {} with `{}`: one does not end "
                                                "the other",
                                                name, *code.group, codeText(other.letter, other.tenths)));
   }

@@ -41,16 +41,16 @@ void ControlReader::variables() {
   v.systemStep = static_cast<int>(table.value("system_step").integer(0, 1, 9999));
   v.axisStep = static_cast<int>(table.value("axis_step").integer(0, 1, 9999));
   if (v.workOffsetX && v.systemStep == 0)
-    document_.fail(table.value("work_offset_x").range(), "`work_offset_x` stands without `system_step`");
+    document_.fail(table.value("work_offset_x").range(), "`work_offset_x` is without `system_step`");
   if ((v.workOffsetX || v.externalX) && v.axisStep == 0)
     document_.fail(table.value(v.workOffsetX ? "work_offset_x" : "external_x").range(),
-                   "an offset of X stands without `axis_step`");
+                   "an offset of X is without `axis_step`");
   if (v.extendedX && (v.extendedStep == 0 || v.extendedCount == 0))
     document_.fail(table.value("extended_x").range(),
-                   "`extended_x` stands without `extended_step` and `extended_count`");
+                   "`extended_x` is without `extended_step` and `extended_count`");
   if ((v.toolWear || v.toolGeometry) && v.toolCount == 0)
     document_.fail(table.value(v.toolWear ? "tool_wear" : "tool_geometry").range(),
-                   "tool offsets stand without `tool_count`");
+                   "tool offsets are without `tool_count`");
   Taken blocks;
   const auto add = [&](std::string_view key, std::optional<int> first, int count, int step = 1) {
     for (int i = 0; first && i < count; ++i)

@@ -101,7 +101,7 @@ private:
     if (value && !picture)
       document_.fail(value.range(), fmt::format("`{}` has no `picture` to be printed in", entry.value));
     if (picture && !value)
-      document_.fail(picture.range(), "`picture` stands without `value`, the host input that it prints");
+      document_.fail(picture.range(), "`picture` is without `value`, the host input that it prints");
     if (!picture) return;
     const auto parsed = Picture::parse(entry.picture);
     if (const auto* error = std::get_if<PictureError>(&parsed)) {
@@ -135,7 +135,7 @@ private:
       document_.fail(place.range(), fmt::format("`{}` is no keyword: letters and digits are expected", name));
     const ComPostKeyword* keyword = keywords_.find(name);
     if (keyword != nullptr && keyword->kind != kind)
-      document_.fail(place.range(), fmt::format("`{}` is {} and stands under `{}`", name,
+      document_.fail(place.range(), fmt::format("`{}` is {} and is under `{}`", name,
                                                 kindPhrase(keyword->kind), kindTable(kind)));
     if (!map.emplace(name, std::move(entry)).second)
       document_.fail(place.range(), fmt::format("`{}` is given twice", name));

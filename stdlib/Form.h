@@ -14,8 +14,8 @@ class DataFiles;
 class ComPostKeywords;
 
 struct FormEntry {
-  std::string text;      // printed as it stands, leading blank included
-  std::string value;     // host input printed behind the text ("clearance"), "" for none
+  std::string text;      // printed as it is, leading blank included
+  std::string value;     // host input printed after the text ("clearance"), "" for none
   std::string picture;   // of the value
   bool observed = false; // seen in real output; else assumed
   std::string source;

@@ -30,7 +30,7 @@ struct ArgumentSpec {
   Type type = Type::Number;
   bool array = false;
   bool optional = false;
-  std::uint32_t repeat = 1; // how often it may stand; kNoBound: any number
+  std::uint32_t repeat = 1; // how often it may appear; kNoBound: any number
   bool geometry = false;    // takes P1, L8, C25 too
   std::string name;
   std::vector<std::string> keywords; // Choice, upper case

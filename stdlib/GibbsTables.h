@@ -1,4 +1,4 @@
-// The tables behind GibbsKeywords; private to stdlib.
+// The tables after GibbsKeywords; private to stdlib.
 #pragma once
 
 #include "stdlib/GibbsKeywords.h"

@@ -30,7 +30,7 @@ public:
   }
   void finish() const { document_.finish(); }
 
-  // Grade and source stand in every table.
+  // Grade and source are in every table.
   static char grade(const TomlTable& table) {
     table.require("source", "where the fact comes from").text();
     return table.require("grade", "D, O, I or U").choice({"D", "O", "I", "U"}, "U")[0];
@@ -135,8 +135,7 @@ void loadCommands(const DataFiles& files, Tables& tables) {
       }
       Tables::Command& command = tables.commands[signature.name];
       if (!command.signatures.empty() && command.core != core)
-        file.fail(item.range(),
-                  fmt::format("`{}` stands in a core group and in another one", signature.name));
+        file.fail(item.range(), fmt::format("`{}` is in a core group and in another one", signature.name));
       command.core = core;
       command.signatures.push_back(std::move(signature));
     }
@@ -196,7 +195,7 @@ void loadDialog(const DataFiles& files, Tables& tables) {
     file.known(tables.controls, name, item, "control");
     tables.requiredControls.push_back(name);
   }
-  const TomlValue first = file.root().require("first", "the control that stands first");
+  const TomlValue first = file.root().require("first", "the control that is first");
   tables.firstControl = upperCase(first.text());
   file.known(tables.controls, tables.firstControl, first, "control");
   tables.imageSuffix = file.root().require("image_suffix", "the suffix of images").text();

@@ -23,8 +23,8 @@ inline constexpr HostInput kHostInputs[] = {
     {"tool_radius", "radius of the stylus ball, mm"},
     {"tool_number", "number of the tool"},
     {"tool_offset", "number of the tool offset"},
-    {"overtravel", "distance that a measuring move goes on behind the expected surface, mm"},
-    {"return_feed", "feed of the way back after a contact, mm/min"},
+    {"overtravel", "distance that a measuring move goes on after the expected surface, mm"},
+    {"return_feed", "feed of the path back after a contact, mm/min"},
 };
 
 // The names alone, in the order of the table.

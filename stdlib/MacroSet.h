@@ -119,7 +119,7 @@ struct MacroArgument {
   std::string unknown; // what no source says of it: a run by meaning that meets it is inconclusive
 };
 
-// What a variable holds behind the call. X(id, name in the data)
+// What a variable holds after the call. X(id, name in the data)
 #define DOTEK_OUTPUTS(X)                                                                                     \
   X(Main, "main") /* no document describes it */                                                             \
   X(PositionX, "position-x")                                                                                 \
@@ -166,7 +166,7 @@ struct MacroSignature {
   std::string title;         // "single surface along X"
   Intent intent = Intent::ProtectedMove;
   std::vector<MacroArgument> arguments; // in the order in which they are written
-  // At least one of these letters stands in the call; empty: no such rule.
+  // At least one of these letters is in the call; empty: no such rule.
   std::string anyOf;
   std::vector<MacroResult> results;
   std::string unknown; // what no source says of the call: a run by meaning is inconclusive; "": nothing

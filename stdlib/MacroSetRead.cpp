@@ -127,7 +127,7 @@ private:
       set_.callerValues.emplace_back(number, one.require("value", "a number").number());
     }
     if (set_.needs.empty() && !set_.callerValues.empty())
-      document_.fail(table.range(), "`values` are of variables that `needs` tells of");
+      document_.fail(table.range(), "`values` are of variables that `needs` reports");
     if (set_.needs.empty() && !set_.needsSkipPosition)
       document_.fail(table.range(), "nothing is needed: leave the table out");
   }
@@ -227,7 +227,7 @@ private:
     if (set_.signatures.size() == kMostSignatures)
       document_.fail(table.range(), fmt::format("more than {} signatures", kMostSignatures));
     MacroSignature out;
-    const TomlValue program = table.require("program", "the number behind P");
+    const TomlValue program = table.require("program", "the number after P");
     out.program = static_cast<std::uint32_t>(program.integer(1, 1, 99999999));
     out.title = table.require("title", "what the call does").text();
     out.intent = chosen<Intent>(table.require("intent", "what the call means"), kIntents, intentName);
@@ -263,7 +263,7 @@ private:
       for (const MacroArgument& other : signature.arguments) {
         if (other.letter > out.letter && other.letter <= 'K')
           document_.fail(letter.range(),
-                         fmt::format("`{}` stands behind `{}`: controls read I, J, K in that order and take "
+                         fmt::format("`{}` follows `{}`: controls read I, J, K in that order and take "
                                      "another as the start of a second set",
                                      out.letter, other.letter));
       }
@@ -321,7 +321,7 @@ private:
         document_.fail(value.range(),
                        fmt::format("`{}` in `any_of` is required: the rule says nothing", letter));
       if (signature.anyOf.find(letter) != i)
-        document_.fail(value.range(), fmt::format("`{}` stands twice in `any_of`", letter));
+        document_.fail(value.range(), fmt::format("`{}` appears twice in `any_of`", letter));
     }
   }
 
@@ -354,7 +354,7 @@ private:
     });
     if (!overwritten)
       document_.fail(variable.range(),
-                     fmt::format("#{} stands in no `[[scratch]]`, and the call writes it", out.variable));
+                     fmt::format("#{} is in no `[[scratch]]`, and the call writes it", out.variable));
     signature.results.push_back(out);
   }
 

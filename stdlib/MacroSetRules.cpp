@@ -44,7 +44,7 @@ private:
   }
   void noTarget(std::string_view what) {
     if (!targets_.empty())
-      fail(fmt::format("{} is measured from where the probe stands: it has no target", what));
+      fail(fmt::format("{} is measured from where the probe is: it has no target", what));
   }
   void round(std::string_view what) {
     if (!needs(Role::Diameter)) fail(fmt::format("{} has a diameter, which is required", what));

@@ -101,7 +101,7 @@ private:
     const TomlTable table = root_.require("words", "what a number may look like").table();
     origin(table);
     control_.decimals =
-        static_cast<int>(table.require("decimals", "digits behind the point").integer(3, 0, 6));
+        static_cast<int>(table.require("decimals", "digits after the point").integer(3, 0, 6));
     control_.integerDigits =
         static_cast<int>(table.require("integer_digits", "digits before the point").integer(5, 1, 9));
   }
@@ -143,7 +143,7 @@ private:
       return;
     }
     out.letter = text[0];
-    if (!codes_.insert(text).second) document_.fail(value.range(), fmt::format("`{}` stands twice", text));
+    if (!codes_.insert(text).second) document_.fail(value.range(), fmt::format("`{}` appears twice", text));
   }
 
   std::string letters(const TomlValue& value, const std::string& text, const MikroprogFunction& of,
@@ -195,7 +195,7 @@ private:
     else
       out.letter = text[0];
     if (out.letter != 0 && of.find(out.letter) != nullptr)
-      document_.fail(letter.range(), fmt::format("`{}` stands twice", text));
+      document_.fail(letter.range(), fmt::format("`{}` appears twice", text));
     if (kAxes.find(out.letter) != std::string_view::npos && out.letter != 0 && !control_.hasAxis(out.letter))
       document_.fail(letter.range(), fmt::format("`{}` is none of `axes`", text));
     const std::string use =
@@ -213,10 +213,10 @@ private:
 
   void condition(const TomlTable& table) {
     MikroprogCondition out;
-    const TomlValue number = table.require("number", "the number behind O");
+    const TomlValue number = table.require("number", "the number after O");
     out.number = static_cast<std::uint32_t>(number.integer(1, 1, 99));
     if (control_.condition(out.number) != nullptr)
-      document_.fail(number.range(), fmt::format("O{} stands twice", out.number));
+      document_.fail(number.range(), fmt::format("O{} appears twice", out.number));
     out.title = table.require("title", "when it holds").text();
     origin(table, out.grade, out.source);
     control_.conditions.push_back(std::move(out));
@@ -227,7 +227,7 @@ private:
     const TomlValue number = table.require("number", "the number of the question");
     out.number = static_cast<std::uint32_t>(number.integer(1, 1, 99));
     if (control_.question(out.number) != nullptr)
-      document_.fail(number.range(), fmt::format("Q{} stands twice", out.number));
+      document_.fail(number.range(), fmt::format("Q{} appears twice", out.number));
     out.title = table.require("title", "what is taken to hold").text();
     out.assumed = table.require("assumed", "true or false").flag();
     control_.questions.push_back(std::move(out));

@@ -35,9 +35,9 @@ struct MikroprogFunction {
   bool usable = true;   // false: not described, or the machine cannot run it
   std::string ends;     // what ends it; "" where only its group does, or for one block
   std::vector<MikroprogAddress> addresses;
-  std::vector<std::string> either;      // letters; of at least one text one has to stand there
+  std::vector<std::string> either;      // letters; of at least one text one has to appear there
   std::vector<std::string> notTogether; // letters that no block may hold together
-  std::string forbids;                  // letters that the function must not stand with
+  std::string forbids;                  // letters that the function must not appear with
   std::vector<std::string> notes;
   std::string grade, source;
 
@@ -63,7 +63,7 @@ struct MikroprogControl {
   std::string origin;   // "built in", or the file
   std::string axes;     // "XZ"
   std::string diameter; // axes that are written as diameters
-  int decimals = 3;     // most digits behind the point
+  int decimals = 3;     // most digits after the point
   int integerDigits = 5;
   std::string programEnding, dataEnding; // of file names, without the point
   // What the panel shows; {} is the axis and the coordinate.

@@ -63,7 +63,7 @@ void choose(CallReading& out, const std::vector<const MacroSignature*>& signatur
   }
   if (out.signature != nullptr)
     out.missing.clear();
-  else // no reading that takes them all: the letters of two readings stand together
+  else // no reading that takes them all: the letters of two readings are together
     out.refusal = least == SIZE_MAX ? CallRefusal::Ambiguous : CallRefusal::Missing;
 }
 

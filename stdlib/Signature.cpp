@@ -99,7 +99,7 @@ std::optional<CommandSignature> parseSignature(std::string_view text, std::strin
   }
   bool optionalSeen = false;
   while (!rest.empty()) {
-    rest.remove_prefix(1); // the blank behind the name or the comma
+    rest.remove_prefix(1); // the blank after the name or the comma
     const std::size_t comma = std::min(rest.find(','), rest.size());
     ArgumentSpec argument;
     const std::string_view part = rest.substr(0, comma);

@@ -354,7 +354,7 @@ void TomlDocument::checkSchema(const std::shared_ptr<TomlState>& state) {
                 fmt::format("`schema = {}` is missing; it is expected as the first key", kSchema));
   } else if (keys.front().first->str() != "schema") {
     state->fail(Problem::Value, state->range(keys.front().first->source()),
-                fmt::format("`{}` stands before `schema = {}`, which is expected as the first key",
+                fmt::format("`{}` is before `schema = {}`, which is expected as the first key",
                             keys.front().first->str(), kSchema));
   } else {
     const TomlValue schema = TomlTable(state, static_cast<const toml::node*>(&state->root)).value("schema");

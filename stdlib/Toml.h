@@ -71,7 +71,7 @@ private:
 
   std::shared_ptr<TomlState> state_;
   const void* node_ = nullptr; // toml::node
-  std::string_view key_;       // the key it stands under
+  std::string_view key_;       // the key it is under
 };
 
 struct TomlEntry {

@@ -20,9 +20,9 @@ struct Decimal {
   double value() const;
   // Digits before the point, without leading zeros ("" for values below 1).
   std::string integerPart() const;
-  // Digits behind the point, without trailing zeros.
+  // Digits after the point, without trailing zeros.
   std::string fractionPart() const;
-  // Half away from zero, to `places` >= 0 digits behind the point. Zero is never negative.
+  // Half away from zero, to `places` >= 0 digits after the point. Zero is never negative.
   Decimal rounded(int places) const;
   bool operator==(const Decimal&) const = default;
 };

@@ -11,12 +11,12 @@
 namespace dotek {
 namespace {
 
-// Behind the last whole line of [begin, end); `begin` where there is none. A lone CR ends a line too.
+// After the last whole line of [begin, end); `begin` where there is none. A lone CR ends a line too.
 const char* behindLastLine(const char* begin, const char* end) {
   const std::string_view text(begin, static_cast<std::size_t>(end - begin));
   std::size_t at = text.rfind('\n');
   if (at == std::string_view::npos) {
-    // The byte behind a CR decides whether it ends the line, so the last byte does not count.
+    // The byte after a CR decides whether it ends the line, so the last byte does not count.
     at = text.size() < 2 ? std::string_view::npos : text.rfind('\r', text.size() - 2);
   }
   return at == std::string_view::npos ? begin : begin + at + 1;

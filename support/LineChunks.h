@@ -13,7 +13,7 @@ namespace dotek {
 
 class LineChunks {
 public:
-  // Bytes that may be read behind the end of a chunk; behind the last one they are line ends.
+  // Bytes that may be read after the end of a chunk; after the last one they are line ends.
   static constexpr std::size_t kPadding = 96;
   static constexpr std::size_t kBuffer = 256 * 1024;
 

@@ -39,7 +39,7 @@ public:
   bool printsPoint() const { return point_ == Point::Printed; }
   int integerPlaces() const { return static_cast<int>(integer_.size()); }
   int decimals() const { return static_cast<int>(fraction_.size()); }
-  // 0 prints no digit at all: an address before it would stand bare.
+  // 0 prints no digit at all: an address before it would appear bare.
   bool zeroPrintsNothing() const;
 
 private:

@@ -16,7 +16,7 @@ struct SarifRule {
   std::string summary; // one sentence
 };
 
-// `rules` holds the code of each finding. Paths become relative or absolute URI references as they stand.
+// `rules` holds the code of each finding. Paths become relative or absolute URI references as they are.
 std::string renderSarif(const Diagnostics& diagnostics, const SourceMap& sources,
                         const std::vector<SarifRule>& rules);
 

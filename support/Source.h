@@ -53,7 +53,7 @@ public:
   const std::string& bytes() const { return bytes_; }
   Encoding encoding() const { return encoding_; }
   std::uint32_t lineCount() const { return static_cast<std::uint32_t>(lineStarts_.size()); }
-  // 1-based line that holds the byte at `offset`; an offset behind the end gives the last line.
+  // 1-based line that holds the byte at `offset`; an offset after the end gives the last line.
   std::uint32_t lineOf(std::uint32_t offset) const;
   std::uint32_t lineStart(std::uint32_t line) const;
   // Bytes of a line without its end.

@@ -31,7 +31,7 @@ namespace gibbs = frontend::gibbs;
 namespace {
 
 constexpr std::uint32_t kAttempts = 2000; // to find values that the cycle takes
-constexpr double kNear = 0.01;            // beside what a corrected way measures, mm
+constexpr double kNear = 0.01;            // beside what a corrected path measures, mm
 constexpr double kReach = 12;             // how far a search goes beyond a surface, mm
 
 // Variables of the control that the program writes by number.
@@ -252,7 +252,7 @@ std::optional<verify::Case> CaseRunner::draw(std::uint64_t index) {
   return std::nullopt;
 }
 
-// Where start and travel have to lead to the nominal: changes what is nominal. The way stays as it is.
+// Where start and travel have to lead to the nominal: changes what is nominal. The path stays as it is.
 bool CaseRunner::leadToNominal(std::unique_ptr<Values>& values) {
   const auto misses = [&](const verify::Case& drawn) { return nominalMisses(drawn); };
   const std::optional<verify::Case> settled = nominal_->settle(values->drawn, misses);
@@ -284,7 +284,7 @@ std::optional<std::vector<double>> CaseRunner::nominalMisses(const verify::Case&
   return out;
 }
 
-// Where each datum moves the way that follows: the way also fits the part with some axes at their place.
+// Where each datum moves the path that follows: the path also fits the part with some axes at their place.
 std::string CaseRunner::whyNotCorrected(const Values& values, const sim::Part& nominal, double off) const {
   const std::vector<verify::Touch> touches = values.path->nominal();
   for (unsigned axes = 0; axes < 7; ++axes) {
@@ -328,7 +328,7 @@ bool CaseRunner::makePart(Values& values) const {
   return values.part.has_value();
 }
 
-// Where a translation is looked at, the part stands off its place.
+// Where a translation is looked at, the part is off its place.
 void CaseRunner::misplace(Values& values) const {
   if (plan_.translation)
     values.part = verify::withError(*values.part, values.path->nominal(), values.drawn.error);
@@ -402,7 +402,7 @@ std::string CaseRunner::whyNotMeasured(Values& values) {
   sim::World nothing(*values.part, probeFor(plan_, values.drawn));
   values.rehearsal = runPosted(values, nothing, true, verify::Stand::Way::Rehearse);
   for (const verify::Measure& measure : values.rehearsal->measures) {
-    if (measure.nominal.empty()) return "a measure has no way to its surface";
+    if (measure.nominal.empty()) return "a measure has no path to its surface";
     for (const verify::Touch& touch : measure.nominal)
       if (touch.direction.z > 0) return "a measure leads upward, where the stylus touches nothing";
   }

@@ -53,7 +53,7 @@ public:
 
 private:
   struct Posted; // the posted program of one case
-  struct Values; // of one case, behind the checks
+  struct Values; // of one case, after the checks
   std::unique_ptr<Values> check(const verify::Case& drawn, bool settle);
   verify::Case settled(const verify::Case& drawn);
   void takeValues(verify::Case& drawn) const;

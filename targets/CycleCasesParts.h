@@ -1,4 +1,4 @@
-// Private to CycleCases*.cpp: one case on its way from values to what is compared.
+// Private to CycleCases*.cpp: one case on its path from values to what is compared.
 #pragma once
 
 #include "ir/Program.h"

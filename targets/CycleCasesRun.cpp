@@ -124,7 +124,7 @@ void CaseRunner::takeRun(CaseResult& result, TargetRun ran, const Values& values
   if (values.rejected && !ran.refused && ran.differences.empty()) {
     CaseFinding finding;
     finding.aspect = verify::Aspect::Ending;
-    finding.text = "the dialog turns the values away, and the translation takes them";
+    finding.text = "the dialog rejects the values, and the translation takes them";
     finding.source = values.rejectedAt;
     result.findings.push_back(std::move(finding));
   }
@@ -179,7 +179,7 @@ std::vector<std::pair<std::string, SourceRange>> CaseRunner::droppedDigits(const
     verify::Case finer = drawn;
     const auto value = finer.values.find(field.name);
     if (value == finer.values.end()) continue;
-    // Within the last place, towards the value's own side, so that no check turns it away.
+    // Within the last place, towards the value's own side, so that no check rejects it.
     value->second += (value->second < 0 ? -0.4 : 0.4) * std::pow(10.0, -field.decimals);
     for (const SourceRange& place : lost(finer))
       if (std::find(always.begin(), always.end(), place) == always.end()) out.emplace_back(field.name, place);

@@ -1,4 +1,4 @@
-// What convert and verify are told, and the pieces of what convert gives.
+// What convert and verify are reported, and the pieces of what convert gives.
 #pragma once
 
 #include "project/Options.h"
@@ -40,7 +40,7 @@ struct ConvertOptions {
   bool verify = false;    // --verify: what does not agree with its source is not given
 };
 
-// One file of a result that may have several; `output` holds them one behind the other.
+// One file of a result that may have several; `output` holds them one after the other.
 struct OutputFile {
   std::string name; // "O8000.nc"
   std::string text;
@@ -83,14 +83,14 @@ struct VerifyOptions {
   std::shared_ptr<const ConvertedInput> converted;
   // Of a replay: values of fields and host inputs, which the translation gets as arguments like drawn ones.
   NamedTexts values;
-  // Of a replay: where the part stands, X, Y, Z, mm, and turned about Z, degrees; the system that is active.
+  // Of a replay: where the part is, X, Y, Z, mm, and turned about Z, degrees; the system that is active.
   std::optional<std::array<double, 4>> partError;
   std::optional<std::uint32_t> activeSystem; // 54 to 59
   bool replay = false; // one case, all of whose values are given: nothing is made smaller
   // Told from time to time how many of how many cases are done; from one thread at a time.
   std::function<void(std::uint64_t done, std::uint64_t all)> progress;
-  // Told of each case by its number, edge cases behind the others: whether it is proved, and what the
-  // translation did, as `sim` traces it (docs/sim.md). Before it stands a line `start X Y Z`, behind it the
+  // Given each case by its number, edge cases after the others: whether it is proved, and what the
+  // translation did, as `sim` traces it (docs/sim.md). Before it is a line `start X Y Z`, after it the
   // zeros of the work systems and the variables that the source stores. In any order, from one thread at a
   // time.
   std::function<void(std::uint64_t number, bool proved, const std::string& trace)> traces;

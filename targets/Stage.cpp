@@ -40,7 +40,7 @@ verify::Entry entryFor(const VerifyPlan& plan, const verify::Case& drawn, bool p
   entry.system = drawn.system;
   entry.probeOn = probeOn;
   if (plan.machine) {
-    // Where the machine's travel is stated, the cycle stands in its middle.
+    // Where the machine's travel is stated, the cycle is in its middle.
     double middle[3] = {};
     const sim::Point3 zero = entry.zeros[drawn.system - 54];
     for (std::size_t axis = 0; axis < 3; ++axis)

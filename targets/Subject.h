@@ -39,7 +39,7 @@ struct VerifyPlan {
   std::map<std::string, double> fixedHosts;
   std::map<std::string, int> hostDecimals; // of host inputs that the post prints
   std::string sourceMacros, targetMacros;  // names of sets; "": none
-  std::optional<Translation> translation;  // nothing: the path stands beside the posted program
+  std::optional<Translation> translation;  // nothing: the path is compared with the posted program
   std::optional<sim::MachineFile> machine;
   std::optional<sim::Part> part; // of --part; nothing: made from the path of each case
   bool programs = false;         // macro B against its conversion: fields are variables by number
@@ -55,7 +55,7 @@ struct CaseFinding {
 };
 
 // Refused: the translation raises an alarm of its own before anything moves. NoProgram: the source prints
-// none, or no source tells what it does.
+// none, or no source says what it does.
 enum class CaseVerdict : std::uint8_t { Proved, Idle, Differ, Refused, NoProgram };
 
 struct CaseResult {
@@ -64,7 +64,7 @@ struct CaseResult {
   std::string why; // nothing is proved; "" where it is
   SourceRange whyAt;
   // Protected moves that ran with the probe off, the first of the case; and whether the spindle was stopped
-  // only behind it.
+  // only after it.
   std::optional<SourceRange> unprotected;
   bool spindleLater = false;
   std::optional<SourceRange> unarmed; // the first measuring move with the probe off
@@ -87,7 +87,7 @@ public:
   virtual std::vector<std::pair<std::string, SourceRange>> droppedDigits(const verify::Case& /*drawn*/) {
     return {};
   }
-  // Why the last proposal of draw() was turned away.
+  // Why the last proposal of draw() was rejected.
   virtual const std::string& lastRefusal() const = 0;
 };
 

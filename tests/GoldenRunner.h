@@ -1,5 +1,5 @@
 // Golden cases: tests/golden/<area>/<case>/cmd holds the arguments of dotek, one command a line; beside it
-// stand the inputs and the expected `stdout`, `stderr` (empty where absent) and `status` (0 where absent).
+// are the inputs and the expected `stdout`, `stderr` (empty where absent) and `status` (0 where absent).
 #pragma once
 
 #include <filesystem>

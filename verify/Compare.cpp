@@ -24,7 +24,7 @@ bool near(const Point3& a, const Point3& b, double tolerance) {
          std::abs(a.z - b.z) <= tolerance;
 }
 
-// `b` lies on the way from `a` to `c`.
+// `b` lies on the path from `a` to `c`.
 bool between(const Point3& a, const Point3& b, const Point3& c, double tolerance) {
   const Point3 way = c - a, part = b - a;
   const double length = way.length();
@@ -216,7 +216,7 @@ private:
     add(Aspect::State, text + std::string(when), source, target);
   }
 
-  // What the probe meets besides its contacts, also within calls. Behind a fault of the source nothing is
+  // What the probe meets besides its contacts, also within calls. After a fault of the source nothing is
   // proved anyway.
   void faults() {
     if (!source_.events.empty() || target_.events.empty()) return;
@@ -360,7 +360,7 @@ std::vector<Piece> piecesOf(const DrawnPath& path, const Point3& offset) {
   return out;
 }
 
-// Without the ways to touches and back: those are compared as contacts. A path that goes on through the
+// Without the paths to touches and back: those are compared as contacts. A path that goes on through the
 // starting point of a touch on the far side comes back to it.
 std::vector<Piece> withoutTouches(const DrawnPath& path, const Point3& offset) {
   std::vector<Piece> all = piecesOf(path, offset);

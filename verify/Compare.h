@@ -13,7 +13,7 @@ namespace dotek::verify {
 
 enum class Aspect : std::uint8_t {
   Ending,   // alarms, their code and place; a side that cannot be judged
-  Path,     // points of the way, and how they are reached
+  Path,     // points of the path, and how they are reached
   State,    // feed, probe, spindle, coolant while moving; the latter at the end, too
   Nominal,  // where surfaces are expected
   Contact,  // where they were met; what the probe met that it should not
@@ -46,7 +46,7 @@ struct CompareRules {
   bool sameAlarmNumbers = false; // both call the same macros: numbers and texts count, not only their kind
 };
 
-// The first difference of each aspect, in the order of the aspects. Behind a different ending only that is
+// The first difference of each aspect, in the order of the aspects. After a different ending only that is
 // told.
 std::vector<Difference> compare(const Record& source, const Record& target, const CompareRules& rules);
 

@@ -63,7 +63,7 @@ bool isWhole(double value) {
   return value == std::round(value);
 }
 
-// Behind, between or before the constants that checks compare with.
+// After, between or before the constants that checks compare with.
 double besideThresholds(const DrawField& field, const std::vector<double>& sorted, Random& random) {
   const double first = field.initial.value_or(sorted.front());
   auto n = static_cast<std::size_t>(std::upper_bound(sorted.begin(), sorted.end(), first) - sorted.begin());
@@ -258,7 +258,7 @@ void Draws::settleHosts(Case& drawn, const DrawnPath& path) const {
     }
   }
 
-  // Never farther than a third of the ball, nor of the way that a touch has.
+  // Never beyond a third of the ball, nor of the path that a touch has.
   double least = 1e9, leastDown = 1e9, radius = 1e9, arm = 0;
   sim::Point3 middle;
   for (const DrawnTouch& each : path.touches)

@@ -1,4 +1,4 @@
-// Draws values for a case: parameters, host inputs, the place of the part. The rule stands in docs/verify.md.
+// Draws values for a case: parameters, host inputs, the place of the part. The rule is in docs/verify.md.
 #pragma once
 
 #include "ir/Kind.h"
@@ -42,9 +42,9 @@ public:
 
   // The `attempt`-th proposal for case `index`: the same arguments give the same case, whatever ran before.
   // It may be illegal or out of reach; the caller asks for further attempts. What is drawn for a name does
-  // not hang on the other names.
+  // not depend on the other names.
   Case propose(std::uint64_t index, std::uint32_t attempt) const;
-  // Hosts that hang on the path, once it is known without them: `clearance` between its two highest levels,
+  // Hosts that depend on the path, once it is known without them: `clearance` between its two highest levels,
   // `start_z` above all; they stay where they are fixed or not drawn. Also keeps the part's error so small
   // that the ball finds the surface. The path begins at `start_z`: compute it again afterwards.
   void settleHosts(Case& drawn, const DrawnPath& path) const;

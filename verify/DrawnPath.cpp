@@ -19,9 +19,9 @@ constexpr double kSame = 1e-9;     // mm: coordinates that differ by rounding
 constexpr double kExact = 1e-6;    // mm: a contact is where it was drawn
 constexpr double kLeastWay = 0.01; // mm to a touch; macros take less for a stylus that is deflected
 
-// The way of a move along one axis.
+// The path of a move along one axis.
 struct Step {
-  int axis = -1; // none: along several, or it stands
+  int axis = -1; // none: along several, or it is
   double way = 0;
 };
 
@@ -50,7 +50,8 @@ void findTouches(DrawnPath& path, double ballRadius) {
     const Step step = stepOf(points[n - 1], points[n]), next = stepOf(points[n], points[n + 1]);
     if (step.axis < 0 || next.axis != step.axis || step.way * next.way >= 0) continue;
     if (step.axis == 2 && step.way > 0) continue;
-    if (!path.touches.empty() && path.touches.back().move + 1 == n) { // the way back, or on to the other side
+    if (!path.touches.empty() &&
+        path.touches.back().move + 1 == n) { // the path back, or on to the other side
       const Step before = stepOf(points[n - 2], points[n - 1]);
       if (before.axis == step.axis && std::abs(step.way) <= std::abs(before.way) + kSame) continue;
     }
@@ -95,7 +96,7 @@ private:
   std::string measure(const DrawnTouch& drawn, std::size_t n) {
     const Point3 end = path_.points[n] + up();
     const Point3 direction = drawn.touch.direction;
-    // A little farther than it may come, so that a contact at the limit is not lost to rounding.
+    // A little beyond it may come, so that a contact at the limit is not lost to rounding.
     const auto touch = sim::firstContact(part_, probe_.ballRadius(), at_, end + direction * (2 * off_));
     if (!touch) return fmt::format("move {} does not reach the surface it touches", n);
     if (touch->atStart || touch->share * (end + direction * (2 * off_) - at_).length() < kLeastWay)

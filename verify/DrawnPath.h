@@ -1,5 +1,5 @@
 // What the programmer of a cycle saw: ToolPath.mac executed on a point, and the touches that it shows. The
-// rules stand in docs/verify.md.
+// rules are in docs/verify.md.
 #pragma once
 
 #include "frontend/gibbs/Run.h"
@@ -15,8 +15,8 @@ namespace dotek::verify {
 
 // A feed move along one axis, downward if Z, which the next move takes back along the same axis. In X and Y
 // the move ends where the ball's centre is, the contact lies one radius further, at the height of the ball's
-// centre (one radius above the path); in Z it ends at the contact. The way back from a touch is no touch
-// itself as long as it ends on the way that led there.
+// centre (one radius above the path); in Z it ends at the contact. The path back from a touch is no touch
+// itself as long as it ends on the path that led there.
 struct DrawnTouch {
   Touch touch;
   std::size_t move = 0; // place in DrawnPath::points of its end
@@ -31,7 +31,7 @@ struct DrawnPath {
   std::vector<Touch> nominal() const;
 };
 
-// `start`: where the stylus's lowest point stands before, the point of the operation in X and Y; Z of the
+// `start`: where the stylus's lowest point is before, the point of the operation in X and Y; Z of the
 // path counts from `retract`. `start` and the result are in one system of coordinates, mm. A move along one
 // axis leaves the others where they were, at the beginning those of `start`.
 DrawnPath drawnPath(const std::vector<frontend::gibbs::PathMove>& path, const sim::Point3& start,
@@ -54,12 +54,12 @@ sim::Part withError(const sim::Part& nominal, const std::vector<Touch>& touches,
 // How far the error moves a surface at most, mm.
 double mostOff(const std::vector<Touch>& touches, const PartError& error);
 
-// Why no part could be reached on this way; "" where that hangs on the part: it touches nothing, or ends
+// Why no part could be reached on this way; "" where that depends on the part: it touches nothing, or ends
 // lower than it was.
 std::string whyNoWay(const DrawnPath& path);
-// The way meets the part nowhere but at its touches, ends nowhere lower than it was (it comes out where it
+// The path meets the part nowhere but at its touches, ends nowhere lower than it was (it comes out where it
 // went in), and each touch lies where the ball gets to. "" or why not, in one line. `off`: by how much a
-// contact may come earlier or later than drawn (of a part with an error: mostOff()); the way back begins at
+// contact may come earlier or later than drawn (of a part with an error: mostOff()); the path back begins at
 // the contact.
 // `near`: how far a measuring move keeps away from what it does not measure.
 std::string whyNotReached(const DrawnPath& path, const sim::Part& part, const sim::Probe& probe,

@@ -83,7 +83,7 @@ public:
     ending();
     obstructed();
     if (source_.events.empty() && !target_.events.empty())
-      add(Aspect::Contact, "the stylus meets the part on its way", {}, target_.events.front().second);
+      add(Aspect::Contact, "the stylus meets the part on its path", {}, target_.events.front().second);
     CompareRules rules;
     rules.tolerance = rules.results =
         bores_ ? std::max(facts_.tolerance, kMiddleTolerance) : facts_.tolerance;
@@ -99,17 +99,17 @@ public:
     return out;
   }
 
-  // Behind run().
+  // After run().
   std::string whyUndecided() {
     if (!corrected_) return "";
     SourceRange at;
     if (!whyNothingProved(source_, at).empty())
-      return "the source comes to nothing behind a datum, where this control goes on beside its way";
-    return correctedWayIsFree() ? "" : "the way that a datum has corrected meets the part";
+      return "the source comes to nothing after a datum, where this control goes on beside its path";
+    return correctedWayIsFree() ? "" : "the path that a datum has corrected meets the part";
   }
 
 private:
-  // The way that is expected of the target, walked without it.
+  // The path that is expected of the target, walked without it.
   bool correctedWayIsFree() {
     const double length = world_.probe().centreLength() + radius_;
     const auto machine = [&](const Point3& lowest) {
@@ -202,7 +202,7 @@ private:
   struct Group { // what one measure of the source is in the target
     std::vector<const MikroprogStep*> searches;
     std::vector<const MikroprogStep*> values;
-    std::optional<Point3> zero; // behind its last datum
+    std::optional<Point3> zero; // after its last datum
     std::array<bool, 3> set{};  // axes that a datum has moved
     std::uint32_t setLine = 0;
     std::size_t records = 0;
@@ -245,11 +245,11 @@ private:
     if (group.zero && !facts_.byOperator) zero_ = *group.zero;
   }
 
-  // Of a bore the place of the ball, where it touches: what it touches leans with where it stands across.
+  // Of a bore the place of the ball, where it touches: what it touches leans with where it is across.
   void centresOnly(std::vector<sim::ProbeEvent>& contacts) const {
     for (std::size_t i = 0; i < contacts.size(); ++i) {
       contacts[i].point = contacts[i].centre;
-      // Without a walk the ball stands in the middle that was expected, not in the one that was found.
+      // Without a walk the ball is in the middle that was expected, not in the one that was found.
       if (facts_.byOperator && i > 1) contacts[i].point = {};
     }
   }
@@ -315,7 +315,7 @@ private:
     }
   }
 
-  // The way from the last contact to where the measure ends, which the next move may go on with.
+  // The path from the last contact to where the measure ends, which the next move may go on with.
   Point3 wayBack(const Point3& end, std::size_t sides, Group& group) {
     Point3 at = group.searches.back()->to;
     const double tolerance = bores_ ? kMiddleTolerance : facts_.tolerance;
@@ -447,7 +447,7 @@ private:
       part(error_, axis) = part(off, axis);
       corrected_ = true;
     }
-    // Behind the first datum of a bore the ball stands in the middle along X.
+    // After the first datum of a bore the ball is in the middle along X.
     if (sides == kBoreSides && given.datums.size() > 1 && !facts_.byOperator)
       for (std::size_t i = 2; i < want.nominal.size(); ++i)
         want.nominal[i].point.x = given.nominal[i].point.x + off.x;
@@ -503,7 +503,7 @@ private:
 
   // ---- the end --------------------------------------------------------------------------------------------
 
-  // Where both are stopped on their way, one of them lies beside the other and meets the obstacle elsewhere.
+  // Where both are stopped on their path, one of them lies beside the other and meets the obstacle elsewhere.
   void obstructed() {
     if (source_.ending != Ending::Alarm || target_.ending != Ends::Collision) return;
     if (expected_.pieces.empty() || expected_.pieces.size() != found_.pieces.size()) return;

@@ -1,4 +1,4 @@
-// A posted program beside what a program of Mikroprog does. The rules stand in docs/verify.md.
+// A posted program beside what a program of Mikroprog does. The rules are in docs/verify.md.
 #pragma once
 
 #include "verify/Compare.h"
@@ -26,15 +26,15 @@ struct MikroprogFacts {
 // rounding of its first one, mm.
 inline constexpr double kMiddleTolerance = 0.0015;
 
-// Whether the source moves the zero of `system`, which is active, and so its own way from there on. The
+// Whether the source moves the zero of `system`, which is active, and so its own path from there on. The
 // target has no other system than the active one, and is written for a source that keeps its own: not
 // comparable.
 bool goesOnInItsDatum(const Record& source, std::uint32_t system);
 
 struct MikroprogComparison {
   std::vector<Difference> differences; // the first of each aspect
-  // Why what differs says nothing of the program, "" where it does: behind a datum it goes beside the way of
-  // the source, and there that way meets the part, or the source itself has come to nothing.
+  // Why what differs says nothing of the program, "" where it does: after a datum it goes beside the path of
+  // the source, and there that path meets the part, or the source itself has come to nothing.
   std::string undecided;
 };
 

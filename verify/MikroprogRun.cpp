@@ -15,7 +15,7 @@ bool isFault(sim::Outcome outcome) {
   return outcome != sim::Outcome::Contact && outcome != sim::Outcome::Miss;
 }
 
-// The functions of a block and the number behind its L; a parameter there leads nowhere that is known.
+// The functions of a block and the number after its L; a parameter there leads nowhere that is known.
 struct Shape {
   std::vector<std::string> functions;
   std::optional<std::uint64_t> target;
@@ -200,7 +200,7 @@ MikroprogStand::Tail MikroprogStand::tailAt(std::size_t block) const {
   return Tail::None;
 }
 
-// What each G31 is, by the ways that lead on from it.
+// What each G31 is, by the paths that lead on from it.
 void MikroprogStand::classify() {
   for (std::size_t i = 0; i < program_.blocks.size(); ++i) {
     const Shape shape = shapeOf(program_.blocks[i], control_);

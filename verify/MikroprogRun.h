@@ -1,5 +1,5 @@
 // Runs a program of Mikroprog in a world and tells, step by step, what it does. What is compared with the
-// posted program stands in docs/verify.md.
+// posted program is in docs/verify.md.
 #pragma once
 
 #include "sim/machine/Mikroprog.h"
@@ -32,7 +32,7 @@ struct MikroprogStep {
   sim::Point3 aim;                        // of a G31: where it ends without contact
   std::optional<sim::ProbeEvent> contact; // of a Search
   std::optional<bool> spindle, coolant;   // as M3 to M9 have said by then
-  sim::Point3 zero;                       // Datum: of the active system, behind it
+  sim::Point3 zero;                       // Datum: of the active system, after it
   double value = 0;                       // Value: P90
   std::string text;                       // Stop
   std::uint32_t line = 0;                 // of the program's text
@@ -56,7 +56,7 @@ struct MikroprogRecord {
   sim::Point3 start, end;
   // That ran; probe moves of no length do not count. A guard is a question for O7.
   std::size_t searches = 0, protectedMoves = 0, guards = 0;
-  // The first step behind what was asked for (Interference); nothing: it did not come to that.
+  // The first step after what was asked for (Interference); nothing: it did not come to that.
   std::optional<std::size_t> disturbed;
 };
 
@@ -72,7 +72,7 @@ public:
   // Both outlive the stand. The tool's length ends at the ball's lowest point.
   MikroprogStand(const stdlib::MikroprogControl& control, const sim::BlockList& program);
 
-  // `start` and `zero`: where the stylus's lowest point stands and the active system has its zero, in
+  // `start` and `zero`: where the stylus's lowest point is and the active system has its zero, in
   // coordinates of the machine. The probe is on all the time. The world is restarted.
   MikroprogRecord run(sim::World& world, const sim::Point3& start, const sim::Point3& zero,
                       const Interference& interference = {}) const;

@@ -16,7 +16,7 @@ const stdlib::MacroSignature* signatureOf(const stdlib::MacroSet& set, std::uint
 
 // Touches of one call, in the order of its axes: a surface one, a bore or a boss four, a pocket or a web two,
 // the angle of a face two. Empty where the call states none, or not enough is known. `start`: where the
-// stylus's lowest point stands, active work system.
+// stylus's lowest point is, active work system.
 std::vector<Touch> nominalTouches(const stdlib::MacroSignature& signature, std::span<const double> locals,
                                   const sim::Point3& start, double ballRadius);
 

@@ -14,7 +14,7 @@ using sim::Point3;
 
 constexpr double kSame = 1e-6;  // mm: places that are meant to be one
 constexpr double kBeside = 2.5; // mm of a face beside the ball: more than an error moves the contact
-constexpr double kBehind = 2;   // mm of material behind a search that finds nothing
+constexpr double kBehind = 2;   // mm of material after a search that finds nothing
 constexpr double kAbove = 3;    // mm of a face above and below the ball's centre
 constexpr double kRim = 10;     // mm of a plate around its bore
 
@@ -46,7 +46,7 @@ Point3 middleOf(const std::vector<Touch>& touches) {
 struct Pair {
   Point3 middle;
   Point3 direction; // of one of them
-  double half = 0;  // of the way from one to the other
+  double half = 0;  // of the path from one to the other
   bool outward = true;
 };
 

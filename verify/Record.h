@@ -29,7 +29,7 @@ struct Surroundings {
   bool operator==(const Surroundings&) const = default;
 };
 
-// A straight piece of the way. A measuring call is one piece of no length, where it begins.
+// A straight piece of the path. A measuring call is one piece of no length, where it begins.
 struct Piece {
   sim::PathKind kind = sim::PathKind::Feed;
   sim::Point3 from, to;
@@ -39,7 +39,7 @@ struct Piece {
   std::optional<double> feed = {};
 };
 
-// Where a surface is expected, or was found. In X and Y the ball's centre stands one radius before it, in Z
+// Where a surface is expected, or was found. In X and Y the ball's centre is one radius before it, in Z
 // its lowest point touches.
 struct Touch {
   sim::Point3 point;
@@ -53,7 +53,7 @@ struct Measure {
   sim::Point3 start, end;
   Surroundings with;
   SourceRange range;
-  // Zeros that the call has moved: G number and axis to where they lie behind it, as Record::zeros.
+  // Zeros that the call has moved: G number and axis to where they lie after it, as Record::zeros.
   std::map<std::pair<std::uint32_t, std::uint32_t>, double> datums;
 };
 
@@ -69,7 +69,7 @@ struct Record {
 
   std::vector<Piece> pieces;
   std::vector<Measure> measures;
-  // What went wrong on the way (no contacts, no misses), and where in the program.
+  // What went wrong on the path (no contacts, no misses), and where in the program.
   std::vector<std::pair<sim::ProbeEvent, SourceRange>> events;
   // Work offsets that were written: G number (54 to 59; 54.1 Pn as 5410 + n) and axis (0 to 2), to the
   // machine position of the zero.

@@ -35,7 +35,7 @@ public:
   // that the program would measure.
   void rehearse() { rehearsal_ = true; }
 
-  // Behind the run. `stores`: common variables whose end values count.
+  // After the run. `stores`: common variables whose end values count.
   Record finish(const std::set<std::uint32_t>& stores);
 
 private:

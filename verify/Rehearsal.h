@@ -12,8 +12,8 @@ namespace dotek::verify {
 // Surfaces by the calls' arguments; of a bare skip move the one that it meets at its end.
 std::vector<Touch> touchesOf(const Record& rehearsal, double ballRadius);
 
-// Where the part stands: off by at most 0.3 mm, a third of the ball's radius and of the shortest way of a
-// bare skip move, towards those moves, as they go no farther than the surface. Turned by at most 0.3 degrees
+// Where the part is: off by at most 0.3 mm, a third of the ball's radius and of the shortest path of a
+// bare skip move, towards those moves, as they go no beyond the surface. Turned by at most 0.3 degrees
 // where no bare skip move is made.
 PartError drawError(const Record& rehearsal, double ballRadius, Random& random);
 

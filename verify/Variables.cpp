@@ -12,7 +12,7 @@ namespace dotek::verify {
 
 namespace {
 
-constexpr std::uint32_t kBehind = 9; // variables behind the constant of a computed number
+constexpr std::uint32_t kBehind = 9; // variables after the constant of a computed number
 constexpr double kStep = 0.001;
 
 // The number of a variable that the text names; nothing: it is computed.
@@ -79,7 +79,7 @@ private:
     };
     const auto facts = ir::factsBefore<Written>(program.body, {}, behind, meet);
     for (std::size_t i = 0; i < program.body.size(); ++i) {
-      if (!facts[i]) continue; // no way leads there
+      if (!facts[i]) continue; // no path leads there
       ir::eachNode(program.body[i], [&](const ir::Expression& node) {
         const auto* use = std::get_if<ir::MachineVariable>(&node.node);
         if (use == nullptr) return;

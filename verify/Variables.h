@@ -1,5 +1,5 @@
 // What programs of macro B take from outside: arguments, common variables, signals of the machine; and values
-// for them. The rule stands in docs/verify.md.
+// for them. The rule is in docs/verify.md.
 #pragma once
 
 #include "ir/Program.h"
@@ -38,7 +38,7 @@ struct ProgramVariable {
 // before the file has written them; by number. What the sets' macros need is none of
 // them, nor, where there are two sets, what they use: a translation may keep other values there. A computed
 // number
-// #[c+..] with a common variable c stands for c and the nine behind it.
+// #[c+..] with a common variable c stands for c and the nine after it.
 std::vector<ProgramVariable> variablesOf(const ir::ProgramFile& file, const stdlib::Control& control,
                                          const std::vector<const stdlib::MacroSet*>& sets);
 // Variables that calls of the set overwrite, read or leave results in.

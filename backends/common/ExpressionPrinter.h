@@ -56,7 +56,7 @@ protected:
   virtual ir::ExpressionPtr shown(const ir::ExpressionPtr& expression) const;
   // Of shown(): its text begins with a sign.
   virtual bool isSigned(const ir::ExpressionPtr& expression) const;
-  // The left operand may begin with a sign; `first`: nothing stands before it in its brackets.
+  // The left operand may begin with a sign; `first`: nothing is before it in its brackets.
   virtual bool leftTakesSign(const Infix& infix, bool /*first*/) const { return infix.level == kAdditive; }
   // A minus that shown() keeps.
   virtual std::string negated(const ir::ExpressionPtr& operand, std::uint32_t depth);

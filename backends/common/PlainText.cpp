@@ -47,7 +47,7 @@ constexpr Plain kPlain[] = {
     {0x201D, "\""}, {0x201E, "\""}, {0x2022, "*"},  {0x2026, "..."}, {0x2192, "->"}, {0x2212, "-"},
     {0x2264, "<="}, {0x2265, ">="}, {0x2300, "DIA"}};
 
-// One character of `utf8` at `at`, which moves behind it; bytes that are no UTF-8 give U+FFFD.
+// One character of `utf8` at `at`, which moves after it; bytes that are no UTF-8 give U+FFFD.
 char32_t next(std::string_view utf8, std::size_t& at) {
   const auto byte = [&](std::size_t i) { return static_cast<std::uint8_t>(utf8[i]); };
   const std::uint8_t lead = byte(at++);

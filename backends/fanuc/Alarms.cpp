@@ -68,7 +68,7 @@ AlarmText shownText(State& state, const std::string& message, std::string_view o
   out.shown = cut(text, state.control.alarmLength);
   if (out.shown != text)
     state.diagnostics.report<diag::MessageCut>(range, state.control.alarmLength, out.shown);
-  // What cannot be shown cannot stand in a comment either.
+  // What cannot be shown cannot appear in a comment either.
   if (out.shown != text) out.full = plain.changed || !unknown.empty() ? text : headerText(message);
   return out;
 }

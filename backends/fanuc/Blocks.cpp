@@ -16,7 +16,7 @@ constexpr std::size_t kFirst = 0, kLast = 10000;
 struct BlockWord {
   char address = 0;
   std::string text;
-  bool leads = false; // added by us: stands before the words of the source
+  bool leads = false; // added by us: is before the words of the source
 };
 
 class Block {
@@ -195,7 +195,7 @@ private:
         used[i] = true;
         key = i + 1;
       }
-      // A code that the source leaves to what is in force stands before the axes, as people write it.
+      // A code that the source leaves to what is in force is before the axes, as people write it.
       if (key == kLast && word.address == 'G') key = kFirst;
       keyed.emplace_back(key, std::move(word));
     }
@@ -215,7 +215,7 @@ private:
   const stdlib::CodeInfo* after_ = nullptr;
 };
 
-// Stands on a line of its own.
+// Is on a line of its own.
 bool isAlone(const State& state, const ir::CycleStatement& statement) {
   return match(
       statement, [](const ir::Move& node) { return node.motion == ir::Motion::Protected; },

@@ -16,7 +16,7 @@ using stdlib::Function;
 // What one block may have changed: a modal group, or the shift along one axis.
 using Key =
     std::pair<char, int>; // 'G' and group; 'S' and axis letter; 'C' and tenths of a code without group
-constexpr std::size_t kMostCauses = 4; // of one key: more ways say nothing new
+constexpr std::size_t kMostCauses = 4; // of one key: more paths say nothing new
 
 struct Cause {
   std::size_t at = 0;
@@ -140,7 +140,7 @@ private:
   }
 
   void apply(std::size_t at, const ir::OpaqueBlock& block, InForce& now) const {
-    bool takesH = false; // a code of the block reads H in its own way
+    bool takesH = false; // a code of the block reads H in its own path
     for (const ir::Word& word : block.words) {
       const auto tenths = tenthsOf(word);
       if ((word.address != 'G' && word.address != 'M') || !tenths) continue;
@@ -167,7 +167,7 @@ private:
     case Function::SetPosition: now[{'C', static_cast<int>(code.tenths)}] = {{at, text}}; return;
     case Function::ExtendedWorkSystem: now[extendedKey()] = {{at, text}}; return;
     case Function::WorkSystem: now.erase(extendedKey()); return;
-    case Function::ToolLengthPlus: // demanded as well; that another H is in force stands in the header
+    case Function::ToolLengthPlus: // demanded as well; that another H is in force is in the header
     case Function::CutterCompOff:
     case Function::CannedCycleOff:
     case Function::RotationOff:
@@ -239,7 +239,7 @@ private:
     const auto end = [&](std::string_view what, Function off) {
       how = what;
       if (const auto* code = state_.control.find(off))
-        remedy = "write `" + codeText(*code) + "` behind it, or take the block out of the branch";
+        remedy = "write `" + codeText(*code) + "` after it, or take the block out of the branch";
     };
     if (isGroup(key, Function::ToolLengthOff))
       how = "without the tool length that it had, and a code that puts it back would move the axis";
@@ -255,7 +255,7 @@ private:
       how = "in another work system";
     else if (key.first == 'S') {
       how = "in shifted coordinates";
-      remedy = "write `" + cause.text + "0.` behind it, or take the block out of the branch";
+      remedy = "write `" + cause.text + "0.` after it, or take the block out of the branch";
     }
     state_.refuse<diag::ModeNotRestored>(statement.origin.range(), cause.text, how, remedy);
   }

@@ -100,7 +100,7 @@ std::optional<std::vector<EmittedLine>> emit(const ir::Cycle& cycle, const EmitO
   const auto saved = planModes(state);
   if (state.failed) return std::nullopt;
 
-  // The body first: it tells which start points and systems are needed at entry.
+  // The body first: it says which start points and systems are needed at entry.
   writeBody(state);
   const Sheet body = std::exchange(state.sheet, Sheet());
   if (state.failed) return std::nullopt;

@@ -46,7 +46,7 @@ struct Argument {
 };
 
 // Letters for the parameters and host inputs that `cycle` still uses (docs/convert.md, "Letters"), parameters
-// in the order of declaration, then hosts. The start point is no argument where the control tells it. Reports
+// in the order of declaration, then hosts. The start point is no argument where the control says it. Reports
 // letters that are not allowed or given twice, and more names than letters (with the list); nullopt then.
 std::optional<std::vector<Argument>> assignLetters(const ir::Cycle& cycle, const EmitOptions& options,
                                                    Diagnostics& diagnostics);

@@ -48,7 +48,7 @@ class ControlNotation : public MacroNotation {
 public:
   explicit ControlNotation(const State& state) : state_(state) {}
   std::string_view function(ir::UnaryOp op) const override {
-    // Behind an address ROUND rounds to the increment of the word.
+    // After an address ROUND rounds to the increment of the word.
     if (op == ir::UnaryOp::Round && state_.inWord) return "";
     return has(state_.control, listedAs(op)) ? functionKey(op) : "";
   }
@@ -168,7 +168,7 @@ bool isLocal(std::string_view text) {
   return text.starts_with('#') && text.find_first_not_of("0123456789", 1) == std::string_view::npos;
 }
 
-// MOD of what may be no whole number is refused once, wherever it stands.
+// MOD of what may be no whole number is refused once, wherever it is.
 void checkModulo(State& state, const ir::ExpressionPtr& expression, const ir::Origin& origin) {
   if (const auto* unary = std::get_if<ir::Unary>(&expression->node))
     return checkModulo(state, unary->operand, origin);

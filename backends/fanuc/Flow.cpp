@@ -29,7 +29,7 @@ private:
     return marks_.emplace(label, state_.mark()).first->second;
   }
 
-  // Writes the statement at `i`; gives the index behind what was written.
+  // Writes the statement at `i`; gives the index after what was written.
   std::size_t one(std::size_t i) {
     const ir::CycleStatement& statement = list_[i];
     const ir::Origin& origin = statement.origin;

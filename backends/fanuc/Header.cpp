@@ -26,7 +26,7 @@ std::string withPoint(double value) {
   return text;
 }
 
-// A value that stands in the example of a call, where the source has none.
+// A value that is in the example of a call, where the source has none.
 double typical(const ir::Variable& variable) {
   if (variable.defaultValue) return *variable.defaultValue;
   if (variable.kind == ir::Kind::WorkOffset) return 54;
@@ -66,7 +66,7 @@ private:
     return out;
   }
   void say(std::string_view text) { out_.comment(headerText(text), origin("header")); }
-  // As it stands: columns.
+  // as it is: columns.
   void raw(std::string text, const ir::Origin& from) {
     while (text.ends_with(' '))
       text.pop_back();
@@ -191,7 +191,7 @@ private:
       if (id && !state_.isArgument(*id) && state_.locals.contains(*id))
         starts += std::string(" ") + ir::letterOf(axis);
     }
-    if (!starts.empty()) say("MEASURES FROM WHERE THE PROBE STANDS AT THE CALL IN" + starts);
+    if (!starts.empty()) say("MEASURES FROM WHERE THE PROBE IS AT THE CALL IN" + starts);
   }
 
   void alarms() {

@@ -62,7 +62,7 @@ std::uint32_t State::helper() {
 }
 
 void State::releaseHelpers() {
-  // Not back to the pool: a loop may run this statement again while another value stands there. The first
+  // Not back to the pool: a loop may run this statement again while another value is there. The first
   // taken is the next taken.
   for (; !helpers.empty(); helpers.pop_back())
     freeHelpers.push_back(helpers.back());

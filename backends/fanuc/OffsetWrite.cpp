@@ -26,7 +26,7 @@ std::string obstacle(const State& state) {
   const stdlib::SystemVariables& variables = state.control.variables;
   if (!variables.workOffsetX || !variables.externalX || variables.axisStep == 0 || variables.systemStep == 0)
     return "the control has no variables of the offsets";
-  if (!workSystemVariable(state.control)) return "no variable tells which work system is active";
+  if (!workSystemVariable(state.control)) return "no variable says which work system is active";
   if (state.guards.rotation == Guard::Unchecked) return "a rotation may be active";
   if (state.guards.scaling == Guard::Unchecked) return "a scaling may be active";
   if (state.guards.shift == Guard::Unchecked) return "a local shift may be active";
@@ -55,7 +55,7 @@ std::vector<ir::Environment> environments(const State& state) {
   return out;
 }
 
-// Whether the checks turn away all that is no system. Tried, not proved: an alarm too many does no harm.
+// Whether the checks reject all that is no system. Tried, not proved: an alarm too many does no harm.
 bool checksConfine(const State& state, ir::VariableId id) {
   for (ir::Environment& environment : environments(state))
     for (const double value : {-99999.0, -1.0, 0.0, 1.0, 53.0, 53.5, 59.5, 60.0, 61.0, 100.0, 99999.0}) {

@@ -19,8 +19,8 @@ struct ProgramOptions {
   bool plainMessages = false; // accents of messages are dropped; else they are refused
 };
 
-// The file, `%` lines included; behind each program's lines the next. nullopt where the control cannot say
-// something, or may understand it in another way than the source's: reported at its place.
+// The file, `%` lines included; after each program's lines the next. nullopt where the control cannot say
+// something, or may understand it differently than the source's: reported at its place.
 std::optional<std::vector<EmittedLine>> emitPrograms(const ir::ProgramFile& file,
                                                      const ProgramOptions& options, const SourceMap& sources,
                                                      Diagnostics& diagnostics);

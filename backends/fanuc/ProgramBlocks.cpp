@@ -80,7 +80,7 @@ void ProgramBlocks::run() {
 
 // ---- labels
 
-// Behind the one statement that the branch passes over; 0: it is no IF with THEN.
+// After the one statement that the branch passes over; 0: it is no IF with THEN.
 std::size_t ProgramBlocks::endOfThen(std::size_t branch) const {
   const std::vector<ir::ProgramStatement>& body = program_.body;
   const auto* node = std::get_if<ir::Branch>(&body[branch].node);
@@ -209,7 +209,7 @@ void ProgramBlocks::demandSimple(const ir::ConditionPtr& condition) {
         "a part of it that would not be reached may raise an alarm");
 }
 
-// IF for each part; where the condition fails, the program goes on behind them.
+// IF for each part; where the condition fails, the program goes on after them.
 void ProgramBlocks::split(const ir::ConditionPtr& condition, const std::string& target) {
   const auto* junction = std::get_if<ir::Junction>(&condition->node);
   if (junction == nullptr) {
@@ -269,7 +269,7 @@ std::size_t ProgramBlocks::branch(std::size_t at) {
                           ir::Loop, ir::LoopEnd, ir::Call, ir::Exit> auto&) {
         const std::string text = macro(inner);
         if (text.empty())
-          refuse("what stands behind THEN");
+          refuse("what follows THEN");
         else
           skipUnless(condition, node.target, text);
       });

@@ -43,7 +43,7 @@ private:
   void word(char address, const ir::ExpressionPtr& value);
   void call(const ir::Call& call);
   void exit(const ir::Exit& exit);
-  // The text of a macro statement that may stand behind THEN; "": none.
+  // The text of a macro statement that may follow THEN; "": none.
   std::string macro(const ir::ProgramStatement& statement);
   std::string message(const std::string& text);
   std::string printed(const ir::Print& print) const;

@@ -141,7 +141,7 @@ private:
 
   // Each block and each check of `before` on a line of its own; the label of the call's block stays first.
   void write(ir::ProgramStatement one, TranslatedCall there, bool behindWords) {
-    bool fresh = !behindWords; // nothing stands on the line
+    bool fresh = !behindWords; // nothing is on the line
     bool open = false;         // a check reaches to its label
     const auto line = [&] {
       if (!std::exchange(fresh, false)) ++block_;

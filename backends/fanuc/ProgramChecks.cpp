@@ -186,7 +186,7 @@ private:
     }
   }
 
-  // Told once: results that one control rounds and the other does not.
+  // Reported once: results that one control rounds and the other does not.
   void digitsKept(const ir::Expression& node) {
     if (context_.to().arithmetic == context_.from().arithmetic || arithmeticTold_) return;
     if (const auto* unary = std::get_if<ir::Unary>(&node.node)) {

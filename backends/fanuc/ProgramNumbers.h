@@ -14,9 +14,9 @@ public:
   // Reports what cannot be renumbered, and jumps whose number would lead elsewhere.
   ProgramNumbers(const ir::ProgramFile& file, const ir::Program& program, const ProgramContext& context);
 
-  // Digits behind the N of a block; "": the label has no number.
+  // Digits after the N of a block; "": the label has no number.
   std::string digits(ir::LabelId label) const;
-  // Behind GOTO: the same without leading zeros.
+  // After GOTO: the same without leading zeros.
   std::string target(ir::LabelId label) const;
   // Gives a number that nothing in the file names to a label that has none. `from`: what jumps there. Reports
   // where a computed number might meet it, or none is left.

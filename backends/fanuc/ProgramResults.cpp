@@ -109,7 +109,7 @@ private:
     }
   }
 
-  // Calls that leave the same behind count as one.
+  // Calls that leave the same after it count as one.
   void findCalls() {
     findKeeping();
     std::map<std::string, int> first;
@@ -261,7 +261,7 @@ private:
     const bool moved = variables.size() == 1 && isOfCalls(*variables.begin());
     if (!moved) {
       refuse(range,
-             fmt::format("what #{} holds stands in #{} then, by the way that led here or by what the program "
+             fmt::format("what #{} holds is in #{} then, by the path that led here or by what the program "
                          "stores there",
                          number, fmt::join(variables, ", #")));
       return number;
@@ -287,11 +287,11 @@ private:
     }
     if (isSkip(number)) return {"", number};
     if (setter == kOutside)
-      return {fmt::format("a program that is called on the way here may have measured, or may have set #{}",
+      return {fmt::format("a program that is called on the path here may have measured, or may have set #{}",
                           number),
               0};
     if (uses(from(), number))
-      return {fmt::format("no probing call comes before on each way here, so what #{} holds is not known",
+      return {fmt::format("no probing call comes before on each path here, so what #{} holds is not known",
                           number),
               0};
     return {fmt::format("the macros of `{}` overwrite #{}, which the program does not set before", to().name,
@@ -342,7 +342,7 @@ private:
   std::vector<std::uint32_t> numbers_;           // by index
   std::map<std::size_t, int> calls_;             // probing calls: the first that leaves the same
   std::set<std::uint32_t> keeps_;                // programs of the file that leave all of them alone
-  bool modal_ = false;                           // a G66 may run something behind any move
+  bool modal_ = false;                           // a G66 may run something after any move
   bool returnsElsewhere_ = false;                // a program of the file ends with M99 P
   const std::vector<ir::ProgramStatement>* source_ = nullptr;
   Fact fact_; // before the statement

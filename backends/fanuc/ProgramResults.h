@@ -14,7 +14,7 @@ std::optional<std::uint32_t> calledProgram(const ir::Call& call, const stdlib::C
 
 // Reads of what the source's macros leave in variables become reads of what the target's leave. `program` is
 // one of `file`, whose calls are still those of the source. Reports a read whose last call is not the same on
-// all ways, and what the program keeps where the target's macros work.
+// all paths, and what the program keeps where the target's macros work.
 void translateResults(ir::Program& program, const ir::ProgramFile& file, const TranslateSettings& settings,
                       Diagnostics& diagnostics);
 

@@ -111,7 +111,7 @@ ProgramText::ProgramText(const stdlib::Control& control)
 std::string ProgramText::variable(const ir::ExpressionPtr& given) const {
   const ir::ExpressionPtr& number = withoutNull(given);
   const auto* constant = std::get_if<ir::Constant>(&number->node);
-  // A number with a point stands in brackets only.
+  // A number with a point is in brackets only.
   if (constant != nullptr && digitsOf(*constant).find_first_not_of("0123456789") == std::string::npos)
     return "#" + digitsOf(*constant);
   return "#" + bracketed(text(number));
@@ -154,7 +154,7 @@ std::string ProgramText::comparison(const ir::Comparison& comparison) const {
   return bracketed(side(comparison.left) + " " + std::string(name) + " " + side(comparison.right));
 }
 
-// Joins inside joins stand in brackets, unless all are the same: sources disagree on which binds first.
+// Joins inside joins are in brackets, unless all are the same: sources disagree on which binds first.
 std::string ProgramText::joined(const ir::Junction& junction) const {
   const bool both = junction.op == ir::Connective::And;
   const auto* left = std::get_if<ir::Junction>(&junction.left->node);

@@ -18,9 +18,9 @@ public:
   std::string number(const ir::ExpressionPtr& expression) const;
   // Where null stays null: what is stored, both sides of EQ and NE.
   std::string value(const ir::ExpressionPtr& expression) const;
-  // Behind an address: a number, `#1`, `-#1`, or brackets.
+  // After an address: a number, `#1`, `-#1`, or brackets.
   std::string word(const ir::ExpressionPtr& expression) const;
-  // Behind GOTO: as behind an address, and null counts as 0.
+  // After GOTO: as after an address, and null counts as 0.
   std::string target(const ir::ExpressionPtr& expression) const;
   // `#5`, `#[..]`.
   std::string variable(const ir::ExpressionPtr& number) const;

@@ -146,7 +146,7 @@ std::string describe(const Meaning& meaning) {
   return "";
 }
 
-// No code of the group stands in another group, or in none, on the other control.
+// No code of the group is in another group, or in none, on the other control.
 bool sameGroup(int group, const Control& a, const Control& b) {
   const auto agrees = [&](const Control& one, const Control& other) {
     return std::all_of(one.codes.begin(), one.codes.end(), [&](const stdlib::CodeInfo& code) {

@@ -1,4 +1,4 @@
-// What stands before the cycle: arguments, start point, requirements of the caller.
+// What precedes the cycle: arguments, start point, requirements of the caller.
 #include "backends/common/PlainText.h"
 #include "backends/fanuc/State.h"
 #include "backends/fanuc/Uses.h"
@@ -89,7 +89,7 @@ void requireSystem(State& state) {
 void requireNoShift(State& state) {
   const stdlib::SystemVariables& v = state.control.variables;
   const ir::Origin origin = made("requirement of the caller");
-  writeWait(state, made("waits until the axes stand"));
+  writeWait(state, made("waits until the axes are"));
   const ir::ExpressionPtr active = systemVariable(*workSystemVariable(state.control));
   for (const ir::Axis axis : ir::kAxes) {
     if (axis == ir::Axis::Z && !state.shiftOfZ) continue;
@@ -156,7 +156,7 @@ void writeStarts(State& state) {
   const auto used = usedVariables(state.cycle);
   bool waits = false; // the caller's own moves may still be under way
   const auto wait = [&] {
-    if (!std::exchange(waits, true)) writeWait(state, made("waits until the axes stand"));
+    if (!std::exchange(waits, true)) writeWait(state, made("waits until the axes are"));
   };
   for (const ir::Axis axis : ir::kAxes) {
     const int i = static_cast<int>(ir::indexOf(axis));

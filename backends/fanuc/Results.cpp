@@ -40,7 +40,7 @@ bool callsMacro(const State& state, const ir::CycleStatement& statement) {
       });
 }
 
-// Whether a call of a macro may stand between the measurement and the use.
+// Whether a call of a macro may appear between the measurement and the use.
 bool overwritten(const State& state, std::size_t measure, std::size_t use) {
   if (state.cycle.body.size() > kMostStatements) return true;
   auto next = ir::successors(state.cycle.body);

@@ -13,7 +13,7 @@ class Sheet {
 public:
   struct Line {
     EmittedLine out;
-    std::optional<Mark> mark;   // its N number stands before the text
+    std::optional<Mark> mark;   // its N number is before the text
     std::optional<Mark> target; // its number is appended to the text
     bool comment = false;
   };
@@ -46,7 +46,7 @@ private:
 
   std::vector<Line> lines_;
   std::optional<Mark> pending_;
-  std::map<Mark, Mark> same_; // marks that stand where another stands
+  std::map<Mark, Mark> same_; // marks that are where another is
 };
 
 } // namespace dotek::backends::fanuc

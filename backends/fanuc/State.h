@@ -97,7 +97,7 @@ struct State {
   Sheet sheet;                                     // the part that is being written
   Mark nextMark = 0;
   bool failed = false;
-  bool inWord = false; // an address stands before what is printed: ROUND means something else there
+  bool inWord = false; // an address is before what is printed: ROUND means something else there
 
   // Alarms: those of the source by statement, then ours, in the order of their numbers.
   std::vector<AlarmText> alarms;
@@ -163,7 +163,7 @@ std::string stopText(State& state, const ir::Stop& stop, const ir::Origin& origi
 // An alarm of our own where the condition holds.
 void alarmIf(State& state, const ir::ConditionPtr& condition, std::string_view text,
              const ir::Origin& origin);
-// Only characters that stand in a comment; reports with a note what was changed.
+// Only characters that are in a comment; reports with a note what was changed.
 std::string commentText(State& state, std::string_view utf8, SourceRange range);
 // Upper case, only characters that every control shows.
 std::string headerText(std::string_view utf8);
@@ -175,7 +175,7 @@ void writeList(State& state, const std::vector<ir::CycleStatement>& list, bool b
 
 // ---- Blocks.cpp ----
 
-// Writes the block that begins at `at` of the body; gives the index behind it.
+// Writes the block that begins at `at` of the body; gives the index after it.
 std::size_t writeBlock(State& state, const std::vector<ir::CycleStatement>& list, std::size_t at);
 
 // ---- Places.cpp ----
@@ -186,7 +186,7 @@ ir::ExpressionPtr place(State& state, const ir::Coordinate& coordinate, ir::Axis
                         SourceRange range);
 // A move of the contact point, which depends on direction and radius: refused.
 bool isOfContact(State& state, const ir::Move& move, const ir::Origin& origin);
-// Where the probe stands, work coordinates; nullptr: not known (nothing is reported).
+// Where the probe is, work coordinates; nullptr: not known (nothing is reported).
 ir::ExpressionPtr workPosition(State& state, ir::Axis axis);
 
 // ---- MacroCalls.cpp ----
@@ -206,7 +206,7 @@ ir::ExpressionPtr offsetNumber(const stdlib::Control& control, const ir::Express
                                ir::Axis axis);
 // Variable that holds the active work system.
 std::optional<int> workSystemVariable(const stdlib::Control& control);
-// A block that the control does not read beyond before the axes stand; nothing where it has none.
+// A block that the control does not read beyond before the axes are; nothing where it has none.
 void writeWait(State& state, const ir::Origin& origin);
 void writeSystemAlarm(State& state, const ir::ExpressionPtr& system, const ir::Origin& origin);
 // Makes sure that `system` is 54 to 59 where nothing else does.
@@ -216,7 +216,7 @@ void guardSystem(State& state, const ir::ExpressionPtr& system, const ir::Origin
 
 // Reserves locals for results that a later call of a macro would overwrite before they are used.
 void planResults(State& state, Body& body);
-// Behind a measurement: keeps what was reserved.
+// After a measurement: keeps what was reserved.
 void keepResults(State& state, const ir::Measure& measure, const ir::Origin& origin);
 // "#135": what holds the result; "" where it was refused.
 std::string resultText(State& state, ir::ResultName name, SourceRange range);
@@ -240,7 +240,7 @@ CopiedModes findCopiedModes(State& state);
 
 // ---- Modes.cpp ----
 
-// Locals for the modal groups that the program changes, and what stands around the body.
+// Locals for the modal groups that the program changes, and what is around the body.
 struct SavedMode {
   const stdlib::CodeInfo* code = nullptr; // a member of the group; nullptr: the feed
   std::uint32_t local = 0;

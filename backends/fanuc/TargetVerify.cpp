@@ -62,7 +62,7 @@ public:
 
   bool prepare() override {
     Session& session = from_.session;
-    // The arguments stand in the locals of the caller; one that is null is left out of the call.
+    // The arguments are in the locals of the caller; one that is null is left out of the call.
     std::string call = fmt::format("O1\nG65P{}", programNumber(translation_.text));
     for (const OutputArgument& argument : translation_.arguments)
       call += fmt::format("{}#{}", argument.letter, stdlib::localOf(argument.letter));
@@ -124,19 +124,19 @@ private:
     }
   }
 
-  // The dialog has turned the values away: the translation raises an alarm, and nothing has moved.
+  // The dialog has rejected the values: the translation raises an alarm, and nothing has moved.
   void compareRejection(const verify::Record& record, TargetRun& out) const {
     const std::uint32_t line = text_.line(record.endedAt);
     if (record.ending != verify::Ending::Alarm)
-      out.differsAt(verify::Aspect::Ending, "the dialog turns the values away, and the program runs", line);
+      out.differsAt(verify::Aspect::Ending, "the dialog rejects the values, and the program runs", line);
     else if (!record.pieces.empty())
       out.differsAt(verify::Aspect::Ending,
-                    "the dialog turns the values away, and the program moves before its alarm", line);
+                    "the dialog rejects the values, and the program moves before its alarm", line);
     else
       out.refused = true;
   }
 
-  // Without a Prog: the way and the touches alone.
+  // Without a Prog: the path and the touches alone.
   void comparePath(const TargetCase& now, const verify::Record& record, TargetRun& out) const {
     if (record.ending != verify::Ending::Finished)
       out.differsAt(verify::Aspect::Ending, "the path ends against an alarm: " + record.text,
@@ -149,7 +149,7 @@ private:
     const verify::Record& source = *now.source;
     verify::CompareRules rules;
     rules.results = std::max(from_.options.tolerance, resultTolerance(control_, *from_.inputs.sourceControl));
-    // Behind a write of the system that is active, what follows stands as exactly as the control computes.
+    // After a write of the system that is active, what follows is as exactly as the control computes.
     rules.tolerance = writesActive(source, now.entry) ? rules.results : from_.options.tolerance;
     // Of eight digits the last one is a ten millionth at most; two of them.
     rules.relative = rules.results > from_.options.tolerance ? 2e-7 : 0;

@@ -66,7 +66,7 @@ bool ProgramRunner::load() {
   programs_ = loadPrograms(*id, *sourceControl_, session_);
   if (!programs_ || programs_->programs.empty()) return false;
   sourceSet_ = backends::fanuc::calledSet(*programs_, sets_);
-  // A program of the file stands before a macro of that number.
+  // A program of the file is before a macro of that number.
   if (sourceSet_ != nullptr &&
       std::any_of(programs_->programs.begin(), programs_->programs.end(), [&](const ir::Program& program) {
         return program.number != 0 && sourceSet_->calls(static_cast<std::uint32_t>(program.number));
@@ -191,7 +191,7 @@ bool ProgramRunner::prepare() {
   return true;
 }
 
-// Each name has numbers of its own, so that none hangs on what is drawn beside it.
+// Each name has numbers of its own, so that none depends on what is drawn beside it.
 verify::Case ProgramRunner::propose(std::uint64_t index, std::uint32_t attempt) const {
   const std::uint64_t stream = verify::Random::sub(verify::Random::sub(options_.seed, index), attempt);
   const auto randomOf = [&](const std::string& name) {
@@ -226,7 +226,7 @@ verify::Case ProgramRunner::propose(std::uint64_t index, std::uint32_t attempt) 
   return out;
 }
 
-// Values that turn the program away from what cannot be run here would hide it.
+// Values that reject the program from what cannot be run here would hide it.
 bool ProgramRunner::otherValuesMayDo(const verify::Record& record) const {
   if (record.ending == verify::Ending::Inconclusive) return record.overLimit;
   const stdlib::AlarmInfo* const missing = sourceControl_->find(stdlib::Alarm::NoSuchProgram);
@@ -274,7 +274,7 @@ verify::Record ProgramRunner::runSide(const Side& side, const verify::Case& draw
   return side.stand->run(*side.code, world, entry, stores_, meaning ? &*meaning : nullptr, way);
 }
 
-// The source's side: a rehearsal tells what is measured, the part is made for that, then it runs.
+// The source's side: a rehearsal says what is measured, the part is made for that, then it runs.
 std::unique_ptr<ProgramRunner::Played> ProgramRunner::play(verify::Case drawn, bool drawError) {
   auto out = std::make_unique<Played>();
   out->drawn = std::move(drawn);

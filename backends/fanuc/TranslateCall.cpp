@@ -77,7 +77,7 @@ bool countsIncrements(char letter, const ir::ExpressionPtr& value, const stdlib:
 // What a call says, by the signature of its set: why nothing is known, or the reading that fits.
 std::string read(const ir::Call& call, const stdlib::MacroSet& set, stdlib::CallReading& out) {
   if (call.kind != ir::CallKind::Macro) return "only G65 calls are translated";
-  if (call.repeats != nullptr) return "what repeated measurements leave behind is not known";
+  if (call.repeats != nullptr) return "what repeated measurements leave is not known";
   const double* program = call.program == nullptr ? nullptr : ir::constantValue(call.program);
   if (program == nullptr) return "which macro it calls is computed";
   if (!(*program >= 1 && *program < 1e8) || *program != std::floor(*program)) return "P names no program";
@@ -149,7 +149,7 @@ private:
     if (!countsIncrements(letter, value, settings_.control)) return value;
     if (const auto out = ir::exactProduct(*ir::constantValue(value), settings_.control.increment))
       return millimetres(*out);
-    refuse(fmt::format("the number behind `{}` is no length", letter));
+    refuse(fmt::format("the number after `{}` is no length", letter));
     return value;
   }
 
@@ -236,12 +236,12 @@ private:
     return z ? minus(now, numbered(static_cast<std::uint32_t>(*v.toolLength) + step)) : now;
   }
 
-  // Macro statements are carried out before the axes stand: a bare G53 waits.
+  // Macro statements are carried out before the axes are: a bare G53 waits.
   void wait() {
     if (std::exchange(waited_, true)) return;
     const auto* code = settings_.control.find(stdlib::Function::MachineCoordinates);
     if (code == nullptr || code->grade == "assumed") {
-      refuse(fmt::format("no block of `{}` is known to wait until the axes stand", settings_.control.name));
+      refuse(fmt::format("no block of `{}` is known to wait until the axes are", settings_.control.name));
       return;
     }
     block(*code);
@@ -305,7 +305,7 @@ private:
   // Where the source expects the feature, work coordinates.
   ir::ExpressionPtr expected(ir::Axis axis) {
     const MacroArgument* argument = from_->find(ArgumentRole::Target, axis);
-    if (argument == nullptr) return position(axis); // it lies where the probe stands
+    if (argument == nullptr) return position(axis); // it lies where the probe is
     const ir::ExpressionPtr value = length(argument->letter, *given(argument->letter));
     return argument->frame == ir::Frame::Work ? value : plus(position(axis), value);
   }
@@ -408,13 +408,13 @@ TranslatedVariable translateResult(const ir::Call& call, std::uint32_t variable,
   const stdlib::MacroResult* result = resultIn(*reading.signature, variable);
   if (result == nullptr) {
     if (within(source.scratch, variable))
-      return {fmt::format("what #{} holds behind P{} is not known", variable, reading.program), 0};
+      return {fmt::format("what #{} holds after P{} is not known", variable, reading.program), 0};
     if (within(target.scratch, variable))
       return {fmt::format("the macros of `{}` overwrite #{}", target.name, variable), 0};
     return {"", variable};
   }
   if (!result->documented)
-    return {fmt::format("#{} behind P{} is {}, and no source says what it holds", variable, reading.program,
+    return {fmt::format("#{} after P{} is {}, and no source says what it holds", variable, reading.program,
                         result->output == stdlib::Output::Main ? "the result of the macro"
                                                                : stdlib::outputName(result->output)),
             0};

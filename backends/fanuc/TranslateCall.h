@@ -29,7 +29,7 @@ struct TranslatedCall {
 };
 
 // The call in the target's words. Coordinates and travels are turned into one another by the position at the
-// call, behind a block that waits until the axes stand. An argument that is empty at run time would change
+// call, after a block that waits until the axes stand. An argument that is empty at run time would change
 // the meaning where the target computes with it: an alarm is written before the call. The same set: the call
 // itself.
 TranslatedCall translateCall(const ir::Call& call, const TranslateSettings& settings);
@@ -39,7 +39,7 @@ struct TranslatedVariable {
   std::uint32_t variable = 0;
 };
 
-// The variable that holds behind the translated call what `variable` held behind `call`. One that no macro
+// The variable that holds after the translated call what `variable` held after `call`. One that no macro
 // writes keeps its number. Refused where the two sets do not document the same, or the target's macros
 // overwrite it.
 TranslatedVariable translateResult(const ir::Call& call, std::uint32_t variable,

@@ -37,7 +37,7 @@ private:
 
   bool isBranch(std::size_t at) const { return std::holds_alternative<ir::Branch>(list_[at].node); }
 
-  // Where the other arm of the branch at `at` ends: a jump stands before its target; nothing: it has none.
+  // Where the other arm of the branch at `at` ends: a jump is before its target; nothing: it has none.
   std::optional<std::size_t> elseEnd(std::size_t at, std::size_t end) const {
     const std::size_t target = *targetOf(at);
     if (target < at + 2 || !std::holds_alternative<ir::Jump>(list_[target - 1].node)) return std::nullopt;

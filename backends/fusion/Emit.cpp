@@ -48,7 +48,7 @@ std::optional<std::vector<EmittedLine>> emit(const ir::Cycle& cycle, const EmitO
   }
   nameFields(state);
 
-  // The body first: it tells what is read and which helpers are needed.
+  // The body first: it says what is read and which helpers are needed.
   Script rest;
   const auto body = [&](Script& into) {
     std::swap(state.script, into);

@@ -28,9 +28,9 @@ struct EmitOptions {
   bool foreignMacros = false;
   std::vector<ir::PrintedBlock> printed;     // of the source, as Origin::block counts them
   std::map<ir::VariableId, double> fixed;    // by --set, --host, the job: printed as they are
-  std::map<std::string, double> fixedByName; // named in the head; a start point that stands here is checked
+  std::map<std::string, double> fixedByName; // named in the head; a start point that is here is checked
   std::map<ir::VariableId, std::vector<Choice>> choices; // of a field that the dialog offers as a list
-  std::map<ir::VariableId, double> defaults; // values of the source, those its checks turn away included
+  std::map<ir::VariableId, double> defaults; // values of the source, those its checks reject included
 };
 
 struct EmittedLine {

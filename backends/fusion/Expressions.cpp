@@ -247,7 +247,7 @@ void guardArithmetic(State& state, const ir::ExpressionPtr& value, const ir::Ori
 void guardArithmetic(State& state, const ir::ConditionPtr& condition, const ir::Origin& origin) {
   std::vector<ir::ExpressionPtr> partial;
   collectPartial(condition, partial);
-  // A side that is known decides AND and OR, whatever the other one is: no guard before tells that.
+  // A side that is known decides AND and OR, whatever the other one is: no guard before says that.
   if (!partial.empty() && std::holds_alternative<ir::Junction>(condition->node)) {
     state.refuse<diag::FusionArithmetic>(condition->range.hasPlace() ? condition->range : origin.range());
     return;

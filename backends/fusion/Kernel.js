@@ -394,7 +394,7 @@ function closeRedirection() {
   dotekState.buffer = null;
 }
 
-// Whether the kernel stops a script here is unproven: the double goes on and tells what was written behind.
+// Whether the kernel stops a script here is unproven: the double goes on and says what was written after it.
 function error(text) {
   dotekState.errors.push(String(text));
 }

@@ -303,7 +303,7 @@ void MacroBlocks::measure(const ir::Measure& measure, const ir::Origin& origin, 
     guardSystem(measure.setting->system, origin);
   }
   MacroCall out = macroCall(*signature, measure, values(origin));
-  // A system that the call corrects stands last, as posts write it.
+  // A system that the call corrects is last, as posts write it.
   std::stable_partition(out.arguments.begin(), out.arguments.end(), [](const GivenArgument& one) {
     return one.argument->role != stdlib::ArgumentRole::System ||
            one.argument->systemRule != stdlib::SystemRule::Error;

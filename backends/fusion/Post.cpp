@@ -24,7 +24,7 @@ var yOutput = createVariable({prefix: "Y"}, xyzFormat);
 var zOutput = createVariable({prefix: "Z"}, xyzFormat);
 var feedOutput = createVariable({prefix: "F"}, feedFormat);
 
-// Block numbers would stand here.
+// Block numbers would appear here.
 function writeBlock() {
   writeWords(arguments);
 }
@@ -35,7 +35,7 @@ function onOpen() {
   writeln("%");
 }
 
-// Tool, offsets and the way to the first point are the operator's.
+// Tool, offsets and the path to the first point are the operator's.
 function onSection() {
   if (unit !== MM) {
     error(localize("the post prints millimetres, the document is not in millimetres"));

@@ -135,7 +135,7 @@ void writeHead(State& state) {
   script.comment("minimumRevision: " + std::to_string(kFirstRevision));
   script.comment(
       "Needs of the post: writeBlock(text), which puts the block number before; xOutput, yOutput, zOutput, "
-      "feedOutput, gMotionModal, which are reset behind the macros. Kernel: writeln, error, warning, "
+      "feedOutput, gMotionModal, which are reset after the macros. Kernel: writeln, error, warning, "
       "localize, createFormat.");
   script.comment("Dispatch: onCyclePoint(x, y, z) begins with  if (" + state.prefix +
                  "_dispatch(x, y, z)) { return; }");
@@ -184,7 +184,7 @@ void writeProperties(State& state) {
 
 void writeReading(State& state) {
   Script& script = state.script;
-  // Whoever is named first keeps a name without `_` behind it: the order of the declarations.
+  // Whoever is named first keeps a name without `_` after it: the order of the declarations.
   for (const ir::VariableId id : state.read) {
     const ir::Variable& variable = state.cycle.variable(id);
     if (variable.role == ir::Role::Parameter) {

@@ -125,7 +125,7 @@ RunResult run(std::string_view post, const std::string& call) {
 
 } // namespace
 
-// The kernel and the post, one behind the other, as the engine keeps them.
+// The kernel and the post, one after the other, as the engine keeps them.
 class Fragment::Prepared {
 public:
   Prepared(std::string_view fragment, std::string_view prefix) {

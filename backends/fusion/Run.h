@@ -26,7 +26,7 @@ struct RunResult {
   std::string text;                  // NC, line ends LF
   std::vector<std::string> errors;   // of error(..), in order
   std::vector<std::string> warnings; // of warning(..)
-  bool wroteAfterError = false;      // a defect: something was written behind an error
+  bool wroteAfterError = false;      // a defect: something was written after an error
   std::string failure;               // "" or what the engine says: a syntax error, an exception
   bool ok() const { return failure.empty() && errors.empty(); }
 };
@@ -52,7 +52,7 @@ RunResult runPost(std::string_view post, std::string_view prefix, const RunInput
 
 // Everything of runFragment() as one script for another engine: prints the NC text with console.log.
 std::string scriptFor(std::string_view fragment, std::string_view prefix, const RunInput& input);
-// Evaluates `code` behind the kernel's double and gives its value as text; of one that throws "throws: ...".
+// Evaluates `code` after the kernel's double and gives its value as text; of one that throws "throws: ...".
 // For tests of the double.
 std::string evaluate(std::string_view code);
 

@@ -20,7 +20,7 @@ public:
   // Names that the fragment itself uses are taken from the beginning.
   LocalNames();
   // A name like `wanted`, not given out before: characters that no name has become `_`, a reserved or taken
-  // word gets `_` behind it.
+  // word gets `_` after it.
   std::string take(std::string_view wanted);
 
 private:
@@ -44,7 +44,7 @@ public:
   void blank() { lines_.push_back({"", {}, ""}); }
   // A comment, one line for each of at most 100 characters; ASCII.
   void comment(std::string_view utf8);
-  // Several lines as they stand, each indented.
+  // Several lines as they are, each indented.
   void text(std::string_view lines);
   const std::vector<EmittedLine>& lines() const { return lines_; }
 

@@ -9,7 +9,7 @@
 
 namespace dotek::backends::fusion {
 
-// Private functions of a fragment that stand in it only where they are called.
+// Private functions of a fragment that are in it only where they are called.
 enum class Helper : std::uint8_t {
   IsNumber,
   Digits,  // of Picture
@@ -117,7 +117,7 @@ public:
   MacroBlocks(State& state, Texts& texts);
   // The lines that stand for the statements of one block; false: the Prog's own text does.
   bool block(const std::vector<const ir::CycleStatement*>& statements, std::vector<Text>& lines);
-  // Behind the last block: G91 where the source leaves it in force and our moves have written G90; nullptr:
+  // After the last block: G91 where the source leaves it in force and our moves have written G90; nullptr:
   // no line, else the origin of the line.
   const ir::Origin* putBack(Text& text);
 
@@ -144,7 +144,7 @@ private:
   State& state_;
   Texts& texts_;
   Place at_[3];
-  const ir::Measure* last_ = nullptr;       // measurement whose results stand
+  const ir::Measure* last_ = nullptr;       // measurement whose results are
   const ir::Origin* incremental_ = nullptr; // of the G91 that is in force in the source
   bool overwritten_ = false;                // by a G90 of ours
 };

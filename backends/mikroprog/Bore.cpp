@@ -164,11 +164,11 @@ void bore(State& state, const ir::Measure& measure, const ir::Origin& origin) {
                                         system, state.code("reference")));
     std::string by;
     if (state.axes[0].shift == 0 && state.axes[1].shift == 0)
-      state.remarks.push_back("MOVES BEHIND A DATUM ARE IN THE CORRECTED SYSTEM");
+      state.remarks.push_back("MOVES AFTER A DATUM ARE IN THE CORRECTED SYSTEM");
     for (const ir::Axis axis : axes)
       if (const double shift = state.axes[ir::indexOf(axis)].shift; shift != 0) {
         by += fmt::format(", {} by {} mm", ir::letterOf(axis), numberText(shift));
-        state.remarks.push_back(fmt::format("BEHIND THE DATUM {} COUNTS {} MM MORE THAN IN THE SOURCE",
+        state.remarks.push_back(fmt::format("AFTER THE DATUM {} COUNTS {} MM MORE THAN IN THE SOURCE",
                                             ir::letterOf(axis), numberText(shift)));
       }
     state.diagnostics.report<diag::SystemCorrected>(range, by);

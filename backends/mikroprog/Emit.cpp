@@ -17,7 +17,7 @@ namespace dotek::backends::mikroprog {
 namespace {
 
 constexpr std::uint32_t kStep = 10;      // from block to block
-constexpr std::uint32_t kTails = 900;    // the first tail, or the next hundred behind the main program
+constexpr std::uint32_t kTails = 900;    // the first tail, or the next hundred after the main program
 constexpr std::uint32_t kCollision = 10; // from there
 constexpr std::uint32_t kEnd = 90;       // from there
 constexpr std::uint32_t kTailStep = 5;
@@ -50,7 +50,7 @@ public:
   }
 
 private:
-  // Spindle and coolant at rest before the first probe move, at `first`: what the source writes behind it
+  // Spindle and coolant at rest before the first probe move, at `first`: what the source writes after it
   // comes before it.
   void settle(std::size_t first) {
     const auto& list = s_.cycle.body;
@@ -149,7 +149,7 @@ private:
         });
   }
 
-  // Whether the comment at `index` stands in the block of a stop, which shows it to the operator.
+  // Whether the comment at `index` is in the block of a stop, which shows it to the operator.
   bool isOfStop(std::size_t index) const {
     const auto& list = s_.cycle.body;
     const std::uint32_t block = list[index].origin.block;
@@ -304,7 +304,7 @@ private:
   std::string stopText_; // comments of the block of the next stop
 };
 
-// Modes and the way to the start point.
+// Modes and the path to the start point.
 void writeBeginning(State& state) {
   const ir::Origin origin = made("beginning");
   const bool mill = state.control.hasAxis('Y');

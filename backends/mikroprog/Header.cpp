@@ -1,4 +1,4 @@
-// What stands above the blocks: cycle, control, values, what the program relies on, what is dropped.
+// What is above the blocks: cycle, control, values, what the program relies on, what is dropped.
 #include "backends/common/PlainText.h"
 #include "backends/mikroprog/State.h"
 #include "stdlib/HostInputs.h"

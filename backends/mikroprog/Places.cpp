@@ -1,4 +1,4 @@
-// Numbers, words, and where the probe stands.
+// Numbers, words, and where the probe is.
 #include "backends/common/PlainText.h"
 #include "backends/mikroprog/State.h"
 #include "ir/Fold.h"
@@ -19,9 +19,9 @@ double sum(double a, double b) {
   return ir::exactSum(a, b).value_or(a + b);
 }
 
-constexpr double kNoise = 1e-9; // mm: what sums of decimals leave behind
+constexpr double kNoise = 1e-9; // mm: what sums of decimals leave
 
-// What an expression hangs on, for messages.
+// What an expression depends on, for messages.
 std::string unknownOf(const State& state, const ir::ExpressionPtr& value) {
   std::string out = "a value";
   ir::eachNode(value, [&](const ir::Expression& node) {
@@ -69,7 +69,7 @@ std::string axisWord(State& state, ir::Axis axis, double value, SourceRange rang
 std::optional<double> valueOf(State& state, const ir::ExpressionPtr& value, SourceRange range) {
   const ir::ExpressionPtr simple = ir::simplify(value);
   if (const double* constant = ir::constantValue(simple)) return *constant;
-  state.refuse<diag::MikroprogCannot>(range, "the number hangs on " + unknownOf(state, simple),
+  state.refuse<diag::MikroprogCannot>(range, "the number depends on " + unknownOf(state, simple),
                                       "no function reads it into a word");
   return std::nullopt;
 }

@@ -23,8 +23,8 @@ double contactAt(const State& state, ir::Axis axis, double face, double way) {
   return sum(face, way < 0 ? radius : -radius);
 }
 
-// Whether the statements behind `index` go on in the direction of `back` at least to `to`, along that axis
-// alone: they are the way back.
+// Whether the statements after `index` go on in the direction of `back` at least to `to`, along that axis
+// alone: they are the path back.
 bool leavesByItself(State& state, std::size_t index, ir::Axis axis, double to, double back) {
   const auto& list = state.cycle.body;
   for (std::size_t i = index + 1; i < list.size(); ++i) {
@@ -68,10 +68,10 @@ void shiftSystem(State& state, ir::Axis axis, double face, double nominal, const
                                    now.shift > 0 ? "greater" : "smaller", numberText(std::abs(now.shift)));
   state.diagnostics.report<diag::SystemCorrected>(origin.range(), by);
   if (now.shift != 0)
-    state.remarks.push_back(fmt::format("BEHIND THE DATUM {} COUNTS {} MM MORE THAN IN THE SOURCE",
+    state.remarks.push_back(fmt::format("AFTER THE DATUM {} COUNTS {} MM MORE THAN IN THE SOURCE",
                                         ir::letterOf(axis), numberText(now.shift)));
   else
-    state.remarks.push_back("MOVES BEHIND A DATUM ARE IN THE CORRECTED SYSTEM");
+    state.remarks.push_back("MOVES AFTER A DATUM ARE IN THE CORRECTED SYSTEM");
 }
 
 void setPosition(State& state, ir::Axis axis, double contact, double face, double nominal,
@@ -150,7 +150,7 @@ void protectedMove(State& state, const ir::Move& move, const ir::Origin& origin)
   const Mark next = state.mark();
   state.usesCollision = true;
   state.sheet.jump(std::move(words), next, "", origin, std::move(comment));
-  state.sheet.jump(state.code("jump"), state.collision, "", made("contact on the way", origin));
+  state.sheet.jump(state.code("jump"), state.collision, "", made("contact on the path", origin));
   state.sheet.place(next);
 }
 
@@ -173,7 +173,7 @@ void measure(State& state, const ir::Measure& measure, std::size_t index) {
   if (measure.feature == ir::Feature::Bore) return bore(state, measure, origin);
   const ir::Axis axis = measure.axis;
   if (!measure.target) {
-    state.refuse<diag::MikroprogCannot>(range, "the surface has no place", "nothing tells where to search");
+    state.refuse<diag::MikroprogCannot>(range, "the surface has no place", "nothing says where to search");
     return;
   }
   if (!checkAxis(state, axis, range)) return;
@@ -214,7 +214,7 @@ void measure(State& state, const ir::Measure& measure, std::size_t index) {
   if (leavesByItself(state, index, axis, *from, way < 0 ? 1 : -1)) {
     state.diagnostics.report<diag::RetreatMerged>(range);
     if (state.remarked.insert("retreat").second)
-      state.remarks.push_back("THE WAY BACK FROM A SURFACE IS THE MOVE OF THE SOURCE BEHIND IT");
+      state.remarks.push_back("THE PATH BACK FROM A SURFACE IS THE MOVE OF THE SOURCE AFTER IT");
     return;
   }
   state.sheet.add(fmt::format("{} {} F{}", state.code("feed"),

@@ -11,7 +11,7 @@ using Mark = std::uint32_t; // a block that jumps go to
 
 class Sheet {
 public:
-  // A block; `comment` stands behind its words, "" for none.
+  // A block; `comment` follows its words, "" for none.
   void add(std::string text, const ir::Origin& origin, std::string comment = "");
   // A block with L between `before` and `after`: "G23", target, "O7".
   void jump(std::string before, Mark target, std::string after, const ir::Origin& origin,

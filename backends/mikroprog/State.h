@@ -17,7 +17,7 @@ struct AxisState {
   bool datum = false;       // a datum was set
 };
 
-// A subprogram behind M30.
+// A subprogram after M30.
 struct Subprogram {
   Mark entry = 0;
   Sheet sheet;
@@ -75,7 +75,7 @@ std::optional<double> rangedValueOf(State& state, char letter, const ir::Express
 // A coordinate in the coordinates of the source.
 std::optional<double> placeOf(State& state, const ir::Coordinate& coordinate, ir::Axis axis,
                               SourceRange range);
-// Where the probe stands, in the coordinates of the source; refuses where nothing tells.
+// Where the probe is, in the coordinates of the source; refuses where nothing tells.
 std::optional<double> hereOf(State& state, ir::Axis axis, SourceRange range);
 // Refuses an axis that the control does not have.
 bool checkAxis(State& state, ir::Axis axis, SourceRange range);

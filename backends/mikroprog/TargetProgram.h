@@ -38,7 +38,7 @@ struct MikroprogWriting {
 };
 
 // The program of a cycle; a value is fixed for each of its parameters. nullopt where something is missing,
-// cannot be said, or is turned away by the cycle's own checks: reported.
+// cannot be said, or is rejected by the cycle's own checks: reported.
 std::optional<MikroprogProgram> writeMikroprog(const CycleFolder& folder, LoweredCycle lowered,
                                                const MikroprogWriting& writing, Session& session);
 

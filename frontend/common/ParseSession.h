@@ -38,13 +38,13 @@ private:
   size_t position_ = 0;
 };
 
-// What a front end tells the shell of its language. Token types are those of the generated lexer.
+// What a front end says the shell of its language. Token types are those of the generated lexer.
 struct Language {
   // Recovery after a syntax error eats up to, not over, the first of these.
   std::vector<size_t> unitStops;
   // Tokens that recovery may conjure (`isConjured` tells); the builder reports them, the shell does not.
   std::vector<size_t> insertable;
-  // Tokens that recovery may conjure before whatever stands there (a closing bracket).
+  // Tokens that recovery may conjure before whatever is there (a closing bracket).
   std::vector<size_t> insertableAnywhere;
   // Rules that, where they do not match, stay empty and consume nothing: the builder sees the missing part
   // and reports it, the shell does not.

@@ -46,10 +46,9 @@ SourceRange Builder::keyword(const antlr4::Token& token) {
   const SourceRange range = rangeOf(token);
   const SourceRange word = withoutColon(range, sources_);
   if (word != range)
-    syntaxError(
-        {file_, word.end, range.end},
-        fmt::format("a colon stands behind `{0}`, where only the name of a routine has one; write `{0}`",
-                    sources_.textUtf8(word)));
+    syntaxError({file_, word.end, range.end},
+                fmt::format("a colon follows `{0}`, where only the name of a routine has one; write `{0}`",
+                            sources_.textUtf8(word)));
   return word;
 }
 
@@ -95,7 +94,7 @@ std::vector<Literal> Builder::arguments(Parser::ArgumentsContext& context) {
   if (!closed) {
     program_.hasErrorNodes = true;
     if (!unterminated && !quiet(bracket) && !cutShort(rangeOf(context)))
-      syntaxError(bracket, "the bracket that opens here is not closed; write `)` behind the argument");
+      syntaxError(bracket, "the bracket that opens here is not closed; write `)` after the argument");
   }
   return result;
 }
@@ -113,10 +112,10 @@ std::optional<Literal> Builder::argument(Parser::ArgumentContext& context, bool&
   if (!quiet(range) && !cutShort(range)) {
     const std::string text = sources_.textUtf8(range);
     if (text.find_first_of("()'\r\n") == std::string::npos && text.size() <= 40)
-      syntaxError(range, fmt::format("the argument `{0}` stands without apostrophes; write `('{0}')`", text));
+      syntaxError(range, fmt::format("the argument `{0}` is without apostrophes; write `('{0}')`", text));
     else
       syntaxError(rangeOf(*context.getStart()),
-                  "the argument that begins here stands without apostrophes; write `('NAME')`");
+                  "the argument that begins here is without apostrophes; write `('NAME')`");
   }
   return Literal{range, std::string(sources_.text(range))};
 }
@@ -161,7 +160,7 @@ ConditionTerm Builder::term(Parser::TermContext& context, SourceRange before) {
     const SourceRange open = rangeOf(*bracket->LPAREN()->getSymbol());
     result.operand = std::make_unique<Condition>(condition(*bracket->condition(), open));
     if (isConjured(*bracket->RPAREN()->getSymbol()) && !quiet(open) && !cutShort(rangeOf(*bracket)))
-      syntaxError(open, "the bracket that opens here is not closed; write `)` behind the condition");
+      syntaxError(open, "the bracket that opens here is not closed; write `)` after the condition");
   } else {
     result.range = result.nots.empty() ? SourceRange{file_, before.end, before.end} : result.range;
     result.operand = ConditionError{};
@@ -199,19 +198,18 @@ void Builder::strayToken(const antlr4::Token& token) {
   const std::string text = sources_.textUtf8(range);
   switch (type) {
   case Parser::STRAY_LPAREN:
-    return syntaxError(range,
-                       "a bracket opens here, where no keyword that takes an argument stands before it");
+    return syntaxError(range, "a bracket opens here, where no keyword that takes an argument is before it");
   case Parser::RPAREN: return syntaxError(range, "this bracket closes nothing; take it out");
   case Parser::COMMA: return syntaxError(range, "a comma has no meaning between statements; take it out");
   case Parser::EQUALS:
     return syntaxError(range, "`=` has a meaning in the definition of a picture only, `#10 = '###.##'`");
   case Parser::COLON:
-    return syntaxError(range, "a colon stands alone; the label of a routine is its name with the colon "
-                              "directly behind it, `name:`");
+    return syntaxError(range, "a colon is alone; the label of a routine is its name with the colon "
+                              "directly after it, `name:`");
   case Parser::INTEGER:
     return syntaxError(
         range,
-        fmt::format("the number `{0}` is no statement; what the NC program shall hold stands in apostrophes, "
+        fmt::format("the number `{0}` is no statement; what the NC program shall hold is in apostrophes, "
                     "`'{0}'`",
                     text));
   default: break;
@@ -232,8 +230,8 @@ void Builder::strayToken(const antlr4::Token& token) {
 void Builder::dangling(Parser::DanglingTermContext& context, std::vector<Statement>& body) {
   const SourceRange first = rangeOf(*context.connective());
   if (!quiet(first))
-    syntaxError(first, fmt::format("`{}` joins conditions, and no condition stands before it",
-                                   sources_.textUtf8(first)));
+    syntaxError(
+        first, fmt::format("`{}` joins conditions, and no condition is before it", sources_.textUtf8(first)));
   append(body, rangeOf(context));
 }
 
@@ -277,7 +275,7 @@ void Builder::statement(Parser::StatementContext& context, std::vector<Statement
       strayToken(*one->getStart());
     } else {
       const SourceRange first = rangeOf(*context.getStart());
-      if (!quiet(first)) syntaxError(first, "`NOT` belongs to a condition, and no `IF` stands before it");
+      if (!quiet(first)) syntaxError(first, "`NOT` belongs to a condition, and no `IF` is before it");
     }
     append(body, range);
   }

@@ -19,7 +19,7 @@ public:
 
   // Takes one unit of the session; units come in source order.
   void item(const ParseSession::Unit& unit, antlr4::TokenStream& stream);
-  // To be called once, behind the last unit.
+  // To be called once, after the last unit.
   Program finish(const TokenBuffer& tokens);
 
 private:
@@ -33,7 +33,7 @@ private:
   bool quiet(SourceRange range) const;
   // Text was dropped before `range`, in the same routine: ends may be missing for that reason.
   bool losesText(SourceRange range) const;
-  // Text was dropped right behind `range`.
+  // Text was dropped right after `range`.
   bool cutShort(SourceRange range) const;
   void syntaxError(SourceRange range, std::string message);
   // Place of a flow keyword, without the colon that is reported.
@@ -76,7 +76,7 @@ private:
   // Of the routine that is being built, then of the last one built: its findings wait for what follows.
   std::uint32_t routineBegin_ = 0;
   std::vector<const If*> openIfs_;
-  std::vector<Item> innerDirectives_; // directives inside the routine become items behind it
+  std::vector<Item> innerDirectives_; // directives inside the routine become items after it
   SourceRange lastDirective_;
   std::optional<std::size_t> pendingRoutine_; // index in items
   RoutineEnd pendingEnd_;

@@ -1,4 +1,4 @@
-// Routines, what stands between them, and the whole file.
+// Routines, what is between them, and the whole file.
 #include "frontend/compost/BuildAst.h"
 #include "frontend/compost/Parse.h"
 #include "support/messages/ComPost.h"
@@ -88,7 +88,7 @@ void Builder::routine(Parser::RoutineContext& context, antlr4::TokenStream& stre
       pendingEnd_.range = {file_, end, end};
     }
   }
-  // Directives behind the last statement belong behind the routine.
+  // Directives after the last statement belong after the routine.
   const bool trailing = pendingEnd_.at != RoutineEnd::At::Return && lastDirective_.hasPlace();
   std::uint32_t point = pendingEnd_.range.begin;
   if (trailing) {
@@ -101,7 +101,7 @@ void Builder::routine(Parser::RoutineContext& context, antlr4::TokenStream& stre
     }
     result.range.end = std::max(label.end, lastStatementEnd(result));
   }
-  // At the start of the line where nothing but blanks stands before.
+  // At the start of the line where nothing but blanks is before.
   const std::uint32_t lineStart = source_.lineStart(source_.lineOf(point));
   if (bytes.find_first_not_of(" \t", lineStart) >= point) point = lineStart;
   pendingEnd_.insertionPoint = point;
@@ -148,12 +148,11 @@ void Builder::loose(Parser::LooseContext& context) {
   }
   const bool earlyReturn = pendingRoutine_ && !openIfs_.empty() && strayEnd;
   flushEnds(earlyReturn ? strayEnd : std::nullopt);
-  if (earlyReturn) return; // the open IF tells the whole story
+  if (earlyReturn) return; // the open IF says the whole story
   if (colon && !quiet(*colon))
     return syntaxError(
-        *colon,
-        "a colon stands alone, so no routine begins here; the colon of a label stands directly behind the "
-        "name, `name:`");
+        *colon, "a colon is alone, so no routine begins here; the colon of a label directly follows the "
+                "name, `name:`");
   if (findings_.typographicLines.contains(lineOf(range))) return;
   if (losesText({file_, range.end, range.end})) return; // the label may have stood in what was dropped
   const SourceRange first = rangeOf(*context.getStart());

@@ -62,7 +62,7 @@ void CheckedProg::visit(const Condition& condition) {
 
 void CheckedProg::spell(std::string_view name, WordKind kind, SourceRange range) {
   const stdlib::ComPostKeyword* keyword = keywords.find(name);
-  // A known keyword with another suffix is wrong each time; what is not known is told once.
+  // A known keyword with another suffix is wrong each time; what is not known is reported once.
   if (keyword == nullptr &&
       !spelt_.insert(std::string(name) + static_cast<char>('0' + static_cast<int>(kind))).second)
     return;

@@ -26,7 +26,7 @@ public:
 
   std::map<std::string, SourceRange, std::less<>> routines; // first of each name
   std::vector<const Word*> words;                           // of all routines, those of conditions included
-  // Statements and conditions in source order, inner ones behind the one that holds them.
+  // Statements and conditions in source order, inner ones after the one that holds them.
   std::vector<const std::vector<Statement>*> bodies;
   std::vector<const Condition*> conditions;
 

@@ -31,7 +31,7 @@ void commentBrace(const CheckedProg& input, Report& report) {
     if (brace == std::string_view::npos || !whole.ends_with('}')) continue; // one without end is an error
     const auto at = static_cast<std::uint32_t>(comment.range.begin + brace);
     report
-        .at({comment.range.file, at, at + 1}, "a `{{` stands inside this comment; the comment ends at the "
+        .at({comment.range.file, at, at + 1}, "this comment contains a `{{`; it ends at the "
                                               "first `}}`, and what follows is compiled; "
                                               "take the brace out or close the comment before it")
         .note({comment.range.file, comment.range.begin, comment.range.begin + 1}, "the comment begins here");

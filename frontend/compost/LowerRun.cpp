@@ -31,7 +31,7 @@ bool blank(const std::vector<nc::Piece>& line) {
   });
 }
 
-// What stands behind the block number: blanks before it go with it.
+// What follows the block number: blanks before it go with it.
 std::string withoutNumber(const std::string& text) {
   const std::size_t digits = text.find_first_not_of(' ', text.find('N') + 1);
   const std::size_t behind = std::min(text.find_first_not_of("0123456789", digits), text.size());
@@ -61,7 +61,7 @@ ir::PrintedBlock printedBlock(const std::vector<nc::Piece>& line, bool numbered,
     else
       out.pieces.push_back(std::move(printed));
   }
-  // The parser took a number: only blanks, the N and digits stand before the rest.
+  // The parser took a number: only blanks, the N and digits are before the rest.
   if (numbered) out.pieces.front().text = withoutNumber(out.pieces.front().text);
   return out;
 }

@@ -25,7 +25,7 @@ struct Operation {
   std::map<std::string, double> hosts; // host inputs that are known
 };
 
-// One NC block (or comment line) as it stands in the program.
+// One NC block (or comment line) as it is in the program.
 struct PostedLine {
   std::string text;
   SourceRange range; // of the statements that printed it

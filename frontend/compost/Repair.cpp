@@ -35,14 +35,14 @@ const If* rivalOf(const If& open) {
   if (!own) return nullptr;
   if (const If* inner = otherCycle(open.thenBody, *own)) return inner;
   const If* inner = otherCycle(open.elseBody, *own);
-  // Last in ELSE, it runs for the same operations wherever the END stands.
+  // Last in ELSE, it runs for the same operations wherever the END is.
   if (inner != nullptr && std::get_if<std::unique_ptr<If>>(&open.elseBody.back()) != nullptr &&
       std::get<std::unique_ptr<If>>(open.elseBody.back()).get() == inner)
     return nullptr;
   return inner;
 }
 
-// Blanks before a word that begins its line; nothing where other words stand before it.
+// Blanks before a word that begins its line; nothing where other words are before it.
 std::optional<std::string_view> indentOf(SourceRange word, const SourceFile& source) {
   const std::uint32_t begin = source.lineStart(source.lineOf(word.begin));
   const std::string_view before = std::string_view(source.bytes()).substr(begin, word.begin - begin);
@@ -124,7 +124,7 @@ std::vector<Diagnostic> reportMissingEnds(const Routine& routine, const std::vec
     if (strayEnd) {
       diagnostic.note(
           *strayEnd,
-          "an `END` or `ELSE` stands behind the `RETURN`: the `RETURN` may be meant to leave the routine "
+          "an `END` or `ELSE` follows the `RETURN`: the `RETURN` may be meant to leave the routine "
           "early, which is not known to work; no repair is offered");
     } else if (const If* rival = rivalOf(*open)) {
       const bool inThen = !open->elseRange || rival->ifRange.begin < open->elseRange->begin;
@@ -132,8 +132,8 @@ std::vector<Diagnostic> reportMissingEnds(const Routine& routine, const std::vec
           rival->ifRange,
           fmt::format("with `END` at the end of the routine, this `IF` on another cycle {}; the `END` may "
                       "belong before line {}; no repair is offered",
-                      inThen ? "stands inside the open one and is never reached"
-                             : "and all behind it run in the `ELSE` part only",
+                      inThen ? "is inside the open one and is never reached"
+                             : "and all after it run in the `ELSE` part only",
                       source.lineOf(rival->ifRange.begin)));
     } else if (const If* borrower = borrowerOf(*open, source)) {
       diagnostic.note(

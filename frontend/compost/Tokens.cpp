@@ -16,7 +16,7 @@ using Parser = grammar::ComPostParser;
 
 namespace {
 
-// The bracket behind one of these begins arguments or a condition.
+// The bracket after one of these begins arguments or a condition.
 bool takesBracket(size_t type) {
   switch (type) {
   case Lexer::NAME:

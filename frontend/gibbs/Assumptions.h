@@ -27,7 +27,7 @@ inline constexpr std::array<Assumption, 24> kAssumptions{{
     {"text-comparison", "a comparison of texts", "texts are compared character by character, with case"},
     {"single-quotes", "a text in single quotes", "it is a text, as between double quotes"},
     {"doubled-quote", "a doubled quote inside a text", "it stands for one quote"},
-    {"bare-fraction", "a number without a digit before or behind its point", "`.5` is 0.5, `5.` is 5"},
+    {"bare-fraction", "a number without a digit before or after its point", "`.5` is 0.5, `5.` is 5"},
     {"exponent", "a number with an exponent", "`1E3` is 1000"},
     {"next-without-name", "NEXT without a variable", "it ends the innermost FOR"},
     {"negative-step", "FOR with a negative STEP", "it goes on while the variable is at or above the end"},
@@ -36,12 +36,12 @@ inline constexpr std::array<Assumption, 24> kAssumptions{{
     {"bare-file", "a file name without quotes", "it ends at a blank or a comma"},
     {"long-name", "a name of more than 32 characters", "all its characters count"},
     {"field-value", "a field of DefineData.txt that is no number", "the right side is computed once"},
-    {"loose-caption", "a caption without quotes", "it is the text as it stands"},
+    {"loose-caption", "a caption without quotes", "it is the text as it is"},
     {"unset-zero", "a variable that is read before it is set", "it is 0, or an empty text", true},
     {"for-end-at-entry", "a FOR whose end or step changes while it runs", "both are taken once, at the FOR",
      true},
-    {"angle-radians", "the unit of angles", "radians, until DEGREES stands", true},
-    {"angle-degrees", "the unit of angles", "degrees, until RADIANS stands", true},
+    {"angle-radians", "the unit of angles", "radians, until DEGREES is", true},
+    {"angle-degrees", "the unit of angles", "degrees, until RADIANS is", true},
 }};
 
 // nullptr: no such assumption.

@@ -36,7 +36,7 @@ struct NumberLiteral {
 
 struct TextLiteral {
   std::string text; // bytes between the quotes, a doubled quote as written
-  char quote = '"'; // `'` is unverified; 0: a caption of a dialog that stands without quotes
+  char quote = '"'; // `'` is unverified; 0: a caption of a dialog that is without quotes
 };
 
 struct VariableRef {
@@ -138,7 +138,7 @@ struct Goto {
 };
 // CALL macro [, arguments]; the macro is a text expression or a bare file name.
 struct CallMacro {
-  ExpressionPtr macro; // null where a bare name stands
+  ExpressionPtr macro; // null where a bare name is
   std::string bareName;
   SourceRange macroRange;
   std::vector<ExpressionPtr> arguments;
@@ -219,7 +219,7 @@ struct Box {
 struct Control {
   SourceRange range;
   Name kind;
-  std::vector<ExpressionPtr> arguments; // all, as written; of SET_STATE those behind the condition
+  std::vector<ExpressionPtr> arguments; // all, as written; of SET_STATE those after the condition
   std::optional<Comparison> condition;  // of SET_STATE
   std::optional<Box> box;               // of the controls that have one
   std::optional<std::string> text;      // caption or label text, bytes

@@ -66,8 +66,7 @@ std::optional<Control> buildControl(MacroParser::ControlContext& tree, Lines& li
         continue;
       }
       if (foldCase(control.kind.text) != "SET_STATE" || each != tree.controlArgument(0)) {
-        lines.report<diag::SyntaxError>(range,
-                                        "a comparison stands only in SET_STATE, as its first argument");
+        lines.report<diag::SyntaxError>(range, "a comparison is only in SET_STATE, as its first argument");
         return std::nullopt;
       }
       control.condition = build.comparison(*test->sum(0), *test->relation(), *test->sum(1));
@@ -77,7 +76,7 @@ std::optional<Control> buildControl(MacroParser::ControlContext& tree, Lines& li
         lines.report<diag::SyntaxError>(
             range,
             "`" + text +
-                "` is no single value; a text stands between quotes, and arguments are separated by commas");
+                "` is no single value; a text is between quotes, and arguments are separated by commas");
         return std::nullopt;
       }
       auto caption = std::make_unique<Expression>();

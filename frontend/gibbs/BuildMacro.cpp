@@ -33,7 +33,7 @@ If* openForElse(const StatementPtr& statement) {
   return found;
 }
 
-// The IF at the end of the line that has nothing behind THEN.
+// The IF at the end of the line that has nothing after THEN.
 If* withoutThen(const StatementPtr& statement) {
   If* branch = asIf(statement);
   while (branch != nullptr && branch->then != nullptr)
@@ -61,7 +61,7 @@ private:
     GeometryBlock* geometry = nullptr;
     If* branch = nullptr;
     bool isElse = false;
-    bool transparent = false; // opened behind a broken line: its lines belong to the outer list
+    bool transparent = false; // opened after a broken line: its lines belong to the outer list
     SourceRange open;
   };
   // A line that needs `[` on the next one.
@@ -156,8 +156,8 @@ private:
     if (command == nullptr || !opensGeometry(*command)) return;
     if (!command->arguments.empty() || command->commaAfterName) {
       lines_.report<diag::SyntaxError>(lines_.rangeOf(tree),
-                                       "nothing stands behind " + foldCase(command->name.text) +
-                                           "; its elements stand between `[` and `]` on the next lines");
+                                       "nothing follows " + foldCase(command->name.text) +
+                                           "; its elements are between `[` and `]` on the next lines");
       whole.node = ErrorStatement{};
       afterError_ = true;
       return;
@@ -173,7 +173,7 @@ private:
   }
 
   std::string notAnElement() const {
-    return "only START, RAPID, LINE, ARC and POINT stand in a block of CONTOUR or POINTS";
+    return "only START, RAPID, LINE, ARC and POINT are in a block of CONTOUR or POINTS";
   }
 
   void addElement(StatementPtr statement) {
@@ -189,9 +189,9 @@ private:
     if (waiting_.statement == nullptr) return;
     std::string text;
     if (waiting_.geometry != nullptr)
-      text = "`[` is missing on the line behind " + foldCase(waiting_.geometry->kind.text);
+      text = "`[` is missing on the line after " + foldCase(waiting_.geometry->kind.text);
     else
-      text = std::string("nothing stands behind ") + (waiting_.isElse ? "ELSE" : "THEN") +
+      text = std::string("nothing follows ") + (waiting_.isElse ? "ELSE" : "THEN") +
              "; the statement belongs on the same line";
     lines_.report<diag::SyntaxError>(waiting_.place, text);
     waiting_.statement->node = ErrorStatement{};
@@ -216,8 +216,7 @@ private:
     } else {
       if (!afterError_)
         lines_.report<diag::SyntaxError>(
-            lines_.range(),
-            "this `[` opens no block; it stands on the line behind CONTOUR, CONTOUR_3D or POINTS");
+            lines_.range(), "this `[` opens no block; it is on the line after CONTOUR, CONTOUR_3D or POINTS");
       block.transparent = true;
     }
     waiting_ = {};

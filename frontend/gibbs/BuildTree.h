@@ -21,7 +21,7 @@ public:
   Name name(antlr4::tree::TerminalNode& node);
 
   // ---- BuildStatement.cpp
-  // One line of .mac; an IF with nothing behind THEN has no `then`.
+  // One line of .mac; an IF with nothing after THEN has no `then`.
   StatementPtr statement(MacroParser::StatementContext& tree);
   StatementPtr errorStatement(SourceRange range);
 

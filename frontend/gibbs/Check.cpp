@@ -102,7 +102,7 @@ void CheckedFile::call(const Name& name, const std::vector<ExpressionPtr>& argum
   if (signatures.empty()) return;
   Call made{&name, &arguments, range, std::move(signatures), {}};
   made.match = matchArguments(made.signatures, arguments, keywords, sources);
-  // Without a line end behind it.
+  // Without a line end after it.
   made.cutOff = range.end >= sources.file(range.file).bytes().size() &&
                 std::all_of(made.signatures.begin(), made.signatures.end(), [&](const auto* signature) {
                   return arguments.size() < countOf(*signature).least;

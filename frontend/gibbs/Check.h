@@ -53,8 +53,8 @@ public:
   const stdlib::GibbsKeywords& keywords;
   const Limits& limits;
 
-  std::vector<const Statement*> statements;   // of a macro, those inside an IF behind it
-  std::vector<const Expression*> expressions; // all, inner ones behind the one that holds them
+  std::vector<const Statement*> statements;   // of a macro, those inside an IF after it
+  std::vector<const Expression*> expressions; // all, inner ones after the one that holds them
   std::set<std::string> variables, arrays;    // folded names that the macros use, or use with an index
   FlowFindings flow;                          // of a macro
 
@@ -65,7 +65,7 @@ public:
     SourceRange range;
     std::vector<const stdlib::CommandSignature*> signatures;
     Match match;
-    bool cutOff = false; // the file ends behind it, and no form has so few arguments
+    bool cutOff = false; // the file ends after it, and no form has so few arguments
     // The table is sure of the command, and the line is whole.
     bool judged() const { return match.signature != nullptr && !match.signature->unsure && !cutOff; }
   };
@@ -90,10 +90,10 @@ private:
 // `; did you mean `NAME`?`, or nothing.
 std::string didYouMean(const std::string& name);
 
-// Whether an element may stand in the block.
+// Whether an element may appear in the block.
 bool belongs(const Command& element, const GeometryBlock& block);
 
-// The caption of a FRAME that stands without quotes; nullptr for none.
+// The caption of a FRAME that is without quotes; nullptr for none.
 const Expression* looseCaptionOf(const Control& control);
 
 // Labels, FOR and NEXT.

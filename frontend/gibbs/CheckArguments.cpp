@@ -88,9 +88,9 @@ void unknownCommand(const CheckedFile& input, Report& report) {
     else if (input.variables.contains(key))
       remedy = "; it is a variable of this macro: is `=` missing?";
     else if (keywords.function(key) != nullptr)
-      remedy = "; it is a function, which stands inside an expression";
+      remedy = "; it is a function, which is inside an expression";
     else if (!keywords.dialogControls(key).empty())
-      remedy = "; it is a control, which stands in a dialog file (.dlg)";
+      remedy = "; it is a control, which is in a dialog file (.dlg)";
     else
       remedy = didYouMean(keywords.nearestCommand(key));
     report.at(command.name.range, "no source knows a command `{}`{}", command.name.text, remedy);
@@ -115,8 +115,7 @@ bool belongs(const Command& element, const GeometryBlock& block) {
 void misplacedWord(const CheckedFile& input, Report& report) {
   eachCommand(input, [&](const Command& command, const std::string& key) {
     if (input.keywords.isCore(key))
-      report.at(command.name.range,
-                "`{}` stands only between the `[` and `]` of CONTOUR, CONTOUR_3D or POINTS",
+      report.at(command.name.range, "`{}` is only between the `[` and `]` of CONTOUR, CONTOUR_3D or POINTS",
                 command.name.text);
   });
   for (const Statement* statement : input.statements) {
@@ -125,7 +124,7 @@ void misplacedWord(const CheckedFile& input, Report& report) {
     const std::string kind = foldCase((*block)->kind.text);
     for (const Command& element : (*block)->elements)
       if (!belongs(element, **block))
-        report.at(element.name.range, "`{}` stands in a block of {}, which holds {}", element.name.text, kind,
+        report.at(element.name.range, "`{}` is in a block of {}, which holds {}", element.name.text, kind,
                   kind == "POINTS" ? "POINT only" : "START, RAPID, LINE and ARC only");
   }
 }
@@ -223,7 +222,7 @@ void unknownParameter(const CheckedFile& input, Report& report) {
                  for (const std::string& each : known)
                    nearest.offer(each);
                  tell(call, given.range,
-                      nearest.result().empty() ? "; here stands one of " + listed(known)
+                      nearest.result().empty() ? "; here is one of " + listed(known)
                                                : didYouMean(nearest.result()));
                });
   eachUnlisted(input, Misfit::Kind::Parameter,

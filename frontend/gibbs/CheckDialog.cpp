@@ -39,7 +39,7 @@ void dialogNotFirst(const CheckedFile& input, Report& report) {
   const Control* window = firstOf(input, "DIALOG");
   if (window == &input.dialog->controls.front()) return;
   report.at(headOf(input),
-            "{}; GibbsCAM opens no window for what stands before it; write `DIALOG caption, left, top, "
+            "{}; GibbsCAM opens no window for what precedes it; write `DIALOG caption, left, top, "
             "width, height` "
             "on the first line",
             window == nullptr ? "the file has no line DIALOG" : "DIALOG is not the first line of the file");
@@ -63,7 +63,7 @@ void controlTwice(const CheckedFile& input, Report& report) {
     if (key != "DIALOG" && key != "OK" && key != "CANCEL") return;
     const Control* first = firstOf(input, key);
     if (first != &control)
-      report.at(control.kind.range, "`{}` stands twice; a dialog has one", control.kind.text)
+      report.at(control.kind.range, "`{}` appears twice; a dialog has one", control.kind.text)
           .note(first->kind.range, "the first one");
   });
 }
@@ -131,8 +131,7 @@ void looseCaption(const CheckedFile& input, Report& report) {
   eachControl(input, [&](const Control& control, const std::string& key) {
     if (input.keywords.dialogControls(key).empty() || input.keywords.isUnprovedControl(key)) return;
     if (const Expression* caption = looseCaptionOf(control))
-      report.at(caption->range,
-                "the caption stands without quotes; Dotek takes it as text; put it between quotes");
+      report.at(caption->range, "the caption has no quotes; Dotek takes it as text; put it between quotes");
   });
 }
 

@@ -30,7 +30,7 @@ bool isText(const Expression& expression, const CheckedFile& input) {
 // What an operator does with a text; "" where nothing is wrong.
 std::string_view mixes(const Expression& expression, const CheckedFile& input) {
   if (const auto* unary = std::get_if<Unary>(&expression.node))
-    return isText(*unary->operand, input) ? "a sign stands before a text" : "";
+    return isText(*unary->operand, input) ? "a sign is before a text" : "";
   const auto* binary = std::get_if<Binary>(&expression.node);
   if (binary == nullptr) return "";
   // The left side of a chain is judged at its own link.
@@ -100,7 +100,7 @@ void commaBeforeThen(const CheckedFile& input, Report& report) {
   for (const Statement* statement : input.statements)
     if (const auto* branch = std::get_if<If>(&statement->node); branch != nullptr && branch->commaBeforeThen)
       report.at(*branch->commaBeforeThen,
-                "a comma stands before THEN; GibbsCAM has been seen to accept it; leave it out");
+                "comma before THEN; GibbsCAM has been seen to accept it; leave it out");
 }
 
 void unverifiedConstruct(const CheckedFile& input, Report& report) {
@@ -109,7 +109,7 @@ void unverifiedConstruct(const CheckedFile& input, Report& report) {
     if (!noted.insert(found.assumption).second) return;
     const Assumption* assumption = findAssumption(found.assumption);
     report.at(found.range,
-              "{} is unverified: no source shows it; Dotek reads it so: {}; a run that hangs on it needs "
+              "{} is unverified: no source shows it; Dotek reads it so: {}; a run that depends on it needs "
               "`--assume {}`",
               assumption->construct, assumption->reading, assumption->id);
   };

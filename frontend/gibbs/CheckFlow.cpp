@@ -207,7 +207,7 @@ void undefinedLabel(const CheckedFile& input, Report& report) {
 void duplicateLabel(const CheckedFile& input, Report& report) {
   for (const auto& [name, first] : input.flow.labelsTwice)
     report
-        .at(name.range, "the label `{}` stands twice; which of them GOTO takes is not known; rename one",
+        .at(name.range, "the label `{}` appears twice; which of them GOTO takes is not known; rename one",
             name.text)
         .note(first, "the first one");
 }
@@ -236,7 +236,7 @@ void nextOfOtherFor(const CheckedFile& input, Report& report) {
 
 void continueOutsideFor(const CheckedFile& input, Report& report) {
   for (const SourceRange& range : input.flow.continuesOutside)
-    report.at(range, "CONTINUE stands in no FOR; it has no NEXT to go to");
+    report.at(range, "CONTINUE is in no FOR; it has no NEXT to go to");
 }
 
 } // namespace dotek::frontend::gibbs

@@ -14,7 +14,7 @@ namespace dotek::frontend::gibbs {
 bool asksUser(std::string_view name);
 // The specification of the argument at `index`; nullptr: the signature has no such argument.
 const stdlib::ArgumentSpec* specAt(const stdlib::CommandSignature& signature, std::size_t index);
-// The folded word that stands as argument; "" for anything but a bare name.
+// The folded word that is as argument; "" for anything but a bare name.
 std::string bareWord(const Expression& e);
 // Number of arguments and words of choices agree.
 bool fits(const stdlib::CommandSignature& signature, const Command& c);

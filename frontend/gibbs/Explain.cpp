@@ -93,10 +93,10 @@ private:
     if (both == "=<") return "`=<` is written `<=`";
     if (both == "=>") return "`=>` is written `>=`";
     if (both == "><") return "unequal is written `<>`";
-    return "two signs of comparison stand side by side; one of them is too many";
+    return "two signs of comparison are side by side; one of them is too many";
   }
 
-  // A value lacks behind an operator, at the end of the line or before something else.
+  // A value lacks after an operator, at the end of the line or before something else.
   std::optional<std::string> missing() const {
     if (at_ == 0) return std::nullopt;
     const std::size_t last = before();
@@ -152,12 +152,12 @@ private:
       if (!then && isRelation(type(i))) relation = true;
     }
     if (then) {
-      if (here() == Lexer::KW_THEN) return "THEN stands twice";
+      if (here() == Lexer::KW_THEN) return "THEN appears twice";
       return std::nullopt;
     }
     if (here() == Lexer::KW_THEN && !relation)
       return "the condition holds no comparison; write `IF a = 1 THEN statement`";
-    if (start == at_ && start != 0) return "an IF stands at the start of a line or behind THEN";
+    if (start == at_ && start != 0) return "an IF is only at the start of a line or after THEN";
     if (isRelation(here()) && relation && !isRelation(before()))
       return "a condition compares two values once; use a second IF";
     if (atEnd() || isWord(here()) || here() == Lexer::COMMA || isValue(here())) {
@@ -173,7 +173,7 @@ private:
     if (type(1) == Lexer::EQUAL && here() == Lexer::EQUAL)
       return "a second `=`; write one `NAME = number` a line";
     if (here() == Lexer::COMMA && at_ > 2)
-      return "a decimal point is written `.`; one `NAME = number` stands on a line";
+      return "a decimal point is written `.`; one `NAME = number` is on a line";
     return "this is no definition; each line of DefineData.txt reads `NAME = number`";
   }
 
@@ -184,18 +184,18 @@ private:
     if (first == Lexer::KW_GOTO) return "GOTO takes the name of one label: `GOTO label`";
     if (first == Lexer::KW_ON_ERROR) return "an error handler is written `ON_ERROR GOTO label`";
     if (first == Lexer::KW_NEXT) return "NEXT takes the variable of its FOR: `NEXT i`";
-    if (first == Lexer::KW_CONTINUE) return "nothing stands behind CONTINUE";
+    if (first == Lexer::KW_CONTINUE) return "nothing follows CONTINUE";
     if (first == Lexer::HASH_INCLUDE) return "`#INCLUDE` takes one file name: `#INCLUDE \"file.mac\"`";
     if (first == Lexer::KW_ARGS || first == Lexer::KW_GLOBAL || first == Lexer::KW_LOCAL ||
         first == Lexer::KW_PERMANENT)
       return text(0) + " takes names separated by commas: `" + text(0) + " a, b$`";
     if (isNameType(first) && type(1) == Lexer::EQUAL && at_ > 1) {
-      if (here() == Lexer::EQUAL) return "a second `=` in an assignment; a comparison stands only behind IF";
+      if (here() == Lexer::EQUAL) return "a second `=` in an assignment; a comparison is only after IF";
       if (here() == Lexer::COMMA) return "an assignment takes one value; a decimal point is written `.`";
     }
     if (!hasIf() && isRelation(here())) {
-      if (here() == Lexer::EQUAL) return "`=` stands behind one variable only, at the start of an assignment";
-      return "a comparison stands only behind IF";
+      if (here() == Lexer::EQUAL) return "`=` follows one variable only, at the start of an assignment";
+      return "a comparison is only after IF";
     }
     return std::nullopt;
   }
@@ -203,7 +203,7 @@ private:
   std::optional<std::string> forForm() const {
     const std::string form = "write `FOR i = 1 TO 10` and, further down, `NEXT i`";
     if (!isNameType(type(1))) return "the variable of FOR is missing; " + form;
-    if (type(2) != Lexer::EQUAL) return "`=` is missing behind the variable of FOR; " + form;
+    if (type(2) != Lexer::EQUAL) return "`=` is missing after the variable of FOR; " + form;
     if (!has(Lexer::KW_TO)) return "TO is missing in FOR; " + form;
     return std::nullopt;
   }
@@ -227,16 +227,15 @@ private:
     switch (here()) {
     case Lexer::LEFT_SQUARE:
     case Lexer::RIGHT_SQUARE:
-      return quoted(text(at_)) + " stands on a line of its own, where it opens or closes a block";
-    case Lexer::COLON: return "a label is a name and stands alone on its line: `:name` or `name:`";
+      return quoted(text(at_)) + " is on a line of its own, where it opens or closes a block";
+    case Lexer::COLON: return "a label is a name and is alone on its line: `:name` or `name:`";
     case Lexer::DOT:
-      return type(0) == Lexer::KW_CALL ? "put the file name between quotes"
-                                       : "`.` stands only inside a number";
-    case Lexer::BACKSLASH: return "a file name stands between quotes";
-    case Lexer::HASH_INCLUDE: return "`#INCLUDE` stands at the start of a line";
+      return type(0) == Lexer::KW_CALL ? "put the file name between quotes" : "`.` is only inside a number";
+    case Lexer::BACKSLASH: return "a file name is between quotes";
+    case Lexer::HASH_INCLUDE: return "`#INCLUDE` is at the start of a line";
     default: break;
     }
-    if (type(0) == Lexer::COLON) return "a label is a name and stands alone on its line: `:name` or `name:`";
+    if (type(0) == Lexer::COLON) return "a label is a name and is alone on its line: `:name` or `name:`";
     if (at_ == 0 && !isWord(here()))
       return "a line begins with a command, a variable or a label, not with " + quoted(text(0));
     return std::nullopt;

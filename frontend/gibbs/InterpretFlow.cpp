@@ -96,11 +96,11 @@ Interpreter::Flow Interpreter::jumpToLabel(State& state, const Name& label, Sour
   const auto& labels = state.frames.back().program->labels;
   const auto found = labels.find(foldCase(label.text));
   if (found == labels.end()) {
-    refuse(label.range, "no label of this name stands in the macro");
+    refuse(label.range, "no label of this name is in the macro");
     return Flow::Failed;
   }
   if (found->second == kNowhere) {
-    refuse(label.range, "the label stands twice, and where the jump leads is not known");
+    refuse(label.range, "the label appears twice, and where the jump leads is not known");
     return Flow::Failed;
   }
   state.jumped = range;

@@ -125,7 +125,7 @@ bool Lines::reportBadTokens() {
       const std::string text = token.getText();
       if (text == ";")
         report<diag::SyntaxError>(
-            range, "`;` ends nothing here: one statement stands on a line, and a comment begins with `!`");
+            range, "`;` ends nothing here: one statement is on a line, and a comment begins with `!`");
       else if (text == "#")
         report<diag::SyntaxError>(range, "`#INCLUDE` is the only word that begins with `#`");
       else if (text == "{" || text == "}")

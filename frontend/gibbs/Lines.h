@@ -72,7 +72,7 @@ private:
   std::unique_ptr<ParseSession> session_;
   std::vector<SourceRange> dropped_; // where limits cut a line
   Span line_;
-  std::size_t following_ = 0; // first token behind the line
+  std::size_t following_ = 0; // first token after the line
   std::uint32_t errors_ = 0;
   std::uint32_t errorsBefore_ = 0;
 };

@@ -32,7 +32,7 @@ struct LowerContext {
 // Nothing else; kinds are Number until inferKinds. The order is that of declaredFields().
 ir::Cycle declareCycle(const Cycle& source, const SourceMap& sources);
 
-// cycle.checks = the code of CycleData.mac behind its first DIALOG, with what the code before it computes.
+// cycle.checks = the code of CycleData.mac after its first DIALOG, with what the code before it computes.
 // MESSAGE (or STOP) after which every path shows the dialog again or ends with a return code other than 0 is
 // an alarm; such an end without a message is an alarm without text. Reports and returns false at a shape that
 // cannot be translated: a message after which some paths go on and some do not, texts that are computed,

@@ -50,7 +50,7 @@ bool report(const WalkResult& walk, LowerContext& context) {
 }
 
 // A macro that calls itself without a condition: place of the CALL that shows the dialog a second time. One
-// under a condition turns values away. kNowhere: some way passes, or none is such.
+// under a condition rejects values. kNowhere: some path passes, or none is such.
 std::size_t selfCall(const Flat& flat, const WalkResult& walk) {
   std::size_t found = kNowhere;
   for (std::size_t at = 0; at < flat.steps.size(); ++at) {
@@ -72,7 +72,7 @@ bool lowerChecks(const Macro& cycleData, ir::Cycle& cycle, LowerContext& context
   options.unsetZero = context.assumptions.contains("unset-zero");
   WalkResult walk = Walk(flat, cycle, context.limits, options).run();
   if (!walk.complete) {
-    // Too many ways with all that the conditions tell; the values that the macro sets are often enough.
+    // Too many paths with all that the conditions tell; the values that the macro sets are often enough.
     options.facts = false;
     walk = Walk(flat, cycle, context.limits, options).run();
   }
@@ -85,7 +85,7 @@ bool lowerChecks(const Macro& cycleData, ir::Cycle& cycle, LowerContext& context
     context.diagnostics.report<diag::CallTooDeep>(flat.steps[call].range, context.limits.callDepth);
     return false;
   }
-  // Nothing gets past an alarm, so that behind one fewer ways are left for the messages that follow.
+  // Nothing gets past an alarm, so that after one fewer paths are left for the messages that follow.
   for (bool found = true; found && walk.complete;) {
     found = false;
     for (const auto& [at, ends] : walk.behind)

@@ -1,4 +1,4 @@
-// Flat code as statements of the IR, without what no way reaches.
+// Flat code as statements of the IR, without what no path reaches.
 #pragma once
 
 #include "frontend/gibbs/LowerWalk.h"
@@ -29,7 +29,7 @@ ir::CycleStatement statementOf(decltype(ir::CycleStatement::node) node, SourceRa
 std::vector<ir::CycleStatement> emitStatements(const Flat& flat, const WalkResult& walk,
                                                const EmitOptions& options, ir::Cycle& cycle);
 
-// A reached step from which no way leads out; kNowhere: there is none.
+// A reached step from which no path leads out; kNowhere: there is none.
 std::size_t endlessStep(const Flat& flat, const WalkResult& walk, const std::set<std::size_t>& alarms);
 
 } // namespace dotek::frontend::gibbs

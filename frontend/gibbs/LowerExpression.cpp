@@ -35,7 +35,7 @@ bool Flattener::isClosed(const Value& value) const {
 
 bool Flattener::mayFail(const State& state, SourceRange range) {
   if (state.frames.back().onError == nullptr) return false;
-  refuse(range, "ON_ERROR stands around a computation that may fail");
+  refuse(range, "ON_ERROR is around a computation that may fail");
   return true;
 }
 

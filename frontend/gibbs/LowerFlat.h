@@ -39,7 +39,7 @@ struct FlatMove {
   PathMove::Kind kind = PathMove::Kind::Feed;
   std::array<ir::ExpressionPtr, 3> axes; // as written; null pointer: not written
 };
-// The macro ends: the values pass, or are turned away.
+// The macro ends: the values pass, or are rejected.
 struct FlatEnd {
   bool rejects = false;
   bool again = false; // by a macro that calls itself and shows its dialog a second time

@@ -71,7 +71,7 @@ private:
     return ok_;
   }
 
-  // All that conditions tell first; where that gives too many ways, less.
+  // All that conditions tell first; where that gives too many paths, less.
   bool walkAll(TouchNotes& notes) {
     options_.unsetZero = context_.assumptions.contains("unset-zero");
     struct Effort {
@@ -158,7 +158,7 @@ private:
 
   // ---- coordinates
 
-  // A linear form as an expression; null pointer where it hangs on more than arguments.
+  // A linear form as an expression; null pointer where it depends on more than arguments.
   ir::ExpressionPtr expressionOf(const std::optional<Value>& value, SourceRange range) const {
     if (!value) return nullptr;
     if (const double* number = std::get_if<double>(&*value)) return ir::constant(*number, range);
@@ -279,7 +279,7 @@ private:
     const bool apart =
         std::all_of(ways.begin(), ways.end(), [](const auto& way) { return way.second != nullptr; });
     if (!apart) {
-      notShown(step, "on some ways the path goes back along the same axis");
+      notShown(step, "on some paths the move goes back along the same axis");
       return {};
     }
     std::vector<Emitted> out;

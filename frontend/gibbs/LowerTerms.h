@@ -22,7 +22,7 @@ std::vector<Term> terms(const ir::ExpressionPtr& sum);
 void addTerm(std::vector<Term>& sum, bool minus, const ir::ExpressionPtr& value);
 // The sum of the terms; 0 without any.
 ir::ExpressionPtr sumOf(const std::vector<Term>& sum, SourceRange range);
-// How often the variable stands among the terms: with plus less with minus.
+// How often the variable is among the terms: with plus less with minus.
 int count(const std::vector<Term>& sum, ir::VariableId variable);
 
 } // namespace dotek::frontend::gibbs

@@ -6,7 +6,7 @@ namespace dotek::frontend::gibbs {
 namespace {
 
 constexpr std::size_t kMaxWays = 256;  // facts that are kept for one move
-constexpr std::size_t kMaxPlaces = 32; // places that are kept for one way
+constexpr std::size_t kMaxPlaces = 32; // places that are kept for one path
 
 // a - b; nothing where one is not known or the difference is no short form.
 std::optional<Value> difference(const std::optional<Value>& a, const std::optional<Value>& b) {
@@ -44,7 +44,7 @@ void keep(std::vector<Facts>& list, const Facts& facts) {
   if (list.size() < kMaxWays)
     list.push_back(facts);
   else
-    list.back().clear(); // nothing is known of the ways that are not kept
+    list.back().clear(); // nothing is known of the paths that are not kept
 }
 
 } // namespace
@@ -96,7 +96,7 @@ std::map<std::size_t, std::set<std::size_t>> TouchNotes::candidates() const {
   return out;
 }
 
-// A height, wherever it stands over X and Y; along X and Y a point. kNowhere: not known.
+// A height, wherever it is over X and Y; along X and Y a point. kNowhere: not known.
 std::size_t TouchNotes::placeOf(const Track& track, std::size_t axis, const Value& target) {
   std::string text = fmt::format("{}", axis);
   for (std::size_t i = 0; i < 3; ++i) {
@@ -108,7 +108,7 @@ std::size_t TouchNotes::placeOf(const Track& track, std::size_t axis, const Valu
   return placeNumbers_.emplace(text, placeNumbers_.size()).first->second;
 }
 
-// The way stands at track.at: it does not turn back here, it goes on along another axis or ends.
+// The path is at track.at: it does not turn back here, it goes on along another axis or ends.
 void TouchNotes::stand(Track& track) {
   for (std::size_t axis = 0; places_ && axis < 3; ++axis) {
     if (!track.at[axis]) continue;
@@ -119,8 +119,8 @@ void TouchNotes::stand(Track& track) {
   }
 }
 
-// The path went back behind `leg`. No touch goes to where the way has stood before, nor to a height at which
-// it stands later: there it would stand in the material. None along Z goes up.
+// The path went back after `leg`. No touch goes to where the path has stood before, nor to a height at which
+// it is later: there it would appear in the material. None along Z goes up.
 void TouchNotes::turn(Track& track, const Leg& leg, bool rises) {
   const std::size_t axis = ir::indexOf(leg.axis);
   const std::size_t place = placeOf(track, axis, leg.target);
@@ -133,7 +133,7 @@ void TouchNotes::turn(Track& track, const Leg& leg, bool rises) {
 }
 
 // What the move before the one at `step` was, now that its follower is known. `next`: where the follower goes
-// along the same axis; nothing: elsewhere. `consumed`: the follower is the way back from a touch.
+// along the same axis; nothing: elsewhere. `consumed`: the follower is the path back from a touch.
 void TouchNotes::judge(WalkState& state, const std::optional<Value>& next, std::size_t step, bool& consumed) {
   Track& track = state.track;
   if (!track.last) return;
@@ -167,7 +167,7 @@ void TouchNotes::judge(WalkState& state, const std::optional<Value>& next, std::
   track.last.reset();
 }
 
-// Whether the code shows a touch here: the way to the contact is known to have one sign, and the move ends
+// Whether the code shows a touch here: the path to the contact is known to have one sign, and the move ends
 // the radius of the ball before it.
 void TouchNotes::note(WalkState& state, Leg& leg) {
   MoveNotes& notes = notes_[leg.step];
@@ -182,7 +182,7 @@ void TouchNotes::note(WalkState& state, Leg& leg) {
     const Value radius = sourceValue(symbol);
     const auto holds = [&](const Value& value) { return factorOf(symbol, value) != 0; };
     for (const int sign : {1, -1}) {
-      // The radius stands in the target, and nowhere in the way from the begin to the contact.
+      // The radius is in the target, and nowhere in the way from the begin to the contact.
       const auto contact = linear(leg.target, 1, radius, sign);
       const auto form = linear(*way, 1, radius, sign);
       if (!contact || !form || holds(*contact) || holds(*form)) continue;
@@ -219,12 +219,12 @@ void TouchNotes::move(WalkState& state, std::size_t step, const std::array<std::
   if (const auto& last = state.track.last) {
     const std::size_t lastAxis = ir::indexOf(last->axis);
     const bool along = idle ? last->forced : axis == lastAxis;
-    // A move without a way, along the same axis or to the same point, is no follower of a plain move. Behind
+    // A move without a way, along the same axis or to the same point, is no follower of a plain move. After
     // a touch, which comes back by itself, it is none without a way.
     if (last->forced || last->sign != 0 || !idle || (written != kNowhere && written != lastAxis))
       judge(state, along ? target[lastAxis] : std::nullopt, step, consumed);
   }
-  // Behind a touch that came back there may be nowhere left to go.
+  // After a touch that came back there may be nowhere left to go.
   const bool now = changedAxes(state, target).empty();
   if (now || consumed) {
     notes.returns = notes.returns || consumed;

@@ -1,5 +1,5 @@
-// Which moves of a path are touches: what each way through the path macro knows where a move begins, and
-// whether the path comes back behind it.
+// Which moves of a path are touches: what each path through the path macro knows where a move begins, and
+// whether the path comes back after it.
 #pragma once
 
 #include "frontend/gibbs/LowerWalk.h"
@@ -11,7 +11,7 @@
 
 namespace dotek::frontend::gibbs {
 
-// One value wherever a way arrives, or several.
+// One value wherever a path arrives, or several.
 struct Seen {
   std::optional<Value> value; // nothing: not seen, or not known
   bool varies = false;
@@ -21,15 +21,15 @@ private:
   bool any_ = false;
 };
 
-// The ways on which a move is a touch towards one side.
+// The paths on which a move is a touch towards one side.
 struct ShownTouch {
   std::map<std::string, Value> forms; // way to the contact, by text: above 0 to one side, below to the other
   Seen contact;                       // from the entry
-  std::vector<Facts> facts;           // what each way knows before the move
-  bool mayBeNone = false;             // on some way the contact may lie where the move begins
+  std::vector<Facts> facts;           // what each path knows before the move
+  bool mayBeNone = false;             // on some path the contact may lie where the move begins
 };
 
-// A move over all ways that reach it.
+// A move over all paths that reach it.
 struct MoveNotes {
   std::map<int, ShownTouch> shown; // by side: 1 and -1
   std::vector<Facts> others;       // ways on which it is no touch
@@ -40,13 +40,13 @@ struct MoveNotes {
   std::optional<ir::Axis> axis;    // of a move along one
   Seen begin;                      // along the axis of a move along one axis
   std::array<Seen, 3> target;      // as written
-  bool above = true, below = true; // on all ways the target lies above (below) the begin
+  bool above = true, below = true; // on all paths the target lies above (below) the begin
 };
 
 class TouchNotes : public MoveObserver {
 public:
   // `forced`: steps that are touches because the user says so. `radius`: of the ball; kNoVariable: no such.
-  // `places`: keep where a way has stood; a touch goes elsewhere.
+  // `places`: keep where a path has stood; a touch goes elsewhere.
   TouchNotes(const Flat& flat, std::set<std::size_t> forced, ir::VariableId radius, bool places)
       : flat_(&flat), forced_(std::move(forced)), radius_(radius), places_(places) {}
 
@@ -56,7 +56,7 @@ public:
   const MoveNotes& of(std::size_t step) const;
   bool isForced(std::size_t step) const { return forced_.contains(step); }
   // Moves that could be touches and are not shown, by the first move of their run along one axis. None of
-  // them leads to a touch on any way, nor lacks its way back.
+  // them leads to a touch on any way, nor lacks its path back.
   std::map<std::size_t, std::set<std::size_t>> candidates() const;
   // Moves that go to a contact as a touch does, but do not come back.
   const std::set<std::size_t>& withoutReturn() const { return withoutReturn_; }
@@ -82,10 +82,10 @@ private:
   std::map<std::size_t, std::set<std::size_t>> candidates_;
   std::map<std::size_t, std::set<std::size_t>> returns_;
   std::set<std::size_t> withoutReturn_;
-  std::set<std::size_t> approaches_; // moves behind which a touch follows
+  std::set<std::size_t> approaches_; // moves after which a touch follows
 };
 
-// Follows one way with known values: the moves behind which the path goes back along the same axis.
+// Follows one path with known values: the moves after which the path goes back along the same axis.
 class ReversalTrace : public MoveObserver {
 public:
   ReversalTrace(const Flat& flat, std::set<std::size_t> forced) : flat_(flat), forced_(std::move(forced)) {}

@@ -313,7 +313,7 @@ bool Walk::step(WalkState& state, const FlatMessage&) {
   return true;
 }
 
-// What was shown before the dialog does not turn away what is typed into it.
+// What was shown before the dialog does not reject what is typed into it.
 bool Walk::step(WalkState& state, const FlatDialog&) {
   for (const std::size_t message : state.messages)
     result_.behind[message].passes = true;

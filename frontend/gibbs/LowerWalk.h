@@ -1,4 +1,4 @@
-// Ways through flat code with symbolic values: what can be reached, how it ends behind each message, what a
+// Ways through flat code with symbolic values: what can be reached, how it ends after each message, what a
 // way knows where a move begins. Everything that is not proved impossible is taken as possible.
 #pragma once
 
@@ -19,7 +19,7 @@
 
 namespace dotek::frontend::gibbs {
 
-// What a way has learnt of one quantity, by conditions that it has passed.
+// What a path has learnt of one quantity, by conditions that it has passed.
 struct Fact {
   Range range;
   std::set<std::pair<Relation, double>> learnt;
@@ -33,20 +33,20 @@ struct Leg {
   ir::Axis axis = ir::Axis::X;
   std::optional<Value> begin; // nothing: not known
   Value target = 0.0;
-  int sign = 0; // of the way to the contact, where the code shows a touch; else 0
+  int sign = 0; // of the path to the contact, where the code shows a touch; else 0
   bool forced = false;
   bool exempt = false; // the first positioning, from wherever the cycle begins
 };
 
-// A move that turned, to a place where the way had not stood.
+// A move that turned, to a place where the path had not stood.
 struct Turn {
   std::size_t run = 0; // first move of its run along one axis
   std::size_t step = 0;
-  std::size_t place = 0; // number of the place; kNowhere: not known, or no later stand clears it
+  std::size_t place = 0; // number of the place; kNowhere: not known, or no later are clears it
   auto operator<=>(const Turn&) const = default;
 };
 
-// Where the probe stands; X and Y from the entry, Z from the retract plane.
+// Where the probe is; X and Y from the entry, Z from the retract plane.
 struct Track {
   std::array<std::optional<Value>, 3> at; // nothing: not known
   std::optional<Leg> before;              // `last` is its follower, along the same axis
@@ -89,10 +89,10 @@ struct WalkResult {
     bool passes = false;
     bool rejects = false;
   };
-  bool complete = false; // false: too many ways
+  bool complete = false; // false: too many paths
   std::vector<bool> reached;
   std::vector<bool> jumps, falls;                     // of branches: both answers are possible
-  std::map<std::size_t, Ends> behind;                 // of messages: how the ways end
+  std::map<std::size_t, Ends> behind;                 // of messages: how the paths end
   std::map<std::size_t, Ends> ends;                   // of Return steps
   std::map<std::size_t, std::set<std::size_t>> codes; // steps that set the code a Return rejects with
   std::vector<Diagnostic> refusals;
@@ -119,7 +119,7 @@ private:
 
   void start();
   void follow(WalkState state);
-  // false: the way ends here.
+  // false: the path ends here.
   bool step(WalkState& state);
   bool step(WalkState& state, const FlatAssign& s);
   bool step(WalkState& state, const FlatBranch& s);
@@ -178,7 +178,7 @@ bool provenBelow(const Facts& facts, const Value& value);
 bool provenZero(const Facts& facts, const Value& value);
 bool provenNotAbove(const Facts& facts, const Value& value); // value <= 0
 bool provenNotBelow(const Facts& facts, const Value& value);
-// Hangs on what a loop has changed too often to be followed: one name for many values.
+// Depends on what a loop has changed too often to be followed: one name for many values.
 bool isWidened(const Value& value);
 
 } // namespace dotek::frontend::gibbs

@@ -27,7 +27,7 @@ int sideOf(Relation relation) {
   return relation == Relation::Less || relation == Relation::LessEqual ? -1 : 0;
 }
 
-// Whether the facts leave only values of `value` that stand in `relation` to 0.
+// Whether the facts leave only values of `value` that are in `relation` to 0.
 bool proven(const Facts& facts, const Value& value, Relation relation) {
   if (const double* number = std::get_if<double>(&value)) return holds(*number, relation, 0);
   const Question question = questionOf(*unknownIn(value), relation, {});

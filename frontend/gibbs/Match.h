@@ -19,7 +19,7 @@ struct Misfit {
 // The signature that fits best.
 struct Match {
   const stdlib::CommandSignature* signature = nullptr; // null: there are none
-  // What each argument is; null behind the last that the signature has.
+  // What each argument is; null after the last that the signature has.
   std::vector<const stdlib::ArgumentSpec*> specs;
   std::vector<Misfit> misfits;
 };

@@ -94,7 +94,7 @@ private:
 
   void visit(const For& node, SourceRange range, bool afterThen) {
     if (afterThen) {
-      emit(range, RefuseStep{"a FOR behind THEN opens a loop on one way only"});
+      emit(range, RefuseStep{"a FOR after THEN opens a loop on one path only"});
       return;
     }
     const std::size_t index = program_.loops.size();
@@ -105,7 +105,7 @@ private:
 
   void visit(const Next& node, SourceRange range, bool afterThen) {
     if (afterThen) {
-      emit(range, RefuseStep{"a NEXT behind THEN closes a loop on one way only"});
+      emit(range, RefuseStep{"a NEXT after THEN closes a loop on one path only"});
       return;
     }
     if (!node.variable) emit(range, UnverifiedStep{"next-without-name"});
@@ -132,7 +132,7 @@ private:
 
   void visit(const Continue&, SourceRange range, bool) {
     if (open_.empty()) {
-      emit(range, RefuseStep{"the CONTINUE stands in no FOR"});
+      emit(range, RefuseStep{"the CONTINUE is in no FOR"});
       return;
     }
     open_.back().continues.push_back(emit(range, JumpStep{}));
@@ -140,7 +140,7 @@ private:
 
   void visit(const Include& node, SourceRange range, bool afterThen) {
     if (afterThen) {
-      emit(range, RefuseStep{"an #INCLUDE behind THEN brings in lines on one way only"});
+      emit(range, RefuseStep{"an #INCLUDE after THEN brings in lines on one path only"});
       return;
     }
     if (including_.size() > limits_.includeDepth) {

@@ -21,7 +21,7 @@ inline constexpr std::size_t kNowhere = std::numeric_limits<std::size_t>::max();
 struct AssignStep {
   const Assignment* assignment;
 };
-// Goes on behind itself where the condition holds, else at `otherwise`.
+// Goes on after itself where the condition holds, else at `otherwise`.
 struct BranchStep {
   const Condition* condition;
   std::size_t otherwise = kNowhere;
@@ -74,14 +74,14 @@ struct Instruction {
 struct Loop {
   const For* statement;
   std::size_t parent = kNowhere;
-  std::size_t body = kNowhere; // behind the FOR
+  std::size_t body = kNowhere; // after the FOR
   std::size_t next = kNowhere; // its NEXT; nowhere: never closed
 };
 
 struct Program {
   std::vector<Instruction> instructions;
   std::vector<Loop> loops;
-  // Folded name to place; nowhere: the label stands twice.
+  // Folded name to place; nowhere: the label appears twice.
   std::map<std::string, std::size_t> labels;
 };
 

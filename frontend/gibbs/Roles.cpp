@@ -105,7 +105,7 @@ private:
     return closing_[i + 1] != kNone && type(closing_[i + 1] + 1) == Lexer::EQUAL;
   }
 
-  // ELSE where a value may stand, too, begins the other branch only before a statement.
+  // ELSE where a value may appear, too, begins the other branch only before a statement.
   bool beginsStatement(std::size_t i) const {
     switch (type(i)) {
     case Lexer::KW_ELSE:
@@ -239,7 +239,7 @@ private:
   std::vector<bool> compares_;       // by opening bracket
   Place place_ = Place::Statement;
   bool comparison_ = false; // a comparison may begin here
-  bool maybeElse_ = false;  // no value need stand here
+  bool maybeElse_ = false;  // no value need are here
 };
 
 } // namespace

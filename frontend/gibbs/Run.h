@@ -33,7 +33,7 @@ struct RunContext {
   std::function<const Dialog*(const std::string& name, SourceRange where)> loadDialog;
 };
 
-// A MESSAGE or STOP that was shown, or a return code that was set, before the values were turned away.
+// A MESSAGE or STOP that was shown, or a return code that was set, before the values were rejected.
 struct Rejection {
   SourceRange range; // of the statement
   std::string text;  // of the message, UTF-8; "" where none was shown
@@ -57,10 +57,10 @@ struct ChecksResult {
 };
 
 // Runs CycleData.mac as if the user had typed the fields into its dialog and pressed OK. A condition that
-// hangs on an unknown host input is followed both ways (limits.paths).
+// depends on an unknown host input is followed both paths (limits.paths).
 ChecksResult runChecks(const Macro& cycleData, RunContext& context);
 
-// One ADD_CUSTOM_DRILL_CYCLE_PATH: where the tool stands after it. X and Y count from the point of the
+// One ADD_CUSTOM_DRILL_CYCLE_PATH: where the tool is after it. X and Y count from the point of the
 // operation, Z from the retract plane (mm). The point is what the CAM draws: the ball's centre in X and Y,
 // its lowest point in Z.
 struct PathMove {

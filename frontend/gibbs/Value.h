@@ -92,9 +92,9 @@ bool holds(double left, Relation relation, double right);
 // What a path has learnt of one unknown quantity.
 class Range {
 public:
-  // Keeps the part where the quantity stands in `relation` to `bound`; false: nothing is left.
+  // Keeps the part where the quantity is in `relation` to `bound`; false: nothing is left.
   bool restrict(Relation relation, double bound);
-  // Whether the quantity stands in `relation` to `bound`; nothing: it may or may not.
+  // Whether the quantity is in `relation` to `bound`; nothing: it may or may not.
   std::optional<bool> answer(Relation relation, double bound) const;
 
 private:
@@ -103,7 +103,7 @@ private:
   std::vector<double> excluded_;
 };
 
-// A comparison that hangs on an unknown: `key` stands in `relation` to `bound`, or does not.
+// A comparison that depends on an unknown: `key` is in `relation` to `bound`, or does not.
 struct Question {
   std::string key;
   Relation relation = Relation::Equal;

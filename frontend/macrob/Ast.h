@@ -114,7 +114,7 @@ using Body =
 struct Comment {
   SourceRange range;
   std::string text; // bytes between the brackets
-  // Words that stand before it. Of a macro statement: 0 before it, 1 inside or behind it.
+  // Words that precede it. Of a macro statement: 0 before it, 1 inside or after it.
   std::uint32_t place = 0;
 };
 
@@ -157,7 +157,7 @@ struct Program {
 struct File {
   FileId file = kNoFile;
   bool markFirst = false; // `%` before the first program
-  bool markLast = false;  // `%` behind the last
+  bool markLast = false;  // `%` after the last
   SourceRange leader;     // text before the first `%`, which the control skips; empty: none
   std::vector<Program> programs;
   std::vector<SourceRange> legends; // text of drawings between the blocks, left out of the programs

@@ -51,7 +51,7 @@ public:
   const stdlib::Control* control;
   const SourceMap& sources;
 
-  // An expression of a block, inner ones behind the one that holds them; numbers of few digits are left out.
+  // An expression of a block, inner ones after the one that holds them; numbers of few digits are left out.
   // `subscript`: it is part of the number of a variable, #[..].
   struct Part {
     const Expression* expression;

@@ -250,7 +250,7 @@ void joinedUnknownHere(const CheckedProgram& input, Report& report) {
   for (const Condition* condition : input.conditions)
     if (const auto* both = std::get_if<JoinedConditions>(&condition->node))
       report.at(condition->range,
-                "conditions joined by {} are not known to {}; it stops with an alarm; write one IF behind "
+                "conditions joined by {} are not known to {}; it stops with an alarm; write one IF after "
                 "the other",
                 both->op, input.control->title);
 }
@@ -302,9 +302,8 @@ void thenGoto(const CheckedProgram& input, Report& report) {
   if (input.control == nullptr || !input.control->ifThen || input.control->thenGoto) return;
   eachIf(input, [&](const If& branch) {
     if (std::holds_alternative<Goto>(branch.statement))
-      report.at(
-          {branch.range.file, branch.condition->range.end, branch.range.end},
-          "GOTO stands behind THEN; a 31i-B takes it, of this control it is not known; write `IF[..]GOTO`");
+      report.at({branch.range.file, branch.condition->range.end, branch.range.end},
+                "GOTO follows THEN; a 31i-B takes it, of this control it is not known; write `IF[..]GOTO`");
   });
 }
 

@@ -373,7 +373,7 @@ void jumpIntoLoop(const CheckedProgram& input, Report& report) {
   for (const FlowFindings::Numbered& one : input.flow.jumpsIntoLoop)
     report
         .at(one.range,
-            "block N{} stands inside a loop, and the jump comes from outside; the control does not allow it; "
+            "block N{} is inside a loop, and the jump comes from outside; the control does not allow it; "
             "jump to "
             "the DO instead",
             one.number)

@@ -56,7 +56,7 @@ void alarmWithoutText(const CheckedProgram& input, Report& report) {
   eachShown(input, [&](const Shown& shown) {
     if (shown.text == nullptr)
       report.at(shown.assignment.range,
-                "the {} has no text; the operator sees a number alone; write `(WHY)` behind it",
+                "the {} has no text; the operator sees a number alone; write `(WHY)` after it",
                 shown.alarm ? "alarm" : "stop");
   });
 }

@@ -141,9 +141,9 @@ void argumentBeforeCall(const CheckedProgram& input, Report& report) {
     for (const nc::Word* word : call.before)
       if (!isOneOf(word->address, "GMN"))
         report.at(word->range,
-                  "`{0}` stands before {1}; arguments belong behind it, and before it the word may be an NC "
+                  "`{0}` precedes {1}; arguments belong after it, and before it the word may be an NC "
                   "word or an "
-                  "alarm; write it behind {1}",
+                  "alarm; write it after {1}",
                   wordText(*word), nameOf(call));
 }
 
@@ -238,7 +238,7 @@ Diagnostic& reportEarlyPosition(SourceRange read, std::uint32_t variable, Report
   return report.at(
       read,
       "#{} is read while the motion before it may still run; the control reads ahead and gives a position "
-      "on the way; put `G53` or `G4 P0` between",
+      "on the path; put `G53` or `G4 P0` between",
       variable);
 }
 
@@ -251,7 +251,7 @@ void positionReadEarly(const CheckedProgram& input, Report& report) {
         const auto number = variableNumber(expression);
         if (moving == nullptr || !number || !isPosition(*number, input.control->variables)) return;
         reportEarlyPosition(expression.range, *number, report).note(moving->range, "the motion");
-        moving = nullptr; // told once for each motion
+        moving = nullptr; // reported once for each motion
       });
     // Nothing is known of a block that jumps arrive at, or that could not be read.
     if (block.sequenceNumber || std::holds_alternative<Goto>(block.body) ||

@@ -72,7 +72,7 @@ private:
     return tokens_.size();
   }
   bool has(std::size_t wanted) const { return find(wanted) < tokens_.size(); }
-  // Behind `/n` and `Nn`.
+  // After `/n` and `Nn`.
   std::size_t bodyBegin() const {
     std::size_t i = 0;
     if (type(i) == Lexer::SLASH) i += type(i + 1) == Lexer::NUMBER ? 2 : 1;
@@ -171,7 +171,7 @@ private:
       return syntax(here(), "`##` is no variable; write the number in brackets, `#[#1]`");
     if (before == Lexer::HASH) return syntax(rangeOf(tokens_[at_ - 1]), "no number follows the `#`");
     if (type(at_) == Lexer::ADDRESS_O)
-      return syntax(here(), "the letter O stands here; a block holds no address O, and a zero is a digit");
+      return syntax(here(), "the letter O is here; a block holds no address O, and a zero is a digit");
     const bool addressBefore = before == Lexer::ADDRESS || before == Lexer::ADDRESS_N;
     if (addressBefore && type(at_) == Lexer::FUNCTION)
       return syntax(here(),
@@ -186,13 +186,12 @@ private:
       return makeDiagnostic<diag::MissingOperator>(here(), written(rangeOf(tokens_[at_ - 1])), text);
     if (isBinary(type(at_)) && (isBinary(before) || before == Lexer::PLUS || before == Lexer::MINUS ||
                                 before == Lexer::LBRACKET || before == Lexer::EQUALS))
-      return syntax(here(), fmt::format("no value stands before `{}`", text));
+      return syntax(here(), fmt::format("no value is before `{}`", text));
     if (type(at_) == antlr4::Token::EOF || type(at_) == Lexer::RBRACKET) {
       if (isBinary(before) || before == Lexer::PLUS || before == Lexer::MINUS)
         return syntax(rangeOf(tokens_[at_ - 1]),
                       fmt::format("no value follows `{}`", written(rangeOf(tokens_[at_ - 1]))));
-      if (before == Lexer::LBRACKET)
-        return syntax(rangeOf(tokens_[at_ - 1]), "nothing stands in the brackets");
+      if (before == Lexer::LBRACKET) return syntax(rangeOf(tokens_[at_ - 1]), "nothing is in the brackets");
     }
     return byStatement(begin, text);
   }
@@ -209,22 +208,21 @@ private:
   Diagnostic byStatement(std::size_t begin, const std::string& text) const {
     switch (type(begin)) {
     case Lexer::KW_IF:
-      if (at_ == begin + 1) return syntax(here(), "the condition of IF stands in brackets, `IF[#1EQ2]`");
-      return syntax(
-          here(), "behind its condition, IF takes `GOTO` with a number, or `THEN` with one macro statement");
+      if (at_ == begin + 1) return syntax(here(), "the condition of IF is in brackets, `IF[#1EQ2]`");
+      return syntax(here(),
+                    "after its condition, IF takes `GOTO` with a number, or `THEN` with one macro statement");
     case Lexer::KW_WHILE:
-      if (at_ == begin + 1)
-        return syntax(here(), "the condition of WHILE stands in brackets, `WHILE[#1LE2]DO1`");
-      return syntax(here(), "behind its condition, WHILE takes `DO` with the number of its loop");
+      if (at_ == begin + 1) return syntax(here(), "the condition of WHILE is in brackets, `WHILE[#1LE2]DO1`");
+      return syntax(here(), "after its condition, WHILE takes `DO` with the number of its loop");
     case Lexer::KW_GOTO:
       return syntax(here(), "GOTO takes the number of a block, a variable or an expression in brackets");
     case Lexer::KW_DO:
     case Lexer::KW_END: return syntax(here(), "DO and END take one number, 1 to 3, and nothing else");
     case Lexer::PRINT:
-      return syntax(here(), "what is printed stands in brackets, `DPRNT[X#100[53]]`, alone in its block");
-    case Lexer::PORT: return syntax(here(), "POPEN and PCLOS stand alone in their block");
+      return syntax(here(), "what is printed is in brackets, `DPRNT[X#100[53]]`, alone in its block");
+    case Lexer::PORT: return syntax(here(), "POPEN and PCLOS are alone in their block");
     case Lexer::KW_SETVN: return syntax(here(), "SETVN takes a variable and names, `SETVN 510[ONE,TWO]`");
-    case Lexer::KW_THEN: return syntax(here(), "THEN stands behind the condition of an IF");
+    case Lexer::KW_THEN: return syntax(here(), "THEN follows the condition of an IF");
     default: break;
     }
     return syntax(here(),

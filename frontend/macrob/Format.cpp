@@ -13,7 +13,7 @@ std::string operatorText(const std::string& op) {
   return op.size() == 1 ? op : " " + op + " ";
 }
 
-// ATAN with one operand at the end: a `/` and a bracket behind it would become its second operand.
+// ATAN with one operand at the end: a `/` and a bracket after it would become its second operand.
 bool endsWithArcTangent(const Expression& expression) {
   if (expression.brackets > 0) return false;
   if (const auto* operation = std::get_if<nc::Operation>(&expression.node))
@@ -74,7 +74,7 @@ std::string inner(const Expression& expression) {
       expression.node);
 }
 
-// What stands behind an address or GOTO: a number, a variable, or brackets; a minus before it.
+// What follows an address or GOTO: a number, a variable, or brackets; a minus before it.
 std::string value(const Expression& expression) {
   if (const auto* negated = std::get_if<nc::Negated>(&expression.node);
       negated != nullptr && expression.brackets == 0)
@@ -91,7 +91,7 @@ std::string conditionText(const Condition& condition, bool needed) {
     out = text(*comparison->left) + " " + comparison->op + " " + text(*comparison->right);
   } else {
     const auto& joined = std::get<JoinedConditions>(condition.node);
-    // Each comparison stands in brackets; a join where the levels of AND and OR demand them.
+    // Each comparison is in brackets; a join where the levels of AND and OR demand them.
     const auto side = [&](const Condition& one, int least) {
       const auto* join = std::get_if<JoinedConditions>(&one.node);
       return conditionText(one, join == nullptr || levelOf(join->op) < least);

@@ -10,7 +10,7 @@
 namespace dotek::frontend::macrob {
 
 // The whole file, LF at the end of each line. Brackets, digits and comments stay as they were written;
-// blanks, and what stands on which line, become those of the style. Formatting the result again changes
+// blanks, and what is on which line, become those of the style. Formatting the result again changes
 // nothing, and it reads as the same tree. nullopt: the file has errors or text that is no program, so that
 // laying it out could lose something.
 std::optional<std::string> format(const File& file, const SourceMap& sources);

@@ -99,7 +99,7 @@ private:
     return true;
   }
 
-  // Moves at_ behind the end of the block that begins at `begin`; gives where its text ends.
+  // Moves at_ after the end of the block that begins at `begin`; gives where its text ends.
   std::size_t cut(Line& line, std::size_t begin) {
     std::size_t at = begin;
     while (true) {
@@ -171,7 +171,7 @@ private:
     return close;
   }
 
-  // A block that was broken behind an operator, as books do: the next line closes its brackets.
+  // A block that was broken after an operator, as books do: the next line closes its brackets.
   bool joins(Line& line, std::size_t last, std::size_t open) {
     const std::size_t start = skipBlanks(at_, bytes().size());
     const std::size_t end = endOfLine(start);

@@ -16,7 +16,7 @@ namespace dotek::frontend::macrob {
 
 struct Line {
   SourceRange range;             // without blanks around it
-  std::uint32_t end = 0;         // behind its end of block
+  std::uint32_t end = 0;         // after its end of block
   std::vector<Comment> comments; // places not set
   std::optional<ProgramName> header;
   bool reported = false; // an error was reported: the block counts as repaired
@@ -31,7 +31,7 @@ struct Lines {
   SourceRange leader;
   std::vector<SourceRange> legends;
   // The file's bytes with headers, `%`, legends, open comments and whatever else is no block made blank;
-  // places are those of the file. A block broken over two lines stands on one.
+  // places are those of the file. A block broken over two lines is on one.
   std::string bytes;
 };
 

@@ -94,7 +94,7 @@ private:
     std::visit([&](const auto& body) { lower(body, message); }, block.body);
   }
 
-  // The text of #3000=1(TEXT): the first comment behind the statement.
+  // The text of #3000=1(TEXT): the first comment after the statement.
   const Comment* messageOf(const Block& block) const {
     const auto* assignment = std::get_if<nc::Assignment>(&block.body);
     if (const auto* branch = std::get_if<If>(&block.body); branch != nullptr && branch->then)
@@ -282,10 +282,10 @@ private:
   std::size_t at_ = 0;
 };
 
-// The control stops reading at a `%` behind the first block: blocks behind it belong to no program before it.
+// The control stops reading at a `%` after the first block: blocks after it belong to no program before it.
 void reportMarks(const File& file, const SourceMap& sources, Diagnostics& diagnostics) {
   const std::string_view bytes = sources.file(file.file).bytes();
-  std::optional<std::uint32_t> last; // behind the last block or header
+  std::optional<std::uint32_t> last; // after the last block or header
   const auto markBefore = [&](const SourceRange& next) -> std::optional<SourceRange> {
     if (!last || next.begin <= *last) return std::nullopt;
     const std::size_t at = bytes.substr(*last, next.begin - *last).find('%');

@@ -8,10 +8,10 @@
 
 namespace dotek::frontend::macrob {
 
-// Where an expression stands: ROUND means another thing behind an address.
+// Where an expression is: ROUND means another thing after an address.
 enum class Place : std::uint8_t { Statement, Word };
 
-// A value that may be null: of a variable that stands alone, `#1`. Everything else is a number.
+// A value that may be null: of a variable that is alone, `#1`. Everything else is a number.
 ir::ExpressionPtr lowerValue(const Expression& expression, Place place);
 // A number: null counts as 0.
 ir::ExpressionPtr lowerNumber(const Expression& expression, Place place);

@@ -190,7 +190,7 @@ private:
     tokens_[first] = std::move(number);
   }
 
-  // The function whose operands stand at `i`; empty: none.
+  // The function whose operands are at `i`; empty: none.
   std::string functionAround(std::size_t i) const {
     int depth = 0;
     while (i-- > 0) {
@@ -251,7 +251,7 @@ private:
     erase(i);
   }
 
-  // `IF [#1 AND 1] EQ 1] THEN`: the bracket behind IF stands once, two are closed.
+  // `IF [#1 AND 1] EQ 1] THEN`: the bracket after IF appears once, two are closed.
   void conditionBracket() {
     for (std::size_t i = 0; i + 1 < tokens_.size(); ++i) {
       if ((type(i) != Lexer::KW_IF && type(i) != Lexer::KW_WHILE) || type(i + 1) != Lexer::LBRACKET) continue;
@@ -270,7 +270,7 @@ private:
     }
   }
 
-  // Behind the operand that begins at `i`; `i` itself: none does.
+  // After the operand that begins at `i`; `i` itself: none does.
   std::size_t behindOperand(std::size_t i) const {
     if (type(i) == Lexer::NUMBER) return i + 1;
     const std::size_t bracket = type(i) == Lexer::HASH ? i + 1 : i;

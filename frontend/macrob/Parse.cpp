@@ -21,7 +21,7 @@ using Parser = grammar::MacroBParser;
 
 namespace {
 
-// Words of the body that stand before a comment; of a macro statement 0 or 1.
+// Words of the body that precede a comment; of a macro statement 0 or 1.
 void placeComments(Block& block, std::vector<Comment>&& comments) {
   block.comments = std::move(comments);
   for (Comment& comment : block.comments) {

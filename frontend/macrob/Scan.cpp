@@ -105,7 +105,7 @@ private:
     out->node = std::move(node);
     return out;
   }
-  // Digits; with `point` they may hold one. nullptr: something else stands there.
+  // Digits; with `point` they may hold one. nullptr: something else is there.
   ExpressionPtr number(bool point) {
     const std::size_t begin = at_;
     digits();

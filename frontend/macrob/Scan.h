@@ -8,7 +8,7 @@
 
 namespace dotek::frontend::macrob {
 
-// Reads the block that stands in `text`, the bytes of `range`, comments being blank. nullopt: it is not
+// Reads the block that is in `text`, the bytes of `range`, comments being blank. nullopt: it is not
 // plain, and the grammar has to read it. Comments are left to the caller.
 std::optional<Block> scanBlock(std::string_view text, SourceRange range);
 

@@ -25,7 +25,7 @@ private:
   std::unique_ptr<antlr4::Token> printText(const antlr4::Token& bracket);
 
   std::deque<std::unique_ptr<antlr4::Token>> waiting_;
-  bool expectText_ = false; // behind DPRNT, BPRNT, SETVN
+  bool expectText_ = false; // after DPRNT, BPRNT, SETVN
 };
 
 // A token of one block, before it goes to the parser. Repairs change these.
@@ -38,7 +38,7 @@ struct Tok {
 // Visible tokens as they are read, with their text.
 Tok tokOf(const antlr4::Token& token, std::string_view source);
 
-// The kind of the token at `i`; that of the end behind the last one.
+// The kind of the token at `i`; that of the end after the last one.
 std::size_t typeAt(const std::vector<Tok>& tokens, std::size_t i);
 bool isOperator(std::size_t type); // of two values; comparisons are none
 bool isAddress(std::size_t type);

@@ -17,13 +17,13 @@ void walk(const Condition& condition, const VisitExpression& visit);
 // left counts as a subscript), conditions, targets.
 void walk(const Block& block, const VisitExpression& visit);
 
-// Assignments of the block, also behind THEN; nullptr: none.
+// Assignments of the block, also after THEN; nullptr: none.
 const nc::Assignment* assignmentOf(const Block& block);
-// Jumps of the block, also behind IF and THEN; nullptr: none.
+// Jumps of the block, also after IF and THEN; nullptr: none.
 const Goto* gotoOf(const Block& block);
 const Condition* conditionOf(const Block& block);
 
-// Number of the variable where it stands as digits: 5 of #5; nullopt: computed, or no variable.
+// Number of the variable where it is as digits: 5 of #5; nullopt: computed, or no variable.
 std::optional<std::uint32_t> variableNumber(const Expression& expression);
 
 } // namespace dotek::frontend::macrob

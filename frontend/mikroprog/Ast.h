@@ -40,9 +40,9 @@ struct Line {
   SourceRange numberRange;
   std::optional<Assignment> assignment;
   std::vector<Word> words;
-  std::optional<std::string> comment; // bytes behind `;`
+  std::optional<std::string> comment; // bytes after `;`
   SourceRange commentRange;           // `;` included
-  bool unread = false;                // reported; words and assignment are what stands before the defect
+  bool unread = false;                // reported; words and assignment are what precedes the defect
   SourceRange range;
 
   const Word* find(char address) const; // nullptr: none

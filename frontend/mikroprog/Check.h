@@ -38,7 +38,7 @@ Findings subprogramsBeforeEnd(const Reading& reading);
 Findings subprogramsWithoutReturn(const Reading& reading);
 Findings strayReturns(const Reading& reading);
 
-// What follows from where the tool stands.
+// What follows from where the tool is.
 Findings impossibleArcs(const Reading& reading);
 Findings unequalQuarters(const Reading& reading);
 Findings threadsWithoutFeed(const Reading& reading);

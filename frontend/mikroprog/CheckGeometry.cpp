@@ -1,4 +1,4 @@
-// Arcs, roughing cycles, threads: what follows from where the tool stands in the order of the text.
+// Arcs, roughing cycles, threads: what follows from where the tool is in the order of the text.
 #include "frontend/mikroprog/Check.h"
 #include "frontend/mikroprog/Motion.h"
 #include "support/Decimal.h"

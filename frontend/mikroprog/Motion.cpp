@@ -50,7 +50,7 @@ void enter(MotionState& state, const Block& block) {
     if (code.function != nullptr && code.function->group == "motion") state.motion = code.function->function;
 }
 
-// Where the tool stands after the block.
+// Where the tool is after the block.
 void leave(MotionState& state, const Block& block, const stdlib::MikroprogControl& control) {
   for (const std::string_view leads : {"jump", "return", "end", "leave", "call", "run-program", "run-macro"})
     if (block.does(leads)) return forget(state);
@@ -64,7 +64,7 @@ void leave(MotionState& state, const Block& block, const stdlib::MikroprogContro
   std::array<std::optional<double>, 3> to = state.at;
   for (std::size_t axis = 0; axis < kAxes.size(); ++axis) {
     if (block.line->find(kAxes[axis]) == nullptr) continue;
-    // After a contact or a cycle no source says where the tool stands.
+    // After a contact or a cycle no source says where the tool is.
     to[axis] = known ? targetOf(state, *block.line, axis, control) : std::nullopt;
   }
   state.at = to;

@@ -1,4 +1,4 @@
-// Where the tool stands and what is in force, in the order of the text. What is not certain is unknown: after
+// Where the tool is and what is in force, in the order of the text. What is not certain is unknown: after
 // a jump target, a contact, a change of the system, a code that nobody knows.
 #pragma once
 
@@ -24,7 +24,7 @@ struct MotionState {
   std::optional<double> travel(const Line& line, char axis, const stdlib::MikroprogControl& control) const;
 };
 
-// Calls `visit` for each block that could be read, with what is in force in it and where the tool stands
+// Calls `visit` for each block that could be read, with what is in force in it and where the tool is
 // before it.
 void walkMotion(const Reading& reading,
                 const std::function<void(const Block& block, const MotionState& state)>& visit);

@@ -57,7 +57,7 @@ struct Operation { // + - * / MOD AND OR XOR
 struct FunctionCall { // SIN[..]; ATAN[y]/[x] has two arguments
   std::string name;
   std::vector<ExpressionPtr> arguments;
-  bool bare = false;  // SIN#1: the argument stands without brackets
+  bool bare = false;  // SIN#1: the argument is without brackets
   bool comma = false; // ATAN[y,x]
 };
 struct Expression {
@@ -69,7 +69,7 @@ struct Expression {
 struct Word {
   char address = 0;
   SourceRange range;
-  ExpressionPtr value; // null: the address stands bare
+  ExpressionPtr value; // null: the address is bare
 };
 struct Assignment {       // #550=#138
   ExpressionPtr variable; // its number

@@ -1,4 +1,4 @@
-// Private to Parse*.cpp: one block on its way from text to words.
+// Private to Parse*.cpp: one block on its path from text to words.
 #pragma once
 
 #include "frontend/nc/Parse.h"
@@ -41,7 +41,7 @@ private:
   ExpressionPtr variableRef(); // at the #
   ExpressionPtr bracketed();   // at the [
   ExpressionPtr function();
-  // The number behind a #: digits, a hole or brackets.
+  // The number after a #: digits, a hole or brackets.
   ExpressionPtr variableNumber();
   std::string_view operatorHere(std::initializer_list<std::string_view> operators);
   ExpressionPtr make(std::size_t begin, decltype(Expression::node) node) const;

@@ -16,7 +16,7 @@ namespace {
 #if defined(__SSE2__)
 constexpr std::size_t kStep = 16;
 
-// Bytes of a step that may begin something: a bit each. One byte behind the step is read.
+// Bytes of a step that may begin something: a bit each. One byte after the step is read.
 unsigned candidates(const char* p) {
   const auto load = [](const char* at) { return _mm_loadu_si128(reinterpret_cast<const __m128i*>(at)); };
   const auto is = [](__m128i v, char c) { return _mm_cmpeq_epi8(v, _mm_set1_epi8(c)); };

@@ -45,7 +45,7 @@ struct LiftContext {
   // varies.
   std::function<std::optional<double>(ir::VariableId)> fixed = {};
   Encoding encoding = Encoding::Utf8;               // of comments
-  const stdlib::MacroSignature* measured = nullptr; // the last measurement; its results stand in variables
+  const stdlib::MacroSignature* measured = nullptr; // the last measurement; its results are in variables
   std::set<std::uint32_t> stored = {};              // variables that were assigned since the last call
   PictureUses coarse = {};                          // pictures with fewer decimals than the control
   PictureUses blankZero = {};                       // pictures that print nothing for 0

@@ -55,7 +55,7 @@ bool Lifter::call(std::uint32_t program, const Word& programWord) {
   if (context_.state.absolute != true && signature.intent != stdlib::Intent::ProbeOn &&
       signature.intent != stdlib::Intent::ProbeOff)
     return refuse<diag::CallUnderIncremental>(block_.range, program);
-  // The macro moves at a feed of its own and leaves its motion behind; G90 it restores.
+  // The macro moves at a feed of its own and leaves its motion after it; G90 it restores.
   context_.state.motion = std::nullopt;
   context_.state.feed = nullptr;
   context_.stored.clear();
@@ -161,7 +161,7 @@ bool Lifter::measure(const stdlib::CallReading& reading, const std::vector<const
     }
   }
   if (sets && system->meaning->systemRule == stdlib::SystemRule::Error) {
-    // Where the probe stands is the nominal centre of a bore: the source does not write it.
+    // The place of the probe is the nominal centre of a bore: the source does not write it.
     if (!measure.target)
       return refuse<diag::OffsetWithoutNominal>(words[system->at]->range, signature.program,
                                                 system->meaning->letter);

@@ -61,7 +61,7 @@ void notePicture(PictureUses& uses, SourceRange where, const Hole& hole) {
     use.names.push_back(hole.name);
 }
 
-// "the fields `X` and `Z` and the host input `clearance`": names of one kind stand together.
+// "the fields `X` and `Z` and the host input `clearance`": names of one kind are together.
 std::string listed(const std::vector<std::string>& names) {
   std::vector<std::pair<std::string, std::vector<std::string>>> kinds;
   for (const std::string& name : names) {
@@ -156,7 +156,7 @@ ir::ExpressionPtr Lifter::value(const Word& word, Reading reading) {
 }
 
 ir::ExpressionPtr Lifter::rawValue(const Word& word) {
-  // The control reads a literal as it stands; the target writes a value with a point.
+  // The control reads a literal as it is; the target writes a value with a point.
   const bool counts = !literalOf(*word.value) && context_.control.isLength(word.address);
   return value(word, {ir::Kind::Number, counts});
 }
@@ -218,7 +218,7 @@ bool Lifter::checkPicture(SourceRange where, const Hole& hole, Reading reading) 
   return true;
 }
 
-// A variable that nobody set counts as 0 in a formula.
+// A variable that is not set counts as 0 in a formula.
 ir::ExpressionPtr Lifter::operand(const Expression& expression, bool inWord) {
   ir::ExpressionPtr out = formula(expression, inWord);
   if (out && std::holds_alternative<ir::MachineVariable>(out->node))
@@ -249,7 +249,7 @@ ir::ExpressionPtr Lifter::operation(const Expression& expression, const Operatio
   const bool word = operation.op.size() > 1; // MOD, AND, OR, XOR
   if (word && !context_.control.functions.contains(operation.op)) {
     refuse<diag::FunctionNotRead>(expression.range, operation.op,
-                                  "the control `" + context_.control.name + "` has it not");
+                                  "the control `" + context_.control.name + "` does not have it");
     return nullptr;
   }
   const ir::ExpressionPtr left = operand(*operation.left, inWord);
@@ -268,9 +268,9 @@ ir::ExpressionPtr Lifter::functionCall(const Expression& expression, const Funct
   };
   const bool one = call.name == "ATAN" && call.arguments.size() == 1;
   if (!context_.control.functions.contains(one ? "ATAN[y]" : call.name))
-    return notRead("the control `" + context_.control.name + "` has it not");
+    return notRead("the control `" + context_.control.name + "` does not have it");
   if (call.name == "ASIN" || (call.name == "ATAN" && call.arguments.size() == 2))
-    return notRead("the range of the angle that it gives hangs on a parameter of the control");
+    return notRead("the range of the angle that it gives depends on a parameter of the control");
   if (call.name == "ROUND" && inWord)
     return notRead("in a word of NC it rounds to the least increment of the word on some controls");
   for (const UnaryName& known : kUnary) {

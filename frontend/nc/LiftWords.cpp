@@ -251,7 +251,7 @@ bool Lifter::opaque(const Plan& plan) {
       if (word.address == 'F' && state.feedPerMinute == true) state.feed = word.value;
     }
   }
-  // An arc or a canned cycle takes the coordinates that follow, until G0 or G1 stands there.
+  // An arc or a canned cycle takes the coordinates that follow, until G0 or G1 is there.
   const stdlib::CodeInfo* rapid = context_.control.find(Function::Rapid);
   const stdlib::CodeInfo* cycleOff = context_.control.find(Function::CannedCycleOff);
   for (const Code& code : codes_) {

@@ -1,4 +1,4 @@
-// Private to Lift*.cpp: one block on its way to statements.
+// Private to Lift*.cpp: one block on its path to statements.
 #pragma once
 
 #include "frontend/nc/Lift.h"
@@ -57,7 +57,7 @@ private:
   bool miscellaneous(const Code& code, Plan& plan);
   void modalCodes(Plan& plan);
   void leftOver(Plan& plan);
-  // Tells of a feed in a block without a move.
+  // Reports a feed in a block without a move.
   void feedAlone();
   // Refuses a number that is known and below 0, or 0 where `zero` is not allowed.
   bool inRange(const Word& word, std::string_view what, bool zero);

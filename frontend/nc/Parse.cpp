@@ -87,7 +87,7 @@ bool BlockParser::item(Block& block) {
       diagnostics_.report<diag::MixedBlock>(here);
       return false;
     }
-    if (c == 'N') return syntax(here, "an `N` stands behind other words; a block number begins its block");
+    if (c == 'N') return syntax(here, "an `N` follows other words; a block number begins its block");
     return c == '#' ? assignment(block) : word(block);
   }
   if (c == Reader::kHole) {
@@ -95,7 +95,7 @@ bool BlockParser::item(Block& block) {
                   in_.hole().hole.name);
   }
   if (c == '/')
-    return syntax(here, "`/` stands behind something; a control skips a block only where it begins with `/`");
+    return syntax(here, "`/` follows something; a control skips a block only where it begins with `/`");
   if (c >= 'a' && c <= 'z') {
     diagnostics_.report<diag::LowerCaseAddress>(here, c, static_cast<char>(c - 'a' + 'A'));
     return false;
@@ -108,7 +108,7 @@ bool BlockParser::comment(Block& block) {
   while (in_.peek() != ')') {
     if (in_.peek() == Reader::kEnd)
       return syntax(in_.range(begin, begin + 1),
-                    "the comment that begins here has no `)` in its block; a control skips all words behind "
+                    "the comment that begins here has no `)` in its block; a control skips all words after "
                     "it or stops with an alarm");
     if (in_.peek() == Reader::kHole) {
       diagnostics_.report<diag::ValueInComment>(in_.here(), in_.hole().hole.name);
@@ -163,11 +163,10 @@ bool BlockParser::wordValue(Word& word) {
     if (hasSign) warnOfSign(sign, begin);
     word.value = hole();
   } else if (c == '#' || c == '[') {
-    if (sign == '+')
-      return syntax(in_.range(begin, begin + 1), "a `+` stands before a variable or a bracket");
+    if (sign == '+') return syntax(in_.range(begin, begin + 1), "a `+` is before a variable or a bracket");
     word.value = c == '#' ? variableRef() : bracketed();
   } else if (hasSign) {
-    return syntax(in_.range(begin, begin + 1), "the sign has no number behind it");
+    return syntax(in_.range(begin, begin + 1), "the sign has no number after it");
   } else {
     return true; // bare
   }
@@ -179,7 +178,7 @@ bool BlockParser::wordValue(Word& word) {
 bool BlockParser::assignment(Block& block) {
   const std::size_t begin = in_.position();
   if (!block.assignments.empty())
-    return syntax(in_.here(), "a second assignment stands in the block; write it into a block of its own");
+    return syntax(in_.here(), "a second assignment is in the block; write it into a block of its own");
   in_.skip();
   Assignment assignment;
   assignment.variable = variableNumber();
@@ -201,7 +200,7 @@ bool BlockParser::addressesOnce(const Block& block) {
     const Word*& before = seen[static_cast<std::size_t>(word.address - 'A')];
     if (before != nullptr && word.address != 'G' && word.address != 'M') {
       diagnostics_.report<diag::AddressTwice>(word.range, word.address)
-          .note(before->range, "the first stands here");
+          .note(before->range, "the first is here");
       return false;
     }
     before = &word;

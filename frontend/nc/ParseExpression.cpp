@@ -31,7 +31,7 @@ Refused BlockParser::unexpected() {
   const char c = in_.peek();
   if (c == Reader::kEnd) return syntax(in_.here(), "the block ends in the middle of an expression");
   if (c == Reader::kHole)
-    return syntax(in_.here(), "{} is printed where no number may stand", in_.hole().hole.name);
+    return syntax(in_.here(), "{} is printed where no number may appear", in_.hole().hole.name);
   const std::string text = c >= ' ' && c <= '~' ? shown(in_.position(), in_.position() + 1)
                                                 : fmt::format("with code {}", static_cast<unsigned char>(c));
   diagnostics_.report<diag::UnexpectedCharacter>(in_.here(), text);
@@ -146,7 +146,7 @@ ExpressionPtr BlockParser::hole() {
   const std::size_t digits = in_.position();
   std::size_t end = digits;
   if (in_.peek() == Reader::kHole)
-    return syntax(in_.here(), "{} is printed right behind {}; the machine reads one number made of both",
+    return syntax(in_.here(), "{} is printed right after {}; the machine reads one number made of both",
                   in_.hole().hole.name, piece.hole.name);
   while (isDigit(in_.peek()) || in_.peek() == '.') {
     in_.skip();
@@ -166,7 +166,7 @@ ExpressionPtr BlockParser::variableNumber() {
   if (c == '[') return bracketed();
   if (c == Reader::kHole) return hole();
   if (isDigit(c)) return number();
-  return syntax(in_.here(), "a `#` takes a number or an expression in brackets behind it: `#100`, `#[#1+1]`");
+  return syntax(in_.here(), "a `#` takes a number or an expression in brackets after it: `#100`, `#[#1+1]`");
 }
 
 ExpressionPtr BlockParser::variableRef() {
@@ -198,7 +198,7 @@ ExpressionPtr BlockParser::function() {
   in_.skip(name->size());
   in_.skipBlanks();
   if (in_.peek() != '[')
-    return syntax(in_.here(), "the argument of `{}` stands in brackets: `{}[..]`", *name, *name);
+    return syntax(in_.here(), "the argument of `{}` is in brackets: `{}[..]`", *name, *name);
   FunctionCall call{std::string(*name), {}};
   if (!enter()) return nullptr;
   do {
@@ -220,7 +220,7 @@ ExpressionPtr BlockParser::function() {
     if (in_.peek() != '[')
       return syntax(
           in_.range(slash, slash + 1),
-          "a division right behind `ATAN[..]` belongs to the function; put the function into brackets");
+          "a division right after `ATAN[..]` belongs to the function; put the function into brackets");
     call.arguments.push_back(bracketed());
     if (!call.arguments.back()) return nullptr;
   }

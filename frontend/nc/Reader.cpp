@@ -42,7 +42,7 @@ SourceRange Reader::range(std::size_t begin, std::size_t end) const {
   const std::size_t last = text_.size();
   begin = std::min(begin, last);
   end = std::clamp(end, begin, last);
-  // Behind the last character: the place after it.
+  // After the last character: the place after it.
   const bool behind = begin == last;
   const auto placeOf = [&](std::size_t from, std::size_t to) -> SourceRange {
     const Start& start = pieceAt(from);
@@ -62,7 +62,7 @@ SourceRange Reader::range(std::size_t begin, std::size_t end) const {
   if (end == begin) end = begin + 1;
   const SourceRange first = placeOf(begin, end);
   const SourceRange second = placeOf(end - 1, end);
-  // Pieces of several routines stand in any order in the file: then the first place says it.
+  // Pieces of several routines are in any order in the file: then the first place says it.
   return second.file == first.file && second.begin >= first.begin ? spanning(first, second) : first;
 }
 

@@ -16,7 +16,7 @@ public:
   explicit Reader(const std::vector<Piece>& pieces);
 
   std::size_t position() const { return position_; }
-  // The character here; kHole for a hole, kEnd behind the last one.
+  // The character here; kHole for a hole, kEnd after the last one.
   char peek() const { return position_ < text_.size() ? text_[position_] : kEnd; }
   void skip(std::size_t count = 1) { position_ += count; }
   void skipBlanks();

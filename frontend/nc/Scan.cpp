@@ -44,7 +44,7 @@ const char* skipBlanks(const char* p) {
     ++p;
   return p;
 }
-// Behind the character, of which UTF-8 may need several bytes.
+// After the character, of which UTF-8 may need several bytes.
 const char* behindCharacter(const char* p) {
   const bool leads = (*p & 0xC0) == 0xC0;
   for (++p; leads && (*p & 0xC0) == 0x80;)

@@ -19,7 +19,7 @@ enum class ScanFault : std::uint8_t {
   NoNumber,     // an address without its number
   BadNumber,    // two points, or more digits than a number of a control has
   OpenComment,  // ( without )
-  LateDelete,   // `/` behind a word
+  LateDelete,   // `/` after a word
   LateMark,     // `%` beside words
   LineTooLong,
   MacroText, // # [ ] = * or a word of the macro language
@@ -35,7 +35,7 @@ struct ScanError {
 
 class Scanner {
 public:
-  // All ways read the same; the others are for tests.
+  // All paths read the same; the others are for tests.
   enum class Way : std::uint8_t {
     Fastest,  // what the processor can do
     Portable, // what every processor can do
@@ -69,7 +69,7 @@ private:
   ScanError error_;
 };
 
-// Where the word stands in the text of a block: the `which`-th (from 0) of this address. Comments do not
+// Where the word is in the text of a block: the `which`-th (from 0) of this address. Comments do not
 // count. nullopt: it does not.
 struct WordPlace {
   std::uint32_t begin = 0, end = 0;

@@ -19,7 +19,7 @@ struct ScannedNumber {
   const char* behind = nullptr; // nullptr: none, see `fault`
   std::uint64_t digits = 0;     // without the point, where there are at most 18
   double value = 0;             // equals strtod of the text
-  std::uint32_t places = 0;     // digits behind the point
+  std::uint32_t places = 0;     // digits after the point
   bool point = false;
   bool minus = false;
   NumberFault fault = NumberFault::None;
@@ -30,7 +30,7 @@ inline constexpr std::array<double, 23> kPowersOfTen = {1e0,  1e1,  1e2,  1e3,  
                                                         1e8,  1e9,  1e10, 1e11, 1e12, 1e13, 1e14, 1e15,
                                                         1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
 
-// Numbers of any form, with blanks before and behind the sign.
+// Numbers of any form, with blanks before and after the sign.
 ScannedNumber scanLongNumber(const char* p);
 
 // A number of one to eight bytes that follows its address and fills all the room to the next word.
@@ -38,7 +38,7 @@ struct ShortNumber {
   std::uint64_t digits = 0;
   std::uint64_t minus = 0;  // 1 or 0
   std::uint64_t point = 0;  // 1 or 0
-  std::uint64_t places = 0; // digits behind the point
+  std::uint64_t places = 0; // digits after the point
   std::uint64_t odd = 0;    // not 0: no such number, and the rest has no meaning
   double value = 0;
 };
@@ -64,7 +64,7 @@ inline ShortNumber readShortNumber(const char* p, std::size_t length) {
   out.odd = (noDigits ^ points) | (points & (points - 1)) |
             (((count - 1) | (count - 1 - out.point)) & ~std::uint64_t{7});
   out.places = static_cast<std::uint64_t>(__builtin_clzll(points | none << 63)) / 8; // never of 0
-  // What stands before the point moves up into its place.
+  // What precedes the point moves up into its place.
   const std::uint64_t front = d & ((points >> 7) - 1);
   const std::uint64_t back = d & ~((points << 1) - 1);
   std::uint64_t digits = (front << (out.point * 8)) | back;

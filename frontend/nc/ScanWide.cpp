@@ -41,7 +41,7 @@ DOTEK_WIDE inline void store(std::uint64_t* p, __m256i v) {
   _mm256_store_si256(reinterpret_cast<__m256i*>(p), v);
 }
 
-// Eight bytes behind the address at `p`.
+// Eight bytes after the address at `p`.
 inline long long word(const char* p) {
   long long out = 0;
   std::memcpy(&out, p + 1, 8);
@@ -129,7 +129,7 @@ DOTEK_WIDE unsigned readLineWide(const char* p, NcWords& words) {
   std::uint64_t rest = letters;
   for (std::size_t i = 0; i < count; i += 4) {
     // Built in registers: four small stores and one wide load would wait for each other. Lanes without a word
-    // read behind the line and do not count.
+    // read after the line and do not count.
     std::uint64_t start[4], length[4];
     for (unsigned k = 0; k < 4; ++k) {
       start[k] = static_cast<std::uint64_t>(std::countr_zero(rest));

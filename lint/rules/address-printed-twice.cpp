@@ -3,7 +3,7 @@
 namespace dotek::lint::rule {
 namespace {
 
-// The part of an IF below which the text of a word stands; nothing: not found.
+// The part of an IF below which the text of a word is; nothing: not found.
 std::optional<std::uint32_t> armOf(const ProgBlock& block, const ProgWord& word) {
   for (const ProgPiece& piece : block.pieces)
     if (word.range.file == piece.range.file && word.range.begin >= piece.range.begin &&

@@ -39,7 +39,7 @@ void check(const Project& project, Report& report) {
     report.at(
         range,
         "the travel along {} is {} mm; the ball touches one radius before its centre arrives, so with any "
-        "stylus above a radius of {} mm it stands in the part already; begin farther away",
+        "stylus above a radius of {} mm it is in the part already; begin farther away",
         axis, travel, std::abs(travel));
   };
   eachProgram(project, [&](const ir::Program& program, const macrob::File&) {

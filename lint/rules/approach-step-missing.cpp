@@ -47,7 +47,7 @@ void check(const Project& project, Report& report) {
         if (approach.steps.contains(step)) continue;
         report.at(
             approach.measure,
-            "the way to this measurement has no `{}`, the way to {} of {} others has; the probe goes down "
+            "the path to this measurement has no `{}`, the path to {} of {} others has; the probe goes down "
             "in one move; add the step if the part may be in the way",
             step, count, all.size() - 1);
       }

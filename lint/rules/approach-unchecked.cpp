@@ -34,7 +34,7 @@ void check(const Project& project, Report& report) {
       report
           .at(variable.range,
               "no check of the dialog looks at `{}`, the travel of a measurement; with 0, or less than "
-              "the radius of the ball, the probe touches nothing or stands in the part; compare it "
+              "the radius of the ball, the probe touches nothing or is in the part; compare it "
               "as the other travels",
               variable.name)
           .note(statement.origin.range(), "the measurement");

@@ -12,7 +12,7 @@ void checkWord(const compost::Word& word, const Project& project, Report& report
                            word.nameRange.end + static_cast<std::uint32_t>(open)};
   if (project.sources.text(blanks).find_first_not_of(" \t") != std::string_view::npos) return;
   report
-      .at(blanks, "a blank stands between `{}` and its bracket; the compiler takes it; write them together",
+      .at(blanks, "a blank is between `{}` and its bracket; the compiler takes it; write them together",
           project.sources.textUtf8(word.nameRange))
       .fix = Fix{Fix::Applicability::Safe, "take the blank out", {{blanks, ""}}};
 }

@@ -32,7 +32,7 @@ void walk(const std::vector<compost::Statement>& statements, const std::optional
     } else if (ids) {
       inner = ids;
     }
-    // An IF without END reaches further than it was meant to, which is told already.
+    // An IF without END reaches further than it was meant to, which is reported already.
     walk(choice.thenBody, choice.endRange ? inner : std::nullopt, report);
     walk(choice.elseBody, possible, report);
   }

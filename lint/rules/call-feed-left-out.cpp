@@ -21,7 +21,7 @@ void check(const Project& project, Report& report) {
     for (const ir::ProgramStatement* statement : without)
       report
           .at(statement->origin.range(), "this protected move has no F and goes at the feed of the one "
-                                         "before, on the way down maybe at that "
+                                         "before, on the path down maybe at that "
                                          "of a travel; the other ones of the program state theirs; write F")
           .note(with.front()->origin.range(), "as here");
   });

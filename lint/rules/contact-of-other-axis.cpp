@@ -7,7 +7,7 @@ namespace dotek::lint::rule {
 namespace {
 
 constexpr AxisSet kAnyAxis = 8; // a called program may have moved
-constexpr AxisSet kNone = 16;   // on one way nothing has
+constexpr AxisSet kNone = 16;   // on one path nothing has
 
 std::string names(AxisSet axes) {
   std::string out;
@@ -44,8 +44,8 @@ void checkProgram(const ir::Program& program, Report& report) {
       const SourceRange place = range.hasPlace() ? range : body[i].origin.range();
       if (none)
         report.at(place,
-                  "#{} is where the last G31 stopped, and no G31 stands before this block; the value is left "
-                  "from another measurement; read it behind the G31",
+                  "#{} is where the last G31 stopped, and no G31 is before this block; the value is left "
+                  "from another measurement; read it after the G31",
                   number);
       else
         report.at(place,

@@ -13,11 +13,11 @@ void check(const Project& project, Report& report) {
     for (const gibbs::Control& control : dialog->controls) {
       const std::string kind = gibbs::foldCase(control.kind.text);
       const bool placed = std::find(kKinds.begin(), kKinds.end(), kind) != kKinds.end();
-      // Too few arguments are told as such.
+      // Too few arguments are reported as such.
       if (!placed || control.box || control.arguments.size() < 4) continue;
       report.at(control.range,
                 "left, top, width and height of this {} are not four numbers; one was lost, and the words "
-                "behind it "
+                "after it "
                 "are taken for it; write all four",
                 kind);
     }

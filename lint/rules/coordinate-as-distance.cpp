@@ -49,7 +49,7 @@ void checkProgram(const ir::Program& program, Report& report) {
     if (*modes[i] == DistanceMode::Both) {
       report.at(
           body[i].origin.range(),
-          "this block is reached with G90 on one way and with G91 on another; what it moves to differs; "
+          "this block is reached with G90 on one path and with G91 on another; what it moves to differs; "
           "state the mode here");
       return;
     }

@@ -16,7 +16,7 @@ void check(const Project& project, Report& report) {
         };
         const SourceRange outer = first.ref.branch->range;
         const bool inside = second.ref.branch->range.begin < outer.end;
-        // Measuring calls in both: a frame around the cycle, before and behind it, is no second posting.
+        // Measuring calls in both: a frame around the cycle, before and after it, is no second posting.
         const auto measures = [&](const CycleBranch& branch) {
           for (const ProgBlock& block : branch.blocks)
             if (meaningOf(project, macroCalled(wordsOf(block, nullptr))).measures()) return true;

@@ -38,7 +38,7 @@ void check(const Project& project, Report& report) {
         const auto shared = static_cast<std::size_t>(
             std::count_if(with.begin(), with.end(),
                           [&, &w = without](const auto& test) { return w.contains(test.first); }));
-        // The two keep the same list when all but one of its cycles stand in both.
+        // The two keep the same list when all but one of its cycles are in both.
         if (shared < 2 || shared + 1 != with.size() || without.size() != shared) continue;
         for (const auto& [id, range] : with) {
           if (without.contains(id) || !told.insert(id).second) continue;

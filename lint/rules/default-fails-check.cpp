@@ -37,7 +37,7 @@ public:
     return gibbs::runChecks(*cycle_.cycleData, context);
   }
 
-  // Turned away whatever the tool; the message of the first run.
+  // Rejected whatever the tool; the message of the first run.
   std::optional<gibbs::Rejection> rejected(const std::map<std::string, double>& fields) const {
     std::optional<gibbs::Rejection> first;
     for (const double radius : kRadii) {
@@ -76,7 +76,7 @@ void checkCycle(const gibbs::Cycle& cycle, const Project& project, Report& repor
       if (same) continue;
       report
           .at(definition.valueRange,
-              "the check of the dialog turns away `{}` with this first value, whatever the "
+              "the check of the dialog rejects `{}` with this first value, whatever the "
               "tool; the user cannot leave the dialog with OK before he changes it; give a "
               "value that passes",
               definition.name.text)

@@ -25,7 +25,7 @@ void check(const Project& project, Report& report) {
     if (few.size() != 1) continue;
     report
         .at(few.front()->valueRange,
-            "`{}` begins {} here and {} in the other cycles; a sign is easily lost, and it turns the way "
+            "`{}` begins {} here and {} in the other cycles; a sign is easily lost, and it turns the path "
             "round",
             few.front()->name.text, *few.front()->number < 0 ? "below 0" : "above 0",
             *few.front()->number < 0 ? "above" : "below")

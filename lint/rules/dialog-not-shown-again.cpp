@@ -34,14 +34,13 @@ void checkMacro(const gibbs::Macro& macro, Report& report) {
       used.insert(gibbs::foldCase(jump->label.text));
     messages = messages || commandName(statement) == "MESSAGE";
   });
-  // The label in front of the dialog is the way back. With other jumps in the macro label-never-used tells
+  // The label in front of the dialog is the path back. With other jumps in the macro label-never-used tells
   // it.
   if (dialog > 0 && lines[dialog - 1].label && used.empty() && messages) {
-    report.at(
-        lines[dialog - 1].label->name.range,
-        "nothing jumps back to `{}` in front of the dialog; behind a message the macro goes on with the "
-        "values that it complained of; write the GOTO",
-        lines[dialog - 1].label->name.text);
+    report.at(lines[dialog - 1].label->name.range,
+              "nothing jumps back to `{}` in front of the dialog; after a message the macro goes on with the "
+              "values that it complained of; write the GOTO",
+              lines[dialog - 1].label->name.text);
     return;
   }
   for (std::size_t i = 0; i < lines.size(); ++i) {
@@ -60,7 +59,7 @@ void checkMacro(const gibbs::Macro& macro, Report& report) {
                     });
     if (again || changes) continue;
     report
-        .at(jump->label.range, "this goes back behind the dialog, not in front of it; the user cannot change "
+        .at(jump->label.range, "this goes back after the dialog, not in front of it; the user cannot change "
                                "what was wrong, and the "
                                "macro comes here again for ever; put the label before DIALOG")
         .note(lines[target->second].label->name.range, "the label");

@@ -13,10 +13,10 @@ void check(const Project& project, Report& report) {
       if (*modes[i] != DistanceMode::Incremental && *modes[i] != DistanceMode::Both) continue;
       report
           .at(program.body[i].origin.range(),
-              "the program ends with G91 in force; whether M30 takes it back hangs on a parameter, and a "
+              "the program ends with G91 in force; whether M30 takes it back depends on a parameter, and a "
               "program "
               "that states no G90 moves by distances; write G90 before the end")
-          .note(set->origin.range(), "G91 stands here");
+          .note(set->origin.range(), "G91 is here");
     }
   });
 }

@@ -10,7 +10,7 @@ namespace {
 
 struct Numbers {
   std::map<double, SourceRange> set, compared;
-  bool other = false; // set or compared in another way
+  bool other = false; // set or compared differently
 };
 
 void check(const Project& project, Report& report) {
@@ -55,11 +55,11 @@ void check(const Project& project, Report& report) {
                     name, value);
       for (const auto& [value, range] : numbers.set)
         if (value != 0 && !numbers.compared.contains(value))
-          report.at(
-              range,
-              "nothing looks for the value {}, as for the others; what this check finds is not told; write "
-              "the message, or the number that is meant",
-              value);
+          report.at(range,
+                    "nothing looks for the value {}, as for the others; what this check finds is not "
+                    "reported; write "
+                    "the message, or the number that is meant",
+                    value);
     }
   }
 }

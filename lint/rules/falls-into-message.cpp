@@ -18,7 +18,7 @@ void check(const Project& project, Report& report) {
       if (const auto* jump = std::get_if<gibbs::Goto>(&statement.node))
         used.insert(gibbs::foldCase(jump->label.text));
     });
-    // Behind the last message the end of the macro follows; where others jump, this one was to.
+    // After the last message the end of the macro follows; where others jump, this one was to.
     std::size_t jumps = 0;
     const auto leads = [&](std::size_t i) {
       return i < lines.size() && lines[i].statement &&
@@ -32,15 +32,15 @@ void check(const Project& project, Report& report) {
         continue;
       if (i + 2 < lines.size() && isMessage(lines[i + 2])) continue;
       report.at(lines[i].statement->range,
-                "behind this message the macro goes on with the values that it complains "
-                "of; behind the others it jumps away; write the GOTO");
+                "after this message the macro goes on with the values that it complains "
+                "of; after the others it jumps away; write the GOTO");
     }
     for (std::size_t i = 0; i + 2 < lines.size(); ++i) {
       const gibbs::Line& label = lines[i + 1];
       if (!isMessage(lines[i]) || !label.label || label.statement || !isMessage(lines[i + 2])) continue;
       if (!used.contains(gibbs::foldCase(label.label->name.text))) continue;
       report
-          .at(lines[i].statement->range, "behind this message the macro goes on to the next one, which is "
+          .at(lines[i].statement->range, "after this message the macro goes on to the next one, which is "
                                          "for another mistake; the user sees "
                                          "both; write the GOTO that leads away")
           .note(lines[i + 2].statement->range, "the next message");

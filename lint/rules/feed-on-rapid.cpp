@@ -19,7 +19,7 @@ void check(const Project& project, Report& report) {
       }
       if (rapid == nullptr || feed == nullptr || other) continue;
       report.at(feed->range,
-                "a feed stands in a rapid block; the control moves at its rapid rate and keeps the feed "
+                "a feed is in a rapid block; the control moves at its rapid rate and keeps the feed "
                 "for the next G1; leave it out, or write G1");
     }
   });
@@ -30,9 +30,8 @@ void check(const Project& project, Report& report) {
         continue;
       for (const ir::Word& word : block->words)
         if (word.address == 'F')
-          report.at(word.range,
-                    "a feed stands in a rapid block; the control moves at its rapid rate and keeps "
-                    "the feed for the next G1; leave it out, or write G1");
+          report.at(word.range, "a feed is in a rapid block; the control moves at its rapid rate and keeps "
+                                "the feed for the next G1; leave it out, or write G1");
     }
   });
 }

@@ -35,7 +35,7 @@ void check(const Project& project, Report& report) {
             continue;
           report.at(
               word.hole->range,
-              "`{}` is {} in the path of `{}`, and the post prints it behind {}; the machine goes elsewhere "
+              "`{}` is {} in the path of `{}`, and the post prints it after {}; the machine goes elsewhere "
               "than the simulation shows; write the address that is meant",
               word.hole->field, height ? "a height" : "a place in X or Y", cycle.name, word.address);
         }

@@ -42,7 +42,8 @@ void check(const Project& project, Report& report) {
         if (use.role != stdlib::ArgumentRole::Nominal || use.cycle == target->cycle) continue;
         report
             .at(target->range,
-                "the field `{}` is the way to the surface here (`{}`), and the coordinate of the surface for "
+                "the field `{}` is the path to the surface here (`{}`), and the coordinate of the surface "
+                "for "
                 "`{}` "
                 "(`{}`); one name with two meanings is easily filled in wrong",
                 field, target->letter, use.cycle, use.letter)

@@ -44,7 +44,7 @@ void check(const Project& project, Report& report) {
         if (std::isalpha(static_cast<unsigned char>(last)) != 0) continue;
         report.at(
             piece.range,
-            "no address stands before `{}`; the block gets a number without a letter, and the control stops "
+            "no address is before `{}`; the block gets a number without a letter, and the control stops "
             "with an alarm; write the letter",
             piece.field);
       }

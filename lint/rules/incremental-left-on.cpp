@@ -28,7 +28,7 @@ void checkProgram(const ir::Program& program, Report& report) {
         return modeOf(program.body[at]).value_or(distance);
       },
       [](Distance& into, Distance other) {
-        // One way with G91 is enough: the caller goes on in it.
+        // One path with G91 is enough: the caller goes on in it.
         if (into == other || into == Distance::Incremental) return false;
         const Distance merged = other == Distance::Incremental ? Distance::Incremental : Distance::Mixed;
         const bool changed = into != merged;
@@ -46,7 +46,7 @@ void checkProgram(const ir::Program& program, Report& report) {
         .at(program.body[i].origin.range(),
             "the program returns with G91 in force; the caller's next coordinates are "
             "taken as distances, and the tool goes elsewhere; write G90 before M99")
-        .note(set->origin.range(), "G91 stands here");
+        .note(set->origin.range(), "G91 is here");
   }
 }
 

@@ -12,7 +12,7 @@ void check(const Project& project, Report& report) {
     for (const gibbs::InputLabel& label : labels)
       if (!label.name.empty()) named = &label;
     if (named == nullptr) continue;
-    // Text behind the inputs: of all but one.
+    // Text after the inputs: of all but one.
     const gibbs::InputLabel* bare = nullptr;
     std::size_t without = 0;
     for (const gibbs::InputLabel& label : labels) {
@@ -21,7 +21,7 @@ void check(const Project& project, Report& report) {
     }
     if (without == 1 && labels.size() > 2 && !bare->name.empty())
       report.at(bare->input->range,
-                "behind each other input of the dialog stands what it means, and behind that of `{}` "
+                "after each other input of the dialog is what it means, and after that of `{}` "
                 "nothing; write "
                 "it",
                 bare->variable.text);
@@ -29,7 +29,7 @@ void check(const Project& project, Report& report) {
       if (label.name.empty() && label.meaning.empty() && gibbs::foldCase(label.input->kind.text) == "INPUT")
         report
             .at(label.input->range,
-                "no label stands before the input of `{}`; the user does not see what belongs into it; write "
+                "no label is before the input of `{}`; the user does not see what belongs into it; write "
                 "one",
                 label.variable.text)
             .note(named->input->range, "another input has one");

@@ -23,7 +23,7 @@ void check(const Project& project, Report& report) {
       const auto before =
           std::find_if(dialog->controls.begin(), dialog->controls.begin() + static_cast<std::ptrdiff_t>(i),
                        [&](const gibbs::Control& other) {
-                         // A second OK is told as such.
+                         // A second OK is reported as such.
                          const std::string kind = gibbs::foldCase(control.kind.text);
                          const bool twice = kind != "INPUT" && kind == gibbs::foldCase(other.kind.text);
                          return isTyped(other) && !twice && overlap(*other.box, *control.box);

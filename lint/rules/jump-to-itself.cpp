@@ -13,7 +13,7 @@ void check(const Project& project, Report& report) {
         const auto* label = std::get_if<ir::Label>(&program.body[back].node);
         if (label != nullptr && label->label == jump->target) {
           report.at(program.body[i].origin.range(),
-                    "the jump goes to its own block; the control stands here for ever, "
+                    "the jump goes to its own block; the control is here for ever, "
                     "without an alarm; jump to the block that is meant, or stop with "
                     "#3000 or M0");
           break;

@@ -19,7 +19,7 @@ void check(const Project& project, Report& report) {
     std::set<std::string> labels;
     for (const gibbs::Line& line : macro->lines)
       if (line.label) labels.insert(gibbs::foldCase(line.label->name.text));
-    // A GOTO to a label that is not there is told already, and is the likely cause.
+    // A GOTO to a label that is not there is reported already, and is the likely cause.
     if (!std::includes(labels.begin(), labels.end(), used.begin(), used.end())) continue;
     // A label may be for a file that includes this one, or one that it includes.
     if (includes || macro->hasErrorNodes || used.empty()) continue;

@@ -37,7 +37,7 @@ void check(const Project& project, Report& report) {
         if (use == nullptr) continue;
         report
             .at(literal->range,
-                "`{}` is what the command `{}` prints; behind a literal the post does not know of it and may "
+                "`{}` is what the command `{}` prints; after a literal the post does not know of it and may "
                 "print it again, or leave out what undoes it; write `{}`",
                 trimmed(literal->text), name, name)
             .note(use->range, "the command is used here");

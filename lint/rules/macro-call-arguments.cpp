@@ -7,7 +7,7 @@ namespace {
 void checkCall(const macrob::Words& words, const Project& project, Report& report) {
   const auto call = macrob::callOf(words);
   if (!call || call->kind != macrob::CallKind::Simple || call->program == nullptr) return;
-  // Words that are no arguments are told already, and are what is missing here.
+  // Words that are no arguments are reported already, and are what is missing here.
   if (!call->before.empty() || !call->refused.empty()) return;
   const auto number = macrob::literal(*call->program);
   if (!number || *number < 1) return;

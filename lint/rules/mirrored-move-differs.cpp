@@ -3,7 +3,7 @@
 namespace dotek::lint::rule {
 namespace {
 
-// IF v > 0, or v < 0: the way that the travel v takes.
+// IF v > 0, or v < 0: the path that the travel v takes.
 struct Way {
   std::string field; // folded
   bool positive = false;
@@ -61,7 +61,8 @@ void checkMacro(const gibbs::Macro& macro, const Project& project, Report& repor
     if (before->positive == way->positive)
       report
           .at(paths[i].condition->condition.range,
-              "this is the condition of the move before, so both run, or none; the way for the other sign of "
+              "this is the condition of the move before, so both run, or none; the path for the other sign "
+              "of "
               "`{}` "
               "is missing; turn the comparison",
               way->field)

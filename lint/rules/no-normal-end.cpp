@@ -45,7 +45,7 @@ void check(const Project& project, Report& report) {
     else if (!ends && alarms)
       report.at(
           program.range,
-          "each way through the program ends in an alarm, none in M30 or M99; the end before the alarms is "
+          "each path through the program ends in an alarm, none in M30 or M99; the end before the alarms is "
           "missing; write it");
   });
 }

@@ -37,7 +37,7 @@ void check(const Project& project, Report& report) {
         report.at(store->value->range.hasPlace() ? store->value->range : statement.origin.range(),
                   "{0} is a number here, and #{0} is a state of the control; write `#{0}` if that is meant",
                   whole->digits);
-      // #500=500+#1, and #[150+141]: the number itself stands where its variable belongs.
+      // #500=500+#1, and #[150+141]: the number itself is where its variable belongs.
       const auto target = storedNumber(statement);
       bool lost = false;
       if (store != nullptr && target && std::holds_alternative<ir::Binary>(store->value->node))
@@ -51,7 +51,7 @@ void check(const Project& project, Report& report) {
                       ir::constantValue(sum->right) != nullptr);
       if (lost)
         report.at(statement.origin.range(),
-                  "a number stands here where its variable belongs; the control calculates "
+                  "a number is here where its variable belongs; the control calculates "
                   "with the number; write the `#` before it");
       if (words) continue;
       ir::eachNode(statement, [&](const ir::Expression& node) {

@@ -30,7 +30,7 @@ void check(const Project& project, Report& report) {
             if (words[i].address == words[j].address || !sameNumber(*words[i].hole, *words[j].hole)) continue;
             report
                 .at(words[i].hole->range,
-                    "`{}` is printed behind `{}` and behind `{}`; the two are always the same number on the "
+                    "`{}` is printed after `{}` and after `{}`; the two are always the same number on the "
                     "machine",
                     words[i].hole->word->name + "#", words[j].address, words[i].address)
                 .note(words[j].hole->range, "printed here, too");

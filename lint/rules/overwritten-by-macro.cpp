@@ -66,7 +66,7 @@ void checkProgram(const ir::Program& program, const Project& project, const Prob
       report
           .at(range,
               "#{} belongs to the variables that the probing macros work with, and one was called since the "
-              "program set it; what stands here is theirs; keep the value in another variable",
+              "program set it; what is here is theirs; keep the value in another variable",
               number)
           .note(program.body[lost->second].origin.range(), "the call");
     });

@@ -58,7 +58,7 @@ void check(const Project& project, Report& report) {
     const ProgPiece* firstHole = nullptr;
     SourceRange measured;
     bool movesXY = false;
-    bool movesBehind = false; // X or Y behind the last measurement
+    bool movesBehind = false; // X or Y after the last measurement
     for (const ProgBlock& block : blocks) {
       const std::vector<ProgWord> words = wordsOf(block, project.form);
       const MacroMeaning meaning = meaningOf(project, macroCalled(words));

@@ -12,7 +12,7 @@ constexpr double kRetract = 50.0; // the plane at which an operation begins and 
 constexpr double kSame = 1e-6;    // mm
 constexpr std::uint32_t kMostSteps = 20000;
 
-// The path for the first values; nothing where it hangs on more.
+// The path for the first values; nothing where it depends on more.
 std::optional<std::vector<gibbs::PathMove>> pathOf(const gibbs::Cycle& cycle, const Project& project) {
   std::map<std::string, double> fields;
   for (const gibbs::Field& field : gibbs::declaredFields(cycle)) {

@@ -5,7 +5,7 @@
 namespace dotek::lint::rule {
 namespace {
 
-// Places behind the printed point; nothing: none is printed.
+// Places after the printed point; nothing: none is printed.
 std::optional<std::size_t> decimals(const std::string& picture) {
   const std::string body = picture.substr(0, picture.find(';'));
   const std::size_t point = body.find('.');
@@ -26,7 +26,7 @@ void check(const Project& project, Report& report) {
         if (!places || *places > 1) continue;
         report
             .at(picture->picture.range,
-                "fields of cycles print with {} behind the point; a coordinate is rounded to a tenth of a "
+                "fields of cycles print with {} after the point; a coordinate is rounded to a tenth of a "
                 "millimetre or worse, which a probe measures much finer; give the picture two decimals or "
                 "more",
                 *places == 0 ? "no digit" : "one digit")

@@ -36,7 +36,7 @@ void check(const Project& project, Report& report) {
           if (at == keywords.end() || !told.insert(at->first).second) continue;
           report
               .at(at->second->picture.range,
-                  "this picture prints nothing for 0, and `{}#` stands behind the address `{}`; the control "
+                  "this picture prints nothing for 0, and `{}#` follows the address `{}`; the control "
                   "gets a "
                   "bare address and stops with an alarm, or reads 0; write `{};0`",
                   at->first, word.address, at->second->picture.text)

@@ -30,7 +30,7 @@ void checkProgram(const ir::Program& program, const Probing& probing, Report& re
   const auto heights = ir::factsBefore<Height>(
       body, Height{},
       [&](std::size_t at, std::size_t, Height height) {
-        // A measurement comes back to where it began.
+        // A measurement returns to where it began.
         if (probing.step(body[at]).kind == ProbeStep::Kind::Measure) return height;
         if (const auto* block = std::get_if<ir::NcBlock>(&body[at].node);
             block != nullptr && !hasWord(*block, 'Z'))

@@ -6,7 +6,7 @@
 namespace dotek::lint::rule {
 namespace {
 
-// Where the machine stands: #5001 to #5003, #5021 to #5023, #5041 to #5043.
+// Where the machine is: #5001 to #5003, #5021 to #5023, #5041 to #5043.
 bool isPosition(std::uint32_t number) {
   return number > 5000 && number <= 5043 && number % 20 >= 1 && number % 20 <= 3;
 }
@@ -15,7 +15,7 @@ void checkProgram(const ir::Program& program, Report& report) {
   // In a main program nothing moves before.
   if (endsProgram(program)) return;
   const auto& body = program.body;
-  // A dwell, G31, G53 or an M code ends the reading ahead; a move of the program's own is told elsewhere.
+  // A dwell, G31, G53 or an M code ends the reading ahead; a move of the program's own is reported elsewhere.
   const auto waited = ir::factsBefore<bool>(
       body, false,
       [&](std::size_t at, std::size_t, bool before) {
@@ -38,7 +38,7 @@ void checkProgram(const ir::Program& program, Report& report) {
       report.at(range.hasPlace() ? range : body[i].origin.range(),
                 "#{} is read before anything in this macro waits for the axes; the caller's last move may "
                 "still run, "
-                "and the control gives a position on the way; put `G53` or `G4 P0` before",
+                "and the control gives a position on the path; put `G53` or `G4 P0` before",
                 number);
     });
   }

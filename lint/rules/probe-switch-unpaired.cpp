@@ -53,7 +53,7 @@ void checkPost(const compost::Program& prog, const Project& project, Report& rep
   for (const compost::Item& item : prog.items) {
     const auto* routine = std::get_if<compost::Routine>(&item);
     if (routine == nullptr) continue;
-    if (!routine->returnRange) return; // told already; what is missing may be behind
+    if (!routine->returnRange) return; // told already; what is missing may be after it
     const std::vector<ProgBlock>& blocks = blocksOf(routine->body, prog, project);
     add(all, blocks, project);
     for (const ProgBlock& block : blocks)
@@ -63,7 +63,7 @@ void checkPost(const compost::Program& prog, const Project& project, Report& rep
   if (all.on.hasPlace() && !all.off.hasPlace())
     report.at(all.on,
               "the post switches the probe on and never off; its battery runs down, and the next tool may "
-              "turn with the interlock of the probe in force; switch it off behind the measurements");
+              "turn with the interlock of the probe in force; switch it off after the measurements");
   if (all.off.hasPlace() && !all.on.hasPlace())
     report.at(all.off,
               "the post switches the probe off and never on; without power it gives no signal, and the "
@@ -105,7 +105,7 @@ void checkProgram(const ir::Program& program, const Probing& probing, Report& re
     default: touches = touches || skipOf(statement) != nullptr; break;
     }
   }
-  // What measures with a macro of a pack is told as probe-not-switched-on.
+  // What measures with a macro of a pack is reported as probe-not-switched-on.
   if (off != nullptr && touches && endsProgram(program))
     report.at(off->origin.range(),
               "the program switches the probe off and never on; without power it gives no "

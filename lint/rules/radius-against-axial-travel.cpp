@@ -37,7 +37,7 @@ void check(const Project& project, Report& report) {
       if (!uses.axial.contains(key) || uses.radial.contains(key)) return;
       report.at(comparison->range,
                 "`{}` is a travel along Z, where the radius of the ball plays no part; the check "
-                "turns away travels that are long enough, or lets short ones pass; compare it "
+                "rejects travels that are long enough, or lets short ones pass; compare it "
                 "with what the touch needs",
                 travel->text);
     });

@@ -40,7 +40,7 @@ void checkSiblings(const Siblings& siblings, Report& report) {
     }
     branches.push_back(std::move(branch));
   }
-  // In how many branches each run of the least length stands.
+  // In how many branches each run of the least length is.
   std::map<Texts, std::set<std::size_t>> least;
   for (std::size_t b = 0; b < branches.size(); ++b) {
     const Texts& texts = branches[b].texts;
@@ -72,11 +72,10 @@ void checkSiblings(const Siblings& siblings, Report& report) {
         continue;
       }
       if (told.insert(run).second)
-        report.at(
-            branch.blocks[at]->range,
-            "these {} blocks stand alike in {} branches; a change has to be made in each; a routine can "
-            "hold them once",
-            run.size(), with.size());
+        report.at(branch.blocks[at]->range,
+                  "these {} blocks are alike in {} branches; a change has to be made in each; a routine can "
+                  "hold them once",
+                  run.size(), with.size());
       at += run.size();
     }
   }

@@ -47,7 +47,7 @@ void checkProgram(const ir::Program& program, const std::map<std::uint32_t, std:
   }
   for (const auto& [called, list] : uses) {
     const auto read = std::count_if(list.begin(), list.end(), [](const Use& use) { return use.read; });
-    // A loop may read behind its END what stands before in the text.
+    // A loop may read after its END what precedes in the text.
     const bool loops =
         std::any_of(program.body.begin(), program.body.end(),
                     [](const ir::ProgramStatement& s) { return std::holds_alternative<ir::Loop>(s.node); });
@@ -55,9 +55,9 @@ void checkProgram(const ir::Program& program, const std::map<std::uint32_t, std:
     for (const Use& use : list)
       if (!use.read && !use.again)
         report.at(use.call->origin.range(),
-                  "nothing reads a result of O{} between this call and the next one, or the end, as behind "
+                  "nothing reads a result of O{} between this call and the next one, or the end, as after "
                   "its other "
-                  "calls; the value is lost; read it behind the call",
+                  "calls; the value is lost; read it after the call",
                   called);
   }
 }

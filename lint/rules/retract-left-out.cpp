@@ -31,8 +31,8 @@ struct Travel {
   bool lifted = false;
 };
 
-// Moves along X or Y behind a measurement, up to the next one: the first of each, and whether a move along Z
-// alone stands between.
+// Moves along X or Y after a measurement, up to the next one: the first of each, and whether a move along Z
+// alone is between.
 template <ir::AnyStatement Statement>
 std::vector<Travel> travels(const std::vector<Statement>& body, const Probing& probing) {
   std::vector<Travel> out;
@@ -69,7 +69,7 @@ void checkBody(const std::vector<Statement>& body, const Probing& probing, Repor
               "this travel follows a measurement without taking the probe up first, as the others do; the "
               "stylus "
               "goes through the part at the depth of the touch; write the move along Z before it")
-          .note(body[lifted->at].origin.range(), "here a move along Z stands before");
+          .note(body[lifted->at].origin.range(), "here a move along Z is before");
 }
 
 void check(const Project& project, Report& report) {
@@ -77,7 +77,7 @@ void check(const Project& project, Report& report) {
   for (const Joined& joined : project.joined)
     if (joined.lowered) checkBody(joined.lowered->body, probing, report);
   eachProgram(project, [&](const ir::Program& program, const macrob::File&) {
-    // A macro that touches one feature knows its own ways.
+    // A macro that touches one feature knows its own paths.
     if (endsProgram(program)) checkBody(program.body, probing, report);
   });
 }

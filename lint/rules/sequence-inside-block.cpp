@@ -12,7 +12,7 @@ bool holds(const std::vector<compost::Statement>& statements, SourceRange range)
   });
 }
 
-// The one stands below an IF and the other below its ELSE: no line has both.
+// The one is below an IF and the other below its ELSE: no line has both.
 bool exclude(const std::vector<compost::Statement>& statements, SourceRange first, SourceRange second) {
   bool found = false;
   eachStatement(statements, [&](const compost::Statement& statement) {
@@ -39,7 +39,7 @@ void check(const Project& project, Report& report) {
         };
         if (!own(before.range)) continue;
         report
-            .at(before.range, "the block is not ended behind this, and the next one begins with its number; "
+            .at(before.range, "the block is not ended after this, and the next one begins with its number; "
                               "both come out as "
                               "one line, which the control refuses or reads as one block; write EOL")
             .note(piece.range, "the number of the next block");

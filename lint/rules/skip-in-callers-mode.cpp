@@ -11,8 +11,8 @@ void check(const Project& project, Report& report) {
       if (skip == nullptr || axesOf(*skip) == 0 || !modes[i] || *modes[i] != DistanceMode::AsBefore) continue;
       if (statedMode(program.body[i])) continue;
       report.at(program.body[i].origin.range(),
-                "neither G90 nor G91 stands before this G31; in the other mode of the caller the stylus goes "
-                "elsewhere, and the way may be too long; state the mode here");
+                "neither G90 nor G91 is before this G31; in the other mode of the caller the stylus goes "
+                "elsewhere, and the path may be too long; state the mode here");
     }
   });
 }

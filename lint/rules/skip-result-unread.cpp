@@ -30,7 +30,7 @@ void checkProgram(const ir::Program& program, Report& report) {
   for (const Skip& skip : skips)
     if (!skip.read)
       report.at(skip.statement->origin.range(),
-                "nothing reads where this G31 stopped, #5061 to #5063, before the next one, as behind the "
+                "nothing reads where this G31 stopped, #5061 to #5063, before the next one, as after the "
                 "others; an "
                 "early contact is not noticed; read it, or write G1 if a plain move is meant");
 }

@@ -23,7 +23,7 @@ void checkProgram(const ir::Program& program, Report& report) {
         return state;
       },
       [](Contact& into, Contact other) {
-        // A way on which the stylus is free is one on which all is well.
+        // A path on which the stylus is free is one on which all is well.
         if (into == other || into == Contact::Free) return false;
         const Contact merged = other == Contact::Used ? into : other;
         const bool changed = merged != into;

@@ -36,7 +36,7 @@ void checkProgram(const ir::Program& program, Report& report) {
       report
           .at(body[i].origin.range(),
               "this G31 has no feed of its own and goes at the one in force, which a move may have set; the "
-              "place of the contact hangs on the feed; write F into the block")
+              "place of the contact depends on the feed; write F into the block")
           .note(withFeed->origin.range(), "another G31 has one");
   }
 }

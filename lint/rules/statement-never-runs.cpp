@@ -22,13 +22,13 @@ void checkLines(const std::vector<gibbs::Line>& lines, const std::set<std::strin
     if (jump != nullptr && !closes && !told) {
       report
           .at(line.statement->range,
-              "no way leads to this line: the jump before it is always taken, and no label stands "
+              "no path leads to this line: the jump before it is always taken, and no label is "
               "between; take the jump out, or the line")
           .note(jump->range, "the jump");
       told = true;
     }
     const auto* go = std::get_if<gibbs::Goto>(&node);
-    // A GOTO to nowhere is told already.
+    // A GOTO to nowhere is reported already.
     if (go != nullptr && labels.contains(gibbs::foldCase(go->label.text))) {
       if (jump == nullptr) told = false;
       jump = line.statement.get();

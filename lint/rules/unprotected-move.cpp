@@ -8,7 +8,7 @@ namespace {
 
 constexpr std::array<std::string_view, 2> kAxes = {"X", "Y"};
 
-// Whether the stylus is among the part: behind a protected move or a measurement, until a plain move along Z
+// Whether the stylus is among the part: after a protected move or a measurement, until a plain move along Z
 // alone, which is how a probe is taken up, or until it is switched off.
 struct State {
   bool down = false;
@@ -46,7 +46,7 @@ std::optional<std::optional<double>> protectedZ(const Statement& statement) {
       });
 }
 
-// Down unless it leads up: higher than before, or, where that is not written out, the first one behind a
+// Down unless it leads up: higher than before, or, where that is not written out, the first one after a
 // measurement.
 void moveAlongZ(State& state, const std::optional<double>& z) {
   if (z && state.z)

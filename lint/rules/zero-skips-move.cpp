@@ -69,7 +69,7 @@ void check(const Project& project, Report& report) {
       report
           .at(sides.positive->range,
               "for 0 neither this move nor its counterpart is drawn, and the dialog lets 0 pass; "
-              "the touch is missing from the path; turn 0 away, or give it a side")
+              "the touch is missing from the path; reject 0, or give it a side")
           .note(sides.negative->range, "the counterpart");
     }
   }

@@ -11,7 +11,7 @@ namespace {
 constexpr double kFloor = 5e-4;  // mm: the least step of a ball
 constexpr double kFarAway = 0.2; // mm
 constexpr double kTouch = 1e-10; // mm: closer is touching
-constexpr double kExact = 1e-10; // mm: of the place of contact on the way
+constexpr double kExact = 1e-10; // mm: of the place of contact on the path
 constexpr double kSafe = 1e-3;   // mm: of a capsule
 constexpr int kMostCells = 100'000;
 
@@ -36,7 +36,7 @@ public:
       atStart = true;
       if (!leave(at, clear)) return at;
       atStart = false;
-      if (clear <= kTouch) return -1; // the way ends before it is free
+      if (clear <= kTouch) return -1; // the path ends before it is free
     }
     while (at < length_) {
       const double jump = clear < 0.05 || at == 0 ? freeWay(at) : 0;
@@ -120,7 +120,7 @@ private:
   double floor_ = kFloor;
 };
 
-// The way of a capsule's axis is a parallelogram: shares of the way t and of the axis s. Cells are halved
+// The path of a capsule's axis is a parallelogram: shares of the path t and of the axis s. Cells are halved
 // until they are free, hit or too small; the earlier half is looked at first.
 class Sweep {
 public:
@@ -183,7 +183,7 @@ private:
       best_ = std::min(best_, t0);
       return;
     }
-    // Where the surface lies along one side of the cell, halving that side tells nothing.
+    // Where the surface lies along one side of the cell, halving that side says nothing.
     const double gainWay = std::abs(halfWay.dot(foot.normal)) + 0.05 * along;
     const double gainAxis = std::abs(halfAxis.dot(foot.normal)) + 0.05 * across;
     if (gainWay >= gainAxis) {

@@ -143,7 +143,7 @@ std::string Mesh::addCorners(std::vector<Vector3d>& corners) {
   triangles_.clear();
   for (std::size_t n = 0; n + 2 < vertex.size(); n += 3) {
     const std::array<std::uint32_t, 3> t = {vertex[n], vertex[n + 1], vertex[n + 2]};
-    // Two corners in one place: its two edges are one and the same, in both ways.
+    // Two corners in one place: its two edges are one and the same, in both paths.
     if (t[0] != t[1] && t[1] != t[2] && t[2] != t[0]) triangles_.push_back(t);
   }
   return finish();
@@ -164,8 +164,8 @@ std::string Mesh::finish() {
 }
 
 std::string Mesh::checkClosed() {
-  // Each edge once in each way.
-  std::vector<std::array<std::uint32_t, 3>> edges; // least, greatest, 1: in that way
+  // Each edge once in each path.
+  std::vector<std::array<std::uint32_t, 3>> edges; // least, greatest, 1: in that path
   edges.reserve(triangles_.size() * 3);
   for (const auto& t : triangles_) {
     for (std::size_t e = 0; e < 3; ++e) {

@@ -148,7 +148,7 @@ void PartBuilder::box(const Point3& least, const Point3& most, Action action, do
 void PartBuilder::block(const Point3& middle, const Point3& axis, const Point3& side, const Point3& half,
                         double corner, Action action) {
   if (!isNear(middle) || !isNear(half) || !isFinite(axis) || !isFinite(side))
-    return refuse(fmt::format("a box reaches farther than {} mm", kFar));
+    return refuse(fmt::format("a box reaches beyond {} mm", kFar));
   if (!(std::min({half.x, half.y, half.z}) * 2 >= kLeastSize))
     return refuse(fmt::format("a box has a side below {} mm", kLeastSize));
   if (!(corner >= 0) || corner > std::min(half.x, half.y) * (1 + 1e-12))
@@ -171,7 +171,7 @@ void PartBuilder::block(const Point3& middle, const Point3& axis, const Point3& 
 void PartBuilder::cylinder(const Point3& bottom, const Point3& top, double radius, Action action) {
   const Vec axis = vec(top) - vec(bottom);
   if (!isNear(bottom) || !isNear(top) || !(radius <= kFar))
-    return refuse(fmt::format("a cylinder reaches farther than {} mm", kFar));
+    return refuse(fmt::format("a cylinder reaches beyond {} mm", kFar));
   if (!(axis.norm() >= kLeastSize) || !(radius * 2 >= kLeastSize))
     return refuse(fmt::format("a cylinder has a size below {} mm", kLeastSize));
   Shape shape;
@@ -189,7 +189,7 @@ void PartBuilder::cone(const Point3& bottom, double bottomRadius, const Point3& 
   const Vec axis = vec(top) - vec(bottom);
   const double height = axis.norm();
   if (!isNear(bottom) || !isNear(top) || !(bottomRadius <= kFar) || !(topRadius <= kFar))
-    return refuse(fmt::format("a cone reaches farther than {} mm", kFar));
+    return refuse(fmt::format("a cone reaches beyond {} mm", kFar));
   const auto usable = [](double r) { return r == 0 || r * 2 >= kLeastSize; };
   if (!(height >= kLeastSize) || !usable(bottomRadius) || !usable(topRadius))
     return refuse(fmt::format("a cone has a size below {} mm", kLeastSize));
@@ -207,8 +207,7 @@ void PartBuilder::cone(const Point3& bottom, double bottomRadius, const Point3& 
 }
 
 void PartBuilder::sphere(const Point3& centre, double radius, Action action) {
-  if (!isNear(centre) || !(radius <= kFar))
-    return refuse(fmt::format("a sphere reaches farther than {} mm", kFar));
+  if (!isNear(centre) || !(radius <= kFar)) return refuse(fmt::format("a sphere reaches beyond {} mm", kFar));
   if (!(radius * 2 >= kLeastSize)) return refuse(fmt::format("a sphere is smaller than {} mm", kLeastSize));
   Shape shape;
   shape.origin = vec(centre);
@@ -276,7 +275,8 @@ std::unique_ptr<Part> PartBuilder::finish(std::string& fault) {
   bool mesh = false;
   if (fault_.empty()) fault_ = checkList(state_->solid.nodes, mesh, 0);
   if (fault_.empty() && !state_->solid.build())
-    refuse("too many of its shapes cross each other, or two surfaces touch in a way that cannot be followed");
+    refuse(
+        "too many of its shapes cross each other, or two surfaces touch in a path that cannot be followed");
   if (fault_.empty() && state_->solid.isEmpty()) refuse("nothing is left of the part");
   fault = fault_;
   if (!fault_.empty()) return nullptr;

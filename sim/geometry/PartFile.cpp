@@ -17,7 +17,7 @@ namespace {
 
 using Action = PartBuilder::Action;
 
-constexpr double kThrough = 5000; // mm: how far a through hole goes, both ways
+constexpr double kThrough = 5000; // mm: how far a through hole goes, both paths
 
 class Reader {
 public:
@@ -71,7 +71,7 @@ private:
   double radius(const TomlTable& table, const std::string& prefix = "", bool zero = false) {
     const std::string diameter = prefix + "diameter", radiusKey = prefix + "radius";
     if (table.has(diameter) && table.has(radiusKey)) {
-      fail(table, fmt::format("`{}` and `{}` stand together; write one of them", diameter, radiusKey));
+      fail(table, fmt::format("`{}` and `{}` are together; write one of them", diameter, radiusKey));
       table.value(diameter);
       table.value(radiusKey);
       return 1;
@@ -86,7 +86,7 @@ private:
     const TomlValue through = table.value("through");
     if (!through.flag(false)) return size(table, "depth");
     if (const TomlValue value = table.value("depth"))
-      document_.fail(value.range(), "`depth` and `through` stand together; write one of them");
+      document_.fail(value.range(), "`depth` and `through` are together; write one of them");
     before = kThrough;
     return kThrough;
   }

@@ -20,7 +20,7 @@ struct Probe {
   double bodyDiameter = 0, bodyLength = 0; // 0: none; from the upper end of the stem up
   double preTravel = 0;                    // way from the touch to the signal
   double overtravel = 0;                   // how far the stylus may be pushed; 0: not at all
-  double noise = 0; // standard deviation of the way to the signal, cut off at three times
+  double noise = 0; // standard deviation of the path to the signal, cut off at three times
   std::uint64_t seed = 1;
   bool on = true; // at the start of the program
 
@@ -37,7 +37,7 @@ struct MachineLimits {
 };
 
 struct MachineFile {
-  std::array<double, 3> start{}; // where X, Y, Z stand before the program, in coordinates of the machine
+  std::array<double, 3> start{}; // where X, Y, Z are before the program, in coordinates of the machine
   MachineLimits limits;
   Probe probe;
 };

@@ -87,7 +87,7 @@ std::optional<MachineFile> readMachine(FileId file, const SourceMap& sources, Di
     const TomlValue value = start.value(kNames[axis]);
     out.start[axis] = value.number(0);
     if (value.isNumber() && !(std::abs(out.start[axis]) <= kFarthest))
-      document->fail(value.range(), fmt::format("`{}` is farther than {} mm away", kNames[axis], kFarthest));
+      document->fail(value.range(), fmt::format("`{}` is beyond {} mm away", kNames[axis], kFarthest));
   }
   const TomlTable travel = root.value("travel").table();
   for (std::size_t axis = 0; axis < 3; ++axis) {

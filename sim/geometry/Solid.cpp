@@ -23,7 +23,7 @@ std::vector<Solid::Node> withoutMeshes(const std::vector<Solid::Node>& list) {
 
 constexpr double kOpen = 1e-6; // mm: material above a mouth
 
-// Whether a plane shows that `other` does not stand in front of that face of `cutter` which looks along
+// Whether a plane shows that `other` does not appear in front of that face of `cutter` which looks along
 // `out`.
 bool isClear(const Shape& other, const Shape& cutter, const Vec& out) {
   if (other.support(out) <= cutter.support(out) + kOpen) return true;
@@ -55,7 +55,7 @@ bool isClear(const std::vector<Solid::Node>& list, const std::vector<Shape>& sha
 
 } // namespace
 
-// What is cut from a face on may be cut from far above it: where nothing stands there, the part is the same.
+// What is cut from a face on may be cut from far above it: where nothing is there, the part is the same.
 // The bound is then the true distance in the mouth, too, instead of that to a lid which is not there.
 void Solid::openMouths(std::vector<Node>& list) {
   std::vector<Node> before;
@@ -264,7 +264,7 @@ void Solid::footOnShapes(const Vec& p, Foot& best) const {
     if (d >= found || d < least - 1e-9) continue;
     const Vec n = surface.normal(p);
     const Vec q = p - value * n;
-    // Behind the apex of a cone there is no side.
+    // After the apex of a cone there is no side.
     if (surface.kind == Surface::Kind::Cone && (q - surface.origin).dot(surface.axis) <= 0) continue;
     if (!isBoundary(q, n)) continue;
     found = d;

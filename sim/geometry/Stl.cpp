@@ -91,8 +91,7 @@ std::string Mesh::readBinary(std::string_view bytes, double scale) {
         const std::size_t at = kHeader + 4 + n * kTriangle + 12 + corner * 12 + axis * 4;
         const double value = scale * static_cast<double>(std::bit_cast<float>(word(bytes, at)));
         if (!isUsable(value))
-          return fmt::format("triangle {} has a coordinate that is no number or farther than {} mm", n + 1,
-                             kFar);
+          return fmt::format("triangle {} has a coordinate that is no number or beyond {} mm", n + 1, kFar);
         v[static_cast<Eigen::Index>(axis)] = value + 0.0; // no -0
       }
       corners.push_back(v);
@@ -115,8 +114,7 @@ std::string Mesh::readText(std::string_view bytes, double scale) {
     if (digits.empty() || error != std::errc() || end != digits.data() + digits.size())
       return expected("a number", text);
     out *= scale;
-    if (!isUsable(out))
-      return fmt::format("line {}: `{}` is farther than {} mm", words.line(), shown(text), kFar);
+    if (!isUsable(out)) return fmt::format("line {}: `{}` is beyond {} mm", words.line(), shown(text), kFar);
     return "";
   };
   words.next(); // solid

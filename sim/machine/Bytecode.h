@@ -1,5 +1,5 @@
-// Macro programs in the form in which they run: instructions over one array of cells (Cells.h). Behind the
-// cells of the variables stand those of intermediate values, then the constants.
+// Macro programs in the form in which they run: instructions over one array of cells (Cells.h). After the
+// cells of the variables are those of intermediate values, then the constants.
 #pragma once
 
 #include "ir/Program.h"
@@ -26,7 +26,7 @@ enum class Op : std::uint8_t {
   Unary,       // detail: ir::UnaryOp
   Binary,      // detail: ir::BinaryOp
   NegateGiven, // of a word `X-#1`: null has no meaning there
-  ToIncrement, // ROUND behind an address; detail: the letter
+  ToIncrement, // ROUND after an address; detail: the letter
   Read,        // a: number of a system variable; detail: kHazard
   ReadAt,      // a: cell of the number
   Write,       // a: number of a system variable; b

@@ -1,5 +1,5 @@
-// Where the variables of macros stand in memory: one array, so that a compiled program reads and writes them
-// without a search. The locals of the level that runs stand in the same cells at every level.
+// Where the variables of macros are in memory: one array, so that a compiled program reads and writes them
+// without a search. The locals of the level that runs are in the same cells at every level.
 #pragma once
 
 #include "stdlib/Control.h"
@@ -15,7 +15,7 @@ public:
 
   explicit CellLayout(const stdlib::Control& control);
 
-  std::uint32_t locals() const { return locals_; } // #1 to this one stand in the cells of their numbers
+  std::uint32_t locals() const { return locals_; } // #1 to this one are in the cells of their numbers
   std::uint32_t size() const { return size_; }     // cell 0 is #0
   // Of a local or a common variable; kNone: it is none.
   std::uint32_t cellOf(std::uint32_t number) const;

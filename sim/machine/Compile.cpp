@@ -50,7 +50,7 @@ void Compiler::add(const ir::Program& program) {
     if (place != kNoCell)
       instruction.c = place;
     else
-      instruction = {Op::Refuse, 0, 0, text("a jump to a label that stands nowhere"), 0};
+      instruction = {Op::Refuse, 0, 0, text("a jump to a label that is nowhere"), 0};
   }
   for (std::size_t label = 0; label < program.labels.size(); ++label)
     if (program.labels[label].number != 0 && labelPlaces_[label] != kNoCell)
@@ -70,7 +70,7 @@ Bytecode Compiler::finish() {
   return std::move(code_);
 }
 
-// Which loop each label stands in, before jumps to it are met.
+// Which loop each label is in, before jumps to it are met.
 void Compiler::findLoops() {
   loopIds_.assign(program_->body.size(), 0);
   std::vector<std::uint32_t> open = {0};
@@ -177,7 +177,7 @@ void Compiler::operator()(const ir::Branch& branch) {
   if (over) code_.instructions[*over].c = static_cast<std::uint32_t>(code_.instructions.size());
 }
 
-// The condition stands at both ends, so that a pass takes one jump.
+// The condition is at both ends, so that a pass takes one jump.
 void Compiler::operator()(const ir::Loop& loop) {
   const std::uint32_t outer = loop_;
   loop_ = loopIds_[at_];

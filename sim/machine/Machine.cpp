@@ -89,7 +89,7 @@ void Machine::setToolLength(std::uint32_t tool, double length) {
 }
 
 // The short way: nothing but straight moves and arcs in mm, and the codes that go with them. Whatever else a
-// block holds, or what stands out of range, takes the long way from the beginning: nothing is changed before
+// block holds, or what is out of range, takes the long way from the beginning: nothing is changed before
 // that is known.
 bool Machine::execute(const NcWords& w) {
   std::uint32_t odd = long_ | w.marks | w.repeated | (w.present & ~w.pointed & needPoint_);
@@ -281,7 +281,7 @@ bool Machine::checkWords(const NcWords& w) {
     allowed |= ir::addressBits("IJKR");
   }
   if (modes_[kSystem] == kExtended && (block_.slots >> kSystem & 1) != 0) allowed |= ir::addressBit('P');
-  // Parameters of path modes stand in a block without axes.
+  // Parameters of path modes are in a block without axes.
   if (!axes && !block_.hasOneShot) {
     for (std::uint32_t i = 0; i < w.gCount; ++i)
       if (table_.g(w.g[i]).function == Function::PathMode) allowed |= ir::addressBits("PQR");
@@ -290,7 +290,8 @@ bool Machine::checkWords(const NcWords& w) {
   if (left != 0)
     return inconclusive("nothing in the block takes it", static_cast<char>('A' + std::countr_zero(left)));
   if (w.repeated != 0)
-    return inconclusive("the address stands twice", static_cast<char>('A' + std::countr_zero(w.repeated)), 1);
+    return inconclusive("the address appears twice", static_cast<char>('A' + std::countr_zero(w.repeated)),
+                        1);
   return true;
 }
 

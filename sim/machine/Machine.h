@@ -24,7 +24,7 @@ namespace dotek::sim {
 enum class Ending : std::uint8_t {
   Running,
   ProgramEnd,   // M2, M30
-  TextEnd,      // `%` behind the blocks, or the next program begins
+  TextEnd,      // `%` after the blocks, or the next program begins
   Return,       // M99
   Alarm,        // of the control, or #3000
   Inconclusive, // Dotek does not know what the control would do
@@ -32,7 +32,7 @@ enum class Ending : std::uint8_t {
   Call,         // G65, G66, M98: the caller runs it
 };
 
-// Where a program stands, for alarms.
+// Where a program is, for alarms.
 struct Frame {
   std::uint32_t program = 0;  // O number; 0: none
   std::uint32_t sequence = 0; // last N number; 0: none
@@ -61,9 +61,9 @@ struct SkipMove {
 class SkipSignal {
 public:
   virtual ~SkipSignal() = default;
-  // The share of the way, 0 to 1, at which the signal comes; nothing: it does not come.
+  // The share of the path, 0 to 1, at which the signal comes; nothing: it does not come.
   virtual std::optional<double> contact(const SkipMove& move) = 0;
-  // Whether it is there while the machine stands; `here` has no length.
+  // Whether it is there while the machine is; `here` has no length.
   virtual bool isThere(const SkipMove& here) { return contact(here).has_value(); }
 };
 
@@ -79,7 +79,7 @@ public:
   // nullptr: nobody watches. Watched blocks take the long way. The watcher, and the signal, may end the run
   // by inconclusive().
   void setWatcher(MotionWatcher* watcher);
-  // Where the machine stands before the program begins; without it all axes stand at its zero.
+  // Where the machine is before the program begins; without it all axes are at its zero.
   void startAt(const Position& machine);
   MotionWatcher* watcher() const { return watcher_; }
   void setCallLimit(std::uint32_t calls) { callLimit_ = calls; }        // calls within calls
@@ -115,7 +115,7 @@ public:
   std::uint32_t uncertain() const { return uncertain_; }
   std::uint32_t movedAxes() const { return shown_; }
   double seconds() const { return seconds_; }
-  // The last block moved an axis, or told one to move to where it stands.
+  // The last block moved an axis, or told one to move to where it is.
   bool moved() const { return moved_; }
   const stdlib::Control& control() const { return control_; }
   Trace* trace() const { return trace_; }
@@ -139,7 +139,7 @@ public:
   bool changesWithMotion(std::uint32_t number) const;
   // The common variables and the locals of the main program that were written, by number.
   std::vector<std::pair<std::uint32_t, double>> written() const;
-  // Of a common variable as it stands; kFresh: nobody wrote it, or there is none of this number.
+  // Of a common variable as it is; kFresh: nobody wrote it, or there is none of this number.
   double common(std::uint32_t number) const {
     const std::uint32_t cell = layout_.cellOf(number);
     return cell == CellLayout::kNone ? kFresh : cells_[cell];
@@ -226,7 +226,7 @@ private:
   double rounded(double value, int places) const;
   void updateOffsets();
   void traceMove(std::string_view action, const Position& end, bool feed);
-  // Tells the watcher of a motion of `axes` (bits) to where the machine stands now. `certain`: it is known.
+  // Says the watcher of a motion of `axes` (bits) to where the machine is now. `certain`: it is known.
   void tellMotion(MotionKind kind, std::uint32_t axes, bool certain = true);
   void tellTo(MotionKind kind, const Position& to, std::uint32_t lost);
   // An arc about a centre that lies by `first` and `second` from its begin, as chords. `work_` is its end.
@@ -301,7 +301,7 @@ private:
   std::uint32_t level_ = 0;
   std::uint32_t callLimit_ = 32;
   bool moved_ = false;
-  // For the watcher: where the machine stands, axes of which that is not known, and whether the tool's length
+  // For the watcher: where the machine is, axes of which that is not known, and whether the tool's length
   // may have been cancelled by a reference return.
   Position at_{};
   std::uint32_t lost_ = 0;
@@ -315,7 +315,7 @@ private:
     bool hasOneShot = false;
     std::uint32_t slots = 0;                   // bit by Slot
     std::array<std::uint8_t, kSlots> before{}; // modes before the block
-    std::uint32_t call = 0;                    // not 0: a call or a return stands in the block
+    std::uint32_t call = 0;                    // not 0: a call or a return is in the block
   } block_;
 };
 

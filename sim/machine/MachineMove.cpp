@@ -26,7 +26,7 @@ bool Machine::target(const NcWords& w, Position& end) {
     if (!has(w, i)) continue;
     const char letter = kAxisLetters[i];
     if (incremental && (uncertain_ >> i & 1) != 0)
-      return inconclusive("where this axis stands is not known", letter);
+      return inconclusive("the position of this axis is not known", letter);
     const double value = lengthOf(w, letter);
     if (!(std::abs(w.of(letter)) < widest_)) return raise(Alarm::TooManyDigits, letter);
     end[i] = incremental ? snap(work_[i] + value) : value;
@@ -67,7 +67,7 @@ bool Machine::arc(const NcWords& w, const Position& end) {
   double first = 0, second = 0; // from the start to the centre
   const double du = end[plane.first] - work_[plane.first];
   const double dv = end[plane.second] - work_[plane.second];
-  if (w.has('R')) { // holds where I, J, K stand beside it
+  if (w.has('R')) { // holds where I, J, K are beside it
     const double radius = lengthOf(w, 'R');
     const double chord = std::hypot(du, dv);
     if (radius == 0) return inconclusive("an arc of radius 0", 'R');
@@ -167,13 +167,13 @@ bool Machine::reference(const NcWords& w, bool first) {
   Position via;
   const std::uint32_t unknown = uncertain_;
   for (std::size_t i = 0; i < kAxes; ++i) {
-    // From an unknown place straight to the reference point: the way is not known either, its end is.
+    // From an unknown place straight to the reference point: the path is not known either, its end is.
     if (has(w, i) && (unknown >> i & 1) != 0 && modes_[kDistance] != 0 && w.of(kAxisLetters[i]) == 0)
       uncertain_ &= ~(1u << i);
   }
   if (!target(w, via)) return false;
   if (watcher_ != nullptr) {
-    // In incremental mode the point counts from where the machine stands, whatever its coordinates are.
+    // In incremental mode the point counts from where the machine is, whatever its coordinates are.
     Position to = at_;
     std::uint32_t lost = lost_;
     for (std::size_t i = 0; i < kAxes; ++i) {

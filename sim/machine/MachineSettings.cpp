@@ -122,7 +122,7 @@ bool Machine::miscellaneous(const NcWords& w) {
   return true;
 }
 
-// Behind the motion of the block.
+// After the motion of the block.
 bool Machine::stops(const NcWords& w) {
   for (std::uint32_t i = 0; i < w.mCount; ++i) {
     switch (table_.m(w.m[i]).function) {
@@ -148,7 +148,7 @@ void Machine::updateOffsets() {
   for (std::size_t i = 0; i < kAxes; ++i) {
     const double now = snap(external_[i] + system[i] + local_[i] + shift_[i]);
     if (now == offset_[i]) continue;
-    // The machine stands still; its coordinates change.
+    // The machine is still; its coordinates change.
     work_[i] = snap(work_[i] + offset_[i] - now);
     offset_[i] = now;
   }
@@ -277,9 +277,9 @@ bool Machine::setPosition(const NcWords& w) {
   for (std::size_t i = 0; i < kAxes; ++i) {
     if (!has(w, i)) continue;
     if ((uncertain_ >> i & 1) != 0)
-      return inconclusive("where this axis stands is not known", kAxisLetters[i]);
+      return inconclusive("the position of this axis is not known", kAxisLetters[i]);
     const double value = lengthOf(w, kAxisLetters[i]);
-    const double sum = snap(work_[i] + offset_[i] - value); // so that the machine stands still
+    const double sum = snap(work_[i] + offset_[i] - value); // so that the machine is still
     local_[i] = 0;
     shift_[i] = snap(sum - external_[i] - system[i]);
     offset_[i] = sum;

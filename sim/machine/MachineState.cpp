@@ -80,7 +80,7 @@ std::optional<double> Machine::readState(std::uint32_t number, const Place& plac
   if (count == 0)
     return unknown(fmt::format("#{} is read at no address of the {} area that `{}` has", number,
                                control_.window->area, control_.name));
-  std::uint32_t bits = 0; // the lowest byte stands first
+  std::uint32_t bits = 0; // the lowest byte is first
   for (std::uint32_t i = 0; i < count; ++i)
     bits |= static_cast<std::uint32_t>(pmc_[static_cast<std::size_t>(pmcAddress_) + i]) << (8 * i);
   // A byte counts from 0 to 255, words and double words have a sign.

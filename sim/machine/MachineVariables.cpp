@@ -19,7 +19,7 @@ bool Machine::find(std::uint32_t number, Place& place) const {
     place = {kind, 0, static_cast<std::size_t>(n - *first)};
     return true;
   };
-  // Offsets stand in steps of systems and of axes, the smaller one within the larger.
+  // Offsets are in steps of systems and of axes, the smaller one within the larger.
   const auto offset = [&](std::optional<int> first, int step, int count, Kind kind) {
     if (!first || n < *first) return false;
     const long at = n - *first;
@@ -97,7 +97,7 @@ bool Machine::changesWithMotion(std::uint32_t number) const {
 std::optional<double> Machine::readSystem(std::uint32_t number, const Place& place) {
   using Kind = Place::Kind;
   const auto position = [&](const Position& of, bool exact) -> std::optional<double> {
-    // Under cutter compensation the tool's centre does not stand where the program says.
+    // Under cutter compensation the tool's centre does not appear where the program says.
     if ((uncertain_ >> place.axis & 1) != 0 || (exact && modes_[kComp] != 0)) {
       inconclusive(
           fmt::format("#{} is read while the position of {} is not known", number, kAxisLetters[place.axis]));

@@ -1,4 +1,4 @@
-// What the watcher of a machine is told: motions in coordinates of the machine. Blocks that set a tool's
+// What the watcher of a machine is reported: motions in coordinates of the machine. Blocks that set a tool's
 // length, an offset or a system move nothing.
 #include "sim/machine/Axes.h"
 #include "sim/machine/Machine.h"

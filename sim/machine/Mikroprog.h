@@ -1,4 +1,4 @@
-// The machine behind a program of Mikroprog, as far as programs that Dotek writes need it: moves, the probe,
+// The machine after a program of Mikroprog, as far as programs that Dotek writes need it: moves, the probe,
 // G92, jumps, subprograms, P90. What no source states is taken as the profile's questions take it; what is
 // unknown beyond that ends the run as inconclusive. Lengths are mm, X of a lathe is kept as a radius.
 #pragma once
@@ -35,7 +35,7 @@ struct MikroprogEvent {
   };
   Kind kind = Kind::Contact;
   std::uint64_t block = 0;          // N; 0: none
-  std::array<double, 3> position{}; // of the active system, behind the event
+  std::array<double, 3> position{}; // of the active system, after the event
   std::array<double, 3> machine{};  // of the machine
   double value = 0;
   std::string text;
@@ -52,7 +52,7 @@ public:
   // one the signal is for G31 and O7, and the watcher sees to the rest; it may end the run by inconclusive().
   void setWatcher(MotionWatcher* watcher) { watcher_ = watcher; }
   void setTrace(Trace* trace) { trace_ = trace; } // nullptr: quiet
-  // Where the machine stands before the program; the active system counts from the machine's zero.
+  // Where the machine is before the program; the active system counts from the machine's zero.
   void setPosition(const std::array<double, 3>& machine) { machine_ = machine; }
   // Zero of the active system at the start, in coordinates of the machine.
   void setOffset(const std::array<double, 3>& offset) { offset_ = offset; }

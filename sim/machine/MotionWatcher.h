@@ -1,4 +1,4 @@
-// Who wants to know of every motion of the machine, and of what else a probe's safety hangs on.
+// Who wants to know of every motion of the machine, and of what else a probe's safety depends on.
 #pragma once
 
 #include "sim/machine/Trace.h"

@@ -18,7 +18,7 @@ bool counts(char letter) {
 
 } // namespace
 
-// ROUND behind an address. What it rounds to behind F and E no source says.
+// ROUND after an address. What it rounds to after F and E no source says.
 bool Run::toIncrement(char letter, double& value) {
   if (control_.isLength(letter)) {
     value = machine_.toIncrement(value);
@@ -28,7 +28,7 @@ bool Run::toIncrement(char letter, double& value) {
     value = std::round(value) + 0.0;
     return true;
   }
-  return machine_.inconclusive("what ROUND rounds to behind this address is not known", letter);
+  return machine_.inconclusive("what ROUND rounds to after this address is not known", letter);
 }
 
 void Run::addCode(char letter, double value, bool exact) {
@@ -138,7 +138,7 @@ bool Run::executeWords(const BlockSlots& slots) {
   return true;
 }
 
-// G and M codes of macros: the words behind the code are its arguments. Codes of subprograms, and T: the rest
+// G and M codes of macros: the words after the code are its arguments. Codes of subprograms, and T: the rest
 // of the block comes first.
 bool Run::callByCode(const BlockSlots& slots, std::uint32_t at, const stdlib::CallCode& code) {
   const WordSlot& caller = code_.words[slots.firstWord + at];

@@ -63,7 +63,7 @@ bool Run::printDecimal(const ir::PrintPiece& piece, double value, std::string& o
   return true;
 }
 
-// 32 bits, the highest first, of the value with `decimals` behind the point.
+// 32 bits, the highest first, of the value with `decimals` after the point.
 bool Run::printBinary(const ir::PrintPiece& piece, double value, std::string& out) {
   const double scaled = std::round(value * std::pow(10.0, piece.decimals));
   if (!(scaled >= -2147483648.0 && scaled <= 2147483647.0))

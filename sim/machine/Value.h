@@ -9,7 +9,7 @@ namespace dotek::sim {
 
 inline constexpr std::uint64_t kNullBits = 0x7FF8'0000'6E75'6C6CULL;
 inline constexpr double kNull = std::bit_cast<double>(kNullBits);
-// Null of a variable that nobody has written: what a run wrote can be told from what it left alone.
+// Null of a variable that nobody has written: what a run wrote can be reported from what it left alone.
 inline constexpr std::uint64_t kFreshBits = kNullBits | 1;
 inline constexpr double kFresh = std::bit_cast<double>(kFreshBits);
 

@@ -80,7 +80,7 @@ bool VendorRun::surface() {
     const bool travel = target->frame == ir::Frame::Here;
     const double way = *value(Role::Target, axis) - (travel ? 0 : start_[i]);
     if (std::abs(way) < kNothing)
-      return notKnown("which way the surface lies is not known: the probe stands there");
+      return notKnown("which way the surface lies is not known: the probe is there");
     const Direction direction = directionOf(axis, way > 0 ? 1 : -1);
     Position centre;
     double ball = 0;
@@ -135,8 +135,7 @@ bool VendorRun::faceAngle() {
     const double spacing = std::abs(value(Role::Spacing, face).value_or(0));
     const double way = *target - start_[n];
     if (spacing < kNothing) return notKnown("two touches without a distance tell no angle");
-    if (std::abs(way) < kNothing)
-      return notKnown("which way the face lies is not known: the probe stands there");
+    if (std::abs(way) < kNothing) return notKnown("which way the face lies is not known: the probe is there");
     const double expected = value(Role::FaceAngle).value_or(normal == ir::Axis::X ? kRightAngle : 0);
     std::array<Position, 2> touched;
     for (std::size_t i = 0; i < 2; ++i) {

@@ -88,7 +88,7 @@ bool VendorRun::begin() {
   if (machine_.mode(kComp) != 0 || machine_.mode(kCanned) != 0)
     return notKnown("what it does under cutter compensation or in a canned cycle is in no source");
   if (machine_.mode(kPlane) != 0) return notKnown("what it does outside of G17 is in no source");
-  if (machine_.uncertain() != 0) return notKnown("where the probe stands is not known");
+  if (machine_.uncertain() != 0) return notKnown("the place of the probe is not known");
   switch (machine_.probe()) {
   case Machine::Probe::Off:
     return notKnown("the probe was switched off before; what the macro does then is in no source");

@@ -15,7 +15,7 @@ namespace dotek::sim {
 // What one run remembers between calls.
 struct VendorMemory {
   std::optional<double> stylusRadius; // of a calibrated stylus, mm, where the set's variables do not hold it
-  std::set<std::string> said;         // remarks that stand once in a trace
+  std::set<std::string> said;         // remarks that appear once in a trace
 };
 
 class VendorMacros final : public MacroMeaning {

@@ -38,11 +38,11 @@ private:
   // ---- touching (VendorTouch.cpp)
   bool findStylus();
   bool radius(const Direction& direction, double& out);
-  // From `from`, where the probe stands: two touches, and back. The surface is expected `distance` away from
+  // From `from`, where the probe is: two touches, and back. The surface is expected `distance` away from
   // the ball's centre; the travel ends `overtravel` beyond, or at `distance` where `plain`. `centre`: the
   // ball's.
   bool touch(const Direction& direction, double distance, Position& centre, bool plain = false);
-  bool watched(const Position& end); // contact on the way is an alarm
+  bool watched(const Position& end); // contact on the path is an alarm
   double overtravel(const Direction& direction) const;
   // Touches the feature on the side `direction` of its middle, as far away as `half`, inside, or from outside
   // and down to the depth.

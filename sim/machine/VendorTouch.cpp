@@ -1,4 +1,4 @@
-// Touching: where the ball's centre stands at the contact, and how the probe gets there.
+// Touching: where the ball's centre is at the contact, and how the probe gets there.
 #include "sim/machine/VendorRun.h"
 
 #include <cmath>
@@ -7,7 +7,7 @@ namespace dotek::sim {
 
 namespace {
 
-// Shorter ways are none: lengths lie on a grid of a nanometre.
+// Shorter paths are none: lengths lie on a grid of a nanometre.
 constexpr double kNothing = 1e-6;
 
 Position along(const Position& from, const Direction& direction, double distance) {
@@ -78,7 +78,7 @@ bool VendorRun::touch(const Direction& direction, double expected, Position& cen
   const bool known = argument(Role::Overtravel) != nullptr || set_.probing.overtravel;
   if (!plain && !known) return notKnown("how far beyond the expected surface it probes is in no source");
   const double travel = plain ? expected : expected - ball + overtravel(direction);
-  if (!(travel > kNothing)) return notKnown("the surface is expected behind where the probe stands");
+  if (!(travel > kNothing)) return notKnown("the expected surface does not lie ahead of the probe");
   const Position from = machine_.position();
   const Position end = along(from, direction, travel);
   for (int pass = 0; pass < 2; ++pass) { // a fast touch and a slow one

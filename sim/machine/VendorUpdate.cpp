@@ -1,4 +1,4 @@
-// What a call leaves behind: tolerances that stop, offsets, results.
+// What a call leaves: tolerances that stop, offsets, results.
 #include "sim/machine/VendorRun.h"
 
 #include <algorithm>

@@ -53,7 +53,7 @@ bool World::isModelled(const Position& from, const Position& to) const {
   return true;
 }
 
-// The share at which the first axis leaves its travel. A machine that stands outside may come back.
+// The share at which the first axis leaves its travel. A machine that is outside may come back.
 std::optional<double> World::leavesTravel(const Position& from, const Position& to) const {
   std::optional<double> out;
   for (std::size_t axis = 0; axis < limits_.travel.size(); ++axis) {
@@ -73,7 +73,7 @@ bool World::isOld(const Obstacle& hit, double length) const {
   return pressed_ && hit.share * length <= kNear;
 }
 
-// The stem or the body on the way, the earlier of the two.
+// The stem or the body on the path, the earlier of the two.
 std::optional<World::Obstacle> World::obstacle(const Point3& from, const Point3& way) const {
   std::optional<Obstacle> out;
   if (!(probe_.stemDiameter > 0) || part_.isEmpty()) return out;

@@ -1,4 +1,4 @@
-// A part and a probe in a machine: whether and where the probe signals, and what goes wrong on the way.
+// A part and a probe in a machine: whether and where the probe signals, and what goes wrong on the path.
 #pragma once
 
 #include "sim/geometry/Contact.h"
@@ -17,13 +17,13 @@ enum class Outcome : std::uint8_t {
   EarlyContact,  // the ball touched before the skip move began, or in a feed that measures nothing
   Miss,          // a skip move to its end without a touch
   NotArmed,      // the ball touched and the probe was off
-  NoSignal,      // the ball touched, and the way ended before the signal
-  Overtravel,    // the stylus is pushed farther than it bears
+  NoSignal,      // the ball touched, and the path ended before the signal
+  Overtravel,    // the stylus is pushed beyond it bears
   StemCollision, // the stem touches
   BodyCollision, // the body touches
   RapidIntoPart, // the ball touches in rapid
   OutsideTravel, // the machine would leave its travel
-  NotModelled,   // a rotary or a second axis stands off zero, or where the machine stands is not known
+  NotModelled,   // a rotary or a second axis is off zero, or the position of the machine is not known
 };
 std::string_view outcomeName(Outcome outcome); // "contact", "rapid-into-part"
 
@@ -31,11 +31,11 @@ struct ProbeEvent {
   Outcome outcome = Outcome::Miss;
   MotionKind kind = MotionKind::Feed;
   double share = 0;     // of the motion
-  double depth = 0;     // mm of the way that lie behind the touch
+  double depth = 0;     // mm of the path that lie after the touch
   Point3 centre;        // of the ball, in the machine
   Point3 point, normal; // touched, of the part; Contact, EarlyContact, NotArmed, NoSignal, Overtravel, rapid
   std::uint64_t line = 0;    // of the program
-  bool placeUnknown = false; // of NotModelled: where the machine stands
+  bool placeUnknown = false; // of NotModelled: where the machine is
   bool meant = false;        // of Miss: the move was to meet nothing
 };
 
@@ -46,7 +46,7 @@ public:
   // An empty part touches nothing; then only the travel is looked at.
   World(Part part, const Probe& probe, const MachineLimits& limits = {});
 
-  // The share of the way at which the machine stops; nothing: no signal comes. Each call is a touch of its
+  // The share of the path at which the machine stops; nothing: no signal comes. Each call is a touch of its
   // own for the noise.
   std::optional<double> contact(const SkipMove& move) override;
   // The probe is on and the part deflects it. No event.
@@ -66,7 +66,7 @@ public:
   void forgetEvents() { events_.clear(); } // of a run that is too long to keep them all
   const Probe& probe() const { return probe_; }
   const Part& part() const { return part_; }
-  // Of the ball, where the machine stands at `position`.
+  // Of the ball, where the machine is at `position`.
   Point3 centreAt(const Position& position) const;
 
 private:
@@ -78,7 +78,7 @@ private:
   bool isModelled(const Position& from, const Position& to) const;
   std::optional<double> leavesTravel(const Position& from, const Position& to) const;
   std::optional<Obstacle> obstacle(const Point3& from, const Point3& way) const;
-  // Stands where the last motion ended, which was told.
+  // Is where the last motion ended, which was reported.
   bool isOld(const Obstacle& hit, double length) const;
   double noise();
   ProbeEvent& add(Outcome outcome, MotionKind kind, double share, const Point3& centre);
@@ -89,7 +89,7 @@ private:
   Probe probe_;
   MachineLimits limits_;
   bool on_;
-  bool pressed_ = false; // the last motion ended in the part, which was told
+  bool pressed_ = false; // the last motion ended in the part, which was reported
   std::uint64_t line_ = 0;
   std::uint64_t seed_;
   std::uint64_t touches_ = 0;

@@ -1,4 +1,4 @@
-// What `--svg` and `--html` draw of a run: the part, the way of the probe, what it touched, what went wrong.
+// What `--svg` and `--html` draw of a run: the part, the path of the probe, what it touched, what went wrong.
 // Points are of the machine; those of moves and errors are the ball's centre.
 #pragma once
 
@@ -47,8 +47,8 @@ struct PictureBlock {
 
 struct Picture {
   std::string title;        // UTF-8
-  std::optional<Part> part; // nothing: only the way is drawn
-  // Its ball, stem and body. One without a length down to its tip is none: then the points of the way are
+  std::optional<Part> part; // nothing: only the path is drawn
+  // Its ball, stem and body. One without a length down to its tip is none: then the points of the path are
   // those of the spindle's gauge line.
   Probe probe;
   std::vector<PictureMove> moves; // in the order of the run
@@ -57,7 +57,7 @@ struct Picture {
   std::vector<PictureBlock> blocks;
 };
 
-// An SVG with three views, XY, XZ and YZ: sections of the part, the way, numbered contacts, errors in red, a
+// An SVG with three views, XY, XZ and YZ: sections of the part, the path, numbered contacts, errors in red, a
 // legend and a scale. The same picture gives the same bytes.
 std::string pictureSvg(const Picture& picture);
 // One page that needs no network: a 3D view that turns with the mouse, the blocks beside it, a slider that

@@ -13,7 +13,7 @@
 namespace dotek::sim {
 namespace {
 
-// What the page holds at most; its head tells of the rest.
+// What the page holds at most; its head reports the rest.
 constexpr std::size_t kMostMoves = 250'000;
 constexpr std::size_t kMostBlocks = 300'000;
 constexpr std::size_t kMostMarks = 20'000; // contacts, and errors
@@ -94,10 +94,9 @@ private:
       note(fmt::format("{} errors: the first {} are listed", picture_.errors.size(), kMostMarks));
     const auto lost = std::count_if(picture_.moves.begin(), picture_.moves.end(),
                                     [](const PictureMove& move) { return !isDrawn(move); });
-    if (lost > 0)
-      note(fmt::format("moves without a number, or farther than 1 km: {}; they are not drawn", lost));
-    if (!hasProbe(picture_)) note("no probe is stated: the way is that of the spindle's gauge line");
-    if (!picture_.part) note("no part: only the way is drawn");
+    if (lost > 0) note(fmt::format("moves without a number, or beyond 1 km: {}; they are not drawn", lost));
+    if (!hasProbe(picture_)) note("no probe is stated: the path is that of the spindle's gauge line");
+    if (!picture_.part) note("no part: only the path is drawn");
     return out;
   }
 

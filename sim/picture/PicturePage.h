@@ -1,4 +1,4 @@
-// The parts of the page that stand in files of their own, embedded at build: picture.html with @MARKS@, its
+// The parts of the page that are in files of their own, embedded at build: picture.html with @MARKS@, its
 // style and its scripts.
 #pragma once
 

@@ -44,7 +44,7 @@ void PictureRecorder::addEvents(std::size_t from, std::size_t move) {
   }
 }
 
-// The motion of a skip move is told behind its contact.
+// The motion of a skip move is reported after its contact.
 std::optional<double> PictureRecorder::contact(const SkipMove& move) {
   if (world_ == nullptr) return std::nullopt;
   full_ = full_ || picture_.moves.size() == kMostMoves;

@@ -1,4 +1,4 @@
-// Collects what pictures draw while a program runs. It stands between a machine and its world: it is the skip
+// Collects what pictures draw while a program runs. It is between a machine and its world: it is the skip
 // signal and the watcher of the machine, and hands every call on.
 #pragma once
 

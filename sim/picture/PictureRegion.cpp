@@ -8,7 +8,7 @@
 namespace dotek::sim {
 namespace {
 
-// From here a distance tells how far the part reaches, to a few micrometres.
+// From here a distance says how far the part reaches, to a few micrometres.
 constexpr double kAway = 1e6;
 
 class Bounds {
@@ -215,7 +215,7 @@ SectionPlanes sectionPlanesOf(const Picture& picture, const Region& region) {
     out.at[axis] = coordinate(middle, axis);
   if (!picture.part) return out;
 
-  const double depth = std::max(0.5, 0.01 * longest(region)); // behind a face that was touched
+  const double depth = std::max(0.5, 0.01 * longest(region)); // after a face that was touched
   std::optional<Point3> inside;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     struct Candidate {
@@ -223,7 +223,7 @@ SectionPlanes sectionPlanesOf(const Picture& picture, const Region& region) {
       std::size_t contact;
     };
     std::vector<Candidate> sideways;
-    std::optional<double> behind[2]; // behind faces that look against the axis, along it
+    std::optional<double> behind[2]; // after faces that look against the axis, along it
     for (std::size_t i = 0; i < picture.contacts.size() && i < 1000; ++i) {
       const Point3& p = picture.contacts[i].point;
       if (!region.contains(p)) continue;

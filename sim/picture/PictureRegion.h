@@ -25,10 +25,10 @@ inline constexpr double kDrawn = 1e6;
 bool isDrawn(const Point3& p);
 bool isDrawn(const PictureMove& move);
 
-// Whether the picture has a probe, so that its way is that of the ball's centre.
+// Whether the picture has a probe, so that its path is that of the ball's centre.
 bool hasProbe(const Picture& picture);
 
-// The box that holds the part. A side without end stands at kDrawn or beyond.
+// The box that holds the part. A side without end is at kDrawn or beyond.
 Region reachOf(const Part& part);
 
 // What is drawn: the slow moves, contacts and errors, and around them what is near of rapids and part. A box
@@ -36,8 +36,8 @@ Region reachOf(const Part& part);
 Region regionOf(const Picture& picture);
 
 // Where the sections lie: X of YZ, Y of XZ, Z of XY. At a contact that the plane cuts from the side, so that
-// the touched surface is seen; else just behind a touched face, or between two touched from both sides; else
-// in the middle of the way, or of the part where there is no material.
+// the touched surface is seen; else just after a touched face, or between two touched from both sides; else
+// in the middle of the path, or of the part where there is no material.
 struct SectionPlanes {
   std::array<double, 3> at{};                          // by axis
   std::array<std::optional<std::size_t>, 3> contact{}; // that it goes through, place in Picture::contacts

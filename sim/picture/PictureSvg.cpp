@@ -107,9 +107,8 @@ std::vector<std::string> notesOf(const Picture& picture, const Region& region) {
     hidden += isDrawn(contact.point) ? 0 : 1;
   for (const PictureError& error : picture.errors)
     hidden += isDrawn(error.at) ? 0 : 1;
-  if (beyond > 0) out.push_back(fmt::format("the way leaves the picture in {}", plural(beyond, "move")));
-  if (lost > 0)
-    out.push_back(fmt::format("{} not drawn: no number, or farther than 1 km", plural(lost, "move")));
+  if (beyond > 0) out.push_back(fmt::format("the path leaves the picture in {}", plural(beyond, "move")));
+  if (lost > 0) out.push_back(fmt::format("{} not drawn: no number, or beyond 1 km", plural(lost, "move")));
   if (hidden > 0) out.push_back(fmt::format("{} without a place on the sheet", plural(hidden, "mark")));
   if (picture.moves.size() > kThinFrom)
     out.push_back(fmt::format("{} moves: what is shorter than half a pixel is joined", picture.moves.size()));
@@ -133,7 +132,7 @@ std::string drawLegend(const Sheet& sheet, double left, double top, double& bott
   legend.mark("<rect x=\"-14.5\" y=\"-3.5\" width=\"7\" height=\"7\" fill=\"#ffffff\" stroke=\"#20262d\" "
               "stroke-width=\"1.3\"/><rect x=\"7.5\" y=\"-3.5\" width=\"7\" height=\"7\" fill=\"#20262d\" "
               "stroke=\"#20262d\" stroke-width=\"1.3\"/>",
-              "start, end of the way");
+              "start, end of the path");
   legend.mark(fmt::format("<circle r=\"3.2\" fill=\"{}\"/>", kContactColour),
               fmt::format("contact ({}), numbered in order", picture.contacts.size()));
   legend.mark(fmt::format("<path d=\"M-5.5 -5.5l11 11m0 -11l-11 11\" fill=\"none\" stroke=\"{}\" "
@@ -153,15 +152,15 @@ std::string drawLegend(const Sheet& sheet, double left, double top, double& bott
       legend.text(line, 56);
     }
   } else {
-    legend.text("no part: only the way is drawn", 56);
+    legend.text("no part: only the path is drawn", 56);
   }
   if (picture.moves.empty()) legend.text("no moves", 56);
   legend.gap(6);
   addScale(legend, sheet.scale);
   legend.text("mm, in coordinates of the machine;", 0, "#4a525c");
-  legend.text(hasProbe(picture) ? fmt::format("the way is that of the ball's centre (ball {})",
+  legend.text(hasProbe(picture) ? fmt::format("the path is that of the ball's centre (ball {})",
                                               shortNumber(finite(picture.probe.ballDiameter), 3))
-                                : "the way is that of the spindle's gauge line: no probe is stated",
+                                : "the path is that of the spindle's gauge line: no probe is stated",
               0, "#4a525c");
   for (const std::string& note : notesOf(picture, sheet.region))
     legend.text(note, 0, "#8a4b00");

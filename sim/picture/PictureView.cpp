@@ -199,7 +199,7 @@ private:
                         *style.dashes == '\0' ? "" : fmt::format(" stroke-dasharray=\"{}\"", style.dashes));
   }
 
-  // The way's direction where there is room for it, measuring moves first.
+  // The path's direction where there is room for it, measuring moves first.
   void arrows() {
     std::vector<PlanePoint> taken;
     std::string kinds[4];
@@ -232,7 +232,7 @@ private:
     }
   }
 
-  // Hollow where the way begins, full where it ends.
+  // Hollow where the path begins, full where it ends.
   void ends() {
     if (picture_.moves.empty()) return;
     const auto square = [&](const Point3& p, const char* fill) {

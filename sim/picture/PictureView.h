@@ -1,4 +1,4 @@
-// One of the three views of an SVG: a section of the part, the way, contacts and errors on it.
+// One of the three views of an SVG: a section of the part, the path, contacts and errors on it.
 #pragma once
 
 #include "sim/picture/PictureRegion.h"
@@ -9,7 +9,7 @@
 
 namespace dotek::sim {
 
-// Where a view stands on the sheet, px.
+// Where a view is on the sheet, px.
 struct ViewFrame {
   std::size_t across = 2; // the axis that is not seen
   double left = 0, top = 0;
@@ -28,7 +28,7 @@ const PathStyle& pathStyle(PathKind kind);
 inline constexpr const char* kErrorColour = "#c8102e";
 inline constexpr const char* kContactColour = "#111111";
 
-// What a picture shows of its lists at most; the legend tells of the rest.
+// What a picture shows of its lists at most; the legend reports the rest.
 inline constexpr std::size_t kMostNumbered = 400; // contacts with a number
 inline constexpr std::size_t kMostErrors = 30;
 inline constexpr std::size_t kThinFrom = 5000; // from here on moves below half a px are joined

@@ -58,7 +58,7 @@ private:
   struct Crossing {
     PlanePoint at{};
     std::uint32_t next = kNone;
-    bool border = false; // the way to the next one runs along the border of the region
+    bool border = false; // the path to the next one runs along the border of the region
     bool used = false;
   };
 
@@ -267,7 +267,7 @@ private:
         crossings_[i].used = true;
         loop.push_back(i);
       }
-      // From behind a border on, so that no line is broken in two.
+      // from after a border on, so that no line is broken in two.
       const auto border =
           std::find_if(loop.begin(), loop.end(), [&](std::uint32_t i) { return crossings_[i].border; });
       const bool hasBorder = border != loop.end();

@@ -1,5 +1,5 @@
 // The 3D view: parallel projection, drawn without a graphics processor. Part and probe are filled into a depth
-// buffer; the way is drawn over them as lines, faint where they stand before it.
+// buffer; the path is drawn over them as lines, faint where they are before it.
 "use strict";
 
 function makeView(canvas, data) {
@@ -103,7 +103,7 @@ function makeView(canvas, data) {
   // Fills one triangle; corners in dots and depth.
   function fill(ax, ay, az, bx, by, bz, cx, cy, cz, colour) {
     const area = (bx - ax) * (cy - ay) - (by - ay) * (cx - ax);
-    if (!(area < 0)) return; // seen from behind
+    if (!(area < 0)) return; // seen from after
     const w = image.width, h = image.height;
     const left = Math.max(0, Math.ceil(Math.min(ax, bx, cx) - 0.5)), last = Math.min(w - 1, Math.floor(Math.max(ax, bx, cx) + 0.5));
     const top = Math.max(0, Math.ceil(Math.min(ay, by, cy) - 0.5)), low = Math.min(h - 1, Math.floor(Math.max(ay, by, cy) + 0.5));
@@ -159,7 +159,7 @@ function makeView(canvas, data) {
     }
   }
 
-  // Whether part or probe stands before a place.
+  // Whether part or probe is before a place.
   function isHidden(x, y, z) {
     const column = Math.round(x * dots), row = Math.round(y * dots);
     if (column < 0 || row < 0 || column >= image.width || row >= image.height) return false;

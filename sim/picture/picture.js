@@ -110,7 +110,7 @@ window.onerror = (message, source, line) => {
     showBlock();
     redraw();
   }
-  if (data.probe === null) { // the way is the machine's own
+  if (data.probe === null) { // the path is the machine's own
     byId("what").textContent = "machine";
     byId("gauge").hidden = true;
   }

@@ -18,7 +18,7 @@ refusedPost() {
   check "bad input, $1: a diagnostic" says "error:"
 }
 
-# foundByLint WHAT FILE: lint tells of it, at the file.
+# foundByLint WHAT FILE: lint reports it, at the file.
 foundByLint() {
   dotek lint "$folder"
   check "bad input, $1: lint" hasStatus 1 2
@@ -77,7 +77,7 @@ foundByLint "a dialog without OK" CycleData.dlg
 
 damaged picture
 sed -i "s/'###.##;0'/'##.;'/" "$post"
-refusedPost "a picture with nothing behind its point"
+refusedPost "a picture with nothing after its point"
 damaged digits
 dotek post "$folder" --prog "$post" --routine defProbeCycle --seq 90:10 --clearance 5 --set X=12345
 check "a value with more digits than its picture: refused" hasStatus 1

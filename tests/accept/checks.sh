@@ -38,7 +38,7 @@ hasStatus() { # STATUS...
 printsNothing() { [[ ! -s $out ]] || { printf 'standard output is not empty:\n'; cat "$out"; return 1; }; }
 printsSomething() { [[ -s $out ]] || { printf 'standard output is empty\n'; cat "$err"; return 1; }; }
 
-# says TEXT...: each stands in standard output or standard error.
+# says TEXT...: each is in standard output or standard error.
 says() {
   local text
   for text in "$@"; do

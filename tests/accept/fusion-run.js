@@ -12,4 +12,4 @@ const result = vm.runInThisContext("dotekRun")(input);
 process.stdout.write(result.text);
 if (result.errors !== "") console.log("error: " + result.errors);
 if (result.failure !== "") console.log("failure: " + result.failure);
-if (result.afterError) console.log("defect: written behind an error");
+if (result.afterError) console.log("defect: written after an error");

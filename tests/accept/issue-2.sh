@@ -20,7 +20,7 @@ valuesOf() {
   esac
 }
 
-# The recorded blocks, each behind its line number in the file.
+# The recorded blocks, each after its line number in the file.
 recorded() {
   case $1 in
     MERENI.OSA.X) awk 'NR >= 15 && NR <= 23 { print NR ":" $0 }' "$required/required-x.nc" ;;
@@ -80,7 +80,7 @@ for cycle in "${folders[@]}"; do
   check "$cycle is posted" hasStatus 0
   check "$cycle: blocks as recorded, but for the list" sameButForTheList "$cycle"
   check "$cycle: sequence numbers" countsFromNinety
-  check "$cycle: the repair is told once" saysOnce open-if-at-return
+  check "$cycle: the repair is reported once" saysOnce open-if-at-return
   check "$cycle: the reading that was used" says "line 75"
   cp "$out" "$scratch/posted-$cycle"
 
@@ -95,7 +95,7 @@ samePost() { cmp "$out" "$scratch/posted-$1"; }
 
 dotek post "$cycles/MERENI.OSA.XYZ" --prog "$prog" --routine defProbeCycle --recover --seq 90:10 --clearance 5 \
   --set IB=10 JB=-10 IC=10 JC=10
-check "several values behind one --set" samePost MERENI.OSA.XYZ
+check "several values after one --set" samePost MERENI.OSA.XYZ
 dotek post "$cycles/MERENI.OSA.X" --prog "$prog" --recover --seq 90:10 --clearance 5 --set X=10
 check "the routine that prints is found" samePost MERENI.OSA.X
 dotek post "$cycles/MERENI.OSA.X" --prog "$prog" --routine defProbeCycle --recover --seq 90:10 --clearance 5 --field X=a

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Issue 3: a CAM probe cycle becomes a Fanuc macro program that stands on its own.
+# Issue 3: a CAM probe cycle becomes a Fanuc macro program that is on its own.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 . tests/accept/checks.sh
@@ -57,7 +57,7 @@ for cycle in MERENI.OSA.X MERENI.OSA.Y MERENI.OSA.Z MERENI.OSA.XYZ MERENI.STRED.
     for control in fanuc-0i-md fanuc-31i-b fanuc-6m; do
       convert "$cycle" --probe-macros "$macros" --control "$control"
       if ((status == 0)); then
-        check "$cycle, $macros, $control: stands alone" standsAlone
+        check "$cycle, $macros, $control: is alone" standsAlone
         check "$cycle, $macros, $control: nothing on standard output but the program" says "M99"
       else
         check "$cycle, $macros, $control: refused" hasStatus 1
@@ -94,7 +94,7 @@ check "a constant that does not fit its picture is refused" hasStatus 1
 
 dotek convert "$cycles/MERENI.OSA.X" --to fanuc
 check "a path that shows its touch converts without a Prog" hasStatus 0
-check "a path that shows its touch: stands alone" standsAlone
+check "a path that shows its touch: is alone" standsAlone
 dotek convert "$cycles/MERENI.OSA.Z" --to fanuc
 check "a path that does not show its touch is refused" hasStatus 1
 check "at its line" says "ToolPath.mac:9:"

@@ -28,7 +28,7 @@ draw() { # OPTION FILE
 }
 
 draw --svg first.svg
-check "the run into the part is told" says "[rapid-into-part]"
+check "the run into the part is reported" says "[rapid-into-part]"
 check "an SVG is written" test -s "$scratch/first.svg"
 check "it is XML" python3 -c 'import sys, xml.dom.minidom as m; m.parse(sys.argv[1])' "$scratch/first.svg"
 for text in 'id="XY"' 'id="XZ"' 'id="YZ"' 'id="legend"' 'id="scale"' 'class="rapid"' 'class="feed"' 'class="measuring"' '>E1<'; do

@@ -27,7 +27,7 @@ convert() {
 }
 
 # blocks FILE: words of each block up to M30; comments, N and file names aside. A jump says how many blocks on its
-# target stands, or that it is the end, a subprogram, or which tail.
+# target is, or that it is the end, a subprogram, or which tail.
 blocks() {
   tr -d '\r' <"$1" | awk '
     { sub(/ *;.*/, ""); if ($1 !~ /^N[0-9]+$/) next

@@ -41,7 +41,7 @@ measured() { # WHAT CASES
 
 for axis in X Y Z XYZ; do
   measured "MERENI.OSA.$axis on Mikroprog" 2000 verify "MERENI.OSA.$axis" --to mikroprog --control mikroprog-mill --cases 2000
-  # Two cases of thousand may lie where the corrected way of XYZ meets the part.
+  # Two cases of thousand may lie where the corrected path of XYZ meets the part.
   check "MERENI.OSA.$axis is proved on Mikroprog" proves 2000 1995
   verify "MERENI.OSA.$axis" --to mikroprog --control mikroprog-mill --cases 500 --datum operator --seed 2
   check "MERENI.OSA.$axis is proved with an operator's datum" proves 500 500

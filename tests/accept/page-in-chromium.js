@@ -1,4 +1,4 @@
-// Put behind a page of `--html` by page-in-chromium.sh: uses the page as a reader would and writes what it found
+// Put after a page of `--html` by page-in-chromium.sh: uses the page as a reader would and writes what it found
 // into #result. What the page shows is held against the data in its file, not against its own variables.
 "use strict";
 

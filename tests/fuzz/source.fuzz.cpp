@@ -10,7 +10,7 @@
 
 using namespace dotek;
 
-// The first byte chooses the encoding, the next two where the finding stands.
+// The first byte chooses the encoding, the next two where the finding is.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if (size < 3) return 0;
   constexpr Encoding kFallbacks[] = {Encoding::Utf8, Encoding::Cp1250, Encoding::Cp852};

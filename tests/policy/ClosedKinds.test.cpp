@@ -64,7 +64,7 @@ std::set<std::string> kindsOf(const std::string& list) {
   return out;
 }
 
-// The index behind the bracket that closes the one at `open`; texts of the file hold no lone bracket of that
+// The index after the bracket that closes the one at `open`; texts of the file hold no lone bracket of that
 // kind that would matter here.
 std::size_t closing(const std::string& text, std::size_t open, char opens, char closes) {
   int depth = 0;

@@ -30,7 +30,7 @@ struct Message {
 // Words that judge the user or beg.
 constexpr std::array<std::string_view, 5> kBlame = {"illegal", "invalid", "must", "please", "sorry"};
 
-// The string literal that begins at or behind `at`; `at` moves behind it.
+// The string literal that begins at or after `at`; `at` moves after it.
 std::string literal(const std::string& text, std::size_t& at) {
   std::string out;
   at = text.find('"', at) + 1;
@@ -89,7 +89,7 @@ TEST_CASE("policy: the table of messages is read whole") {
   REQUIRE(all.size() == messageTable().size());
   std::set<std::string> codes;
   for (const Message& message : all)
-    CHECK_MESSAGE(codes.insert(message.code).second, message.code << " stands twice");
+    CHECK_MESSAGE(codes.insert(message.code).second, message.code << " appears twice");
   for (const MessageInfo& info : messageTable()) {
     CHECK(codes.contains(std::string(info.code)));
     CHECK_MESSAGE(info.explanation.size() > 20, info.code << " is not explained");

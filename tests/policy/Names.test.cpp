@@ -26,7 +26,7 @@ void checkAbsent(const std::set<std::string>& names) {
   }
 }
 
-// What stands between the first `open` behind `from` and the next `close`.
+// What is between the first `open` after `from` and the next `close`.
 std::string between(const std::string& line, char open, char close) {
   const std::size_t begin = line.find(open);
   const std::size_t end = begin == std::string::npos ? begin : line.find(close, begin + 1);

@@ -22,7 +22,7 @@ const std::vector<TreeFile>& tree();
 
 std::vector<std::string> linesOf(std::string_view text);
 std::string lowerCase(std::string_view text);
-// Where `word` stands between characters that are neither letter, digit nor underscore; npos: nowhere.
+// Where `word` is between characters that are neither letter, digit nor underscore; npos: nowhere.
 std::size_t findWord(std::string_view text, std::string_view word);
 
 } // namespace dotek::tests

@@ -47,7 +47,7 @@ TEST_CASE("findings of different files are counted apart; equal ones count once"
   CHECK(count(diagnostics, diag::TooManyFindings::code) == 0);
 }
 
-TEST_CASE("an error that is not listed leaves an error behind") {
+TEST_CASE("an error that is not listed leaves an error after it") {
   Diagnostics diagnostics;
   for (std::uint32_t i = 0; i <= Diagnostics::kMostAlike; ++i)
     diagnostics.report<diag::SyntaxError>({0, i, i + 1}, "x").note({0, 0, 1}, "y");

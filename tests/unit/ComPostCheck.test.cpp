@@ -24,7 +24,7 @@ struct Checked : Prog {
   }
 };
 
-// The statements stand in an entry point, so that nothing is said of calls.
+// The statements are in an entry point, so that nothing is said of calls.
 std::string findings(const std::string& statements) {
   Checked prog("progStart:\n" + statements + "\nRETURN\n");
   return prog.only();

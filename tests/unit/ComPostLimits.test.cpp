@@ -51,7 +51,7 @@ TEST_CASE("long lines are one error each") {
   CHECK(routines.only().find("too-many-tokens") != std::string::npos);
 }
 
-TEST_CASE("many errors are told in a time that grows with their number") {
+TEST_CASE("many errors are reported in a time that grows with their number") {
   Prog strays("a:\n" + repeated(")\n", 40000) + "RETURN");
   CHECK(strays.findings().size() == Diagnostics::kMostAlike + 1);
   Prog texts("a:\n" + repeated("'END\n", 40000) + "RETURN");

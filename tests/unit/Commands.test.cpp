@@ -1,4 +1,4 @@
-// What cannot stand in a golden case: results in files, and inputs too large to keep.
+// What cannot appear in a golden case: results in files, and inputs too large to keep.
 #include "DataFolder.h"
 #include "tests/GoldenRunner.h"
 
@@ -112,7 +112,7 @@ TEST_CASE("100,000 nested brackets are one finding") {
     CHECK(lint.out.find("CycleData.mac:2:") != std::string::npos);
     CHECK(lint.out.find("error: ") == lint.out.rfind("error: "));
     CHECK(lint.out.size() < 20000);
-    // The same within the limits of length: the depth is what is told.
+    // The same within the limits of length: the depth is what is reported.
     const CommandResult deep = runDotek({"lint", folder.path() + "/surface-x", "--fail-on", "error",
                                          "--limit", "line-bytes=1000000", "--limit", "line-tokens=1000000"},
                                         folder.path());

@@ -16,7 +16,7 @@ namespace dotek::tests {
 
 using Vector = std::array<double, 3>;
 
-// The ball's centre moves along a straight line. A body answers with the share of the way at which the ball
+// The ball's centre moves along a straight line. A body answers with the share of the path at which the ball
 // touches it. Bodies are inflated by the ball with sharp edges, so tests touch away from edges.
 class ContactWorld final : public sim::SkipSignal {
 public:
@@ -88,7 +88,7 @@ public:
   int moves = 0;
 
 private:
-  // Shares of the way between which the ball is within something.
+  // Shares of the path between which the ball is within something.
   struct Span {
     double first = -std::numeric_limits<double>::infinity();
     double last = std::numeric_limits<double>::infinity();

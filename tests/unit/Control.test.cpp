@@ -92,7 +92,7 @@ TEST_CASE("what every built-in control has: the functions that a probing program
     CHECK(function(control, 'M', 30) == Function::ProgramEnd);
     CHECK(function(control, 'M', 99) == Function::Return);
     CHECK(control.find('G', 5101 * 10) == nullptr); // a call of that machine's own macros
-    // What the program asks before it begins stands in the same groups on all three.
+    // What the program asks before it begins is in the same groups on all three.
     CHECK(group(control, 'G', 0) == 1);
     CHECK(group(control, 'G', 170) == 2);
     CHECK(group(control, 'G', 900) == 3);
@@ -271,8 +271,8 @@ TEST_CASE("defects of a control, with line and column: values") {
 }
 
 TEST_CASE("defects of a control, with line and column: variables") {
-  CHECK(changed("system_step=20,", "") == "10:70: `work_offset_x` stands without `system_step`");
-  CHECK(changed("axis_step=1,", "") == "10:70: an offset of X stands without `axis_step`");
+  CHECK(changed("system_step=20,", "") == "10:70: `work_offset_x` is without `system_step`");
+  CHECK(changed("axis_step=1,", "") == "10:70: an offset of X is without `axis_step`");
   CHECK(changed("skip=5061", "skip=5003") == "10:51: #5003 is a variable of `block_end` and of `skip`");
   CHECK(changed("system_step=20", "system_step=2") ==
         "10:70: #5223 is a variable of `work_offset_x` twice: its steps meet");
@@ -302,9 +302,9 @@ TEST_CASE("defects of a control, with line and column: motion and alarms") {
         "11:45: `no-fead` is no alarm that Dotek raises; the nearest is `no-feed`");
   CHECK(alarm("'no-feed 11: A','no-feed 12: B'").ends_with("`no-feed` is given twice"));
   CHECK(changed("axis_step=1,", "axis_step=1,extended_x=7001,")
-            .ends_with("`extended_x` stands without `extended_step` and `extended_count`"));
+            .ends_with("`extended_x` is without `extended_step` and `extended_count`"));
   CHECK(changed("axis_step=1,", "axis_step=1,tool_wear=2000,")
-            .ends_with("tool offsets stand without `tool_count`"));
+            .ends_with("tool offsets are without `tool_count`"));
 }
 
 TEST_CASE("defects of a control, with line and column: codes") {
@@ -323,14 +323,13 @@ TEST_CASE("defects of a control, with line and column: codes") {
   CHECK(changed("G4 dwell: d", "M4 dwell: d") == "13:35: `dwell` is no M function, which `M4` is");
   CHECK(changed("G4 dwell: d", "G4 spindle-off: d") ==
         "13:35: `spindle-off` is no G function, which `G4` is");
-  CHECK(changed("G54 work-system: c", "M54: c") ==
-        "12:44: `M54` stands in modal group 14, which holds G codes");
+  CHECK(changed("G54 work-system: c", "M54: c") == "12:44: `M54` is in modal group 14, which holds G codes");
   CHECK(changed("G54 work-system: c", "G60 work-system: c") ==
         "12:44: `G60` is no work system; they are G54 to G59");
   CHECK(changed("G54 work-system: c", "G90.1 absolute: c") ==
-        "12:44: `G90.1` belongs with `G90` and stands in another group");
+        "12:44: `G90.1` belongs with `G90` and is in another group");
   CHECK(changed("G91 incremental: b", "G20 inch: b") ==
-        "11:70: `G20` cannot stand in group 3 with `G90`: one does not end the other");
+        "11:70: `G20` cannot appear in group 3 with `G90`: one does not end the other");
   std::string many;
   for (int i = 100; i < 2200; ++i)
     many += fmt::format("'G{}: x',", i);

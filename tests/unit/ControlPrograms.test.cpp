@@ -59,7 +59,7 @@ TEST_CASE("defects of a control, with line and column: macro programs") {
             .ends_with("`X5` is no code; `G31` or `M30` is the form"));
   CHECK(with("calls = [{code='G5.1',program=9000,as='macro'")
             .ends_with("a code that calls a program is a whole number"));
-  CHECK(with("calls = [{code='M31',program=9000,as='macro'").ends_with("`M31` stands among the codes, too"));
+  CHECK(with("calls = [{code='M31',program=9000,as='macro'").ends_with("`M31` is among the codes, too"));
   CHECK(with("calls = [{code='M50',count=3,program=9000,as='macro'," + origin +
              "},{code='M52',program=9010,as='macro'")
             .ends_with("`M52` is given twice"));

@@ -49,7 +49,7 @@ TEST_CASE("convert -d writes a file for each program, and --map beside them") {
   CHECK(folder.files() == 3);
 }
 
-TEST_CASE("convert leaves nothing behind where one program of several is refused") {
+TEST_CASE("convert leaves nothing after it where one program of several is refused") {
   const Folder folder;
   const CommandResult result =
       runDotek({"convert", example("surface-x"), example("surface-y"), "--prog", example("mill-post.txt"),
@@ -75,7 +75,7 @@ TEST_CASE("a file that cannot be renamed leaves no temporary file") {
 TEST_CASE("internal-defect ends with status 3 and writes nothing") {
   const driver::CommonOptions options;
   project::Session session(options);
-  session.diagnostics().report<diag::InternalDefect>({}, "a label stands twice");
+  session.diagnostics().report<diag::InternalDefect>({}, "a label appears twice");
   const driver::Outcome outcome = driver::outcomeOf(session, "half a program");
   CHECK(outcome.diagnostics.all().front().code == "internal-defect");
   CHECK(outcome.status == 3);

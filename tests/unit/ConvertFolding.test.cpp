@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// A block with its blanks, its N number and the way numbers are written taken away: G65 P9770 Z5. ->
+// A block with its blanks, its N number and the path numbers are written taken away: G65 P9770 Z5. ->
 // G65P9770Z5
 std::string canonical(const std::string& block) {
   std::string out;
@@ -97,7 +97,7 @@ void folds(const Case& one) {
     for (const std::string& field : one.fields)
       post.common.set.emplace_back(field, numberText(field == "G" ? system(random) : place(random) / 100.0));
     const driver::Outcome posted = driver::post(post);
-    if (posted.status != 0) continue; // the dialog turns the values away
+    if (posted.status != 0) continue; // the dialog rejects the values
     driver::ConvertOptions convert;
     convert.inputs = post.folders;
     convert.common = post.common;

@@ -1,5 +1,5 @@
 // A converted program, run as text on random arguments, against `post` on the same values: the same blocks in
-// the same order, and an alarm exactly where the dialog turns the values away.
+// the same order, and an alarm exactly where the dialog rejects the values.
 #include "driver/Driver.h"
 #include "tests/Draws.h"
 #include "tests/GoldenRunner.h"

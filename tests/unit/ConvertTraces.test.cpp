@@ -132,7 +132,7 @@ std::vector<std::vector<std::uint64_t>> numbersOf(const std::string& text) {
   return out;
 }
 
-// Kept: every number stands in the result, in order. Free: a number that is added stands once, and no GOTO of
+// Kept: every number is in the result, in order. Free: a number that is added appears once, and no GOTO of
 // the source names it. "": all holds.
 std::string numbersKept(const std::string& source, const Converted& result) {
   const auto after = numbersOf(result.text);
@@ -190,7 +190,7 @@ std::vector<Pair> pairs() {
   };
 }
 
-// What is wrong with the conversion of this text; "": nothing. `refused` tells why there is none.
+// What is wrong with the conversion of this text; "": nothing. `refused` says why there is none.
 std::string fault(const std::string& text, const Pair& pair, std::uint32_t deleted, std::string& refused) {
   refused.clear();
   const Converted result = convert(text, pair.from, pair.to, pair.renumber);
@@ -318,7 +318,7 @@ TEST_CASE("convert traces: written programs of each kind of statement") {
       "O1\n/#100=1\n/2#101=2\n/3GOTO5\nN4#102=3\n/N5#103=4\n/2IF[#1EQ#0]THEN#104=5\n/2 G65P70A1.\n/G0X5.\n"
       "/2M98P70\nM30\nO70\n#105=#105+1\nM99\n",
       "O1\n#1=0\n/2N7#1=#1+1\nIF[#1LT3]GOTO8\nM30\nN8#1=#1+1\nGOTO7\n",
-      // THEN with each statement that may stand there
+      // THEN with each statement that may appear there
       "O1\nIF[#1EQ#0]THEN#100=#1\nIF[#1NE#0]THEN#101=1\nIF[1LT2]THEN#[100+2]=-#1\nIF[1GT2]THEN#3006=1(NO)\n"
       "IF[1LT2]THENGOTO5\n#103=1\nN5IF[1LT2]THENDPRNT[A#100[20]]\nM30\n",
       "O1\nIF[[#1EQ#0]AND[#2EQ#0]]THEN#100=1\nIF[[1EQ2]OR[#2EQ#0]]GOTO7\n#101=1\nN7IF[[1EQ1]XOR[2EQ2]]GOTO8\n"
@@ -393,7 +393,7 @@ TEST_CASE("convert traces: M99 P into blocks that are renumbered") {
   CHECK(told("O1\nN1M98P2\n#100=1\nN5#101=1\nM30\n" + macro) == "");
   // Called by a code, which names no program.
   CHECK(told("O1\nN1G5101\n#100=1\nN5#101=1\nM30\nO9101\nM99P5\n") == "");
-  // Which of two it is hangs on the place of the call.
+  // Which of two it is depends on the place of the call.
   CHECK(told("O1\nN5#100=#100+1\nIF[#100GT3]GOTO7\nG65P2\nN5#101=1\nN7M30\n" + macro) == "renumber-callers ");
 }
 

@@ -30,7 +30,7 @@ struct Cycle {
   driver::NamedTexts mapped = {};
   bool recover = false;
   driver::NamedTexts values; // each another, so that no word passes for another
-  driver::NamedTexts start;  // where the probe stands before
+  driver::NamedTexts start;  // where the probe is before
 };
 
 constexpr const char* kSets[] = {"", "easyprobe", "inspection-plus", "dotek"};
@@ -153,7 +153,7 @@ void prove(const Cycle& cycle, const driver::ConvertOptions& options, WordCase h
   const WordReport report = checkWords(how, blocks, lines, outcome);
   for (const std::string& lost : report.lost)
     FAIL_CHECK("neither emitted nor translated nor explained: " << lost);
-  // Without its messages the same result leaves unexplained what only they tell of.
+  // Without its messages the same result leaves unexplained what only they report.
   driver::Outcome silent = outcome;
   silent.diagnostics = {};
   CHECK(checkWords(how, blocks, lines, silent).lost.size() >= static_cast<std::size_t>(report.explained));
@@ -302,7 +302,7 @@ TEST_CASE("examples: every NC word of each kind is emitted, translated or explai
   Cycle cycle = examples((root() / "tests" / "words" / "kinds.txt").generic_string()).front();
   all({cycle}, counts);
   CHECK(counts.converted > 10);
-  // A code that the source leaves to what is in force stands before the axes.
+  // A code that the source leaves to what is in force is before the axes.
   driver::ConvertOptions options = optionsFor(cycle, true);
   options.to = "fanuc";
   const std::string program = driver::convert(options).output;

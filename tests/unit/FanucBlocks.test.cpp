@@ -108,7 +108,7 @@ TEST_CASE("fanuc blocks: switching the probe") {
   std::erase_if(cycle.cycle.body, [](const ir::CycleStatement& statement) {
     return std::holds_alternative<ir::ProbePower>(statement.node);
   });
-  SUBCASE("a source that never switches it on is told") {
+  SUBCASE("a source that never switches it on is reported") {
     const Emission out = Target().emit(cycle.cycle);
     CHECK(out.codes().contains("probe-not-switched"));
     CHECK(out.holds("DOES NOT SWITCH THE PROBE ON"));
@@ -141,7 +141,7 @@ TEST_CASE("fanuc blocks: a block without a meaning is copied to its own control 
   cycle.add(block);
   const Emission out = Target().emit(cycle.cycle);
   CHECK(out.body() == Lines{"G30 Z0."});
-  CHECK(out.codes().empty()); // the lowering has told of it
+  CHECK(out.codes().empty()); // the lowering has given it
   CHECK(Target("easyprobe", "fanuc-31i-b").emit(cycle.cycle).codes() ==
         std::set<std::string>{"opaque-block-refused"});
 }
@@ -268,7 +268,7 @@ TEST_CASE("fanuc header: ranges that the checks allow") {
   CHECK(range([&](Maker& m, VariableId a) {
           m.refuseIf(ir::compare(Relation::GreaterEqual, use(a), number(9)), "high");
         }).find(" BELOW 9)") != std::string::npos);
-  // Two intervals, and one that hangs on another argument.
+  // Two intervals, and one that depends on another argument.
   CHECK(range([&](Maker& m, VariableId a) {
           m.refuseIf(ir::join(ir::Connective::And, more(a, 1), less(a, 3)), "between");
         }).find("SEE ALARMS") != std::string::npos);

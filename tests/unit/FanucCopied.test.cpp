@@ -60,7 +60,7 @@ TEST_CASE("fanuc copied: what a bare code cannot put back is refused") {
   CHECK(codesOf({"G81 Z-5. R2."}) == refused);
   CHECK(codesOf({"G51.1 X0."}) == refused);
   CHECK(codesOf({"G0 G90 G40 G49 G80", "T5 M6"}) == refused);
-  // The message names the way out.
+  // The message names the path out.
   CHECK(emitCopied({"G68 X0. Y0. R30."}).all().find("write `G69`") != std::string::npos);
 }
 
@@ -80,7 +80,7 @@ TEST_CASE("fanuc copied: what ends as the caller provides it is not refused") {
   CHECK(Target().emit(cycle.cycle).codes().empty());
 }
 
-TEST_CASE("fanuc copied: one way through the branch is enough to refuse") {
+TEST_CASE("fanuc copied: one path through the branch is enough to refuse") {
   Maker cycle;
   const VariableId a = cycle.field("a", 1);
   const ir::LabelId over = cycle.cycle.addLabel({"over", {}});
@@ -102,7 +102,7 @@ TEST_CASE("fanuc copied: groups that a bare code puts back are kept") {
   CHECK(out.holds("=#4015"));
   CHECK(out.holds("=#4010"));
   CHECK(words(restored(emitCopied({"G18 G91 G95 G2 X1. R5."}))) == plain);
-  // The caller stands in G54 to G59, which an alarm makes sure.
+  // The caller is in G54 to G59, which an alarm makes sure.
   const Emission extended = emitCopied({"G54.1 P2"});
   CHECK(extended.holds("=#4014"));
   CHECK(extended.codes().empty());
@@ -152,7 +152,7 @@ TEST_CASE("fanuc: a program takes the number of no macro") {
   CHECK_FALSE(codes(9030, "easyprobe").contains("program-number-of-code"));
 }
 
-TEST_CASE("fanuc: a feed move without a feed is told of") {
+TEST_CASE("fanuc: a feed move without a feed is reported of") {
   Maker cycle;
   cycle.move(ir::Motion::Feed, ir::Axis::X, number(1));
   const Emission out = Target().emit(cycle.cycle);
@@ -162,7 +162,7 @@ TEST_CASE("fanuc: a feed move without a feed is told of") {
   stated.move(ir::Motion::Rapid, ir::Axis::X, number(0), number(500));
   stated.move(ir::Motion::Feed, ir::Axis::X, number(1));
   CHECK(Target().emit(stated.cycle).codes().empty());
-  // A macro leaves another feed behind.
+  // A macro leaves another feed after it.
   stated.move(ir::Motion::Protected, ir::Axis::Z, number(1), number(200));
   stated.move(ir::Motion::Feed, ir::Axis::X, number(2));
   CHECK(Target().emit(stated.cycle).codes() == Codes{"feed-not-stated", "probe-not-switched"});

@@ -105,7 +105,7 @@ TEST_CASE("fanuc letters: what the cycle does not use needs none, nor does a sta
   CHECK(out.has("G0 X#28"));
 }
 
-TEST_CASE("fanuc letters: I, J, K stand in order in every call") {
+TEST_CASE("fanuc letters: I, J, K are in order in every call") {
   Maker cycle;
   const VariableId k = cycle.field("K", 1), j = cycle.field("J", 2), i = cycle.field("I", 3);
   cycle.move(ir::Motion::Rapid, ir::Axis::Z, plus(use(k), plus(use(j), use(i))));

@@ -165,7 +165,7 @@ TEST_CASE("fanuc measure: a position that is not known") {
   CHECK_FALSE(Target().emit(cycle.cycle).codes().contains("start-unknown"));
 }
 
-TEST_CASE("fanuc measure: the start point is stale behind a change of the offset") {
+TEST_CASE("fanuc measure: the start point is stale after a change of the offset") {
   Maker cycle;
   cycle.surface(ir::Axis::X, number(10), number(56), number(0));
   cycle.move(ir::Motion::Protected, ir::Axis::X, number(1), nullptr, ir::Frame::Start);

@@ -35,7 +35,7 @@ TEST_CASE("fanuc: a surface for the macro set of the source") {
   const Target target;
   const Emission out = target.emit(cycle.cycle);
   checkProgram(out);
-  // Letters: S, X, I and Z fill arguments; Zb has none and gets the first that is free, hosts behind it.
+  // Letters: S, X, I and Z fill arguments; Zb has none and gets the first that is free, hosts after it.
   CHECK(out.body() == std::vector<std::string>{"G65 P9770 Z#2", "M5", "M9", "M31", "G65 P9770 Z5. F1000.",
                                                "G65 P9770 Z#26 F200.", "G65 P9023 S#19 X#24 I#4", "#550=#138",
                                                "G0 Z#1 F5000.", "M32"});
@@ -191,7 +191,7 @@ TEST_CASE("fanuc: a control without IF .. THEN and joined conditions") {
   CHECK(alarmFor(60) == 100);
 }
 
-TEST_CASE("fanuc: what the 6M cannot tell stands in the header") {
+TEST_CASE("fanuc: what the 6M cannot tell is in the header") {
   SurfaceCycle cycle;
   ir::Measure& touch = std::get<ir::Measure>(cycle.cycle.body[6].node);
   touch.setting.reset();

@@ -108,7 +108,7 @@ TEST_CASE("calls of another set: programs of the file that are called between") 
         "result-not-translated");
 }
 
-TEST_CASE("calls of another set: what is put before a call has lines of its own, behind the block's label") {
+TEST_CASE("calls of another set: what is put before a call has lines of its own, after the block's label") {
   const Translated out =
       toEasy("#1=1\nN10(A)G90G65P9811X#24S1(B)\nN20G65P9811Z5.S1\n/N30G65P9832\nGOTO10\nM99\n");
   CHECK(out.codes.empty());

@@ -53,7 +53,7 @@ Converted convert(const std::string& source, const std::string& from, const std:
   return out;
 }
 
-// The blocks of one program, without what stands around them.
+// The blocks of one program, without what is around them.
 std::string blocks(const std::string& source, const std::string& from = "fanuc-31i-b",
                    const std::string& to = "") {
   const Converted out = convert("O1\n" + source, from, to.empty() ? from : to);
@@ -84,7 +84,7 @@ TEST_CASE("macro B programs: null stays null where it was") {
   CHECK(blocks("IF[[#1]GT[#2]]GOTO5\nN5\n") == "IF[#1 GT #2]GOTO 5\nN5\n");
 }
 
-TEST_CASE("macro B programs: a number in brackets behind an address is no count of increments") {
+TEST_CASE("macro B programs: a number in brackets after an address is no count of increments") {
   CHECK(blocks("G0X[10]Y0\n", "fanuc-0i-md", "fanuc-6m") == "G0 X[10] Y0\n");
   CHECK(blocks("G0X10Y5.\n", "fanuc-0i-md", "fanuc-6m") == "G0 X10. Y5.\n");
   CHECK(blocks("G0X10Y-1500\n", "fanuc-6m", "fanuc-0i-md") == "G0 X0.01 Y-1.5\n");
@@ -104,7 +104,7 @@ TEST_CASE("macro B programs: THEN and joined conditions on a control without the
   CHECK(old("IF[[#1EQ1]OR[SQRT[#2]EQ2]]GOTO5\nN5\n") == "joined-elsewhere");
 }
 
-TEST_CASE("macro B programs: another count of digits is told, once, where it matters") {
+TEST_CASE("macro B programs: another count of digits is reported, once, where it matters") {
   const auto told = [](const std::string& text, const std::string& to) {
     return convert("O1\n" + text, "fanuc-31i-b", to).told;
   };
@@ -238,7 +238,7 @@ private:
   std::mt19937 random_;
 };
 
-// Digits and what stands where in the text do not count.
+// Digits and what is where in the text do not count.
 std::string withoutPlaces(const std::string& text) {
   return std::regex_replace(text, std::regex(" ;.*"), "");
 }

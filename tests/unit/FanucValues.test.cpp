@@ -87,7 +87,7 @@ TEST_CASE("fanuc values: functions of the control") {
   CHECK(Value().text(apply(UnaryOp::RoundUp, d)) == "G0 Z[FUP[#7]]");
   CHECK(Value().text(apply(UnaryOp::SquareRoot, d)) == "G0 Z[SQRT[#7]]");
   CHECK(Value().text(apply(UnaryOp::ArcTangent, d)) == "G0 Z[ATAN[#7]]");
-  // Behind an address ROUND would round to the increment.
+  // After an address ROUND would round to the increment.
   CHECK(Value().text(apply(UnaryOp::Round, d)) == "#28=ROUND[#7]; G0 Z#28");
   CHECK(Value().emit(apply(UnaryOp::ArcSine, d), "fanuc-6m").codes().contains("function-missing"));
   CHECK(Value().emit(ir::binary(BinaryOp::Modulo, d, e)).codes().contains("function-missing"));

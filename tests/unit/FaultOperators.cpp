@@ -58,7 +58,7 @@ std::size_t digitsFrom(const Line& line, std::size_t at) {
   return end;
 }
 
-// Behind a value that begins at `at`; `at` itself: there is none.
+// After a value that begins at `at`; `at` itself: there is none.
 std::size_t valueEnd(const Line& line, std::size_t at) {
   std::size_t end = at;
   if (line.at(end) == '-' || line.at(end) == '+') ++end;
@@ -96,7 +96,7 @@ std::vector<Word> wordsOf(const Line& line) {
   return out;
 }
 
-// A number as it stands: not that of a variable.
+// A number as it is: not that of a variable.
 struct Literal {
   Span span;
   char before = 0; // the character in front of it
@@ -116,7 +116,7 @@ std::vector<Literal> literalsOf(const Line& line) {
 }
 
 struct Variable {
-  Span digits; // behind #
+  Span digits; // after #
   int number = 0;
 };
 
@@ -233,7 +233,7 @@ private:
   bool moves(const Line& line) const {
     return words_.travels.contains(calledBy(line)) || hasCode(line, 'G', "0") || hasCode(line, 'G', "1");
   }
-  // The first move behind a measure.
+  // The first move after a measure.
   void retract(const Line& line) {
     if (!moves(line)) return;
     for (std::size_t i = now_; i-- > 0;) {
@@ -393,7 +393,7 @@ private:
                     lines_[now_ + 1].text + "\n" + line.text});
   }
 
-  // The line where the program begins in which line `i` stands.
+  // The line where the program begins in which line `i` is.
   std::size_t programOf(std::size_t i) const {
     while (i > 0 && !lines_[i].packed().starts_with("O"))
       --i;

@@ -20,7 +20,7 @@ struct Fault {
   std::string kind;     // the operator's name
   std::size_t line = 0; // from 0
   std::string before;   // the line
-  std::string after;    // what stands there instead; "": the line is dropped; may be two lines
+  std::string after;    // what is there instead; "": the line is dropped; may be two lines
 
   // "change a sign in line 12: `X#24` becomes `X-#24`"
   std::string text() const;

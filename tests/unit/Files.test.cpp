@@ -1,4 +1,4 @@
-// Reading inputs and writing results: what is refused, and how it is told.
+// Reading inputs and writing results: what is refused, and how it is reported.
 #include "support/Files.h"
 
 #include "tests/GoldenRunner.h"

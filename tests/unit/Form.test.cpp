@@ -92,14 +92,14 @@ TEST_CASE("defects of a form, with line and column") {
   CHECK(formError(command("name = 'A#'\ntext = 'M'\n")) == "5:8: `A#` is given with its suffix; write `A`");
   CHECK(formError(command("name = 'a b'\ntext = 'M'\n")).starts_with("5:8: `a b` is no keyword"));
   CHECK(formError(command("name = 'SeqC'\ntext = 'M'\n")) ==
-        "5:8: `SeqC` is a sequence word and stands under `[[command]]`");
+        "5:8: `SeqC` is a sequence word and is under `[[command]]`");
   CHECK(formError(command("name = 'IF'\ntext = 'M'\n")).starts_with("5:8: `IF` is a word of the language"));
   CHECK(formError(command("name = 'A'\ntext = 'M'\nvalue = 'clearence'\npicture = '#'\n")) ==
         "7:9: `clearence` is no host input; the nearest is `clearance`");
   CHECK(formError(command("name = 'A'\ntext = 'M'\nvalue = 'clearance'\n")) ==
         "7:9: `clearance` has no `picture` to be printed in");
   CHECK(formError(command("name = 'A'\ntext = 'M'\npicture = '#'\n"))
-            .starts_with("7:11: `picture` stands without `value`"));
+            .starts_with("7:11: `picture` is without `value`"));
   CHECK(formError(command("name = 'A'\ntext = 'M'\nvalue = 'retract'\npicture = '##.;'\n"))
             .starts_with("8:15: picture `##.;`: nothing follows"));
   CHECK(formError(command("name = 'A'\ntext = 'M'\nvalue = 'retract'\npicture = '+##'\n"))

@@ -28,7 +28,7 @@ struct Case {
   bool recover = false;
 };
 
-// Random values: what the fragment prints is what `post` prints; what the dialog turns away is an error in
+// Random values: what the fragment prints is what `post` prints; what the dialog rejects is an error in
 // both.
 void equalsPost(const Case& one) {
   driver::ConvertOptions convert = toFusion(one.folder, one.prog);

@@ -25,7 +25,7 @@ TEST_CASE("the kernel's double prints what the kernel prints") {
   CHECK(found == "80 cases\n");
 }
 
-TEST_CASE("the kernel's double tells of a wrong result") {
+TEST_CASE("the kernel's double reports a wrong result") {
   // The comparison itself can fail.
   const std::string found = fusion::evaluate(
       "createFormat = function () { return {format: function () { return \"?\"; }, getPrefix: "

@@ -28,7 +28,7 @@ std::string tree(const std::string& line) {
 
 } // namespace
 
-TEST_CASE("gibbs: a statement word is a name where a name stands") {
+TEST_CASE("gibbs: a statement word is a name where a name is") {
   // The same line with an ordinary name has the same tree, but for the name.
   const auto same = [](const std::string& line, const std::string& word) {
     std::string expected = line;

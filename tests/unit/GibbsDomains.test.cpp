@@ -31,7 +31,7 @@ std::string refusals(const std::string& checks, const std::set<std::string>& ass
   return run.findings() == lowered.findings() ? run.findings() : run.findings() + " | " + lowered.findings();
 }
 
-// "both ways" where the lowered checks agree with the run for values of either verdict.
+// "both paths" where the lowered checks agree with the run for values of either verdict.
 std::string compared(const std::string& checks, const std::set<std::string>& assumptions = {}) {
   LowerProject project = projectOf(checks, assumptions);
   return project.lowerChecks() ? project.compareOnValues() : "refused: " + project.findings();
@@ -68,9 +68,9 @@ TEST_CASE("gibbs domains: a result needs a variable, and the message says so") {
 
 TEST_CASE("gibbs domains: functions of known texts have a value") {
   CHECK(compared(":ask\ndialog \"e.dlg\"\nm$ = \"low\"\nif a < 5 then m$ = trim$(\" high \")\n"
-                 "if ucase$(m$) = \"LOW\" then goto done\nmessage m$\ngoto ask\n:done\n") == "both ways");
+                 "if ucase$(m$) = \"LOW\" then goto done\nmessage m$\ngoto ask\n:done\n") == "both paths");
   CHECK(compared(":ask\ndialog \"e.dlg\"\nif a < val(left$(\"54\", 1)) + len(\"ab\") then goto ask\n"
-                 "if b > asc(chr$(6)) then goto ask\n") == "both ways");
+                 "if b > asc(chr$(6)) then goto ask\n") == "both paths");
 }
 
 TEST_CASE("gibbs domains: what is typed into an input without default is not known") {

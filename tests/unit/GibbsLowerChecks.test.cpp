@@ -1,4 +1,4 @@
-// Checks of CycleData.mac as code: what the interpreter turns away, the lowered checks turn away with the
+// Checks of CycleData.mac as code: what the interpreter rejects, the lowered checks reject with the
 // message that it shows.
 #include "tests/unit/GibbsLowerProject.h"
 
@@ -67,7 +67,7 @@ TEST_CASE("gibbs lower: a cycle declares its fields with what the dialog says of
 TEST_CASE("gibbs lower: checks of the examples agree with the interpreter") {
   for (const char* name : {"surface-x", "surface-y", "surface-z", "corner-xyz", "bore"}) {
     INFO(name);
-    CHECK(comparedFolder(root() / "examples" / name) == "both ways");
+    CHECK(comparedFolder(root() / "examples" / name) == "both paths");
   }
 }
 
@@ -79,7 +79,7 @@ TEST_CASE("gibbs lower: checks of the corpus agree with the interpreter") {
     if (!entry.is_directory()) continue;
     ++folders;
     INFO(entry.path().filename().string());
-    CHECK(comparedFolder(entry.path()) == "both ways");
+    CHECK(comparedFolder(entry.path()) == "both paths");
   }
   CHECK(folders > 0);
 }
@@ -88,10 +88,10 @@ TEST_CASE("gibbs lower: a message becomes an alarm at its place") {
   CHECK(lowered("callback_returncode = 0\n:ask\ndialog \"d.dlg\"\nbad = 0\nif G < 54 then bad = 1\n"
                 "if bad = 1 then message \"offset\"\nif bad > 0 then goto ask\n") ==
         "callback_returncode = 0\nbad = 0\nG>=54 -> L1\nbad = 1\nL1:\nbad<>1 -> L2\nalarm [offset]\nL2:\n");
-  // Without a message the way back itself is the alarm.
+  // Without a message the path back itself is the alarm.
   CHECK(lowered(":ask\ndialog \"d.dlg\"\nif G < 54 then goto ask\n") == "G>=54 -> L1\nalarm []\nL1:\n");
   CHECK(lowered(":ask\ndialog \"d.dlg\"\nif G < 54 then stop \"no\"\n") == "G>=54 -> L1\nalarm [no]\nL1:\n");
-  // Several messages on the way back: the first one that the user sees.
+  // Several messages on the path back: the first one that the user sees.
   CHECK(lowered(
             ":ask\ndialog \"d.dlg\"\nif G >= 54 then goto done\nmessage \"one\"\nmessage \"two\"\ngoto ask\n"
             ":done\n") == "G>=54 -> L1\nalarm [one]\nL1:\n");
@@ -105,40 +105,40 @@ TEST_CASE("gibbs lower: shapes of checks agree with the interpreter") {
         compared(data +
                  ":ask\ndialog \"d.dlg\"\nif G < 54 then goto low\nif abs(a) <= r then goto near\n"
                  "goto done\n:low\nmessage \"low\"\ngoto ask\n:near\nmessage \"near\"\ngoto ask\n:done\n") ==
-        "both ways");
+        "both paths");
   }
   SUBCASE("message, then the same condition again") {
     CHECK(compared(":ask\ndialog \"d.dlg\"\nif G < 54 then message \"low\"\nif G < 54 then goto ask\n"
-                   "if a > 20 then message \"far\"\nif a > 20 then goto ask\n") == "both ways");
+                   "if a > 20 then message \"far\"\nif a > 20 then goto ask\n") == "both paths");
   }
   SUBCASE("a count of mistakes") {
     CHECK(compared(
               ":ask\ndialog \"d.dlg\"\nbad = 0\nif G < 54 then bad = bad + 1\nif a > b then bad = bad + 1\n"
-              "if bad > 0 then message \"wrong\"\nif bad > 0 then goto ask\n") == "both ways");
+              "if bad > 0 then message \"wrong\"\nif bad > 0 then goto ask\n") == "both paths");
   }
   SUBCASE("block IF with ELSE") {
     CHECK(
         compared(":ask\ndialog \"d.dlg\"\nif a > 0 then\n[\nif b > a then\n[\nmessage \"b\"\ngoto ask\n]\n]\n"
                  "else\n[\nif c >= 0 then\n[\nmessage \"c\"\ngoto ask\n]\n]\n",
-                 {"block-if", "else"}) == "both ways");
+                 {"block-if", "else"}) == "both paths");
   }
   SUBCASE("AND, OR, NOT") {
     CHECK(compared(":ask\ndialog \"d.dlg\"\nif G < 54 or G > 59 and a > 0 then goto bad\n"
                    "if not b > c then goto bad\ngoto done\n:bad\nmessage \"bad\"\ngoto ask\n:done\n",
-                   {"and-or", "not"}) == "both ways");
+                   {"and-or", "not"}) == "both paths");
   }
   SUBCASE("FOR over a count") {
     CHECK(
         compared(
             ":ask\ndialog \"d.dlg\"\nsum = 0\nfor i = 1 to 3\nsum = sum + a * i\nif sum > 30 then goto bad\n"
             "next i\nif i <> 4 then goto bad\ngoto done\n:bad\nmessage \"sum\"\ngoto ask\n:done\n") ==
-        "both ways");
+        "both paths");
   }
   SUBCASE("FOR down, and to a field") {
     CHECK(compared(":ask\ndialog \"d.dlg\"\nn = 0\nfor i = 6 to b step -2\nn = n + 1\nif n > 9 then goto "
                    "out\nnext i\n"
                    ":out\nif n > 3 then message \"many\"\nif n > 3 then goto ask\n",
-                   {"negative-step"}) == "both ways");
+                   {"negative-step"}) == "both paths");
   }
   SUBCASE("macro with values") {
     CHECK(compared(
@@ -146,46 +146,46 @@ TEST_CASE("gibbs lower: shapes of checks agree with the interpreter") {
                      "if wrong > 0 then message \"far\"\nif wrong > 0 then goto ask\n",
               {},
               {{"far.mac", "args v, lim\nlocal d\nd = abs(v) - lim\nif d < 0 then wrong = wrong + 1\n"}}) ==
-          "both ways");
+          "both paths");
   }
   SUBCASE("included lines") {
     CHECK(compared(":ask\ndialog \"d.dlg\"\n#include \"rest.mac\"\n", {},
                    {{"rest.mac", "if G > 59 then message \"high\"\nif G > 59 then goto ask\n"}}) ==
-          "both ways");
+          "both paths");
   }
   SUBCASE("return codes") {
     CHECK(compared("callback_returncode = 0\ndialog \"d.dlg\"\nif G < 54 then callback_returncode = 1\n"
-                   "if a < 0 then callback_returncode = 2\n") == "both ways");
+                   "if a < 0 then callback_returncode = 2\n") == "both paths");
     CHECK(compared("callback_returncode = 0\ndialog \"d.dlg\"\nif G >= 54 then goto done\nmessage \"low\"\n"
-                   "callback_returncode = 1\n:done\n") == "both ways");
+                   "callback_returncode = 1\n:done\n") == "both paths");
     CHECK(compared("dialog \"d.dlg\"\ncode = 0\nif G < 54 then code = 3\ncallback_returncode = code\n") ==
-          "both ways");
-    CHECK(compared("dialog \"d.dlg\"\ncallback_returncode = a - 10\n") == "both ways");
+          "both paths");
+    CHECK(compared("dialog \"d.dlg\"\ncallback_returncode = a - 10\n") == "both paths");
   }
   SUBCASE("what was computed before the dialog counts") {
     CHECK(compared(data +
                    "least = r * 2 + 1\nG = 99\n:ask\ndialog \"d.dlg\"\nif a < least then message \"a\"\n"
                    "if a < least then goto ask\nif G = 99 then message \"G\"\nif G = 99 then goto ask\n") ==
-          "both ways");
+          "both paths");
   }
   SUBCASE("a field that the checks change") {
     CHECK(compared(":ask\ndialog \"d.dlg\"\nif a < 0 then a = -a\nif a < 5 then message \"a\"\n"
-                   "if a < 5 then goto ask\nswap_values b, c\nif b > c then goto ask\n") == "both ways");
+                   "if a < 5 then goto ask\nswap_values b, c\nif b > c then goto ask\n") == "both paths");
   }
   SUBCASE("texts") {
     CHECK(compared(
               ":ask\ndialog \"d.dlg\"\nm$ = \"\"\nif G < 54 then m$ = \"low\"\nif G > 59 then m$ = \"high\"\n"
-              "if m$ = \"\" then goto done\nmessage m$\ngoto ask\n:done\n") == "both ways");
+              "if m$ = \"\" then goto done\nmessage m$\ngoto ask\n:done\n") == "both paths");
   }
   SUBCASE("functions") {
     CHECK(compared("degrees\n:ask\ndialog \"d.dlg\"\nif int(a) <> a then goto bad\nif sqrt(abs(b)) > 3 then "
                    "goto bad\n"
                    "if sin(c) > 0.2 then goto bad\ngoto done\n:bad\nmessage \"bad\"\ngoto ask\n:done\n") ==
-          "both ways");
+          "both paths");
   }
 }
 
-TEST_CASE("gibbs lower: many independent checks stay few ways") {
+TEST_CASE("gibbs lower: many independent checks stay few paths") {
   std::string checks = ":ask\ndialog \"d.dlg\"\nbad = 0\n";
   std::string fields;
   for (int i = 1; i <= 24; ++i) {
@@ -268,7 +268,7 @@ TEST_CASE("gibbs lower: a macro that calls itself ends at the limit") {
   CHECK(project.findings() == "call-too-deep@call \"deep\", v - 1");
 }
 
-TEST_CASE("gibbs lower: more ways than the limit allows are told") {
+TEST_CASE("gibbs lower: more paths than the limit allows are reported") {
   std::string checks = ":ask\ndialog \"d.dlg\"\nn = 0\n";
   for (int i = 1; i <= 14; ++i)
     checks += "if a > " + std::to_string(i) + " then n = n * 2 + b\n";

@@ -163,7 +163,7 @@ TEST_CASE("gibbs lower: shapes that show a touch") {
     PathProject project(moves);
     return project.lowerPath() ? project.text(project.cycle.body) : project.findings();
   };
-  SUBCASE("0 stands with one side, and is no touch") {
+  SUBCASE("0 is with one side, and is no touch") {
     CHECK(stays(down + "if a >= 0 then x a-r\nif a < 0 then x a+r\n" + up) ==
           "move Z W Z\na<0 -> L1\na<=0 -> L1\nmeasure X S a\nL1:\na>=0 -> L2\nmeasure X S a\nL2:\n"
           "move Z W h\n");
@@ -183,7 +183,7 @@ TEST_CASE("gibbs lower: shapes that show a touch") {
     CHECK(path(down + "to b-px, c-py, Z-plane\nif a > 0 then x a+b-px-r\nx b-px\nz h-plane\n") ==
           "move Z W Z\nmove X W b Y W c Z W Z\na<=0 -> L1\nmeasure X W (a+b)\nL1:\nmove Z W h\n");
   }
-  SUBCASE("in both directions, one behind the other") {
+  SUBCASE("in both directions, one after the other") {
     CHECK(path(down +
                "if a > 0 then goto touches\ngoto out\n:touches\nx a-r\nx 0\nx r-a\nx 0\n:out\nz h-plane\n") ==
           "move Z W Z\na<=0 -> L1\nmeasure X S a\nmeasure X S -(a)\nL1:\nmove Z W h\n");
@@ -200,14 +200,14 @@ TEST_CASE("gibbs lower: shapes that show a touch") {
     CHECK(text.find("measure X S a\n") != std::string::npos);
     CHECK(text.find("move X") == std::string::npos);
   }
-  SUBCASE("behind a loop of many rounds, a condition at the head of the next") {
+  SUBCASE("after a loop of many rounds, a condition at the head of the next") {
     // The second loop is reached with so many values of b that its counter is no longer followed one by one.
     const std::string text =
         path(down + "i = 0\nfor j = 1 to b\ni = 0\nnext j\nfor j = 1 to 3\n"
                     "if c <> 2+i then i = 5\nif b < 0 then x b+r\nx 0\nnext j\nz h-plane\n");
     CHECK(text.find("measure X S b\n") != std::string::npos);
   }
-  SUBCASE("the way back on all axes") {
+  SUBCASE("the path back on all axes") {
     CHECK(path(down + "if a > 0 then x a-r\nto 0, 0, Z-plane\nz h-plane\n") ==
           "move Z W Z\na<=0 -> L1\nmeasure X S a\nL1:\nmove Z W h\n");
   }
@@ -238,7 +238,7 @@ TEST_CASE("gibbs lower: what does not show a touch is refused where it could be 
   CHECK(path(down + "if a > 0 then x a-r\nif b > 0 then x 0\nz h-plane\n") == kRefusedX + "a-r");
   // Said twice, the measurement would have come back in between.
   CHECK(path(down + "if a > 0 then goto on\ngoto out\n:on\nx a-r\nx a-r\n:out\n" + up) == kRefusedX + "a-r");
-  // The radius stands in the begin and not in the target.
+  // The radius is in the begin and not in the target.
   CHECK(path(down + "x a-r\nif a > 0 then x 0\nx a-r\ny 5\nz h-plane\n").starts_with("touch-not-shown@"));
   // Down and up again without anything in between.
   CHECK(path("z Z-plane\nz h-plane\n") == "touch-not-shown@add_custom_drill_cycle_path feed_z, Z-plane");
@@ -280,7 +280,7 @@ TEST_CASE("gibbs lower: a touch goes to where the path has not stood") {
   CHECK(path("z Z-plane\n" + touchX + "z h-plane\nz c-plane\nz h-plane\n") == refused("z, c-plane"));
   CHECK(path("to 0, 0, h-plane\nz Z-plane\n" + touchX + "z h-plane\nz c-plane\nz h-plane\n") ==
         refused("z, c-plane"));
-  // A touch that the path does not name as such is told at each of its lines.
+  // A touch that the path does not name as such is reported at each of its lines.
   CHECK(path("to 0, 0, h-plane\nz Z-plane\nz h-plane\nto 5, 0, h-plane\nz Z-plane\nz h-plane\n") ==
         refused("z, Z-plane") + "; " + refused("z, Z-plane"));
   // On one way the path has stood there, on the other it has not.

@@ -142,7 +142,7 @@ struct LowerProject : GibbsProject {
     return out;
   }
 
-  // Where the body takes the probe, as the interpreter tells it: positions from entry and retract plane,
+  // Where the body takes the probe, as the interpreter says it: positions from entry and retract plane,
   // without repetition. "" where the body does not come to its end.
   std::string bodyPath(const std::map<std::string, double>& values) {
     ir::Environment environment(cycle.variables.size());
@@ -285,7 +285,7 @@ struct LowerProject : GibbsProject {
   }
 
   // Random values for fields and tool radius, whole and halves around what checks compare with; the first
-  // disagreement, or how the values were spread: "both ways".
+  // disagreement, or how the values were spread: "both paths".
   std::string compareOnValues(int rounds = 400, std::uint32_t seed = 7) {
     if (const std::string broken = violations(); !broken.empty()) return broken;
     std::mt19937 random(seed);
@@ -318,7 +318,7 @@ struct LowerProject : GibbsProject {
       }
       (ir::runChecks(cycle, environment, 100000).end == ir::CheckRun::End::Passes ? passed : rejected)++;
     }
-    return passed > 0 && rejected > 0 ? "both ways" : passed > 0 ? "all pass" : "all rejected";
+    return passed > 0 && rejected > 0 ? "both paths" : passed > 0 ? "all pass" : "all rejected";
   }
 };
 

@@ -161,9 +161,9 @@ TEST_CASE("gibbs: syntax messages speak of what was written") {
       {"a =", "ends after `=`"},
       {"a = b *", "ends after `*`"},
       {"10:", "label"},
-      {"if a > 1 then", "behind THEN"},
+      {"if a > 1 then", "follows THEN"},
       {"then b = 1", "THEN without IF"},
-      {"contour 5", "nothing stands behind"},
+      {"contour 5", "nothing follows"},
       {"contour\na = 1", "`[` is missing"},
       {"\nelse b = 1", "belongs to no IF"},
   };

@@ -151,12 +151,12 @@ TEST_CASE("conditions on one unknown exclude each other") {
           {}) == "passes");
 }
 
-TEST_CASE("what no host input stands behind is named in a note") {
+TEST_CASE("what no host input follows is named in a note") {
   CHECK(verdict("get_tool_data 1, mtool_length, l\ndialog \"d\"\nif l < 50 then stop \"short\"\n", {}) ==
         "depends [short] condition-open@l < 50");
 }
 
-TEST_CASE("the return code may hang on a host input") {
+TEST_CASE("the return code may depend on a host input") {
   CHECK(verdict(kRadius + "dialog \"d\"\ncallback_returncode = r - 3\n", {}) == "depends [] tool_radius");
 }
 
@@ -188,7 +188,7 @@ TEST_CASE("the parameter keyword is no variable") {
                 {{"start_x", 10}}) == "passes");
 }
 
-TEST_CASE("too many ways, and steps of all of them together") {
+TEST_CASE("too many paths, and steps of all of them together") {
   GibbsProject project;
   std::string macro;
   for (int i = 0; i < 20; ++i) {

@@ -163,7 +163,7 @@ TEST_CASE("moves carry the other axes along, and round binary fractions away") {
   CHECK(gibbs::pathText(*path) == "feed(1,2,3)\ny 0.3\nz 0\n");
 }
 
-TEST_CASE("a path that hangs on a host input names its flag") {
+TEST_CASE("a path that depends on a host input names its flag") {
   GibbsProject project("get_custom_drill_cycle_data retract_plane, rp\n"
                        "add_custom_drill_cycle_path feed_z, 10-rp\n");
   CHECK(project.path() == "");

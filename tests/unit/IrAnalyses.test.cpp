@@ -55,7 +55,7 @@ CycleStatement touchX(const ExpressionPtr& system) {
   return statement(measure);
 }
 
-// Position behind the statements.
+// Position after the statements.
 Position behind(std::vector<CycleStatement> body) {
   Cycle cycle = abc();
   cycle.addLabel({"l", {}});

@@ -218,7 +218,7 @@ TEST_CASE("ir: dead assignments go, in circles too, but not those that may fail"
   CHECK(cycle.body.size() == 1); // the 0 was put in by the fold before
 }
 
-TEST_CASE("ir: null is carried where it may stand") {
+TEST_CASE("ir: null is carried where it may appear") {
   Cycle cycle = small();
   const LabelId end = cycle.addLabel({"end", {}});
   cycle.body = {statement(Assign{2, nullValue()}),

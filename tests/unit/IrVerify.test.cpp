@@ -204,7 +204,7 @@ TEST_CASE("ir: verify: kinds") {
   fine(Assign{kAngle, binary(BinaryOp::Direction, variable(kLength), variable(kLength))});
 }
 
-TEST_CASE("ir: verify: a finding stands at the narrowest place") {
+TEST_CASE("ir: verify: a finding is at the narrowest place") {
   const auto wrong = binary(BinaryOp::Add, variable(kLength), variable(kOffset), {7, 10, 15});
   CycleStatement it = statement(Store{constant(1), wrong});
   it.origin.ranges = {{7, 0, 20}};
@@ -233,7 +233,7 @@ TEST_CASE("ir: verify: null") {
   CHECK(
       inBody({statement(Assign{kLocal, nullValue()}), statement(Assign{kLocal, constant(1)}), use}).empty());
 
-  // A test tells the ways apart.
+  // A test says the paths apart.
   const auto read = statement(Store{constant(1), variable(kOptional)});
   const auto label = statement(Label{0});
   CHECK(inBody({statement(Branch{kOptionalNull, 0}), read, label}).empty());

@@ -126,7 +126,7 @@ TEST_CASE("lint: what is wrong with a suppression") {
   CHECK(findings("ignore field-not-defined").empty());
 }
 
-TEST_CASE("lint --fix makes the safe repairs and tells what is left") {
+TEST_CASE("lint --fix makes the safe repairs and says what is left") {
   const DataFolder folder;
   const std::string text =
       "\xEF\xBB\xBFprogStart:\r\n SetFlag('a')\r\n IF Flag? ('a')\r\n  SeqC' M32''' EOL\r\n"

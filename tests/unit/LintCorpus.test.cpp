@@ -1,4 +1,4 @@
-// docs/lint-corpus.md against what lint tells of the corpus.
+// docs/lint-corpus.md against what lint reports the corpus.
 #include "tests/GoldenRunner.h"
 
 #include <doctest/doctest.h>

@@ -94,7 +94,7 @@ public:
   void restore(std::size_t file) const { folder_.write(bundle_.files[file].name, bundle_.files[file].text); }
   std::string path(const std::string& name) const { return folder_.path() + "/" + name; }
 
-  // All that stands at the top, as the arguments of a command line.
+  // All that is at the top, as the arguments of a command line.
   std::vector<std::string> paths() const {
     std::set<std::string> out;
     for (const InputFile& file : bundle_.files)
@@ -144,7 +144,7 @@ std::string verdict(const driver::Outcome& outcome) {
   return out;
 }
 
-// Values of the fields of a folder: as they stand, each at the ends of what can be typed, and drawn ones.
+// Values of the fields of a folder: as they are, each at the ends of what can be typed, and drawn ones.
 std::vector<driver::NamedTexts> valuesOf(const InputFile& data) {
   static const std::regex field("(?:^|\n)\\s*(\\w+)\\s*=\\s*(-?[0-9.]+)");
   driver::NamedTexts given;
@@ -170,7 +170,7 @@ std::vector<driver::NamedTexts> valuesOf(const InputFile& data) {
   return out;
 }
 
-// What the user sees and types: labels wherever they stand in the file, the rest in its order.
+// What the user sees and types: labels wherever they are in the file, the rest in its order.
 std::string dialogMeaning(const std::string& text) {
   std::set<std::string> labels;
   std::string out;
@@ -188,7 +188,7 @@ std::string dialogMeaning(const std::string& text) {
 }
 
 // One after the other what a cycle means: the dialog, the posted text, the verdict of its checks and the path
-// for the first values, and for the drawn ones; the routines of the post that print no cycle. nullopt behind
+// for the first values, and for the drawn ones; the routines of the post that print no cycle. nullopt after
 // the last.
 std::optional<std::string> meaningOfCycle(const Written& written, const std::string& folder,
                                           std::size_t part) {
@@ -249,7 +249,7 @@ std::optional<std::string> meaningOfProgram(const std::string& path) {
   return out;
 }
 
-// One after the other what the bundle means where this file is changed; nullopt behind the last.
+// One after the other what the bundle means where this file is changed; nullopt after the last.
 std::optional<std::string> meaning(const Written& written, const InputFile& file, std::size_t part) {
   if (file.kind == 'n') {
     if (part > 0) return std::nullopt;
@@ -424,7 +424,7 @@ TEST_CASE("lint mutation: other inputs and another seed") {
   check("second", 1001);
 }
 
-TEST_CASE("lint mutation: inputs that were written behind the rules") {
+TEST_CASE("lint mutation: inputs that were written after the rules") {
   check("third", 2001);
 }
 

@@ -1,4 +1,4 @@
-// The compiled machine behind the interface of the slow evaluator.
+// The compiled machine after the interface of the slow evaluator.
 #pragma once
 
 #include "tests/unit/SlowMacroB.h"

@@ -1,4 +1,4 @@
-// What a watcher is told of the machine: every motion in coordinates of the machine, and nothing where
+// What a watcher is reported of the machine: every motion in coordinates of the machine, and nothing where
 // nothing moves.
 #include "tests/unit/SimHarness.h"
 
@@ -72,7 +72,7 @@ TEST_CASE("watch: straight moves in coordinates of the machine") {
   CHECK(w.told("G55\nG54\nG21\nM3 S100\nG4 P5\n").empty());
 }
 
-TEST_CASE("watch: a tool length without Z leaves the machine where it is known to stand") {
+TEST_CASE("watch: a tool length without Z leaves the machine where it is known to appear") {
   Watched w;
   w.told("G10 L10 P1 R80.\nG0 X1. Y1. Z-100.");
   // The control's coordinates are uncertain, the machine's are not.
@@ -82,7 +82,7 @@ TEST_CASE("watch: a tool length without Z leaves the machine where it is known t
   CHECK(w.told("G91 G28 Z0\nG49\nG90 X9.\nG43 H1 Z-150.") == "rapid 5 1 0; rapid 9 1 0; rapid 9 1 -70");
 }
 
-TEST_CASE("watch: a Z behind a reference return under G43 is uncertain until the length is given anew") {
+TEST_CASE("watch: a Z after a reference return under G43 is uncertain until the length is given anew") {
   Watched w;
   w.told("G10 L10 P1 R80.\nG43 H1 Z-150.");
   CHECK(w.told("G28 Z-140.") == "rapid 0 0 -60; rapid 0 0 0");
@@ -175,7 +175,7 @@ TEST_CASE("watch: canned cycles go to R, to the bottom and back") {
         "rapid 40 5 -50; rapid 40 5 -98; feed 40 5 -104; rapid 40 5 -50");
 }
 
-TEST_CASE("watch: the way of back boring is not known, its end is") {
+TEST_CASE("watch: the path of back boring is not known, its end is") {
   Watched w("fanuc-31i-b");
   w.told("G0 X0 Y0 Z50.");
   CHECK(w.told("G98 G87 X10. Z-4. R-20. Q1. F100") == "rapid 10 0 50; feed 10 0 50 ?");
@@ -193,7 +193,7 @@ TEST_CASE("watch: skip moves end where the machine stopped") {
   CHECK(w.told("G91 G31 X8. Y4.\nG90") == "skip 104 1 0");
 }
 
-TEST_CASE("watch: the run begins where the machine stands") {
+TEST_CASE("watch: the run begins where the machine is") {
   Watched w;
   w.machine->preset(5221, -10);
   sim::Position start{};

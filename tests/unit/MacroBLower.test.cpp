@@ -31,7 +31,7 @@ Lowered lower(const std::string& text, const std::string& control = "fanuc-31i-b
 
 } // namespace
 
-TEST_CASE("macro B lowering: null is kept by a variable that stands alone, else it counts as 0") {
+TEST_CASE("macro B lowering: null is kept by a variable that is alone, else it counts as 0") {
   CHECK(lower("#2=#1\n").body == "    store #2 = #1\n");
   CHECK(lower("#2=[#1]\n").body == "    store #2 = or_zero(#1)\n");
   CHECK(lower("#2=-#1\n").body == "    store #2 = -(or_zero(#1))\n");
@@ -40,7 +40,7 @@ TEST_CASE("macro B lowering: null is kept by a variable that stands alone, else 
   CHECK(lower("#[#1]=#[#2+1]\n").body == "    store #(or_zero(#1)) = #(or_zero(#2) + 1)\n");
 }
 
-TEST_CASE("macro B lowering: words keep null, but a null behind a minus has no value") {
+TEST_CASE("macro B lowering: words keep null, but a null after a minus has no value") {
   CHECK(lower("G0X#1Y-#2Z[#3+1.]\n").body == "    nc G0 X(#1) Y(-(#2)) Z(or_zero(#3) + 1.)\n");
   CHECK(lower("X-5.Y-#[#1]\n").body == "    nc X-5. Y(-(#(or_zero(#1))))\n");
   CHECK(lower("X[ROUND[#1]]\n").body == "    nc X(round_increment(or_zero(#1)))\n");
@@ -114,19 +114,19 @@ TEST_CASE("macro B lowering: what the control cannot run is refused") {
   // 115 and 116 are alarms of the run.
   CHECK(lower("#90=1\n").file);
   CHECK(lower("#0=1\n").file);
-  MacroFile drawing(":60\nA #1 = DIA D = 128\n#1=#1/2.\n");
+  MacroFile drawing(":60\nA #1 = DIA D = 128\n#1=#1/2.\n", frontend::macrob::Text::Listing);
   const auto profile = stdlib::Control::load(stdlib::DataFiles(), "fanuc-6m");
   CHECK_FALSE(frontend::macrob::lower(drawing.file, *profile, drawing.sources, drawing.diagnostics));
   CHECK(drawing.told().find("legend-not-run") != std::string::npos);
 }
 
-TEST_CASE("macro B lowering: blocks behind the end of the file belong to no program") {
+TEST_CASE("macro B lowering: blocks after the end of the file belong to no program") {
   CHECK(lower("G0X1.\n%\nX2.\n").told ==
-        "E 4:1 " + std::string(diag::BlocksBehindEnd::code) + "; W 4:1 text-behind-end");
+        "E 4:1 " + std::string(diag::BlocksBehindEnd::code) + "; W 4:1 text-after-end");
   CHECK_FALSE(lower("G0X1.\n%\nX2.\n").file);
   // Whole programs are read, and not in silence.
   const Lowered two = lower("M30(50%)\n(%)\n%\nO2(%)\nM99\n");
   CHECK(two.file);
-  CHECK(two.told == "W 5:1 text-behind-end");
+  CHECK(two.told == "W 5:1 text-after-end");
   CHECK(lower("#1=1(%)\n(%)\nM30\n%\n%\n").told == "");
 }

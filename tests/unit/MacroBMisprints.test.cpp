@@ -59,7 +59,7 @@ TEST_CASE("macrob: the letter O for a zero") {
   // GO5 may be short for GOTO5.
   holds({"GO5", "E 1:2 syntax-error", "letter-o-for-zero", ""});
   holds({"G0TO 5", "E 1:2 zero-for-letter-o", "zero-for-letter-o", "GOTO 5"});
-  // Each misprint is told; one of them is the error of the block.
+  // Each misprint is reported; one of them is the error of the block.
   CHECK(MacroFile("GO CO. M4\n").told() == "E 1:2 letter-o-for-zero; W 1:5 letter-o-for-zero");
   CHECK(MacroFile("GO XO. Y5,5\n").told() ==
         "E 1:2 letter-o-for-zero; W 1:5 letter-o-for-zero; W 1:10 decimal-comma");

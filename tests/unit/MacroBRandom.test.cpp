@@ -1,4 +1,4 @@
-// Made-up programs by two ways: the slow evaluator of the tree, and the compiled machine behind parser and
+// Made-up programs by two ways: the slow evaluator of the tree, and the compiled machine after parser and
 // lowering. DOTEK_RANDOM_PROGRAMS in the environment sets how many; the same numbers give the same programs.
 #include "tests/Draws.h"
 #include "tests/unit/MachineAdapter.h"
@@ -96,7 +96,7 @@ std::uint32_t programs() {
 
 } // namespace
 
-TEST_CASE("random macro b: the programs are read without an error and end in every way") {
+TEST_CASE("random macro b: the programs are read without an error and end in every path") {
   std::map<std::string, int> endings;
   std::map<std::string, int> reasons;
   int compared = 0;

@@ -148,7 +148,7 @@ private:
       const int number = subscript();
       expect("=");
       const Value value = expression();
-      if (position_ != text_.size()) throw std::runtime_error("more behind the value: " + text_);
+      if (position_ != text_.size()) throw std::runtime_error("more after the value: " + text_);
       if (number == 3000) {
         alarm = static_cast<int>(*value);
         for (const Line& line : lines_) {
@@ -184,7 +184,7 @@ private:
     return std::stoi(digits);
   }
 
-  // Behind `#`.
+  // After `#`.
   int subscript() {
     if (take("[")) {
       const Value value = expression();

@@ -72,7 +72,7 @@ TEST_CASE("macrob: precedence (1.4)") {
   CHECK(tree("#1=7MOD3+1") == "assignment|number 1|operation +|operation MOD|number 7|number 3|number 1");
 }
 
-TEST_CASE("macrob: the slash behind ATAN belongs to it where brackets follow (1.5)") {
+TEST_CASE("macrob: the slash after ATAN belongs to it where brackets follow (1.5)") {
   CHECK(tree("#1=ATAN[2]/[3]") == "assignment|number 1|function ATAN|number 2|number 3");
   CHECK(tree("#1=[ATAN[2]]/[3]") ==
         "assignment|number 1|operation /|function ATAN []1|number 2|number 3 []1");
@@ -94,7 +94,7 @@ TEST_CASE("macrob: words and what they take (1.1)") {
   CHECK(tree("G10L2P1N5") == "word G|number 10|word L|number 2|word P|number 1|word N|number 5");
 }
 
-TEST_CASE("macrob: functions without brackets stand in programs that ran (1.5)") {
+TEST_CASE("macrob: functions without brackets are in programs that ran (1.5)") {
   CHECK(tree("#1=ABS#[#7+#9]") ==
         "assignment|number 1|function ABS bare|variable|operation + []1|variable|number 7|variable|number 9");
   CHECK(tree("#1=[SIN #2]*3") ==
@@ -163,13 +163,13 @@ TEST_CASE("macrob: programs of a file (1.1)") {
   CHECK(shared.format() == "O10\nG90(A)\nM30\n");
 }
 
-TEST_CASE("macrob: what stands outside the marks") {
+TEST_CASE("macrob: what is outside the marks") {
   MacroFile leader("PART 7 REV B\n%\nO1\nM30\n%\n");
   CHECK(leader.told() == "W 1:1 text-before-start");
   CHECK(leader.file.programs.size() == 1);
   CHECK(leader.format() == "PART 7 REV B\n%\nO1\nM30\n%\n");
-  CHECK(MacroFile("%\nO1\nM30\n%\nO2\nM30\n%\n").told() == "W 4:1 text-behind-end");
-  CHECK(MacroFile("O1\nM30\n%\nO2\nM30\n%\n").told() == "W 3:1 text-behind-end");
+  CHECK(MacroFile("%\nO1\nM30\n%\nO2\nM30\n%\n").told() == "W 4:1 text-after-end");
+  CHECK(MacroFile("O1\nM30\n%\nO2\nM30\n%\n").told() == "W 3:1 text-after-end");
 }
 
 TEST_CASE("macrob: ends of blocks") {
@@ -233,7 +233,7 @@ TEST_CASE("macrob: a bad block is one error, and the next one is read") {
   CHECK(one("this is text") == "E 1:1 text-without-brackets");
   CHECK(one("G0 X{5}") == "E 1:5 unexpected-character");
   CHECK(one("#1=LTE") == "E 1:4 syntax-error");
-  // The block is kept as it stands, its number too.
+  // The block is kept as it is, its number too.
   CHECK(MacroFile("N5 #1=[2\n").dump().find("block N5\n      unread \"N5 #1=[2\"") != std::string::npos);
 }
 

@@ -243,7 +243,7 @@ TEST_CASE("letters of a call and the signature that they fit") {
   }
 }
 
-TEST_CASE("two signatures that fit are ambiguous, and the letters that lack stand together") {
+TEST_CASE("two signatures that fit are ambiguous, and the letters that lack are together") {
   MacroSet set; // no file can hold this: the loader refuses it
   MacroSignature one;
   one.program = 1;
@@ -294,7 +294,7 @@ TEST_CASE("defects of a macro set, with line and column") {
   CHECK(setError(surface(kX + "{letter='X',role='feed'},\n")) == "16:9: `X` is given twice");
   CHECK(
       setError(surface(kNominal + kX + "{letter='J',role='feed'},\n{letter='I',role='nominal',axis='X'},\n"))
-          .starts_with("18:9: `I` stands behind `J`: controls read I, J, K in that order"));
+          .starts_with("18:9: `I` follows `J`: controls read I, J, K in that order"));
   CHECK(setError(surface("{letter='X',role='target',axis='X'},\n")) ==
         "15:1: `frame` is missing; work or here is expected");
   CHECK(setError(surface("{letter='X',role='target',frame='work'},\n")) ==
@@ -323,7 +323,7 @@ TEST_CASE("defects of a macro set, with line and column") {
         "8:1: `I` is not required and `S` is, which needs it");
   CHECK(setError(signature("bore", "")) == "8:1: a bore has a diameter, which is required");
   CHECK(setError(signature("bore", "arguments = [{letter='D',role='diameter',required=true}," + kX + "]\n"))
-            .starts_with("8:1: a bore is measured from where the probe stands"));
+            .starts_with("8:1: a bore is measured from where the probe is"));
   CHECK(setError(signature("probe-off", "arguments = [" + kX + "]\n"))
             .starts_with("8:1: a call that switches the probe"));
   CHECK(setError(signature("protected-move", "")) == "8:1: a protected move has no target");
@@ -339,7 +339,7 @@ TEST_CASE("defects of a macro set, with line and column") {
   CHECK(setError(signature("protected-move", optional + "any_of = 'XY'\n")) ==
         "15:10: `Y` in `any_of` is no argument of the call");
   CHECK(setError(signature("protected-move", optional + "any_of = 'XX'\n")) ==
-        "15:10: `X` stands twice in `any_of`");
+        "15:10: `X` appears twice in `any_of`");
   CHECK(setError(signature("protected-move", "arguments = [" + kX + "]\nany_of = 'X'\n")) ==
         "16:10: `X` in `any_of` is required: the rule says nothing");
   // results
@@ -354,7 +354,7 @@ TEST_CASE("defects of a macro set, with line and column") {
   CHECK(results("{name='position-x',variable=135},\n{name='size',variable=135},\n") ==
         "19:23: #135 holds another result already");
   CHECK(results("{name='size',variable=500},\n") ==
-        "18:23: #500 stands in no `[[scratch]]`, and the call writes it");
+        "18:23: #500 is in no `[[scratch]]`, and the call writes it");
   // two readings of one call
   const std::string again = "[[signature]]\nprogram = 1\ntitle = 'two'\nintent = 'surface'\ngrade = "
                             "'inferred'\nsource = 'x'\narguments = [\n";
@@ -426,7 +426,7 @@ TEST_CASE("shared arguments and results, alarms, facts of probing: defects with 
   CHECK(setError(kHead + "[caller]\nneeds = '#520'\n" + certain + any) == "");
   CHECK(setError(kHead + "[caller]\n" + certain + any).find("nothing is needed") != std::string::npos);
   const std::string values = "[caller]\nvalues = [{variable=521,value=0.5}]\n";
-  CHECK(setError(kHead + values + certain + any).find("that `needs` tells of") != std::string::npos);
+  CHECK(setError(kHead + values + certain + any).find("that `needs` reports") != std::string::npos);
   CHECK(setError(kHead + values + "needs = '#521'\n" + certain + any) == "");
   CHECK(setError(kHead + any + "[[refused]]\nprograms = [1]\nletters = 'ST'\n" + certain)
             .find("P1 has no argument `S`") != std::string::npos);

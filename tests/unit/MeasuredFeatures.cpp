@@ -115,7 +115,7 @@ private:
     return expected + random_.between(-0.4, 0.4);
   }
   void aboveOrWithin(bool outside) { out_.start = middle_ + Point3{0, 0, outside ? kAbove : kDepth}; }
-  // Mostly less than the ball is wide: what forgets it meets the feature on the way down.
+  // Mostly less than the ball is wide: what forgets it meets the feature on the path down.
   double clearance() { return thousandths(0.6, random_.chance(0.5) ? 1 : 8); }
   std::string downBeside(double clearance) const {
     return "Z" + text(middle_.z + kDepth) + "R" + text(clearance);
@@ -223,7 +223,7 @@ private:
     place(builder, {0, 0, direction});
     const Point3 along{std::cos(direction * kDegree), std::sin(direction * kDegree), 0};
     out_.start = middle_ - along * way + Point3{0, 0, kDepth};
-    for (double* coordinate : {&out_.start.x, &out_.start.y}) // the machine stands on its increments
+    for (double* coordinate : {&out_.start.x, &out_.start.y}) // the machine is on its increments
       *coordinate = std::round(*coordinate * 1000) / 1000;
     const double distance = (middle_ + off_ - out_.start).dot(along);
     find(0, out_.start.x + along.x * distance, out_.start.x + along.x * way);

@@ -117,7 +117,7 @@ TEST_CASE("mikroprog: a program is ASCII, its jumps have targets, lint finds not
   }
 }
 
-TEST_CASE("mikroprog: a long program keeps its tails and subprograms behind it") {
+TEST_CASE("mikroprog: a long program keeps its tails and subprograms after it") {
   Statements long_;
   for (int i = 0; i < 120; ++i)
     long_.move(ir::Motion::Rapid, ir::Axis::X, number(i));

@@ -80,7 +80,7 @@ TEST_CASE("mikroprog: the datum of a surface lies on the part, whatever its erro
           const Run run(target, cycle.cycle, part);
           CHECK(run.machine.lastStop() == "");
           CHECK(run.count(MikroprogEvent::Kind::Record) == 1);
-          // The surface, in the coordinates that the program leaves behind.
+          // The surface, in the coordinates that the program leaves.
           CHECK(error - run.machine.offset()[i] == doctest::Approx(nominal).epsilon(1e-9));
           CHECK(run.machine.position()[2] == doctest::Approx(50 + (top ? nominal : 0)));
         }
@@ -92,7 +92,7 @@ TEST_CASE("mikroprog: with the tool length to the centre the datum of a top is t
   target.options.lengthToCentre = true;
   const Touch cycle(ir::Axis::Z, 20, -20, 7);
   Box part;
-  part.high[2] = 0.25 + kRadius; // the centre stands a radius above the surface
+  part.high[2] = 0.25 + kRadius; // the centre is a radius above the surface
   part.low[2] = -50;
   const Run run(target, cycle.cycle, part);
   CHECK(0.25 - run.machine.offset()[2] == doctest::Approx(7));

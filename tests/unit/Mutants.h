@@ -21,7 +21,7 @@ struct InputFile {
   char kind = 0;
 
   bool is(std::string_view kinds) const { return kinds.find(kind) != std::string_view::npos; }
-  // "web-x" of "web-x/ToolPath.mac"; "" of a file that stands in no folder.
+  // "web-x" of "web-x/ToolPath.mac"; "" of a file that is in no folder.
   std::string folder() const;
 };
 
@@ -80,7 +80,7 @@ std::vector<Line> linesOf(const InputFile& file);
 bool isBlank(const std::string& text);
 
 using Replace = std::function<std::optional<std::string>(const std::smatch&)>;
-// For each match in a line of the code: what stands in the group becomes the new text; nullopt: no site.
+// For each match in a line of the code: what is in the group becomes the new text; nullopt: no site.
 void eachMatch(const InputFile& file, const std::regex& pattern, std::size_t group, const Replace& replace,
                Sites& sites);
 // Takes out each line whose code matches somewhere.
@@ -99,7 +99,7 @@ Operator droppingLines(std::string_view id, std::string_view kinds, const char* 
 std::string misspelt(const std::string& name);
 // Without a letter of its middle; nullopt: too short.
 std::optional<std::string> shortened(const std::string& name);
-// Two different digits change places, as far behind as possible; nullopt: all are equal.
+// Two different digits change places, as far after as possible; nullopt: all are equal.
 std::optional<std::string> swapped(const std::string& digits);
 
 } // namespace dotek::tests

@@ -103,7 +103,7 @@ void callLetterLost(const InputFile& file, const Bundle&, Sites& sites) {
   });
 }
 
-// A block that reads a result, within three blocks behind what measures, moves before it.
+// A block that reads a result, within three blocks after what measures, moves before it.
 void readBeforeCall(const InputFile& file, const Bundle&, Sites& sites) {
   static const std::regex measures("G31|G65 ?P(98(0[0-9]|1[1-9])|9023|8\\d\\d\\d|7\\d\\d)");
   static const std::regex reads("^#[^=]*=.*#(1[23]\\d|506\\d|520)|^IF\\[.*#506\\d");

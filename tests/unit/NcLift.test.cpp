@@ -24,7 +24,7 @@ std::string pointed(const std::string& text, const std::string& set = "easyprobe
 
 } // namespace
 
-TEST_CASE("EasyProbe: coordinates are absolute, travels count from where the probe stands") {
+TEST_CASE("EasyProbe: coordinates are absolute, travels count from where the probe is") {
   CHECK(lifted("G65 P9770 Z{Zb}") == "protected Z=work:Zb\n");
   CHECK(lifted("G65 P9770 X{IB} Y{JB} F1000") == "protected X=work:IB Y=work:JB F=1000\n");
   CHECK(lifted("G65 P9023 S{G} X{a} I{X}") == "surface X=here:a sets G X=X\n");
@@ -40,7 +40,7 @@ TEST_CASE("Inspection Plus: the target is absolute, S counts from 1 and corrects
   CHECK(lifted("G65 P9811 Z-1.", "inspection-plus") == "surface Z=work:-1\n");
   CHECK(lifted("G65 P9814 D{d}", "inspection-plus") == "bore D=d\n");
   CHECK(lifted("G65 P9832\nG65 P9833", "inspection-plus") == "probe on\nprobe off\n");
-  // The nominal centre is where the probe stands: no block says it.
+  // The nominal centre is where the probe is: no block says it.
   CHECK(lifted("G65 P9814 D{d} S1", "inspection-plus") == "refused: [offset-without-nominal]");
   CHECK(pointed("G65 P9814 D{d} S1", "inspection-plus") == "S1");
   CHECK(lifted("G65 P9811 X1. S7", "inspection-plus") == "refused: [no-work-system]");
@@ -93,7 +93,7 @@ TEST_CASE(
   CHECK(lifted("G65 P9811 X1. Y1.", plus) == "refused: [macro-letters-refused]");
 }
 
-TEST_CASE("a macro leaves its motion and feed behind") {
+TEST_CASE("a macro leaves its motion and feed after it") {
   CHECK(lifted("G1 X1. F50\nG65 P9770 Z5.\nX2.") == "refused: [mode-not-known]");
   CHECK(lifted("G1 X1. F50\nG65 P9770 Z5.\nG1 X2.") ==
         "feed X=work:1 F=50\nprotected Z=work:5\nfeed X=work:2\n");
@@ -157,7 +157,7 @@ TEST_CASE("spindle, coolant, probe, stops, dwell") {
   CHECK(lifted("M99") == "refused: [end-in-branch]");
 }
 
-TEST_CASE("statements of a block stand in the order in which the control acts") {
+TEST_CASE("statements of a block are in the order in which the control acts") {
   // Modes, probe, spindle, coolant, motion, stop.
   CHECK(lifted("M0 G1 X1. F50 M9 M5 G90 (TEXT)") ==
         "(TEXT)\nmode G90\nspindle 0\ncoolant 0\nfeed X=work:1 F=50\nstop\n");

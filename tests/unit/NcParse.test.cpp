@@ -73,7 +73,7 @@ TEST_CASE("words of a block: blanks are free, numbers keep their digits") {
   CHECK(parsed("G0 X") == "G0 X?");
 }
 
-TEST_CASE("holes stand where a number stands") {
+TEST_CASE("holes are where a number is") {
   CHECK(parsed("X{a} Y {b}F200") == "X<the field `a`> Y<the field `b`> F200");
   CHECK(parsed("#550={a}+1") == "#{550}=(<the field `a`> + 1)");
   CHECK(parsed("X[{a}*2.]") == "X(<the field `a`> * 2.)");
@@ -161,7 +161,7 @@ TEST_CASE("statements of a macro program are refused by name") {
   CHECK(pointed("N5 GOTO100") == "GOTO");
 }
 
-TEST_CASE("words and an assignment exclude each other, an address stands once") {
+TEST_CASE("words and an assignment exclude each other, an address appears once") {
   CHECK(parsed("G0 #1=5") == "refused: [mixed-block]");
   CHECK(parsed("#1=5 G0") == "refused: [mixed-block]");
   CHECK(parsed("G0 X1. Y2. X3.") == "refused: [address-twice]");

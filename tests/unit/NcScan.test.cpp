@@ -130,7 +130,7 @@ TEST_CASE("nc scan: codes that are none keep their place") {
   CHECK((one(many.substr(2)).marks & NcWords::TooManyCodes) == 0);
 }
 
-TEST_CASE("nc scan: defects stand at their place") {
+TEST_CASE("nc scan: defects are at their place") {
   struct Row {
     const char* text;
     ScanFault fault;
@@ -169,7 +169,7 @@ TEST_CASE("nc scan: defects stand at their place") {
   CHECK(error("X" + std::string(41, '1')).fault == ScanFault::BadNumber);
 }
 
-TEST_CASE("nc scan: reading goes on behind a defect") {
+TEST_CASE("nc scan: reading goes on after a defect") {
   LineChunks chunks("G1 X\r\nG2 Y1\nZ,1\nZ2");
   Scanner scanner(chunks);
   NcWords words;
@@ -198,7 +198,7 @@ TEST_CASE("nc scan: a number equals strtod of its text") {
   std::mt19937 random(20261121);
   const auto below = [&](unsigned n) { return static_cast<unsigned>(random() % n); };
   const auto check = [&](const std::string& number) {
-    // With a word behind it, at the end of a line, and behind a comment, which is read by other code.
+    // With a word after it, at the end of a line, and after a comment, which is read by other code.
     for (const std::string& text : {"Q" + number + " X1", "Q" + number, "()Q" + number + "X1"}) {
       for (const Scanner::Way way : {Scanner::Way::Fastest, Scanner::Way::Portable}) {
         CAPTURE(text);
@@ -214,7 +214,7 @@ TEST_CASE("nc scan: a number equals strtod of its text") {
   for (int i = 0; i < 20000; ++i) {
     std::string number = below(3) == 0 ? "-" : "";
     const unsigned digits = 1 + below(15);
-    const unsigned point = below(digits + 4); // behind the digits: none
+    const unsigned point = below(digits + 4); // after the digits: none
     for (unsigned k = 0; k < digits; ++k) {
       if (k == point) number += '.';
       number += static_cast<char>('0' + below(10));
@@ -228,7 +228,7 @@ TEST_CASE("nc scan: a number equals strtod of its text") {
     check(number);
 }
 
-TEST_CASE("nc scan: all ways read the same") {
+TEST_CASE("nc scan: all paths read the same") {
   std::mt19937 random(7);
   const auto below = [&](unsigned n) { return static_cast<unsigned>(random() % n); };
   int read = 0;
@@ -320,7 +320,7 @@ TEST_CASE("nc scan: the first pass finds macro statements and calls, outside of 
   for (const char* text : held) {
     CAPTURE(text);
     CHECK(macros(text));
-    // At every offset of the step that looks at several bytes at once, and behind many blocks.
+    // At every offset of the step that looks at several bytes at once, and after many blocks.
     for (std::size_t lead = 0; lead < 40; ++lead)
       CHECK(macros(std::string(lead, ' ') + text));
     CHECK(macros(std::string(1000, '\n') + "G1 X1 Y1 (c)\n" + text + "\nG1 X1\n", 128));

@@ -105,7 +105,7 @@ TEST_CASE("a field out of the range of the dialog's checks is refused for every 
   }
 }
 
-TEST_CASE("a default out of the range of the checks is told at its line for every target") {
+TEST_CASE("a default out of the range of the checks is reported at its line for every target") {
   OneBlock one;
   one.define("! Odd\nX = 12\nvar = 6\nG = 55\n");
   const auto fanuc = one.convert("fanuc", "M9");
@@ -187,7 +187,7 @@ TEST_CASE("an alarm is a stop with its text on a control without alarms") {
   CHECK(codesAt(mikroprog, Severity::Note, "post.txt", kLine) == Codes{"alarm-stops"});
   CHECK(mikroprog.output.find(" M0 ;HALT\r\n") != std::string::npos);
   CHECK(mikroprog.output.find(";AN ALARM IS A STOP WITH ITS TEXT") != std::string::npos);
-  // Printed as it stands.
+  // Printed as it is.
   for (const char* set : {"easyprobe", "inspection-plus"}) {
     const auto fusion =
         one.convert("fusion", "#3000=5(HALT)", [&](auto& options) { options.probeMacros = set; });
@@ -196,7 +196,7 @@ TEST_CASE("an alarm is a stop with its text on a control without alarms") {
   }
 }
 
-TEST_CASE("a name that JavaScript reserves is told at its line") {
+TEST_CASE("a name that JavaScript reserves is reported at its line") {
   OneBlock one;
   const auto fusion = one.convert("fusion", "M9");
   CHECK(fusion.status == 0);
@@ -205,7 +205,7 @@ TEST_CASE("a name that JavaScript reserves is told at its line") {
   CHECK(fusion.output.find("var var = ") == std::string::npos);
 }
 
-TEST_CASE("a value with more digits than its format keeps is told at its line for every target") {
+TEST_CASE("a value with more digits than its format keeps is reported at its line for every target") {
   OneBlock one;
   const auto finer = [](auto& options) { options.common.set = {{"var", "1.23456"}, {"X", "12.5"}}; };
   CHECK(codesAt(one.convert("fanuc", "M9", finer), Severity::Warning, "post.txt", 9) ==

@@ -17,8 +17,8 @@ constexpr double kLength = 50, kBall = 3;
 struct Own {
   explicit Own(double ball = kBall) : world(ball), signal(world, kLength) {}
 
-  // Stands at X Y Z of G54, under G91 and G1 with F1234, and runs `blocks`. #500 to #505: codes and place
-  // behind them, #506 to #511: offsets of G54 and G57.
+  // Is at X Y Z of G54, under G91 and G1 with F1234, and runs `blocks`. #500 to #505: codes and place
+  // after them, #506 to #511: offsets of G54 and G57.
   const MacroRun& run(const std::string& start, const std::string& blocks,
                       const std::string& control = "fanuc-0i-md") {
     std::string text = fmt::format("O1\nG21G17G40G49G80G90G94G54\nG10L10P1R{}.\n"
@@ -213,7 +213,7 @@ TEST_CASE("own macros: the touch is repeated from nearby, at the second feed") {
   CHECK(own.world.moves == 2);
   CHECK(run.trace.find("F500") != std::string::npos);
   CHECK(run.trace.find("F50.") != std::string::npos);
-  Own near; // nearer than the way back
+  Own near; // nearer than the path back
   wall(near.world, 3.3, 0, 180);
   REQUIRE(near.run("X0Y0Z0", "G65P8811X4.").end() == "end");
   near.is(135, 3.3);

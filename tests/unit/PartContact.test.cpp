@@ -19,7 +19,7 @@ std::unique_ptr<Part> plate() {
   return finish(builder);
 }
 
-// Where along the way the ball stops, in mm; negative: nowhere.
+// Where along the path the ball stops, in mm; negative: nowhere.
 double way(const Part& part, double radius, const Point3& from, const Point3& to) {
   const auto touch = firstContact(part, radius, from, to);
   return touch ? touch->share * lengthOf(to - from) : -1;
@@ -39,7 +39,7 @@ TEST_CASE("part: faces stop a ball at its radius") {
   CHECK(lengthOf(touch->point - Point3{0, 30, -5}) < kExact);
   CHECK(lengthOf(touch->normal - Point3{-1, 0, 0}) < kExact);
   CHECK(isNear(way(*part, 3, {10, 10, 50}, {10, 10, -5}), 47));
-  // Slantwise: the way is longer by the cosine.
+  // Slantwise: the path is longer by the cosine.
   CHECK(isNear(way(*part, 3, {-20, 30, -5}, {0, 50, -5}), 17 * std::sqrt(2)));
   CHECK(way(*part, 3, {-20, 30, -5}, {-3.001, 30, -5}) < 0);
 
@@ -163,7 +163,7 @@ TEST_CASE("part: the edge of a cross hole") {
   CHECK(isNear(crossed->distance({0.5, 23, 0.2}), least, 1e-6));
 }
 
-TEST_CASE("part: no wall is too thin, no way too long") {
+TEST_CASE("part: no wall is too thin, no path too long") {
   for (const double wall : {1.0, 0.01, 0.001}) {
     PartBuilder builder;
     builder.box({0, -50, -50}, {wall, 50, 50});
@@ -173,7 +173,7 @@ TEST_CASE("part: no wall is too thin, no way too long") {
   }
 }
 
-TEST_CASE("part: a graze is told from a miss") {
+TEST_CASE("part: a graze is reported from a miss") {
   const auto part = plate();
   for (const double gap : {1e-3, 1e-5, 1e-6}) {
     INFO("gap " << gap);
@@ -239,9 +239,7 @@ TEST_CASE("part: what makes no solid is refused") {
   };
   CHECK(fault([](PartBuilder&) {}) == "the part has no shape");
   CHECK(fault([](PartBuilder& b) { b.box({0, 0, 0}, {1, 1, 0}); }) == "a box has a side below 0.001 mm");
-  CHECK(fault([](PartBuilder& b) {
-          b.box({0, 0, 0}, {1, 1, NAN});
-        }) == "a box reaches farther than 20000 mm");
+  CHECK(fault([](PartBuilder& b) { b.box({0, 0, 0}, {1, 1, NAN}); }) == "a box reaches beyond 20000 mm");
   CHECK(fault([](PartBuilder& b) {
           b.box({0, 0, 0}, {4, 4, 4}, Action::Add, 2.1);
         }) == "the corners of a box are rounder than its sides are wide");
@@ -277,5 +275,5 @@ TEST_CASE("part: what makes no solid is refused") {
           for (int n = 0; n < 190; ++n)
             b.cylinder(random.direction() * -40, random.direction() * 40, 10);
         }) ==
-        "too many of its shapes cross each other, or two surfaces touch in a way that cannot be followed");
+        "too many of its shapes cross each other, or two surfaces touch in a path that cannot be followed");
 }

@@ -185,13 +185,13 @@ TEST_CASE("part file: what is refused, and where") {
   CHECK(shape("kind='sphere', at=[0,0], radius=1") ==
         "2:29 toml-value: three numbers [x, y, z] are expected\n");
   CHECK(shape("kind='sphere', at=[0,0,0], radius=1, diameter=2") ==
-        "2:10 toml-value: `diameter` and `radius` stand together; write one of them\n");
+        "2:10 toml-value: `diameter` and `radius` are together; write one of them\n");
   CHECK(shape("kind='sphere', at=[0,0,0], radius=-1") ==
         "2:45 toml-value: `radius` is below 0.001 mm, which makes no solid\n");
   CHECK(shape("kind='sphere', at=[0,0,0], radius=nan") == "2:45 toml-value: `radius` is no finite number\n");
   CHECK(shape("kind='sphere', at=[0,0,0]").find("`diameter` is missing") != std::string::npos);
   CHECK(shape("kind='sphere', at=[0,0,1e9], radius=1") ==
-        "2:10 toml-value: a sphere reaches farther than 20000 mm\n");
+        "2:10 toml-value: a sphere reaches beyond 20000 mm\n");
   CHECK(shape("kind='box', min=[0,0,0], max=[1,1,0]") ==
         "2:10 toml-value: `min` of the box is not below `max` in each axis\n");
   CHECK(shape("kind='box', min=[0,0,0], max=[1,1,1], corner=0.6") ==
@@ -205,7 +205,7 @@ TEST_CASE("part file: what is refused, and where") {
   CHECK(shape("kind='slot', from=[0,0,0], to=[5,0,1], width=1, depth=1") ==
         "2:10 toml-value: `from` and `to` of the slot lie at different depths along `axis`\n");
   CHECK(shape("kind='hole', at=[0,0,0], diameter=1, depth=1, through=true") ==
-        "2:54 toml-value: `depth` and `through` stand together; write one of them\n");
+        "2:54 toml-value: `depth` and `through` are together; write one of them\n");
   CHECK(shape("kind='pocket', at=[0,0,0], size=[1], depth=1").find("two lengths are expected") !=
         std::string::npos);
   CHECK(shape("kind='pocket', at=[0,0,0], size=[1,1], depth=1, side=[1,0,1]").find("not square to `axis`") !=
@@ -261,7 +261,7 @@ TEST_CASE("mesh: a cube of triangles is a box") {
       REQUIRE(here.has_value() == there.has_value());
       const double length = lengthOf(to - from);
       if (here) CHECK(std::abs(here->share - there->share) * length < 1e-8);
-      // The stem may lie almost along its way: within 1 um it is some more of it.
+      // The stem may lie almost along its path: within 1 um it is some more of it.
       const Capsule stem{from, from + Point3{0, 0, 20}, 1};
       const auto a = firstCollision(*box, stem, to - from);
       const auto b = firstCollision(out.part->part, stem, to - from);
@@ -287,7 +287,7 @@ TEST_CASE("mesh: what is refused") {
   CHECK(meshFault("solid a\nendsolid a\n").find("it holds no triangle") != std::string::npos);
   CHECK(meshFault("solid a\nfacet normal 0 0 1\nouter loop\nvertex 1 2 x\n")
             .find("line 4: a number is expected, found `x`") != std::string::npos);
-  CHECK(meshFault("solid a\nfacet normal 0 0 1\nouter loop\nvertex 1 2 1e300\n").find("farther than") !=
+  CHECK(meshFault("solid a\nfacet normal 0 0 1\nouter loop\nvertex 1 2 1e300\n").find("beyond") !=
         std::string::npos);
   CHECK(meshFault("solid a\nfacet").find("found the end of the file") != std::string::npos);
   const std::string binary = binaryStl(corners);

@@ -40,7 +40,7 @@ TEST_CASE("part: the sign of the distance is membership, and no point nearer tha
         const Point3 q = p + numbers.direction() * (std::abs(d) * numbers.between(0.5, 0.999999));
         wrong += random.contains(q) != in ? 1 : 0;
       }
-      // The nearest point is of the surface, as far away as is said, and the material lies behind it.
+      // The nearest point is of the surface, as far away as is said, and the material lies after it.
       wrong += std::abs(lengthOf(p - nearest.point) - std::abs(d)) > 1e-8 ? 1 : 0;
       bool material = false, air = false;
       for (int k = 0; k < 20000 && !(material && air); ++k) {

@@ -72,7 +72,7 @@ TEST_CASE("probe: the length is to the tip or to the centre") {
   SkipMove move;
   move.machineFrom = {10, 10, 150};
   move.machineTo = {10, 10, 90};
-  CHECK(*World(plate(), p).contact(move) * 60 == doctest::Approx(50)); // the tip stands 100 below
+  CHECK(*World(plate(), p).contact(move) * 60 == doctest::Approx(50)); // the tip is 100 below
   p.lengthToTip = false;
   CHECK(*World(plate(), p).contact(move) * 60 == doctest::Approx(47)); // the centre does
 }
@@ -98,7 +98,7 @@ TEST_CASE("probe: the signal comes later than the touch") {
   p.preTravel = 0.01;
   Bench bench(p);
   CHECK(bench.stop({-23, 30, -5}, {17, 30, -5}).x == doctest::Approx(-2.97));
-  // The way ends after the touch and before the signal.
+  // The path ends after the touch and before the signal.
   CHECK(!bench.skip({-23, 30, -5}, {-2.975, 30, -5}));
   CHECK(bench.outcomes() == Outcomes{Outcome::Contact, Outcome::NoSignal});
   CHECK(bench.world.events()[1].depth == doctest::Approx(0.025));
@@ -322,7 +322,7 @@ TEST_CASE("probe: backing off from a collision is no second one") {
   bench.move(MotionKind::Rapid, {80, 20, 20}, {80, 20, 1.5});
   CHECK(bench.outcomes().size() == 2);
   bench.world.restart(1);
-  // What stands there at the start was told by nobody.
+  // What is there at the start was reported by nobody.
   bench.move(MotionKind::Rapid, {80, 20, 1.5}, {80, 20, 20});
   CHECK(bench.outcomes() == std::vector{Outcome::StemCollision});
 }

@@ -139,7 +139,7 @@ TEST_CASE("html: valid data whatever the picture") {
   data = dataOf(page);
   CHECK(data["way"][2 * 6 + 3].is_null());
   CHECK(data["contacts"][0][3] == odd.moves.size() - 1);
-  CHECK(page.find("moves without a number, or farther than 1 km: 1;") != std::string::npos);
+  CHECK(page.find("moves without a number, or beyond 1 km: 1;") != std::string::npos);
   CHECK(dataOf(pictureHtml(empty))["probe"].is_null());
   CHECK(pictureHtml(empty).find("no probe is stated") != std::string::npos);
   PartBuilder builder;

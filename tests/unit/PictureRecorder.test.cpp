@@ -95,7 +95,7 @@ TEST_CASE("picture recorder: kinds of moves follow the calls around them") {
   CHECK(kinds == "rapid measuring protected protected feed measuring protected ");
 }
 
-TEST_CASE("picture recorder: contacts and errors stand at their moves, by the ball's centre") {
+TEST_CASE("picture recorder: contacts and errors are at their moves, by the ball's centre") {
   Recording r;
   r.block = "G31 X5.";
   r.go(MotionKind::Skip, r.at(5, 5, 5));

@@ -47,7 +47,7 @@ std::string xmlFault(const std::string& text) {
       if (text[at] != '>') return "</" + name + " has no end";
       ++at;
       if (open.empty())
-        return text.find_first_not_of('\n', at) == std::string::npos ? "" : "text behind the end";
+        return text.find_first_not_of('\n', at) == std::string::npos ? "" : "text after the end";
       continue;
     }
     std::set<std::string> attributes;
@@ -129,7 +129,7 @@ TEST_CASE("svg: three views, the kinds of moves, contacts, errors, legend, scale
         std::string::npos);
   CHECK(svg.find(">XY at Z -407.970, through contact 1<") != std::string::npos);
   CHECK(countOf(svg, "fill=\"url(#cut)\"") == 4);
-  CHECK(svg.find("the way leaves the picture in 2 moves") != std::string::npos);
+  CHECK(svg.find("the path leaves the picture in 2 moves") != std::string::npos);
   CHECK(svg.find("http") == svg.find("http://www.w3.org/2000/svg"));
   CHECK(countOf(svg, "http") == 1);
   CHECK(svg.size() < 60'000);
@@ -171,7 +171,7 @@ TEST_CASE("svg: one scale for the three views and the bar") {
   CHECK(roundLength(0.03) == doctest::Approx(0.02));
 }
 
-TEST_CASE("svg: a contact stands where it is") {
+TEST_CASE("svg: a contact is where it is") {
   Picture picture;
   picture.moves = {{PathKind::Measuring, {0, 0, 0}, {40, 30, 20}, true, 0}};
   picture.contacts = {{{10, 20, 5}, 0}};

@@ -66,7 +66,7 @@ TEST_CASE("a field of the macro given in two cases is given twice") {
   project.job("schema = 1\noperation = [ { cycle = \"gauge\", set = { a = 1.0, A = 2.0 } } ]\n");
   const driver::Outcome outcome = project.post();
   CHECK(errors(outcome) == Codes{"given-twice"});
-  CHECK(outcome.status == 1); // it stands in a file
+  CHECK(outcome.status == 1); // it is in a file
 }
 
 TEST_CASE("a wrong name on the command line is the only finding") {

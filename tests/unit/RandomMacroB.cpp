@@ -229,7 +229,7 @@ private:
     return out;
   }
 
-  // A callee behind this program; 0: there is none that fits.
+  // A callee after this program; 0: there is none that fits.
   int callee(bool macro) {
     for (int tries = 0; tries < 4; ++tries) {
       const int to = number(1, static_cast<int>(kinds_.size()));

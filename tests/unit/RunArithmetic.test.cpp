@@ -142,7 +142,7 @@ TEST_CASE("run, reference 1.5: functions") {
   CHECK(value("#1=5\n#2=ADP[#1]\n").starts_with("inconclusive"));
 }
 
-TEST_CASE("run, reference 1.5: ROUND behind an address goes to the least increment") {
+TEST_CASE("run, reference 1.5: ROUND after an address goes to the least increment") {
   const auto at = [](const std::string& blocks) { return MacroRun("G90G0\n" + blocks).trace; };
   CHECK(at("#1=1.23456\nX[ROUND[#1]]\n").starts_with("rapid X1.235000"));
   CHECK(at("#1=1.23456\n#2=ROUND[#1]\nX#2\n").starts_with("rapid X1.000000"));

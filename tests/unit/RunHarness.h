@@ -22,7 +22,7 @@ inline stdlib::Control controlOf(const std::string& name) {
 }
 
 struct MacroRun {
-  // The blocks of O1, with M30 behind them; or whole programs, where the text begins with O. nullptr: none.
+  // The blocks of O1, with M30 after them; or whole programs, where the text begins with O. nullptr: none.
   explicit MacroRun(const std::string& text, stdlib::Control control = controlOf("fanuc-31i-b"),
                     sim::SkipSignal* signal = nullptr, sim::MacroMeaning* meaning = nullptr,
                     const Limits& limits = Limits())
@@ -76,7 +76,7 @@ struct MacroRun {
   std::string trace;
 };
 
-// The value of #2 behind the blocks, or how the run ended where it did not come to M30.
+// The value of #2 after the blocks, or how the run ended where it did not come to M30.
 inline std::string value(const std::string& blocks, const std::string& control = "fanuc-31i-b") {
   const MacroRun run(blocks, controlOf(control));
   return run.end() == "end" ? run.at(2) : run.end();

@@ -98,7 +98,7 @@ TEST_CASE("run: variables that --var sets, system variables that no program writ
 TEST_CASE("run, reference 1.10: the window of the PMC") {
   CHECK(value("#3962=3220\n#3965=-70000\n#2=#3965\n") == "-70000");
   CHECK(value("#3962=3220\n#3963=200\n#2=#3963\n") == "200");
-  CHECK(value("#3962=3220\n#3964=-2\n#2=#3963\n") == "254"); // the low byte stands first
+  CHECK(value("#3962=3220\n#3964=-2\n#2=#3963\n") == "254"); // the low byte is first
   CHECK(value("#3962=3220\n#3964=513\n#3962=3221\n#2=#3963\n") == "2");
   CHECK(value("#3962=3220\n#3964=-2\n#2=#3964\n") == "-2");
   CHECK(value("#3962=3220\n#2=#3963\n") == "0");

@@ -100,7 +100,7 @@ TEST_CASE("sim: alarms carry number, program and block") {
   REQUIRE(end.stack.size() == 1);
   CHECK(end.stack[0].program == 1234);
   CHECK(end.stack[0].sequence == 10);
-  CHECK_FALSE(s.run("G0 X5.")); // nothing runs behind an end
+  CHECK_FALSE(s.run("G0 X5.")); // nothing runs after an end
   CHECK(s.at() == "1 0 0");
   CHECK(after("G0 X100000.") == "alarm 3");
   CHECK(after("G0 X99999.999") == "100000 0 0");
@@ -185,7 +185,7 @@ TEST_CASE("sim: tool length (groups 8; #2001 and #2201)") {
 }
 
 TEST_CASE("sim: an axis whose place is not known") {
-  // Which of machine and coordinates moves when G43 stands without Z depends on a parameter.
+  // Which of machine and coordinates moves when G43 is without Z depends on a parameter.
   const std::string length = "G10 L10 P1 R10.\nG90 G0 Z5.\nG43 H1\n";
   CHECK(after(length + "G91 Z1.") == "inconclusive Z");
   CHECK(after(length + "G90 Z20.\nG91 Z1.") == "0 0 21");
@@ -302,7 +302,7 @@ TEST_CASE("sim: ends of a program") {
   CHECK(after("G66 P9000 X1.") == "call");
   Simulation s;
   s.run("G0 X1.\nX7. M30");
-  CHECK(s.at() == "7 0 0"); // the stop comes behind the motion
+  CHECK(s.at() == "7 0 0"); // the stop comes after the motion
 }
 
 TEST_CASE("sim: block delete is a switch") {

@@ -43,7 +43,7 @@ std::size_t countOf(const std::string& text, const std::string& what) {
 
 } // namespace
 
-TEST_CASE("sim part: of a long plain program no more is told and kept than is bounded") {
+TEST_CASE("sim part: of a long plain program no more is reported and kept than is bounded") {
   Folder folder;
   std::string text = "G1 F100\n";
   for (int i = 0; i < 12'000; ++i)
@@ -127,7 +127,7 @@ TEST_CASE("sim part: pictures are files, whatever the run met, but for wrong arg
   CHECK(folder.sim("crash.nc", {"--svg", "no/folder/a.svg", "--quiet"}).status == 2);
   CHECK(folder.sim("none.nc", {"--svg", "none.svg", "--quiet"}).status == 2);
   CHECK(!folder.has("none.svg"));
-  // Without a machine the way is drawn, and a skip move ends the run as ever.
+  // Without a machine the path is drawn, and a skip move ends the run as ever.
   CHECK(runDotek({"sim", "crash.nc", "--svg", "bare.svg", "--quiet"}, folder.path()).status == 0);
   CHECK(!folder.read("bare.svg").empty());
 }

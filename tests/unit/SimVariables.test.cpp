@@ -73,7 +73,7 @@ TEST_CASE("sim variables: modal state (#4001 to #4022, #4102 to #4120)") {
 }
 
 TEST_CASE(
-    "sim variables: offsets of the 6M stand in steps of systems and axes (#2503=#2501+204.5 is X of G56)") {
+    "sim variables: offsets of the 6M are in steps of systems and axes (#2503=#2501+204.5 is X of G56)") {
   Simulation s("fanuc-6m");
   s.machine->write(2501, 10);
   s.machine->write(2503, 214.5);

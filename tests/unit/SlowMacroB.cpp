@@ -69,7 +69,7 @@ private:
       if (resume) leftOpen("M99 P of the main program");
       // The table of 1.3 clears locals at M99; whether it means that of the main program is open.
       for (const SlowValue& local : locals)
-        if (!local.null) leftOpen("locals behind M99 of the main program");
+        if (!local.null) leftOpen("locals after M99 of the main program");
     }
   }
 
@@ -150,7 +150,7 @@ private:
     return at + 1;
   }
 
-  // Forward from the block behind `at`, then from the top.
+  // Forward from the block after `at`, then from the top.
   std::size_t find(const Frame& frame, std::size_t at, double number) const {
     if (number < 1 || number > setup_.sequenceLast) raiseAlarm(128);
     const Routine& routine = routines_[frame.routine];
@@ -409,7 +409,7 @@ private:
     return at + 1;
   }
 
-  // Behind a call.
+  // After a call.
   std::size_t goOn(std::optional<double> resume, std::size_t at, const Frame& frame) const {
     return resume ? find(frame, at, *resume) : at + 1;
   }
@@ -483,7 +483,7 @@ private:
     const std::size_t active = activeModals(frame);
     if (active == 0) return;
     const ModalCall call = modals_[active - 1];
-    if (runMacro(call, frame, active - 1)) leftOpen("M99 P behind G66");
+    if (runMacro(call, frame, active - 1)) leftOpen("M99 P after G66");
   }
 
   const macrob::File& file_;

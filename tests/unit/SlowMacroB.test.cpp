@@ -201,7 +201,7 @@ TEST_CASE("slow macro b: calls, 1.8") {
 }
 
 TEST_CASE("slow macro b: G66, 1.8") {
-  // Not by its own block, behind each later move, until G67.
+  // Not by its own block, after each later move, until G67.
   CHECK(path("G0\nX9.\nG66P9A5.\nX1.\n#1=2\nM8\nX2.\nG67\nX3.\nM30\nO9\n#100=#100+1\nY[#1*#100]\nM99") ==
         "9 0 0; 1 0 0; 1 5 0; 2 5 0; 2 10 0; 3 10 0");
   // The manual's order: inside the macro of the second G66 only the first acts.

@@ -50,7 +50,7 @@ public:
   // To the nearest thousandth, half away from zero.
   double thousandths(SlowValue value);
   // As DPRNT prints it: the digits before the point padded by blanks, more digits where they do not suffice;
-  // a minus stands before the first digit and takes a place of its own.
+  // a minus is before the first digit and takes a place of its own.
   std::string printed(SlowValue value, int integerDigits, int decimals);
 
 private:

@@ -15,7 +15,7 @@ TEST_CASE("stored keyword tables are what the TOML files say") {
   CHECK(TableStore::store(compost) == embeddedTables().compost);
 }
 
-TEST_CASE("stored keyword tables survive the way back") {
+TEST_CASE("stored keyword tables survive the path back") {
   REQUIRE(embeddedTables().gibbs.size() > 10000);
   GibbsKeywords gibbs = TableStore::restoreGibbs(embeddedTables().gibbs);
   CHECK(TableStore::store(gibbs) == embeddedTables().gibbs);

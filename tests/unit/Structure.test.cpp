@@ -61,7 +61,7 @@ TEST_CASE("structure: WHILE is a loop, and so is a jump backward") {
 }
 
 TEST_CASE("structure: a branch that another jump leads into has none") {
-  // The second branch ends behind the end of the first, which leads into it.
+  // The second branch ends after the end of the first, which leads into it.
   CHECK(told("IF[#1EQ1]GOTO10\n#2=1\nIF[#3EQ1]GOTO20\n#4=1\nN10#5=1\nN20M99\n") == "if 0-4");
 }
 
@@ -76,7 +76,7 @@ TEST_CASE("structure: what has none says why, and where") {
   CHECK(told("IF[#1EQ1]GOTO2\nN1#2=1\nN2#3=1\nIF[#2EQ1]GOTO1\nM99\n") ==
         "refused: the loop that this jump closes has a second entry @4");
   CHECK(told("GOTO5\nN2#1=#1+1\nGOTO5\nN5IF[#1LT3]GOTO2\nM99\n") ==
-        "refused: the loop that this jump closes begins behind a part of it @3");
+        "refused: the loop that this jump closes begins after a part of it @3");
 }
 
 TEST_CASE("structure: regions nest, and nothing outside leads into one") {

@@ -28,7 +28,7 @@ struct Case {
   std::string prog;
   driver::NamedTexts mapped = {};
   bool recover = false;
-  // Values of one operation, where the probe stands before (G54), and the part with its error.
+  // Values of one operation, where the probe is before (G54), and the part with its error.
   std::function<void(std::mt19937&, Values&, Vector&, ContactWorld&)> make;
   driver::NamedTexts fixed = {}; // by --set; `make` gives the same values
   // The target is the nominal, so macros that add the error to the offset set it themselves: words of that
@@ -42,7 +42,7 @@ struct Result {
   sim::Position end{};         // of the machine
 };
 
-// What all ways begin with: six systems that differ, the tool's length, a feed.
+// What all paths begin with: six systems that differ, the tool's length, a feed.
 std::string setup(const Vector& start) {
   std::string out = fmt::format("O1\nG21G17G40G49G80G90G94G54\nG10L10P1R{}.\n", kLength);
   for (int system = 0; system < 6; ++system)
@@ -105,7 +105,7 @@ std::string upper(std::string text) {
   return text;
 }
 
-// "(X #24 NAME ...": the letters by name, as the header tells the machinist.
+// "(X #24 NAME ...": the letters by name, as the header says the machinist.
 std::map<std::string, char> lettersOf(const std::string& program) {
   std::map<std::string, char> out;
   for (const std::string& line : linesOf(program)) {
@@ -121,10 +121,10 @@ struct Counts {
   std::map<std::string, int> refused; // by code
 };
 
-// What may turn a conversion away here; everything else is a defect.
+// What may reject a conversion here; everything else is a defect.
 const std::set<std::string> kReasons = {
     "no-probe-code",        // the control has no code for the probe, and the set has no macro
-    "start-unknown",        // the target wants a coordinate, and where the probe stands is not known
+    "start-unknown",        // the target wants a coordinate, and the place of the probe is not known
     "no-skip-position",     // our own macros need it
     "opaque-block-refused", // G43 is copied to the control that the source was written for
 };

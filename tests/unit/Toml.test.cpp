@@ -143,7 +143,7 @@ TEST_CASE("toml: schema comes first") {
   CHECK(dataError("") == "forms/x.toml:1:1: `schema = 1` is missing; it is expected as the first key");
   CHECK(dataError("# note\na = 1\n").find("`schema = 1` is missing") != std::string::npos);
   CHECK(dataError("a = 1\nschema = 1\n") ==
-        "forms/x.toml:1:1: `a` stands before `schema = 1`, which is expected as the first key");
+        "forms/x.toml:1:1: `a` is before `schema = 1`, which is expected as the first key");
   CHECK(dataError("schema = 2\n") == "forms/x.toml:1:10: `schema` is 2; this version of dotek reads 1");
   CHECK(dataError("schema = '1'\n") ==
         "forms/x.toml:1:10: `schema` holds a text; a whole number is expected");

@@ -125,7 +125,7 @@ TEST_CASE("a surface: coordinate and travel by the position, Z without the tool'
   CHECK(toEasy("9811 X-#24 S1") ==
         "G53 unless #24 NE #0 alarm 150 (X IS MISSING) P9023 S54 X[-#24-#5041] I-#24");
   CHECK(toEasy("9811 Z-5. S6") == "G53 P9023 S59 Z[-5-[#5043-#5083]] K-5");
-  // Without S EasyProbe cannot measure, and with Q it cannot be told how far.
+  // Without S EasyProbe cannot measure, and with Q it cannot be reported how far.
   CHECK(toEasy("9811 X20.") ==
         "refused: P9023 of `easyprobe` wants `S`, its system, and the call states none");
   CHECK(toEasy("9811 X20. S1 Q5.").find("`Q` of P9811") != std::string::npos);
@@ -148,7 +148,7 @@ TEST_CASE("a nominal becomes a correction only where it is the expected coordina
   CHECK(toPlus("9023 D30. S56. I30. J30.").find("that is not known") != std::string::npos);
 }
 
-TEST_CASE("a bore: the centre is expected where the probe stands") {
+TEST_CASE("a bore: the centre is expected where the probe is") {
   CHECK(toEasy("9814 D30. S2") == "G53 P9023 D30 S55 I#5041 J#5042");
   CHECK(toEasy("9814 D30.").find("wants `S`") != std::string::npos);
   CHECK(toEasy("9814 D30. Z-5. R5. S1") == "refused: `easyprobe` has no macro for boss");

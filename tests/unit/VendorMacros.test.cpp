@@ -156,7 +156,7 @@ TEST_CASE("EasyProbe: signed travel, the feature gets the nominal coordinate") {
   CHECK(near(bore.variable(138), 30.08));
 }
 
-TEST_CASE("a bore and a boss: centre, size, errors from where the probe stands") {
+TEST_CASE("a bore and a boss: centre, size, errors from where the probe is") {
   for (const double x : {-0.7, 0.0, 0.45}) {
     for (const double y : {-0.3, 0.0, 0.8}) {
       CAPTURE(x);
@@ -194,7 +194,7 @@ TEST_CASE("a bore and a boss: centre, size, errors from where the probe stands")
   CHECK(near(island.variable(138), 60));
 }
 
-TEST_CASE("what stands in the way beside a boss is PATH OBSTRUCTED, and R has no default") {
+TEST_CASE("what is in the way beside a boss is PATH OBSTRUCTED, and R has no default") {
   VendorCase blocked;
   blocked.world.boss(0, 0, 40, 0);
   blocked.world.box(30, 0, 10, 200, 5);
@@ -463,7 +463,7 @@ TEST_CASE("states in which what a macro does is not known") {
   CHECK(why("G91").find("G91") != std::string::npos);
   CHECK(why("G20").find("G21") != std::string::npos);
   CHECK(why("G18").find("G17") != std::string::npos);
-  CHECK(why("G30 P2 Z0").find("stands") != std::string::npos);
+  CHECK(why("G30 P2 Z0").find("place of the probe") != std::string::npos);
   VendorCase part;
   part.machine->setSkipSignal(nullptr);
   CHECK_FALSE(part.call("9811 X20."));

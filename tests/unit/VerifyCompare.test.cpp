@@ -100,7 +100,7 @@ TEST_CASE("verify: each aspect has its difference") {
 }
 
 TEST_CASE("verify: what the translation meets and the source does not") {
-  // The same way; the part stands where only the second runs.
+  // The same way; the part is where only the second runs.
   const OneRun source(kOn + "G1X20.F500.\nG0X0\n"), target(kOn + "G1X40.F500.\nG0X0\n");
   REQUIRE(source.record.events.empty());
   REQUIRE_FALSE(target.record.events.empty());

@@ -177,7 +177,7 @@ TEST_CASE("draws: hosts and errors stay where the probe can work") {
   CHECK(plain > 100);
 }
 
-TEST_CASE("draws: hosts that hang on the path, and an error that the ball bears") {
+TEST_CASE("draws: hosts that depend on the path, and an error that the ball bears") {
   using frontend::gibbs::PathMove;
   const auto move = [](PathMove::Kind kind, double x, double z) { return PathMove{kind, x, 0, z, {}}; };
   const std::vector<PathMove> way = {
@@ -197,7 +197,7 @@ TEST_CASE("draws: hosts that hang on the path, and an error that the ball bears"
     CHECK((start >= 20 && start <= 80.001));
     CHECK((isMultiple(clearance, 3) && isMultiple(start, 3)));
     clearances.insert(clearance);
-    CHECK(std::abs(each.error.shift.x) <= 0.1); // a third of the way of 0.3 mm
+    CHECK(std::abs(each.error.shift.x) <= 0.1); // a third of the path of 0.3 mm
     CHECK((each.error.shift.z > 0 && each.error.shift.z <= 0.05));
     Case again = each;
     drawn.settleHosts(again, path);

@@ -25,7 +25,7 @@ namespace {
 
 constexpr const char* kSets[] = {"easyprobe", "inspection-plus", "dotek"};
 constexpr const char* kOwn = "dotek.nc";
-constexpr std::size_t kNamed = 7; // operators that the acceptance names stand first
+constexpr std::size_t kNamed = 7; // operators that the acceptance names are first
 
 struct Size {
   std::size_t faults = draws<std::size_t>(60);
@@ -44,7 +44,7 @@ Size sizeWanted() {
   return out;
 }
 
-// A cycle and where its post stands.
+// A cycle and where its post is.
 struct Cycle {
   std::string name;
   driver::VerifyOptions options;
@@ -103,7 +103,7 @@ struct Told {
   std::string messages;
 };
 
-// What a machine did: without actions that change nothing, which a trace may tell: a move to where it stands,
+// What a machine did: without actions that change nothing, which a trace may tell: a move to where it is,
 // the same once more.
 std::size_t deeds(const std::string& trace) {
   std::string out, last, at;
@@ -237,7 +237,7 @@ private:
     hash = deeds(lines);
     return record;
   }
-  // Where the text stands on the increments of the control and the meaning does not, contacts on a round
+  // Where the text is on the increments of the control and the meaning does not, contacts on a round
   // surface lie beside each other by half of one.
   static std::vector<verify::Difference> differences(const verify::Record& expected,
                                                      const verify::Record& record) {

@@ -71,7 +71,7 @@ void judge(const MeasuredFeature& feature, const verify::Record& record, bool ea
   ++errors.runs;
 }
 
-// Every way that has the feature measures it; all leave the same offsets.
+// Every path that has the feature measures it; all leave the same offsets.
 void measure(Ways& ways, const MeasuredFeature& feature, double tolerance, const MeasuredProbe& probe,
              Errors& errors) {
   CAPTURE(feature.name);
@@ -156,7 +156,7 @@ TEST_CASE("measured: a noisy probe is off by its noise") {
   });
 }
 
-TEST_CASE("measured: the calibrated radius takes the way to the signal away") {
+TEST_CASE("measured: the calibrated radius takes the path to the signal away") {
   forBoth("pre-travel", [](Ways& ways, double tolerance, Errors& errors) {
     verify::Random random(14);
     for (int n = 0; n < kPlacements; ++n)

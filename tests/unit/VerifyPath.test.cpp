@@ -54,7 +54,7 @@ std::string why(const DrawnPath& path, const PartError& error = {}) {
   return verify::whyNotReached(path, *part, drawnProbe(kRadius), off ? verify::mostOff(nominal, error) : 0);
 }
 
-// Where the ball's centre stands when it meets the part between two points.
+// Where the ball's centre is when it meets the part between two points.
 Point3 contact(const sim::Part& part, Point3 from, Point3 to) {
   const auto touch = sim::firstContact(part, kRadius, from, to);
   REQUIRE(touch);
@@ -67,7 +67,7 @@ const std::vector<PathMove> kBore = {alongZ(-5), alongX(18),  alongX(-18), along
 
 } // namespace
 
-TEST_CASE("drawn path: a feed along X or Y that goes back is a touch, one radius behind its end") {
+TEST_CASE("drawn path: a feed along X or Y that goes back is a touch, one radius after its end") {
   CHECK(touches(drawn({alongZ(-5), alongX(10), alongX(0), alongZ(40)})) == "2 +X 12 0 -3");
   CHECK(touches(drawn({alongZ(-5), alongX(-10), alongX(0), alongZ(40)})) == "2 -X -12 0 -3");
   CHECK(touches(drawn({alongZ(-5), alongY(10), alongY(0), alongZ(40)})) == "2 +Y 0 12 -3");
@@ -81,7 +81,7 @@ TEST_CASE("drawn path: X and Y count from the start, Z from the retract plane") 
   CHECK(touches(path) == "2 +X 112 50 -3");
   CHECK(path.points.front() == Point3{100, 50, 80});
   CHECK(path.points.back() == Point3{100, 50, 40});
-  // Before the first height is known, the probe stands where it began.
+  // Before the first height is known, the probe is where it began.
   CHECK(verify::drawnPath({alongX(3)}, {1, 2, 80}, 30, kRadius).points.back() == Point3{4, 2, 80});
 }
 
@@ -94,12 +94,11 @@ TEST_CASE("drawn path: what is not taken back is no touch") {
   CHECK(touches(drawn({alongZ(-5), alongX(10), alongZ(40)})).empty());
   CHECK(touches(drawn({alongZ(-5), alongX(10), alongX(20), alongZ(40)})).empty());
   CHECK(touches(drawn({alongZ(-5), feed(10, 10, -5), feed(0, 0, -5), alongZ(40)})).empty());
-  CHECK(
-      touches(drawn({alongZ(-5), alongX(10), alongX(10), alongX(0), alongZ(40)})).empty()); // stands between
+  CHECK(touches(drawn({alongZ(-5), alongX(10), alongX(10), alongX(0), alongZ(40)})).empty()); // is between
   CHECK(touches(drawn({alongZ(-5), alongX(10)})).empty());
 }
 
-TEST_CASE("drawn path: the way back is no touch, the way on to the other side is one") {
+TEST_CASE("drawn path: the path back is no touch, the path on to the other side is one") {
   CHECK(touches(drawn({alongZ(-5), alongX(10), alongX(8), alongX(10), alongX(0), alongZ(40)})) ==
         "2 +X 12 0 -3; 4 +X 12 0 -3");
   CHECK(touches(drawn(kBore)) == "2 +X 20 0 -3; 3 -X -20 0 -3; 5 +Y 0 20 -3; 6 -Y 0 -20 -3");
@@ -212,14 +211,14 @@ TEST_CASE("parts of touches: a bore, a boss, a web, and what is none of them") {
 }
 
 TEST_CASE("ways that do not reach: each has its reason") {
-  // The touch of the first move stands in the way of the third.
+  // The touch of the first move is in the path of the third.
   CHECK(why(drawn({alongZ(-5), alongX(10), alongX(0), alongZ(40), feed(13, 0, 40), alongZ(-5), alongY(20),
                    alongY(0), alongZ(40)})) == "move 6 runs into the part at X13.000 Y0.000 Z0.000");
   CHECK(why(drawn({alongZ(10), alongZ(-5), alongZ(8)})) == "the path ends lower than it was");
   // Two faces back to back at one place.
   CHECK(why(drawn({alongZ(-5), alongX(10), alongX(0), alongZ(40), feed(30, 0, 40), alongZ(-5), alongX(14),
                    alongX(30), alongZ(40)})) == "move 2 touches at X6.000 Y0.000 Z-5.000, not where it ends");
-  // Below the first face, and behind it.
+  // Below the first face, and after it.
   CHECK(why(drawn({alongZ(-5), alongX(10), alongX(0), alongZ(40), feed(30, 0, 40), alongZ(-40), alongX(14),
                    alongX(30), alongZ(40)})) == "the stem runs into the part in move 7");
   CHECK(why(drawn({alongZ(-5), alongX(10), alongX(0), alongZ(40), feed(30, 0, 40), alongZ(-70), alongX(24),

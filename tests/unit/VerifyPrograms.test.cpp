@@ -107,7 +107,7 @@ TEST_CASE("verify: a program draws what it reads before it has written it") {
   CHECK(!found.contains(100));
   CHECK(found.contains(102));
   CHECK(found.contains(4));
-  CHECK(found.contains(6));  // one of the ways does not write it
+  CHECK(found.contains(6));  // one of the paths does not write it
   CHECK(!found.contains(8)); // of a program that is called: its arguments come from the caller
   CHECK(found.contains(500));
   CHECK(found.contains(510));
@@ -128,7 +128,7 @@ TEST_CASE("verify: what a variable is drawn as follows from its use") {
   CHECK(found.at(8).use == VariableUse::Whole);
   CHECK(found.at(1000).use == VariableUse::Signal);
   CHECK(found.at(6).constants == std::set<double>{12.5});
-  // A computed number that is read stands for those behind its constant.
+  // A computed number that is read stands for those after its constant.
   CHECK(found.contains(600));
   CHECK(found.contains(609));
   CHECK(!found.contains(610));
@@ -164,7 +164,7 @@ TEST_CASE("verify: values are multiples of 0.001, near constants, and null where
   }
 }
 
-TEST_CASE("verify: bare skip moves expect their surface at their end, and the part stands towards them") {
+TEST_CASE("verify: bare skip moves expect their surface at their end, and the part is towards them") {
   verify::Record rehearsal;
   verify::Measure down;
   down.start = {1, 2, 10};
@@ -172,7 +172,7 @@ TEST_CASE("verify: bare skip moves expect their surface at their end, and the pa
   verify::Measure side;
   side.start = {0, 0, 0};
   side.end = {5, 0, 0};
-  verify::Measure call; // with no way of its own
+  verify::Measure call; // with no path of its own
   call.nominal = {{{3, 3, 3}, {0, 1, 0}}};
   rehearsal.measures = {down, side, call};
   const auto touches = verify::touchesOf(rehearsal, 2);
@@ -185,7 +185,7 @@ TEST_CASE("verify: bare skip moves expect their surface at their end, and the pa
   verify::Random random(3);
   for (int i = 0; i < 50; ++i) {
     const verify::PartError error = verify::drawError(rehearsal, 2, random);
-    CHECK(error.shift.z > 0); // the way leads down
+    CHECK(error.shift.z > 0); // the path leads down
     CHECK(error.shift.x < 0);
     CHECK(error.shift.z <= 0.3);
     CHECK(error.turn == 0);

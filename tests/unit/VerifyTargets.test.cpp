@@ -165,7 +165,7 @@ TEST_CASE("a damaged fragment is never proved") {
   }
 }
 
-TEST_CASE("a fragment without its checks takes what the dialog turns away") {
+TEST_CASE("a fragment without its checks takes what the dialog rejects") {
   std::string text = converted("fusion");
   for (std::size_t at = 0; (at = text.find("error(localize(", at)) != std::string::npos; at += 4)
     text.replace(at, 5, "String");

@@ -323,7 +323,7 @@ private:
   std::optional<double> targetOf(const stdlib::MacroArgument& nominal) const {
     const auto* wanted = signature_->find(ArgumentRole::Target, nominal.axis);
     const std::size_t axis = ir::indexOf(nominal.axis);
-    if (wanted == nullptr) return at_[axis]; // a bore: where the probe stands
+    if (wanted == nullptr) return at_[axis]; // a bore: where the probe is
     for (const NcWord& word : block_->words)
       if (const auto number = numberOf(word); word.letter == wanted->letter && number && at_[axis])
         return *at_[axis] + *number;
@@ -418,7 +418,7 @@ private:
                                        word.letter, word.value, block_->text));
   }
 
-  // Where the probe stands behind the block, in the coordinates of the source.
+  // Where the probe follows the block, in the coordinates of the source.
   void follow() {
     followFeed();
     const bool measures = signature_ != nullptr && signature_->intent != Intent::ProtectedMove;
@@ -448,7 +448,7 @@ private:
   std::array<double, 3> shift_{};
   bool incremental_ = false;   // of the source
   char motion_ = 0;            // of the source: '0', '1'
-  std::optional<NcWord> feed_; // in force in the source, and left out where it stands
+  std::optional<NcWord> feed_; // in force in the source, and left out where it is
   const SourceBlock* block_ = nullptr;
   const stdlib::MacroSignature* signature_ = nullptr; // of the block, where it calls
   std::vector<const ResultLine*> here_;               // lines that come from the block

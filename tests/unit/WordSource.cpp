@@ -20,7 +20,7 @@ std::string trimmed(std::string_view text) {
   return std::string(text.substr(first, text.find_last_not_of(' ') - first + 1));
 }
 
-// Behind the value that begins at `at`: a number, a variable, brackets, what stands for a field.
+// After the value that begins at `at`: a number, a variable, brackets, what stands for a field.
 std::size_t endOfValue(std::string_view text, std::size_t at) {
   if (at < text.size() && (text[at] == '-' || text[at] == '+')) ++at;
   if (at >= text.size()) return at;
