@@ -71,8 +71,8 @@ struct Project {
   std::vector<NcFile> programs = {};
   std::vector<const mikroprog::Reading*> sufPrograms = {};
   std::vector<Joined> joined = {};
-  std::span<const stdlib::Control> controls = {}; // all profiles, where --control names none
-  std::shared_ptr<Analyses> analyses = nullptr;   // of this project
+  std::span<const stdlib::Control> controls = {};       // all profiles, where --control names none
+  std::shared_ptr<Analyses> analyses = nullptr;         // of this project
   std::shared_ptr<const SharedInputs> shared = nullptr; // what shared checks look at
 
   // Those of cycle folders too, in the order of reading.
