@@ -28,8 +28,7 @@ const std::vector<stdlib::Control>& Compilation::controls() {
   if (controls_) return *controls_;
   controls_.emplace();
   for (const stdlib::DataFile* file : session_.data().list("controls"))
-    if (auto control = stdlib::Control::load(session_.data(), file->name))
-      controls_->push_back(std::move(*control));
+    if (const stdlib::Control* control = session_.control(file->name)) controls_->push_back(*control);
   return *controls_;
 }
 

@@ -28,14 +28,12 @@ namespace compost = frontend::compost;
 namespace gibbs = frontend::gibbs;
 
 std::optional<stdlib::Control> loadControl(const std::string& name, Session& session) {
-  std::optional<stdlib::Control> control = stdlib::Control::load(session.data(), name);
-  if (!control) {
-    std::string known;
-    for (const stdlib::DataFile* file : session.data().list("controls"))
-      known += (known.empty() ? "" : ", ") + file->name;
-    session.diagnostics().report<diag::UnknownProfile>({}, name, known);
-  }
-  return control;
+  if (const stdlib::Control* control = session.control(name)) return *control;
+  std::string known;
+  for (const stdlib::DataFile* file : session.data().list("controls"))
+    known += (known.empty() ? "" : ", ") + file->name;
+  session.diagnostics().report<diag::UnknownProfile>({}, name, known);
+  return std::nullopt;
 }
 
 namespace {

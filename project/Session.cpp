@@ -22,6 +22,12 @@ const stdlib::ComPostKeywords& Session::compostKeywords() {
   return *compost_;
 }
 
+const stdlib::Control* Session::control(const std::string& name) {
+  const auto [at, isNew] = controls_.try_emplace(name);
+  if (isNew) at->second = stdlib::Control::load(data_, name);
+  return at->second ? &*at->second : nullptr;
+}
+
 std::optional<stdlib::Form> Session::form(const std::string& name) {
   std::optional<stdlib::Form> form = stdlib::Form::load(data_, name, compostKeywords());
   if (!form) {

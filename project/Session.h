@@ -3,6 +3,7 @@
 
 #include "project/Options.h"
 #include "stdlib/ComPostKeywords.h"
+#include "stdlib/Control.h"
 #include "stdlib/DataFiles.h"
 #include "stdlib/Form.h"
 #include "stdlib/GibbsKeywords.h"
@@ -26,6 +27,8 @@ public:
   const stdlib::DataFiles& data() const { return data_; }
   const stdlib::GibbsKeywords& gibbsKeywords();
   const stdlib::ComPostKeywords& compostKeywords();
+  // The profile of this name, read once. nullptr: there is none.
+  const stdlib::Control* control(const std::string& name);
   // nullopt with a diagnostic where there is no form of this name.
   std::optional<stdlib::Form> form(const std::string& name);
 
@@ -39,6 +42,7 @@ private:
   stdlib::DataFiles data_;
   std::optional<stdlib::GibbsKeywords> gibbs_;
   std::optional<stdlib::ComPostKeywords> compost_;
+  std::map<std::string, std::optional<stdlib::Control>> controls_;
   std::map<std::string, std::optional<FileId>> read_;
 };
 
