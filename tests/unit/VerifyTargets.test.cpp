@@ -1,5 +1,6 @@
 // Translations for Mikroprog and Fusion, sound and damaged: a damaged one is never proved.
 #include "driver/Driver.h"
+#include "tests/GoldenRunner.h"
 
 #include <doctest/doctest.h>
 #include <filesystem>
@@ -14,7 +15,7 @@ namespace {
 
 using Names = std::vector<std::pair<std::string, std::string>>;
 
-const std::string kExamples = std::string(DOTEK_ROOT) + "/examples/";
+const std::string kExamples = (root() / "examples").string() + "/";
 const Names kValues = {{"X", "15"}, {"I", "0"}, {"G", "56"}, {"Z", "-5"}, {"R", "50"}};
 const Names kHosts = {{"clearance", "5"}, {"tool_radius", "3"}, {"overtravel", "5"}, {"return_feed", "1000"},
                       {"start_x", "-15"}, {"start_y", "10"},    {"start_z", "60"}};
