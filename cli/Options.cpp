@@ -1,0 +1,137 @@
+#include "cli/Options.h"
+#include "project/InputKind.h"
+#include "support/Decimal.h"
+
+#include <algorithm>
+#include <charconv>
+#include <fmt/format.h>
+
+namespace dotek::cli {
+
+std::pair<std::string, std::string> splitPair(const std::string& flag, const std::string& text) {
+  const std::size_t at = text.find('=');
+  if (at == std::string::npos || at == 0) throw UsageError(flag + " takes NAME=VALUE, not `" + text + "`");
+  return {text.substr(0, at), text.substr(at + 1)};
+}
+
+std::optional<std::uint64_t> wholeNumber(std::string_view text) {
+  std::uint64_t value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  return value;
+}
+
+std::pair<std::uint64_t, std::uint64_t> startAndStep(const std::string& flag, const std::string& text) {
+  const std::size_t colon = text.find(':');
+  const auto start = wholeNumber(std::string_view(text).substr(0, colon));
+  const auto step =
+      colon == std::string::npos ? std::nullopt : wholeNumber(std::string_view(text).substr(colon + 1));
+  if (!start || !step || *step == 0 || *start > 99999999 || *step > 99999)
+    throw UsageError(flag + " takes START:STEP, two whole numbers such as 90:10, not `" + text + "`");
+  return {*start, *step};
+}
+
+std::uint64_t countOf(const std::string& flag, const std::string& text, std::uint64_t otherwise,
+                      std::uint64_t least, std::uint64_t most) {
+  if (text.empty()) return otherwise;
+  const auto number = wholeNumber(text);
+  if (!number || *number < least || *number > most)
+    throw UsageError(fmt::format("{} takes a whole number from {} to {}, not `{}`", flag, least, most, text));
+  return *number;
+}
+
+double numberOf(const std::string& flag, const std::string& text, double otherwise, double least,
+                double most) {
+  if (text.empty()) return otherwise;
+  const auto number = parseNumber(text);
+  if (!number || !(*number >= least && *number <= most))
+    throw UsageError(fmt::format("{} takes a number from {} to {}, not `{}`", flag, numberText(least),
+                                 numberText(most), text));
+  return *number;
+}
+
+namespace {
+
+void applyLimit(const std::string& text, Limits& limits) {
+  const auto [name, value] = splitPair("--limit", text);
+  const std::optional<std::uint64_t> number = wholeNumber(value);
+  const auto table = limitTable();
+  const auto found = std::find_if(table.begin(), table.end(),
+                                  [&, &key = name](const LimitInfo& l) { return l.name == key; });
+  if (found == table.end()) throw UsageError("no limit `" + name + "`; `dotek list limits` prints them");
+  if (!number || *number == 0 || *number > 1u << 30)
+    throw UsageError("--limit " + name + " takes a whole number from 1 to 1073741824, not `" + value + "`");
+  limits.*found->member = static_cast<std::uint32_t>(*number);
+}
+
+} // namespace
+
+driver::CommonOptions commonOf(const Raw& raw) {
+  driver::CommonOptions out;
+  if (!raw.job.empty()) out.job = raw.job;
+  for (const std::string& text : raw.set)
+    out.set.push_back(splitPair("--set", text));
+  for (const std::string& text : raw.field)
+    out.field.push_back(splitPair("--field", text));
+  for (const std::string& text : raw.host)
+    out.host.push_back(splitPair("--host", text));
+  if (!raw.clearance.empty()) out.host.emplace_back("clearance", raw.clearance);
+  out.assume.insert(raw.assume.begin(), raw.assume.end());
+  out.recover = raw.recover;
+  if (!raw.encoding.empty()) {
+    out.encoding = encodingByName(raw.encoding);
+    if (!out.encoding)
+      throw UsageError("--encoding takes utf-8, cp1250 or cp852, not `" + raw.encoding + "`");
+  }
+  for (const std::string& text : raw.limit)
+    applyLimit(text, out.limits);
+  out.data = raw.data;
+  if (!raw.from.empty()) {
+    if (!project::kindByName(raw.from))
+      throw UsageError("--from takes prog, mac, dlg, define, nc, listing or suf, not `" + raw.from + "`");
+    out.from = raw.from;
+  }
+  return out;
+}
+
+void addCommon(CLI::App& app, Raw& raw) {
+  app.add_option("--encoding", raw.encoding, "utf-8, cp1250 or cp852 instead of the recognised encoding");
+  app.add_option("--from", raw.from, "kind of the inputs: prog, mac, dlg, define, nc, listing or suf");
+  app.add_option("--max-errors", raw.maxErrors, "print at most N errors; 0 prints all")->type_name("N");
+  app.add_option("--limit", raw.limit, "set a limit (see `dotek list limits`)")
+      ->type_name("NAME=N")
+      ->allow_extra_args(false);
+  app.add_option("--data", raw.data, "folder whose data files are added or replace built-in ones")
+      ->type_name("DIR")
+      ->allow_extra_args(false);
+}
+
+void addValues(CLI::App& app, Raw& raw) {
+  app.add_option("--set", raw.set, "value of a field")->type_name("NAME=VALUE")->allow_extra_args(false);
+  app.add_option("--host", raw.host, "value that the CAM knows of the operation (see `dotek list hosts`)")
+      ->type_name("NAME=VALUE")
+      ->allow_extra_args(false);
+  app.add_option("--clearance", raw.clearance, "short for --host clearance=Z")->type_name("Z");
+  app.add_option("--assume", raw.assume, "name the reading of a construct that is not documented")
+      ->type_name("NAME")
+      ->allow_extra_args(false);
+}
+
+void addSource(CLI::App& app, Raw& raw) {
+  app.add_option("--prog", raw.prog, "the Prog (text of the ComPost post)")->type_name("PROG.txt");
+  app.add_option("--form", raw.form, "what the post's Form decides, as data")->type_name("NAME");
+  app.add_option("--routine", raw.routine, "routine to run for an operation");
+  app.add_option("--cycle", raw.cycle, "name of the cycle, if it is not the folder's");
+  app.add_option("--job", raw.job, "a whole program as a list of operations")->type_name("JOB.toml");
+  app.add_option("--field", raw.field, "the post's field FIELD is the macro's variable VARIABLE")
+      ->type_name("FIELD=VARIABLE")
+      ->allow_extra_args(false);
+  app.add_flag("--recover", raw.recover, "accept the repairs that diagnostics offer");
+}
+
+void addTarget(CLI::App& app, Raw& raw) {
+  app.add_option("--control", raw.control, "profile of the control (see `dotek list controls`)")
+      ->type_name("NAME");
+}
+
+} // namespace dotek::cli

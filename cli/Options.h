@@ -1,0 +1,95 @@
+// The flags of the commands: what CLI11 fills, and the parts that several commands share. One Options*.cpp a
+// command.
+#pragma once
+
+#include "cli/Arguments.h"
+#include "driver/Driver.h"
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace dotek::cli {
+
+// A wrong command line; the text follows `dotek: error: `.
+class UsageError : public std::runtime_error {
+public:
+  using std::runtime_error::runtime_error;
+};
+
+// What CLI11 fills; turned into Arguments afterwards. Empty text: the flag was not given.
+struct Raw {
+  std::vector<std::string> inputs;
+  std::vector<std::string> set, field, host, assume, limit, data;
+  std::string job, encoding, from, prog, routine, cycle, form, clearance, sequence, output;
+  std::string format = "text";
+  std::string select, ignore;
+  std::string failOn;
+  bool fix = false;
+  std::string stage = "ast";
+  std::vector<std::string> letters, defaults;
+  std::string to, control, fromControl, renumber, probeMacros, programNumber, outputFolder, mapFile;
+  std::string defaultsMode = "alarm";
+  std::string probePower = "source";
+  std::string datum;
+  std::vector<std::string> variables;
+  std::vector<std::string> programs;
+  std::string traceFile, svgFile, htmlFile;
+  std::string part, machine, partError, translation;
+  std::vector<std::string> values; // --value
+  std::string cases, seed, jobs, minProved, tolerance, activeSystem;
+  bool replay = false;
+  bool json = false, quiet = false;
+  std::uint32_t maxErrors = 50;
+  bool recover = false;
+  bool wholePost = false;
+  bool verify = false;
+};
+
+// NAME=VALUE in two; throws UsageError where there is no name or no `=`.
+std::pair<std::string, std::string> splitPair(const std::string& flag, const std::string& text);
+
+// Decimal digits only, without sign; nothing otherwise.
+std::optional<std::uint64_t> wholeNumber(std::string_view text);
+
+// START:STEP of two whole numbers, the step not 0; throws UsageError.
+std::pair<std::uint64_t, std::uint64_t> startAndStep(const std::string& flag, const std::string& text);
+
+// A whole number from least to most, `otherwise` where the text is empty; throws UsageError.
+std::uint64_t countOf(const std::string& flag, const std::string& text, std::uint64_t otherwise,
+                      std::uint64_t least, std::uint64_t most);
+
+// The same for a decimal number.
+double numberOf(const std::string& flag, const std::string& text, double otherwise, double least,
+                double most);
+
+// Flags that several commands have.
+void addCommon(CLI::App& app, Raw& raw);
+void addValues(CLI::App& app, Raw& raw);
+void addSource(CLI::App& app, Raw& raw); // what says where the post is
+void addTarget(CLI::App& app, Raw& raw);
+driver::CommonOptions commonOf(const Raw& raw);
+
+// The commands: each adds itself to the application, and each with options of its own reads them from what
+// was given.
+void addPost(CLI::App& app, Raw& raw);
+void addConvert(CLI::App& app, Raw& raw);
+void addLint(CLI::App& app, Raw& raw);
+void addDump(CLI::App& app, Raw& raw);
+void addSim(CLI::App& app, Raw& raw);
+void addVerify(CLI::App& app, Raw& raw);
+void addNew(CLI::App& app, Raw& raw);
+void addExplain(CLI::App& app, Raw& raw);
+void addList(CLI::App& app, Raw& raw);
+
+driver::ConvertOptions convertOf(const Raw& raw);
+driver::LintOptions lintOf(const Raw& raw);
+driver::SimOptions simOf(const Raw& raw);
+driver::VerifyOptions verifyOf(const Raw& raw);
+
+} // namespace dotek::cli

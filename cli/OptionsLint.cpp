@@ -1,0 +1,71 @@
+// Flags of `dotek lint`.
+#include "cli/Options.h"
+#include "lint/Rule.h"
+#include "support/NearestName.h"
+
+#include <algorithm>
+#include <set>
+#include <sstream>
+
+namespace dotek::cli {
+
+namespace {
+
+std::set<std::string> codes(const std::string& text, bool all) {
+  std::set<std::string> out;
+  std::istringstream in(text);
+  for (std::string code; std::getline(in, code, ',');) {
+    if (!code.empty()) out.insert(code);
+  }
+  for (const std::string& code : out) {
+    const auto table = lint::codeTable();
+    if ((all && code == "all") || std::any_of(table.begin(), table.end(),
+                                              [&](const lint::CodeInfo& info) { return info.code == code; }))
+      continue;
+    NearestName nearest(code);
+    for (const lint::CodeInfo& info : table)
+      nearest.offer(info.code);
+    const std::string near = nearest.result().empty() ? "" : "; did you mean `" + nearest.result() + "`?";
+    throw UsageError("no message or rule `" + code + "`" + near + "; `dotek list rules` prints them");
+  }
+  return out;
+}
+
+} // namespace
+
+void addLint(CLI::App& app, Raw& raw) {
+  CLI::App* lint = app.add_subcommand("lint", "check macros, dialogs, cycle folders and posts");
+  lint->add_option("PATH", raw.inputs, "files and folders");
+  lint->add_option("--format", raw.format, "text, json or sarif")
+      ->check(CLI::IsMember({"text", "json", "sarif"}));
+  lint->add_flag("--fix", raw.fix, "make the repairs that change no motion, coordinate or meaning");
+  lint->add_option("--form", raw.form, "what the Form of the post decides (see `dotek list forms`)")
+      ->type_name("NAME");
+  lint->add_option("--field", raw.field, "the post's field FIELD is the macro's variable VARIABLE")
+      ->type_name("FIELD=VARIABLE")
+      ->allow_extra_args(false);
+  addValues(*lint, raw);
+  lint->add_option("--select", raw.select, "only these codes, separated by commas, or all")
+      ->type_name("CODES");
+  lint->add_option("--ignore", raw.ignore, "not these codes")->type_name("CODES");
+  lint->add_option("--fail-on", raw.failOn, "exit with 1 from this severity on (warning)")
+      ->check(CLI::IsMember({"note", "warning", "error", "never"}));
+  addTarget(*lint, raw);
+  addCommon(*lint, raw);
+}
+
+driver::LintOptions lintOf(const Raw& raw) {
+  driver::LintOptions out;
+  if (!raw.select.empty()) out.select = codes(raw.select, true);
+  out.ignore = codes(raw.ignore, false);
+  out.control = raw.control;
+  out.fix = raw.fix;
+  if (!raw.failOn.empty())
+    out.failOn = raw.failOn == "never"   ? driver::FailOn::Never
+                 : raw.failOn == "note"  ? driver::FailOn::Note
+                 : raw.failOn == "error" ? driver::FailOn::Error
+                                         : driver::FailOn::Warning;
+  return out;
+}
+
+} // namespace dotek::cli

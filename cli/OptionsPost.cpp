@@ -1,0 +1,29 @@
+// Flags of `dotek post` and `dotek dump`.
+#include "cli/Options.h"
+
+namespace dotek::cli {
+
+void addPost(CLI::App& app, Raw& raw) {
+  CLI::App* post =
+      app.add_subcommand("post", "run the Prog for a cycle and print the NC blocks the CAM would print");
+  post->add_option("FOLDER", raw.inputs, "folders of the cycles");
+  addSource(*post, raw);
+  addValues(*post, raw);
+  post->add_option("--seq", raw.sequence, "first sequence number and step (10:10)")->type_name("START:STEP");
+  post->add_option("-o", raw.output, "write the program to a file")->type_name("OUT");
+  addCommon(*post, raw);
+}
+
+void addDump(CLI::App& app, Raw& raw) {
+  CLI::App* dump = app.add_subcommand("dump", "print what a stage makes of an input");
+  dump->add_option("INPUT", raw.inputs, "files, or folders of cycles");
+  dump->add_option("--stage", raw.stage,
+                   "tokens, ast, path: the moves of ToolPath.mac, or ir: what convert works on")
+      ->check(CLI::IsMember({"tokens", "ast", "path", "ir"}));
+  addSource(*dump, raw);
+  addTarget(*dump, raw);
+  addValues(*dump, raw);
+  addCommon(*dump, raw);
+}
+
+} // namespace dotek::cli

@@ -1,0 +1,110 @@
+// Flags of `dotek verify`.
+#include "cli/Options.h"
+#include "support/Decimal.h"
+#include "targets/Target.h"
+
+#include <array>
+#include <sstream>
+
+namespace dotek::cli {
+
+namespace {
+
+// X,Y,Z,TURN.
+std::array<double, 4> placeOf(const std::string& text) {
+  std::array<double, 4> out{};
+  std::istringstream in(text);
+  std::size_t count = 0;
+  for (std::string one; std::getline(in, one, ','); ++count) {
+    const auto number = parseNumber(one);
+    if (!number || count >= out.size())
+      throw UsageError("--part-error takes X,Y,Z,TURN in mm and degrees, not `" + text + "`");
+    out[count] = *number;
+  }
+  if (count != out.size())
+    throw UsageError("--part-error takes X,Y,Z,TURN in mm and degrees, not `" + text + "`");
+  return out;
+}
+
+} // namespace
+
+void addVerify(CLI::App& app, Raw& raw) {
+  CLI::App* verify = app.add_subcommand(
+      "verify", "run a source and its translation on many drawn cases and compare what they do");
+  verify->add_option("INPUT", raw.inputs, "folder of a cycle, or file of programs");
+  verify
+      ->add_option("--to", raw.to,
+                   "language of the translation: " + targets::targetNames() +
+                       "; without it the path of the macro is compared with the posted program")
+      ->type_name("TARGET");
+  addTarget(*verify, raw);
+  verify
+      ->add_option("--from-control", raw.fromControl,
+                   "profile of the control that programs are written for (that of --control)")
+      ->type_name("NAME");
+  verify->add_option("--probe-macros", raw.probeMacros, "probing macros that the translation calls")
+      ->type_name("SET");
+  addSource(*verify, raw);
+  addValues(*verify, raw);
+  verify->add_option("--datum", raw.datum, "of mikroprog: g92 or operator")->type_name("g92|operator");
+  verify
+      ->add_option("--translation", raw.translation,
+                   "look at this program instead of what convert writes: the same one, edited by hand")
+      ->type_name("FILE");
+  verify
+      ->add_option("--var", raw.variables,
+                   "value of a variable before the programs begin, instead of a drawn one")
+      ->type_name("N=VALUE")
+      ->allow_extra_args(false);
+  verify->add_option("--part", raw.part, "the part that is probed (made from the source where left out)")
+      ->type_name("PART.toml");
+  verify->add_option("--machine", raw.machine, "probe and travel of the machine")->type_name("MACHINE.toml");
+  verify->add_option("--cases", raw.cases, "cases to draw (1000)")->type_name("N");
+  verify->add_option("--seed", raw.seed, "which cases are drawn (1)")->type_name("S");
+  verify->add_option("--min-proved", raw.minProved, "share of the cases that has to be proved (95)")
+      ->type_name("PERCENT");
+  verify->add_option("--tolerance", raw.tolerance, "what counts as equal (0.000001)")->type_name("MM");
+  verify->add_option("--jobs", raw.jobs, "cases that run at one time (one for each processor)")
+      ->type_name("N");
+  verify->add_option("--part-error", raw.partError, "where the part is, off its nominal place; of a replay")
+      ->type_name("X,Y,Z,TURN");
+  verify->add_option("--active-system", raw.activeSystem, "work system in force at entry; of a replay")
+      ->type_name("N");
+  verify->add_option("--value", raw.values, "value of a field or a host input; of a replay")
+      ->type_name("NAME=VALUE")
+      ->allow_extra_args(false);
+  verify->add_flag("--replay", raw.replay, "run the one case whose values are given");
+  verify->add_option("-o", raw.output, "write the report to a file")->type_name("REPORT");
+  addCommon(*verify, raw);
+}
+
+driver::VerifyOptions verifyOf(const Raw& raw) {
+  driver::VerifyOptions out;
+  out.to = raw.to;
+  out.control = raw.control;
+  out.fromControl = raw.fromControl;
+  if (!raw.probeMacros.empty()) out.probeMacros = raw.probeMacros;
+  if (!raw.part.empty()) out.part = raw.part;
+  if (!raw.machine.empty()) out.machine = raw.machine;
+  if (!raw.translation.empty()) out.translation = raw.translation;
+  constexpr std::uint64_t kMostCases = 10'000'000, kMostSeed = UINT64_MAX, kMostJobs = 256;
+  out.cases = countOf("--cases", raw.cases, raw.replay ? 1 : out.cases, 1, kMostCases);
+  out.seed = countOf("--seed", raw.seed, out.seed, 0, kMostSeed);
+  out.jobs = static_cast<std::uint32_t>(countOf("--jobs", raw.jobs, 0, 1, kMostJobs));
+  out.minProved = numberOf("--min-proved", raw.minProved, out.minProved, 0, 100);
+  out.tolerance = numberOf("--tolerance", raw.tolerance, out.tolerance, 0, 10);
+  if (!raw.partError.empty()) out.partError = placeOf(raw.partError);
+  if (!raw.activeSystem.empty())
+    out.activeSystem = static_cast<std::uint32_t>(countOf("--active-system", raw.activeSystem, 54, 54, 59));
+  out.datum = raw.datum;
+  for (const std::string& text : raw.variables)
+    out.variables.push_back(splitPair("--var", text));
+  out.replay = raw.replay;
+  for (const std::string& text : raw.values)
+    out.values.push_back(splitPair("--value", text));
+  if (!out.values.empty() && !out.replay)
+    throw UsageError("--value goes with --replay; --set fixes a value in all cases");
+  return out;
+}
+
+} // namespace dotek::cli
