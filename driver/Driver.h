@@ -2,29 +2,29 @@
 #pragma once
 
 #include "project/Options.h"
+#include "sim/run/Options.h"
 #include "support/Diagnostics.h"
 #include "support/LineMap.h"
 #include "support/Source.h"
 #include "targets/Options.h"
 
 #include <cstdint>
-#include <functional>
 #include <optional>
 #include <set>
 #include <string>
-#include <string_view>
 #include <utility>
 #include <vector>
 
 namespace dotek::driver {
 
+using dotek::OutputFile;
 using project::CommonOptions;
 using project::NamedTexts;
 using project::SourceOptions;
+using sim::SimOptions;
 using targets::ConvertedInput;
 using targets::ConvertOptions;
 using targets::OutputArgument;
-using targets::OutputFile;
 using targets::VerifyOptions;
 
 struct PostOptions {
@@ -57,21 +57,6 @@ struct DumpOptions {
   CommonOptions common;
   SourceOptions source;
   std::string control; // Ir: as of convert
-};
-
-struct SimOptions {
-  std::string program; // path
-  CommonOptions common;
-  std::string control;               // "": the first
-  NamedTexts variables;              // --var N=VALUE
-  std::vector<std::string> programs; // --programs DIR: what can be called beside the programs of the file
-  // --probe-macros: the set of vendors' macros that runs by its meaning; nothing: all.
-  std::optional<std::string> probeMacros;
-  std::optional<std::string> part, machine; // --part, --machine: paths
-  bool svg = false, html = false;           // pictures of the run as files "svg" and "html"
-  bool json = false;                        // the output is the summary as JSON
-  // Takes the trace while the program runs, in pieces of whole lines. Empty: no trace is made.
-  std::function<void(std::string_view)> trace;
 };
 
 struct NewFormOptions {

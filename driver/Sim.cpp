@@ -1,10 +1,7 @@
 #include "support/messages/Sim.h"
 #include "driver/Command.h"
 #include "driver/Driver.h"
-#include "driver/SimMacros.h"
 #include "driver/SimMikroprog.h"
-#include "driver/SimReport.h"
-#include "driver/SimWorld.h"
 #include "frontend/nc/Scan.h"
 #include "project/InputKind.h"
 #include "project/ProgramLibrary.h"
@@ -13,6 +10,9 @@
 #include "sim/machine/Compile.h"
 #include "sim/machine/Machine.h"
 #include "sim/machine/Run.h"
+#include "sim/run/SimMacros.h"
+#include "sim/run/SimReport.h"
+#include "sim/run/SimWorld.h"
 #include "stdlib/Control.h"
 #include "support/Decimal.h"
 #include "support/Files.h"
@@ -37,7 +37,7 @@ public:
     if (isMikroprog()) return simMikroprog(options_, session_);
     control_ = loadControl();
     if (diagnostics().hasErrors()) return outcomeOf(session_, "");
-    world_ = SimWorld::load(options_, session_);
+    world_ = sim::SimWorld::load(options_, session_);
     if (!world_) return outcomeOf(session_, "");
     std::unique_ptr<LineChunks> chunks = LineChunks::open(options_.program, diagnostics());
     if (!chunks) return outcomeOf(session_, "");
@@ -66,8 +66,9 @@ private:
 
   Outcome finish(sim::Machine& machine, const sim::Run* run) {
     world_->reportRest();
-    Outcome out = outcomeOf(session_, options_.json ? summary(machine, run, *world_, session_) : "", true);
-    world_->finish(out);
+    Outcome out =
+        outcomeOf(session_, options_.json ? sim::summary(machine, run, *world_, session_) : "", true);
+    out.files = world_->pictures();
     return out;
   }
 
@@ -121,24 +122,24 @@ private:
     if (!id) return outcomeOf(session_, "");
     std::optional<ProgramLibrary> library = ProgramLibrary::load(*id, options_.programs, *control_, session_);
     if (!library) return outcomeOf(session_, "");
-    const std::unique_ptr<SimMacros> macros =
-        SimMacros::load(options_.probeMacros, world_->hasPicture(), *control_, *library, session_);
+    const std::unique_ptr<sim::SimMacros> macros =
+        sim::SimMacros::load(options_.probeMacros, world_->hasPicture(), *control_, *library, session_);
     if (!macros) return outcomeOf(session_, "");
     if (const auto radius = world_->calibratedRadius()) macros->setStylusRadius(*radius);
     const sim::Bytecode code = sim::compile(library->programs(), *control_, session_.sources());
     std::optional<sim::Trace> trace;
     if (options_.trace) machine.setTrace(&trace.emplace(options_.trace));
     sim::Run run(machine, code, session_.limits(), macros.get());
-    world_->setPlace([&run] { return RunPlace{run.place(), run.openCalls()}; });
+    world_->setPlace([&run] { return sim::RunPlace{run.place(), run.openCalls()}; });
     world_->setCallKind([&macros](std::uint32_t program, std::span<const double> locals) {
       return macros->kindOf(program, locals);
     });
     world_->attach(machine);
     run.run();
     machine.setTrace(nullptr);
-    if (trace) traceVariables(machine, *trace);
+    if (trace) sim::traceVariables(machine, *trace);
     trace.reset();
-    reportRun(run, machine, session_);
+    sim::reportRun(run, machine, session_);
     return finish(machine, &run);
   }
 
@@ -158,9 +159,9 @@ private:
     machine.setTrace(nullptr);
     trace.reset();
     if (result == Result::Error)
-      reportScanError(options_.program, scanner, chunks, session_);
+      sim::reportScanError(options_.program, scanner, chunks, session_);
     else
-      reportEnd(options_.program, scanner, machine, session_);
+      sim::reportEnd(options_.program, scanner, machine, session_);
     return finish(machine, nullptr);
   }
 
@@ -168,12 +169,12 @@ private:
   void setPlace(const frontend::nc::Scanner& scanner) {
     world_->setPlace(
         [this, &scanner, line = std::uint64_t(0), range = SourceRange()]() mutable {
-          if (line != scanner.line()) range = placeOfLine(options_.program, scanner, session_);
+          if (line != scanner.line()) range = sim::placeOfLine(options_.program, scanner, session_);
           line = scanner.line();
-          return RunPlace{range, {}};
+          return sim::RunPlace{range, {}};
         },
         [this, &scanner] {
-          return sim::PictureBlock{toUtf8Text(std::string(scanner.lineText())),
+          return sim::PictureBlock{sim::toUtf8Text(std::string(scanner.lineText())),
                                    fmt::format("{}:{}", options_.program, scanner.line())};
         });
   }
@@ -198,7 +199,7 @@ private:
   const SimOptions& options_;
   Session& session_;
   std::optional<stdlib::Control> control_;
-  std::unique_ptr<SimWorld> world_;
+  std::unique_ptr<sim::SimWorld> world_;
 };
 
 } // namespace

@@ -1,11 +1,11 @@
 #include "driver/SimMikroprog.h"
 
-#include "driver/SimReport.h"
-#include "driver/SimWorld.h"
 #include "frontend/mikroprog/Check.h"
 #include "frontend/mikroprog/Lower.h"
 #include "frontend/mikroprog/Parse.h"
 #include "sim/machine/Mikroprog.h"
+#include "sim/run/SimReport.h"
+#include "sim/run/SimWorld.h"
 #include "stdlib/MikroprogControl.h"
 #include "support/Decimal.h"
 #include "support/messages/Commands.h"
@@ -23,6 +23,10 @@ namespace {
 
 using sim::MikroprogEnding;
 using sim::MikroprogEvent;
+using sim::positionText;
+using sim::RunPlace;
+using sim::SimWorld;
+using sim::toUtf8Text;
 
 std::string_view endingName(MikroprogEnding ending) {
   switch (ending) {
@@ -67,7 +71,7 @@ public:
     report(machine);
     world->reportRest();
     Outcome out = outcomeOf(session_, options_.json ? summary(machine, *world) : "", true);
-    world->finish(out);
+    out.files = world->pictures();
     return out;
   }
 

@@ -1,8 +1,6 @@
 #include "support/messages/Verify.h"
 #include "driver/Driver.h"
 #include "driver/VerifyPrograms.h"
-#include "driver/VerifyReport.h"
-#include "driver/VerifyRuns.h"
 #include "driver/VerifyTranslation.h"
 #include "frontend/gibbs/Cycle.h"
 #include "ir/Rewrite.h"
@@ -12,6 +10,8 @@
 #include "support/messages/Commands.h"
 #include "targets/CycleCases.h"
 #include "targets/Target.h"
+#include "targets/VerifyReport.h"
+#include "targets/VerifyRuns.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -54,7 +54,7 @@ public:
     const bool edges = !options_.to.empty() && !options_.replay;
     if (!runCases(options_, edges, main_, another, report)) return outcomeOf(main_.session(), "");
     main_.session().diagnostics() = Diagnostics();
-    Outcome outcome = report.finish();
+    Outcome outcome = outcomeOf(main_.session(), report.finish(), true);
     for (const Diagnostic& one : ofForm.all())
       outcome.diagnostics.add(one);
     outcome.diagnostics.sort();

@@ -1,10 +1,10 @@
 #include "driver/VerifyPrograms.h"
 
-#include "driver/VerifyReport.h"
-#include "driver/VerifyRuns.h"
 #include "driver/VerifyTranslation.h"
 #include "support/messages/Commands.h"
 #include "targets/Target.h"
+#include "targets/VerifyReport.h"
+#include "targets/VerifyRuns.h"
 
 namespace dotek::driver {
 
@@ -62,7 +62,7 @@ public:
     };
     if (!runCases(options_, !options_.replay, main, another, report)) return outcomeOf(own, "");
     own.diagnostics() = Diagnostics();
-    return report.finish();
+    return outcomeOf(own, report.finish(), true);
   }
 
 private:

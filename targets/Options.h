@@ -3,6 +3,7 @@
 
 #include "project/Options.h"
 #include "support/LineMap.h"
+#include "support/OutputFile.h"
 #include "support/Source.h"
 
 #include <array>
@@ -38,12 +39,6 @@ struct ConvertOptions {
   std::string datum;      // --datum of mikroprog: "", "g92" or "operator"
   bool wholePost = false; // --whole-post, of fusion
   bool verify = false;    // --verify: what does not agree with its source is not given
-};
-
-// One file of a result that may have several; `output` holds them one after the other.
-struct OutputFile {
-  std::string name; // "O8000.nc"
-  std::string text;
 };
 
 // An argument of a program that convert has written.

@@ -1,8 +1,8 @@
 // The probing macros that a run may call: by their text, where Dotek has it, else by their meaning.
 #pragma once
 
-#include "driver/Command.h"
 #include "project/ProgramLibrary.h"
+#include "project/Session.h"
 #include "sim/machine/VendorMacros.h"
 #include "sim/picture/Picture.h"
 #include "stdlib/Control.h"
@@ -10,15 +10,19 @@
 
 #include <cstdint>
 #include <deque>
+#include <memory>
 #include <optional>
 #include <set>
 #include <span>
 #include <string>
 #include <vector>
 
-namespace dotek::driver {
+namespace dotek::sim {
 
-class SimMacros final : public sim::MacroMeaning {
+using project::ProgramLibrary;
+using project::Session;
+
+class SimMacros final : public MacroMeaning {
 public:
   // `chosen`: the only set that counts; nothing: all. nullptr: there is no such set, reported. Sets with a
   // text give it to the library where one of its programs calls them and has no program of that number.
@@ -28,17 +32,17 @@ public:
                                          Session& session);
 
   // What the skip moves of a call are for, by the signatures; nothing: no set has the program.
-  std::optional<sim::PathKind> kindOf(std::uint32_t program, std::span<const double> locals) const;
+  std::optional<PathKind> kindOf(std::uint32_t program, std::span<const double> locals) const;
   // Of a stylus that was calibrated, mm; the variables of a set go first.
   void setStylusRadius(double radius);
 
   bool knows(std::uint32_t program) const override;
   // Several sets that know the program: inconclusive.
-  bool run(sim::Machine& machine, std::uint32_t program, std::span<const double> locals) override;
+  bool run(Machine& machine, std::uint32_t program, std::span<const double> locals) override;
 
 private:
   std::vector<stdlib::MacroSet> sets_;
-  std::deque<sim::VendorMacros> meanings_; // of the sets without a text
+  std::deque<VendorMacros> meanings_; // of the sets without a text
 };
 
-} // namespace dotek::driver
+} // namespace dotek::sim

@@ -1,4 +1,4 @@
-#include "driver/VerifyRuns.h"
+#include "targets/VerifyRuns.h"
 
 #include "support/messages/Verify.h"
 
@@ -7,7 +7,7 @@
 #include <mutex>
 #include <thread>
 
-namespace dotek::driver {
+namespace dotek::targets {
 
 namespace {
 
@@ -62,4 +62,4 @@ bool runCases(const VerifyOptions& options, bool edges, CaseSubject& main,
   return false;
 }
 
-} // namespace dotek::driver
+} // namespace dotek::targets

@@ -1,14 +1,13 @@
-// Private to Verify*.cpp: what the cases come to. The order in which they are added does not matter.
+// The report of `verify`: what the cases come to. The order in which they are added does not matter.
 #pragma once
 
-#include "driver/Command.h"
 #include "targets/Subject.h"
 
 #include <map>
 #include <string>
 #include <tuple>
 
-namespace dotek::driver {
+namespace dotek::targets {
 
 class VerifyReport {
 public:
@@ -17,8 +16,8 @@ public:
       : options_(options), plan_(plan), runner_(runner) {}
 
   void add(std::uint64_t number, bool edge, verify::Case drawn, CaseResult result);
-  // Reports to the runner's session; the output's last line counts.
-  Outcome finish();
+  // Reports to the runner's session, and gives the text, whose last line counts.
+  std::string finish();
 
 private:
   struct Group {
@@ -63,4 +62,4 @@ private:
   std::optional<std::pair<std::uint64_t, verify::Case>> proved_; // the first that is
 };
 
-} // namespace dotek::driver
+} // namespace dotek::targets

@@ -1,4 +1,4 @@
-#include "driver/SimMacros.h"
+#include "sim/run/SimMacros.h"
 
 #include "project/Programs.h"
 #include "sim/machine/Arguments.h"
@@ -12,7 +12,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-namespace dotek::driver {
+namespace dotek::sim {
 namespace {
 
 // Numbers that the programs call and that none of them has.
@@ -72,31 +72,31 @@ std::unique_ptr<SimMacros> SimMacros::load(const std::optional<std::string>& cho
   return out;
 }
 
-std::optional<sim::PathKind> SimMacros::kindOf(std::uint32_t program, std::span<const double> locals) const {
-  const std::string letters = sim::givenLetters(locals).letters;
-  std::optional<sim::PathKind> out;
+std::optional<PathKind> SimMacros::kindOf(std::uint32_t program, std::span<const double> locals) const {
+  const std::string letters = givenLetters(locals).letters;
+  std::optional<PathKind> out;
   for (const stdlib::MacroSet& set : sets_) {
     if (!set.calls(program)) continue;
     const stdlib::MacroSignature* const signature = stdlib::readCall(set, program, letters).signature;
     const bool moves = signature != nullptr && signature->intent == stdlib::Intent::ProtectedMove;
-    if (!out || moves) out = moves ? sim::PathKind::Protected : sim::PathKind::Measuring;
+    if (!out || moves) out = moves ? PathKind::Protected : PathKind::Measuring;
   }
   return out;
 }
 
 void SimMacros::setStylusRadius(double radius) {
-  for (sim::VendorMacros& one : meanings_)
+  for (VendorMacros& one : meanings_)
     one.setStylusRadius(radius);
 }
 
 bool SimMacros::knows(std::uint32_t program) const {
   return std::any_of(meanings_.begin(), meanings_.end(),
-                     [&](const sim::VendorMacros& one) { return one.knows(program); });
+                     [&](const VendorMacros& one) { return one.knows(program); });
 }
 
-bool SimMacros::run(sim::Machine& machine, std::uint32_t program, std::span<const double> locals) {
-  sim::VendorMacros* found = nullptr;
-  for (sim::VendorMacros& one : meanings_) {
+bool SimMacros::run(Machine& machine, std::uint32_t program, std::span<const double> locals) {
+  VendorMacros* found = nullptr;
+  for (VendorMacros& one : meanings_) {
     if (!one.knows(program)) continue;
     if (found != nullptr)
       return machine.inconclusive(
@@ -106,4 +106,4 @@ bool SimMacros::run(sim::Machine& machine, std::uint32_t program, std::span<cons
   return found->run(machine, program, locals);
 }
 
-} // namespace dotek::driver
+} // namespace dotek::sim

@@ -1,33 +1,33 @@
-// Private to `sim`: how a run ended, as diagnostics and as JSON.
+// How a run ended, as diagnostics and as JSON.
 #pragma once
 
-#include "driver/Command.h"
-#include "driver/SimWorld.h"
 #include "frontend/nc/Scan.h"
 #include "sim/machine/Machine.h"
 #include "sim/machine/Run.h"
+#include "sim/run/SimWorld.h"
+#include "support/LineChunks.h"
 
 #include <string>
 
-namespace dotek::driver {
+namespace dotek::sim {
 
 void reportScanError(const std::string& path, const frontend::nc::Scanner& scanner, const LineChunks& chunks,
                      Session& session);
 // Nothing where the program came to its end. The scanner is at the block of the end.
-void reportEnd(const std::string& path, const frontend::nc::Scanner& scanner, const sim::Machine& machine,
+void reportEnd(const std::string& path, const frontend::nc::Scanner& scanner, const Machine& machine,
                Session& session);
 // The same of a program that was loaded, and what the run found besides.
-void reportRun(const sim::Run& run, const sim::Machine& machine, Session& session);
+void reportRun(const Run& run, const Machine& machine, Session& session);
 // The last lines of the trace: what was written.
-void traceVariables(const sim::Machine& machine, sim::Trace& trace);
+void traceVariables(const Machine& machine, Trace& trace);
 // docs/sim.md says what is in it. `run`: of a program that was loaded; nullptr: of plain blocks.
-std::string summary(sim::Machine& machine, const sim::Run* run, const SimWorld& world, Session& session);
+std::string summary(Machine& machine, const Run* run, const SimWorld& world, Session& session);
 
 // The line at which the scanner is, as a file of its own, since the program itself is not kept.
 SourceRange placeOfLine(const std::string& path, const frontend::nc::Scanner& scanner, Session& session);
 // Texts of programs are bytes.
 std::string toUtf8Text(const std::string& bytes);
 // A position as an object by axis; `shown` as of Trace::position.
-std::string positionText(const sim::Position& position, std::uint32_t shown);
+std::string positionText(const Position& position, std::uint32_t shown);
 
-} // namespace dotek::driver
+} // namespace dotek::sim

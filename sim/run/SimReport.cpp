@@ -1,4 +1,4 @@
-#include "driver/SimReport.h"
+#include "sim/run/SimReport.h"
 
 #include "frontend/macrob/Check.h"
 #include "sim/machine/Value.h"
@@ -10,11 +10,10 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-namespace dotek::driver {
+namespace dotek::sim {
 namespace {
 
 using frontend::nc::ScanFault;
-using sim::Ending;
 
 constexpr std::string_view kHidden = "a macro statement or a call that the first reading did not show";
 
@@ -35,7 +34,7 @@ SourceRange wholeLine(FileId file, std::string_view line) {
   return {file, static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end)};
 }
 
-std::string where(const sim::RunEnd& end) {
+std::string where(const RunEnd& end) {
   std::string out;
   for (auto frame = end.stack.rbegin(); frame != end.stack.rend(); ++frame) {
     std::string one;
@@ -46,7 +45,7 @@ std::string where(const sim::RunEnd& end) {
   return out.empty() ? "" : " (" + out + ")";
 }
 
-std::string_view endingName(const sim::Machine& machine, bool stoppedByText) {
+std::string_view endingName(const Machine& machine, bool stoppedByText) {
   if (stoppedByText) return "not-read";
   switch (machine.end().ending) {
   case Ending::ProgramEnd: return "program-end";
@@ -67,12 +66,11 @@ std::string toUtf8Text(const std::string& bytes) {
   return toUtf8(bytes, isUtf8(bytes) ? Encoding::Utf8 : Encoding::Cp1250);
 }
 
-std::string positionText(const sim::Position& position, std::uint32_t shown) {
+std::string positionText(const Position& position, std::uint32_t shown) {
   std::string out;
-  for (std::size_t i = 0; i < sim::kAxes; ++i) {
+  for (std::size_t i = 0; i < kAxes; ++i) {
     if (i >= 3 && (shown >> i & 1) == 0) continue;
-    out +=
-        fmt::format("{}\"{}\": {}", out.empty() ? "" : ", ", sim::kAxisLetters[i], fixedText(position[i], 6));
+    out += fmt::format("{}\"{}\": {}", out.empty() ? "" : ", ", kAxisLetters[i], fixedText(position[i], 6));
   }
   return "{" + out + "}";
 }
@@ -112,9 +110,9 @@ void reportScanError(const std::string& path, const frontend::nc::Scanner& scann
   }
 }
 
-void reportEnd(const std::string& path, const frontend::nc::Scanner& scanner, const sim::Machine& machine,
+void reportEnd(const std::string& path, const frontend::nc::Scanner& scanner, const Machine& machine,
                Session& session) {
-  const sim::RunEnd& end = machine.end();
+  const RunEnd& end = machine.end();
   if (end.ending != Ending::Alarm && end.ending != Ending::Inconclusive && end.ending != Ending::Call &&
       end.ending != Ending::Return)
     return;
@@ -132,7 +130,7 @@ void reportEnd(const std::string& path, const frontend::nc::Scanner& scanner, co
     diagnostics.report<diag::RunInconclusive>(range, session.sources().textUtf8(range), kHidden);
 }
 
-void reportRun(const sim::Run& run, const sim::Machine& machine, Session& session) {
+void reportRun(const Run& run, const Machine& machine, Session& session) {
   Diagnostics& diagnostics = session.diagnostics();
   const stdlib::Control& control = machine.control();
   std::string stops;
@@ -140,11 +138,11 @@ void reportRun(const sim::Run& run, const sim::Machine& machine, Session& sessio
     stops += fmt::format("{}{}{}", stops.empty() ? "" : ", ", letter, numberText(tenths / 10.0));
   using frontend::macrob::positionReadEarlyCheck;
   Report earlyReads(positionReadEarlyCheck.code, positionReadEarlyCheck.severity, diagnostics);
-  for (const sim::EarlyRead& early : run.earlyReads())
+  for (const EarlyRead& early : run.earlyReads())
     frontend::macrob::reportEarlyPosition(early.range, early.number, earlyReads)
         .note({},
               "the control waits at " + (stops.empty() ? std::string("codes that are not known") : stops));
-  const sim::RunEnd& end = machine.end();
+  const RunEnd& end = machine.end();
   const SourceRange range = run.place();
   Diagnostic* report = nullptr;
   switch (end.ending) {
@@ -173,18 +171,18 @@ void reportRun(const sim::Run& run, const sim::Machine& machine, Session& sessio
     report->note({}, fmt::format("called by {} calls more", calls.size() - kMostCalls));
 }
 
-void traceVariables(const sim::Machine& machine, sim::Trace& trace) {
+void traceVariables(const Machine& machine, Trace& trace) {
   for (const auto& [number, value] : machine.written()) {
     trace.begin("variable").text(std::to_string(number));
-    if (sim::isNull(value))
+    if (isNull(value))
       trace.text("null").end();
     else
       trace.word("", value).end();
   }
 }
 
-std::string summary(sim::Machine& machine, const sim::Run* run, const SimWorld& world, Session& session) {
-  const sim::RunEnd& end = machine.end();
+std::string summary(Machine& machine, const Run* run, const SimWorld& world, Session& session) {
+  const RunEnd& end = machine.end();
   const bool notRead = end.ending == Ending::Running && session.diagnostics().hasErrors();
   std::string out = "{\n";
   out += fmt::format("  \"ending\": \"{}\",\n", endingName(machine, notRead));
@@ -193,15 +191,15 @@ std::string summary(sim::Machine& machine, const sim::Run* run, const SimWorld& 
   out += fmt::format("  \"position\": {},\n", positionText(machine.position(), machine.movedAxes()));
   out += fmt::format("  \"machine\": {},\n", positionText(machine.machinePosition(), machine.movedAxes()));
   std::string unknown;
-  for (std::size_t i = 0; i < sim::kAxes; ++i)
+  for (std::size_t i = 0; i < kAxes; ++i)
     if ((machine.uncertain() >> i & 1) != 0)
-      unknown += fmt::format("{}\"{}\"", unknown.empty() ? "" : ", ", sim::kAxisLetters[i]);
+      unknown += fmt::format("{}\"{}\"", unknown.empty() ? "" : ", ", kAxisLetters[i]);
   out += fmt::format("  \"unknownAxes\": [{}],\n", unknown);
   out += fmt::format("  \"feed\": {},\n", fixedText(machine.feed(), 6));
   out += fmt::format("  \"dwellSeconds\": {},\n", fixedText(machine.seconds(), 6));
   if (end.ending == Ending::Alarm) {
     std::string stack;
-    for (const sim::Frame& frame : end.stack)
+    for (const Frame& frame : end.stack)
       stack += fmt::format("{}{{\"program\": {}, \"sequence\": {}, \"line\": {}}}", stack.empty() ? "" : ", ",
                            frame.program, frame.sequence, frame.line);
     out += fmt::format("  \"alarm\": {{\"number\": {}, \"text\": {}, \"line\": {}, \"stack\": [{}]}},\n",
@@ -213,7 +211,7 @@ std::string summary(sim::Machine& machine, const sim::Run* run, const SimWorld& 
     std::string variables;
     for (const auto& [number, value] : machine.written())
       variables += fmt::format("{}\"{}\": {}", variables.empty() ? "" : ", ", number,
-                               sim::isNull(value) ? "null" : numberText(value));
+                               isNull(value) ? "null" : numberText(value));
     out += fmt::format("  \"variables\": {{{}}},\n", variables);
     out += fmt::format("  \"output\": {},\n", nlohmann::json(toUtf8Text(run->output())).dump());
   }
@@ -224,4 +222,4 @@ std::string summary(sim::Machine& machine, const sim::Run* run, const SimWorld& 
   return out + "  \"diagnostics\": " + diagnostics + "\n}\n";
 }
 
-} // namespace dotek::driver
+} // namespace dotek::sim

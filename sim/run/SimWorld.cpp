@@ -1,4 +1,4 @@
-#include "driver/SimWorld.h"
+#include "sim/run/SimWorld.h"
 
 #include "sim/geometry/PartFile.h"
 #include "support/Decimal.h"
@@ -11,7 +11,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-namespace dotek::driver {
+namespace dotek::sim {
 namespace {
 
 constexpr std::string_view kRotary =
@@ -20,24 +20,24 @@ constexpr std::string_view kNowhere = "where the machine is in this move is not 
                                       "is not; write a Z word after G43 or G49, "
                                       "and keep G30 out of the run";
 
-std::string pointJson(const sim::Point3& p) {
+std::string pointJson(const Point3& p) {
   return fmt::format("{{\"X\": {}, \"Y\": {}, \"Z\": {}}}", fixedText(p.x, 6), fixedText(p.y, 6),
                      fixedText(p.z, 6));
 }
 
-bool hasPoint(sim::Outcome outcome) {
+bool hasPoint(Outcome outcome) {
   switch (outcome) {
-  case sim::Outcome::Contact:
-  case sim::Outcome::EarlyContact:
-  case sim::Outcome::NotArmed:
-  case sim::Outcome::NoSignal:
-  case sim::Outcome::Overtravel:
-  case sim::Outcome::RapidIntoPart: return true;
-  case sim::Outcome::Miss:
-  case sim::Outcome::StemCollision:
-  case sim::Outcome::BodyCollision:
-  case sim::Outcome::OutsideTravel:
-  case sim::Outcome::NotModelled: break;
+  case Outcome::Contact:
+  case Outcome::EarlyContact:
+  case Outcome::NotArmed:
+  case Outcome::NoSignal:
+  case Outcome::Overtravel:
+  case Outcome::RapidIntoPart: return true;
+  case Outcome::Miss:
+  case Outcome::StemCollision:
+  case Outcome::BodyCollision:
+  case Outcome::OutsideTravel:
+  case Outcome::NotModelled: break;
   }
   return false;
 }
@@ -53,36 +53,35 @@ std::unique_ptr<SimWorld> SimWorld::load(const SimOptions& options, Session& ses
     return nullptr;
   }
   if (!options.machine) return out;
-  std::optional<sim::PartFile> part;
-  out->machine_ =
-      sim::loadMachine(*options.machine, session.limits(), session.sources(), session.diagnostics());
+  std::optional<PartFile> part;
+  out->machine_ = loadMachine(*options.machine, session.limits(), session.sources(), session.diagnostics());
   if (options.part)
-    part = sim::loadPart(*options.part, session.limits(), session.sources(), session.diagnostics());
+    part = loadPart(*options.part, session.limits(), session.sources(), session.diagnostics());
   if (!out->machine_ || (options.part && !part)) return nullptr;
-  out->world_.emplace(part ? part->part : sim::Part(), out->machine_->probe, out->machine_->limits);
+  out->world_.emplace(part ? part->part : Part(), out->machine_->probe, out->machine_->limits);
   return out;
 }
 
 void SimWorld::begin() {
   if (!picture_) return;
-  sim::Picture picture;
+  Picture picture;
   picture.title = options_.program;
   if (world_ && !world_->part().isEmpty()) picture.part = world_->part();
   if (world_) picture.probe = world_->probe();
   recorder_.emplace(
       std::move(picture), world_ ? &*world_ : nullptr,
       callKind_ ? callKind_
-                : [](std::uint32_t, std::span<const double>) { return std::optional<sim::PathKind>(); },
+                : [](std::uint32_t, std::span<const double>) { return std::optional<PathKind>(); },
       block_ ? block_ : [this] { return blockNow(); });
 }
 
-void SimWorld::attach(sim::Machine& machine) {
+void SimWorld::attach(Machine& machine) {
   if (!isActive()) return;
   line_ = [&machine] { return machine.frame().line; };
   blocks_ = [&machine] { return machine.blocks(); };
   stop_ = [&machine](std::string why) { machine.inconclusive(std::move(why)); };
   if (machine_) {
-    sim::Position start{};
+    Position start{};
     std::copy(machine_->start.begin(), machine_->start.end(), start.begin());
     machine.startAt(start);
   }
@@ -91,7 +90,7 @@ void SimWorld::attach(sim::Machine& machine) {
   begin();
 }
 
-void SimWorld::attach(sim::MikroprogMachine& machine) {
+void SimWorld::attach(MikroprogMachine& machine) {
   if (!isActive()) return;
   line_ = [&machine] { return static_cast<std::uint64_t>(machine.line()); };
   blocks_ = [&machine] { return machine.blocks(); };
@@ -107,7 +106,7 @@ std::optional<double> SimWorld::calibratedRadius() const {
   return machine_->probe.effectiveRadius - machine_->probe.preTravel;
 }
 
-std::optional<double> SimWorld::contact(const sim::SkipMove& move) {
+std::optional<double> SimWorld::contact(const SkipMove& move) {
   if (!world_) return std::nullopt;
   world_->setLine(line_());
   const std::optional<double> share = recorder_ ? recorder_->contact(move) : world_->contact(move);
@@ -115,11 +114,11 @@ std::optional<double> SimWorld::contact(const sim::SkipMove& move) {
   return share;
 }
 
-bool SimWorld::isThere(const sim::SkipMove& here) {
+bool SimWorld::isThere(const SkipMove& here) {
   return world_ && world_->isThere(here);
 }
 
-void SimWorld::moved(const sim::MachineMotion& motion) {
+void SimWorld::moved(const MachineMotion& motion) {
   if (recorder_)
     recorder_->moved(motion);
   else if (world_)
@@ -136,7 +135,7 @@ void SimWorld::probeSwitched(bool on) {
 
 void SimWorld::callBegins(std::uint32_t program, std::span<const double> locals) {
   protected_.push_back((!protected_.empty() && protected_.back()) ||
-                       (callKind_ && callKind_(program, locals) == sim::PathKind::Protected));
+                       (callKind_ && callKind_(program, locals) == PathKind::Protected));
   if (recorder_) recorder_->callBegins(program, locals);
 }
 
@@ -149,46 +148,46 @@ void SimWorld::takeEvents() {
   if (!world_ || world_->events().empty()) return;
   // Places of a program that is not kept are copies of its lines: none is made for nothing.
   const bool wanted =
-      std::any_of(world_->events().begin(), world_->events().end(), [&](const sim::ProbeEvent& event) {
-        const bool contact = event.outcome == sim::Outcome::Contact;
+      std::any_of(world_->events().begin(), world_->events().end(), [&](const ProbeEvent& event) {
+        const bool contact = event.outcome == Outcome::Contact;
         return (contact ? contacts_ : events_).size() < kMostKept || (!contact && isTold(event));
       });
   const RunPlace place = wanted ? place_() : RunPlace();
-  for (const sim::ProbeEvent& event : world_->events())
+  for (const ProbeEvent& event : world_->events())
     if (!isSame(event)) take(event, place);
   world_->forgetEvents();
 }
 
-bool SimWorld::isSame(const sim::ProbeEvent& event) {
-  if (event.kind == sim::MotionKind::Skip) return false;
+bool SimWorld::isSame(const ProbeEvent& event) {
+  if (event.kind == MotionKind::Skip) return false;
   std::uint64_t& last = told_[static_cast<std::size_t>(event.outcome)].block;
   return std::exchange(last, blocks_()) == blocks_();
 }
 
-void SimWorld::take(const sim::ProbeEvent& event, const RunPlace& place) {
-  const bool contact = event.outcome == sim::Outcome::Contact;
+void SimWorld::take(const ProbeEvent& event, const RunPlace& place) {
+  const bool contact = event.outcome == Outcome::Contact;
   std::vector<Kept>& kept = contact ? contacts_ : events_;
   ++(contact ? contactCount_ : eventCount_);
   if (kept.size() < kMostKept) kept.push_back({event, place});
   // The end of the run says it.
-  if (event.outcome == sim::Outcome::NotModelled)
+  if (event.outcome == Outcome::NotModelled)
     stop_(std::string(event.placeUnknown ? kNowhere : kRotary));
   else if (!contact && isTold(event) && !isMeantToMiss(event))
     tell(event, place);
 }
 
-bool SimWorld::isMeantToMiss(const sim::ProbeEvent& event) const {
-  return event.outcome == sim::Outcome::Miss && (event.meant || (!protected_.empty() && protected_.back()));
+bool SimWorld::isMeantToMiss(const ProbeEvent& event) const {
+  return event.outcome == Outcome::Miss && (event.meant || (!protected_.empty() && protected_.back()));
 }
 
-bool SimWorld::isTold(const sim::ProbeEvent& event) const {
+bool SimWorld::isTold(const ProbeEvent& event) const {
   return told_[static_cast<std::size_t>(event.outcome)].number <= kMostTold;
 }
 
-void SimWorld::tell(const sim::ProbeEvent& event, const RunPlace& place) {
+void SimWorld::tell(const ProbeEvent& event, const RunPlace& place) {
   Told& told = told_[static_cast<std::size_t>(event.outcome)];
   Diagnostics one;
-  sim::reportEvent(event, place.range, one);
+  reportEvent(event, place.range, one);
   if (one.empty()) return;
   Diagnostic& diagnostic = one.all().front();
   told.code = diagnostic.code;
@@ -211,16 +210,18 @@ void SimWorld::reportRest() {
     rest.severity = std::max(rest.severity, told.severity);
   }
   if (recorder_ && recorder_->isFull())
-    session_.diagnostics().report<diag::PictureEnds>({}, sim::PictureRecorder::kMostMoves);
+    session_.diagnostics().report<diag::PictureEnds>({}, PictureRecorder::kMostMoves);
 }
 
-void SimWorld::finish(Outcome& outcome) const {
-  if (!recorder_) return;
-  if (options_.svg) outcome.files.push_back({"svg", sim::pictureSvg(recorder_->picture())});
-  if (options_.html) outcome.files.push_back({"html", sim::pictureHtml(recorder_->picture())});
+std::vector<OutputFile> SimWorld::pictures() const {
+  std::vector<OutputFile> out;
+  if (!recorder_) return out;
+  if (options_.svg) out.push_back({"svg", pictureSvg(recorder_->picture())});
+  if (options_.html) out.push_back({"html", pictureHtml(recorder_->picture())});
+  return out;
 }
 
-sim::PictureBlock SimWorld::blockNow() const {
+PictureBlock SimWorld::blockNow() const {
   const RunPlace place = place_();
   if (!place.range.hasPlace()) return {};
   const SourceFile& file = session_.sources().file(place.range.file);
@@ -238,9 +239,9 @@ std::string SimWorld::placeJson(const SourceRange& range) const {
 }
 
 std::string SimWorld::json(const Kept& kept) const {
-  const sim::ProbeEvent& event = kept.event;
-  const bool contact = event.outcome == sim::Outcome::Contact;
-  std::string out = contact ? "{" : fmt::format("{{\"outcome\": \"{}\", ", sim::outcomeName(event.outcome));
+  const ProbeEvent& event = kept.event;
+  const bool contact = event.outcome == Outcome::Contact;
+  std::string out = contact ? "{" : fmt::format("{{\"outcome\": \"{}\", ", outcomeName(event.outcome));
   out += placeJson(kept.place.range) + ", \"calls\": [";
   for (auto call = kept.place.calls.rbegin(); call != kept.place.calls.rend(); ++call)
     out += (call == kept.place.calls.rbegin() ? "{" : ", {") + placeJson(*call) + "}";
@@ -265,4 +266,4 @@ std::string SimWorld::summary() const {
   return out;
 }
 
-} // namespace dotek::driver
+} // namespace dotek::sim

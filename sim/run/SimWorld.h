@@ -2,12 +2,14 @@
 // happens there becomes findings at the block that runs, with the calls that are open.
 #pragma once
 
-#include "driver/Command.h"
+#include "project/Session.h"
 #include "sim/geometry/Probe.h"
 #include "sim/machine/Machine.h"
 #include "sim/machine/Mikroprog.h"
 #include "sim/machine/World.h"
 #include "sim/picture/PictureRecorder.h"
+#include "sim/run/Options.h"
+#include "support/OutputFile.h"
 
 #include <array>
 #include <cstdint>
@@ -18,7 +20,9 @@
 #include <string>
 #include <vector>
 
-namespace dotek::driver {
+namespace dotek::sim {
+
+using project::Session;
 
 // Where a run is.
 struct RunPlace {
@@ -26,7 +30,7 @@ struct RunPlace {
   std::vector<SourceRange> calls; // the outermost first
 };
 
-class SimWorld final : public sim::SkipSignal, public sim::MotionWatcher {
+class SimWorld final : public SkipSignal, public MotionWatcher {
 public:
   using PlaceNow = std::function<RunPlace()>;
 
@@ -35,29 +39,29 @@ public:
 
   // From now on the machine asks this world. Nothing happens where neither a part, nor a machine, nor a
   // picture was asked for.
-  void attach(sim::Machine& machine);
-  void attach(sim::MikroprogMachine& machine);
+  void attach(Machine& machine);
+  void attach(MikroprogMachine& machine);
   // To be set before the run: asked for each event, and `block` for each motion of a picture; without `block`
   // the place says it.
-  void setPlace(PlaceNow place, sim::PictureRecorder::BlockNow block = nullptr) {
+  void setPlace(PlaceNow place, PictureRecorder::BlockNow block = nullptr) {
     place_ = std::move(place);
     block_ = std::move(block);
   }
-  void setCallKind(sim::PictureRecorder::CallKind kind) { callKind_ = std::move(kind); }
+  void setCallKind(PictureRecorder::CallKind kind) { callKind_ = std::move(kind); }
 
   bool hasPicture() const { return picture_; }
   // The radius that the calibration of the stylus would have found; nothing: no machine was given.
   std::optional<double> calibratedRadius() const;
 
-  // After the run.
-  void finish(Outcome& outcome) const;
+  // After the run: the pictures that were asked for.
+  std::vector<OutputFile> pictures() const;
   void reportRest(); // what was too much to be reported one by one
   // "contacts" and "events" of the summary, each on a line that ends with a comma.
   std::string summary() const;
 
-  std::optional<double> contact(const sim::SkipMove& move) override;
-  bool isThere(const sim::SkipMove& here) override;
-  void moved(const sim::MachineMotion& motion) override;
+  std::optional<double> contact(const SkipMove& move) override;
+  bool isThere(const SkipMove& here) override;
+  void moved(const MachineMotion& motion) override;
   void probeSwitched(bool on) override;
   void callBegins(std::uint32_t program, std::span<const double> locals) override;
   void callEnded(std::uint32_t program) override;
@@ -67,7 +71,7 @@ private:
   static constexpr std::uint32_t kMostTold = Diagnostics::kMostAlike; // of each outcome
 
   struct Kept {
-    sim::ProbeEvent event;
+    ProbeEvent event;
     RunPlace place;
   };
   struct Told {
@@ -82,24 +86,24 @@ private:
   bool isActive() const { return world_.has_value() || picture_; }
   void begin();
   void takeEvents();
-  void tell(const sim::ProbeEvent& event, const RunPlace& place);
-  void take(const sim::ProbeEvent& event, const RunPlace& place);
-  bool isTold(const sim::ProbeEvent& event) const;        // false: it is one too many
-  bool isMeantToMiss(const sim::ProbeEvent& event) const; // within a protected move
-  bool isSame(const sim::ProbeEvent& event); // of the block as one before: another chord of an arc, say
-  sim::PictureBlock blockNow() const;
+  void tell(const ProbeEvent& event, const RunPlace& place);
+  void take(const ProbeEvent& event, const RunPlace& place);
+  bool isTold(const ProbeEvent& event) const;        // false: it is one too many
+  bool isMeantToMiss(const ProbeEvent& event) const; // within a protected move
+  bool isSame(const ProbeEvent& event); // of the block as one before: another chord of an arc, say
+  PictureBlock blockNow() const;
   std::string placeJson(const SourceRange& range) const;
   std::string json(const Kept& kept) const;
 
   const SimOptions& options_;
   Session& session_;
-  std::optional<sim::MachineFile> machine_;
-  std::optional<sim::World> world_;
+  std::optional<MachineFile> machine_;
+  std::optional<World> world_;
   bool picture_ = false;
-  std::optional<sim::PictureRecorder> recorder_;
+  std::optional<PictureRecorder> recorder_;
   PlaceNow place_;
-  sim::PictureRecorder::BlockNow block_;
-  sim::PictureRecorder::CallKind callKind_;
+  PictureRecorder::BlockNow block_;
+  PictureRecorder::CallKind callKind_;
   std::vector<bool> protected_; // of the calls that are open: within a protected move
   std::function<std::uint64_t()> line_, blocks_;
   std::function<void(std::string)> stop_; // ends the run as inconclusive
@@ -108,4 +112,4 @@ private:
   std::array<Told, 16> told_{}; // by outcome
 };
 
-} // namespace dotek::driver
+} // namespace dotek::sim

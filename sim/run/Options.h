@@ -1,0 +1,29 @@
+// The options of `sim`.
+#pragma once
+
+#include "project/Options.h"
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace dotek::sim {
+
+struct SimOptions {
+  std::string program; // path
+  project::CommonOptions common;
+  std::string control;               // "": the first
+  project::NamedTexts variables;     // --var N=VALUE
+  std::vector<std::string> programs; // --programs DIR: what can be called beside the programs of the file
+  // --probe-macros: the set of vendors' macros that runs by its meaning; nothing: all.
+  std::optional<std::string> probeMacros;
+  std::optional<std::string> part, machine; // --part, --machine: paths
+  bool svg = false, html = false;           // pictures of the run as files "svg" and "html"
+  bool json = false;                        // the output is the summary as JSON
+  // Takes the trace while the program runs, in pieces of whole lines. Empty: no trace is made.
+  std::function<void(std::string_view)> trace;
+};
+
+} // namespace dotek::sim

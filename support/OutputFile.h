@@ -1,0 +1,13 @@
+// A file that a command gives: its caller writes it.
+#pragma once
+
+#include <string>
+
+namespace dotek {
+
+struct OutputFile {
+  std::string name; // "O8000.nc"; of a picture its kind
+  std::string text;
+};
+
+} // namespace dotek
