@@ -42,7 +42,7 @@ struct Raw {
   std::string traceFile, svgFile, htmlFile;
   std::string part, machine, partError, translation;
   std::vector<std::string> values; // --value
-  std::string cases, seed, jobs, minProved, tolerance, activeSystem;
+  std::string cases, seed, jobs, minAgreed, tolerance, activeSystem;
   bool replay = false;
   bool json = false, quiet = false;
   std::uint32_t maxErrors = 50;

@@ -61,8 +61,10 @@ void addVerify(CLI::App& app, Raw& raw) {
   verify->add_option("--machine", raw.machine, "probe and travel of the machine")->type_name("MACHINE.toml");
   verify->add_option("--cases", raw.cases, "cases to draw (1000)")->type_name("N");
   verify->add_option("--seed", raw.seed, "which cases are drawn (1)")->type_name("S");
-  verify->add_option("--min-proved", raw.minProved, "share of the cases that has to be proved (95)")
-      ->type_name("PERCENT");
+  CLI::Option* agreed =
+      verify->add_option("--min-agreed", raw.minAgreed, "share of the cases that has to agree (95)")
+          ->type_name("PERCENT");
+  verify->add_option("--min-proved", raw.minAgreed)->group("")->excludes(agreed); // the name it had
   verify->add_option("--tolerance", raw.tolerance, "what counts as equal (0.000001)")->type_name("MM");
   verify->add_option("--jobs", raw.jobs, "cases that run at one time (one for each processor)")
       ->type_name("N");
@@ -91,7 +93,7 @@ driver::VerifyOptions verifyOf(const Raw& raw) {
   out.cases = countOf("--cases", raw.cases, raw.replay ? 1 : out.cases, 1, kMostCases);
   out.seed = countOf("--seed", raw.seed, out.seed, 0, kMostSeed);
   out.jobs = static_cast<std::uint32_t>(countOf("--jobs", raw.jobs, 0, 1, kMostJobs));
-  out.minProved = numberOf("--min-proved", raw.minProved, out.minProved, 0, 100);
+  out.minAgreed = numberOf("--min-agreed", raw.minAgreed, out.minAgreed, 0, 100);
   out.tolerance = numberOf("--tolerance", raw.tolerance, out.tolerance, 0, 10);
   if (!raw.partError.empty()) out.partError = placeOf(raw.partError);
   if (!raw.activeSystem.empty())

@@ -94,7 +94,8 @@ Outcome dump(const DumpOptions& options);
 // up to the place where it did not.
 Outcome sim(const SimOptions& options);
 // Runs source and translation on many drawn cases and compares what they do. The output is the report; its
-// last line counts: `proved P, idle I, differ D of N`.
+// last line is the verdict: `AGREES: 990 of 1000 drawn cases, 10 undecided; edge cases: 100 of 100`, or with
+// DIFFERS or UNDECIDED the cases that do.
 Outcome verify(const VerifyOptions& options);
 // The beginning of a form's data file: what the Prog's keywords print, as far as it is known.
 Outcome newForm(const NewFormOptions& options);

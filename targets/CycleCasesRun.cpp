@@ -66,7 +66,7 @@ CaseResult CaseRunner::run(const verify::Case& drawn) {
   if (routine_ == nullptr) {
     result.why = "measurement not stated by the source";
     takeRun(result, runTarget(*values, world, true, nullptr), *values);
-    result.verdict = result.findings.empty() ? CaseVerdict::Idle : CaseVerdict::Differ;
+    result.verdict = result.findings.empty() ? CaseVerdict::Undecided : CaseVerdict::Differ;
     return result;
   }
   std::optional<verify::Record> source;
@@ -83,7 +83,7 @@ CaseResult CaseRunner::run(const verify::Case& drawn) {
     source = runPosted(*values, world, probeOn, verify::Stand::Way::Run);
   }
   SourceRange at;
-  result.why = verify::whyNothingProved(*source, at);
+  result.why = verify::whyNoEvidence(*source, at);
   result.whyAt = values->rejected ? values->rejectedAt : sourceOf(at, *values);
   noteProbe(result, *source, *values);
   if (source->ending == verify::Ending::Inconclusive) {
@@ -114,8 +114,8 @@ CaseResult CaseRunner::run(const verify::Case& drawn) {
       addFinding(result, difference, *values);
   }
   result.verdict = !result.findings.empty() ? CaseVerdict::Differ
-                   : result.why.empty()     ? CaseVerdict::Proved
-                                            : CaseVerdict::Idle;
+                   : result.why.empty()     ? CaseVerdict::Agrees
+                                            : CaseVerdict::Undecided;
   return result;
 }
 

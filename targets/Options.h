@@ -69,7 +69,7 @@ struct VerifyOptions {
   std::optional<std::string> translation;
   std::uint64_t cases = 1000;
   std::uint64_t seed = 1;
-  double minProved = 95;   // percent
+  double minAgreed = 95;   // percent of the cases that have to agree
   double tolerance = 1e-6; // mm
   std::uint32_t jobs = 0;  // 0: one for each processor
   std::string datum;       // of mikroprog, as of convert
@@ -84,11 +84,11 @@ struct VerifyOptions {
   bool replay = false; // one case, all of whose values are given: nothing is made smaller
   // Told from time to time how many of how many cases are done; from one thread at a time.
   std::function<void(std::uint64_t done, std::uint64_t all)> progress;
-  // Given each case by its number, edge cases after the others: whether it is proved, and what the
+  // Given each case by its number, edge cases after the others: whether it agrees, and what the
   // translation did, as `sim` traces it (docs/sim.md). Before it is a line `start X Y Z`, after it the
   // zeros of the work systems and the variables that the source stores. In any order, from one thread at a
   // time.
-  std::function<void(std::uint64_t number, bool proved, const std::string& trace)> traces;
+  std::function<void(std::uint64_t number, bool agrees, const std::string& trace)> traces;
 };
 
 } // namespace dotek::targets

@@ -56,12 +56,12 @@ struct CaseFinding {
 
 // Refused: the translation raises an alarm of its own before anything moves. NoProgram: the source prints
 // none, or no source says what it does.
-enum class CaseVerdict : std::uint8_t { Proved, Idle, Differ, Refused, NoProgram };
+enum class CaseVerdict : std::uint8_t { Agrees, Undecided, Differ, Refused, NoProgram };
 
 struct CaseResult {
-  CaseVerdict verdict = CaseVerdict::Idle;
+  CaseVerdict verdict = CaseVerdict::Undecided;
   std::vector<CaseFinding> findings;
-  std::string why; // nothing is proved; "" where it is
+  std::string why; // it is undecided; "" where it is not
   SourceRange whyAt;
   // Protected moves that ran with the probe off, the first of the case; and whether the spindle was stopped
   // only after it.

@@ -69,7 +69,7 @@ void checkTargetOptions(const Target& target, const ConvertOptions& options, Dia
 }
 
 void checkTargetOptions(const Target& target, const VerifyOptions& options, Diagnostics& diagnostics) {
-  if (!target.provesPath && !options.source.prog)
+  if (!target.takesPathAlone && !options.source.prog)
     diagnostics.report<diag::MissingOption>(
         {}, "verify", "--prog PROG.txt", "a drawn path states no measurement that such a program could make");
   const Given flags[] = {{TargetFlag::ProbeMacros, options.probeMacros.has_value(), "--probe-macros"}};

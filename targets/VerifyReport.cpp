@@ -30,8 +30,8 @@ VerifyReport::Key VerifyReport::keyOf(bool edge, const CaseFinding& finding) {
 void VerifyReport::add(std::uint64_t number, bool edge, verify::Case drawn, CaseResult result) {
   Counts& counts = edge ? edges_ : cases_;
   switch (result.verdict) {
-  case CaseVerdict::Proved: ++counts.proved; break;
-  case CaseVerdict::Idle: ++counts.idle; break;
+  case CaseVerdict::Agrees: ++counts.agree; break;
+  case CaseVerdict::Undecided: ++counts.undecided; break;
   case CaseVerdict::Differ: ++counts.differ; break;
   case CaseVerdict::Refused: ++counts.refused; break;
   case CaseVerdict::NoProgram: ++counts.none; break;
@@ -55,7 +55,7 @@ void VerifyReport::add(std::uint64_t number, bool edge, verify::Case drawn, Case
     if (!added) at->second.second = at->second.second || result.spindleLater;
   }
   if (result.unarmed && (!unarmed_ || before(*result.unarmed, *unarmed_))) unarmed_ = result.unarmed;
-  if (result.verdict != CaseVerdict::Proved && result.verdict != CaseVerdict::Differ) {
+  if (result.verdict != CaseVerdict::Agrees && result.verdict != CaseVerdict::Differ) {
     Idle& idle = idle_[{result.whyAt.file, result.whyAt.begin, result.why}];
     if (idle.count == 0 || number < idle.first) {
       idle.first = number;
@@ -65,8 +65,8 @@ void VerifyReport::add(std::uint64_t number, bool edge, verify::Case drawn, Case
     }
     ++idle.count;
   }
-  if (result.verdict == CaseVerdict::Proved && (!proved_ || number < proved_->first))
-    proved_.emplace(number, std::move(drawn));
+  if (result.verdict == CaseVerdict::Agrees && (!agreeing_ || number < agreeing_->first))
+    agreeing_.emplace(number, std::move(drawn));
 }
 
 bool VerifyReport::stillDiffers(const verify::Case& drawn, const CaseFinding& finding) {
@@ -227,16 +227,44 @@ void VerifyReport::tellProbe() {
 
 // Once for each field: a value that is finer than what its picture prints.
 void VerifyReport::tellPictures() {
-  if (!proved_ || options_.replay) return;
-  const auto dropped = runner_.droppedDigits(proved_->second);
+  if (!agreeing_ || options_.replay) return;
+  const auto dropped = runner_.droppedDigits(agreeing_->second);
   for (const auto& [name, range] : dropped)
     told_.report<diag::PictureDropsDigits>(range, name);
+}
+
+// The verdict, of drawn and of edge cases how many it is said of, and what the others come to. It agrees
+// where the exit status is 0 and something was compared.
+std::string VerifyReport::verdict() const {
+  // At edges both sides may also stop alike, or the translation before anything moves.
+  const std::uint64_t edgesAlike = edges_.agree + edges_.undecided;
+  const std::uint64_t undecided = cases_.undecided + cases_.refused + cases_.none;
+  enum class Word : std::uint8_t { Agrees, Differs, Undecided };
+  const Word word = cases_.differ + edges_.differ > 0        ? Word::Differs
+                    : cases_.agree > 0 && !told_.hasErrors() ? Word::Agrees
+                                                             : Word::Undecided;
+  const auto part = [&](std::uint64_t agree, std::uint64_t differ, std::uint64_t open, std::uint64_t all,
+                        std::string_view what) {
+    const std::uint64_t said = word == Word::Agrees ? agree : word == Word::Differs ? differ : open;
+    std::string out = fmt::format("{} of {}{}", said, all, what);
+    if (word != Word::Agrees && agree > 0) out += fmt::format(", {} agree", agree);
+    if (word != Word::Differs && differ > 0) out += fmt::format(", {} differ", differ);
+    if (word != Word::Undecided && open > 0) out += fmt::format(", {} undecided", open);
+    return out;
+  };
+  constexpr std::string_view kWords[] = {"AGREES", "DIFFERS", "UNDECIDED"};
+  std::string out = fmt::format("{}: {}", kWords[static_cast<std::size_t>(word)],
+                                part(cases_.agree, cases_.differ, undecided, cases_.all(), " drawn cases"));
+  if (edges_.all() > 0)
+    out += "; edge cases: " + part(edgesAlike, edges_.differ, edges_.none, edges_.all(), "");
+  if (edges_.refused > 0) out += fmt::format(", {} refused", edges_.refused);
+  return out + '\n';
 }
 
 std::string VerifyReport::finish() {
   Session& session = runner_.session();
   const bool stated = options_.source.prog || plan_.programs;
-  if (!stated) told_.report<diag::MeasurementNotStated>(runner_.place(), cases_.idle, cases_.all());
+  if (!stated) told_.report<diag::MeasurementNotStated>(runner_.place(), cases_.undecided, cases_.all());
   if (partsMade_) told_.report<diag::PartNotUsed>({});
   tellProbe();
   if (options_.source.prog) tellPictures();
@@ -258,15 +286,10 @@ std::string VerifyReport::finish() {
       told_.report<diag::VerifyIdle>(reasons[i]->at, reasons[i]->count, cases_.all(), reasons[i]->why)
           .note({}, "the first: " + replay(reasons[i]->drawn));
   const std::uint64_t all = cases_.all();
-  if (stated && static_cast<double>(cases_.proved) < options_.minProved / 100 * static_cast<double>(all))
-    told_.report<diag::VerifyTooFew>({}, cases_.proved, all, numberText(options_.minProved));
+  if (stated && static_cast<double>(cases_.agree) < options_.minAgreed / 100 * static_cast<double>(all))
+    told_.report<diag::VerifyTooFew>({}, cases_.agree, all, numberText(options_.minAgreed));
+  std::string out = verdict();
   session.diagnostics() = std::move(told_);
-  std::string out;
-  if (edges_.all() > 0)
-    out += fmt::format("edge cases: same {}, refused {}, undecided {}, differ {} of {}\n",
-                       edges_.proved + edges_.idle, edges_.refused, edges_.none, edges_.differ, edges_.all());
-  out += fmt::format("proved {}, idle {}, differ {} of {}\n", cases_.proved,
-                     cases_.idle + cases_.refused + cases_.none, cases_.differ, all);
   return out;
 }
 

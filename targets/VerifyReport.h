@@ -16,7 +16,7 @@ public:
       : options_(options), plan_(plan), runner_(runner) {}
 
   void add(std::uint64_t number, bool edge, verify::Case drawn, CaseResult result);
-  // Reports to the runner's session, and gives the text, whose last line counts.
+  // Reports to the runner's session, and gives the line of the verdict.
   std::string finish();
 
 private:
@@ -33,8 +33,8 @@ private:
     verify::Case drawn;
   };
   struct Counts {
-    std::uint64_t proved = 0, idle = 0, differ = 0, refused = 0, none = 0;
-    std::uint64_t all() const { return proved + idle + differ + refused + none; }
+    std::uint64_t agree = 0, undecided = 0, differ = 0, refused = 0, none = 0;
+    std::uint64_t all() const { return agree + undecided + differ + refused + none; }
   };
   using Key = std::tuple<bool, verify::Aspect, FileId, std::uint32_t, std::uint32_t>;
 
@@ -43,6 +43,7 @@ private:
   verify::Case shrink(const Group& group);
   std::string replay(const verify::Case& drawn) const;
   void tellDifference(const Group& group, std::uint64_t of);
+  std::string verdict() const;
   void tellProbe();
   void tellPictures();
   SourceRange targetRange(std::uint32_t line);
@@ -59,7 +60,7 @@ private:
   std::map<std::tuple<FileId, std::uint32_t, std::string>, Idle> idle_;
   std::map<std::pair<FileId, std::uint32_t>, std::pair<SourceRange, bool>> unprotected_;
   std::optional<SourceRange> unarmed_;
-  std::optional<std::pair<std::uint64_t, verify::Case>> proved_; // the first that is
+  std::optional<std::pair<std::uint64_t, verify::Case>> agreeing_; // the first
 };
 
 } // namespace dotek::targets

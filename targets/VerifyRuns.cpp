@@ -39,7 +39,7 @@ bool runCases(const VerifyOptions& options, bool edges, CaseSubject& main,
       }
       CaseResult result = runner.run(*drawn);
       const std::lock_guard lock(mutex);
-      if (options.traces) options.traces(n, result.verdict == CaseVerdict::Proved, result.trace);
+      if (options.traces) options.traces(n, result.verdict == CaseVerdict::Agrees, result.trace);
       report.add(edge ? kEdges + n : n, edge, std::move(*drawn), std::move(result));
       const std::uint64_t finished = ++done;
       if (options.progress && (finished % 64 == 0 || finished == all)) options.progress(finished, all);

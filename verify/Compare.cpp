@@ -216,8 +216,8 @@ private:
     add(Aspect::State, text + std::string(when), source, target);
   }
 
-  // What the probe meets besides its contacts, also within calls. After a fault of the source nothing is
-  // proved anyway.
+  // What the probe meets besides its contacts, also within calls. After a fault of the source the
+  // case is undecided anyway.
   void faults() {
     if (!source_.events.empty() || target_.events.empty()) return;
     const auto& [event, where] = target_.events.front();
@@ -483,7 +483,7 @@ ProbeOff probeOffIn(const Record& record) {
   return out;
 }
 
-std::string whyNothingProved(const Record& record, SourceRange& at) {
+std::string whyNoEvidence(const Record& record, SourceRange& at) {
   at = record.endedAt;
   if (record.ending == Ending::Inconclusive) return record.text;
   for (const Measure& measure : record.measures) {

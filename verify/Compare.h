@@ -61,8 +61,8 @@ struct ProbeOff {
 };
 ProbeOff probeOffIn(const Record& record);
 
-// Why the run proves nothing: an alarm, a collision, a measuring move with the probe off, a measure without
-// contact. "" where it does; `at`: where.
-std::string whyNothingProved(const Record& record, SourceRange& at);
+// Why a run of the source says nothing of a translation that does the same: an alarm, a collision, a
+// measuring move with the probe off, a measure without contact. "": it is evidence; `at`: where.
+std::string whyNoEvidence(const Record& record, SourceRange& at);
 
 } // namespace dotek::verify

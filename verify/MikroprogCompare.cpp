@@ -103,7 +103,7 @@ public:
   std::string whyUndecided() {
     if (!corrected_) return "";
     SourceRange at;
-    if (!whyNothingProved(source_, at).empty())
+    if (!whyNoEvidence(source_, at).empty())
       return "the source comes to nothing after a datum, where this control goes on beside its path";
     return correctedWayIsFree() ? "" : "the path that a datum has corrected meets the part";
   }

@@ -147,7 +147,7 @@ namespace target {
 DOTEK_TARGET(fanuc) = {
     .text = "program that is called with G65",
     .flags = kFlags,
-    .provesPath = true,
+    .takesPathAlone = true,
     .convert = fanucConversion,
     .verify = fanucVerification,
     .programs = fanucPrograms,

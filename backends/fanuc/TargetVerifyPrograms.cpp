@@ -38,7 +38,7 @@ struct ProgramRunner::Played {
   std::optional<sim::Part> part;
   verify::Record record;
   bool played = false;
-  std::string why; // nothing is proved; "" where it may be
+  std::string why; // the case is undecided; "" where it may agree
   SourceRange whyAt;
 };
 
@@ -239,7 +239,7 @@ std::optional<verify::Case> ProgramRunner::draw(std::uint64_t index) {
     drawn_ = play(propose(index, attempt), !options_.partError);
     if (drawn_->record.overLimit) ++endless;
     if (drawn_->why.empty() || options_.replay || !otherValuesMayDo(drawn_->record)) break;
-    // It proves nothing; a difference shows all the same.
+    // It decides nothing; a difference shows all the same.
     if (!drawn_->record.overLimit && !differences(*drawn_, runTarget(*drawn_)).empty()) break;
   }
   return drawn_->drawn; // the last one, whatever it comes to
@@ -307,7 +307,7 @@ std::unique_ptr<ProgramRunner::Played> ProgramRunner::play(verify::Case drawn, b
   const verify::Record& record = out->record;
   const bool measures = !record.measures.empty();
   if (measures || record.ending != verify::Ending::Finished || !record.events.empty())
-    out->why = verify::whyNothingProved(record, out->whyAt);
+    out->why = verify::whyNoEvidence(record, out->whyAt);
   out->whyAt = record.overLimit ? SourceRange{} : inSource(out->whyAt);
   return out;
 }
@@ -370,8 +370,8 @@ CaseResult ProgramRunner::run(const verify::Case& drawn) {
     result.findings.push_back(std::move(finding));
   }
   result.verdict = !result.findings.empty() ? CaseVerdict::Differ
-                   : result.why.empty()     ? CaseVerdict::Proved
-                                            : CaseVerdict::Idle;
+                   : result.why.empty()     ? CaseVerdict::Agrees
+                                            : CaseVerdict::Undecided;
   return result;
 }
 

@@ -131,11 +131,11 @@ TEST_CASE("verify: endings") {
   CHECK(differing(kOn + "G65P9811X-30.S2\n", kOn + "G65P9811X-30.S2\n").empty());
 }
 
-TEST_CASE("verify: what proves something") {
+TEST_CASE("verify: what is evidence") {
   const auto why = [](const std::string& blocks) {
     const OneRun run(blocks);
     SourceRange at;
-    std::string out = verify::whyNothingProved(run.record, at);
+    std::string out = verify::whyNoEvidence(run.record, at);
     return out.empty() ? out : out + " | " + run.at(at);
   };
   CHECK(why(kTouch) == "");

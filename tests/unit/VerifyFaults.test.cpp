@@ -99,7 +99,7 @@ std::vector<Cycle> allCycles() {
 struct Told {
   int status = 0;
   std::map<std::uint64_t, std::size_t> traces; // hashes
-  std::set<std::uint64_t> proved;
+  std::set<std::uint64_t> agreeing;
   std::string messages;
 };
 
@@ -124,9 +124,9 @@ std::size_t deeds(const std::string& trace) {
 
 Told verified(driver::VerifyOptions options) {
   Told out;
-  options.traces = [&](std::uint64_t number, bool proved, const std::string& trace) {
+  options.traces = [&](std::uint64_t number, bool agrees, const std::string& trace) {
     out.traces.emplace(number, deeds(trace));
-    if (proved) out.proved.insert(number);
+    if (agrees) out.agreeing.insert(number);
   };
   const driver::Outcome outcome = driver::verify(options);
   out.status = outcome.status;
@@ -180,8 +180,8 @@ FaultWords wordsOf(const std::string& program) {
 // What a program with a fault came to.
 struct Findings {
   bool read = false;     // it could be
-  bool rejected = false; // a difference, or too few proved cases
-  bool changed = false;  // the trace of a case that is proved without the fault
+  bool rejected = false; // a difference, or too few cases that agree
+  bool changed = false;  // the trace of a case that agrees without the fault
 };
 
 // Our own macros beside their meaning, on placed features: of most of them no cycle can be converted yet.
@@ -210,7 +210,7 @@ public:
       std::size_t trace = 0;
       const verify::Record record = traced(runner, one.feature, trace);
       out.rejected = out.rejected || !differences(one.expected, record).empty();
-      out.changed = out.changed || (one.proved && trace != one.trace);
+      out.changed = out.changed || (one.agrees && trace != one.trace);
       if (out.rejected && out.changed) return;
     }
   }
@@ -222,7 +222,7 @@ private:
     MeasuredFeature feature;
     verify::Record expected;
     std::size_t trace = 0; // of the text without a fault
-    bool proved = false;
+    bool agrees = false;
   };
 
   static verify::Record traced(MeasuredRunner& runner, const MeasuredFeature& feature, std::size_t& hash) {
@@ -258,8 +258,8 @@ private:
       FAIL_CHECK(difference.text);
     const bool move = feature.name.ends_with("move");
     SourceRange at;
-    one.proved = move || verify::whyNothingProved(one.expected, at).empty();
-    CHECK((one.proved || one.expected.alarmKind == "probe-fail"));
+    one.agrees = move || verify::whyNoEvidence(one.expected, at).empty();
+    CHECK((one.agrees || one.expected.alarmKind == "probe-fail"));
     one.feature = std::move(feature);
     cases_.push_back(std::move(one));
   }
@@ -303,7 +303,7 @@ Findings judge(const Target& target, const Fault& fault, const OwnFeatures& feat
     if (told.traces.empty()) break;
     out.read = true;
     out.rejected = out.rejected || told.status == 1;
-    for (const std::uint64_t number : subject->told.proved) {
+    for (const std::uint64_t number : subject->told.agreeing) {
       const auto trace = told.traces.find(number);
       out.changed =
           out.changed || trace == told.traces.end() || trace->second != subject->told.traces.at(number);
@@ -346,7 +346,7 @@ TEST_CASE("verify rejects planted faults") {
       CAPTURE(one.name);
       CAPTURE(one.told.messages);
       CHECK(one.told.status == 0);
-      CHECK(one.told.proved.size() >= size.cases * 95 / 100);
+      CHECK(one.told.agreeing.size() >= size.cases * 95 / 100);
       subjects.push_back(std::move(one));
     }
   }
@@ -416,7 +416,7 @@ TEST_CASE("verify rejects planted faults") {
   const std::size_t changed = all.rejected + all.survived;
   MESSAGE(
       fmt::format("{} faults by seed {}, {} cases each, {} programs, {} runs; rejected {} of {} that change "
-                  "the trace of a proved case\n{}{}{}",
+                  "the trace of a case that agrees\n{}{}{}",
                   size.faults, size.seed, size.cases, targets.size(), runs, all.rejected, changed, table,
                   survivors.empty() ? "no survivors" : "survivors:\n", survivors));
   CHECK(changed >= size.faults / 3);

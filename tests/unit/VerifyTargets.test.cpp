@@ -1,4 +1,4 @@
-// Translations for Mikroprog and Fusion, sound and damaged: a damaged one is never proved.
+// Translations for Mikroprog and Fusion, sound and damaged: a damaged one never agrees.
 #include "driver/Driver.h"
 #include "tests/GoldenRunner.h"
 
@@ -66,9 +66,10 @@ std::string converted(const std::string& to) {
   return outcome.files.front().text;
 }
 
+// What the last line says of the drawn cases.
 std::string lastLine(const std::string& text) {
-  const std::size_t end = text.size() - 1;
-  return text.substr(text.rfind('\n', end - 1) + 1, end - text.rfind('\n', end - 1) - 1);
+  const std::size_t end = text.size() - 1, begin = text.rfind('\n', end - 1) + 1;
+  return text.substr(begin, std::min(text.find(';', begin), end) - begin);
 }
 
 // The text with its first `from` replaced.
@@ -89,32 +90,32 @@ driver::Outcome verified(const std::string& to, const std::string& text) {
 
 } // namespace
 
-TEST_CASE("sound translations are proved on every target") {
+TEST_CASE("sound translations agree on every target") {
   for (const char* to : {"fusion", "mikroprog"}) {
     const driver::Outcome outcome = driver::verify(options(to));
     CHECK_MESSAGE(outcome.status == 0, to);
-    CHECK(lastLine(outcome.output) == "proved 40, idle 0, differ 0 of 40");
+    CHECK(lastLine(outcome.output) == "AGREES: 40 of 40 drawn cases");
   }
   driver::VerifyOptions lathe = options("mikroprog");
   lathe.control = "mikroprog-s280";
-  CHECK(lastLine(driver::verify(lathe).output) == "proved 40, idle 0, differ 0 of 40");
+  CHECK(lastLine(driver::verify(lathe).output) == "AGREES: 40 of 40 drawn cases");
   driver::VerifyOptions byHand = options("mikroprog");
   byHand.datum = "operator";
-  CHECK(lastLine(driver::verify(byHand).output) == "proved 40, idle 0, differ 0 of 40");
+  CHECK(lastLine(driver::verify(byHand).output) == "AGREES: 40 of 40 drawn cases");
   for (const char* set : {"inspection-plus", "dotek"}) {
     driver::VerifyOptions other = options("fusion");
     other.probeMacros = set;
-    CHECK_MESSAGE(lastLine(driver::verify(other).output) == "proved 40, idle 0, differ 0 of 40", set);
+    CHECK_MESSAGE(lastLine(driver::verify(other).output) == "AGREES: 40 of 40 drawn cases", set);
   }
 }
 
 TEST_CASE("what convert writes for the same values is what verify runs on Mikroprog") {
   const driver::Outcome outcome = verified("mikroprog", converted("mikroprog"));
   CHECK(outcome.status == 0);
-  CHECK(lastLine(outcome.output) == "proved 20, idle 0, differ 0 of 20");
+  CHECK(lastLine(outcome.output) == "AGREES: 20 of 20 drawn cases");
 }
 
-TEST_CASE("a damaged program of Mikroprog is never proved") {
+TEST_CASE("a damaged program of Mikroprog never agrees") {
   const std::string good = converted("mikroprog");
   const std::pair<std::string, std::string> kDamage[] = {
       {"G92 X-3", "G92 X3"},                        // the radius has the wrong sign
@@ -142,13 +143,13 @@ TEST_CASE("a damaged program of Mikroprog is never proved") {
   for (const auto& [from, to] : kDamage) {
     const driver::Outcome outcome = verified("mikroprog", edited(good, from, to));
     CHECK_MESSAGE(outcome.status == 1, from << " to " << to);
-    CHECK_MESSAGE(lastLine(outcome.output) == "proved 0, idle 0, differ 20 of 20", from << " to " << to);
+    CHECK_MESSAGE(lastLine(outcome.output) == "DIFFERS: 20 of 20 drawn cases", from << " to " << to);
   }
 }
 
-TEST_CASE("a damaged fragment is never proved") {
+TEST_CASE("a damaged fragment never agrees") {
   const std::string good = converted("fusion");
-  CHECK(lastLine(verified("fusion", good).output) == "proved 20, idle 0, differ 0 of 20");
+  CHECK(lastLine(verified("fusion", good).output) == "AGREES: 20 of 20 drawn cases");
   const std::pair<std::string, std::string> kDamage[] = {
       {"writeBlock(\"M31\");", ""},                                          // the probe stays off
       {"writeBlock(\"M5\");", "writeBlock(\"M3 S100\");"},                   // the spindle turns
@@ -162,7 +163,7 @@ TEST_CASE("a damaged fragment is never proved") {
   for (const auto& [from, to] : kDamage) {
     const driver::Outcome outcome = verified("fusion", edited(good, from, to));
     CHECK_MESSAGE(outcome.status == 1, from << " to " << to);
-    CHECK_MESSAGE(lastLine(outcome.output).find("differ 0 of") == std::string::npos, from << " to " << to);
+    CHECK_MESSAGE(outcome.output.starts_with("DIFFERS: "), from << " to " << to);
   }
 }
 
@@ -178,7 +179,8 @@ TEST_CASE("a fragment without its checks takes what the dialog rejects") {
   run.cases = 200;
   const driver::Outcome outcome = driver::verify(run);
   CHECK(outcome.status == 1);
-  CHECK(outcome.output.find("differ 0 of 20\n") == std::string::npos);
+  CHECK(outcome.output.starts_with("DIFFERS: 0 of 200 drawn cases"));
+  CHECK(outcome.output.find("edge cases: 0 of 20") == std::string::npos);
 }
 
 } // namespace dotek::tests
