@@ -1,5 +1,7 @@
 #include "ir/Walk.h"
 
+#include <cmath>
+
 namespace dotek::ir {
 namespace {
 
@@ -135,6 +137,20 @@ void eachNode(const ConditionPtr& condition, const std::function<void(const Expr
         eachNode(node.right, visit);
       },
       [](const Truth&) {});
+}
+
+std::optional<std::uint32_t> firstNumber(const ExpressionPtr& number) {
+  const auto whole = [](const ExpressionPtr& side) -> std::optional<std::uint32_t> {
+    const double* value = constantValue(side);
+    if (value == nullptr || *value < 0 || *value > 99999999) return std::nullopt;
+    return static_cast<std::uint32_t>(std::lround(*value));
+  };
+  const auto* sum = std::get_if<Binary>(&number->node);
+  if (sum == nullptr || (sum->op != BinaryOp::Add && sum->op != BinaryOp::Subtract)) return std::nullopt;
+  if (const auto left = whole(sum->left)) return left;
+  if (sum->op == BinaryOp::Add)
+    if (const auto right = whole(sum->right)) return right;
+  return firstNumber(sum->left);
 }
 
 } // namespace dotek::ir

@@ -3,7 +3,9 @@
 
 #include "ir/Statement.h"
 
+#include <cstdint>
 #include <functional>
+#include <optional>
 
 namespace dotek::ir {
 
@@ -26,5 +28,8 @@ ConditionPtr* conditionOf(CycleStatement& statement);
 const ConditionPtr* conditionOf(const CycleStatement& statement);
 ConditionPtr* conditionOf(ProgramStatement& statement);
 const ConditionPtr* conditionOf(const ProgramStatement& statement);
+
+// The constant that the computed number of a variable counts from: 2000 of #[2000+#7]. nullopt: none.
+std::optional<std::uint32_t> firstNumber(const ExpressionPtr& number);
 
 } // namespace dotek::ir

@@ -179,6 +179,13 @@ struct SystemVariables {
   int axisStep = 0;                  // from X to Y
 };
 
+// Which positions along the tool's axis hold its length too, so that a program has to take it off.
+struct LengthInPositions {
+  bool position = false, skip = false; // of SystemVariables
+  std::string grade;
+  std::string source;
+};
+
 struct VariableRange {
   std::uint32_t first = 0, last = 0;
   bool kept = false; // at power off
@@ -250,6 +257,7 @@ struct Control {
   bool programNames = false;                     // a program may be headed <NAME>
   std::uint32_t sequenceLast = 9999;             // greatest N number of a GOTO
   SystemVariables variables;
+  std::optional<LengthInPositions> withToolLength; // nothing: not known
   std::optional<double> arcTolerance; // mm, between the radii of an arc's ends; nothing: not known
   char repeatLetter = 0;              // of canned cycles; 0: not known
   std::optional<std::uint32_t>

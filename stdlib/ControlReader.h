@@ -61,6 +61,7 @@ private:
   // ControlVariables.cpp
   using Taken = std::vector<std::pair<std::string_view, int>>;
   void variables();
+  void withToolLength();
   void state(Taken& blocks);
   void window(Taken& blocks);
   void overlaps(const TomlTable& table, const Taken& blocks) const;

@@ -81,6 +81,23 @@ void ControlReader::variables() {
   state(blocks);
   window(blocks);
   overlaps(table, blocks);
+  withToolLength();
+}
+
+void ControlReader::withToolLength() {
+  if (!root_.value("with_tool_length")) return;
+  const TomlTable table = optional("with_tool_length");
+  const Origin from = origin(table);
+  LengthInPositions out{false, false, from.grade, from.source};
+  for (const TomlValue& item : table.require("variables", "a list of position and skip").items()) {
+    const bool skip = item.choice({"position", "skip"}, "position") == "skip";
+    bool& held = skip ? out.skip : out.position;
+    if (held) document_.fail(item.range(), fmt::format("`{}` is given twice", item.text()));
+    if (!(skip ? control_.variables.skip : control_.variables.position))
+      document_.fail(item.range(), fmt::format("`{}` is no variable of this control", item.text()));
+    held = true;
+  }
+  control_.withToolLength = std::move(out);
 }
 
 void ControlReader::overlaps(const TomlTable& table, const Taken& blocks) const {

@@ -107,7 +107,7 @@ private:
   void computed(const ir::ExpressionPtr& number) {
     if (context_.same()) return;
     const SourceRange range = number->range.hasPlace() ? number->range : statement_->origin.range();
-    const auto base = firstNumber(number);
+    const auto base = ir::firstNumber(number);
     const bool system = base && *base >= kFirstSystem;
     const bool same = sameVariables(context_.from(), context_.to());
     const bool known = system && (variableThere(*base, context_.from(), context_.to()).number ||

@@ -318,7 +318,7 @@ private:
 
   // #[600+#1]: above all that either set uses as long as #1 counts up.
   void computed(const ir::ExpressionPtr& number, SourceRange range) {
-    const std::optional<std::uint32_t> base = firstNumber(number);
+    const std::optional<std::uint32_t> base = ir::firstNumber(number);
     if (base && *base >= kFirstSystem) return;
     std::uint32_t last = 0;
     for (const stdlib::MacroSet* set : {&from(), &to()}) {

@@ -164,6 +164,14 @@ std::optional<bool> keptOf(const Control& control, std::uint32_t number) {
   return std::nullopt;
 }
 
+// Whether the position along the tool's axis holds its length; nothing: not known, or another variable.
+std::optional<bool> lengthIn(const Control& control, const Meaning& meaning) {
+  if (!control.withToolLength || meaning.axis != 2) return std::nullopt;
+  if (meaning.kind == Kind::Position) return control.withToolLength->position;
+  if (meaning.kind == Kind::Skip) return control.withToolLength->skip;
+  return std::nullopt;
+}
+
 VariableThere refused(std::string why, std::string what = "") {
   return {std::nullopt, std::move(what), std::move(why)};
 }
@@ -219,27 +227,17 @@ VariableThere variableThere(std::uint32_t number, const Control& from, const Con
   if (meaning->kind == Kind::Modal && !sameGroup(meaning->index, from, to))
     return refused(fmt::format("is {} on {}, and {} keeps other codes there", what, from.title, to.title),
                    what);
+  if (const auto length = lengthIn(from, *meaning); length != lengthIn(to, *meaning))
+    return refused(
+        fmt::format("is {} on {}; whether it holds the length of the tool as well is not the same on {}",
+                    what, from.title, to.title),
+        what);
   const std::optional<std::uint32_t> there = numberOf(to, *meaning);
   if (!there)
     return refused(
         fmt::format("is {} on {}; the profile of {} has no variable for it", what, from.title, to.title),
         what);
   return {there, what, ""};
-}
-
-std::optional<std::uint32_t> firstNumber(const ir::ExpressionPtr& number) {
-  const auto whole = [](const ir::ExpressionPtr& side) -> std::optional<std::uint32_t> {
-    const double* value = ir::constantValue(side);
-    if (value == nullptr || *value < 0 || *value > 99999999) return std::nullopt;
-    return static_cast<std::uint32_t>(std::lround(*value));
-  };
-  const auto* sum = std::get_if<ir::Binary>(&number->node);
-  if (sum == nullptr || (sum->op != ir::BinaryOp::Add && sum->op != ir::BinaryOp::Subtract))
-    return std::nullopt;
-  if (const auto left = whole(sum->left)) return left;
-  if (sum->op == ir::BinaryOp::Add)
-    if (const auto right = whole(sum->right)) return right;
-  return firstNumber(sum->left);
 }
 
 } // namespace dotek::backends::fanuc

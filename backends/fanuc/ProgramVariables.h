@@ -23,9 +23,6 @@ bool sameVariables(const stdlib::Control& from, const stdlib::Control& to);
 // Every local and common variable of the source is one of the target, kept as long.
 bool holdsVariablesOf(const stdlib::Control& to, const stdlib::Control& from);
 
-// The constant that a computed number counts from: 2000 of #[2000+#7]. nullopt: none.
-std::optional<std::uint32_t> firstNumber(const ir::ExpressionPtr& number);
-
 // "#1 to #33, #100 to #149"
 std::string variableRanges(const stdlib::Control& control);
 

@@ -224,8 +224,10 @@ private:
   // Of the active system, the tool's length taken off, as the axes stand.
   ir::ExpressionPtr position(ir::Axis axis) {
     const auto& v = settings_.control.variables;
+    const std::optional<stdlib::LengthInPositions>& with = settings_.control.withToolLength;
     const bool z = axis == ir::Axis::Z;
-    if (!v.position || (z && !v.toolLength)) {
+    const bool held = z && (!with || with->position);
+    if (!v.position || (held && (!with || !v.toolLength))) {
       refuse(fmt::format("`{}` has no variable of the position in {}", settings_.control.name,
                          ir::letterOf(axis)));
       return ir::constant(0);
@@ -233,7 +235,7 @@ private:
     wait();
     const auto step = static_cast<std::uint32_t>(ir::indexOf(axis));
     const ir::ExpressionPtr now = numbered(static_cast<std::uint32_t>(*v.position) + step);
-    return z ? minus(now, numbered(static_cast<std::uint32_t>(*v.toolLength) + step)) : now;
+    return held ? minus(now, numbered(static_cast<std::uint32_t>(*v.toolLength) + step)) : now;
   }
 
   // Macro statements are carried out before the axes are: a bare G53 waits.

@@ -122,15 +122,19 @@ std::optional<double> Machine::readSystem(std::uint32_t number, const Place& pla
     return place.index == slotOf('F') ? feed_ : modalWords_[place.index];
   case Kind::BlockEnd: return position(work_, false);
   case Kind::MachinePosition: return position(machinePosition(), true);
-  case Kind::Now: {
-    Position out = work_; // the tool's length is not taken off
-    out[2] = snap(out[2] + toolLength_);
-    return position(out, true);
-  }
+  case Kind::Now:
   case Kind::Skip: {
-    Position out = skipped_;
-    out[2] = snap(out[2] + toolLength_);
-    return out[place.axis];
+    Position out = place.kind == Kind::Skip ? skipped_ : work_;
+    if (place.axis == 2 && toolLength_ != 0) {
+      const std::optional<stdlib::LengthInPositions>& with = control_.withToolLength;
+      if (!with) {
+        inconclusive(fmt::format("whether #{} holds the length of the tool is not known of {}", number,
+                                 control_.title));
+        return std::nullopt;
+      }
+      if (place.kind == Kind::Skip ? with->skip : with->position) out[2] = snap(out[2] + toolLength_);
+    }
+    return place.kind == Kind::Skip ? std::optional(out[place.axis]) : position(out, true);
   }
   case Kind::ToolLength: return place.axis == 2 ? toolLength_ : 0.0;
   case Kind::External: return external_[place.axis];

@@ -1,0 +1,384 @@
+#include "lint/ToolLength.h"
+
+#include "ir/Walk.h"
+#include "lint/Skips.h"
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+namespace dotek::lint {
+namespace {
+
+constexpr std::uint32_t kZ = 2; // axes after X
+constexpr std::uint32_t kLastLocal = 33;
+constexpr std::uint32_t kFirstSystem = 1000;
+constexpr std::uint32_t kFirstToolOffset = 2000, kLastToolOffset = 2999;
+constexpr std::uint32_t kFirstLongOffset = 10000, kLastLongOffset = 13999; // of later controls
+
+bool isToolOffset(std::uint32_t number) {
+  return (number > kFirstToolOffset && number <= kLastToolOffset) ||
+         (number > kFirstLongOffset && number <= kLastLongOffset);
+}
+
+// Numbers of variables that matter, of the profiles that a program may be for.
+struct Numbers {
+  std::set<std::uint32_t> positions; // that hold the length
+  std::set<std::uint32_t> machine, length;
+  std::set<std::uint32_t> zeroes; // Z of work systems
+
+  explicit Numbers(const Project& project) {
+    if (project.control != nullptr) add(*project.control);
+    for (const stdlib::Control& control : project.controls)
+      add(control);
+    for (const stdlib::Control& control : project.controls)
+      drop(control);
+  }
+
+private:
+  static void put(std::set<std::uint32_t>& into, std::optional<int> first) {
+    if (first) into.insert(static_cast<std::uint32_t>(*first) + kZ);
+  }
+  void add(const stdlib::Control& control) {
+    const stdlib::SystemVariables& v = control.variables;
+    if (control.withToolLength && control.withToolLength->position) put(positions, v.position);
+    if (control.withToolLength && control.withToolLength->skip) put(positions, v.skip);
+    put(machine, v.machine);
+    put(length, v.toolLength);
+    const auto zero = [&](std::optional<int> first, int system) {
+      if (first) zeroes.insert(static_cast<std::uint32_t>(*first + system + 2 * v.axisStep));
+    };
+    zero(v.externalX, 0);
+    for (int system = 0; system < 6; ++system)
+      zero(v.workOffsetX, system * v.systemStep);
+    for (int system = 0; system < v.extendedCount; ++system)
+      zero(v.extendedX, system * v.extendedStep);
+  }
+  // Where nobody names the control, what holds on all of them counts.
+  void drop(const stdlib::Control& control) {
+    const stdlib::SystemVariables& v = control.variables;
+    const auto erase = [&](std::optional<int> first, bool held) {
+      if (first && !held) positions.erase(static_cast<std::uint32_t>(*first) + kZ);
+    };
+    erase(v.position, control.withToolLength && control.withToolLength->position);
+    erase(v.skip, control.withToolLength && control.withToolLength->skip);
+  }
+};
+
+struct Read {
+  std::uint32_t number = 0;
+  SourceRange range;
+};
+
+// What a value holds of the length of the tool.
+struct Held {
+  double lengths = 0;
+  bool unknown = false;
+  bool maybeAdded = false, maybeTaken = false; // a value that may be the length is a term, with + or with -
+  std::optional<Read> read;                    // where the length comes from
+
+  bool none() const { return lengths == 0 && !unknown; }
+  bool free() const { return maybeAdded || maybeTaken; }
+  bool operator==(const Held& other) const {
+    return lengths == other.lengths && unknown == other.unknown && maybeAdded == other.maybeAdded &&
+           maybeTaken == other.maybeTaken;
+  }
+};
+
+Held unknownHeld() {
+  Held out;
+  out.unknown = true;
+  return out;
+}
+
+Held sum(const Held& a, const Held& b, bool subtract) {
+  Held out;
+  out.lengths = a.lengths + (subtract ? -b.lengths : b.lengths);
+  out.unknown = a.unknown || b.unknown;
+  out.maybeAdded = a.maybeAdded || (subtract ? b.maybeTaken : b.maybeAdded);
+  out.maybeTaken = a.maybeTaken || (subtract ? b.maybeAdded : b.maybeTaken);
+  out.read = a.read ? a.read : b.read;
+  return out;
+}
+
+Held times(const Held& a, double factor) {
+  Held out = a;
+  out.lengths = a.lengths * factor;
+  if (factor < 0) std::swap(out.maybeAdded, out.maybeTaken);
+  return out;
+}
+
+// Of a value that neither a sum nor a multiple is.
+Held mixed(const Held& a, const Held& b) {
+  if (!a.none() || !b.none()) return unknownHeld();
+  Held out;
+  out.maybeAdded = a.free() || b.free();
+  return out;
+}
+
+bool merge(Held& into, const Held& other) {
+  const Held before = into;
+  if (into.lengths != other.lengths) into.unknown = true;
+  if (into.unknown) into.lengths = 0;
+  into.unknown = into.unknown || other.unknown;
+  into.maybeAdded = into.maybeAdded || other.maybeAdded;
+  into.maybeTaken = into.maybeTaken || other.maybeTaken;
+  if (!into.read) into.read = other.read;
+  return !(into == before);
+}
+
+enum class Offset : std::uint8_t { AsBefore, On, Off, Either };
+
+struct Fact {
+  std::map<std::uint32_t, Held> values; // of variables that the program has set
+  bool lost = false;                    // a computed number may have set any of them
+  Offset offset = Offset::AsBefore;
+};
+
+// An argument is no length of a tool; what is left in a common variable may be.
+Held entryValue(std::uint32_t number) {
+  Held out;
+  out.maybeAdded = number > kLastLocal;
+  return out;
+}
+
+bool merge(Fact& into, const Fact& other) {
+  bool changed = false;
+  for (auto& [number, held] : into.values)
+    if (!other.values.contains(number)) changed = merge(held, entryValue(number)) || changed;
+  for (const auto& [number, held] : other.values) {
+    const auto [at, added] = into.values.try_emplace(number, entryValue(number));
+    changed = merge(at->second, held) || added || changed;
+  }
+  if (other.lost && !into.lost) into.lost = changed = true;
+  if (into.offset != other.offset && into.offset != Offset::Either) {
+    into.offset = Offset::Either;
+    changed = true;
+  }
+  return changed;
+}
+
+// G43, G44 and their forms with a point, G49; nothing: none of them. H0 is as good as G49.
+std::optional<Offset> statedOffset(const ir::ProgramStatement& statement) {
+  const auto* block = std::get_if<ir::NcBlock>(&statement.node);
+  if (block == nullptr) return std::nullopt;
+  std::optional<Offset> out;
+  for (const ir::Word& word : block->words) {
+    if (word.address != 'G') continue;
+    const double* code = ir::constantValue(word.value);
+    if (code == nullptr) out = Offset::Either;
+    if (code != nullptr && *code >= 43 && *code < 45)
+      out = wordValue(*block, 'H') == 0.0 ? Offset::Off : Offset::On;
+    if (code != nullptr && *code == 49) out = Offset::Off;
+  }
+  return out;
+}
+
+class Search {
+public:
+  Search(const ir::Program& program, const Project& project)
+      : program_(program), project_(project), numbers_(project) {}
+
+  std::vector<LengthLeftIn> run() {
+    if (!readsPosition()) return {};
+    for (const NcFile& nc : project_.programs)
+      if (nc.lowered)
+        for (const ir::Program& other : nc.lowered->programs)
+          if (std::any_of(other.body.begin(), other.body.end(),
+                          [](const ir::ProgramStatement& one) { return statedOffset(one).has_value(); }))
+            switching_.insert(static_cast<std::uint32_t>(other.number));
+    Fact entry;
+    // A macro that measures tools runs without an offset.
+    if (setsToolOffset()) entry.offset = Offset::Off;
+    const auto& body = program_.body;
+    const auto facts = ir::factsBefore<Fact>(
+        body, entry,
+        [&](std::size_t at, std::size_t, Fact fact) {
+          step(body[at], fact);
+          return fact;
+        },
+        [](Fact& into, const Fact& other) { return merge(into, other); });
+    for (std::size_t i = 0; i < body.size(); ++i)
+      if (facts[i]) judge(body[i], *facts[i]);
+    return std::move(found_);
+  }
+
+private:
+  bool readsPosition() const {
+    for (const ir::ProgramStatement& statement : program_.body) {
+      bool found = false;
+      eachRead(statement, [&](std::uint32_t number, SourceRange) {
+        found = found || numbers_.positions.contains(number);
+      });
+      if (found) return true;
+    }
+    return false;
+  }
+
+  bool setsToolOffset() const {
+    return std::any_of(program_.body.begin(), program_.body.end(), [](const ir::ProgramStatement& statement) {
+      if (const auto* block = std::get_if<ir::NcBlock>(&statement.node))
+        if (const auto l = wordValue(*block, 'L'); l && hasCode(*block, 'G', 10)) return *l >= 10 && *l <= 13;
+      const auto* store = std::get_if<ir::Store>(&statement.node);
+      if (store == nullptr) return false;
+      const auto number = storedNumber(statement);
+      if (number) return isToolOffset(*number);
+      const auto first = ir::firstNumber(store->number);
+      return first && isToolOffset(*first + 1);
+    });
+  }
+
+  Held variable(const ir::Expression& expression, const Fact& fact) const {
+    const ir::ExpressionPtr& computed = std::get<ir::MachineVariable>(expression.node).number;
+    const auto number = variableNumber(expression);
+    if (!number) {
+      const auto first = ir::firstNumber(computed);
+      Held out; // a zero point of a work system holds none
+      out.maybeAdded = !first || !zeroTable(*first);
+      return out;
+    }
+    const bool off = fact.offset == Offset::Off;
+    const bool position = numbers_.positions.contains(*number);
+    Held out;
+    if (position || numbers_.machine.contains(*number) || numbers_.length.contains(*number)) {
+      if (off) return out;
+      out.lengths = 1;
+      if (position) out.read = Read{*number, expression.range};
+      return out;
+    }
+    if (const auto at = fact.values.find(*number); at != fact.values.end()) return at->second;
+    if (*number < kFirstSystem) return fact.lost ? unknownHeld() : entryValue(*number);
+    out.maybeAdded = isToolOffset(*number);
+    return out;
+  }
+
+  // The first variable of a table of zero points: #[5203+..].
+  bool zeroTable(std::uint32_t first) const {
+    return numbers_.zeroes.contains(first) || numbers_.zeroes.contains(first + kZ) ||
+           numbers_.zeroes.contains(first + 20);
+  }
+
+  Held held(const ir::ExpressionPtr& value, const Fact& fact) const {
+    if (const auto* unary = std::get_if<ir::Unary>(&value->node)) {
+      const Held operand = held(unary->operand, fact);
+      switch (unary->op) {
+      case ir::UnaryOp::Negate: return times(operand, -1);
+      case ir::UnaryOp::NullAsZero:
+      case ir::UnaryOp::Round:
+      case ir::UnaryOp::RoundIncrement:
+      case ir::UnaryOp::AddPoint: return operand;
+      default: return mixed(operand, {});
+      }
+    }
+    if (const auto* binary = std::get_if<ir::Binary>(&value->node)) {
+      const Held left = held(binary->left, fact);
+      const Held right = held(binary->right, fact);
+      const double* factor = ir::constantValue(binary->right);
+      switch (binary->op) {
+      case ir::BinaryOp::Add: return sum(left, right, false);
+      case ir::BinaryOp::Subtract: return sum(left, right, true);
+      case ir::BinaryOp::Divide:
+        return factor != nullptr && *factor != 0 ? times(left, 1 / *factor) : mixed(left, right);
+      case ir::BinaryOp::Multiply:
+        if (factor != nullptr) return times(left, *factor);
+        factor = ir::constantValue(binary->left);
+        return factor != nullptr ? times(right, *factor) : mixed(left, right);
+      default: return mixed(left, right);
+      }
+    }
+    if (std::holds_alternative<ir::MachineVariable>(value->node)) return variable(*value, fact);
+    return {};
+  }
+
+  void step(const ir::ProgramStatement& statement, Fact& fact) const {
+    if (const auto stated = statedOffset(statement)) fact.offset = *stated;
+    if (const auto* store = std::get_if<ir::Store>(&statement.node)) {
+      if (const auto number = storedNumber(statement)) {
+        if (*number < kFirstSystem) fact.values[*number] = held(store->value, fact);
+      } else if (const auto first = ir::firstNumber(store->number); !first || *first < kFirstSystem) {
+        fact.lost = true;
+        for (auto& [other, value] : fact.values)
+          value = unknownHeld();
+      }
+    }
+    const ir::Call* call = callOf(statement);
+    if (call == nullptr) return;
+    if (call->kind == ir::CallKind::Subprogram) // shares the locals
+      for (auto& [local, value] : fact.values)
+        if (local <= kLastLocal) value = unknownHeld();
+    const double* number = call->program ? ir::constantValue(call->program) : nullptr;
+    if (number != nullptr && switching_.contains(static_cast<std::uint32_t>(*number)))
+      fact.offset = Offset::Either;
+  }
+
+  void report(LengthLeftIn::Place place, SourceRange range, const ir::ExpressionPtr& value,
+              const Fact& fact) {
+    const Held one = held(value, fact);
+    if (!one.read || one.unknown || one.lengths == 0 || fact.offset == Offset::Off) return;
+    if (one.lengths > 0 ? one.maybeTaken : one.maybeAdded) return;
+    const std::uint32_t length = numbers_.length.empty() ? 0 : *numbers_.length.begin();
+    found_.push_back({place, range, value->range, one.lengths, one.read->number, one.read->range, length});
+  }
+
+  void judge(const ir::ProgramStatement& statement, Fact fact) {
+    if (const auto stated = statedOffset(statement)) fact.offset = *stated;
+    if (const auto* block = std::get_if<ir::NcBlock>(&statement.node)) {
+      const bool offset =
+          hasCode(*block, 'G', 10) && wordValue(*block, 'L') == 2.0 && fact.offset == Offset::On;
+      if (!offset && !isPlainMove(*block) && (skipOf(statement) == nullptr || hasCode(*block, 'G', 53)))
+        return;
+      for (const ir::Word& word : block->words)
+        if (word.address == 'Z')
+          report(offset ? LengthLeftIn::Place::WorkOffset : LengthLeftIn::Place::Move, word.range, word.value,
+                 fact);
+    } else if (const ir::Call* call = callOf(statement)) {
+      judgeCall(*call, fact);
+    } else if (const auto* store = std::get_if<ir::Store>(&statement.node);
+               store != nullptr && fact.offset == Offset::On) {
+      const auto number = storedNumber(statement);
+      const auto first = number ? number : ir::firstNumber(store->number);
+      const bool zero =
+          first && (number ? numbers_.zeroes.contains(*first)
+                           : numbers_.zeroes.contains(*first) || numbers_.zeroes.contains(*first + 20));
+      if (zero) report(LengthLeftIn::Place::WorkOffset, statement.origin.range(), store->value, fact);
+    }
+  }
+
+  // Arguments along Z that a probing macro takes as coordinates of the work system.
+  void judgeCall(const ir::Call& call, const Fact& fact) {
+    const double* number = call.program ? ir::constantValue(call.program) : nullptr;
+    if (call.kind != ir::CallKind::Macro || number == nullptr || *number < 0) return;
+    const auto program = static_cast<std::uint32_t>(*number);
+    std::string letters;
+    for (const ir::CallArgument& argument : call.arguments)
+      letters += argument.letter;
+    for (const stdlib::MacroSet& set : project_.macroSets) {
+      if (!set.calls(program) || !mayBeOf(set, program, letters)) continue;
+      const stdlib::CallReading reading = readKnown(set, program, letters);
+      if (reading.signature == nullptr) continue;
+      for (const ir::CallArgument& argument : call.arguments) {
+        const stdlib::MacroArgument* meaning = reading.signature->find(argument.letter);
+        const bool coordinate = meaning != nullptr && argument.value != nullptr &&
+                                ((meaning->role == stdlib::ArgumentRole::Target &&
+                                  meaning->axis == ir::Axis::Z && meaning->frame == ir::Frame::Work) ||
+                                 meaning->role == stdlib::ArgumentRole::Depth);
+        if (coordinate) report(LengthLeftIn::Place::Argument, argument.range, argument.value, fact);
+      }
+      return;
+    }
+  }
+
+  const ir::Program& program_;
+  const Project& project_;
+  const Numbers numbers_;
+  std::set<std::uint32_t> switching_; // programs of the files that turn the offset on or off
+  std::vector<LengthLeftIn> found_;
+};
+
+} // namespace
+
+std::vector<LengthLeftIn> lengthsLeftIn(const ir::Program& program, const Project& project) {
+  return Search(program, project).run();
+}
+
+} // namespace dotek::lint

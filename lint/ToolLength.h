@@ -1,0 +1,32 @@
+// Which values of a program hold the length of the tool. Along the tool's axis #5043 and #5063 are positions
+// of the spindle: under G43 they hold the length of the tool (#5083) too, and a coordinate that a block moves
+// to does not.
+#pragma once
+
+#include "lint/Probing.h"
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <vector>
+
+namespace dotek::lint {
+
+// A coordinate that is computed from a position without its length taken off.
+struct LengthLeftIn {
+  enum class Place : std::uint8_t { Move, Argument, WorkOffset };
+  Place place = Place::Move;
+  SourceRange range;         // of the word, or of the statement that writes the offset
+  SourceRange value;         // of the coordinate; no place where it is not to be had
+  double lengths = 1;        // how often it holds the length: 1, or -1 where the position is subtracted
+  std::uint32_t read = 5063; // the position
+  SourceRange readAt;
+  std::uint32_t length = 5083; // the variable of the length
+};
+
+// Those of the program, in the order of its statements. Silent where the control is not known to hold the
+// length in its positions, under G49, and where something else that may be the length is taken off: a common
+// variable that the program does not set, a tool offset.
+std::vector<LengthLeftIn> lengthsLeftIn(const ir::Program& program, const Project& project);
+
+} // namespace dotek::lint

@@ -1,0 +1,69 @@
+#include "lint/ToolLength.h"
+
+#include <algorithm>
+
+namespace dotek::lint::rule {
+namespace {
+
+using Place = LengthLeftIn::Place;
+
+// `Z#101` becomes `Z[#101-#5083]`; nothing where the length is in it otherwise than once.
+std::optional<Edit> repair(const LengthLeftIn& one, const SourceMap& sources) {
+  if (!one.value.hasPlace() || one.length == 0 || (one.lengths != 1 && one.lengths != -1))
+    return std::nullopt;
+  std::string text(sources.text(one.value));
+  const bool bracketed = text.starts_with('[') && text.ends_with(']') && text.find(']') == text.size() - 1;
+  if (bracketed) text = text.substr(1, text.size() - 2);
+  const std::string taken = fmt::format("{}{}#{}", text, one.lengths > 0 ? '-' : '+', one.length);
+  return Edit{one.value, one.place == Place::WorkOffset ? taken : "[" + taken + "]"};
+}
+
+void checkProgram(const ir::Program& program, const Project& project, Report& report) {
+  std::vector<LengthLeftIn> all = lengthsLeftIn(program, project);
+  // One position that is read leads to one finding, at its first coordinate.
+  while (!all.empty()) {
+    const LengthLeftIn first = all.front();
+    std::vector<LengthLeftIn> rest;
+    Diagnostic& found =
+        report.at(first.range,
+                  "{0} computed from #{1}, which holds the length of the tool too, and nothing takes it off; "
+                  "under G43 {2} "
+                  "{3} by that length; take #{4} off",
+                  first.place == Place::WorkOffset ? "this work offset is" : "this Z is", first.read,
+                  first.place == Place::WorkOffset ? "the zero lies" : "the tool goes",
+                  first.lengths > 0 ? "too high" : "too low, into the part,", first.length);
+    if (first.readAt.hasPlace() &&
+        (first.readAt.end <= first.range.begin || first.readAt.begin >= first.range.end))
+      found.note(first.readAt, "the position is read here");
+    Fix fix{Fix::Applicability::Display, "", {}};
+    for (const LengthLeftIn& one : all) {
+      if (one.readAt.begin != first.readAt.begin) {
+        rest.push_back(one);
+        continue;
+      }
+      if (one.range.begin != first.range.begin) found.note(one.range, "another coordinate computed from it");
+      if (auto edit = repair(one, project.sources)) fix.edits.push_back(std::move(*edit));
+    }
+    if (!fix.edits.empty()) {
+      fix.title = fmt::format("write `{}`", fix.edits.front().text);
+      found.fix = std::move(fix);
+    }
+    all = std::move(rest);
+  }
+}
+
+void check(const Project& project, Report& report) {
+  eachProgram(project, [&](const ir::Program& program, const macrob::File&) {
+    checkProgram(program, project, report);
+  });
+}
+
+} // namespace
+
+DOTEK_LINT_RULE(tool_length_in_target){
+    .severity = Severity::Warning,
+    .tier = Tier::Ir,
+    .check = check,
+};
+
+} // namespace dotek::lint::rule
