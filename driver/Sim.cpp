@@ -130,7 +130,7 @@ private:
     std::optional<sim::Trace> trace;
     if (options_.trace) machine.setTrace(&trace.emplace(options_.trace));
     sim::Run run(machine, code, session_.limits(), macros.get());
-    world_->setPlace([&run] { return sim::RunPlace{run.place(), run.openCalls()}; });
+    world_->setPlace([&run] { return sim::RunPlace{run.place(), run.openCalls(), run.program()}; });
     world_->setCallKind([&macros](std::uint32_t program, std::span<const double> locals) {
       return macros->kindOf(program, locals);
     });
@@ -148,7 +148,7 @@ private:
     std::optional<sim::Trace> trace;
     if (options_.trace) machine.setTrace(&trace.emplace(options_.trace));
     frontend::nc::Scanner scanner(chunks);
-    setPlace(scanner);
+    setPlace(scanner, machine);
     world_->attach(machine);
     ir::NcWords words;
     using Result = frontend::nc::Scanner::Result;
@@ -166,16 +166,18 @@ private:
   }
 
   // The lines at which something happens are kept as files of their own.
-  void setPlace(const frontend::nc::Scanner& scanner) {
+  void setPlace(const frontend::nc::Scanner& scanner, sim::Machine& machine) {
     world_->setPlace(
         [this, &scanner, line = std::uint64_t(0), range = SourceRange()]() mutable {
           if (line != scanner.line()) range = sim::placeOfLine(options_.program, scanner, session_);
           line = scanner.line();
-          return sim::RunPlace{range, {}};
+          return sim::RunPlace{range, {}, 0};
         },
-        [this, &scanner] {
+        [this, &scanner, &machine] {
+          const std::uint32_t program = machine.frame().program;
           return sim::PictureBlock{sim::toUtf8Text(std::string(scanner.lineText())),
-                                   fmt::format("{}:{}", options_.program, scanner.line())};
+                                   fmt::format("{}:{}", options_.program, scanner.line()),
+                                   program == 0 ? "" : fmt::format("O{:04}", program)};
         });
   }
 

@@ -116,7 +116,7 @@ private:
     return found == lines_.end() ? SourceRange() : found->second;
   }
   RunPlace place(const sim::MikroprogMachine& machine) const {
-    RunPlace out{rangeOf(machine.line()), {}};
+    RunPlace out{rangeOf(machine.line()), {}, 0};
     for (const std::uint32_t line : machine.openCalls())
       out.calls.push_back(rangeOf(line));
     return out;

@@ -34,6 +34,8 @@ public:
   const std::vector<EarlyRead>& earlyReads() const { return early_; }
   // The block, or the word of it, at which the run ended.
   SourceRange place() const;
+  // The number of the program that holds it; 0: none.
+  std::uint64_t program() const { return levels_.empty() ? 0 : levels_.back().routine->number; }
   // The calls that were open then, the outermost first.
   std::vector<SourceRange> openCalls() const;
 

@@ -12,4 +12,11 @@ std::string_view pathKindName(PathKind kind) {
   return "";
 }
 
+std::optional<std::size_t> blockOf(const Picture& picture, const PictureError& error) {
+  const std::size_t block = error.block                         ? *error.block
+                            : error.move < picture.moves.size() ? picture.moves[error.move].block
+                                                                : picture.blocks.size();
+  return block < picture.blocks.size() ? std::optional(block) : std::nullopt;
+}
+
 } // namespace dotek::sim

@@ -27,6 +27,14 @@ struct PictureMove {
   Point3 from, to;
   bool probeOn = true;
   std::size_t block = 0; // place in Picture::blocks
+  std::size_t frame = 0; // place in Picture::frames; beyond its end: the coordinates are not known
+};
+
+// The work coordinates that a control showed during some moves. Those of a place are the position of the
+// spindle's gauge line less `shift`, which holds work offset and tool length, mm; no number: not known.
+struct PictureFrame {
+  std::string name; // "G54", "G54.1 P3"; UTF-8
+  Point3 shift;
 };
 
 struct PictureContact {
@@ -38,11 +46,28 @@ struct PictureError {
   Point3 at;
   std::string text; // UTF-8, one line
   std::size_t move = 0;
+  std::optional<std::size_t> block = std::nullopt; // place in Picture::blocks; nothing: the block of the move
 };
 
 struct PictureBlock {
-  std::string text;  // UTF-8; as the program writes it
-  std::string place; // "probe.nc:12"
+  std::string text;         // UTF-8; as the program writes it
+  std::string place;        // "probe.nc:12"
+  std::string program = {}; // "O1200"; "": it has no number
+};
+
+// How a run went: the banner of both pictures.
+enum class Verdict : std::uint8_t {
+  Pass,
+  Doubt, // ended as written, with misses; or inconclusive, or a limit: nothing is proved wrong
+  Fail,
+};
+struct PictureResult {
+  Verdict verdict = Verdict::Pass;
+  std::string word;                // "PASS", "ALARM 3012", "COLLISION"
+  std::string text;                // what it is about, one line; all texts are UTF-8
+  std::string place, block;        // "O1200, probe.nc:12" and what is written there; "": nowhere
+  std::string position;            // "G54 X1.000 Y2.000 Z3.000; machine X.. Y.. Z.."; "": not known
+  std::vector<std::string> counts; // "2 collisions"
 };
 
 struct Picture {
@@ -55,13 +80,20 @@ struct Picture {
   std::vector<PictureContact> contacts;
   std::vector<PictureError> errors;
   std::vector<PictureBlock> blocks;
+  std::vector<PictureFrame> frames;
+  std::optional<PictureResult> result; // nothing: no banner
+  int decimals = 3;                    // of coordinates, as the control shows them
 };
 
-// An SVG with three views, XY, XZ and YZ: sections of the part, the path, numbered contacts, errors in red, a
-// legend and a scale. The same picture gives the same bytes.
+// The place in Picture::blocks at which an error happened; nothing: it is not known.
+std::optional<std::size_t> blockOf(const Picture& picture, const PictureError& error);
+
+// An SVG that opens with how the run went. Three views, XY, XZ and YZ: sections of the part, the path,
+// numbered contacts, errors in red, a legend and a scale. The same picture gives the same bytes.
 std::string pictureSvg(const Picture& picture);
-// One page that needs no network: a 3D view that turns with the mouse, the blocks beside it, a slider that
-// steps through the moves and shows the probe's position in numbers (mm, six decimals).
+// One page that needs no network, and opens with how the run went, at its end: a 3D view that turns with the
+// mouse, the blocks beside it, a slider that steps through the moves and shows the probe's position in work
+// and machine coordinates.
 std::string pictureHtml(const Picture& picture);
 
 } // namespace dotek::sim

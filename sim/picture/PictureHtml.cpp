@@ -1,6 +1,7 @@
 #include "sim/picture/Picture.h"
 #include "sim/picture/PicturePage.h"
 #include "sim/picture/PictureRegion.h"
+#include "sim/picture/PictureReport.h"
 #include "sim/picture/PictureText.h"
 #include "sim/picture/PictureView.h"
 #include "sim/picture/SurfaceMesh.h"
@@ -45,7 +46,10 @@ public:
       }
       out += frame.substr(at, open - at);
       const std::string_view mark = frame.substr(open + 1, close - open - 1);
+      if (mark == "TAB")
+        out += xmlText((picture_.result ? picture_.result->word + " - " : "") + picture_.title, 300);
       if (mark == "TITLE") out += xmlText(picture_.title, 300);
+      if (mark == "BANNER" && picture_.result) out += bannerHtml(*picture_.result);
       if (mark == "STYLE") out += pageStyle();
       if (mark == "NOTES") out += notes();
       if (mark == "LEGEND") out += legend();
@@ -104,18 +108,17 @@ private:
     std::string out;
     for (const PathKind kind : {PathKind::Rapid, PathKind::Feed, PathKind::Protected, PathKind::Measuring}) {
       const PathStyle& style = pathStyle(kind);
-      out += fmt::format("<div><svg width=\"44\" height=\"10\"><path d=\"M0 5h44\" stroke=\"{}\" "
-                         "stroke-width=\"{}\" stroke-dasharray=\"{}\"/></svg>{}</div>\n",
-                         style.colour, style.width, *style.dashes == '\0' ? "none" : style.dashes,
-                         pathKindName(kind));
+      out += fmt::format(
+          "<div><svg width=\"44\" height=\"10\"><path d=\"M0 5h44\" style=\"stroke:var(--{})\" "
+          "stroke-width=\"{}\" stroke-dasharray=\"{}\"/></svg>{}</div>\n",
+          pathKindName(kind), style.width, *style.dashes == '\0' ? "none" : style.dashes, pathKindName(kind));
     }
-    out += fmt::format(
-        "<div><svg width=\"44\" height=\"10\"><circle cx=\"22\" cy=\"5\" r=\"3.4\" fill=\"{}\"/></svg>"
-        "contact</div>\n<div><svg width=\"44\" height=\"12\"><path d=\"M17 1l10 10m0 -10l-10 10\" "
-        "stroke=\"{}\" stroke-width=\"2.6\"/></svg>error</div>\n"
-        "<div><svg width=\"44\" height=\"14\"><circle cx=\"13\" cy=\"7\" r=\"6\" fill=\"#f0a614\"/>"
-        "<circle cx=\"31\" cy=\"7\" r=\"6\" fill=\"#545c66\"/></svg>probe on, off</div>",
-        kContactColour, kErrorColour);
+    out += "<div><svg width=\"44\" height=\"10\"><circle cx=\"22\" cy=\"5\" r=\"3.4\" "
+           "style=\"fill:var(--contact)\"/></svg>"
+           "contact</div>\n<div><svg width=\"44\" height=\"12\"><path d=\"M17 1l10 10m0 -10l-10 10\" "
+           "style=\"stroke:var(--error)\" stroke-width=\"2.6\"/></svg>error</div>\n"
+           "<div><svg width=\"44\" height=\"14\"><circle cx=\"13\" cy=\"7\" r=\"6\" fill=\"#f0a614\"/>"
+           "<circle cx=\"31\" cy=\"7\" r=\"6\" fill=\"#545c66\"/></svg>probe on, off</div>";
     return out;
   }
 
@@ -124,15 +127,15 @@ private:
     const auto size = [](double value) {
       return std::isfinite(value) && value > 0 && value < kDrawn ? value : 0;
     };
-    std::string out = fmt::format("{{\"count\":{},\"errorColour\":\"{}\",\n\"kinds\":[",
-                                  picture_.moves.size(), kErrorColour);
+    std::string out = fmt::format("{{\"count\":{},\"decimals\":{},\n\"kinds\":[", picture_.moves.size(),
+                                  std::clamp(picture_.decimals, 0, 6));
     for (int i = 0; i < 4; ++i) {
       const auto kind = static_cast<PathKind>(i);
       const PathStyle& style = pathStyle(kind);
       std::string dashes = style.dashes;
       std::replace(dashes.begin(), dashes.end(), ' ', ',');
-      out += fmt::format("{}{{\"name\":\"{}\",\"colour\":\"{}\",\"width\":{},\"dashes\":[{}]}}",
-                         i == 0 ? "" : ",", pathKindName(kind), style.colour, style.width, dashes);
+      out += fmt::format("{}{{\"name\":\"{}\",\"width\":{},\"dashes\":[{}]}}", i == 0 ? "" : ",",
+                         pathKindName(kind), style.width, dashes);
     }
     out += fmt::format("],\n\"region\":[{},{}],\n", numbers(region_.least), numbers(region_.most));
     out += "\"probe\":";
@@ -144,11 +147,12 @@ private:
                              number(size(probe.bodyLength)),
                              number(std::isfinite(probe.centreLength()) ? probe.centreLength() : 0));
     way(out);
+    frames(out);
     marks(out);
     out += "\"blocks\":[";
     for (std::size_t i = 0; i < picture_.blocks.size() && i < kMostBlocks; ++i)
-      out += fmt::format("{}[{},{}]", i == 0 ? "" : ",\n", jsonText(picture_.blocks[i].text, 200),
-                         jsonText(picture_.blocks[i].place, 200));
+      out += fmt::format("{}[{},{},{}]", i == 0 ? "" : ",\n", jsonText(picture_.blocks[i].text, 200),
+                         jsonText(picture_.blocks[i].place, 200), jsonText(picture_.blocks[i].program, 40));
     out += "],\n";
     surface(out);
     return out + "}";
@@ -179,6 +183,26 @@ private:
     out += "],\n";
   }
 
+  // Work coordinates: each set of them, and of moves in a row the first, their number and the set.
+  void frames(std::string& out) const {
+    out += "\"frames\":[";
+    for (std::size_t i = 0; i < picture_.frames.size(); ++i)
+      out += fmt::format("{}[{},{}]", i == 0 ? "" : ",", jsonText(picture_.frames[i].name, 40),
+                         numbers(picture_.frames[i].shift));
+    out += "],\n\"framed\":[";
+    const auto frameAt = [&](std::size_t i) { return picture_.moves[chosen_[i]].frame; };
+    const std::size_t begin = out.size();
+    for (std::size_t i = 0; i < chosen_.size();) {
+      std::size_t end = i + 1;
+      while (end < chosen_.size() && frameAt(end) == frameAt(i))
+        ++end;
+      if (frameAt(i) < picture_.frames.size())
+        out += fmt::format("{}[{},{},{}]", out.size() == begin ? "" : ",", i, end - i, frameAt(i));
+      i = end;
+    }
+    out += "],\n";
+  }
+
   std::size_t placeOf(std::size_t move) const {
     return move < place_.size() ? place_[move] : place_.empty() ? 0 : chosen_.size() - 1;
   }
@@ -192,8 +216,9 @@ private:
     out += "],\n\"errors\":[";
     for (std::size_t i = 0; i < picture_.errors.size() && i < kMostMarks; ++i) {
       const PictureError& error = picture_.errors[i];
-      out += fmt::format("{}[{},{},{}]", i == 0 ? "" : ",\n", numbers(error.at), placeOf(error.move),
-                         jsonText(error.text, 600));
+      const std::optional<std::size_t> block = blockOf(picture_, error);
+      out += fmt::format("{}[{},{},{},{}]", i == 0 ? "" : ",\n", numbers(error.at), placeOf(error.move),
+                         jsonText(error.text, 600), block ? std::to_string(*block) : "null");
     }
     out += "],\n";
   }

@@ -1,18 +1,48 @@
 #include "sim/picture/PictureRecorder.h"
 
+#include "sim/machine/Axes.h"
+#include "sim/machine/EndText.h"
+
+#include <cmath>
 #include <utility>
 
 namespace dotek::sim {
+namespace {
+
+bool isSame(double a, double b) {
+  return a == b || (std::isnan(a) && std::isnan(b));
+}
+bool isSame(const PictureFrame& a, const PictureFrame& b) {
+  return a.name == b.name && isSame(a.shift.x, b.shift.x) && isSame(a.shift.y, b.shift.y) &&
+         isSame(a.shift.z, b.shift.z);
+}
+
+} // namespace
+
+PictureFrame frameOf(const Machine& machine) {
+  const Position gauge = machine.machinePosition(), &work = machine.position();
+  const auto shift = [&](std::size_t axis) {
+    return (machine.uncertain() >> axis & 1) != 0 ? std::nan("") : snap(gauge[axis] - work[axis]);
+  };
+  return {systemName(machine), {shift(0), shift(1), shift(2)}};
+}
 
 PictureRecorder::PictureRecorder(Picture empty, World* world, CallKind callKind, BlockNow blockNow)
     : picture_(std::move(empty)), world_(world), callKind_(std::move(callKind)), block_(std::move(blockNow)),
       on_(picture_.probe.on) {}
 
-std::size_t PictureRecorder::blockNow() {
-  PictureBlock block = block_();
+std::size_t PictureRecorder::placeOf(PictureBlock block) {
   const auto [found, isNew] = places_.try_emplace(block.place + '\n' + block.text, picture_.blocks.size());
   if (isNew) picture_.blocks.push_back(std::move(block));
   return found->second;
+}
+
+std::size_t PictureRecorder::frameNow() {
+  if (!frame_) return picture_.frames.size();
+  PictureFrame frame = frame_();
+  if (picture_.frames.empty() || !isSame(picture_.frames.back(), frame))
+    picture_.frames.push_back(std::move(frame));
+  return picture_.frames.size() - 1;
 }
 
 PathKind PictureRecorder::kindOf(MotionKind kind) const {
@@ -64,12 +94,24 @@ void PictureRecorder::moved(const MachineMotion& motion) {
     const auto centre = [&](const Position& at) {
       return world_ != nullptr ? world_->centreAt(at) : Point3{at[0], at[1], at[2]};
     };
-    picture_.moves.push_back({kindOf(motion.kind), centre(motion.from), centre(motion.to), on_, blockNow()});
+    picture_.moves.push_back(
+        {kindOf(motion.kind), centre(motion.from), centre(motion.to), on_, placeOf(block_()), frameNow()});
   }
   if (world_ == nullptr) return;
   const std::size_t before = world_->events().size();
   world_->moved(motion);
   addEvents(before, picture_.moves.empty() ? 0 : picture_.moves.size() - 1);
+}
+
+void PictureRecorder::finish(const RunFacts& facts) {
+  picture_.result = resultOf(picture_, facts);
+  const std::string why = endingText(facts);
+  if (why.empty()) return;
+  const std::size_t move = picture_.moves.empty() ? 0 : picture_.moves.size() - 1;
+  // Without a move the place is not known; no number is not drawn.
+  const double nan = std::nan("");
+  picture_.errors.push_back({picture_.moves.empty() ? Point3{nan, nan, nan} : picture_.moves.back().to, why,
+                             move, placeOf(facts.block)});
 }
 
 void PictureRecorder::probeSwitched(bool on) {

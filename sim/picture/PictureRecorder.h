@@ -4,6 +4,7 @@
 
 #include "sim/machine/World.h"
 #include "sim/picture/Picture.h"
+#include "sim/picture/PictureResult.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -12,9 +13,13 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace dotek::sim {
+
+// The work coordinates that a control shows now; axes whose position is not known have no number.
+PictureFrame frameOf(const Machine& machine);
 
 class PictureRecorder final : public SkipSignal, public MotionWatcher {
 public:
@@ -26,10 +31,16 @@ public:
       std::function<std::optional<PathKind>(std::uint32_t program, std::span<const double> locals)>;
   // The block that runs now; asked once a motion.
   using BlockNow = std::function<PictureBlock()>;
+  // The work coordinates after a motion.
+  using FrameNow = std::function<PictureFrame()>;
 
   // `empty`: title, part and probe. `world`: gets every call and outlives the recorder; nullptr: no signal
   // comes, and the moves are those of the spindle's gauge line.
   PictureRecorder(Picture empty, World* world, CallKind callKind, BlockNow blockNow);
+
+  void setFrame(FrameNow frame) { frame_ = std::move(frame); } // without it they are not known
+  // After the run: what stopped it is an error at the end of the path, and the picture has its banner.
+  void finish(const RunFacts& facts);
 
   std::optional<double> contact(const SkipMove& move) override;
   bool isThere(const SkipMove& here) override;
@@ -43,13 +54,15 @@ public:
 
 private:
   void addEvents(std::size_t from, std::size_t move);
-  std::size_t blockNow();
+  std::size_t placeOf(PictureBlock block); // in Picture::blocks
+  std::size_t frameNow();
   PathKind kindOf(MotionKind kind) const;
 
   Picture picture_;
   World* world_;
   CallKind callKind_;
   BlockNow block_;
+  FrameNow frame_;
   std::map<std::string, std::size_t> places_;  // of blocks
   std::vector<std::optional<PathKind>> calls_; // that are open
   bool on_;

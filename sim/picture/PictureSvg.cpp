@@ -1,5 +1,6 @@
 #include "sim/picture/Picture.h"
 #include "sim/picture/PictureRegion.h"
+#include "sim/picture/PictureReport.h"
 #include "sim/picture/PictureText.h"
 #include "sim/picture/PictureView.h"
 #include "sim/picture/Sections.h"
@@ -26,25 +27,6 @@ std::string px(double value) {
 
 double finite(double value) {
   return std::isfinite(value) ? value : 0;
-}
-
-// Text in lines of at most `width` characters, broken at blanks where there are any.
-std::vector<std::string> wrapped(std::string_view text, std::size_t width) {
-  std::vector<std::string> out;
-  while (text.size() > width) {
-    std::size_t at = text.rfind(' ', width);
-    if (at == std::string_view::npos || at < width / 2) {
-      at = width;
-      while (at > 1 && (static_cast<unsigned char>(text[at]) & 0xC0) == 0x80)
-        --at;
-    }
-    out.emplace_back(text.substr(0, at));
-    text.remove_prefix(at);
-    while (text.starts_with(' '))
-      text.remove_prefix(1);
-  }
-  if (!text.empty() || out.empty()) out.emplace_back(text);
-  return out;
 }
 
 class Legend {
@@ -169,7 +151,7 @@ std::string drawLegend(const Sheet& sheet, double left, double top, double& bott
 }
 
 // Numbered texts below the views.
-std::string drawErrors(const Picture& picture, double& at) {
+std::string drawErrors(const Picture& picture, double width, double& at) {
   if (picture.errors.empty()) return "";
   std::string out = fmt::format("<g id=\"errors\" fill=\"{}\">\n", kErrorColour);
   const auto line = [&](const std::string& text, double indent, bool bold) {
@@ -180,11 +162,12 @@ std::string drawErrors(const Picture& picture, double& at) {
   for (std::size_t i = 0; i < picture.errors.size() && i < kMostErrors; ++i) {
     const PictureError& error = picture.errors[i];
     std::string text = error.text;
-    if (error.move < picture.moves.size() && picture.moves[error.move].block < picture.blocks.size())
-      text = fmt::format("{}: {}", picture.blocks[picture.moves[error.move].block].place, text);
+    if (const std::optional<std::size_t> block = blockOf(picture, error))
+      text = fmt::format("{}: {}", picture.blocks[*block].place, text);
     line(fmt::format("E{}", i + 1), 0, true);
     at -= kLine;
-    for (const std::string& part : wrapped(text.substr(0, 900), 150))
+    for (const std::string& part :
+         wrapped(text.substr(0, 900), static_cast<std::size_t>((width - kLeft - 36 - kRight) / 6.6)))
       line(part, 36, false);
   }
   if (picture.errors.size() > kMostErrors)
@@ -203,13 +186,17 @@ std::string pictureSvg(const Picture& picture) {
 
   // XY above XZ, YZ beside it: edges line up as in a drawing. The legend has the fourth corner.
   const double right = kLeft + std::max(size.x * s, 200.0) + kGap;
+  const double width = std::max(right + size.y * s, right - 20 + kLegend) + kRight;
+  double banner = 0;
+  const std::string result = picture.result ? bannerSvg(*picture.result, kLeft, width, banner) : "";
+  const double top = kTop + banner;
   double legendBottom = 0;
-  const std::string legend = drawLegend(sheet, right - 20, kTop, legendBottom);
-  const double low = std::max(kTop + size.y * s, legendBottom) + kGap;
+  const std::string legend = drawLegend(sheet, right - 20, top, legendBottom);
+  const double low = std::max(top + size.y * s, legendBottom) + kGap;
   std::string views, clips;
   for (const std::size_t across : {2u, 1u, 0u}) {
     const std::array<std::size_t, 2> axes = planeAxes(across);
-    ViewFrame frame{across, across == 0 ? right : kLeft, across == 2 ? kTop : low, s, ""};
+    ViewFrame frame{across, across == 0 ? right : kLeft, across == 2 ? top : low, s, ""};
     clips += fmt::format(
         "<clipPath id=\"clip{}\"><rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\"/></clipPath>\n", across,
         px(frame.left), px(frame.top), px(coordinate(size, axes[0]) * s), px(coordinate(size, axes[1]) * s));
@@ -224,22 +211,23 @@ std::string pictureSvg(const Picture& picture) {
     views += drawView(picture, sheet.region, frame, &section);
   }
   double bottom = low + size.z * s + 56;
-  const std::string errors = drawErrors(picture, bottom);
-  const double width = std::max(right + size.y * s, right - 20 + kLegend) + kRight;
+  const std::string errors = drawErrors(picture, width, bottom);
   const double height = bottom + kBottom - (errors.empty() ? 14 : 0);
 
   std::string out = fmt::format(
       "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" viewBox=\"0 0 {0} {1}\" "
       "font-family=\"Helvetica, Arial, sans-serif\" font-size=\"12.5\">\n<title>{2}</title>\n",
-      px(width), px(height), xmlText(picture.title, 300));
+      px(width), px(height),
+      xmlText(picture.result ? picture.result->word + " - " + picture.title : picture.title, 300));
   out += "<defs>\n<pattern id=\"cut\" width=\"7\" height=\"7\" patternUnits=\"userSpaceOnUse\" "
          "patternTransform=\"rotate(45)\"><rect width=\"7\" height=\"7\" fill=\"#edf0f3\"/>"
          "<path d=\"M0 0v7\" stroke=\"#c3cad3\" stroke-width=\"1.6\"/></pattern>\n" +
          clips + "</defs>\n";
   out += fmt::format("<rect width=\"{}\" height=\"{}\" fill=\"#f7f8fa\"/>\n", px(width), px(height));
+  out += result;
   out += fmt::format(
-      "<text x=\"{}\" y=\"34\" font-size=\"19\" font-weight=\"bold\" fill=\"#20262d\">{}</text>\n", px(kLeft),
-      xmlText(picture.title, static_cast<std::size_t>((width - 2 * kLeft) / 10)));
+      "<text x=\"{}\" y=\"{}\" font-size=\"19\" font-weight=\"bold\" fill=\"#20262d\">{}</text>\n", px(kLeft),
+      px(banner + 34), xmlText(picture.title, static_cast<std::size_t>((width - 2 * kLeft) / 10)));
   out += views;
   out += "<g id=\"legend\">\n" + legend + "</g>\n" + errors + "</svg>\n";
   return out;

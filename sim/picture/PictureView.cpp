@@ -256,7 +256,7 @@ private:
                           px(radius), colour);
     };
     out_ +=
-        fmt::format("<g fill=\"none\" stroke-opacity=\"0.45\" clip-path=\"url(#clip{})\">\n", frame_.across);
+        fmt::format("<g fill=\"none\" stroke-opacity=\"0.7\" clip-path=\"url(#clip{})\">\n", frame_.across);
     for (const PictureContact& contact : picture_.contacts) {
       if (contact.move < picture_.moves.size() && isSeen(picture_.moves[contact.move].to))
         ball(picture_.moves[contact.move].to, pathStyle(PathKind::Measuring).colour);
@@ -364,10 +364,10 @@ private:
 
 const PathStyle& pathStyle(PathKind kind) {
   static constexpr PathStyle kStyles[] = {
-      {"#7d6b3d", "6 4", "1.2"},      // rapid
-      {"#0f5ea8", "", "1.3"},         // feed
-      {"#0a7a5c", "10 3 2 3", "1.8"}, // protected
-      {"#c43fae", "", "4"},           // measuring
+      {"#6a4f00", "6 4", "1.6"},      // rapid
+      {"#0a529a", "", "1.7"},         // feed
+      {"#005c46", "10 3 2 3", "2.1"}, // protected
+      {"#960f80", "", "4"},           // measuring
   };
   return kStyles[static_cast<std::size_t>(kind)];
 }

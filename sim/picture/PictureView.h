@@ -17,7 +17,8 @@ struct ViewFrame {
   std::string heading; // behind the view's name; XML
 };
 
-// How a kind of move is drawn: told apart by colour and by line, so that grey is enough.
+// How a kind of move is drawn: told apart by colour and by line, so that grey is enough. The colours have a
+// contrast of at least 4.5:1 on paper and on the part; picture.css has them for the page, light and dark.
 struct PathStyle {
   const char* colour;
   const char* dashes; // "": solid
@@ -25,7 +26,7 @@ struct PathStyle {
 };
 const PathStyle& pathStyle(PathKind kind);
 
-inline constexpr const char* kErrorColour = "#c8102e";
+inline constexpr const char* kErrorColour = "#a80b22";
 inline constexpr const char* kContactColour = "#111111";
 
 // What a picture shows of its lists at most; the legend reports the rest.

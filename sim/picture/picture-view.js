@@ -1,5 +1,6 @@
 // The 3D view: parallel projection, drawn without a graphics processor. Part and probe are filled into a depth
-// buffer; the path is drawn over them as lines, faint where they are before it.
+// buffer; the path is drawn over them as lines in full colour, dotted where they are before it, thinner where
+// it is still to come.
 "use strict";
 
 function makeView(canvas, data) {
@@ -14,6 +15,18 @@ function makeView(canvas, data) {
   let frameColours, frameDepths;         // with the probe
   let colours, depths;                   // the two that are being filled
   let right, up, front; // of the camera, in the machine
+  let theme = readTheme();
+
+  // The colours are those of the style sheet, light or dark.
+  function readTheme() {
+    const style = getComputedStyle(document.documentElement), out = {};
+    for (const name of ["paper", "ink", "dim", "part-least", "part-most", "part-edge", "error", "contact"])
+      out[name] = style.getPropertyValue("--" + name).trim();
+    out.kinds = data.kinds.map((kind) => style.getPropertyValue("--" + kind.name).trim());
+    return out;
+  }
+  const rgb = (hex) => [1, 3, 5].map((at) => parseInt(hex.slice(at, at + 2), 16));
+  const packed = ([r, g, b]) => (255 << 24 | b << 16 | g << 8 | r) >>> 0;
 
   function readMesh(mesh) {
     const count = mesh.vertices.length / 3;
@@ -95,9 +108,8 @@ function makeView(canvas, data) {
   function shade(nx, ny, nz, colour) {
     const facing = nx * front[0] + ny * front[1] + nz * front[2];
     const above = nx * up[0] + ny * up[1] + nz * up[2], beside = nx * right[0] + ny * right[1] + nz * right[2];
-    const light = Math.min(1.08, 0.56 + 0.36 * Math.max(0, facing) + 0.16 * above - 0.1 * beside);
-    const [r, g, b] = colour.map((c) => Math.max(0, Math.min(255, Math.round(c * light))));
-    return (255 << 24 | b << 16 | g << 8 | r) >>> 0;
+    const light = Math.max(0, Math.min(1, 0.12 + 0.72 * Math.max(0, facing) + 0.3 * above - 0.2 * beside));
+    return packed(colour[0].map((least, i) => Math.round(least + (colour[1][i] - least) * light)));
   }
 
   // Fills one triangle; corners in dots and depth.
@@ -127,10 +139,11 @@ function makeView(canvas, data) {
     partIsDrawn = true;
     colours = partColours;
     depths = partDepths;
-    colours.fill(0xffffffff);
+    colours.fill(packed(rgb(theme.paper)));
     depths.fill(-Infinity);
     if (!show.part) return;
     const { points, triangles, normals } = part, count = points.length / 3;
+    const surface = [rgb(theme["part-least"]), rgb(theme["part-most"])]; // darkest and lightest
     const seen = new Float64Array(points.length);
     for (let i = 0; i < count; ++i) {
       const p = project(points[i * 3], points[i * 3 + 1], points[i * 3 + 2]);
@@ -139,13 +152,14 @@ function makeView(canvas, data) {
     for (let t = 0; t < triangles.length; t += 3) {
       const a = triangles[t] * 3, b = triangles[t + 1] * 3, c = triangles[t + 2] * 3;
       fill(seen[a], seen[a + 1], seen[a + 2], seen[b], seen[b + 1], seen[b + 2], seen[c], seen[c + 1], seen[c + 2],
-        shade(normals[t], normals[t + 1], normals[t + 2], [206, 214, 223]));
+        shade(normals[t], normals[t + 1], normals[t + 2], surface));
     }
   }
 
   function drawProbe(at, on) {
     for (const body of probeBodies) {
-      const { points, triangles } = body, colour = body.colour || (on ? [240, 166, 20] : [84, 92, 102]);
+      const { points, triangles } = body, own = body.colour || (on ? [240, 166, 20] : [84, 92, 102]);
+      const colour = [own.map((c) => c * 0.6), own];
       for (let t = 0; t < triangles.length; t += 3) {
         const [a, b, c] = [0, 1, 2].map((k) => [0, 1, 2].map((i) => points[triangles[t + k] * 3 + i]));
         const u = b.map((v, i) => v - a[i]), v = c.map((w, i) => w - a[i]);
@@ -166,33 +180,36 @@ function makeView(canvas, data) {
     return depths[row * image.width + column] > z + 2.5 / camera.zoom;
   }
 
-  // A line in pieces, faint where it is hidden.
-  function line(p, q, alpha) {
+  // A line in pieces, dotted where it is hidden.
+  function line(p, q) {
     const length = Math.hypot(q[0] - p[0], q[1] - p[1]);
     if (length > 20000) { // one end is far outside: no pieces
-      paint.globalAlpha = alpha;
       paint.beginPath(); paint.moveTo(p[0], p[1]); paint.lineTo(q[0], q[1]); paint.stroke();
       return;
     }
-    const steps = Math.max(1, Math.ceil(length / 5));
+    const steps = Math.max(1, Math.ceil(length / 5)), dashes = paint.getLineDash(), wide = paint.lineWidth;
     const place = (k) => p.map((v, i) => v + (q[i] - v) * k / steps);
     for (let begin = 0; begin < steps;) {
       const hidden = isHidden(...place(begin + 0.5));
       let end = begin + 1;
       while (end < steps && isHidden(...place(end + 0.5)) === hidden) ++end;
       const a = place(begin), b = place(end);
-      paint.globalAlpha = hidden ? alpha * 0.3 : alpha;
+      paint.setLineDash(hidden ? [2, 3.5] : dashes);
+      paint.lineWidth = hidden ? 2 : wide;
       paint.lineDashOffset = length * begin / steps;
       paint.beginPath(); paint.moveTo(a[0], a[1]); paint.lineTo(b[0], b[1]); paint.stroke();
       begin = end;
     }
+    paint.setLineDash(dashes);
+    paint.lineWidth = wide;
     paint.lineDashOffset = 0;
   }
 
-  function setStyle(kind) {
+  function setStyle(kind, past) {
     const style = data.kinds[kind];
-    paint.strokeStyle = style.colour;
-    paint.lineWidth = style.width;
+    paint.globalAlpha = 1;
+    paint.strokeStyle = theme.kinds[kind];
+    paint.lineWidth = past ? style.width : Math.max(1.6, style.width * 0.5);
     paint.setLineDash(style.dashes);
   }
 
@@ -200,10 +217,9 @@ function makeView(canvas, data) {
   function drawMany(current) {
     for (const past of [false, true]) {
       for (let kind = 0; kind < 4; ++kind) {
-        setStyle(kind);
+        setStyle(kind, past);
         paint.setLineDash([]);
         paint.lineWidth = 1;
-        paint.globalAlpha = past ? 1 : 0.3;
         paint.beginPath();
         let last = null;
         for (let i = past ? 0 : current + 1; i < (past ? current + 1 : data.moves.length); ++i) {
@@ -228,18 +244,17 @@ function makeView(canvas, data) {
     if (data.moves.length > 6000) return drawMany(current);
     for (const past of [false, true]) {
       for (const kind of [3, 2, 1, 0]) {
-        setStyle(kind);
+        setStyle(kind, past);
         data.moves.forEach((move, i) => {
-          if (move.kind === kind && move.drawn && (i <= current) === past)
-            line(project(...move.from), project(...move.to), past ? 1 : 0.32);
+          if (move.kind === kind && move.drawn && (i <= current) === past) line(project(...move.from), project(...move.to));
         });
       }
     }
     const move = data.moves[current];
     if (move && move.drawn) { // the one that ends here
-      setStyle(move.kind);
+      setStyle(move.kind, true);
       paint.setLineDash([]);
-      paint.lineWidth = 5;
+      paint.lineWidth = 6;
       paint.globalAlpha = 0.35;
       const p = project(...move.from), q = project(...move.to);
       paint.beginPath(); paint.moveTo(p[0], p[1]); paint.lineTo(q[0], q[1]); paint.stroke();
@@ -254,7 +269,7 @@ function makeView(canvas, data) {
       taken.add(cell);
       paint.textAlign = dx > 0 ? "left" : "right";
       paint.lineWidth = 3.5;
-      paint.strokeStyle = "#ffffff";
+      paint.strokeStyle = theme.paper;
       paint.strokeText(what, x + dx, y + dy);
       paint.fillStyle = colour;
       paint.fillText(what, x + dx, y + dy);
@@ -267,24 +282,42 @@ function makeView(canvas, data) {
     paint.globalAlpha = 1;
     paint.font = "bold 12.5px Helvetica, Arial, sans-serif";
     paint.lineJoin = "round";
+    const numbered = []; // marks that fall on one another share a label
+    const mark = (x, y, number, letter, colour) => {
+      const same = numbered.find((m) => m.letter === letter && Math.hypot(m.x - x, m.y - y) < 4);
+      if (same === undefined) numbered.push({ x, y, letter, colour, numbers: [number] });
+      else same.numbers.push(number);
+    };
     data.contacts.forEach((contact, i) => {
       if (!contact.drawn) return;
       const [x, y] = project(...contact.point);
-      paint.globalAlpha = contact.move <= current ? 1 : 0.45;
-      paint.beginPath(); paint.arc(x, y, 3.4, 0, 7); paint.fillStyle = "#111111"; paint.fill();
-      paint.lineWidth = 1; paint.strokeStyle = "#ffffff"; paint.stroke();
-      if (data.contacts.length <= 400) text(String(i + 1), x, y, "#111111");
+      const past = contact.move <= current; // else hollow
+      paint.beginPath(); paint.arc(x, y, 3.6, 0, 7); paint.fillStyle = past ? theme.contact : theme.paper; paint.fill();
+      paint.lineWidth = 1.2; paint.strokeStyle = past ? theme.paper : theme.contact; paint.stroke();
+      if (data.contacts.length <= 400) mark(x, y, i + 1, "", theme.contact);
     });
-    paint.globalAlpha = 1;
     data.errors.forEach((error, i) => {
       if (!error.drawn) return;
       const [x, y] = project(...error.at);
-      paint.lineWidth = 2.8; paint.strokeStyle = data.errorColour;
+      paint.lineWidth = 3; paint.strokeStyle = theme.error;
       paint.beginPath();
       paint.moveTo(x - 6, y - 6); paint.lineTo(x + 6, y + 6); paint.moveTo(x + 6, y - 6); paint.lineTo(x - 6, y + 6);
       paint.stroke();
-      if (i < 100) text("E" + (i + 1), x, y, data.errorColour);
+      if (i < 100) mark(x, y, i + 1, "E", theme.error);
     });
+    for (const { x, y, letter, colour, numbers } of numbered) text(letter + spans(numbers), x, y, colour);
+  }
+
+  // "1,2", "3-6": of ascending numbers, six parts at most.
+  function spans(numbers) {
+    const parts = [];
+    for (let i = 0; i < numbers.length; ++i) {
+      const first = i;
+      while (i + 1 < numbers.length && numbers[i + 1] === numbers[i] + 1) ++i;
+      if (i - first >= 2) parts.push(numbers[first] + "-" + numbers[i]);
+      else for (let k = first; k <= i; ++k) parts.push(numbers[k]);
+    }
+    return parts.length > 6 ? parts.slice(0, 6).join(",") + ",\u2026" : parts.join(",");
   }
 
   // The axes of the machine, and a length.
@@ -296,17 +329,17 @@ function makeView(canvas, data) {
     paint.textAlign = "center";
     ["X", "Y", "Z"].forEach((name, i) => {
       const dx = right[i] * 30, dy = -up[i] * 30;
-      paint.lineWidth = 1.8; paint.strokeStyle = paint.fillStyle = "#39424d";
+      paint.lineWidth = 1.8; paint.strokeStyle = paint.fillStyle = theme.dim;
       paint.beginPath(); paint.moveTo(x, y); paint.lineTo(x + dx, y + dy); paint.stroke();
       if (Math.hypot(dx, dy) > 6) paint.fillText(name, x + dx * 1.36, y + dy * 1.36 + 4);
     });
     const most = 150 / camera.zoom, power = 10 ** Math.floor(Math.log10(most)), share = most / power;
     const length = power * (share >= 5 ? 5 : share >= 2 ? 2 : 1), px = length * camera.zoom;
-    paint.lineWidth = 1.6; paint.strokeStyle = "#20262d";
+    paint.lineWidth = 1.6; paint.strokeStyle = theme.ink;
     paint.beginPath();
     paint.moveTo(110, height - 24); paint.lineTo(110, height - 16); paint.lineTo(110 + px, height - 16); paint.lineTo(110 + px, height - 24);
     paint.stroke();
-    paint.textAlign = "left"; paint.fillStyle = "#20262d";
+    paint.textAlign = "left"; paint.fillStyle = theme.ink;
     paint.fillText(Number(length.toPrecision(3)) + " mm", 118 + px, height - 15);
   }
 
@@ -324,7 +357,7 @@ function makeView(canvas, data) {
     paint.putImageData(image, 0, 0);
     paint.setTransform(dots, 0, 0, dots, 0, 0);
     if (show.part) {
-      paint.strokeStyle = "#5b6673"; paint.lineWidth = 0.9; paint.setLineDash([]);
+      paint.strokeStyle = theme["part-edge"]; paint.lineWidth = 0.9; paint.setLineDash([]);
       const p = part.points;
       for (let i = 0; i < part.edges.length; i += 2) {
         const a = part.edges[i], b = part.edges[i + 1];
@@ -342,7 +375,7 @@ function makeView(canvas, data) {
       paint.globalAlpha = radius === 0 || isHidden(p[0], p[1], p[2] + radius) ? 0.9 : 0.25;
       paint.setLineDash([]);
       paint.lineWidth = 1.6;
-      paint.strokeStyle = move.on ? "#b87400" : "#39424d";
+      paint.strokeStyle = move.on ? "#b87400" : theme.dim;
       paint.beginPath(); paint.arc(p[0], p[1], Math.max(3, radius * camera.zoom), 0, 7); paint.stroke();
     }
     drawScale();
@@ -393,5 +426,9 @@ function makeView(canvas, data) {
     const f = camera.zoom / before, dx = x - width / 2, dy = y - height / 2;
     change({ x: dx - (dx - camera.x) * f, y: dy - (dy - camera.y) * f });
   }
-  return { camera, show, draw, where, resize, fit, change, zoomAt, redoPart: () => { partIsDrawn = false; } };
+  function retheme() {
+    theme = readTheme();
+    partIsDrawn = false;
+  }
+  return { camera, show, draw, where, resize, fit, change, zoomAt, retheme, redoPart: () => { partIsDrawn = false; } };
 }

@@ -23,7 +23,9 @@ window.onerror = (message, source, line) => {
   }
   data.moves = moves;
   data.contacts = data.contacts.map((c) => ({ point: c.slice(0, 3), move: c[3], drawn: isDrawn(c.slice(0, 3)) }));
-  data.errors = data.errors.map((e) => ({ at: e.slice(0, 3), move: e[3], text: e[4], drawn: isDrawn(e.slice(0, 3)) }));
+  data.errors = data.errors.map((e) => ({ at: e.slice(0, 3), move: e[3], text: e[4], block: e[5], drawn: isDrawn(e.slice(0, 3)) }));
+  const frames = data.frames, frameOf = []; // of each move
+  for (const [first, count, frame] of data.framed) for (let i = 0; i < count; ++i) frameOf[first + i] = frame;
 
   const canvas = byId("view"), slider = byId("slider"), list = byId("blocks");
   const view = makeView(canvas, data);
@@ -32,10 +34,23 @@ window.onerror = (message, source, line) => {
   data.errors.forEach((e, i) => { if (!errorOf.has(e.move)) errorOf.set(e.move, i); });
   const firstMove = new Array(data.blocks.length).fill(-1), badBlocks = new Set();
   moves.forEach((m, i) => { if (firstMove[m.block] === -1) firstMove[m.block] = i; });
-  data.errors.forEach((e) => { if (moves[e.move]) badBlocks.add(moves[e.move].block); });
+  data.errors.forEach((e) => { if (data.blocks[e.block]) badBlocks.add(e.block); });
 
   let current = 0, waiting = false;
-  const number = (v) => v === null ? "?" : v.toFixed(6);
+  // As the control rounds: half away from zero, no "-0".
+  const number = (v) => {
+    if (v === null || !Number.isFinite(v)) return "?";
+    const scale = 10 ** data.decimals, whole = Math.floor(Math.abs(v) * scale + 0.5 + 1e-6);
+    return (v < 0 && whole > 0 ? "-" : "") + (whole / scale).toFixed(data.decimals);
+  };
+  const point = (p) => ["X", "Y", "Z"].map((a, i) => a + number(p[i])).join(" ");
+  const gaugeOf = (p) => [p[0], p[1], p[2] === null || data.probe === null ? p[2] : p[2] + data.probe.length];
+  // Of a position of the gauge line during a move; nothing: not known.
+  const workOf = (gauge, move) => {
+    const frame = frames[frameOf[move]];
+    return frame === undefined ? null : gauge.map((v, i) => v === null || frame[i + 1] === null ? null : v - frame[i + 1]);
+  };
+  const nameOf = (move) => frames[frameOf[move]] === undefined ? "work" : frames[frameOf[move]][0];
 
   function redraw() {
     if (waiting) return;
@@ -46,35 +61,51 @@ window.onerror = (message, source, line) => {
     });
   }
 
-  // ---- the list of blocks: only the rows in sight exist
-  const kRow = 22;
+  // ---- the list of blocks, under the names of their programs: only the rows in sight exist
+  const kRow = 22, rowOf = [], lines = []; // a line: a block, or the name of a program
+  let program = null;
+  data.blocks.forEach((block, i) => {
+    const name = [block[2], block[1].replace(/:[0-9]+$/, "")].filter((part) => part !== "").join("  ");
+    if (name !== program && name !== "") lines.push(name);
+    program = name;
+    rowOf.push(lines.length);
+    lines.push(i);
+  });
   const rows = document.createElement("div");
-  rows.style.height = data.blocks.length * kRow + "px";
+  rows.style.height = lines.length * kRow + "px";
   list.append(rows);
   function layRows() {
     const first = Math.max(0, Math.floor(list.scrollTop / kRow) - 5);
-    const last = Math.min(data.blocks.length, first + Math.ceil((list.clientHeight || 600) / kRow) + 10);
+    const last = Math.min(lines.length, first + Math.ceil((list.clientHeight || 600) / kRow) + 10);
     const here = moves[current] ? moves[current].block : -1;
     rows.replaceChildren();
-    for (let i = first; i < last; ++i) {
-      const row = document.createElement("div"), line = document.createElement("span");
+    for (let at = first; at < last; ++at) {
+      const row = document.createElement("div"), i = lines[at];
+      row.style.top = at * kRow + "px";
+      rows.append(row);
+      if (typeof i === "string") {
+        row.className = "row program";
+        row.textContent = i;
+        continue;
+      }
+      const line = document.createElement("span");
       row.className = "row" + (i === here ? " current" : "") + (firstMove[i] === -1 ? " still" : "") + (badBlocks.has(i) ? " bad" : "");
-      row.style.top = i * kRow + "px";
       row.dataset.block = i;
       row.title = data.blocks[i][1];
       line.className = "line";
       line.textContent = data.blocks[i][1].split(":").pop();
       row.append(line, data.blocks[i][0]);
-      rows.append(row);
     }
   }
   list.addEventListener("scroll", layRows);
   rows.addEventListener("click", (event) => {
     const row = event.target.closest(".row");
-    if (row && firstMove[row.dataset.block] !== -1) go(firstMove[row.dataset.block]);
+    if (row && row.dataset.block !== undefined && firstMove[row.dataset.block] !== -1) go(firstMove[row.dataset.block]);
   });
   function showBlock() {
-    const top = (moves[current] ? moves[current].block : 0) * kRow;
+    let top = (moves[current] ? rowOf[moves[current].block] : 0) * kRow;
+    // What stopped the run is in sight with the last move.
+    if (current === moves.length - 1 && badBlocks.has(data.blocks.length - 1)) top = rowOf[data.blocks.length - 1] * kRow;
     if (top < list.scrollTop || top + kRow > list.scrollTop + list.clientHeight)
       list.scrollTop = Math.max(0, top - list.clientHeight / 2);
     layRows();
@@ -84,23 +115,34 @@ window.onerror = (message, source, line) => {
   function state() {
     const move = moves[current];
     if (!move) return { index: -1, count: 0 };
-    return { index: current, count: moves.length, position: move.to, text: move.to.map(number), kind: data.kinds[move.kind].name,
-      probeOn: move.on, block: move.block, place: (data.blocks[move.block] || ["", ""])[1], drawnAt: move.drawn ? view.where(move.to) : null };
+    const gauge = gaugeOf(move.to), work = workOf(gauge, current);
+    return { index: current, count: moves.length, position: move.to, text: move.to.map(number), machine: gauge.map(number),
+      work: work === null ? null : work.map(number), system: nameOf(current), kind: data.kinds[move.kind].name, probeOn: move.on, block: move.block,
+      place: (data.blocks[move.block] || ["", ""])[1], drawnAt: move.drawn ? view.where(move.to) : null };
   }
   function go(index) {
     if (moves.length === 0) return;
     current = Math.max(0, Math.min(moves.length - 1, Math.round(Number(index)) || 0));
     const move = moves[current];
     slider.value = current;
+    const gauge = gaugeOf(move.to), work = workOf(gauge, current);
     ["x", "y", "z"].forEach((name, i) => {
       byId(name).textContent = number(move.to[i]);
-      byId("gauge-" + name).textContent = move.to[i] === null ? "?" : number(move.to[i] + (i === 2 && data.probe ? data.probe.length : 0));
+      byId("gauge-" + name).textContent = number(gauge[i]);
+      byId("work-" + name).textContent = work === null ? "?" : number(work[i]);
     });
+    byId("work-name").textContent = nameOf(current) === "work" ? "work" : "work " + nameOf(current);
     byId("kind").textContent = data.kinds[move.kind].name;
     byId("power").textContent = move.on ? "on" : "off";
     byId("count").textContent = "move " + (move.number + 1) + " of " + data.count;
     const here = byId("here"), contact = contactOf.get(current), error = errorOf.get(current);
-    here.textContent = contact === undefined ? "" : "contact " + (contact + 1) + " at " + ["X", "Y", "Z"].map((a, i) => a + number(data.contacts[contact].point[i])).join(" ");
+    here.textContent = "";
+    if (contact !== undefined) {
+      const at = data.contacts[contact].point, tip = gaugeOf(at);
+      if (tip[2] !== null && data.probe !== null) tip[2] += data.probe.ball; // the place that the tip has there
+      const inWork = workOf(tip, current);
+      here.textContent = "contact " + (contact + 1) + (inWork === null ? "" : " at " + nameOf(current) + " " + point(inWork)) + "; machine " + point(at);
+    }
     if (error !== undefined) {
       const red = document.createElement("div");
       red.className = "error";
@@ -110,15 +152,15 @@ window.onerror = (message, source, line) => {
     showBlock();
     redraw();
   }
-  if (data.probe === null) { // the path is the machine's own
-    byId("what").textContent = "machine";
-    byId("gauge").hidden = true;
-  }
+  if (data.probe === null) byId("what").parentNode.hidden = true; // the path is the machine's own
+  if (frames.length === 0) byId("work").hidden = true;
   slider.max = Math.max(0, moves.length - 1);
   slider.addEventListener("input", () => go(slider.value));
   byId("back").addEventListener("click", () => go(current - 1));
   byId("next").addEventListener("click", () => go(current + 1));
   document.addEventListener("keydown", (event) => {
+    const factor = { "+": 1.4, "-": 1 / 1.4 }[event.key];
+    if (factor !== undefined && !event.ctrlKey && !event.metaKey) return zoom(factor);
     const to = { ArrowLeft: current - 1, ArrowRight: current + 1, Home: 0, End: moves.length - 1 }[event.key];
     if (to === undefined || event.ctrlKey || event.altKey || event.metaKey) return;
     event.preventDefault();
@@ -139,28 +181,41 @@ window.onerror = (message, source, line) => {
   // ---- errors
   data.errors.forEach((error, i) => {
     const item = document.createElement("li"), button = document.createElement("button");
-    button.textContent = "E" + (i + 1) + "  " + (moves[error.move] ? (data.blocks[moves[error.move].block] || ["", ""])[1] + ": " : "") + error.text;
+    button.textContent = "E" + (i + 1) + "  " + (data.blocks[error.block] ? data.blocks[error.block][1] + ": " : "") + error.text;
     button.addEventListener("click", () => go(error.move));
     item.append(button);
     byId("errors").append(item);
   });
   byId("errors-box").hidden = data.errors.length === 0;
+  for (const button of document.querySelectorAll("#measured button")) button.addEventListener("click", () => go(button.dataset.move));
 
-  // ---- the view
-  let drag = null;
+  // ---- the view: one finger or the mouse turns, two fingers zoom and move
+  const pointers = new Map();
+  const middleOf = () => {
+    const all = [...pointers.values()], box = canvas.getBoundingClientRect();
+    return { x: (all[0].x + all[1].x) / 2 - box.left, y: (all[0].y + all[1].y) / 2 - box.top,
+      apart: Math.max(1, Math.hypot(all[0].x - all[1].x, all[0].y - all[1].y)) };
+  };
   canvas.addEventListener("pointerdown", (event) => {
-    drag = { x: event.clientX, y: event.clientY, shift: event.shiftKey || event.button !== 0 };
+    pointers.set(event.pointerId, { x: event.clientX, y: event.clientY, shift: event.shiftKey || event.button !== 0 });
     canvas.setPointerCapture(event.pointerId);
   });
   canvas.addEventListener("pointermove", (event) => {
-    if (drag === null) return;
-    const dx = event.clientX - drag.x, dy = event.clientY - drag.y, camera = view.camera;
+    const drag = pointers.get(event.pointerId), camera = view.camera;
+    if (drag === undefined || pointers.size > 2) return;
+    const before = pointers.size === 2 ? middleOf() : null;
+    const dx = event.clientX - drag.x, dy = event.clientY - drag.y;
     drag.x = event.clientX, drag.y = event.clientY;
-    if (drag.shift) view.change({ x: camera.x + dx, y: camera.y + dy });
+    if (before !== null) {
+      const after = middleOf();
+      view.zoomAt(after.apart / before.apart, before.x, before.y);
+      view.change({ x: camera.x + after.x - before.x, y: camera.y + after.y - before.y });
+    } else if (drag.shift) view.change({ x: camera.x + dx, y: camera.y + dy });
     else view.change({ turn: camera.turn - dx * 0.008, tilt: camera.tilt + dy * 0.008 });
+    nameProjection();
     redraw();
   });
-  for (const name of ["pointerup", "pointercancel"]) canvas.addEventListener(name, () => { drag = null; });
+  for (const name of ["pointerup", "pointercancel"]) canvas.addEventListener(name, (event) => { pointers.delete(event.pointerId); });
   canvas.addEventListener("contextmenu", (event) => event.preventDefault());
   canvas.addEventListener("wheel", (event) => {
     event.preventDefault();
@@ -169,13 +224,30 @@ window.onerror = (message, source, line) => {
     redraw();
   }, { passive: false });
   const sides = { "view-3d": [-0.62, 0.62], "view-xy": [0, Math.PI / 2], "view-xz": [0, 0], "view-yz": [Math.PI / 2, 0] };
+  const seen = { "view-xy": "XY, seen from above (+Z)", "view-xz": "XZ, seen from the front (-Y)", "view-yz": "YZ, seen from the right (+X)" };
+  function nameProjection() {
+    const { turn, tilt } = view.camera, close = (a, b) => Math.abs(a - b) < 1e-6;
+    const side = Object.keys(seen).find((id) => close(turn, sides[id][0]) && close(tilt, sides[id][1]));
+    byId("projection").textContent = "parallel projection" + (side === undefined ? "" : ": " + seen[side]);
+  }
   for (const [id, [turn, tilt]] of Object.entries(sides)) {
     byId(id).addEventListener("click", () => {
       view.change({ turn, tilt });
       view.fit();
+      nameProjection();
       redraw();
     });
   }
+  function zoom(factor) {
+    view.zoomAt(factor, canvas.clientWidth / 2, canvas.clientHeight / 2);
+    redraw();
+  }
+  byId("zoom-in").addEventListener("click", () => zoom(1.4));
+  byId("zoom-out").addEventListener("click", () => zoom(1 / 1.4));
+  byId("fit").addEventListener("click", () => {
+    view.fit();
+    redraw();
+  });
   for (const what of ["part", "probe"]) {
     byId("show-" + what).addEventListener("change", (event) => {
       view.show[what] = event.target.checked;
@@ -192,10 +264,24 @@ window.onerror = (message, source, line) => {
     view.draw(current); // before the page is painted, so that nothing flickers
   }).observe(canvas);
 
-  window.dotek = { moves, go, state };
+  // The colours of the page are those of the view, on paper the light ones.
+  function retheme() {
+    view.retheme();
+    view.draw(current); // at once: paper waits for no frame
+  }
+  window.matchMedia("(prefers-color-scheme: dark)").addEventListener("change", retheme);
+  for (const [name, on] of [["beforeprint", true], ["afterprint", false]]) {
+    window.addEventListener(name, () => {
+      document.documentElement.classList.toggle("on-paper", on);
+      retheme();
+    });
+  }
+
+  window.dotek = { moves, go, state, camera: view.camera };
   view.resize();
   view.fit();
-  const wanted = () => { const match = /^#go=(\d+)$/.exec(location.hash); return match ? Number(match[1]) : 0; };
+  nameProjection();
+  const wanted = () => { const match = /^#go=(\d+)$/.exec(location.hash); return match ? Number(match[1]) : moves.length - 1; };
   window.addEventListener("hashchange", () => go(wanted()));
   layRows();
   go(wanted());

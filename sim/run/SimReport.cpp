@@ -1,6 +1,7 @@
 #include "sim/run/SimReport.h"
 
 #include "frontend/macrob/Check.h"
+#include "sim/machine/EndText.h"
 #include "sim/machine/Value.h"
 #include "support/Decimal.h"
 #include "support/messages/Common.h"
@@ -35,14 +36,8 @@ SourceRange wholeLine(FileId file, std::string_view line) {
 }
 
 std::string where(const RunEnd& end) {
-  std::string out;
-  for (auto frame = end.stack.rbegin(); frame != end.stack.rend(); ++frame) {
-    std::string one;
-    if (frame->program != 0) one += fmt::format("O{:04}", frame->program);
-    if (frame->sequence != 0) one += fmt::format("{}N{}", one.empty() ? "" : " ", frame->sequence);
-    if (!one.empty()) out += (out.empty() ? "" : ", called by ") + one;
-  }
-  return out.empty() ? "" : " (" + out + ")";
+  const std::string callers = callersText(end);
+  return callers.empty() ? "" : " (" + callers + ")";
 }
 
 std::string_view endingName(const Machine& machine, bool stoppedByText) {

@@ -1,6 +1,8 @@
 #include "sim/run/SimWorld.h"
 
 #include "sim/geometry/PartFile.h"
+#include "sim/machine/EndText.h"
+#include "sim/run/SimReport.h"
 #include "support/Decimal.h"
 #include "support/messages/Commands.h"
 #include "support/messages/Common.h"
@@ -23,6 +25,20 @@ constexpr std::string_view kNowhere = "where the machine is in this move is not 
 std::string pointJson(const Point3& p) {
   return fmt::format("{{\"X\": {}, \"Y\": {}, \"Z\": {}}}", fixedText(p.x, 6), fixedText(p.y, 6),
                      fixedText(p.z, 6));
+}
+
+RunEnd endOf(const MikroprogMachine& machine) {
+  RunEnd out;
+  out.text = toUtf8Text(machine.why());
+  switch (machine.ending()) {
+  case MikroprogEnding::Running: break;
+  case MikroprogEnding::ProgramEnd: out.ending = Ending::ProgramEnd; break;
+  case MikroprogEnding::Fault:
+  case MikroprogEnding::Crash: out.ending = Ending::Alarm; break;
+  case MikroprogEnding::Inconclusive: out.ending = Ending::Inconclusive; break;
+  case MikroprogEnding::Endless: out.ending = Ending::Limit; break;
+  }
+  return out;
 }
 
 bool hasPoint(Outcome outcome) {
@@ -68,11 +84,13 @@ void SimWorld::begin() {
   picture.title = options_.program;
   if (world_ && !world_->part().isEmpty()) picture.part = world_->part();
   if (world_) picture.probe = world_->probe();
+  picture.decimals = decimals_;
   recorder_.emplace(
       std::move(picture), world_ ? &*world_ : nullptr,
       callKind_ ? callKind_
                 : [](std::uint32_t, std::span<const double>) { return std::optional<PathKind>(); },
       block_ ? block_ : [this] { return blockNow(); });
+  recorder_->setFrame(frame_);
 }
 
 void SimWorld::attach(Machine& machine) {
@@ -80,6 +98,9 @@ void SimWorld::attach(Machine& machine) {
   line_ = [&machine] { return machine.frame().line; };
   blocks_ = [&machine] { return machine.blocks(); };
   stop_ = [&machine](std::string why) { machine.inconclusive(std::move(why)); };
+  end_ = [&machine] { return machine.end(); };
+  frame_ = [&machine] { return frameOf(machine); };
+  decimals_ = machine.control().decimals;
   if (machine_) {
     Position start{};
     std::copy(machine_->start.begin(), machine_->start.end(), start.begin());
@@ -95,6 +116,11 @@ void SimWorld::attach(MikroprogMachine& machine) {
   line_ = [&machine] { return static_cast<std::uint64_t>(machine.line()); };
   blocks_ = [&machine] { return machine.blocks(); };
   stop_ = [&machine](std::string why) { machine.inconclusive(std::move(why)); };
+  end_ = [&machine] { return endOf(machine); };
+  frame_ = [&machine] {
+    const auto& zero = machine.offset();
+    return PictureFrame{"work", {zero[0], zero[1], zero[2]}};
+  };
   if (machine_) machine.setPosition(machine_->start);
   if (world_) machine.setSkipSignal(this);
   machine.setWatcher(this);
@@ -168,6 +194,7 @@ void SimWorld::take(const ProbeEvent& event, const RunPlace& place) {
   const bool contact = event.outcome == Outcome::Contact;
   std::vector<Kept>& kept = contact ? contacts_ : events_;
   ++(contact ? contactCount_ : eventCount_);
+  if (!isMeantToMiss(event)) ++outcomes_[static_cast<std::size_t>(event.outcome)];
   if (kept.size() < kMostKept) kept.push_back({event, place});
   // The end of the run says it.
   if (event.outcome == Outcome::NotModelled)
@@ -202,7 +229,21 @@ void SimWorld::tell(const ProbeEvent& event, const RunPlace& place) {
   session_.diagnostics().add(std::move(diagnostic));
 }
 
+void SimWorld::finishPicture() {
+  if (!recorder_) return;
+  RunFacts facts;
+  facts.end = end_();
+  facts.end.text = toUtf8Text(facts.end.text);
+  facts.callers = callersText(facts.end);
+  facts.block = block_ ? block_() : blockNow();
+  facts.events = outcomes_;
+  if (facts.end.ending == Ending::Running && session_.diagnostics().hasErrors())
+    facts.unread = session_.diagnostics().all().back().message;
+  recorder_->finish(facts);
+}
+
 void SimWorld::reportRest() {
+  finishPicture();
   for (const Told& told : told_) {
     if (told.number <= kMostTold) continue;
     Diagnostic& rest =
@@ -228,7 +269,8 @@ PictureBlock SimWorld::blockNow() const {
   std::string text = session_.sources().textUtf8(place.range);
   for (char& c : text)
     if (c == '\n' || c == '\r') c = ' ';
-  return {std::move(text), fmt::format("{}:{}", file.name(), file.place(place.range.begin).line)};
+  return {std::move(text), fmt::format("{}:{}", file.name(), file.place(place.range.begin).line),
+          place.program == 0 ? "" : fmt::format("O{:04}", place.program)};
 }
 
 std::string SimWorld::placeJson(const SourceRange& range) const {

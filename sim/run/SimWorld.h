@@ -28,6 +28,7 @@ using project::Session;
 struct RunPlace {
   SourceRange range;              // of the block
   std::vector<SourceRange> calls; // the outermost first
+  std::uint64_t program = 0;      // O number of the one that holds the block; 0: none
 };
 
 class SimWorld final : public SkipSignal, public MotionWatcher {
@@ -53,7 +54,7 @@ public:
   // The radius that the calibration of the stylus would have found; nothing: no machine was given.
   std::optional<double> calibratedRadius() const;
 
-  // After the run: the pictures that were asked for.
+  // After the run and after reportRest(): the pictures that were asked for.
   std::vector<OutputFile> pictures() const;
   void reportRest(); // what was too much to be reported one by one
   // "contacts" and "events" of the summary, each on a line that ends with a comma.
@@ -85,6 +86,7 @@ private:
   SimWorld(const SimOptions& options, Session& session) : options_(options), session_(session) {}
   bool isActive() const { return world_.has_value() || picture_; }
   void begin();
+  void finishPicture();
   void takeEvents();
   void tell(const ProbeEvent& event, const RunPlace& place);
   void take(const ProbeEvent& event, const RunPlace& place);
@@ -106,10 +108,14 @@ private:
   PictureRecorder::CallKind callKind_;
   std::vector<bool> protected_; // of the calls that are open: within a protected move
   std::function<std::uint64_t()> line_, blocks_;
+  std::function<RunEnd()> end_;
+  PictureRecorder::FrameNow frame_;
+  int decimals_ = 3;
   std::function<void(std::string)> stop_; // ends the run as inconclusive
   std::vector<Kept> contacts_, events_;
   std::uint64_t contactCount_ = 0, eventCount_ = 0;
-  std::array<Told, 16> told_{}; // by outcome
+  std::array<std::uint64_t, 16> outcomes_{}; // without misses that were meant
+  std::array<Told, 16> told_{};              // by outcome
 };
 
 } // namespace dotek::sim

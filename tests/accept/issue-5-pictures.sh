@@ -50,7 +50,8 @@ else
   check "the page works in Chromium" bash -c '(($1 == 0)) || { cat "$2"; exit 1; }' - "$used" "$scratch/page.json"
   check "its positions are those of the trace" python3 - "$scratch/trace" "$scratch/page.json" <<'PY'
 import json, re, sys
-trace = [re.findall(r"[XYZ](-?[\d.]+)", line)[-3:] for line in open(sys.argv[1]) if re.match("rapid|feed|skip", line)]
+trace = [["%.3f" % float(v) for v in re.findall(r"[XYZ](-?[\d.]+)", line)[-3:]]
+         for line in open(sys.argv[1]) if re.match("rapid|feed|skip", line)]
 shown = [step[4:] for step in json.load(open(sys.argv[2]))["shown"]]
 if len(trace) < 10 or trace != shown:
     sys.exit(f"trace {trace}\npage  {shown}")

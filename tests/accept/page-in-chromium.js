@@ -9,9 +9,24 @@
   const expect = (holds, what) => { if (!holds) faults.push(what); };
   const painted = () => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)));
   const numbers = () => ["x", "y", "z"].map((id) => byId(id).textContent);
-  const wanted = (i) => data.way.slice(i * 6 + 3, i * 6 + 6).map((v) => v.toFixed(6));
+  const wanted = (i) => data.way.slice(i * 6 + 3, i * 6 + 6);
+  // With the decimals of the control, and as near as they allow.
+  const isNumber = (text, value) => new RegExp("^-?[0-9]+" + (data.decimals > 0 ? "[.][0-9]{" + data.decimals + "}" : "") + "$").test(text) &&
+    Math.abs(Number(text) - value) <= 0.5 * 10 ** -data.decimals + 1e-9 && !/^-0[.]?0*$/.test(text);
+  const frameOf = (i) => {
+    const found = data.framed.find(([first, length]) => i >= first && i < first + length);
+    return found === undefined ? undefined : data.frames[found[2]];
+  };
   const check = (i, how) => {
-    expect(numbers().join() === wanted(i).join(), how + ": move " + i + " shows " + numbers() + ", not " + wanted(i));
+    expect(numbers().every((text, k) => isNumber(text, wanted(i)[k])), how + ": move " + i + " shows " + numbers() + ", not " + wanted(i));
+    const frame = frameOf(i);
+    if (frame !== undefined) {
+      const work = ["x", "y", "z"].map((id) => byId("work-" + id).textContent);
+      const length = data.probe === null ? 0 : data.probe.length;
+      const meant = wanted(i).map((v, k) => v + (k === 2 ? length : 0) - frame[k + 1]);
+      expect(work.every((text, k) => isNumber(text, meant[k])), how + ": work coordinates " + work + ", not " + meant);
+      expect(byId("work-name").textContent.endsWith(frame[0]), how + ": name of the work coordinates");
+    }
     expect(byId("kind").textContent === data.kinds[data.way[i * 6]].name, how + ": kind of move " + i);
     expect(byId("power").textContent === (data.way[i * 6 + 1] ? "on" : "off"), how + ": probe at move " + i);
     const row = document.querySelector("#blocks .current");
@@ -28,6 +43,53 @@
     expect(window.dotek.moves.length === count, "dotek.moves");
     expect(Number(byId("slider").max) === count - 1, "the slider's end");
     await painted();
+
+    // As it opens: at the end, with how the run went, nothing wider than the window, the path in full colour.
+    check(count - 1, "opening");
+    expect(Number(byId("slider").value) === count - 1, "the page does not open at the end of the run");
+    const widest = document.documentElement.scrollWidth;
+    expect(widest <= window.innerWidth, "the page is " + widest + " px wide in a window of " + window.innerWidth);
+    const banner = byId("banner");
+    if (banner !== null) {
+      const box = banner.getBoundingClientRect();
+      expect(box.top >= 0 && box.top < 5 && box.height > 30 && box.width > window.innerWidth - 40, "the banner is not at the top");
+      expect(banner.querySelector("strong").textContent.length > 3, "the banner says nothing");
+      expect(getComputedStyle(banner).color === "rgb(255, 255, 255)", "colour of the banner's text");
+    }
+    expect(byId("projection").textContent.startsWith("parallel projection"), "the projection is not named");
+    const root = getComputedStyle(document.documentElement);
+    const hasColour = (name) => {
+      const hex = root.getPropertyValue("--" + name).trim(), wantedColour = [1, 3, 5].map((at) => parseInt(hex.slice(at, at + 2), 16));
+      const canvas = byId("view"), dots = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height).data;
+      for (let i = 0; i < dots.length; i += 4)
+        if (wantedColour.every((c, k) => Math.abs(dots[i + k] - c) < 24)) return true;
+      return false;
+    };
+    const tickProbe = (checked) => { byId("show-probe").checked = checked; byId("show-probe").dispatchEvent(new Event("change")); };
+    tickProbe(false);
+    for (const past of [true, false]) {
+      window.dotek.go(past ? count - 1 : 0);
+      await painted();
+      for (const kind of new Set(window.dotek.moves.filter((m) => m.drawn).map((m) => m.kind))) {
+        const length = Math.max(...window.dotek.moves.filter((m) => m.kind === kind && m.drawn).map((m) => Math.hypot(...m.to.map((v, k) => v - m.from[k]))));
+        if (length * window.dotek.camera.zoom > 30)
+          expect(hasColour(data.kinds[kind].name), data.kinds[kind].name + " moves are not in full colour " + (past ? "at the end" : "at the start"));
+      }
+    }
+    tickProbe(true);
+    const zoomed = window.dotek.camera.zoom;
+    byId("zoom-in").click();
+    expect(window.dotek.camera.zoom > zoomed * 1.2, "+ does not zoom in");
+    byId("zoom-out").click(); byId("zoom-out").click();
+    expect(window.dotek.camera.zoom < zoomed * 0.9, "- does not zoom out");
+    byId("fit").click();
+    expect(Math.abs(window.dotek.camera.zoom / zoomed - 1) < 1e-6 && window.dotek.camera.x === 0, "Fit does not bring the view back");
+    const programs = [...document.querySelectorAll("#blocks .program")].map((row) => row.textContent);
+    if (data.blocks[0][2] !== "") {
+      byId("blocks").scrollTop = 0;
+      byId("blocks").dispatchEvent(new Event("scroll"));
+      expect(document.querySelector("#blocks .program") !== null, "the list of blocks has no names of programs: " + programs);
+    }
 
     let places = 0, before = null;
     const steps = Math.min(count, 40);
@@ -76,6 +138,13 @@
     canvas.dispatchEvent(new WheelEvent("wheel", { deltaY: -240, clientX: 300, clientY: 300 }));
     await painted();
     expect(hash() !== turned, "the wheel does not zoom");
+    const finger = (name, id, x, y) => canvas.dispatchEvent(new PointerEvent(name, { clientX: x, clientY: y, pointerId: id, button: 0, pointerType: "touch" }));
+    const apart = window.dotek.camera.zoom, turn = window.dotek.camera.turn;
+    finger("pointerdown", 7, 250, 300); finger("pointerdown", 8, 350, 300);
+    finger("pointermove", 7, 200, 300); finger("pointermove", 8, 400, 300);
+    finger("pointerup", 7, 200, 300); finger("pointerup", 8, 400, 300);
+    expect(Math.abs(window.dotek.camera.zoom / apart - 2) < 0.01, "two fingers twice as far apart zoom by " + window.dotek.camera.zoom / apart);
+    expect(window.dotek.camera.turn === turn, "two fingers turn the view");
 
     // The ball, lit while the probe is on: near by, and with nothing before it.
     const box = canvas.getBoundingClientRect();
@@ -120,6 +189,7 @@
   }
   const result = document.createElement("pre");
   result.id = "result";
-  result.textContent = JSON.stringify({ faults, views: pixels.size, shown });
+  result.textContent = JSON.stringify({ faults, width: window.innerWidth, views: pixels.size, shown });
   document.body.append(result);
+  if (window.parent !== window) window.parent.postMessage(result.textContent, "*");
 })();

@@ -1,0 +1,24 @@
+// The parts of both pictures that are read, not looked at: the banner.
+#pragma once
+
+#include "sim/picture/Picture.h"
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace dotek::sim {
+
+// Bands of a banner: white text on them has a contrast of at least 4.5:1, in light and in dark.
+std::string_view bannerColour(Verdict verdict);
+std::string_view verdictName(Verdict verdict); // "pass", "doubt", "fail"
+
+// Text in lines of at most `width` characters, broken at blanks where there are any.
+std::vector<std::string> wrapped(std::string_view text, std::size_t width);
+
+// The <g> of the banner over a sheet of this width, from its upper edge on; `height`: what it takes.
+std::string bannerSvg(const PictureResult& result, double left, double width, double& height);
+// An element of the page.
+std::string bannerHtml(const PictureResult& result);
+
+} // namespace dotek::sim

@@ -1,0 +1,151 @@
+#include "sim/picture/PictureResult.h"
+
+#include "sim/picture/PictureRegion.h"
+#include "support/Decimal.h"
+
+#include <cmath>
+#include <fmt/format.h>
+
+namespace dotek::sim {
+namespace {
+
+std::uint64_t count(const RunFacts& facts, std::initializer_list<Outcome> outcomes) {
+  std::uint64_t out = 0;
+  for (const Outcome outcome : outcomes)
+    out += facts.events[static_cast<std::size_t>(outcome)];
+  return out;
+}
+std::uint64_t collisionsOf(const RunFacts& facts) {
+  return count(facts, {Outcome::RapidIntoPart, Outcome::StemCollision, Outcome::BodyCollision,
+                       Outcome::Overtravel, Outcome::NotArmed});
+}
+
+std::string plural(std::uint64_t number, std::string_view one, std::string_view many) {
+  return fmt::format("{} {}", number, number == 1 ? one : many);
+}
+
+std::string alarmWord(const RunEnd& end) {
+  return end.number == 0 ? "ALARM" : fmt::format("ALARM {}", end.number);
+}
+
+// Word, text and verdict of the end alone.
+PictureResult endOf(const RunFacts& facts) {
+  PictureResult out;
+  out.text = facts.end.text;
+  switch (facts.end.ending) {
+  case Ending::ProgramEnd:
+  case Ending::TextEnd:
+    out.word = "PASS";
+    out.text = "the program came to its end";
+    return out;
+  case Ending::Running:
+    if (facts.unread.empty()) {
+      out.word = "PASS";
+      out.text = "the program came to its end";
+      return out;
+    }
+    out.verdict = Verdict::Fail;
+    out.word = "NOT READ";
+    out.text = facts.unread;
+    return out;
+  case Ending::Alarm:
+    out.verdict = Verdict::Fail;
+    out.word = alarmWord(facts.end);
+    if (out.text.empty()) out.text = "the alarm has no text";
+    return out;
+  case Ending::Limit:
+    out.verdict = Verdict::Doubt;
+    out.word = "STOPPED";
+    return out;
+  case Ending::Inconclusive:
+  case Ending::Return:
+  case Ending::Call: break;
+  }
+  out.verdict = Verdict::Doubt;
+  out.word = "INCONCLUSIVE";
+  return out;
+}
+
+std::string placeOf(const PictureBlock& block) {
+  return block.program.empty() || block.place.empty() ? block.program + block.place
+                                                      : block.program + ", " + block.place;
+}
+
+// Of the ball's centre (without a probe: of the gauge line) after a move.
+std::string positionAt(const Picture& picture, const Point3& centre, std::size_t move) {
+  if (!isDrawn(centre)) return "";
+  Point3 gauge = centre;
+  if (hasProbe(picture)) gauge.z += picture.probe.centreLength();
+  const std::string machine = "machine " + pointText(gauge, picture.decimals);
+  const std::size_t frame = move < picture.moves.size() ? picture.moves[move].frame : 0;
+  if (frame >= picture.frames.size()) return machine;
+  const PictureFrame& work = picture.frames[frame];
+  return fmt::format("{} {}; {}", work.name, pointText(gauge - work.shift, picture.decimals), machine);
+}
+
+} // namespace
+
+std::string pointText(const Point3& p, int decimals) {
+  const auto number = [&](double value) {
+    return std::isfinite(value) ? fixedText(value, decimals) : std::string("?");
+  };
+  return fmt::format("X{} Y{} Z{}", number(p.x), number(p.y), number(p.z));
+}
+
+std::string endingText(const RunFacts& facts) {
+  const PictureResult end = endOf(facts);
+  if (end.word == "PASS") return "";
+  return fmt::format("{}: {}", end.word, end.text);
+}
+
+PictureResult resultOf(const Picture& picture, const RunFacts& facts) {
+  PictureResult out = endOf(facts);
+  const bool ended = out.word == "PASS";
+  const std::uint64_t collisions = collisionsOf(facts);
+  const std::uint64_t travel = count(facts, {Outcome::OutsideTravel});
+  const std::uint64_t faults = count(facts, {Outcome::EarlyContact, Outcome::NoSignal});
+  const std::uint64_t misses = count(facts, {Outcome::Miss});
+  const bool crashed = collisions + travel + faults > 0;
+  if (crashed) {
+    const std::string then = ended ? "" : fmt::format("; then {}", endingText(facts));
+    out.verdict = Verdict::Fail;
+    out.word = collisions > 0 ? "COLLISION" : travel > 0 ? "OVER-TRAVEL" : "PROBE FAULT";
+    // What happened; the list of errors has the rest of the sentence, what to do.
+    out.text = picture.errors.empty() ? "the picture ends before it" : picture.errors.front().text;
+    out.text = out.text.substr(0, out.text.find(';')) + then;
+  } else if (ended && misses > 0) {
+    out.verdict = Verdict::Doubt;
+    out.word = "PASS, WITH MISSES";
+    out.text =
+        fmt::format("the program came to its end, but {} nothing: the end of the block was read as the "
+                    "surface",
+                    misses == 1 ? "a skip move met" : fmt::format("{} skip moves met", misses));
+  }
+  if (ended && !crashed && !picture.part) out.text += "; no part was given, so nothing could be touched";
+
+  const bool first = crashed && !picture.errors.empty();
+  if (first) {
+    const PictureError& error = picture.errors.front();
+    if (const std::optional<std::size_t> block = blockOf(picture, error)) {
+      out.place = placeOf(picture.blocks[*block]);
+      out.block = picture.blocks[*block].text;
+    }
+    out.position = positionAt(picture, error.at, error.move);
+  } else if (!ended) {
+    out.place = facts.callers.empty() || facts.callers == facts.block.program
+                    ? placeOf(facts.block)
+                    : facts.callers + (facts.block.place.empty() ? "" : "; " + facts.block.place);
+    out.block = facts.block.text;
+    if (!picture.moves.empty())
+      out.position = positionAt(picture, picture.moves.back().to, picture.moves.size() - 1);
+  }
+  if (collisions > 0 || picture.part) out.counts.push_back(plural(collisions, "collision", "collisions"));
+  if (travel > 0) out.counts.push_back(plural(travel, "over-travel", "over-travels"));
+  if (faults > 0) out.counts.push_back(plural(faults, "probe fault", "probe faults"));
+  if (picture.part || misses > 0) out.counts.push_back(plural(misses, "miss", "misses"));
+  out.counts.push_back(plural(picture.contacts.size(), "contact", "contacts"));
+  out.counts.push_back(plural(picture.moves.size(), "move", "moves"));
+  return out;
+}
+
+} // namespace dotek::sim

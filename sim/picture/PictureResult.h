@@ -1,0 +1,32 @@
+// How a run went, told from how it ended and from what happened on its path.
+#pragma once
+
+#include "sim/machine/Machine.h"
+#include "sim/machine/World.h"
+#include "sim/picture/Picture.h"
+
+#include <array>
+#include <cstdint>
+#include <string>
+
+namespace dotek::sim {
+
+struct RunFacts {
+  RunEnd end;                             // still running: the program could not be read to its end
+  std::string callers;                    // as of callersText()
+  std::string unread;                     // of a program that could not be read: why
+  PictureBlock block;                     // at which the run ended
+  std::array<std::uint64_t, 16> events{}; // by Outcome; misses that were meant are none
+};
+
+// The banner of a picture whose moves, errors and frames are complete. A collision comes before the alarm
+// that follows from it: place and position are those of the first.
+PictureResult resultOf(const Picture& picture, const RunFacts& facts);
+
+// What stopped the run, one line: an error of the picture. "": the program came to its end.
+std::string endingText(const RunFacts& facts);
+
+// "X1.000 Y-2.500 Z0.000"; "?" for what is no number.
+std::string pointText(const Point3& p, int decimals);
+
+} // namespace dotek::sim
