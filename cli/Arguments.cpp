@@ -2,6 +2,7 @@
 
 #include "cli/Cli.h"
 #include "cli/Options.h"
+#include "support/FileIdentity.h"
 #include "support/NearestName.h"
 
 #include <algorithm>
@@ -14,7 +15,7 @@ namespace dotek::cli {
 namespace {
 
 void fill(const Raw& raw, Arguments& parsed) {
-  parsed.inputs = raw.inputs;
+  parsed.inputs = withoutRepeats(raw.inputs);
   parsed.common = commonOf(raw);
   if (!raw.prog.empty()) parsed.source.prog = raw.prog;
   if (!raw.routine.empty()) parsed.source.routine = raw.routine;
@@ -31,6 +32,7 @@ void fill(const Raw& raw, Arguments& parsed) {
   if (!raw.sequence.empty()) parsed.sequence = startAndStep("--seq", raw.sequence);
   parsed.json = raw.format == "json" || raw.json;
   parsed.quiet = raw.quiet;
+  parsed.force = raw.force;
   parsed.traceFile = raw.traceFile;
   parsed.svgFile = raw.svgFile;
   parsed.htmlFile = raw.htmlFile;
@@ -54,6 +56,19 @@ void checkCommand(const CLI::App& app, const std::vector<std::string>& arguments
                    "; `dotek --help` prints the commands");
 }
 
+// A flag whose value is an empty text, such as that of a variable of a script which is not set, would count
+// as not given.
+void refuseEmptyValues(const CLI::App& app) {
+  for (const CLI::App* command : app.get_subcommands()) {
+    for (const CLI::Option* option : command->get_options()) {
+      const auto& values = option->results();
+      if (!option->get_positional() && std::find(values.begin(), values.end(), "") != values.end())
+        throw UsageError(option->get_name() + " needs a value, and its value is empty");
+    }
+    refuseEmptyValues(*command);
+  }
+}
+
 // `--set A=1 B=2` means `--set A=1 --set B=2`: pairs that follow a flag of pairs belong to it.
 std::vector<std::string> spreadPairs(const std::vector<std::string>& arguments) {
   constexpr std::array<std::string_view, 7> kPairFlags = {"--set", "--field", "--host", "--default",
@@ -61,6 +76,7 @@ std::vector<std::string> spreadPairs(const std::vector<std::string>& arguments) 
   std::vector<std::string> out;
   std::string flag;
   bool first = false;
+  std::error_code error; // what cannot be a file's name is none
   for (const std::string& argument : arguments) {
     const bool isFlag = std::find(kPairFlags.begin(), kPairFlags.end(), argument) != kPairFlags.end();
     const std::size_t equals = argument.find('=');
@@ -69,7 +85,7 @@ std::vector<std::string> spreadPairs(const std::vector<std::string>& arguments) 
     if (isFlag) {
       flag = argument;
       first = true;
-    } else if (!flag.empty() && !first && isPair && !std::filesystem::exists(argument)) {
+    } else if (!flag.empty() && !first && isPair && !std::filesystem::exists(argument, error)) {
       out.push_back(flag);
     } else if (!first) {
       flag.clear();
@@ -103,6 +119,7 @@ std::optional<int> parseArguments(const std::vector<std::string>& arguments, Arg
     std::vector<std::string> reversed = spreadPairs(arguments);
     std::reverse(reversed.begin(), reversed.end());
     app.parse(reversed);
+    refuseEmptyValues(app);
     const std::string command = app.get_subcommands().front()->get_name();
     parsed.command = command == "post"      ? Command::Post
                      : command == "convert" ? Command::Convert

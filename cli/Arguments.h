@@ -31,6 +31,7 @@ struct Arguments {
   std::string svgFile, htmlFile;  // --svg, --html
   driver::VerifyOptions verify;   // inputs, common and source aside
   bool quiet = false;
+  bool force = false; // of --force: outputs that are write-protected are replaced
   driver::Stage stage = driver::Stage::Ast;
   std::uint32_t maxErrors = 50;
 };

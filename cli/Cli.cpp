@@ -1,11 +1,18 @@
 #include "cli/Cli.h"
 
 #include "cli/Arguments.h"
+#include "cli/Files.h"
 #include "driver/Driver.h"
-#include "support/Files.h"
+#include "support/FileIdentity.h"
+#include "support/Output.h"
+#include "support/OutputCheck.h"
+#include "support/Stream.h"
+#include "support/messages/Output.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cerrno>
+#include <cstring>
 #include <exception>
 #include <memory>
 #include <ostream>
@@ -20,71 +27,73 @@ public:
   Printer(std::ostream& out, std::ostream& err, std::uint32_t maxErrors)
       : out_(out), err_(err), maxErrors_(maxErrors) {}
 
+  // Before anything is done.
+  bool canWrite(const Arguments& arguments) {
+    Diagnostics found;
+    const bool good = checkOutputs(outputsOf(arguments), inputsOf(arguments), arguments.force, found);
+    err_ << renderText(found, SourceMap(), maxErrors_);
+    return good;
+  }
+
   // Results to standard output or `-o`, diagnostics to standard error.
-  int result(const driver::Outcome& outcome, const std::string& file) {
+  int result(const driver::Outcome& outcome, const Arguments& arguments) {
     err_ << renderText(outcome.diagnostics, outcome.sources, maxErrors_);
     if (outcome.status != 0) {
       out_ << outcome.output;
       return outcome.status;
     }
-    if (file.empty()) {
-      out_ << outcome.output;
-      return kDone;
-    }
-    Diagnostics writing;
-    if (writeAtomically(file, outcome.output, writing)) return kDone;
-    err_ << renderText(writing, outcome.sources, maxErrors_);
-    return kUsage;
+    return write({{orStandardOutput(arguments.output), &outcome.output}}, outcome, arguments) ? kDone
+                                                                                              : kUsage;
   }
 
   // Programs to standard output, `-o` or `-d`; the map beside them.
   int programs(const driver::Outcome& outcome, const Arguments& arguments) {
     err_ << renderText(outcome.diagnostics, outcome.sources, maxErrors_);
     if (outcome.status != 0) return outcome.status;
-    std::vector<std::pair<std::string, const std::string*>> writes;
-    if (!arguments.outputFolder.empty()) {
-      for (const driver::OutputFile& file : outcome.files)
-        writes.emplace_back(arguments.outputFolder + "/" + file.name, &file.text);
-    } else if (!arguments.output.empty()) {
-      writes.emplace_back(arguments.output, &outcome.output);
-    }
-    if (!arguments.mapFile.empty()) writes.emplace_back(arguments.mapFile, &outcome.map);
-    Diagnostics writing;
-    if (!writeAllAtomically(writes, arguments.outputFolder, writing)) {
-      err_ << renderText(writing, outcome.sources, maxErrors_);
-      return kUsage;
-    }
-    if (arguments.output.empty() && arguments.outputFolder.empty()) out_ << outcome.output;
-    return kDone;
+    std::vector<NamedText> texts;
+    for (const driver::OutputFile& file : outcome.files)
+      if (!arguments.outputFolder.empty())
+        texts.push_back({arguments.outputFolder + "/" + file.name, &file.text});
+    if (arguments.outputFolder.empty())
+      texts.push_back({orStandardOutput(arguments.output), &outcome.output});
+    if (!arguments.mapFile.empty()) texts.push_back({arguments.mapFile, &outcome.map});
+    return write(texts, outcome, arguments) ? kDone : kUsage;
   }
 
   // The trace goes to standard output while the program runs, or to `--trace`; what stops the run is no
   // defect of the trace.
   int simulation(driver::SimOptions& options, const Arguments& arguments) {
     Diagnostics writing;
-    std::unique_ptr<AtomicFile> file;
+    const WriteOptions how{arguments.force, &out_};
+    std::vector<std::unique_ptr<Output>> outputs;
+    const auto add = [&](const std::string& path) {
+      auto output = Output::open(path, how, writing);
+      if (output) outputs.push_back(std::move(output));
+      return !writing.hasErrors();
+    };
     bool ran = false; // each run has a last line; a refused program has no trace
-    if (!arguments.traceFile.empty()) {
-      file = AtomicFile::create(arguments.traceFile, writing);
-      if (file)
-        options.trace = [&](std::string_view text) {
-          ran = true;
-          file->write(text);
-        };
-    } else if (!arguments.quiet && !options.json) {
-      options.trace = [&](std::string_view text) { out_ << text; };
-    }
+    const bool traces = !arguments.traceFile.empty() || (!arguments.quiet && !options.json);
+    if (traces && add(orStandardOutput(arguments.traceFile)))
+      options.trace = [&, trace = outputs.front().get()](std::string_view text) {
+        ran = true;
+        trace->write(text);
+      };
     driver::Outcome outcome;
     if (writing.empty()) outcome = driver::sim(options);
     out_ << outcome.output;
     err_ << renderText(outcome.diagnostics, outcome.sources, maxErrors_);
-    if (file && ran && outcome.status != 2) file->commit(writing);
-    std::vector<std::pair<std::string, const std::string*>> pictures;
-    for (const driver::OutputFile& one : outcome.files)
-      pictures.emplace_back(one.name == "svg" ? arguments.svgFile : arguments.htmlFile, &one.text);
-    if (outcome.status != 2 && !pictures.empty()) writeAllAtomically(pictures, "", writing);
+    if (!ran || outcome.status == kUsage) outputs.clear();
+    for (const driver::OutputFile& one : outcome.files) {
+      if (outcome.status == kUsage || !add(one.name == "svg" ? arguments.svgFile : arguments.htmlFile)) break;
+      outputs.back()->write(one.text);
+    }
+    const std::vector<std::string> paths = {orStandardOutput(arguments.traceFile),
+                                            orStandardOutput(arguments.svgFile),
+                                            orStandardOutput(arguments.htmlFile)};
+    const bool placed =
+        !writing.hasErrors() && checkRead(paths, outcome.sources, writing) && placeAll(outputs, writing);
     err_ << renderText(writing, SourceMap(), maxErrors_);
-    return writing.hasErrors() ? kUsage : outcome.status;
+    return placed ? outcome.status : kUsage;
   }
 
   // The report counts also where something differs; a terminal sees how far the run is.
@@ -96,12 +105,9 @@ public:
     }
     const driver::Outcome outcome = driver::verify(options);
     err_ << renderText(outcome.diagnostics, outcome.sources, maxErrors_);
-    Diagnostics writing;
-    if (arguments.output.empty())
-      out_ << outcome.output;
-    else if (outcome.status != kUsage && !writeAtomically(arguments.output, outcome.output, writing))
-      err_ << renderText(writing, outcome.sources, maxErrors_);
-    return writing.hasErrors() ? kUsage : outcome.status;
+    if (outcome.status == kUsage) return kUsage;
+    return write({{orStandardOutput(arguments.output), &outcome.output}}, outcome, arguments) ? outcome.status
+                                                                                              : kUsage;
   }
 
   // Findings are the result.
@@ -113,6 +119,18 @@ public:
   }
 
 private:
+  bool write(const std::vector<NamedText>& texts, const driver::Outcome& outcome,
+             const Arguments& arguments) {
+    Diagnostics writing;
+    std::vector<std::string> paths;
+    for (const NamedText& one : texts)
+      paths.push_back(one.path);
+    const bool done = checkRead(paths, outcome.sources, writing) &&
+                      writeAll(texts, arguments.outputFolder, {arguments.force, &out_}, writing);
+    err_ << renderText(writing, SourceMap(), maxErrors_);
+    return done;
+  }
+
   std::ostream& out_;
   std::ostream& err_;
   std::uint32_t maxErrors_;
@@ -120,11 +138,11 @@ private:
 
 int runCommand(Arguments& arguments, std::ostream& out, std::ostream& err) {
   Printer printer(out, err, arguments.maxErrors);
+  if (!printer.canWrite(arguments)) return kUsage;
   switch (arguments.command) {
   case Command::Post:
     return printer.result(
-        driver::post({arguments.inputs, arguments.common, arguments.source, arguments.sequence}),
-        arguments.output);
+        driver::post({arguments.inputs, arguments.common, arguments.source, arguments.sequence}), arguments);
   case Command::Convert: {
     driver::ConvertOptions& options = arguments.convert;
     options.inputs = arguments.inputs;
@@ -143,7 +161,7 @@ int runCommand(Arguments& arguments, std::ostream& out, std::ostream& err) {
   case Command::Dump:
     return printer.result(driver::dump({arguments.inputs, arguments.stage, arguments.common, arguments.source,
                                         arguments.convert.control}),
-                          "");
+                          arguments);
   case Command::Sim:
     arguments.sim.program = arguments.inputs.empty() ? "" : arguments.inputs.front();
     arguments.sim.common = arguments.common;
@@ -153,18 +171,17 @@ int runCommand(Arguments& arguments, std::ostream& out, std::ostream& err) {
     arguments.verify.common = arguments.common;
     arguments.verify.source = arguments.source;
     return printer.verification(arguments.verify, arguments);
-  case Command::Explain: return printer.result(driver::explain(arguments.inputs.front()), "");
+  case Command::Explain: return printer.result(driver::explain(arguments.inputs.front()), arguments);
   case Command::New:
     return printer.result(driver::newForm({arguments.inputs.back(), arguments.source.prog, arguments.common}),
-                          arguments.output);
-  case Command::List: return printer.result(driver::list(arguments.inputs.front(), arguments.common), "");
+                          arguments);
+  case Command::List:
+    return printer.result(driver::list(arguments.inputs.front(), arguments.common), arguments);
   }
   return kDefect;
 }
 
-} // namespace
-
-int run(const std::vector<std::string>& arguments, std::ostream& out, std::ostream& err) {
+int runGuarded(const std::vector<std::string>& arguments, std::ostream& out, std::ostream& err) {
   try {
     Arguments parsed;
     if (const std::optional<int> status = parseArguments(arguments, parsed, out, err)) return *status;
@@ -175,6 +192,21 @@ int run(const std::vector<std::string>& arguments, std::ostream& out, std::ostre
     err << "dotek: error: " << error.what() << "; this is a defect of Dotek\n";
   }
   return kDefect;
+}
+
+} // namespace
+
+int run(const std::vector<std::string>& arguments, std::ostream& out, std::ostream& err) {
+  int status = runGuarded(arguments, out, err);
+  const int lost = finishStream(out);
+  if (lost != 0 && lost != EPIPE) { // a reader that has enough needs no message
+    Diagnostics writing;
+    writing.report<diag::StandardOutputFailed>({}, lost == EBADF ? "it is closed" : std::strerror(lost));
+    err << renderText(writing, SourceMap(), 0);
+  }
+  const bool silent = finishStream(err) != 0;
+  if ((lost != 0 || silent) && status != kDefect) status = kUsage;
+  return status;
 }
 
 } // namespace dotek::cli

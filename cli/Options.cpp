@@ -129,6 +129,10 @@ void addSource(CLI::App& app, Raw& raw) {
   app.add_flag("--recover", raw.recover, "accept the repairs that diagnostics offer");
 }
 
+void addForce(CLI::App& app, Raw& raw) {
+  app.add_flag("--force", raw.force, "replace files that are write-protected");
+}
+
 void addTarget(CLI::App& app, Raw& raw) {
   app.add_option("--control", raw.control, "profile of the control (see `dotek list controls`)")
       ->type_name("NAME");

@@ -44,7 +44,7 @@ struct Raw {
   std::vector<std::string> values; // --value
   std::string cases, seed, jobs, minAgreed, tolerance, activeSystem;
   bool replay = false;
-  bool json = false, quiet = false;
+  bool json = false, quiet = false, force = false;
   std::uint32_t maxErrors = 50;
   bool recover = false;
   bool wholePost = false;
@@ -73,6 +73,7 @@ void addCommon(CLI::App& app, Raw& raw);
 void addValues(CLI::App& app, Raw& raw);
 void addSource(CLI::App& app, Raw& raw); // what says where the post is
 void addTarget(CLI::App& app, Raw& raw);
+void addForce(CLI::App& app, Raw& raw);
 driver::CommonOptions commonOf(const Raw& raw);
 
 // The commands: each adds itself to the application, and each with options of its own reads them from what

@@ -51,6 +51,7 @@ void addConvert(CLI::App& app, Raw& raw) {
   convert->add_option("-d", raw.outputFolder, "write each program to a file of DIR")
       ->type_name("DIR")
       ->excludes(output);
+  addForce(*convert, raw);
   addCommon(*convert, raw);
 }
 

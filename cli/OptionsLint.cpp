@@ -51,6 +51,7 @@ void addLint(CLI::App& app, Raw& raw) {
   lint->add_option("--fail-on", raw.failOn, "exit with 1 from this severity on (warning)")
       ->check(CLI::IsMember({"note", "warning", "error", "never"}));
   addTarget(*lint, raw);
+  addForce(*lint, raw);
   addCommon(*lint, raw);
 }
 
@@ -60,6 +61,7 @@ driver::LintOptions lintOf(const Raw& raw) {
   out.ignore = codes(raw.ignore, false);
   out.control = raw.control;
   out.fix = raw.fix;
+  out.force = raw.force;
   if (!raw.failOn.empty())
     out.failOn = raw.failOn == "never"   ? driver::FailOn::Never
                  : raw.failOn == "note"  ? driver::FailOn::Note

@@ -11,6 +11,7 @@ void addNew(CLI::App& app, Raw& raw) {
   form->add_option("NAME", raw.inputs, "name of the form")->required()->expected(1);
   form->add_option("--prog", raw.prog, "the Prog (text of the ComPost post)")->type_name("PROG.txt");
   form->add_option("-o", raw.output, "write the form to a file")->type_name("FILE");
+  addForce(*form, raw);
   addCommon(*form, raw);
 }
 

@@ -11,6 +11,7 @@ void addPost(CLI::App& app, Raw& raw) {
   addValues(*post, raw);
   post->add_option("--seq", raw.sequence, "first sequence number and step (10:10)")->type_name("START:STEP");
   post->add_option("-o", raw.output, "write the program to a file")->type_name("OUT");
+  addForce(*post, raw);
   addCommon(*post, raw);
 }
 

@@ -1,5 +1,6 @@
 // Flags of `dotek sim`.
 #include "cli/Options.h"
+#include "support/FileIdentity.h"
 
 namespace dotek::cli {
 
@@ -23,6 +24,7 @@ void addSim(CLI::App& app, Raw& raw) {
   sim->add_flag("--quiet", raw.quiet, "no trace");
   sim->add_flag("--json", raw.json, "print how the run ended as JSON, and no trace");
   sim->add_option("--trace", raw.traceFile, "write the trace to a file")->type_name("OUT");
+  addForce(*sim, raw);
   addCommon(*sim, raw);
 }
 
@@ -34,7 +36,7 @@ driver::SimOptions simOf(const Raw& raw) {
   if (!raw.machine.empty()) out.machine = raw.machine;
   out.control = raw.control;
   out.json = raw.json;
-  out.programs = raw.programs;
+  out.programs = withoutRepeats(raw.programs);
   if (!raw.probeMacros.empty()) out.probeMacros = raw.probeMacros;
   for (const std::string& text : raw.variables)
     out.variables.push_back(splitPair("--var", text));

@@ -77,6 +77,7 @@ void addVerify(CLI::App& app, Raw& raw) {
       ->allow_extra_args(false);
   verify->add_flag("--replay", raw.replay, "run the one case whose values are given");
   verify->add_option("-o", raw.output, "write the report to a file")->type_name("REPORT");
+  addForce(*verify, raw);
   addCommon(*verify, raw);
 }
 

@@ -47,6 +47,7 @@ struct LintOptions {
   std::string control;          // profile that programs are checked for; "": what holds on every control
   std::optional<FailOn> failOn; // nothing: what dotek.toml says, else Warning
   bool fix = false;             // makes the safe repairs, then says what is left
+  bool force = false;           // repairs files that are write-protected, too
 };
 
 enum class Stage : std::uint8_t { Tokens, Ast, Path, Ir };

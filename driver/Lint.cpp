@@ -364,7 +364,7 @@ Outcome lint(const LintOptions& options) {
   std::map<std::string, std::uint32_t> total;
   Diagnostics writing;
   for (int turn = 0; turn < kFixTurns; ++turn) {
-    const auto made = applySafeFixes(outcome, options.common.limits, writing);
+    const auto made = applySafeFixes(outcome, options.common.limits, options.force, writing);
     if (made.empty()) break;
     for (const auto& [name, count] : made)
       total[name] += count;

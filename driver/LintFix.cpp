@@ -1,6 +1,8 @@
 #include "driver/LintFix.h"
 
+#include "support/FileIdentity.h"
 #include "support/Files.h"
+#include "support/Output.h"
 
 #include <algorithm>
 
@@ -17,12 +19,19 @@ bool meet(const Edit& a, const Edit& b) {
 
 } // namespace
 
-std::map<std::string, std::uint32_t> applySafeFixes(const Outcome& outcome, const Limits& limits,
+std::map<std::string, std::uint32_t> applySafeFixes(const Outcome& outcome, const Limits& limits, bool force,
                                                     Diagnostics& diagnostics) {
   std::vector<Edit> edits;
   std::map<std::string, std::uint32_t> made;
+  // A file that was read under two names is mended under the first.
+  std::map<FileIdentity, std::string> names;
+  const auto isOther = [&](FileId file) {
+    const std::string& name = outcome.sources.file(file).name();
+    const auto identity = identify(name);
+    return identity && names.try_emplace(*identity, name).first->second != name;
+  };
   for (const Diagnostic& d : outcome.diagnostics.all()) {
-    if (!d.fix || d.fix->applicability != Fix::Applicability::Safe) continue;
+    if (!d.fix || d.fix->applicability != Fix::Applicability::Safe || isOther(d.range.file)) continue;
     const bool clashes = std::any_of(d.fix->edits.begin(), d.fix->edits.end(), [&](const Edit& edit) {
       return std::any_of(edits.begin(), edits.end(), [&](const Edit& other) { return meet(edit, other); });
     });
@@ -39,15 +48,15 @@ std::map<std::string, std::uint32_t> applySafeFixes(const Outcome& outcome, cons
     const auto [at, added] = texts.try_emplace(file.name(), file.bytes());
     at->second.replace(edit.range.begin, edit.range.end - edit.range.begin, edit.text);
   }
-  std::vector<std::pair<std::string, const std::string*>> writes;
+  std::vector<NamedText> writes;
   for (auto& [name, text] : texts) {
     const auto before = readBytes(name, limits, diagnostics);
     if (!before) return {};
     if (before->starts_with(kByteOrderMark) && !text.starts_with(kByteOrderMark))
       text.insert(0, kByteOrderMark);
-    writes.emplace_back(name, &text);
+    writes.push_back({name, &text});
   }
-  if (!writeAllAtomically(writes, "", diagnostics)) return {};
+  if (!writeAll(writes, "", {force, nullptr}, diagnostics)) return {};
   return made;
 }
 

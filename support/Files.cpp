@@ -6,10 +6,8 @@
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <memory>
 #include <system_error>
-#include <unistd.h>
 
 namespace dotek {
 
@@ -101,117 +99,6 @@ std::optional<FileId> addText(std::string name, std::string bytes, Encoding fall
     return std::nullopt;
   }
   return id;
-}
-
-namespace {
-
-// A device or a pipe: written into, never replaced.
-bool isStream(const std::string& path) {
-  std::error_code error;
-  return fs::is_other(fs::status(path, error));
-}
-
-// Beside the file, so that renaming it is one step; what a link names stays where it is.
-std::string temporaryOf(const std::string& path) {
-  const std::string end = ".dotek-" + std::to_string(getpid());
-  std::error_code error;
-  if (isStream(path)) {
-    const fs::path folder = fs::temp_directory_path(error);
-    return (error ? fs::path("/tmp") : folder).string() + "/stream" + end;
-  }
-  const fs::path real = fs::is_symlink(path, error) ? fs::canonical(path, error) : fs::path(path);
-  return (error ? path : real.string()) + end;
-}
-
-bool writeTemporary(const std::string& path, const std::string& bytes, Diagnostics& diagnostics) {
-  std::ofstream out(temporaryOf(path), std::ios::binary);
-  out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  out.flush();
-  if (out) return true;
-  diagnostics.report<diag::FileNotWritable>({}, path, std::strerror(errno));
-  std::remove(temporaryOf(path).c_str());
-  return false;
-}
-
-bool rename(const std::string& path, Diagnostics& diagnostics) {
-  std::error_code error;
-  const std::string temporary = temporaryOf(path);
-  if (isStream(path)) {
-    std::ifstream in(temporary, std::ios::binary);
-    std::ofstream out(path, std::ios::binary);
-    if (in.peek() != std::ifstream::traits_type::eof()) out << in.rdbuf();
-    out.flush();
-    std::remove(temporary.c_str());
-    if (out) return true;
-    diagnostics.report<diag::FileNotWritable>({}, path, std::strerror(errno));
-    return false;
-  }
-  const fs::path real = fs::is_symlink(path, error) ? fs::canonical(path, error) : fs::path(path);
-  fs::rename(temporary, error ? fs::path(path) : real, error);
-  if (!error) return true;
-  diagnostics.report<diag::FileNotWritable>({}, path, error.message());
-  std::remove(temporaryOf(path).c_str());
-  return false;
-}
-
-} // namespace
-
-bool writeAtomically(const std::string& path, const std::string& bytes, Diagnostics& diagnostics) {
-  return writeTemporary(path, bytes, diagnostics) && rename(path, diagnostics);
-}
-
-bool writeAllAtomically(const std::vector<std::pair<std::string, const std::string*>>& files,
-                        const std::string& folder, Diagnostics& diagnostics) {
-  std::error_code error;
-  if (!folder.empty()) fs::create_directories(folder, error);
-  if (error) {
-    diagnostics.report<diag::FileNotWritable>({}, folder, error.message());
-    return false;
-  }
-  std::size_t written = 0;
-  while (written < files.size() && writeTemporary(files[written].first, *files[written].second, diagnostics))
-    ++written;
-  bool good = written == files.size();
-  for (std::size_t i = 0; good && i < written; ++i) {
-    if (!fs::is_directory(files[i].first, error)) continue;
-    diagnostics.report<diag::FileNotWritable>({}, files[i].first, std::strerror(EISDIR));
-    good = false;
-  }
-  for (std::size_t i = 0; i < written; ++i) {
-    if (good)
-      good = rename(files[i].first, diagnostics);
-    else
-      std::remove(temporaryOf(files[i].first).c_str());
-  }
-  return good;
-}
-
-std::unique_ptr<AtomicFile> AtomicFile::create(const std::string& path, Diagnostics& diagnostics) {
-  std::FILE* file = std::fopen(temporaryOf(path).c_str(), "wb");
-  if (file == nullptr) {
-    diagnostics.report<diag::FileNotWritable>({}, path, std::strerror(errno));
-    return nullptr;
-  }
-  return std::unique_ptr<AtomicFile>(new AtomicFile(path, file));
-}
-
-AtomicFile::~AtomicFile() {
-  if (file_ == nullptr) return;
-  std::fclose(file_);
-  std::remove(temporaryOf(path_).c_str());
-}
-
-void AtomicFile::write(std::string_view bytes) {
-  good_ = good_ && std::fwrite(bytes.data(), 1, bytes.size(), file_) == bytes.size();
-}
-
-bool AtomicFile::commit(Diagnostics& diagnostics) {
-  const bool closed = std::fclose(file_) == 0;
-  file_ = nullptr;
-  if (good_ && closed) return rename(path_, diagnostics);
-  diagnostics.report<diag::FileNotWritable>({}, path_, std::strerror(errno));
-  std::remove(temporaryOf(path_).c_str());
-  return false;
 }
 
 } // namespace dotek

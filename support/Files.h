@@ -1,17 +1,12 @@
-// Reading inputs and writing results. Nothing here throws.
+// Reading inputs. Nothing here throws.
 #pragma once
 
 #include "support/Diagnostics.h"
 #include "support/Limits.h"
 #include "support/Source.h"
 
-#include <cstdio>
-#include <memory>
 #include <optional>
 #include <string>
-#include <string_view>
-#include <utility>
-#include <vector>
 
 namespace dotek {
 
@@ -26,31 +21,5 @@ std::optional<FileId> readText(const std::string& path, Encoding fallback, std::
 // As readText, for bytes that are at hand; `name` is what diagnostics print.
 std::optional<FileId> addText(std::string name, std::string bytes, Encoding fallback,
                               std::optional<Encoding> forced, SourceMap& sources, Diagnostics& diagnostics);
-
-// Writes a temporary file beside `path` and renames it: the result is complete or absent.
-bool writeAtomically(const std::string& path, const std::string& bytes, Diagnostics& diagnostics);
-
-// The same for several files: all temporary files are written before the first is renamed. `folder` is made
-// where it is missing ("": none).
-bool writeAllAtomically(const std::vector<std::pair<std::string, const std::string*>>& files,
-                        const std::string& folder, Diagnostics& diagnostics);
-
-// A result that is written piece by piece, complete or absent like that of writeAtomically.
-class AtomicFile {
-public:
-  // nullptr with a diagnostic where the file cannot be made.
-  static std::unique_ptr<AtomicFile> create(const std::string& path, Diagnostics& diagnostics);
-  ~AtomicFile(); // removes what was not committed
-  AtomicFile(const AtomicFile&) = delete;
-  AtomicFile& operator=(const AtomicFile&) = delete;
-  void write(std::string_view bytes);
-  bool commit(Diagnostics& diagnostics);
-
-private:
-  AtomicFile(std::string path, std::FILE* file) : path_(std::move(path)), file_(file) {}
-  std::string path_;
-  std::FILE* file_;
-  bool good_ = true;
-};
 
 } // namespace dotek

@@ -20,6 +20,7 @@ std::span<const MessageInfo> messageTable() {
 #include "support/messages/MacroB.def"
 #include "support/messages/Mikroprog.def"
 #include "support/messages/Nc.def"
+#include "support/messages/Output.def"
 #include "support/messages/Part.def"
 #include "support/messages/Sim.def"
 #include "support/messages/Verify.def"

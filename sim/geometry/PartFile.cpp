@@ -293,7 +293,9 @@ std::optional<PartFile> loadPart(const std::string& path, const Limits& limits, 
   const std::size_t slash = path.rfind('/');
   const std::string folder = slash == std::string::npos ? "" : path.substr(0, slash + 1);
   const auto readMesh = [&](const std::string& name) {
-    return readBytes(name.starts_with('/') ? name : folder + name, limits, diagnostics);
+    const std::string mesh = name.starts_with('/') ? name : folder + name;
+    sources.add(SourceFile(mesh, "", Encoding::Utf8)); // no text, but a file that was read
+    return readBytes(mesh, limits, diagnostics);
   };
   return readPart(*id, sources, readMesh, diagnostics);
 }

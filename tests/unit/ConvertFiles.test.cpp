@@ -1,6 +1,6 @@
 // What convert leaves on disk: all or nothing. And what a defect of Dotek itself ends in.
 #include "driver/Command.h"
-#include "support/Files.h"
+#include "support/Output.h"
 #include "support/messages/Commands.h"
 #include "tests/GoldenRunner.h"
 
@@ -64,10 +64,11 @@ TEST_CASE("a file that cannot be renamed leaves no temporary file") {
   fs::create_directories(folder.path / "O2.nc" / "in the way");
   const std::string text = "%\n";
   Diagnostics diagnostics;
-  CHECK_FALSE(writeAllAtomically(
+  CHECK_FALSE(writeAll(
       {{(folder.path / "O1.nc").generic_string(), &text}, {(folder.path / "O2.nc").generic_string(), &text}},
-      "", diagnostics));
+      "", {}, diagnostics));
   CHECK(diagnostics.hasErrors());
+  CHECK_FALSE(fs::exists(folder.path / "O1.nc"));
   for (const auto& entry : fs::directory_iterator(folder.path))
     CHECK(entry.path().filename().string().find(".dotek-") == std::string::npos);
 }

@@ -1,5 +1,7 @@
 // Reading inputs and writing results: what is refused, and how it is reported.
 #include "support/Files.h"
+#include "support/FileIdentity.h"
+#include "support/Output.h"
 
 #include "tests/GoldenRunner.h"
 
@@ -78,26 +80,52 @@ TEST_CASE("texts that no control reads are refused") {
 TEST_CASE("a result is written whole or not at all") {
   const Scratch scratch;
   Diagnostics diagnostics;
-  CHECK(writeAtomically(scratch.path("out"), "N10\n", diagnostics));
-  CHECK(writeAtomically(scratch.path("out"), "N20\n", diagnostics));
+  const auto write = [&](const std::string& path, const std::string& text) {
+    return writeAll({{path, &text}}, "", {}, diagnostics);
+  };
+  CHECK(write(scratch.path("out"), "N10\n"));
+  CHECK(write(scratch.path("out"), "N20\n"));
   CHECK(tests::readAll(scratch.path("out")) == "N20\n");
   CHECK(diagnostics.empty());
-  CHECK_FALSE(writeAtomically(scratch.path("none/out"), "N10\n", diagnostics));
+  CHECK_FALSE(write(scratch.path("none/out"), "N10\n"));
   REQUIRE(diagnostics.all().size() == 1);
   CHECK(diagnostics.all().front().code == "file-not-writable");
   // Nothing is left beside it.
   CHECK(std::distance(fs::directory_iterator(scratch.folder), fs::directory_iterator()) == 1);
 }
 
-TEST_CASE("a device is written into, and a link keeps its place") {
+TEST_CASE("of several results none is placed where one cannot be written") {
   const Scratch scratch;
   Diagnostics diagnostics;
-  CHECK(writeAtomically("/dev/null", "N10\n", diagnostics));
-  CHECK(fs::is_character_file("/dev/null"));
-  CHECK(writeAtomically(scratch.path("real"), "N10\n", diagnostics));
-  fs::create_symlink(scratch.path("real"), scratch.path("link"));
-  CHECK(writeAtomically(scratch.path("link"), "N20\n", diagnostics));
-  CHECK(fs::is_symlink(scratch.path("link")));
-  CHECK(tests::readAll(scratch.path("real")) == "N20\n");
-  CHECK(diagnostics.empty());
+  const std::string text = "N10\n";
+  const std::vector<NamedText> texts = {{scratch.path("d/a"), &text}, {scratch.path("none/b"), &text}};
+  CHECK_FALSE(writeAll(texts, scratch.path("d"), {}, diagnostics));
+  CHECK(fs::is_empty(scratch.folder / "d"));
+  CHECK(writeAll({texts.front()}, scratch.path("d"), {}, diagnostics));
+  CHECK(tests::readAll(scratch.path("d/a")) == text);
+}
+
+TEST_CASE("which file a path means, whatever links and spellings lead there") {
+  const Scratch scratch;
+  std::ofstream(scratch.path("a")) << "x";
+  fs::create_symlink("a", scratch.path("link"));
+  fs::create_hard_link(scratch.path("a"), scratch.path("hard"));
+  fs::create_symlink("new", scratch.path("dangling"));
+  const auto same = [&](const std::string& x, const std::string& y) {
+    const auto one = identify(scratch.path(x)), other = identify(scratch.path(y));
+    REQUIRE(one.has_value());
+    REQUIRE(other.has_value());
+    return *one == *other;
+  };
+  CHECK(same("a", "./a"));
+  CHECK(same("a", "link"));
+  CHECK(same("a", "hard"));
+  CHECK(same("new", "dangling"));
+  CHECK(same("new", "../" + scratch.folder.filename().string() + "/new"));
+  CHECK_FALSE(same("a", "new"));
+  CHECK_FALSE(same("new", "other"));
+  CHECK_FALSE(identify("/dev/null").has_value());
+  CHECK_FALSE(identify(scratch.path("none/a")).has_value());
+  const std::vector<std::string> repeated = {scratch.path("a"), scratch.path("b"), scratch.path("link")};
+  CHECK(withoutRepeats(repeated) == std::vector<std::string>{scratch.path("a"), scratch.path("b")});
 }

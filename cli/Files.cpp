@@ -1,0 +1,52 @@
+#include "cli/Files.h"
+
+#include <filesystem>
+
+namespace dotek::cli {
+
+namespace fs = std::filesystem;
+
+std::string orStandardOutput(const std::string& path) {
+  return path.empty() ? "-" : path;
+}
+
+std::vector<OutputName> outputsOf(const Arguments& arguments) {
+  std::vector<OutputName> out;
+  const auto add = [&](const std::string& flag, const std::string& path) {
+    if (!path.empty()) out.push_back({"`" + flag + " " + path + "`", path});
+  };
+  const bool sim = arguments.command == Command::Sim;
+  const bool traces = sim && arguments.traceFile.empty() && !arguments.quiet;
+  const bool prints =
+      sim ? traces || arguments.json : arguments.output.empty() && arguments.outputFolder.empty();
+  if (prints) out.push_back({"standard output", "-"});
+  add("-o", arguments.output);
+  add("--map", arguments.mapFile);
+  add("--trace", arguments.traceFile);
+  add("--svg", arguments.svgFile);
+  add("--html", arguments.htmlFile);
+  return out;
+}
+
+std::vector<std::string> inputsOf(const Arguments& arguments) {
+  std::vector<std::string> out;
+  // The name of a new form and what `explain` and `list` take are no files.
+  if (arguments.command != Command::New && arguments.command != Command::Explain &&
+      arguments.command != Command::List)
+    out = arguments.inputs;
+  for (const auto& one :
+       {arguments.source.prog, arguments.common.job, arguments.sim.part, arguments.sim.machine,
+        arguments.verify.part, arguments.verify.machine, arguments.verify.translation})
+    if (one) out.push_back(*one);
+  std::error_code error;
+  for (const std::string& data : arguments.common.data)
+    for (fs::directory_iterator kind(data, error), end; !error && kind != end; kind.increment(error)) {
+      std::error_code noFolder;
+      for (fs::directory_iterator file(kind->path(), noFolder); !noFolder && file != end;
+           file.increment(noFolder))
+        out.push_back(file->path().string());
+    }
+  return out;
+}
+
+} // namespace dotek::cli

@@ -1,0 +1,21 @@
+// Which files a command line names.
+#pragma once
+
+#include "cli/Arguments.h"
+#include "support/OutputCheck.h"
+
+#include <string>
+#include <vector>
+
+namespace dotek::cli {
+
+// `path`, or standard output where none is given.
+std::string orStandardOutput(const std::string& path);
+
+// What the command will write, standard output where it prints there. Files of `-d` have names later.
+std::vector<OutputName> outputsOf(const Arguments& arguments);
+
+// What it names to be read, and the data files below `--data`.
+std::vector<std::string> inputsOf(const Arguments& arguments);
+
+} // namespace dotek::cli

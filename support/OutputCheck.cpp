@@ -1,0 +1,74 @@
+#include "support/OutputCheck.h"
+
+#include "support/FileIdentity.h"
+#include "support/messages/Output.h"
+
+#include <algorithm>
+#include <map>
+#include <unistd.h>
+
+namespace dotek {
+namespace {
+
+// Two that go to one stream of the process, or into one file or pipe.
+bool meet(const OutputName& a, const OutputName& b) {
+  const int stream = descriptorOf(a.path);
+  if (stream >= 0 && stream == descriptorOf(b.path)) return true;
+  const auto file = identify(a.path);
+  return file && file == identify(b.path);
+}
+
+// Only files that are there: an input that is missing is reported by who reads it.
+std::map<FileIdentity, std::string> filesOf(const std::vector<std::string>& inputs) {
+  std::map<FileIdentity, std::string> out;
+  for (const std::string& input : inputs)
+    if (const auto file = identify(input); file && file->name.empty()) out.emplace(*file, input);
+  return out;
+}
+
+bool overwrites(const std::string& path, const std::map<FileIdentity, std::string>& inputs,
+                Diagnostics& diagnostics) {
+  if (descriptorOf(path) >= 0) return false;
+  const auto file = identify(path);
+  const auto at = file ? inputs.find(*file) : inputs.end();
+  if (at == inputs.end()) return false;
+  diagnostics.report<diag::OutputIsInput>({}, path, at->second);
+  return true;
+}
+
+} // namespace
+
+bool checkOutputs(const std::vector<OutputName>& outputs, const std::vector<std::string>& inputs, bool force,
+                  Diagnostics& diagnostics) {
+  const std::map<FileIdentity, std::string> files = filesOf(inputs);
+  const OutputName messages{"standard error", "/dev/stderr"};
+  bool good = true;
+  for (auto one = outputs.begin(); one != outputs.end(); ++one) {
+    // An input is reported as such, also where it is write-protected.
+    if (overwrites(one->path, files, diagnostics) || !Output::check(one->path, force, diagnostics)) {
+      good = false;
+      continue;
+    }
+    const auto twin =
+        std::find_if(outputs.begin(), one, [&](const OutputName& other) { return meet(*one, other); });
+    const bool withMessages = descriptorOf(one->path) < 0 && meet(*one, messages);
+    if (twin == one && !withMessages) continue;
+    diagnostics.report<diag::OutputGivenTwice>({}, twin == one ? messages.name : twin->name, one->name);
+    good = false;
+  }
+  return good;
+}
+
+bool checkRead(const std::vector<std::string>& paths, const SourceMap& sources, Diagnostics& diagnostics) {
+  if (std::all_of(paths.begin(), paths.end(),
+                  [](const std::string& path) { return descriptorOf(path) >= 0; }))
+    return true;
+  std::vector<std::string> inputs;
+  for (FileId file = 0; file < sources.size(); ++file)
+    inputs.push_back(sources.file(file).name());
+  const std::map<FileIdentity, std::string> files = filesOf(inputs);
+  return std::none_of(paths.begin(), paths.end(),
+                      [&](const std::string& path) { return overwrites(path, files, diagnostics); });
+}
+
+} // namespace dotek
