@@ -43,6 +43,8 @@ struct Raw {
   std::string part, machine, partError, translation;
   std::vector<std::string> values; // --value
   std::string cases, seed, jobs, minAgreed, tolerance, activeSystem;
+  std::vector<std::string> workOffsets;
+  std::string tool, length, radius, diameter, at, call;
   bool replay = false;
   bool json = false, quiet = false, force = false;
   std::uint32_t maxErrors = 50;

@@ -1,6 +1,11 @@
 // Flags of `dotek sim`.
 #include "cli/Options.h"
+#include "support/Decimal.h"
 #include "support/FileIdentity.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
 
 namespace dotek::cli {
 
@@ -19,6 +24,21 @@ void addSim(CLI::App& app, Raw& raw) {
       ->type_name("SET");
   sim->add_option("--part", raw.part, "part that the probe touches; needs --machine")->type_name("PART.toml");
   sim->add_option("--machine", raw.machine, "probe and travel of the machine")->type_name("MACHINE.toml");
+  sim->add_option("--tool", raw.tool, "number of the tool in the spindle, and of its offset")->type_name("N");
+  sim->add_option("--length", raw.length,
+                  "length of that tool, as its offset says (that of the machine's probe)")
+      ->type_name("MM");
+  sim->add_option("--diameter", raw.diameter, "diameter of the stylus ball, where no --machine says it")
+      ->type_name("MM");
+  sim->add_option("--radius", raw.radius, "its radius, instead of --diameter")->type_name("MM");
+  sim->add_option(
+         "--work-offset", raw.workOffsets,
+         "zero of G54 to G59 in coordinates of the machine; `G54=part`: where the part is meant to be")
+      ->type_name("G54=X,Y,Z")
+      ->allow_extra_args(false);
+  sim->add_option("--at", raw.at, "where the tool's end is before the program, in G54")->type_name("X,Y,Z");
+  sim->add_option("--call", raw.call, "call the program by G65 with these arguments")
+      ->type_name("\"D25. S54\"");
   sim->add_option("--svg", raw.svgFile, "write a picture of the run, three views")->type_name("OUT");
   sim->add_option("--html", raw.htmlFile, "write a page that shows the run in space")->type_name("OUT");
   sim->add_flag("--quiet", raw.quiet, "no trace");
@@ -28,8 +48,62 @@ void addSim(CLI::App& app, Raw& raw) {
   addCommon(*sim, raw);
 }
 
+namespace {
+
+constexpr double kFarthest = 20000; // mm
+
+std::array<double, 3> pointOf(const std::string& flag, const std::string& text) {
+  std::array<double, 3> out{};
+  std::size_t count = 0;
+  for (std::size_t begin = 0; begin <= text.size(); ++count) {
+    const std::size_t end = std::min(text.find(',', begin), text.size());
+    const std::optional<double> value = parseNumber(std::string_view(text).substr(begin, end - begin));
+    if (count == 3 || !value || !(std::abs(*value) <= kFarthest)) {
+      count = 0;
+      break;
+    }
+    out[count] = *value;
+    begin = end + 1;
+  }
+  if (count != 3) throw UsageError(flag + " takes X,Y,Z in mm, three numbers, not `" + text + "`");
+  return out;
+}
+
+sim::Setup setupOf(const Raw& raw) {
+  sim::Setup out;
+  constexpr std::uint64_t kMostTool = 999;
+  if (!raw.tool.empty()) out.tool = static_cast<std::uint32_t>(countOf("--tool", raw.tool, 1, 1, kMostTool));
+  if (!raw.length.empty()) {
+    if (!out.tool) throw UsageError("--length is the length of a tool; --tool N says of which");
+    out.length = numberOf("--length", raw.length, 0, -kFarthest, kFarthest);
+  }
+  if (!raw.radius.empty() && !raw.diameter.empty())
+    throw UsageError("--radius and --diameter say the same of the stylus; give one of them");
+  if (!raw.radius.empty()) out.ballDiameter = 2 * numberOf("--radius", raw.radius, 0, 0.005, 50);
+  if (!raw.diameter.empty()) out.ballDiameter = numberOf("--diameter", raw.diameter, 0, 0.01, 100);
+  for (const std::string& text : raw.workOffsets) {
+    const auto [name, place] = splitPair("--work-offset", text);
+    const auto system = sim::systemByName(name);
+    if (!system)
+      throw UsageError("--work-offset takes G54 to G59, not `" + name +
+                       "`; `--var N=VALUE` sets the variables of others");
+    sim::Setup one;
+    if (place == "part")
+      one.zeros.push_back({*system, true, {}});
+    else
+      one.zeros.push_back({*system, false, pointOf("--work-offset " + name, place)});
+    out.override(one);
+  }
+  if (!raw.at.empty()) out.at = pointOf("--at", raw.at);
+  out.call = raw.call;
+  return out;
+}
+
+} // namespace
+
 driver::SimOptions simOf(const Raw& raw) {
   driver::SimOptions out;
+  out.setup = setupOf(raw);
   out.svg = !raw.svgFile.empty();
   out.html = !raw.htmlFile.empty();
   if (!raw.part.empty()) out.part = raw.part;

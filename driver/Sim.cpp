@@ -10,6 +10,7 @@
 #include "sim/machine/Compile.h"
 #include "sim/machine/Machine.h"
 #include "sim/machine/Run.h"
+#include "sim/run/SetupRun.h"
 #include "sim/run/SimMacros.h"
 #include "sim/run/SimReport.h"
 #include "sim/run/SimWorld.h"
@@ -49,8 +50,9 @@ public:
       chunks = std::make_unique<LineChunks>(*kept);
     }
     sim::Machine machine(*control_);
-    if (!setVariables(machine)) return outcomeOf(session_, "");
-    if (!options_.programs.empty() || frontend::nc::mayHoldMacros(*chunks)) return runLoaded(kept, machine);
+    if (!setVariables(machine) || !world_->prepare(machine)) return outcomeOf(session_, "");
+    if (!options_.programs.empty() || !world_->setup().call.empty() || frontend::nc::mayHoldMacros(*chunks))
+      return runLoaded(kept, machine);
     chunks->rewind();
     return runStreamed(*chunks, machine);
   }
@@ -120,7 +122,15 @@ private:
                        session_.sources(), diagnostics())
              : session_.read(options_.program, Encoding::Cp1250);
     if (!id) return outcomeOf(session_, "");
-    std::optional<ProgramLibrary> library = ProgramLibrary::load(*id, options_.programs, *control_, session_);
+    std::optional<ProgramLibrary> library =
+        world_->setup().call.empty()
+            ? ProgramLibrary::load(*id, options_.programs, *control_, session_)
+            : ProgramLibrary::loadCalled(
+                  *id,
+                  [&](std::uint64_t number) {
+                    return sim::callingProgram(world_->setup(), number, machine, world_->startOf(machine));
+                  },
+                  options_.programs, *control_, session_);
     if (!library) return outcomeOf(session_, "");
     const std::unique_ptr<sim::SimMacros> macros =
         sim::SimMacros::load(options_.probeMacros, world_->hasPicture(), *control_, *library, session_);
@@ -140,6 +150,7 @@ private:
     if (trace) sim::traceVariables(machine, *trace);
     trace.reset();
     sim::reportRun(run, machine, session_);
+    sim::reportShifts(machine, run.place(), session_);
     return finish(machine, &run);
   }
 
@@ -162,6 +173,7 @@ private:
       sim::reportScanError(options_.program, scanner, chunks, session_);
     else
       sim::reportEnd(options_.program, scanner, machine, session_);
+    sim::reportShifts(machine, sim::placeOfLine(options_.program, scanner, session_), session_);
     return finish(machine, nullptr);
   }
 

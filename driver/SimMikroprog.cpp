@@ -82,6 +82,8 @@ private:
     if (!options_.variables.empty()) diagnostics().report<diag::OptionOfMacroB>({}, "--var");
     if (!options_.programs.empty()) diagnostics().report<diag::OptionOfMacroB>({}, "--programs");
     if (options_.probeMacros) diagnostics().report<diag::OptionOfMacroB>({}, "--probe-macros");
+    if (const std::string_view flag = options_.setup.firstFlag(); !flag.empty())
+      diagnostics().report<diag::OptionOfMacroB>({}, flag);
     return !diagnostics().hasErrors();
   }
 

@@ -1,6 +1,8 @@
 #include "project/ProgramLibrary.h"
 
 #include "project/Programs.h"
+#include "support/Files.h"
+#include "support/messages/Commands.h"
 #include "support/messages/Common.h"
 #include "support/messages/Sim.h"
 
@@ -23,6 +25,15 @@ std::uint64_t numberOfName(const std::string& name) {
   return error == std::errc() && end == name.data() + name.size() ? number : 0;
 }
 
+// A control keeps the number; the text of the file may lack it.
+void nameByFile(ir::ProgramFile& file, const fs::path& path) {
+  const std::uint64_t number = numberOfName(path.stem().string());
+  if (number == 0 || file.programs.empty() || file.programs.front().nameKind != ir::Program::NameKind::None)
+    return;
+  file.programs.front().nameKind = ir::Program::NameKind::Number;
+  file.programs.front().number = number;
+}
+
 bool holdsPrograms(const fs::path& path) {
   const std::string end = path.extension().string();
   return end == ".nc" || end == ".NC" || (end.empty() && numberOfName(path.filename().string()) != 0);
@@ -37,6 +48,34 @@ std::optional<ProgramLibrary> ProgramLibrary::load(FileId main, const std::vecto
   std::optional<ir::ProgramFile> file = loadPrograms(main, control, session);
   if (!file) return std::nullopt;
   out.add(std::move(*file), true, session);
+  for (const std::string& folder : folders)
+    if (!out.addFolder(folder, control, session)) return std::nullopt;
+  return out;
+}
+
+std::optional<ProgramLibrary> ProgramLibrary::loadCalled(FileId main, const Caller& caller,
+                                                         const std::vector<std::string>& folders,
+                                                         const stdlib::Control& control, Session& session) {
+  ProgramLibrary out;
+  out.main_ = session.sources().file(main).name();
+  std::optional<ir::ProgramFile> file = loadPrograms(main, control, session);
+  if (!file) return std::nullopt;
+  nameByFile(*file, fs::path(out.main_));
+  const bool numbered =
+      !file->programs.empty() && file->programs.front().nameKind == ir::Program::NameKind::Number;
+  if (!numbered) {
+    session.diagnostics().report<diag::SetupFlag>(
+        {}, "--call",
+        "the program has no number that it could be called by; begin it with a line such as `O9100`");
+    return std::nullopt;
+  }
+  const std::optional<FileId> call = addText("--call", caller(file->programs.front().number), Encoding::Utf8,
+                                             std::nullopt, session.sources(), session.diagnostics());
+  std::optional<ir::ProgramFile> calling;
+  if (call) calling = loadPrograms(*call, control, session);
+  if (!calling) return std::nullopt;
+  out.add(std::move(*calling), true, session);
+  out.add(std::move(*file), false, session);
   for (const std::string& folder : folders)
     if (!out.addFolder(folder, control, session)) return std::nullopt;
   return out;
@@ -63,13 +102,7 @@ bool ProgramLibrary::addFolder(const std::string& folder, const stdlib::Control&
     if (id) file = loadPrograms(*id, control, session);
     good = good && file.has_value();
     if (!file) continue;
-    // A control keeps the number; the text of the file may lack it.
-    const std::uint64_t number = numberOfName(path.stem().string());
-    if (number != 0 && !file->programs.empty() &&
-        file->programs.front().nameKind == ir::Program::NameKind::None) {
-      file->programs.front().nameKind = ir::Program::NameKind::Number;
-      file->programs.front().number = number;
-    }
+    nameByFile(*file, path);
     add(std::move(*file), false, session);
   }
   return good;

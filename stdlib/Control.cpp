@@ -31,6 +31,7 @@ Control ControlReader::read() {
   for (const TomlTable& table : root_.require("codes", "tables of G and M codes").tables())
     codes(table);
   motion();
+  rotation();
   calls();
   readAhead();
   output();
@@ -196,6 +197,20 @@ void ControlReader::motion() {
   }
   if (const TomlValue letter = table.value("repeat"))
     control_.repeatLetter = letter.choice({"K", "L"}, "K").front();
+}
+
+void ControlReader::rotation() {
+  if (!root_.value("rotation")) return;
+  const TomlTable table = optional("rotation");
+  origin(table);
+  if (const TomlValue frame = table.value("positions"))
+    control_.rotation.positions = frame.choice({"work", "program"}, "work") == "work"
+                                      ? RotationFacts::Frame::Work
+                                      : RotationFacts::Frame::Program;
+  if (const TomlValue axis = table.value("other_axis"))
+    control_.rotation.otherAxis = axis.choice({"turned", "as-before"}, "turned") == "turned"
+                                      ? RotationFacts::Position::Turned
+                                      : RotationFacts::Position::AsBefore;
 }
 
 const AlarmInfo* Control::find(Alarm alarm) const {

@@ -220,6 +220,15 @@ struct StateRange {
   std::string source;
 };
 
+// What parameters decide while G68 is on. Unknown: no source says it, and a run that depends on it ends.
+struct RotationFacts {
+  enum class Frame : std::uint8_t { Unknown, Work, Program };
+  enum class Position : std::uint8_t { Unknown, Turned, AsBefore };
+  Frame positions = Frame::Unknown; // of the end of a block, the position and the skip position
+  // Where an axis of the plane is taken to be that the first absolute move after G68 does not name.
+  Position otherAxis = Position::Unknown;
+};
+
 // Window into the memory of the machine's PMC; each is the number of a variable.
 struct PmcWindow {
   std::string area; // "R"
@@ -260,6 +269,7 @@ struct Control {
   std::optional<LengthInPositions> withToolLength; // nothing: not known
   std::optional<double> arcTolerance; // mm, between the radii of an arc's ends; nothing: not known
   char repeatLetter = 0;              // of canned cycles; 0: not known
+  RotationFacts rotation;
   std::optional<std::uint32_t>
       callDepth;                   // calls within calls, macros and subprograms together; nothing: not known
   bool repeatInProgram = false;    // M98 P51002 calls O1002 five times

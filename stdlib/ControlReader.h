@@ -45,6 +45,7 @@ private:
   void alarm();
   void programs();
   void motion();
+  void rotation();
 
   // ControlCodes.cpp
   void codes(const TomlTable& table);

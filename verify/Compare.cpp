@@ -286,10 +286,12 @@ private:
       const auto other = target_.zeros.find(key);
       const double equal = std::max(rules_.results, rules_.relative * std::abs(value));
       if (other != target_.zeros.end() && std::abs(other->second - value) <= equal) continue;
+      const std::string found = other == target_.zeros.end() ? "nothing" : fixedText(other->second, kShown);
+      const bool shift = key.first == 52 || key.first == 92;
       add(Aspect::Offset,
-          fmt::format("the zero of G{} along {} lies at {} of the machine against {}", key.first,
-                      "XYZ"[key.second], fixedText(value, kShown),
-                      other == target_.zeros.end() ? "nothing" : fixedText(other->second, kShown)),
+          fmt::format("{} G{} along {} {} {}{} against {}", shift ? "what" : "the zero of", key.first,
+                      "XYZ"[key.second], shift ? "has shifted all work systems by is" : "lies at",
+                      fixedText(value, kShown), shift ? "" : " of the machine", found),
           lastMeasure(source_), lastMeasure(target_));
       return;
     }

@@ -229,6 +229,10 @@ Record Recorder::finish(const std::set<std::uint32_t>& stores) {
     for (std::uint32_t axis = 0; axis < 3; ++axis)
       record_.zeros[{54 + system, axis}] = zero[axis];
   }
+  for (std::uint32_t axis = 0; axis < 3; ++axis) {
+    record_.zeros[{52, axis}] = machine_.localShift()[axis];
+    record_.zeros[{92, axis}] = machine_.positionShift()[axis];
+  }
   for (const std::uint32_t number : stores) {
     const double value = machine_.common(number);
     if (!sim::isFresh(value)) record_.stores.emplace(number, value);

@@ -1,6 +1,7 @@
 // The probe and the travel of a machine, and the TOML file that states them; docs/part.md. Lengths in mm.
 #pragma once
 
+#include "sim/geometry/Setup.h"
 #include "support/Diagnostics.h"
 #include "support/Limits.h"
 
@@ -40,6 +41,7 @@ struct MachineFile {
   std::array<double, 3> start{}; // where X, Y, Z are before the program, in coordinates of the machine
   MachineLimits limits;
   Probe probe;
+  Setup setup;
 };
 
 // Nothing where an error was reported.

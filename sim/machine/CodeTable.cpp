@@ -49,6 +49,7 @@ Effect effectOf(const stdlib::CodeInfo& info) {
   case Function::DataInput:
   case Function::LocalShift:
   case Function::SetPosition:
+  case Function::RotationOn:
   case Function::MachineCoordinates:
   case Function::ReferenceReturn:
   case Function::SecondReferenceReturn:

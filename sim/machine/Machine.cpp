@@ -88,6 +88,15 @@ void Machine::setToolLength(std::uint32_t tool, double length) {
   tools_[tool] = {0, length};
 }
 
+double Machine::toolLengthOf(std::uint32_t tool) const {
+  return tool < tools_.size() ? snap(tools_[tool].wear + tools_[tool].geometry) : 0;
+}
+
+void Machine::putTool(std::uint32_t tool) {
+  toolNumber_ = tool;
+  modalWords_[slotOf('T')] = tool;
+}
+
 // The short way: nothing but straight moves and arcs in mm, and the codes that go with them. Whatever else a
 // block holds, or what is out of range, takes the long way from the beginning: nothing is changed before
 // that is known.
@@ -189,7 +198,7 @@ bool Machine::executeLong(const NcWords& w) {
   if (!readCodes(w) || !checkWords(w)) return false;
   if (!runBlock(w)) return false;
   const bool odd = (modes_[kCanned] | modes_[kUnits]) != 0 || uncertain_ != 0 || motionForgotten_ ||
-                   feedForgotten_ || watcher_ != nullptr;
+                   feedForgotten_ || watcher_ != nullptr || rotation_.on() || afterRotation_ != 0;
   if (!running()) return false; // who watches has ended it
   long_ = odd ? 1 : 0;
   return true;
@@ -197,6 +206,7 @@ bool Machine::executeLong(const NcWords& w) {
 
 bool Machine::runBlock(const NcWords& w) {
   if (!settings(w) || !miscellaneous(w)) return false;
+  if (block_.endsRotation) rotationOff();
   if (!changeSystem(w) || !changeToolLength(w)) return false;
   if (block_.hasOneShot) {
     if (!oneShot(w)) return false;
@@ -222,7 +232,6 @@ bool Machine::readCodes(const NcWords& w) {
     case Function::Other: return inconclusive("what it does here is not known to Dotek", 'G', i);
     case Function::MirrorOn:
     case Function::PolarOn:
-    case Function::RotationOn:
     case Function::ScalingOn: return inconclusive("Dotek does not follow transformed coordinates", 'G', i);
     case Function::SurfaceSpeedOn:
       return inconclusive("Dotek does not follow a spindle that turns with the position", 'G', i);
@@ -235,11 +244,16 @@ bool Machine::readCodes(const NcWords& w) {
       block_.oneShot = code.function;
       if (code.function == Function::MacroCall || code.function == Function::ModalCall) block_.call = 1;
     }
+    if (code.function == Function::RotationOff) block_.endsRotation = true;
     // Of several codes of a group the last one holds.
     block_.slots |= 1u << code.slot;
     modes_[code.slot] = code.value;
     groups_[code.group] = code.tenths;
   }
+  if (block_.endsRotation && block_.hasOneShot && block_.oneShot == Function::RotationOn)
+    return inconclusive("a rotation begins and ends in one block", 'G');
+  if (rotation_.on() && !block_.endsRotation && modes_[kPlane] != block_.before[kPlane])
+    return refuseTurned("another plane");
   const bool motion = (block_.slots >> kMotion & 1) != 0;
   if (motion && (block_.slots >> kCanned & 1) != 0 && modes_[kCanned] != 0)
     return inconclusive("a canned cycle and a motion of group 1 in one block", 'G');
@@ -272,6 +286,7 @@ bool Machine::checkWords(const NcWords& w) {
     case Function::Dwell: allowed |= ir::addressBits("P"); break;
     case Function::DataInput: allowed |= ir::addressBits("LPR"); break;
     case Function::SecondReferenceReturn: allowed |= ir::addressBits("P"); break;
+    case Function::RotationOn: allowed |= ir::addressBits("RIJK"); break;
     default: break;
     }
   } else if (modes_[kCanned] != 0) {

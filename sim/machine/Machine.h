@@ -7,6 +7,7 @@
 #include "sim/machine/Cells.h"
 #include "sim/machine/CodeTable.h"
 #include "sim/machine/MotionWatcher.h"
+#include "sim/machine/Rotation.h"
 #include "sim/machine/Trace.h"
 #include "sim/machine/Value.h"
 #include "stdlib/Control.h"
@@ -94,14 +95,22 @@ public:
   std::uint64_t blocks() const { return blocks_; }
 
   // ---- state
-  const Position& position() const { return work_; } // of the active work system, mm and degrees
-  Position machinePosition() const;                  // the tool's length included
+  // Of the active work system, mm and degrees; not turned by G68.
+  const Position& position() const { return work_; }
+  Position machinePosition() const; // the tool's length included
   // Where the zero of G54 (0) to G59 (5) lies, in coordinates of the machine: with the external offset.
   Position zeroOf(std::uint32_t system) const;
+  // What G52 and G92 have added to the zeros of all work systems.
+  const Position& localShift() const { return local_; }
+  const Position& positionShift() const { return shift_; }
+  const Rotation& rotation() const { return rotation_; } // G68
   // Before the program begins: the same, and the length of a tool, whatever variables the control has for
   // them.
   void setZero(std::uint32_t system, const Position& zero);
   void setToolLength(std::uint32_t tool, double length);
+  // Wear and geometry of its offset, mm; 0 where there is no such offset.
+  double toolLengthOf(std::uint32_t tool) const;
+  void putTool(std::uint32_t tool); // into the spindle, before the program begins
   const Position& skipPosition() const { return skipped_; }
   std::uint8_t mode(Slot slot) const { return modes_[slot]; }
   // Code in force of a modal group, times ten; 0: none was given and none is in force at the start.
@@ -211,6 +220,10 @@ private:
   bool dataInput(const ir::NcWords& words);
   bool localShift(const ir::NcWords& words);
   bool setPosition(const ir::NcWords& words);
+  bool rotationOn(const ir::NcWords& words);
+  void rotationOff();
+  std::optional<double> rotationAngle(const ir::NcWords& words);
+  bool refuseTurned(std::string_view what); // where G68 is on: false, the run has ended
   bool machineMove(const ir::NcWords& words);
   bool reference(const ir::NcWords& words, bool first);
   bool skipMove(const ir::NcWords& words);
@@ -219,12 +232,22 @@ private:
   bool arc(const ir::NcWords& words, const Position& end);
   bool plainArc(const ir::NcWords& words, const PlaneAxes& plane, const Position& end) const;
 
-  // End point of the axes in the block; false where an axis is not known or the value does not fit.
+  // End point of the axes in the block, in the work system; false where an axis is not known or the value
+  // does not fit.
   bool target(const ir::NcWords& words, Position& end);
+  bool turnTarget(const ir::NcWords& words, Position& end, std::uint32_t unknown);
+  // Bits of the axes that a block moves: under G68 one of the plane moves both.
+  std::uint32_t movedBy(const ir::NcWords& words) const;
+  // After a move to a place in the machine's coordinates.
+  void movedInMachine(std::uint32_t axes);
   double lengthOf(const ir::NcWords& words,
                   char letter) const; // mm or degrees, rounded to the least increment
   double rounded(double value, int places) const;
   void updateOffsets();
+  bool applyOffsets(); // of a running program; false: the run has ended
+  // A position that a variable holds, `axis` of it.
+  std::optional<double> turnedVariable(std::uint32_t number, std::size_t axis, const Position& work,
+                                       const Position& latched);
   void traceMove(std::string_view action, const Position& end, bool feed);
   // Says the watcher of a motion of `axes` (bits) to where the machine is now. `certain`: it is known.
   void tellMotion(MotionKind kind, std::uint32_t axes, bool certain = true);
@@ -279,10 +302,12 @@ private:
   std::array<Position, 6> systems_{};
   std::vector<Position> extended_;
   std::size_t extendedNow_ = 0;
-  double toolLength_ = 0; // added to Z
+  Rotation rotation_;
+  std::uint32_t afterRotation_ = 0; // axes of which the next word has to be absolute, since G69 turned back
+  double toolLength_ = 0;           // added to Z
   std::uint32_t toolNumber_ = 0;
   std::vector<ToolOffset> tools_;
-  Position skipped_{};
+  Position skipped_{}, skippedTurned_{}; // in the work system, and as the program counts under G68
   // Canned cycles: the level at the cycle's begin, and what stays in force within it.
   double initialLevel_ = 0, cycleR_ = 0, cycleDepth_ = 0;
   bool hasR_ = false, hasDepth_ = false;
@@ -316,6 +341,7 @@ private:
     std::uint32_t slots = 0;                   // bit by Slot
     std::array<std::uint8_t, kSlots> before{}; // modes before the block
     std::uint32_t call = 0;                    // not 0: a call or a return is in the block
+    bool endsRotation = false;
   } block_;
 };
 

@@ -43,7 +43,7 @@ std::optional<bool> Machine::probeTo(const Position& end, bool positions) {
     for (std::size_t i = 0; i < kAxes; ++i)
       work_[i] = snap(skip.from[i] + (skip.to[i] - skip.from[i]) * *share);
   }
-  skipped_ = work_;
+  skipped_ = skippedTurned_ = work_; // macros by their meaning do not run under G68
   if (watcher_ != nullptr) tellMotion(MotionKind::Skip, changed(skip.from, work_));
   if (trace_ != nullptr) {
     trace_->begin("probing").position(skip.to, shown_).text(contact ? "contact" : "no-contact");

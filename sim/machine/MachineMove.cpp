@@ -22,6 +22,7 @@ void Machine::traceMove(std::string_view action, const Position& end, bool feed)
 bool Machine::target(const NcWords& w, Position& end) {
   end = work_;
   const bool incremental = modes_[kDistance] != 0;
+  const std::uint32_t unknown = uncertain_;
   for (std::size_t i = 0; i < kAxes; ++i) {
     if (!has(w, i)) continue;
     const char letter = kAxisLetters[i];
@@ -32,8 +33,16 @@ bool Machine::target(const NcWords& w, Position& end) {
     end[i] = incremental ? snap(work_[i] + value) : value;
     shown_ |= 1u << i;
     uncertain_ &= ~(1u << i);
+    if ((afterRotation_ >> i & 1) == 0) continue;
+    if (incremental && value != 0)
+      return inconclusive(
+          "the first move of an axis after `G69` is incremental; the manuals ask for an absolute "
+          "one, as the control may count from where the program was in turned coordinates; write "
+          "it under `G90`",
+          letter);
+    if (!incremental) afterRotation_ &= ~(1u << i);
   }
-  return true;
+  return turnTarget(w, end, unknown);
 }
 
 bool Machine::move(const NcWords& w) {
@@ -56,8 +65,7 @@ bool Machine::move(const NcWords& w) {
     traceMove(modes_[kMotion] == kRapid ? "rapid" : "feed", end, modes_[kMotion] != kRapid);
   work_ = end;
   if (watcher_ != nullptr)
-    tellMotion(modes_[kMotion] == kRapid ? MotionKind::Rapid : MotionKind::Feed,
-               axisNumbers(w.present & kAxisBits));
+    tellMotion(modes_[kMotion] == kRapid ? MotionKind::Rapid : MotionKind::Feed, movedBy(w));
   return true;
 }
 
@@ -91,6 +99,11 @@ bool Machine::arc(const NcWords& w, const Position& end) {
       return inconclusive("an arc without centre and radius", 'G');
     if (w.has(plane.firstCentre)) first = lengthOf(w, plane.firstCentre);
     if (w.has(plane.secondCentre)) second = lengthOf(w, plane.secondCentre);
+    if (rotation_.on()) {
+      const std::array<double, 2> way = rotation_.turnedWay(first, second);
+      first = way[0];
+      second = way[1];
+    }
     const double difference = std::abs(std::hypot(first, second) - std::hypot(first - du, second - dv));
     if (arcTolerance_ < 0 && difference > control_.increment)
       return inconclusive("how far the radius may be off is not known", 'G');
@@ -106,7 +119,7 @@ bool Machine::arc(const NcWords& w, const Position& end) {
   }
   const Position begin = work_;
   work_ = end;
-  if (watcher_ != nullptr) tellArc(plane, axisNumbers(w.present & kAxisBits), first, second, begin);
+  if (watcher_ != nullptr) tellArc(plane, movedBy(w), first, second, begin);
   return true;
 }
 
@@ -116,6 +129,7 @@ bool Machine::oneShot(const NcWords& w) {
   case Function::DataInput: return dataInput(w);
   case Function::LocalShift: return localShift(w);
   case Function::SetPosition: return setPosition(w);
+  case Function::RotationOn: return rotationOn(w);
   case Function::MachineCoordinates: return machineMove(w);
   case Function::ReferenceReturn: return reference(w, true);
   case Function::SecondReferenceReturn: return reference(w, false);
@@ -144,6 +158,7 @@ bool Machine::machineMove(const NcWords& w) {
     // Whether the tool's length stays in force depends on a parameter.
     if (i == 2 && toolLength_ != 0) uncertain_ |= 1u << 2;
   }
+  movedInMachine(axisNumbers(w.present & kAxisBits));
   if (trace_ != nullptr)
     traceMove(modes_[kMotion] == kRapid ? "machine rapid" : "machine feed", machinePosition(),
               modes_[kMotion] != kRapid);
@@ -167,6 +182,9 @@ bool Machine::reference(const NcWords& w, bool first) {
   Position via;
   const std::uint32_t unknown = uncertain_;
   for (std::size_t i = 0; i < kAxes; ++i) {
+    // Whether the point on the path is turned is in no source.
+    if (has(w, i) && rotation_.turns(i) && !(modes_[kDistance] != 0 && w.of(kAxisLetters[i]) == 0))
+      return refuseTurned("a reference return by way of another point");
     // From an unknown place straight to the reference point: the path is not known either, its end is.
     if (has(w, i) && (unknown >> i & 1) != 0 && modes_[kDistance] != 0 && w.of(kAxisLetters[i]) == 0)
       uncertain_ &= ~(1u << i);
@@ -193,6 +211,7 @@ bool Machine::reference(const NcWords& w, bool first) {
     // Whether the tool's length stays in force depends on a parameter.
     if (!first || (i == 2 && toolLength_ != 0)) uncertain_ |= 1u << i;
   }
+  movedInMachine(axisNumbers(w.present & kAxisBits));
   if (trace_ != nullptr) {
     std::string axes;
     for (std::size_t i = 0; i < kAxes; ++i)
@@ -232,7 +251,13 @@ bool Machine::skipMove(const NcWords& w) {
       work_[i] = snap(skip.from[i] + (end[i] - skip.from[i]) * *share);
   }
   skipped_ = work_; // without a contact the end of the block
-  if (watcher_ != nullptr) tellMotion(MotionKind::Skip, axisNumbers(w.present & kAxisBits));
+  skippedTurned_ = rotation_.turnedBack(work_);
+  if (rotation_.on()) {
+    // The program's next words count from where the machine stopped.
+    rotation_.tell(rotation_.first(), skippedTurned_[rotation_.first()]);
+    rotation_.tell(rotation_.second(), skippedTurned_[rotation_.second()]);
+  }
+  if (watcher_ != nullptr) tellMotion(MotionKind::Skip, movedBy(w));
   if (trace_ != nullptr) {
     trace_->begin("skip").position(end, shown_).word("F", feed_).text(share ? "contact" : "no-contact");
     trace_->position(work_, shown_).end();
@@ -305,7 +330,7 @@ bool Machine::cannedCycle(const NcWords& w) {
           .end();
     }
     if (watcher_ != nullptr) {
-      tellHole(at, axisNumbers(w.present & kAxisBits), depth);
+      tellHole(at, movedBy(w), depth);
       if (!running()) return false;
     }
     work_ = at;

@@ -154,6 +154,15 @@ void Machine::updateOffsets() {
   }
 }
 
+// Where the zero moves under G68, the centre may go with it or stay: no source says.
+bool Machine::applyOffsets() {
+  const Position before = offset_;
+  updateOffsets();
+  for (std::size_t i = 0; i < kAxes; ++i)
+    if (rotation_.turns(i) && offset_[i] != before[i]) return refuseTurned("another zero of the work system");
+  return true;
+}
+
 bool Machine::changeSystem(const NcWords& w) {
   if ((block_.slots >> kSystem & 1) == 0) return true;
   bool changed = modes_[kSystem] != block_.before[kSystem];
@@ -165,6 +174,7 @@ bool Machine::changeSystem(const NcWords& w) {
     changed = changed || *number != extendedNow_;
     extendedNow_ = *number;
   }
+  if (changed && rotation_.on()) return refuseTurned("another work system");
   updateOffsets();
   if (trace_ != nullptr && changed) {
     trace_->begin("system").text(modes_[kSystem] == kExtended ? fmt::format("54.1 P{}", extendedNow_)
@@ -241,7 +251,7 @@ bool Machine::dataInput(const NcWords& w) {
       const double value = lengthOf(w, kAxisLetters[i]);
       offset[i] = add ? snap(offset[i] + value) : value;
     }
-    updateOffsets();
+    if (!applyOffsets()) return false;
     if (trace_ != nullptr) {
       trace_->begin("offset").text(fmt::format("L{} P{}", *kind, *number)).position(offset, shown_).end();
     }
@@ -263,6 +273,7 @@ bool Machine::dataInput(const NcWords& w) {
 }
 
 bool Machine::localShift(const NcWords& w) {
+  if (rotation_.on()) return refuseTurned("a local system");
   if (modes_[kDistance] != 0) return inconclusive("a local system in incremental mode is not known", 'G');
   for (std::size_t i = 0; i < kAxes; ++i)
     if (has(w, i)) local_[i] = lengthOf(w, kAxisLetters[i]);
@@ -272,6 +283,7 @@ bool Machine::localShift(const NcWords& w) {
 }
 
 bool Machine::setPosition(const NcWords& w) {
+  if (rotation_.on()) return refuseTurned("G92");
   if (w.has('S')) return inconclusive("a limit of the spindle's speed is not known to Dotek", 'S');
   const Position& system = systemOffset();
   for (std::size_t i = 0; i < kAxes; ++i) {

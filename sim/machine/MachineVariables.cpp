@@ -120,21 +120,26 @@ std::optional<double> Machine::readSystem(std::uint32_t number, const Place& pla
   case Kind::Word:
     if (place.index == slotOf('F') && !feedKnown()) return std::nullopt;
     return place.index == slotOf('F') ? feed_ : modalWords_[place.index];
-  case Kind::BlockEnd: return position(work_, false);
+  case Kind::BlockEnd:
+    if (!position(work_, false)) return std::nullopt;
+    return turnedVariable(number, place.axis, work_, rotation_.turnedBack(work_));
   case Kind::MachinePosition: return position(machinePosition(), true);
   case Kind::Now:
   case Kind::Skip: {
-    Position out = place.kind == Kind::Skip ? skipped_ : work_;
-    if (place.axis == 2 && toolLength_ != 0) {
+    const bool skip = place.kind == Kind::Skip;
+    if (!skip && !position(work_, true)) return std::nullopt;
+    std::optional<double> out = skip ? turnedVariable(number, place.axis, skipped_, skippedTurned_)
+                                     : turnedVariable(number, place.axis, work_, rotation_.turnedBack(work_));
+    if (out && place.axis == 2 && toolLength_ != 0) {
       const std::optional<stdlib::LengthInPositions>& with = control_.withToolLength;
       if (!with) {
         inconclusive(fmt::format("whether #{} holds the length of the tool is not known of {}", number,
                                  control_.title));
         return std::nullopt;
       }
-      if (place.kind == Kind::Skip ? with->skip : with->position) out[2] = snap(out[2] + toolLength_);
+      if (skip ? with->skip : with->position) out = snap(*out + toolLength_);
     }
-    return place.kind == Kind::Skip ? std::optional(out[place.axis]) : position(out, true);
+    return out;
   }
   case Kind::ToolLength: return place.axis == 2 ? toolLength_ : 0.0;
   case Kind::External: return external_[place.axis];
@@ -220,8 +225,7 @@ bool Machine::store(std::uint32_t number, double value, bool preset) {
   case Kind::Write: return inconclusive(fmt::format("#{} needs a message", number));
   default: return raise(Alarm::WriteProtected);
   }
-  updateOffsets();
-  return true;
+  return applyOffsets();
 }
 
 } // namespace dotek::sim

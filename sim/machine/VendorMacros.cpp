@@ -88,6 +88,9 @@ bool VendorRun::begin() {
   if (machine_.mode(kComp) != 0 || machine_.mode(kCanned) != 0)
     return notKnown("what it does under cutter compensation or in a canned cycle is in no source");
   if (machine_.mode(kPlane) != 0) return notKnown("what it does outside of G17 is in no source");
+  if (machine_.rotation().on())
+    return notKnown(
+        "what it does in coordinates that G68 has turned is in no source; `G69` ends the rotation");
   if (machine_.uncertain() != 0) return notKnown("the place of the probe is not known");
   switch (machine_.probe()) {
   case Machine::Probe::Off:

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "project/Options.h"
+#include "sim/geometry/Setup.h"
 
 #include <functional>
 #include <optional>
@@ -20,6 +21,7 @@ struct SimOptions {
   // --probe-macros: the set of vendors' macros that runs by its meaning; nothing: all.
   std::optional<std::string> probeMacros;
   std::optional<std::string> part, machine; // --part, --machine: paths
+  Setup setup;                              // --tool, --length, --diameter, --work-offset, --at, --call
   bool svg = false, html = false;           // pictures of the run as files "svg" and "html"
   bool json = false;                        // the output is the summary as JSON
   // Takes the trace while the program runs, in pieces of whole lines. Empty: no trace is made.

@@ -166,6 +166,32 @@ void reportRun(const Run& run, const Machine& machine, Session& session) {
     report->note({}, fmt::format("called by {} calls more", calls.size() - kMostCalls));
 }
 
+void reportShifts(const Machine& machine, SourceRange range, Session& session) {
+  if (machine.end().ending != Ending::ProgramEnd && machine.end().ending != Ending::TextEnd) return;
+  const auto report = [&](std::string_view code, const std::string& what, const std::string& cure) {
+    session.diagnostics().report<diag::ShiftLeftOn>(range, code, what, cure);
+  };
+  const auto words = [](const Position& shift, bool zero) {
+    std::string out;
+    for (std::size_t i = 0; i < kAxes; ++i)
+      if (shift[i] != 0) out += fmt::format(" {}{}", kAxisLetters[i], zero ? "0" : fixedText(shift[i], 3));
+    return out;
+  };
+  constexpr std::string_view kLater = "whether M30 takes it away depends on a parameter of the machine, and "
+                                      "a program that runs next may count from "
+                                      "this zero";
+  if (const std::string shift = words(machine.localShift(), false); !shift.empty())
+    report("`G52" + shift + "`", std::string(kLater), "`G52" + words(machine.localShift(), true) + "`");
+  if (const std::string shift = words(machine.positionShift(), false); !shift.empty())
+    report("`G92`", fmt::format("all work systems lie off by{}, for the next program, too", shift),
+           "a `G92` that moves them back");
+  if (machine.rotation().on())
+    report("`G68`",
+           fmt::format("{} degrees; most controls end it at M30, some do not",
+                       numberText(machine.rotation().degrees())),
+           "`G69`");
+}
+
 void traceVariables(const Machine& machine, Trace& trace) {
   for (const auto& [number, value] : machine.written()) {
     trace.begin("variable").text(std::to_string(number));

@@ -18,6 +18,8 @@ void reportEnd(const std::string& path, const frontend::nc::Scanner& scanner, co
                Session& session);
 // The same of a program that was loaded, and what the run found besides.
 void reportRun(const Run& run, const Machine& machine, Session& session);
+// Of a program that came to its end: what G52, G68 and G92 leave on. `range`: its last block.
+void reportShifts(const Machine& machine, SourceRange range, Session& session);
 // The last lines of the trace: what was written.
 void traceVariables(const Machine& machine, Trace& trace);
 // docs/sim.md says what is in it. `run`: of a program that was loaded; nullptr: of plain blocks.

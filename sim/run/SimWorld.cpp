@@ -2,6 +2,7 @@
 
 #include "sim/geometry/PartFile.h"
 #include "sim/machine/EndText.h"
+#include "sim/run/SetupRun.h"
 #include "sim/run/SimReport.h"
 #include "support/Decimal.h"
 #include "support/messages/Commands.h"
@@ -58,22 +59,47 @@ bool hasPoint(Outcome outcome) {
   return false;
 }
 
+// A probe that is on, from the gauge line down to the tip of its ball.
+MachineFile bareStylus(double diameter, double length) {
+  MachineFile out;
+  out.probe.ballDiameter = diameter;
+  out.probe.effectiveRadius = diameter / 2;
+  out.probe.length = length;
+  return out;
+}
+
 } // namespace
 
 std::unique_ptr<SimWorld> SimWorld::load(const SimOptions& options, Session& session) {
   std::unique_ptr<SimWorld> out(new SimWorld(options, session));
   out->picture_ = options.svg || options.html;
-  if (options.part && !options.machine) {
+  const bool stylus = options.setup.ballDiameter && options.setup.length;
+  if (options.part && !options.machine && !stylus) {
     session.diagnostics().report<diag::MissingOption>(
-        {}, "sim", "--machine MACHINE.toml", "the probe that touches the part of `--part` is stated there");
+        {}, "sim", "--machine MACHINE.toml, or --tool 1 --length L --diameter D",
+        "what touches the part of `--part` is a stylus of that length and that diameter of its ball");
     return nullptr;
   }
-  if (!options.machine) return out;
+  if (options.machine && options.setup.ballDiameter) {
+    session.diagnostics().report<diag::SetupFlag>(
+        {}, "--diameter", "the ball's diameter is that of [probe] in the machine's file; write it there");
+    return nullptr;
+  }
+  out->setup_ = options.setup;
+  if (!options.machine && !stylus) return out;
   std::optional<PartFile> part;
-  out->machine_ = loadMachine(*options.machine, session.limits(), session.sources(), session.diagnostics());
+  if (options.machine)
+    out->machine_ = loadMachine(*options.machine, session.limits(), session.sources(), session.diagnostics());
+  else
+    out->machine_ = bareStylus(*options.setup.ballDiameter, *options.setup.length);
   if (options.part)
     part = loadPart(*options.part, session.limits(), session.sources(), session.diagnostics());
   if (!out->machine_ || (options.part && !part)) return nullptr;
+  out->setup_ = out->machine_->setup;
+  out->setup_.override(options.setup);
+  // The probe is the tool, unless it is said to be longer or shorter in the table.
+  if (out->setup_.tool && !out->setup_.length) out->setup_.length = out->machine_->probe.length;
+  if (part) out->partZero_ = {part->nominal.shift.x, part->nominal.shift.y, part->nominal.shift.z};
   out->world_.emplace(part ? part->part : Part(), out->machine_->probe, out->machine_->limits);
   return out;
 }
@@ -93,7 +119,19 @@ void SimWorld::begin() {
   recorder_->setFrame(frame_);
 }
 
+bool SimWorld::prepare(Machine& machine) const {
+  return sim::prepare(setup_, partZero_, machine, session_.diagnostics());
+}
+
+Position SimWorld::startOf(const Machine& machine) const {
+  if (const auto start = sim::startOf(setup_, machine)) return *start;
+  Position out{};
+  if (machine_) std::copy(machine_->start.begin(), machine_->start.end(), out.begin());
+  return out;
+}
+
 void SimWorld::attach(Machine& machine) {
+  if (setup_.at || machine_) machine.startAt(startOf(machine));
   if (!isActive()) return;
   line_ = [&machine] { return machine.frame().line; };
   blocks_ = [&machine] { return machine.blocks(); };
@@ -101,11 +139,6 @@ void SimWorld::attach(Machine& machine) {
   end_ = [&machine] { return machine.end(); };
   frame_ = [&machine] { return frameOf(machine); };
   decimals_ = machine.control().decimals;
-  if (machine_) {
-    Position start{};
-    std::copy(machine_->start.begin(), machine_->start.end(), start.begin());
-    machine.startAt(start);
-  }
   if (world_) machine.setSkipSignal(this);
   machine.setWatcher(this);
   begin();

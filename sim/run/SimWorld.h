@@ -38,8 +38,14 @@ public:
   // nullptr: an error was reported.
   static std::unique_ptr<SimWorld> load(const SimOptions& options, Session& session);
 
-  // From now on the machine asks this world. Nothing happens where neither a part, nor a machine, nor a
-  // picture was asked for.
+  // What the flags and the machine's file say of what is set before the run.
+  const Setup& setup() const { return setup_; }
+  // Sets it on the machine; false: reported. Where the program begins is for attach().
+  bool prepare(Machine& machine) const;
+  // Where the machine is before the program.
+  Position startOf(const Machine& machine) const;
+  // From now on the machine, which gets its start, asks this world. Nothing else happens where neither a
+  // part, nor a machine, nor a picture was asked for.
   void attach(Machine& machine);
   void attach(MikroprogMachine& machine);
   // To be set before the run: asked for each event, and `block` for each motion of a picture; without `block`
@@ -100,6 +106,8 @@ private:
   const SimOptions& options_;
   Session& session_;
   std::optional<MachineFile> machine_;
+  Setup setup_;
+  std::optional<std::array<double, 3>> partZero_; // where the part is meant to be
   std::optional<World> world_;
   bool picture_ = false;
   std::optional<PictureRecorder> recorder_;

@@ -275,7 +275,6 @@ TEST_CASE("sim: what is not known ends the run at its word") {
   CHECK(after("M77") == "inconclusive M");
   CHECK(after("M3.0") == "inconclusive M");
   CHECK(after("G51 X1. P2") == "inconclusive G");
-  CHECK(after("G68 X0 Y0 R45.") == "inconclusive G");
   CHECK(after("G51.1 X0") == "inconclusive G");
   CHECK(after("G16") == "inconclusive G");
   CHECK(after("G96 S100") == "inconclusive G");

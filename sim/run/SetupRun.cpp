@@ -1,0 +1,77 @@
+#include "sim/run/SetupRun.h"
+
+#include "support/Ascii.h"
+#include "support/Decimal.h"
+#include "support/messages/Commands.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace dotek::sim {
+
+bool prepare(const Setup& setup, const std::optional<std::array<double, 3>>& part, Machine& machine,
+             Diagnostics& diagnostics) {
+  const auto refuse = [&](std::string_view flag, const std::string& why) {
+    diagnostics.report<diag::SetupFlag>({}, flag, why);
+    return false;
+  };
+  const auto most = static_cast<std::uint32_t>(machine.control().variables.toolCount);
+  const auto put = [&](std::uint32_t number, double length) {
+    if (number > most)
+      return refuse("--tool", fmt::format("`{}` has tool offsets up to {}", machine.control().name, most));
+    machine.setToolLength(number, length);
+    return true;
+  };
+  for (const auto& [number, length] : setup.tools)
+    if (!put(number, length)) return false;
+  if (setup.tool) {
+    if (setup.length && !put(*setup.tool, *setup.length)) return false;
+    if (machine.toolLengthOf(*setup.tool) == 0)
+      return refuse("--tool",
+                    fmt::format("how long tool {} is, is not known; `--length 120` says it in mm, or "
+                                "`length` of [probe] in a machine's file (`--machine`)",
+                                *setup.tool));
+    machine.putTool(*setup.tool);
+  }
+  for (const Setup::Zero& zero : setup.zeros) {
+    if (zero.ofPart && !part)
+      return refuse(
+          "--work-offset",
+          fmt::format("G{} is to be where the part is, and there is none; `--part PART.toml` names it",
+                      54 + zero.system));
+    Position place{};
+    std::copy_n((zero.ofPart ? *part : zero.place).begin(), 3, place.begin());
+    machine.setZero(zero.system, place);
+  }
+  return true;
+}
+
+std::optional<Position> startOf(const Setup& setup, const Machine& machine) {
+  if (!setup.at) return std::nullopt;
+  Position out = machine.zeroOf(0);
+  for (std::size_t i = 0; i < 3; ++i)
+    out[i] += (*setup.at)[i];
+  if (setup.tool) out[2] += machine.toolLengthOf(*setup.tool);
+  return out;
+}
+
+std::string callingProgram(const Setup& setup, std::uint64_t number, const Machine& machine,
+                           const Position& start) {
+  std::string out = "(MADE BY DOTEK FOR --call)\n";
+  if (setup.tool) {
+    const double z = start[2] - machine.zeroOf(0)[2] - machine.toolLengthOf(*setup.tool);
+    out += fmt::format("G90 G0 G43 H{} Z{}\n", *setup.tool, fixedText(z, machine.control().decimals));
+  }
+  // As it is written in a program, too: `G65 P9103 D25.`
+  std::string arguments = setup.call;
+  for (const std::string& prefix : {std::string("G65"), fmt::format("P{}", number)}) {
+    const std::size_t begin = arguments.find_first_not_of(' ');
+    if (begin != std::string::npos &&
+        upperCase(std::string_view(arguments).substr(begin, prefix.size())) == prefix &&
+        (begin + prefix.size() == arguments.size() || !isDigit(arguments[begin + prefix.size()])))
+      arguments.erase(0, begin + prefix.size());
+  }
+  return out + fmt::format("G65 P{} {}\nM30\n", number, arguments);
+}
+
+} // namespace dotek::sim

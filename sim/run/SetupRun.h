@@ -1,0 +1,30 @@
+// The setup of a run, carried out on the machine before the program begins.
+#pragma once
+
+#include "project/ProgramLibrary.h"
+#include "project/Session.h"
+#include "sim/geometry/Probe.h"
+#include "sim/geometry/Setup.h"
+#include "sim/machine/Machine.h"
+
+#include <array>
+#include <optional>
+#include <string>
+
+namespace dotek::sim {
+
+// Tool lengths, the tool in the spindle and work offsets. `part`: where the part is meant to be; nothing:
+// there is none. false: reported.
+bool prepare(const Setup& setup, const std::optional<std::array<double, 3>>& part, Machine& machine,
+             Diagnostics& diagnostics);
+
+// Where the machine is before the program, with the tool's end at `setup.at` of G54; nothing: the setup does
+// not say.
+std::optional<Position> startOf(const Setup& setup, const Machine& machine);
+
+// A main program that calls O`number` with the arguments of `setup.call`. Where the setup names a tool its
+// length is in force (G43), and the machine stays where it is.
+std::string callingProgram(const Setup& setup, std::uint64_t number, const Machine& machine,
+                           const Position& start);
+
+} // namespace dotek::sim

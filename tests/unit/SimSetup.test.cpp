@@ -1,0 +1,160 @@
+// --call, --tool, --work-offset, --at and [setup]; the commands of the page that shows them, as they are
+// printed.
+#include "tests/GoldenRunner.h"
+
+#include <doctest/doctest.h>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace fs = std::filesystem;
+using namespace dotek::tests;
+
+namespace {
+
+class Scratch {
+public:
+  explicit Scratch(std::string_view name) : root_(fs::temp_directory_path() / name) {
+    fs::remove_all(root_);
+    fs::create_directories(root_);
+  }
+  ~Scratch() { fs::remove_all(root_); }
+  Scratch(const Scratch&) = delete;
+  Scratch& operator=(const Scratch&) = delete;
+
+  const fs::path& root() const { return root_; }
+  void write(std::string_view name, std::string_view text) const {
+    std::ofstream(root_ / name, std::ios::binary) << text;
+  }
+  CommandResult run(const std::string& command) const { return runDotek(splitArguments(command), root_); }
+
+private:
+  fs::path root_;
+};
+
+// The commands of a page without `dotek`, each with its last heading.
+std::vector<std::pair<std::string, std::string>> commandsOf(const std::string& page) {
+  std::vector<std::pair<std::string, std::string>> out;
+  std::string heading;
+  bool open = false;
+  for (std::size_t begin = 0; begin < page.size();) {
+    const std::size_t end = std::min(page.find('\n', begin), page.size());
+    std::string line = page.substr(begin, end - begin);
+    begin = end + 1;
+    if (line.starts_with("## ")) heading = line;
+    const bool first = line.starts_with("    dotek ");
+    if (!first && !open) continue;
+    open = line.ends_with('\\');
+    if (open) line.pop_back();
+    if (first)
+      out.emplace_back(heading, line.substr(10));
+    else
+      out.back().second += line;
+  }
+  return out;
+}
+
+constexpr std::string_view kBox =
+    "schema = 1\n[place]\nshift = [-300.0, -200.0, -400.0]\n[[shape]]\nkind = \"box\"\n"
+    "min = [0.0, 0.0, -20.0]\nmax = [50.0, 50.0, 0.0]\n";
+constexpr std::string_view kDown =
+    "O9001\nIF[#26 EQ #0]THEN #3000=1(Z MISSING)\nG31 Z#26 F100\n#100=#5063-#5083\nG53\n"
+    "#101=#5021\nM99\n";
+
+bool has(const CommandResult& result, std::string_view part) {
+  CAPTURE(result.err);
+  CAPTURE(result.out);
+  return (result.out + result.err).find(part) != std::string::npos;
+}
+
+} // namespace
+
+TEST_CASE("setup: each command of the page run-my-macro does what the page says") {
+  const Scratch scratch("dotek-run-my-macro");
+  fs::copy(root() / "examples", scratch.root() / "examples", fs::copy_options::recursive);
+  const auto commands = commandsOf(readAll(root() / "docs" / "run-my-macro.md"));
+  REQUIRE(commands.size() >= 6);
+  for (const auto& [heading, command] : commands) {
+    CAPTURE(command);
+    const CommandResult result = scratch.run(command);
+    CAPTURE(result.err);
+    CHECK(result.status == (heading.find("Let it fail") != std::string::npos ? 1 : 0));
+    CHECK(result.err.find("warning:") == std::string::npos);
+  }
+  CHECK(fs::file_size(scratch.root() / "bore.html") > 1000);
+  CHECK(fs::file_size(scratch.root() / "bore.svg") > 1000);
+}
+
+TEST_CASE("setup: the macros of examples lint clean") {
+  const CommandResult result = runDotek({"lint", "examples/macros"}, root());
+  CHECK(result.status == 0);
+  CHECK(result.out == "");
+}
+
+TEST_CASE("setup: a called macro measures what the part is, from where --at puts the stylus") {
+  const Scratch scratch("dotek-setup-call");
+  scratch.write("part.toml", kBox);
+  scratch.write("down.nc", kDown);
+  const std::string stylus = "sim down.nc --part part.toml --tool 7 --length 80 --diameter 6 --json ";
+  const CommandResult part = scratch.run(stylus + "--work-offset G54=part --at 10,20,5 --call \"Z-3.\"");
+  CHECK(part.status == 0);
+  CHECK(has(part, "\"100\": 0,"));
+  CHECK(has(part, "\"101\": -290"));
+  // A zero 2 mm above the part; the letters as a program has them, too.
+  const CommandResult above =
+      scratch.run(stylus + "--work-offset G54=-300,-200,-398 --at 10,20,5 --call \"G65 P9001 Z-3.\"");
+  CHECK(above.status == 0);
+  CHECK(has(above, "\"100\": -2,"));
+  const CommandResult missing = scratch.run(stylus + "--work-offset G54=part --at 10,20,5 --call \"\"");
+  CHECK(missing.status == 1);
+  CHECK(has(scratch.run(stylus + "--work-offset G54=part --at 10,20,5 --call \"X1.\""), "Z MISSING"));
+}
+
+TEST_CASE("setup: [setup] of the machine's file says the same as the flags, and flags go first") {
+  const Scratch scratch("dotek-setup-file");
+  scratch.write("part.toml", kBox);
+  scratch.write("down.nc", kDown);
+  scratch.write("machine.toml",
+                "schema = 1\n[setup]\ntool = 2\nwork_offset = { G54 = \"part\" }\nat = [10, 20, 5]\n"
+                "call = \"Z-3.\"\n[probe]\nball_diameter = 6\nlength = 80\nlength_to = \"tip\"\non = true\n");
+  const std::string run = "sim down.nc --part part.toml --machine machine.toml --json ";
+  CHECK(has(scratch.run(run), "\"100\": 0,"));
+  CHECK(has(scratch.run(run + "--at 12,20,5"), "\"101\": -288"));
+  // A length in the table that is not the probe's measures wrong, as on the machine.
+  CHECK(has(scratch.run(run + "--tool 2 --length 81"), "\"100\": -1,"));
+  scratch.write("machine.toml",
+                "schema = 1\n[setup]\nwork_offset = { G60 = [0, 0, 0], G54 = [1, 2] }\nlength = 5\n"
+                "[probe]\nball_diameter = 6\nlength = 80\nlength_to = \"tip\"\non = true\n");
+  const CommandResult wrong = scratch.run(run);
+  CHECK(wrong.status != 0);
+  CHECK(has(wrong, "`G60` is no work system"));
+  CHECK(has(wrong, "[X, Y, Z]"));
+  CHECK(has(wrong, "`length` is that of `tool`"));
+}
+
+TEST_CASE("setup: a flag that does not say enough names what is missing") {
+  const Scratch scratch("dotek-setup-flags");
+  scratch.write("part.toml", kBox);
+  scratch.write("down.nc", kDown);
+  scratch.write("nameless.nc", "G31 Z-1. F100\nM99\n");
+  scratch.write("p.SUF", "N10 G0 X1 Y1\nN20 M30\n");
+  const auto refused = [&](const std::string& command, std::string_view part) {
+    CAPTURE(command);
+    const CommandResult result = scratch.run(command);
+    return result.status != 0 && has(result, part);
+  };
+  CHECK(refused("sim down.nc --part part.toml", "--diameter"));
+  CHECK(refused("sim down.nc --tool 1", "--length 120"));
+  CHECK(refused("sim down.nc --length 120", "--tool N"));
+  CHECK(refused("sim down.nc --tool 1 --length 5 --work-offset G54=part", "--part PART.toml"));
+  CHECK(refused("sim down.nc --work-offset G60=1,2,3", "G54 to G59"));
+  CHECK(refused("sim down.nc --work-offset G54=1,2", "three numbers"));
+  CHECK(refused("sim down.nc --at 1,2,3,4", "three numbers"));
+  CHECK(refused("sim down.nc --tool 1 --length 5 --radius 3 --diameter 6", "the same"));
+  CHECK(refused("sim down.nc --tool 1", "[setup-flag]"));
+  CHECK(refused("sim nameless.nc --call \"Z1.\"", "O9100"));
+  CHECK(refused("sim p.SUF --at 1,2,3", "--at"));
+}
