@@ -279,12 +279,9 @@ private:
     using namespace frontend;
     const mikroprog::Program& program =
         sufPrograms_.emplace_back(mikroprog::parse(id, session_.sources(), session_.diagnostics()));
-    const bool mill =
-        std::any_of(program.lines.begin(), program.lines.end(), [](const mikroprog::Line& line) {
-          return line.find('Y') != nullptr || line.find('J') != nullptr;
-        });
     const stdlib::MikroprogControl* control =
-        mikroprog_ ? &*mikroprog_ : sufControl(mill ? "mikroprog-mill" : "mikroprog-s280");
+        mikroprog_ ? &*mikroprog_
+                   : sufControl(std::string(mikroprog::profileOf(program).value_or(stdlib::kMikroprogLathe)));
     if (control != nullptr) sufReadings_.emplace_back(program, *control, session_.sources());
   }
 

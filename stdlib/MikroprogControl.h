@@ -12,6 +12,10 @@ namespace dotek::stdlib {
 
 class DataFiles;
 
+// Profiles that are taken where nobody names one.
+inline constexpr std::string_view kMikroprogMill = "mikroprog-mill";
+inline constexpr std::string_view kMikroprogLathe = "mikroprog-s280";
+
 enum class AddressUse : std::uint8_t {
   Needed,   // the function means nothing without it
   Given,    // in its notation; whether it may be left out is not said

@@ -22,8 +22,6 @@ namespace mikroprog = backends::mikroprog;
 
 namespace {
 
-constexpr std::string_view kMill = "mikroprog-mill"; // of cycles that move Y
-
 std::set<std::uint32_t> questionsOf(const std::set<std::string>& assume) {
   std::set<std::uint32_t> out;
   for (const std::string& name : assume) {
@@ -58,21 +56,10 @@ bool sameName(const std::string& a, const std::string& b) {
 
 } // namespace
 
-std::optional<stdlib::MikroprogControl> loadMikroprogControl(const std::string& name, Session& session) {
-  auto control = stdlib::MikroprogControl::load(session.data(), name);
-  if (!control) {
-    std::string known;
-    for (const stdlib::DataFile* file : session.data().list("mikroprog"))
-      known += (known.empty() ? "" : ", ") + file->name;
-    session.diagnostics().report<diag::UnknownProfile>({}, name, known);
-  }
-  return control;
-}
-
 std::optional<std::string> mikroprogControlFor(const std::string& given, const CycleFolder& folder,
                                                const LoweredCycle& lowered, Session& session) {
   if (!given.empty()) return given;
-  if (mikroprog::movesY(lowered.cycle)) return std::string(kMill);
+  if (mikroprog::movesY(lowered.cycle)) return std::string(stdlib::kMikroprogMill);
   session.diagnostics().report<diag::ControlNotChosen>(lowered.cycle.range, folder.name);
   return std::nullopt;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "backends/mikroprog/Emit.h"
+#include "project/SufProgram.h"
 #include "project/Values.h"
 #include "stdlib/MikroprogControl.h"
 #include "targets/Verification.h"
@@ -21,8 +22,6 @@ struct MikroprogProgram {
   std::vector<backends::mikroprog::EmittedLine> lines; // without their CR LF
 };
 
-// The profile of this name. nullopt: there is none, reported.
-std::optional<stdlib::MikroprogControl> loadMikroprogControl(const std::string& name, Session& session);
 // The profile for a cycle: the given one, else the mill where it moves Y. nullopt: reported.
 std::optional<std::string> mikroprogControlFor(const std::string& given, const CycleFolder& folder,
                                                const LoweredCycle& lowered, Session& session);

@@ -22,6 +22,13 @@ std::optional<std::uint32_t> wholeOf(const Word* word) {
   return static_cast<std::uint32_t>(number);
 }
 
+std::optional<std::string_view> profileOf(const Program& program) {
+  const bool mill = std::any_of(program.lines.begin(), program.lines.end(), [](const Line& line) {
+    return line.find('Y') != nullptr || line.find('J') != nullptr;
+  });
+  return mill ? std::optional(stdlib::kMikroprogMill) : std::nullopt;
+}
+
 Reading::Reading(const Program& program_, const stdlib::MikroprogControl& control_, const SourceMap& sources_)
     : program(program_), control(control_), sources(sources_) {
   blocks.reserve(program.lines.size());
