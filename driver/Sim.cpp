@@ -1,15 +1,16 @@
 #include "support/messages/Sim.h"
 #include "driver/Command.h"
 #include "driver/Driver.h"
-#include "driver/SimMikroprog.h"
 #include "frontend/nc/Scan.h"
 #include "project/InputKind.h"
 #include "project/ProgramLibrary.h"
+#include "project/SufProgram.h"
 #include "project/VariableFlags.h"
 #include "sim/machine/Arguments.h"
 #include "sim/machine/Compile.h"
 #include "sim/machine/Machine.h"
 #include "sim/machine/Run.h"
+#include "sim/mikroprog/Dialect.h"
 #include "sim/run/SetupRun.h"
 #include "sim/run/SimMacros.h"
 #include "sim/run/SimReport.h"
@@ -35,7 +36,7 @@ public:
   Outcome run() {
     if (options_.program.empty())
       diagnostics().report<diag::MissingOption>({}, "sim", "PROGRAM", "an NC program");
-    if (isMikroprog()) return simMikroprog(options_, session_);
+    if (isMikroprog()) return runSuf();
     control_ = loadControl();
     if (diagnostics().hasErrors()) return outcomeOf(session_, "");
     world_ = sim::SimWorld::load(options_, session_);
@@ -136,21 +137,41 @@ private:
         sim::SimMacros::load(options_.probeMacros, world_->hasPicture(), *control_, *library, session_);
     if (!macros) return outcomeOf(session_, "");
     if (const auto radius = world_->calibratedRadius()) macros->setStylusRadius(*radius);
-    const sim::Bytecode code = sim::compile(library->programs(), *control_, session_.sources());
-    std::optional<sim::Trace> trace;
-    if (options_.trace) machine.setTrace(&trace.emplace(options_.trace));
-    sim::Run run(machine, code, session_.limits(), macros.get());
-    world_->setPlace([&run] { return sim::RunPlace{run.place(), run.openCalls(), run.program()}; });
     world_->setCallKind([&macros](std::uint32_t program, std::span<const double> locals) {
       return macros->kindOf(program, locals);
     });
+    return runCode(sim::compile(library->programs(), *control_, session_.sources()), machine, macros.get());
+  }
+
+  // A program of Mikroprog; what lint finds an error in is not run.
+  Outcome runSuf() {
+    if (!options_.variables.empty()) diagnostics().report<diag::OptionOfMacroB>({}, "--var");
+    if (!options_.programs.empty()) diagnostics().report<diag::OptionOfMacroB>({}, "--programs");
+    if (options_.probeMacros) diagnostics().report<diag::OptionOfMacroB>({}, "--probe-macros");
+    if (const std::string_view flag = options_.setup.firstFlag(); !flag.empty())
+      diagnostics().report<diag::OptionOfMacroB>({}, flag);
+    if (diagnostics().hasErrors()) return outcomeOf(session_, "");
+    const std::optional<SufProgram> suf = loadSuf(options_.program, options_.control, session_);
+    if (suf) world_ = sim::SimWorld::load(options_, session_);
+    if (!world_) return outcomeOf(session_, "");
+    const sim::mikroprog::Profile profile(suf->control);
+    sim::Machine machine(profile.machine, profile.dialect);
+    return runCode(sim::mikroprog::compile(suf->program, profile, session_.sources()), machine, nullptr);
+  }
+
+  Outcome runCode(const sim::Bytecode& code, sim::Machine& machine, sim::MacroMeaning* macros) {
+    std::optional<sim::Trace> trace;
+    if (options_.trace) machine.setTrace(&trace.emplace(options_.trace));
+    sim::Run run(machine, code, session_.limits(), macros);
+    world_->setPlace([&run] { return sim::RunPlace{run.place(), run.openCalls(), run.program()}; });
     world_->attach(machine);
     run.run();
     machine.setTrace(nullptr);
     if (trace) sim::traceVariables(machine, *trace);
     trace.reset();
     sim::reportRun(run, machine, session_);
-    sim::reportShifts(machine, run.place(), session_);
+    // A datum by G92 is what a program of Mikroprog is for.
+    if (!machine.dialect().firstParameter) sim::reportShifts(machine, run.place(), session_);
     return finish(machine, &run);
   }
 

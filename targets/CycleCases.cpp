@@ -386,7 +386,7 @@ bool CaseRunner::readPosted(Values& values) {
 }
 
 verify::Record CaseRunner::runPosted(const Values& values, sim::World& world, bool probeOn,
-                                     verify::Stand::Way way) {
+                                     verify::Stand::Way way) const {
   std::optional<sim::VendorMacros> meaning;
   if (sourceSet_ != nullptr) {
     meaning.emplace(*sourceSet_, *inputs_->sourceControl);

@@ -68,7 +68,8 @@ private:
   sim::Point3 zeroOf(const verify::Case& drawn) const;
   bool post(Values& values);
   bool readPosted(Values& values);
-  verify::Record runPosted(const Values& values, sim::World& world, bool probeOn, verify::Stand::Way way);
+  verify::Record runPosted(const Values& values, sim::World& world, bool probeOn,
+                           verify::Stand::Way way) const;
   std::string whyNotMeasured(Values& values);
   TargetRun runTarget(const Values& values, sim::World& world, bool probeOn,
                       const verify::Record* source) const;
@@ -92,8 +93,8 @@ private:
 
   const stdlib::MacroSet* sourceSet_ = nullptr;
   std::optional<verify::Stand> sourceStand_;
-  std::unique_ptr<Verification> target_;   // nullptr: no translation
-  std::unique_ptr<NominalFields> nominal_; // where target_ wants it
+  std::unique_ptr<Verification> target_;             // nullptr: no translation
+  std::unique_ptr<NominalFields> nominal_;           // where target_ wants it
 };
 
 } // namespace dotek::targets

@@ -14,10 +14,12 @@ TargetRun CaseRunner::runTarget(const Values& values, sim::World& world, bool pr
                                 const verify::Record* source) const {
   const verify::Entry entry = entryFor(plan_, values.drawn, probeOn);
   const std::set<std::uint32_t> none;
-  TargetCase now{values.drawn, entry, values.posted ? values.posted->stores : none, world, source, nullptr,
-                 false,        {}};
+  TargetCase now{values.drawn, entry,  values.posted ? values.posted->stores : none,
+                 world,        source, nullptr,
+                 false,        {},     {}};
   if (routine_ == nullptr && values.path) now.path = &*values.path;
   now.rejected = values.rejected;
+  now.inItsDatums = [&] { return runPosted(values, world, probeOn, verify::Stand::Way::MovePath); };
   now.sourceOf = [&](SourceRange posted) { return sourceOf(posted, values); };
   return target_->run(now);
 }

@@ -30,6 +30,8 @@ struct TargetCase {
   // Without a Prog: what is compared instead; nullptr: there is one, or the macro draws nothing.
   const verify::DrawnPath* path = nullptr;
   bool rejected = false; // by the dialog
+  // What the source does where each datum that it sets moves the path that follows, as it does in the target.
+  std::function<verify::Record()> inItsDatums;
   // Where the source says what its record shows at a place of the posted program.
   std::function<SourceRange(SourceRange)> sourceOf;
 };

@@ -99,7 +99,7 @@ public:
     if (!stopsInMacros() && !near(source_.end, target_.end, rules_.tolerance))
       add(Aspect::End, fmt::format("it ends at {} against {}", textOf(source_.end), textOf(target_.end)),
           source_.endedAt, target_.endedAt);
-    if (source_.ending == Ending::Finished) {
+    if (source_.ending == Ending::Finished && !rules_.atMeasures) {
       state(source_.after, target_.after, " at the end", source_.endedAt, target_.endedAt);
       modes();
     }
@@ -161,9 +161,17 @@ private:
     }
   }
 
+  // Those of a side, with what counts of them.
+  std::vector<Piece> pieces(const Record& record) const {
+    std::vector<Piece> out = record.pieces;
+    for (Piece& piece : out)
+      if (rules_.atMeasures) piece.with = {}, piece.feed.reset();
+    return out;
+  }
+
   void path() {
-    const std::vector<Piece> a = straight(source_.pieces, true, rules_.tolerance);
-    const std::vector<Piece> b = straight(target_.pieces, true, rules_.tolerance);
+    const std::vector<Piece> a = straight(pieces(source_), true, rules_.tolerance);
+    const std::vector<Piece> b = straight(pieces(target_), true, rules_.tolerance);
     for (std::size_t i = 0; i < std::max(a.size(), b.size()); ++i) {
       if (i >= a.size()) {
         add(Aspect::Path,
@@ -237,6 +245,8 @@ private:
       }
       nominal(a[i], b[i]);
       contacts(a[i], b[i]);
+      if (rules_.atMeasures) settled(a[i], b[i]);
+      if (rules_.atMeasures) datums(a[i], b[i]);
       if (!stopsInMacros() && !near(a[i].end, b[i].end, rules_.tolerance))
         add(Aspect::Path,
             fmt::format("the measure leaves the probe at {} against {}", textOf(a[i].end), textOf(b[i].end)),
@@ -274,6 +284,40 @@ private:
           a.range, b.range);
       return;
     }
+  }
+
+  // What is on where it measures.
+  void settled(const Measure& a, const Measure& b) {
+    Surroundings one = a.with, other = b.with;
+    one.probe = other.probe;
+    const auto flows = [](const Surroundings& with) {
+      return with.coolant != sim::Machine::Coolant::NotSwitched && with.coolant != sim::Machine::Coolant::Off;
+    };
+    const bool switched = b.with.coolant != sim::Machine::Coolant::NotSwitched;
+    if (a.with.coolant == sim::Machine::Coolant::NotSwitched || (switched && flows(a.with) == flows(b.with)))
+      one.coolant = other.coolant;
+    state(one, other, " at a measure", a.range, b.range);
+  }
+
+  void datums(const Measure& a, const Measure& b) {
+    const SourceRange where = b.datumRange.hasPlace() ? b.datumRange : b.range;
+    const auto along = [](const Measure& measure, std::uint32_t axis) {
+      return std::find_if(measure.datums.begin(), measure.datums.end(),
+                          [&](const auto& one) { return one.first.second == axis; });
+    };
+    for (const auto& [key, zero] : a.datums) {
+      const auto other = along(b, key.second);
+      if (other != b.datums.end() && std::abs(other->second - zero) <= rules_.results) continue;
+      add(Aspect::Offset,
+          fmt::format("the zero of G{} along {} lies at {} of the machine against {}", key.first,
+                      "XYZ"[key.second], fixedText(zero, kShown),
+                      other == b.datums.end() ? "nothing" : fixedText(other->second, kShown)),
+          a.range, where);
+    }
+    for (const auto& [key, zero] : b.datums)
+      if (along(a, key.second) == a.datums.end())
+        add(Aspect::Offset, fmt::format("nothing against a datum along {}", "XYZ"[key.second]), a.range,
+            where);
   }
 
   // What follows the last measure made it.

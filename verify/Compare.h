@@ -43,6 +43,10 @@ struct CompareRules {
   // The target is the same program, translated: it stores and prints nothing else, and alarms that no probing
   // macro raises have their numbers; of #3000 their texts, too, as far as the control shows them.
   bool sameProgram = false;
+  // The target is a program for another kind of control: feeds, spindle and coolant count where it measures
+  // alone, coolant only where the source has switched it. Each measure sets the same axes, of whatever
+  // system.
+  bool atMeasures = false;
   bool sameAlarmNumbers = false; // both call the same macros: numbers and texts count, not only their kind
 };
 

@@ -55,6 +55,25 @@ struct Measure {
   SourceRange range;
   // Zeros that the call has moved: G number and axis to where they lie after it, as Record::zeros.
   std::map<std::pair<std::uint32_t, std::uint32_t>, double> datums;
+  SourceRange datumRange = {}; // of a bare skip move: the block that set the last of them; none: `range`
+  std::optional<sim::Point3> aim = {}; // of a bare skip move: where it ends without contact
+};
+
+// What a program does beside moving, where its control has codes for it.
+struct Mark {
+  enum class Kind : std::uint8_t {
+    Position, // the control writes where it is to a file
+    Value,    // or a value
+    Datum,    // the position is set: the machine is still, its coordinates change
+    Stop,     // the operator reads `text`
+  };
+  Kind kind = Kind::Stop;
+  std::size_t pieces = 0; // that came before it
+  sim::Point3 at;
+  sim::Point3 zero; // of the active system, after it
+  double value = 0;
+  std::string text;
+  SourceRange range;
 };
 
 enum class Ending : std::uint8_t { Finished, Alarm, Inconclusive };
@@ -69,6 +88,7 @@ struct Record {
 
   std::vector<Piece> pieces;
   std::vector<Measure> measures;
+  std::vector<Mark> marks;
   // What went wrong on the path (no contacts, no misses), and where in the program.
   std::vector<std::pair<sim::ProbeEvent, SourceRange>> events;
   // Work offsets that were written: G number (54 to 59; 54.1 Pn as 5410 + n) and axis (0 to 2), to the
@@ -77,7 +97,14 @@ struct Record {
   std::map<std::uint32_t, double> stores; // variables that the program itself writes; kNull is a value
   std::string printed;                    // by DPRNT and BPRNT, bytes
   sim::Point3 start, end;
-  Surroundings after; // what is on at the end
+  Surroundings after;     // what is on at the end
+  bool pathMoved = false; // by a datum (Stand::Way::MovePath)
+  // Bare skip moves of a length that ran, those that look for a surface and those that are to meet nothing,
+  // and questions whether the probe is in contact.
+  std::size_t searches = 0, protectedMoves = 0, guards = 0;
+  // What had come before the first thing after what was asked for (Interference.h): pieces and marks;
+  // nothing: it did not come to that.
+  std::optional<std::pair<std::size_t, std::size_t>> disturbed;
   // Modal codes by group, times ten, at entry and at the end.
   std::array<std::uint32_t, 32> modalBefore{}, modalAfter{};
   std::vector<sim::PictureMove> moves; // every motion, for pictures; only where asked for

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace dotek::verify {
 
@@ -54,7 +55,9 @@ void Recorder::begin(const sim::Run& run, bool keepMoves) {
 }
 
 std::optional<double> Recorder::contact(const sim::SkipMove& move) {
-  if (rehearsal_) return call_.moves ? std::nullopt : std::optional(1.0);
+  positions_ = move.positions;
+  aim_ = lowest(move.machineTo);
+  if (rehearsal_) return call_.moves || positions_ ? std::nullopt : std::optional(1.0);
   sim::SkipMove longer = move;
   double length = 0;
   for (std::size_t i = 0; i < 3; ++i)
@@ -63,9 +66,59 @@ std::optional<double> Recorder::contact(const sim::SkipMove& move) {
     for (std::size_t i = 0; i < 3; ++i)
       longer.machineTo[i] += (move.machineTo[i] - move.machineFrom[i]) * (kTouchSlack / length);
   }
+  if (length > 0 && call_.depth == 0) {
+    std::size_t& count = positions_ ? record_.protectedMoves : record_.searches;
+    const std::size_t number = count++;
+    const bool disturbed = (positions_ ? interference_.obstacle : interference_.missing) == number;
+    if (disturbed) {
+      disturb(1);
+      return positions_ ? std::optional(0.5) : std::nullopt;
+    }
+  }
   const std::optional<double> share = world_.contact(longer);
   if (!share || !(length > 0)) return share;
   return std::min(1.0, *share * (length + kTouchSlack) / length);
+}
+
+bool Recorder::isThere(const sim::SkipMove& here) {
+  if (interference_.touching == record_.guards++) {
+    disturb(0);
+    return true;
+  }
+  return world_.isThere(here);
+}
+
+void Recorder::disturb(std::size_t pieces) {
+  if (!record_.disturbed) record_.disturbed = {record_.pieces.size() + pieces, record_.marks.size()};
+}
+
+// By how much each surface lies beside its place along the axes that the call has set.
+void Recorder::movePath(const Measure& measure) {
+  std::array<double, 3> off{};
+  std::array<int, 3> touches{};
+  const double radius = world_.probe().ballRadius();
+  for (std::size_t i = 0; i < measure.nominal.size() && i < measure.contacts.size(); ++i) {
+    const sim::Point3 direction = measure.nominal[i].direction;
+    const sim::Point3 beside = measure.contacts[i].centre + direction * radius - measure.nominal[i].point;
+    const double along[] = {direction.x, direction.y, direction.z}, by[] = {beside.x, beside.y, beside.z};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      if (std::abs(std::abs(along[axis]) - 1) > 1e-9) continue;
+      off[axis] += by[axis];
+      ++touches[axis];
+    }
+  }
+  std::array<bool, 3> done{};
+  for (const auto& [key, zero] : measure.datums) {
+    const std::size_t axis = key.second;
+    if (touches[axis] == 0 || std::exchange(done[axis], true)) continue;
+    machine_.moveZero(axis, off[axis] / touches[axis]);
+    record_.pathMoved = true;
+  }
+}
+
+void Recorder::mark(Mark::Kind kind, std::string_view text, double value) {
+  const sim::Point3 at = lowest(machine_.machinePosition());
+  record_.marks.push_back({kind, record_.pieces.size(), at, offset(), value, std::string(text), place()});
 }
 
 void Recorder::addPiece(sim::PathKind kind, const sim::Point3& from, const sim::Point3& to,
@@ -83,7 +136,7 @@ void Recorder::takeEvents() {
     if (isFault(event.outcome)) {
       record_.events.emplace_back(event, range);
     } else if (event.outcome == sim::Outcome::Contact && !record_.measures.empty()) {
-      const bool measuring = call_.depth == 0 || call_.measures;
+      const bool measuring = call_.depth == 0 ? !positions_ : call_.measures;
       auto& contacts = record_.measures.back().contacts;
       if (measuring && (contacts.empty() || !same(contacts.back(), event))) contacts.push_back(event);
     }
@@ -94,14 +147,17 @@ void Recorder::moved(const sim::MachineMotion& motion) {
   const sim::Point3 from = lowest(motion.from), to = lowest(motion.to);
   const bool skip = motion.kind == sim::MotionKind::Skip;
   sim::PathKind kind = motion.kind == sim::MotionKind::Rapid ? sim::PathKind::Rapid : sim::PathKind::Feed;
-  if (skip) kind = call_.moves ? sim::PathKind::Protected : sim::PathKind::Measuring;
+  if (skip)
+    kind =
+        call_.moves || (call_.depth == 0 && positions_) ? sim::PathKind::Protected : sim::PathKind::Measuring;
   if (call_.depth == 0) {
-    if (skip) {
+    if (kind == sim::PathKind::Measuring) {
       Measure measure;
       measure.start = from;
       measure.end = to;
       measure.with = surroundings();
       measure.range = place();
+      measure.aim = aim_;
       record_.measures.push_back(std::move(measure));
     }
     addPiece(kind, from, to, place());
@@ -179,13 +235,15 @@ void Recorder::endCall() {
   const sim::Point3 end = lowest(machine_.machinePosition());
   if (call_.measures) {
     Measure& measure = record_.measures.back();
-    measure.end = end;
     for (std::uint32_t system = 0; system < call_.zeros.size(); ++system) {
       const sim::Position now = machine_.zeroOf(system);
       for (std::uint32_t axis = 0; axis < 3; ++axis)
-        if (now[axis] != call_.zeros[system][axis] || (54 + system == call_.system && call_.names[axis]))
+        if (now[axis] != call_.zeros[system][axis] ||
+            (machine_.running() && 54 + system == call_.system && call_.names[axis]))
           measure.datums[{54 + system, axis}] = now[axis];
     }
+    if (datumsMovePath_ && machine_.running()) movePath(measure);
+    measure.end = lowest(machine_.machinePosition());
     record_.pieces.push_back(
         {sim::PathKind::Measuring, call_.start, call_.start, call_.with, call_.range, std::nullopt});
   } else if (call_.moves) {

@@ -4,6 +4,7 @@
 #include "sim/machine/Run.h"
 #include "sim/machine/World.h"
 #include "stdlib/MacroSet.h"
+#include "verify/Interference.h"
 #include "verify/Record.h"
 
 #include <array>
@@ -28,12 +29,23 @@ public:
   std::optional<double> contact(const sim::SkipMove& move) override;
   void moved(const sim::MachineMotion& motion) override;
   void probeSwitched(bool on) override { world_.probeSwitched(on), probe_ = on ? Switch::On : Switch::Off; }
+  void positionSet() override { mark(Mark::Kind::Datum); }
+  void paused(std::string_view text) override { mark(Mark::Kind::Stop, text); }
+  void recorded(std::string_view file, std::optional<double> value) override {
+    mark(value ? Mark::Kind::Value : Mark::Kind::Position, file, value.value_or(0));
+  }
+  bool isThere(const sim::SkipMove& here) override;
   void callBegins(std::uint32_t program, std::span<const double> locals) override;
   void callEnded(std::uint32_t program) override;
   void assumeProbe(Switch probe) { probe_ = probe; }
   // Without a part: each measuring move makes its contact at its end, no other one does. So a run shows all
   // that the program would measure.
   void rehearse() { rehearsal_ = true; }
+
+  // Each datum that a call sets moves the active system as well, by as much as its surface was found beside
+  // its place: the path goes on as that of a control which has no other system to set.
+  void datumsMovePath() { datumsMovePath_ = true; }
+  void interfere(const Interference& interference) { interference_ = interference; }
 
   // After the run. `stores`: common variables whose end values count.
   Record finish(const std::set<std::uint32_t>& stores);
@@ -44,6 +56,9 @@ private:
   Surroundings surroundings() const;
   SourceRange place() const;
   void addPiece(sim::PathKind kind, const sim::Point3& from, const sim::Point3& to, SourceRange range);
+  void mark(Mark::Kind kind, std::string_view text = "", double value = 0);
+  void movePath(const Measure& measure);
+  void disturb(std::size_t pieces); // how many belong to it and are still to come
   void takeEvents();
   void noteSystem(const stdlib::MacroSignature& signature, std::span<const double> locals);
   void endCall();
@@ -56,6 +71,10 @@ private:
   const sim::Run* run_ = nullptr;
   bool keepMoves_ = false;
   bool rehearsal_ = false;
+  bool datumsMovePath_ = false;
+  Interference interference_;
+  bool positions_ = false;         // the skip move that runs is meant to meet nothing
+  std::optional<sim::Point3> aim_; // where it ends without contact
   Switch probe_ = Switch::Off;
   Record record_;
   std::size_t events_ = 0; // of the world, that were taken

@@ -22,10 +22,20 @@ std::array<sim::Point3, 6> standZeros() {
   return out;
 }
 
-Stand::Stand(const stdlib::Control& control, std::vector<const stdlib::MacroSet*> sets, const Limits& limits)
-    : sets_(std::move(sets)), limits_(limits), fresh_(control) {}
+Stand::Stand(const stdlib::Control& control, std::vector<const stdlib::MacroSet*> sets, const Limits& limits,
+             const sim::Dialect& dialect)
+    : sets_(std::move(sets)), limits_(limits), fresh_(control, dialect) {}
 
 bool Stand::prepare(sim::Machine& machine, const Entry& entry, double ballRadius, double length) const {
+  if (machine.dialect().holdsTool) {
+    // One active system, and no code that would put a tool or another system in force.
+    const sim::Point3& zero = entry.zeros[entry.system - 54];
+    const sim::Point3 at = entry.start + zero;
+    machine.holdTool(length);
+    machine.setZero(0, {zero.x, zero.y, zero.z});
+    machine.startAt({at.x, at.y, at.z + length});
+    return true;
+  }
   for (std::uint32_t system = 0; system < entry.zeros.size(); ++system) {
     const sim::Point3& zero = entry.zeros[system];
     machine.setZero(system, {zero.x, zero.y, zero.z});
@@ -53,7 +63,8 @@ bool Stand::prepare(sim::Machine& machine, const Entry& entry, double ballRadius
 }
 
 Record Stand::run(const sim::Bytecode& code, sim::World& world, const Entry& entry,
-                  const std::set<std::uint32_t>& stores, sim::MacroMeaning* meaning, Way way) {
+                  const std::set<std::uint32_t>& stores, sim::MacroMeaning* meaning, Way way,
+                  const Interference& interference) const {
   sim::Machine machine(fresh_);
   const double length = world.probe().centreLength() + world.probe().ballRadius();
   if (!prepare(machine, entry, world.probe().ballRadius(), length)) {
@@ -68,6 +79,8 @@ Record Stand::run(const sim::Bytecode& code, sim::World& world, const Entry& ent
   Recorder recorder(machine, world, sets_, length);
   recorder.assumeProbe(entry.probeOn ? Switch::On : Switch::Off);
   if (way == Way::Rehearse) recorder.rehearse();
+  if (way == Way::MovePath) recorder.datumsMovePath();
+  recorder.interfere(interference);
   recorder.begin(run, way == Way::KeepMoves);
   machine.setSkipSignal(&recorder);
   machine.setWatcher(&recorder);

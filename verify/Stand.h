@@ -22,7 +22,7 @@ inline constexpr double kToolLength = 150;
 // Zeros of G54 to G59 in coordinates of the machine: all different, so that a mixed-up system shows.
 std::array<sim::Point3, 6> standZeros();
 
-// What holds before the program's first block, beside G17 G21 G40 G49 off G80 G90 G94 G0.
+// What holds before the program's first block, beside what is in force at the start.
 struct Entry {
   sim::Point3 start; // of the stylus's lowest point, system `system`
   std::uint32_t system = 54;
@@ -37,12 +37,14 @@ class Stand {
 public:
   // All outlive the stand. `sets`: macros whose calls count as one thing; `texts`: of those, the ones that
   // run by their text. `meaning`: of the others.
-  Stand(const stdlib::Control& control, std::vector<const stdlib::MacroSet*> sets, const Limits& limits);
+  Stand(const stdlib::Control& control, std::vector<const stdlib::MacroSet*> sets, const Limits& limits,
+        const sim::Dialect& dialect = {});
 
-  enum class Way : std::uint8_t { Run, KeepMoves, Rehearse }; // Recorder.h
+  enum class Way : std::uint8_t { Run, KeepMoves, Rehearse, MovePath }; // Recorder.h
   // The first program of `code`, in `world`, which is restarted; rehearsed it meets nothing of it.
   Record run(const sim::Bytecode& code, sim::World& world, const Entry& entry,
-             const std::set<std::uint32_t>& stores, sim::MacroMeaning* meaning, Way way = Way::Run);
+             const std::set<std::uint32_t>& stores, sim::MacroMeaning* meaning, Way way = Way::Run,
+             const Interference& interference = {}) const;
   // Takes the trace of the runs to come (sim/machine/Trace.h), without the state before the program. nullptr:
   // nobody.
   void setTrace(sim::Trace* trace) { trace_ = trace; }

@@ -1,20 +1,24 @@
 // Cases of verify --to mikroprog.
+#include "backends/mikroprog/TargetCompare.h"
 #include "backends/mikroprog/TargetProgram.h"
 #include "frontend/gibbs/Ast.h"
-#include "frontend/mikroprog/Check.h"
-#include "frontend/mikroprog/Lower.h"
-#include "frontend/mikroprog/Parse.h"
+#include "sim/mikroprog/Dialect.h"
+#include "stdlib/MacroSet.h"
 #include "support/messages/Verify.h"
 #include "targets/ReadBack.h"
-#include "verify/MikroprogCompare.h"
+#include "verify/Interference.h"
 
+#include <algorithm>
 #include <fmt/format.h>
+#include <functional>
 
 namespace dotek::targets {
 
-namespace mikroprog = frontend::mikroprog;
+namespace dialect = sim::mikroprog;
 
 namespace {
+
+using Runs = std::function<verify::Record(const verify::Interference&)>;
 
 class MikroprogVerification final : public Verification {
 public:
@@ -47,7 +51,12 @@ public:
       return out;
     }
     if (now.source == nullptr) return out;
-    if (verify::goesOnInItsDatum(*now.source, now.entry.system)) {
+    const bool setsItsOwn = std::any_of(
+        now.source->measures.begin(), now.source->measures.end(), [&](const verify::Measure& measure) {
+          return std::any_of(measure.datums.begin(), measure.datums.end(),
+                             [&](const auto& datum) { return datum.first.first == now.entry.system; });
+        });
+    if (setsItsOwn) {
       out.undecided = true;
       out.why = "the source sets the system in which it goes on, this control has no other to set";
       return out;
@@ -55,10 +64,8 @@ public:
     SourceMap sources;
     Diagnostics found;
     const FileId id = sources.add(SourceFile("program", std::move(*text), Encoding::Cp852));
-    const mikroprog::Program tree = mikroprog::parse(id, sources, found);
-    mikroprog::refuse({tree, *control_, sources}, found);
-    auto program = mikroprog::lower(tree, sources);
-    if (!program || found.hasErrors()) {
+    std::optional<ir::Program> program = readSuf(id, *control_, sources, found);
+    if (!program) {
       for (const Diagnostic& one : found.all())
         if (one.severity == Severity::Error && out.differences.empty())
           out.differs(verify::Aspect::Ending, "the program is faulty: " + one.message,
@@ -67,37 +74,56 @@ public:
       if (out.differences.empty()) out.differs(verify::Aspect::Ending, "the program cannot be read");
       return out;
     }
-    const sim::BlockList blocks(std::move(program->programs.front()), sources);
-    const verify::MikroprogStand stand(*control_, blocks);
-    const sim::Point3 zero = now.entry.zeros[now.entry.system - 54];
-    const sim::Point3 start = now.entry.start + zero;
-    const verify::MikroprogRecord ran = stand.run(now.world, start, zero);
-    const auto place = [&](std::uint32_t line) {
-      const SourceFile& file = sources.file(id);
-      const std::uint32_t begin = file.lineStart(line);
-      return SourceRange{id, begin, begin + 1};
+    const auto lineOf = [&](SourceRange range) {
+      return range.hasPlace() ? std::string(sources.file(id).line(sources.line(range))) : std::string();
     };
-    verify::MikroprogFacts facts(*control_);
-    facts.zero = zero;
-    facts.overtravel = now.drawn.hosts.at("overtravel");
-    facts.byOperator = from_.options.datum == "operator";
-    facts.tolerance = from_.options.tolerance;
-    facts.place = place;
-    const auto lineOf = [&](std::uint32_t line) {
-      return line == 0 ? std::string() : std::string(sources.file(id).line(line));
-    };
-    verify::MikroprogComparison compared = verify::compare(*now.source, ran, now.world, facts);
-    if (!compared.undecided.empty()) {
-      out.undecided = true;
-      out.why = std::move(compared.undecided);
+    for (const dialect::SkipMoveUse& one : dialect::skipMoves(*program, *control_)) {
+      if (one.use == dialect::SkipUse::Protected || one.use == dialect::SkipUse::Search) continue;
+      out.differs(
+          verify::Aspect::Ending,
+          one.use == dialect::SkipUse::Blind
+              ? "a G31 without a block to go to"
+              : "a G31 that neither guards nor searches: of contact and no contact one has to go on and "
+                "the other to end in its tail",
+          lineOf(program->body[one.statement].origin.range()));
       return out;
     }
-    for (verify::Difference& difference : compared.differences) {
-      std::string line = difference.target.hasPlace() ? lineOf(sources.line(difference.target)) : "";
+    const dialect::Profile profile(*control_);
+    const sim::Bytecode code = dialect::compile(*program, profile, sources);
+    verify::Stand stand(profile.machine, {}, from_.session.limits(), profile.dialect);
+    verify::Entry entry = now.entry;
+    entry.probeOn = true; // no function switches it
+    const Runs runs = [&](const verify::Interference& interference) {
+      verify::Record ran =
+          stand.run(code, now.world, entry, {}, nullptr, verify::Stand::Way::Run, interference);
+      takeEnding(ran, *control_);
+      return ran;
+    };
+    const verify::Record ran = runs({});
+    const bool byOperator = from_.options.datum == "operator";
+    const MikroprogFacts facts{*control_,
+                               now.entry.zeros[now.entry.system - 54],
+                               now.drawn.hosts.at("overtravel"),
+                               now.world.probe().ballRadius(),
+                               byOperator,
+                               from_.options.tolerance};
+    const bool sets = std::any_of(now.source->measures.begin(), now.source->measures.end(),
+                                  [](const verify::Measure& measure) { return !measure.datums.empty(); });
+    const verify::Record source = sets && !byOperator ? now.inItsDatums() : *now.source;
+    std::vector<verify::Difference> differences = compareWithSource(source, ran, facts);
+    if (SourceRange at; !differences.empty() && source.pathMoved && !whyNoEvidence(source, at).empty()) {
+      out.undecided = true;
+      out.why = source.events.empty()
+                    ? "the source comes to nothing after a datum, where this control goes on beside its path"
+                    : "the path that a datum has corrected meets the part";
+      return out;
+    }
+    for (verify::Difference& difference : differences) {
+      std::string line = lineOf(difference.target);
       out.differences.push_back({std::move(difference), 0, std::move(line)});
     }
     if (out.differences.empty() && now.source->ending == verify::Ending::Finished)
-      interfere(stand, now, start, zero, ran, out);
+      interfere(runs, ran, lineOf, out);
     return out;
   }
 
@@ -131,22 +157,22 @@ private:
 
   // Each search once without its surface, each protected move with an obstacle half way, each guard with
   // contact already there.
-  static void interfere(const verify::MikroprogStand& stand, const TargetCase& now, const sim::Point3& start,
-                        const sim::Point3& zero, const verify::MikroprogRecord& ran, TargetRun& out) {
-    using Tail = verify::MikroprogRecord::Ending;
-    const auto attempt = [&](const verify::Interference& interference, Tail tail, std::string_view what,
-                             std::size_t number) {
-      const verify::MikroprogRecord record = stand.run(now.world, start, zero, interference);
-      const std::string why = verify::whyNotCaught(record, tail);
+  static void interfere(const Runs& runs, const verify::Record& ran,
+                        const std::function<std::string(SourceRange)>& lineOf, TargetRun& out) {
+    using stdlib::MacroAlarm;
+    const auto attempt = [&](const verify::Interference& interference, MacroAlarm alarm,
+                             std::string_view what, std::size_t number) {
+      SourceRange at;
+      const std::string why = whyNotCaught(runs(interference), macroAlarmName(alarm), at);
       if (!why.empty() && out.differences.empty())
-        out.differs(verify::Aspect::Ending, fmt::format("{} {}: {}", what, number + 1, why));
+        out.differs(verify::Aspect::Ending, fmt::format("{} {}: {}", what, number + 1, why), lineOf(at));
     };
     for (std::size_t i = 0; i < ran.searches; ++i)
-      attempt({i, {}, {}}, Tail::NotFound, "no surface at search", i);
+      attempt({i, {}, {}}, MacroAlarm::ProbeFail, "no surface at search", i);
     for (std::size_t i = 0; i < ran.protectedMoves; ++i)
-      attempt({{}, i, {}}, Tail::Collision, "an obstacle in protected move", i);
+      attempt({{}, i, {}}, MacroAlarm::PathObstructed, "an obstacle in protected move", i);
     for (std::size_t i = 0; i < ran.guards; ++i)
-      attempt({{}, {}, i}, Tail::Collision, "contact before chain", i);
+      attempt({{}, {}, i}, MacroAlarm::PathObstructed, "contact before chain", i);
     if (ran.guards == 0 && ran.searches + ran.protectedMoves > 0 && out.differences.empty())
       out.differs(verify::Aspect::Ending, "nothing asks for contact before the first probe move");
   }

@@ -57,6 +57,18 @@ enum class Op : std::uint8_t {
   Name,       // a: index in names
   Refuse,     // b: index in texts: why the run is inconclusive here
   End,        // of the program's text
+  // What macro B does not have (RunDialect.cpp); b: index in texts, why the run ends.
+  Given,      // a: cell; a value that nobody has set ends the run as inconclusive
+  Absolute,   // incremental mode ends the run as inconclusive
+  Place,      // c becomes the position along axis `detail`, of the active system
+  JumpSignal, // to c where the probe's signal is there; no signal ends the run as inconclusive
+  JumpMissed, // to c where the last skip move met nothing; one that began in contact ends the run, as above
+  CallPlace,  // subprogram of the same text at c
+  LeavePlace, // back to after its call; a fault of the control where there is none
+  Pause,      // b: index in texts of what the operator reads
+  Record,     // a: cell of the value, kNoCell: the position; b: index in texts of the file
+  Fault,      // the control stops
+  CountBlock, // a block of the text that has no words for the machine
 };
 
 inline constexpr std::uint8_t kHazard = 1;   // a position, or the window of the PMC
@@ -80,8 +92,9 @@ struct WordSlot {
 struct BlockSlots {
   std::uint32_t firstWord = 0, words = 0;
   std::uint64_t line = 0;
-  bool mayCall = false; // a code that calls a program, or a computed one
-  bool mayStop = false; // a code that ends reading ahead, or a computed one
+  bool mayCall = false;   // a code that calls a program, or a computed one
+  bool mayStop = false;   // a code that ends reading ahead, or a computed one
+  bool positions = false; // its skip move is meant to meet nothing
 };
 struct ArgumentSlot {
   std::uint32_t local = 0, cell = 0;

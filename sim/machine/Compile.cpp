@@ -42,6 +42,7 @@ void Compiler::add(const ir::Program& program) {
     statement(program.body[at_]);
   if (at_ > 0) --at_;
   loop_ = 0;
+  textEnd();
   emit(Op::End);
   routine.end = static_cast<std::uint32_t>(code_.instructions.size());
   for (const OpenJump& jump : jumps_) {
@@ -201,8 +202,13 @@ void Compiler::operator()(const ir::LoopEnd&) {
 }
 
 void Compiler::operator()(const ir::NcBlock& block) {
+  words(block, false);
+}
+
+void Compiler::words(const ir::NcBlock& block, bool positions) {
   BlockSlots slots;
-  std::vector<WordSlot> words;
+  slots.positions = positions;
+  std::vector<WordSlot> all;
   for (const ir::Word& word : block.words) {
     WordSlot slot;
     slot.letter = word.address;
@@ -219,7 +225,7 @@ void Compiler::operator()(const ir::NcBlock& block) {
     letter_ = word.address;
     slot.cell = value(word.value);
     letter_ = 0;
-    words.push_back(slot);
+    all.push_back(slot);
     if (word.address != 'G' && word.address != 'M' && word.address != 'T') continue;
     if (slot.computed) {
       slots.mayCall = slots.mayStop = true;
@@ -229,9 +235,9 @@ void Compiler::operator()(const ir::NcBlock& block) {
     }
   }
   slots.firstWord = static_cast<std::uint32_t>(code_.words.size());
-  slots.words = static_cast<std::uint32_t>(words.size());
+  slots.words = static_cast<std::uint32_t>(all.size());
   slots.line = line_;
-  code_.words.insert(code_.words.end(), words.begin(), words.end());
+  code_.words.insert(code_.words.end(), all.begin(), all.end());
   code_.blocks.push_back(slots);
   emit(Op::Block, static_cast<std::uint32_t>(code_.blocks.size() - 1));
 }

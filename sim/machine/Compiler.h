@@ -1,4 +1,6 @@
-// Private to Compile*.cpp.
+// Programs to instructions. A dialect derives from it: it says what its plain blocks mean (sim/mikroprog);
+// jumps, calls, loops and expressions of the IR are the same for all. Private to Compile*.cpp and to
+// dialects.
 #pragma once
 
 #include "sim/machine/Compile.h"
@@ -13,19 +15,22 @@ class Compiler {
 public:
   Compiler(const stdlib::Control& control, const SourceMap& sources)
       : control_(control), sources_(sources), layout_(control) {}
+  virtual ~Compiler() = default;
+  Compiler(const Compiler&) = delete;
+  Compiler& operator=(const Compiler&) = delete;
   void add(const ir::Program& program);
   Bytecode finish();
 
   // The code of one statement (Compile.cpp).
   void operator()(const ir::Label& label);
   void operator()(const ir::Comment&) {}
-  void operator()(const ir::Store& store);
+  virtual void operator()(const ir::Store& store);
   void operator()(const ir::Jump& jump);
   void operator()(const ir::JumpTo& jump);
   void operator()(const ir::Branch& branch);
   void operator()(const ir::Loop& loop);
   void operator()(const ir::LoopEnd& end);
-  void operator()(const ir::NcBlock& block);
+  virtual void operator()(const ir::NcBlock& block);
   void operator()(const ir::Call& call);
   void operator()(const ir::Exit& exit);
   void operator()(const ir::Raise& raise);
@@ -37,10 +42,10 @@ public:
     refuse("a statement of a cycle, which no control has");
   }
 
-private:
+protected:
   // ---- statements (Compile.cpp)
-  void findLoops();
-  void statement(const ir::ProgramStatement& statement);
+  virtual void textEnd() {} // the last code of a program, where its text ends without a block that ends it
+  void words(const ir::NcBlock& block, bool positions); // as BlockSlots::positions
 
   std::uint32_t emit(Op op, std::uint32_t a = 0, std::uint32_t b = 0, std::uint32_t c = 0,
                      std::uint8_t detail = 0);
@@ -69,11 +74,16 @@ private:
   const SourceMap& sources_;
   CellLayout layout_;
   Bytecode code_;
-  std::map<double, std::uint32_t> constants_;
 
   // Of the program that is compiled.
   const ir::Program* program_ = nullptr;
   std::uint32_t at_ = 0; // statement
+
+private:
+  void findLoops();
+  void statement(const ir::ProgramStatement& statement);
+
+  std::map<double, std::uint32_t> constants_;
   std::uint32_t temporaries_ = 0;
   std::uint32_t line_ = 0;
   char letter_ = 0; // of the word that is computed

@@ -16,6 +16,7 @@ std::string callersText(const RunEnd& end) {
 }
 
 std::string systemName(const Machine& machine) {
+  if (machine.control().find(stdlib::Function::WorkSystem) == nullptr) return "work"; // it has one
   const std::uint8_t system = machine.mode(kSystem);
   return system == kExtended ? fmt::format("G54.1 P{}", machine.extendedSystem())
                              : fmt::format("G{}", 54 + system);

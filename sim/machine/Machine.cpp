@@ -21,7 +21,8 @@ constexpr std::uint32_t kQuickWords[4] = {kMoveWords, kMoveWords, kMoveWords | i
 
 } // namespace
 
-Machine::Machine(const stdlib::Control& control) : control_(control), table_(control), layout_(control) {
+Machine::Machine(const stdlib::Control& control, Dialect dialect)
+    : control_(control), dialect_(std::move(dialect)), table_(control), layout_(control) {
   // What is in force at power on, as most machines are set: rapid, XY, absolute, mm, per minute, G54.
   for (const Function function :
        {Function::Rapid, Function::PlaneXY, Function::Absolute, Function::Metric, Function::FeedPerMinute,
@@ -33,6 +34,11 @@ Machine::Machine(const stdlib::Control& control) : control_(control), table_(con
   }
   if (const Code* code = &table_.g(540); code->group != 0) groups_[code->group] = 540;
   if (const Code* code = &table_.g(640); code->group != 0) groups_[code->group] = 640;
+  for (const std::uint32_t tenths : dialect_.startCodes) {
+    const Code& code = table_.g(tenths);
+    modes_[code.slot] = code.value;
+    groups_[code.group] = code.tenths;
+  }
   needPoint_ = control.decimal == stdlib::DecimalMode::Increment ? control.lengths : 0;
   mostPlaces_ = static_cast<std::uint32_t>(control.decimals);
   widest_ = std::pow(10.0, control.integerDigits);
@@ -283,7 +289,10 @@ bool Machine::checkWords(const NcWords& w) {
   const bool axes = (w.present & kAxisBits) != 0;
   if (block_.hasOneShot) {
     switch (block_.oneShot) {
-    case Function::Dwell: allowed |= ir::addressBits("P"); break;
+    case Function::Dwell:
+      allowed |= ir::addressBits("P");
+      if (dialect_.dwellLetter != 0) allowed |= ir::addressBit(dialect_.dwellLetter);
+      break;
     case Function::DataInput: allowed |= ir::addressBits("LPR"); break;
     case Function::SecondReferenceReturn: allowed |= ir::addressBits("P"); break;
     case Function::RotationOn: allowed |= ir::addressBits("RIJK"); break;
@@ -319,6 +328,10 @@ bool Machine::stop(Ending ending) {
 
 bool Machine::raise(Alarm alarm, char letter) {
   const stdlib::AlarmInfo* info = control_.find(alarm);
+  if (info == nullptr && !dialect_.numbersAlarms)
+    return inconclusive(fmt::format("what the control does then is not known ({})", stdlib::alarmName(alarm)),
+                        letter);
+  if (info != nullptr && info->number == 0) return raiseUnnumbered(info->text);
   stop(Ending::Alarm);
   end_.number = info != nullptr ? info->number : 0;
   end_.text = info != nullptr ? info->text : std::string(stdlib::alarmName(alarm));

@@ -6,6 +6,7 @@
 #include "ir/NcWords.h"
 #include "sim/machine/Cells.h"
 #include "sim/machine/CodeTable.h"
+#include "sim/machine/Dialect.h"
 #include "sim/machine/MotionWatcher.h"
 #include "sim/machine/Rotation.h"
 #include "sim/machine/Trace.h"
@@ -73,7 +74,7 @@ struct PlaneAxes;
 class Machine {
 public:
   // `control` outlives the machine. Nothing else is needed; the trace and the signal may be added.
-  explicit Machine(const stdlib::Control& control);
+  explicit Machine(const stdlib::Control& control, Dialect dialect = {});
 
   void setTrace(Trace* trace) { trace_ = trace; }            // nullptr: quiet
   void setSkipSignal(SkipSignal* signal) { skip_ = signal; } // nullptr: G31 ends the run as inconclusive
@@ -111,6 +112,8 @@ public:
   // Wear and geometry of its offset, mm; 0 where there is no such offset.
   double toolLengthOf(std::uint32_t tool) const;
   void putTool(std::uint32_t tool); // into the spindle, before the program begins
+  // Moves the zero of the active system along an axis, and the machine with it: its coordinates stay.
+  void moveZero(std::size_t axis, double by);
   const Position& skipPosition() const { return skipped_; }
   std::uint8_t mode(Slot slot) const { return modes_[slot]; }
   // Code in force of a modal group, times ten; 0: none was given and none is in force at the start.
@@ -186,6 +189,28 @@ public:
   std::size_t extendedSystem() const { return extendedNow_; }  // n of G54.1 Pn
   void remark(std::string_view action, std::string_view text); // a line of the trace
   bool raiseUnnumbered(std::string_view text);                 // an alarm whose number is not known; false
+
+  // ---- what only some dialects have (MachineDialect.cpp)
+  const Dialect& dialect() const { return dialect_; }
+  // A length of tool (mm) that no code has put in force.
+  void holdTool(double length);
+  // Zero of the active system in coordinates of the machine, whatever has moved it; the tool's length aside.
+  const Position& activeZero() const { return offset_; }
+  enum class Skip : std::uint8_t {
+    None, // no skip move yet
+    Missed,
+    Touched,
+    Pressed, // it began in contact
+  };
+  Skip lastSkip() const { return lastSkip_; }
+  // Whether the skip moves to come are meant to meet nothing: a contact ends the program.
+  void expectNoContact(bool none) { skipPositions_ = none; }
+  // nullopt: no signal was given.
+  std::optional<bool> signalIsThere();
+  void pause(std::string_view text); // a stop for the operator, who reads it; "" for none
+  // The control writes a file: where it is, or a value.
+  void record(std::string_view file, std::optional<double> value);
+  void countBlock() { ++blocks_; } // one that leaves nothing for the machine to do
 
   // ---- ends
   bool raise(stdlib::Alarm alarm, char letter = 0);                             // false
@@ -271,6 +296,7 @@ private:
   std::uint32_t windowBytes(const Place& place) const; // 0: the address lies outside
 
   const stdlib::Control& control_;
+  Dialect dialect_;
   CodeTable table_;
   Trace* trace_ = nullptr;
   SkipSignal* skip_ = nullptr;
@@ -321,6 +347,8 @@ private:
   std::vector<std::uint8_t> pmc_;
   double pmcAddress_ = -1;
   Probe probe_ = Probe::NotSwitched;
+  Skip lastSkip_ = Skip::None;
+  bool skipPositions_ = false;
   bool motionForgotten_ = false, feedForgotten_ = false;
   bool hasUnknown_ = false; // a cell may hold kUnknown
   std::uint32_t level_ = 0;

@@ -232,9 +232,10 @@ bool Machine::skipMove(const NcWords& w) {
   if (modes_[kCanned] != 0 || modes_[kComp] != 0)
     return inconclusive("a skip move within a canned cycle or under cutter compensation", 'G');
   if (uncertain_ != 0) return inconclusive("where the move begins is not known", 'G');
+  const bool feeds = !dialect_.skipsAtOwnSpeed;
   Position end;
-  if (!target(w, end) || !feedKnown()) return false;
-  if (!(feed_ > 0)) return raise(Alarm::NoFeed);
+  if (!target(w, end) || (feeds && !feedKnown())) return false;
+  if (feeds && !(feed_ > 0)) return raise(Alarm::NoFeed);
   moved_ = true;
   if (skip_ == nullptr)
     return inconclusive("no part is given, so whether the probe touches is not known", 'G');
@@ -243,9 +244,12 @@ bool Machine::skipMove(const NcWords& w) {
   skip.to = end;
   skip.machineFrom = machinePosition();
   skip.feed = feed_;
+  skip.positions = skipPositions_;
   work_ = end;
   skip.machineTo = machinePosition();
   const std::optional<double> share = skip_->contact(skip);
+  constexpr double kPressed = 1e-9; // share of a move within which the contact is there from the start
+  lastSkip_ = !share ? Skip::Missed : *share <= kPressed ? Skip::Pressed : Skip::Touched;
   if (share && *share >= 0 && *share <= 1) {
     for (std::size_t i = 0; i < kAxes; ++i)
       work_[i] = snap(skip.from[i] + (end[i] - skip.from[i]) * *share);
@@ -259,8 +263,9 @@ bool Machine::skipMove(const NcWords& w) {
   }
   if (watcher_ != nullptr) tellMotion(MotionKind::Skip, movedBy(w));
   if (trace_ != nullptr) {
-    trace_->begin("skip").position(end, shown_).word("F", feed_).text(share ? "contact" : "no-contact");
-    trace_->position(work_, shown_).end();
+    trace_->begin("skip").position(end, shown_);
+    if (feeds) trace_->word("F", feed_);
+    trace_->text(share ? "contact" : "no-contact").position(work_, shown_).end();
   }
   return true;
 }

@@ -126,9 +126,7 @@ bool Machine::miscellaneous(const NcWords& w) {
 bool Machine::stops(const NcWords& w) {
   for (std::uint32_t i = 0; i < w.mCount; ++i) {
     switch (table_.m(w.m[i]).function) {
-    case Function::Stop:
-      if (trace_ != nullptr) trace_->begin("stop").end();
-      break;
+    case Function::Stop: pause(""); break;
     case Function::OptionalStop:
       if (trace_ != nullptr) trace_->begin("optional-stop").end();
       break;
@@ -215,7 +213,9 @@ bool Machine::changeToolLength(const NcWords& w) {
 }
 
 bool Machine::dwell(const NcWords& w) {
-  const int given = (w.has('P') ? 1 : 0) + (w.has('X') ? 1 : 0) + (w.has('U') ? 1 : 0);
+  const char own = dialect_.dwellLetter;
+  const bool hasOwn = own != 0 && w.has(own);
+  const int given = (w.has('P') ? 1 : 0) + (w.has('X') ? 1 : 0) + (w.has('U') ? 1 : 0) + (hasOwn ? 1 : 0);
   if (given > 1 || (w.present & kAxisBits & ~ir::addressBits("XU")) != 0)
     return inconclusive("a dwell takes one of P, X and U", 'G');
   double seconds = 0;
@@ -224,7 +224,7 @@ bool Machine::dwell(const NcWords& w) {
     if (!milliseconds) return inconclusive("a dwell counts whole milliseconds here", 'P');
     seconds = *milliseconds / 1000.0;
   } else if (given == 1) {
-    const char letter = w.has('X') ? 'X' : 'U';
+    const char letter = hasOwn ? own : w.has('X') ? 'X' : 'U';
     const bool bare = (needPoint_ & ~w.pointed & ir::addressBit(letter)) != 0;
     seconds = bare ? w.of(letter) / 1000.0 : w.of(letter);
     if (!(seconds >= 0)) return inconclusive("a dwell is not below 0", letter);
@@ -297,8 +297,9 @@ bool Machine::setPosition(const NcWords& w) {
     offset_[i] = sum;
     work_[i] = value;
   }
+  if (watcher_ != nullptr) watcher_->positionSet();
   if (trace_ != nullptr) trace_->begin("set-position").position(work_, shown_).end();
-  return true;
+  return running();
 }
 
 } // namespace dotek::sim

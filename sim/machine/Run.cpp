@@ -78,7 +78,9 @@ unsigned operandsOf(Op op) {
   case Op::Not:
   case Op::JumpTo:
   case Op::Exit:
-  case Op::Raise: return 1;
+  case Op::Raise:
+  case Op::Given:
+  case Op::Record: return 1;
   case Op::Write: return 2;
   case Op::Add:
   case Op::Subtract:
@@ -106,7 +108,16 @@ unsigned operandsOf(Op op) {
   case Op::Print:
   case Op::Name:
   case Op::Refuse:
-  case Op::End: break;
+  case Op::End:
+  case Op::Absolute:
+  case Op::Place:
+  case Op::JumpSignal:
+  case Op::JumpMissed:
+  case Op::CallPlace:
+  case Op::LeavePlace:
+  case Op::Pause:
+  case Op::Fault:
+  case Op::CountBlock: break;
   }
   return 0;
 }
@@ -358,6 +369,16 @@ template <bool kDecimal8, bool kWatched> bool Run::execute() {
     case Op::JumpTrue: DOTEK_JUMP(cells[at->a] != 0);
     case Op::JumpFalse: DOTEK_JUMP(cells[at->a] == 0);
     case Op::Jump: DOTEK_JUMP(true);
+    case Op::JumpSignal: {
+      leave();
+      const std::optional<bool> there = machine_.signalIsThere();
+      if (!there) return refuse(code_.texts[at->b]);
+      DOTEK_JUMP(*there);
+    }
+    case Op::JumpMissed:
+      leave();
+      if (machine_.lastSkip() == Machine::Skip::Pressed) return refuse(code_.texts[at->b]);
+      DOTEK_JUMP(machine_.lastSkip() == Machine::Skip::Missed);
     case Op::SkipDelete: DOTEK_JUMP((machine_.blockDelete() >> at->detail & 1) != 0);
 #undef DOTEK_JUMP
     case Op::Test:
@@ -401,6 +422,29 @@ template <bool kDecimal8, bool kWatched> bool Run::execute() {
       break;
     }
     case Op::Refuse: leave(); return refuse(code_.texts[at->b]);
+    case Op::Fault: leave(); return machine_.raiseUnnumbered(code_.texts[at->b]);
+    case Op::Given:
+      leave();
+      if (isNull(cells[at->a])) return refuse(code_.texts[at->b]);
+      break;
+    case Op::Absolute:
+      leave();
+      if (machine_.mode(kDistance) != 0) return refuse(code_.texts[at->b]);
+      break;
+    case Op::Place: cells[at->c] = machine_.position()[at->detail]; break;
+    case Op::CallPlace: leave(); return spend(10) && callPlace(at->c);
+    case Op::LeavePlace: leave(); return spend(10) && leavePlace(code_.texts[at->b]);
+    case Op::Pause:
+    case Op::Record:
+      leave();
+      if (at->op == Op::Pause)
+        machine_.pause(code_.texts[at->b]);
+      else
+        machine_.record(code_.texts[at->b], at->a == kNoCell ? std::nullopt : std::optional(cells[at->a]));
+      if (!machine_.running() || !spend(10)) return false; // who watches has ended it
+      fuel = fuel_;
+      break;
+    case Op::CountBlock: machine_.countBlock(); break;
     case Op::End: leave(); return textEnd();
     }
     ++at;

@@ -90,6 +90,10 @@ private:
   bool jumpTo(const Routine& routine, std::uint32_t from, double number);
   bool raise(double number, const std::string& text);
 
+  // ---- RunDialect.cpp
+  bool callPlace(std::uint32_t entry);
+  bool leavePlace(const std::string& fault);
+
   // ---- RunPrint.cpp
   bool openPort(bool open);
   bool print(const ir::Print& print);

@@ -123,6 +123,7 @@ bool Run::block(const BlockSlots& slots) {
 
 bool Run::executeWords(const BlockSlots& slots) {
   if (words_.present == 0) return true;
+  machine_.expectNoContact(slots.positions);
   if (!machine_.execute(words_)) {
     const Ending ending = machine_.end().ending;
     if (ending == Ending::Call || ending == Ending::Return)

@@ -142,6 +142,10 @@ void reportRun(const Run& run, const Machine& machine, Session& session) {
   Diagnostic* report = nullptr;
   switch (end.ending) {
   case Ending::Alarm: {
+    if (!machine.dialect().numbersAlarms) {
+      report = &diagnostics.report<diag::ControlFault>(range, end.text);
+      break;
+    }
     report = &diagnostics.report<diag::ControlAlarm>(range, end.number, toUtf8Text(end.text), where(end));
     const stdlib::AlarmInfo* missing = control.find(stdlib::Alarm::NoSuchProgram);
     if (missing != nullptr && end.number == missing->number && end.text == missing->text)
@@ -193,6 +197,7 @@ void reportShifts(const Machine& machine, SourceRange range, Session& session) {
 }
 
 void traceVariables(const Machine& machine, Trace& trace) {
+  if (machine.dialect().firstParameter) return; // its records say them
   for (const auto& [number, value] : machine.written()) {
     trace.begin("variable").text(std::to_string(number));
     if (isNull(value))
@@ -229,12 +234,17 @@ std::string summary(Machine& machine, const Run* run, const SimWorld& world, Ses
     out += "  \"alarm\": null,\n";
   }
   if (run != nullptr) {
+    const std::optional<std::uint32_t> first = machine.dialect().firstParameter;
     std::string variables;
     for (const auto& [number, value] : machine.written())
-      variables += fmt::format("{}\"{}\": {}", variables.empty() ? "" : ", ", number,
+      variables += fmt::format("{}\"{}\": {}", variables.empty() ? "" : ", ", number - first.value_or(0),
                                isNull(value) ? "null" : numberText(value));
-    out += fmt::format("  \"variables\": {{{}}},\n", variables);
-    out += fmt::format("  \"output\": {},\n", nlohmann::json(toUtf8Text(run->output())).dump());
+    out += fmt::format("  \"{}\": {{{}}},\n", first ? "parameters" : "variables", variables);
+    if (first)
+      out += fmt::format("  \"zero\": {},\n{}", positionText(machine.activeZero(), machine.movedAxes()),
+                         world.notes());
+    else
+      out += fmt::format("  \"output\": {},\n", nlohmann::json(toUtf8Text(run->output())).dump());
   }
   out += world.summary();
   std::string diagnostics = renderJson(session.diagnostics(), session.sources());

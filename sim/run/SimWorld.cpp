@@ -28,20 +28,6 @@ std::string pointJson(const Point3& p) {
                      fixedText(p.z, 6));
 }
 
-RunEnd endOf(const MikroprogMachine& machine) {
-  RunEnd out;
-  out.text = toUtf8Text(machine.why());
-  switch (machine.ending()) {
-  case MikroprogEnding::Running: break;
-  case MikroprogEnding::ProgramEnd: out.ending = Ending::ProgramEnd; break;
-  case MikroprogEnding::Fault:
-  case MikroprogEnding::Crash: out.ending = Ending::Alarm; break;
-  case MikroprogEnding::Inconclusive: out.ending = Ending::Inconclusive; break;
-  case MikroprogEnding::Endless: out.ending = Ending::Limit; break;
-  }
-  return out;
-}
-
 bool hasPoint(Outcome outcome) {
   switch (outcome) {
   case Outcome::Contact:
@@ -131,30 +117,19 @@ Position SimWorld::startOf(const Machine& machine) const {
 }
 
 void SimWorld::attach(Machine& machine) {
+  position_ = [&machine] { return machine.position(); };
   if (setup_.at || machine_) machine.startAt(startOf(machine));
-  if (!isActive()) return;
+  if (!isActive()) {
+    // Records and stops are of interest without a part, too.
+    if (machine.dialect().firstParameter) machine.setWatcher(this);
+    return;
+  }
   line_ = [&machine] { return machine.frame().line; };
   blocks_ = [&machine] { return machine.blocks(); };
   stop_ = [&machine](std::string why) { machine.inconclusive(std::move(why)); };
   end_ = [&machine] { return machine.end(); };
   frame_ = [&machine] { return frameOf(machine); };
-  decimals_ = machine.control().decimals;
-  if (world_) machine.setSkipSignal(this);
-  machine.setWatcher(this);
-  begin();
-}
-
-void SimWorld::attach(MikroprogMachine& machine) {
-  if (!isActive()) return;
-  line_ = [&machine] { return static_cast<std::uint64_t>(machine.line()); };
-  blocks_ = [&machine] { return machine.blocks(); };
-  stop_ = [&machine](std::string why) { machine.inconclusive(std::move(why)); };
-  end_ = [&machine] { return endOf(machine); };
-  frame_ = [&machine] {
-    const auto& zero = machine.offset();
-    return PictureFrame{"work", {zero[0], zero[1], zero[2]}};
-  };
-  if (machine_) machine.setPosition(machine_->start);
+  decimals_ = machine.dialect().wordDecimals.value_or(machine.control().decimals);
   if (world_) machine.setSkipSignal(this);
   machine.setWatcher(this);
   begin();
@@ -190,6 +165,14 @@ void SimWorld::probeSwitched(bool on) {
     recorder_->probeSwitched(on);
   else if (world_)
     world_->probeSwitched(on);
+}
+
+void SimWorld::paused(std::string_view text) {
+  if (stops_.size() < kMostKept) stops_.emplace_back(text);
+}
+
+void SimWorld::recorded(std::string_view file, std::optional<double> value) {
+  if (records_.size() < kMostKept) records_.push_back({std::string(file), value, position_()});
 }
 
 void SimWorld::callBegins(std::uint32_t program, std::span<const double> locals) {
@@ -339,6 +322,18 @@ std::string SimWorld::summary() const {
     out += fmt::format("  \"contactsLeftOut\": {},\n  \"eventsLeftOut\": {},\n",
                        contactCount_ - contacts_.size(), eventCount_ - events_.size());
   return out;
+}
+
+std::string SimWorld::notes() const {
+  const auto text = [](const std::string& bytes) { return nlohmann::json(toUtf8Text(bytes)).dump(); };
+  std::string records, stops;
+  for (const NotedRecord& one : records_)
+    records += fmt::format("{}{{\"file\": {}, {}}}", records.empty() ? "" : ", ", text(one.file),
+                           one.value ? "\"value\": " + numberText(*one.value)
+                                     : "\"position\": " + positionText(one.position, 7));
+  for (const std::string& one : stops_)
+    stops += (stops.empty() ? "" : ", ") + text(one);
+  return "  \"records\": [" + records + "],\n  \"stops\": [" + stops + "],\n";
 }
 
 } // namespace dotek::sim

@@ -5,7 +5,6 @@
 #include "project/Session.h"
 #include "sim/geometry/Probe.h"
 #include "sim/machine/Machine.h"
-#include "sim/machine/Mikroprog.h"
 #include "sim/machine/World.h"
 #include "sim/picture/PictureRecorder.h"
 #include "sim/run/Options.h"
@@ -47,7 +46,6 @@ public:
   // From now on the machine, which gets its start, asks this world. Nothing else happens where neither a
   // part, nor a machine, nor a picture was asked for.
   void attach(Machine& machine);
-  void attach(MikroprogMachine& machine);
   // To be set before the run: asked for each event, and `block` for each motion of a picture; without `block`
   // the place says it.
   void setPlace(PlaceNow place, PictureRecorder::BlockNow block = nullptr) {
@@ -65,11 +63,15 @@ public:
   void reportRest(); // what was too much to be reported one by one
   // "contacts" and "events" of the summary, each on a line that ends with a comma.
   std::string summary() const;
+  // "records" and "stops", in the same way.
+  std::string notes() const;
 
   std::optional<double> contact(const SkipMove& move) override;
   bool isThere(const SkipMove& here) override;
   void moved(const MachineMotion& motion) override;
   void probeSwitched(bool on) override;
+  void paused(std::string_view text) override;
+  void recorded(std::string_view file, std::optional<double> value) override;
   void callBegins(std::uint32_t program, std::span<const double> locals) override;
   void callEnded(std::uint32_t program) override;
 
@@ -120,7 +122,15 @@ private:
   PictureRecorder::FrameNow frame_;
   int decimals_ = 3;
   std::function<void(std::string)> stop_; // ends the run as inconclusive
+  std::function<Position()> position_;
   std::vector<Kept> contacts_, events_;
+  struct NotedRecord {
+    std::string file;
+    std::optional<double> value;
+    Position position;
+  };
+  std::vector<NotedRecord> records_; // of files, and stops: at most kMostKept
+  std::vector<std::string> stops_;
   std::uint64_t contactCount_ = 0, eventCount_ = 0;
   std::array<std::uint64_t, 16> outcomes_{}; // without misses that were meant
   std::array<Told, 16> told_{};              // by outcome

@@ -1,7 +1,8 @@
-#include "sim/machine/Mikroprog.h"
 #include "frontend/mikroprog/Check.h"
 #include "frontend/mikroprog/Lower.h"
 #include "frontend/mikroprog/Parse.h"
+#include "sim/machine/Run.h"
+#include "sim/mikroprog/Dialect.h"
 #include "stdlib/DataFiles.h"
 
 #include <cstdint>
@@ -30,10 +31,13 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   mikroprog::dumpTokens(program, sources);
   mikroprog::dumpAst(program, sources);
   if (auto lowered = mikroprog::lower(program, sources)) {
-    const sim::BlockList blocks(std::move(lowered->programs.front()), sources);
-    sim::MikroprogMachine machine(control, blocks);
+    const sim::mikroprog::Profile profile(control);
+    const sim::Bytecode code = sim::mikroprog::compile(lowered->programs.front(), profile, sources);
+    sim::Machine machine(profile.machine, profile.dialect);
     machine.setSkipSignal(&room);
-    machine.run(1000);
+    Limits limits;
+    limits.simSteps = 10'000;
+    sim::Run(machine, code, limits).run();
   }
   return 0;
 }

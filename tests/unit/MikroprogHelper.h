@@ -6,7 +6,8 @@
 #include "frontend/mikroprog/Check.h"
 #include "frontend/mikroprog/Lower.h"
 #include "frontend/mikroprog/Parse.h"
-#include "sim/machine/Mikroprog.h"
+#include "sim/machine/Run.h"
+#include "sim/mikroprog/Dialect.h"
 #include "stdlib/MikroprogControl.h"
 
 #include <cmath>
@@ -74,10 +75,9 @@ struct MikroprogTarget {
   }
 };
 
-// A program as the machine takes it; what the control would refuse goes to `findings`.
-inline sim::BlockList readBack(const std::string& text, const stdlib::MikroprogControl& control,
-                               std::set<std::string>* findings = nullptr) {
-  SourceMap sources;
+// A program as it is read; what the control would refuse goes to `findings`.
+inline ir::Program readBack(const std::string& text, const stdlib::MikroprogControl& control,
+                            SourceMap& sources, std::set<std::string>* findings = nullptr) {
   Diagnostics diagnostics;
   const FileId file = sources.add(SourceFile("test.suf", text, Encoding::Cp852));
   const auto program = frontend::mikroprog::parse(file, sources, diagnostics);
@@ -86,8 +86,46 @@ inline sim::BlockList readBack(const std::string& text, const stdlib::MikroprogC
     if (findings != nullptr) findings->emplace(d.code);
   auto out = frontend::mikroprog::lower(program, sources);
   REQUIRE_MESSAGE(out, text);
-  return {std::move(out->programs.front()), sources};
+  return std::move(out->programs.front());
 }
+
+// A program on the machine of its control, with what it does beside moving.
+struct MikroprogRun : sim::MotionWatcher {
+  struct Record {
+    bool isValue = false;
+    double value = 0;
+  };
+
+  const stdlib::MikroprogControl control;
+  SourceMap sources;
+  ir::Program program;
+  sim::mikroprog::Profile profile;
+  sim::Machine machine;
+  sim::Bytecode code;
+  Limits limits;
+  std::optional<sim::Run> run;
+  std::vector<Record> records;
+  std::vector<std::string> stops;
+  std::size_t datums = 0;
+
+  MikroprogRun(const std::string& text, stdlib::MikroprogControl of)
+      : control(std::move(of)), program(readBack(text, control, sources)), profile(control),
+        machine(profile.machine, profile.dialect), code(sim::mikroprog::compile(program, profile, sources)) {
+    machine.setWatcher(this);
+  }
+  sim::Ending ending() const { return machine.end().ending; }
+  const std::string& why() const { return machine.end().text; }
+  std::uint32_t line() const { return sources.line(run->place()); }
+  std::string lastStop() const { return stops.empty() ? "" : stops.back(); }
+  void start() { run.emplace(machine, code, limits).run(); }
+
+  void moved(const sim::MachineMotion&) override {}
+  void positionSet() override { ++datums; }
+  void paused(std::string_view text) override { stops.emplace_back(text); }
+  void recorded(std::string_view, std::optional<double> value) override {
+    records.push_back({value.has_value(), value.value_or(0)});
+  }
+};
 
 // A block of material between `low` and `high`, in coordinates of the machine at which the probe has contact.
 struct Box : sim::SkipSignal {

@@ -103,7 +103,8 @@ TEST_CASE("mikroprog: a program is ASCII, its jumps have targets, lint finds not
       CHECK(std::all_of(line.text.begin(), line.text.end(), [](char c) { return c >= ' ' && c < 127; }));
     }
     std::set<std::string> findings;
-    readBack(emission.text(), target.control, &findings);
+    SourceMap sources;
+    readBack(emission.text(), target.control, sources, &findings);
     CHECK(findings.empty());
     const DataFolder folder;
     folder.write("test.suf", emission.text());
@@ -127,7 +128,8 @@ TEST_CASE("mikroprog: a long program keeps its tails and subprograms after it") 
   REQUIRE(emission.lines);
   CHECK(emission.lines->back().text == "N1390 M30");
   CHECK(emission.has("G23 L1310 O7"));
-  readBack(emission.text(), target.control);
+  SourceMap sources;
+  readBack(emission.text(), target.control, sources);
 }
 
 TEST_CASE("mikroprog: statements and their functions") {

@@ -6,8 +6,7 @@
 
 using namespace dotek;
 using namespace dotek::tests;
-using sim::MikroprogEnding;
-using sim::MikroprogEvent;
+using sim::Ending;
 
 namespace {
 
@@ -28,24 +27,21 @@ struct Touch : Maker {
   }
 };
 
-struct Run {
-  MikroprogTarget& target;
+struct Run : MikroprogRun {
   MikroprogEmission emission;
-  sim::BlockList program;
-  sim::MikroprogMachine machine;
 
-  Run(MikroprogTarget& to, const ir::Cycle& cycle, sim::SkipSignal& part)
-      : target(to), emission(to.emit(cycle)), program(readBack(emission.text(), to.control)),
-        machine(to.control, program) {
+  Run(MikroprogTarget& to, const ir::Cycle& cycle, sim::SkipSignal& part) : Run(to.emit(cycle), to, part) {}
+  Run(MikroprogEmission emitted, MikroprogTarget& to, sim::SkipSignal& part)
+      : MikroprogRun(emitted.text(), to.control), emission(std::move(emitted)) {
     machine.setSkipSignal(&part);
-    machine.setPosition({-20, 20, 100});
-    machine.run();
-    CAPTURE(machine.why());
-    CHECK(machine.ending() == MikroprogEnding::ProgramEnd);
+    machine.startAt({-20, 20, 100});
+    start();
+    CAPTURE(why());
+    CHECK(ending() == Ending::ProgramEnd);
   }
-  std::size_t count(MikroprogEvent::Kind kind) const {
-    return static_cast<std::size_t>(std::count_if(machine.events().begin(), machine.events().end(),
-                                                  [&](const MikroprogEvent& e) { return e.kind == kind; }));
+  std::size_t places() const { // M25
+    return static_cast<std::size_t>(
+        std::count_if(records.begin(), records.end(), [](const Record& one) { return !one.isValue; }));
   }
 };
 
@@ -78,10 +74,10 @@ TEST_CASE("mikroprog: the datum of a surface lies on the part, whatever its erro
           if (top) part.low[2] = -50;
           CAPTURE(error);
           const Run run(target, cycle.cycle, part);
-          CHECK(run.machine.lastStop() == "");
-          CHECK(run.count(MikroprogEvent::Kind::Record) == 1);
+          CHECK(run.lastStop() == "");
+          CHECK(run.places() == 1);
           // The surface, in the coordinates that the program leaves.
-          CHECK(error - run.machine.offset()[i] == doctest::Approx(nominal).epsilon(1e-9));
+          CHECK(error - run.machine.activeZero()[i] == doctest::Approx(nominal).epsilon(1e-9));
           CHECK(run.machine.position()[2] == doctest::Approx(50 + (top ? nominal : 0)));
         }
   }
@@ -95,7 +91,7 @@ TEST_CASE("mikroprog: with the tool length to the centre the datum of a top is t
   part.high[2] = 0.25 + kRadius; // the centre is a radius above the surface
   part.low[2] = -50;
   const Run run(target, cycle.cycle, part);
-  CHECK(0.25 - run.machine.offset()[2] == doctest::Approx(7));
+  CHECK(0.25 - run.machine.activeZero()[2] == doctest::Approx(7));
 }
 
 TEST_CASE("mikroprog: a lathe counts X as a diameter") {
@@ -109,7 +105,7 @@ TEST_CASE("mikroprog: a lathe counts X as a diameter") {
   const Run run(target, cycle.cycle, part);
   CHECK(run.emission.has("G92 X46"));
   CHECK(run.emission.has("G18 G90 G94"));
-  CHECK(20.125 - run.machine.offset()[0] == doctest::Approx(20));
+  CHECK(20.125 - run.machine.activeZero()[0] == doctest::Approx(20));
   CHECK(run.emission.codes().contains("radius-as-diameter"));
 }
 
@@ -121,9 +117,9 @@ TEST_CASE("mikroprog: a missing surface ends in its tail") {
     nothing.low = {500, 500, -500};
     nothing.high[2] = -400;
     const Run run(target, cycle.cycle, nothing);
-    CHECK(run.machine.lastStop() == target.control.notFound);
-    CHECK(run.count(MikroprogEvent::Kind::Datum) == 0);
-    CHECK(run.count(MikroprogEvent::Kind::Record) == 0);
+    CHECK(run.lastStop() == target.control.notFound);
+    CHECK(run.datums == 0);
+    CHECK(run.places() == 0);
   }
 }
 
@@ -135,8 +131,8 @@ TEST_CASE("mikroprog: contact where none is expected ends in its tail") {
     part.high[2] = top;
     part.low[2] = -50;
     const Run run(target, cycle.cycle, part);
-    CHECK(run.machine.lastStop() == target.control.collision);
-    CHECK(run.count(MikroprogEvent::Kind::Datum) == 0);
+    CHECK(run.lastStop() == target.control.collision);
+    CHECK(run.datums == 0);
     CHECK(run.machine.machinePosition()[2] == doctest::Approx(top));
   }
 }
@@ -150,8 +146,8 @@ TEST_CASE("mikroprog: a probe that is in contact at the start moves nowhere") {
     }
   } pressed;
   const Run run(target, cycle.cycle, pressed);
-  CHECK(run.machine.lastStop() == target.control.collision);
-  CHECK(run.count(MikroprogEvent::Kind::NoContact) == 0);
+  CHECK(run.lastStop() == target.control.collision);
+  CHECK(run.machine.lastSkip() == sim::Machine::Skip::None);
 }
 
 TEST_CASE("mikroprog: the operator's way records and stops at the contact, and sets nothing") {
@@ -162,10 +158,10 @@ TEST_CASE("mikroprog: the operator's way records and stops at the contact, and s
   part.low[0] = 0.5 - kRadius;
   part.high[2] = 0;
   const Run run(target, cycle.cycle, part);
-  CHECK(run.count(MikroprogEvent::Kind::Record) == 1);
-  CHECK(run.count(MikroprogEvent::Kind::Datum) == 0);
-  CHECK(run.machine.lastStop().find("X-3") != std::string::npos);
-  CHECK(run.machine.offset()[0] == 0);
+  CHECK(run.places() == 1);
+  CHECK(run.datums == 0);
+  CHECK(run.lastStop().find("X-3") != std::string::npos);
+  CHECK(run.machine.activeZero()[0] == 0);
 }
 
 TEST_CASE("mikroprog: a corner of three faces") {
@@ -196,11 +192,11 @@ TEST_CASE("mikroprog: a corner of three faces") {
     part.high[2] = error / 2;
     CAPTURE(error);
     const Run run(target, maker.cycle, part);
-    CHECK(run.machine.lastStop() == "");
-    CHECK(run.count(MikroprogEvent::Kind::Record) == 3);
-    CHECK(error - run.machine.offset()[0] == doctest::Approx(100));
-    CHECK(-error - run.machine.offset()[1] == doctest::Approx(-40));
-    CHECK(error / 2 - run.machine.offset()[2] == doctest::Approx(25));
+    CHECK(run.lastStop() == "");
+    CHECK(run.places() == 3);
+    CHECK(error - run.machine.activeZero()[0] == doctest::Approx(100));
+    CHECK(-error - run.machine.activeZero()[1] == doctest::Approx(-40));
+    CHECK(error / 2 - run.machine.activeZero()[2] == doctest::Approx(25));
     CHECK(run.emission.codes().contains("system-corrected"));
   }
 }
@@ -229,43 +225,108 @@ TEST_CASE("mikroprog: the middle of a bore by comparing, to a micrometre") {
       CAPTURE(diameter);
       CAPTURE(error);
       const Run run(target, maker.cycle, part);
-      CHECK(run.machine.lastStop() == "");
-      CHECK(std::abs(part.x - run.machine.offset()[0] - 30) < 0.0015);
-      CHECK(std::abs(part.y - run.machine.offset()[1] + 7.5) < 0.0015);
-      const auto& events = run.machine.events();
-      const auto last = std::find_if(events.rbegin(), events.rend(), [](const MikroprogEvent& e) {
-        return e.kind == MikroprogEvent::Kind::Value;
-      });
-      REQUIRE(last != events.rend());
+      CHECK(run.lastStop() == "");
+      CHECK(std::abs(part.x - run.machine.activeZero()[0] - 30) < 0.0015);
+      CHECK(std::abs(part.y - run.machine.activeZero()[1] + 7.5) < 0.0015);
+      const auto last =
+          std::find_if(run.records.rbegin(), run.records.rend(), [](const auto& one) { return one.isValue; });
+      REQUIRE(last != run.records.rend());
       CHECK(std::abs(2 * kRadius - 2 * last->value - (diameter + error / 2)) < 0.005);
     }
   }
 }
 
 TEST_CASE("mikroprog: the machine refuses what it does not know") {
-  const auto control = loadMikroprog("mikroprog-mill");
-  const auto ends = [&](const std::string& text, sim::SkipSignal* part = nullptr) {
-    const auto program = readBack(text, control);
-    sim::MikroprogMachine machine(control, program);
-    machine.setSkipSignal(part);
-    machine.run(1000);
-    return std::pair(machine.ending(), machine.why());
+  const auto ends = [&](const std::string& text, sim::SkipSignal* part = nullptr,
+                        std::string_view control = "mikroprog-mill") {
+    const auto profile = loadMikroprog(control);
+    MikroprogRun run(text, profile);
+    run.machine.setSkipSignal(part);
+    run.limits.simSteps = 10'000;
+    run.start();
+    return run.ending();
   };
   Box part;
   part.high[2] = -5;
-  CHECK(ends("N10 G31 Z-9\nN20 M30\n").first == MikroprogEnding::Inconclusive);
-  CHECK(ends("N10 G31 Z-4\nN20 M30\n", &part).first == MikroprogEnding::Fault);
-  CHECK(ends("N10 G31 Z-9\nN20 G31 Z-10\nN30 M30\n", &part).first == MikroprogEnding::Inconclusive);
-  CHECK(ends("N10 G0 Z-9\nN20 M30\n", &part).first == MikroprogEnding::Crash);
-  CHECK(ends("N10 G1 Z-1\nN20 M30\n").first == MikroprogEnding::Fault);
-  CHECK(ends("N10 M17\n").first == MikroprogEnding::Fault);
-  CHECK(ends("N10 G27 L30\n").first == MikroprogEnding::Fault);
-  CHECK(ends("N10 G27 L10\n").first == MikroprogEnding::Endless);
-  CHECK(ends("N10 G23 L10 O1\nN20 M30\n").first == MikroprogEnding::Inconclusive);
-  CHECK(ends("N10 P90=P1+1\nN20 M30\n").first == MikroprogEnding::Inconclusive);
-  CHECK(ends("N10 G98\nN20 M30\n").first == MikroprogEnding::Inconclusive);
-  CHECK(ends("N10 G73 Z1\nN20 M30\n").first == MikroprogEnding::Inconclusive);
-  CHECK(ends("N10 G0 X1\n").first == MikroprogEnding::Inconclusive);
-  CHECK(ends("N10 P1=8\nN20 P90=P1/2-4\nN30 G23 L50 O10\nN40 M17\nN50 M30\n").first ==
-        MikroprogEnding::ProgramEnd);
+  CHECK(ends("N10 G31 Z-9\nN20 M30\n") == Ending::Inconclusive);
+  CHECK(ends("N10 G31 Z-4\nN20 M30\n", &part) == Ending::Alarm);
+  CHECK(ends("N10 G31 Z-9\nN20 G31 Z-10\nN30 M30\n", &part) == Ending::Inconclusive);
+  CHECK(ends("N10 G1 Z-1\nN20 M30\n") == Ending::Alarm);
+  CHECK(ends("N10 G1 Z-1 F20\nN20 M30\n") == Ending::ProgramEnd);
+  CHECK(ends("N10 M17\n") == Ending::Alarm);
+  CHECK(ends("N10 G27 L30\n") == Ending::Alarm);
+  CHECK(ends("N10 G27 L10\n") == Ending::Limit);
+  CHECK(ends("N10 M25 @A.SOU\nN20 G27 L10\n") == Ending::Limit);
+  CHECK(ends("N10 G26 L10\n") == Ending::Limit); // it calls itself
+  CHECK(ends("N10 G26 L30 H2\nN20 M30\nN30 M17\n") == Ending::Inconclusive);
+  CHECK(ends("N10 G26 L30 H1\nN20 M30\nN30 M17\n") == Ending::ProgramEnd);
+  CHECK(ends("N10 G23 L10 O1\nN20 M30\n") == Ending::Inconclusive);
+  CHECK(ends("N10 G23 L10 O7\nN20 M30\n") == Ending::Inconclusive);
+  CHECK(ends("N10 P90=P1+1\nN20 M30\n") == Ending::Inconclusive);
+  CHECK(ends("N10 P90=1/0\nN20 M30\n") == Ending::Inconclusive);
+  CHECK(ends("N10 G23 L10 O10\nN20 M30\n") == Ending::Inconclusive); // no P90
+  CHECK(ends("N10 M26 @A.SOU\nN20 M30\n") == Ending::Inconclusive);
+  CHECK(ends("N10 G0 XP7\nN20 M30\n") == Ending::Inconclusive);
+  CHECK(ends("N10 G98\nN20 M30\n") == Ending::Inconclusive);
+  CHECK(ends("N10 G73 Z1\nN20 M30\n") == Ending::Inconclusive);
+  CHECK(ends("N10 G2 X1 Z1 R1\nN20 M30\n") == Ending::Inconclusive);
+  CHECK(ends("N10 G0 X1\n") == Ending::Inconclusive); // no M30
+  CHECK(ends("N10 G91\nN20 G31 Z-9 L30\nN30 M30\n", &part) == Ending::Inconclusive);
+  CHECK(ends("N10 G91 G31 Z-9 L30\nN30 M30\n", &part) == Ending::Inconclusive);
+  CHECK(ends("N10 G91\nN20 G90 G31 Z-4 L30\nN30 M30\n", &part) == Ending::ProgramEnd);
+  CHECK(ends("N10 G91 G0 X1\nN30 M30\n", nullptr, "mikroprog-s280") == Ending::Inconclusive);
+  CHECK(ends("N10 G91 G0 Z1\nN30 M30\n", nullptr, "mikroprog-s280") == Ending::ProgramEnd);
+  CHECK(ends("N10 G0 Y1\nN30 M30\n", nullptr, "mikroprog-s280") == Ending::Inconclusive);
+  CHECK(ends("N10 M25 @A.SOU G0 X1\nN30 M30\n") == Ending::Inconclusive); // which comes first
+  CHECK(ends("N10 P1=8\nN20 P90=P1/2-4\nN30 G23 L50 O10\nN40 M17\nN50 M30\n") == Ending::ProgramEnd);
+}
+
+TEST_CASE("mikroprog: conditions compare P90 with where the axis is, X of a lathe as a diameter") {
+  const auto jumps = [](const std::string& name, double p, std::uint32_t condition) {
+    const auto control = loadMikroprog(name);
+    MikroprogRun run(fmt::format("N10 G0 X10 Z-4\nN20 P90={}\nN30 G23 L60 O{}\nN40 M0 ;NE\nN50 M30\nN60 M0 "
+                                 ";ANO\nN70 M30\n",
+                                 p, condition),
+                     control);
+    run.start();
+    REQUIRE(run.ending() == Ending::ProgramEnd);
+    return run.lastStop() == "ANO";
+  };
+  for (const char* name : {"mikroprog-mill", "mikroprog-s280"}) {
+    CHECK(jumps(name, 10, 11)); // P90 at most X
+    CHECK_FALSE(jumps(name, 10.001, 11));
+    CHECK_FALSE(jumps(name, 10, 12)); // above it
+    CHECK(jumps(name, 10.001, 12));
+    CHECK(jumps(name, -4, 15));
+    CHECK(jumps(name, -3.999, 16));
+    CHECK(jumps(name, 0, 10));
+    CHECK_FALSE(jumps(name, 1, 10));
+  }
+}
+
+TEST_CASE("mikroprog: the short form, parameters in words and a subprogram within one") {
+  const auto control = loadMikroprog("mikroprog-mill");
+  MikroprogRun run("N10 G0 X1\nN20 Y2\nN30 P6=50\nN40 G1 Z-1 FP6\nN50 P2=3\nN60 X-P2\nN70 G26 L100\nN80 M30\n"
+                   "N100 G91\nN110 G26 L200\nN120 G90\nN130 M17\nN200 Y10\nN210 M17\n",
+                   control);
+  run.start();
+  CHECK(run.ending() == Ending::ProgramEnd);
+  CHECK(run.machine.position()[0] == -3);
+  CHECK(run.machine.position()[1] == 12);
+  CHECK(run.machine.position()[2] == -1);
+  CHECK(run.machine.feed() == 50);
+}
+
+TEST_CASE("mikroprog: a G31 is told by where it leads, not by a text") {
+  const auto control = loadMikroprog("mikroprog-mill");
+  SourceMap sources;
+  const ir::Program program =
+      readBack("N10 G31 Z5 L30\nN20 G27 L80\nN30 G31 X5 L70\nN40 G31 Y5 L50\nN50 G31 Y9\nN60 M30\n"
+               ";none\nN70 G27 L75\nN75 M0 ;EMPTY\nN76 M30\nN80 M0\nN90 M30\n",
+               control, sources);
+  std::vector<sim::mikroprog::SkipUse> uses;
+  for (const auto& one : sim::mikroprog::skipMoves(program, control))
+    uses.push_back(one.use);
+  using enum sim::mikroprog::SkipUse;
+  CHECK(uses == std::vector{Protected, Search, Neither, Blind});
 }

@@ -3,29 +3,25 @@
 
 using namespace dotek;
 using namespace dotek::tests;
-using sim::MikroprogEnding;
+using sim::Ending;
 using sim::MotionKind;
 
 namespace {
 
-struct Watched : sim::MotionWatcher, sim::SkipSignal {
-  stdlib::MikroprogControl control;
-  sim::BlockList program;
-  sim::MikroprogMachine machine;
+struct Watched : MikroprogRun, sim::SkipSignal {
   std::string told, trace;
   std::optional<double> share;
   bool there = false;
   int stopAt = 0, moves = 0;
 
   explicit Watched(const std::string& text, std::string_view name = "mikroprog-mill")
-      : control(loadMikroprog(name)), program(readBack(text, control)), machine(control, program) {
-    machine.setWatcher(this);
+      : MikroprogRun(text, loadMikroprog(name)) {
     machine.setSkipSignal(this);
   }
-  void run() {
+  void traced() {
     sim::Trace lines([&](std::string_view piece) { trace += piece; });
     machine.setTrace(&lines);
-    machine.run();
+    start();
     machine.setTrace(nullptr);
     lines.flush();
   }
@@ -37,11 +33,15 @@ struct Watched : sim::MotionWatcher, sim::SkipSignal {
     CHECK(motion.known);
     if (++moves == stopAt) machine.inconclusive("enough");
   }
-  std::optional<double> contact(const sim::SkipMove&) override { return share; }
+  std::optional<double> contact(const sim::SkipMove& move) override {
+    meant.push_back(move.positions);
+    return share;
+  }
   bool isThere(const sim::SkipMove& here) override {
     CHECK(here.machineFrom == here.machineTo);
     return there;
   }
+  std::vector<bool> meant;
 };
 
 constexpr const char* kProgram =
@@ -53,9 +53,9 @@ constexpr const char* kProgram =
 TEST_CASE("mikroprog: a watcher sees rapids, feeds and probe moves in coordinates of the machine") {
   Watched w(kProgram);
   w.share = 0.5;
-  w.machine.setPosition({0, 0, 10});
-  w.run();
-  CHECK(w.machine.ending() == MikroprogEnding::ProgramEnd);
+  w.machine.startAt({0, 0, 10});
+  w.traced();
+  CHECK(w.ending() == Ending::ProgramEnd);
   CHECK(w.told == "rapid 5 3 10 line 2; feed 5 3 -2 line 3; skip 7 3 -2 line 4; rapid 8 3 -2 line 7");
   CHECK(w.trace ==
         "rapid X5.000000 Y3.000000 Z10.000000\nfeed X5.000000 Y3.000000 Z-2.000000 F100.000000\n"
@@ -67,8 +67,8 @@ TEST_CASE("mikroprog: a watcher sees rapids, feeds and probe moves in coordinate
 
 TEST_CASE("mikroprog: with a watcher the signal is for probe moves alone") {
   Watched w(kProgram); // no signal: the tail
-  w.run();
-  CHECK(w.machine.lastStop() == "NIC");
+  w.traced();
+  CHECK(w.lastStop() == "NIC");
   CHECK(w.trace.find("no-contact X9.000000") != std::string::npos);
   CHECK(w.trace.ends_with("stop NIC\nend\n"));
 }
@@ -78,8 +78,8 @@ TEST_CASE("mikroprog: O7 asks whether the probe is deflected, not for a touch") 
     Watched w("N10 G23 L40 O7\r\nN20 M0 ;FREI\r\nN30 M30\r\nN40 M0 ;DOTYK\r\nN50 M30\r\n");
     w.share = 0.0; // would be a contact
     w.there = there;
-    w.run();
-    CHECK(w.machine.lastStop() == (there ? "DOTYK" : "FREI"));
+    w.traced();
+    CHECK(w.lastStop() == (there ? "DOTYK" : "FREI"));
   }
 }
 
@@ -87,35 +87,22 @@ TEST_CASE("mikroprog: who watches may end the run, calls are known while they ar
   Watched w("N10 G90\r\nN20 G26 L100\r\nN30 M30\r\nN100 G0 X1 Y1\r\nN110 G26 L200\r\nN120 M17\r\n"
             "N200 G0 X2\r\nN210 M17\r\n");
   w.stopAt = 2;
-  w.run();
-  CHECK(w.machine.ending() == MikroprogEnding::Inconclusive);
-  CHECK(w.machine.why() == "enough");
-  CHECK(w.machine.line() == 7);
-  CHECK(w.machine.openCalls() == std::vector<std::uint32_t>{2, 5});
+  w.traced();
+  CHECK(w.ending() == Ending::Inconclusive);
+  CHECK(w.why() == "enough");
+  CHECK(w.line() == 7);
+  std::vector<std::uint32_t> calls;
+  for (const SourceRange& call : w.run->openCalls())
+    calls.push_back(w.sources.line(call));
+  CHECK(calls == std::vector<std::uint32_t>{2, 5});
   Watched probe("N10 G90 G94\r\nN20 G31 X9 Y1 L40\r\nN30 M30\r\nN40 M30\r\n");
   probe.stopAt = 1;
-  probe.run();
-  CHECK(probe.machine.why() == "enough");
+  probe.traced();
+  CHECK(probe.why() == "enough");
 }
 
-TEST_CASE("mikroprog: a program that records for ever ends") {
-  Watched w("N10 G90\r\nN20 M25 @A.SOU\r\nN30 G27 L20\r\nN40 M30\r\n");
-  w.machine.run(10'000'000);
-  CHECK(w.machine.ending() == MikroprogEnding::Endless);
-  CHECK(w.machine.events().size() == 100'000);
-}
-
-TEST_CASE("mikroprog: a statement that is no plain block ends a run before it moves anything") {
-  SourceMap sources;
-  ir::Program program;
-  program.body.emplace_back();
-  program.body.back().node = ir::Port{true};
-  const sim::BlockList list(std::move(program), sources);
-  CHECK_FALSE(list.refused.empty());
-  const auto control = loadMikroprog("mikroprog-mill");
-  sim::MikroprogMachine machine(control, list);
-  machine.run();
-  CHECK(machine.ending() == MikroprogEnding::Inconclusive);
-  CHECK(machine.why() == list.refused);
-  CHECK(machine.blocks() == 0);
+TEST_CASE("mikroprog: a move whose contact leads to a stop is meant to meet nothing") {
+  Watched w("N10 G31 Z5 L30\r\nN20 G27 L90\r\nN30 G31 X9 L90\r\nN40 M30\r\nN90 M0\r\nN95 M30\r\n");
+  w.traced();
+  CHECK(w.meant == std::vector<bool>{true, false});
 }

@@ -1,0 +1,245 @@
+#include "backends/mikroprog/TargetCompare.h"
+
+#include "stdlib/MacroSet.h"
+#include "support/Decimal.h"
+#include "verify/Gather.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace dotek::targets {
+
+namespace {
+
+using sim::Point3;
+using stdlib::MacroAlarm;
+using verify::Aspect;
+using verify::Mark;
+using verify::Measure;
+
+constexpr std::size_t kBoreSides = 4;     // touches of a bore
+constexpr double kSame = 1e-8;            // mm: sums of coordinates that come to the same
+constexpr double kValueTolerance = 0.005; // of a recorded diameter, mm
+constexpr std::uint32_t kActive = 54;     // the one system
+
+double& part(Point3& p, std::size_t axis) {
+  return axis == 0 ? p.x : axis == 1 ? p.y : p.z;
+}
+
+// Coordinates in a text "ZDE MA BYT X-3 Y10", written with `form`.
+std::array<std::optional<double>, 3> coordinatesIn(const std::string& text, const std::string& form) {
+  std::array<std::optional<double>, 3> out;
+  const std::size_t hole = form.find("{}");
+  if (hole == std::string::npos || text.substr(0, hole) != form.substr(0, hole)) return out;
+  for (std::size_t at = hole; at < text.size(); ++at) {
+    const std::size_t axis = std::string_view("XYZ").find(text[at]);
+    double value = 0;
+    if (axis != std::string_view::npos &&
+        std::from_chars(text.data() + at + 1, text.data() + text.size(), value).ec == std::errc())
+      out[axis] = value;
+  }
+  return out;
+}
+
+// What each measure of the program was meant for and has set, as the macro's call says it.
+class Meaning {
+public:
+  Meaning(const MikroprogFacts& facts) : facts_(facts), zero_(facts.zero) {}
+
+  std::vector<verify::Difference> own; // what the common rules do not ask for
+
+  void read(Measure& want, Measure& got, const verify::Gathered::Parts& parts, bool stopped) {
+    const bool bore = want.nominal.size() == kBoreSides;
+    nominals(want, got, parts, bore);
+    if (stopped) { // only what was looked for is compared
+      want.nominal.resize(std::min(want.nominal.size(), got.nominal.size()));
+      want.contacts = got.contacts;
+      want.end = want.start;
+      return;
+    }
+    if (bore) {
+      centresOnly(want.contacts);
+      centresOnly(got.contacts);
+    }
+    datums(want, got, parts);
+    records(want, parts, bore);
+  }
+
+private:
+  void add(Aspect aspect, std::string text, SourceRange source, SourceRange target) {
+    own.push_back({aspect, std::move(text), source, target});
+  }
+
+  // Where each search expects its surface: its end without the overtravel.
+  void nominals(Measure& want, Measure& got, const verify::Gathered::Parts& parts, bool bore) {
+    double beside = 0; // by how much the first wall of a pair lies off its place
+    double middle = 0; // the same of the middle between the two, along X
+    for (std::size_t i = 0; i < parts.touches.size(); ++i) {
+      const Measure& search = parts.touches[i];
+      const Point3 way = *search.aim - search.start;
+      if (!(way.length() > 0)) continue;
+      verify::Touch touch;
+      touch.direction = way * (1 / way.length());
+      touch.point = *search.aim - touch.direction * facts_.overtravel;
+      if (touch.direction.z == 0) touch.point.z += facts_.ballRadius;
+      if (bore && i < want.nominal.size()) {
+        // The ball's centre is searched, where the wall is less a radius; the second wall of a pair from the
+        // first.
+        touch.point = touch.point + touch.direction * facts_.ballRadius;
+        const std::size_t axis = i / 2;
+        Point3 found = search.end + touch.direction * facts_.ballRadius;
+        if (i % 2 == 1 && !facts_.byOperator) part(touch.point, axis) -= beside;
+        if (i % 2 == 0) beside = part(found, axis) - part(want.nominal[i].point, axis);
+        if (axis == 0 && i < want.contacts.size())
+          middle +=
+              (want.contacts[i].centre.x + touch.direction.x * facts_.ballRadius - want.nominal[i].point.x) /
+              2;
+        // After the first datum of a bore the ball is in the middle along X.
+        if (axis == 1 && !want.datums.empty() && !facts_.byOperator) want.nominal[i].point.x += middle;
+      }
+      got.nominal.push_back(touch);
+      got.contacts.insert(got.contacts.end(), search.contacts.begin(), search.contacts.end());
+    }
+  }
+
+  // Of a bore the place of the ball, where it touches: what it touches leans with where it is across.
+  void centresOnly(std::vector<sim::ProbeEvent>& contacts) const {
+    for (std::size_t i = 0; i < contacts.size(); ++i) {
+      contacts[i].point = contacts[i].centre;
+      // Without a walk the ball is in the middle that was expected, not in the one that was found.
+      if (facts_.byOperator && i > 1) contacts[i].point = {};
+    }
+  }
+
+  // The zero that G92 makes, or an operator who enters what the panel shows.
+  void datums(const Measure& want, Measure& got, const verify::Gathered::Parts& parts) {
+    std::optional<Point3> zero;
+    std::array<bool, 3> set{};
+    for (const Mark& mark : parts.marks) {
+      if (mark.kind == Mark::Kind::Stop && enter(mark, parts, zero, set)) got.datumRange = mark.range;
+      if (mark.kind != Mark::Kind::Datum) continue;
+      zero = mark.zero;
+      got.datumRange = mark.range;
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        set[axis] = std::abs(part(zero_, axis) - part(*zero, axis)) > kSame;
+    }
+    if (!zero) return;
+    // A zero that stays where it is counts as set where the source sets it.
+    for (const auto& [key, value] : want.datums)
+      set[key.second] = true;
+    for (std::uint32_t axis = 0; axis < 3; ++axis)
+      if (set[axis]) got.datums[{kActive, axis}] = part(*zero, axis);
+    if (!facts_.byOperator) zero_ = *zero;
+  }
+
+  bool enter(const Mark& stop, const verify::Gathered::Parts& parts, std::optional<Point3>& zero,
+             std::array<bool, 3>& set) {
+    const bool middle = parts.touches.size() == kBoreSides;
+    const auto shown =
+        coordinatesIn(stop.text, middle ? facts_.control.enterCentre : facts_.control.enterShift);
+    bool any = false;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      if (!shown[axis]) continue;
+      Point3 at = stop.at;
+      if (middle && axis < 2) at = (parts.touches[2 * axis].end + parts.touches[2 * axis + 1].end) * 0.5;
+      if (!zero) zero = zero_;
+      part(*zero, axis) = part(at, axis) - *shown[axis] / (facts_.control.isDiameter("XYZ"[axis]) ? 2 : 1);
+      any = set[axis] = true;
+    }
+    return any;
+  }
+
+  // Each contact is kept in a record; of a bore that is set by G92, its size along each axis.
+  void records(const Measure& want, const verify::Gathered::Parts& parts, bool bore) {
+    std::vector<const Mark*> places, values;
+    for (const Mark& mark : parts.marks)
+      if (mark.kind == Mark::Kind::Position || mark.kind == Mark::Kind::Value)
+        (mark.kind == Mark::Kind::Position ? places : values).push_back(&mark);
+    const bool sizes = bore && places.empty();
+    const std::size_t wanted = sizes ? parts.touches.size() / 2 : parts.touches.size();
+    const auto& kept = sizes ? values : places;
+    if (kept.size() != wanted)
+      return add(Aspect::Contact,
+                 fmt::format("{} {} against {} records", wanted, sizes ? "sizes" : "contacts", kept.size()),
+                 want.range, parts.touches.front().range);
+    for (std::size_t i = 0; i < kept.size(); ++i) {
+      if (!sizes) {
+        if ((kept[i]->at - parts.touches[i].end).length() > facts_.tolerance)
+          add(Aspect::Contact, "a record that is not made at the contact", want.range, kept[i]->range);
+        continue;
+      }
+      const double size = (parts.touches[2 * i].end - parts.touches[2 * i + 1].end).length();
+      if (std::abs(-2 * kept[i]->value - size) > kValueTolerance)
+        add(Aspect::Contact,
+            fmt::format("a distance of {} between the walls against {}", fixedText(size, 6),
+                        fixedText(-2 * kept[i]->value, 6)),
+            want.range, kept[i]->range);
+    }
+  }
+
+  const MikroprogFacts& facts_;
+  Point3 zero_; // of the active system
+};
+
+} // namespace
+
+void takeEnding(verify::Record& ran, const stdlib::MikroprogControl& control) {
+  if (ran.ending == verify::Ending::Alarm)
+    ran.ending = verify::Ending::Inconclusive; // a fault of the control
+  if (!ran.endedAt.hasPlace() && !ran.pieces.empty()) ran.endedAt = ran.pieces.back().range;
+  if (ran.ending != verify::Ending::Finished) return;
+  for (auto mark = ran.marks.rbegin(); mark != ran.marks.rend(); ++mark) {
+    if (mark->kind != Mark::Kind::Stop) continue;
+    const bool missing = mark->text == control.notFound;
+    if (!missing && mark->text != control.collision) return;
+    ran.ending = verify::Ending::Alarm;
+    ran.text = mark->text;
+    ran.alarmKind = macroAlarmName(missing ? MacroAlarm::ProbeFail : MacroAlarm::PathObstructed);
+    ran.endedAt = mark->range;
+    return;
+  }
+}
+
+std::vector<verify::Difference> compareWithSource(verify::Record source, const verify::Record& ran,
+                                                  const MikroprogFacts& facts) {
+  const std::string_view obstructed = macroAlarmName(MacroAlarm::PathObstructed);
+  // What the source touches with its probe off stops a probe that is always on.
+  if (!source.events.empty() && ran.alarmKind == obstructed) return {};
+  // Contact before a search begins is asked for before the chain.
+  if (source.alarmKind == macroAlarmName(MacroAlarm::ProbeOpen)) source.alarmKind = obstructed;
+  source.stores.clear();
+  source.zeros.clear(); // each measure says what it sets
+  for (verify::Piece& piece : source.pieces)
+    if (piece.kind == sim::PathKind::Measuring) piece.to = piece.from;
+  const bool bores = std::any_of(source.measures.begin(), source.measures.end(),
+                                 [](const Measure& one) { return one.nominal.size() == kBoreSides; });
+  verify::CompareRules rules;
+  rules.tolerance = rules.results = bores ? std::max(facts.tolerance, kMiddleTolerance) : facts.tolerance;
+  rules.atMeasures = rules.mayRestoreModes = true;
+
+  verify::Gathered got = gather(source, ran, facts.tolerance, rules.tolerance);
+  Meaning meaning(facts);
+  for (std::size_t i = 0; i < std::min(source.measures.size(), got.parts.size()); ++i) {
+    Measure& want = source.measures[i];
+    const bool stopped = source.ending != verify::Ending::Finished &&
+                         want.contacts.size() < std::max<std::size_t>(1, want.nominal.size());
+    meaning.read(want, got.record.measures[i], got.parts[i], stopped);
+  }
+  for (const Mark& mark : got.loose)
+    meaning.own.push_back(
+        {mark.kind == Mark::Kind::Datum ? Aspect::Offset : Aspect::Contact,
+         mark.kind == Mark::Kind::Datum ? "nothing against a datum" : "nothing against a record",
+         {},
+         mark.range});
+  std::vector<verify::Difference> out = compare(source, got.record, rules);
+  if (!out.empty() && out.front().aspect == Aspect::Ending) return out;
+  for (verify::Difference& one : meaning.own)
+    if (std::none_of(out.begin(), out.end(), [&](const auto& told) { return told.aspect == one.aspect; }))
+      out.push_back(std::move(one));
+  std::stable_sort(out.begin(), out.end(), [](const auto& a, const auto& b) { return a.aspect < b.aspect; });
+  return out;
+}
+
+} // namespace dotek::targets

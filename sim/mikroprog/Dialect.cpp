@@ -1,0 +1,149 @@
+#include "sim/mikroprog/Dialect.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace dotek::sim::mikroprog {
+
+using stdlib::Function;
+
+namespace {
+
+// What the machine does by itself. Arcs, tool changes, stored shifts and cycles have their place here once
+// they are followed.
+constexpr std::pair<std::string_view, Function> kEffects[] = {
+    {"rapid", Function::Rapid},
+    {"feed", Function::Feed},
+    {"dwell", Function::Dwell},
+    {"plane-xy", Function::PlaneXY},
+    {"plane-zx", Function::PlaneZX},
+    {"plane-yz", Function::PlaneYZ},
+    {"probe-move", Function::Skip},
+    {"compensation-off", Function::CutterCompOff},
+    {"system-off", Function::PathMode}, // no other system is followed yet
+    {"absolute", Function::Absolute},
+    {"incremental", Function::Incremental},
+    {"set-position", Function::SetPosition},
+    {"feed-per-minute", Function::FeedPerMinute},
+    {"end", Function::ProgramEnd},
+    {"spindle-right", Function::SpindleClockwise},
+    {"spindle-left", Function::SpindleCounterClockwise},
+    {"spindle-off", Function::SpindleOff},
+    {"coolant-on", Function::CoolantFlood},
+    {"coolant-off", Function::CoolantOff},
+};
+
+constexpr int kGrid = 6; // decimals: sums of coordinates lie on a grid of a nanometre
+
+class Blocks {
+public:
+  Blocks(const ir::Program& program, const stdlib::MikroprogControl& control)
+      : program_(program), control_(control) {
+    for (std::size_t i = 0; i < program.body.size(); ++i)
+      if (const auto* label = std::get_if<ir::Label>(&program.body[i].node))
+        numbers_.emplace(program.labels[label->label].number, i);
+  }
+
+  bool does(const ir::NcBlock& block, std::string_view what) const {
+    return std::any_of(block.words.begin(), block.words.end(), [&](const ir::Word& word) {
+      const auto number = word.address == 'G' || word.address == 'M' ? wholeOf(word) : std::nullopt;
+      const auto* function = number ? control_.find(word.address, *number) : nullptr;
+      return function != nullptr && function->function == what;
+    });
+  }
+
+  // The statement of the block that L names.
+  std::optional<std::size_t> target(const ir::NcBlock& block) const {
+    const ir::Word* const word = find(block, 'L');
+    const auto number = word == nullptr ? std::nullopt : wholeOf(*word);
+    const auto found = number ? numbers_.find(*number) : numbers_.end();
+    return found == numbers_.end() ? std::nullopt : std::optional(found->second);
+  }
+
+  // From this statement on nothing happens but jumps, up to a stop.
+  bool stops(std::size_t at) const {
+    for (std::size_t steps = 0; at < program_.body.size() && steps < program_.body.size(); ++steps) {
+      const auto& node = program_.body[at].node;
+      if (std::holds_alternative<ir::Label>(node) || std::holds_alternative<ir::Comment>(node)) {
+        ++at;
+        continue;
+      }
+      const auto* block = std::get_if<ir::NcBlock>(&node);
+      if (block == nullptr) return false;
+      if (does(*block, "stop")) return true;
+      const auto to = target(*block);
+      if (!does(*block, "jump") || !to) return false;
+      at = *to;
+    }
+    return false;
+  }
+
+private:
+  const ir::Program& program_;
+  const stdlib::MikroprogControl& control_;
+  std::map<std::uint64_t, std::size_t> numbers_; // N to the first block that has it
+};
+
+} // namespace
+
+std::optional<std::uint32_t> wholeOf(const ir::Word& word) {
+  const double* const number = ir::constantValue(word.value);
+  if (number == nullptr || !(*number >= 0 && *number < 1e9) || *number != std::floor(*number))
+    return std::nullopt;
+  return static_cast<std::uint32_t>(*number);
+}
+
+const ir::Word* find(const ir::NcBlock& block, char address) {
+  const auto at = std::find_if(block.words.begin(), block.words.end(),
+                               [&](const ir::Word& word) { return word.address == address; });
+  return at == block.words.end() ? nullptr : &*at;
+}
+
+Profile::Profile(const stdlib::MikroprogControl& of) : control(of) {
+  machine.name = of.name;
+  machine.title = of.title;
+  machine.origin = of.origin;
+  machine.increment = 1e-6;
+  machine.decimals = kGrid;
+  machine.integerDigits = 9; // what fits a word is for the checks
+  machine.locals = 0;
+  machine.common = {{variableOf(0), variableOf(999), false}};
+  machine.sequenceLast = 999'999'999;
+  machine.alarms = {{stdlib::Alarm::NoFeed, 0, "a feed move with F0", "", ""},
+                    {stdlib::Alarm::NoSuchSequence, 0, "no block has this number", "", ""}};
+  for (const stdlib::MikroprogFunction& function : of.functions) {
+    const auto effect = std::find_if(std::begin(kEffects), std::end(kEffects),
+                                     [&](const auto& one) { return one.first == function.function; });
+    if (effect == std::end(kEffects) || !function.usable) continue;
+    machine.codes.push_back(
+        {function.letter, function.number * 10, effect->second, {}, function.title, "", ""});
+    if (function.start && function.letter == 'G') dialect.startCodes.push_back(function.number * 10);
+  }
+  dialect.wordDecimals = of.decimals;
+  dialect.skipsAtOwnSpeed = true;
+  dialect.numbersAlarms = false;
+  dialect.firstParameter = variableOf(0);
+  dialect.dwellLetter = 'E';
+  dialect.holdsTool = true;
+}
+
+std::vector<SkipMoveUse> skipMoves(const ir::Program& program, const stdlib::MikroprogControl& control) {
+  std::vector<SkipMoveUse> out;
+  const Blocks blocks(program, control);
+  for (std::size_t i = 0; i < program.body.size(); ++i) {
+    const auto* block = std::get_if<ir::NcBlock>(&program.body[i].node);
+    if (block == nullptr || !blocks.does(*block, "probe-move")) continue;
+    SkipMoveUse one{i, SkipUse::Neither};
+    if (const auto to = blocks.target(*block); !to) {
+      one.use = SkipUse::Blind;
+    } else {
+      const bool contact = blocks.stops(i + 1), missed = blocks.stops(*to);
+      if (contact != missed) one.use = contact ? SkipUse::Protected : SkipUse::Search;
+    }
+    out.push_back(one);
+  }
+  return out;
+}
+
+} // namespace dotek::sim::mikroprog

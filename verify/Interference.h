@@ -1,0 +1,24 @@
+// What the probe says against what is there: whether a program is caught by its own guards.
+#pragma once
+
+#include "verify/Record.h"
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace dotek::verify {
+
+// Each by its number in the run, from 0. Of bare skip moves: those within a call are the macro's own.
+struct Interference {
+  std::optional<std::size_t> missing;  // this search finds nothing
+  std::optional<std::size_t> obstacle; // this protected move is stopped half way
+  std::optional<std::size_t> touching; // this question finds contact
+};
+
+// Whether the run came to the interference and then ended with the alarm of this kind: nothing moved any
+// more, no datum was set, nothing recorded. "" or what it did instead; `at`: where.
+std::string whyNotCaught(const Record& record, std::string_view alarmKind, SourceRange& at);
+
+} // namespace dotek::verify
