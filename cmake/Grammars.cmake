@@ -32,7 +32,9 @@ function(dotek_grammar name)
             -Xexact-output-dir -o ${out} ${lexer}
     COMMAND ${ANTLR4_TOOL} -Werror -Dlanguage=Cpp -no-listener -no-visitor -package dotek::grammar
             -Xexact-output-dir -o ${out} -lib ${out} ${parser}
-    DEPENDS ${lexer} ${parser}
+    COMMAND ${CMAKE_COMMAND} -DSOURCE=${out}/${name}Lexer.cpp -P ${PROJECT_SOURCE_DIR}/cmake/LazyGrammar.cmake
+    COMMAND ${CMAKE_COMMAND} -DSOURCE=${out}/${name}Parser.cpp -P ${PROJECT_SOURCE_DIR}/cmake/LazyGrammar.cmake
+    DEPENDS ${lexer} ${parser} ${PROJECT_SOURCE_DIR}/cmake/LazyGrammar.cmake
     VERBATIM COMMENT "ANTLR ${name}")
   add_library(dotek_grammar_${name} STATIC ${out}/${name}Lexer.cpp ${out}/${name}Parser.cpp)
   target_include_directories(dotek_grammar_${name} SYSTEM PUBLIC ${out})

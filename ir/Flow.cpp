@@ -13,6 +13,13 @@ std::uint8_t blockDeleteOf(const ProgramStatement& statement) {
   return statement.blockDelete;
 }
 
+bool endsHere(const NcBlock& block) {
+  return std::any_of(block.words.begin(), block.words.end(), [](const Word& word) {
+    const double* code = word.address == 'M' ? constantValue(word.value) : nullptr;
+    return code != nullptr && (*code == 30 || *code == 2);
+  });
+}
+
 template <AnyStatement Statement>
 std::vector<std::vector<std::size_t>> successorsOf(const std::vector<Statement>& list) {
   std::unordered_map<LabelId, std::size_t> places;
@@ -43,9 +50,10 @@ std::vector<std::vector<std::size_t>> successorsOf(const std::vector<Statement>&
           std::sort(out[i].begin(), out[i].end());
         },
         [&](const OneOf<Return, Exit> auto&) { out[i].push_back(list.size()); },
+        [&](const NcBlock& block) { out[i].push_back(endsHere(block) ? list.size() : i + 1); },
         [](const OneOf<Alarm, Raise> auto&) {},
         [&](const OneOf<Label, Store, Move, Measure, ProbePower, Comment, Assign, Spindle, Coolant, SetMode,
-                        Dwell, Stop, OpaqueBlock, NcBlock, Call, Notice, Port, Print, NameVariables> auto&) {
+                        Dwell, Stop, OpaqueBlock, Call, Notice, Port, Print, NameVariables> auto&) {
           out[i].push_back(i + 1);
         });
     // Block delete leaves a statement out.
@@ -98,6 +106,15 @@ std::vector<std::vector<std::size_t>> successors(const std::vector<CycleStatemen
 
 std::vector<std::vector<std::size_t>> successors(const std::vector<ProgramStatement>& list) {
   return successorsOf(list);
+}
+
+bool endsProgram(const CycleStatement&) {
+  return false;
+}
+
+bool endsProgram(const ProgramStatement& statement) {
+  const auto* block = std::get_if<NcBlock>(&statement.node);
+  return block != nullptr && endsHere(*block);
 }
 
 std::optional<LabelId> targetOf(const CycleStatement& statement) {

@@ -11,10 +11,13 @@
 namespace dotek::ir {
 
 // Indices of the statements that may follow each statement of a cycle or a program (a computed jump: all
-// labels); `list.size()` is the end. Return and Exit go to the end, Alarm and Raise to none. Codes mean
-// nothing here: a block with M30 goes on at the next one.
+// labels); `list.size()` is the end. Return, Exit and a block that ends the program go to the end, Alarm and
+// Raise to none.
 std::vector<std::vector<std::size_t>> successors(const std::vector<CycleStatement>& list);
 std::vector<std::vector<std::size_t>> successors(const std::vector<ProgramStatement>& list);
+// M30 or M2 that is written out, the same on every control; no cycle has them.
+bool endsProgram(const CycleStatement& statement);
+bool endsProgram(const ProgramStatement& statement);
 // The label that a Jump or a Branch goes to; nothing: another statement, or a computed jump.
 std::optional<LabelId> targetOf(const CycleStatement& statement);
 std::optional<LabelId> targetOf(const ProgramStatement& statement);

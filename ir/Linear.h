@@ -22,7 +22,8 @@ struct LinearForm {
 std::optional<LinearForm> linear(const ExpressionPtr& expression, const Cycle& cycle);
 // a + factorOfB * b; nullopt where that rounds.
 std::optional<LinearForm> add(const LinearForm& a, const LinearForm& b, double factorOfB = 1);
-// Equal for all values of the variables, if it has a value at all. false: not proved.
+// Equal for all values of the variables, if it has a value at all, in exact arithmetic: a control that adds a
+// large number and takes it away again rounds. false: not proved.
 bool provenEqual(const ExpressionPtr& a, const ExpressionPtr& b, const Cycle& cycle);
 
 // Sum and product of the shortest decimals of both; nullopt where a double does not hold it.

@@ -191,7 +191,6 @@ std::vector<std::optional<ProbeState>> Probing::statesOf(const std::vector<State
   return ir::factsBefore<ProbeState>(
       body, ProbeState::AsBefore,
       [&](std::size_t at, std::size_t, ProbeState before) {
-        if (endsProgram(body[at])) return ProbeState::Ended;
         switch (step(body[at]).kind) {
         case ProbeStep::Kind::On: return ProbeState::On;
         case ProbeStep::Kind::Off: return ProbeState::Off;
@@ -205,8 +204,8 @@ std::vector<std::optional<ProbeState>> Probing::statesOf(const std::vector<State
         return before;
       },
       [](ProbeState& into, ProbeState other) {
-        if (into == other || into == ProbeState::Mixed || other == ProbeState::Ended) return false;
-        into = into == ProbeState::Ended ? other : ProbeState::Mixed;
+        if (into == other || into == ProbeState::Mixed) return false;
+        into = ProbeState::Mixed;
         return true;
       });
 }
@@ -230,18 +229,9 @@ bool Probing::probes(const ir::Program& program) const {
   });
 }
 
-bool endsProgram(const ir::CycleStatement&) {
-  return false;
-}
-
-bool endsProgram(const ir::ProgramStatement& statement) {
-  const auto* block = std::get_if<ir::NcBlock>(&statement.node);
-  return block != nullptr && (hasCode(*block, 'M', 30) || hasCode(*block, 'M', 2));
-}
-
 bool endsProgram(const ir::Program& program) {
   return std::any_of(program.body.begin(), program.body.end(),
-                     [](const ir::ProgramStatement& statement) { return endsProgram(statement); });
+                     [](const ir::ProgramStatement& statement) { return ir::endsProgram(statement); });
 }
 
 void eachProgram(const Project& project,

@@ -30,9 +30,8 @@ struct ProbeStep {
   std::uint32_t program = 0; // of a call
 };
 
-// AsBefore: nothing has switched it yet. Mixed: paths disagree, or a call may have switched it. Ended: the
-// program ends before.
-enum class ProbeState : std::uint8_t { AsBefore, Off, On, Mixed, Ended };
+// AsBefore: nothing has switched it yet. Mixed: paths disagree, or a call may have switched it.
+enum class ProbeState : std::uint8_t { AsBefore, Off, On, Mixed };
 
 // Whether a call with these letters can be one of the set: letters that its signatures do not have are
 // optional ones of the vendor's. Another vendor may have a macro of the same number.
@@ -76,9 +75,8 @@ private:
 // Computed once a project.
 const Probing& probingOf(const Project& project);
 
-// M30 or M2, which no cycle has.
-bool endsProgram(const ir::CycleStatement& statement);
-bool endsProgram(const ir::ProgramStatement& statement);
+using ir::endsProgram;
+// M30 or M2 is somewhere in it.
 bool endsProgram(const ir::Program& program);
 
 // All programs of all files that could be lowered, up to 20000 statements each.

@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <deque>
 #include <map>
+#include <memory>
 #include <optional>
 #include <set>
 #include <string>
@@ -56,7 +57,8 @@ struct ConversionContext {
 
 class Conversion {
 public:
-  Conversion() = default;
+  explicit Conversion(ConversionContext& context)
+      : context_(context), options_(context.options), session_(context.session) {}
   virtual ~Conversion() = default;
   Conversion(const Conversion&) = delete;
   Conversion& operator=(const Conversion&) = delete;
@@ -69,7 +71,17 @@ public:
   virtual void program(const std::string& /*path*/) {}
   // After the last input.
   virtual void finish() {}
+
+protected:
+  ConversionContext& context_;
+  const ConvertOptions& options_;
+  Session& session_;
 };
+
+// `Target::convert` of a target that is written by this class.
+template <class Written> std::unique_ptr<Conversion> conversionBy(ConversionContext& context) {
+  return std::make_unique<Written>(context);
+}
 
 struct LoweredSource {
   LoweredCycle lowered;

@@ -12,6 +12,7 @@
 
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <optional>
 #include <set>
 #include <string>
@@ -105,5 +106,11 @@ public:
   // Before the first case, once the plan is complete.
   virtual bool prepare() = 0;
 };
+
+// `Target::programs` of a target whose programs this class runs.
+template <class Runner>
+std::unique_ptr<ProgramSubject> programsBy(const VerifyOptions& options, const VerifyPlan& plan) {
+  return std::make_unique<Runner>(options, plan);
+}
 
 } // namespace dotek::targets

@@ -1,6 +1,7 @@
 // Writes a cycle as a Fanuc macro program that is called with G65.
 #pragma once
 
+#include "backends/common/EmittedLine.h"
 #include "ir/Cycle.h"
 #include "stdlib/Control.h"
 #include "stdlib/MacroSet.h"
@@ -30,12 +31,6 @@ struct EmitOptions {
   bool plainMessages = false;
   // The source calls another set: calls are written in the order of the signature, not of the source's block.
   bool foreignMacros = false;
-};
-
-struct EmittedLine {
-  std::string text;                // ASCII, without line end
-  std::vector<SourceRange> ranges; // empty: made up
-  std::string reason;
 };
 
 // The argument of a parameter or host input in a call of the program.

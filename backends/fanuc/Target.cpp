@@ -26,8 +26,7 @@ constexpr std::uint32_t kFirstProgram = 8000;
 class FanucConversion final : public Conversion {
 public:
   explicit FanucConversion(ConversionContext& context)
-      : context_(context), options_(context.options), session_(context.session),
-        programs_(context.options, context.session) {}
+      : Conversion(context), programs_(context.options, context.session) {}
 
   bool beginPrograms() override { return programs_.load(); }
   bool beginCycles() override { return numbersDiffer(); }
@@ -123,19 +122,8 @@ private:
     return out;
   }
 
-  ConversionContext& context_;
-  const ConvertOptions& options_;
-  Session& session_;
   ProgramConversion programs_;
 };
-
-std::unique_ptr<Conversion> fanucConversion(ConversionContext& context) {
-  return std::make_unique<FanucConversion>(context);
-}
-
-std::unique_ptr<ProgramSubject> fanucPrograms(const VerifyOptions& options, const VerifyPlan& plan) {
-  return std::make_unique<ProgramRunner>(options, plan);
-}
 
 constexpr TargetFlag kFlags[] = {TargetFlag::Arg, TargetFlag::ProgramNumber, TargetFlag::ProbeMacros,
                                  TargetFlag::DefaultsUse, TargetFlag::ProbePower};
@@ -148,9 +136,9 @@ DOTEK_TARGET(fanuc) = {
     .text = "program that is called with G65",
     .flags = kFlags,
     .takesPathAlone = true,
-    .convert = fanucConversion,
+    .convert = conversionBy<FanucConversion>,
     .verify = fanucVerification,
-    .programs = fanucPrograms,
+    .programs = programsBy<ProgramRunner>,
 };
 
 } // namespace target

@@ -1,6 +1,7 @@
 // Writes a cycle as a part of a Fusion post: ES5, one function that checks the fields and prints the blocks.
 #pragma once
 
+#include "backends/common/EmittedLine.h"
 #include "ir/Cycle.h"
 #include "ir/PrintedText.h"
 #include "stdlib/Control.h"
@@ -31,12 +32,6 @@ struct EmitOptions {
   std::map<std::string, double> fixedByName; // named in the head; a start point that is here is checked
   std::map<ir::VariableId, std::vector<Choice>> choices; // of a field that the dialog offers as a list
   std::map<ir::VariableId, double> defaults; // values of the source, those its checks reject included
-};
-
-struct EmittedLine {
-  std::string text;                // ASCII, without line end
-  std::vector<SourceRange> ranges; // empty: made up
-  std::string reason;
 };
 
 // "surfaceX" of "surface-x": what each name of the fragment begins with. Letters and digits of ASCII alone; a

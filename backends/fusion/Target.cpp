@@ -77,8 +77,7 @@ void refuseFlag(std::string_view flag, Diagnostics& diagnostics) {
 // Parts of a post, one for each cycle of the command; with --whole-post one file.
 class FusionConversion final : public Conversion {
 public:
-  explicit FusionConversion(ConversionContext& context)
-      : context_(context), options_(context.options), session_(context.session) {}
+  using Conversion::Conversion;
 
   bool cycle(const CycleFolder& folder, std::size_t /*index*/) override {
     std::optional<LoweredSource> source = lowerSource(folder, context_);
@@ -102,7 +101,7 @@ public:
         write(part.prefix + ".js", std::move(part.lines));
       return;
     }
-    std::vector<std::vector<fusion::EmittedLine>> fragments;
+    std::vector<std::vector<backends::EmittedLine>> fragments;
     std::vector<std::string> prefixes;
     for (const Part& part : parts_) {
       fragments.push_back(part.lines);
@@ -115,11 +114,11 @@ public:
 private:
   struct Part {
     std::string cycle, prefix;
-    std::vector<fusion::EmittedLine> lines;
+    std::vector<backends::EmittedLine> lines;
   };
 
-  void write(const std::string& name, std::vector<fusion::EmittedLine> lines) {
-    for (fusion::EmittedLine& line : lines)
+  void write(const std::string& name, std::vector<backends::EmittedLine> lines) {
+    for (backends::EmittedLine& line : lines)
       std::erase_if(line.ranges, [](const SourceRange& range) { return !range.hasPlace(); });
     context_.result.add(name, lines);
   }
@@ -158,15 +157,8 @@ private:
     if (lines) parts_.push_back({lowered.cycle.name, prefix, std::move(*lines)});
   }
 
-  ConversionContext& context_;
-  const ConvertOptions& options_;
-  Session& session_;
   std::vector<Part> parts_;
 };
-
-std::unique_ptr<Conversion> fusionConversion(ConversionContext& context) {
-  return std::make_unique<FusionConversion>(context);
-}
 
 constexpr TargetFlag kFlags[] = {TargetFlag::ProbeMacros, TargetFlag::WholePost};
 
@@ -179,7 +171,7 @@ DOTEK_TARGET(fusion) = {
     .flags = kFlags,
     .refuseFlag = refuseFlag,
     .checkConvert = checkFusionConvert,
-    .convert = fusionConversion,
+    .convert = conversionBy<FusionConversion>,
     .verify = fusionVerification,
 };
 

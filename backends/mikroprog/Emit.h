@@ -1,6 +1,7 @@
 // Writes a cycle whose values are all known as a program of a control by Mikronex (docs/mikroprog.md).
 #pragma once
 
+#include "backends/common/EmittedLine.h"
 #include "ir/Cycle.h"
 #include "stdlib/MikroprogControl.h"
 #include "support/Diagnostics.h"
@@ -34,12 +35,6 @@ struct EmitOptions {
   std::map<std::string, double> hosts; // stdlib/HostInputs.h: mm, mm/min
   bool lengthToCentre = false;         // the tool length ends at the ball's centre, else at its lowest point
   std::vector<NamedValue> values;      // of the parameters, for the header
-};
-
-struct EmittedLine {
-  std::string text;                // ASCII, without line end
-  std::vector<SourceRange> ranges; // empty: made up
-  std::string reason;
 };
 
 // Whether a move or a measurement of the cycle needs an axis Y.

@@ -107,8 +107,7 @@ namespace {
 // Programs without arguments, one for each cycle.
 class MikroprogConversion final : public Conversion {
 public:
-  explicit MikroprogConversion(ConversionContext& context)
-      : context_(context), options_(context.options), session_(context.session) {}
+  using Conversion::Conversion;
 
   bool beginCycles() override {
     return options_.control.empty() || loadMikroprogControl(options_.control, session_);
@@ -188,15 +187,8 @@ private:
     return out;
   }
 
-  ConversionContext& context_;
-  const ConvertOptions& options_;
-  Session& session_;
   std::map<std::string, std::string> written_; // names of files, by folder
 };
-
-std::unique_ptr<Conversion> mikroprogConversion(ConversionContext& context) {
-  return std::make_unique<MikroprogConversion>(context);
-}
 
 void checkDatum(const std::string& datum, Diagnostics& diagnostics) {
   if (datum != "g92" && datum != "operator") diagnostics.report<diag::UnknownDatum>({}, datum);
@@ -216,7 +208,7 @@ DOTEK_TARGET(mikroprog) = {
     .ownControls = true,
     .fixesValues = true,
     .hosts = kHosts,
-    .convert = mikroprogConversion,
+    .convert = conversionBy<MikroprogConversion>,
     .verify = mikroprogVerification,
 };
 

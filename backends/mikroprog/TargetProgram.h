@@ -18,8 +18,8 @@ namespace dotek::targets {
 
 // The program of one folder.
 struct MikroprogProgram {
-  std::string name;                                    // of its file, "SURFACEX.SUF"
-  std::vector<backends::mikroprog::EmittedLine> lines; // without their CR LF
+  std::string name;                         // of its file, "SURFACEX.SUF"
+  std::vector<backends::EmittedLine> lines; // without their CR LF
 };
 
 // The profile for a cycle: the given one, else the mill where it moves Y. nullopt: reported.

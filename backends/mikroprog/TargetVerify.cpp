@@ -150,7 +150,7 @@ private:
     auto program = writeMikroprog(from_.folder, std::move(lowered), writing, from_.session);
     if (!program) return std::nullopt;
     std::string out;
-    for (const backends::mikroprog::EmittedLine& line : program->lines)
+    for (const backends::EmittedLine& line : program->lines)
       out.append(line.text).append("\r\n");
     return out;
   }

@@ -358,26 +358,29 @@ void gotoTargetMissing(const CheckedProgram& input, Report& report) {
   }
 }
 
+namespace {
+
+// `text` says what of the block's number.
+void reportNumbered(const std::vector<FlowFindings::Numbered>& found,
+                    fmt::format_string<const std::uint64_t&> text, std::string_view note, Report& report) {
+  for (const FlowFindings::Numbered& one : found)
+    report.at(one.range, text, one.number).note(one.other, std::string(note));
+}
+
+} // namespace
+
 void duplicateTarget(const CheckedProgram& input, Report& report) {
-  for (const FlowFindings::Numbered& one : input.flow.targetsTwice)
-    report
-        .at(one.range,
-            "the program has N{} twice, and a jump goes there; the control takes the first one it finds "
-            "forward from "
-            "the jump; number them apart",
-            one.number)
-        .note(one.other, "the first");
+  reportNumbered(input.flow.targetsTwice,
+                 "the program has N{} twice, and a jump goes there; the control takes the first one it "
+                 "finds forward from the jump; number them apart",
+                 "the first", report);
 }
 
 void jumpIntoLoop(const CheckedProgram& input, Report& report) {
-  for (const FlowFindings::Numbered& one : input.flow.jumpsIntoLoop)
-    report
-        .at(one.range,
-            "block N{} is inside a loop, and the jump comes from outside; the control does not allow it; "
-            "jump to "
-            "the DO instead",
-            one.number)
-        .note(one.other, "the loop");
+  reportNumbered(input.flow.jumpsIntoLoop,
+                 "block N{} is inside a loop, and the jump comes from outside; the control does not allow "
+                 "it; jump to the DO instead",
+                 "the loop", report);
 }
 
 void blockNeverRuns(const CheckedProgram& input, Report& report) {

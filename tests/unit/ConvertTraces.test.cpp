@@ -113,7 +113,7 @@ Converted convert(const std::string& text, const stdlib::Control& from, const st
   for (const Diagnostic& one : found.all())
     if (one.severity == Severity::Error) out.told += std::string(one.code) + " ";
   if (lines)
-    for (const fanuc::EmittedLine& line : *lines)
+    for (const backends::EmittedLine& line : *lines)
       out.text += line.text + "\n";
   return out;
 }

@@ -139,7 +139,7 @@ struct SurfaceCycle : Maker {
 };
 
 struct Emission {
-  std::optional<std::vector<backends::fanuc::EmittedLine>> lines;
+  std::optional<std::vector<backends::EmittedLine>> lines;
   Diagnostics diagnostics;
 
   std::vector<std::string> texts() const {

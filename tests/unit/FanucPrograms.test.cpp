@@ -48,7 +48,7 @@ Converted convert(const std::string& source, const std::string& from, const std:
   const auto lines = fanuc::emitPrograms(*file, options, parsed.sources, found);
   Converted out{"", codes(found), ir::print(*file, nullptr)};
   if (lines)
-    for (const fanuc::EmittedLine& line : *lines)
+    for (const backends::EmittedLine& line : *lines)
       out.text += line.text + "\n";
   return out;
 }
@@ -158,7 +158,7 @@ TEST_CASE("macro B programs: a jump without a number of the text gets one") {
   const auto lines = fanuc::emitPrograms(file, {here, here, {}, {}, false}, SourceMap(), found);
   REQUIRE(lines);
   std::string text;
-  for (const fanuc::EmittedLine& line : *lines)
+  for (const backends::EmittedLine& line : *lines)
     text += line.text + "|";
   CHECK(text == "%|N40|#1=2|GOTO 40|N030|%|");
 }

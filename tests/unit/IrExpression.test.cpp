@@ -126,3 +126,29 @@ TEST_CASE("ir: flow of a program") {
   CHECK(next[5] == Next{0, 4, 6});
   CHECK(reachable(list)[6]);
 }
+
+TEST_CASE("ir: M30 and M2 end a program") {
+  const auto code = [](double number) {
+    NcBlock block;
+    block.words.push_back({'M', constant(number), {}});
+    return ProgramStatement{std::move(block), {}};
+  };
+  using Next = std::vector<std::size_t>;
+  for (const double number : {30.0, 2.0}) {
+    std::vector<ProgramStatement> list = {code(9), code(number), code(5)};
+    CHECK(successors(list)[0] == Next{1});
+    CHECK(successors(list)[1] == Next{3});
+    CHECK(reachable(list) == std::vector<bool>{true, true, false});
+    CHECK(endsProgram(list[1]));
+    CHECK_FALSE(endsProgram(list[0]));
+    // With the switch on, the control leaves the block out.
+    list[1].blockDelete = 1;
+    CHECK(successors(list)[1] == Next{3, 2});
+    CHECK(reachable(list)[2]);
+  }
+  // Which code this is turns out as it runs.
+  NcBlock computed;
+  computed.words.push_back({'M', machineVariable(constant(1)), {}});
+  const ProgramStatement statement{std::move(computed), {}};
+  CHECK(successors(std::vector{statement})[0] == Next{1});
+}

@@ -21,7 +21,7 @@ inline stdlib::MikroprogControl loadMikroprog(std::string_view name) {
 }
 
 struct MikroprogEmission {
-  std::optional<std::vector<backends::mikroprog::EmittedLine>> lines;
+  std::optional<std::vector<backends::EmittedLine>> lines;
   Diagnostics diagnostics;
 
   std::string text() const {
