@@ -43,12 +43,36 @@ void fill(const Raw& raw, Arguments& parsed) {
                                        : driver::Stage::Ast;
 }
 
+struct CommandFlags {
+  std::string_view name;
+  Command command;
+  void (*add)(CLI::App& app, Raw& raw);
+};
+constexpr CommandFlags kCommands[] = {
+    {"post", Command::Post, addPost}, {"convert", Command::Convert, addConvert},
+    {"lint", Command::Lint, addLint}, {"dump", Command::Dump, addDump},
+    {"sim", Command::Sim, addSim},    {"verify", Command::Verify, addVerify},
+    {"new", Command::New, addNew},    {"explain", Command::Explain, addExplain},
+    {"list", Command::List, addList},
+};
+
+// A command that is named first is the only one that is declared: declaring all flags takes longer than many
+// a command. Else all are, for the help.
+void declareCommands(CLI::App& app, const std::vector<std::string>& arguments, Raw& raw) {
+  const auto named = [&](const CommandFlags& one) {
+    return !arguments.empty() && arguments.front() == one.name;
+  };
+  const bool any = std::any_of(std::begin(kCommands), std::end(kCommands), named);
+  for (const CommandFlags& one : kCommands)
+    if (!any || named(one)) one.add(app, raw);
+}
+
 // CLI11 would only say that a command is missing.
-void checkCommand(const CLI::App& app, const std::vector<std::string>& arguments) {
+void checkCommand(const std::vector<std::string>& arguments) {
   if (arguments.empty() || arguments.front().starts_with('-')) return;
   std::vector<std::string> known;
-  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
-    known.push_back(command->get_name());
+  for (const CommandFlags& one : kCommands)
+    known.emplace_back(one.name);
   if (std::find(known.begin(), known.end(), arguments.front()) != known.end()) return;
   const std::string near = nearestName(arguments.front(), known);
   throw UsageError("no command `" + arguments.front() + "`" +
@@ -105,31 +129,16 @@ std::optional<int> parseArguments(const std::vector<std::string>& arguments, Arg
   CLI::App app("Dotek, a compiler for the languages of CNC probing", "dotek");
   app.set_version_flag("--version", "dotek 0.1.0");
   app.require_subcommand(1);
-  addPost(app, raw);
-  addConvert(app, raw);
-  addLint(app, raw);
-  addDump(app, raw);
-  addSim(app, raw);
-  addVerify(app, raw);
-  addNew(app, raw);
-  addExplain(app, raw);
-  addList(app, raw);
+  declareCommands(app, arguments, raw);
   try {
-    checkCommand(app, arguments);
+    checkCommand(arguments);
     std::vector<std::string> reversed = spreadPairs(arguments);
     std::reverse(reversed.begin(), reversed.end());
     app.parse(reversed);
     refuseEmptyValues(app);
     const std::string command = app.get_subcommands().front()->get_name();
-    parsed.command = command == "post"      ? Command::Post
-                     : command == "convert" ? Command::Convert
-                     : command == "lint"    ? Command::Lint
-                     : command == "dump"    ? Command::Dump
-                     : command == "explain" ? Command::Explain
-                     : command == "sim"     ? Command::Sim
-                     : command == "verify"  ? Command::Verify
-                     : command == "new"     ? Command::New
-                                            : Command::List;
+    for (const CommandFlags& one : kCommands)
+      if (one.name == command) parsed.command = one.command;
     fill(raw, parsed);
     return std::nullopt;
   } catch (const CLI::Success& success) {

@@ -58,6 +58,15 @@ Outcome outcomeOf(Session& session, std::string output, bool keepOutput) {
   return outcome;
 }
 
+Outcome refusalOf(Session& session) {
+  keepStrongest(session.diagnostics());
+  Outcome outcome = outcomeOf(session, "");
+  std::vector<Diagnostic>& all = outcome.diagnostics.all();
+  std::stable_partition(all.begin(), all.end(),
+                        [](const Diagnostic& d) { return d.severity == Severity::Error; });
+  return outcome;
+}
+
 void keepStrongest(Diagnostics& diagnostics) {
   std::map<std::pair<FileId, std::uint32_t>, Severity> strongest;
   // An empty range at the beginning stands for the whole file.

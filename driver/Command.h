@@ -20,6 +20,9 @@ using namespace targets; // NOLINT(google-build-using-namespace)
 // `keepOutput`.
 Outcome outcomeOf(Session& session, std::string output, bool keepOutput = false);
 
+// The same of a conversion that is refused: why there is nothing comes before what is only worth knowing.
+Outcome refusalOf(Session& session);
+
 // Codes that mean wrong arguments, or a file that cannot be read or written: status 2.
 bool isUsageCode(std::string_view code);
 

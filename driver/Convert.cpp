@@ -11,48 +11,10 @@
 #include "targets/Target.h"
 
 #include <algorithm>
-#include <fmt/ranges.h>
 
 namespace dotek::driver {
 
 namespace {
-
-// Names of the given options that speak of cycles.
-std::vector<std::string> cycleOptions(const ConvertOptions& options) {
-  const CommonOptions& common = options.common;
-  std::vector<std::string> out;
-  const auto add = [&](bool given, const char* name) {
-    if (given) out.emplace_back(name);
-  };
-  add(common.job.has_value(), "--job");
-  add(!common.set.empty(), "--set");
-  add(!common.field.empty(), "--field");
-  add(!common.host.empty(), "--host");
-  add(common.recover, "--recover");
-  add(options.source.prog.has_value(), "--prog");
-  add(options.source.form.has_value(), "--form");
-  add(options.source.routine.has_value(), "--routine");
-  add(options.source.cycle.has_value(), "--cycle");
-  add(!options.letters.empty(), "--arg");
-  add(!options.defaults.empty(), "--default");
-  add(options.useDefaults, "--defaults");
-  add(options.switchProbe, "--probe-power");
-  for (const std::string& name : common.assume)
-    if (name != "plain-messages") out.push_back("--assume " + name);
-  return out;
-}
-
-// Reports options of the command line that none of the inputs takes.
-void refuseOptions(const ConvertOptions& options, bool programs, bool cycles, Session& session) {
-  if (programs && !cycles)
-    for (const std::string& name : cycleOptions(options))
-      session.diagnostics().report<diag::OptionOfCycles>({}, name);
-  if (cycles && !programs) {
-    if (!options.fromControl.empty())
-      session.diagnostics().report<diag::OptionOfPrograms>({}, "--from-control");
-    if (options.renumber) session.diagnostics().report<diag::OptionOfPrograms>({}, "--renumber");
-  }
-}
 
 class ConvertCommand {
 public:
@@ -62,7 +24,7 @@ public:
                                         compilation_.usedSets()} {}
 
   Outcome run() {
-    if (!load()) return refuse();
+    if (!load()) return refusalOf(session_);
     for (const Input& input : order_) {
       if (input.isProgram)
         conversion_->program(options_.inputs[input.index]);
@@ -77,7 +39,7 @@ private:
   Outcome finish() {
     if (context_.inputs != nullptr) reportUnknownNames();
     if (!session_.diagnostics().hasErrors()) filesDiffer();
-    if (session_.diagnostics().hasErrors()) return refuse();
+    if (session_.diagnostics().hasErrors()) return refusalOf(session_);
     keepStrongest(session_.diagnostics());
     ConversionResult& result = context_.result;
     std::string text;
@@ -92,16 +54,6 @@ private:
     outcome.arguments = std::move(result.arguments);
     outcome.macros = std::move(result.macros);
     outcome.macrosByCycle = std::move(result.macrosByCycle);
-    return outcome;
-  }
-
-  Outcome refuse() {
-    keepStrongest(session_.diagnostics());
-    Outcome outcome = outcomeOf(session_, "");
-    // Why there is nothing comes before what is only worth knowing.
-    std::vector<Diagnostic>& all = outcome.diagnostics.all();
-    std::stable_partition(all.begin(), all.end(),
-                          [](const Diagnostic& d) { return d.severity == Severity::Error; });
     return outcome;
   }
 
@@ -123,7 +75,7 @@ private:
     readLetters();
     const bool programs = classify();
     const bool cycles = !folderPaths_.empty();
-    refuseOptions(options_, programs, cycles, session_);
+    refuseOptions(options_, programs, cycles, diagnostics);
     if (programs && (target == nullptr || target->programs == nullptr))
       diagnostics.report<diag::ProgramTarget>({}, options_.to);
     if (diagnostics.hasErrors() || target == nullptr) return false;
@@ -139,13 +91,9 @@ private:
         compilation_.load(options_.source, first ? std::string(kDefaultControl) : options_.control);
     if (context_.inputs == nullptr) return false;
     const LoweringInputs& inputs = *context_.inputs;
-    if (options_.probeMacros && inputs.macroSet(*options_.probeMacros) == nullptr) {
-      std::vector<std::string> known;
-      for (const stdlib::MacroSet& set : inputs.macroSets)
-        known.push_back(set.name);
+    if (options_.probeMacros && session_.macroSet(*options_.probeMacros) == nullptr) {
       leaveFindingsToLint(session_);
-      diagnostics.report<diag::UnknownMacroSet>({}, *options_.probeMacros,
-                                                fmt::format("{}", fmt::join(known, ", ")));
+      reportUnknownMacroSet(*options_.probeMacros, session_);
       return false;
     }
     for (const std::string& path : folderPaths_)

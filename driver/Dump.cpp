@@ -88,7 +88,7 @@ private:
     if (options_.stage == Stage::Tokens) {
       if (*kind == InputKind::Nc) {
         out_ += macrob::dumpTokens(*id, session_.sources(), session_.limits(), session_.diagnostics(),
-                                   textOf(options_.common));
+                                   textOf(*id, session_));
         return;
       }
       out_ += *kind == InputKind::Prog
@@ -99,7 +99,7 @@ private:
     switch (*kind) {
     case InputKind::Nc:
       out_ += macrob::dumpAst(macrob::parse(*id, session_.sources(), session_.limits(),
-                                            session_.diagnostics(), textOf(options_.common)),
+                                            session_.diagnostics(), textOf(*id, session_)),
                               session_.sources());
       break;
     case InputKind::Prog:

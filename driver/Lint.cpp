@@ -53,7 +53,7 @@ public:
     if (suf) mikroprog_ = stdlib::MikroprogControl::load(session_.data(), control);
     // An unknown control is an error, and what holds on every control is said beside it.
     const bool known = !control.empty() && !suf && session_.data().find("controls", control) != nullptr;
-    inputs_ = compilation_.load(options_.source, known ? control : std::string(kDefaultControl));
+    inputs_ = compilation_.load(options_.source, known ? control : std::string());
     if (inputs_ == nullptr) return failed();
     if (known)
       control_ = &*inputs_->control;
@@ -105,15 +105,20 @@ private:
     const FormChoice form = options_.source.form ? FormChoice{*options_.source.form, true}
                             : inConfig           ? FormChoice{config->form, true}
                                                  : FormChoice{std::string(kDefaultForm), false};
-    useForm(*inputs_, form.name, session_);
+    // What nobody looks at is not loaded; a form that is not there is reported all the same.
+    const bool progs = !compilation_.progs().empty();
+    if (progs || session_.data().find("forms", form.name) == nullptr)
+      useForm(*inputs_, form.name, session_);
     lint::Project project{session_.sources(), session_.limits(), session_.gibbsKeywords(),
-                          session_.compostKeywords(), inputs_->macroSets};
+                          session_.compostKeywords()};
+    const bool blocks = progs || !compilation_.programs().empty();
+    if (blocks) project.macroSets = session_.macroSets();
     project.form = inputs_->form ? &*inputs_->form : nullptr;
     if (project.form != nullptr && !project.form->control.empty() && inputs_->sourceControl)
       project.postControl = &*inputs_->sourceControl;
     project.control = control_;
     project.analyses = std::make_shared<lint::Analyses>();
-    if (control_ == nullptr) project.controls = compilation_.controls();
+    if (control_ == nullptr && blocks) project.controls = compilation_.controls();
     for (const auto& prog : compilation_.progs())
       project.progs.push_back(prog.get());
     for (const CycleFolder& folder : compilation_.folders())
@@ -128,16 +133,14 @@ private:
       project.programs.push_back({&file, compilation_.lower(file, control_)});
     for (const frontend::mikroprog::Reading& reading : sufReadings_)
       project.sufPrograms.push_back(&reading);
-    std::vector<const gibbs::CheckedFile*> checked;
     for (const CycleFolder& folder : compilation_.folders())
       for (const gibbs::CheckedFile& file : folder.checked)
-        checked.push_back(&file);
+        project.checked.push_back(&file);
     for (const gibbs::CheckedFile& file : checked_)
-      checked.push_back(&file);
+      project.checked.push_back(&file);
     // Without the control of the post nobody knows what its blocks mean.
     lint::join(project, compilation_, project.postControl != nullptr);
     reportUnknownSets(project);
-    project.shared = lint::sharedInputs(project, std::move(checked));
     return project;
   }
 

@@ -1,7 +1,7 @@
 #include "driver/LintConfig.h"
 
 #include "lint/Rule.h"
-#include "project/FormChoice.h"
+#include "project/Settings.h"
 #include "stdlib/Toml.h"
 #include "support/Files.h"
 #include "support/NearestName.h"
@@ -66,7 +66,7 @@ std::shared_ptr<const LintConfig> LintConfigs::load(const std::string& path) {
                                         : FailOn::Warning;
   }
   config->control = lint.value("control").text();
-  config->form = formOf(*document);
+  config->form = settingsIn(*document).form;
   for (const TomlEntry& entry : lint.value("severity").table().entries()) {
     checkCode(*document, entry.key, entry.keyRange);
     const std::string level = entry.value.choice({"off", "note", "warning", "error"}, "warning");

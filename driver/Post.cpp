@@ -2,14 +2,10 @@
 #include "driver/Command.h"
 #include "driver/Driver.h"
 #include "frontend/compost/Summary.h"
+#include "project/Compilation.h"
 #include "project/CycleChecks.h"
-#include "project/CycleFolder.h"
 #include "project/Fields.h"
-#include "project/FormChoice.h"
-#include "project/Hosts.h"
-#include "project/Job.h"
 #include "project/Prog.h"
-#include "support/Decimal.h"
 #include "support/NearestName.h"
 #include "support/messages/Commands.h"
 
@@ -52,7 +48,8 @@ bool sameField(const std::string& a, const std::string& b) {
 // One command: the parts that every operation needs.
 class PostCommand {
 public:
-  PostCommand(const PostOptions& options, Session& session) : options_(options), session_(session) {}
+  PostCommand(const PostOptions& options, Session& session)
+      : options_(options), session_(session), compilation_(session) {}
 
   Outcome run();
 
@@ -61,7 +58,7 @@ private:
   void prepare(const JobOperation& operation);
   void post(Prepared& prepared, compost::PostRun& run);
   void boundary(const std::optional<std::string>& name, SourceRange where, compost::PostRun& run);
-  std::vector<JobOperation> operations() const;
+  std::vector<JobOperation> operations();
   const CycleFolder* folderOf(const JobOperation& operation);
   void applySets(const JobOperation& operation, FieldTable& fields, const CycleFolder& folder);
   void reportUnknownSets();
@@ -69,69 +66,47 @@ private:
 
   const PostOptions& options_;
   Session& session_;
-  std::map<std::string, double> flagHosts_;
-  std::vector<std::pair<std::string, double>> sets_;
-  std::set<std::string> usedSets_;
+  Compilation compilation_;
+  const LoweringInputs* inputs_ = nullptr;
   std::map<std::string, std::string> hints_; // of --set names that a cycle does not know
-  std::optional<Job> job_;
-  std::optional<stdlib::Form> form_;
-  std::optional<compost::Program> program_;
-  std::vector<CycleFolder> folders_;
   std::vector<Prepared> prepared_;
 };
 
 bool PostCommand::load() {
   Diagnostics& diagnostics = session_.diagnostics();
-  const CommonOptions& common = options_.common;
-  flagHosts_ = parseHosts(common.host, diagnostics);
-  for (const auto& [name, text] : common.set) {
-    const std::optional<double> value = parseNumber(text);
-    const bool twice = std::any_of(sets_.begin(), sets_.end(),
-                                   [&, &key = name](const auto& s) { return sameField(s.first, key); });
-    if (!value)
-      diagnostics.report<diag::NotANumber>({}, "--set", name, text);
-    else if (twice)
-      diagnostics.report<diag::GivenTwice>({}, "--set", name);
-    else
-      sets_.emplace_back(name, *value);
-  }
   if (options_.folders.empty())
     diagnostics.report<diag::MissingOption>({}, "post", "FOLDER", "the folder of a cycle");
   if (!options_.source.prog)
     diagnostics.report<diag::MissingOption>({}, "post", "--prog PROG.txt",
                                             "the Prog whose routine prints the cycle");
-  for (const auto& [postField, variable] : common.field) {
-    const bool alsoSet = std::any_of(sets_.begin(), sets_.end(),
+  const NamedTexts& sets = options_.common.set;
+  for (const auto& [postField, variable] : options_.common.field) {
+    const bool alsoSet = std::any_of(sets.begin(), sets.end(),
                                      [&, &key = postField](const auto& s) { return s.first == key; });
     if (alsoSet && postField != variable)
       diagnostics.report<diag::GivenTwice>({}, "--set beside --field", postField);
   }
   if (options_.source.cycle && options_.folders.size() > 1) diagnostics.report<diag::CycleWithSeveral>({});
-  if (common.job) job_ = loadJob(*common.job, common.limits, session_.sources(), diagnostics);
-  const FormChoice choice = chooseForm(options_.source, session_);
-  form_ = session_.form(choice.name);
-  if (diagnostics.hasErrors()) return false;
+  inputs_ = compilation_.loadSettings(options_.source);
+  if (inputs_ == nullptr) return false;
   for (const std::string& path : options_.folders)
-    folders_.push_back(loadCycleFolder(path, session_));
-  if (options_.source.cycle) folders_.front().name = *options_.source.cycle;
-  for (std::size_t i = 0; i < folders_.size(); ++i) {
+    compilation_.addFolder(path);
+  const std::deque<CycleFolder>& folders = compilation_.folders();
+  if (options_.source.cycle) compilation_.folders().front().name = *options_.source.cycle;
+  for (std::size_t i = 0; i < folders.size(); ++i) {
     for (std::size_t k = 0; k < i; ++k) {
-      if (folders_[i].name == folders_[k].name)
-        diagnostics.report<diag::CycleNameTwice>({}, folders_[i].name);
+      if (folders[i].name == folders[k].name) diagnostics.report<diag::CycleNameTwice>({}, folders[i].name);
     }
   }
-  program_ = loadProg(*options_.source.prog, session_);
-  if (program_) {
-    leaveFindingsToLint(session_);
-    noteForm(choice, program_->file, session_);
-  }
-  return program_ && !diagnostics.hasErrors();
+  const bool read = compilation_.loadProg(options_.source);
+  if (inputs_->program) leaveFindingsToLint(session_);
+  return read && !diagnostics.hasErrors();
 }
 
-std::vector<JobOperation> PostCommand::operations() const {
-  if (job_) return job_->operations;
+std::vector<JobOperation> PostCommand::operations() {
+  if (inputs_->job) return inputs_->job->operations;
   std::vector<JobOperation> out;
-  for (const CycleFolder& folder : folders_) {
+  for (const CycleFolder& folder : compilation_.folders()) {
     JobOperation one;
     one.cycle = folder.name;
     one.cycleRange = {folder.place, 0, 0};
@@ -142,7 +117,7 @@ std::vector<JobOperation> PostCommand::operations() const {
 
 const CycleFolder* PostCommand::folderOf(const JobOperation& operation) {
   std::vector<std::string> names;
-  for (const CycleFolder& folder : folders_) {
+  for (const CycleFolder& folder : compilation_.folders()) {
     if (folder.name == operation.cycle) return &folder;
     names.push_back(folder.name);
   }
@@ -160,18 +135,18 @@ void PostCommand::applySets(const JobOperation& operation, FieldTable& fields, c
   };
   std::set<std::string> inJob;
   std::set<std::string> inFlags;
-  for (const auto& [name, value] : sets_)
+  for (const auto& [name, value] : inputs_->sets)
     once(inFlags, name, {}, "--set");
   for (const auto& [name, value, where] : operation.set) {
     once(inJob, name, where, "set");
-    const bool flagWins = std::any_of(sets_.begin(), sets_.end(),
+    const bool flagWins = std::any_of(inputs_->sets.begin(), inputs_->sets.end(),
                                       [&, &key = name](const auto& s) { return sameField(s.first, key); });
     if (flagWins || fields.set(name, value, where)) continue;
     session_.diagnostics().report<diag::NoSuchField>(where, name, folder.name, fields.hint(name));
   }
-  for (const auto& [name, value] : sets_) {
+  for (const auto& [name, value] : inputs_->sets) {
     if (fields.set(name, value, {}))
-      usedSets_.insert(name);
+      compilation_.usedSets().insert(name);
     else
       hints_.emplace(name, fields.hint(name));
   }
@@ -181,29 +156,26 @@ void PostCommand::applySets(const JobOperation& operation, FieldTable& fields, c
 void PostCommand::prepare(const JobOperation& operation) {
   const CycleFolder* folder = folderOf(operation);
   if (folder == nullptr) return;
-  const std::optional<std::string>& named = options_.source.routine ? options_.source.routine
-                                            : job_                  ? job_->operationRoutine
-                                                                    : options_.source.routine;
-  const SourceRange namedAt = !options_.source.routine && job_ ? job_->operationRange : SourceRange{};
-  const compost::Routine* routine = chooseRoutine(*program_, named, namedAt, folder->name, session_);
+  const compost::Routine* routine =
+      chooseRoutine(*inputs_->program, inputs_->routine, inputs_->routineAt, folder->name, session_);
   if (routine == nullptr) {
-    for (const auto& set : sets_)
-      usedSets_.insert(set.first); // one finding for one cause
+    for (const auto& set : inputs_->sets)
+      compilation_.usedSets().insert(set.first); // one finding for one cause
     return;
   }
 
-  if (testsOtherCyclesOnly(*program_, *routine, folder->name)) {
+  if (testsOtherCyclesOnly(*inputs_->program, *routine, folder->name)) {
     session_.diagnostics().report<diag::NothingPosted>(routine->nameRange, routine->name, folder->name,
-                                                       testedCycles(*program_, folder->name));
+                                                       testedCycles(*inputs_->program, folder->name));
     return;
   }
 
-  std::map<std::string, double> hosts = flagHosts_;
+  std::map<std::string, double> hosts = inputs_->givenHosts;
   hosts.insert(operation.hosts.begin(), operation.hosts.end());
-  if (job_) hosts.insert(job_->hosts.begin(), job_->hosts.end());
+  hosts.insert(inputs_->hosts.begin(), inputs_->hosts.end());
 
   std::vector<std::string> printed;
-  for (const compost::FieldRef& field : compost::fieldsPrinted(*program_, *routine, folder->name))
+  for (const compost::FieldRef& field : compost::fieldsPrinted(*inputs_->program, *routine, folder->name))
     printed.push_back(field.name);
   FieldTable fields(*folder, std::move(printed), session_);
   applySets(operation, fields, *folder);
@@ -221,8 +193,9 @@ void PostCommand::post(Prepared& prepared, compost::PostRun& run) {
   std::map<std::string, double>& hosts = prepared.hosts;
   for (const auto& [x, y] : points) {
     if (!anywhere) {
-      hosts.insert_or_assign("start_x", flagHosts_.contains("start_x") ? flagHosts_.at("start_x") : x);
-      hosts.insert_or_assign("start_y", flagHosts_.contains("start_y") ? flagHosts_.at("start_y") : y);
+      const std::map<std::string, double>& given = inputs_->givenHosts;
+      hosts.insert_or_assign("start_x", given.contains("start_x") ? given.at("start_x") : x);
+      hosts.insert_or_assign("start_y", given.contains("start_y") ? given.at("start_y") : y);
     }
     // The macro of the dialog runs once for an operation: what it changes does not add up over the points.
     FieldTable fields = prepared.fields;
@@ -234,19 +207,18 @@ void PostCommand::post(Prepared& prepared, compost::PostRun& run) {
     const std::size_t before = run.lineCount();
     run.run(*prepared.routine, now);
     if (run.lineCount() == before && !session_.diagnostics().hasErrors())
-      session_.diagnostics().report<diag::NothingPosted>(prepared.routine->nameRange, prepared.routine->name,
-                                                         prepared.folder->name,
-                                                         testedCycles(*program_, prepared.folder->name));
+      session_.diagnostics().report<diag::NothingPosted>(
+          prepared.routine->nameRange, prepared.routine->name, prepared.folder->name,
+          testedCycles(*inputs_->program, prepared.folder->name));
   }
 }
 
 void PostCommand::boundary(const std::optional<std::string>& name, SourceRange where, compost::PostRun& run) {
   if (!name) return;
-  const compost::Routine* routine = chooseRoutine(*program_, name, where, "", session_);
+  const compost::Routine* routine = chooseRoutine(*inputs_->program, name, where, "", session_);
   if (routine == nullptr) return;
   compost::Operation none;
-  none.hosts = flagHosts_;
-  none.hosts.insert(job_->hosts.begin(), job_->hosts.end());
+  none.hosts = inputs_->hosts;
   none.field = [this](const std::string& field, SourceRange at) -> std::optional<double> {
     session_.diagnostics().report<diag::FieldOutsideOperation>(at, field);
     return std::nullopt;
@@ -255,10 +227,10 @@ void PostCommand::boundary(const std::optional<std::string>& name, SourceRange w
 }
 
 void PostCommand::reportUnknownSets() {
-  for (const auto& [name, value] : sets_) {
-    if (usedSets_.contains(name)) continue;
+  for (const auto& [name, value] : inputs_->sets) {
+    if (compilation_.usedSets().contains(name)) continue;
     std::string cycles;
-    for (const CycleFolder& folder : folders_)
+    for (const CycleFolder& folder : compilation_.folders())
       cycles += (cycles.empty() ? "" : ", ") + folder.name;
     const auto hint = hints_.find(name);
     session_.diagnostics().report<diag::NoSuchField>(SourceRange{}, name, cycles,
@@ -268,8 +240,9 @@ void PostCommand::reportUnknownSets() {
 
 // The job states the O number, the Prog prints it: a difference is a program stored under a wrong number.
 void PostCommand::checkProgramNumber(const std::vector<compost::PostedLine>& lines) {
-  if (!job_ || !job_->number) return;
-  const std::string number = std::to_string(*job_->number);
+  const std::optional<Job>& job = inputs_->job;
+  if (!job || !job->number) return;
+  const std::string number = std::to_string(*job->number);
   const bool printed = std::any_of(lines.begin(), lines.end(), [&](const compost::PostedLine& line) {
     const std::size_t o = line.text.find_first_not_of(" ");
     if (o == std::string::npos || (line.text[o] != 'O' && line.text[o] != ':')) return false;
@@ -277,7 +250,7 @@ void PostCommand::checkProgramNumber(const std::vector<compost::PostedLine>& lin
     const std::size_t end = std::min(line.text.find_first_not_of("0123456789", digits), line.text.size());
     return line.text.substr(digits, end - digits) == number;
   });
-  if (!printed) session_.diagnostics().report<diag::ProgramNumberNotPrinted>(job_->numberRange, "O" + number);
+  if (!printed) session_.diagnostics().report<diag::ProgramNumberNotPrinted>(job->numberRange, "O" + number);
 }
 
 Outcome PostCommand::run() {
@@ -285,8 +258,10 @@ Outcome PostCommand::run() {
     keepStrongest(session_.diagnostics());
     return outcomeOf(session_, "");
   }
-  compost::PostSettings settings{session_.sources(), *form_, session_.limits(), options_.common.assume};
-  const auto sequence = options_.sequence ? options_.sequence : job_ ? job_->sequence : options_.sequence;
+  compost::PostSettings settings{session_.sources(), *inputs_->form, session_.limits(),
+                                 options_.common.assume};
+  const std::optional<Job>& job = inputs_->job;
+  const auto sequence = options_.sequence || !job ? options_.sequence : job->sequence;
   if (sequence) {
     settings.sequenceStart = sequence->first;
     settings.sequenceStep = sequence->second;
@@ -296,11 +271,11 @@ Outcome PostCommand::run() {
     prepare(one);
   if (prepared_.size() == all.size()) reportUnknownSets();
   if (session_.diagnostics().hasErrors()) return outcomeOf(session_, "");
-  compost::PostRun run(*program_, settings, session_.diagnostics());
-  if (job_) boundary(job_->startRoutine, job_->startRange, run);
+  compost::PostRun run(*inputs_->program, settings, session_.diagnostics());
+  if (job) boundary(job->startRoutine, job->startRange, run);
   for (Prepared& one : prepared_)
     post(one, run);
-  if (job_) boundary(job_->endRoutine, job_->endRange, run);
+  if (job) boundary(job->endRoutine, job->endRange, run);
   const std::vector<compost::PostedLine> lines = run.finish();
   checkProgramNumber(lines);
   keepStrongest(session_.diagnostics());

@@ -1,7 +1,6 @@
 #include "support/messages/Verify.h"
 #include "driver/Driver.h"
 #include "driver/VerifyPrograms.h"
-#include "driver/VerifyTranslation.h"
 #include "frontend/gibbs/Cycle.h"
 #include "ir/Rewrite.h"
 #include "project/CycleFolder.h"
@@ -10,6 +9,7 @@
 #include "support/messages/Commands.h"
 #include "targets/CycleCases.h"
 #include "targets/Target.h"
+#include "targets/Translation.h"
 #include "targets/VerifyReport.h"
 #include "targets/VerifyRuns.h"
 
@@ -40,7 +40,7 @@ public:
     if (!main_.load()) return outcomeOf(main_.session(), "");
     Diagnostics ofForm;
     keepOfForm(main_.session().diagnostics(), ofForm);
-    if (!makePlan()) return outcomeOf(main_.session(), "");
+    if (!makePlan()) return refusalOf(main_.session());
     keepOfForm(main_.session().diagnostics(), ofForm);
     main_.session().diagnostics() = Diagnostics();
     if (!main_.prepare()) return outcomeOf(main_.session(), "");
@@ -156,26 +156,17 @@ private:
 
   bool translate() {
     if (target_->fixesValues) return plannedForEachCase();
-    ConvertOptions convert;
-    convert.inputs = options_.inputs;
-    convert.common = options_.common;
-    convert.source = options_.source;
-    // The values of one case are those of fields and of the operation, as they were where it was found.
-    convert.to = options_.to;
-    convert.control = options_.control;
-    convert.probeMacros = options_.probeMacros;
-    convert.datum = options_.datum;
-    Outcome refused;
-    const auto converted = convertedFor(options_, convert, refused);
-    if (!converted) {
-      refused_ = std::move(refused);
+    // What is said on the path to the cases is not the result; what convert says of the form is.
+    Session& session = main_.session();
+    Diagnostics ofForm;
+    keepOfForm(session.diagnostics(), ofForm);
+    session.diagnostics() = std::move(ofForm);
+    std::optional<Translated> written = translated(options_, main_.compilation(), &main_.inputs());
+    if (!written) return false;
+    if (options_.translation && !takeEdited(*options_.translation, written->translation, session))
       return false;
-    }
-    Translation translation = translationOf(*converted);
-    if (options_.translation && !takeEdited(*options_.translation, translation, main_.session()))
-      return false;
-    plan_.targetMacros = converted->macros;
-    plan_.translation = std::move(translation);
+    plan_.targetMacros = std::move(written->macros);
+    plan_.translation = std::move(written->translation);
     return true;
   }
 
@@ -205,9 +196,6 @@ private:
   const Target* const target_; // nullptr: none is named
   VerifyPlan plan_;
   CaseRunner main_;
-
-public:
-  std::optional<Outcome> refused_; // of convert
 };
 
 } // namespace
@@ -216,9 +204,7 @@ Outcome verify(const VerifyOptions& options) {
   return guarded(options.common, [&](Session& session) {
     if (options.inputs.size() == 1 && isProgramFile(options.inputs.front(), session))
       return verifyPrograms(options, session);
-    VerifyCommand command(options, session);
-    Outcome outcome = command.run();
-    return command.refused_ ? std::move(*command.refused_) : std::move(outcome);
+    return VerifyCommand(options, session).run();
   });
 }
 

@@ -1,8 +1,10 @@
 #include "driver/VerifyPrograms.h"
 
-#include "driver/VerifyTranslation.h"
 #include "support/messages/Commands.h"
+#include "support/messages/Fanuc.h"
+#include "targets/Conversion.h"
 #include "targets/Target.h"
+#include "targets/Translation.h"
 #include "targets/VerifyReport.h"
 #include "targets/VerifyRuns.h"
 
@@ -20,30 +22,21 @@ public:
                                                          "what the programs are compared with");
       return outcomeOf(session_, "");
     }
-    ConvertOptions convert;
-    convert.inputs = options_.inputs;
-    convert.common = options_.common;
-    convert.common.host.clear();
-    convert.common.assume.erase("probe-on");
-    convert.source = options_.source;
-    convert.to = options_.to;
-    convert.control = options_.control;
-    convert.fromControl = options_.fromControl;
-    convert.probeMacros = options_.probeMacros;
-    convert.datum = options_.datum;
-    Outcome refused;
-    const auto converted = convertedFor(options_, convert, refused);
-    if (!converted) return refused;
-    const auto make = findTarget(options_.to)->programs;
+    const Target* target = findTarget(options_.to);
+    if (!checkOptions(target)) return outcomeOf(session_, "");
+    const auto make = target->programs;
     const std::unique_ptr<ProgramSubject> subject = make(options_, plan_);
     ProgramSubject& main = *subject;
     plan_.programs = true;
-    Translation translation = translationOf(*converted);
-    if (options_.translation && !takeEdited(*options_.translation, translation, session_))
-      return outcomeOf(session_, "");
-    plan_.translation = std::move(translation);
-    if (!loadWorld(options_, plan_, session_)) return outcomeOf(session_, "");
     Session& own = main.session();
+    Compilation compilation(own);
+    std::optional<Translated> written = translated(options_, compilation, nullptr);
+    if (!written) return refusalOf(own);
+    if (options_.translation && !takeEdited(*options_.translation, written->translation, session_))
+      return outcomeOf(session_, "");
+    plan_.translation = std::move(written->translation);
+    if (!loadWorld(options_, plan_, session_)) return outcomeOf(session_, "");
+    own.diagnostics() = Diagnostics();
     if (!main.load()) return outcomeOf(own, "");
     auto fields = main.fields();
     if (!fields) return outcomeOf(own, "");
@@ -66,6 +59,21 @@ public:
   }
 
 private:
+  bool checkOptions(const Target* target) {
+    Diagnostics& diagnostics = session_.diagnostics();
+    ConvertOptions convert = convertOptionsOf(options_);
+    convert.common.host.clear(); // the cases take them
+    convert.common.assume.erase("probe-on");
+    if (target == nullptr)
+      diagnostics.report<diag::UnknownTarget>({}, options_.to);
+    else
+      checkTargetOptions(*target, convert, diagnostics);
+    refuseOptions(convert, true, false, diagnostics);
+    if (target == nullptr || target->programs == nullptr)
+      diagnostics.report<diag::ProgramTarget>({}, options_.to);
+    return !diagnostics.hasErrors();
+  }
+
   const VerifyOptions& options_;
   Session& session_;
   VerifyPlan plan_;

@@ -2,6 +2,11 @@
 
 namespace dotek::lint {
 
+const SharedInputs& Analyses::shared(const Project& project) {
+  if (!shared_) shared_.emplace(project);
+  return *shared_;
+}
+
 const Probing& Analyses::probing(const Project& project) {
   if (!probing_) probing_.emplace(project);
   return *probing_;
@@ -17,6 +22,10 @@ const std::vector<ProgBlock>& Analyses::blocks(const std::vector<compost::Statem
   const auto known = blocks_.find(&statements);
   if (known != blocks_.end()) return known->second;
   return blocks_.emplace(&statements, collectBlocks(statements, prog, project)).first->second;
+}
+
+const SharedInputs& sharedOf(const Project& project) {
+  return project.analyses->shared(project);
 }
 
 const Probing& probingOf(const Project& project) {

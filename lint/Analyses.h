@@ -3,6 +3,7 @@
 
 #include "lint/Probing.h"
 #include "lint/ProgBlocks.h"
+#include "lint/Shared.h"
 
 #include <map>
 #include <optional>
@@ -13,6 +14,7 @@ namespace dotek::lint {
 // Belongs to one project; one thread uses it.
 class Analyses {
 public:
+  const SharedInputs& shared(const Project& project);
   const Probing& probing(const Project& project);
   const std::vector<Siblings>& siblings(const Project& project);
   // Of statements of a Prog, known by their address.
@@ -20,6 +22,7 @@ public:
                                        const compost::Program& prog, const Project& project);
 
 private:
+  std::optional<SharedInputs> shared_;
   std::optional<Probing> probing_;
   std::optional<std::vector<Siblings>> siblings_;
   std::map<const std::vector<compost::Statement>*, std::vector<ProgBlock>> blocks_;

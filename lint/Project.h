@@ -24,6 +24,9 @@
 namespace dotek::project {
 class Compilation;
 }
+namespace dotek::frontend::gibbs {
+class CheckedFile;
+}
 
 namespace dotek::lint {
 
@@ -51,15 +54,13 @@ struct NcFile {
   std::shared_ptr<const ir::ProgramFile> lowered; // nullptr: some block cannot be read
 };
 
-struct SharedInputs; // lint/Shared.h
-
 // Everything outlives the run.
 struct Project {
   const SourceMap& sources;
   const Limits& limits;
   const stdlib::GibbsKeywords& gibbsKeywords;
   const stdlib::ComPostKeywords& compostKeywords;
-  std::span<const stdlib::MacroSet> macroSets;
+  std::span<const stdlib::MacroSet> macroSets = {}; // all, where a Prog or an NC program is linted
   const stdlib::Form* form = nullptr;
   const stdlib::Control* control = nullptr;     // --control
   const stdlib::Control* postControl = nullptr; // of the form; nullptr: it names none
@@ -71,9 +72,10 @@ struct Project {
   std::vector<NcFile> programs = {};
   std::vector<const mikroprog::Reading*> sufPrograms = {};
   std::vector<Joined> joined = {};
-  std::span<const stdlib::Control> controls = {};       // all profiles, where --control names none
-  std::shared_ptr<Analyses> analyses = nullptr;         // of this project
-  std::shared_ptr<const SharedInputs> shared = nullptr; // what shared checks look at
+  std::span<const stdlib::Control> controls = {}; // all profiles, where --control names none
+  // The macros, dialogs and DefineData.txt as shared checks look at them.
+  std::vector<const gibbs::CheckedFile*> checked = {};
+  std::shared_ptr<Analyses> analyses = nullptr; // of this project
 
   // Those of cycle folders too, in the order of reading.
   std::vector<const gibbs::Macro*> allMacros() const;

@@ -10,17 +10,16 @@
 
 namespace dotek::lint {
 
-// Everything that is linted, as the front ends check it.
+// Progs, NC programs and cycles that are linted, as the front ends check them.
 struct SharedInputs {
+  explicit SharedInputs(const Project& project);
   std::vector<compost::CheckedProg> progs;
   std::vector<macrob::CheckedProgram> programs; // of NC
-  std::vector<const gibbs::CheckedFile*> files; // macros, dialogs, DefineData.txt
   std::vector<gibbs::CheckedCycle> cycles;
 };
 
-// Those of the project. `files` are its macros, dialogs and DefineData.txt; they outlive the result.
-std::shared_ptr<const SharedInputs> sharedInputs(const Project& project,
-                                                 std::vector<const gibbs::CheckedFile*> files);
+// Computed once a project.
+const SharedInputs& sharedOf(const Project& project);
 
 // A rule of the check; `each` runs it on all inputs of its kind.
 template <class Input>
@@ -36,7 +35,7 @@ constexpr Rule sharedRule(const Check<Input>& check, Tier tier, void (*each)(con
 // A check of one Prog.
 template <const Check<compost::CheckedProg>& check> constexpr Rule progRule() {
   return sharedRule(check, Tier::Syntax, [](const Project& project, Report& report) {
-    for (const compost::CheckedProg& prog : project.shared->progs)
+    for (const compost::CheckedProg& prog : sharedOf(project).progs)
       check.run(prog, report);
   });
 }
@@ -44,7 +43,7 @@ template <const Check<compost::CheckedProg>& check> constexpr Rule progRule() {
 // A check of one macro, dialog or DefineData.txt.
 template <const Check<gibbs::CheckedFile>& check> constexpr Rule fileRule() {
   return sharedRule(check, Tier::Syntax, [](const Project& project, Report& report) {
-    for (const gibbs::CheckedFile* file : project.shared->files)
+    for (const gibbs::CheckedFile* file : project.checked)
       check.run(*file, report);
   });
 }
@@ -52,7 +51,7 @@ template <const Check<gibbs::CheckedFile>& check> constexpr Rule fileRule() {
 // A check of the files of one cycle together.
 template <const Check<gibbs::CheckedCycle>& check> constexpr Rule cycleRule() {
   return sharedRule(check, Tier::Bundle, [](const Project& project, Report& report) {
-    for (const gibbs::CheckedCycle& cycle : project.shared->cycles)
+    for (const gibbs::CheckedCycle& cycle : sharedOf(project).cycles)
       check.run(cycle, report);
   });
 }
@@ -60,7 +59,7 @@ template <const Check<gibbs::CheckedCycle>& check> constexpr Rule cycleRule() {
 // A check of one NC program.
 template <const Check<macrob::CheckedProgram>& check> constexpr Rule programRule() {
   return sharedRule(check, Tier::Syntax, [](const Project& project, Report& report) {
-    for (const macrob::CheckedProgram& program : project.shared->programs)
+    for (const macrob::CheckedProgram& program : sharedOf(project).programs)
       check.run(program, report);
   });
 }

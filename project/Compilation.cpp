@@ -46,8 +46,17 @@ LoweringInputs* Compilation::load(const SourceOptions& source, const std::string
   return inputs_ ? &*inputs_ : nullptr;
 }
 
+LoweringInputs* Compilation::loadSettings(const SourceOptions& source) {
+  inputs_ = project::loadSettings(source, session_);
+  return inputs_ ? &*inputs_ : nullptr;
+}
+
+bool Compilation::loadProg(const SourceOptions& source) {
+  return loadProgInto(*inputs_, source, session_);
+}
+
 const compost::Program* Compilation::addProg(const std::string& path, bool checked) {
-  std::optional<compost::Program> program = loadProg(path, session_, checked);
+  std::optional<compost::Program> program = project::loadProg(path, session_, checked);
   if (!program) return nullptr;
   return progs_.emplace_back(std::make_shared<const compost::Program>(std::move(*program))).get();
 }
@@ -69,8 +78,9 @@ const gibbs::DefineData& Compilation::addDefineData(FileId file) {
 }
 
 const macrob::File& Compilation::addPrograms(FileId file) {
-  return programs_.emplace_back(macrob::parse(file, session_.sources(), session_.limits(),
-                                              session_.diagnostics(), textOf(session_.options())));
+  const macrob::Text text = textOf(file, session_);
+  return programs_.emplace_back(
+      macrob::parse(file, session_.sources(), session_.limits(), session_.diagnostics(), text));
 }
 
 std::optional<LoweredCycle> Compilation::lower(const CycleFolder& folder, Strictness strictness) {

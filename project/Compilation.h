@@ -40,6 +40,9 @@ public:
   // Under which settings cycles are lowered; reads the Prog of the command line. nullptr: a flag, the Prog or
   // a data file has a defect, reported.
   LoweringInputs* load(const SourceOptions& source, const std::string& control);
+  // Without the controls and before the Prog, for who runs a cycle instead of lowering it; then the Prog.
+  LoweringInputs* loadSettings(const SourceOptions& source);
+  bool loadProg(const SourceOptions& source); // false: reported
 
   // Reads inputs as trees; what is wrong with them is reported, without `checked` only what keeps them from
   // being read. nullptr: the file cannot be read.

@@ -3,7 +3,6 @@
 
 #include "project/Options.h"
 #include "project/Session.h"
-#include "stdlib/Toml.h"
 
 #include <string>
 
@@ -13,9 +12,6 @@ struct FormChoice {
   std::string name;
   bool named = false; // by --form or by a dotek.toml; else it is kDefaultForm
 };
-
-// What a dotek.toml says, for all commands: `form`, also as a key of `[lint]`. "" where it says nothing.
-std::string formOf(const stdlib::TomlDocument& document);
 
 // --form, else `form` of the dotek.toml beside the Prog or above it. A defect of that file is reported.
 FormChoice chooseForm(const SourceOptions& source, Session& session);

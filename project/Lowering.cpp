@@ -145,7 +145,7 @@ void Lowering::applySets(FieldTable& fields, std::set<std::string>& usedSets) {
 
 bool Lowering::branch(const compost::Routine& routine, FieldTable& fields) {
   std::vector<const stdlib::MacroSet*> sets;
-  for (const stdlib::MacroSet& set : inputs_.macroSets)
+  for (const stdlib::MacroSet& set : session_.macroSets())
     sets.push_back(&set);
   const compost::LowerSettings settings{
       session_.sources(),
@@ -316,23 +316,17 @@ std::optional<LoweredCycle> Lowering::run(std::set<std::string>& usedSets) {
 
 } // namespace
 
-const stdlib::MacroSet* LoweringInputs::macroSet(const std::string& name) const {
-  const auto found = std::find_if(macroSets.begin(), macroSets.end(),
-                                  [&](const stdlib::MacroSet& set) { return set.name == name; });
-  return found == macroSets.end() ? nullptr : &*found;
-}
-
 void useForm(LoweringInputs& inputs, const std::string& name, Session& session) {
   inputs.form = session.form(name);
   if (inputs.form && !inputs.form->control.empty())
     inputs.sourceControl = loadControl(inputs.form->control, session);
 }
 
-std::optional<LoweringInputs> loadLoweringInputs(const SourceOptions& source, const std::string& control,
-                                                 Session& session) {
+std::optional<LoweringInputs> loadSettings(const SourceOptions& source, Session& session) {
   LoweringInputs inputs;
   Diagnostics& diagnostics = session.diagnostics();
-  inputs.hosts = parseHosts(session.options().host, diagnostics);
+  inputs.givenHosts = parseHosts(session.options().host, diagnostics);
+  inputs.hosts = inputs.givenHosts;
   readSets(inputs, session);
   if (session.options().job)
     inputs.job = loadJob(*session.options().job, session.limits(), session.sources(), diagnostics);
@@ -342,21 +336,34 @@ std::optional<LoweringInputs> loadLoweringInputs(const SourceOptions& source, co
     inputs.routine = inputs.job->operationRoutine;
     inputs.routineAt = inputs.job->operationRange;
   }
-  inputs.control = loadControl(control, session);
-  for (const stdlib::DataFile* file : session.data().list("macros")) {
-    if (auto set = stdlib::MacroSet::load(session.data(), file->name))
-      inputs.macroSets.push_back(std::move(*set));
-  }
-  inputs.sourceControl = inputs.control;
   if (source.prog) {
-    const FormChoice choice = chooseForm(source, session);
-    useForm(inputs, choice.name, session);
-    std::optional<compost::Program> program;
-    if (!diagnostics.hasErrors()) program = loadProg(*source.prog, session);
-    if (program) noteForm(choice, program->file, session);
-    if (program) inputs.program = std::make_shared<const compost::Program>(std::move(*program));
+    inputs.formChoice = chooseForm(source, session);
+    inputs.form = session.form(inputs.formChoice.name);
   }
-  if (diagnostics.hasErrors() || (source.prog && !inputs.program)) return std::nullopt;
+  if (diagnostics.hasErrors()) return std::nullopt;
+  return inputs;
+}
+
+bool loadProgInto(LoweringInputs& inputs, const SourceOptions& source, Session& session) {
+  std::optional<compost::Program> program = loadProg(*source.prog, session);
+  if (!program) return false;
+  noteForm(inputs.formChoice, program->file, session);
+  inputs.program = std::make_shared<const compost::Program>(std::move(*program));
+  return !session.diagnostics().hasErrors();
+}
+
+std::optional<LoweringInputs> loadLoweringInputs(const SourceOptions& source, const std::string& control,
+                                                 Session& session) {
+  std::optional<LoweringInputs> inputs = loadSettings(source, session);
+  std::optional<stdlib::Control> target;
+  if (!control.empty()) target = loadControl(control, session);
+  if (!inputs) return std::nullopt;
+  inputs->control = std::move(target);
+  inputs->sourceControl = inputs->form && !inputs->form->control.empty()
+                              ? loadControl(inputs->form->control, session)
+                              : inputs->control;
+  if (session.diagnostics().hasErrors()) return std::nullopt;
+  if (source.prog && !loadProgInto(*inputs, source, session)) return std::nullopt;
   return inputs;
 }
 

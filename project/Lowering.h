@@ -5,6 +5,7 @@
 #include "ir/Cycle.h"
 #include "ir/PrintedText.h"
 #include "project/CycleFolder.h"
+#include "project/FormChoice.h"
 #include "project/Job.h"
 #include "project/Session.h"
 #include "stdlib/Control.h"
@@ -29,23 +30,27 @@ std::optional<stdlib::Control> loadControl(const std::string& name, Session& ses
 
 // What one command reads before its first cycle.
 struct LoweringInputs {
+  FormChoice formChoice; // of --prog
   std::optional<stdlib::Form> form;
   std::shared_ptr<const frontend::compost::Program> program; // nullptr: no --prog
-  std::optional<stdlib::Control> control;                    // --control, else the first of the target
-  std::optional<stdlib::Control> sourceControl;              // of the machine that the post writes for
-  std::vector<stdlib::MacroSet> macroSets;                   // all, by name
+  // --control, else the first of the target; nothing: no target is named.
+  std::optional<stdlib::Control> control;
+  std::optional<stdlib::Control> sourceControl; // of the machine that the post writes for
   std::optional<Job> job;
-  std::map<std::string, double> hosts;              // --host, then the job
+  std::map<std::string, double> givenHosts;         // --host
+  std::map<std::string, double> hosts;              // the same, then the job
   std::vector<std::pair<std::string, double>> sets; // --set
   std::optional<std::string> routine;               // --routine, else the job's
   SourceRange routineAt;
-
-  const stdlib::MacroSet* macroSet(const std::string& name) const; // nullptr: there is none
 };
 
-// Reports and gives nothing where an option, the Prog or a data file has a defect.
+// Reports and gives nothing where an option, the Prog or a data file has a defect. `control` may be "".
 std::optional<LoweringInputs> loadLoweringInputs(const SourceOptions& source, const std::string& control,
                                                  Session& session);
+// The first half of it, what the command line and the job say and the form of --prog, without its control;
+// and the Prog. false: reported.
+std::optional<LoweringInputs> loadSettings(const SourceOptions& source, Session& session);
+bool loadProgInto(LoweringInputs& inputs, const SourceOptions& source, Session& session);
 
 // The form of this name, and the control that it is of. What is missing is reported.
 void useForm(LoweringInputs& inputs, const std::string& name, Session& session);

@@ -10,8 +10,15 @@
 
 namespace dotek::project {
 
-frontend::macrob::Text textOf(const CommonOptions& options) {
-  return isListing(options.from) ? frontend::macrob::Text::Listing : frontend::macrob::Text::Program;
+frontend::macrob::Text textOf(FileId file, Session& session) {
+  using frontend::macrob::Text;
+  const std::optional<std::string>& from = session.options().from;
+  if (from) return isListing(from) ? Text::Listing : Text::Program;
+  // The text of a set of macros, or of a pipe, is in no folder.
+  const std::string path = session.sources().file(file).name();
+  std::error_code error;
+  const bool listing = std::filesystem::is_regular_file(path, error) && settingsOf(path, session).listing;
+  return listing ? Text::Listing : Text::Program;
 }
 
 bool isProgramFile(const std::string& path, Session& session) {
@@ -26,8 +33,9 @@ bool isProgramFile(const std::string& path, Session& session) {
 std::optional<ir::ProgramFile> loadPrograms(FileId file, const stdlib::Control& control, Session& session,
                                             SourceRange* leader) {
   Diagnostics found;
+  const frontend::macrob::Text text = textOf(file, session);
   const frontend::macrob::File tree =
-      frontend::macrob::parse(file, session.sources(), session.limits(), found, textOf(session.options()));
+      frontend::macrob::parse(file, session.sources(), session.limits(), found, text);
   for (Diagnostic& one : found.all())
     if (one.severity == Severity::Error) session.diagnostics().add(std::move(one));
   if (leader != nullptr) *leader = tree.leader;

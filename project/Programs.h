@@ -11,8 +11,8 @@
 
 namespace dotek::project {
 
-// What --from says of NC files.
-frontend::macrob::Text textOf(const CommonOptions& options);
+// What --from says of NC files, else the dotek.toml of this one.
+frontend::macrob::Text textOf(FileId file, Session& session);
 
 // By content, or by --from; false for a folder and for what cannot be read.
 bool isProgramFile(const std::string& path, Session& session);

@@ -4,6 +4,8 @@
 #include "support/Files.h"
 #include "support/messages/Commands.h"
 
+#include <algorithm>
+
 namespace dotek::project {
 
 Session::Session(const CommonOptions& options) : options_(options) {
@@ -28,6 +30,21 @@ const stdlib::Control* Session::control(const std::string& name) {
   return at->second ? &*at->second : nullptr;
 }
 
+const std::vector<stdlib::MacroSet>& Session::macroSets() {
+  if (macroSets_) return *macroSets_;
+  macroSets_.emplace();
+  for (const stdlib::DataFile* file : data_.list("macros"))
+    if (auto set = stdlib::MacroSet::load(data_, file->name)) macroSets_->push_back(std::move(*set));
+  return *macroSets_;
+}
+
+const stdlib::MacroSet* Session::macroSet(const std::string& name) {
+  const std::vector<stdlib::MacroSet>& sets = macroSets();
+  const auto found =
+      std::find_if(sets.begin(), sets.end(), [&](const stdlib::MacroSet& set) { return set.name == name; });
+  return found == sets.end() ? nullptr : &*found;
+}
+
 std::optional<stdlib::Form> Session::form(const std::string& name) {
   std::optional<stdlib::Form> form = stdlib::Form::load(data_, name, compostKeywords());
   if (!form) {
@@ -37,6 +54,13 @@ std::optional<stdlib::Form> Session::form(const std::string& name) {
     diagnostics_.report<diag::UnknownForm>({}, name, known);
   }
   return form;
+}
+
+void reportUnknownMacroSet(const std::string& name, Session& session) {
+  std::string known;
+  for (const stdlib::MacroSet& set : session.macroSets())
+    known += (known.empty() ? "" : ", ") + set.name;
+  session.diagnostics().report<diag::UnknownMacroSet>({}, name, known);
 }
 
 std::optional<FileId> Session::read(const std::string& path, Encoding fallback) {

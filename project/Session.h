@@ -2,16 +2,19 @@
 #pragma once
 
 #include "project/Options.h"
+#include "project/Settings.h"
 #include "stdlib/ComPostKeywords.h"
 #include "stdlib/Control.h"
 #include "stdlib/DataFiles.h"
 #include "stdlib/Form.h"
 #include "stdlib/GibbsKeywords.h"
+#include "stdlib/MacroSet.h"
 #include "support/Diagnostics.h"
 
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace dotek::project {
 
@@ -29,9 +32,14 @@ public:
   const stdlib::ComPostKeywords& compostKeywords();
   // The profile of this name, read once. nullptr: there is none.
   const stdlib::Control* control(const std::string& name);
+  // All sets of probing macros, by name.
+  const std::vector<stdlib::MacroSet>& macroSets();
+  const stdlib::MacroSet* macroSet(const std::string& name); // nullptr: there is none
   // nullopt with a diagnostic where there is no form of this name.
   std::optional<stdlib::Form> form(const std::string& name);
 
+  // By folder: kept for settingsOf().
+  std::map<std::string, Settings>& settings() { return settings_; }
   // Reads a text file in the language's default encoding, once per path: the second time gives the same id.
   std::optional<FileId> read(const std::string& path, Encoding fallback);
 
@@ -43,7 +51,12 @@ private:
   std::optional<stdlib::GibbsKeywords> gibbs_;
   std::optional<stdlib::ComPostKeywords> compost_;
   std::map<std::string, std::optional<stdlib::Control>> controls_;
+  std::optional<std::vector<stdlib::MacroSet>> macroSets_;
   std::map<std::string, std::optional<FileId>> read_;
+  std::map<std::string, Settings> settings_;
 };
+
+// A set that the command line names: there is none, and these are.
+void reportUnknownMacroSet(const std::string& name, Session& session);
 
 } // namespace dotek::project

@@ -1,8 +1,48 @@
 #include "targets/Conversion.h"
 
 #include "project/Values.h"
+#include "support/messages/Commands.h"
 
 namespace dotek::targets {
+
+namespace {
+
+// Names of the given options that speak of cycles.
+std::vector<std::string> cycleOptions(const ConvertOptions& options) {
+  const CommonOptions& common = options.common;
+  std::vector<std::string> out;
+  const auto add = [&](bool given, const char* name) {
+    if (given) out.emplace_back(name);
+  };
+  add(common.job.has_value(), "--job");
+  add(!common.set.empty(), "--set");
+  add(!common.field.empty(), "--field");
+  add(!common.host.empty(), "--host");
+  add(common.recover, "--recover");
+  add(options.source.prog.has_value(), "--prog");
+  add(options.source.form.has_value(), "--form");
+  add(options.source.routine.has_value(), "--routine");
+  add(options.source.cycle.has_value(), "--cycle");
+  add(!options.letters.empty(), "--arg");
+  add(!options.defaults.empty(), "--default");
+  add(options.useDefaults, "--defaults");
+  add(options.switchProbe, "--probe-power");
+  for (const std::string& name : common.assume)
+    if (name != "plain-messages") out.push_back("--assume " + name);
+  return out;
+}
+
+} // namespace
+
+void refuseOptions(const ConvertOptions& options, bool programs, bool cycles, Diagnostics& diagnostics) {
+  if (programs && !cycles)
+    for (const std::string& name : cycleOptions(options))
+      diagnostics.report<diag::OptionOfCycles>({}, name);
+  if (cycles && !programs) {
+    if (!options.fromControl.empty()) diagnostics.report<diag::OptionOfPrograms>({}, "--from-control");
+    if (options.renumber) diagnostics.report<diag::OptionOfPrograms>({}, "--renumber");
+  }
+}
 
 std::optional<LoweredSource> lowerSource(const CycleFolder& folder, ConversionContext& context) {
   Session& session = context.session;

@@ -83,6 +83,9 @@ template <class Written> std::unique_ptr<Conversion> conversionBy(ConversionCont
   return std::make_unique<Written>(context);
 }
 
+// Reports options of the command line that none of the inputs takes.
+void refuseOptions(const ConvertOptions& options, bool programs, bool cycles, Diagnostics& diagnostics);
+
 struct LoweredSource {
   LoweredCycle lowered;
   // As --default and the source give them, those that the cycle's own checks reject included.

@@ -104,7 +104,7 @@ bool CaseRunner::prepare() {
   for (const std::string_view name : stdlib::hostInputNames())
     hosts.emplace_back(name);
   draws_.emplace(plan_.fields, std::move(hosts), plan_.fixedHosts, options_.seed);
-  sourceSet_ = inputs_->macroSet(plan_.sourceMacros);
+  sourceSet_ = session_.macroSet(plan_.sourceMacros);
   std::vector<const stdlib::MacroSet*> sets;
   if (sourceSet_ != nullptr) sets.push_back(sourceSet_);
   sourceStand_.emplace(*inputs_->sourceControl, sets, session_.limits());

@@ -91,9 +91,9 @@ private:
   // The set that the program calls: given, else the source's; a path alone takes the first that touches
   // without setting an offset.
   const stdlib::MacroSet* macrosOf(const LoweredCycle& lowered) {
-    if (options_.probeMacros) return context_.inputs->macroSet(*options_.probeMacros);
+    if (options_.probeMacros) return session_.macroSet(*options_.probeMacros);
     if (lowered.macros != nullptr) return lowered.macros;
-    for (const stdlib::MacroSet& set : context_.inputs->macroSets) {
+    for (const stdlib::MacroSet& set : session_.macroSets()) {
       const stdlib::MacroSignature* surface = set.find(stdlib::Intent::Surface);
       const stdlib::MacroArgument* system =
           surface == nullptr ? nullptr : surface->find(stdlib::ArgumentRole::System, ir::Axis::X);

@@ -20,21 +20,14 @@ bool ProgramConversion::load() {
   source_ = options_.fromControl.empty() ? control_ : loadControl(options_.fromControl, session_);
   if (!control_ || !source_) return false;
   if (!options_.probeMacros) return true;
-  std::string known;
-  for (const stdlib::DataFile* file : session_.data().list("macros")) {
-    known += (known.empty() ? "" : ", ") + file->name;
-    if (auto set = stdlib::MacroSet::load(session_.data(), file->name)) sets_.push_back(std::move(*set));
-  }
-  for (const stdlib::MacroSet& set : sets_)
-    if (set.name == *options_.probeMacros) wanted_ = &set;
-  if (wanted_ == nullptr)
-    session_.diagnostics().report<diag::UnknownMacroSet>({}, *options_.probeMacros, known);
+  wanted_ = session_.macroSet(*options_.probeMacros);
+  if (wanted_ == nullptr) reportUnknownMacroSet(*options_.probeMacros, session_);
   return wanted_ != nullptr;
 }
 
 bool ProgramConversion::translateCalls(ir::ProgramFile& file) {
   if (wanted_ == nullptr) return true;
-  return fanuc::translateCalls(file, {*wanted_, sets_, *source_, options_.programNumber},
+  return fanuc::translateCalls(file, {*wanted_, session_.macroSets(), *source_, options_.programNumber},
                                session_.diagnostics());
 }
 

@@ -28,7 +28,6 @@ private:
   const ConvertOptions& options_;
   Session& session_;
   std::optional<stdlib::Control> control_, source_;
-  std::vector<stdlib::MacroSet> sets_;
   const stdlib::MacroSet* wanted_ = nullptr; // nullptr: calls stay as they are
 };
 

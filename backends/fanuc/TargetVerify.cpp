@@ -53,8 +53,8 @@ class FanucVerification final : public Verification {
 public:
   explicit FanucVerification(const VerificationSource& source)
       : from_(source), translation_(*source.plan.translation), control_(*source.inputs.control),
-        sourceSet_(source.inputs.macroSet(source.plan.sourceMacros)),
-        set_(source.inputs.macroSet(source.plan.targetMacros)),
+        sourceSet_(source.session.macroSet(source.plan.sourceMacros)),
+        set_(source.session.macroSet(source.plan.targetMacros)),
         stand_(control_,
                set_ == nullptr ? std::vector<const stdlib::MacroSet*>{}
                                : std::vector<const stdlib::MacroSet*>{set_},

@@ -58,14 +58,12 @@ bool ProgramRunner::load() {
       options_.fromControl.empty() ? targetControl_ : loadControl(options_.fromControl, session_);
   hosts_ = parseHosts(options_.common.host, session_.diagnostics());
   if (!targetControl_ || !sourceControl_ || session_.diagnostics().hasErrors()) return false;
-  for (const stdlib::DataFile* file : session_.data().list("macros"))
-    if (auto set = stdlib::MacroSet::load(session_.data(), file->name)) sets_.push_back(std::move(*set));
   const std::optional<FileId> id = session_.read(options_.inputs.front(), Encoding::Cp1250);
   if (!id) return false;
   file_ = *id;
   programs_ = loadPrograms(*id, *sourceControl_, session_);
   if (!programs_ || programs_->programs.empty()) return false;
-  sourceSet_ = backends::fanuc::calledSet(*programs_, sets_);
+  sourceSet_ = backends::fanuc::calledSet(*programs_, session_.macroSets());
   // A program of the file is before a macro of that number.
   if (sourceSet_ != nullptr &&
       std::any_of(programs_->programs.begin(), programs_->programs.end(), [&](const ir::Program& program) {
@@ -73,7 +71,7 @@ bool ProgramRunner::load() {
       }))
     sourceSet_ = nullptr;
   targetSet_ = sourceSet_;
-  for (const stdlib::MacroSet& set : sets_)
+  for (const stdlib::MacroSet& set : session_.macroSets())
     if (sourceSet_ != nullptr && options_.probeMacros == set.name) targetSet_ = &set;
   std::vector<const stdlib::MacroSet*> used;
   if (sourceSet_ != nullptr) used.push_back(sourceSet_);

@@ -76,7 +76,6 @@ private:
   Limits sourceLimits_, targetLimits_; // of one run
   FileId file_ = kNoFile;
   std::optional<stdlib::Control> sourceControl_, targetControl_, sourceAsTarget_;
-  std::vector<stdlib::MacroSet> sets_;
   const stdlib::MacroSet* sourceSet_ = nullptr; // nullptr: none is called
   const stdlib::MacroSet* targetSet_ = nullptr;
   std::map<std::string, double> hosts_; // given

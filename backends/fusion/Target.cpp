@@ -134,7 +134,7 @@ private:
       return set;
     }();
     const stdlib::MacroSet* macros =
-        options_.probeMacros ? inputs.macroSet(*options_.probeMacros) : lowered.macros;
+        options_.probeMacros ? session_.macroSet(*options_.probeMacros) : lowered.macros;
     const bool foreign = macros != lowered.macros && lowered.macros != nullptr;
     if (macros == nullptr) macros = &none;
     ir::fold(lowered.cycle, lowered.fixed);

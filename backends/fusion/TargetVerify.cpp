@@ -25,8 +25,8 @@ class FusionVerification final : public Verification {
 public:
   explicit FusionVerification(const VerificationSource& source)
       : from_(source), control_(*source.inputs.sourceControl),
-        sourceSet_(source.inputs.macroSet(source.plan.sourceMacros)),
-        set_(source.inputs.macroSet(source.plan.targetMacros)),
+        sourceSet_(source.session.macroSet(source.plan.sourceMacros)),
+        set_(source.session.macroSet(source.plan.targetMacros)),
         stand_(control_,
                set_ == nullptr ? std::vector<const stdlib::MacroSet*>{}
                                : std::vector<const stdlib::MacroSet*>{set_},

@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 namespace dotek::sim {
 namespace {
@@ -40,29 +39,23 @@ std::unique_ptr<SimMacros> SimMacros::load(const std::optional<std::string>& cho
   auto out = std::make_unique<SimMacros>();
   const std::set<std::uint32_t> called = missing(library);
   if (called.empty() && !chosen && !all) return out;
-  std::vector<std::string> names;
-  for (const stdlib::DataFile* file : session.data().list("macros")) {
-    names.push_back(file->name);
-    if (chosen && file->name != *chosen) continue;
-    std::optional<stdlib::MacroSet> set = stdlib::MacroSet::load(session.data(), file->name);
-    if (set) out->sets_.push_back(std::move(*set));
-  }
+  for (const stdlib::MacroSet& set : session.macroSets())
+    if (!chosen || set.name == *chosen) out->sets_.push_back(&set);
   if (chosen && out->sets_.empty()) {
-    session.diagnostics().report<diag::UnknownMacroSet>({}, *chosen,
-                                                        fmt::format("{}", fmt::join(names, ", ")));
+    project::reportUnknownMacroSet(*chosen, session);
     return nullptr;
   }
-  for (const stdlib::MacroSet& set : out->sets_) {
-    const stdlib::DataFile* text = session.data().find("macrob", set.name);
+  for (const stdlib::MacroSet* set : out->sets_) {
+    const stdlib::DataFile* text = session.data().find("macrob", set->name);
     if (text == nullptr) {
-      out->meanings_.emplace_back(set, control);
+      out->meanings_.emplace_back(*set, control);
       continue;
     }
     const bool wanted =
-        std::any_of(called.begin(), called.end(), [&](std::uint32_t program) { return set.calls(program); });
+        std::any_of(called.begin(), called.end(), [&](std::uint32_t program) { return set->calls(program); });
     if (!wanted) continue;
     const std::optional<FileId> id =
-        addText("macrob/" + set.name + ".nc", std::string(text->text), Encoding::Utf8, std::nullopt,
+        addText("macrob/" + set->name + ".nc", std::string(text->text), Encoding::Utf8, std::nullopt,
                 session.sources(), session.diagnostics());
     std::optional<ir::ProgramFile> file;
     if (id) file = loadPrograms(*id, control, session);
@@ -75,9 +68,9 @@ std::unique_ptr<SimMacros> SimMacros::load(const std::optional<std::string>& cho
 std::optional<PathKind> SimMacros::kindOf(std::uint32_t program, std::span<const double> locals) const {
   const std::string letters = givenLetters(locals).letters;
   std::optional<PathKind> out;
-  for (const stdlib::MacroSet& set : sets_) {
-    if (!set.calls(program)) continue;
-    const stdlib::MacroSignature* const signature = stdlib::readCall(set, program, letters).signature;
+  for (const stdlib::MacroSet* set : sets_) {
+    if (!set->calls(program)) continue;
+    const stdlib::MacroSignature* const signature = stdlib::readCall(*set, program, letters).signature;
     const bool moves = signature != nullptr && signature->intent == stdlib::Intent::ProtectedMove;
     if (!out || moves) out = moves ? PathKind::Protected : PathKind::Measuring;
   }

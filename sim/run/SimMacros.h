@@ -41,8 +41,8 @@ public:
   bool run(Machine& machine, std::uint32_t program, std::span<const double> locals) override;
 
 private:
-  std::vector<stdlib::MacroSet> sets_;
-  std::deque<VendorMacros> meanings_; // of the sets without a text
+  std::vector<const stdlib::MacroSet*> sets_; // of the session
+  std::deque<VendorMacros> meanings_;         // of the sets without a text
 };
 
 } // namespace dotek::sim

@@ -1,0 +1,116 @@
+#include "targets/Translation.h"
+
+#include "sim/geometry/PartFile.h"
+#include "support/Files.h"
+#include "support/messages/Verify.h"
+#include "targets/Conversion.h"
+#include "targets/Target.h"
+
+#include <algorithm>
+
+namespace dotek::targets {
+namespace {
+
+Translation translationOf(const OutputFile& file, const MappedResult& map,
+                          const std::vector<OutputArgument>& arguments, const SourceMap& sources) {
+  Translation out;
+  out.name = file.name;
+  out.text = file.text;
+  out.arguments = arguments;
+  for (const MappedLine& line : map.lines) {
+    auto& places = out.sources.emplace_back().emplace();
+    for (const SourceRange& range : line.ranges)
+      if (range.hasPlace()) places.emplace(sources.file(range.file).name(), sources.line(range));
+  }
+  return out;
+}
+
+} // namespace
+
+ConvertOptions convertOptionsOf(const VerifyOptions& options) {
+  ConvertOptions out;
+  out.inputs = options.inputs;
+  out.common = options.common;
+  out.source = options.source;
+  out.to = options.to;
+  out.control = options.control;
+  out.fromControl = options.fromControl;
+  out.probeMacros = options.probeMacros;
+  out.datum = options.datum;
+  return out;
+}
+
+std::optional<Translated> translated(const VerifyOptions& options, Compilation& compilation,
+                                     LoweringInputs* inputs) {
+  if (const ConvertedInput* given = options.converted.get())
+    return Translated{translationOf(given->file, given->map, given->arguments, given->sources),
+                      given->macros};
+  Session& session = compilation.session();
+  if (options.probeMacros && session.macroSet(*options.probeMacros) == nullptr) {
+    reportUnknownMacroSet(*options.probeMacros, session);
+    return std::nullopt;
+  }
+  const ConvertOptions convert = convertOptionsOf(options);
+  ConversionContext context{convert, compilation, session, compilation.folders(), compilation.usedSets(),
+                            inputs};
+  const std::unique_ptr<Conversion> conversion = findTarget(options.to)->convert(context);
+  if (inputs != nullptr ? !conversion->beginCycles() : !conversion->beginPrograms()) return std::nullopt;
+  if (inputs != nullptr)
+    conversion->cycle(compilation.folders().front(), 0);
+  else
+    conversion->program(options.inputs.front());
+  conversion->finish();
+  const ConversionResult& result = context.result;
+  if (session.diagnostics().hasErrors() || result.files.size() != 1) return std::nullopt;
+  return Translated{
+      translationOf(result.files.front(), result.maps.front(),
+                    result.arguments.empty() ? std::vector<OutputArgument>() : result.arguments.front(),
+                    session.sources()),
+      result.macros};
+}
+
+bool takeEdited(const std::string& path, Translation& translation, Session& session) {
+  const auto bytes = readBytes(path, session.limits(), session.diagnostics());
+  if (!bytes) return false;
+  const SourceFile before("", translation.text, Encoding::Utf8), now("", *bytes, Encoding::Utf8);
+  const std::uint32_t rows = before.lineCount(), columns = now.lineCount();
+  constexpr std::uint64_t kMost = 25'000'000;
+  std::vector<std::optional<std::set<std::pair<std::string, std::uint32_t>>>> sources(columns);
+  if (std::uint64_t{rows} * columns <= kMost) {
+    // The longest common subsequence of lines.
+    std::vector<std::vector<std::uint32_t>> common(rows + 1, std::vector<std::uint32_t>(columns + 1, 0));
+    for (std::uint32_t r = rows; r-- > 0;)
+      for (std::uint32_t c = columns; c-- > 0;)
+        common[r][c] = before.line(r + 1) == now.line(c + 1) ? common[r + 1][c + 1] + 1
+                                                             : std::max(common[r + 1][c], common[r][c + 1]);
+    for (std::uint32_t r = 0, c = 0; r < rows && c < columns;) {
+      if (before.line(r + 1) == now.line(c + 1)) {
+        if (r < translation.sources.size()) sources[c] = translation.sources[r];
+        ++r, ++c;
+      } else if (common[r + 1][c] >= common[r][c + 1]) {
+        ++r;
+      } else {
+        ++c;
+      }
+    }
+  }
+  translation.name = path;
+  translation.text = *bytes;
+  translation.sources = std::move(sources);
+  return true;
+}
+
+bool loadWorld(const VerifyOptions& options, VerifyPlan& plan, Session& session) {
+  if (options.machine) {
+    plan.machine =
+        sim::loadMachine(*options.machine, session.limits(), session.sources(), session.diagnostics());
+    if (!plan.machine) return false;
+  }
+  if (!options.part) return true;
+  const auto part = sim::loadPart(*options.part, session.limits(), session.sources(), session.diagnostics());
+  if (!part) return false;
+  plan.part = part->part;
+  return true;
+}
+
+} // namespace dotek::targets
