@@ -1,5 +1,7 @@
 #include "sim/mikroprog/Dialect.h"
 
+#include "ir/Match.h"
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -64,17 +66,24 @@ public:
   // From this statement on nothing happens but jumps, up to a stop.
   bool stops(std::size_t at) const {
     for (std::size_t steps = 0; at < program_.body.size() && steps < program_.body.size(); ++steps) {
-      const auto& node = program_.body[at].node;
-      if (std::holds_alternative<ir::Label>(node) || std::holds_alternative<ir::Comment>(node)) {
-        ++at;
-        continue;
-      }
-      const auto* block = std::get_if<ir::NcBlock>(&node);
-      if (block == nullptr) return false;
-      if (does(*block, "stop")) return true;
-      const auto to = target(*block);
-      if (!does(*block, "jump") || !to) return false;
-      at = *to;
+      bool stopped = false;
+      const bool goesOn = ir::match(
+          program_.body[at],
+          [&](const ir::OneOf<ir::Label, ir::Comment> auto&) {
+            ++at;
+            return true;
+          },
+          [&](const ir::NcBlock& block) {
+            stopped = does(block, "stop");
+            const auto to = target(block);
+            if (stopped || !does(block, "jump") || !to) return false;
+            at = *to;
+            return true;
+          },
+          [](const ir::OneOf<ir::Jump, ir::Branch, ir::Store, ir::Move, ir::Measure, ir::ProbePower,
+                             ir::JumpTo, ir::Loop, ir::LoopEnd, ir::Call, ir::Exit, ir::Raise, ir::Notice,
+                             ir::Port, ir::Print, ir::NameVariables> auto&) { return false; });
+      if (!goesOn) return stopped;
     }
     return false;
   }
