@@ -40,7 +40,7 @@ public:
     if (!main_.load()) return outcomeOf(main_.session(), "");
     Diagnostics ofForm;
     keepOfForm(main_.session().diagnostics(), ofForm);
-    if (!makePlan()) return refusalOf(main_.session());
+    if (!makePlan()) return notWritten_ ? refusalOf(main_.session()) : outcomeOf(main_.session(), "");
     keepOfForm(main_.session().diagnostics(), ofForm);
     main_.session().diagnostics() = Diagnostics();
     if (!main_.prepare()) return outcomeOf(main_.session(), "");
@@ -162,6 +162,7 @@ private:
     keepOfForm(session.diagnostics(), ofForm);
     session.diagnostics() = std::move(ofForm);
     std::optional<Translated> written = translated(options_, main_.compilation(), &main_.inputs());
+    notWritten_ = !written;
     if (!written) return false;
     if (options_.translation && !takeEdited(*options_.translation, written->translation, session))
       return false;
@@ -196,6 +197,7 @@ private:
   const Target* const target_; // nullptr: none is named
   VerifyPlan plan_;
   CaseRunner main_;
+  bool notWritten_ = false; // the conversion is refused
 };
 
 } // namespace
