@@ -39,7 +39,7 @@ struct Raw {
   std::string datum;
   std::vector<std::string> variables;
   std::vector<std::string> programs;
-  std::string traceFile, svgFile, htmlFile;
+  std::string traceFile, svgFile, htmlFile, date;
   std::string part, machine, partError, translation;
   std::vector<std::string> values; // --value
   std::string cases, seed, jobs, minAgreed, tolerance, activeSystem;

@@ -41,6 +41,7 @@ void addSim(CLI::App& app, Raw& raw) {
       ->type_name("\"D25. S54\"");
   sim->add_option("--svg", raw.svgFile, "write a picture of the run, three views")->type_name("OUT");
   sim->add_option("--html", raw.htmlFile, "write a page that shows the run in space")->type_name("OUT");
+  sim->add_option("--date", raw.date, "date that the pictures show, as you write it")->type_name("TEXT");
   sim->add_flag("--quiet", raw.quiet, "no trace");
   sim->add_flag("--json", raw.json, "print how the run ended as JSON, and no trace");
   sim->add_option("--trace", raw.traceFile, "write the trace to a file")->type_name("OUT");
@@ -110,6 +111,7 @@ driver::SimOptions simOf(const Raw& raw) {
   if (!raw.machine.empty()) out.machine = raw.machine;
   out.control = raw.control;
   out.json = raw.json;
+  out.date = raw.date;
   out.programs = withoutRepeats(raw.programs);
   if (!raw.probeMacros.empty()) out.probeMacros = raw.probeMacros;
   for (const std::string& text : raw.variables)

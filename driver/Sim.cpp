@@ -140,6 +140,9 @@ private:
     world_->setCallKind([&macros](std::uint32_t program, std::span<const double> locals) {
       return macros->kindOf(program, locals);
     });
+    world_->setReader([&](std::uint32_t program, std::span<const double> locals) {
+      return macros->foundBy(program, locals, machine);
+    });
     return runCode(sim::compile(library->programs(), *control_, session_.sources()), machine, macros.get());
   }
 

@@ -1,6 +1,7 @@
 #include "verify/Recorder.h"
 
 #include "sim/machine/Value.h"
+#include "sim/machine/VendorMacros.h"
 #include "verify/Nominal.h"
 
 #include <algorithm>
@@ -306,7 +307,7 @@ std::string Recorder::alarmKindOf(const sim::RunEnd& end) const {
   for (const stdlib::MacroSet* set : sets_) {
     for (const stdlib::MacroAlarm alarm : kAlarms) {
       const stdlib::MacroAlarmInfo* const info = set->find(alarm);
-      const bool same = info == nullptr ? end.number == 0 && end.text == stdlib::macroAlarmName(alarm)
+      const bool same = info == nullptr ? end.number == 0 && end.text == sim::macroAlarmText(alarm)
                         : info->number  ? end.number == 3000 + *info->number && end.text == info->text
                                         : end.number == 0 && end.text == info->text;
       if (same) return std::string(stdlib::macroAlarmName(alarm));

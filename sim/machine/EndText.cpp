@@ -15,6 +15,10 @@ std::string callersText(const RunEnd& end) {
   return out;
 }
 
+std::string alarmName(const RunEnd& end) {
+  return end.number == 0 ? "an alarm whose number is not known" : fmt::format("alarm {}", end.number);
+}
+
 std::string systemName(const Machine& machine) {
   if (machine.control().find(stdlib::Function::WorkSystem) == nullptr) return "work"; // it has one
   const std::uint8_t system = machine.mode(kSystem);

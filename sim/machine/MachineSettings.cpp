@@ -1,6 +1,7 @@
 // What a block sets: feed, spindle, coolant, tool, offsets, systems of coordinates.
 #include "sim/machine/Axes.h"
 #include "sim/machine/Machine.h"
+#include "sim/machine/Measurement.h"
 
 #include <cmath>
 #include <fmt/format.h>
@@ -248,8 +249,13 @@ bool Machine::dataInput(const NcWords& w) {
     Position& offset = kind == 20u ? extended_[*number] : *number == 0 ? external_ : systems_[*number - 1];
     for (std::size_t i = 0; i < kAxes; ++i) {
       if (!has(w, i)) continue;
-      const double value = lengthOf(w, kAxisLetters[i]);
+      const double value = lengthOf(w, kAxisLetters[i]), before = offset[i];
       offset[i] = add ? snap(offset[i] + value) : value;
+      if (watcher_ == nullptr) continue;
+      const std::string name = kind == 20u    ? fmt::format("G54.1 P{}", *number)
+                               : *number == 0 ? std::string("external")
+                                              : fmt::format("G{}", 53 + *number);
+      watcher_->offsetWritten({fmt::format("{} {}", name, kAxisLetters[i]), before, offset[i]});
     }
     if (!applyOffsets()) return false;
     if (trace_ != nullptr) {
@@ -264,7 +270,11 @@ bool Machine::dataInput(const NcWords& w) {
                           'P');
     if (!w.has('R') || (w.present & kAxisBits) != 0) return inconclusive("a tool offset takes R", 'G');
     double& value = *kind == 10 ? tools_[*number].geometry : tools_[*number].wear;
+    const double before = value;
     value = snap((add ? value : 0) + lengthOf(w, 'R'));
+    if (watcher_ != nullptr)
+      watcher_->offsetWritten(
+          {fmt::format("tool {} {}", *number, *kind == 10 ? "geometry" : "wear"), before, value});
     if (trace_ != nullptr)
       trace_->begin("tool-offset").text(fmt::format("L{} P{}", *kind, *number)).word("", value).end();
     return true;

@@ -1,5 +1,6 @@
 // Variables of macros by number: locals, commons, and the system variables that the control's table places.
 #include "sim/machine/Axes.h"
+#include "sim/machine/Measurement.h"
 #include "sim/machine/Place.h"
 
 #include <algorithm>
@@ -207,15 +208,28 @@ bool Machine::store(std::uint32_t number, double value, bool preset) {
   // A system variable holds numbers: null counts as 0 there.
   const double given = isNull(value) ? 0 : value;
   const double length = snap(given);
+  const auto set = [&](double& offset, const auto& name) {
+    if (watcher_ != nullptr && !preset) watcher_->offsetWritten({name(), offset, length});
+    offset = length;
+  };
+  const char axis = kAxisLetters[place.axis];
   switch (place.kind) {
-  case Kind::External: external_[place.axis] = length; break;
-  case Kind::System: systems_[place.index][place.axis] = length; break;
-  case Kind::Extended: extended_[place.index + 1][place.axis] = length; break;
+  case Kind::External: set(external_[place.axis], [&] { return fmt::format("external {}", axis); }); break;
+  case Kind::System:
+    set(systems_[place.index][place.axis], [&] { return fmt::format("G{} {}", 54 + place.index, axis); });
+    break;
+  case Kind::Extended:
+    set(extended_[place.index + 1][place.axis],
+        [&] { return fmt::format("G54.1 P{} {}", place.index + 1, axis); });
+    break;
   case Kind::Wear:
-  case Kind::Geometry:
+  case Kind::Geometry: {
     if (place.index == 0) return raise(Alarm::WriteProtected);
-    (place.kind == Kind::Wear ? tools_[place.index].wear : tools_[place.index].geometry) = length;
+    const bool wear = place.kind == Kind::Wear;
+    set(wear ? tools_[place.index].wear : tools_[place.index].geometry,
+        [&] { return fmt::format("tool {} {}", place.index, wear ? "wear" : "geometry"); });
     return true;
+  }
   case Kind::Timer: timerBase_ = seconds_ - given / 1000; return true;
   case Kind::Hours: hoursBase_ = seconds_ - given * 3600; return true;
   case Kind::State:

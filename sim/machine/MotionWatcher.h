@@ -21,6 +21,9 @@ struct MachineMotion {
   bool known = true;      // false: where it began or ended is not certain
 };
 
+struct Measurement;
+struct OffsetWrite;
+
 class MotionWatcher {
 public:
   virtual ~MotionWatcher() = default;
@@ -34,6 +37,9 @@ public:
   // kNull where there is none. Each call that begins ends, but for those in which the run ends.
   virtual void callBegins(std::uint32_t /*program*/, std::span<const double> /*locals*/) {}
   virtual void callEnded(std::uint32_t /*program*/) {}
+  // What a macro that ran by its meaning found, before tolerances are checked and offsets are set.
+  virtual void measured(const Measurement& /*found*/) {}
+  virtual void offsetWritten(const OffsetWrite& /*write*/) {}
 };
 
 } // namespace dotek::sim

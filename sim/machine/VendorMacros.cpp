@@ -50,11 +50,26 @@ bool VendorRun::notKnown(std::string_view what, char letter) {
       fmt::format("P{} of `{}`, {}: {}", signature_.program, set_.name, signature_.title, what), letter);
 }
 
+std::string_view macroAlarmText(stdlib::MacroAlarm alarm) {
+  using stdlib::MacroAlarm;
+  switch (alarm) {
+  case MacroAlarm::PathObstructed:
+    return "the probe touched something on its path where nothing was expected";
+  case MacroAlarm::NoFeed: return "no feed is given for the protected move";
+  case MacroAlarm::ProbeOpen: return "the probe is deflected before it moves";
+  case MacroAlarm::ProbeFail: return "the probe met nothing on its path to the surface";
+  case MacroAlarm::OutOfTolerance: return "the size is out of its tolerance";
+  case MacroAlarm::OutOfPosition: return "the feature is out of its position tolerance";
+  case MacroAlarm::OutOfAngle: return "the angle is out of its tolerance";
+  case MacroAlarm::UpperLimit: return "the error is larger than the call allows";
+  }
+  return "";
+}
+
 bool VendorRun::alarm(stdlib::MacroAlarm alarm) {
   const stdlib::MacroAlarmInfo* info = set_.find(alarm);
   if (info != nullptr && info->number) return machine_.raise(*info->number, info->text);
-  return machine_.raiseUnnumbered(info == nullptr ? stdlib::macroAlarmName(alarm)
-                                                  : std::string_view(info->text));
+  return machine_.raiseUnnumbered(info == nullptr ? macroAlarmText(alarm) : std::string_view(info->text));
 }
 
 void VendorRun::sayOnce(std::string_view action, const std::string& text) {

@@ -9,6 +9,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <string_view>
 
 namespace dotek::sim {
 
@@ -17,6 +18,9 @@ struct VendorMemory {
   std::optional<double> stylusRadius; // of a calibrated stylus, mm, where the set's variables do not hold it
   std::set<std::string> said;         // remarks that appear once in a trace
 };
+
+// What an alarm without a text of its own tells the operator.
+std::string_view macroAlarmText(stdlib::MacroAlarm alarm);
 
 class VendorMacros final : public MacroMeaning {
 public:

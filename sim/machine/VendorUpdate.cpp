@@ -1,4 +1,5 @@
 // What a call leaves: tolerances that stop, offsets, results.
+#include "sim/machine/Measurement.h"
 #include "sim/machine/VendorRun.h"
 
 #include <algorithm>
@@ -39,6 +40,8 @@ bool VendorRun::finish() {
     }
     found_[Output::OutOfTolerance] = 0;
     found_[Output::ProbeError] = 0;
+    if (MotionWatcher* const watcher = machine_.watcher(); watcher != nullptr)
+      watcher->measured(measurementOf(signature_, locals_, found_));
   }
   if (!checkTolerances()) return false;
   writeResults();

@@ -53,9 +53,9 @@ bool World::isModelled(const Position& from, const Position& to) const {
   return true;
 }
 
-// The share at which the first axis leaves its travel. A machine that is outside may come back.
-std::optional<double> World::leavesTravel(const Position& from, const Position& to) const {
-  std::optional<double> out;
+// The first axis that leaves its travel, and at which share. A machine that is outside may come back.
+std::optional<World::Leaving> World::leavesTravel(const Position& from, const Position& to) const {
+  std::optional<Leaving> out;
   for (std::size_t axis = 0; axis < limits_.travel.size(); ++axis) {
     if (!limits_.travel[axis]) continue;
     const auto [least, most] = *limits_.travel[axis];
@@ -63,9 +63,16 @@ std::optional<double> World::leavesTravel(const Position& from, const Position& 
     const double way = to[axis] - from[axis];
     if (end == to[axis] || (end == least ? way >= 0 : way <= 0)) continue;
     const double share = std::clamp((end - from[axis]) / way, 0.0, 1.0);
-    out = std::min(out.value_or(1), share);
+    if (!out || share < out->share) out = {share, axis, to[axis], end};
   }
   return out;
+}
+
+void World::addLeaving(const Leaving& leaves, MotionKind kind, const Point3& from, const Point3& way) {
+  ProbeEvent& event = add(Outcome::OutsideTravel, kind, leaves.share, from + way * leaves.share);
+  event.axis = leaves.axis;
+  event.reached = leaves.reached;
+  event.limit = leaves.limit;
 }
 
 bool World::isOld(const Obstacle& hit, double length) const {
@@ -154,8 +161,8 @@ std::optional<double> World::contact(const SkipMove& move) {
     // A bent stem opens the contact, too.
     if (hit->outcome == Outcome::StemCollision && on_) signal = stop = share;
   }
-  if (const auto leaves = leavesTravel(move.machineFrom, move.machineTo); leaves && *leaves < stop)
-    add(Outcome::OutsideTravel, kKind, *leaves, from + way * *leaves);
+  if (const auto leaves = leavesTravel(move.machineFrom, move.machineTo); leaves && leaves->share < stop)
+    addLeaving(*leaves, kKind, from, way);
   if (!touch) {
     if (!blocked) add(Outcome::Miss, kKind, 1, to).meant = move.positions;
   } else if (blocked && touch->share > stop) {
@@ -183,8 +190,7 @@ void World::moved(const MachineMotion& motion) {
     return;
   }
   const Point3 way = to - from;
-  if (const auto leaves = leavesTravel(motion.from, motion.to))
-    add(Outcome::OutsideTravel, motion.kind, *leaves, from + way * *leaves);
+  if (const auto leaves = leavesTravel(motion.from, motion.to)) addLeaving(*leaves, motion.kind, from, way);
   if (motion.from == motion.to) return;
   const std::optional<Touch> touch = touchOf(probe_.ballRadius(), from, to);
   const auto hit = obstacle(from, way);
@@ -239,7 +245,14 @@ void reportEvent(const ProbeEvent& event, SourceRange range, Diagnostics& diagno
   case Outcome::StemCollision: diagnostics.report<diag::StemCollision>(range, centre); return;
   case Outcome::BodyCollision: diagnostics.report<diag::BodyCollision>(range, centre); return;
   case Outcome::RapidIntoPart: diagnostics.report<diag::RapidIntoPart>(range, centre, depth); return;
-  case Outcome::OutsideTravel: diagnostics.report<diag::OutsideTravel>(range, centre); return;
+  case Outcome::OutsideTravel: {
+    const char letter = kAxisLetters[event.axis];
+    const auto value = [&](double place) { return letter + fixedText(place, 3); };
+    diagnostics.report<diag::OutsideTravel>(range,
+                                            std::string{letter, event.reached > event.limit ? '+' : '-'},
+                                            value(event.reached), value(event.limit));
+    return;
+  }
   case Outcome::NotModelled:
     if (event.placeUnknown)
       diagnostics.report<diag::PlaceNotKnown>(range);

@@ -37,6 +37,10 @@ struct ProbeEvent {
   std::uint64_t line = 0;    // of the program
   bool placeUnknown = false; // of NotModelled: where the machine is
   bool meant = false;        // of Miss: the move was to meet nothing
+  // Of OutsideTravel: the first axis that leaves, where the move would take it, and the end of its travel
+  // that it passes, in coordinates of the machine.
+  std::size_t axis = 0;
+  double reached = 0, limit = 0;
 };
 
 // Coordinates of the machine are those of the spindle's gauge line, with the probe pointing along -Z. Rapids
@@ -76,12 +80,18 @@ private:
     double share;
   };
   bool isModelled(const Position& from, const Position& to) const;
-  std::optional<double> leavesTravel(const Position& from, const Position& to) const;
+  struct Leaving {
+    double share;
+    std::size_t axis;
+    double reached, limit;
+  };
+  std::optional<Leaving> leavesTravel(const Position& from, const Position& to) const;
   std::optional<Obstacle> obstacle(const Point3& from, const Point3& way) const;
   // Is where the last motion ended, which was reported.
   bool isOld(const Obstacle& hit, double length) const;
   double noise();
   ProbeEvent& add(Outcome outcome, MotionKind kind, double share, const Point3& centre);
+  void addLeaving(const Leaving& leaves, MotionKind kind, const Point3& from, const Point3& way);
   ProbeEvent& addTouch(Outcome outcome, MotionKind kind, const Touch& touch, double length);
   void settle(const Touch& touch, const MachineMotion& motion, double length);
 

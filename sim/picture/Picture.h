@@ -4,6 +4,7 @@
 
 #include "sim/geometry/Part.h"
 #include "sim/geometry/Probe.h"
+#include "sim/machine/Measurement.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -55,6 +56,15 @@ struct PictureBlock {
   std::string program = {}; // "O1200"; "": it has no number
 };
 
+// A row of the report: what was measured, and which offsets were written before the next one.
+struct PictureMeasured {
+  Measurement found; // without a title: only offsets were written
+  std::vector<OffsetWrite> offsets;
+  std::string system; // active work offset: "G54"
+  PictureBlock block;
+  std::size_t move = 0; // the last one of it
+};
+
 // How a run went: the banner of both pictures.
 enum class Verdict : std::uint8_t {
   Pass,
@@ -81,7 +91,9 @@ struct Picture {
   std::vector<PictureError> errors;
   std::vector<PictureBlock> blocks;
   std::vector<PictureFrame> frames;
+  std::vector<PictureMeasured> measured;
   std::optional<PictureResult> result; // nothing: no banner
+  std::string date;                    // as the user gives it, UTF-8; "": none
   int decimals = 3;                    // of coordinates, as the control shows them
 };
 

@@ -49,6 +49,9 @@ public:
       if (mark == "TAB")
         out += xmlText((picture_.result ? picture_.result->word + " - " : "") + picture_.title, 300);
       if (mark == "TITLE") out += xmlText(picture_.title, 300);
+      if (mark == "DATE" && !picture_.date.empty())
+        out += fmt::format(" <small>{}</small>", xmlText(picture_.date, 100));
+      if (mark == "MEASURED") out += measuredHtml(picture_, [&](std::size_t move) { return placeOf(move); });
       if (mark == "BANNER" && picture_.result) out += bannerHtml(*picture_.result);
       if (mark == "STYLE") out += pageStyle();
       if (mark == "NOTES") out += notes();
@@ -101,6 +104,7 @@ private:
     if (lost > 0) note(fmt::format("moves without a number, or beyond 1 km: {}; they are not drawn", lost));
     if (!hasProbe(picture_)) note("no probe is stated: the path is that of the spindle's gauge line");
     if (!picture_.part) note("no part: only the path is drawn");
+    if (const std::string cut = cutNote(picture_, region_); !cut.empty()) note(cut);
     return out;
   }
 
@@ -225,10 +229,12 @@ private:
 
   void surface(std::string& out) const {
     SurfaceMesh mesh;
-    if (picture_.part) mesh = surfaceOf(*picture_.part, region_);
     const double longest = std::max({region_.most.x - region_.least.x, region_.most.y - region_.least.y,
                                      region_.most.z - region_.least.z});
+    // A part that is large for what was measured is drawn finer.
+    if (picture_.part) mesh = surfaceOf(*picture_.part, region_, longest > 150 ? 160 : 112);
     const double unit = std::max(kMeshUnit, std::pow(10, std::ceil(std::log10(longest)) - 6));
+    out += fmt::format("\"open\":{},\n", cutSidesOf(picture_, region_).empty() ? "false" : "true");
     out += fmt::format("\"mesh\":{{\"unit\":{},\n\"vertices\":[", number(unit));
     const auto whole = [&](double value) { return static_cast<std::int64_t>(std::llround(value / unit)); };
     for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {

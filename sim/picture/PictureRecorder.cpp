@@ -103,7 +103,8 @@ void PictureRecorder::moved(const MachineMotion& motion) {
   addEvents(before, picture_.moves.empty() ? 0 : picture_.moves.size() - 1);
 }
 
-void PictureRecorder::finish(const RunFacts& facts) {
+void PictureRecorder::finish(const RunFacts& facts, std::vector<PictureMeasured> measured) {
+  picture_.measured = std::move(measured);
   picture_.result = resultOf(picture_, facts);
   const std::string why = endingText(facts);
   if (why.empty()) return;

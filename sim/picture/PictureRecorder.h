@@ -40,7 +40,7 @@ public:
 
   void setFrame(FrameNow frame) { frame_ = std::move(frame); } // without it they are not known
   // After the run: what stopped it is an error at the end of the path, and the picture has its banner.
-  void finish(const RunFacts& facts);
+  void finish(const RunFacts& facts, std::vector<PictureMeasured> measured = {});
 
   std::optional<double> contact(const SkipMove& move) override;
   bool isThere(const SkipMove& here) override;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <limits>
 #include <vector>
 
@@ -10,6 +12,9 @@ namespace {
 
 // From here a distance says how far the part reaches, to a few micrometres.
 constexpr double kAway = 1e6;
+
+// A part up to this length, mm, or up to so many times the length of what was measured, is shown whole.
+constexpr double kWholePart = 300, kWholeShare = 5;
 
 class Bounds {
 public:
@@ -39,6 +44,11 @@ Region grown(const Region& region, double by) {
 Region common(const Region& a, const Region& b) {
   return {{std::max(a.least.x, b.least.x), std::max(a.least.y, b.least.y), std::max(a.least.z, b.least.z)},
           {std::min(a.most.x, b.most.x), std::min(a.most.y, b.most.y), std::min(a.most.z, b.most.z)}};
+}
+
+Region box(const Region& a, const Region& b) {
+  return {{std::min(a.least.x, b.least.x), std::min(a.least.y, b.least.y), std::min(a.least.z, b.least.z)},
+          {std::max(a.most.x, b.most.x), std::max(a.most.y, b.most.y), std::max(a.most.z, b.most.z)}};
 }
 
 bool isEmpty(const Region& region) {
@@ -189,16 +199,19 @@ Region regionOf(const Picture& picture) {
     }
   }
   if (picture.part) {
-    // A side that ends near by is shown whole; of one that does not, a piece is enough.
     Region seen = reachOf(*picture.part);
-    const Region piece = grown(focus, std::max(15.0, 0.3 * longest(focus)));
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      if (coordinate(seen.least, axis) < coordinate(near.least, axis))
-        setCoordinate(seen.least, axis, coordinate(piece.least, axis));
-      if (coordinate(seen.most, axis) > coordinate(near.most, axis))
-        setCoordinate(seen.most, axis, coordinate(piece.most, axis));
+    const Region both = box(seen, focus);
+    if (longest(both) > std::max(kWholePart, kWholeShare * longest(focus))) {
+      // A side that ends near by is shown whole; of one that does not, a piece is enough.
+      const Region piece = grown(focus, std::max(15.0, 0.3 * longest(focus)));
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        if (coordinate(seen.least, axis) < coordinate(near.least, axis))
+          setCoordinate(seen.least, axis, coordinate(piece.least, axis));
+        if (coordinate(seen.most, axis) > coordinate(near.most, axis))
+          setCoordinate(seen.most, axis, coordinate(piece.most, axis));
+      }
+      seen = common(seen, near);
     }
-    seen = common(seen, near);
     if (!isEmpty(seen)) {
       bounds.add(seen.least);
       bounds.add(seen.most);
@@ -206,6 +219,38 @@ Region regionOf(const Picture& picture) {
   }
   const Region region = bounds.region();
   return squat(grown(region, std::max(1.0, 0.05 * longest(region))));
+}
+
+std::vector<std::string> cutSidesOf(const Picture& picture, const Region& region) {
+  std::vector<std::string> out;
+  if (!picture.part) return out;
+  const Region reach = reachOf(*picture.part);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const std::string name(1, "XYZ"[axis]);
+    if (coordinate(reach.least, axis) < coordinate(region.least, axis)) out.push_back(name + "-");
+    if (coordinate(reach.most, axis) > coordinate(region.most, axis)) out.push_back(name + "+");
+  }
+  return out;
+}
+
+std::string cutNote(const Picture& picture, const Region& region) {
+  const std::vector<std::string> sides = cutSidesOf(picture, region);
+  return sides.empty() ? ""
+                       : fmt::format("the part goes on beyond the picture at {}; it is cut open there",
+                                     fmt::join(sides, ", "));
+}
+
+std::optional<WorkZero> workZeroOf(const Picture& picture) {
+  std::vector<std::size_t> moves(picture.frames.size());
+  for (const PictureMove& move : picture.moves)
+    if (move.frame < moves.size()) moves[move.frame] += move.kind == PathKind::Rapid ? 1 : 1000;
+  const auto most = std::max_element(moves.begin(), moves.end());
+  if (most == moves.end() || *most == 0) return std::nullopt;
+  const PictureFrame& frame = picture.frames[static_cast<std::size_t>(most - moves.begin())];
+  Point3 at = frame.shift;
+  if (hasProbe(picture)) at.z -= picture.probe.centreLength() + picture.probe.ballRadius();
+  if (!isDrawn(at)) return std::nullopt;
+  return WorkZero{frame.name, at};
 }
 
 SectionPlanes sectionPlanesOf(const Picture& picture, const Region& region) {

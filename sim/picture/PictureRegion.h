@@ -6,6 +6,8 @@
 #include <array>
 #include <cstddef>
 #include <optional>
+#include <string>
+#include <vector>
 
 namespace dotek::sim {
 
@@ -31,9 +33,22 @@ bool hasProbe(const Picture& picture);
 // The box that holds the part. A side without end is at kDrawn or beyond.
 Region reachOf(const Part& part);
 
-// What is drawn: the slow moves, contacts and errors, and around them what is near of rapids and part. A box
-// of at least a few millimetres; where nothing can be drawn, one about zero.
+// What is drawn: the slow moves, contacts and errors, what is near of rapids, and the part: the whole of it,
+// unless it is so large that what was measured would be lost in it. A box of at least a few millimetres;
+// where nothing can be drawn, one about zero.
 Region regionOf(const Picture& picture);
+// The sides at which the part goes on beyond the region: "X+", "Z-".
+std::vector<std::string> cutSidesOf(const Picture& picture, const Region& region);
+// What is to be said of them; "": the part is whole.
+std::string cutNote(const Picture& picture, const Region& region);
+
+// The work coordinates in which most was measured: where in the machine's space the tip of the probe (without
+// a probe: the gauge line) is at their zero. Nothing: they are not known.
+struct WorkZero {
+  std::string name;
+  Point3 at;
+};
+std::optional<WorkZero> workZeroOf(const Picture& picture);
 
 // Where the sections lie: X of YZ, Y of XZ, Z of XY. At a contact that the plane cuts from the side, so that
 // the touched surface is seen; else just after a touched face, or between two touched from both sides; else

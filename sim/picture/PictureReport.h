@@ -1,8 +1,10 @@
-// The parts of both pictures that are read, not looked at: the banner.
+// The parts of both pictures that are read, not looked at: the banner, and the table of what was measured.
 #pragma once
 
 #include "sim/picture/Picture.h"
 
+#include <cstddef>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -20,5 +22,11 @@ std::vector<std::string> wrapped(std::string_view text, std::size_t width);
 std::string bannerSvg(const PictureResult& result, double left, double width, double& height);
 // An element of the page.
 std::string bannerHtml(const PictureResult& result);
+
+// What was measured: feature, nominal, measured, deviation, and the offsets that were written. `at`: the
+// upper edge, then the lower one. "": nothing was.
+std::string measuredSvg(const Picture& picture, double left, double& at);
+// A section of the page; `place`: of a move, in the moves of the page.
+std::string measuredHtml(const Picture& picture, const std::function<std::size_t(std::size_t)>& place);
 
 } // namespace dotek::sim

@@ -1,6 +1,7 @@
 #include "sim/picture/Picture.h"
 #include "sim/picture/PictureRegion.h"
 #include "sim/picture/PictureReport.h"
+#include "sim/picture/PictureResult.h"
 #include "sim/picture/PictureText.h"
 #include "sim/picture/PictureView.h"
 #include "sim/picture/Sections.h"
@@ -14,8 +15,8 @@ namespace dotek::sim {
 namespace {
 
 // Of the sheet, px.
-constexpr double kLeft = 64, kTop = 74, kRight = 30, kBottom = 26;
-constexpr double kGap = 72;     // between views: room for numbers and letters
+constexpr double kLeft = 64, kTop = 92, kRight = 62, kBottom = 26;
+constexpr double kGap = 104;    // between views: room for numbers and letters
 constexpr double kViews = 1000; // width of two views
 constexpr double kHeight = 720; // height of two views
 constexpr double kLegend = 380; // width of the legend
@@ -89,6 +90,9 @@ std::vector<std::string> notesOf(const Picture& picture, const Region& region) {
     hidden += isDrawn(contact.point) ? 0 : 1;
   for (const PictureError& error : picture.errors)
     hidden += isDrawn(error.at) ? 0 : 1;
+  if (const std::string cut = cutNote(picture, region); !cut.empty())
+    for (const std::string& line : wrapped(cut, 60))
+      out.push_back(line);
   if (beyond > 0) out.push_back(fmt::format("the path leaves the picture in {}", plural(beyond, "move")));
   if (lost > 0) out.push_back(fmt::format("{} not drawn: no number, or beyond 1 km", plural(lost, "move")));
   if (hidden > 0) out.push_back(fmt::format("{} without a place on the sheet", plural(hidden, "mark")));
@@ -144,6 +148,11 @@ std::string drawLegend(const Sheet& sheet, double left, double top, double& bott
                                               shortNumber(finite(picture.probe.ballDiameter), 3))
                                 : "the path is that of the spindle's gauge line: no probe is stated",
               0, "#4a525c");
+  if (const std::optional<WorkZero> zero = workZeroOf(picture)) {
+    legend.text(fmt::format("blue numbers: work coordinates {}, zero at machine", zero->name), 0,
+                kWorkColour);
+    legend.text(pointText(zero->at, picture.decimals), 0, kWorkColour);
+  }
   for (const std::string& note : notesOf(picture, sheet.region))
     legend.text(note, 0, "#8a4b00");
   bottom = legend.at();
@@ -212,7 +221,8 @@ std::string pictureSvg(const Picture& picture) {
   }
   double bottom = low + size.z * s + 56;
   const std::string errors = drawErrors(picture, width, bottom);
-  const double height = bottom + kBottom - (errors.empty() ? 14 : 0);
+  const std::string measured = measuredSvg(picture, kLeft, bottom);
+  const double height = bottom + kBottom - (errors.empty() && measured.empty() ? 14 : 0);
 
   std::string out = fmt::format(
       "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" viewBox=\"0 0 {0} {1}\" "
@@ -228,8 +238,11 @@ std::string pictureSvg(const Picture& picture) {
   out += fmt::format(
       "<text x=\"{}\" y=\"{}\" font-size=\"19\" font-weight=\"bold\" fill=\"#20262d\">{}</text>\n", px(kLeft),
       px(banner + 34), xmlText(picture.title, static_cast<std::size_t>((width - 2 * kLeft) / 10)));
+  if (!picture.date.empty())
+    out += fmt::format("<text x=\"{}\" y=\"{}\" text-anchor=\"end\" fill=\"#4a525c\">{}</text>\n",
+                       px(width - kRight), px(banner + 34), xmlText(picture.date, 60));
   out += views;
-  out += "<g id=\"legend\">\n" + legend + "</g>\n" + errors + "</svg>\n";
+  out += "<g id=\"legend\">\n" + legend + "</g>\n" + errors + measured + "</svg>\n";
   return out;
 }
 

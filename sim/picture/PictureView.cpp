@@ -101,6 +101,7 @@ private:
                                  px(p[1] + 3.5), text);
       }
     }
+    if (const std::optional<WorkZero> zero = workZeroOf(picture_)) work(*zero, step, places);
     out_ += fmt::format("<path d=\"{}\" stroke=\"#e6e9ed\" fill=\"none\"/>\n", lines);
     out_ += fmt::format("<g font-size=\"10.5\" fill=\"#4a525c\">{}</g>\n", numbers);
     out_ +=
@@ -110,8 +111,31 @@ private:
                     "<text x=\"{}\" y=\"{}\">{}{}<tspan font-size=\"11.5\" font-weight=\"normal\" dx=\"8\" "
                     "fill=\"#4a525c\">{}</tspan></text></g>\n",
                     px(box_.right), px(box_.bottom + 28), kAxisNames[axes_[0]], px(box_.left - 8),
-                    px(box_.top - 7), kAxisNames[axes_[1]], px(box_.left), px(box_.top - 7),
+                    px(box_.top - 7), kAxisNames[axes_[1]], px(box_.left), px(box_.top - 24),
                     kAxisNames[axes_[0]], kAxisNames[axes_[1]], frame_.heading);
+  }
+
+  // The same of the work coordinates, along the upper and the right side.
+  void work(const WorkZero& zero, double step, int places) {
+    std::string ticks, numbers;
+    for (std::size_t i = 0; i < 2; ++i) {
+      const double from = coordinate(zero.at, axes_[i]);
+      for (double k = std::ceil((least_[i] - from) / step); from + k * step <= most_[i]; ++k) {
+        PlanePoint at{most_[0], most_[1]};
+        at[i] = from + k * step;
+        const PlanePoint p = sheet(at);
+        const std::string text = shortNumber(k * step, places);
+        ticks += "M" + pair(p) + (i == 0 ? "v-4" : "h4");
+        numbers += i == 0
+                       ? fmt::format("<text x=\"{}\" y=\"{}\" text-anchor=\"middle\">{}</text>", px(p[0]),
+                                     px(p[1] - 7), text)
+                       : fmt::format("<text x=\"{}\" y=\"{}\">{}</text>", px(p[0] + 7), px(p[1] + 3.5), text);
+      }
+    }
+    out_ += fmt::format("<path d=\"{}\" stroke=\"{}\" fill=\"none\"/>\n<g font-size=\"10.5\" fill=\"{}\">{}"
+                        "<text x=\"{}\" y=\"{}\">{}</text></g>\n",
+                        ticks, kWorkColour, kWorkColour, numbers, px(box_.right + 7), px(box_.top - 7),
+                        xmlText(zero.name, 12));
   }
 
   void trace(const SectionLine& line, std::string& d) const {

@@ -23,7 +23,7 @@ Point3 point(const Vec& v) {
 
 // Dual contouring: one vertex in each cell of a lattice that the surface passes, where the planes that touch
 // the surface on the cell's edges meet best; four cells around an edge with a change of sign make a face.
-// The outermost ring of nodes lies on the border and counts as empty.
+// The outermost ring of nodes lies on the border and counts as empty; no face is made there.
 class Mesher {
 public:
   Mesher(const Part& part, const Region& region, std::uint32_t cells)
@@ -144,15 +144,10 @@ private:
             if (n[axis] + 1 == count_[axis]) continue;
             Node to = n;
             ++to[axis];
-            if (isIn(to) == in) continue;
+            if (isIn(to) == in || isRing(n) || isRing(to)) continue; // a cut is open
             Edge edge{n, axis, in, Vec::Zero(), Vec::Zero()};
-            if (isRing(n) || isRing(to)) {
-              edge.at = place(in ? n : to);
-              edge.normal[axis] = in ? 1 : -1;
-            } else {
-              edge.at = in ? root(place(n), place(to)) : root(place(to), place(n));
-              edge.normal = vec(part_.nearest(point(edge.at)).normal);
-            }
+            edge.at = in ? root(place(n), place(to)) : root(place(to), place(n));
+            edge.normal = vec(part_.nearest(point(edge.at)).normal);
             edges_.push_back(edge);
           }
         }

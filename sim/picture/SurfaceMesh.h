@@ -15,7 +15,7 @@ struct SurfaceMesh {
   std::vector<std::array<std::uint32_t, 3>> triangles; // counterclockwise as seen from outside
 };
 
-// Of the part within the region; where the region cuts it, the cut is closed. Edges and corners of the part
+// Of the part within the region; where the region cuts it, the surface is open. Edges and corners of the part
 // are kept. What is finer than a `cells`th of the region's longest side may be missed. The work is bounded:
 // fewer cells are taken for parts of many shapes.
 SurfaceMesh surfaceOf(const Part& part, const Region& region, std::uint32_t cells = 112);

@@ -20,7 +20,7 @@ function makeView(canvas, data) {
   // The colours are those of the style sheet, light or dark.
   function readTheme() {
     const style = getComputedStyle(document.documentElement), out = {};
-    for (const name of ["paper", "ink", "dim", "part-least", "part-most", "part-edge", "error", "contact"])
+    for (const name of ["paper", "ink", "dim", "part-least", "part-most", "part-edge", "note", "error", "contact"])
       out[name] = style.getPropertyValue("--" + name).trim();
     out.kinds = data.kinds.map((kind) => style.getPropertyValue("--" + kind.name).trim());
     return out;
@@ -50,14 +50,15 @@ function makeView(canvas, data) {
         else ends.set(key, [t]);
       }
     }
-    const edges = []; // sharp ones
+    const edges = [], borders = []; // sharp ones; of an open cut
     for (const [key, faces] of ends) {
+      if (faces.length === 1 && data.open) borders.push(Math.floor(key / count) * 3, (key % count) * 3);
       if (faces.length !== 2) continue;
       const [s, t] = faces;
       const cosine = normals[s] * normals[t] + normals[s + 1] * normals[t + 1] + normals[s + 2] * normals[t + 2];
       if (cosine < 0.82) edges.push(Math.floor(key / count) * 3, (key % count) * 3);
     }
-    return { points, triangles, normals, edges };
+    return { points, triangles, normals, edges, borders };
   }
 
   // A body of revolution about Z: a list of [radius, z] from below to above.
@@ -151,6 +152,8 @@ function makeView(canvas, data) {
     }
     for (let t = 0; t < triangles.length; t += 3) {
       const a = triangles[t] * 3, b = triangles[t + 1] * 3, c = triangles[t + 2] * 3;
+      if (data.open) // what is seen through the cut: the inside
+        fill(seen[a], seen[a + 1], seen[a + 2], seen[c], seen[c + 1], seen[c + 2], seen[b], seen[b + 1], seen[b + 2], packed(surface[0]));
       fill(seen[a], seen[a + 1], seen[a + 2], seen[b], seen[b + 1], seen[b + 2], seen[c], seen[c + 1], seen[c + 2],
         shade(normals[t], normals[t + 1], normals[t + 2], surface));
     }
@@ -359,10 +362,12 @@ function makeView(canvas, data) {
     if (show.part) {
       paint.strokeStyle = theme["part-edge"]; paint.lineWidth = 0.9; paint.setLineDash([]);
       const p = part.points;
-      for (let i = 0; i < part.edges.length; i += 2) {
-        const a = part.edges[i], b = part.edges[i + 1];
+      const edges = part.edges.concat(part.borders);
+      for (let i = 0; i < edges.length; i += 2) {
+        const a = edges[i], b = edges[i + 1];
         const from = project(p[a], p[a + 1], p[a + 2]), to = project(p[b], p[b + 1], p[b + 2]);
         if (isHidden((from[0] + to[0]) / 2, (from[1] + to[1]) / 2, (from[2] + to[2]) / 2)) continue;
+        paint.strokeStyle = i < part.edges.length ? theme["part-edge"] : theme.note;
         paint.globalAlpha = 1;
         paint.beginPath(); paint.moveTo(from[0], from[1]); paint.lineTo(to[0], to[1]); paint.stroke();
       }

@@ -23,6 +23,7 @@ struct SimOptions {
   std::optional<std::string> part, machine; // --part, --machine: paths
   Setup setup;                              // --tool, --length, --diameter, --work-offset, --at, --call
   bool svg = false, html = false;           // pictures of the run as files "svg" and "html"
+  std::string date;                         // that the pictures show; "": none
   bool json = false;                        // the output is the summary as JSON
   // Takes the trace while the program runs, in pieces of whole lines. Empty: no trace is made.
   std::function<void(std::string_view)> trace;

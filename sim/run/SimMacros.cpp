@@ -61,6 +61,8 @@ std::unique_ptr<SimMacros> SimMacros::load(const std::optional<std::string>& cho
     if (id) file = loadPrograms(*id, control, session);
     if (!file) return nullptr;
     library.addCallable(std::move(*file), session);
+    for (const std::uint32_t program : called)
+      if (set->calls(program)) out->texts_.insert(program);
   }
   return out;
 }
@@ -75,6 +77,22 @@ std::optional<PathKind> SimMacros::kindOf(std::uint32_t program, std::span<const
     if (!out || moves) out = moves ? PathKind::Protected : PathKind::Measuring;
   }
   return out;
+}
+
+std::optional<Measurement> SimMacros::foundBy(std::uint32_t program, std::span<const double> locals,
+                                              const Machine& machine) const {
+  if (texts_.count(program) == 0) return std::nullopt;
+  for (const stdlib::MacroSet* set : sets_) {
+    if (!set->calls(program)) continue;
+    const stdlib::MacroSignature* const signature =
+        stdlib::readCall(*set, program, givenLetters(locals).letters).signature;
+    if (signature == nullptr || signature->intent == stdlib::Intent::ProtectedMove) continue;
+    std::map<stdlib::Output, double> found;
+    for (const stdlib::MacroResult& result : signature->results)
+      if (result.documented) found[result.output] = machine.common(result.variable);
+    return measurementOf(*signature, locals, found);
+  }
+  return std::nullopt;
 }
 
 void SimMacros::setStylusRadius(double radius) {

@@ -33,6 +33,9 @@ public:
 
   // What the skip moves of a call are for, by the signatures; nothing: no set has the program.
   std::optional<PathKind> kindOf(std::uint32_t program, std::span<const double> locals) const;
+  // What a call found whose macro ran by a text of Dotek's; nothing: it has none, or measures nothing.
+  std::optional<Measurement> foundBy(std::uint32_t program, std::span<const double> locals,
+                                     const Machine& machine) const;
   // Of a stylus that was calibrated, mm; the variables of a set go first.
   void setStylusRadius(double radius);
 
@@ -43,6 +46,7 @@ public:
 private:
   std::vector<const stdlib::MacroSet*> sets_; // of the session
   std::deque<VendorMacros> meanings_;         // of the sets without a text
+  std::set<std::uint32_t> texts_; // programs of sets with a text that the programs do not bring themselves
 };
 
 } // namespace dotek::sim

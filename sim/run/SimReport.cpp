@@ -40,6 +40,10 @@ std::string where(const RunEnd& end) {
   return callers.empty() ? "" : " (" + callers + ")";
 }
 
+std::string alarmText(const RunEnd& end) {
+  return end.text.empty() ? "the program gives it no text" : toUtf8Text(end.text);
+}
+
 std::string_view endingName(const Machine& machine, bool stoppedByText) {
   if (stoppedByText) return "not-read";
   switch (machine.end().ending) {
@@ -118,7 +122,7 @@ void reportEnd(const std::string& path, const frontend::nc::Scanner& scanner, co
   }
   Diagnostics& diagnostics = session.diagnostics();
   if (end.ending == Ending::Alarm)
-    diagnostics.report<diag::ControlAlarm>(range, end.number, end.text, where(end));
+    diagnostics.report<diag::ControlAlarm>(range, alarmName(end), alarmText(end), where(end));
   else if (end.ending == Ending::Inconclusive)
     diagnostics.report<diag::RunInconclusive>(range, session.sources().textUtf8(range), end.text);
   else
@@ -146,7 +150,7 @@ void reportRun(const Run& run, const Machine& machine, Session& session) {
       report = &diagnostics.report<diag::ControlFault>(range, end.text);
       break;
     }
-    report = &diagnostics.report<diag::ControlAlarm>(range, end.number, toUtf8Text(end.text), where(end));
+    report = &diagnostics.report<diag::ControlAlarm>(range, alarmName(end), alarmText(end), where(end));
     const stdlib::AlarmInfo* missing = control.find(stdlib::Alarm::NoSuchProgram);
     if (missing != nullptr && end.number == missing->number && end.text == missing->text)
       report->note({}, "programs of other files are found with `--programs DIR`");
@@ -229,7 +233,8 @@ std::string summary(Machine& machine, const Run* run, const SimWorld& world, Ses
       stack += fmt::format("{}{{\"program\": {}, \"sequence\": {}, \"line\": {}}}", stack.empty() ? "" : ", ",
                            frame.program, frame.sequence, frame.line);
     out += fmt::format("  \"alarm\": {{\"number\": {}, \"text\": {}, \"line\": {}, \"stack\": [{}]}},\n",
-                       end.number, nlohmann::json(toUtf8Text(end.text)).dump(), end.line, stack);
+                       end.number == 0 ? "null" : std::to_string(end.number),
+                       nlohmann::json(toUtf8Text(end.text)).dump(), end.line, stack);
   } else {
     out += "  \"alarm\": null,\n";
   }
@@ -237,8 +242,9 @@ std::string summary(Machine& machine, const Run* run, const SimWorld& world, Ses
     const std::optional<std::uint32_t> first = machine.dialect().firstParameter;
     std::string variables;
     for (const auto& [number, value] : machine.written())
-      variables += fmt::format("{}\"{}\": {}", variables.empty() ? "" : ", ", number - first.value_or(0),
-                               isNull(value) ? "null" : numberText(value));
+      if (!isUnknown(value)) // what a macro left there and no source tells is no value
+        variables += fmt::format("{}\"{}\": {}", variables.empty() ? "" : ", ", number - first.value_or(0),
+                                 isNull(value) ? "null" : numberText(value));
     out += fmt::format("  \"{}\": {{{}}},\n", first ? "parameters" : "variables", variables);
     if (first)
       out += fmt::format("  \"zero\": {},\n{}", positionText(machine.activeZero(), machine.movedAxes()),

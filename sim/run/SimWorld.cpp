@@ -91,9 +91,16 @@ std::unique_ptr<SimWorld> SimWorld::load(const SimOptions& options, Session& ses
 }
 
 void SimWorld::begin() {
+  log_.begin({block_ ? block_ : [this] { return blockNow(); },
+              [this] {
+                const std::size_t moves = recorder_ ? recorder_->picture().moves.size() : 0;
+                return moves == 0 ? 0 : moves - 1;
+              },
+              [this] { return frame_().name; }});
   if (!picture_) return;
   Picture picture;
   picture.title = options_.program;
+  picture.date = options_.date;
   if (world_ && !world_->part().isEmpty()) picture.part = world_->part();
   if (world_) picture.probe = world_->probe();
   picture.decimals = decimals_;
@@ -129,6 +136,10 @@ void SimWorld::attach(Machine& machine) {
   stop_ = [&machine](std::string why) { machine.inconclusive(std::move(why)); };
   end_ = [&machine] { return machine.end(); };
   frame_ = [&machine] { return frameOf(machine); };
+  work_ = [&machine] {
+    const Position& at = machine.position();
+    return Point3{at[0], at[1], at[2]};
+  };
   decimals_ = machine.dialect().wordDecimals.value_or(machine.control().decimals);
   if (world_) machine.setSkipSignal(this);
   machine.setWatcher(this);
@@ -144,6 +155,7 @@ std::optional<double> SimWorld::contact(const SkipMove& move) {
   if (!world_) return std::nullopt;
   world_->setLine(line_());
   const std::optional<double> share = recorder_ ? recorder_->contact(move) : world_->contact(move);
+  touched_ = share && !move.positions && (protected_.empty() || !protected_.back());
   takeEvents();
   return share;
 }
@@ -157,6 +169,9 @@ void SimWorld::moved(const MachineMotion& motion) {
     recorder_->moved(motion);
   else if (world_)
     world_->moved(motion);
+  if (motion.kind == MotionKind::Skip && std::exchange(touched_, false))
+    log_.touched(work_(), {motion.to[0] - motion.from[0], motion.to[1] - motion.from[1],
+                           motion.to[2] - motion.from[2]});
   takeEvents();
 }
 
@@ -178,11 +193,13 @@ void SimWorld::recorded(std::string_view file, std::optional<double> value) {
 void SimWorld::callBegins(std::uint32_t program, std::span<const double> locals) {
   protected_.push_back((!protected_.empty() && protected_.back()) ||
                        (callKind_ && callKind_(program, locals) == PathKind::Protected));
+  log_.callBegins(program, locals);
   if (recorder_) recorder_->callBegins(program, locals);
 }
 
 void SimWorld::callEnded(std::uint32_t program) {
   if (!protected_.empty()) protected_.pop_back();
+  log_.callEnded(program);
   if (recorder_) recorder_->callEnded(program);
 }
 
@@ -246,6 +263,7 @@ void SimWorld::tell(const ProbeEvent& event, const RunPlace& place) {
 }
 
 void SimWorld::finishPicture() {
+  log_.finish();
   if (!recorder_) return;
   RunFacts facts;
   facts.end = end_();
@@ -255,7 +273,7 @@ void SimWorld::finishPicture() {
   facts.events = outcomes_;
   if (facts.end.ending == Ending::Running && session_.diagnostics().hasErrors())
     facts.unread = session_.diagnostics().all().back().message;
-  recorder_->finish(facts);
+  recorder_->finish(facts, log_.entries());
 }
 
 void SimWorld::reportRest() {
@@ -310,6 +328,30 @@ std::string SimWorld::json(const Kept& kept) const {
   return out + "}";
 }
 
+// [] where nothing was measured.
+std::string SimWorld::measuredJson() const {
+  std::string out;
+  for (const PictureMeasured& one : log_.entries()) {
+    std::string values, offsets;
+    for (const MeasuredValue& value : one.found.values)
+      values +=
+          fmt::format("{}{{\"name\": {}, \"nominal\": {}, \"measured\": {}, \"deviation\": {}}}",
+                      values.empty() ? "" : ", ", nlohmann::json(value.name).dump(),
+                      value.nominal ? fixedText(*value.nominal, 6) : "null", fixedText(value.measured, 6),
+                      value.nominal ? fixedText(value.measured - *value.nominal, 6) : "null");
+    for (const OffsetWrite& write : one.offsets)
+      offsets += fmt::format("{}{{\"name\": {}, \"before\": {}, \"after\": {}}}", offsets.empty() ? "" : ", ",
+                             nlohmann::json(write.name).dump(), fixedText(write.before, 6),
+                             fixedText(write.after, 6));
+    out += fmt::format(
+        "{}\n    {{\"feature\": {}, \"program\": {}, \"place\": {}, \"system\": {}, \"values\": [{}], "
+        "\"offsets\": [{}]}}",
+        out.empty() ? "" : ",", nlohmann::json(one.found.title).dump(), one.found.program,
+        nlohmann::json(one.block.place).dump(), nlohmann::json(one.system).dump(), values, offsets);
+  }
+  return out.empty() ? out : out + "\n  ";
+}
+
 std::string SimWorld::summary() const {
   const auto list = [&](const std::vector<Kept>& kept) {
     std::string out;
@@ -317,7 +359,8 @@ std::string SimWorld::summary() const {
       out += (out.empty() ? "\n    " : ",\n    ") + json(one);
     return out.empty() ? out : out + "\n  ";
   };
-  std::string out = "  \"contacts\": [" + list(contacts_) + "],\n  \"events\": [" + list(events_) + "],\n";
+  std::string out = "  \"measured\": [" + measuredJson() + "],\n  \"contacts\": [" + list(contacts_) +
+                    "],\n  \"events\": [" + list(events_) + "],\n";
   if (contactCount_ > contacts_.size() || eventCount_ > events_.size())
     out += fmt::format("  \"contactsLeftOut\": {},\n  \"eventsLeftOut\": {},\n",
                        contactCount_ - contacts_.size(), eventCount_ - events_.size());

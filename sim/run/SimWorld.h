@@ -7,6 +7,7 @@
 #include "sim/machine/Machine.h"
 #include "sim/machine/World.h"
 #include "sim/picture/PictureRecorder.h"
+#include "sim/run/MeasuredLog.h"
 #include "sim/run/Options.h"
 #include "support/OutputFile.h"
 
@@ -53,6 +54,7 @@ public:
     block_ = std::move(block);
   }
   void setCallKind(PictureRecorder::CallKind kind) { callKind_ = std::move(kind); }
+  void setReader(MeasuredLog::Reader reader) { log_.setReader(std::move(reader)); }
 
   bool hasPicture() const { return picture_; }
   // The radius that the calibration of the stylus would have found; nothing: no machine was given.
@@ -61,7 +63,7 @@ public:
   // After the run and after reportRest(): the pictures that were asked for.
   std::vector<OutputFile> pictures() const;
   void reportRest(); // what was too much to be reported one by one
-  // "contacts" and "events" of the summary, each on a line that ends with a comma.
+  // "measured", "contacts" and "events" of the summary, each on a line that ends with a comma.
   std::string summary() const;
   // "records" and "stops", in the same way.
   std::string notes() const;
@@ -74,6 +76,8 @@ public:
   void recorded(std::string_view file, std::optional<double> value) override;
   void callBegins(std::uint32_t program, std::span<const double> locals) override;
   void callEnded(std::uint32_t program) override;
+  void measured(const Measurement& found) override { log_.measured(found); }
+  void offsetWritten(const OffsetWrite& write) override { log_.offsetWritten(write); }
 
 private:
   static constexpr std::size_t kMostKept = 10'000; // of contacts and of events, in the summary
@@ -104,6 +108,7 @@ private:
   PictureBlock blockNow() const;
   std::string placeJson(const SourceRange& range) const;
   std::string json(const Kept& kept) const;
+  std::string measuredJson() const;
 
   const SimOptions& options_;
   Session& session_;
@@ -119,6 +124,9 @@ private:
   std::vector<bool> protected_; // of the calls that are open: within a protected move
   std::function<std::uint64_t()> line_, blocks_;
   std::function<RunEnd()> end_;
+  std::function<Point3()> work_; // position in work coordinates
+  MeasuredLog log_;
+  bool touched_ = false; // the last skip move ended at a contact that it wanted
   PictureRecorder::FrameNow frame_;
   int decimals_ = 3;
   std::function<void(std::string)> stop_; // ends the run as inconclusive

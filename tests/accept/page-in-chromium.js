@@ -128,6 +128,11 @@
       check(data.errors[0][3], "click on an error");
     }
 
+    for (const button of [...document.querySelectorAll("#measured button")].slice(0, 10)) {
+      button.click();
+      check(Number(button.dataset.move), "click on a measured feature");
+    }
+
     const canvas = byId("view"), still = hash();
     const pointer = (name, x, y) => canvas.dispatchEvent(new PointerEvent(name, { clientX: x, clientY: y, pointerId: 1, button: 0 }));
     canvas.setPointerCapture = () => {}; // of a pointer that is none

@@ -197,20 +197,22 @@ TEST_CASE("surface: a plate with a bore is closed, of the right size, with its e
   }
 }
 
-TEST_CASE("surface: clipped where the region ends") {
+TEST_CASE("surface: open where the region ends, with no face that the part does not have") {
   PartBuilder builder;
   builder.halfSpace({0, 0, 0}, {0, 0, 1});
   const auto part = finish(builder);
   const SurfaceMesh mesh = surfaceOf(*part, {{-50, -40, -30}, {50, 40, 30}});
-  CHECK(openEdges(mesh) == 0);
-  CHECK(volumeOf(mesh) == doctest::Approx(100 * 80 * 30).epsilon(1e-3));
+  REQUIRE(mesh.triangles.size() > 1000);
+  CHECK(openEdges(mesh) > 100);
+  for (const Point3& p : mesh.vertices)
+    CHECK(std::abs(p.z) < 0.01);
   CHECK(surfaceOf(*part, {{-50, -40, 10}, {50, 40, 30}}).triangles.empty());
 }
 
 TEST_CASE("surface: of random parts it is closed, and their size") {
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     const RandomPart random = RandomPart::make(seed);
-    const SurfaceMesh mesh = surfaceOf(*random.part, {{-40, -40, -40}, {40, 40, 40}});
+    const SurfaceMesh mesh = surfaceOf(*random.part, {{-46, -46, -46}, {46, 46, 46}});
     CAPTURE(seed);
     CHECK(openEdges(mesh) == 0);
     PartRandom dice(seed);
@@ -240,6 +242,43 @@ TEST_CASE("picture region: the reach of a part, and what a far rapid does not wi
   CHECK(region.contains({-182, -122, -419})); // a corner of the plate
   picture.moves.push_back({PathKind::Rapid, picture.moves.back().to, {5000, 0, 0}, true, 0});
   CHECK(regionOf(picture).most.x == region.most.x);
+}
+
+TEST_CASE("picture region: a part is whole, however small what was measured; a very large one is cut, which "
+          "is said") {
+  Picture picture;
+  PartBuilder block;
+  block.box({0, 0, -30}, {100, 60, 0});
+  picture.part = *finish(block);
+  picture.moves = {{PathKind::Measuring, {80, 10, 3}, {84, 10, -1}, true, 0}};
+  Region region = regionOf(picture);
+  CHECK(region.contains({0, 0, -30}));
+  CHECK(region.contains({100, 60, 0}));
+  CHECK(cutNote(picture, region) == "");
+  for (const std::string& shown : {pictureSvg(picture), pictureHtml(picture)})
+    CHECK(shown.find("cut open") == std::string::npos);
+
+  PartBuilder plate;
+  plate.box({-900, -500, -20}, {900, 30, 0});
+  picture.part = *finish(plate);
+  region = regionOf(picture);
+  CHECK_FALSE(region.contains({900, 0, 0}));
+  CHECK(cutSidesOf(picture, region) == std::vector<std::string>{"X-", "X+", "Y-"});
+  for (const std::string& shown : {pictureSvg(picture), pictureHtml(picture)})
+    CHECK(shown.find("the part goes on beyond the picture at X-, X+, Y-; it is") != std::string::npos);
+}
+
+TEST_CASE("picture: the zero of the work coordinates is where the probe's tip is at their zero") {
+  Picture picture = borePicture();
+  CHECK_FALSE(workZeroOf(picture).has_value());
+  picture.frames = {{"G54", {-300, -200, -223}}, {"G56", {-100, -50, -20}}};
+  for (std::size_t i = 0; i < picture.moves.size(); ++i)
+    picture.moves[i].frame = picture.moves[i].kind == PathKind::Rapid ? 1 : 0;
+  const auto zero = workZeroOf(picture);
+  REQUIRE(zero.has_value());
+  CHECK(zero->name == "G54");
+  // 180 from the gauge line to the tip.
+  CHECK(zero->at == Point3{-300, -200, -403});
 }
 
 TEST_CASE("picture sections lie where contacts are seen from the side, or just below them") {

@@ -146,3 +146,60 @@ TEST_CASE("sim part: a picture says where it stops") {
   folder.write("fits.nc", "G0 X3.\nM30\n");
   CHECK(folder.sim("fits.nc", {"--svg", "fits.svg", "--quiet"}).err.empty());
 }
+
+TEST_CASE("sim part: what a program measured, with the offset that it wrote then, is in its summary and its "
+          "pictures") {
+  Folder folder;
+  folder.write("touch.nc", "O0042\nG90 G21 G54\nG10 L2 P1 X10.\nG0 X-30. Y50. Z-5.\nG31 X5. F200.\n"
+                           "#101=#5061+3.\n#[5221]=#[5221]+#101\n#2003=0.25\nG0 X-40.\nM30\n");
+  const CommandResult result = folder.sim("touch.nc", {"--part", "part.toml", "--json", "--html", "a.html",
+                                                       "--svg", "a.svg", "--date", "21 Nov <2026>"});
+  CHECK(result.status == 0);
+  const Json measured = Json::parse(result.out)["measured"];
+  REQUIRE(measured.size() == 2);
+  CHECK(measured[0]["feature"] == "");
+  CHECK(measured[0]["offsets"][0] == Json{{"name", "G54 X"}, {"before", 0.0}, {"after", 10.0}});
+  CHECK(measured[1]["feature"] == "touch along X+");
+  CHECK(measured[1]["place"] == "touch.nc:5");
+  CHECK(measured[1]["system"] == "G54");
+  CHECK(measured[1]["values"][0] ==
+        Json{{"name", "X"}, {"nominal", nullptr}, {"measured", -13.0}, {"deviation", nullptr}});
+  CHECK(measured[1]["offsets"][0] == Json{{"name", "G54 X"}, {"before", 10.0}, {"after", 0.0}});
+  CHECK(measured[1]["offsets"][1] == Json{{"name", "tool 3 wear"}, {"before", 0.0}, {"after", 0.25}});
+  for (const char* name : {"a.html", "a.svg"}) {
+    const std::string shown = folder.read(name);
+    for (const char* text : {"id=\"measured\"", "touch along X+", "-13.000",
+                             "G54 X set from 10.000 to 0.000 (-10.000)", "21 Nov &lt;2026&gt;"})
+      CHECK_MESSAGE(shown.find(text) != std::string::npos, name << ": " << text);
+  }
+}
+
+TEST_CASE("sim part: a vendor's call is one row, with nominal and deviation, not the touches that it makes") {
+  Folder folder;
+  folder.write("web.nc", "O0043\nG90 G21 G54\nG0 X50. Y50.\nG65 P9811 Z1.5 S2\nM30\n");
+  const CommandResult result =
+      folder.sim("web.nc", {"--part", "part.toml", "--json", "--probe-macros", "inspection-plus"});
+  const Json summary = Json::parse(result.out);
+  const Json measured = summary["measured"];
+  REQUIRE(measured.size() == 1);
+  CHECK(measured[0]["program"] == 9811);
+  CHECK(measured[0]["place"] == "web.nc:4");
+  CHECK(measured[0]["values"][0] ==
+        Json{{"name", "Z"}, {"nominal", 1.5}, {"measured", 0.0}, {"deviation", -1.5}});
+  CHECK(measured[0]["offsets"][0] == Json{{"name", "G55 Z"}, {"before", 0.0}, {"after", -1.5}});
+  CHECK(summary["contacts"].size() == 2);
+}
+
+TEST_CASE("sim part: a run that leaves the travel is told by axis, direction, place and limit") {
+  Folder folder;
+  folder.write("travel.toml", std::string(kMachine) + "[travel]\nz = [-200.0, 60.0]\n");
+  folder.write("up.nc", "O7\nG90 G54\nG0 Z75.5\nM30\n");
+  const CommandResult result =
+      runDotek({"sim", "up.nc", "--machine", "travel.toml", "--svg", "up.svg", "--quiet"}, folder.path());
+  CHECK(result.status == 1);
+  CHECK(
+      result.err.find(
+          "Z+ over-travel: the move takes the spindle to machine Z75.500, and the travel ends at Z60.000") !=
+      std::string::npos);
+  CHECK(folder.read("up.svg").find(">OVER-TRAVEL<") != std::string::npos);
+}

@@ -1,0 +1,77 @@
+#include "sim/run/MeasuredLog.h"
+
+#include <cmath>
+#include <iterator>
+#include <utility>
+
+namespace dotek::sim {
+
+PictureMeasured MeasuredLog::entry(Measurement found, PictureBlock block, std::string system) const {
+  return {std::move(found), {}, std::move(system), std::move(block), now_.move()};
+}
+
+void MeasuredLog::add(PictureMeasured one) {
+  if (entries_.size() < kMost)
+    entries_.push_back(std::move(one));
+  else
+    ++leftOut_;
+}
+
+void MeasuredLog::callBegins(std::uint32_t /*program*/, std::span<const double> locals) {
+  if (!now_.block) return;
+  calls_.push_back(
+      {{locals.begin(), locals.end()}, now_.block(), now_.system(), entries_.size(), std::nullopt});
+}
+
+void MeasuredLog::callEnded(std::uint32_t program) {
+  if (calls_.empty()) return;
+  Call call = std::move(calls_.back());
+  calls_.pop_back();
+  if (!call.found && reader_) call.found = reader_(program, call.locals);
+  close(std::move(call));
+}
+
+// The touches within the call are those of what it found; its offsets stay.
+void MeasuredLog::close(Call call) {
+  if (!call.found) return;
+  PictureMeasured one = entry(std::move(*call.found), std::move(call.block), std::move(call.system));
+  for (std::size_t i = call.first; i < entries_.size(); ++i)
+    std::move(entries_[i].offsets.begin(), entries_[i].offsets.end(), std::back_inserter(one.offsets));
+  if (call.first < entries_.size())
+    entries_.erase(entries_.begin() + static_cast<std::ptrdiff_t>(call.first), entries_.end());
+  add(std::move(one));
+}
+
+void MeasuredLog::measured(const Measurement& found) {
+  if (!calls_.empty()) calls_.back().found = found;
+}
+
+void MeasuredLog::offsetWritten(const OffsetWrite& write) {
+  if (!now_.block) return;
+  const bool within = !calls_.empty() && calls_.back().first == entries_.size();
+  if (entries_.empty() || within) add(entry({0, "", {}}, now_.block(), now_.system()));
+  if (!entries_.empty()) entries_.back().offsets.push_back(write);
+}
+
+void MeasuredLog::touched(const Point3& position, const Point3& way) {
+  if (!now_.block) return;
+  Measurement found;
+  const double ways[] = {way.x, way.y, way.z}, positions[] = {position.x, position.y, position.z};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (std::abs(ways[axis]) < 1e-6) continue;
+    const char letter = "XYZ"[axis];
+    found.title += (found.title.empty() ? "touch along " : " ");
+    found.title += letter;
+    found.title += ways[axis] > 0 ? '+' : '-';
+    found.values.push_back({std::string(1, letter), std::nullopt, positions[axis]});
+  }
+  if (found.values.empty()) return;
+  add(entry(std::move(found), now_.block(), now_.system()));
+}
+
+void MeasuredLog::finish() {
+  for (; !calls_.empty(); calls_.pop_back())
+    close(std::move(calls_.back()));
+}
+
+} // namespace dotek::sim

@@ -1,0 +1,63 @@
+// Gathers what a run measures: calls of probing macros with what they found, touches of skip moves outside of
+// such calls, and the offsets that were written after them.
+#pragma once
+
+#include "sim/picture/Picture.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace dotek::sim {
+
+class MeasuredLog {
+public:
+  static constexpr std::size_t kMost = 1000; // entries; more are counted
+
+  // What a macro that ran by its text left in its result variables; nothing: no source says what it measures.
+  using Reader =
+      std::function<std::optional<Measurement>(std::uint32_t program, std::span<const double> locals)>;
+
+  // Where the run is: the block, the last move of the picture, the name of the active work offset.
+  struct Now {
+    std::function<PictureBlock()> block;
+    std::function<std::size_t()> move;
+    std::function<std::string()> system;
+  };
+  void begin(Now now) { now_ = std::move(now); }
+  void setReader(Reader reader) { reader_ = std::move(reader); }
+
+  void callBegins(std::uint32_t program, std::span<const double> locals);
+  void callEnded(std::uint32_t program);
+  void measured(const Measurement& found);
+  void offsetWritten(const OffsetWrite& write);
+  // A skip move that ended at a contact: where, in work coordinates, and the way of the machine to it.
+  void touched(const Point3& position, const Point3& way);
+  void finish(); // calls in which the run ended
+
+  const std::vector<PictureMeasured>& entries() const { return entries_; }
+  std::size_t leftOut() const { return leftOut_; }
+
+private:
+  struct Call {
+    std::vector<double> locals;
+    PictureBlock block;
+    std::string system;
+    std::size_t first = 0; // of entries_, made within it
+    std::optional<Measurement> found;
+  };
+  void close(Call call);
+  PictureMeasured entry(Measurement found, PictureBlock block, std::string system) const;
+  void add(PictureMeasured one);
+
+  Now now_;
+  Reader reader_;
+  std::vector<Call> calls_;
+  std::vector<PictureMeasured> entries_;
+  std::size_t leftOut_ = 0;
+};
+
+} // namespace dotek::sim
