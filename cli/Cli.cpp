@@ -115,6 +115,7 @@ public:
     out_ << (arguments.sarif  ? driver::sarif(outcome)
              : arguments.json ? renderJson(outcome.diagnostics, outcome.sources)
                               : renderText(outcome.diagnostics, outcome.sources, maxErrors_));
+    if (!outcome.summary.empty()) err_ << outcome.summary << "\n";
     return outcome.status;
   }
 

@@ -30,7 +30,7 @@ struct Raw {
   std::string format = "text";
   std::string select, ignore;
   std::string failOn;
-  bool fix = false;
+  bool fix = false, followLinks = false;
   std::string stage = "ast";
   std::vector<std::string> letters, defaults;
   std::string to, control, fromControl, renumber, probeMacros, programNumber, outputFolder, mapFile;

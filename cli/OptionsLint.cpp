@@ -38,6 +38,7 @@ void addLint(CLI::App& app, Raw& raw) {
   lint->add_option("PATH", raw.inputs, "files and folders");
   lint->add_option("--format", raw.format, "text, json or sarif")
       ->check(CLI::IsMember({"text", "json", "sarif"}));
+  lint->add_flag("--follow-links", raw.followLinks, "of folders: also links that lead out of them");
   lint->add_flag("--fix", raw.fix, "make the repairs that change no motion, coordinate or meaning");
   lint->add_option("--form", raw.form, "what the Form of the post decides (see `dotek list forms`)")
       ->type_name("NAME");
@@ -62,6 +63,7 @@ driver::LintOptions lintOf(const Raw& raw) {
   out.control = raw.control;
   out.fix = raw.fix;
   out.force = raw.force;
+  out.followLinks = raw.followLinks;
   if (!raw.failOn.empty())
     out.failOn = raw.failOn == "never"   ? driver::FailOn::Never
                  : raw.failOn == "note"  ? driver::FailOn::Note

@@ -46,6 +46,7 @@ struct LintOptions {
   std::set<std::string> ignore;
   std::string control;          // profile that programs are checked for; "": what holds on every control
   std::optional<FailOn> failOn; // nothing: what dotek.toml says, else Warning
+  bool followLinks = false;     // of folders: also links that lead out of them
   bool fix = false;             // makes the safe repairs, then says what is left
   bool force = false;           // repairs files that are write-protected, too
 };
@@ -77,6 +78,7 @@ struct Outcome {
   std::string macros;             // of convert: the set that the last result calls; "": none
   std::vector<std::vector<OutputArgument>> arguments; // of convert to fanuc, cycle by cycle
   std::vector<std::string> macrosByCycle;             // the sets that these call
+  std::string summary; // of lint of folders: what was read and what was not, a line; "" otherwise
   SourceMap sources;
   Diagnostics diagnostics; // sorted
 };

@@ -65,13 +65,11 @@ private:
   }
 
   void file(const std::string& input) {
-    Diagnostics unreadable;
-    const std::optional<InputKind> kind = compilation_.kindOf(input, unreadable);
-    for (const Diagnostic& one : unreadable.all())
-      session_.diagnostics().add(one);
-    if (!unreadable.empty()) return;
+    const Recognition* const found = session_.kindOf(input, session_.diagnostics());
+    if (found == nullptr) return;
+    const std::optional<InputKind> kind = found->kind;
     if (!kind) {
-      if (session_.read(input, Encoding::Cp1250)) session_.diagnostics().report<diag::UnknownKind>({}, input);
+      session_.diagnostics().report<diag::UnknownKind>({}, inputName(input), otherwise(*found));
       return;
     }
     const std::optional<FileId> id =
@@ -130,6 +128,7 @@ private:
     ir::Module module;
     for (const std::string& input : rest) {
       if (isProgramFile(input, session_)) {
+        if (session_.diagnostics().hasErrors()) return;
         programs(input, *inputs->control);
         continue;
       }
@@ -149,13 +148,9 @@ private:
   bool mikroprogIr(const std::string& input) {
     std::error_code error;
     if (fs::is_directory(input, error)) return false;
-    if (options_.common.from) {
-      if (kindByName(*options_.common.from) != InputKind::Suf) return false;
-    } else {
-      Diagnostics ignored; // the other readers report
-      const std::optional<std::string> bytes = readBytes(input, session_.limits(), ignored);
-      if (!bytes || recognise(input, *bytes) != InputKind::Suf) return false;
-    }
+    Diagnostics ignored; // the other readers report
+    const Recognition* const found = session_.kindOf(input, ignored, InputKind::Nc);
+    if (found == nullptr || found->kind != InputKind::Suf) return false;
     const std::optional<FileId> id = session_.read(input, Encoding::Cp852);
     if (!id) return true;
     const auto program = frontend::mikroprog::parse(*id, session_.sources(), session_.diagnostics());

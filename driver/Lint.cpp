@@ -13,6 +13,7 @@
 #include "project/Compilation.h"
 #include "project/CycleFolder.h"
 #include "project/FormChoice.h"
+#include "project/InputWalk.h"
 #include "project/Job.h"
 #include "support/Files.h"
 #include "support/messages/ComPost.h"
@@ -37,7 +38,10 @@ namespace {
 class LintCommand {
 public:
   LintCommand(const LintOptions& options, Session& session)
-      : options_(options), session_(session), configs_(session), compilation_(session) {}
+      : options_(options), session_(session), configs_(session), compilation_(session),
+        walk_(
+            options.followLinks, [this](const std::string& path, bool) { folder(path); },
+            [this](const std::string& path, bool named) { file(path, named); }) {}
 
   Outcome run() {
     if (options_.paths.empty())
@@ -60,7 +64,9 @@ public:
     else if (!control.empty() && !suf)
       loadControl(control, session_);
     for (const std::string& path : options_.paths)
-      visit(path, true);
+      walk_.visit(path, session_.diagnostics());
+    if (checkedFiles_ == 0 && !session_.diagnostics().hasErrors() && !options_.paths.empty())
+      session_.diagnostics().report<diag::NothingRead>({}, quoted(options_.paths));
     lint::Project project = gather(first);
     // Shared rules all run, since one that nobody asked for may tell why another finding begins at its place.
     lint::runRules(project, session_.diagnostics(),
@@ -74,6 +80,7 @@ public:
     select();
     const bool fails = failsNow();
     Outcome outcome = outcomeOf(session_, "", true);
+    outcome.summary = summary();
     // Findings are the result of lint, not its failure.
     if (outcome.status == 1) outcome.status = 0;
     if (outcome.status == 0 && fails) outcome.status = 1;
@@ -85,6 +92,23 @@ private:
     Outcome outcome = outcomeOf(session_, "", true);
     outcome.status = 2;
     return outcome;
+  }
+
+  // "": only files were named, and each of them was read or is an error.
+  std::string summary() const {
+    std::error_code error;
+    const bool folders = std::any_of(options_.paths.begin(), options_.paths.end(),
+                                     [&](const std::string& path) { return fs::is_directory(path, error); });
+    if (!folders) return "";
+    return walkSummary(checkedFiles_, walk_.passedOver(),
+                       options_.paths.size() == 1 ? options_.paths.front() : "");
+  }
+
+  static std::string quoted(const std::vector<std::string>& paths) {
+    std::string out;
+    for (const std::string& path : paths)
+      out += (out.empty() ? "`" : ", `") + path + "`";
+    return out;
   }
 
   const LintConfig& configOf(FileId file) {
@@ -198,58 +222,53 @@ private:
     return false;
   }
 
-  void visit(const std::string& path, bool named) {
-    std::error_code error;
-    if (!fs::is_directory(path, error)) {
-      file(path, named);
-      return;
-    }
-    const bool cycle = isCycleFolder(path);
-    // The folder's loader owns the trees of sub-macros; they are linted below as files of their own.
-    if (cycle) compilation_.addFolder(path, false);
-    std::vector<fs::path> entries;
-    for (const auto& entry : fs::directory_iterator(path, error))
-      entries.push_back(entry.path());
-    if (error) session_.diagnostics().report<diag::FileNotReadable>({}, path, error.message());
-    std::sort(entries.begin(), entries.end());
-    for (const fs::path& entry : entries) {
-      const std::string name = entry.filename().string();
-      if (name.starts_with('.') || (cycle && isUnitFile(name))) continue;
-      visit(entry.generic_string(), false);
-    }
+  void folder(const std::string& path) {
+    // The folder's loader owns the trees of sub-macros; they are linted as files of their own.
+    if (isCycleFolder(path)) compilation_.addFolder(path, false);
   }
 
-  static bool isUnitFile(const std::string& name) {
-    const std::string folded = gibbs::foldCase(name);
-    return folded == "DEFINEDATA.TXT" || folded == "CYCLEDATA.DLG" || folded == "CYCLEDATA.MAC" ||
-           folded == "TOOLPATH.MAC";
-  }
-
-  static bool mayBeSource(const fs::path& path) {
-    const std::string suffix = gibbs::foldCase(path.extension().string());
-    return suffix == ".TXT" || suffix == ".MAC" || suffix == ".DLG" || suffix == ".NC" || suffix == ".SUF";
+  // The loader of a cycle's folder has read it.
+  static bool isPartOfCycle(const fs::path& path) {
+    const std::string name = gibbs::foldCase(path.filename().string());
+    return name == "DEFINEDATA.TXT" || name == "CYCLEDATA.DLG" || name == "CYCLEDATA.MAC" ||
+           name == "TOOLPATH.MAC";
   }
 
   void file(const std::string& path, bool named) {
-    if (!options_.common.from && path.ends_with(".toml") && job(path)) return;
-    if (!named && !mayBeSource(path)) return;
-    Diagnostics found;
-    const std::optional<InputKind> kind = compilation_.kindOf(path, found);
-    if (named)
-      for (const Diagnostic& one : found.all())
-        session_.diagnostics().add(one);
-    if (found.hasErrors()) return;
-    if (!kind) {
-      // A text that cannot be read says why; another one is none of ours.
-      const std::optional<FileId> id = session_.read(path, Encoding::Cp1250);
-      if (!named || !id) return;
-      if (session_.sources().file(*id).bytes().empty())
-        session_.diagnostics().report<diag::EmptyFile>({*id, 0, 0}, path);
-      else
-        session_.diagnostics().report<diag::UnknownKind>({}, path);
+    if (!options_.common.from && path.ends_with(".toml") && job(path)) {
+      ++checkedFiles_;
       return;
     }
-    if (*kind == InputKind::Prog) {
+    if (!named && isPartOfCycle(path)) {
+      ++checkedFiles_;
+      return;
+    }
+    const Recognition* const found = session_.kindOf(path, session_.diagnostics());
+    if (found == nullptr) return;
+    if (!found->kind) {
+      notRead(path, named, *found);
+      return;
+    }
+    ++checkedFiles_;
+    read(path, *found->kind);
+  }
+
+  void notRead(const std::string& path, bool named, const Recognition& found) {
+    if (!named) {
+      // The settings were read.
+      if (fs::path(path).filename() != "dotek.toml") walk_.passOver(path, found.reason);
+      return;
+    }
+    const std::optional<FileId> empty =
+        found.reason == kEmptyInput ? session_.read(path, Encoding::Cp1250) : std::nullopt;
+    if (empty)
+      session_.diagnostics().report<diag::EmptyFile>({*empty, 0, 0}, inputName(path));
+    else
+      session_.diagnostics().report<diag::UnknownKind>({}, inputName(path), otherwise(found));
+  }
+
+  void read(const std::string& path, InputKind kind) {
+    if (kind == InputKind::Prog) {
       const compost::Program* program = compilation_.addProg(path, false);
       if (program == nullptr) return;
       for (const auto* routine : compost::cycleRoutines(*program, session_.compostKeywords()))
@@ -257,20 +276,20 @@ private:
       return;
     }
     const std::optional<FileId> id =
-        session_.read(path, *kind == InputKind::Suf ? Encoding::Cp852 : Encoding::Cp1250);
+        session_.read(path, kind == InputKind::Suf ? Encoding::Cp852 : Encoding::Cp1250);
     if (!id) return;
-    if (*kind == InputKind::Suf) return suf(*id);
-    if (*kind == InputKind::Nc) {
+    if (kind == InputKind::Suf) return suf(*id);
+    if (kind == InputKind::Nc) {
       compilation_.addPrograms(*id);
       return;
     }
     const gibbs::ParseContext context{session_.sources(), session_.gibbsKeywords(), session_.limits(),
                                       session_.diagnostics()};
-    if (*kind == InputKind::Macro) {
+    if (kind == InputKind::Macro) {
       const gibbs::Macro& macro = compilation_.addMacro(*id);
       MacroLoader loader(session_, fs::path(path).parent_path());
       checked_.emplace_back(macro, loader.included(macro), context);
-    } else if (*kind == InputKind::Dialog) {
+    } else if (kind == InputKind::Dialog) {
       checked_.emplace_back(compilation_.addDialog(*id), context);
     } else {
       checked_.emplace_back(compilation_.addDefineData(*id), context);
@@ -306,12 +325,12 @@ private:
   // A job in TOML: a file with operations.
   bool job(const std::string& path) {
     Diagnostics ignored;
-    const std::optional<std::string> bytes = readBytes(path, session_.limits(), ignored);
+    const std::optional<std::string> bytes = session_.bytes(path, ignored);
     const bool isJob = bytes && (bytes->starts_with("operation") || bytes->starts_with("[[operation]]") ||
                                  bytes->find("\noperation") != std::string::npos ||
                                  bytes->find("\n[[operation]]") != std::string::npos);
     if (!isJob) return false;
-    const auto loaded = loadJob(path, session_.limits(), session_.sources(), session_.diagnostics());
+    const auto loaded = loadJob(path, session_);
     if (!loaded) return true;
     for (const auto& routine : {loaded->startRoutine, loaded->operationRoutine, loaded->endRoutine}) {
       if (routine) entryPoints_.insert(*routine);
@@ -337,6 +356,8 @@ private:
   Session& session_;
   LintConfigs configs_;
   Compilation compilation_;
+  InputWalk walk_;
+  std::size_t checkedFiles_ = 0;
   LoweringInputs* inputs_ = nullptr;
   const stdlib::Control* control_ = nullptr;          // --control
   std::optional<stdlib::MikroprogControl> mikroprog_; // the same, for .SUF

@@ -32,6 +32,8 @@ std::map<std::string, std::uint32_t> applySafeFixes(const Outcome& outcome, cons
   };
   for (const Diagnostic& d : outcome.diagnostics.all()) {
     if (!d.fix || d.fix->applicability != Fix::Applicability::Safe || isOther(d.range.file)) continue;
+    const std::string& name = outcome.sources.file(d.range.file).name();
+    if (name == inputName("-") || isStream(name)) continue; // there is nothing to write to
     const bool clashes = std::any_of(d.fix->edits.begin(), d.fix->edits.end(), [&](const Edit& edit) {
       return std::any_of(edits.begin(), edits.end(), [&](const Edit& other) { return meet(edit, other); });
     });

@@ -2,7 +2,7 @@
 #include "driver/Command.h"
 #include "driver/Driver.h"
 #include "frontend/nc/Scan.h"
-#include "project/InputKind.h"
+#include "project/Inputs.h"
 #include "project/ProgramLibrary.h"
 #include "project/SufProgram.h"
 #include "project/VariableFlags.h"
@@ -36,20 +36,21 @@ public:
   Outcome run() {
     if (options_.program.empty())
       diagnostics().report<diag::MissingOption>({}, "sim", "PROGRAM", "an NC program");
-    if (isMikroprog()) return runSuf();
+    else if (const auto kind =
+                 kindAmong(options_.program, {InputKind::Nc, InputKind::Suf}, "an NC program", session_);
+             kind == InputKind::Suf)
+      return runSuf();
+    if (diagnostics().hasErrors()) return outcomeOf(session_, "");
     control_ = loadControl();
     if (diagnostics().hasErrors()) return outcomeOf(session_, "");
     world_ = sim::SimWorld::load(options_, session_);
     if (!world_) return outcomeOf(session_, "");
-    std::unique_ptr<LineChunks> chunks = LineChunks::open(options_.program, diagnostics());
-    if (!chunks) return outcomeOf(session_, "");
     // What cannot be read twice, a pipe, is kept; so its size is bounded.
     std::optional<std::string> kept;
-    if (!chunks->rewind()) {
-      kept = readAll(*chunks);
-      if (!kept) return outcomeOf(session_, "");
-      chunks = std::make_unique<LineChunks>(*kept);
-    }
+    if (isStream(options_.program)) kept = session_.bytes(options_.program, diagnostics());
+    std::unique_ptr<LineChunks> chunks =
+        kept ? std::make_unique<LineChunks>(*kept) : LineChunks::open(options_.program, diagnostics());
+    if (!chunks || diagnostics().hasErrors()) return outcomeOf(session_, "");
     sim::Machine machine(*control_);
     if (!setVariables(machine) || !world_->prepare(machine)) return outcomeOf(session_, "");
     if (!options_.programs.empty() || !world_->setup().call.empty() || frontend::nc::mayHoldMacros(*chunks))
@@ -61,36 +62,12 @@ public:
 private:
   Diagnostics& diagnostics() { return session_.diagnostics(); }
 
-  // Its words look like any NC, so the name tells, or --from.
-  bool isMikroprog() const {
-    const std::optional<std::string>& from = options_.common.from;
-    return (from ? kindByName(*from) : recognise(options_.program, "")) == InputKind::Suf;
-  }
-
   Outcome finish(sim::Machine& machine, const sim::Run* run) {
     world_->reportRest();
     Outcome out =
         outcomeOf(session_, options_.json ? sim::summary(machine, run, *world_, session_) : "", true);
     out.files = world_->pictures();
     return out;
-  }
-
-  // nullopt with a diagnostic where it is too large or cannot be read.
-  std::optional<std::string> readAll(LineChunks& chunks) {
-    std::string out;
-    for (;;) {
-      const LineChunks::State state = chunks.next();
-      if (state == LineChunks::State::End) return out;
-      if (state == LineChunks::State::Failed) {
-        diagnostics().report<diag::FileNotReadable>({}, options_.program, chunks.error());
-        return std::nullopt;
-      }
-      out.append(chunks.begin(), chunks.end());
-      if (out.size() > session_.limits().inputBytes) {
-        diagnostics().report<diag::FileTooLarge>({}, options_.program, session_.limits().inputBytes);
-        return std::nullopt;
-      }
-    }
   }
 
   std::optional<stdlib::Control> loadControl() {
@@ -119,8 +96,8 @@ private:
   // A program with macro statements, calls or jumps: it and all that it may call are kept.
   Outcome runLoaded(std::optional<std::string>& kept, sim::Machine& machine) {
     const std::optional<FileId> id =
-        kept ? addText(options_.program, std::move(*kept), Encoding::Cp1250, session_.options().encoding,
-                       session_.sources(), diagnostics())
+        kept ? addText(inputName(options_.program), std::move(*kept), Encoding::Cp1250,
+                       session_.options().encoding, session_.sources(), diagnostics())
              : session_.read(options_.program, Encoding::Cp1250);
     if (!id) return outcomeOf(session_, "");
     std::optional<ProgramLibrary> library =

@@ -204,9 +204,9 @@ private:
 
 Outcome verify(const VerifyOptions& options) {
   return guarded(options.common, [&](Session& session) {
-    if (options.inputs.size() == 1 && isProgramFile(options.inputs.front(), session))
-      return verifyPrograms(options, session);
-    return VerifyCommand(options, session).run();
+    const bool programs = options.inputs.size() == 1 && isProgramFile(options.inputs.front(), session);
+    if (session.diagnostics().hasErrors()) return outcomeOf(session, "");
+    return programs ? verifyPrograms(options, session) : VerifyCommand(options, session).run();
   });
 }
 

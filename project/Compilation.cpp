@@ -32,15 +32,6 @@ const std::vector<stdlib::Control>& Compilation::controls() {
   return *controls_;
 }
 
-std::optional<InputKind> Compilation::kindOf(const std::string& path, Diagnostics& diagnostics) {
-  if (session_.options().from) return kindByName(*session_.options().from);
-  const auto known = kinds_.find(path);
-  if (known != kinds_.end()) return known->second;
-  const std::optional<std::string> bytes = readBytes(path, session_.limits(), diagnostics);
-  if (!bytes) return std::nullopt;
-  return kinds_.emplace(path, recognise(path, *bytes)).first->second;
-}
-
 LoweringInputs* Compilation::load(const SourceOptions& source, const std::string& control) {
   inputs_ = loadLoweringInputs(source, control, session_);
   return inputs_ ? &*inputs_ : nullptr;

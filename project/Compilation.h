@@ -33,10 +33,6 @@ public:
   // All profiles of controls, by name; loaded when first asked for.
   const std::vector<stdlib::Control>& controls();
 
-  // What a file is: --from says it, else its content, then its name. nullopt: none of them does, or it cannot
-  // be read, which is reported to `diagnostics`.
-  std::optional<InputKind> kindOf(const std::string& path, Diagnostics& diagnostics);
-
   // Under which settings cycles are lowered; reads the Prog of the command line. nullptr: a flag, the Prog or
   // a data file has a defect, reported.
   LoweringInputs* load(const SourceOptions& source, const std::string& control);
@@ -77,7 +73,6 @@ public:
 private:
   Session& session_;
   std::optional<std::vector<stdlib::Control>> controls_;
-  std::map<std::string, std::optional<InputKind>> kinds_;
   std::optional<LoweringInputs> inputs_;
   std::deque<std::shared_ptr<const frontend::compost::Program>> progs_;
   std::deque<CycleFolder> folders_;

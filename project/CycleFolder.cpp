@@ -1,4 +1,5 @@
 #include "project/CycleFolder.h"
+#include "support/Files.h"
 #include "support/messages/Commands.h"
 #include "support/messages/Common.h"
 
@@ -60,6 +61,7 @@ std::optional<fs::path> MacroLoader::search(const std::string& name, const std::
   if (file.empty()) return std::nullopt;
   std::optional<fs::path> found = findEntry(folder, file);
   if (!found || !fs::is_regular_file(*found, error)) found = findEntry(folder, file + suffix);
+  if (found && !fs::is_regular_file(*found, error)) found.reset();
   // One spelling a file: the command line says `a.mac`, not `./a.mac`.
   return found && here ? found->filename() : found;
 }
@@ -258,7 +260,11 @@ CycleFolder loadCycleFolder(const std::string& path, Session& session, bool chec
       folder.complete = false;
       continue;
     }
-    ids[i] = session.read(file->generic_string(), Encoding::Cp1250);
+    if (isStream(file->string())) // a FIFO would block, and nobody named it
+      session.diagnostics().report<diag::FileNotReadable>({}, file->generic_string(),
+                                                          "it is no regular file");
+    else
+      ids[i] = session.read(file->generic_string(), Encoding::Cp1250);
     if (!ids[i]) folder.complete = false;
   }
   if (!missing.empty())

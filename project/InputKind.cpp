@@ -1,135 +1,209 @@
 #include "project/InputKind.h"
 
+#include "project/Dialects.h"
+#include "project/LineShapes.h"
 #include "support/Ascii.h"
 
 #include <algorithm>
 #include <array>
-#include <cctype>
-#include <string>
-#include <vector>
+#include <fmt/format.h>
 
 namespace dotek::project {
 namespace {
 
-std::string_view trimmed(std::string_view text) {
-  while (!text.empty() && (text.front() == ' ' || text.front() == '\t'))
-    text.remove_prefix(1);
-  while (!text.empty() && (text.back() == ' ' || text.back() == '\t' || text.back() == '\r'))
-    text.remove_suffix(1);
-  return text;
-}
+using View = std::string_view;
 
-bool isNameCharacter(char c) {
-  return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '$';
-}
+constexpr View kUnknown = "no language that Dotek reads";
+constexpr View kListing = "listing";
+constexpr int kMostLines = 2000;
+constexpr std::size_t kMostOfLine = 4096;
+constexpr int kLongestLeader = 12; // lines before the first `%`, or after the last
 
-std::string_view leadingName(std::string_view line) {
-  std::size_t n = 0;
-  while (n < line.size() && isNameCharacter(line[n]))
-    ++n;
-  return line.substr(0, n);
-}
+constexpr std::array kKinds = {InputKind::Prog,       InputKind::Macro, InputKind::Dialog,
+                               InputKind::DefineData, InputKind::Nc,    InputKind::Suf};
 
-struct Marks {
-  int prog = 0;
-  int macro = 0;
-  int dialog = 0;
-  int nc = 0;
-  int definition = 0;
-  int lines = 0;
+// What the lines of a text say for one language.
+struct Tally {
+  int lines = 0; // that are not blank to it
+  int fits = 0;
+  int begins = 0; // that only begin like it
+  int weight = 0;
+
+  void add(const Shape& shape) {
+    if (shape.blank) return;
+    ++lines;
+    fits += shape.fits ? 1 : 0;
+    weight += shape.weight;
+  }
+  double share() const { return lines == 0 ? 0 : static_cast<double>(fits) / lines; }
+  double score() const { return weight * share() * share(); }
 };
 
-void markProg(std::string_view line, Marks& marks) {
-  const std::string_view name = leadingName(line);
-  if (name == "RETURN" || name == "EOL") marks.prog += 3;
-  if (line.ends_with("EOL") || line.find("EOL ") != std::string_view::npos) marks.prog += 2;
-  if (line.starts_with('{') || line.starts_with('\'') || line.starts_with("FORMAT(")) marks.prog += 2;
-  if (line.starts_with("IF ") && line.find("?(") != std::string_view::npos) marks.prog += 3;
-  if (line.find("#('") != std::string_view::npos || line.find("?('") != std::string_view::npos)
-    marks.prog += 2;
-  if (line.starts_with('#') && line.find("= '") != std::string_view::npos) marks.prog += 3;
-}
-
-void markDialog(std::string_view line, Marks& marks) {
-  constexpr std::array<std::string_view, 8> kControls = {"LABEL", "INPUT",  "IMAGE", "FRAME",
-                                                         "OK",    "CANCEL", "CHECK", "RADIO"};
-  const std::string name = upperCase(leadingName(line));
-  const std::string_view rest = trimmed(line.substr(name.size()));
-  const auto commas = std::count(line.begin(), line.end(), ',');
-  const bool boxed =
-      !rest.empty() && std::isdigit(static_cast<unsigned char>(rest.front())) != 0 && commas >= 3;
-  if (boxed && std::find(kControls.begin(), kControls.end(), name) != kControls.end()) marks.dialog += 3;
-  if (name == "DIALOG" && commas >= 4) marks.dialog += 3;
-}
-
-void markMacro(std::string_view line, Marks& marks) {
-  constexpr std::array<std::string_view, 14> kWords = {"IF",        "FOR",     "NEXT",  "GOTO",   "CALL",
-                                                       "ARGS",      "MESSAGE", "LOCAL", "GLOBAL", "CONTINUE",
-                                                       "PERMANENT", "DIALOG",  "STOP",  "DEBUG"};
-  const std::string name = upperCase(leadingName(line));
-  const std::string_view rest = trimmed(line.substr(name.size()));
-  if (line.starts_with(':') || upperCase(line).starts_with("#INCLUDE")) marks.macro += 3;
-  if (std::find(kWords.begin(), kWords.end(), name) != kWords.end()) marks.macro += 2;
-  if (name.find('_') != std::string::npos && !rest.starts_with('=')) marks.macro += 2;
-  if (!name.empty() && rest.starts_with('=')) {
-    const std::string_view value = trimmed(rest.substr(
-        1, rest.find('!') == std::string_view::npos ? std::string_view::npos : rest.find('!') - 1));
-    const bool number = !value.empty() && std::all_of(value.begin(), value.end(), [](char c) {
-      return std::isdigit(static_cast<unsigned char>(c)) != 0 || c == '.' || c == '-' || c == '+';
-    });
-    if (number)
-      ++marks.definition;
-    else
-      ++marks.macro;
+// Of NC nothing counts outside of `%`, as nothing of it reaches the control.
+class NcTally {
+public:
+  void add(const BlockShape& shape) {
+    if (shape.percent) {
+      if (!inside_ && tally.lines <= kLongestLeader) tally = Tally{0, 0, 0, tally.weight};
+      if (inside_) outside_ = 0;
+      inside_ = !inside_;
+    } else if (closed() && outside_ < kLongestLeader && !shape.blank) {
+      ++outside_;
+      return;
+    }
+    tally.add(shape);
+    tally.begins += shape.begins ? 1 : 0;
+    macroB += shape.macroB;
+    code = code || shape.code || shape.macroB > (shape.percent ? 1 : 0);
+    seen_ = seen_ || shape.percent;
   }
-}
 
-// `%`, program headers, macro statements, words of a letter and a number.
-void markNc(std::string_view line, Marks& marks) {
-  std::string text; // without blanks and comments
-  bool comment = false;
-  for (const char c : line) {
-    comment = comment || c == '(';
-    if (!comment && c != ' ' && c != '\t') text += c;
-    if (c == ')') comment = false;
+  Tally tally;
+  int macroB = 0;
+  bool code = false;
+
+private:
+  bool closed() const { return seen_ && !inside_; }
+  bool seen_ = false, inside_ = false;
+  int outside_ = 0;
+};
+
+struct Evidence {
+  Tally prog, macro, dialog, suf;
+  NcTally nc;
+  Dialects dialects;
+  int definitions = 0, prose = 0;
+  bool schema = false; // a TOML file of Dotek begins with `schema = 1`
+
+  const Tally& of(InputKind kind) const {
+    switch (kind) {
+    case InputKind::Prog: return prog;
+    case InputKind::Macro:
+    case InputKind::DefineData: return macro;
+    case InputKind::Dialog: return dialog;
+    case InputKind::Nc: return nc.tally;
+    case InputKind::Suf: break;
+    }
+    return suf;
   }
-  std::string_view rest = text;
-  const auto at = [&](std::size_t i) { return i < rest.size() ? rest[i] : '\0'; };
-  const auto digit = [&](std::size_t i) { return std::isdigit(static_cast<unsigned char>(at(i))) != 0; };
-  const auto skipDigits = [&](std::size_t i) {
-    while (digit(i))
-      ++i;
-    return i;
-  };
-  if (rest == "%" || (at(0) == '<' && at(rest.size() - 1) == '>')) marks.nc += 3;
-  if ((at(0) == 'O' || at(0) == ':') && digit(1) && skipDigits(1) == rest.size()) marks.nc += 4;
-  if (at(0) == '/') rest.remove_prefix(1);
-  if (at(0) == 'N' && digit(1)) rest.remove_prefix(skipDigits(1));
-  if (at(0) == '#' &&
-      (at(1) == '[' || (digit(1) && at(skipDigits(1)) == '=' && at(skipDigits(1) + 1) != '\'')))
-    marks.nc += 3;
-  for (const std::string_view word : {"IF[", "WHILE[", "DPRNT[", "BPRNT[", "GOTO#", "GOTO["})
-    if (rest.starts_with(word)) marks.nc += 3;
-  for (const std::string_view word : {"GOTO", "END", "DO"})
-    if (rest.starts_with(word) && digit(word.size())) marks.nc += 3;
-  const bool value = digit(1) || at(1) == '#' || at(1) == '-' || at(1) == '.';
-  if (std::string_view("GMXYZTSF").find(at(0)) != std::string_view::npos && !rest.empty() && value)
-    marks.nc += 2;
+};
+
+Evidence look(View text) {
+  Evidence out;
+  bool inComment = false;
+  int lines = 0;
+  Tally closed; // of the Prog, as if each comment ended on its line
+  for (std::size_t at = 0; at < text.size() && lines < kMostLines; ++lines) {
+    const std::size_t end = std::min(text.find_first_of("\r\n", at), text.size());
+    const View line = text.substr(at, std::min(end - at, kMostOfLine));
+    at = end + 1;
+    if (line.find_first_not_of(" \t\v\f") == View::npos) continue;
+    out.prog.add(progShape(line, inComment));
+    bool here = false;
+    closed.add(progShape(line, here));
+    out.macro.add(macroShape(line));
+    out.dialog.add(dialogShape(line));
+    const BlockShape block = blockShape(line);
+    out.nc.add(block);
+    out.prose += !block.fits && !block.blank && isProse(line) ? 1 : 0;
+    out.suf.add(sufShape(line));
+    out.schema = out.schema || line.starts_with("schema =");
+    out.definitions += isDefinition(line) ? 1 : 0;
+    out.dialects.look(line);
+  }
+  if (inComment && out.prog.lines == 0) out.prog = closed;
+  return out;
 }
 
-std::optional<InputKind> byName(const std::string& name) {
-  const auto ends = [&](std::string_view suffix) { return name.ends_with(suffix); };
+std::optional<InputKind> kindOfName(const std::string& name) {
   if (name == "DEFINEDATA.TXT") return InputKind::DefineData;
-  if (ends(".MAC")) return InputKind::Macro;
-  if (ends(".DLG")) return InputKind::Dialog;
-  if (ends(".NC")) return InputKind::Nc;
-  if (ends(".SUF")) return InputKind::Suf;
+  const std::size_t dot = name.rfind('.');
+  const View end = dot == std::string::npos ? View() : View(name).substr(dot);
+  if (end == ".MAC") return InputKind::Macro;
+  if (end == ".DLG") return InputKind::Dialog;
+  if (end == ".SUF" || end == ".FCB") return InputKind::Suf;
+  constexpr std::array<View, 12> kNc = {".NC",  ".CNC", ".TAP", ".EIA", ".PRG", ".NCC",
+                                        ".NCF", ".ISO", ".DNC", ".FAN", ".PIM", ".MIN"};
+  const bool number = name.size() > 1 && name[0] == 'O' &&
+                      std::all_of(name.begin() + 1, name.end(), [](char c) { return isDigit(c); });
+  if (number || std::find(kNc.begin(), kNc.end(), end) != kNc.end()) return InputKind::Nc;
   return std::nullopt;
 }
 
-} // namespace
+// How much has to speak for a kind; less where the name does too.
+bool suffices(InputKind kind, const Tally& tally, bool named) {
+  const int least = named ? 1 : kind == InputKind::Nc || kind == InputKind::Macro ? 2 : 3;
+  return tally.weight >= least && tally.share() >= (named ? 0.25 : 0.5);
+}
 
-constexpr std::string_view kListing = "listing";
+std::string share(const Tally& tally, View of) {
+  return fmt::format("{} of {} lines are {}", tally.fits, tally.lines, of);
+}
+
+View linesOf(InputKind kind) {
+  switch (kind) {
+  case InputKind::Prog: return "of a Prog";
+  case InputKind::Macro: return "statements of a GibbsCAM macro";
+  case InputKind::Dialog: return "controls of a dialog";
+  case InputKind::DefineData: return "definitions";
+  case InputKind::Nc: return "blocks of NC";
+  case InputKind::Suf: break;
+  }
+  return "blocks of Mikroprog";
+}
+
+Recognition recogniseText(View text, std::optional<InputKind> named) {
+  if (text.find_first_not_of(" \t\r\n\v\f\x1A") == View::npos) return {named, std::string(kEmptyInput)};
+  if (named == InputKind::DefineData) return {named, "its name is fixed in GibbsCAM"};
+  if (auto other = otherFormat(text)) return {std::nullopt, std::move(*other)};
+  const Evidence seen = look(text);
+  const Tally& nc = seen.nc.tally;
+  // Words of Mikroprog look like any NC, and its comments like those of other controls.
+  const bool suf = named == InputKind::Suf
+                       ? seen.suf.share() >= 0.3 || (nc.fits + nc.begins) * 3 >= nc.lines
+                       : seen.suf.share() >= 0.6 && seen.suf.weight >= 4 && seen.nc.macroB < 3;
+  const int foreign = seen.dialects.weight(nc.lines);
+  const int own = seen.nc.macroB + std::max({seen.macro.share() > 0.5 ? seen.macro.weight : 0,
+                                             seen.dialog.share() > 0.5 ? seen.dialog.weight : 0,
+                                             seen.prog.share() > 0.5 ? seen.prog.weight : 0});
+  const bool ours = (named == InputKind::Macro || named == InputKind::Dialog) && seen.macro.share() >= 0.5;
+  // An axis as the name of a field looks like a word of Sinumerik; `R1=` on each line weighs more.
+  const int lines = seen.macro.lines;
+  if (lines > 0 && seen.definitions == lines && !seen.schema && foreign <= lines)
+    return {named == InputKind::Macro ? InputKind::Macro : InputKind::DefineData,
+            fmt::format("each of {} lines gives a name a number", lines)};
+  if (seen.dialects.certain() || (!suf && !ours && foreign >= 2 && foreign > own))
+    return {std::nullopt, seen.dialects.name(nc.lines)};
+  if (suf) return {InputKind::Suf, share(seen.suf, linesOf(InputKind::Suf))};
+  std::optional<InputKind> best;
+  double score = 0;
+  for (const InputKind kind : {InputKind::Nc, InputKind::Macro, InputKind::Dialog, InputKind::Prog}) {
+    const Tally& tally = seen.of(kind);
+    if (!suffices(kind, tally, named == kind)) continue;
+    // A text about programs quotes some.
+    if (kind == InputKind::Nc && named != kind && (seen.prose * 4 > nc.lines || !seen.nc.code)) continue;
+    const double one = tally.score() * (named == kind ? 1.5 : 1);
+    if (one > score) best = kind;
+    score = std::max(score, one);
+  }
+  if (best) return {best, share(seen.of(*best), linesOf(*best))};
+  if (seen.schema) return {std::nullopt, "settings in TOML"};
+  if (named && *named != InputKind::Suf && seen.of(*named).lines == 0) return {named, "nothing but comments"};
+  if (named && seen.of(*named).share() >= 0.5) return {named, share(seen.of(*named), linesOf(*named))};
+  if (named == InputKind::Nc && (nc.fits + nc.begins) * 4 >= nc.lines)
+    return {named, "its name, and blocks with defects"};
+  return {std::nullopt, std::string(kUnknown)};
+}
+
+// UTF-16 as its low bytes: enough to see what the text would be.
+std::string narrowed(View bytes) {
+  std::string out;
+  std::copy_if(bytes.begin(), bytes.end(), std::back_inserter(out),
+               [](char c) { return c != '\0' && c != '\xFF' && c != '\xFE'; });
+  return out;
+}
+
+} // namespace
 
 std::string_view kindName(InputKind kind) {
   switch (kind) {
@@ -143,49 +217,62 @@ std::string_view kindName(InputKind kind) {
   return "";
 }
 
+std::string_view kindText(InputKind kind) {
+  switch (kind) {
+  case InputKind::Prog: return "a Prog of ComPost";
+  case InputKind::Macro: return "a GibbsCAM macro";
+  case InputKind::Dialog: return "a GibbsCAM dialog";
+  case InputKind::DefineData: return "a DefineData.txt";
+  case InputKind::Nc: return "an NC program";
+  case InputKind::Suf: return "a program of Mikroprog";
+  }
+  return "";
+}
+
 bool isListing(const std::optional<std::string>& from) {
   return from == kListing;
 }
 
-std::optional<InputKind> kindByName(std::string_view name) {
+std::optional<InputKind> kindByName(View name) {
   if (name == kListing) return InputKind::Nc;
-  for (const InputKind kind : {InputKind::Prog, InputKind::Macro, InputKind::Dialog, InputKind::DefineData,
-                               InputKind::Nc, InputKind::Suf}) {
-    if (kindName(kind) == name) return kind;
-  }
-  return std::nullopt;
+  const auto at =
+      std::find_if(kKinds.begin(), kKinds.end(), [&](InputKind kind) { return kindName(kind) == name; });
+  return at == kKinds.end() ? std::nullopt : std::optional(*at);
 }
 
-std::optional<InputKind> recognise(std::string_view fileName, std::string_view bytes) {
-  Marks marks;
-  std::size_t at = 0;
-  while (at < bytes.size() && marks.lines < 500) {
-    const std::size_t end = std::min(bytes.find_first_of("\r\n", at), bytes.size());
-    const std::string_view line = trimmed(bytes.substr(at, std::min<std::size_t>(end - at, 400)));
-    at = end + 1;
-    if (line.empty() || line.starts_with('!')) continue;
-    ++marks.lines;
-    markProg(line, marks);
-    markDialog(line, marks);
-    markMacro(line, marks);
-    markNc(line, marks);
-  }
+std::string otherwise(const Recognition& recognition) {
+  return recognition.reason.empty() || recognition.reason == kUnknown ? "" : " (" + recognition.reason + ")";
+}
+
+Recognition recognise(View fileName, View bytes, std::optional<InputKind> expected) {
   const std::size_t slash = fileName.find_last_of("/\\");
-  const std::string name = upperCase(slash == std::string_view::npos ? fileName : fileName.substr(slash + 1));
-  const auto named = byName(name);
-  // A name that is fixed in GibbsCAM says more than a damaged content.
-  // Words of Mikroprog look like any NC.
-  if (named == InputKind::DefineData || named == InputKind::Suf) return named;
-  const int best = std::max({marks.prog, marks.macro, marks.dialog});
-  if (marks.nc > best || (named == InputKind::Nc && best < 2)) return InputKind::Nc;
-  if (best >= 2) {
-    if (marks.prog == best && marks.prog > marks.macro) return InputKind::Prog;
-    if (marks.dialog == best && marks.dialog > marks.macro) return InputKind::Dialog;
-    if (marks.macro == best) return named == InputKind::Dialog ? named : InputKind::Macro;
+  auto named = kindOfName(upperCase(slash == View::npos ? fileName : fileName.substr(slash + 1)));
+  if (!named) named = expected;
+  View text = bytes.substr(0, kRecognisedBytes);
+  if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
+  const auto nuls = static_cast<std::size_t>(std::count(text.begin(), text.end(), '\0'));
+  const bool wide = text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF") ||
+                    (nuls > 0 && nuls * 2 + 2 >= text.size() && nuls * 2 <= text.size() + 2);
+  if (auto other = otherFormat(text)) return {std::nullopt, std::move(*other)};
+  if (wide) {
+    Recognition out = recogniseText(narrowed(text), named);
+    out.reason = out.kind ? "UTF-16, and " + out.reason : "UTF-16 text";
+    return out;
   }
-  if (named) return named;
-  if (marks.definition > 0 && marks.definition == marks.lines) return InputKind::DefineData;
-  return std::nullopt;
+  // Feed holes of a tape before and after the text, or a damaged copy of one.
+  const auto controls = std::count_if(text.begin(), text.end(), [](char c) {
+    return c != '\0' && static_cast<unsigned char>(c) < 0x20 &&
+           View("\t\r\n\v\f\x11\x12\x13\x14\x1A").find(c) == View::npos;
+  });
+  const std::size_t first = text.find_first_not_of('\0');
+  const std::size_t last = text.find_last_not_of('\0');
+  if (first == View::npos)
+    return {named, std::string(text.empty() ? kEmptyInput : View("nothing but bytes 0"))};
+  const View middle = text.substr(first, last + 1 - first);
+  const auto inner = static_cast<std::size_t>(std::count(middle.begin(), middle.end(), '\0'));
+  const std::size_t most = std::max<std::size_t>(8, middle.size() / 20); // a copy may be damaged
+  if (inner > most || static_cast<std::size_t>(controls) > most) return {std::nullopt, "binary data"};
+  return nuls == 0 ? recogniseText(text, named) : recogniseText(narrowed(middle), named);
 }
 
 } // namespace dotek::project

@@ -90,11 +90,14 @@ JobOperation readOperation(const TomlDocument& document, const TomlTable& table)
 
 } // namespace
 
-std::optional<Job> loadJob(const std::string& path, const Limits& limits, SourceMap& sources,
-                           Diagnostics& diagnostics) {
-  const std::optional<FileId> id = readText(path, Encoding::Utf8, std::nullopt, limits, sources, diagnostics);
+std::optional<Job> loadJob(const std::string& path, Session& session) {
+  std::optional<std::string> bytes = session.bytes(path, session.diagnostics());
+  if (!bytes) return std::nullopt;
+  const std::optional<FileId> id = addText(inputName(path), std::move(*bytes), Encoding::Utf8, std::nullopt,
+                                           session.sources(), session.diagnostics());
   if (!id) return std::nullopt;
-  const std::optional<TomlDocument> document = TomlDocument::parse(*id, sources, diagnostics);
+  const std::optional<TomlDocument> document =
+      TomlDocument::parse(*id, session.sources(), session.diagnostics());
   if (!document) return std::nullopt;
   Job job;
   job.file = *id;

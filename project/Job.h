@@ -1,8 +1,7 @@
 // The job file: a whole program as a list of operations (docs/cli.md, "Job file").
 #pragma once
 
-#include "support/Diagnostics.h"
-#include "support/Limits.h"
+#include "project/Session.h"
 #include "support/Source.h"
 
 #include <map>
@@ -41,7 +40,6 @@ struct Job {
 };
 
 // nullopt where the file cannot be read or has an error: reported.
-std::optional<Job> loadJob(const std::string& path, const Limits& limits, SourceMap& sources,
-                           Diagnostics& diagnostics);
+std::optional<Job> loadJob(const std::string& path, Session& session);
 
 } // namespace dotek::project

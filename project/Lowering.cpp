@@ -328,8 +328,7 @@ std::optional<LoweringInputs> loadSettings(const SourceOptions& source, Session&
   inputs.givenHosts = parseHosts(session.options().host, diagnostics);
   inputs.hosts = inputs.givenHosts;
   readSets(inputs, session);
-  if (session.options().job)
-    inputs.job = loadJob(*session.options().job, session.limits(), session.sources(), diagnostics);
+  if (session.options().job) inputs.job = loadJob(*session.options().job, session);
   if (inputs.job) inputs.hosts.insert(inputs.job->hosts.begin(), inputs.job->hosts.end());
   inputs.routine = source.routine;
   if (!inputs.routine && inputs.job) {

@@ -1,9 +1,11 @@
-// What every command that reads inputs is reported of them.
+// What every command that reads inputs learns about them.
 #pragma once
 
+#include "support/Files.h"
 #include "support/Limits.h"
 #include "support/Source.h"
 
+#include <memory>
 #include <optional>
 #include <set>
 #include <string>
@@ -28,6 +30,8 @@ struct CommonOptions {
   Limits limits;
   std::vector<std::string> data;   // folders of data files
   std::optional<std::string> from; // kind of the inputs
+  // What was read from pipes; copies of the options share it.
+  std::shared_ptr<StreamInputs> streams = std::make_shared<StreamInputs>();
 };
 
 // The form of a Prog where nobody names one.

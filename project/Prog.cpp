@@ -4,6 +4,7 @@
 #include "frontend/compost/Parse.h"
 #include "frontend/compost/Summary.h"
 #include "frontend/gibbs/Check.h"
+#include "project/Inputs.h"
 #include "support/NearestName.h"
 #include "support/messages/ComPost.h"
 #include "support/messages/Commands.h"
@@ -54,12 +55,17 @@ std::string testedCycles(const compost::Program& program, const std::string& cyc
 }
 
 std::optional<compost::Program> loadProg(const std::string& path, Session& session, bool checked) {
+  const Recognition* const kind = session.kindOf(path, session.diagnostics(), InputKind::Prog);
+  if (kind == nullptr) return std::nullopt;
   const std::optional<FileId> id = session.read(path, Encoding::Cp1250);
   if (!id) return std::nullopt;
   if (session.sources().file(*id).bytes().empty()) {
     session.diagnostics().report<diag::EmptyProg>({*id, 0, 0}, path);
     return std::nullopt;
   }
+  // --from is about the inputs, and a Prog is named by a flag of its own.
+  if (!session.options().from && !kindAmong(path, {InputKind::Prog}, "a Prog of ComPost", session))
+    return std::nullopt;
   compost::Program program = compost::parse(*id, session.sources(), session.limits(), session.diagnostics());
   if (session.sources().file(*id).bytes().find_first_not_of(" \t\r\n") == std::string::npos) {
     session.diagnostics().report<diag::EmptyFile>({*id, 0, 0}, path);

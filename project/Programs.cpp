@@ -2,7 +2,7 @@
 
 #include "frontend/macrob/Lower.h"
 #include "frontend/macrob/Parse.h"
-#include "project/InputKind.h"
+#include "project/Inputs.h"
 #include "support/Files.h"
 
 #include <filesystem>
@@ -23,11 +23,10 @@ frontend::macrob::Text textOf(FileId file, Session& session) {
 
 bool isProgramFile(const std::string& path, Session& session) {
   std::error_code error;
-  if (std::filesystem::is_directory(path, error)) return false;
-  if (session.options().from) return kindByName(*session.options().from) == InputKind::Nc;
-  if (!std::filesystem::exists(path, error)) return false; // the caller tells
-  const std::optional<std::string> bytes = readBytes(path, session.limits(), session.diagnostics());
-  return bytes && recognise(path, *bytes) == InputKind::Nc;
+  const bool file =
+      isStream(path) || (std::filesystem::exists(path, error) && !std::filesystem::is_directory(path, error));
+  if (file) kindAmong(path, {InputKind::Nc}, "an NC program or the folder of a cycle", session);
+  return file;
 }
 
 std::optional<ir::ProgramFile> loadPrograms(FileId file, const stdlib::Control& control, Session& session,

@@ -14,7 +14,7 @@ namespace dotek::project {
 // What --from says of NC files, else the dotek.toml of this one.
 frontend::macrob::Text textOf(FileId file, Session& session);
 
-// By content, or by --from; false for a folder and for what cannot be read.
+// false for a folder and for what is not there. Of a file that is no program it is reported what it is.
 bool isProgramFile(const std::string& path, Session& session);
 
 // nullopt where the file cannot run on the control: reported. What matters to the writing of the programs

@@ -70,10 +70,37 @@ std::optional<FileId> Session::read(const std::string& path, Encoding fallback) 
     diagnostics_.report<diag::TooManyFiles>({}, options_.limits.files);
     return std::nullopt;
   }
-  const std::optional<FileId> id =
-      readText(path, fallback, options_.encoding, options_.limits, sources_, diagnostics_);
+  std::optional<std::string> text;
+  if (const auto whole = whole_.find(path); whole != whole_.end())
+    text = std::move(whole_.extract(whole).mapped());
+  else
+    text = bytes(path, diagnostics_);
+  std::optional<FileId> id;
+  if (text)
+    id = addText(inputName(path), std::move(*text), fallback, options_.encoding, sources_, diagnostics_);
   read_.emplace(path, id);
   return id;
+}
+
+std::optional<std::string> Session::bytes(const std::string& path, Diagnostics& diagnostics) {
+  return isStream(path) ? options_.streams->read(path, options_.limits, diagnostics)
+                        : readBytes(path, options_.limits, diagnostics);
+}
+
+const Recognition* Session::kindOf(const std::string& path, Diagnostics& diagnostics,
+                                   std::optional<InputKind> expected) {
+  if (const auto known = kinds_.find(path); known != kinds_.end()) return &known->second;
+  if (options_.from)
+    return &kinds_.emplace(path, Recognition{kindByName(*options_.from), "--from"}).first->second;
+  const bool stream = isStream(path);
+  std::optional<std::string> text =
+      stream ? bytes(path, diagnostics) : readBeginning(path, kRecognisedBytes, diagnostics);
+  if (!text) return nullptr;
+  Recognition found = recognise(stream ? "" : path, *text, expected);
+  // Of a longer file only the beginning was read.
+  if (found.kind && !stream && text->size() < kRecognisedBytes && text->size() <= options_.limits.inputBytes)
+    whole_.emplace(path, std::move(*text));
+  return &kinds_.emplace(path, std::move(found)).first->second;
 }
 
 } // namespace dotek::project

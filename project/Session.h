@@ -1,6 +1,7 @@
 // What one command works with: inputs, diagnostics, data tables (loaded when first asked for).
 #pragma once
 
+#include "project/InputKind.h"
 #include "project/Options.h"
 #include "project/Settings.h"
 #include "stdlib/ComPostKeywords.h"
@@ -41,7 +42,17 @@ public:
   // By folder: kept for settingsOf().
   std::map<std::string, Settings>& settings() { return settings_; }
   // Reads a text file in the language's default encoding, once per path: the second time gives the same id.
+  // "-" is standard input.
   std::optional<FileId> read(const std::string& path, Encoding fallback);
+
+  // What an input is: --from says it, else recognise(), told `expected` where the command takes only that.
+  // nullptr: it cannot be read, reported to `diagnostics`. Asked again, the answer is the same, and nothing
+  // is read twice.
+  const Recognition* kindOf(const std::string& path, Diagnostics& diagnostics,
+                            std::optional<InputKind> expected = std::nullopt);
+
+  // Bytes of a file that is no text of a language; streams are read once. nullopt: reported.
+  std::optional<std::string> bytes(const std::string& path, Diagnostics& diagnostics);
 
 private:
   const CommonOptions& options_;
@@ -54,6 +65,8 @@ private:
   std::optional<std::vector<stdlib::MacroSet>> macroSets_;
   std::map<std::string, std::optional<FileId>> read_;
   std::map<std::string, Settings> settings_;
+  std::map<std::string, Recognition> kinds_;
+  std::map<std::string, std::string> whole_; // recognised and not yet read as a text
 };
 
 // A set that the command line names: there is none, and these are.

@@ -8,41 +8,97 @@
 #include <filesystem>
 #include <memory>
 #include <system_error>
+#include <unistd.h>
 
 namespace dotek {
 
 namespace fs = std::filesystem;
 
-std::optional<std::string> readBytes(const std::string& path, const Limits& limits,
-                                     Diagnostics& diagnostics) {
+namespace {
+
+constexpr std::string_view kStandardInput = "-";
+
+using OpenFile = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
+
+OpenFile openInput(const std::string& path, Diagnostics& diagnostics) {
+  OpenFile file(nullptr, &std::fclose);
+  if (path == kStandardInput) {
+    const int copy = dup(STDIN_FILENO);
+    if (copy >= 0) file.reset(fdopen(copy, "rb"));
+    if (!file) diagnostics.report<diag::FileNotReadable>({}, inputName(path), std::strerror(errno));
+    return file;
+  }
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
   if (!fs::exists(status)) {
-    diagnostics.report<diag::FileNotFound>({}, path);
-    return std::nullopt;
+    // A link that leads to itself is there, and nothing can be read from it.
+    if (error && error != std::errc::no_such_file_or_directory && error != std::errc::not_a_directory)
+      diagnostics.report<diag::FileNotReadable>({}, path, error.message());
+    else
+      diagnostics.report<diag::FileNotFound>({}, path);
+    return file;
   }
   if (fs::is_directory(status)) {
     diagnostics.report<diag::FileNotReadable>({}, path, "it is a folder");
-    return std::nullopt;
+    return file;
   }
-  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"), &std::fclose);
-  if (!file) {
-    diagnostics.report<diag::FileNotReadable>({}, path, std::strerror(errno));
-    return std::nullopt;
-  }
+  file.reset(std::fopen(path.c_str(), "rb"));
+  if (!file) diagnostics.report<diag::FileNotReadable>({}, path, std::strerror(errno));
+  return file;
+}
+
+// nullopt where reading fails, reported. More than `most` bytes are read only as far as the buffer.
+std::optional<std::string> readMost(const std::string& path, std::size_t most, Diagnostics& diagnostics) {
+  const OpenFile file = openInput(path, diagnostics);
+  if (!file) return std::nullopt;
   std::string bytes;
   char buffer[65536];
-  while (const std::size_t n = std::fread(buffer, 1, sizeof buffer, file.get())) {
+  while (bytes.size() <= most) {
+    const std::size_t n = std::fread(buffer, 1, sizeof buffer, file.get());
+    if (n == 0) break;
     bytes.append(buffer, n);
-    if (bytes.size() > limits.inputBytes) {
-      diagnostics.report<diag::FileTooLarge>({}, path, limits.inputBytes);
-      return std::nullopt;
-    }
   }
-  if (std::ferror(file.get()) != 0) {
-    diagnostics.report<diag::FileNotReadable>({}, path, std::strerror(errno));
-    return std::nullopt;
-  }
+  if (std::ferror(file.get()) == 0) return bytes;
+  diagnostics.report<diag::FileNotReadable>({}, inputName(path), std::strerror(errno));
+  return std::nullopt;
+}
+
+} // namespace
+
+std::optional<std::string> readBytes(const std::string& path, const Limits& limits,
+                                     Diagnostics& diagnostics) {
+  std::optional<std::string> bytes = readMost(path, limits.inputBytes, diagnostics);
+  if (!bytes || bytes->size() <= limits.inputBytes) return bytes;
+  diagnostics.report<diag::FileTooLarge>({}, inputName(path), limits.inputBytes);
+  return std::nullopt;
+}
+
+std::optional<std::string> readBeginning(const std::string& path, std::size_t most,
+                                         Diagnostics& diagnostics) {
+  std::optional<std::string> bytes = readMost(path, most, diagnostics);
+  if (bytes && bytes->size() > most) bytes->resize(most);
+  return bytes;
+}
+
+bool isStream(const std::string& path) {
+  if (path == kStandardInput) return true;
+  std::error_code error;
+  const fs::file_status status = fs::status(path, error);
+  return fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status);
+}
+
+std::string inputName(const std::string& path) {
+  return path == kStandardInput ? "<stdin>" : path;
+}
+
+std::optional<std::string> StreamInputs::read(const std::string& path, const Limits& limits,
+                                              Diagnostics& diagnostics) {
+  const bool standard = path == "/dev/stdin" || path == "/dev/fd/0" || path == "/proc/self/fd/0";
+  const std::string key = standard ? std::string(kStandardInput) : path;
+  const std::lock_guard lock(mutex_);
+  if (const auto known = known_.find(key); known != known_.end()) return known->second;
+  std::optional<std::string> bytes = readBytes(path, limits, diagnostics);
+  if (bytes) known_.emplace(key, *bytes);
   return bytes;
 }
 
@@ -68,7 +124,7 @@ std::optional<FileId> readText(const std::string& path, Encoding fallback, std::
                                const Limits& limits, SourceMap& sources, Diagnostics& diagnostics) {
   std::optional<std::string> bytes = readBytes(path, limits, diagnostics);
   if (!bytes) return std::nullopt;
-  return addText(path, std::move(*bytes), fallback, forced, sources, diagnostics);
+  return addText(inputName(path), std::move(*bytes), fallback, forced, sources, diagnostics);
 }
 
 std::optional<FileId> addText(std::string name, std::string bytes, Encoding fallback,

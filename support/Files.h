@@ -5,13 +5,37 @@
 #include "support/Limits.h"
 #include "support/Source.h"
 
+#include <map>
+#include <mutex>
 #include <optional>
 #include <string>
 
 namespace dotek {
 
-// Bytes of a file; nullopt with a diagnostic if it cannot be read or is larger than the limit.
+// Bytes of a file, a pipe or a device, whether its size is known or not; of standard input for "-". nullopt
+// with a diagnostic if it cannot be read or is larger than the limit.
 std::optional<std::string> readBytes(const std::string& path, const Limits& limits, Diagnostics& diagnostics);
+
+// At most `most` bytes from the beginning of a file; nullopt with a diagnostic.
+std::optional<std::string> readBeginning(const std::string& path, std::size_t most, Diagnostics& diagnostics);
+
+// An input that gives its bytes once: standard input ("-"), a pipe, a device.
+bool isStream(const std::string& path);
+
+// How a path is called in messages: standard input is `<stdin>`.
+std::string inputName(const std::string& path);
+
+// The bytes of streams, kept for whoever reads them again: the sessions of one command share it, and their
+// threads.
+class StreamInputs {
+public:
+  // As readBytes, of a stream.
+  std::optional<std::string> read(const std::string& path, const Limits& limits, Diagnostics& diagnostics);
+
+private:
+  std::mutex mutex_;
+  std::map<std::string, std::string> known_; // by path
+};
 
 // Reads a text file into the map: UTF-8 if it decodes, else `fallback`; `forced` overrides both.
 // UTF-16 and NUL bytes are errors that say so. nullopt where an error was reported.

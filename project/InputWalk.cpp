@@ -1,0 +1,110 @@
+#include "project/InputWalk.h"
+
+#include "support/Files.h"
+#include "support/messages/Common.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <fmt/format.h>
+#include <system_error>
+#include <utility>
+
+namespace dotek::project {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+// The one name of a file; the path as it is where the system does not say.
+std::string canonical(const std::string& path) {
+  std::error_code error;
+  const fs::path real = fs::canonical(path, error);
+  return error ? path : real.generic_string();
+}
+
+bool isBelow(const std::string& path, const std::string& folder) {
+  return path == folder || folder == "/" ||
+         (path.starts_with(folder) && path.size() > folder.size() && path[folder.size()] == '/');
+}
+
+} // namespace
+
+bool InputWalk::isNew(const std::string& path) {
+  return visited_.insert(canonical(path)).second;
+}
+
+void InputWalk::visit(const std::string& path, Diagnostics& diagnostics) {
+  std::error_code error;
+  if (path == "-" || !fs::is_directory(path, error)) {
+    if (isStream(path) || isNew(path)) file_(path, true);
+    return;
+  }
+  root_ = canonical(path);
+  folder(path, true, diagnostics);
+  for (std::size_t i = 0; i < links_.size(); ++i) { // the list may grow
+    const std::string link = links_[i];
+    if (fs::is_directory(link, error))
+      folder(link, false, diagnostics);
+    else if (isNew(link))
+      file_(link, false);
+  }
+  links_.clear();
+}
+
+void InputWalk::folder(const std::string& path, bool named, Diagnostics& diagnostics) {
+  if (!isNew(path)) return;
+  folder_(path, named);
+  std::error_code error;
+  std::vector<fs::path> entries;
+  for (fs::directory_iterator at(path, error), end; !error && at != end; at.increment(error))
+    entries.push_back(at->path());
+  if (error) diagnostics.report<diag::FileNotReadable>({}, path, error.message());
+  std::sort(entries.begin(), entries.end());
+  for (const fs::path& one : entries)
+    if (!one.filename().string().starts_with('.')) entry(one.generic_string(), diagnostics);
+}
+
+void InputWalk::entry(const std::string& path, Diagnostics& diagnostics) {
+  std::error_code error;
+  const fs::file_status status = fs::status(path, error);
+  const bool link = fs::is_symlink(fs::symlink_status(path, error));
+  if (link && !fs::exists(status)) {
+    passOver(path, "a link to nothing");
+  } else if (link && !followLinks_ && !isBelow(canonical(path), root_)) {
+    passOver(path, "a link that leads out of the folder; `--follow-links` follows it");
+  } else if (link && (fs::is_directory(status) || fs::is_regular_file(status))) {
+    links_.push_back(path);
+  } else if (fs::is_directory(status)) {
+    folder(path, false, diagnostics);
+  } else if (fs::is_regular_file(status)) {
+    if (isNew(path)) file_(path, false);
+  } else {
+    passOver(path, "no regular file");
+  }
+}
+
+std::string walkSummary(std::size_t checked, const std::vector<PassedOver>& passedOver,
+                        const std::string& folder) {
+  constexpr std::size_t kNames = 3; // of one reason
+  std::string out = fmt::format("{} file{} checked", checked, checked == 1 ? "" : "s");
+  if (passedOver.empty()) return out;
+  std::vector<std::pair<std::string, std::vector<std::string>>> reasons; // in the order of their first file
+  for (const PassedOver& one : passedOver) {
+    auto at =
+        std::find_if(reasons.begin(), reasons.end(), [&](const auto& r) { return r.first == one.reason; });
+    if (at == reasons.end()) at = reasons.insert(at, {one.reason, {}});
+    const bool inside = !folder.empty() && one.path.starts_with(folder + "/");
+    at->second.push_back(inside ? one.path.substr(folder.size() + 1) : one.path);
+  }
+  std::string list;
+  for (const auto& [reason, names] : reasons) {
+    list += list.empty() ? "" : "; ";
+    for (std::size_t i = 0; i < std::min(names.size(), kNames); ++i)
+      list += (i == 0 ? "" : ", ") + names[i];
+    if (names.size() > kNames) list += fmt::format(" and {} more", names.size() - kNames);
+    list += ": " + reason;
+  }
+  return out + fmt::format(", {} skipped ({})", passedOver.size(), list);
+}
+
+} // namespace dotek::project

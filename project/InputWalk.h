@@ -1,0 +1,56 @@
+// The inputs of a command that takes files and folders: a walk that ends whatever is linked to what.
+#pragma once
+
+#include "support/Diagnostics.h"
+
+#include <functional>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace dotek::project {
+
+// An input that was passed over, and why: "a link that leads out of the folder".
+struct PassedOver {
+  std::string path;
+  std::string reason;
+};
+
+class InputWalk {
+public:
+  // Called for a folder before what is in it, for a file once, whatever its names. `named`: on the command
+  // line.
+  using Visit = std::function<void(const std::string& path, bool named)>;
+
+  // `followLinks`: also those that lead out of the folder that was named.
+  InputWalk(bool followLinks, Visit folder, Visit file)
+      : followLinks_(followLinks), folder_(std::move(folder)), file_(std::move(file)) {}
+
+  // A file is visited whatever it is. In a folder regular files are, in the order of their names; what begins
+  // with a dot is left alone.
+  void visit(const std::string& path, Diagnostics& diagnostics);
+
+  const std::vector<PassedOver>& passedOver() const { return passedOver_; }
+  void passOver(const std::string& path, std::string reason) {
+    passedOver_.push_back({path, std::move(reason)});
+  }
+
+private:
+  void folder(const std::string& path, bool named, Diagnostics& diagnostics);
+  void entry(const std::string& path, Diagnostics& diagnostics);
+  bool isNew(const std::string& path);
+
+  bool followLinks_;
+  Visit folder_, file_;
+  std::string root_;               // of the walk, without links
+  std::set<std::string> visited_;  // without links
+  std::vector<std::string> links_; // to what is in the folder: taken where the walk has not met it
+  std::vector<PassedOver> passedOver_;
+};
+
+// "30 files checked, 2 skipped (README.md: no language that Dotek reads; a, b, c and 4 more: an image)".
+// Names are printed without `folder`, where that is not empty.
+std::string walkSummary(std::size_t checked, const std::vector<PassedOver>& passedOver,
+                        const std::string& folder);
+
+} // namespace dotek::project

@@ -1,0 +1,23 @@
+#include "project/Inputs.h"
+
+#include "support/messages/Common.h"
+
+#include <algorithm>
+
+namespace dotek::project {
+
+std::optional<InputKind> kindAmong(const std::string& path, std::initializer_list<InputKind> kinds,
+                                   std::string_view expected, Session& session) {
+  const Recognition* const found = session.kindOf(path, session.diagnostics(), *kinds.begin());
+  if (found == nullptr) return std::nullopt;
+  if (!found->kind)
+    session.diagnostics().report<diag::UnknownKind>({}, inputName(path), otherwise(*found));
+  else if (std::find(kinds.begin(), kinds.end(), *found->kind) == kinds.end())
+    session.diagnostics().report<diag::WrongKind>({}, inputName(path), kindText(*found->kind), expected,
+                                                  kindName(*kinds.begin()));
+  else
+    return found->kind;
+  return std::nullopt;
+}
+
+} // namespace dotek::project

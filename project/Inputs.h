@@ -1,0 +1,19 @@
+// What a command demands of its inputs.
+#pragma once
+
+#include "project/Session.h"
+
+#include <initializer_list>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace dotek::project {
+
+// The kind of an input that has to be one of `kinds`, the first being expected. nullopt with an error that
+// says what it is, or that it is nothing that Dotek reads. `expected`: what the command takes, "an NC
+// program".
+std::optional<InputKind> kindAmong(const std::string& path, std::initializer_list<InputKind> kinds,
+                                   std::string_view expected, Session& session);
+
+} // namespace dotek::project
