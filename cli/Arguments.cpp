@@ -4,6 +4,7 @@
 #include "cli/Options.h"
 #include "support/FileIdentity.h"
 #include "support/NearestName.h"
+#include "support/Version.h"
 
 #include <algorithm>
 #include <array>
@@ -127,7 +128,7 @@ std::optional<int> parseArguments(const std::vector<std::string>& arguments, Arg
                                   std::ostream& out, std::ostream& err) {
   Raw raw;
   CLI::App app("Dotek, a compiler for the languages of CNC probing", "dotek");
-  app.set_version_flag("--version", "dotek 0.1.0");
+  app.set_version_flag("--version", "dotek " + std::string(kVersion));
   app.require_subcommand(1);
   declareCommands(app, arguments, raw);
   try {

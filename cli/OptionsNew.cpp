@@ -23,7 +23,7 @@ void addExplain(CLI::App& app, Raw& raw) {
 void addList(CLI::App& app, Raw& raw) {
   CLI::App* list = app.add_subcommand("list", "print a table");
   list->add_option("WHAT", raw.inputs,
-                   "cycles, controls, macros, forms, rules, targets, hosts, limits or assumptions")
+                   "cycles, controls, macros, forms, rules, messages, targets, hosts, limits or assumptions")
       ->required()
       ->expected(1);
   addCommon(*list, raw);

@@ -6,7 +6,7 @@
 function(dotek_rules output variable)
   file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/lint/rules/*.cpp)
   file(GLOB shared CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/lint/rules/shared/*.cpp)
-  file(GLOB documents CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/docs/rules/*.md)
+  file(GLOB documents CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/docs/rules/[a-z]*.md) # README.md is their list
   set(ids "")
   foreach(source IN LISTS sources shared)
     get_filename_component(id ${source} NAME_WE)

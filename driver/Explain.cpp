@@ -1,6 +1,6 @@
 #include "driver/Command.h"
 #include "driver/Driver.h"
-#include "lint/Page.h"
+#include "lint/Catalog.h"
 #include "lint/Rule.h"
 #include "project/Assumptions.h"
 #include "stdlib/Control.h"
@@ -8,7 +8,6 @@
 #include "stdlib/MacroSet.h"
 #include "stdlib/MikroprogControl.h"
 #include "support/NearestName.h"
-#include "support/Wrap.h"
 #include "support/messages/Commands.h"
 #include "targets/Target.h"
 
@@ -97,9 +96,7 @@ Outcome explain(const std::string& code) {
     codes.emplace_back(info.code);
     if (info.code != code) continue;
     outcome.output = fmt::format("{}: {}{}\n\n{}", info.code, severityName(info.severity),
-                                 info.byDefault ? "" : ", off unless it is selected",
-                                 info.rule != nullptr ? lint::shownPage(lint::pageOf(info.code))
-                                                      : wrapped(info.explanation));
+                                 info.byDefault ? "" : ", off unless it is selected", lint::helpOf(info));
     return outcome;
   }
   const std::string near = nearestName(code, codes);
@@ -121,10 +118,12 @@ Outcome list(const std::string& what, const CommonOptions& options) {
     } else if (what == "assumptions") {
       rows = assumptionTable();
     } else if (what == "rules") {
+      return outcomeOf(session, lint::ruleList(), true);
+    } else if (what == "messages") {
       for (const lint::CodeInfo& info : lint::codeTable())
-        rows.emplace_back(info.code, fmt::format("{:<7}  {}{}", severityName(info.severity),
-                                                 info.byDefault ? "" : "(off unless it is selected) ",
-                                                 lint::summaryOf(info)));
+        if (info.rule == nullptr)
+          rows.emplace_back(info.code,
+                            fmt::format("{:<7}  {}", severityName(info.severity), lint::summaryOf(info)));
     } else if (what == "controls") {
       rows = loaded<stdlib::Control>(session, what);
       for (auto& row : loaded<stdlib::MikroprogControl>(session, "mikroprog"))

@@ -382,19 +382,15 @@ constexpr int kFixTurns = 8;
 Outcome lint(const LintOptions& options) {
   Outcome outcome = lintOnce(options);
   if (!options.fix || outcome.status > 1) return outcome;
-  std::map<std::string, std::uint32_t> total;
+  std::vector<MadeFix> total;
   Diagnostics writing;
   for (int turn = 0; turn < kFixTurns; ++turn) {
     const auto made = applySafeFixes(outcome, options.common.limits, options.force, writing);
     if (made.empty()) break;
-    for (const auto& [name, count] : made)
-      total[name] += count;
+    total.insert(total.end(), made.begin(), made.end());
     outcome = lintOnce(options);
   }
-  for (FileId file = 0; file < outcome.sources.size(); ++file) {
-    const auto at = total.find(outcome.sources.file(file).name());
-    if (at != total.end()) outcome.diagnostics.report<diag::FixesApplied>({file, 0, 0}, at->second);
-  }
+  reportFixes(total, outcome);
   for (const Diagnostic& d : writing.all())
     outcome.diagnostics.add(d);
   if (writing.hasErrors()) outcome.status = 2;

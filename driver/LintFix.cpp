@@ -3,12 +3,16 @@
 #include "support/FileIdentity.h"
 #include "support/Files.h"
 #include "support/Output.h"
+#include "support/messages/Lint.h"
 
 #include <algorithm>
+#include <map>
+#include <utility>
 
 namespace dotek::driver {
 namespace {
 
+constexpr std::uint32_t kMostNotes = 20; // of one rule in a file
 constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 
 bool meet(const Edit& a, const Edit& b) {
@@ -17,12 +21,52 @@ bool meet(const Edit& a, const Edit& b) {
   return a.range.begin < b.range.end && b.range.begin < a.range.end;
 }
 
+std::string oneLine(std::string text) {
+  std::replace_if(
+      text.begin(), text.end(), [](char c) { return c == '\n' || c == '\r' || c == '\t'; }, ' ');
+  return text;
+}
+
+// Where a line of the file begins now; its end where it has fewer lines.
+SourceRange placeOf(FileId id, const MadeFix& one, const SourceMap& sources) {
+  const std::string_view text = sources.file(id).bytes();
+  std::size_t at = 0;
+  for (std::uint32_t line = 1; line < one.line && at < text.size(); ++line) {
+    const std::size_t end = text.find('\n', at);
+    at = end == std::string_view::npos ? text.size() : end + 1;
+  }
+  const std::size_t end = std::min(text.find('\n', at), text.size());
+  const auto begin = static_cast<std::uint32_t>(std::min(at + one.column - 1, end));
+  return {id, begin, begin};
+}
+
+std::string changed(const MadeFix& one) {
+  if (one.before.empty()) return fmt::format("`{}` was put in", one.after);
+  if (one.after.empty()) return fmt::format("`{}` was taken out", one.before);
+  return fmt::format("`{}` -> `{}`", one.before, one.after);
+}
+
 } // namespace
 
-std::map<std::string, std::uint32_t> applySafeFixes(const Outcome& outcome, const Limits& limits, bool force,
-                                                    Diagnostics& diagnostics) {
+void reportFixes(const std::vector<MadeFix>& made, Outcome& outcome) {
+  for (FileId id = 0; id < outcome.sources.size(); ++id) {
+    std::map<std::string_view, std::uint32_t> byRule;
+    for (const MadeFix& one : made)
+      if (one.file == outcome.sources.file(id).name()) ++byRule[one.code];
+    for (const auto& [code, count] : byRule)
+      if (count > kMostNotes)
+        outcome.diagnostics.report<diag::FixesApplied>({id, 0, 0}, code, fmt::format("{} places", count));
+    for (const MadeFix& one : made)
+      if (one.file == outcome.sources.file(id).name() && byRule[one.code] <= kMostNotes)
+        outcome.diagnostics.report<diag::FixesApplied>(placeOf(id, one, outcome.sources), one.code,
+                                                       changed(one));
+  }
+}
+
+std::vector<MadeFix> applySafeFixes(const Outcome& outcome, const Limits& limits, bool force,
+                                    Diagnostics& diagnostics) {
   std::vector<Edit> edits;
-  std::map<std::string, std::uint32_t> made;
+  std::vector<MadeFix> made;
   // A file that was read under two names is mended under the first.
   std::map<FileIdentity, std::string> names;
   const auto isOther = [&](FileId file) {
@@ -39,7 +83,12 @@ std::map<std::string, std::uint32_t> applySafeFixes(const Outcome& outcome, cons
     });
     if (clashes) continue;
     edits.insert(edits.end(), d.fix->edits.begin(), d.fix->edits.end());
-    ++made[outcome.sources.file(d.range.file).name()];
+    for (const Edit& edit : d.fix->edits) {
+      const SourceFile& file = outcome.sources.file(edit.range.file);
+      const LineColumn place = file.place(edit.range.begin);
+      made.push_back({file.name(), place.line, place.column, std::string(d.code),
+                      oneLine(outcome.sources.textUtf8(edit.range)), oneLine(edit.text)});
+    }
   }
   if (edits.empty()) return {};
   std::sort(edits.begin(), edits.end(),

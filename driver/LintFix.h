@@ -4,15 +4,26 @@
 #include "driver/Driver.h"
 
 #include <cstdint>
-#include <map>
 #include <string>
+#include <vector>
 
 namespace dotek::driver {
 
-// Writes the files with the safe repairs of `outcome` made: all or none. Gives the number of repairs by file,
-// as named on the command line; nothing is written where there is none. What overlaps waits for another turn.
-// `force`: files that are write-protected, too.
-std::map<std::string, std::uint32_t> applySafeFixes(const Outcome& outcome, const Limits& limits, bool force,
-                                                    Diagnostics& diagnostics);
+// One repair, as a note says it: where it was made, and what is there now.
+struct MadeFix {
+  std::string file; // as named on the command line
+  std::uint32_t line = 0, column = 0;
+  std::string code;
+  std::string before, after; // text that was replaced, on one line
+};
+
+// Writes the files with the safe repairs of `outcome` made: all or none. Nothing is written where there is
+// none. What overlaps waits for another turn. `force`: files that are write-protected, too.
+std::vector<MadeFix> applySafeFixes(const Outcome& outcome, const Limits& limits, bool force,
+                                    Diagnostics& diagnostics);
+
+// One note a repair; of many of one rule in a file their number. Places are those of `outcome`, which was
+// read after them.
+void reportFixes(const std::vector<MadeFix>& made, Outcome& outcome);
 
 } // namespace dotek::driver

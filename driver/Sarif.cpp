@@ -1,6 +1,7 @@
 #include "support/Sarif.h"
 
 #include "driver/Driver.h"
+#include "lint/Catalog.h"
 #include "lint/Rule.h"
 
 #include <set>
@@ -13,7 +14,9 @@ std::string sarif(const Outcome& outcome) {
     told.insert(d.code);
   std::vector<SarifRule> rules;
   for (const lint::CodeInfo& info : lint::codeTable()) {
-    if (told.contains(info.code)) rules.push_back({info.code, info.severity, lint::summaryOf(info)});
+    if (told.contains(info.code))
+      rules.push_back(
+          {info.code, info.severity, lint::summaryOf(info), lint::helpOf(info), lint::helpMarkdownOf(info)});
   }
   return renderSarif(outcome.diagnostics, outcome.sources, rules);
 }

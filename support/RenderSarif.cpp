@@ -1,6 +1,10 @@
 #include "support/Sarif.h"
 
+#include "support/Version.h"
+
+#include <algorithm>
 #include <cctype>
+#include <cstdint>
 #include <map>
 #include <nlohmann/json.hpp>
 
@@ -88,6 +92,37 @@ Json resultOf(const Diagnostic& d, std::size_t rule, const SourceMap& sources) {
   return out;
 }
 
+// Text of the line that the finding begins on, blanks left out.
+std::string lineOf(SourceRange range, const SourceMap& sources) {
+  const std::string_view text = sources.file(range.file).bytes();
+  const std::size_t at = std::min<std::size_t>(range.begin, text.size());
+  const std::size_t before = at == 0 ? std::string_view::npos : text.rfind('\n', at - 1);
+  const std::size_t begin = before == std::string_view::npos ? 0 : before + 1;
+  std::string out;
+  for (const char c : text.substr(begin, std::min(text.find('\n', at), text.size()) - begin))
+    if (c != ' ' && c != '\t' && c != '\r') out += c;
+  return out;
+}
+
+class Fingerprints {
+public:
+  std::string of(const Diagnostic& d, const SourceMap& sources) {
+    const std::string key = std::string(d.code) + '\n' + lineOf(d.range, sources);
+    const std::uint32_t order = seen_[{d.range.file, key}]++;
+    return fmt::format("{:016x}:{}", hash(key), order + 1);
+  }
+
+private:
+  // FNV-1a, 64 bits: the same on every machine.
+  static std::uint64_t hash(std::string_view text) {
+    std::uint64_t out = 14695981039346656037U;
+    for (const char c : text)
+      out = (out ^ static_cast<unsigned char>(c)) * 1099511628211U;
+    return out;
+  }
+  std::map<std::pair<FileId, std::string>, std::uint32_t> seen_;
+};
+
 } // namespace
 
 std::string renderSarif(const Diagnostics& diagnostics, const SourceMap& sources,
@@ -99,18 +134,25 @@ std::string renderSarif(const Diagnostics& diagnostics, const SourceMap& sources
     Json row;
     row["id"] = rule.code;
     row["shortDescription"]["text"] = rule.summary;
-    row["help"]["text"] = rule.summary;
+    row["help"]["text"] = rule.help;
+    if (!rule.helpMarkdown.empty()) row["help"]["markdown"] = rule.helpMarkdown;
     row["defaultConfiguration"]["level"] = severityName(rule.severity);
     ruleRows.push_back(std::move(row));
   }
   Json run;
   run["tool"]["driver"]["name"] = "dotek";
+  run["tool"]["driver"]["version"] = kVersion;
+  run["tool"]["driver"]["semanticVersion"] = kVersion;
   run["tool"]["driver"]["rules"] = std::move(ruleRows);
   run["columnKind"] = "unicodeCodePoints";
   run["results"] = Json::array();
+  Fingerprints fingerprints;
   for (const Diagnostic& d : diagnostics.all()) {
     const auto at = index.find(d.code);
-    if (at != index.end()) run["results"].push_back(resultOf(d, at->second, sources));
+    if (at == index.end()) continue;
+    Json result = resultOf(d, at->second, sources);
+    if (d.range.hasPlace()) result["partialFingerprints"]["dotekLine/v1"] = fingerprints.of(d, sources);
+    run["results"].push_back(std::move(result));
   }
   Json log;
   log["$schema"] =

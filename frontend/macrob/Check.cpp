@@ -51,7 +51,12 @@ std::span<const Check<CheckedProgram>* const> programChecks() {
       &argumentOverwrittenCheck,  &positionReadEarlyCheck,
       &callWordsAloneCheck,       &callWithoutProgramCheck,
       &alarmNumberRangeCheck,     &alarmWithoutTextCheck,
-      &messageTooLongCheck,
+      &messageTooLongCheck,       &printedFormatCheck,
+      &blockDeleteOfLoopCheck,    &returnRepeatedCheck,
+      &atanDivisorCheck,          &wordOutOfRangeCheck,
+      &wordRepeatedCheck,         &wordNotTakenCheck,
+      &codesExcludeCheck,         &arcWithoutCentreCheck,
+      &wearInGeometryCheck,       &systemVariableUnknownCheck,
   };
   return kChecks;
 }

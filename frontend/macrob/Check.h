@@ -108,6 +108,18 @@ DOTEK_CHECK(CheckedProgram, argumentOverwritten, "argument-overwritten", Warning
 DOTEK_CHECK(CheckedProgram, positionReadEarly, "position-read-early", Warning);
 DOTEK_CHECK(CheckedProgram, callWordsAlone, "call-words-alone", Warning);
 DOTEK_CHECK(CheckedProgram, callWithoutProgram, "call-without-program", Error);
+// What a control or a command takes in no block.
+DOTEK_CHECK(CheckedProgram, printedFormat, "printed-format", Error);
+DOTEK_CHECK(CheckedProgram, blockDeleteOfLoop, "block-delete-of-loop", Error);
+DOTEK_CHECK(CheckedProgram, returnRepeated, "return-repeated", Error);
+DOTEK_CHECK(CheckedProgram, atanDivisor, "atan-divisor", Warning);
+DOTEK_CHECK(CheckedProgram, wordOutOfRange, "word-out-of-range", Error);
+DOTEK_CHECK(CheckedProgram, wordRepeated, "word-repeated", Warning);
+DOTEK_CHECK(CheckedProgram, wordNotTaken, "word-not-taken", Warning);
+DOTEK_CHECK(CheckedProgram, codesExclude, "codes-exclude", Warning);
+DOTEK_CHECK(CheckedProgram, arcWithoutCentre, "arc-without-centre", Warning);
+DOTEK_CHECK(CheckedProgram, wearInGeometry, "wear-in-geometry", Warning);
+DOTEK_CHECK(CheckedProgram, systemVariableUnknown, "system-variable-unknown", Warning);
 // Alarms and messages.
 DOTEK_CHECK(CheckedProgram, alarmNumberRange, "alarm-number-range", Warning);
 DOTEK_CHECK(CheckedProgram, alarmWithoutText, "alarm-without-text", Note);

@@ -2,6 +2,7 @@
 #include "frontend/macrob/Check.h"
 #include "frontend/macrob/Format.h"
 #include "frontend/macrob/Walk.h"
+#include "stdlib/VariableNumbers.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -87,6 +88,10 @@ void variableOutOfRange(const CheckedProgram& input, Report& report) {
     });
     if (const nc::Assignment* assignment = assignmentOf(block))
       if (const auto written = writtenBy(*assignment)) judge(written->number, written->range);
+    if (const auto* print = std::get_if<Print>(&block.body))
+      for (const auto& piece : print->pieces)
+        if (const auto* variable = std::get_if<PrintedVariable>(&piece))
+          judge(variable->variable, print->range);
   }
 }
 
@@ -102,9 +107,36 @@ void readOnlyWritten(const CheckedProgram& input, Report& report) {
   if (input.control == nullptr) return;
   eachAssignment(input, [&](const nc::Assignment& assignment) {
     const auto written = writtenBy(assignment);
-    if (written && written->number != 0 && input.control->isReadOnly(written->number))
+    if (written && written->number != 0 && stdlib::isReadAlone(*input.control, written->number))
       report.at(written->range, "#{} can only be read; the control stops with alarm 116", written->number);
   });
+}
+
+void systemVariableUnknown(const CheckedProgram& input, Report& report) {
+  if (input.control == nullptr) return;
+  std::set<std::uint32_t> told;
+  std::string names;
+  SourceRange first;
+  const auto judge = [&](std::uint32_t number, SourceRange range) {
+    if (number < kFirstSystem || isTableBase(number) || stdlib::namesVariable(*input.control, number) ||
+        !told.insert(number).second)
+      return;
+    if (names.empty()) first = range;
+    names += fmt::format("{}#{}", names.empty() ? "" : ", ", number);
+  };
+  for (const Block& block : input.program.blocks) {
+    walk(block, [&](const Expression& expression, bool) {
+      if (const auto number = variableNumber(expression)) judge(*number, expression.range);
+    });
+    if (const nc::Assignment* assignment = assignmentOf(block))
+      if (const auto written = writtenBy(*assignment)) judge(written->number, written->range);
+  }
+  if (names.empty()) return;
+  report.at(
+      first,
+      "the profile of {} does not know {}; the control may stop with alarm 115, and a run ends here; take "
+      "other variables, or describe these in the control's file",
+      input.control->title, names);
 }
 
 // ---- `#` at the wrong place

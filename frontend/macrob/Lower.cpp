@@ -20,7 +20,8 @@ namespace {
 bool isForRunTime(std::string_view code) {
   return code == gotoTargetMissingCheck.code || code == jumpIntoLoopCheck.code ||
          code == variableOutOfRangeCheck.code || code == nullWrittenCheck.code ||
-         code == readOnlyWrittenCheck.code || code == argumentWithoutPointCheck.code;
+         code == readOnlyWrittenCheck.code || code == argumentWithoutPointCheck.code ||
+         code == wordOutOfRangeCheck.code;
 }
 
 class ProgramLowering {
@@ -165,7 +166,6 @@ private:
   }
 
   void lower(const Do& loop, const Comment*) {
-    if (here().blockDelete) refuseSkippedLoop();
     const std::uint32_t number = loop.loop ? loop.loop->value : 0;
     const OpenLoop open{number, out_.addLabel({0, "", here().range}), out_.addLabel({0, "", here().range})};
     place(open.begin);
@@ -174,13 +174,11 @@ private:
   }
   // The checks have paired the loops.
   void lower(const End&, const Comment*) {
-    if (here().blockDelete) refuseSkippedLoop();
     if (loops_.empty()) return;
     add(ir::LoopEnd{loops_.back().number, loops_.back().begin});
     place(loops_.back().end);
     loops_.pop_back();
   }
-  void refuseSkippedLoop() { diagnostics_.report<diag::BlockDeleteOfLoop>(here().blockDelete->range); }
 
   void lower(const Port& port, const Comment*) { add(ir::Port{port.open}); }
 
@@ -195,12 +193,7 @@ private:
       const auto& variable = std::get<PrintedVariable>(piece);
       const std::string& format = variable.format;
       const auto digit = [&](std::size_t i) { return static_cast<std::uint32_t>(format[i] - '0'); };
-      const bool fits =
-          std::all_of(format.begin(), format.end(), [](char c) { return c >= '0' && c <= '9'; });
-      if (!fits || format.size() != (print.binary ? 1 : 2)) {
-        diagnostics_.report<diag::PrintedFormat>(print.range, variable.variable, format);
-        return;
-      }
+      if (format.size() != (print.binary ? 1 : 2)) return; // a check has refused it
       out.pieces.push_back({"", variable.variable, print.binary ? 0 : digit(0), digit(format.size() - 1)});
     }
     add(std::move(out));
@@ -232,7 +225,6 @@ private:
       add(ir::Call{ir::CallKind::Subprogram, valueOf(call->program), valueOf(call->repeat), {}});
       break;
     case CallKind::Return:
-      if (call->repeat != nullptr) diagnostics_.report<diag::ReturnRepeated>(call->repeat->range);
       plain(others(words, *call));
       add(ir::Exit{valueOf(call->program)});
       break;

@@ -20,7 +20,11 @@ void checkCall(const macrob::Words& words, const Project& project, Report& repor
     if (!mayBeOf(set, program, letters)) return;
     const stdlib::CallReading reading = readKnown(set, program, letters);
     using stdlib::CallRefusal;
-    if (reading.refusal == CallRefusal::Ambiguous || reading.refusal == CallRefusal::Excluded)
+    if (reading.refusal == CallRefusal::Excluded)
+      report.at(call->program->range, "{}; the macro stops with an alarm{}; take one of them out of the call",
+                stdlib::refusalText(reading),
+                reading.excluded->text.empty() ? "" : fmt::format(" ({})", reading.excluded->text));
+    else if (reading.refusal == CallRefusal::Ambiguous)
       report.at(call->program->range,
                 "`{}` measures one thing at a time, and the letters {} of this call belong to "
                 "several; the macro stops with an alarm; write a call for each",

@@ -137,8 +137,10 @@ TEST_CASE("lint --fix makes the safe repairs and says what is left") {
   CHECK(readAll(path) == text);
   CHECK(shown.findings.size() == 4);
   const Run run = lint(folder, {"p.txt", "--select", "all", "--fix"});
-  CHECK(run.findings ==
-        Findings{"p.txt:1 " + std::string(dotek::diag::FixesApplied::code), "p.txt:5 feed-on-rapid"});
+  CHECK(run.findings == Findings{"p.txt:3 " + std::string(dotek::diag::FixesApplied::code),
+                                 "p.txt:4 " + std::string(dotek::diag::FixesApplied::code),
+                                 "p.txt:4 " + std::string(dotek::diag::FixesApplied::code),
+                                 "p.txt:5 feed-on-rapid"});
   CHECK(readAll(path) == "\xEF\xBB\xBFprogStart:\r\n SetFlag('a')\r\n IF Flag?('a')\r\n  SeqC ' M32' EOL\r\n"
                          "  SeqC ' G0 Z5. F100' EOL\r\n END\r\nRETURN\r\n");
   CHECK(lint(folder, {"p.txt", "--select", "all", "--fix"}).findings == Findings{"p.txt:5 feed-on-rapid"});

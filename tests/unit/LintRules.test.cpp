@@ -137,7 +137,8 @@ std::multiset<Place> findings(const Example& example, const std::string& select,
 std::vector<fs::path> documents() {
   std::vector<fs::path> out;
   for (const auto& entry : fs::directory_iterator(root() / "docs" / "rules"))
-    if (entry.path().extension() == ".md") out.push_back(entry.path());
+    if (entry.path().extension() == ".md" && entry.path().stem() != "README")
+      out.push_back(entry.path()); // the list
   std::sort(out.begin(), out.end());
   return out;
 }

@@ -1,3 +1,4 @@
+#include "frontend/macrob/Check.h"
 #include "frontend/macrob/Lower.h"
 #include "ir/Print.h"
 #include "support/messages/MacroB.h"
@@ -90,7 +91,7 @@ TEST_CASE("macro B lowering: calls, their arguments and the words beside them") 
   CHECK(lower("G0X1.M98P20L2\n").body == "    nc G0 X1.\n    call subprogram 20 times 2\n");
   CHECK(lower("G91M99P#1\n").body == "    nc G91\n    exit to #1\n");
   CHECK(lower("M99\n").body == "    exit\n");
-  CHECK(lower("M99L2\n").told == "E 3:4 " + std::string(diag::ReturnRepeated::code));
+  CHECK(lower("M99L2\n").told == "E 3:4 " + std::string(frontend::macrob::returnRepeatedCheck.code));
 }
 
 TEST_CASE("macro B lowering: messages, output, comments, block delete") {
@@ -100,7 +101,7 @@ TEST_CASE("macro B lowering: messages, output, comments, block delete") {
         "    if #1 is not #0 goto next1\n    notice 1 \"WAIT\"\n  label next1\n");
   CHECK(lower("POPEN\nDPRNT[X*#100[53]]\nPCLOS\n").body ==
         "    port open\n    print \"X \" #100[53]\n    port close\n");
-  CHECK(lower("DPRNT[#100[5]]\n").told == "E 3:6 " + std::string(diag::PrintedFormat::code));
+  CHECK(lower("DPRNT[#100[5]]\n").told == "E 3:6 " + std::string(frontend::macrob::printedFormatCheck.code));
   CHECK(lower("/3#1=1\n/N5X1.\n").body ==
         "    store unless-skipped 3 #1 = 1\n  label n5\n    nc unless-skipped 1 X1.\n");
   CHECK(lower("/WHILE[#1LT3]DO1\nEND1\n").told.find("block-delete-of-loop") != std::string::npos);

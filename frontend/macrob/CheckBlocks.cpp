@@ -1,0 +1,418 @@
+// Blocks that a control or a command refuses whatever values run through them.
+#include "frontend/macrob/Calls.h"
+#include "frontend/macrob/Check.h"
+#include "frontend/macrob/Format.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+#include <fmt/format.h>
+#include <utility>
+
+namespace dotek::frontend::macrob {
+namespace {
+
+bool isOneOf(double code, std::initializer_list<double> codes) {
+  return std::find(codes.begin(), codes.end(), code) != codes.end();
+}
+
+std::string wordText(const nc::Word& word) {
+  return word.address + print(*word.value);
+}
+
+const nc::Word* find(const Words& words, char letter) {
+  for (const nc::Word& word : words.words)
+    if (word.address == letter && word.value != nullptr) return &word;
+  return nullptr;
+}
+
+bool hasAny(const Words& words, std::string_view letters) {
+  return std::any_of(words.words.begin(), words.words.end(), [&](const nc::Word& word) {
+    return letters.find(word.address) != std::string_view::npos;
+  });
+}
+
+// Codes that take none of the letters that a straight move does not take either.
+constexpr std::array kPlain = {0.0,  1.0,  17.0, 18.0, 19.0, 20.0, 21.0, 40.0, 41.0, 42.0, 43.0, 44.0,
+                               49.0, 53.0, 54.0, 55.0, 56.0, 57.0, 58.0, 59.0, 90.0, 91.0, 94.0};
+
+bool isPlain(double code) {
+  return std::find(kPlain.begin(), kPlain.end(), code) != kPlain.end();
+}
+
+// Codes that are in their block only and take its words: dwell, data, reference points, skip, shifts.
+constexpr std::array kOneShot = {4.0, 10.0, 28.0, 29.0, 30.0, 31.0, 52.0, 53.0, 92.0};
+
+} // namespace
+
+// ---- statements
+
+void printedFormat(const CheckedProgram& input, Report& report) {
+  for (const Block& block : input.program.blocks) {
+    const auto* print = std::get_if<Print>(&block.body);
+    if (print == nullptr)
+      if (const auto* branch = std::get_if<If>(&block.body)) print = std::get_if<Print>(&branch->statement);
+    if (print == nullptr) continue;
+    for (const auto& piece : print->pieces) {
+      const auto* variable = std::get_if<PrintedVariable>(&piece);
+      if (variable == nullptr) continue;
+      const std::string& format = variable->format;
+      const bool digits =
+          std::all_of(format.begin(), format.end(), [](char c) { return c >= '0' && c <= '9'; });
+      if (digits && format.size() == (print->binary ? 1 : 2)) continue;
+      report.at(
+          print->range,
+          "`#{}` is printed with the format `[{}]`; {}; the control stops with an alarm; write `#100[{}]`",
+          variable->variable, format,
+          print->binary ? "BPRNT takes one digit, the decimals"
+                        : "DPRNT takes two digits, before and after the point",
+          print->binary ? "3" : "53");
+      break;
+    }
+  }
+}
+
+void blockDeleteOfLoop(const CheckedProgram& input, Report& report) {
+  for (const Block& block : input.program.blocks)
+    if (block.blockDelete &&
+        (std::holds_alternative<Do>(block.body) || std::holds_alternative<End>(block.body)))
+      report.at(
+          block.blockDelete->range,
+          "block delete before a loop's begin or end; where the loop is passed over the other half of it is "
+          "left; write the `/` before the blocks inside");
+}
+
+void returnRepeated(const CheckedProgram& input, Report& report) {
+  for (const Words* words : input.plain)
+    if (const auto call = callOf(*words); call && call->kind == CallKind::Return && call->repeat != nullptr)
+      report.at(call->repeat->range,
+                "what `L` does after M99 is not known to Dotek; leave it out, or repeat the call");
+}
+
+void atanDivisor(const CheckedProgram& input, Report& report) {
+  for (const CheckedProgram::Part& part : input.parts) {
+    const auto* operation = std::get_if<nc::Operation>(&part.expression->node);
+    if (operation == nullptr || operation->op != "/" || operation->left->brackets > 0 ||
+        operation->right->brackets > 0)
+      continue;
+    const auto* call = std::get_if<nc::FunctionCall>(&operation->left->node);
+    if (call == nullptr || call->name != "ATAN" || call->arguments.size() != 1 || call->bare) continue;
+    const SourceRange right = operation->right->range;
+    report
+        .at({right.file, operation->left->range.begin, right.end},
+            "`/` after ATAN[..] is without brackets; ATAN takes two values as `ATAN[y]/[x]`, so the control "
+            "stops "
+            "with an alarm or divides the angle; write `/[{0}]`, or `[ATAN[..]]/{0}` if the angle is to be "
+            "divided",
+            print(*operation->right))
+        .fix =
+        Fix{Fix::Applicability::Display,
+            "write the brackets",
+            {{{right.file, right.begin, right.begin}, "["}, {{right.file, right.end, right.end}, "]"}}};
+  }
+}
+
+// ---- words
+
+namespace {
+
+class Ranges {
+public:
+  Ranges(const CheckedProgram& input, Report& report) : control_(input.control), report_(report) {}
+
+  void plain(const Words& words) const {
+    bool feeds = false, dwells = false, data = false, reference = false, extended = false, length = false;
+    for (const nc::Word& word : words.words) {
+      const auto code = word.address == 'G' ? literal(word) : std::nullopt;
+      if (!code) continue;
+      feeds = feeds || isOneOf(*code, {1, 2, 3, 31});
+      dwells = dwells || *code == 4;
+      data = data || *code == 10;
+      reference = reference || *code == 30;
+      extended = extended || *code == 54.1;
+      length = length || isOneOf(*code, {43, 44});
+    }
+    for (const nc::Word& word : words.words) {
+      const auto value = literal(word);
+      if (!value) continue;
+      switch (word.address) {
+      case 'F':
+        if (*value < 0) tell(word, "a feed is not below 0");
+        if (*value == 0 && feeds) tell(word, "a feed move needs a feed above 0 (alarm 11)");
+        break;
+      case 'S':
+        if (*value < 0) tell(word, "a speed is not below 0");
+        break;
+      case 'T':
+        if (*value < 0) tell(word, "a tool number is not below 0");
+        break;
+      case 'H':
+        if (length) offset(word, *value);
+        break;
+      case 'P':
+        if (dwells && (*value < 0 || *value != std::floor(*value)))
+          tell(word, "P of a dwell counts whole milliseconds; seconds are written with X");
+        else if (reference && !isOneOf(*value, {2, 3, 4}))
+          tell(word, "G30 goes to the second to fourth reference point, P2 to P4");
+        else if (extended)
+          system(word, *value);
+        else if (data)
+          dataNumber(words, word, *value);
+        break;
+      default: break;
+      }
+      if (control_ != nullptr && !data &&
+          std::string_view("XYZUVWIJKR").find(word.address) != std::string_view::npos &&
+          std::abs(*value) >= std::pow(10.0, control_->integerDigits) && hasPoint(word))
+        tell(word,
+             fmt::format("the control takes {} digits before the point (alarm 3)", control_->integerDigits));
+    }
+  }
+
+  void call(const Call& call) const {
+    const double last = control_ != nullptr ? control_->programLast : 99999999;
+    const bool repeatsInside =
+        call.kind == CallKind::Subprogram && (control_ == nullptr || control_->repeatInProgram);
+    if (call.program != nullptr)
+      if (const auto value = literal(*call.program);
+          value && (*value < 1 || *value != std::floor(*value) || (*value > last && !repeatsInside)))
+        tell(*call.program, fmt::format("programs have whole numbers from 1 to {}", last));
+    if (call.repeat != nullptr)
+      if (const auto value = literal(*call.repeat);
+          value && (*value < 1 || *value > 9999 || *value != std::floor(*value)))
+        tell(*call.repeat, "a call repeats 1 to 9999 times");
+  }
+
+private:
+  void tell(const nc::Word& word, std::string_view why) const {
+    report_.at(word.range, "`{}`: {}; the control stops with an alarm; write a value that it takes",
+               wordText(word), why);
+  }
+  static bool hasPoint(const nc::Word& word) {
+    const Expression* value = word.value.get();
+    if (const auto* negated = std::get_if<nc::Negated>(&value->node)) value = negated->operand.get();
+    const auto* number = std::get_if<nc::Number>(&value->node);
+    return number != nullptr && number->point;
+  }
+  void offset(const nc::Word& word, double value) const {
+    const int last = control_ != nullptr ? control_->variables.toolCount : 0;
+    if (value < 0 || value != std::floor(value))
+      tell(word, "a tool offset has a whole number");
+    else if (last > 0 && value > last)
+      tell(word, fmt::format("tool offsets go to {} in the profile of this control", last));
+  }
+  void system(const nc::Word& word, double value) const {
+    const int last = control_ != nullptr ? control_->variables.extendedCount : 0;
+    if (value < 1 || value != std::floor(value) || (last > 0 && value > last))
+      tell(word, last > 0 ? fmt::format("additional work systems are P1 to P{}", last)
+                          : std::string("additional work systems begin at P1"));
+  }
+  // P of G10: work systems (L2, L20) and tool offsets (L10 to L13).
+  void dataNumber(const Words& words, const nc::Word& word, double value) const {
+    const nc::Word* kind = find(words, 'L');
+    const auto l = kind == nullptr ? std::nullopt : literal(*kind);
+    if (!l) return;
+    if (*l == 20) system(word, value);
+    if (*l >= 10 && *l <= 13) offset(word, value);
+  }
+
+  const stdlib::Control* control_;
+  Report& report_;
+};
+
+} // namespace
+
+void wordOutOfRange(const CheckedProgram& input, Report& report) {
+  const Ranges ranges(input, report);
+  for (const Words* words : input.plain)
+    ranges.plain(*words);
+  for (const Call& call : input.calls)
+    ranges.call(call);
+  for (const Call& call : input.subprograms)
+    ranges.call(call);
+}
+
+void wordRepeated(const CheckedProgram& input, Report& report) {
+  for (const Words* words : input.plain) {
+    // A code of the builder may call a macro, whose arguments I, J and K repeat.
+    const bool calls = std::any_of(words->words.begin(), words->words.end(), [](const nc::Word& word) {
+      return word.address == 'G' && literal(word).value_or(100) >= 100;
+    });
+    if (calls) continue;
+    std::array<const nc::Word*, 128> first{};
+    for (const nc::Word& word : words->words) {
+      if (word.address == 'G' || word.address == 'M' || word.value == nullptr) continue;
+      const nc::Word*& before = first[static_cast<unsigned char>(word.address) & 127U];
+      if (before != nullptr)
+        report
+            .at(word.range,
+                "the address `{}` is twice in the block; controls take the last one or stop with an alarm; "
+                "leave "
+                "one out",
+                word.address)
+            .note(before->range, "the first one");
+      before = &word;
+    }
+  }
+}
+
+// Blocks that say their motion, and nothing else that could take a word.
+void wordNotTaken(const CheckedProgram& input, Report& report) {
+  // Under cutter compensation, which a caller may have begun, I, J and K of a straight move state a
+  // direction.
+  const bool main = std::any_of(input.plain.begin(), input.plain.end(), [](const Words* words) {
+    return findCode(*words, 'M', 30) != nullptr || findCode(*words, 'M', 2) != nullptr;
+  });
+  const bool compensates =
+      !main || std::any_of(input.plain.begin(), input.plain.end(), [](const Words* words) {
+        return findCode(*words, 'G', 41) != nullptr || findCode(*words, 'G', 42) != nullptr;
+      });
+  const std::string_view letters = compensates ? "ELPQR" : "EIJKLPQR";
+  for (const Words* words : input.plain) {
+    bool straight = false, certain = true;
+    for (const nc::Word& word : words->words) {
+      if (word.address == 'M' || word.address == 'T') certain = false;
+      if (word.address != 'G') continue;
+      const auto code = literal(word);
+      straight = straight || (code && (*code == 0 || *code == 1));
+      certain = certain && code && isPlain(*code);
+    }
+    if (!straight || !certain) continue;
+    for (const nc::Word& word : words->words)
+      if (word.value != nullptr && letters.find(word.address) != std::string_view::npos)
+        report.at(
+            word.range,
+            "nothing in this block takes `{}`; the control ignores it or stops with an alarm, and the code "
+            "that it was meant for does not run; write that code, or leave the word out",
+            wordText(word));
+  }
+}
+
+void codesExclude(const CheckedProgram& input, Report& report) {
+  for (const Words* words : input.plain) {
+    const nc::Word* first = nullptr;
+    for (const nc::Word& word : words->words) {
+      const auto code = word.address == 'G' ? literal(word) : std::nullopt;
+      if (!code || std::find(kOneShot.begin(), kOneShot.end(), *code) == kOneShot.end()) continue;
+      const auto is = [&](double one) { return code == one || literal(*first) == one; };
+      // A skip move in machine coordinates is in programs that run.
+      if (first != nullptr && literal(*first) != code && !(is(53) && is(31)))
+        report
+            .at(word.range,
+                "`{}` and `{}` both want the words of this block; the control carries out one of them or "
+                "stops with "
+                "an alarm; give each a block of its own",
+                wordText(*first), wordText(word))
+            .note(first->range, "the first one");
+      if (first == nullptr) first = &word;
+    }
+  }
+}
+
+void arcWithoutCentre(const CheckedProgram& input, Report& report) {
+  for (const Block& block : input.program.blocks) {
+    const auto* words = std::get_if<Words>(&block.body);
+    if (words == nullptr || block.repaired) continue; // half of it may be on the next line
+    const nc::Word* arc = nullptr;
+    bool other = false;
+    for (const nc::Word& word : words->words) {
+      const auto code = word.address == 'G' ? literal(word) : std::nullopt;
+      const bool isArc = code && isOneOf(*code, {2, 3});
+      if (isArc) arc = &word;
+      other = other || (word.address == 'G' && !isArc && !(code && isPlain(*code)));
+    }
+    if (arc == nullptr || other || !hasAny(*words, "XYZUVW")) continue;
+    const nc::Word* radius = find(*words, 'R');
+    if (radius != nullptr && literal(*radius) == 0.0)
+      report.at(radius->range, "the arc has the radius 0; the control stops with an alarm; write the radius");
+    else if (!hasAny(*words, "IJKR"))
+      report.at(
+          arc->range,
+          "the arc has neither a centre (I, J, K) nor a radius (R); the control stops with alarm 22 or moves "
+          "straight; write one of them, or G1");
+  }
+}
+
+// ---- tool offsets
+
+namespace {
+
+std::string upper(std::string_view text) {
+  std::string out(text);
+  std::transform(out.begin(), out.end(), out.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+  return out;
+}
+
+bool has(std::string_view text, std::initializer_list<std::string_view> words) {
+  return std::any_of(words.begin(), words.end(),
+                     [&](std::string_view word) { return text.find(word) != std::string_view::npos; });
+}
+
+// The number of the written variable, or what its computed number counts from: 2200 of #[2200+#7].
+std::optional<double> writtenFrom(const nc::Assignment& assignment) {
+  if (const auto number = literal(*assignment.variable)) return number;
+  const Expression* at = assignment.variable.get();
+  while (const auto* sum = std::get_if<nc::Operation>(&at->node)) {
+    if (sum->op != "+") return std::nullopt;
+    if (const auto left = literal(*sum->left)) return left;
+    if (const auto right = literal(*sum->right)) return right;
+    at = sum->left.get();
+  }
+  return std::nullopt;
+}
+
+} // namespace
+
+// On Fanuc #2001 and up are the wear and #2201 and up the geometry of tool lengths; on Haas it is the other
+// way round.
+void wearInGeometry(const CheckedProgram& input, Report& report) {
+  const stdlib::Control* control = input.control;
+  if (control != nullptr && (!control->variables.toolGeometry || !control->variables.toolWear)) return;
+  const int geometry = control != nullptr ? *control->variables.toolGeometry : 2200;
+  const int wear = control != nullptr ? *control->variables.toolWear : 2000;
+  const int count = control != nullptr ? control->variables.toolCount : 200;
+  const auto in = [&](double number, int first) { return number >= first && number <= first + count; };
+  std::string all;
+  for (const Comment& comment : input.program.comments)
+    all += upper(comment.text) + "\n";
+  for (const Block& block : input.program.blocks)
+    for (const Comment& comment : block.comments)
+      all += upper(comment.text) + "\n";
+  if (!has(all, {"WEAR", "VERSCHLEI", "OPOT"})) return;
+  const bool both = has(all, {"GEOM", "GEO ", "DELK"});
+  std::vector<const nc::Assignment*> writes;
+  bool writesWear = false;
+  const std::vector<Comment>* before = nullptr;
+  for (const Block& block : input.program.blocks) {
+    const auto* assignment = std::get_if<nc::Assignment>(&block.body);
+    if (const auto* branch = std::get_if<If>(&block.body))
+      assignment = std::get_if<nc::Assignment>(&branch->statement);
+    const std::vector<Comment>* above = std::exchange(before, nullptr);
+    if (std::holds_alternative<std::monostate>(block.body)) before = &block.comments;
+    if (assignment == nullptr) continue;
+    const auto from = writtenFrom(*assignment);
+    if (from && in(*from, wear) && *from < geometry) writesWear = true;
+    if (!from || !in(*from, geometry)) continue;
+    std::string near;
+    for (const Comment& comment : block.comments)
+      near += upper(comment.text) + "\n";
+    for (const Comment& comment : above != nullptr ? *above : std::vector<Comment>{})
+      near += upper(comment.text) + "\n";
+    const bool saysWear = has(near, {"WEAR", "VERSCHLEI", "OPOT"}) && !has(near, {"GEOM"});
+    // A program that speaks of wear alone, and writes the geometry alone.
+    if (saysWear || (!both && near.empty())) writes.push_back(assignment);
+    if (saysWear) writesWear = false;
+  }
+  if (writes.empty() || writesWear) return;
+  report.at(
+      writes.front()->range,
+      "the program says wear, and this writes the geometry: #{}.. is the geometry of tool lengths on a Fanuc "
+      "control, #{}.. the wear; the length of the tool is overwritten; write `#[{}+..]` (Haas counts the "
+      "other "
+      "way round)",
+      geometry + 1, wear + 1, wear);
+}
+
+} // namespace dotek::frontend::macrob

@@ -1,0 +1,34 @@
+#include "lint/Skips.h"
+
+namespace dotek::lint::rule {
+namespace {
+
+void checkProgram(const ir::Program& program, Report& report) {
+  const auto modes = distanceModes(program.body);
+  for (std::size_t i = 0; i < program.body.size(); ++i) {
+    const ir::ProgramStatement& statement = program.body[i];
+    const auto* block = std::get_if<ir::NcBlock>(&statement.node);
+    if (block == nullptr || !modes[i] || !hasCode(*block, 'G', 53) || hasCode(*block, 'G', 31) ||
+        axesOf(*block) == 0)
+      continue;
+    if (statedMode(statement).value_or(*modes[i]) != DistanceMode::Incremental) continue;
+    report.at(statement.origin.range(), "G53 takes absolute coordinates alone, and G91 holds here; the "
+                                        "control ignores the block, and the next "
+                                        "move starts from where the axes are; write G90 into it");
+  }
+}
+
+void check(const Project& project, Report& report) {
+  eachProgram(project,
+              [&](const ir::Program& program, const macrob::File&) { checkProgram(program, report); });
+}
+
+} // namespace
+
+DOTEK_LINT_RULE(machine_move_incremental){
+    .severity = Severity::Warning,
+    .tier = Tier::Ir,
+    .check = check,
+};
+
+} // namespace dotek::lint::rule

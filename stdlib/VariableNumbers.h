@@ -1,0 +1,16 @@
+// What the profile of a control says of the number of a variable.
+#pragma once
+
+#include "stdlib/Control.h"
+
+#include <cstdint>
+
+namespace dotek::stdlib {
+
+// The profile states what the system variable (#1000 and up) holds.
+bool namesVariable(const Control& control, std::uint32_t number);
+
+// A program that writes it stops with alarm 116: listed so, a state that is only read, or the tool offset 0.
+bool isReadAlone(const Control& control, std::uint32_t number);
+
+} // namespace dotek::stdlib

@@ -1,0 +1,11 @@
+// The version of Dotek, as `--version`, SARIF and reports say it. CMakeLists.txt has the same number (a test
+// holds them together).
+#pragma once
+
+#include <string_view>
+
+namespace dotek {
+
+inline constexpr std::string_view kVersion = "0.1.0";
+
+} // namespace dotek
