@@ -232,11 +232,15 @@ void functionWithoutBrackets(const CheckedProgram& input, Report& report) {
 }
 
 void fixOfComputed(const CheckedProgram& input, Report& report) {
+  Diagnostic* first = nullptr; // one a program: whoever knows it of one FIX knows it of all
   eachPart<nc::FunctionCall>(input, [&](const nc::FunctionCall& call, SourceRange range) {
     if (call.name != "FIX") return;
     const Expression& argument = *call.arguments.front();
-    if (isApproximate(argument, true) && !isHalved(argument))
-      report.at(
+    if (!isApproximate(argument, true) || isHalved(argument)) return;
+    if (first != nullptr)
+      first->note(range, "and here");
+    else
+      first = &report.at(
           range,
           "FIX cuts a computed value; it may lie just below the whole number that is meant, and one less "
           "comes out; add a little, `FIX[..+0.0001]`, or use ROUND");
