@@ -106,8 +106,11 @@ public:
     const driver::Outcome outcome = driver::verify(options);
     err_ << renderText(outcome.diagnostics, outcome.sources, maxErrors_);
     if (outcome.status == kUsage) return kUsage;
-    return write({{orStandardOutput(arguments.output), &outcome.output}}, outcome, arguments) ? outcome.status
-                                                                                              : kUsage;
+    if (options.format != targets::ReportFormat::Text && outcome.files.empty()) return outcome.status;
+    const std::string& report = outcome.files.empty() ? outcome.output : outcome.files.front().text;
+    if (!arguments.output.empty() && !outcome.files.empty()) out_ << outcome.output;
+    return write({{orStandardOutput(arguments.output), &report}}, outcome, arguments) ? outcome.status
+                                                                                      : kUsage;
   }
 
   // Findings are the result.

@@ -42,7 +42,7 @@ struct Raw {
   std::string traceFile, svgFile, htmlFile, date;
   std::string part, machine, partError, translation;
   std::vector<std::string> values; // --value
-  std::string cases, seed, jobs, minAgreed, tolerance, activeSystem;
+  std::string cases, seed, jobs, minAgreed, tolerance, activeSystem, date;
   std::vector<std::string> workOffsets;
   std::string tool, length, radius, diameter, at, call;
   bool replay = false;

@@ -3,7 +3,9 @@
 #include "support/Decimal.h"
 #include "targets/Target.h"
 
+#include <algorithm>
 #include <array>
+#include <filesystem>
 #include <sstream>
 
 namespace dotek::cli {
@@ -24,6 +26,17 @@ std::array<double, 4> placeOf(const std::string& text) {
   if (count != out.size())
     throw UsageError("--part-error takes X,Y,Z,TURN in mm and degrees, not `" + text + "`");
   return out;
+}
+
+targets::ReportFormat formatOf(const std::string& path) {
+  using targets::ReportFormat;
+  std::string end = std::filesystem::path(path).extension().string();
+  std::transform(end.begin(), end.end(), end.begin(),
+                 [](char c) { return c >= 'A' && c <= 'Z' ? c + 32 : c; });
+  return end == ".html" || end == ".htm" ? ReportFormat::Html
+         : end == ".md"                  ? ReportFormat::Markdown
+         : end == ".json"                ? ReportFormat::Json
+                                         : ReportFormat::Text;
 }
 
 } // namespace
@@ -76,13 +89,20 @@ void addVerify(CLI::App& app, Raw& raw) {
       ->type_name("NAME=VALUE")
       ->allow_extra_args(false);
   verify->add_flag("--replay", raw.replay, "run the one case whose values are given");
-  verify->add_option("-o", raw.output, "write the report to a file")->type_name("REPORT");
+  verify
+      ->add_option(
+          "-o", raw.output,
+          "write the report to a file; .html, .md and .json: a document with files, cases and differences")
+      ->type_name("REPORT");
+  verify->add_option("--date", raw.date, "date that the document bears (none)")->type_name("DATE");
   addForce(*verify, raw);
   addCommon(*verify, raw);
 }
 
 driver::VerifyOptions verifyOf(const Raw& raw) {
   driver::VerifyOptions out;
+  out.format = formatOf(raw.output);
+  out.date = raw.date;
   out.to = raw.to;
   out.control = raw.control;
   out.fromControl = raw.fromControl;

@@ -55,6 +55,8 @@ public:
     if (!runCases(options_, edges, main_, another, report)) return outcomeOf(main_.session(), "");
     main_.session().diagnostics() = Diagnostics();
     Outcome outcome = outcomeOf(main_.session(), report.finish(), true);
+    if (options_.format != targets::ReportFormat::Text)
+      outcome.files.push_back({"report", report.rendered()});
     for (const Diagnostic& one : ofForm.all())
       outcome.diagnostics.add(one);
     outcome.diagnostics.sort();

@@ -55,7 +55,10 @@ public:
     };
     if (!runCases(options_, !options_.replay, main, another, report)) return outcomeOf(own, "");
     own.diagnostics() = Diagnostics();
-    return outcomeOf(own, report.finish(), true);
+    Outcome outcome = outcomeOf(own, report.finish(), true);
+    if (options_.format != targets::ReportFormat::Text)
+      outcome.files.push_back({"report", report.rendered()});
+    return outcome;
   }
 
 private:

@@ -62,6 +62,42 @@ std::optional<SourceRange> spindleOffIn(const ir::Program& program, const stdlib
   return std::nullopt;
 }
 
+// What a posted program selects by itself: the first tool offset, and the work system before it moves in one.
+struct Selected {
+  std::optional<std::uint32_t> system, toolOffset;
+};
+
+Selected selectedIn(const ir::Program& program, const stdlib::Control& control) {
+  using stdlib::Function;
+  Selected out;
+  bool moved = false;
+  for (const ir::ProgramStatement& statement : program.body) {
+    moved = moved || std::holds_alternative<ir::Call>(statement.node);
+    const auto* block = std::get_if<ir::NcBlock>(&statement.node);
+    if (block == nullptr) continue;
+    bool axes = false, elsewhere = false, length = false; // elsewhere: no move in a work system
+    for (const ir::Word& word : block->words) {
+      axes = axes || (word.address >= 'X' && word.address <= 'Z');
+      const double* code = word.address == 'G' ? ir::constantValue(word.value) : nullptr;
+      if (code == nullptr || *code < 0 || *code > 9999) continue;
+      const auto tenths = static_cast<std::uint32_t>(std::lround(*code * 10));
+      const stdlib::CodeInfo* info = control.find('G', tenths);
+      const Function function = info == nullptr ? Function::Other : info->function;
+      elsewhere = elsewhere || function == Function::DataInput || function == Function::ReferenceReturn ||
+                  function == Function::SecondReferenceReturn || function == Function::MachineCoordinates;
+      length = length || function == Function::ToolLengthPlus;
+      if (function == Function::WorkSystem && !moved) out.system = tenths / 10;
+    }
+    for (const ir::Word& word : block->words) {
+      const double* number = word.address == 'H' ? ir::constantValue(word.value) : nullptr;
+      if (length && !out.toolOffset && number != nullptr && *number >= 1 && *number <= 9999)
+        out.toolOffset = static_cast<std::uint32_t>(std::lround(*number));
+    }
+    moved = moved || (axes && !elsewhere);
+  }
+  return out;
+}
+
 } // namespace
 
 CaseRunner::CaseRunner(const VerifyOptions& options, const VerifyPlan& plan)
@@ -199,9 +235,87 @@ bool CaseRunner::knowsValues() {
   return !session_.diagnostics().hasErrors();
 }
 
+// The work system and the tool offset that the posted program selects hold from its beginning: what is drawn
+// is meant in them. Fields that set a work offset get another one than that (`others`).
+void CaseRunner::takeSelected(verify::Case& drawn, bool others) {
+  if (routine_ == nullptr || selects_ == false) return;
+  const auto selected = [&](const verify::Case& one) -> std::optional<Selected> {
+    const std::unique_ptr<Values> values = check(one, false);
+    if (!values || values->rejected || !readPosted(*values)) return std::nullopt;
+    return selectedIn(values->posted->file.programs.front(), *inputs_->sourceControl);
+  };
+  const std::optional<Selected> found = selected(drawn);
+  if (!found) return;
+  selects_ = selects_.value_or(false) || found->system || found->toolOffset;
+  if (found->toolOffset) drawn.toolOffset = *found->toolOffset;
+  if (!found->system) return;
+  drawn.system = *found->system;
+  constexpr std::uint32_t kFirst = 54, kSystems = 6;
+  for (const verify::DrawField& field : plan_.fields) {
+    if (!others || field.kind != ir::Kind::WorkOffset || field.fixed) continue;
+    if (drawn.values.at(field.name) != drawn.system) continue;
+    verify::Case other = drawn;
+    const auto beside = static_cast<std::uint32_t>(1 + drawn.stream % (kSystems - 1));
+    other.values[field.name] = kFirst + (drawn.system - kFirst + beside) % kSystems;
+    const std::optional<Selected> again = selected(other);
+    if (again && again->system == drawn.system) drawn = std::move(other);
+  }
+}
+
+// nullptr: the values are rejected; refusal_ says why.
+std::unique_ptr<CaseRunner::Values> CaseRunner::attempt(const verify::Case& proposal) {
+  refusal_.clear();
+  refusedAt_ = {};
+  verify::Case taken = proposal;
+  takeSelected(taken, true);
+  std::unique_ptr<Values> values = check(taken, true);
+  if (!values) {
+    unreadable_ = true;
+    return nullptr;
+  }
+  if (values->rejected) {
+    refusal_ = values->rejection;
+    refusedAt_ = values->rejectedAt;
+    return nullptr;
+  }
+  if (values->path) {
+    refusal_ = verify::whyNoWay(*values->path);
+    if (refusal_.empty()) refusal_ = whyNotClear(*values);
+    if (!refusal_.empty()) return nullptr;
+    if (makePart(*values)) {
+      const sim::Part nominal = *values->part;
+      misplace(*values);
+      const double off =
+          plan_.translation ? verify::mostOff(values->path->nominal(), values->drawn.error) : 0;
+      refusal_ = verify::whyNotReached(*values->path, *values->part, probeFor(plan_, values->drawn), off);
+      if (refusal_.empty() && target_ != nullptr && target_->datumsMovePath())
+        refusal_ = whyNotCorrected(*values, nominal, off);
+    } else if (plan_.part) {
+      values->part = plan_.part;
+    } else {
+      refusal_ = "the path touches nothing";
+    }
+    if (!refusal_.empty()) return nullptr;
+  }
+  if (nominal_ != nullptr && !leadToNominal(values)) return nullptr;
+  if (routine_ == nullptr) return values;
+  if (!values->posted && !readPosted(*values)) return nullptr;
+  if (selects_ == false) {
+    // Only some values make the post select something.
+    const Selected found = selectedIn(values->posted->file.programs.front(), *inputs_->sourceControl);
+    if (found.system || found.toolOffset) {
+      selects_ = true;
+      return attempt(proposal);
+    }
+  }
+  if (values->path) refusal_ = whyNotMeasured(*values);
+  return refusal_.empty() ? std::move(values) : nullptr;
+}
+
 std::optional<verify::Case> CaseRunner::draw(std::uint64_t index) {
-  for (std::uint32_t attempt = 0; attempt < kAttempts; ++attempt) {
-    verify::Case proposal = draws_->propose(index, attempt);
+  rejected_.clear();
+  for (std::uint32_t tries = 0; tries < kAttempts; ++tries) {
+    verify::Case proposal = draws_->propose(index, tries);
     if (options_.activeSystem) proposal.system = *options_.activeSystem;
     if (options_.partError) {
       const auto& [x, y, z, turn] = *options_.partError;
@@ -209,47 +323,31 @@ std::optional<verify::Case> CaseRunner::draw(std::uint64_t index) {
     }
     if (options_.replay) {
       takeValues(proposal);
+      takeSelected(proposal, false);
       return proposal; // drawn_ is of no other case
     }
+    std::unique_ptr<Values> values;
     if (nominal_ != nullptr) nominal_->roundStart(proposal);
-    std::unique_ptr<Values> values = check(proposal, true);
-    if (!values) return std::nullopt;
-    if (values->rejected) {
-      refusal_ = values->rejection;
-      continue;
+    values = attempt(proposal);
+    if (values) {
+      verify::Case drawn = values->drawn;
+      drawn_ = std::move(values);
+      return drawn;
     }
-    if (values->path) {
-      refusal_ = verify::whyNoWay(*values->path);
-      if (refusal_.empty()) refusal_ = whyNotClear(*values);
-      if (!refusal_.empty()) continue;
-      if (makePart(*values)) {
-        const sim::Part nominal = *values->part;
-        misplace(*values);
-        const double off =
-            plan_.translation ? verify::mostOff(values->path->nominal(), values->drawn.error) : 0;
-        refusal_ = verify::whyNotReached(*values->path, *values->part, probeFor(plan_, values->drawn), off);
-        if (refusal_.empty() && target_ != nullptr && target_->datumsMovePath())
-          refusal_ = whyNotCorrected(*values, nominal, off);
-      } else if (plan_.part) {
-        values->part = plan_.part;
-      } else {
-        refusal_ = "the path touches nothing";
-      }
-      if (!refusal_.empty()) continue;
-    }
-    if (nominal_ != nullptr && !leadToNominal(values)) continue;
-    if (routine_ != nullptr) {
-      if (!readPosted(*values)) continue;
-      if (values->path) {
-        refusal_ = whyNotMeasured(*values);
-        if (!refusal_.empty()) continue;
-      }
-    }
-    verify::Case drawn = values->drawn;
-    drawn_ = std::move(values);
-    return drawn;
+    Rejection& rejection = rejected_[{refusal_, refusedAt_.begin}];
+    rejection = {rejection.count + 1, refusal_, refusedAt_};
+    if (unreadable_) return std::nullopt;
   }
   return std::nullopt;
+}
+
+std::vector<Rejection> CaseRunner::rejections() const {
+  std::vector<Rejection> out;
+  for (const auto& [key, one] : rejected_)
+    out.push_back(one);
+  std::stable_sort(out.begin(), out.end(),
+                   [](const Rejection& a, const Rejection& b) { return a.count > b.count; });
+  return out;
 }
 
 // Where start and travel have to lead to the nominal: changes what is nominal. The path stays as it is.
@@ -339,7 +437,8 @@ sim::Point3 CaseRunner::zeroOf(const verify::Case& drawn) const {
 }
 
 // Host inputs as the path and the post's pictures have them.
-verify::Case CaseRunner::settled(const verify::Case& drawn) {
+verify::Case CaseRunner::settled(verify::Case drawn) {
+  takeSelected(drawn, false);
   const std::unique_ptr<Values> values = check(drawn, true);
   return values ? values->drawn : drawn;
 }

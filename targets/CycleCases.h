@@ -49,13 +49,17 @@ public:
   verify::Case edge(std::uint64_t index) override { return settled(draws_->edge(index)); }
   CaseResult run(const verify::Case& drawn) override;
   std::vector<std::pair<std::string, SourceRange>> droppedDigits(const verify::Case& drawn) override;
-  const std::string& lastRefusal() const override { return refusal_; }
+  std::vector<Rejection> rejections() const override;
+  VerifySides sides() const override;
+  std::optional<sim::Picture> picture(const verify::Case& drawn) override;
 
 private:
   struct Posted; // the posted program of one case
   struct Values; // of one case, after the checks
   std::unique_ptr<Values> check(const verify::Case& drawn, bool settle);
-  verify::Case settled(const verify::Case& drawn);
+  verify::Case settled(verify::Case drawn);
+  void takeSelected(verify::Case& drawn, bool others);
+  std::unique_ptr<Values> attempt(const verify::Case& proposal);
   void takeValues(verify::Case& drawn) const;
   bool knowsValues();
   void roundHosts(verify::Case& drawn) const;
@@ -89,6 +93,11 @@ private:
   std::optional<FieldTable> fields_;
   std::optional<verify::Draws> draws_;
   std::string refusal_;
+  SourceRange refusedAt_;                                               // by a check
+  std::map<std::pair<std::string, std::uint32_t>, Rejection> rejected_; // of the last draw()
+  bool unreadable_ = false; // the path cannot be run, whatever is drawn
+  std::optional<bool>
+      selects_; // the post selects a work system or a tool offset by itself; nothing: not known
   std::unique_ptr<Values> drawn_; // of draw(), for the next run()
 
   const stdlib::MacroSet* sourceSet_ = nullptr;

@@ -2,6 +2,7 @@
 #include "support/messages/Verify.h"
 #include "targets/CycleCasesParts.h"
 #include "targets/Stage.h"
+#include "targets/Target.h"
 
 #include <algorithm>
 #include <cmath>
@@ -39,6 +40,7 @@ SourceRange CaseRunner::sourceOf(SourceRange posted, const Values& values) const
 void CaseRunner::addFinding(CaseResult& result, const verify::Difference& difference,
                             const Values& values) const {
   CaseFinding finding;
+  finding.pair = CaseFinding::Pair::PathAndPost;
   finding.aspect = difference.aspect;
   finding.text = difference.text;
   finding.source = difference.source;
@@ -132,6 +134,7 @@ void CaseRunner::takeRun(CaseResult& result, TargetRun ran, const Values& values
   }
   for (TargetDifference& one : ran.differences) {
     CaseFinding finding;
+    if (routine_ == nullptr) finding.pair = CaseFinding::Pair::PathAndTranslation;
     finding.aspect = one.difference.aspect;
     finding.text = one.difference.text + (one.text.empty() ? "" : ", in `" + one.text + "`");
     // Without a Prog it is the place in the macro.
@@ -150,9 +153,7 @@ void CaseRunner::comparePath(CaseResult& result, const Values& values) const {
   for (const verify::Difference& difference :
        verify::compare(*values.path, {}, *values.rehearsal, options_.tolerance)) {
     if (difference.aspect != verify::Aspect::Nominal) continue;
-    CaseFinding finding{difference.aspect, "the drawn path and the post: " + difference.text,
-                        difference.source, sourceOf(difference.target, values), 0};
-    result.findings.push_back(std::move(finding));
+    addFinding(result, difference, values);
   }
 }
 
@@ -187,6 +188,37 @@ std::vector<std::pair<std::string, SourceRange>> CaseRunner::droppedDigits(const
       if (std::find(always.begin(), always.end(), place) == always.end()) out.emplace_back(field.name, place);
   }
   return out;
+}
+
+VerifySides CaseRunner::sides() const {
+  VerifySides out;
+  if (inputs_->sourceControl) out.sourceControl = controlText(*inputs_->sourceControl);
+  if (inputs_->program && inputs_->form) out.form = inputs_->form->name;
+  const Target* const target = findTarget(options_.to);
+  if (target == nullptr) return out;
+  if (target->ownControls)
+    out.targetControl = options_.control;
+  else if (inputs_->control)
+    out.targetControl = controlText(*inputs_->control);
+  return out;
+}
+
+std::optional<sim::Picture> CaseRunner::picture(const verify::Case& drawn) {
+  if (routine_ == nullptr) return std::nullopt;
+  const std::unique_ptr<Values> values = check(drawn, false);
+  if (!values || values->rejected) return std::nullopt;
+  if (values->path && makePart(*values))
+    misplace(*values);
+  else
+    values->part = plan_.part;
+  const bool empty = !values->part;
+  if (empty) values->part = emptyPart(zeroOf(drawn));
+  if (!readPosted(*values)) return std::nullopt;
+  const sim::Probe probe = probeFor(plan_, drawn);
+  sim::World world(*values->part, probe);
+  const bool probeOn = options_.common.assume.contains("probe-on");
+  return pictureOf(runPosted(*values, world, probeOn, verify::Stand::Way::KeepMoves), *values->part, probe,
+                   empty);
 }
 
 } // namespace dotek::targets

@@ -56,6 +56,9 @@ struct ConvertedInput {
   SourceMap sources;
 };
 
+// Text: the line of the verdict. The others: a document beside it.
+enum class ReportFormat : std::uint8_t { Text, Markdown, Html, Json };
+
 struct VerifyOptions {
   std::vector<std::string> inputs; // one folder of a cycle, or one file of programs
   CommonOptions common;
@@ -81,6 +84,8 @@ struct VerifyOptions {
   // Of a replay: where the part is, X, Y, Z, mm, and turned about Z, degrees; the system that is active.
   std::optional<std::array<double, 4>> partError;
   std::optional<std::uint32_t> activeSystem; // 54 to 59
+  ReportFormat format = ReportFormat::Text;
+  std::string date;    // that the document bears; "": none
   bool replay = false; // one case, all of whose values are given: nothing is made smaller
   // Told from time to time how many of how many cases are done; from one thread at a time.
   std::function<void(std::uint64_t done, std::uint64_t all)> progress;

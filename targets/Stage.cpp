@@ -38,6 +38,7 @@ verify::Entry entryFor(const VerifyPlan& plan, const verify::Case& drawn, bool p
   };
   entry.start = {host("start_x"), host("start_y"), host("start_z")};
   entry.system = drawn.system;
+  entry.toolOffset = drawn.toolOffset;
   entry.probeOn = probeOn;
   if (plan.machine) {
     // Where the machine's travel is stated, the cycle is in its middle.
@@ -61,6 +62,26 @@ sim::Part emptyPart(const sim::Point3& middle) {
   builder.box(corner, corner + sim::Point3{1, 1, 1});
   std::string fault;
   return *builder.finish(fault);
+}
+
+sim::Picture pictureOf(const verify::Record& record, const sim::Part& part, const sim::Probe& probe,
+                       bool empty) {
+  sim::Picture out;
+  if (!empty) out.part = part;
+  out.probe = probe;
+  out.moves = record.moves;
+  if (out.moves.empty()) return out;
+  const std::size_t last = out.moves.size() - 1;
+  for (const verify::Measure& measure : record.measures)
+    for (const sim::ProbeEvent& contact : measure.contacts)
+      out.contacts.push_back({contact.point, last});
+  for (const auto& [event, where] : record.events)
+    out.errors.push_back({event.centre, std::string(sim::outcomeName(event.outcome)), last});
+  return out;
+}
+
+std::string controlText(const stdlib::Control& control) {
+  return control.title + " (" + control.name + ")";
 }
 
 double resultTolerance(const stdlib::Control& one, const stdlib::Control& other) {

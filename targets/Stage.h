@@ -11,6 +11,11 @@ sim::Probe probeFor(const VerifyPlan& plan, const verify::Case& drawn);
 verify::Entry entryFor(const VerifyPlan& plan, const verify::Case& drawn, bool probeOn);
 // Nothing that a probe could meet.
 sim::Part emptyPart(const sim::Point3& middle);
+// A run that was recorded with its moves, in the part that it met. `empty`: there is none to be seen.
+sim::Picture pictureOf(const verify::Record& record, const sim::Part& part, const sim::Probe& probe,
+                       bool empty);
+// "Fanuc 0i-MD, machining centre (fanuc-0i-md)", with where the profile is from unless it is Dotek's own.
+std::string controlText(const stdlib::Control& control);
 // What results may differ by where one of the controls computes with eight digits, mm.
 double resultTolerance(const stdlib::Control& one, const stdlib::Control& other);
 

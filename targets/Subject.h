@@ -5,6 +5,7 @@
 #include "project/Session.h"
 #include "sim/geometry/Part.h"
 #include "sim/geometry/Probe.h"
+#include "sim/picture/Picture.h"
 #include "targets/Options.h"
 #include "verify/Compare.h"
 #include "verify/Draw.h"
@@ -48,6 +49,9 @@ struct VerifyPlan {
 
 // A difference in places that the user has: the source's files, lines of the translation.
 struct CaseFinding {
+  // The two that differ.
+  enum class Pair : std::uint8_t { SourceAndTranslation, PathAndTranslation, PathAndPost };
+  Pair pair = Pair::SourceAndTranslation;
   verify::Aspect aspect = verify::Aspect::Path;
   std::string text;
   SourceRange source;
@@ -64,6 +68,8 @@ struct CaseResult {
   std::vector<CaseFinding> findings;
   std::string why; // it is undecided; "" where it is not
   SourceRange whyAt;
+  std::uint32_t rejected = 0; // proposals before this one that the check at `whyAt` rejected, too
+  std::string remedy;         // flags that give what the check reads: "`--var 1=VALUE`"; "": none is known
   // Protected moves that ran with the probe off, the first of the case; and whether the spindle was stopped
   // only after it.
   std::optional<SourceRange> unprotected;
@@ -71,6 +77,19 @@ struct CaseResult {
   std::optional<SourceRange> unarmed; // the first measuring move with the probe off
   bool partMade = false;              // of the touches that the path shows
   std::string trace;                  // of the translation; only where VerifyOptions::traces wants it
+};
+
+// What the two sides run on, for people; "": there is none.
+struct VerifySides {
+  std::string sourceControl, targetControl; // "Fanuc 0i-MD, machining centre (fanuc-0i-md)"
+  std::string form;                         // through which a Prog is read
+};
+
+// Why proposals of values were rejected.
+struct Rejection {
+  std::uint32_t count = 0;
+  std::string why;
+  SourceRange at; // of a check; no place: the reach of the probe, or what the post prints
 };
 
 // One thread uses a subject.
@@ -88,8 +107,11 @@ public:
   virtual std::vector<std::pair<std::string, SourceRange>> droppedDigits(const verify::Case& /*drawn*/) {
     return {};
   }
-  // Why the last proposal of draw() was rejected.
-  virtual const std::string& lastRefusal() const = 0;
+  // Why the proposals of the last draw() were rejected, the most frequent reason first.
+  virtual std::vector<Rejection> rejections() const { return {}; }
+  virtual VerifySides sides() const { return {}; }
+  // The source's run of a case. nullopt: there is nothing to see.
+  virtual std::optional<sim::Picture> picture(const verify::Case& /*drawn*/) { return std::nullopt; }
 };
 
 // Programs of macro B, whose translations take the same values: variables by number.

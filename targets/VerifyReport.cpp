@@ -16,6 +16,15 @@ namespace {
 constexpr std::size_t kMostTold = 20;       // differences; more are counted
 constexpr std::uint32_t kMostShrinks = 400; // runs for one of them
 
+std::string_view pairName(CaseFinding::Pair pair) {
+  switch (pair) {
+  case CaseFinding::Pair::SourceAndTranslation: return "source against translation";
+  case CaseFinding::Pair::PathAndTranslation: return "drawn path against translation";
+  case CaseFinding::Pair::PathAndPost: return "drawn path against post";
+  }
+  return "";
+}
+
 bool before(const SourceRange& a, const SourceRange& b) {
   return std::pair(a.file, a.begin) < std::pair(b.file, b.begin);
 }
@@ -23,7 +32,11 @@ bool before(const SourceRange& a, const SourceRange& b) {
 } // namespace
 
 VerifyReport::Key VerifyReport::keyOf(bool edge, const CaseFinding& finding) {
-  return {edge, finding.aspect, finding.source.file, finding.source.begin,
+  return {edge,
+          finding.pair,
+          finding.aspect,
+          finding.source.file,
+          finding.source.begin,
           finding.targetLine != 0 ? finding.targetLine : finding.posted.begin};
 }
 
@@ -36,6 +49,9 @@ void VerifyReport::add(std::uint64_t number, bool edge, verify::Case drawn, Case
   case CaseVerdict::Refused: ++counts.refused; break;
   case CaseVerdict::NoProgram: ++counts.none; break;
   }
+  const bool ofPost = std::all_of(result.findings.begin(), result.findings.end(), [](const CaseFinding& one) {
+    return one.pair == CaseFinding::Pair::PathAndPost;
+  });
   for (CaseFinding& finding : result.findings) {
     Group& group = groups_[keyOf(edge, finding)];
     if (group.count == 0 || number < group.first) {
@@ -45,6 +61,7 @@ void VerifyReport::add(std::uint64_t number, bool edge, verify::Case drawn, Case
       group.finding = std::move(finding);
     }
     ++group.count;
+    if (ofPost) ++group.alone;
   }
   partsMade_ = partsMade_ || (options_.part && result.partMade);
   if (edge) return;
@@ -62,8 +79,10 @@ void VerifyReport::add(std::uint64_t number, bool edge, verify::Case drawn, Case
       idle.at = result.whyAt;
       idle.why = result.why;
       idle.drawn = drawn;
+      idle.remedy = result.remedy;
     }
     ++idle.count;
+    idle.rejected += result.rejected;
   }
   if (result.verdict == CaseVerdict::Agrees && (!agreeing_ || number < agreeing_->first))
     agreeing_.emplace(number, std::move(drawn));
@@ -177,15 +196,26 @@ void VerifyReport::tellDifference(const Group& group, std::uint64_t of) {
   const std::string_view which = group.edge ? " at edges" : "";
   SourceRange place = group.finding.source;
   if (!place.hasPlace()) place = sourceOfLine(group.finding.targetLine);
+  const bool post = group.finding.pair == CaseFinding::Pair::PathAndPost;
   Diagnostic& finding =
-      plan_.translation
-          ? diagnostics.report<diag::VerifyDiffers>(place, aspect, group.finding.text, group.count, of, which)
-          : diagnostics.report<diag::VerifyPathDiffers>(place, aspect, group.finding.text, group.count, of,
-                                                        which);
+      post ? diagnostics.report<diag::VerifyPathDiffers>(place, aspect, group.finding.text, group.count, of,
+                                                         which)
+           : diagnostics.report<diag::VerifyDiffers>(place, aspect, group.finding.text,
+                                                     pairName(group.finding.pair), group.count, of, which);
+  if (post && plan_.translation && group.alone == group.count)
+    finding.note({}, "the translation does the same as the post in these cases; it is the macro and the post "
+                     "that disagree");
+  const std::string command = replay(smallest);
+  document_.differences.push_back(
+      {std::string(pairName(group.finding.pair)), std::string(aspect), group.finding.text, group.count, of,
+       group.edge, excerptOf(place), excerptOf(group.finding.posted),
+       group.finding.targetLine == 0 ? VerifyDocument::Excerpt{}
+                                     : excerptOf(targetRange(group.finding.targetLine)),
+       command});
   if (group.finding.posted.hasPlace()) finding.note(group.finding.posted, "the post prints this here");
   if (group.finding.targetLine != 0)
     finding.note(targetRange(group.finding.targetLine), "of the translation");
-  finding.note({}, "replay: " + replay(smallest));
+  finding.note({}, "replay: " + command);
   told_ = std::move(diagnostics);
 }
 
@@ -218,6 +248,17 @@ SourceRange VerifyReport::sourceOfLine(std::uint32_t line) const {
   return {};
 }
 
+void VerifyReport::tellIdle(const Idle& idle) {
+  Diagnostic& finding = told_.report<diag::VerifyIdle>(idle.at, idle.count, cases_.all(), idle.why);
+  if (idle.rejected > 0)
+    finding.note(
+        {}, fmt::format("this check rejected {} draws; {} fixes what it reads", idle.rejected, idle.remedy));
+  const std::string command = replay(idle.drawn);
+  finding.note({}, "the first: " + command);
+  document_.undecided.push_back({idle.count, idle.why, excerptOf(idle.at), idle.rejected,
+                                 idle.rejected > 0 ? idle.remedy : "", command});
+}
+
 void VerifyReport::tellProbe() {
   for (const auto& [place, what] : unprotected_)
     told_.report<diag::UnprotectedMove>(what.first,
@@ -235,7 +276,7 @@ void VerifyReport::tellPictures() {
 
 // The verdict, of drawn and of edge cases how many it is said of, and what the others come to. It agrees
 // where the exit status is 0 and something was compared.
-std::string VerifyReport::verdict() const {
+std::string VerifyReport::verdict() {
   // At edges both sides may also stop alike, or the translation before anything moves.
   const std::uint64_t edgesAlike = edges_.agree + edges_.undecided;
   const std::uint64_t undecided = cases_.undecided + cases_.refused + cases_.none;
@@ -258,6 +299,10 @@ std::string VerifyReport::verdict() const {
   if (edges_.all() > 0)
     out += "; edge cases: " + part(edgesAlike, edges_.differ, edges_.none, edges_.all(), "");
   if (edges_.refused > 0) out += fmt::format(", {} refused", edges_.refused);
+  document_.verdict = kWords[static_cast<std::size_t>(word)];
+  document_.summary = out;
+  document_.cases = {cases_.all(), cases_.agree, cases_.differ, undecided, 0};
+  document_.edges = {edges_.all(), edgesAlike, edges_.differ, edges_.none, edges_.refused};
   return out + '\n';
 }
 
@@ -282,13 +327,13 @@ std::string VerifyReport::finish() {
   });
   constexpr std::size_t kMostReasons = 5;
   for (std::size_t i = 0; i < std::min(reasons.size(), kMostReasons); ++i)
-    if (stated)
-      told_.report<diag::VerifyIdle>(reasons[i]->at, reasons[i]->count, cases_.all(), reasons[i]->why)
-          .note({}, "the first: " + replay(reasons[i]->drawn));
+    if (stated) tellIdle(*reasons[i]);
   const std::uint64_t all = cases_.all();
   if (stated && static_cast<double>(cases_.agree) < options_.minAgreed / 100 * static_cast<double>(all))
     told_.report<diag::VerifyTooFew>({}, cases_.agree, all, numberText(options_.minAgreed));
   std::string out = verdict();
+  if (options_.format != ReportFormat::Text) describe();
+  if (options_.format != ReportFormat::Text) addPicture();
   session.diagnostics() = std::move(told_);
   return out;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "targets/Subject.h"
+#include "targets/VerifyDocument.h"
 
 #include <map>
 #include <string>
@@ -18,10 +19,13 @@ public:
   void add(std::uint64_t number, bool edge, verify::Case drawn, CaseResult result);
   // Reports to the runner's session, and gives the line of the verdict.
   std::string finish();
+  // After finish(): the document of VerifyOptions::format; "" of the format Text.
+  std::string rendered() const;
 
 private:
   struct Group {
     std::uint64_t count = 0, first = 0; // number of the first case
+    std::uint64_t alone = 0;            // cases in which the path and the post alone differ
     bool edge = false;                  // all of them are
     verify::Case drawn;
     CaseFinding finding;
@@ -29,21 +33,28 @@ private:
   struct Idle {
     std::uint64_t count = 0, first = 0;
     SourceRange at;
-    std::string why;
+    std::string why, remedy;
+    std::uint64_t rejected = 0; // proposals, by the check
     verify::Case drawn;
   };
   struct Counts {
     std::uint64_t agree = 0, undecided = 0, differ = 0, refused = 0, none = 0;
     std::uint64_t all() const { return agree + undecided + differ + refused + none; }
   };
-  using Key = std::tuple<bool, verify::Aspect, FileId, std::uint32_t, std::uint32_t>;
+  using Key = std::tuple<bool, CaseFinding::Pair, verify::Aspect, FileId, std::uint32_t, std::uint32_t>;
 
   static Key keyOf(bool edge, const CaseFinding& finding);
   bool stillDiffers(const verify::Case& drawn, const CaseFinding& finding);
   verify::Case shrink(const Group& group);
   std::string replay(const verify::Case& drawn) const;
   void tellDifference(const Group& group, std::uint64_t of);
-  std::string verdict() const;
+  std::string verdict();
+  void tellIdle(const Idle& idle);
+  VerifyDocument::Excerpt excerptOf(SourceRange range);
+  std::string pairText() const;
+  void describe();
+  void describeInputs();
+  void addPicture();
   void tellProbe();
   void tellPictures();
   SourceRange targetRange(std::uint32_t line);
@@ -56,6 +67,7 @@ private:
   Diagnostics told_;       // the runner's own are of its last case
   std::optional<FileId> translationFile_;
   Counts cases_, edges_;
+  VerifyDocument document_;
   std::map<Key, Group> groups_;
   std::map<std::tuple<FileId, std::uint32_t, std::string>, Idle> idle_;
   std::map<std::pair<FileId, std::uint32_t>, std::pair<SourceRange, bool>> unprotected_;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <fmt/format.h>
 #include <mutex>
 #include <thread>
 
@@ -14,6 +15,17 @@ namespace {
 constexpr std::uint64_t kEdgeShare = 10;                 // one edge case beside so many others
 constexpr std::uint64_t kEdges = std::uint64_t{1} << 62; // numbers of edge cases begin here
 
+// The places of the checks are those of one thread's files, which all threads read alike.
+void tellNoValues(CaseSubject& main, const std::vector<Rejection>& rejections) {
+  constexpr std::size_t kMostTold = 4;
+  std::uint32_t all = 0;
+  for (const Rejection& one : rejections)
+    all += one.count;
+  Diagnostic& finding = main.session().diagnostics().report<diag::NoValuesFound>(main.place(), all);
+  for (std::size_t i = 0; i < std::min(rejections.size(), kMostTold); ++i)
+    finding.note(rejections[i].at, fmt::format("{} of them: {}", rejections[i].count, rejections[i].why));
+}
+
 } // namespace
 
 bool runCases(const VerifyOptions& options, bool edges, CaseSubject& main,
@@ -22,7 +34,7 @@ bool runCases(const VerifyOptions& options, bool edges, CaseSubject& main,
   std::atomic<std::uint64_t> next = 0, done = 0;
   std::atomic<bool> stop = false;
   std::mutex mutex;
-  std::string noValues;
+  std::vector<Rejection> noValues;
   const auto work = [&](CaseSubject& runner) {
     for (std::uint64_t n = next++; n < all && !stop; n = next++) {
       const bool edge = n >= options.cases;
@@ -33,7 +45,7 @@ bool runCases(const VerifyOptions& options, bool edges, CaseSubject& main,
         drawn = runner.draw(n);
       if (!drawn) {
         const std::lock_guard lock(mutex);
-        noValues = runner.lastRefusal();
+        noValues = runner.rejections();
         stop = true;
         return;
       }
@@ -58,7 +70,7 @@ bool runCases(const VerifyOptions& options, bool edges, CaseSubject& main,
     thread.join();
   if (!stop) return true;
   main.session().diagnostics() = Diagnostics();
-  main.session().diagnostics().report<diag::NoValuesFound>(main.place(), noValues);
+  tellNoValues(main, noValues);
   return false;
 }
 

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <optional>
+#include <set>
 
 namespace dotek::verify {
 
@@ -95,6 +97,7 @@ public:
     measures();
     faults();
     zeros();
+    tools();
     stores();
     if (!stopsInMacros() && !near(source_.end, target_.end, rules_.tolerance))
       add(Aspect::End, fmt::format("it ends at {} against {}", textOf(source_.end), textOf(target_.end)),
@@ -341,6 +344,40 @@ private:
     }
   }
 
+  void tools() {
+    if (rules_.atMeasures) return;
+    using Entry = sim::Machine::ToolOffset;
+    const auto same = [&](double one, double other) {
+      return std::abs(one - other) <= std::max(rules_.results, rules_.relative * std::abs(one));
+    };
+    const auto entry = [](const Record& record, std::uint32_t number) {
+      const auto at = record.tools.find(number);
+      return at == record.tools.end() ? std::optional<Entry>() : at->second;
+    };
+    const auto tell = [&](const std::optional<Entry>& tool) {
+      if (!tool) return std::string("is not written");
+      if (!rules_.toolParts) return "is " + fixedText(tool->geometry + tool->wear, kShown);
+      return fmt::format("is {} with a wear of {}", fixedText(tool->geometry, kShown),
+                         fixedText(tool->wear, kShown));
+    };
+    const auto differs = [&](const std::optional<Entry>& a, const std::optional<Entry>& b) {
+      if (!a || !b) return true;
+      return !(rules_.toolParts ? same(a->wear, b->wear) && same(a->geometry, b->geometry)
+                                : same(a->wear + a->geometry, b->wear + b->geometry));
+    };
+    std::set<std::uint32_t> numbers;
+    for (const Record* record : {&source_, &target_})
+      for (const auto& [number, changed] : record->tools)
+        numbers.insert(number);
+    for (const std::uint32_t number : numbers) {
+      const std::optional<Entry> one = entry(source_, number), other = entry(target_, number);
+      if (!differs(one, other)) continue;
+      add(Aspect::Tool, fmt::format("tool offset {} {} against {}", number, tell(one), tell(other)),
+          lastMeasure(source_), lastMeasure(target_));
+      return;
+    }
+  }
+
   void stores() {
     const auto shown = [](const std::map<std::uint32_t, double>& stores, std::uint32_t number) {
       const auto found = stores.find(number);
@@ -434,6 +471,7 @@ std::string_view aspectName(Aspect aspect) {
   case Aspect::Nominal: return "nominal contact";
   case Aspect::Contact: return "contact";
   case Aspect::Offset: return "work offset";
+  case Aspect::Tool: return "tool offset";
   case Aspect::Variable: return "variable";
   case Aspect::End: return "end position";
   case Aspect::Modal: return "modal state";

@@ -18,6 +18,7 @@ enum class Aspect : std::uint8_t {
   Nominal,  // where surfaces are expected
   Contact,  // where they were met; what the probe met that it should not
   Offset,   // zeros of work systems
+  Tool,     // entries of the tool table that were changed
   Variable, // that the source stores
   End,      // end position
   Modal,    // codes in force at the end
@@ -47,6 +48,7 @@ struct CompareRules {
   // alone, coolant only where the source has switched it. Each measure sets the same axes, of whatever
   // system.
   bool atMeasures = false;
+  bool toolParts = false;        // geometry and wear of a tool offset count each, else their sum
   bool sameAlarmNumbers = false; // both call the same macros: numbers and texts count, not only their kind
 };
 

@@ -29,6 +29,7 @@ struct Case {
   std::map<std::string, double> values; // by name of the field; multiples of the picture's last place
   std::map<std::string, double> hosts;  // tool_radius, clearance, retract, start_x, start_y, start_z, ...
   std::uint32_t system = 54;            // active at entry: 54 to 59
+  std::uint32_t toolOffset = 1;         // that of the probe, in force at entry
   PartError error;
   bool edge = false;        // edge and illegal values
   std::uint64_t stream = 0; // seed of what settleHosts() draws

@@ -94,6 +94,7 @@ struct Record {
   // Work offsets that were written: G number (54 to 59; 54.1 Pn as 5410 + n) and axis (0 to 2), to the
   // machine position of the zero. 52 and 92: by how much these have shifted all of them.
   std::map<std::pair<std::uint32_t, std::uint32_t>, double> zeros;
+  std::map<std::uint32_t, sim::Machine::ToolOffset> tools; // entries of the tool table that were changed
   std::map<std::uint32_t, double> stores; // variables that the program itself writes; kNull is a value
   std::string printed;                    // by DPRNT and BPRNT, bytes
   sim::Point3 start, end;

@@ -18,6 +18,12 @@ bool isFault(sim::Outcome outcome) {
   return outcome != sim::Outcome::Contact && outcome != sim::Outcome::Miss;
 }
 
+// Nobody can say what the stylus meets on a move whose beginning is not known, as after G28 with a tool
+// length in force. It is no fault of the program.
+bool isUnknown(const sim::ProbeEvent& event) {
+  return event.outcome == sim::Outcome::NotModelled && event.placeUnknown;
+}
+
 // Touches of one place, a fast one and a slow one, are one contact.
 bool same(const sim::ProbeEvent& a, const sim::ProbeEvent& b) {
   return (a.point - b.point).length() < 1e-6;
@@ -51,6 +57,7 @@ void Recorder::begin(const sim::Run& run, bool keepMoves) {
   run_ = &run;
   keepMoves_ = keepMoves;
   record_.start = lowest(machine_.machinePosition());
+  tools_ = machine_.toolTable();
   for (std::uint32_t group = 0; group < record_.modalBefore.size(); ++group)
     record_.modalBefore[group] = machine_.modalCode(group);
 }
@@ -134,6 +141,7 @@ void Recorder::takeEvents() {
   const SourceRange range = call_.depth > 0 ? call_.range : place();
   for (; events_ < all.size(); ++events_) {
     const sim::ProbeEvent& event = all[events_];
+    if (isUnknown(event)) continue;
     if (isFault(event.outcome)) {
       record_.events.emplace_back(event, range);
     } else if (event.outcome == sim::Outcome::Contact && !record_.measures.empty()) {
@@ -292,6 +300,10 @@ Record Recorder::finish(const std::set<std::uint32_t>& stores) {
     record_.zeros[{52, axis}] = machine_.localShift()[axis];
     record_.zeros[{92, axis}] = machine_.positionShift()[axis];
   }
+  const std::vector<sim::Machine::ToolOffset>& tools = machine_.toolTable();
+  for (std::uint32_t number = 1; number < tools.size(); ++number)
+    if (number >= tools_.size() || tools[number] != tools_[number])
+      record_.tools.emplace(number, tools[number]);
   for (const std::uint32_t number : stores) {
     const double value = machine_.common(number);
     if (!sim::isFresh(value)) record_.stores.emplace(number, value);

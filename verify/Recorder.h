@@ -77,7 +77,8 @@ private:
   std::optional<sim::Point3> aim_; // where it ends without contact
   Switch probe_ = Switch::Off;
   Record record_;
-  std::size_t events_ = 0; // of the world, that were taken
+  std::size_t events_ = 0;                      // of the world, that were taken
+  std::vector<sim::Machine::ToolOffset> tools_; // at entry
   // A call that counts as one thing, with what it calls itself.
   struct OpenCall {
     std::uint32_t depth = 0; // 0: none

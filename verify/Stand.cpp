@@ -3,6 +3,7 @@
 #include "frontend/nc/Scan.h"
 #include "support/LineChunks.h"
 
+#include <algorithm>
 #include <fmt/format.h>
 
 namespace dotek::verify {
@@ -40,7 +41,10 @@ bool Stand::prepare(sim::Machine& machine, const Entry& entry, double ballRadius
     const sim::Point3& zero = entry.zeros[system];
     machine.setZero(system, {zero.x, zero.y, zero.z});
   }
-  machine.setToolLength(1, length);
+  const auto last = static_cast<std::uint32_t>(std::max(1, machine.control().variables.toolCount));
+  const std::uint32_t own = entry.toolOffset >= 1 && entry.toolOffset <= last ? entry.toolOffset : 1;
+  for (std::uint32_t tool = 1; tool <= last; ++tool)
+    machine.setToolLength(tool, length + kToolStep * (static_cast<double>(tool) - static_cast<double>(own)));
   for (const stdlib::MacroSet* set : sets_) {
     const stdlib::ProbingFacts& facts = set->probing;
     if (facts.feedVariable) machine.preset(*facts.feedVariable, kMacroFeed);
@@ -50,8 +54,9 @@ bool Stand::prepare(sim::Machine& machine, const Entry& entry, double ballRadius
     for (const auto& [number, value] : set->callerValues)
       machine.preset(number, value);
   }
-  const std::string text = fmt::format("G21G17G40G49G80G90G94G{}\nG0X{:.6f}Y{:.6f}\nG43H1Z{:.6f}\nF{:.1f}\n",
-                                       entry.system, entry.start.x, entry.start.y, entry.start.z, entry.feed);
+  const std::string text =
+      fmt::format("G21G17G40G49G80G90G94G{}\nG0X{:.6f}Y{:.6f}\nG43H{}Z{:.6f}\nF{:.1f}\n", entry.system,
+                  entry.start.x, entry.start.y, own, entry.start.z, entry.feed);
   LineChunks chunks(text);
   frontend::nc::Scanner scanner(chunks);
   ir::NcWords words;

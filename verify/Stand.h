@@ -19,6 +19,9 @@ namespace dotek::verify {
 // Of the stylus's lowest point below the spindle's gauge line, where no machine file says it (mm).
 inline constexpr double kToolLength = 150;
 
+// What each number of the tool table is longer than the one before, so that a mixed-up one shows (mm).
+inline constexpr double kToolStep = 0.01;
+
 // Zeros of G54 to G59 in coordinates of the machine: all different, so that a mixed-up system shows.
 std::array<sim::Point3, 6> standZeros();
 
@@ -26,6 +29,7 @@ std::array<sim::Point3, 6> standZeros();
 struct Entry {
   sim::Point3 start; // of the stylus's lowest point, system `system`
   std::uint32_t system = 54;
+  std::uint32_t toolOffset = 1; // in force: its length is the probe's; 1 where the control has no such number
   std::array<sim::Point3, 6> zeros = standZeros();
   double feed = 800; // mm/min
   bool probeOn = false;

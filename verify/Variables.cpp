@@ -2,6 +2,7 @@
 
 #include "ir/Dataflow.h"
 #include "ir/Walk.h"
+#include "verify/VariableFlow.h"
 
 #include <algorithm>
 #include <cmath>
@@ -22,42 +23,55 @@ std::optional<std::uint32_t> numberOf(const ir::ExpressionPtr& number) {
   return static_cast<std::uint32_t>(std::lround(*value));
 }
 
-struct Operands {
-  std::set<std::uint32_t> variables;
+// What the text shows of one variable.
+struct Shown {
+  VariableUse use = VariableUse::Length;
+  bool askedForNull = false;
   std::set<double> constants;
-};
+  std::set<std::uint32_t> comparedTo;
 
-// What an expression or a condition is made of; numbers of variables are no constants of it.
-template <class Tree> Operands operandsOf(const Tree& tree) {
-  Operands out;
-  std::set<const ir::Expression*> numbers;
-  ir::eachNode(tree, [&](const ir::Expression& node) {
-    if (const auto* use = std::get_if<ir::MachineVariable>(&node.node)) {
-      if (use->number) numbers.insert(use->number.get());
-      if (const auto number = numberOf(use->number)) out.variables.insert(*number);
-    } else if (const auto* constant = std::get_if<ir::Constant>(&node.node);
-               constant && !numbers.contains(&node)) {
-      out.constants.insert(constant->value);
-    }
-  });
-  return out;
-}
+  bool take(const Shown& other) {
+    const bool more = other.use > use || (other.askedForNull && !askedForNull);
+    const std::size_t before = constants.size();
+    use = std::max(use, other.use);
+    askedForNull = askedForNull || other.askedForNull;
+    constants.insert(other.constants.begin(), other.constants.end());
+    comparedTo.insert(other.comparedTo.begin(), other.comparedTo.end());
+    return more || constants.size() != before;
+  }
+};
 
 class Walk {
 public:
   Walk(const ir::ProgramFile& file, const stdlib::Control& control,
        const std::vector<const stdlib::MacroSet*>& sets)
-      : file_(file), control_(control), sets_(sets) {}
+      : file_(file), control_(control), sets_(sets), flow_(file, control) {}
 
   std::vector<ProgramVariable> run() {
     for (std::size_t i = 0; i < file_.programs.size(); ++i)
       readsOf(file_.programs[i], i == 0);
-    for (const ir::Program& program : file_.programs)
-      for (const ir::ProgramStatement& statement : program.body)
+    for (program_ = 0; program_ < file_.programs.size(); ++program_)
+      for (const ir::ProgramStatement& statement : file_.programs[program_].body)
         usesIn(statement);
+    // What a copy is used for, the original is.
+    for (bool again = true; again;) {
+      again = false;
+      for (const auto& [copy, original] : flow_.copies()) {
+        const auto shown = shown_.find(copy);
+        if (shown != shown_.end() && copy != original)
+          again = shown_[original].take(Shown(shown->second)) || again;
+      }
+    }
     std::vector<ProgramVariable> out;
-    for (const auto& [number, variable] : found_)
+    for (auto& [number, variable] : found_) {
+      if (const auto shown = shown_.find(flow_.key(0, number)); shown != shown_.end()) {
+        variable.use = std::max(variable.use, shown->second.use);
+        variable.askedForNull = shown->second.askedForNull;
+        variable.constants = shown->second.constants;
+        variable.comparedTo = shown->second.comparedTo;
+      }
       out.push_back(variable);
+    }
     return out;
   }
 
@@ -124,22 +138,47 @@ private:
   void mark(const ir::ExpressionPtr& expression, VariableUse use) {
     if (!expression) return;
     for (const std::uint32_t number : operandsOf(expression).variables)
-      if (const auto at = found_.find(number); at != found_.end())
-        at->second.use = std::max(at->second.use, use);
+      shown_[flow_.key(program_, number)].take({use, false, {}, {}});
+  }
+
+  // #[2000+#1], or #[#2] after #2=2000+#1: what is computed chooses an entry of that table.
+  void markNumber(const ir::ExpressionPtr& number) {
+    const Operands operands = flow_.expanded(program_, number);
+    const VariableUse use = useOfNumber(operands.constants);
+    for (const std::uint32_t one : operands.variables)
+      shown_[flow_.key(program_, one)].take({use, false, {}, {}});
+  }
+
+  VariableUse useOfNumber(const std::set<double>& constants) const {
+    const stdlib::SystemVariables& v = control_.variables;
+    const auto within = [](double value, const std::optional<int>& first, int count) {
+      return first && value >= *first - count && value <= *first + count;
+    };
+    VariableUse out = VariableUse::Whole;
+    for (const double one : constants) {
+      if (within(one, v.toolWear, v.toolCount) || within(one, v.toolGeometry, v.toolCount))
+        out = std::max(out, VariableUse::ToolOffset);
+      if (v.extendedStep > 0 && within(one, v.extendedX, v.extendedStep))
+        out = std::max(out, VariableUse::Extended);
+      if (v.systemStep > 0 && within(one, v.workOffsetX, v.systemStep))
+        out = std::max(out, constants.contains(54) || constants.contains(53) ? VariableUse::System
+                                                                             : VariableUse::SystemIndex);
+    }
+    return out;
   }
 
   void usesIn(const ir::ProgramStatement& statement) {
     ir::eachNode(statement, [&](const ir::Expression& node) {
       if (const auto* use = std::get_if<ir::MachineVariable>(&node.node))
-        mark(use->number, VariableUse::Whole);
+        if (use->number && !numberOf(use->number)) markNumber(use->number);
     });
     match(
         statement,
-        [&](const ir::OneOf<ir::Store, ir::JumpTo> auto& node) { mark(node.number, VariableUse::Whole); },
-        [&](const ir::NcBlock& node) {
-          for (const ir::Word& word : node.words)
-            mark(word.value, useOfLetter(word.address));
+        [&](const ir::OneOf<ir::Store> auto& node) {
+          if (node.number && !numberOf(node.number)) markNumber(node.number);
         },
+        [&](const ir::OneOf<ir::JumpTo> auto& node) { mark(node.number, VariableUse::Whole); },
+        [&](const ir::NcBlock& node) { words(node); },
         [&](const ir::Call& node) {
           mark(node.program, VariableUse::Whole);
           mark(node.repeats, VariableUse::Whole);
@@ -155,9 +194,47 @@ private:
                            ir::NameVariables> auto&) {});
   }
 
-  static VariableUse useOfLetter(char letter) {
-    if (letter == 'F') return VariableUse::Feed;
-    return ir::isAddressIn(ir::kWholeAddresses, letter) ? VariableUse::Whole : VariableUse::Length;
+  void words(const ir::NcBlock& block) {
+    using stdlib::Function;
+    bool input = false, extended = false, dwell = false;
+    double kind = -1; // L of G10
+    for (const ir::Word& word : block.words) {
+      const double* value = ir::constantValue(word.value);
+      if (value == nullptr || *value < 0 || *value > 99999) continue;
+      if (word.address == 'L') kind = *value;
+      if (word.address != 'G') continue;
+      const stdlib::CodeInfo* info = control_.find('G', static_cast<std::uint32_t>(std::lround(*value * 10)));
+      const Function function = info == nullptr ? Function::Other : info->function;
+      input = input || function == Function::DataInput;
+      extended = extended || function == Function::ExtendedWorkSystem;
+      dwell = dwell || function == Function::Dwell;
+    }
+    for (const ir::Word& word : block.words)
+      mark(word.value, useOfWord(word, input, extended, dwell, kind));
+  }
+
+  static VariableUse useOfWord(const ir::Word& word, bool input, bool extended, bool dwell, double kind) {
+    switch (word.address) {
+    case 'F':
+    case 'S': return VariableUse::Feed;
+    case 'H':
+    case 'D':
+    case 'T': return VariableUse::ToolOffset;
+    case 'G': {
+      // The codes that programs are given are work systems; others they save and put back.
+      const std::set<double> constants = operandsOf(word.value).constants;
+      return constants.contains(53) ? VariableUse::SystemIndex : VariableUse::System;
+    }
+    case 'P':
+      if (extended) return VariableUse::Extended;
+      if (dwell) return VariableUse::Size;
+      if (!input) return VariableUse::Whole;
+      return kind == 2    ? VariableUse::SystemIndex
+             : kind == 20 ? VariableUse::Extended
+                          : VariableUse::ToolOffset;
+    default:
+      return ir::isAddressIn(ir::kWholeAddresses, word.address) ? VariableUse::Whole : VariableUse::Length;
+    }
   }
 
   VariableUse useOfArgument(const ir::Call& call, char letter) const {
@@ -192,22 +269,30 @@ private:
     }
     if (const auto* inner = std::get_if<ir::Not>(&condition->node)) return compared(inner->inner);
     const Operands operands = operandsOf(condition);
-    bool null = std::holds_alternative<ir::IsNull>(condition->node);
+    Shown shown;
+    shown.constants = operands.constants;
+    if (program_ == 0) shown.comparedTo = operands.variables;
+    shown.askedForNull = std::holds_alternative<ir::IsNull>(condition->node);
     ir::eachNode(condition, [&](const ir::Expression& node) {
-      null = null || std::holds_alternative<ir::NullValue>(node.node);
+      shown.askedForNull = shown.askedForNull || std::holds_alternative<ir::NullValue>(node.node);
+      // A number that is compared with itself rounded is whole.
+      const auto* unary = std::get_if<ir::Unary>(&node.node);
+      const bool rounds =
+          unary != nullptr && (unary->op == ir::UnaryOp::Truncate || unary->op == ir::UnaryOp::Round ||
+                               unary->op == ir::UnaryOp::RoundUp);
+      if (rounds && operands.variables.size() == 1) shown.use = VariableUse::Whole;
     });
-    null = null || operands.variables.contains(0); // #0
-    for (const std::uint32_t number : operands.variables) {
-      const auto at = found_.find(number);
-      if (at == found_.end()) continue;
-      at->second.askedForNull = at->second.askedForNull || null;
-      at->second.constants.insert(operands.constants.begin(), operands.constants.end());
-    }
+    shown.askedForNull = shown.askedForNull || operands.variables.contains(0); // #0
+    for (const std::uint32_t number : operands.variables)
+      shown_[flow_.key(program_, number)].take(shown);
   }
 
   const ir::ProgramFile& file_;
   const stdlib::Control& control_;
   const std::vector<const stdlib::MacroSet*>& sets_;
+  const VariableFlow flow_;
+  std::size_t program_ = 0; // whose statements are looked at
+  std::map<VariableKey, Shown> shown_;
   std::map<std::uint32_t, ProgramVariable> found_;
 };
 
@@ -238,6 +323,8 @@ double plainValue(VariableUse use, Random& random) {
                               : toStep(random.between(-180, 180));
   case VariableUse::Feed: return static_cast<double>(random.whole(50, 2000));
   case VariableUse::Whole: return static_cast<double>(random.whole(0, 12));
+  case VariableUse::ToolOffset: return static_cast<double>(random.whole(1, 20));
+  case VariableUse::Extended: return static_cast<double>(random.whole(1, 48));
   case VariableUse::SystemIndex: return static_cast<double>(random.whole(1, 6));
   case VariableUse::System: return static_cast<double>(random.whole(54, 59));
   case VariableUse::Signal: return static_cast<double>(random.whole(0, 1));
@@ -269,14 +356,23 @@ std::vector<ProgramVariable> variablesOf(const ir::ProgramFile& file, const stdl
   return file.programs.empty() ? std::vector<ProgramVariable>{} : Walk(file, control, sets).run();
 }
 
-std::optional<double> drawValue(const ProgramVariable& variable, Random& random) {
+std::optional<double> drawValue(const ProgramVariable& variable, std::uint32_t attempt, Random& random) {
   const bool chooses = variable.use >= VariableUse::Whole;
   if (variable.askedForNull && random.chance(0.2)) return std::nullopt;
-  if (!variable.constants.empty() && variable.use < VariableUse::SystemIndex && random.chance(0.3)) {
-    constexpr double kBeside[] = {0, -1, 1, -kStep, kStep};
-    const double near = nthOf(variable.constants, random.below(variable.constants.size())) +
-                        kBeside[random.below(chooses ? 3 : 5)];
-    if (variable.use != VariableUse::Size || near > 0) return toStep(near);
+  const std::set<double>& constants = variable.constants;
+  if (!constants.empty() && variable.use < VariableUse::SystemIndex) {
+    constexpr std::uint32_t kInVain = 4;
+    if (attempt >= kInVain && constants.size() > 1 && random.chance(0.5)) {
+      const std::uint64_t n = random.below(constants.size() - 1);
+      const double inside = random.between(nthOf(constants, n), nthOf(constants, n + 1));
+      return chooses || random.chance(0.3) ? std::round(inside) : toStep(inside);
+    }
+    if (random.chance(0.3)) {
+      constexpr double kBeside[] = {0, -1, 1, -kStep, kStep};
+      const double near =
+          nthOf(constants, random.below(constants.size())) + kBeside[random.below(chooses ? 3 : 5)];
+      if (variable.use != VariableUse::Size || near > 0) return toStep(near);
+    }
   }
   return plainValue(variable.use, random);
 }

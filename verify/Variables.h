@@ -21,6 +21,8 @@ enum class VariableUse : std::uint8_t {
   Angle,       // degrees
   Feed,        // above 0
   Whole,       // chooses: an index, a code, a number of passes
+  ToolOffset,  // a number of the tool table, or of a tool
+  Extended,    // P of G54.1
   SystemIndex, // 1 to 6 are G54 to G59
   System,      // 54 to 59
   Signal,      // 0 or 1
@@ -29,9 +31,10 @@ enum class VariableUse : std::uint8_t {
 struct ProgramVariable {
   std::uint32_t number = 0;
   VariableUse use = VariableUse::Length;
-  bool local = false;
+  bool local = false; // of the first program
   bool askedForNull = false;
-  std::set<double> constants; // that it is compared with
+  std::set<double> constants;         // that it is compared with
+  std::set<std::uint32_t> comparedTo; // variables, by number, of the same conditions
 };
 
 // Of the first program the locals, and of all programs the common variables and signals, that may be read
@@ -46,8 +49,9 @@ bool usesVariable(const stdlib::MacroSet& set, std::uint32_t number);
 // Those that have to be set before a call: feed, calibration, what the set's own text wants.
 bool needsVariable(const stdlib::MacroSet& set, std::uint32_t number);
 
-// Multiples of 0.001; nothing: null.
-std::optional<double> drawValue(const ProgramVariable& variable, Random& random);
+// Multiples of 0.001; nothing: null. `attempt`: values before that checks have rejected; the more, the more
+// often it lies between the constants.
+std::optional<double> drawValue(const ProgramVariable& variable, std::uint32_t attempt, Random& random);
 // The `index`-th edge of the variable; they repeat.
 std::optional<double> edgeValue(const ProgramVariable& variable, std::uint64_t index);
 

@@ -1,6 +1,7 @@
 // Words of programs on another control: codes, and numbers without a point.
 #include "backends/fanuc/ProgramChecks.h"
 #include "backends/fanuc/ProgramText.h"
+#include "backends/fanuc/SavedModes.h"
 #include "ir/Walk.h"
 #include "support/Decimal.h"
 #include "support/messages/Fanuc.h"
@@ -42,20 +43,24 @@ std::string withPoint(double value) {
 class Words {
 public:
   Words(ir::Program& program, const ir::ProgramFile& file, const ProgramContext& context)
-      : program_(program), context_(context), text_(context.to()) {
+      : program_(program), file_(file), context_(context), text_(context.to()) {
     counts_ = to().decimal != from().decimal ||
               (to().decimal == stdlib::DecimalMode::Increment &&
                (to().increment != from().increment || to().lengths != from().lengths));
-    for (const ir::Program& one : file.programs)
-      for (const ir::ProgramStatement& statement : one.body)
-        seen(statement);
+    for (const ir::Program& one : file.programs) {
+      const SavedModes saved(one, file, from());
+      for (std::size_t i = 0; i < one.body.size(); ++i)
+        seen(one.body[i], saved, i);
+    }
   }
 
   void run() {
-    for (ir::ProgramStatement& statement : program_.body) {
+    const SavedModes saved(program_, file_, from());
+    for (std::size_t i = 0; i < program_.body.size(); ++i) {
+      ir::ProgramStatement& statement = program_.body[i];
       range_ = statement.origin.range();
       match(
-          statement, [&](ir::OneOf<ir::NcBlock> auto& node) { words(node); },
+          statement, [&](ir::OneOf<ir::NcBlock> auto& node) { words(node, saved, i); },
           [&](ir::OneOf<ir::Call> auto& node) { arguments(node); },
           [&](const ir::OneOf<ir::Exit> auto&) { code('M', 990, range_, true); },
           [](const ir::OneOf<ir::Label, ir::Jump, ir::Branch, ir::Store, ir::Move, ir::Measure,
@@ -74,22 +79,22 @@ private:
   }
 
   // Modes of the file under which the numbers or addresses of a block mean something else.
-  void seen(const ir::ProgramStatement& statement) {
+  void seen(const ir::ProgramStatement& statement, const SavedModes& saved, std::size_t at) {
     match(
         statement,
         [&](const ir::Call& node) { eachBlock_ = eachBlock_ || node.kind == ir::CallKind::EachBlock; },
-        [&](const ir::NcBlock& node) { seen(node); },
+        [&](const ir::NcBlock& node) { seen(node, saved, at); },
         [](const ir::OneOf<ir::Label, ir::Jump, ir::Branch, ir::Store, ir::Move, ir::Measure, ir::ProbePower,
                            ir::Comment, ir::JumpTo, ir::Loop, ir::LoopEnd, ir::Exit, ir::Raise, ir::Notice,
                            ir::Port, ir::Print, ir::NameVariables> auto&) {});
   }
 
-  void seen(const ir::NcBlock& block) {
+  void seen(const ir::NcBlock& block, const SavedModes& saved, std::size_t at) {
     for (const ir::Word& word : block.words) {
       if (word.address != 'G') continue;
       const auto tenths = tenthsOf(word.value);
       const CodeInfo* info = tenths ? from().find('G', *tenths) : nullptr;
-      computed_ = computed_ || !tenths;
+      computed_ = computed_ || (!tenths && !saved.restores(word.value, at));
       inch_ = inch_ || isFunction(info, Function::Inch);
       perRevolution_ = perRevolution_ || isFunction(info, Function::FeedPerRevolution);
       canned_ = canned_ || isFunction(info, Function::CannedCycle) || isFunction(info, Function::BackBoring);
@@ -158,7 +163,7 @@ private:
     return 0;
   }
 
-  void codeWord(ir::Word& word) {
+  void codeWord(ir::Word& word, const SavedModes& saved, std::size_t at) {
     const auto tenths = tenthsOf(word.value);
     const SourceRange range = word.range.hasPlace() ? word.range : range_;
     if (tenths) {
@@ -167,6 +172,8 @@ private:
         word.value = ir::constant(there / 10.0, word.value->range, codeName(word.address, there).substr(1));
       return;
     }
+    // What #4001 gave is a code that the control has, whichever control it is.
+    if (word.address == 'G' && saved.restores(word.value, at)) return;
     const bool every = std::all_of(from().codes.begin(), from().codes.end(), [&](const CodeInfo& info) {
       const CodeInfo* there = info.letter == word.address ? to().find(info.letter, info.tenths) : &info;
       return there != nullptr && there->function == info.function;
@@ -178,7 +185,7 @@ private:
 
   // ---- blocks
 
-  void words(ir::NcBlock& block) {
+  void words(ir::NcBlock& block, const SavedModes& saved, std::size_t at) {
     Block modes;
     for (const ir::Word& word : block.words) {
       const auto tenths = word.address == 'G' ? tenthsOf(word.value) : std::nullopt;
@@ -192,7 +199,7 @@ private:
       modes.unknown = modes.unknown || (word.address == 'G' && info == nullptr);
     }
     for (ir::Word& word : block.words) {
-      if (word.address == 'G' || word.address == 'M') codeWord(word);
+      if (word.address == 'G' || word.address == 'M') codeWord(word, saved, at);
       if (counts_ && withoutPoint(word.value) != nullptr) point(word, modes);
       if (repeats(word, modes))
         diagnostics().report<diag::RepeatLetter>(word.range, word.address + text_.word(word.value),
@@ -261,6 +268,7 @@ private:
   }
 
   ir::Program& program_;
+  const ir::ProgramFile& file_;
   const ProgramContext& context_;
   ProgramText text_;
   SourceRange range_;

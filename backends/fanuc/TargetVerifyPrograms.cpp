@@ -19,6 +19,7 @@ namespace dotek::targets {
 namespace {
 
 constexpr std::uint32_t kAttempts = 24;       // to find values with which the program comes to its end
+constexpr std::uint32_t kChecked = 400;       // of them, that a check of the program rejects
 constexpr std::uint32_t kEndless = 3;         // of them, that come to the limit of steps
 constexpr std::uint32_t kMostSteps = 200'000; // of one run: --limit sim-steps may make it less
 constexpr std::uint64_t kMostCalled = 9999;   // by M98 on every control
@@ -37,9 +38,11 @@ struct ProgramRunner::Played {
   verify::Case drawn;
   std::optional<sim::Part> part;
   verify::Record record;
-  bool played = false;
   std::string why; // the case is undecided; "" where it may agree
   SourceRange whyAt;
+  bool rehearsed = false;     // nothing is measured: a run without a part, which meets nothing
+  std::uint32_t rejected = 0; // proposals that the check at `whyAt` rejected
+  std::string remedy;         // flags that give what it reads
 };
 
 ProgramRunner::ProgramRunner(const VerifyOptions& options, const VerifyPlan& plan)
@@ -77,6 +80,7 @@ bool ProgramRunner::load() {
   if (sourceSet_ != nullptr) used.push_back(sourceSet_);
   if (targetSet_ != sourceSet_) used.push_back(targetSet_);
   variables_ = verify::variablesOf(*programs_, *sourceControl_, used);
+  flow_ = std::make_unique<verify::VariableFlow>(*programs_, *sourceControl_);
   // Signals go by the same number on both.
   std::erase_if(variables_, [&](const verify::ProgramVariable& one) {
     return one.use == verify::VariableUse::Signal && !sim::Machine(*targetControl_).preset(one.number, 0);
@@ -190,8 +194,13 @@ bool ProgramRunner::prepare() {
 }
 
 // Each name has numbers of its own, so that none depends on what is drawn beside it.
-verify::Case ProgramRunner::propose(std::uint64_t index, std::uint32_t attempt) const {
-  const std::uint64_t stream = verify::Random::sub(verify::Random::sub(options_.seed, index), attempt);
+verify::Case ProgramRunner::propose(std::uint64_t index, const Tries& tries) const {
+  const auto triesOf = [&](std::uint32_t number) {
+    const auto at = tries.find(number);
+    return at == tries.end() ? 0 : at->second;
+  };
+  const std::uint64_t first = verify::Random::sub(options_.seed, index);
+  const std::uint64_t stream = verify::Random::sub(first, triesOf(0));
   const auto randomOf = [&](const std::string& name) {
     return verify::Random(verify::Random::sub(stream, verify::Random::hash(name)));
   };
@@ -199,12 +208,29 @@ verify::Case ProgramRunner::propose(std::uint64_t index, std::uint32_t attempt) 
   out.stream = stream;
   for (const verify::ProgramVariable& variable : variables_) {
     const std::string name = std::to_string(variable.number);
-    verify::Random random = randomOf(name);
-    const std::optional<double> value = verify::drawValue(variable, random);
+    const std::uint32_t attempt = triesOf(0) + triesOf(variable.number);
+    verify::Random random(
+        verify::Random::sub(verify::Random::sub(first, attempt), verify::Random::hash(name)));
+    const std::optional<double> value = verify::drawValue(variable, attempt, random);
     if (value && !options_.replay) out.values[name] = *value;
   }
   for (const auto& [number, value] : fixed_)
     out.values[std::to_string(number)] = value;
+  // A check that compares two variables mostly wants them near each other.
+  constexpr std::uint32_t kInVain = 4;
+  for (const verify::ProgramVariable& variable : variables_) {
+    const std::uint32_t attempt = triesOf(0) + triesOf(variable.number);
+    if (attempt < kInVain || options_.replay || fixed_.contains(variable.number)) continue;
+    verify::Random random(verify::Random::sub(verify::Random::sub(first, attempt), variable.number));
+    for (const std::uint32_t other : variable.comparedTo) {
+      const auto near = out.values.find(std::to_string(other));
+      if (other == variable.number || near == out.values.end() || !random.chance(0.3)) continue;
+      const bool whole = variable.use >= verify::VariableUse::Whole;
+      const double beside = random.between(-10, 10);
+      out.values[std::to_string(variable.number)] =
+          whole ? std::round(near->second + beside) : toStep(near->second + beside);
+    }
+  }
   const auto host = [&](const std::string& name, double least, double most) {
     verify::Random random = randomOf(name);
     out.hosts[name] = toStep(random.between(least, most));
@@ -231,20 +257,47 @@ bool ProgramRunner::otherValuesMayDo(const verify::Record& record) const {
   return record.ending != verify::Ending::Alarm || missing == nullptr || record.alarm != missing->number;
 }
 
+// Variables that are drawn and that the check reads which ended the run; empty: no check of the program did.
+std::set<std::uint32_t> ProgramRunner::rejectedBy(const verify::Record& record) const {
+  std::set<std::uint32_t> out;
+  if (record.ending != verify::Ending::Alarm || !inSource(record.endedAt).hasPlace()) return out;
+  const std::set<verify::VariableKey> read = flow_->readByCheck(record.endedAt);
+  for (const verify::ProgramVariable& variable : variables_)
+    if (!fixed_.contains(variable.number) && read.contains(flow_->key(0, variable.number)))
+      out.insert(variable.number);
+  return out;
+}
+
+// What a check rejects is drawn anew, and nothing else: so several checks are met one after the other.
 std::optional<verify::Case> ProgramRunner::draw(std::uint64_t index) {
-  std::uint32_t endless = 0; // they take long
-  for (std::uint32_t attempt = 0; attempt < kAttempts && endless < kEndless; ++attempt) {
-    drawn_ = play(propose(index, attempt), !options_.partError);
+  std::uint32_t endless = 0;                         // they take long
+  std::map<std::uint32_t, std::uint32_t> rejections; // by the place of the check
+  Tries tries;
+  for (std::uint32_t free = 0, checked = 0; free < kAttempts && checked < kChecked && endless < kEndless;) {
+    drawn_ = play(propose(index, tries), !options_.partError);
     if (drawn_->record.overLimit) ++endless;
     if (drawn_->why.empty() || options_.replay || !otherValuesMayDo(drawn_->record)) break;
     // It decides nothing; a difference shows all the same.
     if (!drawn_->record.overLimit && !differences(*drawn_, runTarget(*drawn_)).empty()) break;
+    const std::set<std::uint32_t> read = rejectedBy(drawn_->record);
+    if (read.empty()) {
+      ++free;
+      ++tries[0];
+      continue;
+    }
+    drawn_->rejected = ++rejections[drawn_->whyAt.begin];
+    drawn_->remedy.clear();
+    // One of them after the other, so that what another check has taken stays.
+    ++tries[*std::next(read.begin(), static_cast<std::ptrdiff_t>(checked++ % read.size()))];
+    for (const std::uint32_t number : read) {
+      drawn_->remedy += fmt::format("{}`--var {}=VALUE`", drawn_->remedy.empty() ? "" : ", ", number);
+    }
   }
   return drawn_->drawn; // the last one, whatever it comes to
 }
 
 verify::Case ProgramRunner::edge(std::uint64_t index) {
-  verify::Case out = propose(~index, 0);
+  verify::Case out = propose(~index, {});
   std::vector<const verify::ProgramVariable*> free;
   for (const verify::ProgramVariable& variable : variables_)
     if (!fixed_.contains(variable.number)) free.push_back(&variable);
@@ -295,10 +348,10 @@ std::unique_ptr<ProgramRunner::Played> ProgramRunner::play(verify::Case drawn, b
     // Nothing to meet: the run would be the same.
     if ((rehearsal.measures.empty() && !plan_.machine) || rehearsal.overLimit) {
       out->record = std::move(rehearsal);
-      out->played = true;
+      out->rehearsed = true;
     }
   }
-  if (!out->played) {
+  if (!out->rehearsed) {
     sim::World world(*out->part, probe, limits());
     out->record = runSide(source, out->drawn, world, verify::Stand::Way::Run);
   }
@@ -313,7 +366,8 @@ std::unique_ptr<ProgramRunner::Played> ProgramRunner::play(verify::Case drawn, b
 verify::Record ProgramRunner::runTarget(const Played& played) const {
   sim::World world(*played.part, probeFor(plan_, played.drawn), limits());
   const Side side{&*targetControl_, targetSet_, &translation_.code(), targetStand_.get()};
-  return runSide(side, played.drawn, world, verify::Stand::Way::Run);
+  return runSide(side, played.drawn, world,
+                 played.rehearsed ? verify::Stand::Way::Rehearse : verify::Stand::Way::Run);
 }
 
 verify::CompareRules ProgramRunner::rules() const {
@@ -325,6 +379,8 @@ verify::CompareRules ProgramRunner::rules() const {
   out.relative = otherArithmetic ? kEightDigits : 0;
   out.sameProgram = true;
   out.sameAlarmNumbers = sourceSet_ == targetSet_;
+  out.toolParts = sourceSet_ == targetSet_ && sourceControl_->variables.toolGeometry.has_value() ==
+                                                  targetControl_->variables.toolGeometry.has_value();
   out.samePlace = [this](SourceRange one, SourceRange other) {
     return plan_.translation->stemsFrom(inSource(one), translation_.line(other), session_.sources());
   };
@@ -339,7 +395,8 @@ std::vector<verify::Difference> ProgramRunner::differences(const Played& played,
   // Whether the digits alone make the difference.
   sim::World world(*played.part, probeFor(plan_, played.drawn), limits());
   const Side source{&*sourceAsTarget_, sourceSet_, &sourceAsTargetCode_, sourceAsTargetStand_.get()};
-  const verify::Record again = runSide(source, played.drawn, world, verify::Stand::Way::Run);
+  const verify::Record again = runSide(
+      source, played.drawn, world, played.rehearsed ? verify::Stand::Way::Rehearse : verify::Stand::Way::Run);
   if (!verify::compare(again, target, loose).empty()) return out;
   for (verify::Difference& one : out)
     one.text += "; with the arithmetic of " + targetControl_->name + " the source does the same";
@@ -352,6 +409,8 @@ CaseResult ProgramRunner::run(const verify::Case& drawn) {
   CaseResult result;
   result.why = played->why;
   result.whyAt = played->whyAt;
+  result.rejected = played->rejected;
+  result.remedy = played->remedy;
   const verify::ProbeOff off = verify::probeOffIn(played->record);
   if (off.measuring) result.unarmed = inSource(*off.measuring);
   if (off.protectedMove) result.unprotected = inSource(*off.protectedMove);
@@ -371,6 +430,19 @@ CaseResult ProgramRunner::run(const verify::Case& drawn) {
                    : result.why.empty()     ? CaseVerdict::Agrees
                                             : CaseVerdict::Undecided;
   return result;
+}
+
+VerifySides ProgramRunner::sides() const {
+  return {controlText(*sourceControl_), controlText(*targetControl_), ""};
+}
+
+std::optional<sim::Picture> ProgramRunner::picture(const verify::Case& drawn) {
+  const std::unique_ptr<Played> played = play(drawn, false);
+  const sim::Probe probe = probeFor(plan_, drawn);
+  sim::World world(*played->part, probe);
+  const Side source{&*sourceControl_, sourceSet_, &sourceCode_, sourceStand_.get()};
+  const verify::Record record = runSide(source, drawn, world, verify::Stand::Way::KeepMoves);
+  return pictureOf(record, *played->part, probe, !plan_.part && record.measures.empty());
 }
 
 } // namespace dotek::targets

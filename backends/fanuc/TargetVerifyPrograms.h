@@ -10,6 +10,7 @@
 #include "targets/Subject.h"
 #include "verify/Rehearsal.h"
 #include "verify/Stand.h"
+#include "verify/VariableFlow.h"
 #include "verify/Variables.h"
 
 #include <map>
@@ -37,7 +38,8 @@ public:
   std::optional<verify::Case> draw(std::uint64_t index) override;
   verify::Case edge(std::uint64_t index) override;
   CaseResult run(const verify::Case& drawn) override;
-  const std::string& lastRefusal() const override { return refusal_; }
+  VerifySides sides() const override;
+  std::optional<sim::Picture> picture(const verify::Case& drawn) override;
 
 private:
   // One side: what runs, on which control.
@@ -58,7 +60,10 @@ private:
 
   bool addCaller();
   bool compileSource(const stdlib::Control& control, sim::Bytecode& out);
-  verify::Case propose(std::uint64_t index, std::uint32_t attempt) const;
+  // How often what was drawn has been rejected: by the number of a variable, and of everything else (0).
+  using Tries = std::map<std::uint32_t, std::uint32_t>;
+  verify::Case propose(std::uint64_t index, const Tries& tries) const;
+  std::set<std::uint32_t> rejectedBy(const verify::Record& record) const;
   bool otherValuesMayDo(const verify::Record& record) const;
   std::unique_ptr<Played> play(verify::Case drawn, bool drawError);
   verify::Record runSide(const Side& side, const verify::Case& drawn, sim::World& world,
@@ -82,12 +87,12 @@ private:
   std::optional<ir::ProgramFile> programs_, macros_;
   std::optional<Caller> caller_;
   std::vector<verify::ProgramVariable> variables_; // to draw
+  std::unique_ptr<verify::VariableFlow> flow_;     // of the source
   std::map<std::uint32_t, double> fixed_;
   std::set<std::uint32_t> stores_; // common variables that count
   sim::Bytecode sourceCode_, sourceAsTargetCode_;
   std::unique_ptr<verify::Stand> sourceStand_, targetStand_, sourceAsTargetStand_;
   FanucText translation_;
-  std::string refusal_;
   std::unique_ptr<Played> drawn_; // of draw(), for the next run()
 };
 

@@ -91,7 +91,7 @@ void Machine::setZero(std::uint32_t system, const Position& zero) {
 
 void Machine::setToolLength(std::uint32_t tool, double length) {
   if (tool >= tools_.size()) tools_.resize(tool + 1);
-  tools_[tool] = {0, length};
+  tools_[tool] = control_.variables.toolGeometry ? ToolOffset{0, length} : ToolOffset{length, 0};
 }
 
 double Machine::toolLengthOf(std::uint32_t tool) const {

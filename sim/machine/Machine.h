@@ -114,6 +114,12 @@ public:
   void putTool(std::uint32_t tool); // into the spindle, before the program begins
   // Moves the zero of the active system along an axis, and the machine with it: its coordinates stay.
   void moveZero(std::size_t axis, double by);
+  // An entry of the tool table, mm. Without a geometry of its own the whole length is `wear`.
+  struct ToolOffset {
+    double wear = 0, geometry = 0;
+    bool operator==(const ToolOffset&) const = default;
+  };
+  const std::vector<ToolOffset>& toolTable() const { return tools_; } // by number; 0 is none
   const Position& skipPosition() const { return skipped_; }
   std::uint8_t mode(Slot slot) const { return modes_[slot]; }
   // Code in force of a modal group, times ten; 0: none was given and none is in force at the start.
@@ -223,10 +229,6 @@ public:
   void advance(double seconds) { seconds_ += seconds; }
 
 private:
-  struct ToolOffset {
-    double wear = 0, geometry = 0;
-  };
-
   bool stop(Ending ending); // false
   bool motionKnown();       // false: the run has ended
   bool feedKnown();

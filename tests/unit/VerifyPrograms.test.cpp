@@ -121,7 +121,7 @@ TEST_CASE("verify: what a variable is drawn as follows from its use") {
                                  "N9M98P#8\n#21=#1000\nM30\n");
   CHECK(found.at(1).use == VariableUse::Length);
   CHECK(found.at(2).use == VariableUse::Feed);
-  CHECK(found.at(3).use == VariableUse::Whole);
+  CHECK(found.at(3).use == VariableUse::System); // the codes that programs are given
   CHECK(found.at(4).use == VariableUse::Whole);
   CHECK(found.at(5).use == VariableUse::Whole);
   CHECK(found.at(7).use == VariableUse::Whole);
@@ -143,7 +143,7 @@ TEST_CASE("verify: values are multiples of 0.001, near constants, and null where
   int nulls = 0, near = 0;
   verify::Random random(7);
   for (int i = 0; i < 1000; ++i) {
-    const auto value = verify::drawValue(variable, random);
+    const auto value = verify::drawValue(variable, 0, random);
     if (!value) {
       ++nulls;
       continue;
@@ -157,7 +157,7 @@ TEST_CASE("verify: values are multiples of 0.001, near constants, and null where
   variable.askedForNull = false;
   variable.use = verify::VariableUse::System;
   for (int i = 0; i < 100; ++i) {
-    const double system = verify::drawValue(variable, random).value_or(0);
+    const double system = verify::drawValue(variable, 0, random).value_or(0);
     CHECK(system >= 54);
     CHECK(system <= 59);
     CHECK(system == std::floor(system));

@@ -1,0 +1,154 @@
+// The report of verify as a document.
+#include "support/Decimal.h"
+#include "support/Files.h"
+#include "support/Sha256.h"
+#include "support/Version.h"
+#include "targets/Target.h"
+#include "targets/VerifyReport.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <fmt/format.h>
+
+namespace dotek::targets {
+
+namespace {
+
+constexpr std::uint32_t kAround = 2; // lines before and after the one that is meant
+
+// What `sha256sum` gives for the file; without a file, for the bytes that were read.
+VerifyDocument::File fileOf(const std::string& name, const std::string& bytes, const Limits& limits) {
+  Diagnostics ignored;
+  std::error_code fault;
+  if (std::filesystem::is_regular_file(name, fault))
+    if (const auto raw = readBytes(name, limits, ignored))
+      if (raw->ends_with(bytes)) return {name, sha256(*raw), raw->size()};
+  return {name, sha256(bytes), bytes.size()};
+}
+
+} // namespace
+
+VerifyDocument::Excerpt VerifyReport::excerptOf(SourceRange range) {
+  VerifyDocument::Excerpt out;
+  if (!range.hasPlace()) return out;
+  const SourceMap& sources = runner_.session().sources();
+  const SourceFile& file = sources.file(range.file);
+  out.file = file.name();
+  out.line = sources.line(range);
+  out.first = out.line > kAround ? out.line - kAround : 1;
+  const std::uint32_t last = std::min(out.line + kAround, file.lineCount());
+  for (std::uint32_t line = out.first; line <= last; ++line)
+    out.lines.push_back(file.lineUtf8(line));
+  return out;
+}
+
+std::string VerifyReport::pairText() const {
+  if (plan_.programs) return "source program against its translation";
+  if (!plan_.translation) return "drawn path against post";
+  return options_.source.prog ? "posted program against translation, and drawn path against post"
+                              : "drawn path against translation";
+}
+
+void VerifyReport::describeInputs() {
+  const Session& session = runner_.session();
+  std::set<std::string> named;
+  const auto add = [&](const std::string& name, const std::string& bytes) {
+    if (named.insert(name).second) document_.inputs.push_back(fileOf(name, bytes, session.limits()));
+  };
+  for (FileId id = 0; id < session.sources().size(); ++id) {
+    const SourceFile& file = session.sources().file(id);
+    std::error_code fault;
+    if (std::filesystem::is_directory(file.name(), fault)) continue;
+    const bool given =
+        std::find(options_.inputs.begin(), options_.inputs.end(), file.name()) != options_.inputs.end();
+    // What Dotek holds itself is named by its version.
+    if (id != translationFile_ && (given || std::filesystem::is_regular_file(file.name(), fault)))
+      add(file.name(), file.bytes());
+  }
+  for (const auto& path : {options_.part, options_.machine, options_.common.job}) {
+    Diagnostics ignored;
+    if (const auto bytes = path ? readBytes(*path, session.limits(), ignored) : std::nullopt)
+      add(*path, *bytes);
+  }
+  std::sort(document_.inputs.begin(), document_.inputs.end(),
+            [](const auto& a, const auto& b) { return a.name < b.name; });
+  const Target* const target = findTarget(options_.to);
+  const bool whole = plan_.translation && (target == nullptr || !target->fixesValues || options_.translation);
+  if (whole)
+    document_.translation = {plan_.translation->name, sha256(plan_.translation->text),
+                             plan_.translation->text.size()};
+}
+
+void VerifyReport::describe() {
+  VerifyDocument& d = document_;
+  d.title = options_.inputs.front();
+  d.version = kVersion;
+  d.date = options_.date;
+  d.pair = pairText();
+  const Target* const target = findTarget(options_.to);
+  if (!plan_.translation) {
+    d.aspects = {"points of the path", "nominal contacts", "end position"};
+  } else if (target != nullptr && target->fixesValues) {
+    d.aspects = {"path",   "measures", "paths back",          "records",
+                 "datums", "ending",   "spindle and coolant", "other contacts"};
+  } else {
+    for (auto aspect = verify::Aspect::Ending; aspect <= verify::Aspect::Printed;
+         aspect = static_cast<verify::Aspect>(static_cast<int>(aspect) + 1))
+      if (aspect != verify::Aspect::Printed || plan_.programs)
+        d.aspects.emplace_back(verify::aspectName(aspect));
+  }
+  const VerifySides sides = runner_.sides();
+  d.sourceControl = sides.sourceControl;
+  d.form = sides.form;
+  if (plan_.translation) {
+    d.target = options_.to;
+    d.targetControl = sides.targetControl;
+    d.targetMacros = plan_.targetMacros;
+    d.edited = options_.translation.has_value();
+  }
+  d.sourceMacros = plan_.sourceMacros;
+  d.seed = options_.seed;
+  d.tolerance = options_.tolerance;
+  d.minAgreed = options_.minAgreed;
+  for (const verify::DrawField& field : plan_.fields)
+    if (field.fixed) d.fixed.emplace_back((plan_.programs ? "#" : "") + field.name, numberText(*field.fixed));
+  for (const auto& [name, value] : plan_.fixedHosts)
+    d.fixed.emplace_back(name, numberText(value));
+  d.assumed.assign(options_.common.assume.begin(), options_.common.assume.end());
+  describeInputs();
+  for (const Diagnostic& one : told_.all()) {
+    if (one.code == "verify-differs" || one.code == "verify-path-differs" || one.code == "verify-idle")
+      continue;
+    const VerifyDocument::Excerpt at = excerptOf(one.range);
+    d.findings.push_back(
+        {std::string(severityName(one.severity)), std::string(one.code), one.message, at.file, at.line});
+  }
+}
+
+void VerifyReport::addPicture() {
+  std::optional<verify::Case> shown;
+  for (const auto& [key, group] : groups_)
+    if (!shown && !group.edge) shown = group.drawn;
+  if (!shown && agreeing_) shown = agreeing_->second;
+  if (!shown) return;
+  document_.picture = runner_.picture(*shown);
+  document_.caption = groups_.empty() ? "The source on a case in which both sides agree: "
+                                      : "The source on a case that differs: ";
+  std::string values;
+  for (const auto& [name, value] : shown->values)
+    values += fmt::format("{}{}{} = {}", values.empty() ? "" : ", ", plan_.programs ? "#" : "", name,
+                          numberText(value));
+  document_.caption += values.empty() ? "no values are drawn." : values + ".";
+}
+
+std::string VerifyReport::rendered() const {
+  switch (options_.format) {
+  case ReportFormat::Text: return "";
+  case ReportFormat::Markdown: return markdownOf(document_);
+  case ReportFormat::Html: return htmlOf(document_);
+  case ReportFormat::Json: return jsonOf(document_);
+  }
+  return "";
+}
+
+} // namespace dotek::targets
