@@ -11,6 +11,7 @@
 #include "sim/machine/Machine.h"
 #include "sim/machine/Run.h"
 #include "sim/mikroprog/Dialect.h"
+#include "sim/run/Advice.h"
 #include "sim/run/SetupRun.h"
 #include "sim/run/SimMacros.h"
 #include "sim/run/SimReport.h"
@@ -120,7 +121,11 @@ private:
     world_->setReader([&](std::uint32_t program, std::span<const double> locals) {
       return macros->foundBy(program, locals, machine);
     });
-    return runCode(sim::compile(library->programs(), *control_, session_.sources()), machine, macros.get());
+    const std::string advice = world_->setup().call.empty()
+                                   ? sim::callAdvice(*library->programs().front(), options_.part.has_value())
+                                   : "";
+    return runCode(sim::compile(library->programs(), *control_, session_.sources()), machine, macros.get(),
+                   advice);
   }
 
   // A program of Mikroprog; what lint finds an error in is not run.
@@ -136,10 +141,12 @@ private:
     if (!world_) return outcomeOf(session_, "");
     const sim::mikroprog::Profile profile(suf->control);
     sim::Machine machine(profile.machine, profile.dialect);
-    return runCode(sim::mikroprog::compile(suf->program, profile, session_.sources()), machine, nullptr);
+    return runCode(sim::mikroprog::compile(suf->program, profile, session_.sources()), machine, nullptr, "");
   }
 
-  Outcome runCode(const sim::Bytecode& code, sim::Machine& machine, sim::MacroMeaning* macros) {
+  // `advice`: what a run lacks that does not come to its end.
+  Outcome runCode(const sim::Bytecode& code, sim::Machine& machine, sim::MacroMeaning* macros,
+                  const std::string& advice) {
     std::optional<sim::Trace> trace;
     if (options_.trace) machine.setTrace(&trace.emplace(options_.trace));
     sim::Run run(machine, code, session_.limits(), macros);
@@ -149,7 +156,7 @@ private:
     machine.setTrace(nullptr);
     if (trace) sim::traceVariables(machine, *trace);
     trace.reset();
-    sim::reportRun(run, machine, session_);
+    sim::reportRun(run, machine, advice, session_);
     // A datum by G92 is what a program of Mikroprog is for.
     if (!machine.dialect().firstParameter) sim::reportShifts(machine, run.place(), session_);
     return finish(machine, &run);

@@ -1,6 +1,7 @@
 // The probe and the travel of a machine, and the TOML file that states them; docs/part.md. Lengths in mm.
 #pragma once
 
+#include "sim/geometry/Devices.h"
 #include "sim/geometry/Setup.h"
 #include "support/Diagnostics.h"
 #include "support/Limits.h"
@@ -42,6 +43,7 @@ struct MachineFile {
   MachineLimits limits;
   Probe probe;
   Setup setup;
+  Devices devices;
 };
 
 // Nothing where an error was reported.

@@ -101,6 +101,7 @@ std::optional<MachineFile> readMachine(FileId file, const SourceMap& sources, Di
   }
   const TomlValue probe = root.require("probe", "a table [probe]");
   if (probe) readProbe(*document, probe.table(), out.probe);
+  out.devices = readDevices(*document, root);
   if (const TomlValue setup = root.value("setup")) out.setup = readSetup(*document, setup.table());
   if (!document->finish()) return std::nullopt;
   return out;

@@ -106,6 +106,7 @@ bool Machine::miscellaneous(const NcWords& w) {
     case Function::ProbeOff: switchProbe(false); break;
     case Function::ToolChange:
       if (trace_ != nullptr) trace_->begin("tool-change").text(std::to_string(toolNumber_)).end();
+      if (watcher_ != nullptr) watcher_->toolChanged(toolNumber_);
       break;
     case Function::Auxiliary:
       if (trace_ != nullptr) trace_->begin("auxiliary").text(fmt::format("M{}", w.m[i])).end();
@@ -196,6 +197,8 @@ bool Machine::changeToolLength(const NcWords& w) {
       return inconclusive(fmt::format("`{}` has tool offsets up to {}", control_.name, tools_.size() - 1),
                           w.has('H') ? 'H' : 'G');
     const ToolOffset& tool = tools_[static_cast<std::size_t>(h)];
+    if (watcher_ != nullptr && h != 0 && tool.wear == 0 && tool.geometry == 0)
+      watcher_->lengthNotSet(static_cast<std::uint32_t>(h));
     length = (modes_[kLength] == 1 ? 1 : -1) * snap(tool.wear + tool.geometry);
   }
   // Whether the machine or its coordinates move by the difference depends on a parameter; the next absolute Z

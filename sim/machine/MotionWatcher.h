@@ -29,10 +29,13 @@ public:
   virtual ~MotionWatcher() = default;
   virtual void moved(const MachineMotion& motion) = 0;
   virtual void probeSwitched(bool /*on*/) {}
-  virtual void positionSet() {}                       // G92: the machine is still, its coordinates change
-  virtual void paused(std::string_view /*text*/) {}   // a stop, and what the operator reads
+  virtual void positionSet() {}                     // G92: the machine is still, its coordinates change
+  virtual void paused(std::string_view /*text*/) {} // a stop, and what the operator reads
   // A file that the control writes: where the machine is, or a value.
   virtual void recorded(std::string_view /*file*/, std::optional<double> /*value*/) {}
+  virtual void toolChanged(std::uint32_t /*number*/) {} // M6; the tool that T has named
+  // G43 or G44 puts the length of an offset in force that nobody has set.
+  virtual void lengthNotSet(std::uint32_t /*offset*/) {}
   // A call with arguments (G65 and its like), by text or by meaning: `locals` by number from #0 (unused) on,
   // kNull where there is none. Each call that begins ends, but for those in which the run ends.
   virtual void callBegins(std::uint32_t /*program*/, std::span<const double> /*locals*/) {}

@@ -31,6 +31,7 @@ void World::restart(std::uint64_t seed) {
 }
 
 Point3 World::centreAt(const Position& position) const {
+  if (const CuttingTool* tool = cuttingTool()) return {position[0], position[1], position[2] - tool->length};
   return {position[0], position[1], position[2] - probe_.centreLength()};
 }
 
@@ -138,6 +139,12 @@ std::optional<double> World::contact(const SkipMove& move) {
     add(Outcome::NotModelled, kKind, 0, from);
     return std::nullopt;
   }
+  if (isUnknownTool()) {
+    add(Outcome::NotModelled, kKind, 0, from).tool = tool_;
+    return std::nullopt;
+  }
+  if (cuttingTool() != nullptr) return toolContact(move);
+  setterHit({MotionKind::Skip, move.machineFrom, move.machineTo, line_, true});
   const Point3 way = to - from;
   const double length = way.length();
   const std::optional<Touch> touch = touchOf(probe_.ballRadius(), from, to);
@@ -192,6 +199,8 @@ void World::moved(const MachineMotion& motion) {
   const Point3 way = to - from;
   if (const auto leaves = leavesTravel(motion.from, motion.to)) addLeaving(*leaves, motion.kind, from, way);
   if (motion.from == motion.to) return;
+  setterHit(motion);
+  if (cuttingTool() != nullptr || isUnknownTool()) return; // what it cuts is no business of the probe
   const std::optional<Touch> touch = touchOf(probe_.ballRadius(), from, to);
   const auto hit = obstacle(from, way);
   if (hit && (!touch || hit->share < touch->share) && !isOld(*hit, way.length()))
@@ -225,6 +234,8 @@ std::string_view outcomeName(Outcome outcome) {
   case Outcome::BodyCollision: return "body-collision";
   case Outcome::RapidIntoPart: return "rapid-into-part";
   case Outcome::OutsideTravel: return "outside-travel";
+  case Outcome::SetterMiss: return "setter-miss";
+  case Outcome::SetterHit: return "setter-collision";
   case Outcome::NotModelled: return "not-modelled";
   }
   return "";
@@ -253,6 +264,10 @@ void reportEvent(const ProbeEvent& event, SourceRange range, Diagnostics& diagno
                                             value(event.reached), value(event.limit));
     return;
   }
+  case Outcome::SetterMiss: diagnostics.report<diag::SetterMiss>(range, centre); return;
+  case Outcome::SetterHit:
+    diagnostics.report<diag::SetterCollision>(range, event.what, centre, depth);
+    return;
   case Outcome::NotModelled:
     if (event.placeUnknown)
       diagnostics.report<diag::PlaceNotKnown>(range);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "sim/geometry/Contact.h"
+#include "sim/geometry/Devices.h"
 #include "sim/geometry/Probe.h"
 #include "sim/machine/Machine.h"
 #include "sim/machine/MotionWatcher.h"
@@ -23,6 +24,8 @@ enum class Outcome : std::uint8_t {
   BodyCollision, // the body touches
   RapidIntoPart, // the ball touches in rapid
   OutsideTravel, // the machine would leave its travel
+  SetterMiss,    // a skip move of a tool to its end without a touch of the tool setter
+  SetterHit,     // something meets the tool setter and does not measure
   NotModelled,   // a rotary or a second axis is off zero, or the position of the machine is not known
 };
 std::string_view outcomeName(Outcome outcome); // "contact", "rapid-into-part"
@@ -41,6 +44,8 @@ struct ProbeEvent {
   // that it passes, in coordinates of the machine.
   std::size_t axis = 0;
   double reached = 0, limit = 0;
+  std::string_view what;     // of SetterHit: "a rapid move", ...
+  std::uint32_t tool = 0;    // of NotModelled: nobody says what this tool is like
 };
 
 // Coordinates of the machine are those of the spindle's gauge line, with the probe pointing along -Z. Rapids
@@ -62,6 +67,9 @@ public:
   void setOn(bool on) { on_ = on; }
   bool on() const { return on_; }
   void setLine(std::uint64_t line) { line_ = line; } // of the skip moves to come
+  // Tools besides the probe, and the tool setter. The number of the tool in the spindle; 0: the probe.
+  void setDevices(Devices devices) { devices_ = std::move(devices); }
+  void toolChanged(std::uint32_t number) override { tool_ = number; }
   void setPart(Part part) { part_ = std::move(part); }
   // As at the start: the events are forgotten, the noise begins anew with `seed`.
   void restart(std::uint64_t seed);
@@ -70,7 +78,7 @@ public:
   void forgetEvents() { events_.clear(); } // of a run that is too long to keep them all
   const Probe& probe() const { return probe_; }
   const Part& part() const { return part_; }
-  // Of the ball, where the machine is at `position`.
+  // Of the ball, or of a tool's end, where the machine is at `position`.
   Point3 centreAt(const Position& position) const;
 
 private:
@@ -79,6 +87,15 @@ private:
     Outcome outcome;
     double share;
   };
+  const CuttingTool* cuttingTool() const {
+    return devices_.find(tool_);
+  } // nullptr: the probe is in the spindle
+  bool isUnknownTool() const;
+  std::optional<SetterTouch> setterTouch(const Point3& from, const Point3& to) const;
+  std::optional<double> toolContact(const SkipMove& move);
+  ProbeEvent& addSetter(Outcome outcome, MotionKind kind, const SetterTouch& touch, const Point3& from,
+                        const Point3& way);
+  void setterHit(const MachineMotion& motion);
   bool isModelled(const Position& from, const Position& to) const;
   struct Leaving {
     double share;
@@ -98,6 +115,8 @@ private:
   Part part_;
   Probe probe_;
   MachineLimits limits_;
+  Devices devices_;
+  std::uint32_t tool_ = 0;
   bool on_;
   bool pressed_ = false; // the last motion ended in the part, which was reported
   std::uint64_t line_ = 0;

@@ -66,7 +66,7 @@ void PictureRecorder::addEvents(std::size_t from, std::size_t move) {
       picture_.contacts.push_back({event.point, move});
       continue;
     }
-    if (event.outcome == Outcome::Miss) continue;
+    if (event.outcome == Outcome::Miss || event.outcome == Outcome::SetterMiss) continue;
     Diagnostics said;
     reportEvent(event, {}, said);
     for (const Diagnostic& one : said.all())

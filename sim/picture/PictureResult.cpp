@@ -17,7 +17,7 @@ std::uint64_t count(const RunFacts& facts, std::initializer_list<Outcome> outcom
 }
 std::uint64_t collisionsOf(const RunFacts& facts) {
   return count(facts, {Outcome::RapidIntoPart, Outcome::StemCollision, Outcome::BodyCollision,
-                       Outcome::Overtravel, Outcome::NotArmed});
+                       Outcome::Overtravel, Outcome::NotArmed, Outcome::SetterHit});
 }
 
 std::string plural(std::uint64_t number, std::string_view one, std::string_view many) {
@@ -104,7 +104,7 @@ PictureResult resultOf(const Picture& picture, const RunFacts& facts) {
   const std::uint64_t collisions = collisionsOf(facts);
   const std::uint64_t travel = count(facts, {Outcome::OutsideTravel});
   const std::uint64_t faults = count(facts, {Outcome::EarlyContact, Outcome::NoSignal});
-  const std::uint64_t misses = count(facts, {Outcome::Miss});
+  const std::uint64_t misses = count(facts, {Outcome::Miss, Outcome::SetterMiss});
   const bool crashed = collisions + travel + faults > 0;
   if (crashed) {
     const std::string then = ended ? "" : fmt::format("; then {}", endingText(facts));

@@ -129,7 +129,7 @@ void reportEnd(const std::string& path, const frontend::nc::Scanner& scanner, co
     diagnostics.report<diag::RunInconclusive>(range, session.sources().textUtf8(range), kHidden);
 }
 
-void reportRun(const Run& run, const Machine& machine, Session& session) {
+void reportRun(const Run& run, const Machine& machine, const std::string& advice, Session& session) {
   Diagnostics& diagnostics = session.diagnostics();
   const stdlib::Control& control = machine.control();
   std::string stops;
@@ -166,6 +166,7 @@ void reportRun(const Run& run, const Machine& machine, Session& session) {
   case Ending::ProgramEnd:
   case Ending::TextEnd: return;
   }
+  if (!advice.empty()) report->note({}, advice);
   constexpr std::size_t kMostCalls = 8;
   const std::vector<SourceRange> calls = run.openCalls();
   for (std::size_t i = 0; i < calls.size() && i < kMostCalls; ++i)

@@ -7,6 +7,7 @@
 #include "support/Decimal.h"
 #include "support/messages/Commands.h"
 #include "support/messages/Common.h"
+#include "support/messages/Part.h"
 #include "support/messages/Sim.h"
 
 #include <algorithm>
@@ -40,7 +41,9 @@ bool hasPoint(Outcome outcome) {
   case Outcome::StemCollision:
   case Outcome::BodyCollision:
   case Outcome::OutsideTravel:
+  case Outcome::SetterMiss:
   case Outcome::NotModelled: break;
+  case Outcome::SetterHit: return true;
   }
   return false;
 }
@@ -82,11 +85,17 @@ std::unique_ptr<SimWorld> SimWorld::load(const SimOptions& options, Session& ses
     part = loadPart(*options.part, session.limits(), session.sources(), session.diagnostics());
   if (!out->machine_ || (options.part && !part)) return nullptr;
   out->setup_ = out->machine_->setup;
+  // A machine's file serves runs without a part, too.
+  if (!part) std::erase_if(out->setup_.zeros, [](const Setup::Zero& zero) { return zero.ofPart; });
   out->setup_.override(options.setup);
   // The probe is the tool, unless it is said to be longer or shorter in the table.
-  if (out->setup_.tool && !out->setup_.length) out->setup_.length = out->machine_->probe.length;
+  if (out->setup_.tool && !out->setup_.length) {
+    const CuttingTool* const tool = out->machine_->devices.find(*out->setup_.tool);
+    out->setup_.length = tool != nullptr ? tool->length : out->machine_->probe.length;
+  }
   if (part) out->partZero_ = {part->nominal.shift.x, part->nominal.shift.y, part->nominal.shift.z};
   out->world_.emplace(part ? part->part : Part(), out->machine_->probe, out->machine_->limits);
+  out->world_->setDevices(out->machine_->devices);
   return out;
 }
 
@@ -141,6 +150,14 @@ void SimWorld::attach(Machine& machine) {
     return Point3{at[0], at[1], at[2]};
   };
   decimals_ = machine.dialect().wordDecimals.value_or(machine.control().decimals);
+  if (world_) world_->toolChanged(machine.tool());
+  // The zero of a Mikroprog is set by the program, at a contact.
+  if (!machine.dialect().firstParameter)
+    systemNow_ = [&machine]() -> std::optional<std::uint32_t> {
+      const std::uint8_t system = machine.mode(kSystem);
+      if (!machine.isAtMachineZero() || system == kExtended) return std::nullopt;
+      return system;
+    };
   if (world_) machine.setSkipSignal(this);
   machine.setWatcher(this);
   begin();
@@ -151,8 +168,29 @@ std::optional<double> SimWorld::calibratedRadius() const {
   return machine_->probe.effectiveRadius - machine_->probe.preTravel;
 }
 
+void SimWorld::checkSystem() {
+  if (offsetTold_ || !partZero_ || *partZero_ == std::array<double, 3>{} || !systemNow_) return;
+  const std::optional<std::uint32_t> system = systemNow_();
+  if (!system) return;
+  offsetTold_ = true;
+  const std::string name = fmt::format("G{}", 54 + *system);
+  session_.diagnostics().report<diag::WorkOffsetNotSet>(place_().range, name, name);
+}
+
+void SimWorld::toolChanged(std::uint32_t number) {
+  if (world_) world_->toolChanged(number);
+}
+
+void SimWorld::lengthNotSet(std::uint32_t offset) {
+  if (!machine_ || !lengthsTold_.insert(offset).second) return;
+  const CuttingTool* const tool = machine_->devices.find(offset);
+  session_.diagnostics().report<diag::ToolLengthNotSet>(
+      place_().range, offset, offset, numberText(tool != nullptr ? tool->length : machine_->probe.length));
+}
+
 std::optional<double> SimWorld::contact(const SkipMove& move) {
   if (!world_) return std::nullopt;
+  checkSystem();
   world_->setLine(line_());
   const std::optional<double> share = recorder_ ? recorder_->contact(move) : world_->contact(move);
   touched_ = share && !move.positions && (protected_.empty() || !protected_.back());
@@ -231,7 +269,11 @@ void SimWorld::take(const ProbeEvent& event, const RunPlace& place) {
   if (kept.size() < kMostKept) kept.push_back({event, place});
   // The end of the run says it.
   if (event.outcome == Outcome::NotModelled)
-    stop_(std::string(event.placeUnknown ? kNowhere : kRotary));
+    stop_(event.tool != 0
+              ? fmt::format("what tool {} is like is not known; a table [[tool]] with its number, length and "
+                            "diameter in the machine's file says it (the probe is `tool` of [probe])",
+                            event.tool)
+              : std::string(event.placeUnknown ? kNowhere : kRotary));
   else if (!contact && isTold(event) && !isMeantToMiss(event))
     tell(event, place);
 }

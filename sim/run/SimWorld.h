@@ -16,6 +16,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
@@ -74,6 +75,8 @@ public:
   void probeSwitched(bool on) override;
   void paused(std::string_view text) override;
   void recorded(std::string_view file, std::optional<double> value) override;
+  void toolChanged(std::uint32_t number) override;
+  void lengthNotSet(std::uint32_t offset) override;
   void callBegins(std::uint32_t program, std::span<const double> locals) override;
   void callEnded(std::uint32_t program) override;
   void measured(const Measurement& found) override { log_.measured(found); }
@@ -98,6 +101,7 @@ private:
   SimWorld(const SimOptions& options, Session& session) : options_(options), session_(session) {}
   bool isActive() const { return world_.has_value() || picture_; }
   void begin();
+  void checkSystem(); // that somebody has set the work system that the probe measures in
   void finishPicture();
   void takeEvents();
   void tell(const ProbeEvent& event, const RunPlace& place);
@@ -123,6 +127,9 @@ private:
   PictureRecorder::CallKind callKind_;
   std::vector<bool> protected_; // of the calls that are open: within a protected move
   std::function<std::uint64_t()> line_, blocks_;
+  std::function<std::optional<std::uint32_t>()> systemNow_; // 0 to 5: the active one, at the machine's zero
+  bool offsetTold_ = false;
+  std::set<std::uint32_t> lengthsTold_;
   std::function<RunEnd()> end_;
   std::function<Point3()> work_; // position in work coordinates
   MeasuredLog log_;
