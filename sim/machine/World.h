@@ -45,7 +45,7 @@ struct ProbeEvent {
   std::size_t axis = 0;
   double reached = 0, limit = 0;
   std::string_view what;     // of SetterHit: "a rapid move", ...
-  std::uint32_t tool = 0;    // of NotModelled: nobody says what this tool is like
+  std::uint32_t tool = 0;    // of NotModelled: this tool is in no list of the machine
 };
 
 // Coordinates of the machine are those of the spindle's gauge line, with the probe pointing along -Z. Rapids
