@@ -40,8 +40,8 @@ std::optional<double> World::toolContact(const SkipMove& move) {
     signal = touch->share + devices_.setter->preTravel / length;
   if (signal && *signal > 1) signal.reset();
   const double stop = signal.value_or(1);
-  if (const auto leaves = leavesTravel(move.machineFrom, move.machineTo); leaves && *leaves < stop)
-    add(Outcome::OutsideTravel, kKind, *leaves, from + way * *leaves);
+  if (const auto leaves = leavesTravel(move.machineFrom, move.machineTo); leaves && leaves->share < stop)
+    addLeaving(*leaves, kKind, from, way);
   if (!touch) {
     add(Outcome::SetterMiss, kKind, 1, to).meant = move.positions;
   } else if (!devices_.setter->triggers[touch->direction]) {
