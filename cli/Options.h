@@ -39,10 +39,11 @@ struct Raw {
   std::string datum;
   std::vector<std::string> variables;
   std::vector<std::string> programs;
-  std::string traceFile, svgFile, htmlFile, date;
+  std::string traceFile, svgFile, htmlFile;
   std::string part, machine, partError, translation;
   std::vector<std::string> values; // --value
-  std::string cases, seed, jobs, minAgreed, tolerance, activeSystem, date;
+  std::string cases, seed, jobs, minAgreed, tolerance, activeSystem;
+  std::string date; // --date, of sim and verify
   std::vector<std::string> workOffsets;
   std::string tool, length, radius, diameter, at, call;
   bool replay = false;
