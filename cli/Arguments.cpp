@@ -4,6 +4,7 @@
 #include "cli/Options.h"
 #include "support/FileIdentity.h"
 #include "support/NearestName.h"
+#include "support/Printable.h"
 #include "support/Version.h"
 
 #include <algorithm>
@@ -148,10 +149,10 @@ std::optional<int> parseArguments(const std::vector<std::string>& arguments, Arg
     out << text.str();
     return kDone;
   } catch (const CLI::ParseError& error) {
-    err << "dotek: error: " << error.what() << "; `dotek --help` prints the commands\n";
+    err << "dotek: error: " << printable(error.what()) << "; `dotek --help` prints the commands\n";
     return kUsage;
   } catch (const UsageError& error) {
-    err << "dotek: error: " << error.what() << "\n";
+    err << "dotek: error: " << printable(error.what()) << "\n";
     return kUsage;
   }
 }

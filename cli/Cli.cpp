@@ -3,9 +3,10 @@
 #include "cli/Arguments.h"
 #include "cli/Files.h"
 #include "driver/Driver.h"
-#include "support/FileIdentity.h"
+#include "sim/run/SimReport.h"
 #include "support/Output.h"
 #include "support/OutputCheck.h"
+#include "support/Printable.h"
 #include "support/Stream.h"
 #include "support/messages/Output.h"
 
@@ -32,6 +33,8 @@ public:
     Diagnostics found;
     const bool good = checkOutputs(outputsOf(arguments), inputsOf(arguments), arguments.force, found);
     err_ << renderText(found, SourceMap(), maxErrors_);
+    if (!good && arguments.command == Command::Sim && arguments.json)
+      out_ << sim::notRunSummary(found, SourceMap());
     return good;
   }
 
@@ -79,7 +82,10 @@ public:
         trace->write(text);
       };
     driver::Outcome outcome;
-    if (writing.empty()) outcome = driver::sim(options);
+    if (writing.empty())
+      outcome = driver::sim(options);
+    else if (options.json)
+      outcome.output = sim::notRunSummary(writing, SourceMap());
     out_ << outcome.output;
     err_ << renderText(outcome.diagnostics, outcome.sources, maxErrors_);
     if (!ran || outcome.status == kUsage) outputs.clear();
@@ -191,9 +197,12 @@ int runGuarded(const std::vector<std::string>& arguments, std::ostream& out, std
     if (const std::optional<int> status = parseArguments(arguments, parsed, out, err)) return *status;
     return runCommand(parsed, out, err);
   } catch (const std::bad_alloc&) {
-    err << "dotek: error: out of memory; this is a defect of Dotek\n";
+    err << "dotek: error: there is no memory left\n";
+    return kUsage;
   } catch (const std::exception& error) {
-    err << "dotek: error: " << error.what() << "; this is a defect of Dotek\n";
+    err << "dotek: error: " << printable(error.what()) << "; this is a defect of Dotek\n";
+  } catch (...) {
+    err << "dotek: error: something unknown was thrown; this is a defect of Dotek\n";
   }
   return kDefect;
 }

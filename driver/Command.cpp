@@ -7,11 +7,14 @@
 #include "support/messages/Gibbs.h"
 #include "support/messages/Mikroprog.h"
 #include "support/messages/Nc.h"
+#include "support/messages/Output.h"
 #include "support/messages/Sim.h"
 
 #include <algorithm>
 #include <array>
+#include <filesystem>
 #include <map>
+#include <new>
 #include <set>
 #include <tuple>
 
@@ -64,6 +67,27 @@ Outcome refusalOf(Session& session) {
   std::vector<Diagnostic>& all = outcome.diagnostics.all();
   std::stable_partition(all.begin(), all.end(),
                         [](const Diagnostic& d) { return d.severity == Severity::Error; });
+  return outcome;
+}
+
+Outcome outcomeOf(const std::exception_ptr& thrown) {
+  Outcome outcome;
+  outcome.status = 2;
+  try {
+    std::rethrow_exception(thrown);
+  } catch (const stdlib::DataError& error) {
+    outcome.diagnostics.report<diag::DataFileDefect>({}, error.what());
+  } catch (const std::filesystem::filesystem_error& error) {
+    outcome.diagnostics.report<diag::FileNotReadable>({}, error.path1().string(), error.code().message());
+  } catch (const std::bad_alloc&) {
+    outcome.diagnostics.report<diag::OutOfMemory>({});
+  } catch (const std::exception& error) {
+    outcome.diagnostics.report<diag::InternalDefect>({}, error.what());
+    outcome.status = 3;
+  } catch (...) {
+    outcome.diagnostics.report<diag::InternalDefect>({}, "something unknown was thrown");
+    outcome.status = 3;
+  }
   return outcome;
 }
 

@@ -5,6 +5,7 @@
 #include "project/Session.h"
 #include "support/messages/Commands.h"
 
+#include <exception>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -33,18 +34,25 @@ bool isAboutForm(std::string_view code);
 // cause.
 void keepStrongest(Diagnostics& diagnostics);
 
-// Runs a command: a defect of the data files that `--data` names becomes a diagnostic.
-template <class Command> Outcome guarded(const CommonOptions& options, const Command& command) {
+// What a command gives that threw: a defect of the data files, what the system refused, a lack of memory, or
+// a defect of Dotek (status 3).
+Outcome outcomeOf(const std::exception_ptr& thrown);
+
+// Calls what gives an outcome; nothing is thrown.
+template <class Call> Outcome caught(const Call& call) {
   try {
-    Session session(options);
-    if (session.diagnostics().hasErrors()) return outcomeOf(session, "");
-    return command(session);
-  } catch (const stdlib::DataError& error) {
-    Outcome outcome;
-    outcome.diagnostics.report<diag::DataFileDefect>({}, error.what());
-    outcome.status = 2;
-    return outcome;
+    return call();
+  } catch (...) {
+    return outcomeOf(std::current_exception());
   }
+}
+
+// Runs a command in a session of its own; nothing is thrown.
+template <class Command> Outcome guarded(const CommonOptions& options, const Command& command) {
+  return caught([&] {
+    Session session(options);
+    return session.diagnostics().hasErrors() ? outcomeOf(session, "") : command(session);
+  });
 }
 
 } // namespace dotek::driver

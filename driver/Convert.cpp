@@ -189,7 +189,8 @@ private:
 Outcome convert(const ConvertOptions& options) {
   Outcome outcome =
       guarded(options.common, [&](Session& session) { return ConvertCommand(options, session).run(); });
-  return options.verify && outcome.status == 0 ? verified(options, std::move(outcome)) : outcome;
+  if (!options.verify || outcome.status != 0) return outcome;
+  return caught([&] { return verified(options, std::move(outcome)); });
 }
 
 } // namespace dotek::driver

@@ -377,9 +377,7 @@ Outcome lintOnce(const LintOptions& options) {
 // A repair may lay bare the next one; a few turns are enough for all that do not undo each other.
 constexpr int kFixTurns = 8;
 
-} // namespace
-
-Outcome lint(const LintOptions& options) {
+Outcome lintAndFix(const LintOptions& options) {
   Outcome outcome = lintOnce(options);
   if (!options.fix || outcome.status > 1) return outcome;
   std::vector<MadeFix> total;
@@ -396,6 +394,12 @@ Outcome lint(const LintOptions& options) {
   if (writing.hasErrors()) outcome.status = 2;
   outcome.diagnostics.sort();
   return outcome;
+}
+
+} // namespace
+
+Outcome lint(const LintOptions& options) {
+  return caught([&] { return lintAndFix(options); });
 }
 
 } // namespace dotek::driver

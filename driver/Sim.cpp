@@ -227,7 +227,9 @@ private:
 } // namespace
 
 Outcome sim(const SimOptions& options) {
-  return guarded(options.common, [&](Session& session) { return SimCommand(options, session).run(); });
+  Outcome out = guarded(options.common, [&](Session& session) { return SimCommand(options, session).run(); });
+  if (options.json && out.output.empty()) out.output = sim::notRunSummary(out.diagnostics, out.sources);
+  return out;
 }
 
 } // namespace dotek::driver

@@ -1,6 +1,7 @@
 #include "ir/PrintStatement.h"
 
 #include "support/Decimal.h"
+#include "support/Printable.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -294,7 +295,7 @@ std::string withOrigin(std::string text, SourceRange range, const std::string& r
                        const SourceMap* sources) {
   std::string comment;
   if (sources && range.hasPlace())
-    comment = sources->file(range.file).name() + ":" + std::to_string(sources->line(range));
+    comment = printable(sources->file(range.file).name()) + ":" + std::to_string(sources->line(range));
   if (!reason.empty()) comment += (comment.empty() ? "" : ", ") + reason;
   // A comment ends with its line.
   std::replace_if(

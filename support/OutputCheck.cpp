@@ -22,7 +22,8 @@ bool meet(const OutputName& a, const OutputName& b) {
 std::map<FileIdentity, std::string> filesOf(const std::vector<std::string>& inputs) {
   std::map<FileIdentity, std::string> out;
   for (const std::string& input : inputs)
-    if (const auto file = identify(input); file && file->name.empty()) out.emplace(*file, input);
+    if (const auto file = identify(input == "-" ? "/dev/stdin" : input); file && file->name.empty())
+      out.emplace(*file, input);
   return out;
 }
 

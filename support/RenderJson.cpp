@@ -1,5 +1,6 @@
 #include "support/Diagnostics.h"
 #include "support/LineMap.h"
+#include "support/Printable.h"
 
 #include <nlohmann/json.hpp>
 
@@ -19,7 +20,7 @@ Json place(SourceRange range, const SourceMap& sources) {
   const SourceFile& file = sources.file(range.file);
   const LineColumn begin = file.place(range.begin);
   const LineColumn end = file.place(range.end);
-  out["file"] = file.name();
+  out["file"] = asUtf8(file.name());
   out["line"] = begin.line;
   out["column"] = begin.column;
   out["endLine"] = end.line;
@@ -49,25 +50,25 @@ std::string renderJson(const Diagnostics& diagnostics, const SourceMap& sources)
     Json one = place(d.range, sources);
     one["severity"] = severityName(d.severity);
     one["code"] = d.code;
-    one["message"] = d.message;
+    one["message"] = asUtf8(d.message);
     one["notes"] = Json::array();
     for (const DiagnosticNote& note : d.notes) {
       Json row = place(note.range, sources);
-      row["message"] = note.message;
+      row["message"] = asUtf8(note.message);
       one["notes"].push_back(std::move(row));
     }
     one["fix"] = fixOf(d, sources);
     array.push_back(std::move(one));
   }
   // Names and texts may hold any bytes: replace what is no UTF-8 instead of throwing.
-  return array.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return escapeMarks(array.dump(2, ' ', false, Json::error_handler_t::replace)) + "\n";
 }
 
 std::string renderLineMap(const std::vector<MappedResult>& results, const SourceMap& sources) {
   Json array = Json::array();
   for (const MappedResult& result : results) {
     Json one;
-    one["name"] = result.name;
+    one["name"] = asUtf8(result.name);
     one["lines"] = Json::array();
     for (const MappedLine& line : result.lines) {
       Json row;
@@ -80,7 +81,7 @@ std::string renderLineMap(const std::vector<MappedResult>& results, const Source
     }
     array.push_back(std::move(one));
   }
-  return array.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return escapeMarks(array.dump(2, ' ', false, Json::error_handler_t::replace)) + "\n";
 }
 
 } // namespace dotek

@@ -1,5 +1,6 @@
 #include "support/Sarif.h"
 
+#include "support/Printable.h"
 #include "support/Version.h"
 
 #include <algorithm>
@@ -72,7 +73,7 @@ Json resultOf(const Diagnostic& d, std::size_t rule, const SourceMap& sources) {
   out["ruleId"] = d.code;
   out["ruleIndex"] = rule;
   out["level"] = severityName(d.severity);
-  out["message"]["text"] = d.message;
+  out["message"]["text"] = asUtf8(d.message);
   if (d.range.hasPlace()) out["locations"] = Json::array({location(d.range, sources)});
   Json related = Json::array();
   for (const DiagnosticNote& note : d.notes) {
@@ -160,7 +161,7 @@ std::string renderSarif(const Diagnostics& diagnostics, const SourceMap& sources
   log["version"] = "2.1.0";
   log["runs"] = Json::array({std::move(run)});
   // Names and texts may hold any bytes: replace what is no UTF-8 instead of throwing.
-  return log.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return escapeMarks(log.dump(2, ' ', false, Json::error_handler_t::replace)) + "\n";
 }
 
 } // namespace dotek

@@ -1,4 +1,5 @@
 #include "support/Diagnostics.h"
+#include "support/Printable.h"
 
 #include <algorithm>
 
@@ -24,28 +25,13 @@ std::size_t byteOf(std::string_view utf8, std::size_t count) {
   return at;
 }
 
-// Controls in a bad input must not reach a terminal.
-std::string printable(std::string_view utf8) {
-  std::string out;
-  for (const char c : utf8) {
-    const auto byte = static_cast<unsigned char>(c);
-    if (c == '\t')
-      out += ' ';
-    else if (byte < 0x20 || byte == 0x7F)
-      out += '?';
-    else
-      out += c;
-  }
-  return out;
-}
-
 void appendPlace(std::string& out, SourceRange range, const SourceMap& sources) {
   if (!range.hasPlace()) {
     out += "dotek: ";
     return;
   }
   const LineColumn at = sources.file(range.file).place(range.begin);
-  out += fmt::format("{}:{}:{}: ", sources.file(range.file).name(), at.line, at.column);
+  out += fmt::format("{}:{}:{}: ", printable(sources.file(range.file).name()), at.line, at.column);
 }
 
 // The line and the caret below it; a long line is cut around the caret.

@@ -4,8 +4,11 @@
 
 #include <algorithm>
 #include <atomic>
+#include <exception>
 #include <fmt/format.h>
 #include <mutex>
+#include <new>
+#include <system_error>
 #include <thread>
 
 namespace dotek::targets {
@@ -59,15 +62,42 @@ bool runCases(const VerifyOptions& options, bool edges, CaseSubject& main,
   };
   std::uint32_t jobs = options.jobs != 0 ? options.jobs : std::max(1U, std::thread::hardware_concurrency());
   jobs = static_cast<std::uint32_t>(std::min<std::uint64_t>(jobs, std::max<std::uint64_t>(1, all / 32)));
+  // What is thrown ends all threads, and then the command.
+  std::exception_ptr thrown;
+  const auto guardedWork = [&](CaseSubject& runner) {
+    try {
+      work(runner);
+    } catch (...) {
+      const std::lock_guard lock(mutex);
+      if (!thrown) thrown = std::current_exception();
+      stop = true;
+    }
+  };
+  // Without a thread, or memory for one, the others do its work.
+  const auto help = [&] {
+    std::unique_ptr<CaseSubject> runner;
+    try {
+      runner = another();
+    } catch (const std::bad_alloc&) {
+      return;
+    } catch (...) {
+      const std::lock_guard lock(mutex);
+      if (!thrown) thrown = std::current_exception();
+      stop = true;
+    }
+    if (runner) guardedWork(*runner);
+  };
   std::vector<std::thread> threads;
-  for (std::uint32_t i = 1; i < jobs; ++i) {
-    threads.emplace_back([&] {
-      if (const std::unique_ptr<CaseSubject> runner = another()) work(*runner);
-    });
+  try {
+    for (std::uint32_t i = 1; i < jobs; ++i)
+      threads.emplace_back(help);
+  } catch (const std::system_error&) {
+  } catch (const std::bad_alloc&) {
   }
-  work(main);
+  guardedWork(main);
   for (std::thread& thread : threads)
     thread.join();
+  if (thrown) std::rethrow_exception(thrown);
   if (!stop) return true;
   main.session().diagnostics() = Diagnostics();
   tellNoValues(main, noValues);

@@ -1,6 +1,8 @@
 #include "sim/machine/Trace.h"
 
 #include "support/Decimal.h"
+#include "support/Printable.h"
+#include "support/Source.h"
 
 #include <charconv>
 #include <cmath>
@@ -63,8 +65,10 @@ Trace& Trace::word(std::string_view name, double value) {
 
 Trace& Trace::text(std::string_view text) {
   text_ += ' ';
-  for (const char c : text) // a line of the trace is one line
-    text_ += c == '\n' || c == '\r' ? ' ' : c;
+  std::string line(text);
+  for (char& c : line) // a line of the trace is one line
+    if (c == '\n' || c == '\r') c = ' ';
+  text_ += printable(isUtf8(line) ? line : toUtf8(line, Encoding::Cp1250));
   return *this;
 }
 

@@ -4,12 +4,13 @@
 #include "sim/machine/EndText.h"
 #include "sim/machine/Value.h"
 #include "support/Decimal.h"
+#include "support/Printable.h"
 #include "support/messages/Common.h"
 #include "support/messages/MacroB.h"
 #include "support/messages/Sim.h"
 
+#include <cmath>
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 namespace dotek::sim {
 namespace {
@@ -69,7 +70,7 @@ std::string positionText(const Position& position, std::uint32_t shown) {
   std::string out;
   for (std::size_t i = 0; i < kAxes; ++i) {
     if (i >= 3 && (shown >> i & 1) == 0) continue;
-    out += fmt::format("{}\"{}\": {}", out.empty() ? "" : ", ", kAxisLetters[i], fixedText(position[i], 6));
+    out += fmt::format("{}\"{}\": {}", out.empty() ? "" : ", ", kAxisLetters[i], jsonNumber(position[i], 6));
   }
   return "{" + out + "}";
 }
@@ -217,7 +218,7 @@ std::string summary(Machine& machine, const Run* run, const SimWorld& world, Ses
   const bool notRead = end.ending == Ending::Running && session.diagnostics().hasErrors();
   std::string out = "{\n";
   out += fmt::format("  \"ending\": \"{}\",\n", endingName(machine, notRead));
-  out += fmt::format("  \"control\": {},\n", nlohmann::json(machine.control().name).dump());
+  out += fmt::format("  \"control\": {},\n", jsonString(machine.control().name));
   out += fmt::format("  \"blocks\": {},\n", machine.blocks());
   out += fmt::format("  \"position\": {},\n", positionText(machine.position(), machine.movedAxes()));
   out += fmt::format("  \"machine\": {},\n", positionText(machine.machinePosition(), machine.movedAxes()));
@@ -226,8 +227,8 @@ std::string summary(Machine& machine, const Run* run, const SimWorld& world, Ses
     if ((machine.uncertain() >> i & 1) != 0)
       unknown += fmt::format("{}\"{}\"", unknown.empty() ? "" : ", ", kAxisLetters[i]);
   out += fmt::format("  \"unknownAxes\": [{}],\n", unknown);
-  out += fmt::format("  \"feed\": {},\n", fixedText(machine.feed(), 6));
-  out += fmt::format("  \"dwellSeconds\": {},\n", fixedText(machine.seconds(), 6));
+  out += fmt::format("  \"feed\": {},\n", jsonNumber(machine.feed(), 6));
+  out += fmt::format("  \"dwellSeconds\": {},\n", jsonNumber(machine.seconds(), 6));
   if (end.ending == Ending::Alarm) {
     std::string stack;
     for (const Frame& frame : end.stack)
@@ -235,7 +236,7 @@ std::string summary(Machine& machine, const Run* run, const SimWorld& world, Ses
                            frame.program, frame.sequence, frame.line);
     out += fmt::format("  \"alarm\": {{\"number\": {}, \"text\": {}, \"line\": {}, \"stack\": [{}]}},\n",
                        end.number == 0 ? "null" : std::to_string(end.number),
-                       nlohmann::json(toUtf8Text(end.text)).dump(), end.line, stack);
+                       jsonString(toUtf8Text(end.text)), end.line, stack);
   } else {
     out += "  \"alarm\": null,\n";
   }
@@ -245,19 +246,29 @@ std::string summary(Machine& machine, const Run* run, const SimWorld& world, Ses
     for (const auto& [number, value] : machine.written())
       if (!isUnknown(value)) // what a macro left there and no source tells is no value
         variables += fmt::format("{}\"{}\": {}", variables.empty() ? "" : ", ", number - first.value_or(0),
-                                 isNull(value) ? "null" : numberText(value));
+                                 std::isfinite(value) ? numberText(value) : "null");
     out += fmt::format("  \"{}\": {{{}}},\n", first ? "parameters" : "variables", variables);
     if (first)
       out += fmt::format("  \"zero\": {},\n{}", positionText(machine.activeZero(), machine.movedAxes()),
                          world.notes());
     else
-      out += fmt::format("  \"output\": {},\n", nlohmann::json(toUtf8Text(run->output())).dump());
+      out += fmt::format("  \"output\": {},\n", jsonString(toUtf8Text(run->output())));
   }
   out += world.summary();
-  std::string diagnostics = renderJson(session.diagnostics(), session.sources());
-  while (diagnostics.ends_with('\n'))
-    diagnostics.pop_back();
-  return out + "  \"diagnostics\": " + diagnostics + "\n}\n";
+  return out + diagnosticsMember(session.diagnostics(), session.sources()) + "}\n";
+}
+
+std::string diagnosticsMember(const Diagnostics& diagnostics, const SourceMap& sources) {
+  std::string text = renderJson(diagnostics, sources);
+  while (text.ends_with('\n'))
+    text.pop_back();
+  return "  \"diagnostics\": " + text + "\n";
+}
+
+std::string notRunSummary(const Diagnostics& diagnostics, const SourceMap& sources) {
+  return "{\n  \"ending\": \"not-run\",\n  \"control\": null,\n  \"blocks\": 0,\n  \"position\": null,\n"
+         "  \"machine\": null,\n" +
+         diagnosticsMember(diagnostics, sources) + "}\n";
 }
 
 } // namespace dotek::sim

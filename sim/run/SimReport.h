@@ -25,6 +25,10 @@ void reportShifts(const Machine& machine, SourceRange range, Session& session);
 void traceVariables(const Machine& machine, Trace& trace);
 // docs/sim.md says what is in it. `run`: of a program that was loaded; nullptr: of plain blocks.
 std::string summary(Machine& machine, const Run* run, const SimWorld& world, Session& session);
+// Its last member.
+std::string diagnosticsMember(const Diagnostics& diagnostics, const SourceMap& sources);
+// The summary of a program that did not begin to run.
+std::string notRunSummary(const Diagnostics& diagnostics, const SourceMap& sources);
 
 // The line at which the scanner is, as a file of its own, since the program itself is not kept.
 SourceRange placeOfLine(const std::string& path, const frontend::nc::Scanner& scanner, Session& session);

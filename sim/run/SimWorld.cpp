@@ -5,6 +5,7 @@
 #include "sim/run/SetupRun.h"
 #include "sim/run/SimReport.h"
 #include "support/Decimal.h"
+#include "support/Printable.h"
 #include "support/messages/Commands.h"
 #include "support/messages/Common.h"
 #include "support/messages/Part.h"
@@ -12,7 +13,6 @@
 
 #include <algorithm>
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 #include <utility>
 
 namespace dotek::sim {
@@ -25,8 +25,8 @@ constexpr std::string_view kNowhere = "where the machine is in this move is not 
                                       "and keep G30 out of the run";
 
 std::string pointJson(const Point3& p) {
-  return fmt::format("{{\"X\": {}, \"Y\": {}, \"Z\": {}}}", fixedText(p.x, 6), fixedText(p.y, 6),
-                     fixedText(p.z, 6));
+  return fmt::format("{{\"X\": {}, \"Y\": {}, \"Z\": {}}}", jsonNumber(p.x, 6), jsonNumber(p.y, 6),
+                     jsonNumber(p.z, 6));
 }
 
 bool hasPoint(Outcome outcome) {
@@ -352,8 +352,7 @@ PictureBlock SimWorld::blockNow() const {
 std::string SimWorld::placeJson(const SourceRange& range) const {
   if (!range.hasPlace()) return "\"file\": null, \"line\": 0";
   const SourceFile& file = session_.sources().file(range.file);
-  return fmt::format("\"file\": {}, \"line\": {}", nlohmann::json(file.name()).dump(),
-                     file.place(range.begin).line);
+  return fmt::format("\"file\": {}, \"line\": {}", jsonString(file.name()), file.place(range.begin).line);
 }
 
 std::string SimWorld::json(const Kept& kept) const {
@@ -366,7 +365,7 @@ std::string SimWorld::json(const Kept& kept) const {
   out += "], \"centre\": " + pointJson(event.centre);
   if (hasPoint(event.outcome))
     out += ", \"point\": " + pointJson(event.point) + ", \"normal\": " + pointJson(event.normal) +
-           ", \"depth\": " + fixedText(event.depth, 6);
+           ", \"depth\": " + jsonNumber(event.depth, 6);
   return out + "}";
 }
 
@@ -378,18 +377,17 @@ std::string SimWorld::measuredJson() const {
     for (const MeasuredValue& value : one.found.values)
       values +=
           fmt::format("{}{{\"name\": {}, \"nominal\": {}, \"measured\": {}, \"deviation\": {}}}",
-                      values.empty() ? "" : ", ", nlohmann::json(value.name).dump(),
+                      values.empty() ? "" : ", ", jsonString(value.name),
                       value.nominal ? fixedText(*value.nominal, 6) : "null", fixedText(value.measured, 6),
                       value.nominal ? fixedText(value.measured - *value.nominal, 6) : "null");
     for (const OffsetWrite& write : one.offsets)
       offsets += fmt::format("{}{{\"name\": {}, \"before\": {}, \"after\": {}}}", offsets.empty() ? "" : ", ",
-                             nlohmann::json(write.name).dump(), fixedText(write.before, 6),
-                             fixedText(write.after, 6));
+                             jsonString(write.name), fixedText(write.before, 6), fixedText(write.after, 6));
     out += fmt::format(
         "{}\n    {{\"feature\": {}, \"program\": {}, \"place\": {}, \"system\": {}, \"values\": [{}], "
         "\"offsets\": [{}]}}",
-        out.empty() ? "" : ",", nlohmann::json(one.found.title).dump(), one.found.program,
-        nlohmann::json(one.block.place).dump(), nlohmann::json(one.system).dump(), values, offsets);
+        out.empty() ? "" : ",", jsonString(one.found.title), one.found.program, jsonString(one.block.place),
+        jsonString(one.system), values, offsets);
   }
   return out.empty() ? out : out + "\n  ";
 }
@@ -410,7 +408,7 @@ std::string SimWorld::summary() const {
 }
 
 std::string SimWorld::notes() const {
-  const auto text = [](const std::string& bytes) { return nlohmann::json(toUtf8Text(bytes)).dump(); };
+  const auto text = [](const std::string& bytes) { return jsonString(toUtf8Text(bytes)); };
   std::string records, stops;
   for (const NotedRecord& one : records_)
     records += fmt::format("{}{{\"file\": {}, {}}}", records.empty() ? "" : ", ", text(one.file),

@@ -1,0 +1,161 @@
+// Every JSON that a command prints keeps to its schema of docs/schemas: those of the goldens, and those of
+// runs that fail.
+#include "tests/GoldenRunner.h"
+#include "tests/Process.h"
+#include "tests/Skips.h"
+
+#include <doctest/doctest.h>
+#include <filesystem>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+namespace fs = std::filesystem;
+using namespace dotek::tests;
+
+namespace {
+
+constexpr const char* kCheck = R"(
+import glob, json, sys
+import jsonschema
+faults = 0
+def strict(name): raise ValueError('no JSON number: ' + name)
+for path in sorted(glob.glob('*.json')):
+    kind = path.split('.')[1]
+    schema = json.load(open(sys.argv[1] + '/' + kind + '.schema.json'))
+    try:
+        jsonschema.validate(json.load(open(path, encoding='utf-8'), parse_constant=strict), schema)
+    except Exception as error:
+        faults += 1
+        print(path, str(error)[:600])
+sys.exit(1 if faults else 0)
+)";
+
+bool haveSchemas(const ProcessFolder& folder) {
+  if (folder.run("python3 -c 'import jsonschema'").status == 0) return true;
+  skip("there is no python3-jsonschema");
+  return false;
+}
+
+ShellResult check(const ProcessFolder& folder) {
+  folder.write("check.py", kCheck);
+  return folder.run("python3 check.py '" + (root() / "docs" / "schemas").string() + "'");
+}
+
+} // namespace
+
+TEST_CASE("JSON of the goldens keeps to its schema") {
+  const ProcessFolder folder;
+  if (!haveSchemas(folder)) return;
+  int count = 0;
+  for (const auto& entry : fs::recursive_directory_iterator(root() / "tests" / "golden")) {
+    if (entry.path().filename() != "cmd") continue;
+    std::istringstream lines(readAll(entry.path()));
+    for (std::string line; std::getline(lines, line);) {
+      const bool sim = line.starts_with("sim ") && line.find("--json") != std::string::npos;
+      const bool lint = line.starts_with("lint ") && line.find("--format json") != std::string::npos;
+      if (!sim && !lint) continue;
+      const CommandResult result = runDotek(splitArguments(line), entry.path().parent_path());
+      folder.write(fmt::format("{}.{}.json", ++count, sim ? "sim" : "findings"), result.out);
+    }
+  }
+  CHECK(count > 10);
+  const CommandResult map =
+      runDotek({"convert", "examples/surface-x", "--prog", "examples/mill-post.txt", "--to", "fanuc", "--map",
+                folder.path("1.map.json"), "-o", folder.path("o.nc")},
+               root());
+  CHECK_MESSAGE(map.status == 0, map.err);
+  const ShellResult checked = check(folder);
+  CHECK_MESSAGE(checked.status == 0, checked.out << checked.err);
+  // The check itself fails where something is wrong.
+  folder.write("x.sim.json", "{\"ending\": \"program-end\"}");
+  CHECK(check(folder).status == 1);
+  folder.write("x.sim.json", "{\"ending\": \"not-run\", \"control\": null, \"blocks\": NaN}");
+  CHECK(check(folder).status == 1);
+}
+
+TEST_CASE("sim --json prints one object, whatever happens") {
+  const ProcessFolder folder;
+  if (!haveSchemas(folder)) return;
+  folder.write("p.nc", "%\nO1\nG90 G0 X1.\nM30\n%\n");
+  folder.write("nul.nc", std::string("G0 X1.\0\n", 8));
+  folder.write("utf16.nc", std::string("\xFF\xFEG\0", 4));
+  folder.write("broken.nc", "%\nO1\n#1=[\nIF THEN\nM30\n");
+  folder.write("big.nc", "%\nO1\n#1=1\nWHILE[#1 LT 5]DO1\n#2=EXP[#1*900.]\n#1=#1+1.\nEND1\nG0 X[#2]\nM30\n");
+  folder.write("p.suf", "%\nN1 G0 X1\nN2 M30\n");
+  folder.write("part.toml", "schema = 1\n");
+  folder.write("\xE9.nc", "%\nO1\n#1=\nM30\n%\n");
+  folder.run("mkdir folder; ln -s loop loop");
+  int count = 0;
+  for (const std::string& command : std::vector<std::string>{"p.nc",
+                                                             "missing.nc",
+                                                             "folder",
+                                                             "loop",
+                                                             "nul.nc",
+                                                             "utf16.nc",
+                                                             "broken.nc",
+                                                             "big.nc",
+                                                             "p.suf",
+                                                             "$'\\xe9.nc'",
+                                                             "p.nc --control none",
+                                                             "p.nc --var x=1",
+                                                             "p.nc --programs missing",
+                                                             "p.nc --part missing",
+                                                             "p.nc --machine part.toml",
+                                                             "p.nc --part part.toml --machine part.toml",
+                                                             "p.nc --svg none/x",
+                                                             "p.nc --html p.nc",
+                                                             "p.nc --trace folder",
+                                                             "p.nc --data missing",
+                                                             "p.nc --limit input-bytes=1",
+                                                             "p.nc --from suf",
+                                                             "p.suf --var 1=2",
+                                                             "$(printf 'n%.0s' $(seq 300))"}) {
+    const ShellResult result = folder.run("dotek sim --json " + command);
+    CHECK_MESSAGE(result.status < 3, command << result.err);
+    CHECK_MESSAGE(nlohmann::json::accept(result.out), command << "\n" << result.out << result.err);
+    CHECK_MESSAGE(result.err.find("defect of Dotek") == std::string::npos, command << result.err);
+    folder.write(fmt::format("{}.sim.json", ++count), result.out);
+  }
+  const ShellResult checked = check(folder);
+  CHECK_MESSAGE(checked.status == 0, checked.out << checked.err);
+}
+
+TEST_CASE("what the system refuses is a message and no defect of Dotek") {
+  const ProcessFolder folder;
+  folder.write("p.nc", "%\nO1\nG90 G0 X1.\nM30\n%\n");
+  folder.run("ln -s loop loop; mkdir sub; ln -s ../p.nc 'a=b'; ln -s 'x=y' 'x=y'");
+  const std::string name = "$(printf 'n%.0s' $(seq 300))";
+  for (const std::string& command : std::vector<std::string>{
+           "lint loop", "lint p.nc --set a=1 'x=y'", "lint p.nc --set a=1 n=" + name, "lint " + name,
+           "post loop --prog p.nc", "post p.nc --prog loop", "convert loop --to fanuc",
+           "convert p.nc --to fanuc --job loop", "convert sub --prog sub --to fanuc", "sim loop",
+           "sim p.nc --programs loop", "sim p.nc --part loop --machine loop", "sim p.nc --data loop",
+           "dump loop", "dump sub --stage ir", "new form f --prog loop",
+           "verify p.nc --to fanuc --translation loop", "verify loop --to fanuc"}) {
+    const ShellResult result = folder.run("dotek " + command);
+    CHECK_MESSAGE(result.status > 0, command);
+    CHECK_MESSAGE(result.status < 3, command << "\n" << result.err);
+    CHECK_MESSAGE(result.err.find("defect of Dotek") == std::string::npos, command << result.err);
+    CHECK_MESSAGE((result.out + result.err).find("error") != std::string::npos, command);
+  }
+}
+
+TEST_CASE("little memory is a message, of worker threads too") {
+  const ProcessFolder folder;
+  folder.write("p.nc", "%\nO1\nG90 G0 X1.\n#100=1.\nM30\n%\n");
+  // Under a sanitizer an address space is as large as it gets.
+  if (folder.run("ulimit -v 400000; dotek --version").status != 0) {
+    skip("the program needs more address space than a limit leaves");
+    return;
+  }
+  int refused = 0;
+  for (int limit = 20'000; limit <= 400'000; limit += 20'000) {
+    const ShellResult result =
+        folder.run(fmt::format("ulimit -v {}; dotek verify p.nc --to fanuc --cases 300 --jobs 4", limit));
+    if (result.status == 127) continue; // the loader has too little
+    CHECK_MESSAGE(result.status <= 2, limit << ": " << result.status << result.err);
+    if (result.err.find("[out-of-memory]") != std::string::npos) ++refused;
+  }
+  MESSAGE("refused for want of memory: " << refused);
+}
