@@ -1,5 +1,6 @@
 #include "lint/ToolLength.h"
 
+#include "ir/Match.h"
 #include "ir/Walk.h"
 #include "lint/Skips.h"
 
@@ -267,8 +268,22 @@ private:
       case ir::UnaryOp::Round:
       case ir::UnaryOp::RoundIncrement:
       case ir::UnaryOp::AddPoint: return operand;
-      default: return mixed(operand, {});
+      case ir::UnaryOp::Absolute:
+      case ir::UnaryOp::Truncate:
+      case ir::UnaryOp::RoundUp:
+      case ir::UnaryOp::SquareRoot:
+      case ir::UnaryOp::Sine:
+      case ir::UnaryOp::Cosine:
+      case ir::UnaryOp::Tangent:
+      case ir::UnaryOp::ArcSine:
+      case ir::UnaryOp::ArcCosine:
+      case ir::UnaryOp::ArcTangent:
+      case ir::UnaryOp::Logarithm:
+      case ir::UnaryOp::Exponential:
+      case ir::UnaryOp::FromBcd:
+      case ir::UnaryOp::ToBcd: return mixed(operand, {});
       }
+      return mixed(operand, {});
     }
     if (const auto* binary = std::get_if<ir::Binary>(&value->node)) {
       const Held left = held(binary->left, fact);
@@ -283,8 +298,20 @@ private:
         if (factor != nullptr) return times(left, *factor);
         factor = ir::constantValue(binary->left);
         return factor != nullptr ? times(right, *factor) : mixed(left, right);
-      default: return mixed(left, right);
+      case ir::BinaryOp::Modulo:
+      case ir::BinaryOp::Direction:
+      case ir::BinaryOp::BitAnd:
+      case ir::BinaryOp::BitOr:
+      case ir::BinaryOp::BitXor:
+      case ir::BinaryOp::ValueOr:
+      case ir::BinaryOp::RoundedAnd:
+      case ir::BinaryOp::RoundedOr:
+      case ir::BinaryOp::RoundedXor:
+      case ir::BinaryOp::RoundedModulo:
+      case ir::BinaryOp::Power:
+      case ir::BinaryOp::Bearing: return mixed(left, right);
       }
+      return mixed(left, right);
     }
     if (std::holds_alternative<ir::MachineVariable>(value->node)) return variable(*value, fact);
     return {};
@@ -322,26 +349,36 @@ private:
 
   void judge(const ir::ProgramStatement& statement, Fact fact) {
     if (const auto stated = statedOffset(statement)) fact.offset = *stated;
-    if (const auto* block = std::get_if<ir::NcBlock>(&statement.node)) {
-      const bool offset =
-          hasCode(*block, 'G', 10) && wordValue(*block, 'L') == 2.0 && fact.offset == Offset::On;
-      if (!offset && !isPlainMove(*block) && (skipOf(statement) == nullptr || hasCode(*block, 'G', 53)))
-        return;
-      for (const ir::Word& word : block->words)
-        if (word.address == 'Z')
-          report(offset ? LengthLeftIn::Place::WorkOffset : LengthLeftIn::Place::Move, word.range, word.value,
-                 fact);
-    } else if (const ir::Call* call = callOf(statement)) {
-      judgeCall(*call, fact);
-    } else if (const auto* store = std::get_if<ir::Store>(&statement.node);
-               store != nullptr && fact.offset == Offset::On) {
-      const auto number = storedNumber(statement);
-      const auto first = number ? number : ir::firstNumber(store->number);
-      const bool zero =
-          first && (number ? numbers_.zeroes.contains(*first)
-                           : numbers_.zeroes.contains(*first) || numbers_.zeroes.contains(*first + 20));
-      if (zero) report(LengthLeftIn::Place::WorkOffset, statement.origin.range(), store->value, fact);
-    }
+    ir::match(
+        statement, [&](const ir::NcBlock& block) { judgeBlock(statement, block, fact); },
+        [&](const ir::Call&) {
+          if (const ir::Call* call = callOf(statement)) judgeCall(*call, fact);
+        },
+        [&](const ir::Store& store) {
+          if (fact.offset == Offset::On) judgeStore(statement, store, fact);
+        },
+        [](const ir::OneOf<ir::Label, ir::Jump, ir::Branch, ir::Move, ir::Measure, ir::ProbePower,
+                           ir::Comment, ir::JumpTo, ir::Loop, ir::LoopEnd, ir::Exit, ir::Raise, ir::Notice,
+                           ir::Port, ir::Print, ir::NameVariables> auto&) {});
+  }
+
+  void judgeBlock(const ir::ProgramStatement& statement, const ir::NcBlock& block, const Fact& fact) {
+    const bool offset = hasCode(block, 'G', 10) && wordValue(block, 'L') == 2.0 && fact.offset == Offset::On;
+    if (!offset && !isPlainMove(block) && (skipOf(statement) == nullptr || hasCode(block, 'G', 53))) return;
+    for (const ir::Word& word : block.words)
+      if (word.address == 'Z')
+        report(offset ? LengthLeftIn::Place::WorkOffset : LengthLeftIn::Place::Move, word.range, word.value,
+               fact);
+  }
+
+  // A write of a variable that is the Z of a zero.
+  void judgeStore(const ir::ProgramStatement& statement, const ir::Store& store, const Fact& fact) {
+    const auto number = storedNumber(statement);
+    const auto first = number ? number : ir::firstNumber(store.number);
+    const bool zero =
+        first && (number ? numbers_.zeroes.contains(*first)
+                         : numbers_.zeroes.contains(*first) || numbers_.zeroes.contains(*first + 20));
+    if (zero) report(LengthLeftIn::Place::WorkOffset, statement.origin.range(), store.value, fact);
   }
 
   // Arguments along Z that a probing macro takes as coordinates of the work system.

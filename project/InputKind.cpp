@@ -256,7 +256,7 @@ Recognition recognise(View fileName, View bytes, std::optional<InputKind> expect
   if (auto other = otherFormat(text)) return {std::nullopt, std::move(*other)};
   if (wide) {
     Recognition out = recogniseText(narrowed(text), named);
-    out.reason = out.kind ? "UTF-16, and " + out.reason : "UTF-16 text";
+    out.reason = out.kind ? "UTF-16, and " + out.reason : "UTF-16 text; save it as ANSI or UTF-8";
     return out;
   }
   // Feed holes of a tape before and after the text, or a damaged copy of one.

@@ -248,11 +248,18 @@ TEST_CASE("probe: every trouble has its message") {
     ProbeEvent event;
     event.outcome = outcome;
     event.centre = {1, -2.5, 3};
+    event.axis = 2;
+    event.reached = 50;
+    event.limit = 10;
     reportEvent(event, {}, diagnostics);
     REQUIRE(diagnostics.all().size() == 1);
     CHECK(diagnostics.all()[0].code == code);
     CHECK((diagnostics.all()[0].severity == Severity::Error) == (outcome != Outcome::Miss));
-    if (outcome != Outcome::NotModelled)
+    if (outcome == Outcome::OutsideTravel)
+      CHECK(
+          diagnostics.all()[0].message.find("Z+ over-travel: the move takes the spindle to machine Z50.000, "
+                                            "and the travel ends at Z10.000") != std::string::npos);
+    else if (outcome != Outcome::NotModelled)
       CHECK(diagnostics.all()[0].message.find("X1.000 Y-2.500 Z3.000") != std::string::npos);
   }
   Diagnostics none;

@@ -1,6 +1,7 @@
 // What `post` says of blocks whose text is not certain.
 #include "driver/Driver.h"
 #include "support/messages/ComPost.h"
+#include "tests/GoldenRunner.h"
 #include "tests/unit/DataFolder.h"
 
 #include <algorithm>
@@ -134,9 +135,10 @@ TEST_CASE("an empty Prog and a Prog in UTF-16 say what they are") {
   Project project;
   CHECK(codes(project.prog("")) == Codes{"empty-prog"});
   driver::LintOptions lint;
-  lint.paths = {project.write("wide.txt", std::string("\xFF\xFE"
-                                                      "m\0a\0i\0n\0:\0",
-                                                      12))};
+  std::string wide = "\xFF\xFE";
+  for (const char letter : tests::readAll(tests::root() / "examples" / "post.txt"))
+    wide += std::string{letter, '\0'};
+  lint.paths = {project.write("wide.txt", wide)};
   CHECK(codes(driver::lint(lint)) == Codes{"utf16-input"});
 }
 

@@ -110,7 +110,7 @@ TEST_CASE("setup: a called macro measures what the part is, from where --at puts
       scratch.run(stylus + "--work-offset G54=-300,-200,-398 --at 10,20,5 --call \"G65 P9001 Z-3.\"");
   CHECK(above.status == 0);
   CHECK(has(above, "\"100\": -2,"));
-  const CommandResult missing = scratch.run(stylus + "--work-offset G54=part --at 10,20,5 --call \"\"");
+  const CommandResult missing = scratch.run(stylus + "--work-offset G54=part --at 10,20,5 --call \" \"");
   CHECK(missing.status == 1);
   CHECK(has(scratch.run(stylus + "--work-offset G54=part --at 10,20,5 --call \"X1.\""), "Z MISSING"));
 }
