@@ -131,8 +131,7 @@ private:
                                                  : FormChoice{std::string(kDefaultForm), false};
     // What nobody looks at is not loaded; a form that is not there is reported all the same.
     const bool progs = !compilation_.progs().empty();
-    if (progs || session_.data().find("forms", form.name) == nullptr)
-      useForm(*inputs_, form.name, session_);
+    if (progs || session_.data().find("forms", form.name) == nullptr) useForm(*inputs_, form.name, session_);
     lint::Project project{session_.sources(), session_.limits(), session_.gibbsKeywords(),
                           session_.compostKeywords()};
     const bool blocks = progs || !compilation_.programs().empty();

@@ -102,8 +102,8 @@ private:
 
   const stdlib::MacroSet* sourceSet_ = nullptr;
   std::optional<verify::Stand> sourceStand_;
-  std::unique_ptr<Verification> target_;             // nullptr: no translation
-  std::unique_ptr<NominalFields> nominal_;           // where target_ wants it
+  std::unique_ptr<Verification> target_;   // nullptr: no translation
+  std::unique_ptr<NominalFields> nominal_; // where target_ wants it
 };
 
 } // namespace dotek::targets

@@ -152,6 +152,7 @@ struct Program {
   std::optional<ProgramName> name; // nothing: blocks before the first header
   std::vector<Comment> comments;   // on the line of the header
   std::vector<Block> blocks;       // blank lines are left out
+  bool closed = false;             // `%` or the header of another program follows: the text is all of it
 };
 
 struct File {

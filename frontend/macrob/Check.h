@@ -97,6 +97,9 @@ DOTEK_CHECK(CheckedProgram, constantCondition, "constant-condition", Warning);
 DOTEK_CHECK(CheckedProgram, equalityOfComputed, "equality-of-computed", Warning);
 DOTEK_CHECK(CheckedProgram, thenUnknownHere, "then-unknown-here", Error);
 DOTEK_CHECK(CheckedProgram, thenGoto, "then-goto", Warning);
+// What is lost in typing.
+DOTEK_CHECK(CheckedProgram, pointLost, "point-lost", Warning);
+DOTEK_CHECK(CheckedProgram, absMissing, "abs-missing", Warning);
 // Words and calls.
 DOTEK_CHECK(CheckedProgram, codeWithPoint, "code-with-point", Error);
 DOTEK_CHECK(CheckedProgram, wordWithoutPoint, "word-without-point", Warning);

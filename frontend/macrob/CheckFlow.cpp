@@ -173,9 +173,10 @@ private:
     return static_cast<std::uint64_t>(std::llround(*value));
   }
 
-  // An excerpt: without a header or without an end of program, parts are elsewhere.
+  // An excerpt: without a header, or with nothing that ends it, parts are elsewhere.
   bool isExcerpt() const {
     if (!program_.name) return true;
+    if (program_.closed) return false;
     return std::none_of(program_.blocks.begin(), program_.blocks.end(), [](const Block& one) {
       const auto* words = std::get_if<Words>(&one.body);
       return words != nullptr &&

@@ -338,6 +338,7 @@ File parse(FileId file, const SourceMap& sources, const Limits& limits, Diagnost
     Block& block = *blocks[i];
     block.range = line.range;
     const bool header = line.header.has_value();
+    if (header && !out.programs.empty()) out.programs.back().closed = true;
     if (header || out.programs.empty()) out.programs.emplace_back();
     Program& program = out.programs.back();
     if (header) program.name = std::move(line.header);
@@ -349,6 +350,7 @@ File parse(FileId file, const SourceMap& sources, const Limits& limits, Diagnost
     placeComments(block, std::move(line.comments));
     program.blocks.push_back(std::move(block));
   }
+  if (!out.programs.empty() && out.markLast) out.programs.back().closed = true;
   for (Program& program : out.programs) {
     const std::size_t before = diagnostics.all().size();
     repairLoops(program, diagnostics);

@@ -120,7 +120,7 @@ public:
     bool operator==(const ToolOffset&) const = default;
   };
   const std::vector<ToolOffset>& toolTable() const { return tools_; } // by number; 0 is none
-  std::uint32_t tool() const { return toolNumber_; } // that T has named last; 0: none
+  std::uint32_t tool() const { return toolNumber_; }                  // that T has named last; 0: none
   // The active work system, with all that shifts it, is the machine's own.
   bool isAtMachineZero() const { return offset_ == Position{}; }
   const Position& skipPosition() const { return skipped_; }

@@ -22,8 +22,9 @@ void Machine::switchProbe(bool on) {
 
 std::optional<bool> Machine::probeTo(const Position& end, bool positions) {
   if (skip_ == nullptr) {
-    inconclusive("no part is given, so whether the probe touches is not known; `--part PART.toml --machine "
-                 "MACHINE.toml` give one and a probe, or `--part PART.toml --tool 1 --length L --diameter D`");
+    inconclusive(
+        "no part is given, so whether the probe touches is not known; `--part PART.toml --machine "
+        "MACHINE.toml` give one and a probe, or `--part PART.toml --tool 1 --length L --diameter D`");
     return std::nullopt;
   }
   if (uncertain_ != 0) {

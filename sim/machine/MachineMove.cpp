@@ -238,9 +238,10 @@ bool Machine::skipMove(const NcWords& w) {
   if (feeds && !(feed_ > 0)) return raise(Alarm::NoFeed);
   moved_ = true;
   if (skip_ == nullptr)
-    return inconclusive("no part is given, so whether the probe touches is not known; `--part PART.toml --machine "
-                        "MACHINE.toml` give one and a probe, or `--part PART.toml --tool 1 --length L --diameter D`",
-                        'G');
+    return inconclusive(
+        "no part is given, so whether the probe touches is not known; `--part PART.toml --machine "
+        "MACHINE.toml` give one and a probe, or `--part PART.toml --tool 1 --length L --diameter D`",
+        'G');
   SkipMove skip;
   skip.from = work_;
   skip.to = end;

@@ -44,8 +44,8 @@ struct ProbeEvent {
   // that it passes, in coordinates of the machine.
   std::size_t axis = 0;
   double reached = 0, limit = 0;
-  std::string_view what;     // of SetterHit: "a rapid move", ...
-  std::uint32_t tool = 0;    // of NotModelled: this tool is in no list of the machine
+  std::string_view what;  // of SetterHit: "a rapid move", ...
+  std::uint32_t tool = 0; // of NotModelled: this tool is in no list of the machine
 };
 
 // Coordinates of the machine are those of the spindle's gauge line, with the probe pointing along -Z. Rapids

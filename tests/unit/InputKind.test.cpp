@@ -170,7 +170,8 @@ TEST_CASE("input kind: bytes that are no text, and no bytes at all") {
   // The reader refuses UTF-16; that the text is meant for Dotek is known.
   CHECK(kindOf("\xFF\xFE" + wide(kMacro, false)) == "nc");
   CHECK(kindOf(wide(kMacro, true)) == "nc");
-  CHECK(kindOf("\xFF\xFE" + wide("Dear shop, this is a letter.\n", false)) == "none: UTF-16 text; save it as ANSI or UTF-8");
+  CHECK(kindOf("\xFF\xFE" + wide("Dear shop, this is a letter.\n", false)) ==
+        "none: UTF-16 text; save it as ANSI or UTF-8");
 }
 
 TEST_CASE("input kind: the reason says what was counted") {
