@@ -197,8 +197,8 @@ function makeView(canvas, data) {
       let end = begin + 1;
       while (end < steps && isHidden(...place(end + 0.5)) === hidden) ++end;
       const a = place(begin), b = place(end);
-      paint.setLineDash(hidden ? [2, 3.5] : dashes);
-      paint.lineWidth = hidden ? 2 : wide;
+      paint.setLineDash(hidden ? [4, 3.5] : dashes);
+      paint.lineWidth = hidden ? 2.4 : wide;
       paint.lineDashOffset = length * begin / steps;
       paint.beginPath(); paint.moveTo(a[0], a[1]); paint.lineTo(b[0], b[1]); paint.stroke();
       begin = end;
@@ -212,7 +212,7 @@ function makeView(canvas, data) {
     const style = data.kinds[kind];
     paint.globalAlpha = 1;
     paint.strokeStyle = theme.kinds[kind];
-    paint.lineWidth = past ? style.width : Math.max(1.6, style.width * 0.5);
+    paint.lineWidth = past ? style.width : Math.max(2.4, style.width * 0.5);
     paint.setLineDash(style.dashes);
   }
 

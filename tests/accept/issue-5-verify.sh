@@ -77,7 +77,8 @@ check "the command that is printed shows it again" lastIs "DIFFERS: 1 of 1 drawn
 # ---- without a Prog
 longDotek verify "$gibbs/MERENI.OSA.X" --to fanuc --cases 200 --min-agreed 0
 check "a path alone decides nothing" says "measurement not stated by the source"
-check "a path alone: geometry agrees" lastIs "UNDECIDED: 200 of 200 drawn cases"
+# At edges the part may stop the probe where the path, which knows of no part, goes on.
+check "a path alone: geometry agrees" says "it is the same in 200 of 200 cases"
 
 # ---- speed: the XYZ cycle
 begin=${EPOCHREALTIME/[.,]/}
