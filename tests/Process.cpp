@@ -2,6 +2,8 @@
 
 #include "tests/GoldenRunner.h"
 
+#include <array>
+#include <csignal>
 #include <cstdlib>
 #include <fstream>
 #include <set>
@@ -20,6 +22,25 @@ fs::path newFolder() {
   return name;
 }
 
+// Whoever starts the tests may ignore signals (nohup, a job of a script); what is run here shall not.
+class DefaultSignals {
+public:
+  DefaultSignals() {
+    for (std::size_t i = 0; i < kSignals.size(); ++i)
+      before_[i] = std::signal(kSignals[i], SIG_DFL);
+  }
+  ~DefaultSignals() {
+    for (std::size_t i = 0; i < kSignals.size(); ++i)
+      std::signal(kSignals[i], before_[i]);
+  }
+  DefaultSignals(const DefaultSignals&) = delete;
+  DefaultSignals& operator=(const DefaultSignals&) = delete;
+
+private:
+  static constexpr std::array kSignals = {SIGHUP, SIGINT, SIGQUIT, SIGTERM, SIGPIPE};
+  std::array<void (*)(int), kSignals.size()> before_{};
+};
+
 } // namespace
 
 ProcessFolder::ProcessFolder() : folder_(newFolder()), streams_(newFolder()) {}
@@ -36,6 +57,7 @@ ShellResult ProcessFolder::run(const std::string& script) const {
                                      << folder_.string() << "'\n"
                                      << script << "\n";
   const std::string out = (streams_ / "out").string(), err = (streams_ / "err").string();
+  const DefaultSignals signals;
   const int status =
       std::system(("bash '" + (streams_ / "script").string() + "' >'" + out + "' 2>'" + err + "'").c_str());
   ShellResult result;

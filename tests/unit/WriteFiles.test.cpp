@@ -136,7 +136,7 @@ TEST_CASE("a signal ends the program and leaves nothing") {
     const std::string signal = name;
     // A background job of a script ignores INT, so it is given its default by a shell with job control.
     const ShellResult ended =
-        folder.run("set -m; \"$DOTEK\" sim p.nc --limit sim-steps=900000000 --trace t & "
+        folder.run("set -m; \"$DOTEK\" sim p.nc --limit sim-steps=60000000 --trace t & "
                    "for i in $(seq 500); do ls -A | grep -q '^.dotek-' && break; sleep 0.02; done; "
                    "ls -A | grep -c '^.dotek-'; kill -" +
                    signal + " -- -$!; wait $!; echo $?");
