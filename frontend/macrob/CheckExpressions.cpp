@@ -106,16 +106,6 @@ std::set<std::uint32_t> countersOf(const Program& program) {
   return out;
 }
 
-// Comparisons of all conditions, those that AND and OR join included.
-template <class Visit> void eachComparison(const Condition& condition, const Visit& visit) {
-  if (const auto* both = std::get_if<JoinedConditions>(&condition.node)) {
-    eachComparison(*both->left, visit);
-    eachComparison(*both->right, visit);
-  } else {
-    visit(std::get<Comparison>(condition.node), condition.range);
-  }
-}
-
 // Whether the comparison holds, where that is the same whatever the variables in it are. `WHILE[1EQ1]` is
 // meant so.
 std::optional<bool> alwaysSame(const Comparison& comparison) {

@@ -1,20 +1,12 @@
 // What is lost in typing and leaves a program that a control takes: a point, an ABS.
 #include "frontend/macrob/Check.h"
 #include "frontend/macrob/Format.h"
+#include "frontend/macrob/Walk.h"
 
 #include <map>
 
 namespace dotek::frontend::macrob {
 namespace {
-
-template <class Visit> void eachComparison(const Condition& condition, const Visit& visit) {
-  if (const auto* both = std::get_if<JoinedConditions>(&condition.node)) {
-    eachComparison(*both->left, visit);
-    eachComparison(*both->right, visit);
-  } else if (const auto* one = std::get_if<Comparison>(&condition.node)) {
-    visit(*one);
-  }
-}
 
 void judgeNumber(const Expression& expression, Report& report) {
   const auto* number = std::get_if<nc::Number>(&expression.node);
@@ -42,7 +34,7 @@ bool isAbsoluteDifference(const Expression& expression) {
 
 void pointLost(const CheckedProgram& input, Report& report) {
   for (const Condition* condition : input.conditions)
-    eachComparison(*condition, [&](const Comparison& comparison) {
+    eachComparison(*condition, [&](const Comparison& comparison, SourceRange) {
       judgeNumber(*comparison.left, report);
       judgeNumber(*comparison.right, report);
     });
@@ -58,12 +50,12 @@ void absMissing(const CheckedProgram& input, Report& report) {
   std::map<std::string, const Comparison*> withAbs;
   const auto kindOf = [](const Comparison& comparison) { return comparison.op + print(*comparison.right); };
   for (const Condition* condition : input.conditions)
-    eachComparison(*condition, [&](const Comparison& comparison) {
+    eachComparison(*condition, [&](const Comparison& comparison, SourceRange) {
       if (isAbsoluteDifference(*comparison.left)) withAbs.emplace(kindOf(comparison), &comparison);
     });
   if (withAbs.empty()) return;
   for (const Condition* condition : input.conditions)
-    eachComparison(*condition, [&](const Comparison& comparison) {
+    eachComparison(*condition, [&](const Comparison& comparison, SourceRange) {
       if (!isDifference(*comparison.left)) return;
       const auto other = withAbs.find(kindOf(comparison));
       if (other == withAbs.end()) return;

@@ -41,6 +41,16 @@ void walk(const Block& block, const VisitExpression& visit) {
   if (const Goto* jump = gotoOf(block)) walk(*jump->target, visit);
 }
 
+void eachComparison(const Condition& condition,
+                    const std::function<void(const Comparison& comparison, SourceRange range)>& visit) {
+  if (const auto* both = std::get_if<JoinedConditions>(&condition.node)) {
+    eachComparison(*both->left, visit);
+    eachComparison(*both->right, visit);
+  } else {
+    visit(std::get<Comparison>(condition.node), condition.range);
+  }
+}
+
 const nc::Assignment* assignmentOf(const Block& block) {
   if (const auto* branch = std::get_if<If>(&block.body))
     return std::get_if<nc::Assignment>(&branch->statement);

@@ -17,6 +17,10 @@ void walk(const Condition& condition, const VisitExpression& visit);
 // left counts as a subscript), conditions, targets.
 void walk(const Block& block, const VisitExpression& visit);
 
+// Comparisons of a condition, those that AND and OR join included, each with the place of its condition.
+void eachComparison(const Condition& condition,
+                    const std::function<void(const Comparison& comparison, SourceRange range)>& visit);
+
 // Assignments of the block, also after THEN; nullptr: none.
 const nc::Assignment* assignmentOf(const Block& block);
 // Jumps of the block, also after IF and THEN; nullptr: none.

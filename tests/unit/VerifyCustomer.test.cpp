@@ -2,6 +2,7 @@
 // that reject most values, modes that are put back; and the document that is handed over.
 #include "driver/Driver.h"
 #include "tests/GoldenRunner.h"
+#include "tests/TestFolder.h"
 
 #include <doctest/doctest.h>
 #include <filesystem>
@@ -12,25 +13,6 @@
 namespace dotek::tests {
 
 namespace {
-
-namespace fs = std::filesystem;
-
-class Folder {
-public:
-  Folder() : path_(fs::temp_directory_path() / ("dotek-verify-customer-" + std::to_string(::getpid()))) {
-    fs::create_directories(path_);
-  }
-  ~Folder() { fs::remove_all(path_); }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-  std::string write(const std::string& name, const std::string& text) const {
-    std::ofstream(path_ / name, std::ios::binary) << text;
-    return (path_ / name).string();
-  }
-
-private:
-  fs::path path_;
-};
 
 // The routine with the blocks before its probe is switched on, and the words of the touch.
 std::string postWith(const std::string& before, const std::string& touch) {
@@ -79,7 +61,7 @@ const std::string kTouch = "' X'OpFieldData#('X')";
 } // namespace
 
 TEST_CASE("verify: a post selects its own work system and tool offset") {
-  const Folder folder;
+  const TestFolder folder("dotek-verify-customer");
   const std::string blocks[] = {" SeqC ' G54' EOL\n SeqC ' G43 H7 D1' EOL\n", " SeqC ' G58 G43 H12' EOL\n"};
   for (const std::string& before : blocks) {
     const std::string prog = folder.write("own.txt", postWith(before, kTouch));
@@ -91,7 +73,7 @@ TEST_CASE("verify: a post selects its own work system and tool offset") {
 }
 
 TEST_CASE("verify: a tool offset that is mixed up, or written otherwise, is a difference") {
-  const Folder folder;
+  const TestFolder folder("dotek-verify-customer");
   const std::string text = "%\nO100\nG54G90\nG43H5Z100.\nG0X0Y0\nZ5.\nG31Z-4.F100\n#[2000+9]=#5063\nM30\n%\n";
   const std::string source = folder.write("tool.nc", text);
   CHECK(driver::verify(programs(source)).output.starts_with("AGREES"));
@@ -109,7 +91,7 @@ TEST_CASE("verify: a tool offset that is mixed up, or written otherwise, is a di
 }
 
 TEST_CASE("verify: arguments that choose an offset are drawn as one, through copies and calls") {
-  const Folder folder;
+  const TestFolder folder("dotek-verify-customer");
   const std::string source = folder.write(
       "choose.nc",
       "%\nO9100\nIF[#19 NE FIX[#19]]GOTO91\nIF[#19 LT 1]GOTO91\nIF[#19 GT 90]GOTO91\n"
@@ -121,7 +103,7 @@ TEST_CASE("verify: arguments that choose an offset are drawn as one, through cop
 }
 
 TEST_CASE("verify: checks that reject most values are met one after the other") {
-  const Folder folder;
+  const TestFolder folder("dotek-verify-customer");
   const std::string source = folder.write(
       "checks.nc",
       "%\nO9200\nIF[#1 LT 31.]GOTO91\nIF[#1 GT 45.]GOTO91\nIF[#2 LE #1]GOTO92\nIF[#2 GT [#1+5.]]GOTO92\n"
@@ -132,7 +114,7 @@ TEST_CASE("verify: checks that reject most values are met one after the other") 
 }
 
 TEST_CASE("verify: where no values are found, the check and the flag are named") {
-  const Folder folder;
+  const TestFolder folder("dotek-verify-customer");
   const std::string source =
       folder.write("never.nc", "%\nO9300\nIF[[#1*#1] NE 12345.678]THEN #3000=5(A IS WRONG)\nG0X#2\nM99\n%\n");
   const driver::Outcome outcome = driver::verify(programs(source, 10));
@@ -152,14 +134,14 @@ TEST_CASE("verify: where no values are found, the check and the flag are named")
 }
 
 TEST_CASE("verify: a return to the reference point is no fault of one side") {
-  const Folder folder;
+  const TestFolder folder("dotek-verify-customer");
   const std::string source = folder.write("home.nc", "%\nO100\nG91G28Z0\nG90G0X10.\nG1Z-5.F100\nM30\n%\n");
   const driver::Outcome outcome = driver::verify(programs(source));
   CHECK_MESSAGE(outcome.output.starts_with("AGREES: 60 of 60"), told(outcome));
 }
 
 TEST_CASE("convert: modal codes that a program keeps and puts back") {
-  const Folder folder;
+  const TestFolder folder("dotek-verify-customer");
   driver::VerifyOptions options = programs(folder.write(
       "saved.nc", "%\nO9400\n#1=#4001\n#3=#4003\nG91G1X[#24]F300\nG#1G#3\nX1.\nG#4012\nM99\n%\n"));
   options.fromControl = "fanuc-31i-b";
@@ -177,7 +159,7 @@ TEST_CASE("convert: modal codes that a program keeps and puts back") {
 }
 
 TEST_CASE("verify: a difference names the pair that differs") {
-  const Folder folder;
+  const TestFolder folder("dotek-verify-customer");
   // The sign that the macro draws is not the one that is posted: no fault of the translation.
   const std::string wrong = folder.write("wrong.txt", postWith("", "' X-'OpFieldData#('X')"));
   const std::string outcome = told(driver::verify(cycle(wrong, "fanuc")));
@@ -187,7 +169,7 @@ TEST_CASE("verify: a difference names the pair that differs") {
 }
 
 TEST_CASE("verify: the document says the same in each format, and escapes what it shows") {
-  const Folder folder;
+  const TestFolder folder("dotek-verify-customer");
   const std::string source = folder.write(
       "a&b.nc", "%\nO100(<B> & `C`)\nG0X#1\nIF[#1 LT 3]GOTO9\nG1Z5.F100(</pre><script>)\nN9M30\n%\n");
   driver::VerifyOptions options = programs(source);

@@ -4,6 +4,7 @@
 #include "sim/machine/Value.h"
 #include "tests/Draws.h"
 #include "tests/GoldenRunner.h"
+#include "tests/TestFolder.h"
 #include "tests/unit/MacroBHelper.h"
 #include "tests/unit/RandomMacroB.h"
 #include "tests/unit/RunHarness.h"
@@ -23,24 +24,6 @@ using namespace dotek::tests;
 namespace {
 
 namespace fs = std::filesystem;
-
-class Folder {
-public:
-  Folder() : path_(fs::temp_directory_path() / ("dotek-verify-programs-" + std::to_string(::getpid()))) {
-    fs::create_directories(path_);
-  }
-  ~Folder() { fs::remove_all(path_); }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-
-  std::string write(const std::string& name, const std::string& text) const {
-    std::ofstream(path_ / name, std::ios::binary) << text;
-    return (path_ / name).string();
-  }
-
-private:
-  fs::path path_;
-};
 
 driver::VerifyOptions optionsFor(const std::string& path, std::uint64_t cases) {
   driver::VerifyOptions out;
@@ -193,7 +176,7 @@ TEST_CASE("verify: bare skip moves expect their surface at their end, and the pa
 }
 
 TEST_CASE("verify: a program agrees with its conversion") {
-  const Folder folder;
+  const TestFolder folder("dotek-verify-programs");
   const std::string path = folder.write("plate.nc", std::string(kPlate));
   for (const char* from : {"fanuc-31i-b", "fanuc-0i-md"}) {
     for (const char* to : {"fanuc-31i-b", "fanuc-0i-md"}) {
@@ -210,7 +193,7 @@ TEST_CASE("verify: a program agrees with its conversion") {
 }
 
 TEST_CASE("verify: planted differences of a program are found") {
-  const Folder folder;
+  const TestFolder folder("dotek-verify-programs");
   const std::string path = folder.write("plate.nc", std::string(kPlate));
   driver::ConvertOptions convert;
   convert.inputs = {path};
@@ -258,7 +241,7 @@ TEST_CASE("verify: planted differences of a program are found") {
 }
 
 TEST_CASE("convert --verify writes nothing that does not agree") {
-  const Folder folder;
+  const TestFolder folder("dotek-verify-programs");
   const std::string plate = folder.write("plate.nc", std::string(kPlate));
   const std::string good = folder.write("good.nc", "O8001\nG0X#1\nM30\n");
   const std::string digits =
@@ -290,7 +273,7 @@ TEST_CASE("convert --verify writes nothing that does not agree") {
 }
 
 TEST_CASE("verify: random programs agree with their conversion") {
-  const Folder folder;
+  const TestFolder folder("dotek-verify-programs");
   const int programs = draws(120);
   int agreeing = 0;
   for (int seed = 1; seed <= programs; ++seed) {
