@@ -1,6 +1,5 @@
 #include "targets/VerifyDocument.h"
 
-#include "sim/picture/PictureText.h"
 #include "support/Decimal.h"
 
 #include <algorithm>
@@ -9,82 +8,6 @@
 namespace dotek::targets {
 
 namespace {
-
-constexpr std::size_t kMost = 1'000'000; // characters of one text
-
-std::string quoted(std::string_view text) {
-  return sim::jsonText(text, kMost);
-}
-
-// Names, numbers and texts between braces or brackets, one a line.
-class Json {
-public:
-  std::string finish() { return std::move(out_) + "\n"; }
-  void open(std::string_view name, char bracket) {
-    begin(name);
-    out_ += bracket;
-    fresh_ = true;
-    ++depth_;
-  }
-  void close(char bracket) {
-    --depth_;
-    if (!fresh_) out_ += '\n' + std::string(2 * depth_, ' ');
-    out_ += bracket;
-    fresh_ = false;
-  }
-  void text(std::string_view name, std::string_view value) { begin(name), out_ += quoted(value); }
-  // null where it is empty.
-  void maybe(std::string_view name, std::string_view value) {
-    begin(name);
-    out_ += value.empty() ? "null" : quoted(value);
-  }
-  void number(std::string_view name, std::uint64_t value) { begin(name), out_ += std::to_string(value); }
-  void number(std::string_view name, double value) { begin(name), out_ += numberText(value); }
-  void flag(std::string_view name, bool value) { begin(name), out_ += value ? "true" : "false"; }
-
-private:
-  void begin(std::string_view name) {
-    if (depth_ > 0) out_ += fresh_ ? "\n" : ",\n";
-    out_ += std::string(2 * depth_, ' ');
-    if (!name.empty()) out_ += quoted(name) + ": ";
-    fresh_ = false;
-  }
-  std::string out_;
-  std::size_t depth_ = 0;
-  bool fresh_ = true;
-};
-
-void add(Json& json, std::string_view name, const VerifyDocument::Counts& counts, bool edges) {
-  json.open(name, '{');
-  json.number("all", counts.all);
-  json.number("agree", counts.agree);
-  json.number("differ", counts.differ);
-  json.number("undecided", counts.undecided);
-  if (edges) json.number("refused", counts.refused);
-  json.close('}');
-}
-
-void add(Json& json, std::string_view name, const VerifyDocument::File& file) {
-  json.open(name, '{');
-  json.text("file", file.name);
-  json.number("bytes", file.bytes);
-  json.text("sha256", file.sha256);
-  json.close('}');
-}
-
-std::string lineOf(const VerifyDocument::Excerpt& excerpt) {
-  const std::size_t at = excerpt.line - excerpt.first;
-  return excerpt.line != 0 && at < excerpt.lines.size() ? excerpt.lines[at] : "";
-}
-
-void add(Json& json, std::string_view name, const VerifyDocument::Excerpt& excerpt) {
-  if (excerpt.line == 0) return;
-  json.open(name, '{');
-  json.text("file", excerpt.file);
-  json.number("line", std::uint64_t{excerpt.line});
-  json.text("text", lineOf(excerpt));
-  json.close('}');
-}
 
 // Text of a table's cell or a paragraph.
 std::string plain(std::string_view text) {
@@ -128,107 +51,9 @@ std::string countsText(const VerifyDocument::Counts& counts) {
 
 } // namespace
 
-std::string jsonOf(const VerifyDocument& d) {
-  Json json;
-  json.open("", '{');
-  json.number("schema", std::uint64_t{1});
-  json.open("tool", '{');
-  json.text("name", "dotek");
-  json.text("version", d.version);
-  json.close('}');
-  json.maybe("date", d.date);
-  json.text("verdict", d.verdict);
-  json.text("summary", d.summary);
-  json.open("cases", '{');
-  add(json, "drawn", d.cases, false);
-  add(json, "edge", d.edges, true);
-  json.close('}');
-  json.open("compared", '{');
-  json.text("pair", d.pair);
-  json.open("aspects", '[');
-  for (const std::string& one : d.aspects)
-    json.text("", one);
-  json.close(']');
-  json.number("tolerance_mm", d.tolerance);
-  json.close('}');
-  json.open("source", '{');
-  json.text("name", d.title);
-  json.maybe("control", d.sourceControl);
-  json.maybe("form", d.form);
-  json.maybe("macros", d.sourceMacros);
-  json.open("files", '[');
-  for (const VerifyDocument::File& one : d.inputs)
-    add(json, "", one);
-  json.close(']');
-  json.close('}');
-  if (!d.target.empty()) {
-    json.open("translation", '{');
-    json.text("target", d.target);
-    json.maybe("control", d.targetControl);
-    json.maybe("macros", d.targetMacros);
-    json.flag("edited", d.edited);
-    if (d.translation) add(json, "text", *d.translation);
-    json.close('}');
-  }
-  json.open("settings", '{');
-  json.number("seed", d.seed);
-  json.number("min_agreed_percent", d.minAgreed);
-  json.open("fixed", '[');
-  for (const auto& [name, value] : d.fixed) {
-    json.open("", '{');
-    json.text("name", name);
-    json.text("value", value);
-    json.close('}');
-  }
-  json.close(']');
-  json.open("assumed", '[');
-  for (const std::string& one : d.assumed)
-    json.text("", one);
-  json.close(']');
-  json.close('}');
-  json.open("differences", '[');
-  for (const VerifyDocument::Difference& one : d.differences) {
-    json.open("", '{');
-    json.text("pair", one.pair);
-    json.text("aspect", one.aspect);
-    json.text("text", one.text);
-    json.number("cases", one.cases);
-    json.number("of", one.of);
-    json.flag("edge", one.edge);
-    add(json, "source", one.source);
-    add(json, "post", one.post);
-    add(json, "translation", one.translation);
-    json.text("replay", one.replay);
-    json.close('}');
-  }
-  json.close(']');
-  json.open("undecided", '[');
-  for (const VerifyDocument::Reason& one : d.undecided) {
-    json.open("", '{');
-    json.number("cases", one.cases);
-    json.text("why", one.why);
-    add(json, "at", one.at);
-    json.number("rejected", one.rejected);
-    json.maybe("remedy", one.remedy);
-    json.text("replay", one.replay);
-    json.close('}');
-  }
-  json.close(']');
-  json.open("findings", '[');
-  for (const VerifyDocument::Finding& one : d.findings) {
-    json.open("", '{');
-    json.text("severity", one.severity);
-    json.text("code", one.code);
-    json.text("message", one.message);
-    if (one.line != 0) {
-      json.text("file", one.file);
-      json.number("line", std::uint64_t{one.line});
-    }
-    json.close('}');
-  }
-  json.close(']');
-  json.close('}');
-  return json.finish();
+std::string lineOf(const VerifyDocument::Excerpt& excerpt) {
+  const std::size_t at = excerpt.line - excerpt.first;
+  return excerpt.line != 0 && at < excerpt.lines.size() ? excerpt.lines[at] : "";
 }
 
 std::string markdownOf(const VerifyDocument& d) {

@@ -72,6 +72,9 @@ struct VerifyDocument {
   std::string caption;
 };
 
+// The line that is meant; "": none.
+std::string lineOf(const VerifyDocument::Excerpt& excerpt);
+
 std::string markdownOf(const VerifyDocument& document);
 std::string jsonOf(const VerifyDocument& document); // docs/verify.md says its shape
 std::string htmlOf(const VerifyDocument& document); // one page that needs no network
