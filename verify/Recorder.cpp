@@ -14,6 +14,8 @@ using stdlib::Intent;
 
 namespace {
 
+constexpr double kSameSignal = 1e-6; // mm: two signals of one place
+
 bool isFault(sim::Outcome outcome) {
   return outcome != sim::Outcome::Contact && outcome != sim::Outcome::Miss;
 }
@@ -26,7 +28,7 @@ bool isUnknown(const sim::ProbeEvent& event) {
 
 // Touches of one place, a fast one and a slow one, are one contact.
 bool same(const sim::ProbeEvent& a, const sim::ProbeEvent& b) {
-  return (a.point - b.point).length() < 1e-6;
+  return (a.point - b.point).length() < kSameSignal;
 }
 
 } // namespace
@@ -100,14 +102,14 @@ void Recorder::disturb(std::size_t pieces) {
   if (!record_.disturbed) record_.disturbed = {record_.pieces.size() + pieces, record_.marks.size()};
 }
 
-// By how much each surface lies beside its place along the axes that the call has set.
+// By how much the signal came beside the place of each surface, along the axes that the call has set.
 void Recorder::movePath(const Measure& measure) {
   std::array<double, 3> off{};
   std::array<int, 3> touches{};
   const double radius = world_.probe().ballRadius();
-  for (std::size_t i = 0; i < measure.nominal.size() && i < measure.contacts.size(); ++i) {
+  for (std::size_t i = 0; i < measure.nominal.size() && i < call_.signals.size(); ++i) {
     const sim::Point3 direction = measure.nominal[i].direction;
-    const sim::Point3 beside = measure.contacts[i].centre + direction * radius - measure.nominal[i].point;
+    const sim::Point3 beside = call_.signals[i] + direction * radius - measure.nominal[i].point;
     const double along[] = {direction.x, direction.y, direction.z}, by[] = {beside.x, beside.y, beside.z};
     for (std::size_t axis = 0; axis < 3; ++axis) {
       if (std::abs(std::abs(along[axis]) - 1) > 1e-9) continue;
@@ -136,12 +138,21 @@ void Recorder::addPiece(sim::PathKind kind, const sim::Point3& from, const sim::
   record_.pieces.push_back(std::move(piece));
 }
 
+// The macro computes from where the machine has stopped, whatever of the probe has touched.
+void Recorder::noteSignal(const sim::ProbeEvent& event) {
+  const bool stem = event.outcome == sim::Outcome::StemCollision && event.kind == sim::MotionKind::Skip;
+  if (!call_.measures || !world_.on() || !(stem || event.outcome == sim::Outcome::Contact)) return;
+  if (call_.signals.empty() || (call_.signals.back() - event.centre).length() > kSameSignal)
+    call_.signals.push_back(event.centre);
+}
+
 void Recorder::takeEvents() {
   const std::vector<sim::ProbeEvent>& all = world_.events();
   const SourceRange range = call_.depth > 0 ? call_.range : place();
   for (; events_ < all.size(); ++events_) {
     const sim::ProbeEvent& event = all[events_];
     if (isUnknown(event)) continue;
+    noteSignal(event);
     if (isFault(event.outcome)) {
       record_.events.emplace_back(event, range);
     } else if (event.outcome == sim::Outcome::Contact && !record_.measures.empty()) {

@@ -42,8 +42,9 @@ public:
   // that the program would measure.
   void rehearse() { rehearsal_ = true; }
 
-  // Each datum that a call sets moves the active system as well, by as much as its surface was found beside
-  // its place: the path goes on as that of a control which has no other system to set.
+  // Each datum that a call sets moves the active system as well, by as much as the signal came beside the
+  // place of its surface, whether the ball gave it or the stem: the path goes on as that of a control which
+  // has no other system to set.
   void datumsMovePath() { datumsMovePath_ = true; }
   void interfere(const Interference& interference) { interference_ = interference; }
 
@@ -58,6 +59,7 @@ private:
   void addPiece(sim::PathKind kind, const sim::Point3& from, const sim::Point3& to, SourceRange range);
   void mark(Mark::Kind kind, std::string_view text = "", double value = 0);
   void movePath(const Measure& measure);
+  void noteSignal(const sim::ProbeEvent& event);
   void disturb(std::size_t pieces); // how many belong to it and are still to come
   void takeEvents();
   void noteSystem(const stdlib::MacroSignature& signature, std::span<const double> locals);
@@ -90,6 +92,7 @@ private:
     std::array<bool, 3> names{};        // axes whose coordinate it names
     std::array<sim::Position, 6> zeros; // of G54 to G59, of one that measures
     std::optional<double> feed;         // an argument
+    std::vector<sim::Point3> signals;   // centres of the ball where a measuring move was stopped
   } call_;
 };
 

@@ -113,9 +113,7 @@ public:
     std::vector<verify::Difference> differences = compareWithSource(source, ran, facts);
     if (SourceRange at; !differences.empty() && source.pathMoved && !whyNoEvidence(source, at).empty()) {
       out.undecided = true;
-      out.why = source.events.empty()
-                    ? "the source comes to nothing after a datum, where this control goes on beside its path"
-                    : "the path that a datum has corrected meets the part";
+      out.why = whyBeside(source);
       return out;
     }
     for (verify::Difference& difference : differences) {
@@ -128,6 +126,16 @@ public:
   }
 
 private:
+  // Why the path that a datum has moved is no evidence; `source` is the run on it.
+  static std::string_view whyBeside(const verify::Record& source) {
+    const auto stem = [](const auto& event) { return event.first.outcome == sim::Outcome::StemCollision; };
+    if (source.events.empty())
+      return "the source comes to nothing after a datum, where this control goes on beside its path";
+    if (std::any_of(source.events.begin(), source.events.end(), stem))
+      return "the stem of the probe touches the part, and this control goes on beside its path";
+    return "the path that a datum has corrected meets the part";
+  }
+
   // The program of these values. nullopt: the session says why there is none.
   std::optional<std::string> write(const verify::Case& drawn) {
     from_.session.diagnostics() = Diagnostics();
