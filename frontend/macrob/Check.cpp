@@ -8,7 +8,8 @@
 namespace dotek::frontend::macrob {
 
 CheckedProgram::CheckedProgram(const Program& parsed, const stdlib::Control* machine, const SourceMap& files)
-    : program(parsed), control(machine), sources(files), flow(flowOf(parsed, files)) {
+    : program(parsed), control(machine), sources(files), flow(flowOf(parsed, files)),
+      modes(modesBefore(parsed, machine)) {
   // A program of a CAM is numbers for the most part; no check looks at a short one by itself.
   constexpr std::size_t kShort = 8;
   for (const Block& block : program.blocks) {
@@ -85,6 +86,16 @@ std::span<const Check<CheckedProgram>* const> programChecks() {
       &systemVariableUnknownCheck,
       &pointLostCheck,
       &absMissingCheck,
+      &feedMissingCheck,
+      &cycleWordsCheck,
+      &modeForbidsCodeCheck,
+      &arcGeometryCheck,
+      &rotationWordsCheck,
+      &callsItselfCheck,
+      &dataInputWordsCheck,
+      &dwellWordsCheck,
+      &signalValueCheck,
+      &calculationStopsCheck,
   };
   return kChecks;
 }

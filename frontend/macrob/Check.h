@@ -3,6 +3,7 @@
 
 #include "frontend/macrob/Ast.h"
 #include "frontend/macrob/Calls.h"
+#include "frontend/macrob/Modes.h"
 #include "stdlib/Control.h"
 #include "support/Check.h"
 #include "support/Source.h"
@@ -28,6 +29,7 @@ struct FlowFindings {
   std::vector<const Do*> dosWithoutEnd;
 
   std::map<std::uint64_t, std::vector<SourceRange>> missingTargets; // the jumps, by the number that they name
+  std::vector<SourceRange> badTargets;                              // of jumps to what numbers no block
   struct Numbered {
     std::uint64_t number = 0;
     SourceRange range, other;
@@ -64,6 +66,7 @@ public:
   std::vector<const Words*> plain;
   std::vector<Call> subprograms; // M98; in `plain` as well
   FlowFindings flow;
+  std::vector<std::optional<Modes>> modes; // before each block; see modesBefore
 };
 
 // Loops, jumps, blocks that never run.
@@ -123,6 +126,18 @@ DOTEK_CHECK(CheckedProgram, codesExclude, "codes-exclude", Warning);
 DOTEK_CHECK(CheckedProgram, arcWithoutCentre, "arc-without-centre", Warning);
 DOTEK_CHECK(CheckedProgram, wearInGeometry, "wear-in-geometry", Warning);
 DOTEK_CHECK(CheckedProgram, systemVariableUnknown, "system-variable-unknown", Warning);
+// What the modes before a block make of it.
+DOTEK_CHECK(CheckedProgram, feedMissing, "feed-missing", Warning);
+DOTEK_CHECK(CheckedProgram, cycleWords, "cycle-words", Warning);
+DOTEK_CHECK(CheckedProgram, modeForbidsCode, "mode-forbids-code", Warning);
+DOTEK_CHECK(CheckedProgram, arcGeometry, "arc-geometry", Warning);
+DOTEK_CHECK(CheckedProgram, rotationWords, "rotation-words", Warning);
+DOTEK_CHECK(CheckedProgram, callsItself, "calls-itself", Warning);
+// What is set, and what cannot be computed.
+DOTEK_CHECK(CheckedProgram, dataInputWords, "data-input-words", Warning);
+DOTEK_CHECK(CheckedProgram, dwellWords, "dwell-words", Warning);
+DOTEK_CHECK(CheckedProgram, signalValue, "signal-value", Warning);
+DOTEK_CHECK(CheckedProgram, calculationStops, "calculation-stops", Warning);
 // Alarms and messages.
 DOTEK_CHECK(CheckedProgram, alarmNumberRange, "alarm-number-range", Warning);
 DOTEK_CHECK(CheckedProgram, alarmWithoutText, "alarm-without-text", Note);

@@ -137,6 +137,10 @@ public:
       const auto value = literal(word);
       if (!value) continue;
       switch (word.address) {
+      case 'G':
+      case 'M':
+        if (*value < 0) tell(word, "a code is not below 0");
+        break;
       case 'F':
         if (*value < 0) tell(word, "a feed is not below 0");
         if (*value == 0 && feeds) tell(word, "a feed move needs a feed above 0 (alarm 11)");
@@ -214,7 +218,10 @@ private:
     const auto l = kind == nullptr ? std::nullopt : literal(*kind);
     if (!l) return;
     if (*l == 20) system(word, value);
-    if (*l >= 10 && *l <= 13) offset(word, value);
+    if (*l >= 10 && *l <= 13 && value == 0)
+      tell(word, "tool offsets begin at 1");
+    else if (*l >= 10 && *l <= 13)
+      offset(word, value);
   }
 
   const stdlib::Control* control_;
@@ -289,6 +296,29 @@ void wordNotTaken(const CheckedProgram& input, Report& report) {
   }
 }
 
+namespace {
+
+// G0 to G3 in the block of a canned cycle.
+void cycleBesideMotion(const Words& words, Report& report) {
+  const nc::Word *motion = nullptr, *cycle = nullptr;
+  for (const nc::Word& word : words.words) {
+    const auto code = word.address == 'G' ? literal(word) : std::nullopt;
+    if (!code || *code != std::floor(*code)) continue;
+    if (*code >= 0 && *code <= 3) motion = &word;
+    if (isOneOf(*code, {73, 74, 76}) || (*code >= 81 && *code <= 89)) cycle = &word;
+  }
+  if (motion == nullptr || cycle == nullptr) return;
+  report
+      .at(cycle->range,
+          "`{}` and `{}` in one block; a motion ends a canned cycle, so the control moves and drills "
+          "nothing, or "
+          "stops with an alarm; give each a block of its own",
+          wordText(*motion), wordText(*cycle))
+      .note(motion->range, "the motion");
+}
+
+} // namespace
+
 void codesExclude(const CheckedProgram& input, Report& report) {
   for (const Words* words : input.plain) {
     const nc::Word* first = nullptr;
@@ -307,6 +337,7 @@ void codesExclude(const CheckedProgram& input, Report& report) {
             .note(first->range, "the first one");
       if (first == nullptr) first = &word;
     }
+    cycleBesideMotion(*words, report);
   }
 }
 

@@ -1,5 +1,6 @@
 // What the control can calculate and compare.
 #include "frontend/macrob/Check.h"
+#include "frontend/macrob/Constant.h"
 #include "frontend/macrob/Format.h"
 #include "frontend/macrob/Walk.h"
 
@@ -13,26 +14,6 @@ namespace {
 
 bool isWhole(double value) {
   return value == std::floor(value);
-}
-
-// The value where it is the same in every run; nullopt: it depends on variables.
-std::optional<double> constant(const Expression& expression) {
-  if (const auto* number = std::get_if<nc::Number>(&expression.node)) return number->value;
-  if (const auto* negated = std::get_if<nc::Negated>(&expression.node)) {
-    const auto value = constant(*negated->operand);
-    return value ? std::optional(-*value) : std::nullopt;
-  }
-  const auto* operation = std::get_if<nc::Operation>(&expression.node);
-  if (operation == nullptr) return std::nullopt;
-  const auto left = constant(*operation->left);
-  const auto right = constant(*operation->right);
-  // Nothing is left of a byte after AND 0.
-  if ((operation->op == "AND" || operation->op == "*") && (left == 0 || right == 0)) return 0;
-  if (!left || !right) return std::nullopt;
-  if (operation->op == "+") return *left + *right;
-  if (operation->op == "-") return *left - *right;
-  if (operation->op == "*") return *left * *right;
-  return std::nullopt;
 }
 
 bool hasVariable(const Expression& expression) {
@@ -82,12 +63,12 @@ bool isApproximate(const Expression& expression, bool literals) {
 bool isHalved(const Expression& expression) {
   const auto* operation = std::get_if<nc::Operation>(&expression.node);
   if (operation == nullptr || operation->op != "/") return false;
-  const auto divisor = constant(*operation->right);
+  const auto divisor = constantOf(*operation->right);
   return divisor && (*divisor == 2 || *divisor == 4 || *divisor == 8) && variableNumber(*operation->left);
 }
 
 bool isInexact(const Expression& side) {
-  return !constant(side) && isApproximate(side, true);
+  return !constantOf(side) && isApproximate(side, true);
 }
 
 // Variables that grow in steps such as 0.1. Eighths and the like are exact.
@@ -100,7 +81,7 @@ std::set<std::uint32_t> countersOf(const Program& program) {
     const auto* sum = std::get_if<nc::Operation>(&assignment->value->node);
     if (target == nullptr || sum == nullptr || (sum->op != "+" && sum->op != "-")) continue;
     const auto from = variableNumber(*sum->left);
-    const auto step = constant(*sum->right);
+    const auto step = constantOf(*sum->right);
     if (from && *from == target->value && step && !isWhole(*step * 8)) out.insert(*from);
   }
   return out;
@@ -110,8 +91,8 @@ std::set<std::uint32_t> countersOf(const Program& program) {
 // meant so.
 std::optional<bool> alwaysSame(const Comparison& comparison) {
   if (!hasVariable(*comparison.left) && !hasVariable(*comparison.right)) return std::nullopt;
-  const auto left = constant(*comparison.left);
-  const auto right = constant(*comparison.right);
+  const auto left = constantOf(*comparison.left);
+  const auto right = constantOf(*comparison.right);
   if (left && right) return holds(comparison.op, *left, *right);
   if (print(*comparison.left) == print(*comparison.right)) return holds(comparison.op, 0, 0);
   return std::nullopt;
@@ -267,7 +248,7 @@ void equalityOfComputed(const CheckedProgram& input, Report& report) {
   // A variable that grows in steps, compared with a number.
   const auto counts = [&](const Expression& side, const Expression& other) {
     const auto number = variableNumber(side);
-    return number && counters.contains(*number) && constant(other);
+    return number && counters.contains(*number) && constantOf(other);
   };
   for (const Condition* condition : input.conditions)
     eachComparison(*condition, [&](const Comparison& comparison, SourceRange range) {

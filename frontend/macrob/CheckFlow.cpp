@@ -192,7 +192,10 @@ private:
       if (jump == nullptr) continue;
       const std::optional<std::uint64_t> number = numberOf(*jump);
       if (!number) {
-        if (!literal(*jump->target)) computed_ = true;
+        if (!literal(*jump->target))
+          computed_ = true;
+        else
+          found_.badTargets.push_back(jump->target->range);
         continue;
       }
       wanted.push_back(*number);
@@ -357,6 +360,10 @@ void gotoTargetMissing(const CheckedProgram& input, Report& report) {
     for (std::size_t i = 1; i < places.size(); ++i)
       told.note(places[i], "this jump goes there as well");
   }
+  for (const SourceRange range : input.flow.badTargets)
+    report.at(range,
+              "no block has such a number; the control stops with alarm 128 when it jumps; write that of the "
+              "block that is meant");
 }
 
 namespace {

@@ -216,3 +216,67 @@ TEST_CASE("macrob check: positions that are read too early (1.2)") {
   CHECK(program("G65 P9811 X5.\n#1=#5041", k31) == "");
   CHECK(program("G1 X5. F100\n#1=#5001", k31) == ""); // end of the block, known beforehand
 }
+
+TEST_CASE("macrob check: feeds, canned cycles and arcs that no value mends") {
+  const auto main = [](const std::string& text, const std::string& control = "") {
+    return told("O1\nG17 G90\n" + text + "\nM30\n", control);
+  };
+  // A feed on one of the paths may be the one that is used.
+  CHECK(main("G1 X5.") == "W 3:1 feed-missing");
+  CHECK(main("IF[#500EQ1]GOTO5\nF100.\nN5 G1 X5.") == "");
+  CHECK(main("G65 P9100\nG1 X5.") == "");
+  CHECK(main("M98 P100\nG1 X5.") == "");
+  CHECK(main("G66 P9100\nX1.\nG1 X5.\nG67\nG1 X6.") == "");
+  CHECK(main("G1 F100.\nX5.") == "");
+  CHECK(main("M77\nG1 X5.") == ""); // may be a macro of the builder
+  CHECK(main("G0 X5.\nG28 X0") == "");
+  CHECK(main("G2 X5. R10.") == "W 3:1 feed-missing");
+  CHECK(program("G1 X5.") == "");
+  // Modes of a caller are not known, those that the program sets are.
+  CHECK(program("G81 X5. F9.") == "");
+  CHECK(program("G80\nG81 X5. Z-4. F9.") == "W 3:1 cycle-words");
+  CHECK(program("G17 G80\nG81 R1. Z-4. X5. F9.\nX9.\nG80\nX1.\nG81 X5. R1.") == "W 7:1 cycle-words");
+  CHECK(main("F9.\nG99 G81 R1. Z-2. K0\nX5.\nG0\nG99 G87 R1. Z-2.") == "W 7:5 cycle-words");
+  CHECK(main("F9.\nG73 R1. Z-2. Q1.\nG83 X9.\nG80") == "");
+  CHECK(main("F9.\nG18\nG81 R1. Z-2. X3.\nG80") == "W 5:1 cycle-words");
+  CHECK(main("F9.\nG18\nG81 R1. Y-2. X3.\nG80") == "");
+  CHECK(main("F9.\nG0 G81 R1. Z-2. X3.\nG80") == "W 4:4 codes-exclude");
+  CHECK(main("F9.\nG81 R1. Z-2.\nG80 G28 Z5.") == "");
+  CHECK(main("F9.\nG81 R1. Z-2.\nG28 Z5.\nG80") == "W 5:1 mode-forbids-code");
+  CHECK(main("F9.\nG81 R1. Z-2.\nG17 X5.\nG80") == ""); // the same plane
+  CHECK(main("G68 X0 Y0 R9.\nG54\nG69") == "");
+  CHECK(main("G68 X0 Y0 R9.\nG57\nG69") == "W 4:1 mode-forbids-code");
+  CHECK(main("/G68 X0 Y0 R9.\nG57\nG69") == ""); // the operator decides
+  CHECK(main("F9.\nG1 X0. Y0.\nG2 X4. I2.1") == "W 5:1 arc-geometry");
+  CHECK(main("F9.\nG1 X0. Y0.\nG55\nG2 X4. I2.1") == "");
+  CHECK(main("F9.\nG1 X0. Y0.\nG91 G2 X4. I2.\nG90 G3 X0. R1.5") == "W 6:5 arc-geometry");
+  CHECK(main("F9.\nG1 X0. Y0.\nG2 X4 I2.1") == ""); // 4 or 0.004
+  CHECK(main("F9.\nG1 X0. Y0.\nG2 X4 I2.1", k31) == "W 5:1 arc-geometry");
+  CHECK(main("F9.\nG1 X#1 Y0.\nG2 X4. I2.1") == "");
+  CHECK(main("F9.\nG1 X1. Y0.\nG2 X1. Y0 R5.") == "W 5:11 arc-geometry");
+  CHECK(main("F9.\nG18 G2 X1. Z5. J2.") == "W 4:16 arc-geometry");
+}
+
+TEST_CASE("macrob check: data, dwells, signals and sums that no value mends") {
+  CHECK(program("G10 L2 P1 X1.\nG10 L20 P#1 X1.\nG10 L11 P3 R#2\nG10 L3") == "");
+  CHECK(program("G10 P1 X1.") == "W 2:1 data-input-words");
+  CHECK(program("G10 P1 R1.", k6m) == ""); // one memory of tool offsets
+  CHECK(program("G10 L#1 X1.") == "");
+  CHECK(program("G10 L99 P1 X1.") == "W 2:5 data-input-words");
+  CHECK(program("G10 L10 R1.") == "W 2:1 data-input-words");
+  CHECK(program("G10 L10 P0 R1.") == "E 2:9 word-out-of-range");
+  CHECK(program("G4 X#1\nG4 P100\nG4") == "");
+  CHECK(program("G4 X-1.") == "W 2:4 dwell-words");
+  CHECK(program("G4 U1. P10") == "W 2:8 dwell-words");
+  CHECK(program("#1105=0\n#1105=#1", k0i) == "");
+  CHECK(program("#1105=0-1", k0i) == "W 2:1 signal-value");
+  CHECK(program("#1=LN[0]") == "W 2:4 calculation-stops");
+  CHECK(program("#1=5/[2-2]") == "W 2:4 calculation-stops");
+  CHECK(program("#1=5/#2") == "");
+  CHECK(program("#1=TAN[270]") == "W 2:4 calculation-stops");
+  CHECK(program("GOTO -3\nN3").substr(0, 26) == "E 2:6 goto-target-missing;");
+  CHECK(program("IF[#1EQ1]GOTO5\nM98 P1\nN5") == "");
+  CHECK(program("/M98 P1") == "");
+  CHECK(program("M98 P1") == "W 2:5 calls-itself");
+  CHECK(program("IF[#1EQ1]GOTO5\nM98 P1\nN5 M98 P1") == "W 4:8 calls-itself");
+}

@@ -1,0 +1,328 @@
+// Blocks that the modes before them make wrong: a feed that nobody gave, canned cycles without their levels,
+// arcs that do not close, codes that a mode does not allow.
+#include "frontend/macrob/Calls.h"
+#include "frontend/macrob/Check.h"
+#include "frontend/macrob/Format.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace dotek::frontend::macrob {
+namespace {
+
+const nc::Word* find(const Words& words, char letter) {
+  for (const nc::Word& word : words.words)
+    if (word.address == letter && word.value != nullptr) return &word;
+  return nullptr;
+}
+
+bool hasAny(const Words& words, std::string_view letters) {
+  return std::any_of(words.words.begin(), words.words.end(), [&](const nc::Word& word) {
+    return letters.find(word.address) != std::string_view::npos;
+  });
+}
+
+const nc::Word* findAny(const Words& words, std::initializer_list<double> codes) {
+  for (const double code : codes)
+    if (const nc::Word* word = findCode(words, 'G', code)) return word;
+  return nullptr;
+}
+
+std::string wordText(const nc::Word& word) {
+  return word.address + print(*word.value);
+}
+
+// All codes of the block are numbers, and none is a builder's.
+bool isPlain(const Words& words) {
+  return !callOf(words) && std::all_of(words.words.begin(), words.words.end(), [](const nc::Word& word) {
+    return word.address != 'G' || literal(word).value_or(100) < 100;
+  });
+}
+
+// Codes that take the axis words of their block.
+const nc::Word* takesWords(const Words& words) {
+  return findAny(words, {4, 10, 28, 29, 30, 31, 52, 53, 60, 68, 92});
+}
+
+// `visit(block, words, modes before it, modes for its words)`, for blocks that some path leads to.
+template <class Visit> void eachBlock(const CheckedProgram& input, const Visit& visit) {
+  for (std::size_t i = 0; i < input.modes.size(); ++i) {
+    const Block& block = input.program.blocks[i];
+    const auto* words = std::get_if<Words>(&block.body);
+    if (words == nullptr || block.repaired || !input.modes[i] || !isPlain(*words)) continue;
+    visit(*words, *input.modes[i], within(*words, *input.modes[i]));
+  }
+}
+
+} // namespace
+
+void feedMissing(const CheckedProgram& input, Report& report) {
+  if (!isMain(input.program)) return; // of others the caller gives it
+  bool told = false;
+  eachBlock(input, [&](const Words& words, const Modes&, const Modes& now) {
+    const bool moves = now.cycle == Certain::Yes || (now.cycle == Certain::No && now.motion > 0);
+    if (told || now.feed != Certain::No || !moves || hasAny(words, "F") || !hasAny(words, "XYZ") ||
+        takesWords(words) != nullptr)
+      return;
+    told = true;
+    report.at(
+        words.words.front().range,
+        "no feed was given on the path to this move; the control stops with alarm 11, or moves at the feed "
+        "of "
+        "the program before; write F");
+  });
+}
+
+void cycleWords(const CheckedProgram& input, Report& report) {
+  eachBlock(input, [&](const Words& words, const Modes& before, const Modes& now) {
+    if (now.cycle != Certain::Yes || takesWords(words) != nullptr) return;
+    const nc::Word* code = find(words, 'G');
+    for (const nc::Word& word : words.words)
+      if (const auto number = literal(word); word.address == 'G' && number == now.cycleCode) code = &word;
+    const SourceRange range = code != nullptr ? code->range : words.words.front().range;
+    const std::string name = now.cycleCode != 0 ? fmt::format("G{}", now.cycleCode) : "the cycle";
+    for (const char letter : {'K', 'L'})
+      if (const nc::Word* repeats = find(words, letter))
+        if (const auto value = literal(*repeats); value && (*value < 0 || *value != std::floor(*value)))
+          report.at(
+              repeats->range,
+              "`{}` counts the holes of a canned cycle and is no whole number from 0; the control stops with "
+              "an alarm; correct it",
+              wordText(*repeats));
+    const bool storesOnly = (find(words, 'K') != nullptr && literal(*find(words, 'K')) == 0.0) ||
+                            (find(words, 'L') != nullptr && literal(*find(words, 'L')) == 0.0);
+    if (!hasAny(words, "XYZR") || storesOnly) return;
+    const char axis = lettersOf(now.plane == 0 ? 17 : now.plane).depth;
+    if (now.levelR == Certain::No && !hasAny(words, "R"))
+      report.at(
+          range,
+          "{} has no level R; the control drills from where the tool is, at feed through air or at rapid "
+          "into the part, or stops with an alarm; write R",
+          name);
+    if (now.plane != 0 && now.depth == Certain::No && !hasAny(words, {&axis, 1}))
+      report.at(
+          range,
+          "{} has no depth; the control drills to the depth of an earlier cycle or stops with an alarm; "
+          "write {}",
+          name, axis);
+    if ((now.cycleCode == 73 || now.cycleCode == 83) && now.peck == Certain::No && !hasAny(words, "Q"))
+      report.at(
+          range,
+          "{} has no Q, the depth of a peck; the control stops with alarm 45 or drills in one go; write Q",
+          name);
+    if (now.cycleCode == 87 && now.returnsToR == Certain::Yes)
+      report.at(
+          range,
+          "G87 returns to the initial level alone, and G99 is in force; the control stops with an alarm, "
+          "or the tool stays below the part; write G98");
+    (void)before;
+  });
+}
+
+void modeForbidsCode(const CheckedProgram& input, Report& report) {
+  const auto tell = [&](const nc::Word& code, std::string_view mode, std::string_view remedy) {
+    report.at(code.range,
+              "`{}` while {}; the manuals of Fanuc do not allow it, and the control stops with an alarm "
+              "or moves to another place; {}",
+              wordText(code), mode, remedy);
+  };
+  eachBlock(input, [&](const Words& words, const Modes& before, const Modes& now) {
+    if (before.cycle == Certain::Yes && now.cycle == Certain::Yes) {
+      const nc::Word* plane = findAny(words, {17, 18, 19});
+      if (plane != nullptr && (before.plane == 0 || before.plane == now.plane)) plane = nullptr;
+      const nc::Word* code = plane != nullptr ? plane : findAny(words, {28, 29, 30, 31, 53});
+      if (code != nullptr) return tell(*code, "a canned cycle is on", "write G80 before it");
+    }
+    if (before.compensation == Certain::Yes && now.compensation == Certain::Yes) {
+      if (const nc::Word* code = findAny(words, {31}))
+        return tell(*code, "cutter compensation is on (alarm 36)", "write G40 before it");
+      const nc::Word* plane = findAny(words, {17, 18, 19});
+      if (plane != nullptr && before.plane != 0 && before.plane != now.plane)
+        return tell(*plane, "cutter compensation is on (alarm 37)", "write G40 before it");
+    }
+    if (before.rotation == Certain::Yes && now.rotation == Certain::Yes) {
+      const nc::Word* code = findAny(words, {52, 92});
+      const nc::Word* plane = findAny(words, {17, 18, 19});
+      if (plane != nullptr && before.plane != 0 && before.plane != now.plane) code = plane;
+      const nc::Word* system = findAny(words, {54, 55, 56, 57, 58, 59});
+      if (system != nullptr && before.system != 0 && before.system != now.system) code = system;
+      if (code != nullptr) return tell(*code, "G68 turns the coordinates", "write G69 before it");
+    }
+  });
+}
+
+// ---- arcs
+
+namespace {
+
+double orZero(const nc::Word* word) {
+  return word == nullptr ? 0 : literal(*word).value_or(0);
+}
+
+class Arcs {
+public:
+  Arcs(const CheckedProgram& input, Report& report)
+      : tolerance_(input.control != nullptr ? input.control->arcTolerance.value_or(kTolerance) : kTolerance),
+        bare_(input.control == nullptr || input.control->decimal == stdlib::DecimalMode::Increment),
+        report_(report) {}
+
+  void check(const Words& words, const Modes& before, const Modes& now) const {
+    if (now.motion < 2 || now.cycle != Certain::No || now.plane == 0 || takesWords(words) != nullptr) return;
+    const PlaneLetters& plane = lettersOf(now.plane);
+    const nc::Word* code = findAny(words, {2, 3});
+    const SourceRange range = code != nullptr ? code->range : words.words.front().range;
+    const nc::Word* radius = find(words, 'R');
+    if (const nc::Word* unused = find(words, plane.unusedCentre); unused != nullptr && radius == nullptr)
+      report_.at(
+          unused->range,
+          "an arc in G{} has its centre at {} and {}, and `{}` belongs to another plane; the control stops "
+          "with "
+          "an alarm, or makes another arc; write the plane, or the letter that is meant",
+          now.plane, plane.centre[0], plane.centre[1], wordText(*unused));
+    if (radius != nullptr && !hasAny(words, std::string(plane.axes.begin(), plane.axes.end()))) {
+      fullCircle(*radius, plane);
+      return;
+    }
+    ends(words, before, now, plane, range);
+  }
+
+private:
+  static constexpr double kTolerance = 0.03;
+
+  void fullCircle(const nc::Word& radius, const PlaneLetters& plane) const {
+    report_.at(radius.range,
+               "a full circle with R has any number of centres; the control does not move, or stops with an "
+               "alarm; write {} and {} of the centre",
+               plane.centre[0], plane.centre[1]);
+  }
+
+  // The value is the same whatever the control makes of numbers without a point.
+  bool isCertain(const nc::Word& word) const {
+    const nc::Number* number = word.value == nullptr ? nullptr : std::get_if<nc::Number>(&word.value->node);
+    if (const auto* negated = word.value == nullptr ? nullptr : std::get_if<nc::Negated>(&word.value->node))
+      number = std::get_if<nc::Number>(&negated->operand->node);
+    return literal(word) && number != nullptr && (number->point || number->value == 0 || !bare_);
+  }
+
+  // Of an arc whose start, end and centre are numbers.
+  void ends(const Words& words, const Modes& before, const Modes& now, const PlaneLetters& plane,
+            SourceRange range) const {
+    std::array<double, 2> way{}, centre{};
+    for (std::size_t i = 0; i < 2; ++i) {
+      const nc::Word* end = find(words, plane.axes[i]);
+      const auto start = before.at[static_cast<std::size_t>(plane.axes[i] - 'X')];
+      if (end != nullptr) {
+        if (!isCertain(*end) || now.distance == 0 || (now.distance == 90 && !start)) return;
+        way[i] = *literal(*end) - (now.distance == 90 ? *start : 0);
+      }
+      const nc::Word* middle = find(words, plane.centre[i]);
+      if (middle != nullptr && !isCertain(*middle)) return;
+      centre[i] = orZero(middle);
+    }
+    const double chord = std::hypot(way[0], way[1]);
+    if (const nc::Word* radius = find(words, 'R')) {
+      if (!isCertain(*radius)) return;
+      if (chord == 0) return fullCircle(*radius, plane);
+      if (const double r = std::abs(*literal(*radius)); r > 0 && chord / 2 - r > tolerance_)
+        report_.at(
+            range,
+            "the ends of this arc are {:.3f} apart and its radius is {:.3f}, less than half of that; the "
+            "control stops with alarm 20; correct the end point or R",
+            chord, r);
+      return;
+    }
+    if (!hasAny(words, std::string(plane.centre.begin(), plane.centre.end()))) return;
+    const double first = std::hypot(centre[0], centre[1]);
+    const double second = std::hypot(centre[0] - way[0], centre[1] - way[1]);
+    if (std::abs(first - second) > tolerance_)
+      report_.at(
+          range,
+          "the start of this arc is {:.3f} from its centre and the end {:.3f}; the control stops with alarm "
+          "20 (over tolerance of radius); correct the end point or the centre",
+          first, second);
+  }
+
+  double tolerance_;
+  bool bare_;
+  Report& report_;
+};
+
+} // namespace
+
+void arcGeometry(const CheckedProgram& input, Report& report) {
+  const Arcs arcs(input, report);
+  eachBlock(input, [&](const Words& words, const Modes& before, const Modes& now) {
+    arcs.check(words, before, now);
+  });
+}
+
+// ---- rotation
+
+void rotationWords(const CheckedProgram& input, Report& report) {
+  eachBlock(input, [&](const Words& words, const Modes&, const Modes& now) {
+    const nc::Word* code = findCode(words, 'G', 68);
+    if (code == nullptr || hasAny(words, "IJK")) return;
+    if (const nc::Word* off = findCode(words, 'G', 69))
+      report.at(off->range,
+                "G68 and G69 in one block; which of them holds is not known; give each a block of its own");
+    const nc::Word* angle = find(words, 'R');
+    if (angle == nullptr)
+      report.at(code->range,
+                "G68 without R turns by an angle that a parameter holds (5410 on a Fanuc); on another "
+                "machine everything that follows is elsewhere; write R");
+    else if (const auto value = literal(*angle); value && std::abs(*value) > 360)
+      report.at(angle->range,
+                "`{}`: an angle is from -360 to 360 degrees; the control stops with an alarm; correct it",
+                wordText(*angle));
+    if (now.plane == 0) return;
+    const char depth = lettersOf(now.plane).depth;
+    if (const nc::Word* word = find(words, depth))
+      report.at(word->range,
+                "the centre of a rotation lies in the plane, which is G{}, and `{}` does not; the control "
+                "stops with an alarm or moves {}; leave it out",
+                now.plane, wordText(*word), depth);
+  });
+}
+
+// ---- calls
+
+void callsItself(const CheckedProgram& input, Report& report) {
+  if (!input.program.name || input.modes.empty()) return;
+  const std::uint64_t own = input.program.name->number;
+  const std::size_t count = input.program.blocks.size();
+  // The call is certain where no path from the start goes around it.
+  const auto successors = successorsOf(input.program);
+  for (const std::vector<Call>* list : {&input.calls, &input.subprograms})
+    for (const Call& call : *list) {
+      if (call.kind == CallKind::AfterMoves || call.kind == CallKind::EachBlock || call.program == nullptr ||
+          own == 0 || literal(*call.program) != static_cast<double>(own))
+        continue;
+      std::vector<bool> reached(count + 1, false);
+      std::vector<std::size_t> work = {0};
+      reached[0] = true;
+      while (!work.empty() && !reached[count]) {
+        const std::size_t at = work.back();
+        work.pop_back();
+        const Block& block = input.program.blocks[at];
+        const auto* words = std::get_if<Words>(&block.body);
+        const bool here = words != nullptr && !words->words.empty() && call.program >= words->words.data() &&
+                          call.program < words->words.data() + words->words.size();
+        if (here && !block.blockDelete) continue;
+        for (const std::size_t next : successors[at])
+          if (next <= count && !reached[next]) {
+            reached[next] = true;
+            work.push_back(next);
+          }
+      }
+      if (!reached[count])
+        report.at(
+            call.program->range,
+            "O{} calls itself here, and no path ends before the call; the control stops with alarm 122 or 77 "
+            "(too many levels); call the program that is meant, or write the IF that ends it",
+            own);
+    }
+}
+
+} // namespace dotek::frontend::macrob

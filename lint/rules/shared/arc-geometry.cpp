@@ -1,0 +1,7 @@
+#include "lint/Shared.h"
+
+namespace dotek::lint::rule {
+
+DOTEK_LINT_RULE(arc_geometry) = programRule<macrob::arcGeometryCheck>();
+
+} // namespace dotek::lint::rule

@@ -1,0 +1,7 @@
+#include "lint/Shared.h"
+
+namespace dotek::lint::rule {
+
+DOTEK_LINT_RULE(signal_value) = programRule<macrob::signalValueCheck>();
+
+} // namespace dotek::lint::rule
