@@ -2,6 +2,7 @@
 
 #include "cli/Cli.h"
 #include "cli/Options.h"
+#include "project/Assumptions.h"
 #include "support/FileIdentity.h"
 #include "support/NearestName.h"
 #include "support/Printable.h"
@@ -95,28 +96,49 @@ void refuseEmptyValues(const CLI::App& app) {
   }
 }
 
-// `--set A=1 B=2` means `--set A=1 --set B=2`: pairs that follow a flag of pairs belong to it.
+bool isPair(const std::string& argument) {
+  const std::size_t equals = argument.find('=');
+  return equals != std::string::npos && equals > 0 && !argument.starts_with('-') &&
+         argument.find_first_of("/\\.") >= equals;
+}
+
+// An argument after `--assume NAME` that is another name, or a misprint of one.
+bool isMeantAsAssumption(const std::string& argument) {
+  if (project::isAssumption(argument)) return true;
+  return argument.find_first_of("/\\.") == std::string::npos && !argument.starts_with('-') &&
+         !nearestName(argument, project::assumptionTable()).empty();
+}
+
+// `--set A=1 B=2` means `--set A=1 --set B=2`: pairs that follow a flag of pairs belong to it, and names that
+// follow `--assume` to that. What is the name of a file is an input, unless it could be both.
 std::vector<std::string> spreadPairs(const std::vector<std::string>& arguments) {
-  constexpr std::array<std::string_view, 7> kPairFlags = {"--set", "--field", "--host", "--default",
-                                                          "--arg", "--var",   "--value"};
+  constexpr std::string_view kAssume = "--assume";
+  constexpr std::array<std::string_view, 9> kFlags = {"--set", "--field", "--host",  "--default", "--arg",
+                                                      "--var", "--value", "--limit", kAssume};
   std::vector<std::string> out;
-  std::string flag;
-  bool first = false;
+  std::string flag;      // whose values may follow
+  bool first = false;    // the next argument is its value
   std::error_code error; // what cannot be a file's name is none
   for (const std::string& argument : arguments) {
-    const bool isFlag = std::find(kPairFlags.begin(), kPairFlags.end(), argument) != kPairFlags.end();
-    const std::size_t equals = argument.find('=');
-    const bool isPair = equals != std::string::npos && equals > 0 && !argument.starts_with('-') &&
-                        argument.find_first_of("/\\.") >= equals;
+    const std::string name = argument.substr(0, argument.find('='));
+    const bool isFlag = std::find(kFlags.begin(), kFlags.end(), name) != kFlags.end();
+    const auto follows = [&] {
+      if (flag != kAssume) return isPair(argument) && !std::filesystem::exists(argument, error);
+      if (!std::filesystem::exists(argument, error)) return isMeantAsAssumption(argument);
+      if (project::isAssumption(argument))
+        throw UsageError("`" + argument + "` after --assume is an assumption and a file; write `--assume " +
+                         argument + "`, or `./" + argument + "` for the file");
+      return false;
+    };
     if (isFlag) {
-      flag = argument;
-      first = true;
-    } else if (!flag.empty() && !first && isPair && !std::filesystem::exists(argument, error)) {
-      out.push_back(flag);
-    } else if (!first) {
-      flag.clear();
-    } else {
+      flag = name;
+      first = name == argument;
+    } else if (first) {
       first = false;
+    } else if (!flag.empty() && follows()) {
+      out.push_back(flag);
+    } else {
+      flag.clear();
     }
     out.push_back(argument);
   }

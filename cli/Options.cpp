@@ -1,10 +1,13 @@
 #include "cli/Options.h"
+#include "project/Assumptions.h"
 #include "project/InputKind.h"
 #include "support/Decimal.h"
 
 #include <algorithm>
 #include <charconv>
+#include <filesystem>
 #include <fmt/format.h>
+#include <sstream>
 
 namespace dotek::cli {
 
@@ -50,10 +53,44 @@ double numberOf(const std::string& flag, const std::string& text, double otherwi
   return *number;
 }
 
+void addSeveral(CLI::App& app, const char* flag, std::vector<std::string>& into, const std::string& what,
+                const std::string& type) {
+  app.add_option(flag, into, what + "; several: repeat it, or A,B")
+      ->option_text(type)
+      ->allow_extra_args(false);
+}
+
+void addFolders(CLI::App& app, const char* flag, std::vector<std::string>& into, const std::string& what) {
+  app.add_option(flag, into, what + "; repeat it for several")->option_text("DIR")->allow_extra_args(false);
+}
+
+std::vector<std::string> listOf(const std::vector<std::string>& given) {
+  std::vector<std::string> out;
+  for (const std::string& text : given) {
+    std::istringstream in(text);
+    for (std::string one; std::getline(in, one, ',');)
+      if (!one.empty()) out.push_back(one);
+  }
+  return out;
+}
+
+driver::NamedTexts pairsOf(const std::string& flag, const std::vector<std::string>& given) {
+  driver::NamedTexts out;
+  for (const std::string& text : given) {
+    // A comma divides pairs only where each part is one: in `A=1,5` it is a misprint of the point.
+    const std::vector<std::string> parts = listOf({text});
+    const bool pairs = !parts.empty() && std::all_of(parts.begin(), parts.end(), [](const std::string& part) {
+      return part.find('=') != std::string::npos;
+    });
+    for (const std::string& one : pairs ? parts : std::vector{text})
+      out.push_back(splitPair(flag, one));
+  }
+  return out;
+}
+
 namespace {
 
-void applyLimit(const std::string& text, Limits& limits) {
-  const auto [name, value] = splitPair("--limit", text);
+void applyLimit(const std::string& name, const std::string& value, Limits& limits) {
   const std::optional<std::uint64_t> number = wholeNumber(value);
   const auto table = limitTable();
   const auto found = std::find_if(table.begin(), table.end(),
@@ -66,26 +103,41 @@ void applyLimit(const std::string& text, Limits& limits) {
 
 } // namespace
 
+namespace {
+
+// A misspelt folder would only show as files that are not there.
+std::string folderOf(const std::string& flag, const std::string& path) {
+  std::error_code error;
+  if (!std::filesystem::is_directory(path, error)) throw UsageError(flag + ": no folder `" + path + "`");
+  return path;
+}
+
+} // namespace
+
 driver::CommonOptions commonOf(const Raw& raw) {
   driver::CommonOptions out;
   if (!raw.job.empty()) out.job = raw.job;
-  for (const std::string& text : raw.set)
-    out.set.push_back(splitPair("--set", text));
-  for (const std::string& text : raw.field)
-    out.field.push_back(splitPair("--field", text));
-  for (const std::string& text : raw.host)
-    out.host.push_back(splitPair("--host", text));
+  out.set = pairsOf("--set", raw.set);
+  out.field = pairsOf("--field", raw.field);
+  out.host = pairsOf("--host", raw.host);
   if (!raw.clearance.empty()) out.host.emplace_back("clearance", raw.clearance);
-  out.assume.insert(raw.assume.begin(), raw.assume.end());
+  for (const std::string& text : raw.assume) {
+    // `touch=FILE:LINE` may hold a comma.
+    const std::vector<std::string> names = project::isAssumption(text) ? std::vector{text} : listOf({text});
+    out.assume.insert(names.begin(), names.end());
+  }
   out.recover = raw.recover;
   if (!raw.encoding.empty()) {
     out.encoding = encodingByName(raw.encoding);
     if (!out.encoding)
       throw UsageError("--encoding takes utf-8, cp1250 or cp852, not `" + raw.encoding + "`");
   }
-  for (const std::string& text : raw.limit)
-    applyLimit(text, out.limits);
+  for (const auto& [name, value] : pairsOf("--limit", raw.limit))
+    applyLimit(name, value, out.limits);
   out.data = raw.data;
+  for (const std::string& folder : raw.include)
+    out.include.push_back(folderOf("--include", folder));
+  if (!raw.includeRoot.empty()) out.includeRoot = folderOf("--include-root", raw.includeRoot);
   if (!raw.from.empty()) {
     if (!project::kindByName(raw.from))
       throw UsageError("--from takes prog, mac, dlg, define, nc, listing or suf, not `" + raw.from + "`");
@@ -98,23 +150,23 @@ void addCommon(CLI::App& app, Raw& raw) {
   app.add_option("--encoding", raw.encoding, "utf-8, cp1250 or cp852 instead of the recognised encoding");
   app.add_option("--from", raw.from, "kind of the inputs: prog, mac, dlg, define, nc, listing or suf");
   app.add_option("--max-errors", raw.maxErrors, "print at most N errors; 0 prints all")->type_name("N");
-  app.add_option("--limit", raw.limit, "set a limit (see `dotek list limits`)")
-      ->type_name("NAME=N")
-      ->allow_extra_args(false);
-  app.add_option("--data", raw.data, "folder whose data files are added or replace built-in ones")
-      ->type_name("DIR")
-      ->allow_extra_args(false);
+  addSeveral(app, "--limit", raw.limit, "set a limit (see `dotek list limits`)", "NAME=N");
+  addFolders(app, "--data", raw.data, "folder whose data files are added or replace built-in ones");
+}
+
+void addIncludes(CLI::App& app, Raw& raw) {
+  addFolders(app, "--include", raw.include, "folder of macros and meshes that inputs name, beside their own");
+  app.add_option("--include-root", raw.includeRoot,
+                 "inputs may name files below DIR, not only those of their own folder")
+      ->type_name("DIR");
 }
 
 void addValues(CLI::App& app, Raw& raw) {
-  app.add_option("--set", raw.set, "value of a field")->type_name("NAME=VALUE")->allow_extra_args(false);
-  app.add_option("--host", raw.host, "value that the CAM knows of the operation (see `dotek list hosts`)")
-      ->type_name("NAME=VALUE")
-      ->allow_extra_args(false);
+  addSeveral(app, "--set", raw.set, "value of a field", "NAME=VALUE");
+  addSeveral(app, "--host", raw.host, "value that the CAM knows of the operation (see `dotek list hosts`)",
+             "NAME=VALUE");
   app.add_option("--clearance", raw.clearance, "short for --host clearance=Z")->type_name("Z");
-  app.add_option("--assume", raw.assume, "name the reading of a construct that is not documented")
-      ->type_name("NAME")
-      ->allow_extra_args(false);
+  addSeveral(app, "--assume", raw.assume, "name the reading of a construct that is not documented", "NAME");
 }
 
 void addSource(CLI::App& app, Raw& raw) {
@@ -123,9 +175,8 @@ void addSource(CLI::App& app, Raw& raw) {
   app.add_option("--routine", raw.routine, "routine to run for an operation");
   app.add_option("--cycle", raw.cycle, "name of the cycle, if it is not the folder's");
   app.add_option("--job", raw.job, "a whole program as a list of operations")->type_name("JOB.toml");
-  app.add_option("--field", raw.field, "the post's field FIELD is the macro's variable VARIABLE")
-      ->type_name("FIELD=VARIABLE")
-      ->allow_extra_args(false);
+  addSeveral(app, "--field", raw.field, "the post's field FIELD is the macro's variable VARIABLE",
+             "FIELD=VARIABLE");
   app.add_flag("--recover", raw.recover, "accept the repairs that diagnostics offer");
 }
 

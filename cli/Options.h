@@ -25,10 +25,10 @@ public:
 // What CLI11 fills; turned into Arguments afterwards. Empty text: the flag was not given.
 struct Raw {
   std::vector<std::string> inputs;
-  std::vector<std::string> set, field, host, assume, limit, data;
-  std::string job, encoding, from, prog, routine, cycle, form, clearance, sequence, output;
+  std::vector<std::string> set, field, host, assume, limit, data, include;
+  std::string includeRoot, job, encoding, from, prog, routine, cycle, form, clearance, sequence, output;
   std::string format = "text";
-  std::string select, ignore;
+  std::vector<std::string> select, ignore;
   std::string failOn;
   bool fix = false, followLinks = false;
   std::string stage = "ast";
@@ -71,10 +71,23 @@ std::uint64_t countOf(const std::string& flag, const std::string& text, std::uin
 double numberOf(const std::string& flag, const std::string& text, double otherwise, double least,
                 double most);
 
+// A flag of several values, named once for each or with commas between them: `type` is one of them,
+// "NAME=VALUE". The help says so.
+void addSeveral(CLI::App& app, const char* flag, std::vector<std::string>& into, const std::string& what,
+                const std::string& type);
+// The same for folders, in whose names a comma may be: once for each.
+void addFolders(CLI::App& app, const char* flag, std::vector<std::string>& into, const std::string& what);
+
+// The values of such a flag, taken apart at the commas.
+std::vector<std::string> listOf(const std::vector<std::string>& given);
+// Pairs of such a flag; throws UsageError as splitPair does.
+driver::NamedTexts pairsOf(const std::string& flag, const std::vector<std::string>& given);
+
 // Flags that several commands have.
 void addCommon(CLI::App& app, Raw& raw);
 void addValues(CLI::App& app, Raw& raw);
-void addSource(CLI::App& app, Raw& raw); // what says where the post is
+void addIncludes(CLI::App& app, Raw& raw); // which files inputs may name
+void addSource(CLI::App& app, Raw& raw);   // what says where the post is
 void addTarget(CLI::App& app, Raw& raw);
 void addForce(CLI::App& app, Raw& raw);
 driver::CommonOptions commonOf(const Raw& raw);

@@ -22,16 +22,13 @@ void addConvert(CLI::App& app, Raw& raw) {
       ->type_name("SET");
   addSource(*convert, raw);
   addValues(*convert, raw);
-  convert->add_option("--default", raw.defaults, "default of an argument that may be left out")
-      ->type_name("NAME=VALUE")
-      ->allow_extra_args(false);
+  addSeveral(*convert, "--default", raw.defaults, "default of an argument that may be left out",
+             "NAME=VALUE");
   convert
       ->add_option("--defaults", raw.defaultsMode,
                    "an omitted argument that moves the probe: alarm, or use its default")
       ->check(CLI::IsMember({"alarm", "use"}));
-  convert->add_option("--arg", raw.letters, "letter of an argument")
-      ->type_name("NAME=LETTER")
-      ->allow_extra_args(false);
+  addSeveral(*convert, "--arg", raw.letters, "letter of an argument", "NAME=LETTER");
   convert
       ->add_option("--probe-power", raw.probePower,
                    "the probe is switched where the source does it, or by the program itself")
@@ -52,6 +49,7 @@ void addConvert(CLI::App& app, Raw& raw) {
       ->type_name("DIR")
       ->excludes(output);
   addForce(*convert, raw);
+  addIncludes(*convert, raw);
   addCommon(*convert, raw);
 }
 
@@ -72,10 +70,8 @@ driver::ConvertOptions convertOf(const Raw& raw) {
       throw UsageError("--program-number takes a whole number such as 8010, not `" + raw.programNumber + "`");
     out.programNumber = static_cast<std::uint32_t>(*number);
   }
-  for (const std::string& text : raw.letters)
-    out.letters.push_back(splitPair("--arg", text));
-  for (const std::string& text : raw.defaults)
-    out.defaults.push_back(splitPair("--default", text));
+  out.letters = pairsOf("--arg", raw.letters);
+  out.defaults = pairsOf("--default", raw.defaults);
   out.useDefaults = raw.defaultsMode == "use";
   out.switchProbe = raw.probePower == "macro";
   out.datum = raw.datum;

@@ -5,18 +5,14 @@
 
 #include <algorithm>
 #include <set>
-#include <sstream>
 
 namespace dotek::cli {
 
 namespace {
 
-std::set<std::string> codes(const std::string& text, bool all) {
-  std::set<std::string> out;
-  std::istringstream in(text);
-  for (std::string code; std::getline(in, code, ',');) {
-    if (!code.empty()) out.insert(code);
-  }
+std::set<std::string> codes(const std::vector<std::string>& given, bool all) {
+  const std::vector<std::string> list = listOf(given);
+  const std::set<std::string> out(list.begin(), list.end());
   for (const std::string& code : out) {
     const auto table = lint::codeTable();
     if ((all && code == "all") || std::any_of(table.begin(), table.end(),
@@ -42,17 +38,16 @@ void addLint(CLI::App& app, Raw& raw) {
   lint->add_flag("--fix", raw.fix, "make the repairs that change no motion, coordinate or meaning");
   lint->add_option("--form", raw.form, "what the Form of the post decides (see `dotek list forms`)")
       ->type_name("NAME");
-  lint->add_option("--field", raw.field, "the post's field FIELD is the macro's variable VARIABLE")
-      ->type_name("FIELD=VARIABLE")
-      ->allow_extra_args(false);
+  addSeveral(*lint, "--field", raw.field, "the post's field FIELD is the macro's variable VARIABLE",
+             "FIELD=VARIABLE");
   addValues(*lint, raw);
-  lint->add_option("--select", raw.select, "only these codes, separated by commas, or all")
-      ->type_name("CODES");
-  lint->add_option("--ignore", raw.ignore, "not these codes")->type_name("CODES");
+  addSeveral(*lint, "--select", raw.select, "only this code, or all", "CODE");
+  addSeveral(*lint, "--ignore", raw.ignore, "not this code", "CODE");
   lint->add_option("--fail-on", raw.failOn, "exit with 1 from this severity on (warning)")
       ->check(CLI::IsMember({"note", "warning", "error", "never"}));
   addTarget(*lint, raw);
   addForce(*lint, raw);
+  addIncludes(*lint, raw);
   addCommon(*lint, raw);
 }
 

@@ -12,6 +12,7 @@ void addPost(CLI::App& app, Raw& raw) {
   post->add_option("--seq", raw.sequence, "first sequence number and step (10:10)")->type_name("START:STEP");
   post->add_option("-o", raw.output, "write the program to a file")->type_name("OUT");
   addForce(*post, raw);
+  addIncludes(*post, raw);
   addCommon(*post, raw);
 }
 
@@ -24,6 +25,7 @@ void addDump(CLI::App& app, Raw& raw) {
   addSource(*dump, raw);
   addTarget(*dump, raw);
   addValues(*dump, raw);
+  addIncludes(*dump, raw);
   addCommon(*dump, raw);
 }
 

@@ -13,12 +13,8 @@ void addSim(CLI::App& app, Raw& raw) {
   CLI::App* sim = app.add_subcommand("sim", "run an NC program on a machine and print what it does");
   sim->add_option("PROGRAM", raw.inputs, "the program")->expected(1);
   addTarget(*sim, raw);
-  sim->add_option("--var", raw.variables, "value of a variable before the program begins")
-      ->type_name("N=VALUE")
-      ->allow_extra_args(false);
-  sim->add_option("--programs", raw.programs, "folder of programs that can be called")
-      ->type_name("DIR")
-      ->allow_extra_args(false);
+  addSeveral(*sim, "--var", raw.variables, "value of a variable before the program begins", "N=VALUE");
+  addFolders(*sim, "--programs", raw.programs, "folder of programs that can be called");
   sim->add_option("--probe-macros", raw.probeMacros,
                   "set of probing macros that calls without a program mean (all)")
       ->type_name("SET");
@@ -31,9 +27,9 @@ void addSim(CLI::App& app, Raw& raw) {
   sim->add_option("--diameter", raw.diameter, "diameter of the stylus ball, where no --machine says it")
       ->type_name("MM");
   sim->add_option("--radius", raw.radius, "its radius, instead of --diameter")->type_name("MM");
-  sim->add_option(
-         "--work-offset", raw.workOffsets,
-         "zero of G54 to G59 in coordinates of the machine; `G54=part`: where the part is meant to be")
+  sim->add_option("--work-offset", raw.workOffsets,
+                  "zero of G54 to G59 in coordinates of the machine; `G54=part`: where the part is meant to "
+                  "be; repeat it for several")
       ->type_name("G54=X,Y,Z")
       ->allow_extra_args(false);
   sim->add_option("--at", raw.at, "where the tool's end is before the program, in G54")->type_name("X,Y,Z");
@@ -46,6 +42,7 @@ void addSim(CLI::App& app, Raw& raw) {
   sim->add_flag("--json", raw.json, "print how the run ended as JSON, and no trace");
   sim->add_option("--trace", raw.traceFile, "write the trace to a file")->type_name("OUT");
   addForce(*sim, raw);
+  addIncludes(*sim, raw);
   addCommon(*sim, raw);
 }
 
@@ -114,8 +111,7 @@ driver::SimOptions simOf(const Raw& raw) {
   out.date = raw.date;
   out.programs = withoutRepeats(raw.programs);
   if (!raw.probeMacros.empty()) out.probeMacros = raw.probeMacros;
-  for (const std::string& text : raw.variables)
-    out.variables.push_back(splitPair("--var", text));
+  out.variables = pairsOf("--var", raw.variables);
   return out;
 }
 

@@ -64,11 +64,8 @@ void addVerify(CLI::App& app, Raw& raw) {
       ->add_option("--translation", raw.translation,
                    "look at this program instead of what convert writes: the same one, edited by hand")
       ->type_name("FILE");
-  verify
-      ->add_option("--var", raw.variables,
-                   "value of a variable before the programs begin, instead of a drawn one")
-      ->type_name("N=VALUE")
-      ->allow_extra_args(false);
+  addSeveral(*verify, "--var", raw.variables,
+             "value of a variable before the programs begin, instead of a drawn one", "N=VALUE");
   verify->add_option("--part", raw.part, "the part that is probed (made from the source where left out)")
       ->type_name("PART.toml");
   verify->add_option("--machine", raw.machine, "probe and travel of the machine")->type_name("MACHINE.toml");
@@ -85,9 +82,7 @@ void addVerify(CLI::App& app, Raw& raw) {
       ->type_name("X,Y,Z,TURN");
   verify->add_option("--active-system", raw.activeSystem, "work system in force at entry; of a replay")
       ->type_name("N");
-  verify->add_option("--value", raw.values, "value of a field or a host input; of a replay")
-      ->type_name("NAME=VALUE")
-      ->allow_extra_args(false);
+  addSeveral(*verify, "--value", raw.values, "value of a field or a host input; of a replay", "NAME=VALUE");
   verify->add_flag("--replay", raw.replay, "run the one case whose values are given");
   verify
       ->add_option(
@@ -96,6 +91,7 @@ void addVerify(CLI::App& app, Raw& raw) {
       ->type_name("REPORT");
   verify->add_option("--date", raw.date, "date that the document bears (none)")->type_name("DATE");
   addForce(*verify, raw);
+  addIncludes(*verify, raw);
   addCommon(*verify, raw);
 }
 
@@ -120,11 +116,9 @@ driver::VerifyOptions verifyOf(const Raw& raw) {
   if (!raw.activeSystem.empty())
     out.activeSystem = static_cast<std::uint32_t>(countOf("--active-system", raw.activeSystem, 54, 54, 59));
   out.datum = raw.datum;
-  for (const std::string& text : raw.variables)
-    out.variables.push_back(splitPair("--var", text));
+  out.variables = pairsOf("--var", raw.variables);
   out.replay = raw.replay;
-  for (const std::string& text : raw.values)
-    out.values.push_back(splitPair("--value", text));
+  out.values = pairsOf("--value", raw.values);
   if (!out.values.empty() && !out.replay)
     throw UsageError("--value goes with --replay; --set fixes a value in all cases");
   return out;

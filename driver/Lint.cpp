@@ -63,6 +63,10 @@ public:
       control_ = &*inputs_->control;
     else if (!control.empty() && !suf)
       loadControl(control, session_);
+    for (const std::string& path : options_.paths) {
+      std::error_code error;
+      if (fs::is_directory(path, error)) session_.addInputRoot(path);
+    }
     for (const std::string& path : options_.paths)
       walk_.visit(path, session_.diagnostics());
     if (checkedFiles_ == 0 && !session_.diagnostics().hasErrors() && !options_.paths.empty())
@@ -286,13 +290,21 @@ private:
                                       session_.diagnostics()};
     if (kind == InputKind::Macro) {
       const gibbs::Macro& macro = compilation_.addMacro(*id);
-      MacroLoader loader(session_, fs::path(path).parent_path());
-      checked_.emplace_back(macro, loader.included(macro), context);
+      checked_.emplace_back(macro, loaderOf(path, macro).included(macro), context);
     } else if (kind == InputKind::Dialog) {
       checked_.emplace_back(compilation_.addDialog(*id), context);
     } else {
       checked_.emplace_back(compilation_.addDefineData(*id), context);
     }
+  }
+
+  // What macros of one folder include is read once.
+  MacroLoader& loaderOf(const std::string& path, const gibbs::Macro& macro) {
+    const fs::path folder = fs::path(path).parent_path();
+    auto& loader = loaders_[folder.generic_string()];
+    if (!loader) loader = std::make_unique<MacroLoader>(session_, folder);
+    loader->know(path, macro);
+    return *loader;
   }
 
   // Without --control a program with Y is taken for one of a mill, else for one of the lathe.
@@ -358,10 +370,11 @@ private:
   InputWalk walk_;
   std::size_t checkedFiles_ = 0;
   LoweringInputs* inputs_ = nullptr;
-  const stdlib::Control* control_ = nullptr;          // --control
-  std::optional<stdlib::MikroprogControl> mikroprog_; // the same, for .SUF
-  std::set<std::string> entryPoints_;                 // routines that run without a call in the Prog
-  std::deque<gibbs::CheckedFile> checked_;            // files that are no part of a cycle's folder
+  const stdlib::Control* control_ = nullptr;                    // --control
+  std::optional<stdlib::MikroprogControl> mikroprog_;           // the same, for .SUF
+  std::map<std::string, std::unique_ptr<MacroLoader>> loaders_; // by folder
+  std::set<std::string> entryPoints_;      // routines that run without a call in the Prog
+  std::deque<gibbs::CheckedFile> checked_; // files that are no part of a cycle's folder
   std::deque<frontend::mikroprog::Program> sufPrograms_;
   std::deque<frontend::mikroprog::Reading> sufReadings_;
   std::map<std::string, std::optional<stdlib::MikroprogControl>> sufControls_; // loaded once, by name

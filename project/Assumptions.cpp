@@ -50,13 +50,16 @@ std::vector<std::pair<std::string, std::string>> assumptionTable() {
   return out;
 }
 
-void checkAssumptions(const std::set<std::string>& given, Diagnostics& diagnostics) {
+bool isAssumption(const std::string& name) {
+  if (answersCondition(name) || namesTouch(name)) return true;
   const auto table = assumptionTable();
+  return std::any_of(table.begin(), table.end(), [&](const auto& row) { return row.first == name; });
+}
+
+void checkAssumptions(const std::set<std::string>& given, Diagnostics& diagnostics) {
   for (const std::string& name : given) {
-    const bool known =
-        std::any_of(table.begin(), table.end(), [&](const auto& row) { return row.first == name; });
-    if (known || answersCondition(name) || namesTouch(name)) continue;
-    const std::string near = nearestName(name, table);
+    if (isAssumption(name)) continue;
+    const std::string near = nearestName(name, assumptionTable());
     diagnostics.report<diag::UnknownAssumption>({}, name,
                                                 near.empty() ? "" : "; did you mean `" + near + "`?");
   }

@@ -13,6 +13,9 @@ namespace dotek::project {
 // Name and reading of every assumption, sorted by name. `Word?=yes` and `Word?=no` stand for all words.
 std::vector<std::pair<std::string, std::string>> assumptionTable();
 
+// Whether `--assume` takes this: a name of the table, `Word?=yes`, `touch=FILE:LINE`.
+bool isAssumption(const std::string& name);
+
 // A name outside the table is a usage error: a misspelt assumption would silently assume nothing.
 void checkAssumptions(const std::set<std::string>& given, Diagnostics& diagnostics);
 

@@ -32,13 +32,23 @@ std::optional<fs::path> findEntry(const fs::path& folder, std::string_view name)
   return *std::min_element(found.begin(), found.end());
 }
 
+// One key a file, however its path is spelt.
+std::string keyOf(const fs::path& path) {
+  std::error_code error;
+  const fs::path real = fs::canonical(path, error);
+  return (error ? path : real).generic_string();
+}
+
 gibbs::ParseContext contextOf(Session& session) {
   return {session.sources(), session.gibbsKeywords(), session.limits(), session.diagnostics()};
 }
 
 } // namespace
 
-MacroLoader::MacroLoader(Session& session, fs::path folder) : session_(session), folder_(std::move(folder)) {}
+MacroLoader::MacroLoader(Session& session, fs::path folder)
+    : session_(session), folder_(std::move(folder)), bounds_(session.bounds(folder_.generic_string())),
+      includes_([this](const std::string& name, SourceRange where) { return macro(name, where); },
+                session.limits(), session.diagnostics()) {}
 
 std::optional<fs::path> MacroLoader::find(const std::string& name, const std::string& suffix) {
   const std::string key = name + '\n' + suffix;
@@ -48,11 +58,19 @@ std::optional<fs::path> MacroLoader::find(const std::string& name, const std::st
   return path;
 }
 
+// In the folder, then in those of --include.
 std::optional<fs::path> MacroLoader::search(const std::string& name, const std::string& suffix) const {
   std::string local = name;
   std::replace(local.begin(), local.end(), '\\', '/'); // the CAM runs on Windows
-  const fs::path relative(local);
-  fs::path folder = relative.is_absolute() ? relative.parent_path() : folder_ / relative.parent_path();
+  std::optional<fs::path> found = searchIn(folder_, local, suffix);
+  for (const std::string& folder : session_.options().include)
+    if (!found) found = searchIn(folder, local, suffix);
+  return found;
+}
+
+std::optional<fs::path> MacroLoader::searchIn(const fs::path& where, const fs::path& relative,
+                                              const std::string& suffix) const {
+  fs::path folder = relative.is_absolute() ? relative.parent_path() : where / relative.parent_path();
   const bool here = folder.empty();
   if (here) folder = ".";
   std::error_code error;
@@ -61,9 +79,20 @@ std::optional<fs::path> MacroLoader::search(const std::string& name, const std::
   if (file.empty()) return std::nullopt;
   std::optional<fs::path> found = findEntry(folder, file);
   if (!found || !fs::is_regular_file(*found, error)) found = findEntry(folder, file + suffix);
-  if (found && !fs::is_regular_file(*found, error)) found.reset();
-  // One spelling a file: the command line says `a.mac`, not `./a.mac`.
-  return found && here ? found->filename() : found;
+  if (!found || !fs::is_regular_file(*found, error)) return std::nullopt;
+  // One spelling a file: the command line says `a.mac`, not `./a.mac` or `b/../a.mac`.
+  if (here) return found->filename();
+  if (relative.string().find("..") == std::string::npos) return found;
+  const fs::path plain = found->lexically_normal();
+  return fs::equivalent(plain, *found, error) ? plain : *found;
+}
+
+// false, reported: the file is out of bounds.
+bool MacroLoader::mayRead(const fs::path& path, SourceRange where) {
+  if (bounds_.allow(path.string())) return true;
+  session_.diagnostics().report<diag::IncludeOutside>(where, path.generic_string(), bounds_.text(),
+                                                      dotek::folderName(path.generic_string()));
+  return false;
 }
 
 bool MacroLoader::hasDialog(const std::string& name) const {
@@ -80,11 +109,12 @@ const gibbs::Macro* MacroLoader::macro(const std::string& name, SourceRange wher
     session_.diagnostics().report<diag::MacroNotFound>(where, name, folderName());
     return nullptr;
   }
-  const std::string key = path->generic_string();
+  const std::string key = keyOf(*path);
   if (const auto known = macros_.find(key); known != macros_.end()) return known->second;
   const gibbs::Macro* parsed = nullptr;
-  if (const std::optional<FileId> id = session_.read(key, Encoding::Cp1250))
-    parsed = &ownMacros_.emplace_back(gibbs::parseMacro(*id, contextOf(session_)));
+  std::optional<FileId> id;
+  if (mayRead(*path, where)) id = session_.read(path->generic_string(), Encoding::Cp1250);
+  if (id) parsed = &ownMacros_.emplace_back(gibbs::parseMacro(*id, contextOf(session_)));
   macros_.emplace(key, parsed);
   return parsed;
 }
@@ -95,51 +125,26 @@ const gibbs::Dialog* MacroLoader::dialog(const std::string& name, SourceRange wh
     session_.diagnostics().report<diag::DialogNotFound>(where, name, folderName());
     return nullptr;
   }
-  const std::string key = path->generic_string();
+  const std::string key = keyOf(*path);
   if (const auto known = dialogs_.find(key); known != dialogs_.end()) return known->second;
   const gibbs::Dialog* parsed = nullptr;
-  if (const std::optional<FileId> id = session_.read(key, Encoding::Cp1250))
-    parsed = &ownDialogs_.emplace_back(gibbs::parseDialog(*id, contextOf(session_)));
+  std::optional<FileId> id;
+  if (mayRead(*path, where)) id = session_.read(path->generic_string(), Encoding::Cp1250);
+  if (id) parsed = &ownDialogs_.emplace_back(gibbs::parseDialog(*id, contextOf(session_)));
   dialogs_.emplace(key, parsed);
   return parsed;
 }
 
 void MacroLoader::know(const std::string& path, const gibbs::Macro& macro) {
-  macros_.emplace(path, &macro);
+  macros_.emplace(keyOf(path), &macro);
 }
 
 void MacroLoader::know(const std::string& path, const gibbs::Dialog& dialog) {
-  dialogs_.emplace(path, &dialog);
+  dialogs_.emplace(keyOf(path), &dialog);
 }
 
 std::vector<const gibbs::Macro*> MacroLoader::included(const gibbs::Macro& macro) {
-  std::vector<FileId> open{macro.file};
-  std::vector<const gibbs::Macro*> out;
-  collect(macro, open, out);
-  return out;
-}
-
-void MacroLoader::collect(const gibbs::Macro& macro, std::vector<FileId>& open,
-                          std::vector<const gibbs::Macro*>& out) {
-  for (const gibbs::Line& line : macro.lines) {
-    if (!line.statement) continue;
-    const auto* include = std::get_if<gibbs::Include>(&line.statement->node);
-    if (include == nullptr) continue;
-    if (open.size() > session_.limits().includeDepth) {
-      session_.diagnostics().report<diag::IncludeTooDeep>(include->fileRange, session_.limits().includeDepth);
-      continue;
-    }
-    const gibbs::Macro* found = this->macro(include->file, include->fileRange);
-    if (found == nullptr) continue;
-    if (std::find(open.begin(), open.end(), found->file) != open.end()) {
-      session_.diagnostics().report<diag::IncludeLoop>(include->fileRange, include->file);
-      continue;
-    }
-    if (std::find(out.begin(), out.end(), found) == out.end()) out.push_back(found);
-    open.push_back(found->file);
-    collect(*found, open, out);
-    open.pop_back();
-  }
+  return includes_.includedBy(macro);
 }
 
 namespace {

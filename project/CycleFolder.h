@@ -5,6 +5,7 @@
 #include "frontend/gibbs/Check.h"
 #include "frontend/gibbs/Cycle.h"
 #include "frontend/gibbs/Parse.h"
+#include "project/IncludeGraph.h"
 #include "project/Session.h"
 
 #include <deque>
@@ -17,10 +18,13 @@
 namespace dotek::project {
 
 // Macros and dialogs of one folder, parsed once each. Names in CALL, #INCLUDE and DIALOG are taken relative
-// to the folder; case does not matter, `.mac` may be left out.
+// to the folder, then to those of --include; case does not matter, `.mac` may be left out. What is out of the
+// bounds of the session is reported and not read.
 class MacroLoader {
 public:
   MacroLoader(Session& session, std::filesystem::path folder);
+  MacroLoader(const MacroLoader&) = delete;
+  MacroLoader& operator=(const MacroLoader&) = delete;
 
   const frontend::gibbs::Macro* macro(const std::string& name, SourceRange where);
   const frontend::gibbs::Dialog* dialog(const std::string& name, SourceRange where);
@@ -35,15 +39,19 @@ private:
   std::string folderName() const;
   std::optional<std::filesystem::path> find(const std::string& name, const std::string& suffix);
   std::optional<std::filesystem::path> search(const std::string& name, const std::string& suffix) const;
-  void collect(const frontend::gibbs::Macro& macro, std::vector<FileId>& open,
-               std::vector<const frontend::gibbs::Macro*>& out);
+  std::optional<std::filesystem::path> searchIn(const std::filesystem::path& where,
+                                                const std::filesystem::path& relative,
+                                                const std::string& suffix) const;
+  bool mayRead(const std::filesystem::path& path, SourceRange where);
 
   Session& session_;
   std::filesystem::path folder_;
+  ReadBounds bounds_;
+  IncludeGraph includes_;
   std::deque<frontend::gibbs::Macro> ownMacros_;
   std::deque<frontend::gibbs::Dialog> ownDialogs_;
   std::map<std::string, std::filesystem::path> found_;          // by name and suffix as asked for
-  std::map<std::string, const frontend::gibbs::Macro*> macros_; // by path; nullptr: cannot be read
+  std::map<std::string, const frontend::gibbs::Macro*> macros_; // by keyOf(); nullptr: cannot be read
   std::map<std::string, const frontend::gibbs::Dialog*> dialogs_;
 };
 

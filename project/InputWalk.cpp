@@ -22,11 +22,6 @@ std::string canonical(const std::string& path) {
   return error ? path : real.generic_string();
 }
 
-bool isBelow(const std::string& path, const std::string& folder) {
-  return path == folder || folder == "/" ||
-         (path.starts_with(folder) && path.size() > folder.size() && path[folder.size()] == '/');
-}
-
 } // namespace
 
 bool InputWalk::isNew(const std::string& path) {

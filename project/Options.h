@@ -28,8 +28,10 @@ struct CommonOptions {
   bool recover = false;
   std::optional<Encoding> encoding;
   Limits limits;
-  std::vector<std::string> data;   // folders of data files
-  std::optional<std::string> from; // kind of the inputs
+  std::vector<std::string> data;          // folders of data files
+  std::optional<std::string> from;        // kind of the inputs
+  std::vector<std::string> include;       // folders of files that inputs name, beside that of the input
+  std::optional<std::string> includeRoot; // inputs name files below it, instead of those of their own folder
   // What was read from pipes; copies of the options share it.
   std::shared_ptr<StreamInputs> streams = std::make_shared<StreamInputs>();
 };

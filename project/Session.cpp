@@ -82,6 +82,19 @@ std::optional<FileId> Session::read(const std::string& path, Encoding fallback) 
   return id;
 }
 
+ReadBounds Session::bounds(const std::string& folder) const {
+  ReadBounds out;
+  if (options_.includeRoot) {
+    out.folders.push_back(*options_.includeRoot);
+  } else {
+    for (const std::string& root : inputRoots_)
+      if (ReadBounds{{root}}.allow(folder)) out.folders.push_back(root);
+    if (out.folders.empty()) out.folders.push_back(folder);
+  }
+  out.folders.insert(out.folders.end(), options_.include.begin(), options_.include.end());
+  return out;
+}
+
 std::optional<std::string> Session::bytes(const std::string& path, Diagnostics& diagnostics) {
   return isStream(path) ? options_.streams->read(path, options_.limits, diagnostics)
                         : readBytes(path, options_.limits, diagnostics);

@@ -11,6 +11,7 @@
 #include "stdlib/GibbsKeywords.h"
 #include "stdlib/MacroSet.h"
 #include "support/Diagnostics.h"
+#include "support/Files.h"
 
 #include <map>
 #include <optional>
@@ -54,6 +55,12 @@ public:
   // Bytes of a file that is no text of a language; streams are read once. nullopt: reported.
   std::optional<std::string> bytes(const std::string& path, Diagnostics& diagnostics);
 
+  // A folder that a command takes with all that is below it.
+  void addInputRoot(std::string folder) { inputRoots_.push_back(std::move(folder)); }
+  // What an input of this folder may name: what is below --include-root, else below the input root that holds
+  // the folder, else below the folder; and below each --include.
+  ReadBounds bounds(const std::string& folder) const;
+
 private:
   const CommonOptions& options_;
   SourceMap sources_;
@@ -65,6 +72,7 @@ private:
   std::optional<std::vector<stdlib::MacroSet>> macroSets_;
   std::map<std::string, std::optional<FileId>> read_;
   std::map<std::string, Settings> settings_;
+  std::vector<std::string> inputRoots_;
   std::map<std::string, Recognition> kinds_;
   std::map<std::string, std::string> whole_; // recognised and not yet read as a text
 };

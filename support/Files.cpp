@@ -80,6 +80,43 @@ std::optional<std::string> readBeginning(const std::string& path, std::size_t mo
   return bytes;
 }
 
+bool isBelow(const std::string& path, const std::string& folder) {
+  return path == folder || folder == "/" ||
+         (path.starts_with(folder) && path.size() > folder.size() && path[folder.size()] == '/');
+}
+
+namespace {
+
+// Without links, as far as the path exists.
+std::string realPath(const std::string& path) {
+  std::error_code error;
+  const fs::path real = fs::weakly_canonical(path.empty() ? "." : path, error);
+  std::string out = (error ? fs::path(path).lexically_normal() : real).generic_string();
+  while (out.size() > 1 && out.ends_with('/'))
+    out.pop_back();
+  return out;
+}
+
+} // namespace
+
+bool ReadBounds::allow(const std::string& path) const {
+  const std::string real = realPath(path);
+  return std::any_of(folders.begin(), folders.end(),
+                     [&](const std::string& folder) { return isBelow(real, realPath(folder)); });
+}
+
+std::string ReadBounds::text() const {
+  std::string out;
+  for (const std::string& folder : folders)
+    out += (out.empty() ? "`" : " or `") + (folder.empty() ? "." : folder) + "`";
+  return out;
+}
+
+std::string folderName(const std::string& path) {
+  const std::string out = fs::path(path).parent_path().generic_string();
+  return out.empty() ? "." : out;
+}
+
 bool isStream(const std::string& path) {
   if (path == kStandardInput) return true;
   std::error_code error;

@@ -9,6 +9,7 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace dotek {
 
@@ -18,6 +19,20 @@ std::optional<std::string> readBytes(const std::string& path, const Limits& limi
 
 // At most `most` bytes from the beginning of a file; nullopt with a diagnostic.
 std::optional<std::string> readBeginning(const std::string& path, std::size_t most, Diagnostics& diagnostics);
+
+// Whether a path is a folder or in it, by the text of both: without links, dots and a slash at the end.
+bool isBelow(const std::string& path, const std::string& folder);
+
+// Which files an input may name in its turn: what is below one of these folders, after all links.
+struct ReadBounds {
+  std::vector<std::string> folders;
+  bool allow(const std::string& path) const;
+  // For messages: "`a` or `b`".
+  std::string text() const;
+};
+
+// For messages: "parts" of "parts/plate.stl", "." of "plate.stl".
+std::string folderName(const std::string& path);
 
 // An input that gives its bytes once: standard input ("-"), a pipe, a device.
 bool isStream(const std::string& path);

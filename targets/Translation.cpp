@@ -107,7 +107,9 @@ bool loadWorld(const VerifyOptions& options, VerifyPlan& plan, Session& session)
     if (!plan.machine) return false;
   }
   if (!options.part) return true;
-  const auto part = sim::loadPart(*options.part, session.limits(), session.sources(), session.diagnostics());
+  const auto part =
+      sim::loadPart(*options.part, session.limits(), session.bounds(sim::folderOf(*options.part)),
+                    session.sources(), session.diagnostics());
   if (!part) return false;
   plan.part = part->part;
   return true;

@@ -12,7 +12,7 @@ public:
   Program compile(const Macro& macro) {
     including_.push_back(&macro);
     lines(macro.lines, false);
-    if (here() >= limit()) tooLarge();
+    if (isFull()) tooLarge();
     for (const Open& open : open_)
       abandon(open);
     leaveAbandonedLoops();
@@ -28,6 +28,9 @@ private:
   std::size_t here() const { return program_.instructions.size(); }
   std::size_t limit() const { return std::max<std::size_t>(1, limits_.steps); }
 
+  // Files that bring in nothing but others count, too.
+  bool isFull() const { return here() >= limit() || includes_ >= limit(); }
+
   template <class Step> std::size_t emit(SourceRange range, Step step) {
     if (here() >= limit()) return here() - 1; // tooLarge() will say so
     program_.instructions.push_back({range, open_.empty() ? kNowhere : open_.back().loop, std::move(step)});
@@ -36,7 +39,7 @@ private:
 
   void lines(const std::vector<Line>& list, bool inBlock) {
     for (const Line& line : list) {
-      if (here() >= limit()) return;
+      if (isFull()) return;
       if (line.label) {
         const auto [place, isNew] = program_.labels.emplace(foldCase(line.label->name.text), here());
         if (!isNew) place->second = kNowhere;
@@ -48,8 +51,10 @@ private:
   }
 
   void tooLarge() {
-    program_.instructions.back().step =
-        RefuseStep{"the macro and what it includes have more statements than a run may execute"};
+    RefuseStep refusal{"the macro and what it includes have more statements than a run may execute"};
+    if (here() == 0) program_.instructions.push_back({{}, kNowhere, refusal});
+    // What ends early for its includes may leave out any statement: nothing of it runs.
+    (here() < limit() ? program_.instructions.front() : program_.instructions.back()).step = refusal;
   }
 
   void statement(const Statement& s, bool afterThen) {
@@ -148,10 +153,16 @@ private:
            RefuseStep{"#INCLUDE is nested too deep; `--limit include-depth=N` raises the limit"});
       return;
     }
+    if (looped_) { // read for ever on any path: the paths need not be tried
+      emit(node.fileRange, RefuseStep{"a file includes itself"});
+      return;
+    }
+    if (++includes_ >= limit()) return; // tooLarge() will say so
     const Macro* macro = load_ ? load_(node.file, node.fileRange) : nullptr;
     if (macro == nullptr) {
       emit(node.fileRange, RefuseStep{"the file that #INCLUDE names is not there"});
     } else if (std::find(including_.begin(), including_.end(), macro) != including_.end()) {
+      looped_ = true;
       emit(node.fileRange, RefuseStep{"the file includes itself"});
     } else {
       including_.push_back(macro);
@@ -190,6 +201,8 @@ private:
   Program program_;
   std::vector<Open> open_;
   std::vector<const Macro*> including_;
+  std::size_t includes_ = 0;
+  bool looped_ = false;
 };
 
 } // namespace

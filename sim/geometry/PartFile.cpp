@@ -2,6 +2,8 @@
 
 #include "stdlib/Toml.h"
 #include "support/Files.h"
+#include "support/messages/Commands.h"
+#include "support/messages/Common.h"
 #include "support/messages/Part.h"
 
 #include <cmath>
@@ -156,7 +158,7 @@ private:
         table.require("unit", "\"mm\" or \"inch\", since STL does not say it").choice({"mm", "inch"}, "mm");
     const Placement placed = placement(table);
     if (!file.isText()) return;
-    const std::optional<std::string> bytes = readMesh_(file.text());
+    const std::optional<std::string> bytes = readMesh_(file.text(), file.range());
     if (!bytes) return failed_();
     const std::string fault = builder.mesh(*bytes, unit == "inch" ? 25.4 : 1, placed);
     if (fault.empty()) return;
@@ -286,14 +288,25 @@ std::optional<PartFile> readPart(FileId file, const SourceMap& sources, const Re
   return PartFile{part->placed(nominal, error), nominal, error};
 }
 
-std::optional<PartFile> loadPart(const std::string& path, const Limits& limits, SourceMap& sources,
-                                 Diagnostics& diagnostics) {
+std::string folderOf(const std::string& path) {
+  const std::size_t slash = path.rfind('/');
+  return slash == std::string::npos ? "" : path.substr(0, slash + 1);
+}
+
+std::optional<PartFile> loadPart(const std::string& path, const Limits& limits, const ReadBounds& bounds,
+                                 SourceMap& sources, Diagnostics& diagnostics) {
   const std::optional<FileId> id = readText(path, Encoding::Utf8, std::nullopt, limits, sources, diagnostics);
   if (!id) return std::nullopt;
-  const std::size_t slash = path.rfind('/');
-  const std::string folder = slash == std::string::npos ? "" : path.substr(0, slash + 1);
-  const auto readMesh = [&](const std::string& name) {
-    const std::string mesh = name.starts_with('/') ? name : folder + name;
+  const auto readMesh = [&](const std::string& name, SourceRange where) -> std::optional<std::string> {
+    const std::string mesh = name.starts_with('/') ? name : folderOf(path) + name;
+    if (!bounds.allow(mesh)) {
+      diagnostics.report<diag::IncludeOutside>(where, mesh, bounds.text(), folderName(mesh));
+      return std::nullopt;
+    }
+    if (isStream(mesh)) { // a FIFO would block, and nobody named it on the command line
+      diagnostics.report<diag::FileNotReadable>(where, mesh, "it is no regular file");
+      return std::nullopt;
+    }
     sources.add(SourceFile(mesh, "", Encoding::Utf8)); // no text, but a file that was read
     return readBytes(mesh, limits, diagnostics);
   };

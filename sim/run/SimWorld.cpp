@@ -82,7 +82,8 @@ std::unique_ptr<SimWorld> SimWorld::load(const SimOptions& options, Session& ses
   else
     out->machine_ = bareStylus(*options.setup.ballDiameter, *options.setup.length);
   if (options.part)
-    part = loadPart(*options.part, session.limits(), session.sources(), session.diagnostics());
+    part = loadPart(*options.part, session.limits(), session.bounds(folderOf(*options.part)),
+                    session.sources(), session.diagnostics());
   if (!out->machine_ || (options.part && !part)) return nullptr;
   out->setup_ = out->machine_->setup;
   // A machine's file serves runs without a part, too.

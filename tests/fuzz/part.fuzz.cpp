@@ -23,7 +23,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const FileId id = *added;
   readMachine(id, sources, diagnostics);
   Diagnostics ofPart;
-  const ReadMesh none = [](const std::string&) {
+  const ReadMesh none = [](const std::string&, SourceRange) {
     return std::optional<std::string>("solid a\nendsolid a\n");
   };
   const auto file = readPart(id, sources, none, ofPart);

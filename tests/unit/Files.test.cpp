@@ -129,3 +129,31 @@ TEST_CASE("which file a path means, whatever links and spellings lead there") {
   const std::vector<std::string> repeated = {scratch.path("a"), scratch.path("b"), scratch.path("link")};
   CHECK(withoutRepeats(repeated) == std::vector<std::string>{scratch.path("a"), scratch.path("b")});
 }
+
+TEST_CASE("what an input may name is below its folder, whatever links and dots say") {
+  const Scratch scratch;
+  const std::string at = scratch.folder.string();
+  fs::create_directories(at + "/shop/job");
+  fs::create_directories(at + "/shop/other");
+  std::ofstream(at + "/shop/job/a.mac") << "";
+  std::ofstream(at + "/shop/other/b.mac") << "";
+  fs::create_directory_symlink(at + "/shop/other", at + "/shop/job/link");
+  fs::create_symlink(at + "/shop/job/a.mac", at + "/shop/other/back.mac");
+  const ReadBounds job{{at + "/shop/job/"}};
+  CHECK(job.allow(at + "/shop/job"));
+  CHECK(job.allow(at + "/shop/job/a.mac"));
+  CHECK(job.allow(at + "/shop/other/../job/a.mac"));
+  CHECK(job.allow(at + "/shop/other/back.mac")); // a link to what is in the folder
+  CHECK(job.allow(at + "/shop/job/not-there/x.mac"));
+  CHECK(!job.allow(at + "/shop/other/b.mac"));
+  CHECK(!job.allow(at + "/shop/job/../other/b.mac"));
+  CHECK(!job.allow(at + "/shop/job/link/b.mac"));
+  CHECK(!job.allow(at + "/shop/jobs/a.mac"));
+  CHECK(!job.allow(at + "/shop"));
+  CHECK(!job.allow("/etc/passwd"));
+  CHECK(!ReadBounds{}.allow(at + "/shop/job/a.mac"));
+  CHECK(ReadBounds{{"/"}}.allow("/etc/passwd"));
+  const ReadBounds both{{at + "/shop/job", at + "/shop/other"}};
+  CHECK(both.allow(at + "/shop/job/link/b.mac"));
+  CHECK(both.text() == "`" + at + "/shop/job` or `" + at + "/shop/other`");
+}

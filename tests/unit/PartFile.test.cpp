@@ -5,12 +5,15 @@
 #include "support/Files.h"
 #include "support/messages/Part.h"
 #include "tests/GoldenRunner.h"
+#include "tests/unit/DataFolder.h"
 #include "tests/unit/PartHelper.h"
 
 #include <cstring>
 #include <doctest/doctest.h>
+#include <filesystem>
 #include <fmt/format.h>
 #include <map>
+#include <sys/stat.h>
 
 using namespace dotek;
 using namespace dotek::sim;
@@ -37,7 +40,7 @@ Read read(const std::string& text, const std::map<std::string, std::string>& mes
   SourceMap sources;
   Diagnostics diagnostics;
   const FileId id = sources.add(SourceFile("part.toml", "schema = 1\n" + text, Encoding::Utf8));
-  const ReadMesh mesh = [&](const std::string& name) -> std::optional<std::string> {
+  const ReadMesh mesh = [&](const std::string& name, SourceRange) -> std::optional<std::string> {
     const auto found = meshes.find(name);
     return found == meshes.end() ? std::nullopt : std::optional(found->second);
   };
@@ -119,7 +122,7 @@ std::string meshFault(const std::string& stl) {
 TEST_CASE("part file: the shipped examples are read and can be probed") {
   SourceMap sources;
   Diagnostics diagnostics;
-  const auto part = loadPart((root() / "examples/plate-part.toml").string(), {}, sources, diagnostics);
+  const auto part = loadPart((root() / "examples/plate-part.toml").string(), {}, {}, sources, diagnostics);
   const auto limits =
       loadMachine((root() / "examples/probe-machine.toml").string(), {}, sources, diagnostics);
   CHECK(findingsOf(diagnostics, sources) == "");
@@ -318,7 +321,7 @@ TEST_CASE("mesh: what is refused") {
   // A file that is not there is reported by who reads it.
   SourceMap sources;
   Diagnostics diagnostics;
-  CHECK(!loadPart("no-such-part.toml", {}, sources, diagnostics));
+  CHECK(!loadPart("no-such-part.toml", {}, {}, sources, diagnostics));
   CHECK(diagnostics.hasErrors());
 }
 
@@ -341,4 +344,35 @@ TEST_CASE("machine file: what is refused, and where") {
   CHECK(machine("[probe]\n" + good + "nois = 1\n").find("toml-unknown-key") != std::string::npos);
   CHECK(machine("[travel]\nx = [5, 5]\n[probe]\n" + good).find("3:5 toml-value: two ends of the travel") ==
         0);
+}
+
+TEST_CASE("mesh: a file on disk is read below the folder of the part, or where the bounds say") {
+  const DataFolder folder;
+  const std::string at = folder.path();
+  const std::string stl = textStl(boxCorners({0, 0, 0}, {1, 2, 3}));
+  folder.write("models/bracket.stl", stl);
+  folder.write("jobs/own/flange.stl", stl);
+  const auto load = [&](const std::string& mesh, const ReadBounds& bounds) {
+    SourceMap sources;
+    Diagnostics diagnostics;
+    const std::string path =
+        folder.write("jobs/own/part.toml",
+                     "schema = 1\nshape = [{ kind = \"mesh\", file = \"" + mesh + "\", unit = \"mm\" }]\n");
+    const auto part = loadPart(path, {}, bounds, sources, diagnostics);
+    CHECK(part.has_value() == !diagnostics.hasErrors());
+    return part ? std::string() : findingsOf(diagnostics, sources);
+  };
+  const ReadBounds own{{at + "/jobs/own"}};
+  CHECK(load("flange.stl", own).empty());
+  CHECK(load("../own/flange.stl", own).empty());
+  CHECK(load("../../models/bracket.stl", {{at + "/jobs/own", at + "/models"}}).empty());
+  CHECK(load(at + "/models/bracket.stl", {{at}}).empty());
+  const std::string outside = load("../../models/bracket.stl", own);
+  CHECK(outside.starts_with("2:34 include-outside: `" + at +
+                            "/jobs/own/../../models/bracket.stl` is not in `" + at + "/jobs/own`"));
+  CHECK(load("/etc/hostname", own).starts_with("2:34 include-outside: "));
+  std::filesystem::create_symlink(at + "/models/bracket.stl", at + "/jobs/own/linked.stl");
+  CHECK(load("linked.stl", own).starts_with("2:34 include-outside: "));
+  REQUIRE(mkfifo((at + "/jobs/own/pipe.stl").c_str(), 0600) == 0);
+  CHECK(load("pipe.stl", own).find("it is no regular file") != std::string::npos);
 }
