@@ -14,7 +14,7 @@ function(dotek_package)
   target_include_directories(dotek_library INTERFACE
     $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/dotek>)
   # What dotekConfig.cmake finds again; the other libraries are headers of ours alone.
-  target_link_libraries(dotek_library PUBLIC fmt::fmt PRIVATE Antlr4Runtime::Antlr4Runtime Duktape::Duktape)
+  target_link_libraries(dotek_library PUBLIC fmt::fmt PRIVATE Antlr4Runtime::Antlr4Runtime Duktape::Duktape Md::Md)
   if(DOTEK_SANITIZE)
     target_link_options(dotek_library INTERFACE -fsanitize=address,undefined)
   endif()
@@ -28,7 +28,7 @@ function(dotek_package)
   write_basic_package_version_file(${PROJECT_BINARY_DIR}/generated/dotekConfigVersion.cmake
     COMPATIBILITY SameMinorVersion)
   install(FILES ${PROJECT_BINARY_DIR}/generated/dotekConfigVersion.cmake cmake/dotekConfig.cmake
-    cmake/FindAntlr4Runtime.cmake cmake/FindDuktape.cmake DESTINATION ${package})
+    cmake/FindAntlr4Runtime.cmake cmake/FindDuktape.cmake cmake/FindMd.cmake DESTINATION ${package})
   install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
   install(CODE "set(SOURCE \"${PROJECT_SOURCE_DIR}\")
 set(INCLUDES \"\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_INCLUDEDIR}/dotek\")")
