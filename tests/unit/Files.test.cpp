@@ -4,6 +4,7 @@
 #include "support/Output.h"
 
 #include "tests/GoldenRunner.h"
+#include "tests/TestFolder.h"
 
 #include <doctest/doctest.h>
 #include <filesystem>
@@ -16,18 +17,6 @@ using namespace dotek;
 namespace {
 
 // A folder of its own, gone at the end.
-struct Scratch {
-  Scratch() : folder(fs::temp_directory_path() / ("dotek-files-" + std::to_string(getpid()))) {
-    fs::create_directories(folder);
-  }
-  ~Scratch() { fs::remove_all(folder); }
-  Scratch(const Scratch&) = delete;
-  Scratch& operator=(const Scratch&) = delete;
-  std::string path(const std::string& name) const { return (folder / name).string(); }
-
-  fs::path folder;
-};
-
 // The code of the only finding for these bytes; "" where they are a text.
 std::string codeFor(const std::string& bytes, std::optional<Encoding> forced = std::nullopt) {
   SourceMap sources;
@@ -41,8 +30,8 @@ std::string codeFor(const std::string& bytes, std::optional<Encoding> forced = s
 } // namespace
 
 TEST_CASE("a file that cannot be read is one finding") {
-  const Scratch scratch;
-  std::ofstream(scratch.path("large")) << std::string(101, 'x');
+  const tests::TestFolder scratch("dotek-files");
+  std::ofstream(scratch / "large") << std::string(101, 'x');
   Limits limits;
   limits.inputBytes = 100;
   const auto codeOf = [&](const std::string& path) {
@@ -51,18 +40,18 @@ TEST_CASE("a file that cannot be read is one finding") {
     REQUIRE(diagnostics.all().size() == 1);
     return std::string(diagnostics.all().front().code);
   };
-  CHECK(codeOf(scratch.path("none")) == "file-not-found");
-  CHECK(codeOf(scratch.path("large")) == "file-too-large");
-  CHECK(codeOf(scratch.folder.string()) == "file-not-readable");
+  CHECK(codeOf((scratch / "none").string()) == "file-not-found");
+  CHECK(codeOf((scratch / "large").string()) == "file-too-large");
+  CHECK(codeOf(scratch.path().string()) == "file-not-readable");
 }
 
 TEST_CASE("a file of exactly the limit is read") {
-  const Scratch scratch;
-  std::ofstream(scratch.path("f")) << std::string(100, 'x');
+  const tests::TestFolder scratch("dotek-files");
+  std::ofstream(scratch / "f") << std::string(100, 'x');
   Limits limits;
   limits.inputBytes = 100;
   Diagnostics diagnostics;
-  CHECK(readBytes(scratch.path("f"), limits, diagnostics).value_or("").size() == 100);
+  CHECK(readBytes((scratch / "f").string(), limits, diagnostics).value_or("").size() == 100);
   CHECK(diagnostics.empty());
 }
 
@@ -78,41 +67,42 @@ TEST_CASE("texts that no control reads are refused") {
 }
 
 TEST_CASE("a result is written whole or not at all") {
-  const Scratch scratch;
+  const tests::TestFolder scratch("dotek-files");
   Diagnostics diagnostics;
   const auto write = [&](const std::string& path, const std::string& text) {
     return writeAll({{path, &text}}, "", {}, diagnostics);
   };
-  CHECK(write(scratch.path("out"), "N10\n"));
-  CHECK(write(scratch.path("out"), "N20\n"));
-  CHECK(tests::readAll(scratch.path("out")) == "N20\n");
+  CHECK(write((scratch / "out").string(), "N10\n"));
+  CHECK(write((scratch / "out").string(), "N20\n"));
+  CHECK(tests::readAll(scratch / "out") == "N20\n");
   CHECK(diagnostics.empty());
-  CHECK_FALSE(write(scratch.path("none/out"), "N10\n"));
+  CHECK_FALSE(write((scratch / "none/out").string(), "N10\n"));
   REQUIRE(diagnostics.all().size() == 1);
   CHECK(diagnostics.all().front().code == "file-not-writable");
   // Nothing is left beside it.
-  CHECK(std::distance(fs::directory_iterator(scratch.folder), fs::directory_iterator()) == 1);
+  CHECK(std::distance(fs::directory_iterator(scratch.path()), fs::directory_iterator()) == 1);
 }
 
 TEST_CASE("of several results none is placed where one cannot be written") {
-  const Scratch scratch;
+  const tests::TestFolder scratch("dotek-files");
   Diagnostics diagnostics;
   const std::string text = "N10\n";
-  const std::vector<NamedText> texts = {{scratch.path("d/a"), &text}, {scratch.path("none/b"), &text}};
-  CHECK_FALSE(writeAll(texts, scratch.path("d"), {}, diagnostics));
-  CHECK(fs::is_empty(scratch.folder / "d"));
-  CHECK(writeAll({texts.front()}, scratch.path("d"), {}, diagnostics));
-  CHECK(tests::readAll(scratch.path("d/a")) == text);
+  const std::vector<NamedText> texts = {{(scratch / "d/a").string(), &text},
+                                        {(scratch / "none/b").string(), &text}};
+  CHECK_FALSE(writeAll(texts, (scratch / "d").string(), {}, diagnostics));
+  CHECK(fs::is_empty(scratch / "d"));
+  CHECK(writeAll({texts.front()}, (scratch / "d").string(), {}, diagnostics));
+  CHECK(tests::readAll(scratch / "d/a") == text);
 }
 
 TEST_CASE("which file a path means, whatever links and spellings lead there") {
-  const Scratch scratch;
-  std::ofstream(scratch.path("a")) << "x";
-  fs::create_symlink("a", scratch.path("link"));
-  fs::create_hard_link(scratch.path("a"), scratch.path("hard"));
-  fs::create_symlink("new", scratch.path("dangling"));
+  const tests::TestFolder scratch("dotek-files");
+  std::ofstream(scratch / "a") << "x";
+  fs::create_symlink("a", (scratch / "link").string());
+  fs::create_hard_link((scratch / "a").string(), (scratch / "hard").string());
+  fs::create_symlink("new", (scratch / "dangling").string());
   const auto same = [&](const std::string& x, const std::string& y) {
-    const auto one = identify(scratch.path(x)), other = identify(scratch.path(y));
+    const auto one = identify((scratch / x).string()), other = identify((scratch / y).string());
     REQUIRE(one.has_value());
     REQUIRE(other.has_value());
     return *one == *other;
@@ -121,13 +111,15 @@ TEST_CASE("which file a path means, whatever links and spellings lead there") {
   CHECK(same("a", "link"));
   CHECK(same("a", "hard"));
   CHECK(same("new", "dangling"));
-  CHECK(same("new", "../" + scratch.folder.filename().string() + "/new"));
+  CHECK(same("new", "../" + scratch.path().filename().string() + "/new"));
   CHECK_FALSE(same("a", "new"));
   CHECK_FALSE(same("new", "other"));
   CHECK_FALSE(identify("/dev/null").has_value());
-  CHECK_FALSE(identify(scratch.path("none/a")).has_value());
-  const std::vector<std::string> repeated = {scratch.path("a"), scratch.path("b"), scratch.path("link")};
-  CHECK(withoutRepeats(repeated) == std::vector<std::string>{scratch.path("a"), scratch.path("b")});
+  CHECK_FALSE(identify((scratch / "none/a").string()).has_value());
+  const std::vector<std::string> repeated = {(scratch / "a").string(), (scratch / "b").string(),
+                                             (scratch / "link").string()};
+  CHECK(withoutRepeats(repeated) ==
+        std::vector<std::string>{(scratch / "a").string(), (scratch / "b").string()});
 }
 
 TEST_CASE("what an input may name is below its folder, whatever links and dots say") {

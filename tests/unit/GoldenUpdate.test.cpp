@@ -1,6 +1,7 @@
 // What --update rewrites, and what it refuses to.
 #include "tests/GoldenRunner.h"
 #include "tests/Goldens.h"
+#include "tests/TestFolder.h"
 
 #include <doctest/doctest.h>
 #include <filesystem>
@@ -9,44 +10,30 @@
 namespace fs = std::filesystem;
 using namespace dotek::tests;
 
-namespace {
-
-class Scratch {
-public:
-  Scratch() : root(fs::temp_directory_path() / "dotek-golden-update") {
-    fs::create_directories(root / "area" / "case");
-    write("REFERENCE", "# from a book\narea/case/stdout\n");
-    write("area/case/stdout", "as printed\n");
-    write("area/case/stderr", "ours\n");
-  }
-  ~Scratch() { fs::remove_all(root); }
-  Scratch(const Scratch&) = delete;
-  Scratch& operator=(const Scratch&) = delete;
-  void write(const char* name, const char* text) const {
-    std::ofstream(root / name, std::ios::binary) << text;
-  }
-  GoldenFile file(const char* name) const { return {root, root / "area" / "case" / name, ""}; }
-  fs::path root;
-};
-
-} // namespace
+namespace {} // namespace
 
 TEST_CASE("goldens: --update rewrites what is ours and refuses the reference") {
-  const Scratch scratch;
+  const TestFolder scratch("dotek-golden-update");
+  scratch.write("REFERENCE", "# from a book\narea/case/stdout\n");
+  scratch.write("area/case/stdout", "as printed\n");
+  scratch.write("area/case/stderr", "ours\n");
+  const auto file = [&](const char* name) {
+    return GoldenFile{scratch.path(), scratch / "area" / "case" / name, ""};
+  };
   int rewritten = 0;
-  CHECK(settle(scratch.file("stdout"), "as printed\n", true, rewritten) == "");
-  const std::string refused = settle(scratch.file("stdout"), "other\n", true, rewritten);
+  CHECK(settle(file("stdout"), "as printed\n", true, rewritten) == "");
+  const std::string refused = settle(file("stdout"), "other\n", true, rewritten);
   CHECK(refused.find("--update does not rewrite it") != std::string::npos);
-  CHECK(settle(scratch.file("stdout"), "", true, rewritten) != "");
-  CHECK(readAll(scratch.root / "area" / "case" / "stdout") == "as printed\n");
+  CHECK(settle(file("stdout"), "", true, rewritten) != "");
+  CHECK(readAll(scratch / "area" / "case" / "stdout") == "as printed\n");
   CHECK(rewritten == 0);
 
-  CHECK(settle(scratch.file("stderr"), "other\n", false, rewritten) != "");
-  CHECK(readAll(scratch.root / "area" / "case" / "stderr") == "ours\n");
-  CHECK(settle(scratch.file("stderr"), "other\n", true, rewritten) == "");
-  CHECK(readAll(scratch.root / "area" / "case" / "stderr") == "other\n");
-  CHECK(settle(scratch.file("stderr"), "", true, rewritten) == "");
-  CHECK_FALSE(fs::exists(scratch.root / "area" / "case" / "stderr"));
+  CHECK(settle(file("stderr"), "other\n", false, rewritten) != "");
+  CHECK(readAll(scratch / "area" / "case" / "stderr") == "ours\n");
+  CHECK(settle(file("stderr"), "other\n", true, rewritten) == "");
+  CHECK(readAll(scratch / "area" / "case" / "stderr") == "other\n");
+  CHECK(settle(file("stderr"), "", true, rewritten) == "");
+  CHECK_FALSE(fs::exists(scratch / "area" / "case" / "stderr"));
   CHECK(rewritten == 2);
 }
 

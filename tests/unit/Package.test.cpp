@@ -2,6 +2,7 @@
 #include "tests/GoldenRunner.h"
 #include "tests/Goldens.h"
 #include "tests/Skips.h"
+#include "tests/TestFolder.h"
 
 #include <cstdlib>
 #include <doctest/doctest.h>
@@ -26,15 +27,9 @@ ShellResult shell(const std::string& command) {
   return out;
 }
 
-class Scratch {
-public:
-  Scratch() : path(fs::temp_directory_path() / "dotek-package") { fs::create_directories(path); }
-  ~Scratch() { fs::remove_all(path); }
-  Scratch(const Scratch&) = delete;
-  Scratch& operator=(const Scratch&) = delete;
-  std::string operator/(const char* name) const { return "'" + (path / name).string() + "'"; }
-  fs::path path;
-};
+std::string quoted(const fs::path& path) {
+  return "'" + path.string() + "'";
+}
 
 bool haveTools() {
   for (const char* tool : {DOTEK_CMAKE, DOTEK_COMPILER}) {
@@ -55,42 +50,43 @@ ShellResult configure(const std::string& folder, const std::string& arguments) {
 
 TEST_CASE("package: a program finds, links and uses the installed library") {
   if (!haveTools()) return;
-  const Scratch scratch;
+  const TestFolder scratch("dotek-package");
   const ShellResult installed =
-      shell("'" DOTEK_CMAKE "' --install '" DOTEK_BUILD "' --prefix " + scratch / "prefix");
+      shell("'" DOTEK_CMAKE "' --install '" DOTEK_BUILD "' --prefix " + quoted(scratch / "prefix"));
   REQUIRE_MESSAGE(installed.status == 0, installed.output);
-  CHECK(fs::exists(scratch.path / "prefix" / "bin" / "dotek"));
-  CHECK(fs::exists(scratch.path / "prefix" / "include" / "dotek" / "driver" / "Driver.h"));
+  CHECK(fs::exists(scratch / "prefix" / "bin" / "dotek"));
+  CHECK(fs::exists(scratch / "prefix" / "include" / "dotek" / "driver" / "Driver.h"));
 
-  const ShellResult configured = configure(
-      scratch / "build", "-DCMAKE_CXX_FLAGS='-Wall -Wextra' -DCMAKE_PREFIX_PATH=" + scratch / "prefix");
+  const ShellResult configured =
+      configure(quoted(scratch / "build"),
+                "-DCMAKE_CXX_FLAGS='-Wall -Wextra' -DCMAKE_PREFIX_PATH=" + quoted(scratch / "prefix"));
   REQUIRE_MESSAGE(configured.status == 0, configured.output);
-  const ShellResult built = shell("'" DOTEK_CMAKE "' --build " + scratch / "build");
+  const ShellResult built = shell("'" DOTEK_CMAKE "' --build " + quoted(scratch / "build"));
   REQUIRE_MESSAGE(built.status == 0, built.output);
   CHECK_MESSAGE(built.output.find("warning") == std::string::npos, built.output);
 
   const ShellResult clean =
-      shell(scratch / "build/shop" + " '" + (root() / "examples" / "surface-x").string() + "'");
+      shell(quoted(scratch / "build/shop") + " '" + (root() / "examples" / "surface-x").string() + "'");
   CHECK_MESSAGE(clean.status == 0, clean.output);
-  const ShellResult missing = shell(scratch / "build/shop" + " nowhere");
+  const ShellResult missing = shell(quoted(scratch / "build/shop") + " nowhere");
   CHECK_MESSAGE(missing.status != 0, missing.output);
   CHECK_MESSAGE(missing.output.find("nowhere") != std::string::npos, missing.output);
 }
 
 TEST_CASE("package: as a part of another project there is the library alone") {
   if (!haveTools()) return;
-  const Scratch scratch;
-  const ShellResult configured = configure(scratch / "build", "-DDOTEK_SOURCE='" + root().string() + "'");
+  const TestFolder scratch("dotek-package");
+  const ShellResult configured =
+      configure(quoted(scratch / "build"), "-DDOTEK_SOURCE='" + root().string() + "'");
   REQUIRE_MESSAGE(configured.status == 0, configured.output);
-  const ShellResult targets = shell("'" DOTEK_CMAKE "' --build " + scratch / "build" + " --target help");
+  const ShellResult targets =
+      shell("'" DOTEK_CMAKE "' --build " + quoted(scratch / "build") + " --target help");
   REQUIRE_MESSAGE(targets.status == 0, targets.output);
   CHECK_MESSAGE(targets.output.find("dotek_library") != std::string::npos, targets.output);
   CHECK_MESSAGE(targets.output.find("dotek_tests") == std::string::npos, targets.output);
   // Nothing of it is installed along with the project, and its warnings stop nobody.
-  CHECK(readAll(scratch.path / "build" / "dotek" / "cmake_install.cmake").find("libdotek") ==
-        std::string::npos);
-  CHECK(readAll(scratch.path / "build" / "CMakeCache.txt").find("DOTEK_WERROR:BOOL=OFF") !=
-        std::string::npos);
+  CHECK(readAll(scratch / "build" / "dotek" / "cmake_install.cmake").find("libdotek") == std::string::npos);
+  CHECK(readAll(scratch / "build" / "CMakeCache.txt").find("DOTEK_WERROR:BOOL=OFF") != std::string::npos);
 }
 
 TEST_CASE("ctest knows each case and each golden by its name") {

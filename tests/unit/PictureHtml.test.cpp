@@ -1,6 +1,7 @@
 #include "sim/picture/PictureResult.h"
 #include "support/Decimal.h"
 #include "tests/GoldenRunner.h"
+#include "tests/TestFolder.h"
 #include "tests/unit/PictureHelper.h"
 
 #include <cstdio>
@@ -31,18 +32,6 @@ json dataOf(const std::string& page) {
 }
 
 // A folder for one test.
-class Scratch {
-public:
-  explicit Scratch(const std::string& name) : path(fs::temp_directory_path() / ("dotek-" + name)) {
-    fs::remove_all(path);
-    fs::create_directories(path);
-  }
-  ~Scratch() { fs::remove_all(path); }
-  Scratch(const Scratch&) = delete;
-  Scratch& operator=(const Scratch&) = delete;
-  fs::path path;
-};
-
 } // namespace
 
 TEST_CASE("html: the page holds the moves, contacts, errors and blocks of the picture") {
@@ -189,13 +178,13 @@ TEST_CASE("html: in Chromium the slider moves the probe and the numbers are thos
   facts.end.ending = Ending::Alarm;
   facts.end.number = 3004;
   picture.result = resultOf(picture, facts);
-  const Scratch scratch("page");
-  std::ofstream(scratch.path / "page.html", std::ios::binary) << pictureHtml(picture);
+  const TestFolder scratch("dotek-page");
+  std::ofstream(scratch / "page.html", std::ios::binary) << pictureHtml(picture);
   const std::string command = "bash '" + (root() / "tests" / "accept" / "page-in-chromium.sh").string() +
-                              "' '" + (scratch.path / "page.html").string() + "' >'" +
-                              (scratch.path / "found").string() + "' 2>&1";
+                              "' '" + (scratch / "page.html").string() + "' >'" +
+                              (scratch / "found").string() + "' 2>&1";
   const int status = std::system(command.c_str());
-  const std::string found = readAll(scratch.path / "found");
+  const std::string found = readAll(scratch / "found");
   if (status == 77 << 8) {
     std::printf("html in Chromium: skipped: %s", found.c_str());
     return;

@@ -1,6 +1,7 @@
 // --call, --tool, --work-offset, --at and [setup]; the commands of the page that shows them, as they are
 // printed.
 #include "tests/GoldenRunner.h"
+#include "tests/TestFolder.h"
 
 #include <doctest/doctest.h>
 #include <filesystem>
@@ -15,25 +16,9 @@ using namespace dotek::tests;
 
 namespace {
 
-class Scratch {
-public:
-  explicit Scratch(std::string_view name) : root_(fs::temp_directory_path() / name) {
-    fs::remove_all(root_);
-    fs::create_directories(root_);
-  }
-  ~Scratch() { fs::remove_all(root_); }
-  Scratch(const Scratch&) = delete;
-  Scratch& operator=(const Scratch&) = delete;
-
-  const fs::path& root() const { return root_; }
-  void write(std::string_view name, std::string_view text) const {
-    std::ofstream(root_ / name, std::ios::binary) << text;
-  }
-  CommandResult run(const std::string& command) const { return runDotek(splitArguments(command), root_); }
-
-private:
-  fs::path root_;
-};
+CommandResult runIn(const TestFolder& folder, const std::string& command) {
+  return runDotek(splitArguments(command), folder.path());
+}
 
 // The commands of a page without `dotek`, each with its last heading.
 std::vector<std::pair<std::string, std::string>> commandsOf(const std::string& page) {
@@ -73,21 +58,21 @@ bool has(const CommandResult& result, std::string_view part) {
 } // namespace
 
 TEST_CASE("setup: each command of the page run-my-macro does what the page says") {
-  const Scratch scratch("dotek-run-my-macro");
-  fs::copy(root() / "examples", scratch.root() / "examples", fs::copy_options::recursive);
+  const TestFolder scratch("dotek-run-my-macro");
+  fs::copy(root() / "examples", scratch / "examples", fs::copy_options::recursive);
   const auto commands = commandsOf(readAll(root() / "docs" / "run-my-macro.md"));
   REQUIRE(commands.size() >= 6);
   for (const auto& [heading, command] : commands) {
     CAPTURE(command);
-    const CommandResult result = scratch.run(command);
+    const CommandResult result = runIn(scratch, command);
     CAPTURE(result.err);
     const bool fails = heading.find("Let it fail") != std::string::npos ||
                        command.find("--length 87.4") != std::string::npos;
     CHECK(result.status == (fails ? 1 : 0));
     CHECK(result.err.find("warning:") == std::string::npos);
   }
-  CHECK(fs::file_size(scratch.root() / "bore.html") > 1000);
-  CHECK(fs::file_size(scratch.root() / "bore.svg") > 1000);
+  CHECK(fs::file_size(scratch / "bore.html") > 1000);
+  CHECK(fs::file_size(scratch / "bore.svg") > 1000);
 }
 
 TEST_CASE("setup: the macros of examples lint clean") {
@@ -97,40 +82,40 @@ TEST_CASE("setup: the macros of examples lint clean") {
 }
 
 TEST_CASE("setup: a called macro measures what the part is, from where --at puts the stylus") {
-  const Scratch scratch("dotek-setup-call");
+  const TestFolder scratch("dotek-setup-call");
   scratch.write("part.toml", kBox);
   scratch.write("down.nc", kDown);
   const std::string stylus = "sim down.nc --part part.toml --tool 7 --length 80 --diameter 6 --json ";
-  const CommandResult part = scratch.run(stylus + "--work-offset G54=part --at 10,20,5 --call \"Z-3.\"");
+  const CommandResult part = runIn(scratch, stylus + "--work-offset G54=part --at 10,20,5 --call \"Z-3.\"");
   CHECK(part.status == 0);
   CHECK(has(part, "\"100\": 0,"));
   CHECK(has(part, "\"101\": -290"));
   // A zero 2 mm above the part; the letters as a program has them, too.
   const CommandResult above =
-      scratch.run(stylus + "--work-offset G54=-300,-200,-398 --at 10,20,5 --call \"G65 P9001 Z-3.\"");
+      runIn(scratch, stylus + "--work-offset G54=-300,-200,-398 --at 10,20,5 --call \"G65 P9001 Z-3.\"");
   CHECK(above.status == 0);
   CHECK(has(above, "\"100\": -2,"));
-  const CommandResult missing = scratch.run(stylus + "--work-offset G54=part --at 10,20,5 --call \" \"");
+  const CommandResult missing = runIn(scratch, stylus + "--work-offset G54=part --at 10,20,5 --call \" \"");
   CHECK(missing.status == 1);
-  CHECK(has(scratch.run(stylus + "--work-offset G54=part --at 10,20,5 --call \"X1.\""), "Z MISSING"));
+  CHECK(has(runIn(scratch, stylus + "--work-offset G54=part --at 10,20,5 --call \"X1.\""), "Z MISSING"));
 }
 
 TEST_CASE("setup: [setup] of the machine's file says the same as the flags, and flags go first") {
-  const Scratch scratch("dotek-setup-file");
+  const TestFolder scratch("dotek-setup-file");
   scratch.write("part.toml", kBox);
   scratch.write("down.nc", kDown);
   scratch.write("machine.toml",
                 "schema = 1\n[setup]\ntool = 2\nwork_offset = { G54 = \"part\" }\nat = [10, 20, 5]\n"
                 "call = \"Z-3.\"\n[probe]\nball_diameter = 6\nlength = 80\nlength_to = \"tip\"\non = true\n");
   const std::string run = "sim down.nc --part part.toml --machine machine.toml --json ";
-  CHECK(has(scratch.run(run), "\"100\": 0,"));
-  CHECK(has(scratch.run(run + "--at 12,20,5"), "\"101\": -288"));
+  CHECK(has(runIn(scratch, run), "\"100\": 0,"));
+  CHECK(has(runIn(scratch, run + "--at 12,20,5"), "\"101\": -288"));
   // A length in the table that is not the probe's measures wrong, as on the machine.
-  CHECK(has(scratch.run(run + "--tool 2 --length 81"), "\"100\": -1,"));
+  CHECK(has(runIn(scratch, run + "--tool 2 --length 81"), "\"100\": -1,"));
   scratch.write("machine.toml",
                 "schema = 1\n[setup]\nwork_offset = { G60 = [0, 0, 0], G54 = [1, 2] }\nlength = 5\n"
                 "[probe]\nball_diameter = 6\nlength = 80\nlength_to = \"tip\"\non = true\n");
-  const CommandResult wrong = scratch.run(run);
+  const CommandResult wrong = runIn(scratch, run);
   CHECK(wrong.status != 0);
   CHECK(has(wrong, "`G60` is no work system"));
   CHECK(has(wrong, "[X, Y, Z]"));
@@ -138,14 +123,14 @@ TEST_CASE("setup: [setup] of the machine's file says the same as the flags, and 
 }
 
 TEST_CASE("setup: a flag that does not say enough names what is missing") {
-  const Scratch scratch("dotek-setup-flags");
+  const TestFolder scratch("dotek-setup-flags");
   scratch.write("part.toml", kBox);
   scratch.write("down.nc", kDown);
   scratch.write("nameless.nc", "G31 Z-1. F100\nM99\n");
   scratch.write("p.SUF", "N10 G0 X1 Y1\nN20 M30\n");
   const auto refused = [&](const std::string& command, std::string_view part) {
     CAPTURE(command);
-    const CommandResult result = scratch.run(command);
+    const CommandResult result = runIn(scratch, command);
     return result.status != 0 && has(result, part);
   };
   CHECK(refused("sim down.nc --part part.toml", "--diameter"));

@@ -1,6 +1,7 @@
 // Translations for Mikroprog and Fusion, sound and damaged: a damaged one never agrees.
 #include "driver/Driver.h"
 #include "tests/GoldenRunner.h"
+#include "tests/TestFolder.h"
 
 #include <doctest/doctest.h>
 #include <filesystem>
@@ -19,20 +20,6 @@ const std::string kExamples = (root() / "examples").string() + "/";
 const Names kValues = {{"X", "15"}, {"I", "0"}, {"G", "56"}, {"Z", "-5"}, {"R", "50"}};
 const Names kHosts = {{"clearance", "5"}, {"tool_radius", "3"}, {"overtravel", "5"}, {"return_feed", "1000"},
                       {"start_x", "-15"}, {"start_y", "10"},    {"start_z", "60"}};
-
-class Scratch {
-public:
-  Scratch() : path_(std::filesystem::temp_directory_path() / "dotek-verify-targets") {
-    std::filesystem::create_directories(path_);
-  }
-  std::string write(const std::string& name, const std::string& text) const {
-    std::ofstream(path_ / name, std::ios::binary) << text;
-    return (path_ / name).string();
-  }
-
-private:
-  std::filesystem::path path_;
-};
 
 driver::VerifyOptions options(const std::string& to) {
   driver::VerifyOptions out;
@@ -80,7 +67,7 @@ std::string edited(std::string text, const std::string& from, const std::string&
 }
 
 driver::Outcome verified(const std::string& to, const std::string& text) {
-  const Scratch scratch;
+  const TestFolder scratch("dotek-verify-targets");
   driver::VerifyOptions run = options(to);
   run.cases = 20;
   run.translation = scratch.write("edited", text);
@@ -174,7 +161,7 @@ TEST_CASE("a fragment without its checks takes what the dialog rejects") {
   for (std::size_t at = 0; (at = text.find("return;", at)) != std::string::npos; at += 2)
     text.replace(at, 7, ";");
   driver::VerifyOptions run = options("fusion");
-  const Scratch scratch;
+  const TestFolder scratch("dotek-verify-targets");
   run.translation = scratch.write("unchecked.js", text);
   run.cases = 200;
   const driver::Outcome outcome = driver::verify(run);
