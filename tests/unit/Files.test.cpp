@@ -123,8 +123,8 @@ TEST_CASE("which file a path means, whatever links and spellings lead there") {
 }
 
 TEST_CASE("what an input may name is below its folder, whatever links and dots say") {
-  const Scratch scratch;
-  const std::string at = scratch.folder.string();
+  const tests::TestFolder scratch("dotek-files");
+  const std::string at = scratch.path().string();
   fs::create_directories(at + "/shop/job");
   fs::create_directories(at + "/shop/other");
   std::ofstream(at + "/shop/job/a.mac") << "";
