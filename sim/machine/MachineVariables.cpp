@@ -212,15 +212,15 @@ bool Machine::store(std::uint32_t number, double value, bool preset) {
     if (watcher_ != nullptr && !preset) watcher_->offsetWritten({name(), offset, length});
     offset = length;
   };
-  const char axis = kAxisLetters[place.axis];
+  const auto axis = [&] { return kAxisLetters[place.axis]; }; // of the kinds that have one
   switch (place.kind) {
-  case Kind::External: set(external_[place.axis], [&] { return fmt::format("external {}", axis); }); break;
+  case Kind::External: set(external_[place.axis], [&] { return fmt::format("external {}", axis()); }); break;
   case Kind::System:
-    set(systems_[place.index][place.axis], [&] { return fmt::format("G{} {}", 54 + place.index, axis); });
+    set(systems_[place.index][place.axis], [&] { return fmt::format("G{} {}", 54 + place.index, axis()); });
     break;
   case Kind::Extended:
     set(extended_[place.index + 1][place.axis],
-        [&] { return fmt::format("G54.1 P{} {}", place.index + 1, axis); });
+        [&] { return fmt::format("G54.1 P{} {}", place.index + 1, axis()); });
     break;
   case Kind::Wear:
   case Kind::Geometry: {

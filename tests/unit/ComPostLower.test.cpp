@@ -330,7 +330,7 @@ TEST_CASE("random branches: the same blocks as the post, refused where the post 
   };
   int refused = 0;
   int several = 0;
-  const int rounds = draws(500, 50);
+  const int rounds = draws(500, 200); // fewer do not fill the shares below
   for (int round = 0; round < rounds; ++round) {
     const std::string text =
         kPictures + "r: " + body(3) + "RETURN p: IF Flag?('f') 'M9' ELSE 'M31' END EOL RETURN";
