@@ -13,7 +13,17 @@ struct HelperText {
   std::string_view text;
 };
 
-constexpr std::array<HelperText, 21> kHelpers = {{
+constexpr std::array<HelperText, 22> kHelpers = {{
+    {Helper::Given, "given",
+     R"(// The decimal that was typed: a job keeps numbers in 32 bits, so 5.08 arrives as 5.079999923706055.
+function PREFIX_given(value) {
+  if (typeof value !== "number" || !isFinite(value) || value === 0) {
+    return value;
+  }
+  var exponent = Math.floor(Math.log(Math.abs(value)) / Math.LN2);
+  return value * Math.pow(2, 24 - exponent) % 1 === 0 ? Number(value.toPrecision(7)) : value;
+}
+)"},
     {Helper::IsNumber, "isNumber", R"(function PREFIX_isNumber(value) {
   return typeof value === "number" && isFinite(value);
 }

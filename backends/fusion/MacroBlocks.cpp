@@ -281,7 +281,7 @@ bool MacroBlocks::requireNominal(const ir::Measure& measure, const ir::Origin& o
       return false;
     }
     guardArithmetic(state_, away, origin);
-    state_.errorIf("Math.abs(" + valueText(state_, away, origin.range()) + ") > 1e-6",
+    state_.errorIf("Math.abs(" + valueText(state_, away, origin.range()) + ") > " + std::string(kHalfDigit),
                    "the start and the travel do not lead to the nominal in " + letter +
                        "; the macro would set another offset",
                    origin);

@@ -191,8 +191,12 @@ void writeReading(State& state) {
       const std::string get = "currentSection.getProperty(" + quoted(propertyName(state, variable)) + ")";
       ir::Origin origin;
       origin.ranges = {variable.range};
+      const bool length = choicesOf(state, id) == nullptr && !isWhole(variable.kind);
       script.add("var " + state.name(id) + " = " +
-                     (choicesOf(state, id) != nullptr ? "Number(" + get + ")" : get) + ";",
+                     (length                            ? state.helper(Helper::Given) + "(" + get + ")"
+                      : choicesOf(state, id) != nullptr ? "Number(" + get + ")"
+                                                        : get) +
+                     ";",
                  origin);
       continue;
     }
@@ -201,8 +205,13 @@ void writeReading(State& state) {
       state.refuse<diag::HostNotInPost>(state.cycle.range, variable.name);
       continue;
     }
-    if (host->text != host->local)
-      script.add("var " + state.name(id) + " = " + std::string(host->text) + ";");
+    const bool argument = host->text == host->local;
+    if (!argument || !isWhole(variable.kind))
+      script.add((argument ? "" : "var ") + state.name(id) + " = " +
+                 (isWhole(variable.kind)
+                      ? std::string(host->text)
+                      : state.helper(Helper::Given) + "(" + std::string(host->text) + ")") +
+                 ";");
   }
   state.errorIf("unit !== MM", "the cycle is written in millimetres, the document is not", {});
   for (const ir::VariableId id : state.read) {
@@ -222,7 +231,8 @@ void writeReading(State& state) {
   for (const auto& [name, value] : state.options.fixedByName) {
     const HostText* host = hostText(name);
     if (host == nullptr || host->text != host->local) continue;
-    state.errorIf("Math.abs(" + std::string(host->text) + " - " + numberLiteral(value, true) + ") > 1e-6",
+    state.errorIf("Math.abs(" + std::string(host->text) + " - " + numberLiteral(value, true) + ") > " +
+                      std::string(kHalfDigit),
                   "converted for a start at " +
                       std::string(1, static_cast<char>(std::toupper(host->text[0]))) + numberText(value),
                   {});

@@ -10,7 +10,11 @@
 namespace dotek::backends::fusion {
 
 // Private functions of a fragment that are in it only where they are called.
+// mm: half of the last digit that a block prints.
+inline constexpr std::string_view kHalfDigit = "0.0005";
+
 enum class Helper : std::uint8_t {
+  Given, // the decimal that was typed, of an input in 32 bits
   IsNumber,
   Digits,  // of Picture
   Picture, // text of a value in a picture

@@ -75,6 +75,9 @@ public:
   }
 
 private:
+  // As a job file keeps numbers: in 32 bits.
+  static double inJob(double value) { return static_cast<float>(value); }
+
   fusion::RunInput inputOf(const verify::Case& drawn) const {
     const auto host = [&](const char* name, double otherwise) {
       const auto found = drawn.hosts.find(name);
@@ -82,16 +85,16 @@ private:
     };
     fusion::RunInput out;
     for (const auto& [name, value] : drawn.values)
-      out.properties[fusion::propertyOf(prefix_, name)] = value;
-    out.points = {{host("start_x", 0), host("start_y", 0), host("start_z", 0)}};
-    out.toolDiameter = 2 * host("tool_radius", 3);
+      out.properties[fusion::propertyOf(prefix_, name)] = inJob(value);
+    out.points = {{inJob(host("start_x", 0)), inJob(host("start_y", 0)), inJob(host("start_z", 0))}};
+    out.toolDiameter = inJob(2 * host("tool_radius", 3));
     out.toolNumber = host("tool_number", 1);
     out.toolLengthOffset = host("tool_offset", 1);
     const std::pair<const char*, const char*> kCycle[] = {
         {"clearance", "clearance"}, {"retract", "retract"}, {"overtravel", "probeOvertravel"}};
     for (const auto& [name, member] : kCycle)
       if (const auto found = drawn.hosts.find(name); found != drawn.hosts.end())
-        out.cycle[member] = found->second;
+        out.cycle[member] = inJob(found->second);
     return out;
   }
 

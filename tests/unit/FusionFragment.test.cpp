@@ -290,6 +290,48 @@ TEST_CASE("what the operation lacks is an error, and nothing is printed") {
   CHECK(inch.text.empty());
 }
 
+TEST_CASE("numbers that a job keeps in 32 bits print, compare and warn as those that were typed") {
+  const auto inJob = [](double value) { return static_cast<double>(static_cast<float>(value)); };
+  const std::string fragment = fragmentOf(toFusion(example("surface-x"), ownPost()));
+  driver::ConvertOptions others = toFusion(example("surface-x"), ownPost());
+  others.probeMacros = "inspection-plus";
+  const std::string ours = fragmentOf(others);
+  for (const double travel : {5.08, -12.34, 99.99, 7.1, 250.07, -999.91, 3.19}) {
+    CAPTURE(travel);
+    fusion::RunInput typed;
+    typed.toolDiameter = 6.36; // the check asks for more than the radius: 3.18
+    typed.cycle = {{"clearance", 5.08}, {"probeOvertravel", 4.57}};
+    typed.points = {{-15.24, 1000.01, 60.96}};
+    typed.properties = {{"surfaceX_X", travel},
+                        {"surfaceX_I", travel - 15.24},
+                        {"surfaceX_Z", -5.33},
+                        {"surfaceX_G", 56},
+                        {"surfaceX_R", 43.18}};
+    fusion::RunInput kept = typed;
+    kept.toolDiameter = inJob(typed.toolDiameter);
+    for (double& place : kept.points.front())
+      place = inJob(place);
+    for (auto* values : {&kept.cycle, &kept.properties})
+      for (auto& [name, value] : *values)
+        value = inJob(value);
+    for (const std::string& one : {fragment, ours}) {
+      const fusion::RunResult wanted = fusion::runFragment(one, "surfaceX", typed);
+      const fusion::RunResult run = fusion::runFragment(one, "surfaceX", kept);
+      REQUIRE(wanted.ok());
+      CHECK(run.errors.empty());
+      CHECK(run.warnings == wanted.warnings);
+      CHECK(run.warnings.empty());
+      CHECK(run.text == wanted.text);
+    }
+  }
+  // On the bound of a check neither side is above the other.
+  fusion::RunInput bound;
+  bound.toolDiameter = inJob(6.38);
+  bound.cycle["clearance"] = 5;
+  bound.properties = {{"surfaceX_X", inJob(3.19)}, {"surfaceX_I", 0}};
+  CHECK(fusion::runFragment(fragment, "surfaceX", bound).errors.size() == 1);
+}
+
 TEST_CASE("a whole post runs from beginning to end") {
   driver::ConvertOptions convert = toFusion(example("surface-x"), ownPost());
   convert.inputs.push_back(example("bore"));
