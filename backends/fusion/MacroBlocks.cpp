@@ -27,12 +27,17 @@ ir::ExpressionPtr difference(const ir::ExpressionPtr& a, const ir::ExpressionPtr
   return ir::simplify(ir::binary(ir::BinaryOp::Subtract, a, b));
 }
 
+const stdlib::MacroSignature* switchOf(const State& state, const ir::ProbePower& power) {
+  return state.options.macros.find(power.on ? stdlib::Intent::ProbeOn : stdlib::Intent::ProbeOff);
+}
+
 bool isMacro(const State& state, const ir::CycleStatement& statement) {
   return match(
       statement,
       [&](const ir::ProbePower& node) {
-        const auto intent = node.on ? stdlib::Intent::ProbeOn : stdlib::Intent::ProbeOff;
-        return state.options.macros.find(intent) != nullptr;
+        // A macro of the source's set does not switch the probe here.
+        const bool called = statement.origin.addresses.find('P') != std::string::npos;
+        return called || switchOf(state, node) != nullptr;
       },
       [](const ir::Measure&) { return true; },
       [](const ir::OneOf<ir::Label, ir::Jump, ir::Branch, ir::Store, ir::Move, ir::Comment, ir::Assign,
@@ -87,6 +92,7 @@ bool MacroBlocks::block(const std::vector<const ir::CycleStatement*>& statements
   }
   if (!rewritten) return false;
   Text codes;
+  std::string comment; // after the first block
   for (const ir::CycleStatement* one : statements) {
     const ir::Origin& origin = one->origin;
     const auto other = [&] {
@@ -97,16 +103,19 @@ bool MacroBlocks::block(const std::vector<const ir::CycleStatement*>& statements
         [&](const ir::Measure& node) { measure(node, origin, lines); },
         [&](const ir::ProbePower& node) {
           if (isMacro(state_, *one))
-            switchProbe(node.on, lines);
+            switchProbe(node, origin, lines);
           else
             other();
         },
         [&](const ir::Store& node) { store(node, origin, lines); },
-        [&](const ir::OneOf<ir::Label, ir::Jump, ir::Branch, ir::Comment, ir::Assign, ir::Return, ir::Spindle,
-                            ir::Coolant, ir::SetMode, ir::Dwell, ir::Stop, ir::Alarm,
-                            ir::OpaqueBlock> auto&) { other(); });
+        [&](const ir::Comment& node) { comment += " (" + node.text + ")"; },
+        [&](const ir::OneOf<ir::Label, ir::Jump, ir::Branch, ir::Assign, ir::Return, ir::Spindle, ir::Coolant,
+                            ir::SetMode, ir::Dwell, ir::Stop, ir::Alarm, ir::OpaqueBlock> auto&) {
+          other();
+        });
   }
   if (codes.expression() != "\"\"") lines.insert(lines.begin(), std::move(codes));
+  if (!lines.empty()) lines.front().add(comment);
   return true;
 }
 
@@ -363,11 +372,17 @@ void MacroBlocks::call(const MacroCall& call, const ir::Origin& origin, std::vec
   lines.push_back(std::move(text));
 }
 
-void MacroBlocks::switchProbe(bool on, std::vector<Text>& lines) {
+void MacroBlocks::switchProbe(const ir::ProbePower& power, const ir::Origin& origin,
+                              std::vector<Text>& lines) {
+  const Function function = power.on ? Function::ProbeOn : Function::ProbeOff;
   Text text;
-  text.add("G65 P" +
-           std::to_string(
-               state_.options.macros.find(on ? stdlib::Intent::ProbeOn : stdlib::Intent::ProbeOff)->program));
+  if (const stdlib::MacroSignature* signature = switchOf(state_, power))
+    text.add("G65 P" + std::to_string(signature->program));
+  else if (state_.options.control.find(function) != nullptr)
+    code(function, "", origin, text);
+  else
+    state_.refuse<diag::NoProbeCode>(origin.range(), state_.options.control.title,
+                                     state_.options.macros.title, power.on ? "on" : "off");
   lines.push_back(std::move(text));
   last_ = nullptr;
 }

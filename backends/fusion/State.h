@@ -136,7 +136,7 @@ private:
   void call(const MacroCall& call, const ir::Origin& origin, std::vector<Text>& lines);
   void code(stdlib::Function function, std::string_view what, const ir::Origin& origin, Text& text);
   void store(const ir::Store& store, const ir::Origin& origin, std::vector<Text>& lines);
-  void switchProbe(bool on, std::vector<Text>& lines);
+  void switchProbe(const ir::ProbePower& power, const ir::Origin& origin, std::vector<Text>& lines);
   bool otherCode(const ir::CycleStatement& statement, Text& text);
   bool modeCode(const ir::SetMode& mode, const ir::Origin& origin, Text& text);
   bool requireNominal(const ir::Measure& measure, const ir::Origin& origin);

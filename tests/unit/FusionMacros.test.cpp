@@ -18,6 +18,18 @@ constexpr const char* kBlocks = "#1 = '####.##;0'\n"
                                 "END\n"
                                 "RETURN\n";
 
+// The source's macros switch the probe.
+constexpr const char* kSwitched = "#1 = '####.##;0'\n"
+                                  "FORMAT(OpFieldData#,1)\n"
+                                  "probe:\n"
+                                  "IF CycleType?('surface-x')\n"
+                                  " SeqC ' G65 P9832 (PROBE ON)' EOL\n"
+                                  " SeqC ' G65 P9810 Z'OpFieldData#('Z')' F500' EOL\n"
+                                  " SeqC ' G65 P9811 X'OpFieldData#('X')' S1' EOL\n"
+                                  " SeqC ' G65 P9833' EOL\n"
+                                  "END\n"
+                                  "RETURN\n";
+
 // Our macros, for a machine whose post is the form `machine`.
 driver::ConvertOptions ownMacrosFor(const DataFolder& folder, const std::string& control) {
   std::string form = readAll(root() / "stdlib" / "forms" / "thesis-a.toml");
@@ -58,6 +70,26 @@ TEST_CASE("a fragment with our own macros says what they need and calls them") {
   const fusion::RunResult run = fusion::runFragment(fragment, "surfaceX", input);
   CHECK_MESSAGE(run.ok(), reportOf(run));
   CHECK(holds(run.text, "G65 P8811 X12. Q8. S2."));
+}
+
+TEST_CASE("a fragment switches the probe as the control and its own macros do, not as the source's") {
+  const DataFolder folder;
+  driver::ConvertOptions convert = ownMacrosFor(folder, "fanuc-0i-md");
+  convert.source.prog = folder.write("post.txt", kSwitched);
+  for (const char* macros : {"dotek", "easyprobe"}) {
+    convert.probeMacros = macros;
+    const std::string fragment = fragmentOf(convert);
+    CHECK(fragment.find("writeBlock(\"M31 (PROBE ON)\")") != std::string::npos);
+    CHECK(fragment.find("writeBlock(\"M32\")") != std::string::npos);
+    CHECK(fragment.find("P983") == std::string::npos);
+  }
+  // The source's own set is printed as the Prog prints it.
+  convert.probeMacros = "inspection-plus";
+  CHECK(fragmentOf(convert).find("G65 P9832") != std::string::npos);
+  // A control that has no code for it, and no macro.
+  driver::ConvertOptions silent = ownMacrosFor(folder, "fanuc-31i-b");
+  silent.source.prog = folder.write("post.txt", kSwitched);
+  CHECK(errorsOf(driver::convert(silent)).contains("no-probe-code"));
 }
 
 TEST_CASE("a fragment prints nothing where the operation has an overtravel or a ball that cannot be meant") {
