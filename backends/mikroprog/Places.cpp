@@ -66,6 +66,16 @@ std::string axisWord(State& state, ir::Axis axis, double value, SourceRange rang
   return letter + numberWord(state, diameter ? 2 * value : value, range);
 }
 
+std::string shownPlace(const State& state, ir::Axis axis, double value) {
+  const char letter = ir::letterOf(axis);
+  return letter + numberText(state.control.isDiameter(letter) ? 2 * value : value);
+}
+
+std::string shownLength(const State& state, ir::Axis axis, double value) {
+  return state.control.isDiameter(ir::letterOf(axis)) ? numberText(2 * value) + " MM (DIAMETER)"
+                                                      : numberText(value) + " MM";
+}
+
 std::optional<double> valueOf(State& state, const ir::ExpressionPtr& value, SourceRange range) {
   const ir::ExpressionPtr simple = ir::simplify(value);
   if (const double* constant = ir::constantValue(simple)) return *constant;

@@ -68,8 +68,8 @@ void shiftSystem(State& state, ir::Axis axis, double face, double nominal, const
                                    now.shift > 0 ? "greater" : "smaller", numberText(std::abs(now.shift)));
   state.diagnostics.report<diag::SystemCorrected>(origin.range(), by);
   if (now.shift != 0)
-    state.remarks.push_back(fmt::format("AFTER THE DATUM {} COUNTS {} MM MORE THAN IN THE SOURCE",
-                                        ir::letterOf(axis), numberText(now.shift)));
+    state.remarks.push_back(fmt::format("AFTER THE DATUM {} COUNTS {} MORE THAN IN THE SOURCE",
+                                        ir::letterOf(axis), shownLength(state, axis, now.shift)));
   else
     state.remarks.push_back("MOVES AFTER A DATUM ARE IN THE CORRECTED SYSTEM");
 }
@@ -79,9 +79,8 @@ void setPosition(State& state, ir::Axis axis, double contact, double face, doubl
   if (!relyOn(state, {12}, "G92 along one axis", origin.range())) return;
   if (axis == ir::Axis::Y && !relyOn(state, {22}, "G92 with Y", origin.range())) return;
   const std::string code = state.code("set-position");
-  state.sheet.add(
-      code + " " + axisWord(state, axis, contact, origin.range()), origin,
-      fmt::format("CONTACT OF {}{}; S{} NOT WRITTEN", ir::letterOf(axis), numberText(nominal), system));
+  state.sheet.add(code + " " + axisWord(state, axis, contact, origin.range()), origin,
+                  fmt::format("CONTACT OF {}; S{} NOT WRITTEN", shownPlace(state, axis, nominal), system));
   state.diagnostics.report<diag::OffsetNumberDropped>(
       origin.range(), system, code + " sets the active system itself",
       state.code("reference") +
@@ -192,7 +191,7 @@ void measure(State& state, const ir::Measure& measure, std::size_t index) {
   const double over = state.host("overtravel");
   guard(state, origin);
   search(state, axis, sum(sum(*face, way < 0 ? -over : over), now.shift), origin,
-         fmt::format("SURFACE EXPECTED AT {}{}", ir::letterOf(axis), numberText(sum(*face, now.shift))));
+         "SURFACE EXPECTED AT " + shownPlace(state, axis, sum(*face, now.shift)));
   record(state, origin);
   if (measure.setting) {
     const ir::ExpressionPtr& given = measure.setting->nominal[ir::indexOf(axis)];

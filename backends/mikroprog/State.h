@@ -67,6 +67,10 @@ ir::Origin made(std::string reason, const ir::Origin& from = {});
 std::string numberWord(State& state, double value, SourceRange range);
 // "X-10": `value` in coordinates of the control, X of a lathe still a radius.
 std::string axisWord(State& state, ir::Axis axis, double value, SourceRange range);
+// The same for a comment: "X8", a diameter where the control counts one, and nothing is reported.
+std::string shownPlace(const State& state, ir::Axis axis, double value);
+// A length along the axis for a remark: "40 MM", "80 MM (DIAMETER)".
+std::string shownLength(const State& state, ir::Axis axis, double value);
 // The value of a folded expression; refuses what only the running program could know.
 std::optional<double> valueOf(State& state, const ir::ExpressionPtr& value, SourceRange range);
 // The same; refuses a number below 0, and 0 where `zero` is not allowed. `what` for the message: "a feed".
