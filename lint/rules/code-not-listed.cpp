@@ -12,7 +12,8 @@ namespace {
 using Code = std::pair<char, std::uint32_t>; // letter, ten times the number
 
 bool lists(const stdlib::Control& control, const Code& code) {
-  const auto [letter, tenths] = code;
+  const char letter = code.first;
+  const std::uint32_t tenths = code.second;
   return control.find(letter, tenths) != nullptr ||
          std::any_of(control.callCodes.begin(), control.callCodes.end(), [&](const stdlib::CallCode& call) {
            return call.letter == letter && tenths % 10 == 0 && tenths / 10 >= call.first &&
