@@ -4,8 +4,9 @@
 #include "ir/Flow.h"
 
 #include <cstddef>
+#include <functional>
 #include <optional>
-#include <set>
+#include <queue>
 #include <utility>
 #include <vector>
 
@@ -20,20 +21,26 @@ std::vector<std::optional<Fact>> factsBefore(const std::vector<Statement>& list,
   const auto next = successors(list);
   std::vector<std::optional<Fact>> facts(list.size());
   if (list.empty()) return facts;
-  std::set<std::size_t> open{0};
+  // The first in the text first: along jumps forward each is looked at once.
+  std::priority_queue<std::size_t, std::vector<std::size_t>, std::greater<>> open;
+  std::vector<bool> waits(list.size());
+  open.push(0);
   facts[0] = std::move(entry);
   while (!open.empty()) {
-    const std::size_t at = *open.begin();
-    open.erase(open.begin());
+    const std::size_t at = open.top();
+    open.pop();
+    waits[at] = false;
     for (const std::size_t to : next[at]) {
       if (to >= list.size()) continue;
       Fact behind = transfer(at, to, *facts[at]);
       bool changed = !facts[to];
       if (changed)
-        facts[to] = behind;
+        facts[to] = std::move(behind);
       else
         changed = meet(*facts[to], behind);
-      if (changed) open.insert(to);
+      if (!changed || waits[to]) continue;
+      waits[to] = true;
+      open.push(to);
     }
   }
   return facts;

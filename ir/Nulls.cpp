@@ -7,7 +7,7 @@
 namespace dotek::ir {
 namespace {
 
-using Set = std::set<VariableId>;
+using Set = NumberSet;
 
 // Variables times statements that are followed path by path; beyond, what may be null once may be so always.
 constexpr std::size_t kMostWork = 4'000'000;
@@ -40,13 +40,17 @@ Set behind(const std::vector<CycleStatement>& list, std::size_t from, std::size_
 
 // What may be null somewhere, from what may be so at the beginning.
 Set anywhere(const Cycle& cycle, Set nulls) {
-  std::size_t before = nulls.size() + 1;
-  for (int round = 0; round < kMostRounds && before != nulls.size(); ++round) {
-    before = nulls.size();
-    for (const auto* list : {&cycle.checks, &cycle.body})
-      for (const CycleStatement& statement : *list)
-        if (const auto* set = std::get_if<Assign>(&statement.node))
-          if (mayBeNull(set->value, nulls)) nulls.insert(set->variable);
+  bool changed = true;
+  for (int round = 0; round < kMostRounds && changed; ++round) {
+    changed = false;
+    for (const auto* list : {&cycle.checks, &cycle.body}) {
+      for (const CycleStatement& statement : *list) {
+        const auto* set = std::get_if<Assign>(&statement.node);
+        if (!set || nulls.contains(set->variable) || !mayBeNull(set->value, nulls)) continue;
+        nulls.insert(set->variable);
+        changed = true;
+      }
+    }
   }
   return nulls;
 }
@@ -59,11 +63,7 @@ Set follow(const std::vector<CycleStatement>& list, Set entry, std::vector<Set>&
   auto facts = factsBefore(
       extended, std::move(entry),
       [&](std::size_t from, std::size_t to, const Set& nulls) { return behind(extended, from, to, nulls); },
-      [](Set& into, const Set& other) {
-        const std::size_t before = into.size();
-        into.insert(other.begin(), other.end());
-        return into.size() != before;
-      });
+      [](Set& into, const Set& other) { return into.unite(other); });
   for (std::size_t i = 0; i < list.size(); ++i)
     out.push_back(facts[i] ? std::move(*facts[i]) : Set{});
   return facts.back() ? std::move(*facts.back()) : Set{};
@@ -99,7 +99,9 @@ Nulls findNulls(const Cycle& cycle) {
   const std::size_t statements = cycle.checks.size() + cycle.body.size();
   Nulls out;
   const Set all = anywhere(cycle, entry);
-  if (all.empty() || all.size() * statements > kMostWork) {
+  std::size_t size = 0;
+  all.each([&](VariableId) { ++size; });
+  if (all.empty() || size * statements > kMostWork) {
     out.checks.assign(cycle.checks.size(), all);
     out.body.assign(cycle.body.size(), all);
     return out;

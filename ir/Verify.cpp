@@ -83,7 +83,7 @@ private:
     }
   }
 
-  void meanings(const std::vector<CycleStatement>& list, const std::vector<std::set<VariableId>>& nulls) {
+  void meanings(const std::vector<CycleStatement>& list, const std::vector<NumberSet>& nulls) {
     for (std::size_t i = 0; i < list.size(); ++i) {
       kinds(list[i]);
       nullsOf(list[i], nulls[i]);
@@ -159,7 +159,7 @@ private:
 
   // ---- null -----------------------------------------------------------------------------------------------
 
-  void nullsOf(const CycleStatement& statement, const std::set<VariableId>& nulls) {
+  void nullsOf(const CycleStatement& statement, const NumberSet& nulls) {
     match(
         statement, [&](const Branch& node) { nullsOf(node.condition, statement, nulls); },
         [&](const OneOf<Assign, OpaqueBlock> auto&) { slotNulls(true, statement, nulls); },
@@ -167,13 +167,13 @@ private:
                         Dwell, Stop, Alarm, Comment> auto&) { slotNulls(false, statement, nulls); });
   }
 
-  void slotNulls(bool free, const CycleStatement& statement, const std::set<VariableId>& nulls) {
+  void slotNulls(bool free, const CycleStatement& statement, const NumberSet& nulls) {
     eachSlot(statement, [&](const ExpressionPtr& slot) { nullsOf(slot, free, statement, nulls); });
   }
 
   // `free`: the value itself may be null.
   void nullsOf(const ExpressionPtr& expression, bool free, const CycleStatement& statement,
-               const std::set<VariableId>& nulls) {
+               const NumberSet& nulls) {
     if (!free && mayBeNull(expression, nulls))
       report(place(expression->range, statement),
              text(*expression) + " may be null where a number is needed");
@@ -189,8 +189,7 @@ private:
         [](const OneOf<Constant, NullValue, VariableUse, MeasuredResult> auto&) {});
   }
 
-  void nullsOf(const ConditionPtr& condition, const CycleStatement& statement,
-               const std::set<VariableId>& nulls) {
+  void nullsOf(const ConditionPtr& condition, const CycleStatement& statement, const NumberSet& nulls) {
     match(
         *condition,
         [&](const Comparison& node) {
@@ -204,7 +203,7 @@ private:
           // `x is not null and x < 5`: the right side is looked at where x is a number.
           bool isNot = false; // of the test: `is not null`
           const auto* use = nullTest(node.left, isNot);
-          std::set<VariableId> rest = nulls;
+          NumberSet rest = nulls;
           if (use && isNot == (node.op == Connective::And)) rest.erase(use->variable);
           nullsOf(node.right, statement, rest);
         },

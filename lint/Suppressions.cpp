@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cctype>
 #include <limits>
+#include <map>
+#include <numeric>
 
 namespace dotek::lint {
 namespace {
@@ -125,14 +127,14 @@ private:
     const std::uint32_t first = file.lineOf(remark.range.begin);
     const std::uint32_t last = file.lineOf(remark.range.end > 0 ? remark.range.end - 1 : 0);
     if (verb == "ignore-end") {
-      const auto open = std::find_if(out_.rbegin(), out_.rend(), [&](const Suppression& one) {
-        return one.lastLine == kOpen && one.code == word.text && one.range.file == word.range.file;
-      });
-      if (open == out_.rend())
+      std::vector<std::size_t>& open = open_[{word.range.file, word.text}];
+      if (open.empty()) {
         diagnostics_.report<diag::SuppressionForm>(word.range,
                                                    "no region of `" + word.text + "` is open here");
-      else
-        open->lastLine = last;
+        return;
+      }
+      out_[open.back()].lastLine = last;
+      open.pop_back();
       return;
     }
     Suppression one{word.text, word.range, first, last, false};
@@ -141,6 +143,7 @@ private:
       one.lastLine = kLastLine;
     } else if (verb == "ignore-start") {
       one.lastLine = kOpen;
+      open_[{word.range.file, word.text}].push_back(out_.size());
     } else if (alone(file, remark, first, last)) {
       one.lastLine = nextLine(file, last);
     }
@@ -185,6 +188,34 @@ private:
   const SourceMap& sources_;
   Diagnostics& diagnostics_;
   std::vector<Suppression> out_;
+  std::map<std::pair<FileId, std::string>, std::vector<std::size_t>> open_; // regions, by file and code
+};
+
+// The suppressions of one code in one file, asked line by line from the first on.
+class Lines {
+public:
+  void add(Suppression& one) { waiting_.push_back(&one); }
+  void sort() {
+    std::stable_sort(waiting_.begin(), waiting_.end(),
+                     [](const Suppression* a, const Suppression* b) { return a->firstLine < b->firstLine; });
+  }
+  // Whether one holds there; all that do are used.
+  bool suppress(std::uint32_t line) {
+    for (; next_ < waiting_.size() && waiting_[next_]->firstLine <= line; ++next_) {
+      unused_.push_back(waiting_[next_]);
+      last_ = std::max(last_, waiting_[next_]->lastLine);
+    }
+    for (Suppression* one : unused_)
+      if (line <= one->lastLine) one->used = true;
+    unused_.clear();
+    return next_ > 0 && line <= last_;
+  }
+
+private:
+  std::vector<Suppression*> waiting_; // by their first line; those before next_ have begun
+  std::vector<Suppression*> unused_;  // have begun since the line that was asked for last
+  std::size_t next_ = 0;
+  std::uint32_t last_ = 0; // of those that have begun
 };
 
 } // namespace
@@ -199,18 +230,23 @@ std::vector<Suppression> suppressionsOf(const Project& project, Diagnostics& dia
 void applySuppressions(std::vector<Suppression>& suppressions, const SourceMap& sources,
                        Diagnostics& diagnostics,
                        const std::function<bool(std::string_view code, FileId file)>& judged) {
-  std::erase_if(diagnostics.all(), [&](const Diagnostic& d) {
-    if (!d.range.hasPlace()) return false;
-    const std::uint32_t line = sources.line(d.range);
-    bool suppressed = false;
-    for (Suppression& one : suppressions) {
-      if (one.range.file != d.range.file || one.code != d.code || line < one.firstLine || line > one.lastLine)
-        continue;
-      one.used = true;
-      suppressed = true;
-    }
-    return suppressed;
-  });
+  std::map<std::pair<FileId, std::string_view>, Lines> lines;
+  for (Suppression& one : suppressions)
+    lines[{one.range.file, one.code}].add(one);
+  for (auto& [key, of] : lines)
+    of.sort();
+  std::vector<Diagnostic>& all = diagnostics.all();
+  std::vector<std::size_t> order(all.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::sort(order.begin(), order.end(),
+            [&](std::size_t a, std::size_t b) { return all[a].range.begin < all[b].range.begin; });
+  std::vector<bool> suppressed(all.size());
+  for (const std::size_t i : order) {
+    const auto of = all[i].range.hasPlace() ? lines.find({all[i].range.file, all[i].code}) : lines.end();
+    suppressed[i] = of != lines.end() && of->second.suppress(sources.line(all[i].range));
+  }
+  std::size_t index = 0;
+  std::erase_if(all, [&](const Diagnostic&) { return suppressed[index++]; });
   for (const Suppression& one : suppressions) {
     if (!one.used && judged(one.code, one.range.file))
       diagnostics.report<diag::SuppressionUnused>(one.range, one.code);

@@ -1,6 +1,7 @@
 #include "lint/ToolLength.h"
 
 #include "ir/Match.h"
+#include "ir/SharedMap.h"
 #include "ir/Walk.h"
 #include "lint/Skips.h"
 
@@ -82,7 +83,7 @@ struct Held {
   bool free() const { return maybeAdded || maybeTaken; }
   bool operator==(const Held& other) const {
     return lengths == other.lengths && unknown == other.unknown && maybeAdded == other.maybeAdded &&
-           maybeTaken == other.maybeTaken;
+           maybeTaken == other.maybeTaken && read.has_value() == other.read.has_value();
   }
 };
 
@@ -117,22 +118,11 @@ Held mixed(const Held& a, const Held& b) {
   return out;
 }
 
-bool merge(Held& into, const Held& other) {
-  const Held before = into;
-  if (into.lengths != other.lengths) into.unknown = true;
-  if (into.unknown) into.lengths = 0;
-  into.unknown = into.unknown || other.unknown;
-  into.maybeAdded = into.maybeAdded || other.maybeAdded;
-  into.maybeTaken = into.maybeTaken || other.maybeTaken;
-  if (!into.read) into.read = other.read;
-  return !(into == before);
-}
-
 enum class Offset : std::uint8_t { AsBefore, On, Off, Either };
 
 struct Fact {
-  std::map<std::uint32_t, Held> values; // of variables that the program has set
-  bool lost = false;                    // a computed number may have set any of them
+  ir::SharedMap<Held> values; // of variables that the program has set
+  bool lost = false;          // a computed number may have set any of them
   Offset offset = Offset::AsBefore;
 };
 
@@ -143,14 +133,21 @@ Held entryValue(std::uint32_t number) {
   return out;
 }
 
+Held merged(Held into, const Held& other) {
+  if (into.lengths != other.lengths) into.unknown = true;
+  if (into.unknown) into.lengths = 0;
+  into.unknown = into.unknown || other.unknown;
+  into.maybeAdded = into.maybeAdded || other.maybeAdded;
+  into.maybeTaken = into.maybeTaken || other.maybeTaken;
+  if (!into.read) into.read = other.read;
+  return into;
+}
+
 bool merge(Fact& into, const Fact& other) {
-  bool changed = false;
-  for (auto& [number, held] : into.values)
-    if (!other.values.contains(number)) changed = merge(held, entryValue(number)) || changed;
-  for (const auto& [number, held] : other.values) {
-    const auto [at, added] = into.values.try_emplace(number, entryValue(number));
-    changed = merge(at->second, held) || added || changed;
-  }
+  // A variable that only one of the two has set is what it was at the entry for the other.
+  bool changed = into.values.unite(other.values, merged, [](std::uint32_t number, const Held& held) {
+    return merged(held, entryValue(number));
+  });
   if (other.lost && !into.lost) into.lost = changed = true;
   if (into.offset != other.offset && into.offset != Offset::Either) {
     into.offset = Offset::Either;
@@ -247,7 +244,7 @@ private:
       if (position) out.read = Read{*number, expression.range};
       return out;
     }
-    if (const auto at = fact.values.find(*number); at != fact.values.end()) return at->second;
+    if (const Held* held = fact.values.find(*number)) return *held;
     if (*number < kFirstSystem) return fact.lost ? unknownHeld() : entryValue(*number);
     out.maybeAdded = isToolOffset(*number);
     return out;
@@ -321,18 +318,17 @@ private:
     if (const auto stated = statedOffset(statement)) fact.offset = *stated;
     if (const auto* store = std::get_if<ir::Store>(&statement.node)) {
       if (const auto number = storedNumber(statement)) {
-        if (*number < kFirstSystem) fact.values[*number] = held(store->value, fact);
+        if (*number < kFirstSystem) fact.values.set(*number, held(store->value, fact));
       } else if (const auto first = ir::firstNumber(store->number); !first || *first < kFirstSystem) {
         fact.lost = true;
-        for (auto& [other, value] : fact.values)
-          value = unknownHeld();
+        fact.values.transform([](std::uint32_t, const Held&) { return unknownHeld(); });
       }
     }
     const ir::Call* call = callOf(statement);
     if (call == nullptr) return;
     if (call->kind == ir::CallKind::Subprogram) // shares the locals
-      for (auto& [local, value] : fact.values)
-        if (local <= kLastLocal) value = unknownHeld();
+      for (std::uint32_t local = 1; local <= kLastLocal; ++local)
+        if (fact.values.find(local) != nullptr) fact.values.set(local, unknownHeld());
     const double* number = call->program ? ir::constantValue(call->program) : nullptr;
     if (number != nullptr && switching_.contains(static_cast<std::uint32_t>(*number)))
       fact.offset = Offset::Either;

@@ -78,31 +78,61 @@ struct TomlState {
   std::unordered_set<const toml::node*> asked;                           // values that a reader took
   std::unordered_map<const toml::node*, std::vector<std::string>> known; // keys that readers know, by table
 
-  std::vector<std::size_t> lineStarts;
+  std::vector<std::size_t> lineStarts;     // offsets
+  std::vector<std::size_t> lineCharacters; // characters before each line
+  std::vector<std::size_t> places;         // offset of each kStride-th character of the text
+  static constexpr std::size_t kStride = 64;
 
-  void countLines() {
-    lineStarts = {0};
-    for (std::size_t at = text.find('\n'); at != std::string_view::npos; at = text.find('\n', at + 1))
-      lineStarts.push_back(at + 1);
+  void countCharacters() {
+    std::size_t characters = 0;
+    bool lineStarted = true;
+    for (std::size_t at = 0; at < text.size(); ++at) {
+      if (lineStarted) {
+        lineStarts.push_back(at);
+        lineCharacters.push_back(characters);
+      }
+      if (lineStarted || !continues(at)) {
+        if (characters % kStride == 0) places.push_back(at);
+        ++characters;
+      }
+      lineStarted = text[at] == '\n';
+    }
+    if (lineStarted) {
+      lineStarts.push_back(text.size());
+      lineCharacters.push_back(characters);
+    }
   }
+
+  // The byte is not the first of its character.
+  bool continues(std::size_t at) const { return (static_cast<unsigned char>(text[at]) & 0xC0) == 0x80; }
 
   // toml++ counts lines by LF and columns in characters.
   std::uint32_t offset(toml::source_position position) {
-    if (lineStarts.empty()) countLines();
+    if (lineStarts.empty()) countCharacters();
     const std::size_t line = std::min<std::size_t>(std::max(position.line, 1U), lineStarts.size());
-    std::size_t at = lineStarts[line - 1];
-    for (toml::source_index column = 1; column < position.column && at < text.size(); ++column) {
+    const std::size_t character = lineCharacters[line - 1] + std::max(position.column, 1U) - 1;
+    if (character / kStride >= places.size()) return static_cast<std::uint32_t>(text.size());
+    std::size_t at = places[character / kStride];
+    for (std::size_t rest = character % kStride; rest > 0 && at < text.size(); --rest) {
       ++at;
-      while (at < text.size() && (static_cast<unsigned char>(text[at]) & 0xC0) == 0x80)
+      while (at < text.size() && continues(at))
         ++at;
     }
     return static_cast<std::uint32_t>(at);
   }
 
+  // Where the line of `at` ends.
+  std::uint32_t lineEnd(std::size_t at) const {
+    const auto next = std::upper_bound(lineStarts.begin(), lineStarts.end(), at);
+    std::size_t end = next == lineStarts.end() ? text.size() : *next - 1;
+    if (end > at && text[end - 1] == '\r') --end;
+    return static_cast<std::uint32_t>(end);
+  }
+
   // The first line of a region is enough: a table goes on for many.
   SourceRange range(const toml::source_region& region) {
     const std::uint32_t begin = offset(region.begin);
-    const auto line = static_cast<std::uint32_t>(std::min(text.find_first_of("\r\n", begin), text.size()));
+    const std::uint32_t line = lineEnd(begin);
     const std::uint32_t end = std::min(offset(region.end), line);
     return {file, begin, std::max(end, std::min(begin + 1, line))};
   }

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <tuple>
@@ -13,6 +15,10 @@ namespace dotek {
 // Above `limit` it gives limit + 1.
 std::size_t nameDistance(std::string_view a, std::string_view b, std::size_t limit);
 
+// How often each letter is in a name, without case; others by their lowest bits.
+using LetterCounts = std::array<std::uint8_t, 32>;
+LetterCounts countLetters(std::string_view name);
+
 // Keeps the nearest of the names it is offered, within a third of the length of `name` (one letter for
 // names of two); of equally near ones that with the longest common beginning and end, then of the nearest
 // length, then the first in byte order, so that the order of offering does not matter. Names beyond the
@@ -22,7 +28,8 @@ public:
   static constexpr std::size_t kMostOffers = 4000;
 
   explicit NearestName(std::string_view name)
-      : name_(name), limit_(name.size() < 2 ? 0 : std::max<std::size_t>(1, name.size() / 3)) {}
+      : name_(name), letters_(countLetters(name)),
+        limit_(name.size() < 2 ? 0 : std::max<std::size_t>(1, name.size() / 3)) {}
   explicit NearestName(std::string&&) = delete; // the name is kept as a view
 
   void offer(std::string_view candidate);
@@ -31,9 +38,11 @@ public:
   const std::string& result() const { return best_; }
 
 private:
+  bool mayBeNear(std::string_view other) const;
   std::tuple<std::size_t, std::size_t, std::string_view> rank(std::string_view other) const;
 
   std::string_view name_;
+  LetterCounts letters_;
   std::size_t limit_;
   std::size_t offers_ = 0;
   std::string best_;

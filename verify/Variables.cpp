@@ -1,6 +1,7 @@
 #include "verify/Variables.h"
 
 #include "ir/Dataflow.h"
+#include "ir/NumberSet.h"
 #include "ir/Walk.h"
 #include "verify/VariableFlow.h"
 
@@ -76,7 +77,7 @@ public:
   }
 
 private:
-  using Written = std::set<std::uint32_t>;
+  using Written = ir::NumberSet;
 
   void readsOf(const ir::Program& program, bool main) {
     const auto behind = [&](std::size_t at, std::size_t, Written fact) {
@@ -86,11 +87,7 @@ private:
         if (const auto number = numberOf(store->number)) fact.insert(*number);
       return fact;
     };
-    const auto meet = [](Written& into, const Written& other) {
-      const std::size_t before = into.size();
-      std::erase_if(into, [&](std::uint32_t number) { return !other.contains(number); });
-      return into.size() != before;
-    };
+    const auto meet = [](Written& into, const Written& other) { return into.intersect(other); };
     const auto facts = ir::factsBefore<Written>(program.body, {}, behind, meet);
     for (std::size_t i = 0; i < program.body.size(); ++i) {
       if (!facts[i]) continue; // no path leads there

@@ -49,20 +49,16 @@ SavedModes::SavedModes(const ir::Program& program, const ir::ProgramFile& file,
   for (const std::uint32_t number : others)
     modes_.erase(number);
   if (modes_.empty()) return;
-  using Set = std::set<std::uint32_t>;
-  const auto after = [&](std::size_t at, std::size_t, Set fact) {
+  const auto after = [&](std::size_t at, std::size_t, ir::NumberSet fact) {
     const ir::ProgramStatement& statement = program.body[at];
     const auto* store = std::get_if<ir::Store>(&statement.node);
     const auto number = store == nullptr || statement.blockDelete != 0 ? std::nullopt : numberOf(*store);
     if (number && modes_.contains(*number)) fact.insert(*number);
     return fact;
   };
-  const auto meet = [](Set& into, const Set& other) {
-    const std::size_t before = into.size();
-    std::erase_if(into, [&](std::uint32_t number) { return !other.contains(number); });
-    return into.size() != before;
-  };
-  set_ = ir::factsBefore<Set>(program.body, {}, after, meet);
+  set_ = ir::factsBefore<ir::NumberSet>(
+      program.body, {}, after,
+      [](ir::NumberSet& into, const ir::NumberSet& other) { return into.intersect(other); });
 }
 
 bool SavedModes::restores(const ir::ExpressionPtr& value, std::size_t at) const {

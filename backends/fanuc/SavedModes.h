@@ -1,6 +1,7 @@
 // Modal codes that a program keeps in variables and puts back: #1=#4001 ... G#1.
 #pragma once
 
+#include "ir/NumberSet.h"
 #include "ir/Program.h"
 #include "stdlib/Control.h"
 
@@ -22,9 +23,9 @@ public:
   bool restores(const ir::ExpressionPtr& value, std::size_t at) const;
 
 private:
-  std::set<std::uint32_t> modes_;                           // variables that hold such codes alone
-  std::vector<std::optional<std::set<std::uint32_t>>> set_; // of them, before each statement
-  std::uint32_t first_ = 0, last_ = 0;                      // #4001 to #4099; 0: the control has none
+  std::set<std::uint32_t> modes_;                 // variables that hold such codes alone
+  std::vector<std::optional<ir::NumberSet>> set_; // of them, before each statement
+  std::uint32_t first_ = 0, last_ = 0;            // #4001 to #4099; 0: the control has none
 };
 
 } // namespace dotek::backends::fanuc

@@ -3,7 +3,10 @@
 
 #include "support/Source.h"
 
+#include <cstddef>
 #include <cstdint>
+#include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -115,7 +118,9 @@ struct Comment {
 
 struct Program {
   FileId file = kNoFile;
-  std::vector<Item> items;       // in source order
+  std::vector<Item> items; // in source order
+  std::map<std::string, std::size_t, std::less<>>
+      routines;                  // place in `items` of the first routine of each name
   std::vector<Comment> comments; // in source order
   bool hasErrorNodes = false;    // something could not be parsed: dump and lint run, post refuses
 };

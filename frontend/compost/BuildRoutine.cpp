@@ -107,6 +107,7 @@ void Builder::routine(Parser::RoutineContext& context, antlr4::TokenStream& stre
   pendingEnd_.insertionPoint = point;
 
   pendingRoutine_ = program_.items.size();
+  program_.routines.try_emplace(result.name, program_.items.size());
   program_.items.push_back(std::move(result));
   for (Item& inner : innerDirectives_)
     program_.items.push_back(std::move(inner));

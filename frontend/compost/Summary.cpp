@@ -77,11 +77,8 @@ void collectFields(const std::vector<Statement>& statements, const Program& prog
 } // namespace
 
 const Routine* findRoutine(const Program& program, std::string_view name) {
-  for (const Item& item : program.items) {
-    const auto* routine = std::get_if<Routine>(&item);
-    if (routine != nullptr && routine->name == name) return routine;
-  }
-  return nullptr;
+  const auto found = program.routines.find(name);
+  return found == program.routines.end() ? nullptr : &std::get<Routine>(program.items[found->second]);
 }
 
 std::vector<std::string> cycleIds(const Program& program) {

@@ -1,5 +1,8 @@
 #include "lint/ProgBlocks.h"
 
+#include <map>
+#include <string_view>
+
 namespace dotek::lint::rule {
 namespace {
 
@@ -9,38 +12,42 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(first, text.find_last_not_of(' ') + 1 - first);
 }
 
-// First use of the command in the Prog; nullptr: it is never used.
-const compost::Word* firstUse(const compost::Program& prog, std::string_view name) {
-  const compost::Word* found = nullptr;
+// First use of each command in the Prog.
+using Uses = std::map<std::string_view, const compost::Word*>;
+
+Uses firstUses(const compost::Program& prog) {
+  Uses out;
   for (const compost::Item& item : prog.items) {
     const auto* routine = std::get_if<compost::Routine>(&item);
     if (routine == nullptr) continue;
     eachStatement(routine->body, [&](const compost::Statement& statement) {
       const auto* word = std::get_if<compost::Word>(&statement);
-      if (found == nullptr && word != nullptr && word->kind == compost::WordKind::Command &&
-          word->name == name)
-        found = word;
+      if (word != nullptr && word->kind == compost::WordKind::Command) out.try_emplace(word->name, word);
     });
   }
-  return found;
+  return out;
 }
 
 void check(const Project& project, Report& report) {
   if (!project.form) return;
+  const compost::Program* last = nullptr;
+  Uses uses;
   eachRoutine(project, [&](const compost::Program& prog, const compost::Routine& routine) {
+    if (last != &prog) uses = firstUses(prog);
+    last = &prog;
     eachStatement(routine.body, [&](const compost::Statement& statement) {
       const auto* literal = std::get_if<compost::Literal>(&statement);
       if (literal == nullptr || trimmed(literal->text).empty()) return;
       for (const auto& [name, entry] : project.form->commands) {
         if (!entry.value.empty() || trimmed(entry.text) != trimmed(literal->text)) continue;
-        const compost::Word* use = firstUse(prog, name);
-        if (use == nullptr) continue;
+        const auto use = uses.find(name);
+        if (use == uses.end()) continue;
         report
             .at(literal->range,
                 "`{}` is what the command `{}` prints; after a literal the post does not know of it and may "
                 "print it again, or leave out what undoes it; write `{}`",
                 trimmed(literal->text), name, name)
-            .note(use->range, "the command is used here");
+            .note(use->second->range, "the command is used here");
         return;
       }
     });

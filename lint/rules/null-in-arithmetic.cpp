@@ -1,3 +1,4 @@
+#include "ir/NumberSet.h"
 #include "ir/Walk.h"
 #include "lint/Probing.h"
 
@@ -37,10 +38,11 @@ void checkProgram(const ir::Program& program, Report& report) {
     return std::find(kWithoutLetter.begin(), kWithoutLetter.end(), number) != kWithoutLetter.end() &&
            own.contains(number);
   };
-  const auto set = ir::factsBefore<std::set<std::uint32_t>>(
+  const auto set = ir::factsBefore<ir::NumberSet>(
       program.body, {},
-      [&](std::size_t at, std::size_t, std::set<std::uint32_t> variables) {
-        if (const auto number = storedNumber(program.body[at])) variables.insert(*number);
+      [&](std::size_t at, std::size_t, ir::NumberSet variables) {
+        const auto number = storedNumber(program.body[at]);
+        if (number && *number <= kLastLocal) variables.insert(*number);
         const auto* call = std::get_if<ir::Call>(&program.body[at].node);
         // A subprogram shares the locals of its caller.
         if (call != nullptr && call->kind == ir::CallKind::Subprogram)
@@ -48,11 +50,7 @@ void checkProgram(const ir::Program& program, Report& report) {
             variables.insert(n);
         return variables;
       },
-      [](std::set<std::uint32_t>& into, const std::set<std::uint32_t>& other) {
-        const std::size_t before = into.size();
-        into.insert(other.begin(), other.end());
-        return into.size() != before;
-      });
+      [](ir::NumberSet& into, const ir::NumberSet& other) { return into.unite(other); });
   std::set<std::uint32_t> told;
   for (std::size_t i = 0; i < program.body.size(); ++i) {
     if (!set[i]) continue;

@@ -1,6 +1,8 @@
+#include "ir/NumberSet.h"
+#include "ir/SharedMap.h"
 #include "lint/Probing.h"
 
-#include <map>
+#include <algorithm>
 #include <set>
 
 namespace dotek::lint::rule {
@@ -13,9 +15,9 @@ bool isScratch(const stdlib::MacroSet& set, std::uint32_t number) {
 }
 
 // Variables that the program set itself and that a macro may have overwritten since, with the call.
-using Lost = std::map<std::uint32_t, std::size_t>;
+using Lost = ir::SharedMap<std::size_t>;
 struct State {
-  std::set<std::uint32_t> own;
+  ir::NumberSet own;
   Lost lost;
 };
 
@@ -31,44 +33,46 @@ void checkProgram(const ir::Program& program, const Project& project, const Prob
     for (const stdlib::MacroSignature& signature : set.signatures)
       for (const stdlib::MacroResult& result : signature.results)
         results.insert(result.variable);
+  const auto inScratch = [&](std::uint32_t number) {
+    return std::any_of(project.macroSets.begin(), project.macroSets.end(),
+                       [&](const stdlib::MacroSet& set) { return isScratch(set, number); });
+  };
   const auto before = ir::factsBefore<State>(
       program.body, State{},
       [&](std::size_t at, std::size_t, State state) {
         if (const auto number = storedNumber(program.body[at])) {
           state.lost.erase(*number);
-          if (!results.contains(*number)) state.own.insert(*number);
+          if (!results.contains(*number) && inScratch(*number)) state.own.insert(*number);
         }
         const ProbeStep step = probing.step(program.body[at]);
         const stdlib::MacroSet* set = step.program == 0 ? nullptr : setOf(step.program);
         if (set == nullptr) return state;
-        for (auto own = state.own.begin(); own != state.own.end();) {
-          if (isScratch(*set, *own)) {
-            state.lost.try_emplace(*own, at);
-            own = state.own.erase(own);
-          } else {
-            ++own;
-          }
-        }
+        ir::NumberSet kept;
+        state.own.each([&](std::uint32_t number) {
+          if (!isScratch(*set, number))
+            kept.insert(number);
+          else if (state.lost.find(number) == nullptr)
+            state.lost.set(number, at);
+        });
+        state.own = kept;
         return state;
       },
       [](State& into, const State& other) {
-        const std::size_t size = into.own.size() + into.lost.size();
-        into.own.insert(other.own.begin(), other.own.end());
-        into.lost.insert(other.lost.begin(), other.lost.end());
-        return into.own.size() + into.lost.size() != size;
+        const bool own = into.own.unite(other.own);
+        return into.lost.unite(other.lost, [](std::size_t mine, std::size_t) { return mine; }) || own;
       });
   std::set<std::uint32_t> told;
   for (std::size_t i = 0; i < program.body.size(); ++i) {
     if (!before[i]) continue;
     eachRead(program.body[i], [&](std::uint32_t number, SourceRange range) {
-      const auto lost = before[i]->lost.find(number);
-      if (lost == before[i]->lost.end() || !told.insert(number).second) return;
+      const std::size_t* lost = before[i]->lost.find(number);
+      if (lost == nullptr || !told.insert(number).second) return;
       report
           .at(range,
               "#{} belongs to the variables that the probing macros work with, and one was called since the "
               "program set it; what is here is theirs; keep the value in another variable",
               number)
-          .note(program.body[lost->second].origin.range(), "the call");
+          .note(program.body[*lost].origin.range(), "the call");
     });
   }
 }

@@ -1,3 +1,4 @@
+#include "ir/NumberSet.h"
 #include "lint/Probing.h"
 
 #include <set>
@@ -23,22 +24,22 @@ void checkProgram(const ir::Program& program, const Project& project, const Prob
                   Report& report) {
   const std::set<std::uint32_t> results = resultsOf(project, program, probing);
   if (results.empty()) return;
-  // Variables that some path may have filled.
-  const auto filled = ir::factsBefore<std::set<std::uint32_t>>(
+  ir::NumberSet all;
+  for (const std::uint32_t result : results)
+    all.insert(result);
+  // Results that some path may have filled.
+  const auto filled = ir::factsBefore<ir::NumberSet>(
       program.body, {},
-      [&](std::size_t at, std::size_t, std::set<std::uint32_t> set) {
+      [&](std::size_t at, std::size_t, ir::NumberSet set) {
         const ProbeStep::Kind kind = probing.step(program.body[at]).kind;
         if (kind == ProbeStep::Kind::Measure || kind == ProbeStep::Kind::PackCall ||
             kind == ProbeStep::Kind::Call || kind == ProbeStep::Kind::OwnCall)
-          set.insert(results.begin(), results.end());
-        if (const auto number = storedNumber(program.body[at])) set.insert(*number);
+          set.unite(all);
+        const auto number = storedNumber(program.body[at]);
+        if (number && results.contains(*number)) set.insert(*number);
         return set;
       },
-      [](std::set<std::uint32_t>& into, const std::set<std::uint32_t>& other) {
-        const std::size_t before = into.size();
-        into.insert(other.begin(), other.end());
-        return into.size() != before;
-      });
+      [](ir::NumberSet& into, const ir::NumberSet& other) { return into.unite(other); });
   std::set<std::uint32_t> told;
   for (std::size_t i = 0; i < program.body.size(); ++i) {
     if (!filled[i]) continue;

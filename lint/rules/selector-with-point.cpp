@@ -5,17 +5,26 @@
 namespace dotek::lint::rule {
 namespace {
 
+// The keywords whose picture prints a point.
+std::set<std::string> printedWithPoint(const compost::Program& prog) {
+  std::set<std::uint32_t> pictures;
+  std::set<std::string> out;
+  for (const compost::Item& item : prog.items)
+    if (const auto* picture = std::get_if<compost::PictureDefinition>(&item))
+      if (picture->picture.text.substr(0, picture->picture.text.find(';')).find('.') != std::string::npos)
+        pictures.insert(picture->number);
+  for (const compost::Item& item : prog.items)
+    if (const auto* format = std::get_if<compost::FormatDirective>(&item))
+      if (pictures.contains(format->number)) out.insert(format->name);
+  return out;
+}
+
 void check(const Project& project, Report& report) {
+  const compost::Program* last = nullptr;
+  std::set<std::string> pointed;
   eachRoutine(project, [&](const compost::Program& prog, const compost::Routine& routine) {
-    std::set<std::uint32_t> pictures; // that print a point
-    std::set<std::string> pointed;
-    for (const compost::Item& item : prog.items)
-      if (const auto* picture = std::get_if<compost::PictureDefinition>(&item))
-        if (picture->picture.text.substr(0, picture->picture.text.find(';')).find('.') != std::string::npos)
-          pictures.insert(picture->number);
-    for (const compost::Item& item : prog.items)
-      if (const auto* format = std::get_if<compost::FormatDirective>(&item))
-        if (pictures.contains(format->number)) pointed.insert(format->name);
+    if (last != &prog) pointed = printedWithPoint(prog);
+    last = &prog;
     for (const ProgBlock& block : blocksOf(routine.body, prog, project)) {
       if (block.called) continue;
       const std::vector<ProgWord> words = wordsOf(block, nullptr);

@@ -1,26 +1,35 @@
 #include "lint/ProgBlocks.h"
 
 #include <algorithm>
+#include <iterator>
 
 namespace dotek::lint::rule {
 namespace {
 
-bool holds(const std::vector<compost::Statement>& statements, SourceRange range) {
-  return std::any_of(statements.begin(), statements.end(), [&](const compost::Statement& statement) {
-    const SourceRange whole = rangeOf(statement);
-    return whole.file == range.file && whole.begin <= range.begin && range.end <= whole.end;
-  });
+using Body = std::vector<compost::Statement>;
+
+// The statement that the range is in; nullptr: none of these.
+const compost::Statement* holding(const Body& statements, SourceRange range) {
+  const auto after = std::upper_bound(statements.begin(), statements.end(), range.begin,
+                                      [](std::uint32_t begin, const compost::Statement& statement) {
+                                        return begin < rangeOf(statement).begin;
+                                      });
+  if (after == statements.begin()) return nullptr;
+  const SourceRange whole = rangeOf(*std::prev(after));
+  return whole.file == range.file && range.end <= whole.end ? &*std::prev(after) : nullptr;
 }
 
 // The one is below an IF and the other below its ELSE: no line has both.
-bool exclude(const std::vector<compost::Statement>& statements, SourceRange first, SourceRange second) {
-  bool found = false;
-  eachStatement(statements, [&](const compost::Statement& statement) {
-    const auto* branch = std::get_if<std::unique_ptr<compost::If>>(&statement);
-    found = found ||
-            (branch != nullptr && holds((*branch)->thenBody, first) && holds((*branch)->elseBody, second));
-  });
-  return found;
+bool exclude(const Body& statements, SourceRange first, SourceRange second) {
+  const compost::Statement* holder = holding(statements, first);
+  if (holder == nullptr || holder != holding(statements, second)) return false;
+  const auto* branch = std::get_if<std::unique_ptr<compost::If>>(holder);
+  if (branch == nullptr) return false;
+  const Body& then = (*branch)->thenBody;
+  const Body& otherwise = (*branch)->elseBody;
+  const bool below = holding(then, first) != nullptr;
+  if (below && holding(otherwise, second) != nullptr) return true;
+  return exclude(below ? then : otherwise, first, second);
 }
 
 void check(const Project& project, Report& report) {

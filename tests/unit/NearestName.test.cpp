@@ -1,6 +1,9 @@
 #include "support/NearestName.h"
 
+#include <algorithm>
 #include <doctest/doctest.h>
+#include <random>
+#include <string>
 #include <vector>
 
 using namespace dotek;
@@ -14,6 +17,27 @@ TEST_CASE("distance of names") {
   CHECK(nameDistance("kitten", "sitting", 5) == 3);
   CHECK(nameDistance("kitten", "sitting", 2) == 3); // above the limit
   CHECK(nameDistance("", "abc", 9) == 3);
+}
+
+TEST_CASE("distance of names: any limit cuts the same distance off") {
+  std::mt19937 random(3);
+  const auto name = [&] {
+    std::string out(random() % 9, ' ');
+    for (char& c : out)
+      c = "abAB-"[random() % 5];
+    return out;
+  };
+  for (int i = 0; i < 5000; ++i) {
+    const std::string a = name(), b = name();
+    const std::size_t whole = nameDistance(a, b, 20);
+    CHECK(whole == nameDistance(b, a, 20));
+    CHECK(whole <= std::max(a.size(), b.size()));
+    for (std::size_t limit = 0; limit < 9; ++limit)
+      CHECK(nameDistance(a, b, limit) == std::min(whole, limit + 1));
+    // What is offered alone is found where it is near enough, and nowhere else.
+    const std::size_t most = a.size() < 2 ? 0 : std::max<std::size_t>(1, a.size() / 3);
+    if (!b.empty()) CHECK(nearestName(a, std::vector<std::string>{b}) == (whole <= most ? b : ""));
+  }
 }
 
 TEST_CASE("nearest name within a third of the length") {

@@ -3,6 +3,7 @@
 #include "stdlib/DataFiles.h"
 #include "support/Files.h"
 
+#include <array>
 #include <doctest/doctest.h>
 #include <functional>
 
@@ -101,6 +102,21 @@ TEST_CASE("toml: columns count characters") {
             .starts_with("2:7 [\"\xC4\x8D\xC5\x99\"]"));
   CHECK(reported("\xEF\xBB\xBFschema = 1\r\nt = { \"\xC4\x8D\xC5\x99\" = 1, b = 2 }\r\n", read)
             .find("2:17 [b]") != std::string::npos);
+}
+
+TEST_CASE("toml: places on a long line of characters of all lengths") {
+  std::string text = "schema = 1\r\nt = { ";
+  std::vector<std::string> names;
+  for (int i = 0; i < 300; ++i) {
+    static const std::array<const char*, 4> kLetters = {"a", "\xC4\x8D", "\xE2\x82\xAC", "\xF0\x9F\x94\xA7"};
+    names.push_back('"' + std::string(kLetters[static_cast<std::size_t>(i) % 4]) + std::to_string(i) + '"');
+    text += (i == 0 ? "" : ", ") + names.back() + " = 1";
+  }
+  const std::string all =
+      reported(text + " }\r\nlast = 1", [](const TomlDocument& d) { d.root().value("t").table(); });
+  for (const std::string& name : names)
+    CHECK(all.find(" [" + name + "] unknown key") != std::string::npos);
+  CHECK(all.find("3:1 [last]") != std::string::npos);
 }
 
 TEST_CASE("toml: wrong types and values") {
