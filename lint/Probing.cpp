@@ -74,12 +74,14 @@ Probing::Probing(const Project& project) : project_(project) {
 void Probing::readOwn() {
   struct Own {
     std::set<std::uint32_t> calls;
+    std::uint32_t number = 0;
     bool open = false; // switches the probe, or calls what is not known
     bool skips = false;
   };
   std::map<std::uint32_t, Own> all;
   eachProgram(project_, [&](const ir::Program& program, const macrob::File&) {
     Own& own = all[static_cast<std::uint32_t>(program.number)];
+    own.number = static_cast<std::uint32_t>(program.number);
     for (const ir::ProgramStatement& statement : program.body) {
       const auto* block = std::get_if<ir::NcBlock>(&statement.node);
       own.skips = own.skips || (block != nullptr && hasCode(*block, 'G', 31));
@@ -96,18 +98,26 @@ void Probing::readOwn() {
         own.open = true;
     }
   });
-  // What a program calls decides as well.
-  for (bool changed = true; changed;) {
-    changed = false;
-    for (auto& [number, own] : all) {
-      for (const std::uint32_t called : own.calls) {
-        const auto at = all.find(called);
-        const bool open = at == all.end() || at->second.open;
-        const bool skips = at != all.end() && at->second.skips;
-        changed = changed || (open && !own.open) || (skips && !own.skips);
-        own.open = own.open || open;
-        own.skips = own.skips || skips;
-      }
+  // What a program calls decides as well: from what is called to who calls it.
+  std::map<std::uint32_t, std::vector<Own*>> callers;
+  std::vector<std::uint32_t> decided;
+  for (auto& [number, own] : all) {
+    for (const std::uint32_t called : own.calls) {
+      callers[called].push_back(&own);
+      own.open = own.open || !all.contains(called);
+    }
+    if (own.open || own.skips) decided.push_back(number);
+  }
+  while (!decided.empty()) {
+    const Own& own = all.at(decided.back());
+    const auto above = callers.find(decided.back());
+    decided.pop_back();
+    if (above == callers.end()) continue;
+    for (Own* caller : above->second) {
+      if ((caller->open || !own.open) && (caller->skips || !own.skips)) continue;
+      caller->open = caller->open || own.open;
+      caller->skips = caller->skips || own.skips;
+      decided.push_back(caller->number);
     }
   }
   for (const auto& [number, own] : all) {

@@ -174,17 +174,12 @@ std::optional<Offset> statedOffset(const ir::ProgramStatement& statement) {
 
 class Search {
 public:
-  Search(const ir::Program& program, const Project& project)
-      : program_(program), project_(project), numbers_(project) {}
+  Search(const ir::Program& program, const Project& project, const Numbers& numbers,
+         const std::set<std::uint32_t>& switching)
+      : program_(program), project_(project), numbers_(numbers), switching_(switching) {}
 
   std::vector<LengthLeftIn> run() {
     if (!readsPosition()) return {};
-    for (const NcFile& nc : project_.programs)
-      if (nc.lowered)
-        for (const ir::Program& other : nc.lowered->programs)
-          if (std::any_of(other.body.begin(), other.body.end(),
-                          [](const ir::ProgramStatement& one) { return statedOffset(one).has_value(); }))
-            switching_.insert(static_cast<std::uint32_t>(other.number));
     Fact entry;
     // A macro that measures tools runs without an offset.
     if (setsToolOffset()) entry.offset = Offset::Off;
@@ -403,15 +398,38 @@ private:
 
   const ir::Program& program_;
   const Project& project_;
-  const Numbers numbers_;
-  std::set<std::uint32_t> switching_; // programs of the files that turn the offset on or off
+  const Numbers& numbers_;
+  const std::set<std::uint32_t>& switching_;
   std::vector<LengthLeftIn> found_;
 };
 
+// Programs of the files that turn the offset on or off.
+std::set<std::uint32_t> switchingPrograms(const Project& project) {
+  std::set<std::uint32_t> out;
+  for (const NcFile& nc : project.programs)
+    if (nc.lowered)
+      for (const ir::Program& program : nc.lowered->programs)
+        if (std::any_of(program.body.begin(), program.body.end(),
+                        [](const ir::ProgramStatement& one) { return statedOffset(one).has_value(); }))
+          out.insert(static_cast<std::uint32_t>(program.number));
+  return out;
+}
+
 } // namespace
 
-std::vector<LengthLeftIn> lengthsLeftIn(const ir::Program& program, const Project& project) {
-  return Search(program, project).run();
+struct ToolLengths::Known {
+  Numbers numbers;
+  std::set<std::uint32_t> switching;
+};
+
+ToolLengths::ToolLengths(const Project& project)
+    : project_(project),
+      known_(std::make_unique<const Known>(Known{Numbers(project), switchingPrograms(project)})) {}
+
+ToolLengths::~ToolLengths() = default;
+
+std::vector<LengthLeftIn> ToolLengths::leftIn(const ir::Program& program) const {
+  return Search(program, project_, known_->numbers, known_->switching).run();
 }
 
 } // namespace dotek::lint

@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -24,9 +25,24 @@ struct LengthLeftIn {
   std::uint32_t length = 5083; // the variable of the length
 };
 
-// Those of the program, in the order of its statements. Silent where the control is not known to hold the
-// length in its positions, under G49, and where something else that may be the length is taken off: a common
-// variable that the program does not set, a tool offset.
-std::vector<LengthLeftIn> lengthsLeftIn(const ir::Program& program, const Project& project);
+// What profiles and files say of lengths, gathered once for all programs of a project, which outlives it.
+class ToolLengths {
+public:
+  explicit ToolLengths(const Project& project);
+  ~ToolLengths();
+  ToolLengths(const ToolLengths&) = delete;
+  ToolLengths& operator=(const ToolLengths&) = delete;
+
+  // Those of the program, in the order of its statements. Silent where the control is not known to hold the
+  // length in its positions, under G49, and where something else that may be the length is taken off: a
+  // common variable that the program does not set, a tool offset.
+  std::vector<LengthLeftIn> leftIn(const ir::Program& program) const;
+
+  struct Known;
+
+private:
+  const Project& project_;
+  std::unique_ptr<const Known> known_;
+};
 
 } // namespace dotek::lint

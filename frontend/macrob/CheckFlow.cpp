@@ -9,6 +9,9 @@
 #include <functional>
 #include <map>
 #include <optional>
+#include <span>
+#include <unordered_map>
+#include <unordered_set>
 
 namespace dotek::frontend::macrob {
 namespace {
@@ -42,6 +45,7 @@ public:
       if (const auto* end = std::get_if<End>(&program_.blocks[i].body)) close(i, *end);
     }
     for (const std::size_t begin : stack_) {
+      if (closed_.contains(begin)) continue;
       loops_.push_back({begin, kNone});
       const auto& loop = std::get<Do>(program_.blocks[begin].body);
       if (!loop.loop) report_->noNumber(begin, loop, std::nullopt);
@@ -64,9 +68,9 @@ private:
 
   void open(std::size_t block, const Do& loop) {
     checkNumber(loop.loop);
-    if (loop.loop)
-      for (const std::size_t outer : stack_)
-        if (numberAt(outer) == loop.loop->value) report_->sameNumber(block, outer);
+    std::vector<std::size_t>& same = open_[numberOf(loop.loop)];
+    if (loop.loop && !same.empty()) report_->sameNumber(block, same.front());
+    same.push_back(block);
     stack_.push_back(block);
   }
 
@@ -77,28 +81,32 @@ private:
       report_->noDo(block);
       return;
     }
-    // The innermost with this number; else the innermost without one.
+    // The innermost with this number or without one; of an END without a number the innermost.
     const std::optional<std::uint32_t> number = numberOf(end.loop);
-    auto found = std::find_if(stack_.rbegin(), stack_.rend(),
-                              [&](std::size_t at) { return !number || numberAt(at) == number; });
-    const auto bare =
-        std::find_if(stack_.rbegin(), stack_.rend(), [&](std::size_t at) { return !numberAt(at); });
-    if (bare != stack_.rend() && (found == stack_.rend() || bare < found)) found = bare;
-    if (found == stack_.rend()) {
+    std::vector<std::size_t>& same = open_[number ? number : numberAt(stack_.back())];
+    std::vector<std::size_t>& bare = open_[std::nullopt];
+    std::vector<std::size_t>& found =
+        same.empty() || (!bare.empty() && bare.back() > same.back()) ? bare : same;
+    if (found.empty()) {
       report_->noDo(block);
       return;
     }
-    const std::size_t begin = *found;
+    const std::size_t begin = found.back();
+    found.pop_back();
     if (begin != stack_.back()) report_->crosses(block, stack_.back());
     const auto& loop = std::get<Do>(program_.blocks[begin].body);
     if (!loop.loop) report_->noNumber(begin, loop, number);
     loops_.push_back({begin, block});
-    stack_.erase(std::next(found).base());
+    closed_.insert(begin);
+    while (!stack_.empty() && closed_.erase(stack_.back()) != 0)
+      stack_.pop_back();
   }
 
   const Program& program_;
   const Defects* report_ = nullptr;
-  std::vector<std::size_t> stack_;
+  std::vector<std::size_t> stack_;         // DOs from the outermost open one on; the last is open
+  std::unordered_set<std::size_t> closed_; // of them: closed before an inner one
+  std::map<std::optional<std::uint32_t>, std::vector<std::size_t>> open_; // by number, from the outermost on
   std::vector<Loop> loops_;
 };
 
@@ -186,7 +194,8 @@ private:
   }
 
   void jumps() {
-    std::vector<std::uint64_t> wanted;
+    std::unordered_set<std::uint64_t> wanted;
+    findInnermost();
     for (std::size_t i = 0; i < program_.blocks.size(); ++i) {
       const Goto* jump = gotoOf(block(i));
       if (jump == nullptr) continue;
@@ -198,7 +207,7 @@ private:
           found_.badTargets.push_back(jump->target->range);
         continue;
       }
-      wanted.push_back(*number);
+      wanted.insert(*number);
       const std::size_t target = targetOf(i, *number);
       if (target == kNone)
         found_.missingTargets[*number].push_back(jump->target->range);
@@ -208,15 +217,40 @@ private:
     incomplete_ = !found_.missingTargets.empty() || unreadHolds(program_, "GOTO");
     if (isExcerpt()) found_.missingTargets.clear();
     for (const auto& [number, blocks] : numbered_) {
-      if (blocks.size() < 2 || std::find(wanted.begin(), wanted.end(), number) == wanted.end()) continue;
+      if (blocks.size() < 2 || !wanted.contains(number)) continue;
       for (std::size_t i = 1; i < blocks.size(); ++i)
         found_.targetsTwice.push_back(
             {number, block(blocks[i]).sequenceNumber->range, block(blocks[0]).sequenceNumber->range});
     }
   }
 
+  // The innermost loop of each block, where no loops cross.
+  void findInnermost() {
+    if (!found_.crossings.empty()) return;
+    innermost_.assign(program_.blocks.size(), kNone);
+    std::unordered_map<std::size_t, std::size_t> begins;
+    std::unordered_set<std::size_t> ends;
+    for (std::size_t i = 0; i < loops_.size(); ++i) {
+      if (loops_[i].end == kNone) continue;
+      begins.emplace(loops_[i].begin, i);
+      ends.insert(loops_[i].end);
+    }
+    std::vector<std::size_t> open;
+    for (std::size_t at = 0; at < program_.blocks.size(); ++at) {
+      innermost_[at] = open.empty() ? kNone : open.back();
+      if (ends.contains(at)) open.pop_back();
+      if (const auto loop = begins.find(at); loop != begins.end()) open.push_back(loop->second);
+    }
+  }
+
   void intoLoop(std::size_t from, const Goto& jump, std::size_t target) {
-    for (const Loop& loop : loops_) {
+    std::span<const Loop> loops = loops_;
+    // A loop that the jump enters is the innermost one, or all that hold the target hold the jump as well.
+    if (!innermost_.empty()) {
+      if (innermost_[target] == kNone) return;
+      loops = loops.subspan(innermost_[target], 1);
+    }
+    for (const Loop& loop : loops) {
       if (loop.end == kNone) continue;
       const auto inside = [&](std::size_t at) { return at > loop.begin && at <= loop.end; };
       if (!inside(target) || inside(from)) continue;
@@ -279,6 +313,7 @@ private:
   const SourceMap& sources_;
   FlowFindings found_;
   std::vector<Loop> loops_;
+  std::vector<std::size_t> innermost_; // index of the loop that holds each block; empty: loops cross
   std::map<std::uint64_t, std::vector<std::size_t>> numbered_;
   bool computed_ = false;   // a jump goes to a computed number
   bool incomplete_ = false; // a jump goes nowhere, or was not read

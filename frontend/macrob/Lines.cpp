@@ -129,7 +129,7 @@ private:
   // Gives the place of the closing bracket (or of the last byte that belongs to the comment).
   std::size_t comment(Line& line, std::size_t open) {
     std::size_t end = endOfLine(open);
-    std::size_t close = bytes().find(')', open);
+    const std::size_t close = bracketIn(")", open, end);
     if (close < end) {
       line.comments.push_back({range(open, close + 1), bytes().substr(open + 1, close - open - 1), 0});
       return close;
@@ -139,8 +139,8 @@ private:
       const std::size_t start = skipBlanks(nextLine(end), bytes().size());
       end = endOfLine(start);
       if (end - start > limits_.lineBytes || (start < end && bytes()[start] == '%')) break;
-      const std::size_t bracket = std::min(bytes().find_first_of("()", start), bytes().size());
-      if (bracket >= end) continue;
+      const std::size_t bracket = bracketIn("()", start, end);
+      if (bracket == end) continue;
       if (bytes()[bracket] == '(') break;
       return brokenComment(line, open, firstEnd, bracket);
     }
@@ -148,6 +148,12 @@ private:
     line.reported = true;
     blank(open, firstEnd);
     return firstEnd - 1;
+  }
+
+  // The first of the brackets from `from` on; `end` where there is none before it.
+  std::size_t bracketIn(std::string_view brackets, std::size_t from, std::size_t end) {
+    const std::size_t at = std::string_view(bytes()).substr(from, end - from).find_first_of(brackets);
+    return at == std::string_view::npos ? end : from + at;
   }
 
   std::size_t brokenComment(Line& line, std::size_t open, std::size_t firstEnd, std::size_t close) {
@@ -237,7 +243,9 @@ private:
   void legend(Line& line) {
     const bool behindLegend = legendBefore_;
     legendBefore_ = false;
-    if (!behindLegend && bytes().find('#', line.range.begin) >= line.range.end) return;
+    const std::string_view whole =
+        std::string_view(bytes()).substr(line.range.begin, line.range.end - line.range.begin);
+    if (!behindLegend && whole.find('#') == std::string_view::npos) return;
     const std::string text = withoutComments(line);
     std::size_t begin = findLegend(text);
     if (begin == std::string::npos && behindLegend && isPlainText(text))

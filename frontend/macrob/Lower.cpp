@@ -66,6 +66,8 @@ private:
                                                : ir::Program::NameKind::Name;
   }
 
+  static bool before(const NumberedBlock& one, std::size_t block) { return one.block < block; }
+
   const Block& here() const { return program_.blocks[at_]; }
 
   template <class Node> ir::ProgramStatement& add(Node node) {
@@ -82,8 +84,8 @@ private:
 
   void block(const Block& block) {
     if (const auto& number = block.sequenceNumber; number && number->value != UINT64_MAX) {
-      for (const NumberedBlock& one : labels_[number->value])
-        if (one.block == at_) place(one.label);
+      const std::vector<NumberedBlock>& same = labels_.at(number->value);
+      place(std::lower_bound(same.begin(), same.end(), at_, before)->label);
     }
     const Comment* message = messageOf(block);
     for (const Comment& comment : block.comments) {
@@ -140,9 +142,8 @@ private:
       return std::nullopt;
     const auto found = labels_.find(static_cast<std::uint64_t>(*number));
     if (found == labels_.end()) return std::nullopt;
-    for (const NumberedBlock& one : found->second)
-      if (one.block > at_) return one.label;
-    return found->second.front().label;
+    const auto next = std::lower_bound(found->second.begin(), found->second.end(), at_ + 1, before);
+    return next == found->second.end() ? found->second.front().label : next->label;
   }
   void lower(const Goto& jump, const Comment*) {
     if (const auto label = target(jump))

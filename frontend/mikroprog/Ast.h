@@ -40,12 +40,14 @@ struct Line {
   SourceRange numberRange;
   std::optional<Assignment> assignment;
   std::vector<Word> words;
+  std::vector<std::size_t> firsts;    // places in `words` of the first word of each address
   std::optional<std::string> comment; // bytes after `;`
   SourceRange commentRange;           // `;` included
   bool unread = false;                // reported; words and assignment are what precedes the defect
   SourceRange range;
 
-  const Word* find(char address) const; // nullptr: none
+  const Word* find(char address) const; // the first; nullptr: none
+  void add(Word word);
 };
 
 struct Program {

@@ -116,7 +116,7 @@ private:
       word.file = std::string(text_.substr(from + 1, at_ - from - 1));
       word.range = range(from);
       if (word.file.empty()) return fail(rest(from));
-      line_.words.push_back(std::move(word));
+      line_.add(std::move(word));
       return true;
     }
     if (!isLetter(peek(0)) || !fanucSyntax(text_.substr(at_, rest(at_).end - begin_ - at_)).empty())
@@ -132,7 +132,7 @@ private:
     word.address = text_[at_++];
     if (!value(word.value)) return fail(rest(from));
     word.range = range(from);
-    line_.words.push_back(std::move(word));
+    line_.add(std::move(word));
     return true;
   }
 
@@ -195,9 +195,14 @@ std::string place(const SourceMap& sources, SourceRange range) {
 } // namespace
 
 const Word* Line::find(char address) const {
-  const auto at =
-      std::find_if(words.begin(), words.end(), [&](const Word& word) { return word.address == address; });
-  return at == words.end() ? nullptr : &*at;
+  const auto at = std::find_if(firsts.begin(), firsts.end(),
+                               [&](std::size_t first) { return words[first].address == address; });
+  return at == firsts.end() ? nullptr : &words[*at];
+}
+
+void Line::add(Word word) {
+  if (find(word.address) == nullptr) firsts.push_back(words.size());
+  words.push_back(std::move(word));
 }
 
 Program parse(FileId file, const SourceMap& sources, Diagnostics& diagnostics) {

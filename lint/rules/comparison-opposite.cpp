@@ -1,9 +1,11 @@
 #include "frontend/macrob/Calls.h"
 #include "lint/Project.h"
 
-#include <algorithm>
+#include <map>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 namespace dotek::lint::rule {
@@ -40,18 +42,17 @@ void check(const Project& project, Report& report) {
       for (const macrob::Block& block : program.blocks)
         if (const auto* branch = std::get_if<macrob::If>(&block.body))
           if (auto test = testOf(*branch, project)) tests.push_back(std::move(*test));
-      for (std::size_t i = 1; i < tests.size(); ++i) {
-        const auto end = tests.begin() + static_cast<std::ptrdiff_t>(i);
-        const auto other = std::find_if(tests.begin(), end, [&](const Test& one) {
-          return one.key == tests[i].key && one.more != tests[i].more;
-        });
-        if (other == end) continue;
+      std::map<std::pair<std::string_view, bool>, const Test*> first; // of each key and direction
+      for (const Test& test : tests) {
+        const auto other = first.find({test.key, !test.more});
+        first.try_emplace({test.key, test.more}, &test);
+        if (other == first.end()) continue;
         report
-            .at(tests[i].range,
+            .at(test.range,
                 "this jumps where the value is {} the bound, and another test with the same bound "
                 "and target where it is {}; one of the two comparisons is turned round",
-                tests[i].more ? "above" : "below", tests[i].more ? "below" : "above")
-            .note(other->range, "the other test");
+                test.more ? "above" : "below", test.more ? "below" : "above")
+            .note(other->second->range, "the other test");
       }
     }
   }

@@ -1,9 +1,10 @@
 #include "frontend/macrob/Calls.h"
 #include "lint/Project.h"
 
-#include <algorithm>
+#include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace dotek::lint::rule {
@@ -56,15 +57,17 @@ void compareTests(const macrob::Program& program, const Project& project, Report
   for (const macrob::Block& block : program.blocks)
     if (const auto* branch = std::get_if<macrob::If>(&block.body))
       if (auto test = testOf(*branch, project)) tests.push_back(std::move(*test));
+  std::map<std::string_view, const Test*> absolute; // the first of each key
+  for (const Test& test : tests)
+    if (test.absolute) absolute.try_emplace(test.key, &test);
   for (const Test& test : tests) {
-    const auto other = std::find_if(tests.begin(), tests.end(),
-                                    [&](const Test& one) { return one.absolute && one.key == test.key; });
-    if (test.absolute || other == tests.end()) continue;
+    const auto other = absolute.find(test.key);
+    if (test.absolute || other == absolute.end()) continue;
     report
         .at(test.condition->range,
             "this test has the bound and the target of another one, which takes the absolute "
             "value; here each value of the other sign passes; write ABS")
-        .note(other->condition->range, "the other test");
+        .note(other->second->condition->range, "the other test");
   }
 }
 

@@ -14,11 +14,10 @@ bool isPlain(const ir::Expression& expression) {
   return std::holds_alternative<ir::Constant>(expression.node) || variableNumber(expression).has_value();
 }
 
-void checkProgram(const ir::Program& program, const std::vector<OwnCall>* calls, Report& report) {
+// `calls`: the locals that some call of the program sets; nullptr: nothing calls it.
+void checkProgram(const ir::Program& program, const std::set<std::uint32_t>* calls, Report& report) {
   std::set<std::uint32_t> given;
-  if (calls != nullptr)
-    for (const OwnCall& call : *calls)
-      given.insert(call.given.begin(), call.given.end());
+  if (calls != nullptr) given = *calls;
   for (const ir::ProgramStatement& statement : program.body) {
     if (std::holds_alternative<ir::Store>(statement.node) && !storedNumber(statement)) return;
     if (const auto number = storedNumber(statement)) given.insert(*number);
@@ -66,7 +65,10 @@ void checkProgram(const ir::Program& program, const std::vector<OwnCall>* calls,
 }
 
 void check(const Project& project, Report& report) {
-  const auto calls = callsByProgram(project);
+  std::map<std::uint32_t, std::set<std::uint32_t>> calls; // what some call gives, by program
+  for (const auto& [program, list] : callsByProgram(project))
+    for (const OwnCall& call : list)
+      calls[program].insert(call.given.begin(), call.given.end());
   eachProgram(project, [&](const ir::Program& program, const macrob::File&) {
     if (endsProgram(program) || program.number == 0) return;
     const auto at = calls.find(static_cast<std::uint32_t>(program.number));

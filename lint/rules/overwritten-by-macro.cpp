@@ -21,18 +21,22 @@ struct State {
   Lost lost;
 };
 
+std::set<std::uint32_t> resultsOf(const Project& project) {
+  std::set<std::uint32_t> out;
+  for (const stdlib::MacroSet& set : project.macroSets)
+    for (const stdlib::MacroSignature& signature : set.signatures)
+      for (const stdlib::MacroResult& result : signature.results)
+        out.insert(result.variable);
+  return out;
+}
+
 void checkProgram(const ir::Program& program, const Project& project, const Probing& probing,
-                  Report& report) {
+                  const std::set<std::uint32_t>& results, Report& report) {
   const auto setOf = [&](std::uint32_t number) -> const stdlib::MacroSet* {
     for (const stdlib::MacroSet& set : project.macroSets)
       if (set.calls(number)) return &set;
     return nullptr;
   };
-  std::set<std::uint32_t> results;
-  for (const stdlib::MacroSet& set : project.macroSets)
-    for (const stdlib::MacroSignature& signature : set.signatures)
-      for (const stdlib::MacroResult& result : signature.results)
-        results.insert(result.variable);
   const auto inScratch = [&](std::uint32_t number) {
     return std::any_of(project.macroSets.begin(), project.macroSets.end(),
                        [&](const stdlib::MacroSet& set) { return isScratch(set, number); });
@@ -79,8 +83,9 @@ void checkProgram(const ir::Program& program, const Project& project, const Prob
 
 void check(const Project& project, Report& report) {
   const Probing& probing = probingOf(project);
+  const std::set<std::uint32_t> results = resultsOf(project);
   eachProgram(project, [&](const ir::Program& program, const macrob::File&) {
-    checkProgram(program, project, probing, report);
+    checkProgram(program, project, probing, results, report);
   });
 }
 

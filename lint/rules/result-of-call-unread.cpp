@@ -21,6 +21,7 @@ std::map<std::uint32_t, std::set<std::uint32_t>> results(const Project& project)
 
 struct Use {
   const ir::ProgramStatement* call = nullptr;
+  std::size_t at = 0; // its place among the statements
   bool read = false;
   bool again = false; // the next statement calls the same: a fast touch and a slow one
 };
@@ -28,29 +29,39 @@ struct Use {
 void checkProgram(const ir::Program& program, const std::map<std::uint32_t, std::set<std::uint32_t>>& sets,
                   Report& report) {
   std::map<std::uint32_t, std::vector<Use>> uses;
+  std::map<std::uint32_t, std::size_t> lastRead; // of each variable: after which statements, from 1 on
+  const auto judge = [&](std::uint32_t called, Use& use) { // nothing follows before the next call
+    for (const std::uint32_t number : sets.at(called))
+      if (const auto last = lastRead.find(number); last != lastRead.end() && last->second > use.at)
+        use.read = true;
+  };
+  std::size_t place = 0;
   const ir::ProgramStatement* before = nullptr;
   for (const ir::ProgramStatement& statement : program.body) {
     if (ir::isLayout(statement)) continue;
     const ir::ProgramStatement* const last = std::exchange(before, &statement);
-    eachRead(statement, [&](std::uint32_t number, SourceRange) {
-      for (auto& [called, list] : uses)
-        if (sets.at(called).contains(number)) list.back().read = true;
-    });
+    ++place;
+    eachRead(statement, [&](std::uint32_t number, SourceRange) { lastRead[number] = place; });
     const ir::Call* call = callOf(statement);
     const double* number = call == nullptr || !call->program ? nullptr : ir::constantValue(call->program);
     if (number == nullptr || *number < 1 || *number > 1e8) continue;
     const auto called = static_cast<std::uint32_t>(std::lround(*number));
     if (!sets.contains(called) || called == program.number) continue;
     std::vector<Use>& list = uses[called];
-    if (!list.empty() && list.back().call == last) list.back().again = true;
-    list.push_back({&statement, false, false});
+    if (!list.empty()) {
+      judge(called, list.back());
+      list.back().again = list.back().call == last;
+    }
+    list.push_back({&statement, place, false, false});
   }
+  for (auto& [called, list] : uses)
+    judge(called, list.back());
+  // A loop may read after its END what precedes in the text.
+  const bool loops = std::any_of(program.body.begin(), program.body.end(), [](const ir::ProgramStatement& s) {
+    return std::holds_alternative<ir::Loop>(s.node);
+  });
   for (const auto& [called, list] : uses) {
     const auto read = std::count_if(list.begin(), list.end(), [](const Use& use) { return use.read; });
-    // A loop may read after its END what precedes in the text.
-    const bool loops =
-        std::any_of(program.body.begin(), program.body.end(),
-                    [](const ir::ProgramStatement& s) { return std::holds_alternative<ir::Loop>(s.node); });
     if (read == 0 || loops) continue;
     for (const Use& use : list)
       if (!use.read && !use.again)

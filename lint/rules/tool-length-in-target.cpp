@@ -1,6 +1,7 @@
 #include "lint/ToolLength.h"
 
 #include <algorithm>
+#include <map>
 
 namespace dotek::lint::rule {
 namespace {
@@ -18,12 +19,18 @@ std::optional<Edit> repair(const LengthLeftIn& one, const SourceMap& sources) {
   return Edit{one.value, one.place == Place::WorkOffset ? taken : "[" + taken + "]"};
 }
 
-void checkProgram(const ir::Program& program, const Project& project, Report& report) {
-  std::vector<LengthLeftIn> all = lengthsLeftIn(program, project);
+void checkProgram(const ir::Program& program, const Project& project, const ToolLengths& lengths,
+                  Report& report) {
   // One position that is read leads to one finding, at its first coordinate.
-  while (!all.empty()) {
-    const LengthLeftIn first = all.front();
-    std::vector<LengthLeftIn> rest;
+  std::map<std::uint32_t, std::size_t> places; // of positions, in `read`
+  std::vector<std::vector<LengthLeftIn>> read;
+  for (const LengthLeftIn& one : lengths.leftIn(program)) {
+    const auto [place, added] = places.try_emplace(one.readAt.begin, read.size());
+    if (added) read.emplace_back();
+    read[place->second].push_back(one);
+  }
+  for (const std::vector<LengthLeftIn>& all : read) {
+    const LengthLeftIn& first = all.front();
     Diagnostic& found =
         report.at(first.range,
                   "{0} computed from #{1}, which holds the length of the tool too, and nothing takes it off; "
@@ -37,10 +44,6 @@ void checkProgram(const ir::Program& program, const Project& project, Report& re
       found.note(first.readAt, "the position is read here");
     Fix fix{Fix::Applicability::Display, "", {}};
     for (const LengthLeftIn& one : all) {
-      if (one.readAt.begin != first.readAt.begin) {
-        rest.push_back(one);
-        continue;
-      }
       if (one.range.begin != first.range.begin) found.note(one.range, "another coordinate computed from it");
       if (auto edit = repair(one, project.sources)) fix.edits.push_back(std::move(*edit));
     }
@@ -48,13 +51,13 @@ void checkProgram(const ir::Program& program, const Project& project, Report& re
       fix.title = fmt::format("write `{}`", fix.edits.front().text);
       found.fix = std::move(fix);
     }
-    all = std::move(rest);
   }
 }
 
 void check(const Project& project, Report& report) {
+  const ToolLengths lengths(project);
   eachProgram(project, [&](const ir::Program& program, const macrob::File&) {
-    checkProgram(program, project, report);
+    checkProgram(program, project, lengths, report);
   });
 }
 

@@ -31,7 +31,10 @@ TEST_CASE("macrob check: loops (1.7, 1.11)") {
   CHECK(program("DO1\nEND") == "E 3:1 end-without-number");
   CHECK(program("DO4\nEND4") == "E 2:3 loop-number-range; E 3:4 loop-number-range");
   CHECK(program("DO1\nDO1\nEND1\nEND1") == "E 3:3 loop-number-in-use");
+  CHECK(program("DO1\nDO1\nDO1\nEND1\nEND1\nEND1") == "E 3:3 loop-number-in-use; E 4:3 loop-number-in-use");
+  CHECK(program("DO1\nEND1\nDO1\nEND1") == "");
   CHECK(program("DO1\nDO2\nEND1\nEND2") == "E 4:1 loops-cross");
+  CHECK(program("DO1\nDO2\nDO3\nEND2\nEND3\nEND1\nDO2\nEND2") == "E 5:1 loops-cross");
   CHECK(program("END2") == "E 2:1 end-without-do");
   CHECK(program("DO2\n#1=2") == "E 2:1 do-without-end");
 }
@@ -50,6 +53,11 @@ TEST_CASE("macrob check: jumps (1.7, 1.11)") {
   CHECK(program("IF[#1EQ1]GOTO5\nN5 DO1\n#1=#1+1\nEND1") == ""); // to the DO
   CHECK(program("DO1\nIF[#1EQ1]GOTO5\n#1=#1+1\nN5 END1") == ""); // inside
   CHECK(program("DO1\nIF[#1EQ1]GOTO5\nEND1\nN5 G0") == "");      // out of it
+  // Of loops within one another the jump may enter the inner one alone.
+  CHECK(program("DO1\nIF[#1EQ1]GOTO5\nDO2\nN5 #1=#1+1\nEND2\nEND1") == "E 3:14 jump-into-loop");
+  CHECK(program("DO1\nDO2\nIF[#1EQ1]GOTO5\nEND2\nN5 #1=#1+1\nEND1") == "");
+  CHECK(program("DO1\nDO2\nN5 #1=#1+1\nEND2\nEND1\nIF[#1EQ1]GOTO5") == "E 7:14 jump-into-loop");
+  CHECK(program("DO1\nEND1\nN5 G0\nDO1\nIF[#1EQ1]GOTO5\nEND1") == "");
 }
 
 TEST_CASE("macrob check: blocks that never run") {
