@@ -54,12 +54,12 @@ std::string textStl(const std::vector<Triangle>& triangles) {
 
 // A disc of n sectors, 10 mm thick: two corners that all n sectors share.
 std::vector<Triangle> fan(long n) {
+  n = std::max(3L, n);
   std::vector<Triangle> out;
   const auto at = [n](long i, double z) {
     const double angle = 2 * std::acos(-1.0) * static_cast<double>(i % n) / static_cast<double>(n);
     return std::array<double, 3>{50 * std::cos(angle), 50 * std::sin(angle), z};
   };
-  n = std::max(3L, n);
   for (long i = 0; i < n; ++i) {
     out.push_back({{{0, 0, 10}, at(i, 10), at(i + 1, 10)}});
     out.push_back({{{0, 0, 0}, at(i + 1, 0), at(i, 0)}});
