@@ -140,6 +140,7 @@ private:
                           session_.compostKeywords()};
     const bool blocks = progs || !compilation_.programs().empty();
     if (blocks) project.macroSets = session_.macroSets();
+    inputs_->formChoice = form;
     project.form = inputs_->form ? &*inputs_->form : nullptr;
     if (project.form != nullptr && !project.form->control.empty() && inputs_->sourceControl)
       project.postControl = &*inputs_->sourceControl;

@@ -65,8 +65,11 @@ private:
 
   Outcome finish(sim::Machine& machine, const sim::Run* run) {
     world_->reportRest();
-    Outcome out =
-        outcomeOf(session_, options_.json ? sim::summary(machine, run, *world_, session_) : "", true);
+    Outcome out = outcomeOf(session_,
+                            options_.json    ? sim::summary(machine, run, *world_, session_)
+                            : options_.trace ? world_->measuredTable()
+                                             : "",
+                            true);
     out.files = world_->pictures();
     return out;
   }

@@ -18,6 +18,9 @@ void takeLowered(Joined& joined, std::optional<dotek::project::LoweredCycle> low
 } // namespace
 
 void join(Project& project, dotek::project::Compilation& compilation, bool lower) {
+  // What its macros come to without any Prog: for the findings alone.
+  for (const dotek::project::CycleFolder& folder : compilation.folders())
+    if (folder.cycle) compilation.lower(folder, dotek::project::Strictness::Lenient);
   for (const auto& prog : compilation.progs()) {
     const std::vector<std::string> ids = compost::cycleIds(*prog);
     for (const dotek::project::CycleFolder& folder : compilation.folders()) {

@@ -9,6 +9,7 @@
 #include "ir/Rewrite.h"
 #include "ir/Verify.h"
 #include "project/Assumptions.h"
+#include "project/CertainFindings.h"
 #include "project/Fields.h"
 #include "project/FormChoice.h"
 #include "project/Hosts.h"
@@ -60,6 +61,8 @@ public:
       : folder_(folder), inputs_(inputs), session_(session), lenient_(strictness == Strictness::Lenient) {}
 
   std::optional<LoweredCycle> run(std::set<std::string>& usedSets);
+  // Of a lenient one: what is certainly wrong with the checks of the dialog.
+  const Diagnostics& certain() const { return certain_; }
 
 private:
   ir::Cycle& cycle() { return out_.cycle; }
@@ -80,6 +83,7 @@ private:
   Session& session_;
   const bool lenient_;
   LoweredCycle out_;
+  Diagnostics certain_;
   std::map<std::string, ir::VariableId> parameters_; // by folded name
   std::map<std::string, ir::VariableId> postOnly_;   // fields that only the post knows
   std::map<std::string, ir::VariableId> hosts_;
@@ -215,7 +219,9 @@ bool Lowering::checks() {
   out_.checked = !folder_.cycle->cycleData->hasErrorNodes &&
                  gibbs::lowerChecks(*folder_.cycle->cycleData, cycle(), context);
   if (!out_.checked) cycle().checks.clear();
-  session_.diagnostics() = Diagnostics(); // only errors of the body are in its path
+  // Only errors of the body are in its path.
+  keepCertain(session_.diagnostics(), false, certain_);
+  session_.diagnostics() = Diagnostics();
   return true;
 }
 
@@ -371,7 +377,10 @@ std::optional<LoweredCycle> lowerCycle(const CycleFolder& folder, const Lowering
                                        Strictness strictness) {
   if (strictness == Strictness::Strict) return Lowering(folder, inputs, session, strictness).run(usedSets);
   Diagnostics kept = std::exchange(session.diagnostics(), Diagnostics());
-  std::optional<LoweredCycle> out = Lowering(folder, inputs, session, strictness).run(usedSets);
+  Lowering lowering(folder, inputs, session, strictness);
+  std::optional<LoweredCycle> out = lowering.run(usedSets);
+  keepCertain(lowering.certain(), true, kept);
+  keepCertain(session.diagnostics(), inputs.formChoice.named, kept);
   session.diagnostics() = std::move(kept);
   return out;
 }

@@ -66,8 +66,9 @@ struct LoweredCycle {
 };
 
 // Strict refuses and reports what has no single meaning, as a result that somebody runs needs it. Lenient
-// reports nothing: a field that the folder lacks is a parameter without default, checks that cannot be read
-// are left out, and values that they reject are taken. For who judges what is written.
+// reports what holds whatever the target and the values are (CertainFindings.h), and nothing else: a field
+// that the folder lacks is a parameter without default, checks that cannot be read are left out, and values
+// that they reject are taken. For who judges what is written.
 enum class Strictness : std::uint8_t { Strict, Lenient };
 
 // `usedSets` collects the names of --set that the cycle knows. nullopt where something has no single meaning:

@@ -68,18 +68,16 @@ std::set<std::string> subscriptsOf(const CheckedProgram& input) {
 
 void variableOutOfRange(const CheckedProgram& input, Report& report) {
   const stdlib::Control* control = input.control;
-  std::set<std::uint32_t> told;
+  std::vector<std::pair<std::uint32_t, SourceRange>> found; // each number at its first place
   const auto judge = [&](std::uint32_t number, SourceRange range) {
     if (number <= (control != nullptr ? control->locals : kLastLocal) || number >= kFirstSystem) return;
     const bool known = control != nullptr
                            ? control->isCommon(number)
                            : (number >= 100 && number <= 199) || (number >= 500 && number <= 999);
-    if (known || !told.insert(number).second) return;
-    report.at(
-        range,
-        "{} has no variable #{}; the control stops with alarm 115; take one of the ranges that `dotek list "
-        "controls` prints",
-        control != nullptr ? "this control" : "a Fanuc control", number);
+    if (known ||
+        std::any_of(found.begin(), found.end(), [&](const auto& one) { return one.first == number; }))
+      return;
+    found.emplace_back(number, range);
   };
   // Block by block, so that the first use is the one that is reported.
   for (const Block& block : input.program.blocks) {
@@ -93,6 +91,16 @@ void variableOutOfRange(const CheckedProgram& input, Report& report) {
         if (const auto* variable = std::get_if<PrintedVariable>(&piece))
           judge(variable->variable, print->range);
   }
+  if (found.empty()) return;
+  Diagnostic& told = report.at(
+      found.front().second,
+      "{} has no variable #{}{}; the control stops with alarm 115; take one of the ranges that `dotek list "
+      "controls` "
+      "prints",
+      control != nullptr ? "this control" : "a Fanuc control", found.front().first,
+      found.size() > 1 ? fmt::format(", nor {} others that the program uses", found.size() - 1) : "");
+  for (std::size_t i = 1; i < found.size(); ++i)
+    told.note(found[i].second, fmt::format("#{} first appears here", found[i].first));
 }
 
 void nullWritten(const CheckedProgram& input, Report& report) {

@@ -4,6 +4,16 @@
 namespace dotek::lint::rule {
 namespace {
 
+// Without one of its letters the call says all that a reading needs: R of a pocket, which a web takes with Z.
+bool readsWithoutOne(const stdlib::MacroSet& set, std::uint32_t program, const std::string& letters) {
+  for (std::size_t i = 0; i < letters.size(); ++i) {
+    std::string others = letters;
+    others.erase(i, 1);
+    if (readKnown(set, program, others).refusal == stdlib::CallRefusal::None) return true;
+  }
+  return false;
+}
+
 void checkCall(const macrob::Words& words, const Project& project, Report& report) {
   const auto call = macrob::callOf(words);
   if (!call || call->kind != macrob::CallKind::Simple || call->program == nullptr) return;
@@ -29,7 +39,7 @@ void checkCall(const macrob::Words& words, const Project& project, Report& repor
                 "`{}` measures one thing at a time, and the letters {} of this call belong to "
                 "several; the macro stops with an alarm; write a call for each",
                 project.sources.textUtf8(call->program->range), reading.letters);
-    else if (reading.refusal == CallRefusal::Missing)
+    else if (reading.refusal == CallRefusal::Missing && !readsWithoutOne(set, program, letters))
       report.at(call->program->range,
                 "`{}` needs {}, which this call does not have; the macro stops with an alarm; "
                 "write it",

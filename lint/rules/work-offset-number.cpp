@@ -7,14 +7,45 @@ namespace dotek::lint::rule {
 namespace {
 
 // Numbers that the macro takes for a work offset: G54 to G59 by their G number; 1 to 6, or those of the
-// extended systems and of the external offset, by index.
+// additional systems and of the external offset, by index; S154.01 to S154.99 are the additional systems G154
+// of a Haas, and G54.1 P1 to P99 where a set follows them.
 bool isOffset(stdlib::SystemCode code, double number) {
+  if (number > 154 && number < 155) return true;
   if (number != std::floor(number)) return code == stdlib::SystemCode::GNumber && number > 54 && number < 55;
-  if (code == stdlib::SystemCode::GNumber) return number >= 54 && number <= 59;
-  return (number >= 0 && number <= 7) || (number >= 101 && number <= 400);
+  if (number >= 54 && number <= 59) return true;
+  return code != stdlib::SystemCode::GNumber &&
+         ((number >= 0 && number <= 7) || (number >= 101 && number <= 400));
 }
 
-void checkCall(const macrob::Words& words, const Project& project, Report& report) {
+// Calls of one set in one file: one finding with its places.
+class Wrong {
+public:
+  void add(const stdlib::MacroSet& set, std::string taken, SourceRange range) {
+    for (One& one : found_)
+      if (one.set == &set && one.taken == taken) return one.places.push_back(range);
+    found_.push_back({&set, std::move(taken), {range}});
+  }
+  void tell(const SourceMap& sources, Report& report) const {
+    for (const One& one : found_) {
+      Diagnostic& told = report.at(one.places.front(),
+                                   "`{}` names no work offset for {}, which takes {}; the macro stops with "
+                                   "an alarm, or writes another variable",
+                                   sources.textUtf8(one.places.front()), one.set->title, one.taken);
+      for (std::size_t i = 1; i < one.places.size(); ++i)
+        told.note(one.places[i], "nor does `" + sources.textUtf8(one.places[i]) + "`");
+    }
+  }
+
+private:
+  struct One {
+    const stdlib::MacroSet* set = nullptr;
+    std::string taken;
+    std::vector<SourceRange> places;
+  };
+  std::vector<One> found_;
+};
+
+void checkCall(const macrob::Words& words, const Project& project, Wrong& found) {
   const auto call = macrob::callOf(words);
   if (!call || call->kind != macrob::CallKind::Simple || call->program == nullptr) return;
   const auto number = macrob::literal(*call->program);
@@ -31,11 +62,10 @@ void checkCall(const macrob::Words& words, const Project& project, Report& repor
       if (known == nullptr || known->role != stdlib::ArgumentRole::System) continue;
       const auto value = macrob::literal(*argument.word);
       if (!value || isOffset(known->systemCode, *value)) continue;
-      report.at(argument.word->range,
-                "`{}` names no work offset for {}, which takes {}; the macro stops with an alarm, or "
-                "writes another variable",
-                project.sources.textUtf8(argument.word->range), set.title,
-                known->systemCode == stdlib::SystemCode::GNumber ? "54 to 59" : "1 to 6, or 101 and above");
+      const std::string taken = known->systemCode == stdlib::SystemCode::GNumber
+                                    ? "54 to 59"
+                                    : "1 to 6, 54 to 59, or 101 and above";
+      found.add(set, taken, argument.word->range);
     }
     return;
   }
@@ -54,13 +84,16 @@ void checkTable(const macrob::Words& words, const Project& project, Report& repo
 }
 
 void check(const Project& project, Report& report) {
-  for (const NcFile& nc : project.programs)
+  for (const NcFile& nc : project.programs) {
+    Wrong found;
     for (const macrob::Program& program : nc.file->programs)
       for (const macrob::Block& block : program.blocks)
         if (const auto* words = std::get_if<macrob::Words>(&block.body)) {
-          checkCall(*words, project, report);
+          checkCall(*words, project, found);
           checkTable(*words, project, report);
         }
+    found.tell(project.sources, report);
+  }
 }
 
 } // namespace

@@ -2,6 +2,7 @@
 // Points are of the machine; those of moves and errors are the ball's centre.
 #pragma once
 
+#include "sim/geometry/Devices.h"
 #include "sim/geometry/Part.h"
 #include "sim/geometry/Probe.h"
 #include "sim/machine/Measurement.h"
@@ -86,7 +87,8 @@ struct Picture {
   // Its ball, stem and body. One without a length down to its tip is none: then the points of the path are
   // those of the spindle's gauge line.
   Probe probe;
-  std::vector<PictureMove> moves; // in the order of the run
+  std::optional<ToolSetter> setter; // of the machine
+  std::vector<PictureMove> moves;   // in the order of the run
   std::vector<PictureContact> contacts;
   std::vector<PictureError> errors;
   std::vector<PictureBlock> blocks;

@@ -2,6 +2,7 @@
 #include "sim/picture/PicturePage.h"
 #include "sim/picture/PictureRegion.h"
 #include "sim/picture/PictureReport.h"
+#include "sim/picture/PictureResult.h"
 #include "sim/picture/PictureText.h"
 #include "sim/picture/PictureView.h"
 #include "sim/picture/SurfaceMesh.h"
@@ -104,11 +105,12 @@ private:
     if (lost > 0) note(fmt::format("moves without a number, or beyond 1 km: {}; they are not drawn", lost));
     if (!hasProbe(picture_)) note("no probe is stated: the path is that of the spindle's gauge line");
     if (!picture_.part) note("no part: only the path is drawn");
+    if (picture_.setter) note("tool setter at machine " + pointText(picture_.setter->at, picture_.decimals));
     if (const std::string cut = cutNote(picture_, region_); !cut.empty()) note(cut);
     return out;
   }
 
-  static std::string legend() {
+  std::string legend() const {
     std::string out;
     for (const PathKind kind : {PathKind::Rapid, PathKind::Feed, PathKind::Protected, PathKind::Measuring}) {
       const PathStyle& style = pathStyle(kind);
@@ -123,6 +125,9 @@ private:
            "style=\"stroke:var(--error)\" stroke-width=\"2.6\"/></svg>error</div>\n"
            "<div><svg width=\"44\" height=\"14\"><circle cx=\"13\" cy=\"7\" r=\"6\" fill=\"#f0a614\"/>"
            "<circle cx=\"31\" cy=\"7\" r=\"6\" fill=\"#545c66\"/></svg>probe on, off</div>";
+    if (picture_.setter)
+      out += "\n<div><svg width=\"44\" height=\"14\"><ellipse cx=\"22\" cy=\"7\" rx=\"12\" ry=\"5\" "
+             "style=\"fill:none;stroke:var(--ink)\"/></svg>tool setter</div>";
     return out;
   }
 
@@ -150,6 +155,10 @@ private:
                              number(size(probe.stemLength)), number(size(probe.bodyDiameter) / 2),
                              number(size(probe.bodyLength)),
                              number(std::isfinite(probe.centreLength()) ? probe.centreLength() : 0));
+    out += picture_.setter && isDrawn(picture_.setter->at)
+               ? fmt::format("\"setter\":{{\"at\":[{}],\"radius\":{}}},\n", numbers(picture_.setter->at),
+                             number(size(picture_.setter->diameter / 2)))
+               : "\"setter\":null,\n";
     way(out);
     frames(out);
     marks(out);

@@ -67,6 +67,18 @@ Region squat(Region region) {
   return region;
 }
 
+// The run has something to do with the tool setter.
+bool isTouched(const Picture& picture) {
+  if (!picture.setter || !isDrawn(picture.setter->at)) return false;
+  const auto isNear = [&](const Point3& p) {
+    return (p - picture.setter->at).length() <= picture.setter->diameter;
+  };
+  return std::any_of(picture.contacts.begin(), picture.contacts.end(),
+                     [&](const PictureContact& contact) { return isNear(contact.point); }) ||
+         std::any_of(picture.errors.begin(), picture.errors.end(),
+                     [&](const PictureError& error) { return isNear(error.at); });
+}
+
 // What the picture is about.
 Region focusOf(const Picture& picture) {
   Bounds bounds;
@@ -80,6 +92,11 @@ Region focusOf(const Picture& picture) {
   }
   for (const PictureError& error : picture.errors) {
     if (isDrawn(error.at)) bounds.add(error.at);
+  }
+  if (isTouched(picture)) {
+    const double r = picture.setter->diameter / 2;
+    bounds.add(picture.setter->at - Point3{r, r, r});
+    bounds.add(picture.setter->at + Point3{r, r, 0});
   }
   if (bounds.any()) return bounds.region();
   for (const PictureMove& move : picture.moves) {

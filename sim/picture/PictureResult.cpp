@@ -121,7 +121,8 @@ PictureResult resultOf(const Picture& picture, const RunFacts& facts) {
                     "surface",
                     misses == 1 ? "a skip move met" : fmt::format("{} skip moves met", misses));
   }
-  if (ended && !crashed && !picture.part) out.text += "; no part was given, so nothing could be touched";
+  if (ended && !crashed && !picture.part && picture.contacts.empty())
+    out.text += "; no part was given, so nothing could be touched";
 
   const bool first = crashed && !picture.errors.empty();
   if (first) {

@@ -140,6 +140,13 @@ std::string drawLegend(const Sheet& sheet, double left, double top, double& bott
   } else {
     legend.text("no part: only the path is drawn", 56);
   }
+  if (picture.setter) {
+    legend.mark(
+        fmt::format("<circle r=\"6\" fill=\"{0}\" fill-opacity=\"0.18\" stroke=\"{0}\"/>", kSetterColour),
+        "tool setter" +
+            std::string(sheet.region.contains(picture.setter->at) ? "" : ", outside of the picture"));
+    legend.text("at machine " + pointText(picture.setter->at, picture.decimals), 56);
+  }
   if (picture.moves.empty()) legend.text("no moves", 56);
   legend.gap(6);
   addScale(legend, sheet.scale);

@@ -17,7 +17,7 @@ struct Row {
 
 class Table {
 public:
-  explicit Table(const Picture& picture) : decimals_(picture.decimals) {}
+  explicit Table(int decimals) : decimals_(decimals) {}
 
   std::string number(double value) const {
     return std::isfinite(value) ? fixedText(value, decimals_) : std::string("?");
@@ -55,9 +55,28 @@ private:
 
 } // namespace
 
+std::string measuredText(const std::vector<PictureMeasured>& measured, std::size_t leftOut, int decimals) {
+  if (measured.empty()) return "";
+  const Table table(decimals);
+  std::string out =
+      fmt::format("{:<30} {:>12} {:>12} {:>12}\n", "measured, mm", "nominal", "measured", "deviation");
+  for (const PictureMeasured& one : measured) {
+    out += fmt::format("{} ({})\n", Table::title(one), Table::place(one));
+    for (const MeasuredValue& value : one.found.values) {
+      const Row row = table.row(value);
+      out +=
+          fmt::format("  {:<28} {:>12} {:>12} {:>12}\n", row.name, row.nominal, row.measured, row.deviation);
+    }
+    for (const OffsetWrite& write : one.offsets)
+      out += "  " + table.offset(write) + "\n";
+  }
+  if (leftOut > 0) out += fmt::format("and {} more\n", leftOut);
+  return out;
+}
+
 std::string measuredSvg(const Picture& picture, double left, double& at) {
   if (picture.measured.empty()) return "";
-  const Table table(picture);
+  const Table table(picture.decimals);
   constexpr double kRow = 18;
   constexpr const char* kNumber = "text-anchor=\"end\" font-family=\"Consolas, DejaVu Sans Mono, monospace\"";
   std::string out = "<g id=\"measured\" fill=\"#20262d\">\n";
@@ -108,7 +127,7 @@ std::string measuredSvg(const Picture& picture, double left, double& at) {
 
 std::string measuredHtml(const Picture& picture, const std::function<std::size_t(std::size_t)>& place) {
   if (picture.measured.empty()) return "";
-  const Table table(picture);
+  const Table table(picture.decimals);
   std::string out =
       "<section id=\"measured\">\n<h2>Measured</h2>\n<table>\n<thead><tr><th>mm</th><th>nominal</th>"
       "<th>measured</th><th>deviation</th></tr></thead>\n<tbody>\n";

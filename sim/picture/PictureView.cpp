@@ -59,6 +59,7 @@ public:
     out_ +=
         fmt::format("<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" fill=\"none\" stroke=\"#8b939e\"/>\n",
                     px(box_.left), px(box_.top), px(box_.right - box_.left), px(box_.bottom - box_.top));
+    setter();
     balls();
     for (const PathKind kind : {PathKind::Measuring, PathKind::Protected, PathKind::Feed, PathKind::Rapid})
       way(kind);
@@ -66,6 +67,7 @@ public:
     ends();
     contacts();
     errors();
+    setterName();
     out_ += "</g>\n";
     return std::move(out_);
   }
@@ -268,6 +270,31 @@ private:
     };
     square(picture_.moves.back().to, "#20262d");
     square(picture_.moves.front().from, "#ffffff");
+  }
+
+  // A disc seen from above, as high as it is wide below its face from the side.
+  void setter() {
+    if (!picture_.setter || !isSeen(picture_.setter->at)) return;
+    const double r = picture_.setter->diameter / 2 * frame_.scale;
+    const PlanePoint at = sheet(on(picture_.setter->at));
+    out_ += fmt::format(
+        "<g class=\"setter\" fill=\"{0}\" fill-opacity=\"0.18\" stroke=\"{0}\" stroke-width=\"1.4\" "
+        "clip-path=\"url(#clip{1})\">",
+        kSetterColour, frame_.across);
+    out_ += frame_.across == 2
+                ? fmt::format("<circle cx=\"{}\" cy=\"{}\" r=\"{}\"/>", px(at[0]), px(at[1]), px(r))
+                : fmt::format("<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\"/>", px(at[0] - r),
+                              px(at[1]), px(2 * r), px(r));
+    out_ += "</g>\n";
+  }
+  void setterName() {
+    if (!picture_.setter || !isSeen(picture_.setter->at)) return;
+    out_ += "<g font-size=\"12\" stroke=\"#ffffff\" stroke-width=\"3\" paint-order=\"stroke\" "
+            "stroke-linejoin=\"round\">\n";
+    PlanePoint at = sheet(on(picture_.setter->at));
+    at[1] += picture_.setter->diameter / 4 * frame_.scale;
+    label(at, "tool setter", kSetterColour);
+    out_ += "</g>\n";
   }
 
   // The ball where it touched and where something went wrong.

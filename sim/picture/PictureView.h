@@ -28,6 +28,7 @@ const PathStyle& pathStyle(PathKind kind);
 
 inline constexpr const char* kErrorColour = "#a80b22";
 inline constexpr const char* kContactColour = "#111111";
+inline constexpr const char* kSetterColour = "#39424d";
 inline constexpr const char* kWorkColour = "#0a529a"; // numbers of work coordinates
 
 // What a picture shows of its lists at most; the legend reports the rest.

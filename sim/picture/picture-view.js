@@ -279,6 +279,24 @@ function makeView(canvas, data) {
       return;
     }
   }
+  // The disc of the tool setter: its face, and as high as half its width below.
+  function drawSetter() {
+    if (data.setter === null) return;
+    const { at: [x, y, z], radius } = data.setter;
+    paint.lineWidth = 1.6;
+    paint.strokeStyle = theme.ink;
+    for (const down of [0, radius]) {
+      paint.beginPath();
+      for (let i = 0; i <= 36; ++i) {
+        const angle = i * Math.PI / 18;
+        const [px, py] = project(x + radius * Math.cos(angle), y + radius * Math.sin(angle), z - down);
+        if (i === 0) paint.moveTo(px, py); else paint.lineTo(px, py);
+      }
+      paint.stroke();
+    }
+    const [px, py] = project(x, y, z - radius);
+    text("tool setter", px, py, theme.ink);
+  }
   function drawMarks(current) {
     taken.clear();
     paint.setLineDash([]);
@@ -309,6 +327,7 @@ function makeView(canvas, data) {
       if (i < 100) mark(x, y, i + 1, "E", theme.error);
     });
     for (const { x, y, letter, colour, numbers } of numbered) text(letter + spans(numbers), x, y, colour);
+    drawSetter();
   }
 
   // "1,2", "3-6": of ascending numbers, six parts at most.

@@ -2,6 +2,7 @@
 
 #include "sim/geometry/PartFile.h"
 #include "sim/machine/EndText.h"
+#include "sim/picture/PictureReport.h"
 #include "sim/run/SetupRun.h"
 #include "sim/run/SimReport.h"
 #include "support/Decimal.h"
@@ -113,6 +114,7 @@ void SimWorld::begin() {
   picture.date = options_.date;
   if (world_ && !world_->part().isEmpty()) picture.part = world_->part();
   if (world_) picture.probe = world_->probe();
+  if (machine_) picture.setter = machine_->devices.setter;
   picture.decimals = decimals_;
   recorder_.emplace(
       std::move(picture), world_ ? &*world_ : nullptr,
@@ -317,6 +319,10 @@ void SimWorld::finishPicture() {
   if (facts.end.ending == Ending::Running && session_.diagnostics().hasErrors())
     facts.unread = session_.diagnostics().all().back().message;
   recorder_->finish(facts, log_.entries());
+}
+
+std::string SimWorld::measuredTable() const {
+  return measuredText(log_.entries(), log_.leftOut(), decimals_);
 }
 
 void SimWorld::reportRest() {

@@ -63,6 +63,8 @@ public:
 
   // After the run and after reportRest(): the pictures that were asked for.
   std::vector<OutputFile> pictures() const;
+  // What was measured, as text; "": nothing.
+  std::string measuredTable() const;
   void reportRest(); // what was too much to be reported one by one
   // "measured", "contacts" and "events" of the summary, each on a line that ends with a comma.
   std::string summary() const;

@@ -107,6 +107,25 @@ TEST_CASE("tool setter: what runs into it is an error") {
   CHECK(bench.run(std::string(kOver) + "G91 G31 Z-15. F100\nG0 Z5.\nM30\n").status == 0); // back off
 }
 
+TEST_CASE("tool setter: both pictures show it with its name where the run has to do with it, else say where "
+          "it is") {
+  const Bench bench;
+  const auto drawn = [&](const std::string& program) {
+    bench.run(program, "--tool 5 --length 80 --svg p.svg --html p.html");
+    return readAll(bench.folder / "p.svg") + readAll(bench.folder / "p.html");
+  };
+  const std::string at = drawn(std::string(kOver) + "G91 G31 Z-15. F100\nG90\nM30\n");
+  CHECK(at.find("class=\"setter\"") != std::string::npos);
+  CHECK(at.find(">tool setter</text>") != std::string::npos);
+  CHECK(at.find("at machine X-50.000 Y-40.000 Z-430.000") != std::string::npos);
+  CHECK(at.find("\"setter\":{\"at\":[-50,-40,-430],\"radius\":10}") != std::string::npos);
+  CHECK(at.find("outside of the picture") == std::string::npos);
+  CHECK(at.find("nothing could be touched") == std::string::npos); // it was
+  const std::string away = drawn("G90 G53 G0 X-500. Y-400.\nG53 G1 X-490. F100\nM30\n");
+  CHECK(away.find("class=\"setter\"") == std::string::npos);
+  CHECK(away.find("tool setter, outside of the picture") != std::string::npos);
+}
+
 TEST_CASE("tool setter: M6 puts the tool in the spindle; one that nobody describes ends the run") {
   const Bench bench;
   const std::string down = std::string(kOver) + "G91 G31 Z-15. F100\nG90\n" + std::string(kRead);

@@ -1,0 +1,54 @@
+#include "project/CertainFindings.h"
+
+#include "frontend/nc/Findings.h"
+#include "support/messages/ComPost.h"
+#include "support/messages/Gibbs.h"
+#include "support/messages/Nc.h"
+
+#include <algorithm>
+#include <array>
+
+namespace dotek::project {
+namespace {
+
+// What else a lowering refuses depends on the target, on values that nobody has given yet, or is a rule of
+// lint.
+constexpr std::array<std::string_view, 16> kCertain = {
+    // macros of a cycle
+    diag::DivisionByZero::code,
+    diag::DomainError::code,
+    diag::SystemNameWritten::code,
+    diag::AngleUnitOpen::code,
+    diag::GoesRoundForEver::code,
+    diag::CallTooDeep::code,
+    // routines of a Prog
+    diag::BooleanAsStatement::code,
+    diag::CallsTooDeep::code,
+    // blocks that it prints
+    diag::LowerCaseAddress::code,
+    diag::BareWord::code,
+    diag::AddressTwice::code,
+    diag::DigitsBesideValue::code,
+    diag::MixedBlock::code,
+    diag::TwoFunctions::code,
+    diag::DwellForm::code,
+    frontend::nc::CallWithoutProgram::code,
+};
+
+constexpr std::array<std::string_view, 5> kOfForm = {
+    diag::CommandNotInForm::code,        diag::NumericNotInForm::code, diag::NoPicture::code,
+    diag::PicturePrefixUnverified::code, diag::FormatOfCommand::code,
+};
+
+template <class Codes> bool isIn(std::string_view code, const Codes& codes) {
+  return std::find(codes.begin(), codes.end(), code) != codes.end();
+}
+
+} // namespace
+
+void keepCertain(const Diagnostics& from, bool formNamed, Diagnostics& into) {
+  for (const Diagnostic& one : from.all())
+    if (isIn(one.code, kCertain) || (formNamed && isIn(one.code, kOfForm))) into.add(one);
+}
+
+} // namespace dotek::project

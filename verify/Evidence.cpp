@@ -1,0 +1,40 @@
+// What a run of the source says of its translation.
+#include "verify/Compare.h"
+
+namespace dotek::verify {
+
+ProbeOff probeOffIn(const Record& record) {
+  ProbeOff out;
+  for (const Piece& piece : record.pieces) {
+    if (piece.with.probe == Switch::On) continue;
+    if (piece.kind == sim::PathKind::Protected && !out.protectedMove) out.protectedMove = piece.range;
+    if (piece.kind == sim::PathKind::Measuring && !out.measuring) out.measuring = piece.range;
+  }
+  for (const Measure& measure : record.measures)
+    if (measure.with.probe != Switch::On && !out.measuring) out.measuring = measure.range;
+  return out;
+}
+
+std::string whyNoEvidence(const Record& record, SourceRange& at) {
+  at = record.endedAt;
+  if (record.ending == Ending::Inconclusive) return record.text;
+  for (const Measure& measure : record.measures) {
+    if (measure.with.probe == Switch::On) continue;
+    at = measure.range;
+    return "the probe is off at a measuring move";
+  }
+  if (record.ending == Ending::Alarm) return "alarm: " + record.text;
+  if (!record.events.empty()) {
+    at = record.events.front().second;
+    return "the probe, its stem or its body meets what it should not";
+  }
+  for (const Measure& measure : record.measures) {
+    at = measure.range;
+    if (measure.contacts.empty() || measure.contacts.size() < measure.nominal.size())
+      return "a measuring move makes no contact";
+  }
+  if (record.measures.empty()) return "nothing is measured";
+  return "";
+}
+
+} // namespace dotek::verify
