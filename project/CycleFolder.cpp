@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <fmt/format.h>
 
 namespace dotek::project {
 
@@ -238,6 +239,24 @@ bool isCycleFolder(const fs::path& path) {
                      [&](std::string_view name) { return findEntry(path, name).has_value(); });
 }
 
+namespace {
+
+// A folder that holds those of cycles is easily named in their place.
+void noteCyclesWithin(Diagnostic& missing, const std::string& path, const fs::path& folder) {
+  std::error_code error;
+  std::vector<std::string> cycles;
+  for (const auto& entry : fs::directory_iterator(folder, error))
+    if (isCycleFolder(entry.path()))
+      cycles.push_back((fs::path(path) / entry.path().filename()).generic_string());
+  if (cycles.empty()) return;
+  std::sort(cycles.begin(), cycles.end());
+  missing.note({},
+               fmt::format("cycles are in folders of this one; name `{}`{}", cycles.front(),
+                           cycles.size() > 1 ? fmt::format(", or one of {} others", cycles.size() - 1) : ""));
+}
+
+} // namespace
+
 CycleFolder loadCycleFolder(const std::string& path, Session& session, bool checked) {
   CycleFolder folder;
   std::error_code error;
@@ -273,7 +292,9 @@ CycleFolder loadCycleFolder(const std::string& path, Session& session, bool chec
     if (!ids[i]) folder.complete = false;
   }
   if (!missing.empty())
-    session.diagnostics().report<diag::CycleFileMissing>({folder.place, 0, 0}, path, missing);
+    noteCyclesWithin(
+        session.diagnostics().report<diag::CycleFileMissing>({folder.place, 0, 0}, path, missing), path,
+        real);
   folder.cycle = std::make_unique<gibbs::Cycle>();
   gibbs::Cycle& cycle = *folder.cycle;
   cycle.name = folder.name;

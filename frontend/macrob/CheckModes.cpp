@@ -76,11 +76,15 @@ void feedMissing(const CheckedProgram& input, Report& report) {
 }
 
 void cycleWords(const CheckedProgram& input, Report& report) {
-  eachBlock(input, [&](const Words& words, const Modes& before, const Modes& now) {
+  bool told = false; // of this cycle, whose further holes lack the same
+  eachBlock(input, [&](const Words& words, const Modes&, const Modes& now) {
     if (now.cycle != Certain::Yes || takesWords(words) != nullptr) return;
     const nc::Word* code = find(words, 'G');
-    for (const nc::Word& word : words.words)
-      if (const auto number = literal(word); word.address == 'G' && number == now.cycleCode) code = &word;
+    for (const nc::Word& word : words.words) {
+      if (word.address != 'G' || literal(word) != now.cycleCode) continue;
+      code = &word;
+      told = false;
+    }
     const SourceRange range = code != nullptr ? code->range : words.words.front().range;
     const std::string name = now.cycleCode != 0 ? fmt::format("G{}", now.cycleCode) : "the cycle";
     for (const char letter : {'K', 'L'})
@@ -93,31 +97,26 @@ void cycleWords(const CheckedProgram& input, Report& report) {
               wordText(*repeats));
     const bool storesOnly = (find(words, 'K') != nullptr && literal(*find(words, 'K')) == 0.0) ||
                             (find(words, 'L') != nullptr && literal(*find(words, 'L')) == 0.0);
-    if (!hasAny(words, "XYZR") || storesOnly) return;
+    if (told || !hasAny(words, "XYZR") || storesOnly) return;
+    const auto tell = [&]<class... Args>(fmt::format_string<Args...> text, Args&&... args) {
+      told = true;
+      report.at(range, text, std::forward<Args>(args)...);
+    };
     const char axis = lettersOf(now.plane == 0 ? 17 : now.plane).depth;
     if (now.levelR == Certain::No && !hasAny(words, "R"))
-      report.at(
-          range,
-          "{} has no level R; the control drills from where the tool is, at feed through air or at rapid "
-          "into the part, or stops with an alarm; write R",
-          name);
+      tell("{} has no level R; the control drills from where the tool is, at feed through air or at rapid "
+           "into the part, or stops with an alarm; write R",
+           name);
     if (now.plane != 0 && now.depth == Certain::No && !hasAny(words, {&axis, 1}))
-      report.at(
-          range,
-          "{} has no depth; the control drills to the depth of an earlier cycle or stops with an alarm; "
-          "write {}",
-          name, axis);
+      tell("{} has no depth; the control drills to the depth of an earlier cycle or stops with an alarm; "
+           "write {}",
+           name, axis);
     if ((now.cycleCode == 73 || now.cycleCode == 83) && now.peck == Certain::No && !hasAny(words, "Q"))
-      report.at(
-          range,
-          "{} has no Q, the depth of a peck; the control stops with alarm 45 or drills in one go; write Q",
-          name);
+      tell("{} has no Q, the depth of a peck; the control stops with alarm 45 or drills in one go; write Q",
+           name);
     if (now.cycleCode == 87 && now.returnsToR == Certain::Yes)
-      report.at(
-          range,
-          "G87 returns to the initial level alone, and G99 is in force; the control stops with an alarm, "
-          "or the tool stays below the part; write G98");
-    (void)before;
+      tell("G87 returns to the initial level alone, and G99 is in force; the control stops with an alarm, "
+           "or the tool stays below the part; write G98");
   });
 }
 

@@ -138,10 +138,21 @@ void reportRun(const Run& run, const Machine& machine, const std::string& advice
     stops += fmt::format("{}{}{}", stops.empty() ? "" : ", ", letter, numberText(tenths / 10.0));
   using frontend::macrob::positionReadEarlyCheck;
   Report earlyReads(positionReadEarlyCheck.code, positionReadEarlyCheck.severity, diagnostics);
-  for (const EarlyRead& early : run.earlyReads())
-    frontend::macrob::reportEarlyPosition(early.range, early.number, earlyReads)
-        .note({},
-              "the control waits at " + (stops.empty() ? std::string("codes that are not known") : stops));
+  // A macro reads its start axis by axis: one cause, one finding.
+  Diagnostic* before = nullptr;
+  SourceRange last;
+  for (const EarlyRead& early : run.earlyReads()) {
+    const bool next = before != nullptr && early.range.file == last.file &&
+                      session.sources().line(early.range) == session.sources().line(last) + 1;
+    last = early.range;
+    if (next) {
+      before->note(early.range, fmt::format("and #{}", early.number));
+      continue;
+    }
+    before = &frontend::macrob::reportEarlyPosition(early.range, early.number, earlyReads);
+    before->note({},
+                 "the control waits at " + (stops.empty() ? std::string("codes that are not known") : stops));
+  }
   const RunEnd& end = machine.end();
   const SourceRange range = run.place();
   Diagnostic* report = nullptr;

@@ -245,6 +245,7 @@ TEST_CASE("macrob check: feeds, canned cycles and arcs that no value mends") {
   CHECK(program("G80\nG81 X5. Z-4. F9.") == "W 3:1 cycle-words");
   CHECK(program("G17 G80\nG81 R1. Z-4. X5. F9.\nX9.\nG80\nX1.\nG81 X5. R1.") == "W 7:1 cycle-words");
   CHECK(main("F9.\nG99 G81 R1. Z-2. K0\nX5.\nG0\nG99 G87 R1. Z-2.") == "W 7:5 cycle-words");
+  CHECK(main("F9.\nG99 G81 Z-2. X1.\nX2.\nG80") == "W 4:5 cycle-words"); // the next hole lacks the same
   CHECK(main("F9.\nG73 R1. Z-2. Q1.\nG83 X9.\nG80") == "");
   CHECK(main("F9.\nG18\nG81 R1. Z-2. X3.\nG80") == "W 5:1 cycle-words");
   CHECK(main("F9.\nG18\nG81 R1. Y-2. X3.\nG80") == "");
