@@ -3,14 +3,17 @@
 #include "cli/Cli.h"
 #include "cli/Options.h"
 #include "project/Assumptions.h"
+#include "sim/run/SimReport.h"
 #include "support/FileIdentity.h"
 #include "support/NearestName.h"
 #include "support/Printable.h"
 #include "support/Version.h"
+#include "support/messages/Commands.h"
 
 #include <algorithm>
 #include <array>
 #include <filesystem>
+#include <fmt/format.h>
 #include <ostream>
 #include <sstream>
 
@@ -145,6 +148,30 @@ std::vector<std::string> spreadPairs(const std::vector<std::string>& arguments) 
   return out;
 }
 
+// A wrong command line. Who asked for a document gets it, whatever was read of the rest.
+int refuse(const std::vector<std::string>& arguments, const std::string& text, std::ostream& out,
+           std::ostream& err) {
+  err << "dotek: error: " << printable(text) << "\n";
+  const auto given = [&](std::string_view flag, std::string_view value = "") {
+    for (std::size_t i = 0; i < arguments.size(); ++i) {
+      if (value.empty() ? arguments[i] == flag
+                        : arguments[i] == fmt::format("{}={}", flag, value) ||
+                              (arguments[i] == flag && i + 1 < arguments.size() && arguments[i + 1] == value))
+        return true;
+    }
+    return false;
+  };
+  driver::Outcome outcome;
+  outcome.diagnostics.report<diag::CommandLine>({}, text);
+  if (given("--json"))
+    out << sim::notRunSummary(outcome.diagnostics, outcome.sources);
+  else if (given("--format", "json"))
+    out << renderJson(outcome.diagnostics, outcome.sources);
+  else if (given("--format", "sarif"))
+    out << driver::sarif(outcome);
+  return kUsage;
+}
+
 } // namespace
 
 std::optional<int> parseArguments(const std::vector<std::string>& arguments, Arguments& parsed,
@@ -171,11 +198,9 @@ std::optional<int> parseArguments(const std::vector<std::string>& arguments, Arg
     out << text.str();
     return kDone;
   } catch (const CLI::ParseError& error) {
-    err << "dotek: error: " << printable(error.what()) << "; `dotek --help` prints the commands\n";
-    return kUsage;
+    return refuse(arguments, std::string(error.what()) + "; `dotek --help` prints the commands", out, err);
   } catch (const UsageError& error) {
-    err << "dotek: error: " << printable(error.what()) << "\n";
-    return kUsage;
+    return refuse(arguments, error.what(), out, err);
   }
 }
 

@@ -2,6 +2,7 @@
 #include "project/Assumptions.h"
 #include "project/InputKind.h"
 #include "support/Decimal.h"
+#include "support/Worker.h"
 
 #include <algorithm>
 #include <charconv>
@@ -138,6 +139,7 @@ driver::CommonOptions commonOf(const Raw& raw) {
   for (const std::string& folder : raw.include)
     out.include.push_back(folderOf("--include", folder));
   if (!raw.includeRoot.empty()) out.includeRoot = folderOf("--include-root", raw.includeRoot);
+  out.scriptProgram = runningProgram();
   if (!raw.from.empty()) {
     if (!project::kindByName(raw.from))
       throw UsageError("--from takes prog, mac, dlg, define, nc, listing or suf, not `" + raw.from + "`");

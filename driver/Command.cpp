@@ -9,6 +9,7 @@
 #include "support/messages/Nc.h"
 #include "support/messages/Output.h"
 #include "support/messages/Sim.h"
+#include "support/messages/Verify.h"
 
 #include <algorithm>
 #include <array>
@@ -125,7 +126,7 @@ bool isUsageCode(std::string_view code) {
       diag::LetterNotAllowed::code, diag::OutputForOne::code,    diag::ArgumentUnknown::code,
       diag::LetterTwice::code,      diag::VariableFlag::code,    diag::FlagOfOtherTarget::code,
       diag::UnknownDatum::code,     diag::OptionOfCycles::code,  diag::OptionOfPrograms::code,
-      diag::ProgramTarget::code,    diag::OptionOfMacroB::code,
+      diag::ProgramTarget::code,    diag::OptionOfMacroB::code,  diag::ScriptNotRun::code,
   };
   return std::find(kCodes.begin(), kCodes.end(), code) != kCodes.end();
 }

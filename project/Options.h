@@ -32,6 +32,8 @@ struct CommonOptions {
   std::optional<std::string> from;        // kind of the inputs
   std::vector<std::string> include;       // folders of files that inputs name, beside that of the input
   std::optional<std::string> includeRoot; // inputs name files below it, instead of those of their own folder
+  // Path of the program that runs scripts in a process of its own: `dotek`. "": scripts are refused.
+  std::string scriptProgram;
   // What was read from pipes; copies of the options share it.
   std::shared_ptr<StreamInputs> streams = std::make_shared<StreamInputs>();
 };

@@ -21,7 +21,11 @@ namespace dotek {
   X(paths, "paths", 1024, "paths that the checks of a cycle may take while a host input is unknown")         \
   X(outputBytes, "output-bytes", 64u << 20, "size of one result, in bytes")                                  \
   X(textLength, "text-length", 1000, "characters of a text variable of a GibbsCAM macro")                    \
-  X(files, "files", 10000, "files that one command may read")
+  X(files, "files", 10000, "files that one command may read")                                                \
+  X(scriptSeconds, "script-seconds", 3,                                                                      \
+    "processor time of the runs of a script, in seconds, beside 20 ms a run")                                \
+  X(scriptMemory, "script-memory", 64, "memory of a script, in MB")                                          \
+  X(scriptOutput, "script-output", 1u << 20, "text that one run of a script may write, in bytes")
 
 struct Limits {
 #define DOTEK_LIMIT_MEMBER(member, name, value, what) std::uint32_t member = value;

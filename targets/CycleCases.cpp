@@ -11,7 +11,9 @@
 #include "sim/machine/Value.h"
 #include "sim/machine/VendorMacros.h"
 #include "stdlib/HostInputs.h"
+#include "support/messages/ComPost.h"
 #include "support/messages/Commands.h"
+#include "support/messages/Gibbs.h"
 #include "support/messages/Verify.h"
 #include "targets/NominalFields.h"
 #include "targets/ReadBack.h"
@@ -162,12 +164,15 @@ void CaseRunner::roundHosts(verify::Case& drawn) const {
 
 // Checks and path of a case. nullptr: the source cannot be run; refusal_ says why.
 std::unique_ptr<CaseRunner::Values> CaseRunner::check(const verify::Case& drawn, bool settle) {
+  if (stopped_) return nullptr;
   session_.diagnostics() = Diagnostics();
   auto out = std::unique_ptr<Values>(new Values{drawn, *fields_, {}, {}, false, "", {}, {}, {}, nullptr, {}});
   for (const auto& [name, value] : drawn.values)
     out->fields.set(name, value, {});
   if (settle) roundHosts(out->drawn);
   runCycleChecks(*folder_, out->fields, out->drawn.hosts, session_);
+  noteEndless(out->drawn);
+  if (stopped_) return nullptr;
   for (const Diagnostic& one : session_.diagnostics().all()) {
     if (one.severity != Severity::Error) continue;
     out->rejected = true;
@@ -188,6 +193,7 @@ std::unique_ptr<CaseRunner::Values> CaseRunner::check(const verify::Case& drawn,
         [&](const std::string& name, SourceRange where) { return folder_->loader->dialog(name, where); }};
     const auto path = gibbs::runToolPath(*folder_->cycle->toolPath, context);
     if (!path) {
+      noteEndless(out->drawn);
       refusal_ = session_.diagnostics().all().empty() ? "the path cannot be run"
                                                       : session_.diagnostics().all().front().message;
       return nullptr;
@@ -204,6 +210,13 @@ std::unique_ptr<CaseRunner::Values> CaseRunner::check(const verify::Case& drawn,
     out->path = drawPath(zeroOf(out->drawn));
   }
   return out;
+}
+
+// What the CAM would hang at is found once: each further case might take as long.
+void CaseRunner::noteEndless(const verify::Case& drawn) {
+  for (const Diagnostic& one : session_.diagnostics().all())
+    if (one.code == diag::RunsForever::code || one.code == diag::PostRunsForever::code)
+      stopped_ = {one, drawn};
 }
 
 // Those of --value; prepare() has seen that all are known.
@@ -459,6 +472,7 @@ bool CaseRunner::post(Values& values) {
 // Posts the case and reads what was posted. false: there is no such program; refusal_ says why.
 bool CaseRunner::readPosted(Values& values) {
   if (!post(values)) {
+    noteEndless(values.drawn);
     for (const Diagnostic& one : session_.diagnostics().all())
       if (one.severity == Severity::Error) refusal_ = one.message;
     return false;

@@ -78,6 +78,8 @@ private:
   TargetRun runTarget(const Values& values, sim::World& world, bool probeOn,
                       const verify::Record* source) const;
   void addFinding(CaseResult& result, const verify::Difference& difference, const Values& values) const;
+  void noteEndless(const verify::Case& drawn);
+  void noteStopped(const TargetRun& ran, const verify::Case& drawn);
   void takeRun(CaseResult& result, TargetRun ran, const Values& values) const;
   void noteProbe(CaseResult& result, const verify::Record& record, const Values& values) const;
   void comparePath(CaseResult& result, const Values& values) const;

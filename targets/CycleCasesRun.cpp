@@ -69,7 +69,9 @@ CaseResult CaseRunner::run(const verify::Case& drawn) {
 
   if (routine_ == nullptr) {
     result.why = "measurement not stated by the source";
-    takeRun(result, runTarget(*values, world, true, nullptr), *values);
+    TargetRun ran = runTarget(*values, world, true, nullptr);
+    noteStopped(ran, drawn);
+    takeRun(result, std::move(ran), *values);
     result.verdict = result.findings.empty() ? CaseVerdict::Undecided : CaseVerdict::Differ;
     return result;
   }
@@ -96,6 +98,8 @@ CaseResult CaseRunner::run(const verify::Case& drawn) {
   }
   if (target_ != nullptr) {
     TargetRun ran = runTarget(*values, world, probeOn, values->rejected ? nullptr : &*source);
+    noteStopped(ran, drawn);
+    if (stopped_) return result;
     if (ran.refused && !values->rejected) {
       result.verdict = CaseVerdict::Refused;
       result.why = "the translation refuses the values: " + ran.why;
@@ -121,6 +125,11 @@ CaseResult CaseRunner::run(const verify::Case& drawn) {
                    : result.why.empty()     ? CaseVerdict::Agrees
                                             : CaseVerdict::Undecided;
   return result;
+}
+
+void CaseRunner::noteStopped(const TargetRun& ran, const verify::Case& drawn) {
+  if (!ran.stopped.empty())
+    stopped_ = {makeDiagnostic<diag::TranslationStopped>({}, plan_.translation->name, ran.stopped), drawn};
 }
 
 void CaseRunner::takeRun(CaseResult& result, TargetRun ran, const Values& values) const {

@@ -84,6 +84,13 @@ std::string controlText(const stdlib::Control& control) {
   return control.title + " (" + control.name + ")";
 }
 
+Limits limitsOfRun(const Limits& limits) {
+  constexpr std::uint32_t kMostSteps = 200'000; // a cycle takes some hundreds
+  Limits out = limits;
+  if (out.simSteps == Limits().simSteps) out.simSteps = kMostSteps;
+  return out;
+}
+
 double resultTolerance(const stdlib::Control& one, const stdlib::Control& other) {
   constexpr double kEightDigits = 5e-5;
   const auto digits = [](const stdlib::Control& control) {

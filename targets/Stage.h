@@ -16,6 +16,9 @@ sim::Picture pictureOf(const verify::Record& record, const sim::Part& part, cons
                        bool empty);
 // "Fanuc 0i-MD, machining centre (fanuc-0i-md)", with where the profile is from unless it is Dotek's own.
 std::string controlText(const stdlib::Control& control);
+// Those of the run of a translated cycle: one that goes round for ever ends soon, unless `--limit sim-steps`
+// says how long it may take.
+Limits limitsOfRun(const Limits& limits);
 // What results may differ by where one of the controls computes with eight digits, mm.
 double resultTolerance(const stdlib::Control& one, const stdlib::Control& other);
 

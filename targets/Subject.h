@@ -92,6 +92,12 @@ struct Rejection {
   SourceRange at; // of a check; no place: the reach of the probe, or what the post prints
 };
 
+// What ends the whole verification: the macro or the translation goes on for ever, or needs more than it may.
+struct Stopped {
+  Diagnostic why;
+  verify::Case drawn; // with which values
+};
+
 // One thread uses a subject.
 class CaseSubject {
 public:
@@ -103,6 +109,8 @@ public:
   virtual verify::Case edge(std::uint64_t index) = 0;
   // The case that `draw` gave last is run without another look at it.
   virtual CaseResult run(const verify::Case& drawn) = 0;
+  // Of draw(), edge() or run(): nothing; or nothing more can be run, and what they gave says nothing.
+  const std::optional<Stopped>& stopped() const { return stopped_; }
   // Fields whose picture drops digits of a value that is finer than its last place: printed where.
   virtual std::vector<std::pair<std::string, SourceRange>> droppedDigits(const verify::Case& /*drawn*/) {
     return {};
@@ -112,6 +120,9 @@ public:
   virtual VerifySides sides() const { return {}; }
   // The source's run of a case. nullopt: there is nothing to see.
   virtual std::optional<sim::Picture> picture(const verify::Case& /*drawn*/) { return std::nullopt; }
+
+protected:
+  std::optional<Stopped> stopped_;
 };
 
 // Programs of macro B, whose translations take the same values: variables by number.

@@ -49,6 +49,7 @@ struct TargetRun {
   bool refused = false;
   bool undecided = false; // the two cannot be compared
   std::string why;        // it is refused or undecided; "": the reason is that of the source
+  std::string stopped;    // the translation can be run no more, for these values or others: why; "": it can
   std::vector<TargetDifference> differences;
   std::string trace; // only where VerifyOptions::traces wants it
 

@@ -88,6 +88,19 @@ void VerifyReport::add(std::uint64_t number, bool edge, verify::Case drawn, Case
     agreeing_.emplace(number, std::move(drawn));
 }
 
+void VerifyReport::addStopped(std::uint64_t number, Stopped stopped) {
+  if (!stopped_ || number < stopped_->first) stopped_ = {number, std::move(stopped)};
+}
+
+bool VerifyReport::tellStopped() {
+  if (!stopped_) return false;
+  auto& [number, stopped] = *stopped_;
+  stopped.why.note({}, "with these values: " + replay(stopped.drawn));
+  runner_.session().diagnostics() = Diagnostics();
+  runner_.session().diagnostics().add(std::move(stopped.why));
+  return true;
+}
+
 bool VerifyReport::stillDiffers(const verify::Case& drawn, const CaseFinding& finding) {
   const CaseResult result = runner_.run(drawn);
   return std::any_of(result.findings.begin(), result.findings.end(),

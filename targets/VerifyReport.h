@@ -17,6 +17,10 @@ public:
       : options_(options), plan_(plan), runner_(runner) {}
 
   void add(std::uint64_t number, bool edge, verify::Case drawn, CaseResult result);
+  // A case that ended the verification: nothing else is reported than the first of them.
+  void addStopped(std::uint64_t number, Stopped stopped);
+  // Reports the first of them to the runner's session; false: there is none.
+  bool tellStopped();
   // Reports to the runner's session, and gives the line of the verdict.
   std::string finish();
   // After finish(): the document of VerifyOptions::format; "" of the format Text.
@@ -73,6 +77,7 @@ private:
   std::map<std::pair<FileId, std::uint32_t>, std::pair<SourceRange, bool>> unprotected_;
   std::optional<SourceRange> unarmed_;
   std::optional<std::pair<std::uint64_t, verify::Case>> agreeing_; // the first
+  std::optional<std::pair<std::uint64_t, Stopped>> stopped_;       // the first
 };
 
 } // namespace dotek::targets

@@ -34,18 +34,27 @@ void tellNoValues(CaseSubject& main, const std::vector<Rejection>& rejections) {
 bool runCases(const VerifyOptions& options, bool edges, CaseSubject& main,
               const std::function<std::unique_ptr<CaseSubject>()>& another, VerifyReport& report) {
   const std::uint64_t all = options.cases + (edges ? options.cases / kEdgeShare : 0);
-  std::atomic<std::uint64_t> next = 0, done = 0;
+  std::atomic<std::uint64_t> next = 0, done = 0, end = all;
   std::atomic<bool> stop = false;
   std::mutex mutex;
   std::vector<Rejection> noValues;
   const auto work = [&](CaseSubject& runner) {
-    for (std::uint64_t n = next++; n < all && !stop; n = next++) {
+    for (std::uint64_t n = next++; n < end && !stop; n = next++) {
       const bool edge = n >= options.cases;
       std::optional<verify::Case> drawn;
       if (edge)
         drawn = runner.edge(n - options.cases);
       else
         drawn = runner.draw(n);
+      const auto stopped = [&] {
+        if (!runner.stopped()) return false;
+        // Cases before it are others' and come to their end, so that the first one is reported.
+        const std::lock_guard lock(mutex);
+        end = std::min<std::uint64_t>(end, n);
+        report.addStopped(n, *runner.stopped());
+        return true;
+      };
+      if (stopped()) return;
       if (!drawn) {
         const std::lock_guard lock(mutex);
         noValues = runner.rejections();
@@ -53,11 +62,13 @@ bool runCases(const VerifyOptions& options, bool edges, CaseSubject& main,
         return;
       }
       CaseResult result = runner.run(*drawn);
+      if (stopped()) return;
       const std::lock_guard lock(mutex);
       if (options.traces) options.traces(n, result.verdict == CaseVerdict::Agrees, result.trace);
       report.add(edge ? kEdges + n : n, edge, std::move(*drawn), std::move(result));
       const std::uint64_t finished = ++done;
       if (options.progress && (finished % 64 == 0 || finished == all)) options.progress(finished, all);
+      if (n == 0) return;
     }
   };
   std::uint32_t jobs = options.jobs != 0 ? options.jobs : std::max(1U, std::thread::hardware_concurrency());
@@ -87,9 +98,11 @@ bool runCases(const VerifyOptions& options, bool edges, CaseSubject& main,
     }
     if (runner) guardedWork(*runner);
   };
+  // The first case alone: what no case survives is found once.
+  guardedWork(main);
   std::vector<std::thread> threads;
   try {
-    for (std::uint32_t i = 1; i < jobs; ++i)
+    for (std::uint32_t i = 1; i < jobs && next < end && !stop; ++i)
       threads.emplace_back(help);
   } catch (const std::system_error&) {
   } catch (const std::bad_alloc&) {
@@ -98,6 +111,7 @@ bool runCases(const VerifyOptions& options, bool edges, CaseSubject& main,
   for (std::thread& thread : threads)
     thread.join();
   if (thrown) std::rethrow_exception(thrown);
+  if (report.tellStopped()) return false;
   if (!stop) return true;
   main.session().diagnostics() = Diagnostics();
   tellNoValues(main, noValues);

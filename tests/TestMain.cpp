@@ -1,4 +1,6 @@
 #define DOCTEST_CONFIG_IMPLEMENT
+#include "script/Script.h"
+#include "script/Serve.h"
 #include "tests/GoldenRunner.h"
 #include "tests/Goldens.h"
 #include "tests/Skips.h"
@@ -211,8 +213,9 @@ private:
 } // namespace
 
 // `dotek_tests --update` rewrites the goldens that differ, `--jobs=N` takes N processes; all other arguments
-// are doctest's. The last line is `N passed, N failed`.
+// are doctest's. The last line is `N passed, N failed`. What is tested has its scripts run by this program, too.
 int main(int argc, char** argv) {
+  if (argc == 2 && argv[1] == dotek::script::kWorkerCommand) return dotek::script::serve();
   registerGoldens();
   return Run(argc, argv).all();
 }

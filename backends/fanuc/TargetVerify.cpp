@@ -58,7 +58,7 @@ public:
         stand_(control_,
                set_ == nullptr ? std::vector<const stdlib::MacroSet*>{}
                                : std::vector<const stdlib::MacroSet*>{set_},
-               source.session.limits()) {}
+               limits_) {}
 
   bool prepare() override {
     Session& session = from_.session;
@@ -77,7 +77,9 @@ public:
   TargetRun run(const TargetCase& now) override {
     TargetRun out;
     const verify::Record record = runText(now, out.trace);
-    if (now.rejected)
+    if (record.overLimit)
+      out.stopped = record.text;
+    else if (now.rejected)
       compareRejection(record, out);
     else if (now.source == nullptr)
       comparePath(now, record, out);
@@ -177,6 +179,7 @@ private:
   const Translation& translation_;
   const stdlib::Control& control_;
   const stdlib::MacroSet *sourceSet_, *set_;
+  const Limits limits_ = limitsOfRun(from_.session.limits());
   verify::Stand stand_;
   FanucText text_;
 };

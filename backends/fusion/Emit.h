@@ -46,6 +46,10 @@ std::string propertyOf(std::string_view prefix, std::string_view field);
 std::optional<std::vector<EmittedLine>> emit(const ir::Cycle& cycle, const EmitOptions& options,
                                              Diagnostics& diagnostics);
 
+// What is around fragments in the post of postAround(): before the first, after the last.
+std::vector<EmittedLine> postHead();
+std::vector<EmittedLine> postTail(const std::vector<std::string>& prefixes);
+
 // The smallest post around fragments: header, formats, writeBlock, entry functions. `prefixes` of the
 // fragments, in the order in which their dispatch functions are asked.
 std::vector<EmittedLine> postAround(const std::vector<std::vector<EmittedLine>>& fragments,

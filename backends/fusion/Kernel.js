@@ -1,5 +1,6 @@
 // A double of the post kernel: as much of it as the probing part of a post calls, with the rules of
-// docs/fusion.md, "The kernel double". ES5. dotekRun(input) at the end runs one operation.
+// docs/fusion.md, "The kernel double". ES5. dotekRun(input) runs one operation; the value of the whole text is
+// the function that Dotek calls.
 
 var MM = 0, IN = 1;
 var X = 0, Y = 1, Z = 2;
@@ -319,8 +320,9 @@ function createModalGroup(specifiers, groups, format) {
 
 // ---- text -----------------------------------------------------------------------------------------------
 
-var dotekState = {text: "", buffer: null, separator: " ", eol: "\n", errors: [], warnings: [], log: [],
-  afterError: false, told: {}};
+// The text that is written, its end in `text`: of long texts, all before is in `before`.
+var dotekState = {text: "", before: [], size: 0, most: undefined, flood: false, buffer: null, separator: " ",
+  eol: "\n", errors: [], warnings: [], log: [], afterError: false, told: {}};
 
 function write(text) {
   if (dotekState.buffer !== null) {
@@ -331,6 +333,15 @@ function write(text) {
     dotekState.afterError = true;
   }
   dotekState.text += text;
+  if (dotekState.text.length > 4096) {
+    dotekState.before.push(dotekState.text);
+    dotekState.size += dotekState.text.length;
+    dotekState.text = "";
+    if (dotekState.size > dotekState.most) {
+      dotekState.flood = true;
+      throw new Error("more text than is taken");
+    }
+  }
 }
 function writeln(text) {
   write((text === undefined ? "" : text) + dotekState.eol);
@@ -458,14 +469,13 @@ function setProperty(name, value) {
 
 // ---- running one operation ------------------------------------------------------------------------------
 
-// input: {unit, properties: {name: value}, points: [[x, y, z]], tool, cycle, cycleType, entry: function name}.
-// With `entry`, that function alone is called for each point; else the entry functions of a post in their
-// order. Gives {text, errors, warnings, afterError, failure}.
+// input: {unit, properties: {name: value}, points: [[x, y, z]], tool, cycle, cycleType, entry: function name,
+// most: characters of text}. With `entry`, that function alone is called for each point; else the entry
+// functions of a post in their order. Gives {text, errors, warnings, afterError}.
 function dotekRun(input) {
   var global = (function () {
     return this;
   }()) || globalThis;
-  var failure = "";
   function call(name, list) {
     if (typeof global[name] === "function") {
       global[name].apply(null, list || []);
@@ -473,6 +483,7 @@ function dotekRun(input) {
   }
   unit = input.unit === undefined ? MM : input.unit;
   dotekValues = input.properties || {};
+  dotekState.most = input.most;
   tool = input.tool || {};
   cycle = input.cycle || {};
   cycleType = input.cycleType || "";
@@ -491,25 +502,81 @@ function dotekRun(input) {
       return input.points.length;
     }
   };
-  try {
-    if (input.entry === undefined) {
-      call("onMachine");
-      call("onOpen");
-      call("onSection");
-      call("onCycle");
-    }
-    for (var i = 0; i < input.points.length; ++i) {
-      call(input.entry === undefined ? "onCyclePoint" : input.entry, input.points[i]);
-    }
-    if (input.entry === undefined) {
-      call("onCycleEnd");
-      call("onSectionEnd");
-      call("onClose");
-      call("onTerminate");
-    }
-  } catch (thrown) {
-    failure = String(thrown);
+  if (input.entry === undefined) {
+    call("onMachine");
+    call("onOpen");
+    call("onSection");
+    call("onCycle");
+  } else if (typeof global[input.entry] !== "function") {
+    throw new Error("there is no function `" + input.entry + "`");
   }
-  return {text: dotekState.text, errors: dotekState.errors.join("\n"), warnings: dotekState.warnings.join("\n"),
-    afterError: dotekState.afterError, failure: failure};
+  for (var i = 0; i < input.points.length; ++i) {
+    call(input.entry === undefined ? "onCyclePoint" : input.entry, input.points[i]);
+  }
+  if (input.entry === undefined) {
+    call("onCycleEnd");
+    call("onSectionEnd");
+    call("onClose");
+    call("onTerminate");
+  }
+  return {text: dotekState.before.join("") + dotekState.text, errors: dotekState.errors,
+    warnings: dotekState.warnings, afterError: dotekState.afterError};
 }
+
+// ---- what Dotek calls -----------------------------------------------------------------------------------
+
+// A function of the input that gives texts: ["flood"], or the NC text, "late" or "", then each error after an
+// "e", each warning after a "w". A post that replaces what the double works with is refused: what it does on
+// the double says nothing of the kernel.
+(function () {
+  var global = (function () {
+    return this;
+  }()) || globalThis;
+  var run = dotekRun, state = dotekState, Failure = Error;
+  var watched = [];
+  function watch(owner, path, names) {
+    for (var i = 0; i < names.length; ++i) {
+      watched[watched.length] = {owner: owner, path: path, name: names[i], value: owner[names[i]]};
+    }
+  }
+  for (var name in global) {
+    if (typeof global[name] === "function") {
+      watch(global, "", [name]);
+    }
+  }
+  watch(global, "", ["dotekState", "Math", "Number", "String", "Error", "Array", "isFinite"]);
+  watch(Math, "Math.", ["abs", "floor"]);
+  watch(Array.prototype, "Array.prototype.", ["indexOf", "join", "push", "slice"]);
+  watch(String.prototype, "String.prototype.", ["replace", "split", "substring"]);
+  watch(Function.prototype, "Function.prototype.", ["apply", "call"]);
+  watch(Object.prototype, "Object.prototype.", ["hasOwnProperty"]);
+  return function (input) {
+    var result, thrown, threw = false, out, i;
+    try {
+      result = run(input);
+    } catch (e) {
+      threw = true;
+      thrown = e;
+    }
+    for (i = 0; i < watched.length; ++i) {
+      if (watched[i].owner[watched[i].name] !== watched[i].value) {
+        throw new Failure("it replaces `" + watched[i].path + watched[i].name +
+          "`, which the double of the post kernel works with");
+      }
+    }
+    if (state.flood) {
+      return ["flood"];
+    }
+    if (threw) {
+      throw thrown;
+    }
+    out = [result.text, result.afterError ? "late" : ""];
+    for (i = 0; i < result.errors.length; ++i) {
+      out[out.length] = "e" + result.errors[i];
+    }
+    for (i = 0; i < result.warnings.length; ++i) {
+      out[out.length] = "w" + result.warnings[i];
+    }
+    return out;
+  };
+}());

@@ -63,14 +63,14 @@ function onClose() {
 
 } // namespace
 
-std::vector<EmittedLine> postAround(const std::vector<std::vector<EmittedLine>>& fragments,
-                                    const std::vector<std::string>& prefixes) {
+std::vector<EmittedLine> postHead() {
   Script script;
   script.text(kHeader);
-  for (const auto& fragment : fragments) {
-    script.blank();
-    script.append(fragment);
-  }
+  return script.lines();
+}
+
+std::vector<EmittedLine> postTail(const std::vector<std::string>& prefixes) {
+  Script script;
   // Nothing else is printed by this post.
   if (!prefixes.empty()) script.add("properties.dotekCycle.value = " + quoted(prefixes.front()) + ";");
   script.text(kEntries);
@@ -84,6 +84,18 @@ std::vector<EmittedLine> postAround(const std::vector<std::vector<EmittedLine>>&
   script.add("error(localize(\"the operation names no probing cycle: its property dotekCycle\"));");
   script.close();
   script.text(kEnd);
+  return script.lines();
+}
+
+std::vector<EmittedLine> postAround(const std::vector<std::vector<EmittedLine>>& fragments,
+                                    const std::vector<std::string>& prefixes) {
+  Script script;
+  script.append(postHead());
+  for (const auto& fragment : fragments) {
+    script.blank();
+    script.append(fragment);
+  }
+  script.append(postTail(prefixes));
   return script.lines();
 }
 

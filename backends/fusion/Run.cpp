@@ -3,175 +3,97 @@
 #include "backends/fusion/KernelText.h"
 #include "backends/fusion/Script.h"
 
-#include <cstdlib>
-#include <duktape.h>
-#include <memory>
+#include <fmt/format.h>
+#include <variant>
 
 namespace dotek::backends::fusion {
 
 namespace {
 
-struct HeapDeleter {
-  void operator()(duk_context* heap) const { duk_destroy_heap(heap); }
-};
-
-// Duktape leaves by longjmp past C++ frames where a call is not protected: only protected ones are used, and
-// no callback of ours is registered.
-class Engine {
-public:
-  Engine() : heap_(duk_create_heap_default()) {}
-
-  // "" or the message of what was thrown. The value stays on the stack where nothing was.
-  std::string run(std::string_view code) {
-    if (heap_ == nullptr) return "no memory for the script engine";
-    if (duk_peval_lstring(heap_.get(), code.data(), code.size()) == 0) return "";
-    const std::string message = duk_safe_to_string(heap_.get(), -1);
-    duk_pop(heap_.get());
-    return message.empty() ? "an exception" : message;
-  }
-
-  // Reads a program, which stays at the bottom of the stack for repeat(). "" or what is wrong with it.
-  std::string keep(std::string_view code) {
-    if (heap_ == nullptr) return "no memory for the script engine";
-    if (duk_pcompile_lstring(heap_.get(), 0, code.data(), code.size()) == 0) return "";
-    const std::string message = duk_safe_to_string(heap_.get(), -1);
-    duk_pop(heap_.get());
-    return message.empty() ? "a syntax error" : message;
-  }
-  // Runs what was kept as the `index`-th.
-  std::string repeat(int index) {
-    duk_dup(heap_.get(), index);
-    const bool good = duk_pcall(heap_.get(), 0) == 0;
-    const std::string message = good ? "" : duk_safe_to_string(heap_.get(), -1);
-    duk_pop(heap_.get());
-    return good || !message.empty() ? message : "an exception";
-  }
-  void pop() { duk_pop(heap_.get()); }
-
-  // Of the object on top of the stack.
-  std::string text(const char* member) {
-    duk_get_prop_string(heap_.get(), -1, member);
-    std::string out = duk_safe_to_string(heap_.get(), -1);
-    duk_pop(heap_.get());
-    return out;
-  }
-  std::string top() { return duk_safe_to_string(heap_.get(), -1); }
-
-private:
-  std::unique_ptr<duk_context, HeapDeleter> heap_;
-};
-
-std::vector<std::string> linesOf(const std::string& text) {
-  std::vector<std::string> out;
-  for (std::size_t at = 0; at < text.size();) {
-    const std::size_t end = std::min(text.find('\n', at), text.size());
-    out.push_back(text.substr(at, end - at));
-    at = end + 1;
-  }
-  return out;
-}
-
-std::string object(const std::map<std::string, double>& members) {
+std::string object(const std::map<std::string, double>& members, const std::string& more = "") {
   std::string out = "{";
   for (const auto& [name, value] : members)
     out += (out.size() > 1 ? ", " : "") + quoted(name) + ": " + numberLiteral(value);
+  if (!more.empty()) out += (out.size() > 1 ? ", " : "") + more;
   return out + "}";
 }
 
-std::string callText(std::string_view prefix, bool whole, const RunInput& input) {
+// The kernel's input: JSON, and a literal of JavaScript as well.
+std::string inputText(std::string_view prefix, bool whole, const RunInput& input, std::uint32_t most) {
+  constexpr int kMillimetre = 0, kInch = 1;
   std::string points;
-  for (const auto& point : input.points)
-    points += (points.empty() ? "" : ", ") + ("[" + numberLiteral(point[0]) + ", " + numberLiteral(point[1]) +
-                                              ", " + numberLiteral(point[2]) + "]");
-  std::string values = object(input.properties);
-  values.pop_back();
-  values += std::string(input.properties.empty() ? "" : ", ") + "dotekCycle: " + quoted(prefix) + "}";
-  return std::string("dotekRun({unit: ") + (input.inch ? "IN" : "MM") + ", properties: " + values +
-         ", points: [" + points + "], tool: {diameter: " + numberLiteral(input.toolDiameter) +
-         ", number: " + numberLiteral(input.toolNumber) +
-         ", lengthOffset: " + numberLiteral(input.toolLengthOffset) + "}, cycle: " + object(input.cycle) +
-         (whole ? "" : ", entry: " + quoted(std::string(prefix) + "_write")) + "})";
+  for (const auto& [x, y, z] : input.points)
+    points += fmt::format("{}[{}, {}, {}]", points.empty() ? "" : ", ", numberLiteral(x), numberLiteral(y),
+                          numberLiteral(z));
+  return fmt::format(
+      R"({{"unit": {}, "properties": {}, "points": [{}], "tool": {}, "cycle": {}, {}"most": {}}})",
+      input.inch ? kInch : kMillimetre, object(input.properties, "\"dotekCycle\": " + quoted(prefix)), points,
+      object({{"diameter", input.toolDiameter},
+              {"number", input.toolNumber},
+              {"lengthOffset", input.toolLengthOffset}}),
+      object(input.cycle), whole ? "" : "\"entry\": " + quoted(std::string(prefix) + "_write") + ", ", most);
 }
 
-std::string postText(std::string_view fragment, std::string_view prefix) {
+std::string textOf(const std::vector<EmittedLine>& lines) {
   std::string out;
-  std::vector<EmittedLine> lines;
-  for (std::string& line : linesOf(std::string(fragment)))
-    lines.push_back({std::move(line), {}, ""});
-  for (const EmittedLine& line : postAround({lines}, {std::string(prefix)}))
+  for (const EmittedLine& line : lines)
     out += line.text + "\n";
-  return out;
-}
-
-// What the call left on the stack.
-void take(Engine& engine, RunResult& out) {
-  out.text = engine.text("text");
-  out.errors = linesOf(engine.text("errors"));
-  out.warnings = linesOf(engine.text("warnings"));
-  out.wroteAfterError = engine.text("afterError") == "true";
-  out.failure = engine.text("failure");
-}
-
-RunResult run(std::string_view post, const std::string& call) {
-  RunResult out;
-  Engine engine;
-  for (const std::string_view part : {kernelText(), post, std::string_view(call)}) {
-    out.failure = engine.run(part);
-    if (!out.failure.empty()) return out;
-  }
-  take(engine, out);
   return out;
 }
 
 } // namespace
 
-// The kernel and the post, one after the other, as the engine keeps them.
-class Fragment::Prepared {
-public:
-  Prepared(std::string_view fragment, std::string_view prefix) {
-    failure = engine.keep(kernelText());
-    if (failure.empty()) failure = engine.keep(postText(fragment, prefix));
-  }
-  Engine engine;
-  std::string failure;
-};
+std::optional<script::Fault> Fragment::load(std::string_view fragment, std::string_view prefix) {
+  prefix_ = prefix;
+  whole_ = false;
+  // Read by itself, so that a brace too many is found here and lines are the fragment's own. It is no
+  // beginning of a script: a "use strict" in it says nothing.
+  const std::string own = "0;" + std::string(fragment);
+  const std::string head = textOf(postHead());
+  return runner_.load({{"kernel", kernelText()}, {"post", head}, {kFragment, own}});
+}
 
-Fragment::Fragment(std::string_view fragment, std::string_view prefix)
-    : prefix_(prefix), prepared_(std::make_unique<Prepared>(fragment, prefix)) {}
-
-Fragment::~Fragment() = default;
+std::optional<script::Fault> Fragment::loadPost(std::string_view post, std::string_view prefix) {
+  prefix_ = prefix;
+  whole_ = true;
+  return runner_.load({{"kernel", kernelText()}, {"post", post}});
+}
 
 RunResult Fragment::run(const RunInput& input) const {
   RunResult out;
-  Engine& engine = prepared_->engine;
-  out.failure = prepared_->failure;
-  for (const int part : {0, 1})
-    if (out.failure.empty()) out.failure = engine.repeat(part);
-  if (out.failure.empty()) out.failure = engine.run(callText(prefix_, false, input));
-  if (!out.failure.empty()) return out;
-  take(engine, out);
-  engine.pop();
+  const script::Options& options = runner_.options();
+  auto answer = runner_.run(inputText(prefix_, whole_, input, options.output));
+  if (script::Fault* fault = std::get_if<script::Fault>(&answer)) {
+    out.fault = std::move(*fault);
+    return out;
+  }
+  const auto& texts = std::get<script::Texts>(answer);
+  if (texts.size() < 2) {
+    out.fault = script::tooMuchOutput(options);
+    return out;
+  }
+  out.text = texts[0];
+  out.wroteAfterError = !texts[1].empty();
+  for (std::size_t i = 2; i < texts.size(); ++i)
+    (texts[i].front() == 'e' ? out.errors : out.warnings).push_back(texts[i].substr(1));
   return out;
 }
 
-RunResult runFragment(std::string_view fragment, std::string_view prefix, const RunInput& input) {
-  return run(postText(fragment, prefix), callText(prefix, false, input));
-}
-
-RunResult runPost(std::string_view post, std::string_view prefix, const RunInput& input) {
-  return run(post, callText(prefix, true, input));
-}
-
 std::string scriptFor(std::string_view fragment, std::string_view prefix, const RunInput& input) {
-  return std::string(kernelText()) + postText(fragment, prefix) + "console.log(" +
-         callText(prefix, false, input) + ".text);\n";
+  const script::Options options;
+  return std::string(kernelText()) + textOf(postHead()) + std::string(fragment) +
+         textOf(postTail({std::string(prefix)})) + "console.log(dotekRun(" +
+         inputText(prefix, false, input, options.output) + ").text);\n";
 }
 
-std::string evaluate(std::string_view code) {
-  Engine engine;
-  std::string failure = engine.run(kernelText());
-  if (failure.empty()) failure = engine.run(code);
-  return failure.empty() ? engine.top() : "throws: " + failure;
+std::string evaluate(script::Runner& runner, std::string_view code) {
+  const std::string kernel =
+      std::string(kernelText()) + "(function (code) { return [String((0, eval)(code))]; });\n";
+  const auto text = [](const script::Fault& fault) { return "throws: " + fault.text; };
+  if (const auto fault = runner.load({{"kernel", kernel}})) return text(*fault);
+  const auto answer = runner.run(quoted(code));
+  const script::Fault* fault = std::get_if<script::Fault>(&answer);
+  return fault != nullptr ? text(*fault) : std::get<script::Texts>(answer).front();
 }
 
 } // namespace dotek::backends::fusion

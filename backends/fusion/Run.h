@@ -1,9 +1,12 @@
-// Runs what emit() wrote, on a double of the post kernel in Duktape.
+// Runs what emit() wrote, on a double of the post kernel, as a script in a process of its own.
 #pragma once
 
+#include "script/Script.h"
+
 #include <array>
+#include <cstdint>
 #include <map>
-#include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -23,37 +26,40 @@ struct RunInput {
 };
 
 struct RunResult {
-  std::string text;                  // NC, line ends LF
-  std::vector<std::string> errors;   // of error(..), in order
-  std::vector<std::string> warnings; // of warning(..)
-  bool wroteAfterError = false;      // a defect: something was written after an error
-  std::string failure;               // "" or what the engine says: a syntax error, an exception
-  bool ok() const { return failure.empty() && errors.empty(); }
+  std::string text;                   // NC, line ends LF
+  std::vector<std::string> errors;    // of error(..), in order
+  std::vector<std::string> warnings;  // of warning(..)
+  bool wroteAfterError = false;       // a defect: something was written after an error
+  std::optional<script::Fault> fault; // an exception, a limit: nothing else is known then
+  bool ok() const { return !fault && errors.empty(); }
 };
 
-// NC text of a fragment: PREFIX_write(x, y, z) for each point, within the post of postAround(). Runs only
-// text that this back end wrote: nothing limits its time but the bound in loops of checks.
-RunResult runFragment(std::string_view fragment, std::string_view prefix, const RunInput& input);
-// A fragment that runs many times: its text is read once. Each run begins anew. For one thread.
+// Lines of a fragment are named by this in the places of faults.
+inline constexpr std::string_view kFragment = "fragment";
+
+// A fragment within the post of postAround(), or a whole post, that runs many times: its text is read once,
+// and each run finds it as it was then. For one thread.
 class Fragment {
 public:
-  Fragment(std::string_view fragment, std::string_view prefix);
-  ~Fragment();
+  // `runner` outlives the fragment, and runs this one alone after load().
+  explicit Fragment(script::Runner& runner) : runner_(runner) {}
+  // The text, whose names begin with `prefix`. A fault where it cannot be read.
+  std::optional<script::Fault> load(std::string_view fragment, std::string_view prefix);
+  std::optional<script::Fault> loadPost(std::string_view post, std::string_view prefix);
+  // PREFIX_write(x, y, z) for each point, of a post its entry functions in their order; the prefix chooses
+  // the cycle.
   RunResult run(const RunInput& input) const;
 
 private:
-  class Prepared;
-  const std::string prefix_;
-  std::unique_ptr<Prepared> prepared_;
+  script::Runner& runner_;
+  std::string prefix_;
+  bool whole_ = false;
 };
 
-// NC text of a whole post: its entry functions in their order; `prefix` chooses the cycle.
-RunResult runPost(std::string_view post, std::string_view prefix, const RunInput& input);
-
-// Everything of runFragment() as one script for another engine: prints the NC text with console.log.
+// Everything of a run as one script for another engine: prints the NC text with console.log.
 std::string scriptFor(std::string_view fragment, std::string_view prefix, const RunInput& input);
 // Evaluates `code` after the kernel's double and gives its value as text; of one that throws "throws: ...".
 // For tests of the double.
-std::string evaluate(std::string_view code);
+std::string evaluate(script::Runner& runner, std::string_view code);
 
 } // namespace dotek::backends::fusion

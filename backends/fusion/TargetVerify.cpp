@@ -7,6 +7,7 @@
 #include "sim/machine/VendorMacros.h"
 #include "support/messages/Verify.h"
 #include "targets/ReadBack.h"
+#include "targets/Stage.h"
 
 #include <algorithm>
 #include <cmath>
@@ -30,7 +31,8 @@ public:
         stand_(control_,
                set_ == nullptr ? std::vector<const stdlib::MacroSet*>{}
                                : std::vector<const stdlib::MacroSet*>{set_},
-               source.session.limits()) {}
+               limits_),
+        runner_({source.session.options().scriptProgram, source.session.limits()}) {}
 
   // Macros that correct an offset by measured less expected take no other nominal.
   bool needsNominal() const override { return set_ != sourceSet_; }
@@ -38,7 +40,10 @@ public:
   bool prepare() override {
     const Translation& translation = *from_.plan.translation;
     prefix_ = fusion::prefixOf(from_.folder.name);
-    fragment_ = std::make_unique<fusion::Fragment>(translation.text, prefix_);
+    if (const auto fault = fragment_.load(translation.text, prefix_)) {
+      report(*fault);
+      return false;
+    }
     if (set_ != nullptr) {
       if (const stdlib::DataFile* text = from_.session.data().find("macrob", set_->name)) {
         Diagnostics found;
@@ -56,9 +61,13 @@ public:
 
   TargetRun run(const TargetCase& now) override {
     TargetRun out;
-    const fusion::RunResult result = fragment_->run(inputOf(now.drawn));
-    if (!result.failure.empty()) {
-      out.differs(verify::Aspect::Ending, "the fragment fails: " + result.failure);
+    const fusion::RunResult result = fragment_.run(inputOf(now.drawn));
+    if (result.fault) {
+      if (result.fault->kind == script::Fault::Kind::Script)
+        out.differsAt(verify::Aspect::Ending, "the fragment fails: " + result.fault->text,
+                      lineOf(*result.fault));
+      else
+        out.stopped = result.fault->text;
       return out;
     }
     if (!result.errors.empty()) {
@@ -77,6 +86,37 @@ public:
 private:
   // As a job file keeps numbers: in 32 bits.
   static double inJob(double value) { return static_cast<float>(value); }
+
+  // 0 where it is not in the fragment.
+  static std::uint32_t lineOf(const script::Fault& fault) {
+    return fault.source == fusion::kFragment ? fault.line : 0;
+  }
+
+  // What keeps the translation from being read, at its line where that is known.
+  void report(const script::Fault& fault) {
+    Diagnostics& diagnostics = from_.session.diagnostics();
+    const Translation& translation = *from_.plan.translation;
+    if (fault.kind == script::Fault::Kind::NoWorker) {
+      diagnostics.report<diag::ScriptNotRun>({}, fault.text);
+    } else if (fault.kind == script::Fault::Kind::Stopped) {
+      diagnostics.report<diag::TranslationStopped>({}, translation.name, fault.text);
+    } else {
+      SourceMap& sources = from_.session.sources();
+      const FileId id = sources.add(SourceFile(translation.name, translation.text, Encoding::Utf8));
+      diagnostics.report<diag::ScriptFails>(rangeOfLine(sources.file(id), id, lineOf(fault)), fault.text);
+    }
+  }
+
+  // Without a line, or one after the end, the last one that holds something.
+  static SourceRange rangeOfLine(const SourceFile& file, FileId id, std::uint32_t line) {
+    line = line == 0 ? file.lineCount() : std::min(line, file.lineCount());
+    while (line > 1 && file.line(line).empty())
+      --line;
+    const std::string_view text = file.line(line);
+    const std::size_t blank = std::min(text.find_first_not_of(" \t"), text.size());
+    const std::uint32_t begin = file.lineStart(line);
+    return {id, begin + static_cast<std::uint32_t>(blank), begin + static_cast<std::uint32_t>(text.size())};
+  }
 
   fusion::RunInput inputOf(const verify::Case& drawn) const {
     const auto host = [&](const char* name, double otherwise) {
@@ -121,6 +161,10 @@ private:
     }
     const verify::Record record =
         stand_.run(code, now.world, now.entry, now.stores, meaning ? &*meaning : nullptr);
+    if (record.overLimit) {
+      out.stopped = record.text;
+      return;
+    }
     verify::CompareRules rules;
     rules.tolerance = rules.results = from_.options.tolerance;
     if (control_.arithmetic == stdlib::Arithmetic::Decimal8)
@@ -137,9 +181,11 @@ private:
   const VerificationSource from_;
   const stdlib::Control& control_;
   const stdlib::MacroSet *sourceSet_, *set_;
+  const Limits limits_ = limitsOfRun(from_.session.limits());
   verify::Stand stand_;
   std::string prefix_;
-  std::unique_ptr<fusion::Fragment> fragment_;
+  script::Runner runner_;
+  fusion::Fragment fragment_{runner_};
   std::optional<ir::ProgramFile> macros_; // of the target's set, where it has a text
   SourceMap sources_;
 };

@@ -66,8 +66,8 @@ struct Built {
     REQUIRE_MESSAGE(!fragment.empty(), renderText(diagnostics, SourceMap(), 5));
     fusion::RunInput input = given;
     input.properties["built_A"] = value;
-    const fusion::RunResult result = fusion::runFragment(fragment, "built", input);
-    REQUIRE_MESSAGE(result.failure.empty(), result.failure);
+    const fusion::RunResult result = runFragment(fragment, "built", input);
+    REQUIRE_MESSAGE(!result.fault, faultOf(result));
     return result.errors.empty() ? "printed" : result.errors.front();
   }
 };
@@ -95,7 +95,7 @@ TEST_CASE("names of a fragment") {
 
 TEST_CASE("literals of a fragment") {
   CHECK(fusion::quoted("a\"b\\c\n\xC5\x98\xF0\x9F\x98\x80") == R"("a\"b\\c\u000A\u0158\uD83D\uDE00")");
-  CHECK(fusion::evaluate(fusion::quoted("a\"b\\c\xC5\x98")) == "a\"b\\c\xC5\x98");
+  CHECK(evaluated(fusion::quoted("a\"b\\c\xC5\x98")) == "a\"b\\c\xC5\x98");
   CHECK(fusion::numberLiteral(-0.5) == "-0.5");
   CHECK(fusion::numberLiteral(-0.5, true) == "(-0.5)");
 }

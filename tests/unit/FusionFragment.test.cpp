@@ -60,8 +60,8 @@ void equalsPost(const Case& one) {
       input.properties[one.prefix + "_" + field] = value;
     }
     const driver::Outcome posted = driver::post(post);
-    const fusion::RunResult run = fusion::runFragment(fragment, one.prefix, input);
-    REQUIRE_MESSAGE(run.failure.empty(), run.failure);
+    const fusion::RunResult run = runFragment(fragment, one.prefix, input);
+    REQUIRE_MESSAGE(!run.fault, faultOf(run));
     CHECK_FALSE(run.wroteAfterError);
     CHECK_MESSAGE(run.ok() == (posted.status == 0), reportOf(run) << "\n" << messagesOf(posted));
     if (posted.status != 0) {
@@ -100,7 +100,7 @@ struct PictureCycle {
       fragment_ = fragmentOf(toFusion(folder.generic_string(), (folder / "post.txt").generic_string()));
     fusion::RunInput input;
     input.properties["dotekFusionPicture_V"] = value;
-    return fusion::runFragment(fragment_, "dotekFusionPicture", input);
+    return runFragment(fragment_, "dotekFusionPicture", input);
   }
   std::string printed(double value) const {
     const fusion::RunResult result = run(value);
@@ -130,10 +130,10 @@ std::string measuringBlock(const Case& one, const std::map<std::string, double>&
   input.cycle["clearance"] = 5;
   for (const auto& [name, value] : values)
     input.properties[one.prefix + "_" + name] = value;
-  const fusion::RunResult run = fusion::runFragment(fragmentOf(convert), one.prefix, input);
+  const fusion::RunResult run = runFragment(fragmentOf(convert), one.prefix, input);
   if (!run.ok()) {
     CHECK(run.text.empty());
-    return run.failure.empty() ? "error: " + run.errors.front() : run.failure;
+    return run.fault ? run.fault->text : "error: " + run.errors.front();
   }
   std::string out;
   for (const std::string& line : withoutNumbers(run.text))
@@ -219,7 +219,7 @@ TEST_CASE("pictures of the fragment are the pictures of post") {
       CAPTURE(value);
       const Picture::Printed wanted = picture.print(value);
       const fusion::RunResult run = cycle.run(value);
-      REQUIRE(run.failure.empty());
+      REQUIRE(!run.fault);
       CHECK(run.ok() == (wanted.fit != Picture::Fit::DoesNotFit));
       if (run.ok()) CHECK(withoutNumbers(run.text) == withoutNumbers("N1 G4 X" + wanted.text));
       if (run.ok()) CHECK(run.warnings.empty() == (std::abs(wanted.value.value() - value) <= 1e-9));
@@ -268,24 +268,24 @@ TEST_CASE("corpus: measuring blocks of Inspection Plus") {
 TEST_CASE("what the operation lacks is an error, and nothing is printed") {
   const std::string fragment = fragmentOf(toFusion(example("surface-x"), ownPost()));
   fusion::RunInput input;
-  const fusion::RunResult noPlane = fusion::runFragment(fragment, "surfaceX", input);
+  const fusion::RunResult noPlane = runFragment(fragment, "surfaceX", input);
   CHECK(noPlane.errors == std::vector<std::string>{"surface-x: cycle.clearance is no number"});
   CHECK(noPlane.text.empty());
   input.cycle["clearance"] = 5;
-  CHECK(fusion::runFragment(fragment, "surfaceX", input).ok());
+  CHECK(runFragment(fragment, "surfaceX", input).ok());
   input.properties["surfaceX_G"] = 54.5;
-  CHECK(fusion::runFragment(fragment, "surfaceX", input).errors ==
+  CHECK(runFragment(fragment, "surfaceX", input).errors ==
         std::vector<std::string>{"surface-x: G is no whole number"});
   input.properties["surfaceX_G"] = 54;
   input.properties["surfaceX_I"] = 12345;
-  CHECK(fusion::runFragment(fragment, "surfaceX", input).errors ==
+  CHECK(runFragment(fragment, "surfaceX", input).errors ==
         std::vector<std::string>{"surface-x: I does not fit ####.##;0"});
   input.properties["surfaceX_I"] = 1.234;
-  const fusion::RunResult lost = fusion::runFragment(fragment, "surfaceX", input);
+  const fusion::RunResult lost = runFragment(fragment, "surfaceX", input);
   CHECK(lost.ok());
   CHECK(lost.warnings.size() == 1);
   input.inch = true;
-  const fusion::RunResult inch = fusion::runFragment(fragment, "surfaceX", input);
+  const fusion::RunResult inch = runFragment(fragment, "surfaceX", input);
   CHECK(inch.errors.size() == 1);
   CHECK(inch.text.empty());
 }
@@ -315,8 +315,8 @@ TEST_CASE("numbers that a job keeps in 32 bits print, compare and warn as those 
       for (auto& [name, value] : *values)
         value = inJob(value);
     for (const std::string& one : {fragment, ours}) {
-      const fusion::RunResult wanted = fusion::runFragment(one, "surfaceX", typed);
-      const fusion::RunResult run = fusion::runFragment(one, "surfaceX", kept);
+      const fusion::RunResult wanted = runFragment(one, "surfaceX", typed);
+      const fusion::RunResult run = runFragment(one, "surfaceX", kept);
       REQUIRE(wanted.ok());
       CHECK(run.errors.empty());
       CHECK(run.warnings == wanted.warnings);
@@ -329,7 +329,7 @@ TEST_CASE("numbers that a job keeps in 32 bits print, compare and warn as those 
   bound.toolDiameter = inJob(6.38);
   bound.cycle["clearance"] = 5;
   bound.properties = {{"surfaceX_X", inJob(3.19)}, {"surfaceX_I", 0}};
-  CHECK(fusion::runFragment(fragment, "surfaceX", bound).errors.size() == 1);
+  CHECK(runFragment(fragment, "surfaceX", bound).errors.size() == 1);
 }
 
 TEST_CASE("a whole post runs from beginning to end") {
@@ -340,14 +340,14 @@ TEST_CASE("a whole post runs from beginning to end") {
   fusion::RunInput input;
   input.cycle["clearance"] = 5;
   input.points = {{1, 2, 3}, {4, 5, 6}};
-  const fusion::RunResult run = fusion::runPost(post, "bore", input);
+  const fusion::RunResult run = runPost(post, "bore", input);
   CHECK_MESSAGE(run.ok(), reportOf(run));
   const auto lines = withoutNumbers(run.text);
   CHECK(lines.front() == "%");
   CHECK(lines.back() == "%");
   CHECK(std::count(lines.begin(), lines.end(), "G65 P9023 D40. S55. I0 J0") == 2);
-  CHECK(fusion::runPost(post, "surfaceX", input).text.find("P9023 S55. X12. I0") != std::string::npos);
-  CHECK(fusion::runPost(post, "nothing", input).errors.size() == 2);
+  CHECK(runPost(post, "surfaceX", input).text.find("P9023 S55. X12. I0") != std::string::npos);
+  CHECK(runPost(post, "nothing", input).errors.size() == 2);
 }
 
 TEST_CASE("jumps of the checks that are no ifs are steps") {
@@ -358,8 +358,8 @@ TEST_CASE("jumps of the checks that are no ifs are steps") {
     fusion::RunInput input;
     input.cycle["clearance"] = 5;
     input.properties = {{"side_Ofs", offset}, {"side_Reach", reach}, {"side_Top", 40}, {"side_Depth", -5}};
-    const fusion::RunResult run = fusion::runFragment(fragment, "side", input);
-    CHECK(run.failure.empty());
+    const fusion::RunResult run = runFragment(fragment, "side", input);
+    CHECK(!run.fault);
     return run.errors.empty() ? std::string("printed") : run.errors.front();
   };
   CHECK(outcome(54, 10) == "printed");
@@ -387,7 +387,7 @@ TEST_CASE("node prints the same text") {
     const std::string command = "node -e 'require(\"vm\").runInThisContext(require(\"fs\").readFileSync(\"" +
                                 script.string() + "\", \"utf8\"))' >" + output.string();
     REQUIRE(std::system(command.c_str()) == 0);
-    const fusion::RunResult run = fusion::runFragment(fragment, prefix, input);
+    const fusion::RunResult run = runFragment(fragment, prefix, input);
     CHECK(run.ok());
     CHECK(!run.text.empty());
     CHECK(readAll(output) == run.text + "\n");

@@ -47,8 +47,38 @@ inline bool holds(const std::string& text, const std::string& line) {
   return std::find(lines.begin(), lines.end(), line) != lines.end();
 }
 
+// One process for all scripts of a test process.
+inline script::Runner& scripts() {
+  static script::Runner runner({runningProgram(), Limits()});
+  return runner;
+}
+
+inline backends::fusion::RunResult runFragment(std::string_view text, std::string_view prefix,
+                                               const backends::fusion::RunInput& input) {
+  backends::fusion::Fragment fragment(scripts());
+  backends::fusion::RunResult out;
+  out.fault = fragment.load(text, prefix);
+  return out.fault ? out : fragment.run(input);
+}
+
+inline backends::fusion::RunResult runPost(std::string_view post, std::string_view prefix,
+                                           const backends::fusion::RunInput& input) {
+  backends::fusion::Fragment fragment(scripts());
+  backends::fusion::RunResult out;
+  out.fault = fragment.loadPost(post, prefix);
+  return out.fault ? out : fragment.run(input);
+}
+
+inline std::string evaluated(std::string_view code) {
+  return backends::fusion::evaluate(scripts(), code);
+}
+
+inline std::string faultOf(const backends::fusion::RunResult& result) {
+  return result.fault ? result.fault->text : "";
+}
+
 inline std::string reportOf(const backends::fusion::RunResult& result) {
-  std::string out = result.text + result.failure;
+  std::string out = result.text + faultOf(result);
   for (const auto& error : result.errors)
     out += "\nerror: " + error;
   return out;

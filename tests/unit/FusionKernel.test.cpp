@@ -21,13 +21,13 @@ std::string cases() {
 } // namespace
 
 TEST_CASE("the kernel's double prints what the kernel prints") {
-  const std::string found = fusion::evaluate(cases() + "\nkernelCases();");
+  const std::string found = evaluated(cases() + "\nkernelCases();");
   CHECK(found == "80 cases\n");
 }
 
 TEST_CASE("the kernel's double reports a wrong result") {
   // The comparison itself can fail.
-  const std::string found = fusion::evaluate(
+  const std::string found = evaluated(
       "createFormat = function () { return {format: function () { return \"?\"; }, getPrefix: "
       "function () { return \"\"; }, areDifferent: function () { return true; }, isSignificant: "
       "function () { return true; }, getMinimumValue: function () { return 1; }, getError: function "
@@ -38,7 +38,7 @@ TEST_CASE("the kernel's double reports a wrong result") {
 }
 
 TEST_CASE("the engine says what is wrong with a script") {
-  CHECK(fusion::evaluate("let a = 1;").starts_with("throws: "));
-  CHECK(fusion::evaluate("nobody();").find("nobody") != std::string::npos);
-  CHECK(fusion::evaluate("createFormat({}).format(\"1\")").find("is no number") != std::string::npos);
+  CHECK(evaluated("let a = 1;").starts_with("throws: "));
+  CHECK(evaluated("nobody();").find("nobody") != std::string::npos);
+  CHECK(evaluated("createFormat({}).format(\"1\")").find("is no number") != std::string::npos);
 }

@@ -67,7 +67,7 @@ TEST_CASE("a fragment with our own macros says what they need and calls them") {
   input.toolDiameter = 6;
   input.cycle = {{"clearance", 15}, {"probeOvertravel", 8}};
   input.properties = {{"surfaceX_X", 12}, {"surfaceX_I", 12}, {"surfaceX_G", 55}, {"surfaceX_Z", -5}};
-  const fusion::RunResult run = fusion::runFragment(fragment, "surfaceX", input);
+  const fusion::RunResult run = runFragment(fragment, "surfaceX", input);
   CHECK_MESSAGE(run.ok(), reportOf(run));
   CHECK(holds(run.text, "G65 P8811 X12. Q8. S2."));
 }
@@ -100,13 +100,13 @@ TEST_CASE("a fragment prints nothing where the operation has an overtravel or a 
   input.cycle = {{"clearance", 15}, {"probeOvertravel", -8}};
   input.properties = {{"surfaceX_X", 12}, {"surfaceX_I", 12}, {"surfaceX_G", 55}, {"surfaceX_Z", -5}};
   const auto errorOf = [&] {
-    const fusion::RunResult run = fusion::runFragment(fragment, "surfaceX", input);
+    const fusion::RunResult run = runFragment(fragment, "surfaceX", input);
     CHECK(run.text.empty());
     return run.errors.empty() ? std::string() : run.errors.front();
   };
   CHECK(errorOf() == "surface-x: cycle.probeOvertravel is negative");
   input.cycle["probeOvertravel"] = 0;
-  CHECK(fusion::runFragment(fragment, "surfaceX", input).ok());
+  CHECK(runFragment(fragment, "surfaceX", input).ok());
   input.toolDiameter = 0;
   CHECK(errorOf() == "surface-x: tool.diameter / 2 is not above 0");
 }
@@ -133,7 +133,7 @@ TEST_CASE("a fragment with another macro set leaves G91 in force where the sourc
     std::string blocks = kBlocks;
     blocks.insert(blocks.find("END"), " SeqC ' G90 G0 Z30.' EOL\n SeqC ' G91 Z5.' EOL\n" + std::string(end));
     folder.write("post.txt", blocks);
-    const fusion::RunResult run = fusion::runFragment(fragmentOf(convert), "surfaceX", input);
+    const fusion::RunResult run = runFragment(fragmentOf(convert), "surfaceX", input);
     CHECK_MESSAGE(run.ok(), reportOf(run));
     CHECK(holds(run.text, "G90 G0 Z35."));
     CHECK(withoutNumbers(run.text).back() == (*end == 0 ? "G91" : "G90"));

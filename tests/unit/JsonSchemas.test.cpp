@@ -110,6 +110,12 @@ TEST_CASE("sim --json prints one object, whatever happens") {
                                                              "p.nc --limit input-bytes=1",
                                                              "p.nc --from suf",
                                                              "p.suf --var 1=2",
+                                                             "p.nc --control",
+                                                             "p.nc --nonsense",
+                                                             "p.nc --at 1,2",
+                                                             "p.nc --set ''",
+                                                             "p.nc --limit steps=x",
+                                                             "p.nc second.nc third.nc --var",
                                                              "$(printf 'n%.0s' $(seq 300))"}) {
     const ShellResult result = folder.run("dotek sim --json " + command);
     CHECK_MESSAGE(result.status < 3, command << result.err);
@@ -117,6 +123,26 @@ TEST_CASE("sim --json prints one object, whatever happens") {
     CHECK_MESSAGE(result.err.find("defect of Dotek") == std::string::npos, command << result.err);
     folder.write(fmt::format("{}.sim.json", ++count), result.out);
   }
+  const ShellResult checked = check(folder);
+  CHECK_MESSAGE(checked.status == 0, checked.out << checked.err);
+}
+
+TEST_CASE("a wrong command line of lint is a finding of its document") {
+  const ProcessFolder folder;
+  if (!haveSchemas(folder)) return;
+  folder.write("p.nc", "%\nO1\nM30\n%\n");
+  int count = 0;
+  for (const char* rest : {"p.nc --nonsense", "p.nc --select no-such-rule", "p.nc --set a",
+                           "p.nc --limit a=1", "missing.nc", "", "p.nc --fail-on sometimes"}) {
+    const ShellResult json = folder.run(fmt::format("dotek lint --format json {}", rest));
+    CHECK_MESSAGE(json.status == 2, rest << json.err);
+    CHECK_MESSAGE(nlohmann::json::parse(json.out).size() == 1, json.out);
+    folder.write(fmt::format("{}.findings.json", ++count), json.out);
+    const ShellResult sarif = folder.run(fmt::format("dotek lint {} --format=sarif", rest));
+    CHECK(sarif.status == 2);
+    CHECK_MESSAGE(nlohmann::json::parse(sarif.out)["runs"][0]["results"].size() == 1, sarif.out);
+  }
+  CHECK(folder.run("dotek lint --format json p.nc --nonsense").out.find("command-line") != std::string::npos);
   const ShellResult checked = check(folder);
   CHECK_MESSAGE(checked.status == 0, checked.out << checked.err);
 }

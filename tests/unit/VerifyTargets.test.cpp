@@ -1,5 +1,6 @@
 // Translations for Mikroprog and Fusion, sound and damaged: a damaged one never agrees.
 #include "driver/Driver.h"
+#include "support/Worker.h"
 #include "tests/GoldenRunner.h"
 #include "tests/TestFolder.h"
 
@@ -26,6 +27,7 @@ driver::VerifyOptions options(const std::string& to) {
   out.inputs = {kExamples + "surface-x"};
   out.source.prog = kExamples + "post.txt";
   out.to = to;
+  out.common.scriptProgram = runningProgram();
   if (to == "mikroprog") out.control = "mikroprog-mill";
   out.cases = 40;
   out.jobs = 1;
