@@ -26,8 +26,10 @@ void collect(const ir::ProgramStatement& statement, std::vector<Number>& with, s
   if (const auto* block = std::get_if<ir::NcBlock>(&statement.node)) {
     // Seconds, and the table of an offset.
     if (hasCode(*block, 'G', 4)) return;
+    // K is a length of an arc alone; it counts the holes of a canned cycle.
+    const bool arc = hasCode(*block, 'G', 2) || hasCode(*block, 'G', 3);
     for (const ir::Word& word : block->words)
-      take(word.address, word.value, word.range);
+      if (word.address != 'K' || arc) take(word.address, word.value, word.range);
   } else if (const ir::Call* call = callOf(statement)) {
     for (const ir::CallArgument& argument : call->arguments)
       take(argument.letter, argument.value, argument.range);
