@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cstddef>
+#include <map>
 
 namespace dotek::frontend::mikroprog {
 
@@ -138,6 +140,25 @@ Findings conditionsInComments(const Reading& reading) {
   return out;
 }
 
+namespace {
+
+// What the functions of a block do with words of an address.
+struct Taken {
+  const MikroprogFunction* refuses = nullptr; // the first that must not appear with it
+  bool takes = false;
+};
+Taken takenBy(const Block& block, char address) {
+  Taken out;
+  for (const Code& one : block.codes) {
+    if (out.refuses == nullptr && one.function->forbids.find(address) != std::string::npos)
+      out.refuses = one.function;
+    out.takes = out.takes || one.function->find(address) != nullptr;
+  }
+  return out;
+}
+
+} // namespace
+
 // Words that no function takes. Short form: axes, F and S may be alone.
 Findings addressesNotTaken(const Reading& reading) {
   Findings out;
@@ -145,18 +166,16 @@ Findings addressesNotTaken(const Reading& reading) {
     if (block.line->unread || block.hasUnknownCode()) continue;
     const bool code = std::any_of(block.codes.begin(), block.codes.end(),
                                   [](const Code& one) { return !one.function->addresses.empty(); });
+    std::map<char, Taken> taken; // by address: the same for all words of one
+    for (const std::size_t first : block.line->firsts)
+      taken.emplace(block.line->words[first].address, takenBy(block, block.line->words[first].address));
     for (const Word& word : block.line->words) {
       if (word.address == 'G' || word.address == 'M') continue;
-      const auto refuses = std::find_if(block.codes.begin(), block.codes.end(), [&](const Code& one) {
-        return one.function->forbids.find(word.address) != std::string::npos;
-      });
-      const bool takes = std::any_of(block.codes.begin(), block.codes.end(), [&](const Code& one) {
-        return one.function->find(word.address) != nullptr;
-      });
+      const auto& [refuses, takes] = taken.at(word.address);
       const bool shortForm = !code && (reading.control.hasAxis(word.address) ||
                                        std::string_view("FSRIJK").find(word.address) != std::string::npos);
-      if (refuses != block.codes.end()) {
-        const MikroprogFunction& function = *refuses->function;
+      if (refuses != nullptr) {
+        const MikroprogFunction& function = *refuses;
         out.push_back({word.range, fmt::format("nothing in this block takes `{}`: `{}` has none ({})",
                                                reading.text(word.range), function.code(),
                                                function.notes.empty() ? "" : function.notes.front())});

@@ -1,29 +1,33 @@
 #include "lint/ProgBlocks.h"
 
-#include <algorithm>
 #include <cctype>
+#include <set>
+#include <tuple>
 
 namespace dotek::lint::rule {
 namespace {
 
-// The last character that is printed before the piece, blanks aside; 0: nothing, or another value.
-char before(const ProgBlock& block, std::size_t at) {
-  for (std::size_t i = at; i-- > 0;) {
-    const ProgPiece& piece = block.pieces[i];
-    if (piece.kind != ProgPiece::Kind::Text) return '\0';
-    const std::size_t last = piece.literal->text.find_last_not_of(" \t");
-    if (last != std::string::npos) return piece.literal->text[last];
-  }
-  return '\0';
-}
-
-bool insideComment(const ProgBlock& block, std::size_t at) {
+// What is printed before a piece: whether a comment is open, and the last character, blanks aside (0:
+// nothing, or another value).
+struct Before {
   bool comment = false;
-  for (std::size_t i = 0; i < at; ++i)
-    if (block.pieces[i].kind == ProgPiece::Kind::Text)
-      for (const char c : block.pieces[i].literal->text)
-        comment = c == '(' || (comment && c != ')');
-  return comment;
+  char last = '\0';
+
+  void pass(const ProgPiece& piece) {
+    if (piece.kind != ProgPiece::Kind::Text) {
+      last = '\0';
+      return;
+    }
+    for (const char c : piece.literal->text) {
+      comment = c == '(' || (comment && c != ')');
+      if (c != ' ' && c != '\t') last = c;
+    }
+  }
+};
+
+using Place = std::tuple<FileId, std::uint32_t, std::uint32_t>;
+Place placeOf(SourceRange range) {
+  return {range.file, range.begin, range.end};
 }
 
 void check(const Project& project, Report& report) {
@@ -33,14 +37,15 @@ void check(const Project& project, Report& report) {
       if (block.called) continue;
       const std::vector<ProgWord> words = wordsOf(block, project.form);
       if (words.empty()) continue;
-      for (std::size_t i = 0; i < block.pieces.size(); ++i) {
-        const ProgPiece& piece = block.pieces[i];
-        if (piece.field.empty() || insideComment(block, i)) continue;
-        const bool taken = std::any_of(words.begin(), words.end(), [&](const ProgWord& word) {
-          return word.hole != nullptr && word.hole->range == piece.range;
-        });
-        const char last = before(block, i);
-        if (taken || last == '-' || last == '+') continue;
+      std::set<Place> holes; // that an address takes
+      for (const ProgWord& word : words)
+        if (word.hole != nullptr) holes.insert(placeOf(word.hole->range));
+      Before text;
+      for (const ProgPiece& piece : block.pieces) {
+        const auto [comment, last] = text;
+        text.pass(piece);
+        if (piece.field.empty() || comment || holes.contains(placeOf(piece.range))) continue;
+        if (last == '-' || last == '+') continue;
         if (std::isalpha(static_cast<unsigned char>(last)) != 0) continue;
         report.at(
             piece.range,
