@@ -1,6 +1,7 @@
 // The public library of Dotek: one function per command. Nothing here prints, exits or throws.
 #pragma once
 
+#include "lint/Options.h"
 #include "project/Options.h"
 #include "sim/run/Options.h"
 #include "support/Diagnostics.h"
@@ -18,6 +19,8 @@
 namespace dotek::driver {
 
 using dotek::OutputFile;
+using lint::FailOn;
+using lint::LintOptions;
 using project::CommonOptions;
 using project::NamedTexts;
 using project::SourceOptions;
@@ -32,23 +35,6 @@ struct PostOptions {
   CommonOptions common;
   SourceOptions source;
   std::optional<std::pair<std::uint64_t, std::uint64_t>> sequence; // start, step
-};
-
-// From which severity on lint fails.
-enum class FailOn : std::uint8_t { Note, Warning, Error, Never };
-
-struct LintOptions {
-  std::vector<std::string> paths;
-  CommonOptions common;
-  SourceOptions source;
-  // Codes; nothing: what dotek.toml says, else all that are on by default. "all": every code.
-  std::optional<std::set<std::string>> select;
-  std::set<std::string> ignore;
-  std::string control;          // profile that programs are checked for; "": what holds on every control
-  std::optional<FailOn> failOn; // nothing: what dotek.toml says, else Warning
-  bool followLinks = false;     // of folders: also links that lead out of them
-  bool fix = false;             // makes the safe repairs, then says what is left
-  bool force = false;           // repairs files that are write-protected, too
 };
 
 enum class Stage : std::uint8_t { Tokens, Ast, Path, Ir };
@@ -78,14 +64,16 @@ struct Outcome {
   std::string macros;             // of convert: the set that the last result calls; "": none
   std::vector<std::vector<OutputArgument>> arguments; // of convert to fanuc, cycle by cycle
   std::vector<std::string> macrosByCycle;             // the sets that these call
-  std::string summary; // of lint of folders: what was read and what was not, a line; "" otherwise
+  // Of convert: those whose results are given, in their order; with --keep-going not all.
+  std::vector<std::string> inputs;
+  std::string summary; // of lint of folders: what was read and what was not; of --keep-going: what is refused; a line
   SourceMap sources;
   Diagnostics diagnostics; // sorted
 };
 
 Outcome post(const PostOptions& options);
 // Each folder becomes a program, each file of programs another file; with a status other than 0 there is
-// none.
+// none, or with --keep-going those of the inputs that are not refused.
 Outcome convert(const ConvertOptions& options);
 // The diagnostics are the result; status is 2 where a file could not be read, 1 with a finding at or above
 // the severity of --fail-on.

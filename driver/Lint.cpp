@@ -1,18 +1,17 @@
 #include "support/messages/Lint.h"
 #include "driver/Command.h"
 #include "driver/Driver.h"
-#include "driver/LintConfig.h"
 #include "driver/LintFix.h"
 #include "frontend/compost/Summary.h"
 #include "frontend/macrob/Check.h"
 #include "frontend/mikroprog/Parse.h"
-#include "lint/Analyses.h"
+#include "lint/Config.h"
 #include "lint/Project.h"
+#include "lint/Projects.h"
 #include "lint/Shared.h"
 #include "lint/Suppressions.h"
 #include "project/Compilation.h"
 #include "project/CycleFolder.h"
-#include "project/FormChoice.h"
 #include "project/InputWalk.h"
 #include "project/Job.h"
 #include "support/Files.h"
@@ -39,6 +38,7 @@ class LintCommand {
 public:
   LintCommand(const LintOptions& options, Session& session)
       : options_(options), session_(session), configs_(session), compilation_(session),
+        projects_(options, configs_, compilation_),
         walk_(
             options.followLinks, [this](const std::string& path, bool) { folder(path); },
             [this](const std::string& path, bool named) { file(path, named); }) {}
@@ -50,19 +50,8 @@ public:
       configs_.of(path);
     // A setting that is not understood would change what is reported: nothing is reported then.
     if (session_.diagnostics().hasErrors()) return failed();
-    const LintConfig* first = options_.paths.empty() ? nullptr : configs_.of(options_.paths.front());
-    const std::string control =
-        options_.control.empty() && first != nullptr ? first->control : options_.control;
-    const bool suf = session_.data().find("mikroprog", control) != nullptr;
-    if (suf) mikroprog_ = stdlib::MikroprogControl::load(session_.data(), control);
-    // An unknown control is an error, and what holds on every control is said beside it.
-    const bool known = !control.empty() && !suf && session_.data().find("controls", control) != nullptr;
-    inputs_ = compilation_.load(options_.source, known ? control : std::string());
+    inputs_ = compilation_.load(options_.source, "");
     if (inputs_ == nullptr) return failed();
-    if (known)
-      control_ = &*inputs_->control;
-    else if (!control.empty() && !suf)
-      loadControl(control, session_);
     for (const std::string& path : options_.paths) {
       std::error_code error;
       if (fs::is_directory(path, error)) session_.addInputRoot(path);
@@ -71,16 +60,19 @@ public:
       walk_.visit(path, session_.diagnostics());
     if (checkedFiles_ == 0 && !session_.diagnostics().hasErrors() && !options_.paths.empty())
       session_.diagnostics().report<diag::NothingRead>({}, quoted(options_.paths));
-    lint::Project project = gather(first);
+    const std::deque<lint::Project>& projects = projects_.gather(*inputs_, sufReadings_, checked_);
+    const auto run = [&](const auto& wanted) {
+      for (const lint::Project& project : projects)
+        lint::runRules(project, session_.diagnostics(), wanted);
+    };
     // Shared rules all run, since one that nobody asked for may tell why another finding begins at its place.
-    lint::runRules(project, session_.diagnostics(),
-                   [&](const lint::NamedRule& rule) { return rule.rule->shared; });
+    run([](const lint::NamedRule& rule) { return rule.rule->shared; });
     acceptEntryPoints();
     keepStrongest(session_.diagnostics());
-    lint::runRules(project, session_.diagnostics(), [&](const lint::NamedRule& rule) {
-      return !rule.rule->shared && isWantedSomewhere(rule.id);
-    });
-    suppress(project);
+    run([&](const lint::NamedRule& rule) { return !rule.rule->shared && isWantedSomewhere(rule.id); });
+    reportUnknownSets();
+    suppress(projects);
+    lint::keepOneOfEach(session_.diagnostics());
     select();
     const bool fails = failsNow();
     Outcome outcome = outcomeOf(session_, "", true);
@@ -104,7 +96,7 @@ private:
     const bool folders = std::any_of(options_.paths.begin(), options_.paths.end(),
                                      [&](const std::string& path) { return fs::is_directory(path, error); });
     if (!folders) return "";
-    return walkSummary(checkedFiles_, walk_.passedOver(),
+    return walkSummary(checkedFiles_, excluded_, walk_.passedOver(),
                        options_.paths.size() == 1 ? options_.paths.front() : "");
   }
 
@@ -115,68 +107,21 @@ private:
     return out;
   }
 
-  const LintConfig& configOf(FileId file) {
-    if (file == kNoFile) return kNone;
-    return *configs_.of(session_.sources().file(file).name());
-  }
-
   bool isWantedSomewhere(std::string_view code) {
     for (const std::string& path : options_.paths)
-      if (isWanted(code, options_, *configs_.of(path))) return true;
+      if (lint::isWanted(code, options_, *configs_.of(path))) return true;
     for (FileId file = 0; file < session_.sources().size(); ++file)
-      if (isWanted(code, options_, configOf(file))) return true;
+      if (lint::isWanted(code, options_, projects_.configOf(file))) return true;
     return false;
   }
 
-  lint::Project gather(const LintConfig* config) {
-    const bool inConfig = config != nullptr && !config->form.empty();
-    const FormChoice form = options_.source.form ? FormChoice{*options_.source.form, true}
-                            : inConfig           ? FormChoice{config->form, true}
-                                                 : FormChoice{std::string(kDefaultForm), false};
-    // What nobody looks at is not loaded; a form that is not there is reported all the same.
-    const bool progs = !compilation_.progs().empty();
-    if (progs || session_.data().find("forms", form.name) == nullptr) useForm(*inputs_, form.name, session_);
-    lint::Project project{session_.sources(), session_.limits(), session_.gibbsKeywords(),
-                          session_.compostKeywords()};
-    const bool blocks = progs || !compilation_.programs().empty();
-    if (blocks) project.macroSets = session_.macroSets();
-    inputs_->formChoice = form;
-    project.form = inputs_->form ? &*inputs_->form : nullptr;
-    if (project.form != nullptr && !project.form->control.empty() && inputs_->sourceControl)
-      project.postControl = &*inputs_->sourceControl;
-    project.control = control_;
-    project.analyses = std::make_shared<lint::Analyses>();
-    if (control_ == nullptr && blocks) project.controls = compilation_.controls();
-    for (const auto& prog : compilation_.progs())
-      project.progs.push_back(prog.get());
-    for (const CycleFolder& folder : compilation_.folders())
-      if (folder.cycle) project.cycles.push_back(folder.cycle.get());
-    for (const gibbs::Macro& macro : compilation_.macros())
-      project.macros.push_back(&macro);
-    for (const gibbs::Dialog& dialog : compilation_.dialogs())
-      project.dialogs.push_back(&dialog);
-    for (const gibbs::DefineData& data : compilation_.defines())
-      project.defines.push_back(&data);
-    for (const macrob::File& file : compilation_.programs())
-      project.programs.push_back({&file, compilation_.lower(file, control_)});
-    for (const frontend::mikroprog::Reading& reading : sufReadings_)
-      project.sufPrograms.push_back(&reading);
-    for (const CycleFolder& folder : compilation_.folders())
-      for (const gibbs::CheckedFile& file : folder.checked)
-        project.checked.push_back(&file);
-    for (const gibbs::CheckedFile& file : checked_)
-      project.checked.push_back(&file);
-    // Without the control of the post nobody knows what its blocks mean.
-    lint::join(project, compilation_, project.postControl != nullptr);
-    reportUnknownSets(project);
-    return project;
-  }
-
-  void reportUnknownSets(const lint::Project& project) {
+  void reportUnknownSets() {
     if (inputs_->sets.empty()) return;
     std::string cycles;
     std::set<std::string> declared; // also by cycles without a Prog
-    for (const gibbs::Cycle* cycle : project.cycles) {
+    for (const CycleFolder& folder : compilation_.folders()) {
+      if (!folder.cycle) continue;
+      const gibbs::Cycle* const cycle = folder.cycle.get();
       cycles += (cycles.empty() ? "" : ", ") + cycle->name;
       for (const gibbs::Field& field : gibbs::declaredFields(*cycle))
         declared.insert(gibbs::foldCase(field.name.text));
@@ -186,25 +131,31 @@ private:
         session_.diagnostics().report<diag::NoSuchField>({}, name, cycles, "");
   }
 
-  void suppress(const lint::Project& project) {
-    std::vector<lint::Suppression> suppressions = lint::suppressionsOf(project, session_.diagnostics());
-    if (suppressions.empty()) return;
+  void suppress(const std::deque<lint::Project>& projects) {
+    std::vector<lint::Suppression> suppressions;
     std::set<FileId> joined;
     std::set<FileId> lowered;
-    for (const lint::Joined& one : project.joined) {
-      std::set<FileId> files{one.prog->file};
-      if (one.cycle->defineData) files.insert(one.cycle->defineData->file);
-      if (one.cycle->dialog) files.insert(one.cycle->dialog->file);
-      if (one.cycle->cycleData) files.insert(one.cycle->cycleData->file);
-      if (one.cycle->toolPath) files.insert(one.cycle->toolPath->file);
-      joined.insert(files.begin(), files.end());
-      if (one.lowered) lowered.insert(files.begin(), files.end());
+    for (const lint::Project& project : projects) {
+      for (lint::Suppression& one : lint::suppressionsOf(project, session_.diagnostics()))
+        if (std::none_of(suppressions.begin(), suppressions.end(),
+                         [&](const lint::Suppression& known) { return known.range == one.range; }))
+          suppressions.push_back(std::move(one));
+      for (const lint::Joined& one : project.joined) {
+        std::set<FileId> files{one.prog->file};
+        if (one.cycle->defineData) files.insert(one.cycle->defineData->file);
+        if (one.cycle->dialog) files.insert(one.cycle->dialog->file);
+        if (one.cycle->cycleData) files.insert(one.cycle->cycleData->file);
+        if (one.cycle->toolPath) files.insert(one.cycle->toolPath->file);
+        joined.insert(files.begin(), files.end());
+        if (one.lowered) lowered.insert(files.begin(), files.end());
+      }
+      for (const lint::NcFile& nc : project.programs)
+        if (nc.lowered) lowered.insert(nc.file->file);
     }
-    for (const lint::NcFile& nc : project.programs)
-      if (nc.lowered) lowered.insert(nc.file->file);
+    if (suppressions.empty()) return;
     lint::applySuppressions(suppressions, session_.sources(), session_.diagnostics(),
                             [&](std::string_view code, FileId file) {
-                              if (!isWanted(code, options_, configOf(file))) return false;
+                              if (!lint::isWanted(code, options_, projects_.configOf(file))) return false;
                               const lint::NamedRule* named = lint::findRule(code);
                               if (named == nullptr || named->rule->shared) return true;
                               if (named->rule->tier == lint::Tier::Bundle) return joined.contains(file);
@@ -215,8 +166,9 @@ private:
 
   bool failsNow() {
     for (const Diagnostic& d : session_.diagnostics().all()) {
-      const FailOn level =
-          options_.failOn ? *options_.failOn : configOf(d.range.file).failOn.value_or(FailOn::Warning);
+      const FailOn level = options_.failOn
+                               ? *options_.failOn
+                               : projects_.configOf(d.range.file).failOn.value_or(FailOn::Warning);
       if (level == FailOn::Never) continue;
       const Severity from = level == FailOn::Note    ? Severity::Note
                             : level == FailOn::Error ? Severity::Error
@@ -227,6 +179,7 @@ private:
   }
 
   void folder(const std::string& path) {
+    if (configs_.of(path)->exclude) return;
     // The folder's loader owns the trees of sub-macros; they are linted as files of their own.
     if (isCycleFolder(path)) compilation_.addFolder(path, false);
   }
@@ -239,6 +192,10 @@ private:
   }
 
   void file(const std::string& path, bool named) {
+    if (!named && configs_.of(path)->exclude) {
+      ++excluded_;
+      return;
+    }
     if (!options_.common.from && path.ends_with(".toml") && job(path)) {
       ++checkedFiles_;
       return;
@@ -313,9 +270,10 @@ private:
     using namespace frontend;
     const mikroprog::Program& program =
         sufPrograms_.emplace_back(mikroprog::parse(id, session_.sources(), session_.diagnostics()));
-    const stdlib::MikroprogControl* control =
-        mikroprog_ ? &*mikroprog_
-                   : sufControl(std::string(mikroprog::profileOf(program).value_or(stdlib::kMikroprogLathe)));
+    const std::string named = projects_.settingsOf(id).control;
+    const bool known = session_.data().find("mikroprog", named) != nullptr;
+    const stdlib::MikroprogControl* control = sufControl(
+        known ? named : std::string(mikroprog::profileOf(program).value_or(stdlib::kMikroprogLathe)));
     if (control != nullptr) sufReadings_.emplace_back(program, *control, session_.sources());
   }
 
@@ -354,25 +312,23 @@ private:
     auto& all = session_.diagnostics().all();
     std::erase_if(all, [&](const Diagnostic& d) {
       if (isUsageCode(d.code) || d.code == diag::TooManyFindings::code) return false;
-      return !isWanted(d.code, options_, configOf(d.range.file));
+      return projects_.isExcluded(d.range.file) ||
+             !lint::isWanted(d.code, options_, projects_.configOf(d.range.file));
     });
     for (Diagnostic& d : all) {
-      const auto& severity = configOf(d.range.file).severity;
+      const auto& severity = projects_.configOf(d.range.file).severity;
       if (const auto at = severity.find(d.code); at != severity.end() && at->second) d.severity = *at->second;
     }
   }
 
-  static const LintConfig kNone;
-
   const LintOptions& options_;
   Session& session_;
-  LintConfigs configs_;
+  lint::Configs configs_;
   Compilation compilation_;
+  lint::Projects projects_;
   InputWalk walk_;
-  std::size_t checkedFiles_ = 0;
+  std::size_t checkedFiles_ = 0, excluded_ = 0;
   LoweringInputs* inputs_ = nullptr;
-  const stdlib::Control* control_ = nullptr;                    // --control
-  std::optional<stdlib::MikroprogControl> mikroprog_;           // the same, for .SUF
   std::map<std::string, std::unique_ptr<MacroLoader>> loaders_; // by folder
   std::set<std::string> entryPoints_;      // routines that run without a call in the Prog
   std::deque<gibbs::CheckedFile> checked_; // files that are no part of a cycle's folder
@@ -380,8 +336,6 @@ private:
   std::deque<frontend::mikroprog::Reading> sufReadings_;
   std::map<std::string, std::optional<stdlib::MikroprogControl>> sufControls_; // loaded once, by name
 };
-
-const LintConfig LintCommand::kNone;
 
 Outcome lintOnce(const LintOptions& options) {
   return guarded(options.common, [&](Session& session) { return LintCommand(options, session).run(); });

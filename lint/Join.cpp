@@ -18,13 +18,19 @@ void takeLowered(Joined& joined, std::optional<dotek::project::LoweredCycle> low
 } // namespace
 
 void join(Project& project, dotek::project::Compilation& compilation, bool lower) {
+  const auto holds = [](const auto& list, const auto& one) {
+    return std::find(list.begin(), list.end(), one) != list.end();
+  };
   // What its macros come to without any Prog: for the findings alone.
   for (const dotek::project::CycleFolder& folder : compilation.folders())
-    if (folder.cycle) compilation.lower(folder, dotek::project::Strictness::Lenient);
+    if (folder.cycle && holds(project.cycles, folder.cycle.get()))
+      compilation.lower(folder, dotek::project::Strictness::Lenient);
   for (const auto& prog : compilation.progs()) {
+    if (!holds(project.progs, prog.get())) continue;
     const std::vector<std::string> ids = compost::cycleIds(*prog);
     for (const dotek::project::CycleFolder& folder : compilation.folders()) {
-      if (!folder.cycle || std::find(ids.begin(), ids.end(), folder.cycle->name) == ids.end()) continue;
+      if (!folder.cycle || !holds(project.cycles, folder.cycle.get()) || !holds(ids, folder.cycle->name))
+        continue;
       Joined joined;
       joined.cycle = folder.cycle.get();
       joined.prog = prog.get();

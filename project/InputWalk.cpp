@@ -78,10 +78,11 @@ void InputWalk::entry(const std::string& path, Diagnostics& diagnostics) {
   }
 }
 
-std::string walkSummary(std::size_t checked, const std::vector<PassedOver>& passedOver,
+std::string walkSummary(std::size_t checked, std::size_t excluded, const std::vector<PassedOver>& passedOver,
                         const std::string& folder) {
   constexpr std::size_t kNames = 3; // of one reason
   std::string out = fmt::format("{} file{} checked", checked, checked == 1 ? "" : "s");
+  if (excluded > 0) out += fmt::format(", {} excluded", excluded);
   if (passedOver.empty()) return out;
   std::vector<std::pair<std::string, std::vector<std::string>>> reasons; // in the order of their first file
   for (const PassedOver& one : passedOver) {

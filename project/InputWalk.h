@@ -48,9 +48,9 @@ private:
   std::vector<PassedOver> passedOver_;
 };
 
-// "30 files checked, 2 skipped (README.md: no language that Dotek reads; a, b, c and 4 more: an image)".
-// Names are printed without `folder`, where that is not empty.
-std::string walkSummary(std::size_t checked, const std::vector<PassedOver>& passedOver,
+// "30 files checked, 4 excluded, 2 skipped (README.md: no language that Dotek reads; a, b, c and 4 more: an
+// image)". Names are printed without `folder`, where that is not empty.
+std::string walkSummary(std::size_t checked, std::size_t excluded, const std::vector<PassedOver>& passedOver,
                         const std::string& folder);
 
 } // namespace dotek::project

@@ -26,28 +26,28 @@ std::string text(const Code& code) {
          (code.second % 10 != 0 ? fmt::format(".{}", code.second % 10) : "");
 }
 
-void check(const Project& project, Report& report) {
+// Of one file: what another one has, or suppresses, changes nothing.
+void checkFile(const macrob::File& file, const Project& project, Report& report) {
   std::vector<std::pair<Code, SourceRange>> unlisted; // in the order of the text, each code once
-  for (const NcFile& nc : project.programs)
-    for (const macrob::Program& program : nc.file->programs)
-      for (const macrob::Block& block : program.blocks) {
-        const auto* words = std::get_if<macrob::Words>(&block.body);
-        if (words == nullptr) continue;
-        for (const frontend::nc::Word& word : words->words) {
-          if (word.address != 'G' && word.address != 'M') continue;
-          const auto value = macrob::literal(word);
-          if (!value || *value < 0 || *value > 99999) continue;
-          const Code code{word.address, static_cast<std::uint32_t>(std::lround(*value * 10))};
-          const auto listed = [&](const stdlib::Control& control) { return lists(control, code); };
-          if (project.control != nullptr
-                  ? listed(*project.control)
-                  : std::any_of(project.controls.begin(), project.controls.end(), listed))
-            continue;
-          if (std::none_of(unlisted.begin(), unlisted.end(),
-                           [&](const auto& one) { return one.first == code; }))
-            unlisted.emplace_back(code, word.range);
-        }
+  for (const macrob::Program& program : file.programs)
+    for (const macrob::Block& block : program.blocks) {
+      const auto* words = std::get_if<macrob::Words>(&block.body);
+      if (words == nullptr) continue;
+      for (const frontend::nc::Word& word : words->words) {
+        if (word.address != 'G' && word.address != 'M') continue;
+        const auto value = macrob::literal(word);
+        if (!value || *value < 0 || *value > 99999) continue;
+        const Code code{word.address, static_cast<std::uint32_t>(std::lround(*value * 10))};
+        const auto listed = [&](const stdlib::Control& control) { return lists(control, code); };
+        if (project.control != nullptr
+                ? listed(*project.control)
+                : std::any_of(project.controls.begin(), project.controls.end(), listed))
+          continue;
+        if (std::none_of(unlisted.begin(), unlisted.end(),
+                         [&](const auto& one) { return one.first == code; }))
+          unlisted.emplace_back(code, word.range);
       }
+    }
   if (unlisted.empty()) return;
   if (project.control != nullptr) {
     for (const auto& [code, range] : unlisted)
@@ -58,7 +58,7 @@ void check(const Project& project, Report& report) {
                 project.control->name, text(code));
     return;
   }
-  // Nobody has said which control it is: one note for all.
+  // Nobody has said which control it is: one note for all codes.
   std::string names;
   for (const auto& [code, range] : unlisted)
     names += (names.empty() ? "" : ", ") + text(code);
@@ -70,6 +70,11 @@ void check(const Project& project, Report& report) {
   found.severity = Severity::Note;
   for (std::size_t i = 1; i < unlisted.size(); ++i)
     found.note(unlisted[i].second, text(unlisted[i].first) + " first appears here");
+}
+
+void check(const Project& project, Report& report) {
+  for (const NcFile& nc : project.programs)
+    checkFile(*nc.file, project, report);
 }
 
 } // namespace

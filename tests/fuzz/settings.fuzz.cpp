@@ -1,7 +1,7 @@
 // Files in TOML that steer the program: those of `--data` folders, jobs, dotek.toml. Each is read or refused
 // with its place; one that is read has its values.
 #include "project/Settings.h"
-#include "driver/LintConfig.h"
+#include "lint/Config.h"
 #include "project/Job.h"
 #include "project/Session.h"
 #include "stdlib/Control.h"
@@ -85,7 +85,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     if (read == session.diagnostics().hasErrors()) std::abort();
   } else {
     write(kFolder / "project" / "dotek.toml", text);
-    driver::LintConfigs configs(session);
+    lint::Configs configs(session);
     configs.of((kFolder / "project" / "a.nc").string());
     project::settingsOf((kFolder / "project" / "a.nc").string(), session);
   }

@@ -1,0 +1,170 @@
+#include "lint/Config.h"
+
+#include "lint/Rule.h"
+#include "project/Settings.h"
+#include "stdlib/Toml.h"
+#include "support/Files.h"
+#include "support/Glob.h"
+#include "support/NearestName.h"
+
+#include <algorithm>
+#include <filesystem>
+
+namespace dotek::lint {
+
+namespace fs = std::filesystem;
+using stdlib::TomlDocument;
+using stdlib::TomlEntry;
+using stdlib::TomlTable;
+using stdlib::TomlValue;
+
+namespace {
+
+const CodeInfo* codeInfo(std::string_view code) {
+  const auto table = codeTable();
+  const auto at =
+      std::lower_bound(table.begin(), table.end(), code,
+                       [](const CodeInfo& info, std::string_view key) { return info.code < key; });
+  return at != table.end() && at->code == code ? &*at : nullptr;
+}
+
+void checkCode(const TomlDocument& document, const std::string& code, SourceRange range) {
+  if (codeInfo(code) != nullptr) return;
+  NearestName nearest(code);
+  for (const CodeInfo& info : codeTable())
+    nearest.offer(info.code);
+  document.fail(range, "no message or rule `" + code + "`" +
+                           (nearest.result().empty() ? "" : "; did you mean `" + nearest.result() + "`?"));
+}
+
+std::set<std::string> codesOf(const TomlDocument& document, const TomlValue& value, bool all) {
+  std::set<std::string> out;
+  for (const TomlValue& item : value.items()) {
+    const std::string code = item.text();
+    if (!(all && code == "all")) checkCode(document, code, item.range());
+    out.insert(code);
+  }
+  return out;
+}
+
+// Of one control or one form: a name, and one that is empty takes back what was said before.
+std::optional<std::string> nameIn(const TomlTable& table, std::string_view key) {
+  if (!table.has(key)) return std::nullopt;
+  return table.value(key).text();
+}
+
+FailOn failOnOf(const TomlValue& value) {
+  const std::string level = value.choice({"note", "warning", "error", "never"}, "warning");
+  return level == "note"    ? FailOn::Note
+         : level == "error" ? FailOn::Error
+         : level == "never" ? FailOn::Never
+                            : FailOn::Warning;
+}
+
+} // namespace
+
+std::shared_ptr<const Configs::File> Configs::load(const std::string& path, const std::string& folder) {
+  auto file = std::make_shared<File>();
+  file->folder = folder;
+  Config& config = file->base;
+  const std::optional<FileId> id = readText(path, Encoding::Utf8, std::nullopt, session_.limits(),
+                                            session_.sources(), session_.diagnostics());
+  if (!id) return file;
+  const auto document = TomlDocument::parse(*id, session_.sources(), session_.diagnostics());
+  if (!document) return file;
+  const TomlTable lint = document->root().value("lint").table();
+  if (const TomlValue select = lint.value("select")) config.select = codesOf(*document, select, true);
+  config.ignore = codesOf(*document, lint.value("ignore"), false);
+  if (const TomlValue failOn = lint.value("fail-on")) config.failOn = failOnOf(failOn);
+  config.control = lint.value("control").text();
+  config.form = dotek::project::settingsIn(*document).form;
+  for (const TomlEntry& entry : lint.value("severity").table().entries()) {
+    checkCode(*document, entry.key, entry.keyRange);
+    const std::string level = entry.value.choice({"off", "note", "warning", "error"}, "warning");
+    std::optional<Severity> severity;
+    if (level == "note") severity = Severity::Note;
+    if (level == "warning") severity = Severity::Warning;
+    if (level == "error") severity = Severity::Error;
+    config.severity.emplace(entry.key, severity);
+  }
+  for (const TomlTable& table : lint.value("path").tables()) {
+    Section& section = file->sections.emplace_back();
+    const TomlValue patterns =
+        table.require("path", "a pattern of paths such as \"lathe/**\", or a list of them");
+    section.patterns = patterns.isArray() ? patterns.texts() : std::vector{patterns.text()};
+    for (const std::string& pattern : section.patterns) {
+      if (pattern.empty()) continue; // of no text, reported; or it takes nothing
+      if (pattern.find_first_not_of("./") == std::string::npos || pattern.find("..") != std::string::npos ||
+          pattern.find('\\') != std::string::npos)
+        document->fail(patterns.range(), "`" + pattern +
+                                             "` takes no file; a pattern names what is below the folder of "
+                                             "dotek.toml, with `/` between folders");
+    }
+    if (const TomlValue select = table.value("select")) section.select = codesOf(*document, select, true);
+    section.ignore = codesOf(*document, table.value("ignore"), false);
+    section.control = nameIn(table, "control");
+    section.form = nameIn(table, "form");
+    if (table.has("exclude")) section.exclude = table.value("exclude").flag();
+  }
+  document->finish();
+  return file;
+}
+
+std::shared_ptr<const Configs::File> Configs::inFolder(const std::string& folder) {
+  if (const auto known = folders_.find(folder); known != folders_.end()) return known->second;
+  const fs::path here(folder);
+  std::error_code error;
+  const fs::path file = here / "dotek.toml";
+  std::shared_ptr<const File> config;
+  if (fs::is_regular_file(file, error)) {
+    const fs::path near = file.lexically_proximate(fs::current_path(error));
+    config = load(near.empty() ? file.generic_string() : near.generic_string(), folder);
+  } else if (here.has_parent_path() && here.parent_path() != here) {
+    config = inFolder(here.parent_path().generic_string());
+  } else {
+    config = std::make_shared<File>();
+  }
+  folders_.emplace(folder, config);
+  return config;
+}
+
+const Config* Configs::of(const std::string& path) {
+  if (const auto known = files_.find(path); known != files_.end()) return &known->second;
+  std::error_code error;
+  fs::path whole = fs::absolute(path, error).lexically_normal();
+  if (!whole.has_filename() && whole.has_relative_path()) whole = whole.parent_path();
+  const bool isFolder = fs::is_directory(whole, error);
+  const std::shared_ptr<const File> file =
+      inFolder((isFolder ? whole : whole.parent_path()).generic_string());
+  Config config = file->base;
+  const std::string below =
+      file->folder.empty() ? "" : whole.lexically_relative(file->folder).generic_string();
+  for (const Section& section : file->sections) {
+    const auto takes = [&](const std::string& pattern) { return matchesGlob(pattern, below); };
+    if (std::none_of(section.patterns.begin(), section.patterns.end(), takes)) continue;
+    if (section.select) {
+      config.select = section.select;
+      for (const std::string& code : *section.select)
+        config.ignore.erase(code);
+    }
+    config.ignore.insert(section.ignore.begin(), section.ignore.end());
+    config.control = section.control.value_or(config.control);
+    config.form = section.form.value_or(config.form);
+    config.exclude = section.exclude.value_or(config.exclude);
+  }
+  return &files_.emplace(path, std::move(config)).first->second;
+}
+
+bool isWanted(std::string_view code, const LintOptions& options, const Config& config) {
+  const std::string key(code);
+  if (options.ignore.contains(key) || config.ignore.contains(key)) return false;
+  const auto severity = config.severity.find(code);
+  const bool named = severity != config.severity.end();
+  if (options.select) return options.select->contains("all") || options.select->contains(key);
+  if (named && !severity->second) return false;
+  if (config.select) return named || config.select->contains("all") || config.select->contains(key);
+  const CodeInfo* info = codeInfo(code);
+  return named || info == nullptr || info->byDefault;
+}
+
+} // namespace dotek::lint

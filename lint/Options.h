@@ -1,0 +1,31 @@
+// What lint is asked.
+#pragma once
+
+#include "project/Options.h"
+
+#include <cstdint>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace dotek::lint {
+
+// From which severity on lint fails.
+enum class FailOn : std::uint8_t { Note, Warning, Error, Never };
+
+struct LintOptions {
+  std::vector<std::string> paths;
+  project::CommonOptions common;
+  project::SourceOptions source;
+  // Codes; nothing: what dotek.toml says, else all that are on by default. "all": every code.
+  std::optional<std::set<std::string>> select;
+  std::set<std::string> ignore;
+  std::string control;          // profile that programs are checked for; "": what dotek.toml says
+  std::optional<FailOn> failOn; // nothing: what dotek.toml says, else Warning
+  bool followLinks = false;     // of folders: also links that lead out of them
+  bool fix = false;             // makes the safe repairs, then says what is left
+  bool force = false;           // repairs files that are write-protected, too
+};
+
+} // namespace dotek::lint
