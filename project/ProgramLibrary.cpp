@@ -7,8 +7,9 @@
 #include "support/messages/Sim.h"
 
 #include <algorithm>
-#include <charconv>
+#include <cmath>
 #include <filesystem>
+#include <fmt/format.h>
 #include <system_error>
 #include <utility>
 
@@ -17,26 +18,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Of a file O1234; 0: it has another name.
-std::uint64_t numberOfName(const std::string& name) {
-  std::uint64_t number = 0;
-  if (name.size() < 2 || (name[0] != 'O' && name[0] != 'o')) return 0;
-  const auto [end, error] = std::from_chars(name.data() + 1, name.data() + name.size(), number);
-  return error == std::errc() && end == name.data() + name.size() ? number : 0;
-}
-
 // A control keeps the number; the text of the file may lack it.
 void nameByFile(ir::ProgramFile& file, const fs::path& path) {
-  const std::uint64_t number = numberOfName(path.stem().string());
+  const std::uint64_t number = numberOfName(path.filename().string());
   if (number == 0 || file.programs.empty() || file.programs.front().nameKind != ir::Program::NameKind::None)
     return;
   file.programs.front().nameKind = ir::Program::NameKind::Number;
   file.programs.front().number = number;
-}
-
-bool holdsPrograms(const fs::path& path) {
-  const std::string end = path.extension().string();
-  return end == ".nc" || end == ".NC" || (end.empty() && numberOfName(path.filename().string()) != 0);
 }
 
 } // namespace
@@ -48,8 +36,7 @@ std::optional<ProgramLibrary> ProgramLibrary::load(FileId main, const std::vecto
   std::optional<ir::ProgramFile> file = loadPrograms(main, control, session);
   if (!file) return std::nullopt;
   out.add(std::move(*file), true, session);
-  for (const std::string& folder : folders)
-    if (!out.addFolder(folder, control, session)) return std::nullopt;
+  if (!out.addFolders(folders, control, session)) return std::nullopt;
   return out;
 }
 
@@ -76,49 +63,166 @@ std::optional<ProgramLibrary> ProgramLibrary::loadCalled(FileId main, const Call
   if (!calling) return std::nullopt;
   out.add(std::move(*calling), true, session);
   out.add(std::move(*file), false, session);
-  for (const std::string& folder : folders)
-    if (!out.addFolder(folder, control, session)) return std::nullopt;
+  if (!out.addFolders(folders, control, session)) return std::nullopt;
   return out;
 }
 
-bool ProgramLibrary::addFolder(const std::string& folder, const stdlib::Control& control, Session& session) {
+bool ProgramLibrary::addFolders(const std::vector<std::string>& folders, const stdlib::Control& control,
+                                Session& session) {
+  for (const std::string& folder : folders)
+    if (!find(folder, session)) return false;
+  if (!addCalled(control, session)) return false;
+  addPossible(control, session);
+  return true;
+}
+
+bool ProgramLibrary::find(const std::string& folder, Session& session) {
   std::error_code error;
   std::vector<fs::path> paths;
   for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error)) {
     std::error_code ignored;
-    if (at->is_regular_file(ignored) && holdsPrograms(at->path())) paths.push_back(at->path());
+    if (at->is_regular_file(ignored)) paths.push_back(at->path());
   }
   if (error) {
     session.diagnostics().report<diag::FileNotReadable>({}, folder, error.message());
     return false;
   }
   std::sort(paths.begin(), paths.end());
-  bool good = true;
   for (const fs::path& path : paths) {
     std::error_code ignored;
     if (fs::equivalent(path, main_, ignored)) continue; // the program that runs
-    const std::optional<FileId> id = session.read(path.string(), Encoding::Cp1250);
-    std::optional<ir::ProgramFile> file;
-    if (id) file = loadPrograms(*id, control, session);
-    good = good && file.has_value();
-    if (!file) continue;
-    nameByFile(*file, path);
-    add(std::move(*file), false, session);
+    const std::uint64_t named = numberOfName(path.filename().string());
+    Diagnostics unread; // said once the file is called
+    const Recognition* const kind = session.kindOf(path.string(), unread);
+    if (kind != nullptr && kind->kind != InputKind::Nc) continue;
+    Unread& file = unread_.emplace_back();
+    file.path = path.string();
+    session.sources().add(SourceFile(file.path, "", Encoding::Utf8)); // no result is written over it
+    if (named != 0) file.numbers.insert(named);
+    const auto text = kind == nullptr ? std::nullopt : session.bytes(path.string(), unread);
+    if (!text) continue;
+    for (const std::uint64_t number : programNumbers(*text))
+      file.numbers.insert(number);
+  }
+  return true;
+}
+
+bool ProgramLibrary::read(Unread& file, Session& session) {
+  const std::optional<FileId> id = session.read(file.path, Encoding::Cp1250);
+  if (!id) return false;
+  for (LoneProgram& one : lonePrograms(*id, session))
+    waiting_.push_back(std::move(one));
+  return true;
+}
+
+ProgramLibrary::Calls ProgramLibrary::calls() const {
+  Calls out;
+  for (const ir::Program& program : programs_) {
+    for (const ir::ProgramStatement& statement : program.body) {
+      const auto* call = std::get_if<ir::Call>(&statement.node);
+      if (call == nullptr || call->program == nullptr) continue;
+      const double* number = ir::constantValue(call->program);
+      if (number == nullptr)
+        out.computed = true;
+      else if (*number >= 1 && *number < 1e8)
+        out.numbers.insert(static_cast<std::uint64_t>(std::llround(*number)));
+    }
+  }
+  return out;
+}
+
+// What is added may call more.
+bool ProgramLibrary::addCalled(const stdlib::Control& control, Session& session) {
+  bool good = true;
+  for (bool found = true; found;) {
+    found = false;
+    const Calls called = calls();
+    std::vector<Unread> files = std::exchange(unread_, {});
+    for (Unread& file : files) {
+      const bool wanted = std::any_of(file.numbers.begin(), file.numbers.end(),
+                                      [&](std::uint64_t number) { return called.numbers.contains(number); });
+      if (!wanted)
+        unread_.push_back(std::move(file));
+      else
+        good = read(file, session) && good;
+    }
+    std::vector<LoneProgram> programs = std::exchange(waiting_, {});
+    for (LoneProgram& one : programs) {
+      if (!called.numbers.contains(one.number)) {
+        waiting_.push_back(std::move(one));
+        continue;
+      }
+      std::optional<ir::Program> program = lowerAlone(one, control, session);
+      good = good && program.has_value();
+      if (program) add(std::move(*program), false, session);
+      found = true;
+    }
   }
   return good;
 }
 
-void ProgramLibrary::add(ir::ProgramFile file, bool main, Session& session) {
-  for (ir::Program& program : file.programs) {
-    const bool named = program.nameKind != ir::Program::NameKind::None;
-    // The main program may lack a header, and nothing but it.
-    if (!named && (!main || !programs_.empty() || program.body.empty())) continue;
-    const bool twice = program.number != 0 &&
-                       std::any_of(programs_.begin(), programs_.end(),
-                                   [&](const ir::Program& one) { return one.number == program.number; });
-    if (twice) session.diagnostics().report<diag::ProgramTwice>(program.range, program.number);
-    if (!twice) programs_.push_back(std::move(program));
+// What a call that computes its number could mean, and the codes of the control that call programs.
+void ProgramLibrary::addPossible(const stdlib::Control& control, Session& session) {
+  std::set<std::string> leftOut;
+  for (bool found = true; found;) {
+    found = false;
+    const Calls called = calls();
+    const auto isPossible = [&](std::uint64_t number) {
+      return called.computed || called.numbers.contains(number) ||
+             std::any_of(control.callCodes.begin(), control.callCodes.end(),
+                         [&](const stdlib::CallCode& code) {
+                           return number >= code.program && number - code.program < code.count;
+                         });
+    };
+    Diagnostics kept = std::exchange(session.diagnostics(), Diagnostics());
+    std::vector<Unread> files = std::exchange(unread_, {});
+    for (Unread& file : files) {
+      if (std::none_of(file.numbers.begin(), file.numbers.end(), isPossible))
+        unread_.push_back(std::move(file));
+      else if (!read(file, session))
+        leftOut.insert(file.path);
+    }
+    std::vector<LoneProgram> programs = std::exchange(waiting_, {});
+    for (LoneProgram& one : programs) {
+      if (one.number == 0) continue;
+      if (!isPossible(one.number)) {
+        waiting_.push_back(std::move(one));
+        continue;
+      }
+      const std::string& path = session.sources().file(one.file.file).name();
+      std::optional<ir::Program> program = lowerAlone(one, control, session);
+      if (!program) leftOut.insert(fmt::format("O{:04} of {}", one.number, path));
+      if (program) add(std::move(*program), false, session);
+      found = true;
+    }
+    std::swap(kept, session.diagnostics());
+    for (Diagnostic& one : kept.all()) // of those that were read; errors belong to what is left out
+      if (one.severity != Severity::Error) session.diagnostics().add(std::move(one));
   }
+  if (leftOut.empty()) return;
+  constexpr std::size_t kNames = 3;
+  std::string names;
+  std::size_t count = 0;
+  for (const std::string& one : leftOut)
+    if (count++ < kNames) names += (names.empty() ? "`" : ", `") + one + "`";
+  if (count > kNames) names += fmt::format(" and {} more", count - kNames);
+  session.diagnostics().report<diag::ProgramLeftOut>({}, names);
+}
+
+void ProgramLibrary::add(ir::ProgramFile file, bool main, Session& session) {
+  for (ir::Program& program : file.programs)
+    add(std::move(program), main, session);
+}
+
+void ProgramLibrary::add(ir::Program program, bool main, Session& session) {
+  const bool named = program.nameKind != ir::Program::NameKind::None;
+  // The main program may lack a header, and nothing but it.
+  if (!named && (!main || !programs_.empty() || program.body.empty())) return;
+  const bool twice = program.number != 0 &&
+                     std::any_of(programs_.begin(), programs_.end(),
+                                 [&](const ir::Program& one) { return one.number == program.number; });
+  if (twice) session.diagnostics().report<diag::ProgramTwice>(program.range, program.number);
+  if (!twice) programs_.push_back(std::move(program));
 }
 
 std::vector<const ir::Program*> ProgramLibrary::programs() const {

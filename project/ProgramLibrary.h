@@ -2,6 +2,7 @@
 #pragma once
 
 #include "ir/Program.h"
+#include "project/LonePrograms.h"
 #include "project/Session.h"
 #include "stdlib/Control.h"
 
@@ -9,6 +10,7 @@
 #include <deque>
 #include <functional>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -17,7 +19,10 @@ namespace dotek::project {
 
 class ProgramLibrary {
 public:
-  // Of `folders` each file O1234, or with the end .nc or .NC, in the order of the names. nullopt: reported.
+  // Of `folders` the NC files, whatever their names, in the order of these; read are the programs that are
+  // called, and what these call. An error in one of them is reported, and gives nullopt; one in a program
+  // that nothing calls does not matter. Where a call computes its number, and of the codes of the control
+  // that call programs, those that can be read are there, too, and a note names those that cannot.
   static std::optional<ProgramLibrary> load(FileId main, const std::vector<std::string>& folders,
                                             const stdlib::Control& control, Session& session);
   // Text of a main program that calls O`number`.
@@ -32,10 +37,28 @@ public:
   std::vector<const ir::Program*> programs() const;
 
 private:
-  bool addFolder(const std::string& folder, const stdlib::Control& control, Session& session);
+  // A file that nobody has read.
+  struct Unread {
+    std::string path;
+    std::set<std::uint64_t> numbers; // of its programs
+  };
+  struct Calls {
+    std::set<std::uint64_t> numbers;
+    bool computed = false; // the number of one is computed
+  };
+
+  bool addFolders(const std::vector<std::string>& folders, const stdlib::Control& control, Session& session);
+  bool find(const std::string& folder, Session& session);
+  bool read(Unread& file, Session& session);
+  Calls calls() const;
+  bool addCalled(const stdlib::Control& control, Session& session);
+  void addPossible(const stdlib::Control& control, Session& session);
+  void add(ir::Program program, bool main, Session& session);
   void add(ir::ProgramFile file, bool main, Session& session);
 
   std::string main_; // path
+  std::vector<Unread> unread_;
+  std::vector<LoneProgram> waiting_; // of files that were read; nothing has called them so far
   std::deque<ir::Program> programs_;
 };
 
