@@ -20,6 +20,8 @@ void addSim(CLI::App& app, Raw& raw) {
       ->type_name("SET");
   sim->add_option("--part", raw.part, "part that the probe touches; needs --machine")->type_name("PART.toml");
   sim->add_option("--machine", raw.machine, "probe and travel of the machine")->type_name("MACHINE.toml");
+  sim->add_option("--job", raw.job, "job file whose [setup] says what an operator sets; flags win over it")
+      ->type_name("JOB.toml");
   sim->add_option("--tool", raw.tool, "number of the tool in the spindle, and of its offset")->type_name("N");
   sim->add_option("--length", raw.length,
                   "length of that tool, as its offset says (that of the machine's probe)")

@@ -136,6 +136,7 @@ private:
     if (!options_.variables.empty()) diagnostics().report<diag::OptionOfMacroB>({}, "--var");
     if (!options_.programs.empty()) diagnostics().report<diag::OptionOfMacroB>({}, "--programs");
     if (options_.probeMacros) diagnostics().report<diag::OptionOfMacroB>({}, "--probe-macros");
+    if (options_.common.job) diagnostics().report<diag::OptionOfMacroB>({}, "--job");
     if (const std::string_view flag = options_.setup.firstFlag(); !flag.empty())
       diagnostics().report<diag::OptionOfMacroB>({}, flag);
     if (diagnostics().hasErrors()) return outcomeOf(session_, "");

@@ -1,10 +1,12 @@
 #include "sim/run/SimWorld.h"
 
+#include "project/Job.h"
 #include "sim/geometry/PartFile.h"
 #include "sim/machine/EndText.h"
 #include "sim/picture/PictureReport.h"
 #include "sim/run/SetupRun.h"
 #include "sim/run/SimReport.h"
+#include "stdlib/Toml.h"
 #include "support/Decimal.h"
 #include "support/Printable.h"
 #include "support/messages/Commands.h"
@@ -13,7 +15,9 @@
 #include "support/messages/Sim.h"
 
 #include <algorithm>
+#include <array>
 #include <fmt/format.h>
+#include <string_view>
 #include <utility>
 
 namespace dotek::sim {
@@ -58,30 +62,50 @@ MachineFile bareStylus(double diameter, double length) {
   return out;
 }
 
+// [setup] of --job; empty without one. nullopt: reported.
+std::optional<Setup> setupOfJob(Session& session) {
+  const std::optional<std::string>& path = session.options().job;
+  if (!path) return Setup();
+  const std::optional<project::Job> job = project::loadJob(*path, session);
+  if (!job) return std::nullopt;
+  const auto document = stdlib::TomlDocument::parse(job->file, session.sources(), session.diagnostics());
+  if (!document) return std::nullopt;
+  const stdlib::TomlTable table = document->root().value("setup").table();
+  constexpr std::array<std::string_view, 6> kKeys = {"tool", "length", "tools", "work_offset", "at", "call"};
+  for (const stdlib::TomlEntry& entry : table.entries())
+    if (std::find(kKeys.begin(), kKeys.end(), entry.key) == kKeys.end())
+      document->fail(entry.keyRange, fmt::format("unknown key `{}`", entry.key));
+  Setup out = readSetup(*document, table);
+  return document->ok() ? std::optional(std::move(out)) : std::nullopt;
+}
+
 } // namespace
 
 std::unique_ptr<SimWorld> SimWorld::load(const SimOptions& options, Session& session) {
   std::unique_ptr<SimWorld> out(new SimWorld(options, session));
   out->picture_ = options.svg || options.html;
-  const bool stylus = options.setup.ballDiameter && options.setup.length;
+  std::optional<Setup> given = setupOfJob(session);
+  if (!given) return nullptr;
+  given->override(options.setup);
+  const bool stylus = given->ballDiameter && given->length;
   if (options.part && !options.machine && !stylus) {
     session.diagnostics().report<diag::MissingOption>(
         {}, "sim", "--machine MACHINE.toml, or --tool 1 --length L --diameter D",
         "what touches the part of `--part` is a stylus of that length and that diameter of its ball");
     return nullptr;
   }
-  if (options.machine && options.setup.ballDiameter) {
+  if (options.machine && given->ballDiameter) {
     session.diagnostics().report<diag::SetupFlag>(
         {}, "--diameter", "the ball's diameter is that of [probe] in the machine's file; write it there");
     return nullptr;
   }
-  out->setup_ = options.setup;
+  out->setup_ = *given;
   if (!options.machine && !stylus) return out;
   std::optional<PartFile> part;
   if (options.machine)
     out->machine_ = loadMachine(*options.machine, session.limits(), session.sources(), session.diagnostics());
   else
-    out->machine_ = bareStylus(*options.setup.ballDiameter, *options.setup.length);
+    out->machine_ = bareStylus(*given->ballDiameter, *given->length);
   if (options.part)
     part = loadPart(*options.part, session.limits(), session.bounds(folderOf(*options.part)),
                     session.sources(), session.diagnostics());
@@ -89,7 +113,7 @@ std::unique_ptr<SimWorld> SimWorld::load(const SimOptions& options, Session& ses
   out->setup_ = out->machine_->setup;
   // A machine's file serves runs without a part, too.
   if (!part) std::erase_if(out->setup_.zeros, [](const Setup::Zero& zero) { return zero.ofPart; });
-  out->setup_.override(options.setup);
+  out->setup_.override(*given);
   // The probe is the tool, unless it is said to be longer or shorter in the table.
   if (out->setup_.tool && !out->setup_.length) {
     const CuttingTool* const tool = out->machine_->devices.find(*out->setup_.tool);

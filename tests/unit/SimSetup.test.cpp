@@ -122,6 +122,31 @@ TEST_CASE("setup: [setup] of the machine's file says the same as the flags, and 
   CHECK(has(wrong, "`length` is that of `tool`"));
 }
 
+TEST_CASE("setup: [setup] of a job file goes before that of the machine and after the flags") {
+  const TestFolder scratch("dotek-setup-job");
+  scratch.write("part.toml", kBox);
+  scratch.write("down.nc", kDown);
+  scratch.write("machine.toml",
+                "schema = 1\n[setup]\ntool = 2\nwork_offset = { G54 = \"part\" }\nat = [10, 20, 5]\n"
+                "call = \"Z-1.\"\n[probe]\nball_diameter = 6\nlength = 80\nlength_to = \"tip\"\non = true\n");
+  const std::string job = "schema = 1\noperation = [ { cycle = \"bore\" } ]\n";
+  scratch.write("job.toml", job + "[setup]\nat = [12, 20, 5]\ncall = \"Z-3.\"\n"
+                                  "tools = [{ number = 5, length = 82.4 }]\n");
+  const std::string run = "sim down.nc --part part.toml --machine machine.toml --job job.toml --json ";
+  const CommandResult both = runIn(scratch, run);
+  CHECK(both.status == 0);
+  CHECK(has(both, "\"100\": 0,"));
+  CHECK(has(both, "\"101\": -288"));
+  CHECK(has(runIn(scratch, run + "--at 14,20,5"), "\"101\": -286"));
+  scratch.write("job.toml", job + "[setup]\ntol = 2\n");
+  CHECK(has(runIn(scratch, run), "unknown key `tol`"));
+  scratch.write("job.toml", job);
+  CHECK(has(runIn(scratch, run), "\"101\": -290"));
+  CHECK(runIn(scratch, "sim down.nc --job none.toml").status == 2);
+  scratch.write("p.SUF", "N10 G0 X1 Y1\nN20 M30\n");
+  CHECK(has(runIn(scratch, "sim p.SUF --job job.toml"), "--job"));
+}
+
 TEST_CASE("setup: a flag that does not say enough names what is missing") {
   const TestFolder scratch("dotek-setup-flags");
   scratch.write("part.toml", kBox);
