@@ -241,8 +241,13 @@ Shape macroShape(View line) {
   if (text.front() == ':')
     return {false, text.size() > 1 && firstName(text.substr(1)).size() == text.size() - 1,
             text.size() > 1 && isLetter(text[1]) ? 2 : 0};
-  if (upperCase(text).starts_with("#INCLUDE"))
-    return {false, text.find('<') == View::npos, text.find('<') == View::npos ? 2 : 0};
+  if (constexpr View kInclude = "#INCLUDE"; upperCase(text).starts_with(kInclude)) {
+    // One name, in quotes where it has blanks: a sentence may begin with the word.
+    const View file = trimmed(text.substr(kInclude.size()));
+    const bool fits = !file.empty() && file.front() != '<' &&
+                      (file.front() == '"' || file.find_first_of(" \t") == View::npos);
+    return {false, fits, fits ? 2 : 0};
+  }
   const View rest = trimmed(text.substr(name.size()));
   if (name.empty() || name == "END" || name == "ENDIF" || name == "ELSEIF") return {};
   if (rest == ":") return {false, true, 0}; // a label; a Prog has the same

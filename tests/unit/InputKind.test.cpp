@@ -178,3 +178,13 @@ TEST_CASE("input kind: the reason says what was counted") {
   CHECK(recognise("", "N10 G0 X1.\nG0 X1,5\nM30\n").reason == "2 of 3 lines are blocks of NC");
   CHECK(recognise("", "GOTOF END\nG1 X=R1\n").reason == "Sinumerik (`GOTOF`)");
 }
+
+TEST_CASE("input kind: what explain prints of a macro is no macro") {
+  const std::string text =
+      "include-loop: error\n\n"
+      "#INCLUDE copies the lines of the file. A file that includes itself, directly or through\n"
+      "others, has no end.\n\nExample:\n\n    #INCLUDE \"self.mac\"\n\n"
+      "Repair: take the #INCLUDE out.\n";
+  CHECK(kindOf(text).starts_with("none: "));
+  CHECK(kindOf("#INCLUDE \"my file.mac\"\n#include limits.mac\n") == "mac");
+}
