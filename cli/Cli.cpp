@@ -52,7 +52,9 @@ public:
   // Programs to standard output, `-o` or `-d`; the map beside them.
   int programs(const driver::Outcome& outcome, const Arguments& arguments) {
     err_ << renderText(outcome.diagnostics, outcome.sources, maxErrors_);
-    if (outcome.status != 0) return outcome.status;
+    if (!outcome.summary.empty()) err_ << outcome.summary << "\n";
+    // With --keep-going there are results beside what is refused.
+    if (outcome.status != 0 && outcome.files.empty()) return outcome.status;
     std::vector<NamedText> texts;
     for (const driver::OutputFile& file : outcome.files)
       if (!arguments.outputFolder.empty())
@@ -60,7 +62,7 @@ public:
     if (arguments.outputFolder.empty())
       texts.push_back({orStandardOutput(arguments.output), &outcome.output});
     if (!arguments.mapFile.empty()) texts.push_back({arguments.mapFile, &outcome.map});
-    return write(texts, outcome, arguments) ? kDone : kUsage;
+    return write(texts, outcome, arguments) ? outcome.status : kUsage;
   }
 
   // The trace goes to standard output while the program runs, or to `--trace`; what stops the run is no

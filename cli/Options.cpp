@@ -171,6 +171,30 @@ void addValues(CLI::App& app, Raw& raw) {
   addSeveral(app, "--assume", raw.assume, "name the reading of a construct that is not documented", "NAME");
 }
 
+void addTranslation(CLI::App& app, Raw& raw, const std::string& to) {
+  app.add_option("--to", raw.to, to)->type_name("TARGET");
+  addTarget(app, raw);
+  app.add_option("--from-control", raw.fromControl,
+                 "profile of the control that programs are written for (that of --control)")
+      ->type_name("NAME");
+  app.add_option("--probe-macros", raw.probeMacros,
+                 "probing macros that the translation calls (see `dotek list macros`)")
+      ->type_name("SET");
+  addSource(app, raw);
+  addValues(app, raw);
+  app.add_option("--datum", raw.datum,
+                 "of mikroprog: g92 sets the active system, operator stops for an entry by hand")
+      ->type_name("g92|operator");
+}
+
+void fillTranslation(const Raw& raw, targets::TranslationOptions& options) {
+  options.to = raw.to;
+  options.control = raw.control;
+  options.fromControl = raw.fromControl;
+  if (!raw.probeMacros.empty()) options.probeMacros = raw.probeMacros;
+  options.datum = raw.datum;
+}
+
 void addSource(CLI::App& app, Raw& raw) {
   app.add_option("--prog", raw.prog, "the Prog (text of the ComPost post)")->type_name("PROG.txt");
   app.add_option("--form", raw.form, "what the post's Form decides, as data")->type_name("NAME");

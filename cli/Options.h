@@ -50,6 +50,7 @@ struct Raw {
   bool json = false, quiet = false, force = false;
   std::uint32_t maxErrors = 50;
   bool recover = false;
+  bool keepGoing = false;
   bool wholePost = false;
   bool verify = false;
 };
@@ -89,6 +90,9 @@ void addValues(CLI::App& app, Raw& raw);
 void addIncludes(CLI::App& app, Raw& raw); // which files inputs may name
 void addSource(CLI::App& app, Raw& raw);   // what says where the post is
 void addTarget(CLI::App& app, Raw& raw);
+// Of convert and verify: what a translation is. `to`: what --to says there.
+void addTranslation(CLI::App& app, Raw& raw, const std::string& to);
+void fillTranslation(const Raw& raw, targets::TranslationOptions& options);
 void addForce(CLI::App& app, Raw& raw);
 driver::CommonOptions commonOf(const Raw& raw);
 

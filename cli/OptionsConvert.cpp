@@ -8,20 +8,9 @@ void addConvert(CLI::App& app, Raw& raw) {
   CLI::App* convert = app.add_subcommand(
       "convert", "turn cycles into programs that stay on the control, or programs into those of another");
   convert->add_option("INPUT", raw.inputs, "folders of cycles, files of programs");
-  convert->add_option("--to", raw.to, "language to write: " + targets::targetNames())->type_name("TARGET");
-  addTarget(*convert, raw);
-  convert
-      ->add_option("--from-control", raw.fromControl,
-                   "profile of the control that programs are written for (that of --control)")
-      ->type_name("NAME");
+  addTranslation(*convert, raw, "language to write: " + targets::targetNames());
   convert->add_option("--renumber", raw.renumber, "number the blocks of programs anew; jumps follow")
       ->type_name("START:STEP");
-  convert
-      ->add_option("--probe-macros", raw.probeMacros,
-                   "probing macros that the program calls (see `dotek list macros`)")
-      ->type_name("SET");
-  addSource(*convert, raw);
-  addValues(*convert, raw);
   addSeveral(*convert, "--default", raw.defaults, "default of an argument that may be left out",
              "NAME=VALUE");
   convert
@@ -33,10 +22,6 @@ void addConvert(CLI::App& app, Raw& raw) {
       ->add_option("--probe-power", raw.probePower,
                    "the probe is switched where the source does it, or by the program itself")
       ->check(CLI::IsMember({"source", "macro"}));
-  convert
-      ->add_option("--datum", raw.datum,
-                   "of mikroprog: g92 sets the active system, operator stops for an entry by hand")
-      ->type_name("g92|operator");
   convert->add_option("--program-number", raw.programNumber, "O number of the program (8000)")
       ->type_name("N");
   convert->add_flag("--whole-post", raw.wholePost, "with --to fusion: the smallest post around the cycles");
@@ -45,9 +30,14 @@ void addConvert(CLI::App& app, Raw& raw) {
   convert->add_option("--map", raw.mapFile, "write which line comes from where, as JSON")->type_name("FILE");
   CLI::Option* output =
       convert->add_option("-o", raw.output, "write the program to a file")->type_name("OUT");
-  convert->add_option("-d", raw.outputFolder, "write each program to a file of DIR")
-      ->type_name("DIR")
-      ->excludes(output);
+  CLI::Option* folder = convert->add_option("-d", raw.outputFolder, "write each program to a file of DIR")
+                            ->type_name("DIR")
+                            ->excludes(output);
+  convert
+      ->add_flag(
+          "--keep-going", raw.keepGoing,
+          "with -d: write the good ones of several inputs, list those that are refused, and exit with 1")
+      ->needs(folder);
   addForce(*convert, raw);
   addIncludes(*convert, raw);
   addCommon(*convert, raw);
@@ -55,15 +45,12 @@ void addConvert(CLI::App& app, Raw& raw) {
 
 driver::ConvertOptions convertOf(const Raw& raw) {
   driver::ConvertOptions out;
-  out.to = raw.to;
-  out.control = raw.control;
-  out.fromControl = raw.fromControl;
+  fillTranslation(raw, out);
   if (!raw.renumber.empty()) {
     out.renumber = startAndStep("--renumber", raw.renumber);
     if (out.renumber->first == 0)
       throw UsageError("--renumber begins at 1 or above, as N0 is no block number");
   }
-  if (!raw.probeMacros.empty()) out.probeMacros = raw.probeMacros;
   if (!raw.programNumber.empty()) {
     const auto number = wholeNumber(raw.programNumber);
     if (!number || *number == 0 || *number > 99999999)
@@ -74,9 +61,11 @@ driver::ConvertOptions convertOf(const Raw& raw) {
   out.defaults = pairsOf("--default", raw.defaults);
   out.useDefaults = raw.defaultsMode == "use";
   out.switchProbe = raw.probePower == "macro";
-  out.datum = raw.datum;
   out.wholePost = raw.wholePost;
   out.verify = raw.verify;
+  out.keepGoing = raw.keepGoing;
+  if (out.keepGoing && out.wholePost)
+    throw UsageError("--whole-post makes one file of all inputs; --keep-going goes with a file for each");
   return out;
 }
 

@@ -45,21 +45,9 @@ void addVerify(CLI::App& app, Raw& raw) {
   CLI::App* verify = app.add_subcommand(
       "verify", "run a source and its translation on many drawn cases and compare what they do");
   verify->add_option("INPUT", raw.inputs, "folder of a cycle, or file of programs");
-  verify
-      ->add_option("--to", raw.to,
-                   "language of the translation: " + targets::targetNames() +
-                       "; without it the path of the macro is compared with the posted program")
-      ->type_name("TARGET");
-  addTarget(*verify, raw);
-  verify
-      ->add_option("--from-control", raw.fromControl,
-                   "profile of the control that programs are written for (that of --control)")
-      ->type_name("NAME");
-  verify->add_option("--probe-macros", raw.probeMacros, "probing macros that the translation calls")
-      ->type_name("SET");
-  addSource(*verify, raw);
-  addValues(*verify, raw);
-  verify->add_option("--datum", raw.datum, "of mikroprog: g92 or operator")->type_name("g92|operator");
+  addTranslation(*verify, raw,
+                 "language of the translation: " + targets::targetNames() +
+                     "; without it the path of the macro is compared with the posted program");
   verify
       ->add_option("--translation", raw.translation,
                    "look at this program instead of what convert writes: the same one, edited by hand")
@@ -99,10 +87,7 @@ driver::VerifyOptions verifyOf(const Raw& raw) {
   driver::VerifyOptions out;
   out.format = formatOf(raw.output);
   out.date = raw.date;
-  out.to = raw.to;
-  out.control = raw.control;
-  out.fromControl = raw.fromControl;
-  if (!raw.probeMacros.empty()) out.probeMacros = raw.probeMacros;
+  fillTranslation(raw, out);
   if (!raw.part.empty()) out.part = raw.part;
   if (!raw.machine.empty()) out.machine = raw.machine;
   if (!raw.translation.empty()) out.translation = raw.translation;
@@ -115,7 +100,6 @@ driver::VerifyOptions verifyOf(const Raw& raw) {
   if (!raw.partError.empty()) out.partError = placeOf(raw.partError);
   if (!raw.activeSystem.empty())
     out.activeSystem = static_cast<std::uint32_t>(countOf("--active-system", raw.activeSystem, 54, 54, 59));
-  out.datum = raw.datum;
   out.variables = pairsOf("--var", raw.variables);
   out.replay = raw.replay;
   out.values = pairsOf("--value", raw.values);

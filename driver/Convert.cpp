@@ -11,6 +11,9 @@
 #include "targets/Target.h"
 
 #include <algorithm>
+#include <array>
+#include <fmt/format.h>
+#include <utility>
 
 namespace dotek::driver {
 
@@ -24,22 +27,65 @@ public:
                                         compilation_.usedSets()} {}
 
   Outcome run() {
-    if (!load()) return refusalOf(session_);
-    for (const Input& input : order_) {
-      if (input.isProgram)
-        conversion_->program(options_.inputs[input.index]);
-      else if (!conversion_->cycle(context_.folders[input.index], input.index))
-        failed_ = true;
-    }
+    if (!load()) return refusal();
+    for (Input& input : order_)
+      byItself(input, [&] {
+        if (input.isProgram)
+          conversion_->program(options_.inputs[input.index]);
+        else if (!conversion_->cycle(context_.folders[input.index], input.index))
+          failed_ = true;
+      });
     conversion_->finish();
     return finish();
   }
 
 private:
+  struct Input {
+    bool isProgram = false;
+    bool refused = false;  // with --keep-going
+    std::size_t place = 0; // among the inputs
+    std::size_t index = 0; // in the inputs of a program, in the folders of a cycle
+  };
+
+  // With --keep-going an error of this input refuses it alone, and what it has added is taken away.
+  template <class Step> void byItself(Input& input, const Step& step) {
+    if (input.refused) return;
+    if (!options_.keepGoing) return step();
+    ConversionResult& result = context_.result;
+    const std::array sizes = {result.files.size(), result.maps.size(), result.arguments.size(),
+                              result.macrosByCycle.size(), result.numbers.size()};
+    Diagnostics others = std::exchange(session_.diagnostics(), Diagnostics());
+    step();
+    input.refused = session_.diagnostics().hasErrors();
+    std::swap(others, session_.diagnostics());
+    for (Diagnostic& one : others.all())
+      said_.push_back(std::move(one));
+    if (!input.refused) return;
+    result.files.resize(sizes[0]);
+    result.maps.resize(sizes[1]);
+    result.arguments.resize(sizes[2]);
+    result.macrosByCycle.resize(sizes[3]);
+    result.numbers.resize(sizes[4]);
+  }
+
+  // What was found in inputs by themselves.
+  void sayAll() {
+    for (Diagnostic& one : said_)
+      session_.diagnostics().add(std::move(one));
+    said_.clear();
+  }
+
+  Outcome refusal() {
+    sayAll();
+    return refusalOf(session_);
+  }
+
   Outcome finish() {
     if (context_.inputs != nullptr) reportUnknownNames();
     if (!session_.diagnostics().hasErrors()) filesDiffer();
-    if (session_.diagnostics().hasErrors()) return refusalOf(session_);
+    const bool refused = session_.diagnostics().hasErrors();
+    if (refused) return refusal();
+    sayAll();
     keepStrongest(session_.diagnostics());
     ConversionResult& result = context_.result;
     std::string text;
@@ -47,7 +93,10 @@ private:
       text += file.text;
     std::string map = renderLineMap(result.maps, session_.sources());
     Outcome outcome = outcomeOf(session_, std::move(text));
-    if (outcome.status != 0) return outcome;
+    if (outcome.status != 0 && !options_.keepGoing) return outcome;
+    if (outcome.status == 2) outcome.status = 1; // some inputs are refused, and the others are written
+    for (const Input& input : order_)
+      if (!input.refused) outcome.inputs.push_back(options_.inputs[input.place]);
     outcome.files = std::move(result.files);
     outcome.map = std::move(map);
     outcome.maps = std::move(result.maps);
@@ -62,22 +111,14 @@ private:
     if (options_.inputs.empty())
       diagnostics.report<diag::MissingOption>({}, "convert", "INPUT",
                                               "the folder of a cycle or a file of programs");
-    const Target* target = findTarget(options_.to);
-    if (options_.to.empty())
-      diagnostics.report<diag::MissingOption>({}, "convert", "--to TARGET",
-                                              "the language to write: " + targetNames());
-    else if (target == nullptr)
-      diagnostics.report<diag::UnknownTarget>({}, options_.to);
     if (options_.source.cycle && options_.inputs.size() > 1) diagnostics.report<diag::CycleWithSeveral>({});
-    if (target != nullptr) checkTargetOptions(*target, options_, diagnostics);
     if (options_.oneFile && options_.inputs.size() > 1 && !options_.wholePost)
       diagnostics.report<diag::OutputForOne>({}, options_.inputs.size());
     readLetters();
     const bool programs = classify();
     const bool cycles = !folderPaths_.empty();
-    refuseOptions(options_, programs, cycles, diagnostics);
-    if (programs && (target == nullptr || target->programs == nullptr))
-      diagnostics.report<diag::ProgramTarget>({}, options_.to);
+    const Target* const target = checkedTarget(options_, programs, cycles, "convert",
+                                               "the language to write: " + targetNames(), diagnostics);
     if (diagnostics.hasErrors() || target == nullptr) return false;
     conversion_ = target->convert(context_);
     if (programs && !conversion_->beginPrograms()) return false;
@@ -96,8 +137,12 @@ private:
       reportUnknownMacroSet(*options_.probeMacros, session_);
       return false;
     }
-    for (const std::string& path : folderPaths_)
-      compilation_.addFolder(path);
+    for (Input& input : order_)
+      if (!input.isProgram)
+        byItself(input, [&] {
+          compilation_.addFolder(folderPaths_[input.index]);
+          if (options_.keepGoing) leaveFindingsToLint(session_);
+        });
     if (options_.source.cycle) context_.folders.front().name = *options_.source.cycle;
     leaveFindingsToLint(session_);
     if (!target.fixesValues && inputs.job && !inputs.job->operations.empty())
@@ -109,13 +154,12 @@ private:
   bool classify() {
     bool programs = false;
     for (std::size_t i = 0; i < options_.inputs.size(); ++i) {
-      if (isProgramFile(options_.inputs[i], session_)) {
-        order_.push_back({true, i});
-        programs = true;
-        continue;
-      }
-      order_.push_back({false, folderPaths_.size()});
-      folderPaths_.push_back(options_.inputs[i]);
+      Input& input = order_.emplace_back();
+      input.place = i;
+      byItself(input, [&] { input.isProgram = isProgramFile(options_.inputs[i], session_); });
+      input.index = input.isProgram ? i : folderPaths_.size();
+      programs = programs || input.isProgram;
+      if (!input.isProgram) folderPaths_.push_back(options_.inputs[i]);
     }
     return programs;
   }
@@ -144,15 +188,21 @@ private:
   }
 
   void reportUnknownNames() {
-    if (failed_) return;
+    if (failed_ && !options_.keepGoing) return;
     std::string cycles;
     std::vector<std::string> names;
     for (const CycleFolder& folder : context_.folders) {
+      if (!folder.cycle) continue;
       cycles += (cycles.empty() ? "" : ", ") + folder.name;
       for (const auto& field : frontend::gibbs::declaredFields(*folder.cycle))
         names.push_back(field.name.text);
     }
     const auto unknown = [&](const std::string& name) {
+      // A cycle that is refused may have it.
+      if (failed_ && std::any_of(names.begin(), names.end(), [&](const std::string& one) {
+            return frontend::gibbs::foldCase(one) == frontend::gibbs::foldCase(name);
+          }))
+        return;
       const std::string near = nearestName(name, names);
       session_.diagnostics().report<diag::NoSuchField>({}, name, cycles,
                                                        near.empty() ? "" : "; did you mean `" + near + "`?");
@@ -162,17 +212,12 @@ private:
     for (const auto& [name, text] : options_.defaults)
       if (!context_.usedDefaults.contains(name)) unknown(name);
     for (const auto& [name, letter] : context_.letters) {
-      if (context_.usedLetters.contains(name) || session_.diagnostics().hasErrors()) continue;
+      if (failed_ || context_.usedLetters.contains(name) || session_.diagnostics().hasErrors()) continue;
       const std::string near = nearestName(name, names);
       session_.diagnostics().report<diag::ArgumentUnknown>(
           {}, name, near.empty() ? "" : "; did you mean `" + near + "`?");
     }
   }
-
-  struct Input {
-    bool isProgram = false;
-    std::size_t index = 0; // in the inputs of a program, in the folders of a cycle
-  };
 
   const ConvertOptions& options_;
   Session& session_;
@@ -181,16 +226,30 @@ private:
   std::unique_ptr<Conversion> conversion_;
   std::vector<Input> order_;
   std::vector<std::string> folderPaths_;
+  std::vector<Diagnostic> said_; // of inputs by themselves
   bool failed_ = false;
 };
+
+// "2 of 4 inputs are converted; refused: `a.nc`, `web`"; "" where none is.
+std::string refusedOf(const ConvertOptions& options, const Outcome& outcome) {
+  std::string names;
+  for (const std::string& input : options.inputs)
+    if (std::find(outcome.inputs.begin(), outcome.inputs.end(), input) == outcome.inputs.end())
+      names += (names.empty() ? "`" : ", `") + input + "`";
+  return names.empty() ? ""
+                       : fmt::format("{} of {} inputs converted; refused: {}", outcome.inputs.size(),
+                                     options.inputs.size(), names);
+}
 
 } // namespace
 
 Outcome convert(const ConvertOptions& options) {
   Outcome outcome =
       guarded(options.common, [&](Session& session) { return ConvertCommand(options, session).run(); });
-  if (!options.verify || outcome.status != 0) return outcome;
-  return caught([&] { return verified(options, std::move(outcome)); });
+  if (options.verify && !outcome.files.empty())
+    outcome = caught([&] { return verified(options, std::move(outcome)); });
+  if (options.keepGoing && !outcome.inputs.empty()) outcome.summary = refusedOf(options, outcome);
+  return outcome;
 }
 
 } // namespace dotek::driver

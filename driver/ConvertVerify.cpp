@@ -52,51 +52,86 @@ std::shared_ptr<const ConvertedInput> resultOf(const Outcome& all, std::size_t f
   return out;
 }
 
+// What `convert` of several inputs takes for the others among them.
+void dropOthers(VerifyOptions& options, bool program) {
+  if (!program) {
+    options.fromControl.clear();
+    return;
+  }
+  options.source = {};
+  CommonOptions& common = options.common;
+  common.job.reset();
+  common.set.clear();
+  common.field.clear();
+  common.host.clear();
+  common.recover = false;
+  std::erase_if(common.assume, [](const std::string& name) { return name != "plain-messages"; });
+}
+
 VerifyOptions optionsOf(const ConvertOptions& options, const std::string& input) {
   VerifyOptions out;
+  static_cast<TranslationOptions&>(out) = options;
   out.inputs = {input};
-  out.common = options.common;
   // The program switches the probe by itself, so the source is where it is on.
   if (options.switchProbe) out.common.assume.insert("probe-on");
-  out.source = options.source;
-  out.to = options.to;
-  out.control = options.control;
-  out.fromControl = options.fromControl;
-  out.probeMacros = options.probeMacros;
-  out.datum = options.datum;
   out.cases = kCases;
   return out;
+}
+
+// What does not agree is not given.
+void leaveOut(const std::vector<std::size_t>& inputs, Outcome& outcome) {
+  if (inputs.empty()) return;
+  for (auto at = inputs.rbegin(); at != inputs.rend(); ++at) {
+    const auto place = static_cast<std::ptrdiff_t>(*at);
+    outcome.files.erase(outcome.files.begin() + place);
+    outcome.maps.erase(outcome.maps.begin() + place);
+    outcome.inputs.erase(outcome.inputs.begin() + place);
+  }
+  outcome.output.clear();
+  for (const OutputFile& file : outcome.files)
+    outcome.output += file.text;
+  outcome.map = renderLineMap(outcome.maps, outcome.sources);
 }
 
 } // namespace
 
 Outcome verified(const ConvertOptions& options, Outcome outcome) {
   Session session(options.common);
+  const std::vector<std::string> inputs = outcome.inputs;
   const auto isProgram = [&](const std::string& input) { return isProgramFile(input, session); };
-  const auto programs = std::count_if(options.inputs.begin(), options.inputs.end(), isProgram);
+  const auto programs = std::count_if(inputs.begin(), inputs.end(), isProgram);
   // Each cycle has its own result; else verify converts it by itself.
-  const bool own = outcome.macrosByCycle.size() + static_cast<std::size_t>(programs) == options.inputs.size();
+  const bool own = outcome.macrosByCycle.size() + static_cast<std::size_t>(programs) == inputs.size();
   std::size_t cycles = 0;
-  int status = 0;
-  for (std::size_t i = 0; i < options.inputs.size(); ++i) {
-    const std::string& input = options.inputs[i];
+  int status = outcome.status;
+  std::vector<std::size_t> differing;
+  for (std::size_t i = 0; i < inputs.size(); ++i) {
+    const std::string& input = inputs[i];
     VerifyOptions one = optionsOf(options, input);
     const bool program = isProgram(input);
+    dropOthers(one, program);
     if (own) one.converted = resultOf(outcome, i, program ? outcome.arguments.size() : cycles);
     if (!program) ++cycles;
     Outcome found = driver::verify(one);
     status = std::max(status, found.status);
     const std::string counts = lastLine(found.output);
     const bool good = found.status == 0;
+    if (!good) differing.push_back(i);
     take(outcome, std::move(found));
     if (good)
       outcome.diagnostics.report<diag::Verified>({}, input, counts);
     else
-      outcome.diagnostics.report<diag::NotVerified>({}, input,
-                                                    counts.empty() ? "it cannot be looked at" : counts);
+      outcome.diagnostics.report<diag::NotVerified>(
+          {}, options.keepGoing ? "it is not written" : "nothing is written", input,
+          counts.empty() ? "it cannot be looked at" : counts);
   }
   outcome.diagnostics.sort();
-  if (status == 0) return outcome;
+  const bool each = options.keepGoing && outcome.files.size() == inputs.size();
+  if (differing.empty() || each) {
+    leaveOut(differing, outcome);
+    outcome.status = each ? std::min(status, 1) : status;
+    return outcome;
+  }
   Outcome out;
   out.status = status;
   out.sources = std::move(outcome.sources);

@@ -17,13 +17,8 @@ public:
   ProgramsCommand(const VerifyOptions& options, Session& session) : options_(options), session_(session) {}
 
   Outcome run() {
-    if (options_.to.empty()) {
-      session_.diagnostics().report<diag::MissingOption>({}, "verify", "--to TARGET",
-                                                         "what the programs are compared with");
-      return outcomeOf(session_, "");
-    }
-    const Target* target = findTarget(options_.to);
-    if (!checkOptions(target)) return outcomeOf(session_, "");
+    const Target* const target = checkOptions();
+    if (session_.diagnostics().hasErrors()) return outcomeOf(session_, "");
     const auto make = target->programs;
     const std::unique_ptr<ProgramSubject> subject = make(options_, plan_);
     ProgramSubject& main = *subject;
@@ -62,19 +57,12 @@ public:
   }
 
 private:
-  bool checkOptions(const Target* target) {
-    Diagnostics& diagnostics = session_.diagnostics();
+  const Target* checkOptions() {
     ConvertOptions convert = convertOptionsOf(options_);
     convert.common.host.clear(); // the cases take them
     convert.common.assume.erase("probe-on");
-    if (target == nullptr)
-      diagnostics.report<diag::UnknownTarget>({}, options_.to);
-    else
-      checkTargetOptions(*target, convert, diagnostics);
-    refuseOptions(convert, true, false, diagnostics);
-    if (target == nullptr || target->programs == nullptr)
-      diagnostics.report<diag::ProgramTarget>({}, options_.to);
-    return !diagnostics.hasErrors();
+    return checkedTarget(convert, true, false, "verify", "what the programs are compared with",
+                         session_.diagnostics());
   }
 
   const VerifyOptions& options_;

@@ -228,6 +228,32 @@ void addWithCallees(const gibbs::Macro& macro, CycleFolder& folder, const gibbs:
 
 } // namespace
 
+namespace {
+
+// "`mill/O1`, `mill/b.nc` and more"; "" where the folder holds no program.
+std::string programsIn(const fs::path& folder, Session& session) {
+  constexpr std::size_t kNames = 3;
+  std::vector<std::string> paths;
+  std::error_code error;
+  for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error)) {
+    std::error_code ignored;
+    if (at->is_regular_file(ignored)) paths.push_back(at->path().generic_string());
+  }
+  std::sort(paths.begin(), paths.end());
+  std::string out;
+  std::size_t count = 0;
+  for (const std::string& path : paths) {
+    Diagnostics unread;
+    const Recognition* const kind = session.kindOf(path, unread);
+    if (kind == nullptr || (kind->kind != InputKind::Nc && kind->kind != InputKind::Suf)) continue;
+    if (count++ == kNames) return out + " and more";
+    out += (out.empty() ? "`" : ", `") + path + "`";
+  }
+  return out;
+}
+
+} // namespace
+
 std::optional<fs::path> cycleFile(const fs::path& folder, std::string_view name) {
   return findEntry(folder, name);
 }
@@ -291,7 +317,11 @@ CycleFolder loadCycleFolder(const std::string& path, Session& session, bool chec
       ids[i] = session.read(file->generic_string(), Encoding::Cp1250);
     if (!ids[i]) folder.complete = false;
   }
-  if (!missing.empty())
+  const bool none = std::none_of(ids.begin(), ids.end(), [](const auto& id) { return id.has_value(); });
+  const std::string programs = none ? programsIn(real, session) : "";
+  if (!programs.empty())
+    session.diagnostics().report<diag::FolderOfPrograms>({folder.place, 0, 0}, path, programs);
+  else if (!missing.empty())
     noteCyclesWithin(
         session.diagnostics().report<diag::CycleFileMissing>({folder.place, 0, 0}, path, missing), path,
         real);

@@ -21,14 +21,19 @@ namespace dotek::targets {
 // A target is a view of a project and speaks of its parts by their names.
 using namespace project; // NOLINT(google-build-using-namespace)
 
-struct ConvertOptions {
-  std::vector<std::string> inputs; // folders of cycles, files of programs
+// What a translation is, for who writes it and for who compares it with its source.
+struct TranslationOptions {
+  std::vector<std::string> inputs; // folders of cycles, files of programs; verify takes one
   CommonOptions common;
   SourceOptions source;
-  std::string to;
+  std::string to;                         // verify: "": the path of the macro against the posted program
   std::string control;                    // "": the target's first
   std::string fromControl;                // that programs are written for; "": the same
   std::optional<std::string> probeMacros; // nothing: the set that the source calls
+  std::string datum;                      // --datum of mikroprog: "", "g92" or "operator"
+};
+
+struct ConvertOptions : TranslationOptions {
   std::optional<std::uint32_t> programNumber;
   NamedTexts letters;                                              // --arg NAME=LETTER
   NamedTexts defaults;                                             // --default NAME=VALUE
@@ -36,9 +41,9 @@ struct ConvertOptions {
   bool switchProbe = false;                                        // --probe-power macro
   bool oneFile = false;                                            // -o: several inputs are an error
   std::optional<std::pair<std::uint64_t, std::uint64_t>> renumber; // first N number of programs, step
-  std::string datum;      // --datum of mikroprog: "", "g92" or "operator"
-  bool wholePost = false; // --whole-post, of fusion
+  bool wholePost = false;                                          // --whole-post, of fusion
   bool verify = false;    // --verify: what does not agree with its source is not given
+  bool keepGoing = false; // --keep-going: an input that is refused takes no other with it
 };
 
 // An argument of a program that convert has written.
@@ -59,14 +64,7 @@ struct ConvertedInput {
 // Text: the line of the verdict. The others: a document beside it.
 enum class ReportFormat : std::uint8_t { Text, Markdown, Html, Json };
 
-struct VerifyOptions {
-  std::vector<std::string> inputs; // one folder of a cycle, or one file of programs
-  CommonOptions common;
-  SourceOptions source;
-  std::string to;      // "": the path of the macro against the posted program
-  std::string control; // "": the target's first
-  std::string fromControl;
-  std::optional<std::string> probeMacros;
+struct VerifyOptions : TranslationOptions {
   std::optional<std::string> part, machine; // paths
   // A program that is looked at instead of what convert writes now: the same arguments, edited by hand. Path.
   std::optional<std::string> translation;
@@ -75,7 +73,6 @@ struct VerifyOptions {
   double minAgreed = 95;   // percent of the cases that have to agree
   double tolerance = 1e-6; // mm
   std::uint32_t jobs = 0;  // 0: one for each processor
-  std::string datum;       // of mikroprog, as of convert
   NamedTexts variables;    // --var N=VALUE, of programs: not drawn
   // What convert wrote; nullptr: verify converts the input itself.
   std::shared_ptr<const ConvertedInput> converted;

@@ -1,8 +1,10 @@
 #include "targets/Target.h"
 
 #include "support/messages/Commands.h"
+#include "support/messages/Fanuc.h"
 #include "support/messages/Fusion.h"
 #include "support/messages/Mikroprog.h"
+#include "targets/Conversion.h"
 
 #include <algorithm>
 
@@ -66,6 +68,21 @@ void checkTargetOptions(const Target& target, const ConvertOptions& options, Dia
   refuse(target, options.to, flags, diagnostics);
   checkDatum(target, options.to, options.datum, diagnostics);
   if (target.checkConvert != nullptr) target.checkConvert(options, diagnostics);
+}
+
+const Target* checkedTarget(const ConvertOptions& options, bool programs, bool cycles,
+                            std::string_view command, std::string_view use, Diagnostics& diagnostics) {
+  const Target* const target = findTarget(options.to);
+  if (options.to.empty())
+    diagnostics.report<diag::MissingOption>({}, command, "--to TARGET", use);
+  else if (target == nullptr)
+    diagnostics.report<diag::UnknownTarget>({}, options.to);
+  else
+    checkTargetOptions(*target, options, diagnostics);
+  refuseOptions(options, programs, cycles, diagnostics);
+  if (programs && target != nullptr && target->programs == nullptr)
+    diagnostics.report<diag::ProgramTarget>({}, options.to);
+  return target;
 }
 
 void checkTargetOptions(const Target& target, const VerifyOptions& options, Diagnostics& diagnostics) {

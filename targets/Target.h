@@ -59,6 +59,10 @@ std::string targetNames();
 
 // Report flags that `target`, which the options name, does not take, and values that it does not know.
 void checkTargetOptions(const Target& target, const ConvertOptions& options, Diagnostics& diagnostics);
+// The target of a conversion of cycles, of programs or of both; what it does not take, and what none of the
+// inputs does, is reported. nullptr: there is none, reported. `use`: what --to is to `command`.
+const Target* checkedTarget(const ConvertOptions& options, bool programs, bool cycles,
+                            std::string_view command, std::string_view use, Diagnostics& diagnostics);
 void checkTargetOptions(const Target& target, const VerifyOptions& options, Diagnostics& diagnostics);
 
 } // namespace dotek::targets

@@ -29,14 +29,7 @@ Translation translationOf(const OutputFile& file, const MappedResult& map,
 
 ConvertOptions convertOptionsOf(const VerifyOptions& options) {
   ConvertOptions out;
-  out.inputs = options.inputs;
-  out.common = options.common;
-  out.source = options.source;
-  out.to = options.to;
-  out.control = options.control;
-  out.fromControl = options.fromControl;
-  out.probeMacros = options.probeMacros;
-  out.datum = options.datum;
+  static_cast<TranslationOptions&>(out) = options;
   return out;
 }
 

@@ -82,3 +82,88 @@ TEST_CASE("internal-defect ends with status 3 and writes nothing") {
   CHECK(outcome.status == 3);
   CHECK(outcome.output.empty());
 }
+
+namespace {
+
+const std::string kSound = "%\nO0061\nG90 G54\nG0 X1.5\nM30\n%\n";
+const std::string kBroken = "%\nO0062\n#1=[2.+\nM30\n%\n";
+
+void write(const fs::path& path, const std::string& text) {
+  fs::create_directories(path.parent_path());
+  std::ofstream(path, std::ios::binary) << text;
+}
+
+CommandResult keptGoing(const Folder& folder, std::vector<std::string> arguments) {
+  arguments.insert(arguments.begin(), "convert");
+  for (const char* one : {"--to", "fanuc", "--control", "fanuc-31i-b", "-d", "out", "--keep-going"})
+    arguments.emplace_back(one);
+  return runDotek(arguments, folder.path);
+}
+
+} // namespace
+
+TEST_CASE("convert --keep-going writes what is good and lists what is refused") {
+  const Folder folder;
+  write(folder.path / "first.nc", kSound);
+  write(folder.path / "bad.EIA", kBroken);
+  write(folder.path / "last", "%\nO0063\nG90 G55\nG1 Y2. F100.\nM30\n%\n");
+  write(folder.path / "note.txt", "Change the stylus on Monday.\n");
+  const CommandResult result = keptGoing(folder, {"first.nc", "bad.EIA", "last", "note.txt", "gone.nc"});
+  CHECK(result.status == 1);
+  CHECK(fs::exists(folder.path / "out/first.nc"));
+  CHECK(readAll(folder.path / "out/first.nc").find("X1.5") != std::string::npos);
+  CHECK(std::distance(fs::directory_iterator(folder.path / "out"), fs::directory_iterator()) == 2);
+  CHECK(result.err.find("2 of 5 inputs converted; refused: `bad.EIA`, `note.txt`, `gone.nc`\n") !=
+        std::string::npos);
+  CHECK(result.err.find("bad.EIA:3:") != std::string::npos);
+}
+
+TEST_CASE("convert --keep-going gives each input what it gets alone, and 0 where none is refused") {
+  const Folder folder;
+  write(folder.path / "a.nc", kSound);
+  write(folder.path / "b.nc", "%\nO0064\nG90 G55\nG1 Y2. F100.\nM30\n%\n");
+  const CommandResult result = keptGoing(folder, {"a.nc", "b.nc"});
+  CHECK(result.status == 0);
+  CHECK(result.err.find("refused") == std::string::npos);
+  const CommandResult alone =
+      runDotek({"convert", "b.nc", "--to", "fanuc", "--control", "fanuc-31i-b"}, folder.path);
+  CHECK(alone.status == 0);
+  CHECK(readAll(folder.path / "out/b.nc") == alone.out);
+}
+
+TEST_CASE("convert --keep-going writes nothing where every input is refused, or the flags are") {
+  const Folder folder;
+  write(folder.path / "bad.nc", kBroken);
+  const CommandResult all = keptGoing(folder, {"bad.nc"});
+  CHECK(all.status == 1);
+  CHECK(!fs::exists(folder.path / "out"));
+  write(folder.path / "good.nc", kSound);
+  CHECK(runDotek({"convert", "good.nc", "--to", "fanuc", "--keep-going"}, folder.path).status == 2);
+  CHECK(runDotek({"convert", "good.nc", "--to", "fanuk", "-d", "out", "--keep-going"}, folder.path).status ==
+        2);
+  CHECK(!fs::exists(folder.path / "out"));
+}
+
+TEST_CASE("convert --keep-going --verify writes the inputs that agree") {
+  const Folder folder;
+  write(folder.path / "good.nc", "%\nO0065\nG90 G54\nG0 X1.5\n#500=2.\nM30\n%\n");
+  write(folder.path / "bad.nc", kBroken);
+  std::vector<std::string> arguments = {"good.nc", "bad.nc", "--verify"};
+  const CommandResult result = keptGoing(folder, arguments);
+  CHECK(result.status == 1);
+  CHECK(fs::exists(folder.path / "out/good.nc"));
+  CHECK(!fs::exists(folder.path / "out/bad.nc"));
+  CHECK(result.err.find("1 of 2 inputs converted; refused: `bad.nc`") != std::string::npos);
+}
+
+TEST_CASE("convert of a folder of programs says to name its files") {
+  const Folder folder;
+  write(folder.path / "macros/O9161", kSound);
+  write(folder.path / "macros/README", "Macros of the shop.\n");
+  const CommandResult result = runDotek({"convert", "macros", "--to", "fanuc"}, folder.path);
+  CHECK(result.status == 1);
+  CHECK(
+      result.err.find("`macros` holds programs, and none of the files of a cycle; name the files instead of "
+                      "the folder: `macros/O9161` [folder-of-programs]") != std::string::npos);
+  CHECK(result.err.find("DefineData") == std::string::npos);
+}
