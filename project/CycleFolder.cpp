@@ -276,9 +276,12 @@ void noteCyclesWithin(Diagnostic& missing, const std::string& path, const fs::pa
       cycles.push_back((fs::path(path) / entry.path().filename()).generic_string());
   if (cycles.empty()) return;
   std::sort(cycles.begin(), cycles.end());
-  missing.note({},
-               fmt::format("cycles are in folders of this one; name `{}`{}", cycles.front(),
-                           cycles.size() > 1 ? fmt::format(", or one of {} others", cycles.size() - 1) : ""));
+  constexpr std::size_t kShown = 4;
+  std::string names;
+  for (std::size_t i = 0; i < cycles.size() && i < kShown; ++i)
+    names += (i > 0 ? ", `" : "`") + cycles[i] + "`";
+  if (cycles.size() > kShown) names += fmt::format(" and {} more", cycles.size() - kShown);
+  missing.note({}, "cycles are in folders of this one; name one of them: " + names);
 }
 
 } // namespace
