@@ -8,8 +8,13 @@ vm.runInThisContext(fs.readFileSync(kernel, "utf8"));
 vm.runInThisContext(fs.readFileSync(post, "utf8"));
 const input = JSON.parse(json);
 input.properties = Object.assign({dotekCycle: prefix}, input.properties);
-const result = vm.runInThisContext("dotekRun")(input);
+let result;
+try {
+  result = vm.runInThisContext("dotekRun")(input);
+} catch (failure) {
+  console.log("failure: " + failure);
+  process.exit(1);
+}
 process.stdout.write(result.text);
-if (result.errors !== "") console.log("error: " + result.errors);
-if (result.failure !== "") console.log("failure: " + result.failure);
+for (const error of [].concat(result.errors)) if (error !== "") console.log("error: " + error);
 if (result.afterError) console.log("defect: written after an error");

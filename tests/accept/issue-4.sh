@@ -28,7 +28,7 @@ check "ram: lint fails" hasStatus 1
 # ---- the programs of a 6M: a misprint is one finding, a bad block has one error
 dotek lint --control fanuc-6m --from listing --max-errors 0 "$pocket"/*.ocr.nc
 check "pocket: at most one error a block" bash -c '! grep " error " | cut -d" " -f1 | uniq -d | grep .' < <(findings)
-oneOf() { findings | grep -qx -- "$1" || { printf 'nowhere: %s\n' "$1"; findings; return 1; }; }
+oneOf() { findings | grep -x -- "$1" >/dev/null || { printf 'nowhere: %s\n' "$1"; findings; return 1; }; }
 for expected in \
   "O20.ocr.nc:3 error decimal-comma" "O20.ocr.nc:27 error do-as-offset" "O20.ocr.nc:44 error do-as-offset" \
   "O80.ocr.nc:24 error do-as-offset" "O20.ocr.nc:41 error second-equals" "O110.ocr.nc:16 error letter-o-for-zero" \
