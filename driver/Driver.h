@@ -66,7 +66,8 @@ struct Outcome {
   std::vector<std::string> macrosByCycle;             // the sets that these call
   // Of convert: those whose results are given, in their order; with --keep-going not all.
   std::vector<std::string> inputs;
-  std::string summary; // of lint of folders: what was read and what was not; of --keep-going: what is refused; a line
+  std::string
+      summary; // of lint of folders: what was read and what was not; of --keep-going: what is refused; a line
   SourceMap sources;
   Diagnostics diagnostics; // sorted
 };

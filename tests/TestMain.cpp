@@ -213,7 +213,8 @@ private:
 } // namespace
 
 // `dotek_tests --update` rewrites the goldens that differ, `--jobs=N` takes N processes; all other arguments
-// are doctest's. The last line is `N passed, N failed`. What is tested has its scripts run by this program, too.
+// are doctest's. The last line is `N passed, N failed`. What is tested has its scripts run by this program,
+// too.
 int main(int argc, char** argv) {
   if (argc == 2 && argv[1] == dotek::script::kWorkerCommand) return dotek::script::serve();
   registerGoldens();
