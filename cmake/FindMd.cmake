@@ -1,6 +1,7 @@
 # Md::Md, the digests of BSD (libmd). Used by the build and by the installed package.
 find_path(MD_INCLUDE_DIR sha2.h)
-find_library(MD_LIBRARY md)
+# The archive first: one shared library less to load at each start.
+find_library(MD_LIBRARY NAMES libmd.a md)
 mark_as_advanced(MD_INCLUDE_DIR MD_LIBRARY)
 include(FindPackageHandleStandardArgs)
 find_package_handle_standard_args(Md REQUIRED_VARS MD_LIBRARY MD_INCLUDE_DIR)
