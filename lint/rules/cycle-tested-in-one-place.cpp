@@ -62,7 +62,7 @@ void check(const Project& project, Report& report) {
         told.insert(id);
         report
             .at(range,
-                "the cycle `{}` is told apart here and not in the routine `{}`, which knows the {} others; "
+                "the cycle `{}` is tested here and not in the routine `{}`, which tests the {} others; "
                 "the post treats it as no cycle there; add it",
                 id, (*other)->first->name, with.size() - 1)
             .note((*other)->first->nameRange, "this routine does not test it");
