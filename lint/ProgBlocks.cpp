@@ -122,6 +122,14 @@ bool isNumberCharacter(char c) {
   return std::isdigit(static_cast<unsigned char>(c)) != 0 || c == '.' || c == '-' || c == '+';
 }
 
+// GOTO8012, END1: no address.
+bool isMacroWord(std::string_view text) {
+  constexpr std::string_view kWords[] = {"GOTO",  "IF",    "WHILE", "DO",    "END",  "THEN",
+                                         "POPEN", "PCLOS", "DPRNT", "BPRNT", "SETVN"};
+  return std::any_of(std::begin(kWords), std::end(kWords),
+                     [&](std::string_view word) { return text.starts_with(word); });
+}
+
 // Words of one literal; false where the rest of the block is no NC block.
 bool wordsOfText(const ProgPiece& piece, bool& comment, std::vector<ProgWord>& out) {
   const std::string& text = piece.literal->text;
@@ -141,6 +149,7 @@ bool wordsOfText(const ProgPiece& piece, bool& comment, std::vector<ProgWord>& o
     } else if (c == ' ' || c == '\t' || c == '/') {
       ++at;
     } else if (std::isalpha(static_cast<unsigned char>(c)) != 0) {
+      if (isMacroWord(std::string_view(text).substr(at))) return false;
       std::size_t end = at + 1;
       while (end < text.size() && isNumberCharacter(text[end]))
         ++end;

@@ -13,7 +13,7 @@ namespace {
 
 // What else a lowering refuses depends on the target, on values that nobody has given yet, or is a rule of
 // lint.
-constexpr std::array<std::string_view, 16> kCertain = {
+constexpr std::array<std::string_view, 17> kCertain = {
     // macros of a cycle
     diag::DivisionByZero::code,
     diag::DomainError::code,
@@ -21,6 +21,7 @@ constexpr std::array<std::string_view, 16> kCertain = {
     diag::AngleUnitOpen::code,
     diag::GoesRoundForEver::code,
     diag::CallTooDeep::code,
+    diag::MessagePaths::code,
     // routines of a Prog
     diag::BooleanAsStatement::code,
     diag::CallsTooDeep::code,

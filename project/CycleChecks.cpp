@@ -1,5 +1,6 @@
 #include "project/CycleChecks.h"
 
+#include "frontend/gibbs/Blame.h"
 #include "frontend/gibbs/Labels.h"
 #include "frontend/gibbs/Run.h"
 #include "support/Decimal.h"
@@ -50,14 +51,30 @@ void takeChanges(const gibbs::ChecksResult& result, const CycleFolder& folder, F
 }
 
 // One finding, however many messages the macro shows.
-void rejected(const gibbs::ChecksResult& result, const CycleFolder& folder, Diagnostics& diagnostics) {
+void rejected(const gibbs::ChecksResult& result, const CycleFolder& folder, const gibbs::RunContext& context,
+              Diagnostics& diagnostics) {
+  // A value that the user types; what the macro computes from it follows.
+  std::set<std::string> typed;
+  for (const auto& [name, value] : context.fields)
+    if (boundByDialog(folder, name)) typed.insert(name);
+  std::vector<std::pair<std::string, double>> blamed;
+  for (const std::string& folded :
+       gibbs::fieldsToBlame(*folder.cycle->cycleData, folder.cycle->others, context, typed)) {
+    std::string written = folded;
+    for (const gibbs::Field& field : gibbs::declaredFields(*folder.cycle))
+      if (gibbs::foldCase(field.name.text) == folded) written = field.name.text;
+    blamed.emplace_back(written, context.fields.at(folded));
+  }
+  const std::string values = rejectedValues(blamed);
   const auto shown = [](const std::string& text) { return text.empty() ? "no message" : "`" + text + "`"; };
   if (result.rejections.empty()) {
-    diagnostics.report<diag::ValuesRejected>({folder.cycle->cycleData->file, 0, 0}, folder.name, shown(""));
+    diagnostics.report<diag::ValuesRejected>({folder.cycle->cycleData->file, 0, 0}, folder.name, values,
+                                             shown(""));
     return;
   }
   const gibbs::Rejection& first = result.rejections.front();
-  Diagnostic& finding = diagnostics.report<diag::ValuesRejected>(first.range, folder.name, shown(first.text));
+  Diagnostic& finding =
+      diagnostics.report<diag::ValuesRejected>(first.range, folder.name, values, shown(first.text));
   for (std::size_t i = 1; i < result.rejections.size(); ++i) {
     const gibbs::Rejection& further = result.rejections[i];
     finding.note(further.range, "it may show this, too: " + shown(further.text));
@@ -65,6 +82,17 @@ void rejected(const gibbs::ChecksResult& result, const CycleFolder& folder, Diag
 }
 
 } // namespace
+
+std::string rejectedValues(const std::vector<std::pair<std::string, double>>& values) {
+  if (values.empty()) return "these values";
+  std::string out;
+  for (std::size_t i = 0; i < values.size(); ++i)
+    out += (i == 0                   ? "`"
+            : i + 1 == values.size() ? " with `"
+                                     : ", `") +
+           values[i].first + "` = " + numberText(values[i].second);
+  return out;
+}
 
 void runCycleChecks(const CycleFolder& folder, FieldTable& fields, const std::map<std::string, double>& hosts,
                     Session& session) {
@@ -82,7 +110,7 @@ void runCycleChecks(const CycleFolder& folder, FieldTable& fields, const std::ma
       [&](const std::string& name, SourceRange where) { return folder.loader->dialog(name, where); }};
   const gibbs::ChecksResult result = gibbs::runChecks(*folder.cycle->cycleData, context);
   switch (result.verdict) {
-  case gibbs::ChecksResult::Verdict::Rejected: rejected(result, folder, diagnostics); return;
+  case gibbs::ChecksResult::Verdict::Rejected: rejected(result, folder, context, diagnostics); return;
   case gibbs::ChecksResult::Verdict::Depends: {
     if (result.neededHosts.empty()) break; // no flag helps; what is unknown has been reported
     const SourceRange where = result.rejections.empty() ? SourceRange{folder.cycle->cycleData->file, 0, 0}

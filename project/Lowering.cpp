@@ -227,7 +227,7 @@ bool Lowering::checks() {
 
 bool Lowering::turnedAway() {
   const std::optional<ir::CycleStatement> alarm = certainAlarm(out_);
-  if (alarm) reportRejected(folder_, *alarm, session_);
+  if (alarm) reportRejected(folder_, out_, *alarm, session_);
   return alarm.has_value();
 }
 

@@ -5,6 +5,7 @@
 #include "ir/Flow.h"
 #include "ir/Fold.h"
 #include "ir/Rewrite.h"
+#include "project/CycleChecks.h"
 #include "support/Decimal.h"
 #include "support/messages/Commands.h"
 #include "support/messages/Mikroprog.h"
@@ -47,13 +48,28 @@ public:
   Values(const CycleFolder& folder, LoweredCycle& lowered, Session& session)
       : folder_(folder), lowered_(lowered), session_(session) {}
 
+  // Names and values of fields of which another value lets the rest pass.
+  std::vector<std::pair<std::string, double>> blamed() const {
+    std::vector<std::pair<std::string, double>> out;
+    for (ir::VariableId id = 0; id < cycle().variables.size(); ++id) {
+      const ir::Variable& variable = cycle().variable(id);
+      const auto fixed = lowered_.fixed.find(id);
+      if (variable.role != ir::Role::Parameter || (fixed == lowered_.fixed.end() && !variable.defaultValue))
+        continue;
+      if (cures(id))
+        out.emplace_back(variable.name,
+                         fixed != lowered_.fixed.end() ? fixed->second : *variable.defaultValue);
+    }
+    return out;
+  }
+
   void settle() {
     const ir::CheckRun defaults = tried(environment());
     if (defaults.end != ir::CheckRun::End::Alarm) return;
     const std::vector<ir::VariableId> found = culprits();
     const bool given = std::any_of(found.begin(), found.end(),
                                    [&](ir::VariableId id) { return lowered_.givenDefaults.contains(id); });
-    if (found.empty() || given) return reportRejected(folder_, *defaults.at, session_);
+    if (found.empty() || given) return reportRejected(folder_, lowered_, *defaults.at, session_);
     for (const ir::VariableId id : found) {
       ir::Variable& variable = cycle().variables[id];
       session_.diagnostics()
@@ -168,8 +184,12 @@ std::optional<ir::CycleStatement> certainAlarm(const LoweredCycle& lowered) {
   return alarm;
 }
 
-void reportRejected(const CycleFolder& folder, const ir::CycleStatement& alarm, Session& session) {
-  session.diagnostics().report<diag::ValuesRejected>(alarm.origin.range(), folder.name, messageOf(alarm));
+void reportRejected(const CycleFolder& folder, const LoweredCycle& lowered, const ir::CycleStatement& alarm,
+                    Session& session) {
+  LoweredCycle copy = lowered;
+  session.diagnostics().report<diag::ValuesRejected>(alarm.origin.range(), folder.name,
+                                                     rejectedValues(Values(folder, copy, session).blamed()),
+                                                     messageOf(alarm));
 }
 
 void applyDefaults(const NamedTexts& given, LoweredCycle& lowered, std::set<std::string>& used,

@@ -9,7 +9,9 @@ namespace dotek::project {
 
 // Where the fixed values leave no path through the checks, whatever the rest is: an alarm that they end in.
 std::optional<ir::CycleStatement> certainAlarm(const LoweredCycle& lowered);
-void reportRejected(const CycleFolder& folder, const ir::CycleStatement& alarm, Session& session);
+// With the values that are to blame, where single ones are.
+void reportRejected(const CycleFolder& folder, const LoweredCycle& lowered, const ir::CycleStatement& alarm,
+                    Session& session);
 
 // Takes `--default NAME=VALUE`; `used` collects the names that the cycle knows. Errors are reported.
 void applyDefaults(const NamedTexts& given, LoweredCycle& lowered, std::set<std::string>& used,

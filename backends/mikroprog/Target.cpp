@@ -75,7 +75,7 @@ std::optional<MikroprogProgram> writeMikroprog(const CycleFolder& folder, Lowere
   }
   if (diagnostics.hasErrors()) return std::nullopt;
   if (const std::optional<ir::CycleStatement> alarm = certainAlarm(lowered)) {
-    reportRejected(folder, *alarm, session);
+    reportRejected(folder, lowered, *alarm, session);
     return std::nullopt;
   }
 

@@ -71,10 +71,10 @@ void CheckedProg::spell(std::string_view name, WordKind kind, SourceRange range)
 
 std::span<const Check<CheckedProg>* const> progChecks() {
   static constexpr std::array kChecks = {
-      &commentBraceCheck,     &duplicateRoutineCheck,    &unknownKeywordCheck,       &keywordCaseCheck,
-      &keywordKindCheck,      &keywordArgumentCheck,     &unverifiedInProgCheck,     &badPictureCheck,
-      &duplicatePictureCheck, &duplicateFormatCheck,     &formatWithoutPictureCheck, &pictureUnusedCheck,
-      &flagNeverSetCheck,     &routineHidesKeywordCheck, &routineNeverCalledCheck,
+      &commentBraceCheck,  &duplicateRoutineCheck, &unknownKeywordCheck,      &keywordMisspeltCheck,
+      &keywordCaseCheck,   &keywordKindCheck,      &keywordArgumentCheck,     &unverifiedInProgCheck,
+      &badPictureCheck,    &duplicatePictureCheck, &duplicateFormatCheck,     &formatWithoutPictureCheck,
+      &pictureUnusedCheck, &flagNeverSetCheck,     &routineHidesKeywordCheck, &routineNeverCalledCheck,
   };
   return kChecks;
 }

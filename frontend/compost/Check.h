@@ -43,6 +43,9 @@ public:
   std::vector<Spelling> spellings;
   // Another spelling that a name most likely means, with its suffix; "": none differs in case alone.
   std::string caseVariant(const Spelling& spelt) const;
+  // The name that one slip of the hand, or an abbreviation written out, makes this one, with its suffix; "":
+  // none. Names that differ in an axis, a number, or ON and OFF are names of their own.
+  std::string slipOf(const Spelling& spelt) const;
 
   std::string text(SourceRange range) const { return sources.textUtf8(range); }
 
@@ -58,6 +61,7 @@ private:
 DOTEK_CHECK(CheckedProg, commentBrace, "comment-brace", Warning);
 DOTEK_CHECK(CheckedProg, duplicateRoutine, "duplicate-routine", Error);
 DOTEK_CHECK(CheckedProg, unknownKeyword, "unknown-keyword", Note);
+DOTEK_CHECK(CheckedProg, keywordMisspelt, "keyword-misspelt", Warning);
 DOTEK_CHECK(CheckedProg, keywordCase, "keyword-case", Warning);
 DOTEK_CHECK(CheckedProg, keywordKind, "keyword-kind", Warning);
 DOTEK_CHECK(CheckedProg, keywordArgument, "keyword-argument", Warning);

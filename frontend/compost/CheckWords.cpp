@@ -1,5 +1,6 @@
 // Words: keywords, their case, suffix and arguments, and constructs that no source confirms.
 #include "frontend/compost/Check.h"
+#include "frontend/compost/Slips.h"
 #include "support/NearestName.h"
 #include "support/Picture.h"
 
@@ -61,10 +62,33 @@ std::string_view foreignFlow(std::string_view word) {
 
 } // namespace
 
+std::string CheckedProg::slipOf(const Spelling& spelt) const {
+  if (keywords.find(spelt.name) != nullptr || !caseVariant(spelt).empty()) return "";
+  const std::string near = keywords.nearest(spelt.name);
+  if (const ComPostKeyword* known = keywords.find(near))
+    if (wordKindOf(*known) == spelt.kind && isSlip(spelt.name, near))
+      return near + std::string(suffixOf(spelt.kind));
+  if (spelt.kind != WordKind::Command) return "";
+  NearestName nearest(spelt.name);
+  for (auto routine = routines.begin(); routine != routines.end() && !nearest.full(); ++routine)
+    nearest.offer(routine->first);
+  return isSlip(spelt.name, nearest.result()) ? nearest.result() : "";
+}
+
+void keywordMisspelt(const CheckedProg& input, Report& report) {
+  for (const CheckedProg::Spelling& spelt : input.spellings) {
+    const std::string meant = input.slipOf(spelt);
+    if (!meant.empty())
+      report.at(spelt.range,
+                "`{}` is neither a routine of this Prog nor a keyword that Dotek knows; did you mean `{}`?",
+                input.text(spelt.range), meant);
+  }
+}
+
 void unknownKeyword(const CheckedProg& input, Report& report) {
   for (const CheckedProg::Spelling& spelt : input.spellings) {
     if (input.keywords.find(spelt.name) != nullptr || report.full(spelt.range.file)) continue;
-    if (!input.caseVariant(spelt).empty()) continue;
+    if (!input.caseVariant(spelt).empty() || !input.slipOf(spelt).empty()) continue;
     const bool command = spelt.kind == WordKind::Command;
     std::string remedy(command ? foreignFlow(spelt.name) : std::string_view{});
     if (remedy.empty()) {

@@ -1,4 +1,6 @@
 #include "frontend/compost/Conditions.h"
+#include "frontend/compost/Slips.h"
+#include "support/NearestName.h"
 #include "support/messages/ComPost.h"
 
 #include <algorithm>
@@ -37,6 +39,16 @@ std::string assumed(const Word& boolean) {
   for (std::size_t i = 0; i < boolean.arguments.size(); ++i)
     out += (i == 0 ? "(" : ",") + boolean.arguments[i].text;
   return boolean.arguments.empty() ? out : out + ")";
+}
+
+// "; or did you mean .." with a condition that the form or the language knows; "": none is near.
+std::string meantBoolean(const std::string& name, const stdlib::Form& form) {
+  NearestName nearest(name);
+  nearest.offer(kCycleKeyword);
+  nearest.offer(kFlagKeyword);
+  for (const auto& [known, entry] : form.booleans)
+    nearest.offer(known);
+  return isSlip(name, nearest.result()) ? "; or did you mean `" + nearest.result() + "?`?" : "";
 }
 
 Truth leftToRight(const std::vector<Truth>& terms, const std::vector<Connective>& connectives) {
@@ -103,7 +115,8 @@ Truth Conditions::truth(const Condition& condition, Diagnostics& diagnostics) {
     if (word->name == kCycleKeyword || word->name == kFlagKeyword)
       diagnostics.report<diag::FlagNeedsName>(word->range, word->name + "?");
     else if (told_.insert(assumed(*word)).second)
-      diagnostics.report<diag::BooleanUnknown>(word->range, assumed(*word), form_->origin);
+      diagnostics.report<diag::BooleanUnknown>(word->range, assumed(*word), form_->origin,
+                                               meantBoolean(word->name, *form_));
   }
   return std::nullopt;
 }

@@ -1,5 +1,7 @@
 #include "frontend/compost/FormWalk.h"
 
+#include "frontend/compost/Slips.h"
+#include "support/NearestName.h"
 #include "support/messages/ComPost.h"
 
 namespace dotek::frontend::compost {
@@ -7,7 +9,7 @@ namespace dotek::frontend::compost {
 FormWalk::FormWalk(const Program& program, const stdlib::Form& form, const std::set<std::string>& assumptions,
                    const Limits& limits, Diagnostics& diagnostics)
     : form_(form), limits_(limits), diagnostics_(&diagnostics), tables_(program, form),
-      conditions_(program, form, assumptions) {}
+      conditions_(program, form, assumptions), program_(program) {}
 
 bool FormWalk::step(SourceRange where) {
   if (stopped_) return false;
@@ -50,6 +52,28 @@ void FormWalk::word(const Word& word) {
   }
 }
 
+// "; did you mean .." with a word that the form or the Prog knows; "": none is near.
+std::string FormWalk::meantCommand(const std::string& name) const {
+  NearestName nearest(name);
+  for (const auto& [known, entry] : form_.commands)
+    nearest.offer(known);
+  for (const auto& [known, entry] : form_.sequences)
+    nearest.offer(known);
+  for (const std::string_view known : {kSetFlagKeyword, kClearFlagKeyword})
+    nearest.offer(known);
+  for (const Item& item : program_.items)
+    if (const auto* routine = std::get_if<Routine>(&item)) nearest.offer(routine->name);
+  return isSlip(name, nearest.result()) ? "; or did you mean `" + nearest.result() + "`?" : "";
+}
+
+std::string FormWalk::meantNumeric(const std::string& name) const {
+  NearestName nearest(name);
+  nearest.offer(kFieldKeyword);
+  for (const auto& [known, entry] : form_.numerics)
+    nearest.offer(known);
+  return isSlip(name, nearest.result()) ? "; or did you mean `" + nearest.result() + "#`?" : "";
+}
+
 void FormWalk::command(const Word& word) {
   if (word.name == kSetFlagKeyword || word.name == kClearFlagKeyword) {
     if (word.arguments.size() != 1) failed();
@@ -77,7 +101,8 @@ void FormWalk::command(const Word& word) {
   }
   failed();
   if (isNew(diag::CommandNotInForm::code, word.name))
-    refuse<diag::CommandNotInForm>(word.nameRange, word.name, form_.name, form_.origin);
+    refuse<diag::CommandNotInForm>(word.nameRange, word.name, form_.name, form_.origin,
+                                   meantCommand(word.name));
 }
 
 const Picture* FormWalk::commandPicture(const std::string& name, const std::string& text) {
@@ -102,7 +127,8 @@ void FormWalk::numeric(const Word& word) {
     if (entry == form_.numerics.end() || entry->second.value.empty()) {
       failed();
       if (isNew(diag::NumericNotInForm::code, word.name))
-        refuse<diag::NumericNotInForm>(word.nameRange, word.name, form_.name, form_.origin);
+        refuse<diag::NumericNotInForm>(word.nameRange, word.name, form_.name, form_.origin,
+                                       meantNumeric(word.name));
       return;
     }
     tables_.noteAssumed(word.name, entry->second, word.range, *diagnostics_);

@@ -68,8 +68,11 @@ protected:
 private:
   void command(const Word& word);
   void numeric(const Word& word);
+  std::string meantCommand(const std::string& name) const;
+  std::string meantNumeric(const std::string& name) const;
   const Picture* commandPicture(const std::string& name, const std::string& text); // nullptr: it is none
 
+  const Program& program_;
   std::map<std::string, Picture, std::less<>> commandPictures_; // callers keep pointers to them
   std::set<std::string, std::less<>> told_;
   std::uint64_t steps_ = 0;

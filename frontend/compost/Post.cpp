@@ -10,6 +10,8 @@
 namespace dotek::frontend::compost {
 namespace {
 
+constexpr double kArithmeticRest = 1e-9; // mm; below what any control counts
+
 bool isPrintableAscii(std::string_view text) {
   return std::all_of(text.begin(), text.end(), [](char c) { return c >= ' ' && c <= '~'; });
 }
@@ -117,8 +119,10 @@ void PostRun::Impl::printValue(double value, const Picture& picture, std::string
                                                 value == std::trunc(value) ? "" : " once it is rounded");
     return;
   case Picture::Fit::LosesDecimals:
-    diagnostics_->report<diag::LostDecimals>(where, what, numberText(value), picture.text(),
-                                             numberText(printed.value.value()));
+    // 15 - 25.4/2 - 3 is -0.7 and a rest of the arithmetic, which nobody typed.
+    if (std::abs(value - printed.value.value()) > kArithmeticRest)
+      diagnostics_->report<diag::LostDecimals>(where, what, numberText(value), picture.text(),
+                                               numberText(printed.value.value()));
     break;
   case Picture::Fit::Exact: break;
   }

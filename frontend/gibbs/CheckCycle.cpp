@@ -184,12 +184,23 @@ void fieldWithoutInput(const CheckedCycle& input, Report& report) {
   if (!cycle.defineData || cycle.defineData->hasErrorNodes || !cycle.dialog || cycle.dialog->hasErrorNodes)
     return;
   if (!cycle.otherDialogs.empty()) return;
+  std::set<std::string> computed;
+  const auto collect = [&](const Macro& macro) {
+    walkLines(macro.lines, [&](const Statement& statement) {
+      if (const auto* assign = std::get_if<Assignment>(&statement.node))
+        computed.insert(foldCase(assign->target.name.text));
+    });
+  };
+  if (cycle.cycleData) collect(*cycle.cycleData);
+  for (const Macro* other : cycle.others)
+    collect(*other);
   for (const Definition& definition : cycle.defineData->definitions)
     if (!input.bound.contains(foldCase(definition.name.text)) &&
+        !computed.contains(foldCase(definition.name.text)) &&
         !input.keywords.isReservedField(definition.name.text))
       report.at(
           definition.name.range,
-          "no input of the dialog writes the field `{}`; it keeps its first value unless the macro sets it",
+          "no input of the dialog writes the field `{}`, and no macro sets it; it always has its first value",
           definition.name.text);
 }
 

@@ -1,15 +1,31 @@
 #include "ir/Walk.h"
 #include "lint/Project.h"
 
+#include <algorithm>
+#include <map>
 #include <set>
+#include <vector>
 
 namespace dotek::lint::rule {
 namespace {
 
-void collect(const ir::ConditionPtr& condition, std::set<ir::VariableId>& out) {
+template <class Tree> void collect(const Tree& condition, std::set<ir::VariableId>& out) {
   ir::eachNode(condition, [&](const ir::Expression& node) {
     if (const auto* use = std::get_if<ir::VariableUse>(&node.node)) out.insert(use->variable);
   });
+}
+
+// Adds what the variables of `out` are computed from.
+void spread(const std::map<ir::VariableId, std::set<ir::VariableId>>& computedFrom,
+            std::set<ir::VariableId>& out) {
+  std::vector<ir::VariableId> open(out.begin(), out.end());
+  while (!open.empty()) {
+    const auto from = computedFrom.find(open.back());
+    open.pop_back();
+    if (from == computedFrom.end()) continue;
+    for (const ir::VariableId one : from->second)
+      if (out.insert(one).second) open.push_back(one);
+  }
 }
 
 void check(const Project& project, Report& report) {
@@ -17,9 +33,19 @@ void check(const Project& project, Report& report) {
     if (!joined.lowered || !joined.checksLowered) continue;
     const ir::Cycle& cycle = *joined.lowered;
     std::set<ir::VariableId> checked;
-    for (const ir::CycleStatement& statement : cycle.checks)
+    std::map<ir::VariableId, std::set<ir::VariableId>> computedFrom;
+    for (const ir::CycleStatement& statement : cycle.checks) {
       if (const auto* branch = std::get_if<ir::Branch>(&statement.node)) collect(branch->condition, checked);
+      if (const auto* assign = std::get_if<ir::Assign>(&statement.node))
+        collect(assign->value, computedFrom[assign->variable]);
+    }
     if (checked.empty()) continue;
+    // A check of what is computed, an argument of a called macro too, looks at what it is computed from; and
+    // the travel that is computed is as good as the fields that it comes from.
+    spread(computedFrom, checked);
+    for (const auto& [variable, from] : computedFrom)
+      if (std::any_of(from.begin(), from.end(), [&](ir::VariableId one) { return checked.contains(one); }))
+        checked.insert(variable);
     std::set<ir::VariableId> told;
     for (const ir::CycleStatement& statement : cycle.body) {
       const auto* measure = std::get_if<ir::Measure>(&statement.node);

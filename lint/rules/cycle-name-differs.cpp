@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cctype>
+#include <map>
+#include <set>
 
 namespace dotek::lint::rule {
 namespace {
@@ -41,17 +43,33 @@ void check(const Project& project, Report& report) {
   for (const gibbs::Cycle* cycle : project.cycles)
     folders.insert(cycle->name);
   for (const compost::Program* prog : project.progs) {
-    std::vector<const compost::Word*> tests;
+    struct Test {
+      const compost::Word* word = nullptr;
+      const compost::Routine* routine = nullptr;
+    };
+    std::vector<Test> tests;
+    std::map<const compost::Routine*, std::set<std::string>> testedIn;
     for (const compost::Item& item : prog->items) {
       const auto* routine = std::get_if<compost::Routine>(&item);
       if (routine == nullptr) continue;
       eachStatement(routine->body, [&](const compost::Statement& statement) {
-        if (const auto* branch = std::get_if<std::unique_ptr<compost::If>>(&statement))
-          collect((*branch)->condition, tests);
+        if (const auto* branch = std::get_if<std::unique_ptr<compost::If>>(&statement)) {
+          std::vector<const compost::Word*> words;
+          collect((*branch)->condition, words);
+          for (const compost::Word* word : words) {
+            tests.push_back({word, routine});
+            testedIn[routine].insert(word->arguments.front().text);
+          }
+        }
       });
     }
-    for (const compost::Word* test : tests) {
-      const compost::Literal& id = test->arguments.front();
+    for (const Test& test : tests) {
+      const compost::Literal& id = test.word->arguments.front();
+      const std::set<std::string>& beside = testedIn[test.routine];
+      // A name that several routines test is the name of a cycle, wherever its folder is.
+      const bool elsewhere = std::any_of(testedIn.begin(), testedIn.end(), [&](const auto& one) {
+        return one.first != test.routine && one.second.contains(id.text);
+      });
       if (folders.contains(id.text)) continue;
       for (const std::string& folder : folders) {
         // A folder that the Prog prints for already is not the one that is meant.
@@ -61,7 +79,10 @@ void check(const Project& project, Report& report) {
         std::sort(other.begin(), other.end());
         // The same letters in another order are no name of their own.
         const bool same = one == other;
-        if ((!same && !compost::printingRoutines(*prog, project.compostKeywords, folder).empty()) ||
+        // Routines that keep the same list: this one lacks the folder and has what is nearly its name.
+        const bool inItsPlace = !elsewhere && beside.size() > 1 && !beside.contains(folder);
+        if ((!same && !inItsPlace &&
+             !compost::printingRoutines(*prog, project.compostKeywords, folder).empty()) ||
             !misspelt(id.text, folder))
           continue;
         report.at(id.range,

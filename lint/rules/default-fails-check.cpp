@@ -1,9 +1,11 @@
-#include "frontend/gibbs/Run.h"
+#include "frontend/gibbs/Blame.h"
+#include "lint/CalledFiles.h"
 #include "lint/MacroNames.h"
 
 #include <algorithm>
 #include <array>
 #include <map>
+#include <vector>
 
 namespace dotek::lint::rule {
 namespace {
@@ -12,7 +14,6 @@ using Verdict = gibbs::ChecksResult::Verdict;
 
 constexpr std::array kRadii = {0.05, 0.5, 1.0, 2.0, 3.0, 5.0, 10.0}; // mm
 constexpr std::uint32_t kMostSteps = 20000; // of one run; checks of a dialog take some dozens
-constexpr std::array kTrials = {1.0, -1.0, 20.0, -20.0, 500.0, -500.0, 56.0};
 
 class Runner {
 public:
@@ -21,20 +22,16 @@ public:
     limits_.steps = std::min(limits_.steps, kMostSteps);
   }
 
-  gibbs::ChecksResult run(const std::map<std::string, double>& fields, double radius) const {
+  // The fields to blame, in the order of DefineData.txt.
+  std::vector<const gibbs::Definition*> blamed(const std::map<std::string, double>& fields) const {
     Diagnostics ignored;
-    gibbs::RunContext context{project_.sources,
-                              project_.gibbsKeywords,
-                              limits_,
-                              ignored,
-                              fields,
-                              {{"tool_radius", radius}, {"tool_number", 1}},
-                              {},
-                              [](const std::string&, SourceRange) -> const gibbs::Macro* { return nullptr; },
-                              [&](const std::string&, SourceRange) -> const gibbs::Dialog* {
-                                return cycle_.dialog ? &*cycle_.dialog : nullptr;
-                              }};
-    return gibbs::runChecks(*cycle_.cycleData, context);
+    const auto names =
+        gibbs::fieldsToBlame(*cycle_.cycleData, cycle_.others, contextOf(fields, kRadii.front(), ignored));
+    std::vector<const gibbs::Definition*> out;
+    for (const gibbs::Definition& definition : cycle_.defineData->definitions)
+      if (std::find(names.begin(), names.end(), gibbs::foldCase(definition.name.text)) != names.end())
+        out.push_back(&definition);
+    return out;
   }
 
   // Rejected whatever the tool; the message of the first run.
@@ -49,6 +46,27 @@ public:
   }
 
 private:
+  gibbs::ChecksResult run(const std::map<std::string, double>& fields, double radius) const {
+    Diagnostics ignored;
+    gibbs::RunContext context = contextOf(fields, radius, ignored);
+    return gibbs::runChecks(*cycle_.cycleData, context);
+  }
+
+  gibbs::RunContext contextOf(const std::map<std::string, double>& fields, double radius,
+                              Diagnostics& ignored) const {
+    return {project_.sources,
+            project_.gibbsKeywords,
+            limits_,
+            ignored,
+            fields,
+            {{"tool_radius", radius}, {"tool_number", 1}},
+            {},
+            [&](const std::string& name, SourceRange) { return calledMacro(cycle_, name, project_); },
+            [&](const std::string&, SourceRange) -> const gibbs::Dialog* {
+              return cycle_.dialog ? &*cycle_.dialog : nullptr;
+            }};
+  }
+
   const gibbs::Cycle& cycle_;
   const Project& project_;
   Limits limits_;
@@ -64,27 +82,30 @@ void checkCycle(const gibbs::Cycle& cycle, const Project& project, Report& repor
   const Runner runner(cycle, project);
   const std::optional<gibbs::Rejection> rejection = runner.rejected(fields);
   if (!rejection) return;
-  // The field whose value is to blame: with another one the same message does not come.
-  for (const gibbs::Definition& definition : cycle.defineData->definitions) {
-    for (const double trial : kTrials) {
-      std::map<std::string, double> other = fields;
-      other[gibbs::foldCase(definition.name.text)] = trial;
-      const gibbs::ChecksResult result = runner.run(other, kRadii.front());
-      if (result.verdict == Verdict::NotRun || result.verdict == Verdict::Depends) return;
-      const bool same = result.verdict == Verdict::Rejected && !result.rejections.empty() &&
-                        result.rejections.front().range == rejection->range;
-      if (same) continue;
-      report
-          .at(definition.valueRange,
-              "the check of the dialog rejects `{}` with this first value, whatever the "
-              "tool; the user cannot leave the dialog with OK before he changes it; give a "
-              "value that passes",
-              definition.name.text)
-          .note(rejection->range, "the message that comes");
-      return;
-    }
+  const auto blamed = runner.blamed(fields);
+  if (blamed.empty()) {
+    report.at(rejection->range, "the first values of the fields bring this message, whatever the tool");
+    return;
   }
-  report.at(rejection->range, "the first values of the fields bring this message, whatever the tool");
+  if (blamed.size() == 1) {
+    report
+        .at(blamed.front()->valueRange,
+            "the check of the dialog rejects `{}` with this first value, whatever the "
+            "tool; the user cannot leave the dialog with OK before he changes it; give a "
+            "value that passes",
+            blamed.front()->name.text)
+        .note(rejection->range, "the message that comes");
+    return;
+  }
+  std::string names;
+  for (std::size_t i = 0; i < blamed.size(); ++i)
+    names += (i == 0 ? "`" : i + 1 == blamed.size() ? " and `" : ", `") + blamed[i]->name.text + "`";
+  Diagnostic& finding = report.at(blamed.front()->valueRange,
+                                  "the check of the dialog rejects the first values of {} together, whatever "
+                                  "the tool; the user cannot leave the dialog with OK before he changes one "
+                                  "of them; give values that pass",
+                                  names);
+  finding.note(rejection->range, "the message that comes");
 }
 
 void check(const Project& project, Report& report) {

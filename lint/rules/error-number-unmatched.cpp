@@ -13,6 +13,19 @@ struct Numbers {
   bool other = false; // set or compared differently
 };
 
+// The variable is declared GLOBAL here, or the macro calls others: what is not declared is global there, too.
+bool shares(const gibbs::Macro& macro, const std::string& name) {
+  bool out = false;
+  eachStatement(macro, [&](const gibbs::Statement& statement) {
+    out = out || std::holds_alternative<gibbs::CallMacro>(statement.node) ||
+          std::holds_alternative<gibbs::Include>(statement.node);
+    if (const auto* declared = std::get_if<gibbs::Declaration>(&statement.node))
+      for (const gibbs::VariableRef& one : declared->names)
+        out = out || gibbs::foldCase(one.name.text) == name;
+  });
+  return out;
+}
+
 void check(const Project& project, Report& report) {
   std::set<std::string> fields; // their values come from the user
   for (const gibbs::Cycle* cycle : project.cycles)
@@ -39,7 +52,15 @@ void check(const Project& project, Report& report) {
           numbers.other = true;
       }
     });
+    // What a called macro sets, or sees of this one, is not seen here.
+    std::set<std::string> shared;
+    for (const gibbs::Macro* other : project.allMacros()) {
+      if (other == macro) continue;
+      for (const NameUse& use : namesOf(*other, project))
+        if (use.writes) shared.insert(use.key);
+    }
     for (const auto& [name, numbers] : all) {
+      if (shared.contains(name) && shares(*macro, name)) continue;
       const auto isError = [](const auto& one) { return one.first != 0; };
       const bool codes = std::count_if(numbers.set.begin(), numbers.set.end(), isError) > 0 &&
                          std::count_if(numbers.compared.begin(), numbers.compared.end(), isError) > 0;

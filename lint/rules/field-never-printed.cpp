@@ -1,24 +1,69 @@
 #include "frontend/gibbs/Walk.h"
 #include "lint/MacroNames.h"
 
+#include <algorithm>
+#include <iterator>
+#include <map>
+#include <set>
+#include <vector>
+
 namespace dotek::lint::rule {
 namespace {
 
-// Fields that the macros use to compute or choose something else for the post: another field, or the field's
-// own statement.
-std::set<std::string> usedForFields(const gibbs::Cycle& cycle, const std::set<std::string>& fields) {
-  std::set<std::string> out;
+// What the macros before the path do with a field beside keeping it.
+struct Uses {
+  std::set<std::string> computes; // comes into another field, or decides on one, through other variables too
+  std::set<std::string> bounds;   // comes into a comparison or a call of a check together with another field
+};
+
+Uses usesOf(const gibbs::Cycle& cycle) {
+  const std::set<std::string> fields = fieldsOf(cycle);
+  using Sources = std::map<std::string, std::set<std::string>>;
+  Sources values; // of a variable: what it is computed from
+  Sources from;   // and what decides on its value
+  std::vector<std::set<std::string>> conditions;
+  Uses out;
   for (const gibbs::Macro* macro : macrosOf(cycle)) {
+    if (cycle.toolPath && macro == &*cycle.toolPath) continue;
     eachStatement(*macro, [&](const gibbs::Statement& statement) {
       if (const auto* assign = std::get_if<gibbs::Assignment>(&statement.node)) {
-        if (!fields.contains(gibbs::foldCase(assign->target.name.text)) || !assign->value) return;
-        out.merge(readsOf(*assign->value));
+        if (!assign->value) return;
+        const std::set<std::string> reads = readsOf(*assign->value);
+        const std::string target = gibbs::foldCase(assign->target.name.text);
+        values[target].insert(reads.begin(), reads.end());
+        from[target].insert(reads.begin(), reads.end());
       } else if (const auto* branch = std::get_if<gibbs::If>(&statement.node)) {
+        std::set<std::string> reads;
+        gibbs::ownExpressions(statement, [&](const gibbs::Expression& e) { reads.merge(readsOf(e)); });
         const auto* then = branch->then ? std::get_if<gibbs::Assignment>(&branch->then->node) : nullptr;
-        if (then == nullptr || !fields.contains(gibbs::foldCase(then->target.name.text))) return;
-        gibbs::ownExpressions(statement, [&](const gibbs::Expression& e) { out.merge(readsOf(e)); });
+        if (then != nullptr) from[gibbs::foldCase(then->target.name.text)].insert(reads.begin(), reads.end());
+        conditions.push_back(std::move(reads));
+      } else if (std::holds_alternative<gibbs::CallMacro>(statement.node)) {
+        std::set<std::string> reads;
+        gibbs::ownExpressions(statement, [&](const gibbs::Expression& e) { reads.merge(readsOf(e)); });
+        conditions.push_back(std::move(reads));
       }
     });
+  }
+  const auto spread = [](const Sources& all, std::set<std::string>& names) {
+    std::vector<std::string> open(names.begin(), names.end());
+    while (!open.empty()) {
+      const auto sources = all.find(open.back());
+      open.pop_back();
+      if (sources == all.end()) continue;
+      for (const std::string& name : sources->second)
+        if (names.insert(name).second) open.push_back(name);
+    }
+  };
+  for (const auto& [name, sources] : from)
+    if (fields.contains(name)) out.computes.insert(sources.begin(), sources.end());
+  spread(from, out.computes);
+  for (std::set<std::string>& names : conditions) {
+    spread(values, names);
+    std::set<std::string> compared;
+    std::set_intersection(names.begin(), names.end(), fields.begin(), fields.end(),
+                          std::inserter(compared, compared.begin()));
+    if (compared.size() > 1) out.bounds.merge(compared);
   }
   return out;
 }
@@ -45,10 +90,18 @@ void check(const Project& project, Report& report) {
     // A post that prints no field at all is no post of this cycle.
     if (branches.empty()) continue;
     shown = &branches.front();
-    const std::set<std::string> used = usedForFields(*cycle, fieldsOf(*cycle));
+    const Uses uses = usesOf(*cycle);
+    std::set<std::string> drawn;
+    if (cycle->toolPath)
+      for (const NameUse& use : namesOf(*cycle->toolPath, project))
+        if (use.reads) drawn.insert(use.key);
     for (const gibbs::Definition& definition : cycle->defineData->definitions) {
       const std::string key = gibbs::foldCase(definition.name.text);
-      if (printed.contains(key) || used.contains(key) || project.gibbsKeywords.isReservedField(key)) continue;
+      // A length that only bounds other fields has no place in the program; one that the path draws has.
+      const bool bound = uses.bounds.contains(key) && !drawn.contains(key);
+      if (printed.contains(key) || uses.computes.contains(key) || bound ||
+          project.gibbsKeywords.isReservedField(key))
+        continue;
       report
           .at(definition.name.range,
               "no branch of the post prints `{}`; what the user types there does not reach the machine; "

@@ -1,0 +1,176 @@
+#include "lint/BranchSteps.h"
+
+#include <algorithm>
+#include <charconv>
+
+namespace dotek::lint {
+namespace {
+
+constexpr std::size_t kCallers = 4; // routines that call one another, from the branch outward
+
+std::optional<double> codeOf(const ProgWord& word) {
+  double value = 0;
+  const char* end = word.digits.data() + word.digits.size();
+  const auto [at, error] = std::from_chars(word.digits.data(), end, value);
+  return error == std::errc() && at == end ? std::optional(value) : std::nullopt;
+}
+
+bool calls(const compost::Statement& statement, const std::string& routine) {
+  const auto* word = std::get_if<compost::Word>(&statement);
+  return word != nullptr && word->kind == compost::WordKind::Command && word->name == routine;
+}
+
+// Blocks that a routine prints for one cycle before and after a place.
+class Around {
+public:
+  Around(const Project& project, const compost::Program& prog, BranchSteps& into)
+      : project_(project), prog_(prog), into_(into) {}
+
+  // `at`: the place is this IF, or a call of a routine of this name.
+  void look(const compost::Routine& routine, const compost::If* at, const std::string& callee) {
+    at_ = at;
+    callee_ = &callee;
+    found_ = false;
+    walk(routine.body);
+    flush();
+  }
+
+private:
+  bool isPlace(const compost::Statement& statement) const {
+    if (at_ == nullptr) return calls(statement, *callee_);
+    const auto* branch = std::get_if<std::unique_ptr<compost::If>>(&statement);
+    return branch != nullptr && branch->get() == at_;
+  }
+
+  void walk(const std::vector<compost::Statement>& statements) {
+    for (const compost::Statement& statement : statements) {
+      if (isPlace(statement)) {
+        flush();
+        found_ = true;
+      } else if (const auto* branch = std::get_if<std::unique_ptr<compost::If>>(&statement)) {
+        flush();
+        const auto ids = compost::cyclesOf((*branch)->condition);
+        if (!ids || ids->contains(into_.id)) walk((*branch)->thenBody);
+        flush();
+        walk((*branch)->elseBody);
+        flush();
+      } else {
+        one(statement);
+      }
+    }
+  }
+
+  void one(const compost::Statement& statement) {
+    if (std::holds_alternative<compost::EndOfLine>(statement)) return flush();
+    if (const auto* literal = std::get_if<compost::Literal>(&statement)) {
+      line_.pieces.push_back({ProgPiece::Kind::Text, literal->range, literal, nullptr, "", 0});
+    } else if (const auto* word = std::get_if<compost::Word>(&statement)) {
+      if (word->kind == compost::WordKind::Boolean) return;
+      const compost::Routine* routine =
+          word->kind == compost::WordKind::Command ? compost::findRoutine(prog_, word->name) : nullptr;
+      if (routine != nullptr) {
+        flush();
+        for (const ProgBlock& block : blocksOf(routine->body, prog_, project_))
+          add(block);
+        return;
+      }
+      const auto kind =
+          word->kind == compost::WordKind::Numeric ? ProgPiece::Kind::Number : ProgPiece::Kind::Command;
+      line_.pieces.push_back({kind, word->range, nullptr, word, "", 0});
+    }
+  }
+
+  void flush() {
+    if (!line_.pieces.empty()) add(line_);
+    line_ = {};
+  }
+
+  void add(const ProgBlock& block) {
+    (found_ ? into_.after : into_.before).push_back(deedsOf(block, project_));
+  }
+
+  const Project& project_;
+  const compost::Program& prog_;
+  BranchSteps& into_;
+  const compost::If* at_ = nullptr;
+  const std::string* callee_ = nullptr;
+  bool found_ = false;
+  ProgBlock line_;
+};
+
+void lookAround(const Project& project, const compost::Program& prog, const compost::Routine& routine,
+                const compost::If* at, BranchSteps& into) {
+  Around around(project, prog, into);
+  around.look(routine, at, routine.name);
+  std::vector<const compost::Routine*> seen = {&routine};
+  for (std::size_t i = 0; i < seen.size() && seen.size() <= kCallers; ++i) {
+    for (const compost::Item& item : prog.items) {
+      const auto* other = std::get_if<compost::Routine>(&item);
+      if (other == nullptr || std::find(seen.begin(), seen.end(), other) != seen.end()) continue;
+      bool called = false;
+      eachStatement(other->body, [&](const compost::Statement& statement) {
+        called = called || calls(statement, seen[i]->name);
+      });
+      if (!called) continue;
+      around.look(*other, nullptr, seen[i]->name);
+      seen.push_back(other);
+    }
+  }
+}
+
+} // namespace
+
+BlockDeeds deedsOf(const ProgBlock& block, const Project& project) {
+  BlockDeeds out;
+  const std::vector<ProgWord> words = wordsOf(block, project.form);
+  bool home = false;
+  bool skip = false;
+  for (const ProgWord& word : words) {
+    const auto code = codeOf(word);
+    if (!code) continue;
+    if (word.address == 'M') {
+      out.stopsSpindle = out.stopsSpindle || *code == 5 || *code == 6 || *code == 19;
+      out.stopsCoolant = out.stopsCoolant || *code == 9;
+    } else if (word.address == 'G') {
+      home = home || *code == 28 || *code == 30 || *code == 53;
+      skip = skip || (*code >= 31 && *code < 32);
+      if (*code == 90 || *code == 91) {
+        out.absolute = *code == 90;
+        out.incremental = *code == 91;
+      }
+    }
+  }
+  const bool z = findWord(words, 'Z') != nullptr;
+  if (const std::uint32_t program = macroCalled(words)) {
+    const MacroMeaning meaning = meaningOf(project, program);
+    using stdlib::Intent;
+    out.measures = meaning.measures();
+    // With Z, a width or a diameter is measured from outside, whichever signature comes first.
+    out.outside =
+        out.measures && z && meaning.intent != Intent::Surface && meaning.intent != Intent::StockAllowance;
+    out.movesZ = z && meaning.set != nullptr && meaning.intent == Intent::ProtectedMove;
+    out.stopsSpindle = out.stopsSpindle || (meaning.set != nullptr && meaning.intent == Intent::ProbeOn);
+    return out;
+  }
+  const bool call = findWord(words, 'P') != nullptr;
+  out.measures = skip && (z || findWord(words, 'X') != nullptr || findWord(words, 'Y') != nullptr);
+  out.movesZ = z && !out.measures && (!call || home);
+  return out;
+}
+
+std::vector<BranchSteps> branchSteps(const Project& project) {
+  std::vector<BranchSteps> out;
+  for (const Siblings& siblings : siblingsOf(project)) {
+    if (siblings.prog->hasErrorNodes || !siblings.routine->returnRange) continue;
+    for (const CycleBranch& branch : siblings.branches) {
+      BranchSteps one{siblings.prog, branch.id, branch.ref.branch->ifRange, {}, {}, {}};
+      for (const ProgBlock& block : branch.blocks)
+        one.steps.push_back({deedsOf(block, project), block.range, block.conditional});
+      lookAround(project, *siblings.prog, *siblings.routine, branch.ref.branch, one);
+      out.push_back(std::move(one));
+    }
+  }
+  return out;
+}
+
+} // namespace dotek::lint

@@ -1,0 +1,75 @@
+#include "lint/ProgBlocks.h"
+
+#include <algorithm>
+#include <charconv>
+#include <map>
+
+namespace dotek::lint::rule {
+namespace {
+
+// n of `#n=`; nothing: another block.
+std::optional<std::uint32_t> storedIn(const ProgBlock& block) {
+  const std::string text = block.text();
+  if (text.empty() || text.front() != '#') return std::nullopt;
+  std::uint32_t number = 0;
+  const auto [end, error] = std::from_chars(text.data() + 1, text.data() + text.size(), number);
+  const std::size_t equals = text.find_first_not_of(' ', static_cast<std::size_t>(end - text.data()));
+  if (error != std::errc() || equals == std::string::npos || text[equals] != '=') return std::nullopt;
+  return number;
+}
+
+// What the macros keep at power off is their calibration.
+bool isKept(const Project& project, std::uint32_t number) {
+  const auto keeps = [&](const stdlib::Control& control) {
+    for (const stdlib::VariableRange& range : control.common)
+      if (range.kept && number >= range.first && number <= range.last) return true;
+    return false;
+  };
+  if (project.postControl != nullptr) return keeps(*project.postControl);
+  return number >= 500;
+}
+
+void check(const Project& project, Report& report) {
+  for (const compost::Program* prog : project.progs) {
+    // The sets that this post calls.
+    std::map<const stdlib::MacroSet*, SourceRange> called;
+    std::vector<std::pair<std::uint32_t, SourceRange>> stores;
+    for (const compost::Item& item : prog->items) {
+      const auto* routine = std::get_if<compost::Routine>(&item);
+      if (routine == nullptr) continue;
+      for (const ProgBlock& block : blocksOf(routine->body, *prog, project)) {
+        if (block.called) continue;
+        if (const auto number = storedIn(block)) stores.emplace_back(*number, block.range);
+        const std::uint32_t program = macroCalled(wordsOf(block, project.form));
+        for (const stdlib::MacroSet& set : project.macroSets)
+          if (program != 0 && set.calls(program)) called.try_emplace(&set, block.range);
+      }
+    }
+    for (const auto& [number, range] : stores)
+      for (const auto& [set, call] : called) {
+        const auto holds = [&, one = number](const auto& part) {
+          return one >= part.first && one <= part.second;
+        };
+        if (!std::any_of(set->scratch.begin(), set->scratch.end(), holds) || !isKept(project, number))
+          continue;
+        report
+            .at(range,
+                "#{} is one of the variables in which {} keeps the calibration of the stylus; after this "
+                "every "
+                "measurement is wrong; keep the value in another variable",
+                number, set->title)
+            .note(call, "the post calls its macros");
+        break;
+      }
+  }
+}
+
+} // namespace
+
+DOTEK_LINT_RULE(calibration_overwritten){
+    .severity = Severity::Warning,
+    .tier = Tier::Syntax,
+    .check = check,
+};
+
+} // namespace dotek::lint::rule
