@@ -2,6 +2,7 @@
 """Converts every cycle to every target, macro set and control, verifies what was converted, and writes docs/conversion-matrix.md.
 
 Run by `./dev matrix [NAME...]`. DOTEK is the program, DOTEK_CORPUS the corpus; without it the cycles of the corpus are left out.
+MATRIX_CASES is how many cases verify draws (50), MATRIX_LIST a file that gets one line a conversion, with message and flags.
 With names, only cycles whose name contains one of them run, their rows are printed, and the document stays.
 """
 import concurrent.futures
@@ -138,7 +139,11 @@ def measure(cell):
     cell.verify = verdict[0] if verdict else ""
     cell.state = "agrees" if status == 0 else "differs" if cell.verify.startswith("DIFFERS") else "converted"
     if cell.state != "agrees":
+        # Why cases are undecided is a warning; that too few agree is only what comes of it.
+        idle = re.search(r"^(.*?): warning: (.*) \[(verify-idle)\]$", errors, re.M)
         place, cell.message, cell.code = first_error(errors)
+        if cell.code == "verify-too-few" and idle:
+            place, cell.message, cell.code = idle[1], idle[2], idle[3]
         cell.message = f"{place}: {cell.message}" if place else cell.message
     return cell
 
