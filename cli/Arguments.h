@@ -26,6 +26,7 @@ struct Arguments {
   driver::ConvertOptions convert; // inputs, common and source aside
   std::string outputFolder;       // -d
   std::string mapFile;            // --map
+  std::string reportFile;         // --report
   driver::SimOptions sim;         // common aside
   std::string traceFile;          // --trace
   std::string svgFile, htmlFile;  // --svg, --html

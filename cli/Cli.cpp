@@ -53,9 +53,13 @@ public:
   int programs(const driver::Outcome& outcome, const Arguments& arguments) {
     err_ << renderText(outcome.diagnostics, outcome.sources, maxErrors_);
     if (!outcome.summary.empty()) err_ << outcome.summary << "\n";
-    // With --keep-going there are results beside what is refused.
-    if (outcome.status != 0 && outcome.files.empty()) return outcome.status;
     std::vector<NamedText> texts;
+    for (const driver::OutputFile& report : outcome.reports)
+      texts.push_back({reportPath(arguments, report.name), &report.text});
+    // With --keep-going there are results beside what is refused.
+    if (outcome.status != 0 && outcome.files.empty()) {
+      return texts.empty() || write(texts, outcome, arguments) ? outcome.status : kUsage;
+    }
     for (const driver::OutputFile& file : outcome.files)
       if (!arguments.outputFolder.empty())
         texts.push_back({arguments.outputFolder + "/" + file.name, &file.text});
@@ -138,7 +142,8 @@ private:
     for (const NamedText& one : texts)
       paths.push_back(one.path);
     const bool done = checkRead(paths, outcome.sources, writing) &&
-                      writeAll(texts, arguments.outputFolder, {arguments.force, &out_}, writing);
+                      writeAll(texts, outcome.files.empty() ? "" : arguments.outputFolder,
+                               {arguments.force, &out_}, writing);
     err_ << renderText(writing, SourceMap(), maxErrors_);
     return done;
   }

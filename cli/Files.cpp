@@ -10,6 +10,18 @@ std::string orStandardOutput(const std::string& path) {
   return path.empty() ? "-" : path;
 }
 
+std::string reportPath(const Arguments& arguments, const std::string& input) {
+  if (arguments.inputs.size() == 1) return arguments.reportFile;
+  std::error_code fault;
+  fs::path named(input);
+  if (!named.has_filename()) named = named.parent_path(); // a folder with a slash at its end
+  if (!fs::is_directory(named, fault)) named.replace_extension();
+  const fs::path report(arguments.reportFile);
+  return (report.parent_path() /
+          (report.stem().string() + "-" + named.filename().string() + report.extension().string()))
+      .string();
+}
+
 std::vector<OutputName> outputsOf(const Arguments& arguments) {
   std::vector<OutputName> out;
   const auto add = [&](const std::string& flag, const std::string& path) {
@@ -22,6 +34,9 @@ std::vector<OutputName> outputsOf(const Arguments& arguments) {
   if (prints) out.push_back({"standard output", "-"});
   add("-o", arguments.output);
   add("--map", arguments.mapFile);
+  if (!arguments.reportFile.empty())
+    for (const std::string& input : arguments.inputs)
+      add("--report", reportPath(arguments, input));
   add("--trace", arguments.traceFile);
   add("--svg", arguments.svgFile);
   add("--html", arguments.htmlFile);

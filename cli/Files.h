@@ -9,6 +9,10 @@
 
 namespace dotek::cli {
 
+// Where --report of this input goes: as named, or with the input's name before the ending where there are
+// several inputs.
+std::string reportPath(const Arguments& arguments, const std::string& input);
+
 // `path`, or standard output where none is given.
 std::string orStandardOutput(const std::string& path);
 

@@ -43,7 +43,9 @@ struct Raw {
   std::string part, machine, partError, translation;
   std::vector<std::string> values; // --value
   std::string cases, seed, jobs, minAgreed, tolerance, activeSystem;
-  std::string date; // --date, of sim and verify
+  std::string report; // --report, of convert
+  std::string date;   // --date, of sim, verify and convert
+  std::string remark; // --remark, of verify and convert
   std::vector<std::string> workOffsets;
   std::string tool, length, radius, diameter, at, call;
   bool replay = false;
@@ -94,6 +96,9 @@ void addTarget(CLI::App& app, Raw& raw);
 void addTranslation(CLI::App& app, Raw& raw, const std::string& to);
 void fillTranslation(const Raw& raw, targets::TranslationOptions& options);
 void addForce(CLI::App& app, Raw& raw);
+std::optional<std::uint32_t> programNumberOf(const Raw& raw);
+targets::ReportFormat reportFormatOf(const std::string& path); // by the ending of its name
+std::string noReport(const std::string& path); // why a name cannot be that of a report; "": it can
 driver::CommonOptions commonOf(const Raw& raw);
 
 // The commands: each adds itself to the application, and each with options of its own reads them from what

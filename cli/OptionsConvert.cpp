@@ -25,8 +25,22 @@ void addConvert(CLI::App& app, Raw& raw) {
   convert->add_option("--program-number", raw.programNumber, "O number of the program (8000)")
       ->type_name("N");
   convert->add_flag("--whole-post", raw.wholePost, "with --to fusion: the smallest post around the cycles");
-  convert->add_flag("--verify", raw.verify,
-                    "run 200 cases of source and result first; write nothing that differs");
+  CLI::Option* verify = convert->add_flag(
+      "--verify", raw.verify, "run 200 cases of source and result first; write nothing that differs");
+  CLI::Option* report =
+      convert
+          ->add_option("--report", raw.report,
+                       "with --verify: write what it found, also where it differs; .html, .md and .json: a "
+                       "document to hand over; of several inputs one each, FILE-NAME.html")
+          ->type_name("FILE.html")
+          ->check(noReport, "")
+          ->needs(verify);
+  convert->add_option("--date", raw.date, "date that the report bears (none)")
+      ->type_name("DATE")
+      ->needs(report);
+  convert->add_option("--remark", raw.remark, "line below its title: customer, order, machine (none)")
+      ->type_name("TEXT")
+      ->needs(report);
   convert->add_option("--map", raw.mapFile, "write which line comes from where, as JSON")->type_name("FILE");
   CLI::Option* output =
       convert->add_option("-o", raw.output, "write the program to a file")->type_name("OUT");
@@ -43,6 +57,14 @@ void addConvert(CLI::App& app, Raw& raw) {
   addCommon(*convert, raw);
 }
 
+std::optional<std::uint32_t> programNumberOf(const Raw& raw) {
+  if (raw.programNumber.empty()) return std::nullopt;
+  const auto number = wholeNumber(raw.programNumber);
+  if (!number || *number == 0 || *number > 99999999)
+    throw UsageError("--program-number takes a whole number such as 8010, not `" + raw.programNumber + "`");
+  return static_cast<std::uint32_t>(*number);
+}
+
 driver::ConvertOptions convertOf(const Raw& raw) {
   driver::ConvertOptions out;
   fillTranslation(raw, out);
@@ -51,12 +73,7 @@ driver::ConvertOptions convertOf(const Raw& raw) {
     if (out.renumber->first == 0)
       throw UsageError("--renumber begins at 1 or above, as N0 is no block number");
   }
-  if (!raw.programNumber.empty()) {
-    const auto number = wholeNumber(raw.programNumber);
-    if (!number || *number == 0 || *number > 99999999)
-      throw UsageError("--program-number takes a whole number such as 8010, not `" + raw.programNumber + "`");
-    out.programNumber = static_cast<std::uint32_t>(*number);
-  }
+  out.programNumber = programNumberOf(raw);
   out.letters = pairsOf("--arg", raw.letters);
   out.defaults = pairsOf("--default", raw.defaults);
   out.useDefaults = raw.defaultsMode == "use";
@@ -64,6 +81,9 @@ driver::ConvertOptions convertOf(const Raw& raw) {
   out.wholePost = raw.wholePost;
   out.verify = raw.verify;
   out.keepGoing = raw.keepGoing;
+  if (!raw.report.empty()) out.report = reportFormatOf(raw.report);
+  out.date = raw.date;
+  out.remark = raw.remark;
   if (out.keepGoing && out.wholePost)
     throw UsageError("--whole-post makes one file of all inputs; --keep-going goes with a file for each");
   return out;

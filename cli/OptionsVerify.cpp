@@ -28,18 +28,33 @@ std::array<double, 4> placeOf(const std::string& text) {
   return out;
 }
 
-targets::ReportFormat formatOf(const std::string& path) {
-  using targets::ReportFormat;
+std::string endingOf(const std::string& path) {
   std::string end = std::filesystem::path(path).extension().string();
   std::transform(end.begin(), end.end(), end.begin(),
                  [](char c) { return c >= 'A' && c <= 'Z' ? c + 32 : c; });
+  return end;
+}
+
+} // namespace
+
+targets::ReportFormat reportFormatOf(const std::string& path) {
+  using targets::ReportFormat;
+  const std::string end = endingOf(path);
   return end == ".html" || end == ".htm" ? ReportFormat::Html
          : end == ".md"                  ? ReportFormat::Markdown
          : end == ".json"                ? ReportFormat::Json
                                          : ReportFormat::Text;
 }
 
-} // namespace
+std::string noReport(const std::string& path) {
+  const std::string end = endingOf(path);
+  for (const char* other : {".pdf", ".doc", ".docx", ".odt", ".xls", ".xlsx", ".ods", ".csv", ".xml", ".rtf"})
+    if (end == other)
+      return "a report is a text, or a document where its name ends in .html, .md or .json; print the page "
+             "of "
+             ".html for a PDF";
+  return "";
+}
 
 void addVerify(CLI::App& app, Raw& raw) {
   CLI::App* verify = app.add_subcommand(
@@ -76,8 +91,13 @@ void addVerify(CLI::App& app, Raw& raw) {
       ->add_option(
           "-o", raw.output,
           "write the report to a file; .html, .md and .json: a document with files, cases and differences")
-      ->type_name("REPORT");
+      ->type_name("REPORT")
+      ->check(noReport, "");
   verify->add_option("--date", raw.date, "date that the document bears (none)")->type_name("DATE");
+  verify->add_option("--remark", raw.remark, "line below its title: customer, order, machine (none)")
+      ->type_name("TEXT");
+  verify->add_option("--program-number", raw.programNumber, "O number of the translation (8000)")
+      ->type_name("N");
   addForce(*verify, raw);
   addIncludes(*verify, raw);
   addCommon(*verify, raw);
@@ -85,8 +105,10 @@ void addVerify(CLI::App& app, Raw& raw) {
 
 driver::VerifyOptions verifyOf(const Raw& raw) {
   driver::VerifyOptions out;
-  out.format = formatOf(raw.output);
+  out.format = reportFormatOf(raw.output);
   out.date = raw.date;
+  out.remark = raw.remark;
+  out.programNumber = programNumberOf(raw);
   fillTranslation(raw, out);
   if (!raw.part.empty()) out.part = raw.part;
   if (!raw.machine.empty()) out.machine = raw.machine;

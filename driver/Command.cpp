@@ -108,10 +108,6 @@ void keepStrongest(Diagnostics& diagnostics) {
   });
 }
 
-bool isAboutForm(std::string_view code) {
-  return code == diag::FormTaken::code || code == diag::FormAssumed::code;
-}
-
 bool isUsageCode(std::string_view code) {
   constexpr std::array kCodes = {
       diag::FileNotFound::code,     diag::FileNotReadable::code, diag::FileNotWritable::code,

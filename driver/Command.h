@@ -27,9 +27,6 @@ Outcome refusalOf(Session& session);
 // Codes that mean wrong arguments, or a file that cannot be read or written: status 2.
 bool isUsageCode(std::string_view code);
 
-// Which form a Prog is read through, and what it only assumes.
-bool isAboutForm(std::string_view code);
-
 // Of findings that begin at one place, keeps those of the highest severity: the others report the same
 // cause.
 void keepStrongest(Diagnostics& diagnostics);

@@ -1,6 +1,7 @@
 #include "driver/ConvertVerify.h"
 
 #include "driver/Command.h"
+#include "project/FormChoice.h"
 #include "project/Programs.h"
 #include "support/messages/Verify.h"
 
@@ -40,8 +41,19 @@ std::string lastLine(std::string text) {
 }
 
 // The result of one input by itself; `cycle`: its place among the cycles.
-std::shared_ptr<const ConvertedInput> resultOf(const Outcome& all, std::size_t file, std::size_t cycle) {
+std::shared_ptr<const ConvertedInput> resultOf(const Outcome& all, std::size_t file, std::size_t cycle,
+                                               const Diagnostics& said) {
   auto out = std::make_shared<ConvertedInput>();
+  // A Prog and what has no place are of every input.
+  const auto ofOther = [&](const Diagnostic& one) {
+    if (!one.range.hasPlace()) return false;
+    const std::string& name = all.sources.file(one.range.file).name();
+    return std::any_of(all.inputs.begin(), all.inputs.end(), [&](const std::string& input) {
+      return input != all.inputs[file] && (name == input || name.starts_with(input + "/"));
+    });
+  };
+  for (const Diagnostic& one : said.all())
+    if (!ofOther(one)) out->said.add(one);
   out->file = all.files[file];
   out->map = all.maps[file];
   if (cycle < all.arguments.size()) {
@@ -75,6 +87,10 @@ VerifyOptions optionsOf(const ConvertOptions& options, const std::string& input)
   // The program switches the probe by itself, so the source is where it is on.
   if (options.switchProbe) out.common.assume.insert("probe-on");
   out.cases = kCases;
+  out.format = options.report.value_or(ReportFormat::Text);
+  out.date = options.date;
+  out.remark = options.remark;
+  out.programNumber = options.programNumber;
   return out;
 }
 
@@ -102,6 +118,7 @@ Outcome verified(const ConvertOptions& options, Outcome outcome) {
   const auto programs = std::count_if(inputs.begin(), inputs.end(), isProgram);
   // Each cycle has its own result; else verify converts it by itself.
   const bool own = outcome.macrosByCycle.size() + static_cast<std::size_t>(programs) == inputs.size();
+  const Diagnostics said = outcome.diagnostics; // by convert alone
   std::size_t cycles = 0;
   int status = outcome.status;
   std::vector<std::size_t> differing;
@@ -110,13 +127,17 @@ Outcome verified(const ConvertOptions& options, Outcome outcome) {
     VerifyOptions one = optionsOf(options, input);
     const bool program = isProgram(input);
     dropOthers(one, program);
-    if (own) one.converted = resultOf(outcome, i, program ? outcome.arguments.size() : cycles);
+    if (own) one.converted = resultOf(outcome, i, program ? outcome.arguments.size() : cycles, said);
     if (!program) ++cycles;
     Outcome found = driver::verify(one);
     status = std::max(status, found.status);
     const std::string counts = lastLine(found.output);
     const bool good = found.status == 0;
     if (!good) differing.push_back(i);
+    if (options.report && !found.files.empty())
+      outcome.reports.push_back({input, std::move(found.files.front().text)});
+    else if (options.report == ReportFormat::Text && !found.output.empty())
+      outcome.reports.push_back({input, found.output});
     take(outcome, std::move(found));
     if (good)
       outcome.diagnostics.report<diag::Verified>({}, input, counts);
@@ -134,6 +155,7 @@ Outcome verified(const ConvertOptions& options, Outcome outcome) {
   }
   Outcome out;
   out.status = status;
+  out.reports = std::move(outcome.reports);
   out.sources = std::move(outcome.sources);
   out.diagnostics = std::move(outcome.diagnostics);
   return out;

@@ -58,10 +58,11 @@ struct NewFormOptions {
 struct Outcome {
   int status = 0;
   std::string output;
-  std::vector<OutputFile> files;  // of convert, and pictures of sim
-  std::string map;                // of convert: what --map writes
-  std::vector<MappedResult> maps; // the same, file by file; places are of `sources`
-  std::string macros;             // of convert: the set that the last result calls; "": none
+  std::vector<OutputFile> files;   // of convert, and pictures of sim
+  std::vector<OutputFile> reports; // of convert --verify --report: named like the inputs; of any status
+  std::string map;                 // of convert: what --map writes
+  std::vector<MappedResult> maps;  // the same, file by file; places are of `sources`
+  std::string macros;              // of convert: the set that the last result calls; "": none
   std::vector<std::vector<OutputArgument>> arguments; // of convert to fanuc, cycle by cycle
   std::vector<std::string> macrosByCycle;             // the sets that these call
   // Of convert: those whose results are given, in their order; with --keep-going not all.

@@ -4,6 +4,8 @@
 #include "frontend/gibbs/Cycle.h"
 #include "ir/Rewrite.h"
 #include "project/CycleFolder.h"
+#include "project/FormChoice.h"
+#include "project/Prog.h"
 #include "project/Programs.h"
 #include "support/Files.h"
 #include "support/messages/Commands.h"
@@ -38,6 +40,7 @@ public:
   Outcome run() {
     if (!checkOptions()) return outcomeOf(session_, "");
     if (!main_.load()) return outcomeOf(main_.session(), "");
+    leaveFindingsToLint(main_.session());
     Diagnostics ofForm;
     keepOfForm(main_.session().diagnostics(), ofForm);
     if (!makePlan()) return notWritten_ ? refusalOf(main_.session()) : outcomeOf(main_.session(), "");
@@ -45,6 +48,8 @@ public:
     main_.session().diagnostics() = Diagnostics();
     if (!main_.prepare()) return outcomeOf(main_.session(), "");
     VerifyReport report(options_, plan_, main_);
+    addFindings(ofForm, main_.session().sources(), said_);
+    report.addSaid(said_, edited_);
     const auto another = [&]() -> std::unique_ptr<CaseSubject> {
       auto runner = std::make_unique<CaseRunner>(options_, plan_);
       if (!runner->load()) return nullptr;
@@ -79,6 +84,7 @@ private:
     none(!options_.variables.empty(), "--var", diag::OptionOfPrograms{});
     none(!options_.fromControl.empty(), "--from-control", diag::OptionOfPrograms{});
     if (options_.to.empty()) {
+      none(options_.programNumber.has_value(), "--program-number", diag::FlagWithoutTarget{});
       none(options_.probeMacros.has_value(), "--probe-macros", diag::FlagWithoutTarget{});
       none(options_.translation.has_value(), "--translation", diag::FlagWithoutTarget{});
       none(!options_.datum.empty(), "--datum", diag::FlagWithoutTarget{});
@@ -162,12 +168,22 @@ private:
     Session& session = main_.session();
     Diagnostics ofForm;
     keepOfForm(session.diagnostics(), ofForm);
+    std::vector<VerifyDocument::Finding> said; // of the lowering, which convert does no second time
+    addFindings(session.diagnostics(), session.sources(), said);
     session.diagnostics() = std::move(ofForm);
     std::optional<Translated> written = translated(options_, main_.compilation(), &main_.inputs());
     notWritten_ = !written;
     if (!written) return false;
+    const std::string text = written->translation.text;
     if (options_.translation && !takeEdited(*options_.translation, written->translation, session))
       return false;
+    edited_ = written->translation.text != text;
+    // What convert says of its own text does not hold of one that was edited.
+    if (!edited_) {
+      said_ = options_.converted == nullptr ? std::move(said) : std::vector<VerifyDocument::Finding>();
+      for (VerifyDocument::Finding& one : written->said)
+        if (std::find(said_.begin(), said_.end(), one) == said_.end()) said_.push_back(std::move(one));
+    }
     plan_.targetMacros = std::move(written->macros);
     plan_.translation = std::move(written->translation);
     return true;
@@ -200,6 +216,8 @@ private:
   VerifyPlan plan_;
   CaseRunner main_;
   bool notWritten_ = false; // the conversion is refused
+  bool edited_ = false;     // by --translation
+  std::vector<VerifyDocument::Finding> said_;
 };
 
 } // namespace

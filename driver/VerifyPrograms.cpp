@@ -27,8 +27,11 @@ public:
     Compilation compilation(own);
     std::optional<Translated> written = translated(options_, compilation, nullptr);
     if (!written) return refusalOf(own);
+    const std::string text = written->translation.text;
     if (options_.translation && !takeEdited(*options_.translation, written->translation, session_))
       return outcomeOf(session_, "");
+    const bool edited = written->translation.text != text;
+    if (edited) written->said.clear(); // is of the text that convert would write
     plan_.translation = std::move(written->translation);
     if (!loadWorld(options_, plan_, session_)) return outcomeOf(session_, "");
     own.diagnostics() = Diagnostics();
@@ -42,6 +45,7 @@ public:
     own.diagnostics() = Diagnostics();
     if (!main.prepare()) return outcomeOf(own, "");
     VerifyReport report(options_, plan_, main);
+    report.addSaid(std::move(written->said), edited);
     const auto another = [&]() -> std::unique_ptr<CaseSubject> {
       std::unique_ptr<ProgramSubject> runner = make(options_, plan_);
       if (!runner->load() || !runner->fields()) return nullptr;

@@ -1,5 +1,6 @@
 #include "project/FormChoice.h"
 
+#include "support/messages/ComPost.h"
 #include "support/messages/Commands.h"
 
 namespace dotek::project {
@@ -15,6 +16,10 @@ void noteForm(const FormChoice& choice, FileId prog, Session& session) {
   if (!choice.named)
     session.diagnostics().report<diag::FormTaken>({prog, 0, 0}, choice.name,
                                                   session.sources().file(prog).name());
+}
+
+bool isAboutForm(std::string_view code) {
+  return code == diag::FormTaken::code || code == diag::FormAssumed::code;
 }
 
 } // namespace dotek::project

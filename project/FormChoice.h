@@ -5,6 +5,7 @@
 #include "project/Session.h"
 
 #include <string>
+#include <string_view>
 
 namespace dotek::project {
 
@@ -18,5 +19,8 @@ FormChoice chooseForm(const SourceOptions& source, Session& session);
 
 // Says that nobody named the form through which this Prog is read, if so.
 void noteForm(const FormChoice& choice, FileId prog, Session& session);
+
+// Whether a message says which form a Prog is read through, or what that form only assumes.
+bool isAboutForm(std::string_view code);
 
 } // namespace dotek::project

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "project/Options.h"
+#include "support/Diagnostics.h"
 #include "support/LineMap.h"
 #include "support/OutputFile.h"
 #include "support/Source.h"
@@ -33,6 +34,9 @@ struct TranslationOptions {
   std::string datum;                      // --datum of mikroprog: "", "g92" or "operator"
 };
 
+// Of verify and of convert --verify. Text: the line of the verdict. The others: a document beside it.
+enum class ReportFormat : std::uint8_t { Text, Markdown, Html, Json };
+
 struct ConvertOptions : TranslationOptions {
   std::optional<std::uint32_t> programNumber;
   NamedTexts letters;                                              // --arg NAME=LETTER
@@ -42,8 +46,10 @@ struct ConvertOptions : TranslationOptions {
   bool oneFile = false;                                            // -o: several inputs are an error
   std::optional<std::pair<std::uint64_t, std::uint64_t>> renumber; // first N number of programs, step
   bool wholePost = false;                                          // --whole-post, of fusion
-  bool verify = false;    // --verify: what does not agree with its source is not given
-  bool keepGoing = false; // --keep-going: an input that is refused takes no other with it
+  bool verify = false;                // --verify: what does not agree with its source is not given
+  bool keepGoing = false;             // --keep-going: an input that is refused takes no other with it
+  std::optional<ReportFormat> report; // --report: what verify says of each input is given, too
+  std::string date, remark;           // that these documents bear; "": none
 };
 
 // An argument of a program that convert has written.
@@ -58,16 +64,15 @@ struct ConvertedInput {
   MappedResult map; // places are of `sources`
   std::vector<OutputArgument> arguments;
   std::string macros; // the set that it calls; "": none
+  Diagnostics said;   // by convert, of this input
   SourceMap sources;
 };
-
-// Text: the line of the verdict. The others: a document beside it.
-enum class ReportFormat : std::uint8_t { Text, Markdown, Html, Json };
 
 struct VerifyOptions : TranslationOptions {
   std::optional<std::string> part, machine; // paths
   // A program that is looked at instead of what convert writes now: the same arguments, edited by hand. Path.
   std::optional<std::string> translation;
+  std::optional<std::uint32_t> programNumber; // of what convert writes
   std::uint64_t cases = 1000;
   std::uint64_t seed = 1;
   double minAgreed = 95;   // percent of the cases that have to agree
@@ -83,6 +88,7 @@ struct VerifyOptions : TranslationOptions {
   std::optional<std::uint32_t> activeSystem; // 54 to 59
   ReportFormat format = ReportFormat::Text;
   std::string date;    // that the document bears; "": none
+  std::string remark;  // the same: a line below its title
   bool replay = false; // one case, all of whose values are given: nothing is made smaller
   // Told from time to time how many of how many cases are done; from one thread at a time.
   std::function<void(std::uint64_t done, std::uint64_t all)> progress;

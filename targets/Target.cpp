@@ -89,7 +89,8 @@ void checkTargetOptions(const Target& target, const VerifyOptions& options, Diag
   if (!target.takesPathAlone && !options.source.prog)
     diagnostics.report<diag::MissingOption>(
         {}, "verify", "--prog PROG.txt", "a drawn path states no measurement that such a program could make");
-  const Given flags[] = {{TargetFlag::ProbeMacros, options.probeMacros.has_value(), "--probe-macros"}};
+  const Given flags[] = {{TargetFlag::ProgramNumber, options.programNumber.has_value(), "--program-number"},
+                         {TargetFlag::ProbeMacros, options.probeMacros.has_value(), "--probe-macros"}};
   refuse(target, options.to, flags, diagnostics);
   checkDatum(target, options.to, options.datum, diagnostics);
 }

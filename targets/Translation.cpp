@@ -30,14 +30,18 @@ Translation translationOf(const OutputFile& file, const MappedResult& map,
 ConvertOptions convertOptionsOf(const VerifyOptions& options) {
   ConvertOptions out;
   static_cast<TranslationOptions&>(out) = options;
+  out.programNumber = options.programNumber;
   return out;
 }
 
 std::optional<Translated> translated(const VerifyOptions& options, Compilation& compilation,
                                      LoweringInputs* inputs) {
-  if (const ConvertedInput* given = options.converted.get())
-    return Translated{translationOf(given->file, given->map, given->arguments, given->sources),
-                      given->macros};
+  if (const ConvertedInput* given = options.converted.get()) {
+    Translated out{
+        translationOf(given->file, given->map, given->arguments, given->sources), given->macros, {}};
+    addFindings(given->said, given->sources, out.said);
+    return out;
+  }
   Session& session = compilation.session();
   if (options.probeMacros && session.macroSet(*options.probeMacros) == nullptr) {
     reportUnknownMacroSet(*options.probeMacros, session);
@@ -55,11 +59,14 @@ std::optional<Translated> translated(const VerifyOptions& options, Compilation& 
   conversion->finish();
   const ConversionResult& result = context.result;
   if (session.diagnostics().hasErrors() || result.files.size() != 1) return std::nullopt;
-  return Translated{
+  Translated out{
       translationOf(result.files.front(), result.maps.front(),
                     result.arguments.empty() ? std::vector<OutputArgument>() : result.arguments.front(),
                     session.sources()),
-      result.macros};
+      result.macros,
+      {}};
+  addFindings(session.diagnostics(), session.sources(), out.said);
+  return out;
 }
 
 bool takeEdited(const std::string& path, Translation& translation, Session& session) {

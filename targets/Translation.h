@@ -3,15 +3,18 @@
 
 #include "project/Compilation.h"
 #include "targets/Subject.h"
+#include "targets/VerifyDocument.h"
 
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace dotek::targets {
 
 struct Translated {
   Translation translation;
-  std::string macros; // the set that it calls; "": none
+  std::string macros;                        // the set that it calls; "": none
+  std::vector<VerifyDocument::Finding> said; // by convert, for the document
 };
 
 // What convert is asked for in place of verify.

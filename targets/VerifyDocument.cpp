@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <utility>
 
 namespace dotek::targets {
 
@@ -56,8 +57,15 @@ std::string lineOf(const VerifyDocument::Excerpt& excerpt) {
   return excerpt.line != 0 && at < excerpt.lines.size() ? excerpt.lines[at] : "";
 }
 
+std::string_view leadOf(std::string_view about) {
+  return about == "form" ? "What the post prints is read through its form. The report holds as far as these "
+                           "entries are right; compare them with a program that the post has written."
+                         : "";
+}
+
 std::string markdownOf(const VerifyDocument& d) {
   std::string out = fmt::format("# Verification of {}\n\n**{}**\n\n", plain(d.title), plain(d.summary));
+  if (!d.remark.empty()) out += plain(d.remark) + "\n\n";
   const auto row = [&](std::string_view name, const std::string& value) {
     if (!value.empty()) out += fmt::format("| {} | {} |\n", name, plain(value));
   };
@@ -74,10 +82,26 @@ std::string markdownOf(const VerifyDocument& d) {
   row("share that has to agree", numberText(d.minAgreed) + " %");
   row("Dotek", d.version);
   row("date", d.date);
+  row("command", d.command);
   for (const auto& [name, value] : d.fixed)
     row("fixed: " + plain(name), value);
   for (const std::string& one : d.assumed)
     row("assumed", one);
+  const auto findings = [&](std::string_view about, std::string_view title) {
+    bool any = false;
+    for (const VerifyDocument::Finding& one : d.findings) {
+      if (one.about != about) continue;
+      if (!std::exchange(any, true)) {
+        out += fmt::format("\n## {}\n\n", title);
+        if (const std::string_view lead = leadOf(about); !lead.empty()) out += fmt::format("{}\n\n", lead);
+      }
+      out += fmt::format("- {}{}: {} [{}]\n",
+                         one.line == 0 ? "" : fmt::format("{}:{}: ", plain(one.file), one.line), one.severity,
+                         plain(one.message), one.code);
+    }
+  };
+  findings("form", "What the form assumes");
+  findings("translation", "What the translation changes or leaves open");
   out += "\n## Files\n\n| file | bytes | SHA-256 |\n|---|---|---|\n";
   const auto file = [&](const VerifyDocument::File& one, std::string_view what) {
     out += fmt::format("| {}{} | {} | `{}` |\n", plain(one.name), what, one.bytes, one.sha256);
@@ -107,17 +131,13 @@ std::string markdownOf(const VerifyDocument& d) {
   }
   if (!d.undecided.empty()) out += "\n## Undecided cases\n\n";
   for (const VerifyDocument::Reason& one : d.undecided) {
-    out += fmt::format("- {} cases: {}", one.cases, plain(one.why));
+    out += fmt::format("- {} {}cases: {}", one.cases, one.edge ? "edge " : "", plain(one.why));
     if (one.at.line != 0)
       out += fmt::format(" ({}:{}: {})", plain(one.at.file), one.at.line, code(lineOf(one.at)));
     if (!one.remedy.empty()) out += "; fixed by " + one.remedy;
     out += "\n";
   }
-  if (!d.findings.empty()) out += "\n## Findings\n\n";
-  for (const VerifyDocument::Finding& one : d.findings)
-    out += fmt::format("- {}{}: {} [{}]\n",
-                       one.line == 0 ? "" : fmt::format("{}:{}: ", plain(one.file), one.line), one.severity,
-                       plain(one.message), one.code);
+  findings("cases", "Findings");
   out += "\nAgreement of drawn cases is evidence, no proof: what no case reached was not compared.\n"
          "\nChecked by: ____________________    Date: ____________    Signature: ____________________\n";
   return out;

@@ -3,11 +3,14 @@
 #pragma once
 
 #include "sim/picture/Picture.h"
+#include "support/Diagnostics.h"
+#include "support/Source.h"
 #include "targets/Options.h"
 
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -35,6 +38,7 @@ struct VerifyDocument {
     std::string replay; // the command that shows it
   };
   struct Reason { // of undecided cases
+    bool edge = false;
     std::uint64_t cases = 0;
     std::string why;
     Excerpt at;
@@ -45,12 +49,16 @@ struct VerifyDocument {
     std::uint64_t all = 0, agree = 0, differ = 0, undecided = 0, refused = 0;
   };
   struct Finding {
+    std::string about; // "form", "translation" or "cases"
     std::string severity, code, message, file;
     std::uint32_t line = 0;
+    bool operator==(const Finding&) const = default;
   };
 
   std::string title; // of the source
   std::string version, date;
+  std::string remark;           // as the user gives it; "": none
+  std::string command;          // that makes this document
   std::string verdict, summary; // "AGREES", and the whole line
   Counts cases, edges;
   std::string pair;                               // that was compared
@@ -60,17 +68,25 @@ struct VerifyDocument {
   std::string target;                             // "": no translation
   std::vector<File> inputs;                       // that were read
   std::optional<File> translation;                // the text that ran
-  bool edited = false;                            // it was given by --translation
+  bool edited = false;                            // it was given by --translation, and is another text
   std::uint64_t seed = 0;
   double tolerance = 0, minAgreed = 0;                    // mm, percent
   std::vector<std::pair<std::string, std::string>> fixed; // by flags and the job; the others are drawn
   std::vector<std::string> assumed;
   std::vector<Difference> differences;
   std::vector<Reason> undecided;
-  std::vector<Finding> findings; // besides these
+  std::vector<Finding> findings; // besides these, in the order of `about` above
   std::optional<sim::Picture> picture;
   std::string caption;
 };
+
+// What was said of the form, or else of the translation, before the cases ran, each once, as findings of the
+// document. Errors are none of it.
+void addFindings(const Diagnostics& said, const SourceMap& sources,
+                 std::vector<VerifyDocument::Finding>& findings);
+
+// What a reader has to know of the findings of `about`; "": nothing.
+std::string_view leadOf(std::string_view about);
 
 // The line that is meant; "": none.
 std::string lineOf(const VerifyDocument::Excerpt& excerpt);

@@ -41,7 +41,7 @@ Json differenceOf(const VerifyDocument::Difference& one) {
 }
 
 Json reasonOf(const VerifyDocument::Reason& one) {
-  Json out = {{"cases", one.cases}, {"why", one.why}};
+  Json out = {{"cases", one.cases}, {"edge", one.edge}, {"why", one.why}};
   add(out, "at", one.at);
   out["rejected"] = one.rejected;
   out["remedy"] = maybe(one.remedy);
@@ -50,7 +50,7 @@ Json reasonOf(const VerifyDocument::Reason& one) {
 }
 
 Json findingOf(const VerifyDocument::Finding& one) {
-  Json out = {{"severity", one.severity}, {"code", one.code}, {"message", one.message}};
+  Json out = {{"about", one.about}, {"severity", one.severity}, {"code", one.code}, {"message", one.message}};
   if (one.line != 0) {
     out["file"] = one.file;
     out["line"] = one.line;
@@ -72,6 +72,8 @@ std::string jsonOf(const VerifyDocument& d) {
   out["schema"] = 1;
   out["tool"] = {{"name", "dotek"}, {"version", d.version}};
   out["date"] = maybe(d.date);
+  out["remark"] = maybe(d.remark);
+  out["command"] = d.command;
   out["verdict"] = d.verdict;
   out["summary"] = d.summary;
   out["cases"] = {{"drawn", countsOf(d.cases)}, {"edge", countsOf(d.edges)}};

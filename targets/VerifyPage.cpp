@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <utility>
 
 namespace dotek::targets {
 
@@ -15,6 +16,22 @@ constexpr std::size_t kMost = 100'000; // characters of one text
 
 std::string text(std::string_view value) {
   return sim::xmlText(value, kMost);
+}
+
+// A message, with what is between backticks as code.
+std::string prose(std::string_view message) {
+  std::string out;
+  bool code = false;
+  for (std::size_t at = 0;;) {
+    const std::size_t end = message.find('`', at);
+    const bool opens =
+        end != std::string_view::npos && (code || message.find('`', end + 1) != std::string_view::npos);
+    out += text(message.substr(at, opens ? end - at : std::string_view::npos));
+    if (!opens) return out;
+    out += code ? "</code>" : "<code>";
+    code = !code;
+    at = end + 1;
+  }
 }
 
 class Page {
@@ -30,13 +47,16 @@ public:
     out_ += "<header><h1>" + text(title) + "</h1><p>Verification report<br>Dotek " + text(d_.version);
     if (!d_.date.empty()) out_ += "<br>" + text(d_.date);
     out_ += "</p></header>\n";
+    if (!d_.remark.empty()) out_ += "<p class=\"remark\">" + text(d_.remark) + "</p>\n";
     verdict();
     facts();
+    findings("form", "What the form assumes");
+    findings("translation", "What the translation changes or leaves open");
     files();
     cases();
     differences();
     undecided();
-    findings();
+    findings("cases", "Findings");
     picture();
     out_ +=
         "<p class=\"limits\">Agreement of drawn cases is evidence, no proof: what no case reached was not "
@@ -98,13 +118,14 @@ private:
   }
 
   void file(const VerifyDocument::File& file, std::string_view what) {
-    out_ +=
-        fmt::format("<tr><td>{}</td><td>{}</td><td class=\"number\">{}</td><td class=\"hash\">{}</td></tr>\n",
-                    what, text(file.name), file.bytes, text(file.sha256));
+    out_ += fmt::format("<tr><td>{}</td><td class=\"file\">{}</td><td class=\"number\">{}</td><td "
+                        "class=\"hash\">{}</td></tr>\n",
+                        what, text(file.name), file.bytes, text(file.sha256));
   }
 
   void files() {
-    out_ += "<h2>Files</h2>\n<table>\n<thead><tr><th>Side</th><th>File</th><th class=\"number\">Bytes</th>"
+    out_ += "<h2>Files</h2>\n<table class=\"files\">\n<thead><tr><th>Side</th><th>File</th><th "
+            "class=\"number\">Bytes</th>"
             "<th>SHA-256</th></tr></thead>\n";
     for (const VerifyDocument::File& one : d_.inputs)
       file(one, "source");
@@ -126,7 +147,12 @@ private:
     out_ += "</table>\n<p class=\"count\">";
     out_ += text(fmt::format("Seed {}. At least {} % of the drawn cases have to agree, and none may differ.",
                              d_.seed, numberText(d_.minAgreed)));
-    out_ += "</p>\n";
+    if (d_.edges.all > 0)
+      out_ +=
+          " Edge cases have values at and beyond the limits of the checks; one that is refused is stopped by "
+          "an alarm of the translation before anything moves.";
+    out_ +=
+        "</p>\n<p class=\"count\">The same report:</p><pre class=\"replay\">" + text(d_.command) + "</pre>\n";
   }
 
   void side(std::string_view name, const VerifyDocument::Excerpt& excerpt) {
@@ -148,7 +174,7 @@ private:
     for (const VerifyDocument::Difference& one : d_.differences) {
       out_ += fmt::format("<section class=\"difference{}\"><h3>{}. {}: {}</h3>\n", one.edge ? " edge" : "",
                           ++number, text(one.pair), text(one.aspect));
-      out_ += fmt::format("<p>{}. <span class=\"count\">In {} of {} {} cases.</span></p>\n", text(one.text),
+      out_ += fmt::format("<p>{}. <span class=\"count\">In {} of {} {} cases.</span></p>\n", prose(one.text),
                           one.cases, one.of, one.edge ? "edge" : "drawn");
       out_ += "<div class=\"sides\">";
       side("Source", one.source);
@@ -161,12 +187,12 @@ private:
 
   void undecided() {
     if (d_.undecided.empty()) return;
-    out_ += "<h2>Undecided cases</h2>\n<table>\n<thead><tr><th "
+    out_ += "<h2>Undecided cases</h2>\n<table class=\"reasons\">\n<thead><tr><th "
             "class=\"number\">Cases</th><th>Why</th><th>Where</th></tr>"
             "</thead>\n";
     for (const VerifyDocument::Reason& one : d_.undecided) {
-      std::string why = text(one.why);
-      if (!one.remedy.empty()) why += text("; " + one.remedy + " fixes what this check reads");
+      std::string why = (one.edge ? "at an edge: " : "") + prose(one.why);
+      if (!one.remedy.empty()) why += prose("; " + one.remedy + " fixes what this check reads");
       std::string where;
       if (one.at.line != 0) {
         const std::size_t at = one.at.line - one.at.first;
@@ -179,14 +205,21 @@ private:
     out_ += "</table>\n";
   }
 
-  void findings() {
-    if (d_.findings.empty()) return;
-    out_ += "<h2>Findings</h2>\n<ul>\n";
-    for (const VerifyDocument::Finding& one : d_.findings)
+  void findings(std::string_view about, std::string_view title) {
+    bool any = false;
+    for (const VerifyDocument::Finding& one : d_.findings) {
+      if (one.about != about) continue;
+      if (!std::exchange(any, true)) {
+        out_ += fmt::format("<h2>{}</h2>\n", title);
+        if (const std::string_view lead = leadOf(about); !lead.empty())
+          out_ += fmt::format("<p>{}</p>\n", lead);
+        out_ += "<ul>\n";
+      }
       out_ += fmt::format("<li>{}{}: {} <span class=\"count\">[{}]</span></li>\n",
-                          one.line == 0 ? "" : text(fmt::format("{}:{}: ", one.file, one.line)),
-                          text(one.severity), text(one.message), text(one.code));
-    out_ += "</ul>\n";
+                          one.line == 0 ? "" : text(fmt::format("{}, line {}: ", one.file, one.line)),
+                          text(one.severity), prose(one.message), text(one.code));
+    }
+    if (any) out_ += "</ul>\n";
   }
 
   void picture() {

@@ -25,6 +25,15 @@ std::string_view pairName(CaseFinding::Pair pair) {
   return "";
 }
 
+std::string quoted(const std::string& text) {
+  const bool plain = text.find_first_of(" '\"$&;()<>|*?\\") == std::string::npos;
+  return plain ? text : "'" + text + "'";
+}
+
+void addFlag(std::string& command, std::string_view name, const std::string& value) {
+  command += fmt::format(" {} {}", name, quoted(value));
+}
+
 bool before(const SourceRange& a, const SourceRange& b) {
   return std::pair(a.file, a.begin) < std::pair(b.file, b.begin);
 }
@@ -64,18 +73,13 @@ void VerifyReport::add(std::uint64_t number, bool edge, verify::Case drawn, Case
     if (ofPost) ++group.alone;
   }
   partsMade_ = partsMade_ || (options_.part && result.partMade);
-  if (edge) return;
-  if (result.unprotected) {
-    const auto [at, added] =
-        unprotected_.emplace(std::pair(result.unprotected->file, result.unprotected->begin),
-                             std::pair(*result.unprotected, result.spindleLater));
-    if (!added) at->second.second = at->second.second || result.spindleLater;
-  }
-  if (result.unarmed && (!unarmed_ || before(*result.unarmed, *unarmed_))) unarmed_ = result.unarmed;
-  if (result.verdict != CaseVerdict::Agrees && result.verdict != CaseVerdict::Differ) {
-    Idle& idle = idle_[{result.whyAt.file, result.whyAt.begin, result.why}];
+  const bool idles = edge ? result.verdict == CaseVerdict::NoProgram
+                          : result.verdict != CaseVerdict::Agrees && result.verdict != CaseVerdict::Differ;
+  if (idles) {
+    Idle& idle = idle_[{edge, result.whyAt.file, result.whyAt.begin, result.why}];
     if (idle.count == 0 || number < idle.first) {
       idle.first = number;
+      idle.edge = edge;
       idle.at = result.whyAt;
       idle.why = result.why;
       idle.drawn = drawn;
@@ -84,6 +88,14 @@ void VerifyReport::add(std::uint64_t number, bool edge, verify::Case drawn, Case
     ++idle.count;
     idle.rejected += result.rejected;
   }
+  if (edge) return;
+  if (result.unprotected) {
+    const auto [at, added] =
+        unprotected_.emplace(std::pair(result.unprotected->file, result.unprotected->begin),
+                             std::pair(*result.unprotected, result.spindleLater));
+    if (!added) at->second.second = at->second.second || result.spindleLater;
+  }
+  if (result.unarmed && (!unarmed_ || before(*result.unarmed, *unarmed_))) unarmed_ = result.unarmed;
   if (result.verdict == CaseVerdict::Agrees && (!agreeing_ || number < agreeing_->first))
     agreeing_.emplace(number, std::move(drawn));
 }
@@ -147,15 +159,9 @@ verify::Case VerifyReport::shrink(const Group& group) {
   return best;
 }
 
-std::string VerifyReport::replay(const verify::Case& drawn) const {
-  const auto quoted = [](const std::string& text) {
-    const bool plain = text.find_first_of(" '\"$&;()<>|*?\\") == std::string::npos;
-    return plain ? text : "'" + text + "'";
-  };
+std::string VerifyReport::command() const {
   std::string out = "dotek verify " + quoted(options_.inputs.front());
-  const auto flag = [&](std::string_view name, const std::string& value) {
-    out += fmt::format(" {} {}", name, quoted(value));
-  };
+  const auto flag = [&](std::string_view name, const std::string& value) { addFlag(out, name, value); };
   if (options_.source.prog) flag("--prog", *options_.source.prog);
   if (options_.source.form) flag("--form", *options_.source.form);
   if (options_.source.routine) flag("--routine", *options_.source.routine);
@@ -165,6 +171,7 @@ std::string VerifyReport::replay(const verify::Case& drawn) const {
   if (!options_.fromControl.empty()) flag("--from-control", options_.fromControl);
   if (options_.probeMacros) flag("--probe-macros", *options_.probeMacros);
   if (!options_.datum.empty()) flag("--datum", options_.datum);
+  if (options_.programNumber) flag("--program-number", std::to_string(*options_.programNumber));
   if (options_.common.job) flag("--job", *options_.common.job);
   if (options_.translation) flag("--translation", *options_.translation);
   if (options_.part) flag("--part", *options_.part);
@@ -176,6 +183,12 @@ std::string VerifyReport::replay(const verify::Case& drawn) const {
     flag("--field", field + "=" + variable);
   for (const std::string& folder : options_.common.data)
     flag("--data", folder);
+  return out;
+}
+
+std::string VerifyReport::replay(const verify::Case& drawn) const {
+  std::string out = command();
+  const auto flag = [&](std::string_view name, const std::string& value) { addFlag(out, name, value); };
   // What the user has fixed belongs to the translation; the values of the case do not.
   const Target* target = findTarget(options_.to);
   const bool writtenForCase = target != nullptr && target->fixesValues;
@@ -261,14 +274,34 @@ SourceRange VerifyReport::sourceOfLine(std::uint32_t line) const {
   return {};
 }
 
+// The command that makes the document, as far as others get the same report with it.
+std::string VerifyReport::wholeCommand() const {
+  std::string out = command();
+  const auto pairs = [&](std::string_view flag, const project::NamedTexts& given) {
+    for (const auto& [name, text] : given)
+      addFlag(out, flag, name + "=" + text);
+  };
+  pairs("--set", options_.common.set);
+  pairs("--host", options_.common.host);
+  pairs("--var", options_.variables);
+  const VerifyOptions usual;
+  if (options_.cases != usual.cases) addFlag(out, "--cases", std::to_string(options_.cases));
+  if (options_.seed != usual.seed) addFlag(out, "--seed", std::to_string(options_.seed));
+  if (options_.minAgreed != usual.minAgreed) addFlag(out, "--min-agreed", numberText(options_.minAgreed));
+  if (options_.tolerance != usual.tolerance) addFlag(out, "--tolerance", numberText(options_.tolerance));
+  return out;
+}
+
 void VerifyReport::tellIdle(const Idle& idle) {
-  Diagnostic& finding = told_.report<diag::VerifyIdle>(idle.at, idle.count, cases_.all(), idle.why);
+  Diagnostic& finding = idle.edge
+                            ? told_.report<diag::VerifyEdgeIdle>(idle.at, idle.count, edges_.all(), idle.why)
+                            : told_.report<diag::VerifyIdle>(idle.at, idle.count, cases_.all(), idle.why);
   if (idle.rejected > 0)
     finding.note(
         {}, fmt::format("this check rejected {} draws; {} fixes what it reads", idle.rejected, idle.remedy));
   const std::string command = replay(idle.drawn);
   finding.note({}, "the first: " + command);
-  document_.undecided.push_back({idle.count, idle.why, excerptOf(idle.at), idle.rejected,
+  document_.undecided.push_back({idle.edge, idle.count, idle.why, excerptOf(idle.at), idle.rejected,
                                  idle.rejected > 0 ? idle.remedy : "", command});
 }
 
@@ -334,9 +367,9 @@ std::string VerifyReport::finish() {
   // The most frequent reasons alone; a probe that is off has been reported.
   std::vector<const Idle*> reasons;
   for (const auto& [key, idle] : idle_)
-    if (!unarmed_ || idle.at != *unarmed_) reasons.push_back(&idle);
+    if (idle.edge || !unarmed_ || idle.at != *unarmed_) reasons.push_back(&idle);
   std::sort(reasons.begin(), reasons.end(), [](const Idle* a, const Idle* b) {
-    return std::pair(b->count, a->first) < std::pair(a->count, b->first);
+    return std::tuple(a->edge, b->count, a->first) < std::tuple(b->edge, a->count, b->first);
   });
   constexpr std::size_t kMostReasons = 5;
   for (std::size_t i = 0; i < std::min(reasons.size(), kMostReasons); ++i)
@@ -345,8 +378,11 @@ std::string VerifyReport::finish() {
   if (stated && static_cast<double>(cases_.agree) < options_.minAgreed / 100 * static_cast<double>(all))
     told_.report<diag::VerifyTooFew>({}, cases_.agree, all, numberText(options_.minAgreed));
   std::string out = verdict();
-  if (options_.format != ReportFormat::Text) describe();
-  if (options_.format != ReportFormat::Text) addPicture();
+  if (options_.format != ReportFormat::Text) {
+    addNotes();
+    describe();
+    addPicture();
+  }
   session.diagnostics() = std::move(told_);
   return out;
 }

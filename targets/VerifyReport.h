@@ -21,6 +21,8 @@ public:
   void addStopped(std::uint64_t number, Stopped stopped);
   // Reports the first of them to the runner's session; false: there is none.
   bool tellStopped();
+  // What the document says besides what the cases show. `edited`: the translation is not what convert writes.
+  void addSaid(std::vector<VerifyDocument::Finding> said, bool edited = false);
   // Reports to the runner's session, and gives the line of the verdict.
   std::string finish();
   // After finish(): the document of VerifyOptions::format; "" of the format Text.
@@ -36,6 +38,7 @@ private:
   };
   struct Idle {
     std::uint64_t count = 0, first = 0;
+    bool edge = false;
     SourceRange at;
     std::string why, remedy;
     std::uint64_t rejected = 0; // proposals, by the check
@@ -50,6 +53,8 @@ private:
   static Key keyOf(bool edge, const CaseFinding& finding);
   bool stillDiffers(const verify::Case& drawn, const CaseFinding& finding);
   verify::Case shrink(const Group& group);
+  std::string command() const; // as far as it says what is compared
+  std::string wholeCommand() const;
   std::string replay(const verify::Case& drawn) const;
   void tellDifference(const Group& group, std::uint64_t of);
   std::string verdict();
@@ -58,6 +63,8 @@ private:
   std::string pairText() const;
   void describe();
   void describeInputs();
+  const verify::Case* shown() const; // in the document; nullptr: none
+  void addNotes();
   void addPicture();
   void tellProbe();
   void tellPictures();
@@ -73,7 +80,7 @@ private:
   Counts cases_, edges_;
   VerifyDocument document_;
   std::map<Key, Group> groups_;
-  std::map<std::tuple<FileId, std::uint32_t, std::string>, Idle> idle_;
+  std::map<std::tuple<bool, FileId, std::uint32_t, std::string>, Idle> idle_; // edges apart
   std::map<std::pair<FileId, std::uint32_t>, std::pair<SourceRange, bool>> unprotected_;
   std::optional<SourceRange> unarmed_;
   std::optional<std::pair<std::uint64_t, verify::Case>> agreeing_; // the first

@@ -1,14 +1,17 @@
 // The report of verify as a document.
+#include "project/FormChoice.h"
 #include "support/Decimal.h"
 #include "support/Files.h"
 #include "support/Sha256.h"
 #include "support/Version.h"
+#include "support/messages/Commands.h"
 #include "targets/Target.h"
 #include "targets/VerifyReport.h"
 
 #include <algorithm>
 #include <filesystem>
 #include <fmt/format.h>
+#include <tuple>
 
 namespace dotek::targets {
 
@@ -26,7 +29,34 @@ VerifyDocument::File fileOf(const std::string& name, const std::string& bytes, c
   return {name, sha256(bytes), bytes.size()};
 }
 
+VerifyDocument::Finding findingOf(const Diagnostic& one, const SourceMap& sources, const char* about) {
+  VerifyDocument::Finding out{
+      about, std::string(severityName(one.severity)), std::string(one.code), one.message, "", 0};
+  if (!one.range.hasPlace()) return out;
+  out.file = sources.file(one.range.file).name();
+  out.line = sources.line(one.range);
+  return out;
+}
+
 } // namespace
+
+void addFindings(const Diagnostics& said, const SourceMap& sources,
+                 std::vector<VerifyDocument::Finding>& findings) {
+  for (const Diagnostic& one : said.all()) {
+    if (one.severity == Severity::Error || one.code == diag::WarningsLeftToLint::code) continue;
+    VerifyDocument::Finding finding = findingOf(one, sources, isAboutForm(one.code) ? "form" : "translation");
+    if (std::find(findings.begin(), findings.end(), finding) == findings.end())
+      findings.push_back(std::move(finding));
+  }
+}
+
+void VerifyReport::addSaid(std::vector<VerifyDocument::Finding> said, bool edited) {
+  document_.edited = edited;
+  document_.findings = std::move(said);
+  std::stable_sort(document_.findings.begin(), document_.findings.end(), [](const auto& a, const auto& b) {
+    return std::tie(a.about, a.file, a.line) < std::tie(b.about, b.file, b.line);
+  });
+}
 
 VerifyDocument::Excerpt VerifyReport::excerptOf(SourceRange range) {
   VerifyDocument::Excerpt out;
@@ -84,6 +114,8 @@ void VerifyReport::describe() {
   d.title = options_.inputs.front();
   d.version = kVersion;
   d.date = options_.date;
+  d.remark = options_.remark;
+  d.command = wholeCommand();
   d.pair = pairText();
   const Target* const target = findTarget(options_.to);
   if (!plan_.translation) {
@@ -104,7 +136,6 @@ void VerifyReport::describe() {
     d.target = options_.to;
     d.targetControl = sides.targetControl;
     d.targetMacros = plan_.targetMacros;
-    d.edited = options_.translation.has_value();
   }
   d.sourceMacros = plan_.sourceMacros;
   d.seed = options_.seed;
@@ -117,20 +148,34 @@ void VerifyReport::describe() {
   d.assumed.assign(options_.common.assume.begin(), options_.common.assume.end());
   describeInputs();
   for (const Diagnostic& one : told_.all()) {
-    if (one.code == "verify-differs" || one.code == "verify-path-differs" || one.code == "verify-idle")
+    if (one.code == "verify-differs" || one.code == "verify-path-differs" || one.code == "verify-idle" ||
+        one.code == "verify-edge-idle")
       continue;
-    const VerifyDocument::Excerpt at = excerptOf(one.range);
-    d.findings.push_back(
-        {std::string(severityName(one.severity)), std::string(one.code), one.message, at.file, at.line});
+    d.findings.push_back(findingOf(one, runner_.session().sources(), "cases"));
   }
 }
 
-void VerifyReport::addPicture() {
-  std::optional<verify::Case> shown;
+const verify::Case* VerifyReport::shown() const {
   for (const auto& [key, group] : groups_)
-    if (!shown && !group.edge) shown = group.drawn;
-  if (!shown && agreeing_) shown = agreeing_->second;
-  if (!shown) return;
+    if (!group.edge) return &group.drawn;
+  return agreeing_ ? &agreeing_->second : nullptr;
+}
+
+// A translation that is written for each case: what is said of the one that is shown.
+void VerifyReport::addNotes() {
+  const Target* const target = findTarget(options_.to);
+  if (target == nullptr || !target->fixesValues || options_.translation || shown() == nullptr) return;
+  Session& session = runner_.session();
+  session.diagnostics() = Diagnostics();
+  runner_.run(*shown());
+  std::vector<VerifyDocument::Finding> said = std::move(document_.findings);
+  addFindings(session.diagnostics(), session.sources(), said);
+  addSaid(std::move(said), document_.edited);
+}
+
+void VerifyReport::addPicture() {
+  const verify::Case* const shown = this->shown();
+  if (shown == nullptr) return;
   document_.picture = runner_.picture(*shown);
   document_.caption = groups_.empty() ? "The source on a case in which both sides agree: "
                                       : "The source on a case that differs: ";
@@ -138,6 +183,8 @@ void VerifyReport::addPicture() {
   for (const auto& [name, value] : shown->values)
     values += fmt::format("{}{}{} = {}", values.empty() ? "" : ", ", plan_.programs ? "#" : "", name,
                           numberText(value));
+  for (const auto& [name, value] : shown->hosts)
+    values += fmt::format("{}{} = {}", values.empty() ? "" : ", ", name, numberText(value));
   document_.caption += values.empty() ? "no values are drawn." : values + ".";
 }
 

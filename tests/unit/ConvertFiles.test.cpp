@@ -156,6 +156,63 @@ TEST_CASE("convert --keep-going --verify writes the inputs that agree") {
   CHECK(result.err.find("1 of 2 inputs converted; refused: `bad.nc`") != std::string::npos);
 }
 
+TEST_CASE("convert --verify --report writes what verify found, for each input") {
+  const Folder folder;
+  write(folder.path / "one.nc", "%\nO0066\nG90 G54\nG0 X1.5\n#500=2.\nM30\n%\n");
+  write(folder.path / "two.nc", "%\nO0067\nG90 G54\nG0 Y1.5\n#501=3.\nM30\n%\n");
+  const auto convert = [&](std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), "convert");
+    for (const char* one : {"--to", "fanuc", "--verify"})
+      arguments.emplace_back(one);
+    return runDotek(arguments, folder.path);
+  };
+  const CommandResult single =
+      convert({"one.nc", "-o", "new.nc", "--report", "page.html", "--date", "24 May"});
+  CHECK_MESSAGE(single.status == 0, single.err);
+  const std::string page = readAll(folder.path / "page.html");
+  CHECK(page.find("<strong>AGREES</strong>200 of 200") != std::string::npos);
+  CHECK(page.find("24 May") != std::string::npos);
+  CHECK(readAll(folder.path / "new.nc").starts_with("%\nO0066"));
+
+  const CommandResult several = convert({"one.nc", "two.nc", "-d", "out", "--report", "checks/of.json"});
+  CHECK(several.status == 2); // no folder is made for it
+  CHECK(!fs::exists(folder.path / "out"));
+  CHECK(convert({"one.nc", "two.nc", "-d", "out", "--report", "of.json"}).status == 0);
+  CHECK(readAll(folder.path / "of-one.json").find("\"name\": \"one.nc\"") != std::string::npos);
+  CHECK(readAll(folder.path / "of-two.json").find("\"name\": \"two.nc\"") != std::string::npos);
+  CHECK(!fs::exists(folder.path / "of.json"));
+
+  CHECK(convert({"one.nc", "-o", "new.nc", "--report", "one.nc"}).status == 2); // an input
+  CHECK(convert({"one.nc", "-o", "a.md", "--report", "a.md"}).status == 2);
+  CHECK(runDotek({"convert", "one.nc", "--to", "fanuc", "--report", "x.md"}, folder.path).status == 2);
+  CHECK(!fs::exists(folder.path / "x.md"));
+}
+
+TEST_CASE("convert --verify --report writes the report of what differs, and no program") {
+  const Folder folder;
+  // The macro draws X, the post prints the other sign.
+  std::string post = readAll(root() / "examples/post.txt");
+  const std::string touch = "X'OpFieldData#('X')";
+  REQUIRE(post.find(touch) != std::string::npos);
+  post.replace(post.find(touch), touch.size(), "X-'OpFieldData#('X')");
+  write(folder.path / "post.txt", post);
+  const CommandResult result = runDotek({"convert", example("surface-x"), "--prog", "post.txt", "--to",
+                                         "fanuc", "--verify", "-d", "out", "--report", "found.md"},
+                                        folder.path);
+  CHECK(result.status == 1);
+  CHECK(!fs::exists(folder.path / "out"));
+  const std::string report = readAll(folder.path / "found.md");
+  CHECK(report.find("**DIFFERS: 200 of 200") != std::string::npos);
+  CHECK(report.find("drawn path against post") != std::string::npos);
+  CHECK(report.find("[form-assumed]") != std::string::npos);
+  // Refused before anything was compared: no report.
+  CHECK(runDotek({"convert", example("surface-x"), "--prog", "post.txt", "--to", "fanuc", "--set", "X=99999",
+                  "--verify", "--report", "none.md"},
+                 folder.path)
+            .status == 1);
+  CHECK(!fs::exists(folder.path / "none.md"));
+}
+
 TEST_CASE("convert of a folder of programs says to name its files") {
   const Folder folder;
   write(folder.path / "macros/O9161", kSound);

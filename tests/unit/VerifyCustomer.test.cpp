@@ -205,4 +205,76 @@ TEST_CASE("verify: the document says the same in each format, and escapes what i
   CHECK(driver::verify(options).files.empty());
 }
 
+TEST_CASE("verify: the document says what the form only assumes and what the translation changes") {
+  const TestFolder folder("dotek-verify-customer");
+  driver::VerifyOptions options = cycle(folder.write("own.txt", postWith("", kTouch)), "fanuc");
+  options.source.form = "thesis-a";
+  options.cases = 20;
+  const auto report = [&](targets::ReportFormat format) {
+    options.format = format;
+    const driver::Outcome outcome = driver::verify(options);
+    REQUIRE(outcome.files.size() == 1);
+    return outcome.files.front().text;
+  };
+  const std::string json = report(targets::ReportFormat::Json);
+  const std::size_t assumed = json.find("\"about\": \"form\"");
+  REQUIRE(assumed != std::string::npos);
+  CHECK(json.find("\"code\": \"form-assumed\"", assumed) != std::string::npos);
+  CHECK(json.find("\"about\": \"translation\"") != std::string::npos);
+  CHECK(json.find("\"code\": \"message-cut\"") != std::string::npos);
+  CHECK(json.find("warnings-left-to-lint") == std::string::npos);
+  const std::string html = report(targets::ReportFormat::Html);
+  CHECK(html.find("<h2>What the form assumes</h2>") < html.find("<h2>Files</h2>"));
+  CHECK(html.find("<code>ZCP1</code>") != std::string::npos);
+  const std::string markdown = report(targets::ReportFormat::Markdown);
+  CHECK(markdown.find("\n## What the form assumes\n") != std::string::npos);
+  CHECK(markdown.find("\n## What the translation changes or leaves open\n") != std::string::npos);
+  // A text that was edited by hand is none that convert speaks of.
+  options.translation = folder.write("mine.nc", "(MINE)\n" + driver::convert([&] {
+                                                               driver::ConvertOptions convert;
+                                                               convert.inputs = options.inputs;
+                                                               convert.source = options.source;
+                                                               convert.to = "fanuc";
+                                                               return convert;
+                                                             }())
+                                                                 .output);
+  const std::string edited = report(targets::ReportFormat::Json);
+  CHECK(edited.find("\"about\": \"form\"") != std::string::npos);
+  CHECK(edited.find("\"about\": \"translation\"") == std::string::npos);
+}
+
+TEST_CASE("verify: undecided edge cases have a reason, and the document the command and the customer") {
+  driver::VerifyOptions options = cycle((root() / "examples/post.txt").string(), "fanuc");
+  options.source.form = "thesis-a";
+  options.cases = 1000;
+  options.remark = "Novak <s.r.o.>, order 4711";
+  options.programNumber = 8123;
+  options.format = targets::ReportFormat::Json;
+  const driver::Outcome outcome = driver::verify(options);
+  CHECK_MESSAGE(outcome.output.find(", 1 undecided") != std::string::npos, outcome.output);
+  CHECK_MESSAGE(told(outcome).find("verify-edge-idle: 1 of 100 edge cases are undecided: ") !=
+                    std::string::npos,
+                told(outcome));
+  REQUIRE(outcome.files.size() == 1);
+  const std::string& json = outcome.files.front().text;
+  CHECK(json.find("\"edge\": true") != std::string::npos);
+  CHECK(json.find("\"file\": \"O8123.nc\"") != std::string::npos);
+  CHECK(json.find("--to fanuc --program-number 8123") != std::string::npos);
+  options.cases = 20;
+  options.format = targets::ReportFormat::Html;
+  const std::string html = driver::verify(options).files.front().text;
+  CHECK(html.find("Novak &lt;s.r.o.&gt;, order 4711") != std::string::npos);
+  // What convert has written is not edited.
+  const TestFolder folder("dotek-verify-customer");
+  driver::ConvertOptions convert;
+  convert.inputs = options.inputs;
+  convert.source = options.source;
+  convert.to = "fanuc";
+  convert.programNumber = 8123;
+  options.translation = folder.write("O8123.nc", driver::convert(convert).output);
+  CHECK(driver::verify(options).files.front().text.find("translation, edited") == std::string::npos);
+  options.programNumber = 8124;
+  CHECK(driver::verify(options).files.front().text.find("translation, edited") != std::string::npos);
+}
+
 } // namespace dotek::tests
