@@ -65,7 +65,8 @@ std::vector<std::string> withoutRepeats(const std::vector<std::string>& paths) {
   std::vector<std::string> out;
   std::set<FileIdentity> seen;
   for (const std::string& path : paths) {
-    const auto identity = identify(path);
+    // Of an input `-` is standard input.
+    const auto identity = path == "-" ? identifyDescriptor(STDIN_FILENO) : identify(path);
     if (!identity || seen.insert(*identity).second) out.push_back(path);
   }
   return out;

@@ -29,7 +29,7 @@ int descriptorOf(const std::string& path);
 // again.
 std::string followed(const std::string& path);
 
-// Without those that name the same file or folder as one before.
+// Inputs without those that name the same file or folder as one before; `-` is standard input.
 std::vector<std::string> withoutRepeats(const std::vector<std::string>& paths);
 
 } // namespace dotek

@@ -90,6 +90,9 @@ private:
       const auto byte = static_cast<unsigned char>(text.front());
       if (text.size() == 1 && (byte < 0x20 || byte > 0x7E))
         return makeDiagnostic<diag::UnexpectedCharacter>(range, fmt::format("with code {}", int{byte}));
+      if (text == "\xC2\xA0")
+        return makeDiagnostic<diag::UnexpectedCharacter>(range,
+                                                         "no-break space (a copy from a web page or a PDF)");
       return makeDiagnostic<diag::UnexpectedCharacter>(range, fmt::format("`{}`", text));
     }
     return std::nullopt;

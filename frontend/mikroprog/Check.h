@@ -38,12 +38,16 @@ Findings subprogramsBeforeEnd(const Reading& reading);
 Findings subprogramsWithoutReturn(const Reading& reading);
 Findings strayReturns(const Reading& reading);
 
+// Loops and calls of which no path leads to an end, each once. The control takes them, so refuse() leaves them
+// out.
+Findings endlessLoops(const Reading& reading);
+
 // What follows from where the tool is.
 Findings impossibleArcs(const Reading& reading);
 Findings unequalQuarters(const Reading& reading);
 Findings threadsWithoutFeed(const Reading& reading);
 
-// All of the above as errors, each with the code of its rule.
+// The others of the above as errors, each with the code of its rule.
 void refuse(const Reading& reading, Diagnostics& diagnostics);
 
 } // namespace dotek::frontend::mikroprog

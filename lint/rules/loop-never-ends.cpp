@@ -1,3 +1,4 @@
+#include "ir/Evaluate.h"
 #include "ir/Walk.h"
 #include "lint/Probing.h"
 
@@ -12,18 +13,21 @@ void checkProgram(const ir::Program& program, Report& report) {
   const auto& body = program.body;
   for (std::size_t at = 0; at < body.size(); ++at) {
     const auto* loop = std::get_if<ir::Loop>(&body[at].node);
-    if (loop == nullptr || !loop->condition) continue;
+    if (loop == nullptr) continue;
     std::set<std::uint32_t> read;
     bool known = true;
-    ir::eachNode(loop->condition, [&](const ir::Expression& node) {
+    const auto note = [&](const ir::Expression& node) {
       if (!std::holds_alternative<ir::MachineVariable>(node.node)) return;
       const auto number = variableNumber(node);
       if (number && *number < kFirstSystem)
         read.insert(*number);
       else
         known = false;
-    });
-    if (!known || read.empty()) continue;
+    };
+    if (loop->condition) ir::eachNode(loop->condition, note);
+    // `WHILE[1EQ1]DO1`, or DO alone: meant to turn until something leads out.
+    const bool always = !loop->condition || ir::holds(*loop->condition, {}) == true;
+    if (!known || (read.empty() && !always)) continue;
     bool may = false; // something may change the condition, or lead out
     for (std::size_t i = at + 1; i < body.size() && !may; ++i) {
       const auto* end = std::get_if<ir::LoopEnd>(&body[i].node);
@@ -47,6 +51,12 @@ void checkProgram(const ir::Program& program, Report& report) {
               });
     }
     if (may) continue;
+    if (read.empty()) {
+      report.at(body[at].origin.range(),
+                "the loop turns for ever, and no jump, call, M code or alarm leads out of it; write the GOTO "
+                "that does, or a condition");
+      continue;
+    }
     report.at(body[at].origin.range(),
               "nothing in this loop changes what its condition looks at, #{}; once in it the "
               "control does not come out; count it in the loop",

@@ -174,6 +174,12 @@ TEST_CASE("reading: FIFOs, standard input and its names give what the file gives
     CHECK(run.status == 1);
     CHECK(run.out == renamed(expected, "bad.nc", name == "-" ? "<stdin>" : name));
   }
+  {
+    // Names of one stream are read once.
+    const StandardInput input(kBad);
+    CHECK(dotekIn(folder, {"lint", "-", "/dev/stdin", "/dev/fd/0"}).out ==
+          renamed(expected, "bad.nc", "<stdin>"));
+  }
   const std::vector<std::vector<std::string>> commands = {{"dump", "FILE"},
                                                           {"dump", "FILE", "--stage", "ir"},
                                                           {"sim", "FILE"},
