@@ -102,6 +102,45 @@ void addCorpus(std::vector<Case>& out, const std::string& dotek, const fs::path&
   }
 }
 
+// A program of so many moves: faces in rows.
+void writeRows(const fs::path& path, int moves) {
+  std::ofstream out(path);
+  out << "%\nO0001\nG90 G54 G0 X0 Y0 Z2.\nG1 Z0 F200.\n";
+  for (int i = 0; i < moves; ++i)
+    out << fmt::format("X{:.3f} Y{:.3f}\n", i % 2 == 0 ? 120.0 : 0.0, 80.0 * i / moves);
+  out << "G0 Z50.\nM30\n%\n";
+}
+
+// Pictures of a run: of a macro that touches a part five times, and of a long program without a part.
+void addPictures(std::vector<Case>& out, const std::string& dotek, const fs::path& scratch) {
+  const Command bore = {dotek,
+                        "sim",
+                        "examples/macros/bore.nc",
+                        "--call",
+                        "D30. Z-5. S55",
+                        "--part",
+                        "examples/macros/plate.toml",
+                        "--machine",
+                        "examples/macros/mill.toml",
+                        "--at",
+                        "30,40,10",
+                        "--var",
+                        "520=5.97",
+                        "--quiet"};
+  writeRows(scratch / "rows.nc", 100'000);
+  const Command rows = {dotek, "sim", (scratch / "rows.nc").string(), "--quiet"};
+  const auto add = [&](const std::string& name, Command command, const char* flag, double most) {
+    command.emplace_back(flag);
+    command.push_back((scratch / "picture").string() + (std::string(flag) == "--svg" ? ".svg" : ".html"));
+    out.push_back({name, std::move(command), {0}, most, {}});
+  };
+  out.push_back({"sim, macro with a part", bore, {0}, {}, {}});
+  add("sim --svg, the same", bore, "--svg", 60);
+  add("sim --html, the same", bore, "--html", 250);
+  add("sim --svg, 100,000 moves", rows, "--svg", 1000);
+  add("sim --html, 100,000 moves", rows, "--html", 1500);
+}
+
 std::vector<Case> cases(const std::string& dotek, const std::string& corpus, const fs::path& scratch) {
   std::vector<Case> out;
   out.push_back({"list limits (nothing parsed)", {dotek, "list", "limits"}, {0}, {}, {}});
@@ -125,6 +164,7 @@ std::vector<Case> cases(const std::string& dotek, const std::string& corpus, con
       {"lint, Prog of 4,000 lines", {dotek, "lint", (scratch / "long-post.txt").string()}, {0, 1}, 60, {}});
   out.push_back(
       {"lint, macro of 4,000 lines", {dotek, "lint", (scratch / "long.mac").string()}, {0, 1}, {}, {}});
+  addPictures(out, dotek, scratch);
   return out;
 }
 
