@@ -83,7 +83,7 @@ sim::Setup setupOf(const Raw& raw) {
   if (!raw.diameter.empty()) out.ballDiameter = numberOf("--diameter", raw.diameter, 0, 0.01, 100);
   for (const std::string& text : raw.workOffsets) {
     const auto [name, place] = splitPair("--work-offset", text);
-    const auto system = sim::systemByName(name);
+    const auto system = stdlib::systemByName(name);
     if (!system)
       throw UsageError("--work-offset takes G54 to G59, not `" + name +
                        "`; `--var N=VALUE` sets the variables of others");

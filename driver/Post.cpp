@@ -104,7 +104,7 @@ bool PostCommand::load() {
 }
 
 std::vector<JobOperation> PostCommand::operations() {
-  if (inputs_->job) return inputs_->job->operations;
+  if (inputs_->job && !inputs_->job->operations.empty()) return inputs_->job->operations;
   std::vector<JobOperation> out;
   for (const CycleFolder& folder : compilation_.folders()) {
     JobOperation one;

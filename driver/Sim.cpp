@@ -12,6 +12,7 @@
 #include "sim/machine/Run.h"
 #include "sim/mikroprog/Dialect.h"
 #include "sim/run/Advice.h"
+#include "sim/run/SafeMoves.h"
 #include "sim/run/SetupRun.h"
 #include "sim/run/SimMacros.h"
 #include "sim/run/SimReport.h"
@@ -23,7 +24,9 @@
 #include "support/messages/Commands.h"
 #include "support/messages/Common.h"
 
+#include <set>
 #include <span>
+#include <utility>
 
 namespace dotek::driver {
 namespace {
@@ -53,7 +56,9 @@ public:
         kept ? std::make_unique<LineChunks>(*kept) : LineChunks::open(options_.program, diagnostics());
     if (!chunks || diagnostics().hasErrors()) return outcomeOf(session_, "");
     sim::Machine machine(*control_);
-    if (!setVariables(machine) || !world_->prepare(machine)) return outcomeOf(session_, "");
+    // Flags that set a variable go before what the setup says of it, and it may ask for one of them.
+    if (!setVariables(machine) || !world_->prepare(machine) || !setVariables(machine))
+      return outcomeOf(session_, "");
     if (!options_.programs.empty() || !world_->setup().call.empty() || frontend::nc::mayHoldMacros(*chunks))
       return runLoaded(kept, machine);
     chunks->rewind();
@@ -124,11 +129,20 @@ private:
     world_->setReader([&](std::uint32_t program, std::span<const double> locals) {
       return macros->foundBy(program, locals, machine);
     });
+    safe_ = sim::safeMoves(library->programs(), *control_);
+    if (sim::mayWriteOffsets(library->programs(), *control_)) world_->keepOffsets();
     const std::string advice = world_->setup().call.empty()
                                    ? sim::callAdvice(*library->programs().front(), options_.part.has_value())
                                    : "";
     return runCode(sim::compile(library->programs(), *control_, session_.sources()), machine, macros.get(),
                    advice);
+  }
+
+  void noSetup(const std::string& what) {
+    diagnostics().report<diag::OptionOfMacroB>({}, what).note(
+        {},
+        "its run begins at the zero of the machine, in the active system: `[place]` of the part's file puts "
+        "the part there, and `length = 0` of [probe] counts positions at the tip");
   }
 
   // A program of Mikroprog; what lint finds an error in is not run.
@@ -137,12 +151,13 @@ private:
     if (!options_.programs.empty()) diagnostics().report<diag::OptionOfMacroB>({}, "--programs");
     if (options_.probeMacros) diagnostics().report<diag::OptionOfMacroB>({}, "--probe-macros");
     if (options_.common.job) diagnostics().report<diag::OptionOfMacroB>({}, "--job");
-    if (const std::string_view flag = options_.setup.firstFlag(); !flag.empty())
-      diagnostics().report<diag::OptionOfMacroB>({}, flag);
+    if (const std::string_view flag = options_.setup.firstFlag(); !flag.empty()) noSetup(std::string(flag));
     if (diagnostics().hasErrors()) return outcomeOf(session_, "");
     const std::optional<SufProgram> suf = loadSuf(options_.program, options_.control, session_);
     if (suf) world_ = sim::SimWorld::load(options_, session_);
-    if (!world_) return outcomeOf(session_, "");
+    if (world_ && !world_->setup().firstFlag().empty())
+      noSetup("[setup] of " + options_.machine.value_or(""));
+    if (!world_ || diagnostics().hasErrors()) return outcomeOf(session_, "");
     const sim::mikroprog::Profile profile(suf->control);
     sim::Machine machine(profile.machine, profile.dialect);
     return runCode(sim::mikroprog::compile(suf->program, profile, session_.sources()), machine, nullptr, "");
@@ -155,12 +170,16 @@ private:
     if (options_.trace) machine.setTrace(&trace.emplace(options_.trace));
     sim::Run run(machine, code, session_.limits(), macros);
     world_->setPlace([&run] { return sim::RunPlace{run.place(), run.openCalls(), run.program()}; });
+    world_->setSafeMove([this, &run] {
+      const SourceRange range = run.place();
+      return safe_.contains({range.file, range.begin});
+    });
     world_->attach(machine);
     run.run();
     machine.setTrace(nullptr);
     if (trace) sim::traceVariables(machine, *trace);
     trace.reset();
-    sim::reportRun(run, machine, advice, session_);
+    sim::reportRun(run, machine, advice, options_.programs, session_);
     // A datum by G92 is what a program of Mikroprog is for.
     if (!machine.dialect().firstParameter) sim::reportShifts(machine, run.place(), session_);
     return finish(machine, &run);
@@ -226,6 +245,7 @@ private:
   Session& session_;
   std::optional<stdlib::Control> control_;
   std::unique_ptr<sim::SimWorld> world_;
+  std::set<std::pair<FileId, std::uint32_t>> safe_; // skip moves to a position
 };
 
 } // namespace

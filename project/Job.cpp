@@ -109,14 +109,10 @@ std::optional<Job> loadJob(const std::string& path, Session& session) {
   readRoutine(routines, "end", job.endRoutine, job.endRange);
   readHosts(*document, root.value("host").table(), job.hosts);
   readTool(*document, root.value("tool").table(), job);
-  // What an operator sets is for sim, which reads it by itself.
-  for (const TomlEntry& entry : root.value("setup").table().entries())
-    for (const TomlValue& item :
-         entry.value.isArray() ? entry.value.items() : std::vector<TomlValue>{entry.value})
-      if (item.isTable()) (void)item.table().entries();
+  job.setup = stdlib::readSetup(*document, root.value("setup").table());
   for (const TomlTable& operation : root.value("operation").tables())
     job.operations.push_back(readOperation(*document, operation));
-  if (job.operations.empty())
+  if (job.operations.empty() && !root.has("setup"))
     document->fail({*id, 0, 0}, "the job has no operation; write operation = [{ cycle = \"...\" }]");
   if (!document->finish()) return std::nullopt;
   return job;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "project/Session.h"
+#include "stdlib/Setup.h"
 #include "support/Source.h"
 
 #include <map>
@@ -37,6 +38,7 @@ struct Job {
   std::map<std::string, double> hosts; // [host] and [tool]
   bool lengthToCentre = false;         // `length_to` of [tool]
   std::vector<JobOperation> operations;
+  stdlib::Setup setup; // what an operator sets: for sim
 };
 
 // nullopt where the file cannot be read or has an error: reported.

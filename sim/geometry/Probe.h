@@ -2,7 +2,7 @@
 #pragma once
 
 #include "sim/geometry/Devices.h"
-#include "sim/geometry/Setup.h"
+#include "stdlib/Setup.h"
 #include "support/Diagnostics.h"
 #include "support/Limits.h"
 
@@ -42,7 +42,7 @@ struct MachineFile {
   std::array<double, 3> start{}; // where X, Y, Z are before the program, in coordinates of the machine
   MachineLimits limits;
   Probe probe;
-  Setup setup;
+  stdlib::Setup setup;
   Devices devices;
 };
 

@@ -237,8 +237,15 @@ bool Machine::readCodes(const NcWords& w) {
     switch (code.function) {
     case Function::Other: return inconclusive("what it does here is not known to Dotek", 'G', i);
     case Function::MirrorOn:
+      return inconclusive("Dotek does not follow a mirror image; write the mirrored points for a run here",
+                          'G', i);
     case Function::PolarOn:
-    case Function::ScalingOn: return inconclusive("Dotek does not follow transformed coordinates", 'G', i);
+      return inconclusive("Dotek does not follow polar coordinates, in which the words after it are a radius "
+                          "and an angle; write the points in X, Y, Z for a run here",
+                          'G', i);
+    case Function::ScalingOn:
+      return inconclusive("Dotek does not follow scaled coordinates; write the scaled points for a run here",
+                          'G', i);
     case Function::SurfaceSpeedOn:
       return inconclusive("Dotek does not follow a spindle that turns with the position", 'G', i);
     default: break;

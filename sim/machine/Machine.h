@@ -233,7 +233,10 @@ public:
 
 private:
   bool stop(Ending ending); // false
-  bool motionKnown();       // false: the run has ended
+  // Axes whose position is lost by this code, which runs now.
+  void lose(std::uint32_t axes, std::string_view code);
+  std::string lostText(std::uint32_t axes) const; // which of them, since when and what settles it
+  bool motionKnown();                             // false: the run has ended
   bool feedKnown();
   bool executeLong(const ir::NcWords& words);
   bool runBlock(const ir::NcWords& words);
@@ -250,6 +253,7 @@ private:
   bool dataInput(const ir::NcWords& words);
   bool localShift(const ir::NcWords& words);
   bool setPosition(const ir::NcWords& words);
+  bool limitsSpindle(const ir::NcWords& words) const; // its S is no speed, but the limit of G92 S
   bool rotationOn(const ir::NcWords& words);
   void rotationOff();
   std::optional<double> rotationAngle(const ir::NcWords& words);
@@ -363,6 +367,8 @@ private:
   // may have been cancelled by a reference return.
   Position at_{};
   std::uint32_t lost_ = 0;
+  std::string_view lostBy_; // the last code that took positions away, and its line
+  std::uint64_t lostLine_ = 0;
   bool lengthInDoubt_ = false;
   std::vector<Frame> stack_;
   RunEnd end_;

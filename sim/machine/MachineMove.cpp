@@ -19,6 +19,28 @@ void Machine::traceMove(std::string_view action, const Position& end, bool feed)
   trace_->end();
 }
 
+void Machine::lose(std::uint32_t axes, std::string_view code) {
+  uncertain_ |= axes;
+  lostBy_ = code;
+  lostLine_ = stack_.back().line;
+}
+
+std::string Machine::lostText(std::uint32_t axes) const {
+  if (lostBy_.empty()) return "";
+  std::string letters;
+  for (std::size_t i = 0; i < kAxes; ++i)
+    if ((axes & uncertain_ & 1u << i) != 0)
+      letters += fmt::format("{}{}", letters.empty() ? "" : ", ", kAxisLetters[i]);
+  return fmt::format(
+      ": {} is lost since `{}`{}: {}; an absolute {} under `G90` before this block settles it{}", letters,
+      lostBy_, lostLine_ == 0 ? "" : fmt::format(" in line {}", lostLine_),
+      lostBy_ == "G30" ? "the second reference point is not known"
+      : lostBy_.starts_with("G4")
+          ? "whether the axis moves by the tool's length at once depends on a parameter"
+          : "whether the tool's length stays in force there depends on a parameter",
+      letters, lostBy_ == "G53" || lostBy_ == "G28" ? ", or `G49` before that one" : "");
+}
+
 bool Machine::target(const NcWords& w, Position& end) {
   end = work_;
   const bool incremental = modes_[kDistance] != 0;
@@ -27,7 +49,7 @@ bool Machine::target(const NcWords& w, Position& end) {
     if (!has(w, i)) continue;
     const char letter = kAxisLetters[i];
     if (incremental && (uncertain_ >> i & 1) != 0)
-      return inconclusive("the position of this axis is not known", letter);
+      return inconclusive("the position of this axis is not known" + lostText(1u << i), letter);
     const double value = lengthOf(w, letter);
     if (!(std::abs(w.of(letter)) < widest_)) return raise(Alarm::TooManyDigits, letter);
     end[i] = incremental ? snap(work_[i] + value) : value;
@@ -156,7 +178,7 @@ bool Machine::machineMove(const NcWords& w) {
     shown_ |= 1u << i;
     uncertain_ &= ~(1u << i);
     // Whether the tool's length stays in force depends on a parameter.
-    if (i == 2 && toolLength_ != 0) uncertain_ |= 1u << 2;
+    if (i == 2 && toolLength_ != 0) lose(1u << 2, "G53");
   }
   movedInMachine(axisNumbers(w.present & kAxisBits));
   if (trace_ != nullptr)
@@ -209,7 +231,7 @@ bool Machine::reference(const NcWords& w, bool first) {
     if (!has(w, i)) continue;
     work_[i] = snap(-offset_[i] - (i == 2 ? toolLength_ : 0));
     // Whether the tool's length stays in force depends on a parameter.
-    if (!first || (i == 2 && toolLength_ != 0)) uncertain_ |= 1u << i;
+    if (!first || (i == 2 && toolLength_ != 0)) lose(1u << i, first ? "G28" : "G30");
   }
   movedInMachine(axisNumbers(w.present & kAxisBits));
   if (trace_ != nullptr) {
@@ -231,7 +253,7 @@ bool Machine::skipMove(const NcWords& w) {
   if ((w.present & kAxisBits) == 0) return true;
   if (modes_[kCanned] != 0 || modes_[kComp] != 0)
     return inconclusive("a skip move within a canned cycle or under cutter compensation", 'G');
-  if (uncertain_ != 0) return inconclusive("where the move begins is not known", 'G');
+  if (uncertain_ != 0) return inconclusive("where the move begins is not known" + lostText(uncertain_), 'G');
   const bool feeds = !dialect_.skipsAtOwnSpeed;
   Position end;
   if (!target(w, end) || (feeds && !feedKnown())) return false;
@@ -298,6 +320,8 @@ bool Machine::cannedCycle(const NcWords& w) {
   const bool incremental = modes_[kDistance] != 0;
   Position hole;
   const double level = work_[depth];
+  const std::uint32_t unknown = uncertain_, shown = shown_;
+  const Rotation turned = rotation_;
   if (!target(w, hole) || !feedKnown()) return false;
   if (!(feed_ > 0)) return raise(Alarm::NoFeed);
   if (w.has('R')) {
@@ -313,6 +337,13 @@ bool Machine::cannedCycle(const NcWords& w) {
   if (!hasDepth_) return inconclusive("a canned cycle without a depth", 'G');
   double repeats = 1;
   if (control_.repeatLetter != 0 && w.has(control_.repeatLetter)) repeats = w.of(control_.repeatLetter);
+  if (repeats == 0) { // R, depth and feed are kept, and nothing moves
+    uncertain_ = unknown;
+    shown_ = shown;
+    rotation_ = turned;
+    moved_ = false;
+    return true;
+  }
   if (!(repeats >= 1 && repeats <= 9999) || repeats != std::floor(repeats))
     return inconclusive("how the cycle repeats is not known", control_.repeatLetter);
   if (modes_[kCanned] == 2 && modes_[kReturn] != 0)

@@ -51,8 +51,9 @@ double Machine::lengthOf(const NcWords& w, char letter) const {
 }
 
 bool Machine::settings(const NcWords& w) {
+  const bool limitsSpeed = limitsSpindle(w);
   for (const char letter : {'B', 'D', 'H', 'T', 'S'})
-    if (w.has(letter)) modalWords_[slotOf(letter)] = w.of(letter);
+    if (w.has(letter) && !(letter == 'S' && limitsSpeed)) modalWords_[slotOf(letter)] = w.of(letter);
   if (w.has('F')) {
     const bool bare =
         control_.decimal == stdlib::DecimalMode::Increment && (w.pointed & ir::addressBit('F')) == 0;
@@ -64,7 +65,7 @@ bool Machine::settings(const NcWords& w) {
   }
   if (w.has('S')) {
     if (!(w.of('S') >= 0)) return inconclusive("a speed is not below 0", 'S');
-    speed_ = w.of('S');
+    if (!limitsSpeed) speed_ = w.of('S');
   }
   if (w.has('T')) {
     const std::optional<std::uint32_t> tool = whole(w, 'T');
@@ -82,7 +83,7 @@ bool Machine::settings(const NcWords& w) {
 }
 
 bool Machine::miscellaneous(const NcWords& w) {
-  bool spindle = w.has('S');
+  bool spindle = w.has('S') && !limitsSpindle(w);
   for (std::uint32_t i = 0; i < w.mCount; ++i) {
     modalWords_[slotOf('M')] = w.m[i];
     std::string_view action, state;
@@ -204,7 +205,7 @@ bool Machine::changeToolLength(const NcWords& w) {
   // Whether the machine or its coordinates move by the difference depends on a parameter; the next absolute Z
   // settles it.
   const bool changed = length != toolLength_ || modes_[kLength] != block_.before[kLength];
-  if (length != toolLength_) uncertain_ |= 1u << 2;
+  if (length != toolLength_) lose(1u << 2, modes_[kLength] != 0 ? "G43" : "G49");
   toolLength_ = length;
   lengthInDoubt_ = false;
   if (trace_ != nullptr && changed) {
@@ -295,9 +296,20 @@ bool Machine::localShift(const NcWords& w) {
   return true;
 }
 
+bool Machine::limitsSpindle(const NcWords& w) const {
+  return w.has('S') && block_.hasOneShot && block_.oneShot == Function::SetPosition;
+}
+
+// G92, and G92 S: the highest speed of the spindle under constant surface speed, which sets no coordinate.
 bool Machine::setPosition(const NcWords& w) {
+  if (w.has('S')) {
+    if ((w.present & kAxisBits) != 0)
+      return inconclusive("a limit of the spindle's speed and coordinates in one block; write two blocks",
+                          'S');
+    if (trace_ != nullptr) trace_->begin("spindle-limit").word("S", w.of('S')).end();
+    return true;
+  }
   if (rotation_.on()) return refuseTurned("G92");
-  if (w.has('S')) return inconclusive("a limit of the spindle's speed is not known to Dotek", 'S');
   const Position& system = systemOffset();
   for (std::size_t i = 0; i < kAxes; ++i) {
     if (!has(w, i)) continue;

@@ -80,6 +80,8 @@ public:
   const Part& part() const { return part_; }
   // Of the ball, or of a tool's end, where the machine is at `position`.
   Point3 centreAt(const Position& position) const;
+  // In the spindle; nullptr: the probe is.
+  const CuttingTool* cuttingTool() const { return devices_.find(tool_); }
 
 private:
   std::optional<Touch> touchOf(double radius, const Point3& from, const Point3& to) const;
@@ -87,9 +89,6 @@ private:
     Outcome outcome;
     double share;
   };
-  const CuttingTool* cuttingTool() const {
-    return devices_.find(tool_);
-  } // nullptr: the probe is in the spindle
   bool isUnknownTool() const;
   std::optional<SetterTouch> setterTouch(const Point3& from, const Point3& to) const;
   std::optional<double> toolContact(const SkipMove& move);

@@ -1,5 +1,7 @@
 #include "sim/picture/Picture.h"
 
+#include "sim/picture/PictureRegion.h"
+
 namespace dotek::sim {
 
 std::string_view pathKindName(PathKind kind) {
@@ -17,6 +19,12 @@ std::optional<std::size_t> blockOf(const Picture& picture, const PictureError& e
                             : error.move < picture.moves.size() ? picture.moves[error.move].block
                                                                 : picture.blocks.size();
   return block < picture.blocks.size() ? std::optional(block) : std::nullopt;
+}
+
+double reachAt(const Picture& picture, std::size_t move) {
+  const std::size_t tool = move < picture.moves.size() ? picture.moves[move].tool : 0;
+  if (tool > 0 && tool <= picture.tools.size()) return picture.tools[tool - 1].length;
+  return hasProbe(picture) ? picture.probe.centreLength() : 0;
 }
 
 } // namespace dotek::sim

@@ -1,5 +1,5 @@
 // What `--svg` and `--html` draw of a run: the part, the path of the probe, what it touched, what went wrong.
-// Points are of the machine; those of moves and errors are the ball's centre.
+// Points are of the machine; those of moves and errors are the ball's centre, of another tool its end.
 #pragma once
 
 #include "sim/geometry/Devices.h"
@@ -30,6 +30,7 @@ struct PictureMove {
   bool probeOn = true;
   std::size_t block = 0; // place in Picture::blocks
   std::size_t frame = 0; // place in Picture::frames; beyond its end: the coordinates are not known
+  std::size_t tool = 0;  // in the spindle: place in Picture::tools, from 1; 0: the probe
 };
 
 // The work coordinates that a control showed during some moves. Those of a place are the position of the
@@ -88,6 +89,7 @@ struct Picture {
   // those of the spindle's gauge line.
   Probe probe;
   std::optional<ToolSetter> setter; // of the machine
+  std::vector<CuttingTool> tools;   // that were in the spindle, the probe aside
   std::vector<PictureMove> moves;   // in the order of the run
   std::vector<PictureContact> contacts;
   std::vector<PictureError> errors;
@@ -98,6 +100,10 @@ struct Picture {
   std::string date;                    // as the user gives it, UTF-8; "": none
   int decimals = 3;                    // of coordinates, as the control shows them
 };
+
+// From the point of a move up to the gauge line: of the probe's ball, or of the tool that is in the spindle;
+// 0 without either.
+double reachAt(const Picture& picture, std::size_t move);
 
 // The place in Picture::blocks at which an error happened; nothing: it is not known.
 std::optional<std::size_t> blockOf(const Picture& picture, const PictureError& error);

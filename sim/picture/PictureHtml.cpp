@@ -155,12 +155,19 @@ private:
                              number(size(probe.stemLength)), number(size(probe.bodyDiameter) / 2),
                              number(size(probe.bodyLength)),
                              number(std::isfinite(probe.centreLength()) ? probe.centreLength() : 0));
+    out += "\"tools\":[";
+    for (std::size_t i = 0; i < picture_.tools.size(); ++i)
+      out +=
+          fmt::format("{}[{},{},{}]", i == 0 ? "" : ",", picture_.tools[i].number,
+                      number(size(picture_.tools[i].length)), number(size(picture_.tools[i].diameter / 2)));
+    out += "],\n";
     out += picture_.setter && isDrawn(picture_.setter->at)
                ? fmt::format("\"setter\":{{\"at\":[{}],\"radius\":{}}},\n", numbers(picture_.setter->at),
                              number(size(picture_.setter->diameter / 2)))
                : "\"setter\":null,\n";
     way(out);
     frames(out);
+    spindle(out);
     marks(out);
     out += "\"blocks\":[";
     for (std::size_t i = 0; i < picture_.blocks.size() && i < kMostBlocks; ++i)
@@ -193,6 +200,22 @@ private:
     out += '[';
     for (std::size_t i = 0; i < chosen_.size(); ++i)
       out += fmt::format("{}{}", i == 0 ? "" : ",", chosen_[i]);
+    out += "],\n";
+  }
+
+  // Tools beside the probe: of moves in a row the first, their number, and the tool's place.
+  void spindle(std::string& out) const {
+    out += "\"spindle\":[";
+    const auto toolAt = [&](std::size_t i) { return picture_.moves[chosen_[i]].tool; };
+    const std::size_t begin = out.size();
+    for (std::size_t i = 0; i < chosen_.size();) {
+      std::size_t end = i + 1;
+      while (end < chosen_.size() && toolAt(end) == toolAt(i))
+        ++end;
+      if (toolAt(i) > 0 && toolAt(i) <= picture_.tools.size())
+        out += fmt::format("{}[{},{},{}]", out.size() == begin ? "" : ",", i, end - i, toolAt(i) - 1);
+      i = end;
+    }
     out += "],\n";
   }
 

@@ -3,6 +3,7 @@
 #include "sim/machine/Axes.h"
 #include "sim/machine/EndText.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -45,6 +46,17 @@ std::size_t PictureRecorder::frameNow() {
   return picture_.frames.size() - 1;
 }
 
+std::size_t PictureRecorder::toolNow() {
+  const CuttingTool* const tool = world_ == nullptr ? nullptr : world_->cuttingTool();
+  if (tool == nullptr) return 0;
+  std::vector<CuttingTool>& tools = picture_.tools;
+  const auto found = std::find_if(tools.begin(), tools.end(),
+                                  [&](const CuttingTool& one) { return one.number == tool->number; });
+  const auto place = static_cast<std::size_t>(found - tools.begin());
+  if (found == tools.end()) tools.push_back(*tool);
+  return place + 1;
+}
+
 PathKind PictureRecorder::kindOf(MotionKind kind) const {
   switch (kind) {
   case MotionKind::Rapid: return PathKind::Rapid;
@@ -54,7 +66,7 @@ PathKind PictureRecorder::kindOf(MotionKind kind) const {
   // The innermost call that has a say.
   for (auto call = calls_.rbegin(); call != calls_.rend(); ++call)
     if (*call) return **call;
-  return PathKind::Measuring;
+  return safe_ && safe_() ? PathKind::Protected : PathKind::Measuring;
 }
 
 // The events of the world from the `from`-th on belong to this move.
@@ -94,8 +106,8 @@ void PictureRecorder::moved(const MachineMotion& motion) {
     const auto centre = [&](const Position& at) {
       return world_ != nullptr ? world_->centreAt(at) : Point3{at[0], at[1], at[2]};
     };
-    picture_.moves.push_back(
-        {kindOf(motion.kind), centre(motion.from), centre(motion.to), on_, placeOf(block_()), frameNow()});
+    picture_.moves.push_back({kindOf(motion.kind), centre(motion.from), centre(motion.to), on_,
+                              placeOf(block_()), frameNow(), toolNow()});
   }
   if (world_ == nullptr) return;
   const std::size_t before = world_->events().size();

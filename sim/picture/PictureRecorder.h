@@ -38,7 +38,8 @@ public:
   // comes, and the moves are those of the spindle's gauge line.
   PictureRecorder(Picture empty, World* world, CallKind callKind, BlockNow blockNow);
 
-  void setFrame(FrameNow frame) { frame_ = std::move(frame); } // without it they are not known
+  void setFrame(FrameNow frame) { frame_ = std::move(frame); }              // without it they are not known
+  void setSafeMove(std::function<bool()> safe) { safe_ = std::move(safe); } // the skip move that runs is one
   // After the run: what stopped it is an error at the end of the path, and the picture has its banner.
   void finish(const RunFacts& facts, std::vector<PictureMeasured> measured = {});
 
@@ -56,6 +57,7 @@ private:
   void addEvents(std::size_t from, std::size_t move);
   std::size_t placeOf(PictureBlock block); // in Picture::blocks
   std::size_t frameNow();
+  std::size_t toolNow(); // in Picture::tools, from 1; 0: the probe
   PathKind kindOf(MotionKind kind) const;
 
   Picture picture_;
@@ -63,6 +65,7 @@ private:
   CallKind callKind_;
   BlockNow block_;
   FrameNow frame_;
+  std::function<bool()> safe_;
   std::map<std::string, std::size_t> places_;  // of blocks
   std::vector<std::optional<PathKind>> calls_; // that are open
   bool on_;

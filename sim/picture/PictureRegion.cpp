@@ -263,9 +263,16 @@ std::optional<WorkZero> workZeroOf(const Picture& picture) {
     if (move.frame < moves.size()) moves[move.frame] += move.kind == PathKind::Rapid ? 1 : 1000;
   const auto most = std::max_element(moves.begin(), moves.end());
   if (most == moves.end() || *most == 0) return std::nullopt;
-  const PictureFrame& frame = picture.frames[static_cast<std::size_t>(most - moves.begin())];
+  const auto place = static_cast<std::size_t>(most - moves.begin());
+  const PictureFrame& frame = picture.frames[place];
+  // The shift holds the length of the tool that was in the spindle.
+  const auto move =
+      static_cast<std::size_t>(std::find_if(picture.moves.begin(), picture.moves.end(),
+                                            [&](const PictureMove& one) { return one.frame == place; }) -
+                               picture.moves.begin());
   Point3 at = frame.shift;
-  if (hasProbe(picture)) at.z -= picture.probe.centreLength() + picture.probe.ballRadius();
+  at.z -= reachAt(picture, move);
+  if (hasProbe(picture) && picture.moves[move].tool == 0) at.z -= picture.probe.ballRadius();
   if (!isDrawn(at)) return std::nullopt;
   return WorkZero{frame.name, at};
 }

@@ -75,7 +75,7 @@ std::string placeOf(const PictureBlock& block) {
 std::string positionAt(const Picture& picture, const Point3& centre, std::size_t move) {
   if (!isDrawn(centre)) return "";
   Point3 gauge = centre;
-  if (hasProbe(picture)) gauge.z += picture.probe.centreLength();
+  gauge.z += reachAt(picture, move);
   const std::string machine = "machine " + pointText(gauge, picture.decimals);
   const std::size_t frame = move < picture.moves.size() ? picture.moves[move].frame : 0;
   if (frame >= picture.frames.size()) return machine;
@@ -117,8 +117,8 @@ PictureResult resultOf(const Picture& picture, const RunFacts& facts) {
     out.verdict = Verdict::Doubt;
     out.word = "PASS, WITH MISSES";
     out.text =
-        fmt::format("the program came to its end, but {} nothing: the end of the block was read as the "
-                    "surface",
+        fmt::format("the program came to its end, and {} nothing: right for a move to a position, wrong "
+                    "for one that measures",
                     misses == 1 ? "a skip move met" : fmt::format("{} skip moves met", misses));
   }
   if (ended && !crashed && !picture.part && picture.contacts.empty())

@@ -155,9 +155,14 @@ std::string drawLegend(const Sheet& sheet, double left, double top, double& bott
                                               shortNumber(finite(picture.probe.ballDiameter), 3))
                                 : "the path is that of the spindle's gauge line: no probe is stated",
               0, "#4a525c");
+  for (const CuttingTool& tool : picture.tools)
+    legend.text(fmt::format("with tool {} it is that of the tool's end", tool.number), 0, "#4a525c");
   if (const std::optional<WorkZero> zero = workZeroOf(picture)) {
-    legend.text(fmt::format("blue numbers: work coordinates {}, zero at machine", zero->name), 0,
-                kWorkColour);
+    // Mikroprog has one system, which has no number.
+    legend.text(zero->name == "work"
+                    ? std::string("blue numbers: as the control counts, zero at machine")
+                    : fmt::format("blue numbers: work coordinates {}, zero at machine", zero->name),
+                0, kWorkColour);
     legend.text(pointText(zero->at, picture.decimals), 0, kWorkColour);
   }
   for (const std::string& note : notesOf(picture, sheet.region))

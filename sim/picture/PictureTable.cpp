@@ -40,7 +40,9 @@ public:
                        signedNumber(write.after - write.before));
   }
   static std::string title(const PictureMeasured& one) {
-    return one.found.title.empty() ? "offsets written" : one.found.title;
+    if (one.found.title.empty()) return "offsets written";
+    // Where the machine stopped: the surface is a radius farther on.
+    return one.found.title.starts_with("touch ") ? one.found.title + ", skip position" : one.found.title;
   }
   static std::string place(const PictureMeasured& one) {
     std::string out = one.found.program == 0 ? "" : fmt::format("O{:04}", one.found.program);

@@ -128,6 +128,9 @@ private:
         const PlanePoint p = sheet(at);
         const std::string text = shortNumber(k * step, places);
         ticks += "M" + pair(p) + (i == 0 ? "v-4" : "h4");
+        // Beside the corners are the letter of the axis and the name of the system.
+        constexpr double kLetter = 18;
+        if (i == 0 && (p[0] < box_.left + kLetter || p[0] > box_.right - kLetter)) continue;
         numbers += i == 0
                        ? fmt::format("<text x=\"{}\" y=\"{}\" text-anchor=\"middle\">{}</text>", px(p[0]),
                                      px(p[1] - 7), text)

@@ -88,7 +88,13 @@ function makeView(canvas, data) {
     }
     return out;
   }
-  const probeBodies = makeProbe();
+  const probeBodies = makeProbe(), toolBodies = new Map(); // by number
+  function bodiesOf(tool) {
+    if (tool === undefined) return probeBodies;
+    if (!toolBodies.has(tool.number))
+      toolBodies.set(tool.number, [turned([[0, 0], [tool.radius, 0], [tool.radius, tool.length], [0, tool.length]], [148, 158, 170])]);
+    return toolBodies.get(tool.number);
+  }
 
   function aim() {
     const { turn, tilt } = camera;
@@ -159,8 +165,8 @@ function makeView(canvas, data) {
     }
   }
 
-  function drawProbe(at, on) {
-    for (const body of probeBodies) {
+  function drawProbe(at, on, tool) {
+    for (const body of bodiesOf(tool)) {
       const { points, triangles } = body, own = body.colour || (on ? [240, 166, 20] : [84, 92, 102]);
       const colour = [own.map((c) => c * 0.6), own];
       for (let t = 0; t < triangles.length; t += 3) {
@@ -374,7 +380,7 @@ function makeView(canvas, data) {
     colours.set(partColours);
     depths.set(partDepths);
     const move = data.moves[current];
-    if (show.probe && move !== undefined && move.drawn) drawProbe(move.to, move.on);
+    if (show.probe && move !== undefined && move.drawn) drawProbe(move.to, move.on, move.tool);
     paint.setTransform(1, 0, 0, 1, 0, 0);
     paint.putImageData(image, 0, 0);
     paint.setTransform(dots, 0, 0, dots, 0, 0);
@@ -395,7 +401,7 @@ function makeView(canvas, data) {
     drawMarks(current);
     if (show.probe && move !== undefined && move.drawn) { // where the ball is, even behind the part
       const p = project(...move.to);
-      const radius = data.probe === null ? 0 : data.probe.ball;
+      const radius = move.tool !== undefined ? move.tool.radius : data.probe === null ? 0 : data.probe.ball;
       paint.globalAlpha = radius === 0 || isHidden(p[0], p[1], p[2] + radius) ? 0.9 : 0.25;
       paint.setLineDash([]);
       paint.lineWidth = 1.6;

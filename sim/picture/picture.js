@@ -27,6 +27,9 @@ window.onerror = (message, source, line) => {
   const frames = data.frames, frameOf = []; // of each move
   for (const [first, count, frame] of data.framed) for (let i = 0; i < count; ++i) frameOf[first + i] = frame;
 
+  for (const [first, count, tool] of data.spindle)
+    for (let i = first; i < first + count; ++i) moves[i].tool = { number: data.tools[tool][0], length: data.tools[tool][1], radius: data.tools[tool][2] };
+
   const canvas = byId("view"), slider = byId("slider"), list = byId("blocks");
   const view = makeView(canvas, data);
   const contactOf = new Map(), errorOf = new Map();
@@ -44,7 +47,8 @@ window.onerror = (message, source, line) => {
     return (v < 0 && whole > 0 ? "-" : "") + (whole / scale).toFixed(data.decimals);
   };
   const point = (p) => ["X", "Y", "Z"].map((a, i) => a + number(p[i])).join(" ");
-  const gaugeOf = (p) => [p[0], p[1], p[2] === null || data.probe === null ? p[2] : p[2] + data.probe.length];
+  const reachOf = (move) => moves[move] !== undefined && moves[move].tool !== undefined ? moves[move].tool.length : data.probe === null ? 0 : data.probe.length;
+  const gaugeOf = (p, move) => [p[0], p[1], p[2] === null ? null : p[2] + reachOf(move)];
   // Of a position of the gauge line during a move; nothing: not known.
   const workOf = (gauge, move) => {
     const frame = frames[frameOf[move]];
@@ -115,7 +119,7 @@ window.onerror = (message, source, line) => {
   function state() {
     const move = moves[current];
     if (!move) return { index: -1, count: 0 };
-    const gauge = gaugeOf(move.to), work = workOf(gauge, current);
+    const gauge = gaugeOf(move.to, current), work = workOf(gauge, current);
     return { index: current, count: moves.length, position: move.to, text: move.to.map(number), machine: gauge.map(number),
       work: work === null ? null : work.map(number), system: nameOf(current), kind: data.kinds[move.kind].name, probeOn: move.on, block: move.block,
       place: (data.blocks[move.block] || ["", ""])[1], drawnAt: move.drawn ? view.where(move.to) : null };
@@ -125,21 +129,22 @@ window.onerror = (message, source, line) => {
     current = Math.max(0, Math.min(moves.length - 1, Math.round(Number(index)) || 0));
     const move = moves[current];
     slider.value = current;
-    const gauge = gaugeOf(move.to), work = workOf(gauge, current);
+    const gauge = gaugeOf(move.to, current), work = workOf(gauge, current);
     ["x", "y", "z"].forEach((name, i) => {
       byId(name).textContent = number(move.to[i]);
       byId("gauge-" + name).textContent = number(gauge[i]);
       byId("work-" + name).textContent = work === null ? "?" : number(work[i]);
     });
     byId("work-name").textContent = nameOf(current) === "work" ? "work" : "work " + nameOf(current);
+    byId("what").textContent = move.tool === undefined ? "ball's centre" : "end of tool " + move.tool.number;
     byId("kind").textContent = data.kinds[move.kind].name;
     byId("power").textContent = move.on ? "on" : "off";
     byId("count").textContent = "move " + (move.number + 1) + " of " + data.count;
     const here = byId("here"), contact = contactOf.get(current), error = errorOf.get(current);
     here.textContent = "";
     if (contact !== undefined) {
-      const at = data.contacts[contact].point, tip = gaugeOf(at);
-      if (tip[2] !== null && data.probe !== null) tip[2] += data.probe.ball; // the place that the tip has there
+      const at = data.contacts[contact].point, tip = gaugeOf(at, current);
+      if (tip[2] !== null && data.probe !== null && move.tool === undefined) tip[2] += data.probe.ball; // the place that the tip has there
       const inWork = workOf(tip, current);
       here.textContent = "contact " + (contact + 1) + (inWork === null ? "" : " at " + nameOf(current) + " " + point(inWork)) + "; machine " + point(at);
     }
@@ -152,7 +157,7 @@ window.onerror = (message, source, line) => {
     showBlock();
     redraw();
   }
-  if (data.probe === null) byId("what").parentNode.hidden = true; // the path is the machine's own
+  if (data.probe === null && data.tools.length === 0) byId("what").parentNode.hidden = true; // the path is the machine's own
   if (frames.length === 0) byId("work").hidden = true;
   slider.max = Math.max(0, moves.length - 1);
   slider.addEventListener("input", () => go(slider.value));

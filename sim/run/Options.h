@@ -2,7 +2,7 @@
 #pragma once
 
 #include "project/Options.h"
-#include "sim/geometry/Setup.h"
+#include "stdlib/Setup.h"
 
 #include <functional>
 #include <optional>
@@ -11,6 +11,8 @@
 #include <vector>
 
 namespace dotek::sim {
+
+using stdlib::Setup; // what an operator sets
 
 struct SimOptions {
   std::string program; // path

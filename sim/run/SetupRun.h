@@ -4,14 +4,16 @@
 #include "project/ProgramLibrary.h"
 #include "project/Session.h"
 #include "sim/geometry/Probe.h"
-#include "sim/geometry/Setup.h"
 #include "sim/machine/Machine.h"
+#include "stdlib/Setup.h"
 
 #include <array>
 #include <optional>
 #include <string>
 
 namespace dotek::sim {
+
+using stdlib::Setup;
 
 // Tool lengths, the tool in the spindle and work offsets. `part`: where the part is meant to be; nothing:
 // there is none. false: reported.

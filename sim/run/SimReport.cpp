@@ -130,7 +130,8 @@ void reportEnd(const std::string& path, const frontend::nc::Scanner& scanner, co
     diagnostics.report<diag::RunInconclusive>(range, session.sources().textUtf8(range), kHidden);
 }
 
-void reportRun(const Run& run, const Machine& machine, const std::string& advice, Session& session) {
+void reportRun(const Run& run, const Machine& machine, const std::string& advice,
+               const std::vector<std::string>& folders, Session& session) {
   Diagnostics& diagnostics = session.diagnostics();
   const stdlib::Control& control = machine.control();
   std::string stops;
@@ -164,8 +165,15 @@ void reportRun(const Run& run, const Machine& machine, const std::string& advice
     }
     report = &diagnostics.report<diag::ControlAlarm>(range, alarmName(end), alarmText(end), where(end));
     const stdlib::AlarmInfo* missing = control.find(stdlib::Alarm::NoSuchProgram);
+    std::string searched;
+    for (const std::string& folder : folders)
+      searched += fmt::format(" nor `{}`", folder);
     if (missing != nullptr && end.number == missing->number && end.text == missing->text)
-      report->note({}, "programs of other files are found with `--programs DIR`");
+      report->note({}, folders.empty() ? "programs of other files are found with `--programs DIR`"
+                                       : fmt::format("neither this file{} (`--programs`) has a program of "
+                                                     "this number; a file without one counts as `O1234` or "
+                                                     "`O1234.nc` says",
+                                                     searched));
     break;
   }
   case Ending::Limit: report = &diagnostics.report<diag::RunLimit>(range, end.text); break;

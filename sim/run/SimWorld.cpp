@@ -66,17 +66,9 @@ MachineFile bareStylus(double diameter, double length) {
 std::optional<Setup> setupOfJob(Session& session) {
   const std::optional<std::string>& path = session.options().job;
   if (!path) return Setup();
-  const std::optional<project::Job> job = project::loadJob(*path, session);
+  std::optional<project::Job> job = project::loadJob(*path, session);
   if (!job) return std::nullopt;
-  const auto document = stdlib::TomlDocument::parse(job->file, session.sources(), session.diagnostics());
-  if (!document) return std::nullopt;
-  const stdlib::TomlTable table = document->root().value("setup").table();
-  constexpr std::array<std::string_view, 6> kKeys = {"tool", "length", "tools", "work_offset", "at", "call"};
-  for (const stdlib::TomlEntry& entry : table.entries())
-    if (std::find(kKeys.begin(), kKeys.end(), entry.key) == kKeys.end())
-      document->fail(entry.keyRange, fmt::format("unknown key `{}`", entry.key));
-  Setup out = readSetup(*document, table);
-  return document->ok() ? std::optional(std::move(out)) : std::nullopt;
+  return std::move(job->setup);
 }
 
 } // namespace
@@ -146,6 +138,7 @@ void SimWorld::begin() {
                 : [](std::uint32_t, std::span<const double>) { return std::optional<PathKind>(); },
       block_ ? block_ : [this] { return blockNow(); });
   recorder_->setFrame(frame_);
+  recorder_->setSafeMove(safe_);
 }
 
 bool SimWorld::prepare(Machine& machine) const {
@@ -164,7 +157,13 @@ void SimWorld::attach(Machine& machine) {
   if (setup_.at || machine_) machine.startAt(startOf(machine));
   if (!isActive()) {
     // Records and stops are of interest without a part, too.
-    if (machine.dialect().firstParameter) machine.setWatcher(this);
+    if (!machine.dialect().firstParameter && !keepsOffsets_) return;
+    if (keepsOffsets_) {
+      frame_ = [&machine] { return frameOf(machine); };
+      decimals_ = machine.control().decimals;
+      begin();
+    }
+    machine.setWatcher(this);
     return;
   }
   line_ = [&machine] { return machine.frame().line; };
@@ -220,7 +219,7 @@ std::optional<double> SimWorld::contact(const SkipMove& move) {
   checkSystem();
   world_->setLine(line_());
   const std::optional<double> share = recorder_ ? recorder_->contact(move) : world_->contact(move);
-  touched_ = share && !move.positions && (protected_.empty() || !protected_.back());
+  touched_ = share && !move.positions && !isProtected();
   takeEvents();
   return share;
 }
@@ -305,8 +304,12 @@ void SimWorld::take(const ProbeEvent& event, const RunPlace& place) {
     tell(event, place);
 }
 
+bool SimWorld::isProtected() const {
+  return (!protected_.empty() && protected_.back()) || (safe_ && safe_());
+}
+
 bool SimWorld::isMeantToMiss(const ProbeEvent& event) const {
-  return event.outcome == Outcome::Miss && (event.meant || (!protected_.empty() && protected_.back()));
+  return event.outcome == Outcome::Miss && (event.meant || isProtected());
 }
 
 bool SimWorld::isTold(const ProbeEvent& event) const {

@@ -56,6 +56,10 @@ public:
   }
   void setCallKind(PictureRecorder::CallKind kind) { callKind_ = std::move(kind); }
   void setReader(MeasuredLog::Reader reader) { log_.setReader(std::move(reader)); }
+  // Asked at each skip move: whether its block goes to a position and watches for the part on the way there.
+  void setSafeMove(std::function<bool()> safe) { safe_ = std::move(safe); }
+  // Offsets that are written are kept also where there is neither part nor machine nor picture.
+  void keepOffsets() { keepsOffsets_ = true; }
 
   bool hasPicture() const { return picture_; }
   // The radius that the calibration of the stylus would have found; nothing: no machine was given.
@@ -109,6 +113,7 @@ private:
   void tell(const ProbeEvent& event, const RunPlace& place);
   void take(const ProbeEvent& event, const RunPlace& place);
   bool isTold(const ProbeEvent& event) const;        // false: it is one too many
+  bool isProtected() const;                          // of the skip move that runs: it wants no contact
   bool isMeantToMiss(const ProbeEvent& event) const; // within a protected move
   bool isSame(const ProbeEvent& event); // of the block as one before: another chord of an arc, say
   PictureBlock blockNow() const;
@@ -128,6 +133,8 @@ private:
   PictureRecorder::BlockNow block_;
   PictureRecorder::CallKind callKind_;
   std::vector<bool> protected_; // of the calls that are open: within a protected move
+  std::function<bool()> safe_;
+  bool keepsOffsets_ = false;
   std::function<std::uint64_t()> line_, blocks_;
   std::function<std::optional<std::uint32_t>()> systemNow_; // 0 to 5: the active one, at the machine's zero
   bool offsetTold_ = false;

@@ -22,7 +22,8 @@
     const frame = frameOf(i);
     if (frame !== undefined) {
       const work = ["x", "y", "z"].map((id) => byId("work-" + id).textContent);
-      const length = data.probe === null ? 0 : data.probe.length;
+      const span = data.spindle.find((s) => i >= s[0] && i < s[0] + s[1]); // another tool
+      const length = span !== undefined ? data.tools[span[2]][1] : data.probe === null ? 0 : data.probe.length;
       const meant = wanted(i).map((v, k) => v + (k === 2 ? length : 0) - frame[k + 1]);
       expect(work.every((text, k) => isNumber(text, meant[k])), how + ": work coordinates " + work + ", not " + meant);
       expect(byId("work-name").textContent.endsWith(frame[0]), how + ": name of the work coordinates");

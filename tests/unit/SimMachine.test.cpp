@@ -165,6 +165,16 @@ TEST_CASE("sim: local shift, G92, G10") {
   CHECK(after("G10 L12 P1 R2.") == "inconclusive L");
 }
 
+TEST_CASE("sim: G92 S limits the spindle's speed and shifts nothing") {
+  Simulation s;
+  s.run("G54 G0 X10. Y5.\nS800 M3\nG92 S2000\nG0 X0");
+  CHECK(s.at() == "0 5 0");
+  CHECK(s.machine->spindleSpeed() == 800);
+  CHECK(s.machine->positionShift() == sim::Position{});
+  CHECK(after("G92 S2000 X5.") == "inconclusive S");
+  CHECK(after("G68 X0 Y0 R30.\nG92 S2000\nG69") == "0 0 0");
+}
+
 TEST_CASE("sim: tool length (groups 8; #2001 and #2201)") {
   Simulation s;
   s.run("G10 L10 P5 R100.\nG10 L11 P5 R0.5");
@@ -238,7 +248,12 @@ TEST_CASE("sim: canned cycles end at the initial level or at level R (groups 9 a
   CHECK(after(begin + "G81 X1. R2. F100") == "inconclusive G");  // no depth
   CHECK(after(begin + "G81 X1. Z-5. F100") == "inconclusive G"); // no level R
   CHECK(after(begin + "G81 X1. Z-5. R2.") == "alarm 11");
-  CHECK(after(begin + "G81 X1. Z-5. R2. K0 F100") == "inconclusive K");
+  // K0 keeps R, depth and feed, and moves nothing.
+  CHECK(after(begin + "G99 G81 X1. Y2. Z-5. R2. K0 F100") == "0 0 50");
+  CHECK(after(begin + "G99 G81 X1. Y2. Z-5. R2. K0 F100\nX3.") == "3 0 2");
+  CHECK(after(begin + "G91 G99 G81 X1. Z-5. R-40. K0 F100\nX3. K2") == "6 0 10");
+  CHECK(after(begin + "G81 X1. Z-5. R2. L0 F100", "fanuc-6m") == "0 0 50");
+  CHECK(after(begin + "G81 X1. Z-5. R2. K1.5 F100") == "inconclusive K");
   CHECK(after(begin + "G81 X1. Z-5. R2. L2 F100") == "inconclusive L"); // the data file says K
   CHECK(after(begin + "G81 X1. Z-5. R2. L2 F100", "fanuc-6m") == "1 0 50");
   CHECK(after(begin + "G98 G87 X1. Z-5. R-8. Q1. F100") == "1 0 50");

@@ -147,6 +147,44 @@ TEST_CASE("setup: [setup] of a job file goes before that of the machine and afte
   CHECK(has(runIn(scratch, "sim p.SUF --job job.toml"), "--job"));
 }
 
+TEST_CASE("setup: [setup] of a job file is checked by every command that reads the job") {
+  const TestFolder scratch("dotek-setup-read");
+  scratch.write("down.nc", kDown);
+  const std::string job = "schema = 1\noperation = [ { cycle = \"surface-x\" } ]\n[setup]\n";
+  const std::string cycle = (root() / "examples/surface-x").string();
+  const std::string post = " --job job.toml --prog " + (root() / "examples/post.txt").string();
+  for (const auto& [table, told] :
+       {std::pair("lenght = 5\n", "unknown key `lenght`"), std::pair("tool = 0\n", "0"),
+        std::pair("work_offset = { G53 = [0, 0, 0] }\n", "`G53` is no work system")}) {
+    scratch.write("job.toml", job + table);
+    for (const std::string& command :
+         {"post " + cycle + post, "convert " + cycle + " --to fanuc" + post, "verify " + cycle + post,
+          std::string("lint job.toml"), std::string("sim down.nc --job job.toml")}) {
+      CAPTURE(command);
+      const CommandResult result = runIn(scratch, command);
+      CHECK(result.status != 0);
+      CHECK(has(result, told));
+    }
+  }
+  // A job may say nothing but the setup.
+  scratch.write("job.toml", "schema = 1\nhost = { clearance = 5.0 }\n[setup]\ntool = 3\nlength = 120.0\n");
+  scratch.write("at.nc", "O1\nG43 H3 Z10.\nG53\n#101=#5023\nM30\n");
+  CHECK(has(runIn(scratch, "sim at.nc --job job.toml --json"), "\"101\": 130"));
+  const CommandResult posted = runIn(scratch, "post " + cycle + post + " --set G=54");
+  CHECK(posted.status == 0);
+  CHECK(has(posted, "G65 P9023 S54"));
+}
+
+TEST_CASE("setup: a program that is not there names the folders that were searched") {
+  const TestFolder scratch("dotek-setup-missing");
+  scratch.write("main.nc", "O1\nM98 P777\nM30\n");
+  scratch.write("macros/O9000.nc", "O9000\nM99\n");
+  CHECK(has(runIn(scratch, "sim main.nc"), "programs of other files are found with `--programs DIR`"));
+  const CommandResult searched = runIn(scratch, "sim main.nc --programs macros");
+  CHECK(has(searched, "neither this file nor `macros` (`--programs`) has a program of this number"));
+  CHECK_FALSE(has(searched, "are found with"));
+}
+
 TEST_CASE("setup: a flag that does not say enough names what is missing") {
   const TestFolder scratch("dotek-setup-flags");
   scratch.write("part.toml", kBox);
@@ -169,4 +207,88 @@ TEST_CASE("setup: a flag that does not say enough names what is missing") {
   CHECK(refused("sim down.nc --tool 1", "[setup-flag]"));
   CHECK(refused("sim nameless.nc --call \"Z1.\"", "O9100"));
   CHECK(refused("sim p.SUF --at 1,2,3", "--at"));
+}
+
+TEST_CASE("setup: a skip move to a position may meet nothing, one that measures may not") {
+  const TestFolder scratch("dotek-setup-safe");
+  scratch.write("part.toml", kBox);
+  scratch.write("machine.toml",
+                "schema = 1\n[setup]\ntool = 2\nwork_offset = { G54 = \"part\" }\nat = [-20, 20, 15]\n"
+                "[probe]\nball_diameter = 6\nlength = 80\nlength_to = \"tip\"\non = true\n");
+  const std::string run =
+      "sim m.nc --part part.toml --machine machine.toml --call \"Z-5.\" --quiet --svg run.svg";
+  const auto macro = [&](const std::string& after, const std::string& measure) {
+    scratch.write("m.nc", "O9002\nG90\nG31 Z#26 F1000\n" + after + measure +
+                              "G0 X-20. Z15.\nM99\nN90 #3000=1(PATH)\n" + "N91 #3000=2(NOTHING FOUND)\n");
+    const CommandResult result = runIn(scratch, run);
+    CHECK_MESSAGE(result.status == 0, result.err);
+    return result.err + readAll(scratch / "run.svg");
+  };
+  const std::string touch = "G31 X5. F100\n#1=#5061\nIF[#1 GE 4.99]GOTO91\n#100=#1\n";
+  const std::string safe = macro("IF[ABS[#5063-#5083-#26] GT 0.01]GOTO90\n", touch);
+  CHECK(safe.find("probe-miss") == std::string::npos);
+  CHECK(safe.find(">PASS<") != std::string::npos);
+  const std::string flagged =
+      macro("#28=0\nIF[ABS[#5063-#5083-#26] GT 0.01]THEN #28=1\nIF[#28 EQ 1]GOTO90\n", touch);
+  CHECK(flagged.find("probe-miss") == std::string::npos);
+  // Kept, so it was to measure; and read by nobody.
+  CHECK(macro("#5=#5063\nIF[ABS[#5-#5083-#26] GT 0.01]GOTO90\n", touch).find("PASS, WITH MISSES") !=
+        std::string::npos);
+  CHECK(macro("", touch).find("[probe-miss]") != std::string::npos);
+  // The measuring one finds nothing: an alarm of the macro.
+  scratch.write("m.nc",
+                "O9002\nG90\nG31 X-15. F100\n#1=#5061\nIF[#1 GE -15.01]GOTO91\nM99\nN91 #3000=2(NONE)\n");
+  const CommandResult none = runIn(scratch, run);
+  CHECK(has(none, "[probe-miss]"));
+  CHECK(has(none, "3002"));
+}
+
+TEST_CASE("setup: pictures count from the end of the tool in the spindle") {
+  const TestFolder scratch("dotek-setup-tool");
+  scratch.write(
+      "machine.toml",
+      "schema = 1\n[setup]\nwork_offset = { G54 = [-300, -200, -400] "
+      "}\n[probe]\ntool = 1\nball_diameter = 6\n"
+      "length = 180\nlength_to = \"tip\"\non = true\n[[tool]]\nnumber = 5\nlength = 82.4\ndiameter = 10\n");
+  scratch.write("m.nc", "O1\nG90 G54 G0 X0 Y0\nG53 G0 Z0\nM30\n");
+  const std::string run = "sim m.nc --tool 5 --machine machine.toml --quiet --svg run.svg --html run.html";
+  CHECK(runIn(scratch, run).status == 0);
+  const std::string svg = readAll(scratch / "run.svg"), page = readAll(scratch / "run.html");
+  CHECK(svg.find("with tool 5 it is that of the tool") != std::string::npos);
+  CHECK(page.find("\"tools\":[[5,82.4,5]]") != std::string::npos);
+  CHECK(page.find("\"spindle\":[[0,2,0]]") != std::string::npos);
+  // Where the run stops: the gauge line at 0, not higher by the probe's greater length.
+  scratch.write("m.nc", "O1\nG90 G54 G0 X0 Y0\nG53 G0 Z0\n#3000=1(STOP)\n");
+  runIn(scratch, run);
+  CHECK(readAll(scratch / "run.svg").find("machine X-300.000 Y-200.000 Z0.000") != std::string::npos);
+}
+
+TEST_CASE("setup: written offsets are listed without a machine's file, and flags set what they name") {
+  const TestFolder scratch("dotek-setup-offsets");
+  scratch.write("m.nc", "O1\n#2007=#2007-0.05\n#500=#2007\nG10 L2 P2 X10.\nM30\n");
+  const CommandResult listed = runIn(scratch, "sim m.nc --var 2007=0.2 --json");
+  CHECK(has(listed, "tool 7 wear"));
+  CHECK(has(listed, "G55 X"));
+  CHECK(has(runIn(scratch, "sim m.nc --var 2007=0.2 --tool 7 --length 90 --json"), "\"500\": 0.15"));
+}
+
+TEST_CASE("setup: a position that is not known says which code lost it") {
+  const TestFolder scratch("dotek-setup-lost");
+  scratch.write("part.toml", kBox);
+  scratch.write("m.nc", "O1\nG90 G54 G0 X0 Y0\nG43 H1 Z50.\nG53 G0 Z-1.\nG31 Z5. F100\nM30\n");
+  const CommandResult result =
+      runIn(scratch, "sim m.nc --part part.toml --tool 1 --length 80 --diameter 6 --quiet");
+  CHECK(has(result, "Z is lost since `G53` in line 4"));
+  CHECK(has(result, "`G49` before that one"));
+}
+
+TEST_CASE("setup: what an operator sets is refused for a program of Mikroprog, with what to do instead") {
+  const TestFolder scratch("dotek-setup-suf");
+  scratch.write("p.SUF", "N10 G0 X1 Y1\nN20 M30\n");
+  scratch.write("machine.toml", "schema = 1\n[setup]\ntool = 2\n[probe]\nball_diameter = 6\nlength = "
+                                "0\nlength_to = \"tip\"\non = true\n");
+  const CommandResult result = runIn(scratch, "sim p.SUF --machine machine.toml");
+  CHECK(result.status == 2);
+  CHECK(has(result, "`[setup] of machine.toml`"));
+  CHECK(has(result, "`length = 0`"));
 }

@@ -1,14 +1,10 @@
-#include "sim/geometry/Setup.h"
+#include "stdlib/Setup.h"
 
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 
-namespace dotek::sim {
-
-using stdlib::TomlDocument;
-using stdlib::TomlTable;
-using stdlib::TomlValue;
+namespace dotek::stdlib {
 
 namespace {
 
@@ -76,7 +72,7 @@ Setup readSetup(const TomlDocument& document, const TomlTable& table) {
     const auto length = lengthOf(document, one.require("length", "what the offset says, mm"));
     out.tools.emplace_back(static_cast<std::uint32_t>(number), length.value_or(0));
   }
-  for (const stdlib::TomlEntry& entry : table.value("work_offset").table().entries()) {
+  for (const TomlEntry& entry : table.value("work_offset").table().entries()) {
     const auto system = systemByName(entry.key);
     if (!system) {
       document.fail(entry.keyRange, fmt::format("`{}` is no work system; G54 to G59 are", entry.key));
@@ -94,4 +90,4 @@ Setup readSetup(const TomlDocument& document, const TomlTable& table) {
   return out;
 }
 
-} // namespace dotek::sim
+} // namespace dotek::stdlib

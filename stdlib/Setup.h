@@ -1,5 +1,5 @@
 // What an operator sets before a program runs: tools, work offsets, where the spindle is. From flags, or from
-// [setup] of a machine's file; docs/part.md. Lengths in mm.
+// [setup] of a machine's or a job's file; docs/part.md. Lengths in mm.
 #pragma once
 
 #include "stdlib/Toml.h"
@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-namespace dotek::sim {
+namespace dotek::stdlib {
 
 struct Setup {
   struct Zero {
@@ -38,6 +38,6 @@ struct Setup {
 std::optional<std::uint32_t> systemByName(std::string_view name);
 
 // A table [setup]; defects are reported by the document.
-Setup readSetup(const stdlib::TomlDocument& document, const stdlib::TomlTable& table);
+Setup readSetup(const TomlDocument& document, const TomlTable& table);
 
-} // namespace dotek::sim
+} // namespace dotek::stdlib

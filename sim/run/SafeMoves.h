@@ -1,0 +1,24 @@
+// What the text of the programs says of a run before it begins.
+#pragma once
+
+#include "ir/Program.h"
+#include "stdlib/Control.h"
+#include "support/Source.h"
+
+#include <cstdint>
+#include <set>
+#include <utility>
+#include <vector>
+
+namespace dotek::sim {
+
+// Blocks by their file and where they begin in it: skip moves that go to a position and watch for the part on
+// the way there. Such a one is followed by an IF that looks at the skip position (#5061 and the following),
+// and nothing else reads it before the next skip move; who measures keeps it.
+std::set<std::pair<FileId, std::uint32_t>> safeMoves(const std::vector<const ir::Program*>& programs,
+                                                     const stdlib::Control& control);
+
+// Whether the programs may write a work offset or a tool offset.
+bool mayWriteOffsets(const std::vector<const ir::Program*>& programs, const stdlib::Control& control);
+
+} // namespace dotek::sim
