@@ -45,10 +45,17 @@ std::string marksOf(std::string_view name) {
   return out;
 }
 
+// doOfstOn and doOfstOff.
+bool switchesOther(std::string_view one, std::string_view other) {
+  const auto ends = [](std::string_view name, std::string_view end) { return name.ends_with(end); };
+  return (ends(one, "On") && ends(other, "Off")) || (ends(one, "Off") && ends(other, "On"));
+}
+
 } // namespace
 
 bool isSlip(std::string_view written, std::string_view known) {
   if (written == known || std::min(written.size(), known.size()) < 4) return false;
+  if (switchesOther(written, known)) return false;
   if (writtenOut(written, known)) return true;
   const std::size_t allowed = known.size() >= 9 ? 2 : 1;
   return nameDistance(written, known, allowed) <= allowed && marksOf(written) == marksOf(known);

@@ -1,5 +1,6 @@
 #include "ComPostHelper.h"
 #include "frontend/compost/Check.h"
+#include "frontend/compost/Slips.h"
 #include "frontend/compost/Summary.h"
 #include "stdlib/DataFiles.h"
 #include "tests/GoldenRunner.h"
@@ -38,14 +39,14 @@ TEST_CASE("known words and own routines pass") {
   CHECK(prog.only() == "");
 }
 
-TEST_CASE("unknown words are one note a name, with the nearest name") {
+TEST_CASE("unknown words are one note a name, nearly known ones a warning with the name") {
   CHECK(findings("Blub Blub Blub# IF Blub? END") ==
         "2:1 unknown-keyword, 2:11 unknown-keyword, 2:20 unknown-keyword");
   Checked prog("progStart: SpinOf makeHole RETURN\nmakeHoles: RETURN");
-  CHECK(prog.only() == "1:12 unknown-keyword, 1:19 unknown-keyword, 2:1 routine-never-called");
+  CHECK(prog.only() == "1:12 keyword-misspelt, 1:19 keyword-misspelt, 2:1 routine-never-called");
   CHECK(prog.at(0).message.find("`SpinOff`") != std::string::npos);
   CHECK(prog.at(1).message.find("`makeHoles`") != std::string::npos);
-  CHECK(prog.at(0).severity == Severity::Note);
+  CHECK(prog.at(0).severity == Severity::Warning);
 }
 
 TEST_CASE("doubled routines, braces in comments") {
@@ -174,4 +175,24 @@ TEST_CASE("the corpus gives one error and no finding on its words") {
   const auto table = keywords();
   for (const std::string& id : cycleIds(prog.program))
     CHECK(printingRoutines(prog.program, table, id).size() == 1);
+}
+
+TEST_CASE("slips of the hand and names of their own") {
+  // lost, added, changed, swapped; an abbreviation written out
+  CHECK(isSlip("CycleTyp", "CycleType"));
+  CHECK(isSlip("CycleTypes", "CycleType"));
+  CHECK(isSlip("SegC", "SeqC"));
+  CHECK(isSlip("OpFeildData", "OpFieldData"));
+  CHECK(isSlip("SpindleOff", "SpinOff"));
+  CHECK(isSlip("ToolOfset", "ToolOffset"));
+  // another axis, another number, the other switch, another word, too short
+  CHECK_FALSE(isSlip("XCP1", "ZCP1"));
+  CHECK_FALSE(isSlip("ZCP2", "ZCP1"));
+  CHECK_FALSE(isSlip("feedIPT", "feedIPM"));
+  CHECK_FALSE(isSlip("doOfstOn", "doOfstOff"));
+  CHECK_FALSE(isSlip("CoolOn", "CoolOff"));
+  CHECK_FALSE(isSlip("SpinOn", "SpinOff"));
+  CHECK_FALSE(isSlip("Drill", "Drilling"));
+  CHECK_FALSE(isSlip("EOF", "EOL"));
+  CHECK_FALSE(isSlip("SeqC", "SeqC"));
 }
