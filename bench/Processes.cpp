@@ -135,10 +135,10 @@ void addPictures(std::vector<Case>& out, const std::string& dotek, const fs::pat
     out.push_back({name, std::move(command), {0}, most, {}});
   };
   out.push_back({"sim, macro with a part", bore, {0}, {}, {}});
-  add("sim --svg, the same", bore, "--svg", 60);
-  add("sim --html, the same", bore, "--html", 250);
-  add("sim --svg, 100,000 moves", rows, "--svg", 1000);
-  add("sim --html, 100,000 moves", rows, "--html", 1500);
+  add("sim --svg, the same", bore, "--svg", 30);
+  add("sim --html, the same", bore, "--html", 120);
+  add("sim --svg, 100,000 moves", rows, "--svg", 450);
+  add("sim --html, 100,000 moves", rows, "--html", 450);
 }
 
 std::vector<Case> cases(const std::string& dotek, const std::string& corpus, const fs::path& scratch) {
