@@ -20,47 +20,47 @@ bool endsHere(const NcBlock& block) {
   });
 }
 
-template <AnyStatement Statement>
-std::vector<std::vector<std::size_t>> successorsOf(const std::vector<Statement>& list) {
+template <AnyStatement Statement> ProgramFlow flowIn(const std::vector<Statement>& list) {
   std::unordered_map<LabelId, std::size_t> places;
   for (std::size_t i = 0; i < list.size(); ++i)
     if (const auto* label = std::get_if<Label>(&list[i].node)) places.try_emplace(label->label, i);
 
-  std::vector<std::vector<std::size_t>> out(list.size());
+  ProgramFlow flow;
+  std::vector<Next>& out = flow.next;
+  out.resize(list.size());
+  if (std::any_of(list.begin(), list.end(), [](const Statement& each) { return isComputedJump(each); })) {
+    for (const auto& [label, place] : places)
+      flow.labels.push_back(place);
+    std::sort(flow.labels.begin(), flow.labels.end());
+  }
   const auto jump = [&](std::size_t from, LabelId target) {
     const auto found = places.find(target);
     if (found == places.end()) return; // verify() tells
-    if (out[from].empty() || out[from].front() != found->second) out[from].push_back(found->second);
+    out[from].add(found->second);
   };
   for (std::size_t i = 0; i < list.size(); ++i) {
     match(
         list[i], [&](const Jump& node) { jump(i, node.target); },
         [&](const Branch& node) {
-          out[i].push_back(i + 1);
+          out[i].add(i + 1);
           jump(i, node.target);
         },
         [&](const Loop& node) {
-          out[i].push_back(i + 1);
+          out[i].add(i + 1);
           if (node.condition) jump(i, node.end);
         },
         [&](const LoopEnd& node) { jump(i, node.begin); },
-        [&](const JumpTo& node) {
-          for (const auto& [label, place] : places)
-            if (node.number) out[i].push_back(place);
-          std::sort(out[i].begin(), out[i].end());
-        },
-        [&](const OneOf<Return, Exit> auto&) { out[i].push_back(list.size()); },
-        [&](const NcBlock& block) { out[i].push_back(endsHere(block) ? list.size() : i + 1); },
-        [](const OneOf<Alarm, Raise> auto&) {},
+        [&](const OneOf<Return, Exit> auto&) { out[i].add(list.size()); },
+        [&](const NcBlock& block) { out[i].add(endsHere(block) ? list.size() : i + 1); },
+        [](const OneOf<Alarm, Raise, JumpTo> auto&) {},
         [&](const OneOf<Label, Store, Move, Measure, ProbePower, Comment, Assign, Spindle, Coolant, SetMode,
                         Dwell, Stop, OpaqueBlock, Call, Notice, Port, Print, NameVariables> auto&) {
-          out[i].push_back(i + 1);
+          out[i].add(i + 1);
         });
     // Block delete leaves a statement out.
-    if (blockDeleteOf(list[i]) != 0 && std::find(out[i].begin(), out[i].end(), i + 1) == out[i].end())
-      out[i].push_back(i + 1);
+    if (blockDeleteOf(list[i]) != 0) out[i].add(i + 1);
   }
-  return out;
+  return flow;
 }
 
 template <AnyStatement Statement> std::optional<LabelId> targetIn(const Statement& statement) {
@@ -80,7 +80,8 @@ template <AnyStatement Statement> bool layoutOnly(const Statement& statement) {
 }
 
 template <AnyStatement Statement> std::vector<bool> reachableIn(const std::vector<Statement>& list) {
-  const auto next = successorsOf(list);
+  const ProgramFlow flow = flowIn(list);
+  bool computed = false; // a computed jump was reached
   std::vector<bool> seen(list.size());
   std::vector<std::size_t> open;
   const auto visit = [&](std::size_t at) {
@@ -92,8 +93,12 @@ template <AnyStatement Statement> std::vector<bool> reachableIn(const std::vecto
   while (!open.empty()) {
     const std::size_t at = open.back();
     open.pop_back();
-    for (const std::size_t to : next[at])
+    for (const std::size_t to : flow.next[at])
       visit(to);
+    if (computed || !isComputedJump(list[at])) continue;
+    computed = true;
+    for (const std::size_t label : flow.labels)
+      visit(label);
   }
   return seen;
 }
@@ -101,11 +106,29 @@ template <AnyStatement Statement> std::vector<bool> reachableIn(const std::vecto
 } // namespace
 
 std::vector<std::vector<std::size_t>> successors(const std::vector<CycleStatement>& list) {
-  return successorsOf(list);
+  const ProgramFlow flow = flowIn(list);
+  std::vector<std::vector<std::size_t>> out;
+  out.reserve(flow.next.size());
+  for (const Next& next : flow.next)
+    out.emplace_back(next.begin(), next.end());
+  return out;
 }
 
-std::vector<std::vector<std::size_t>> successors(const std::vector<ProgramStatement>& list) {
-  return successorsOf(list);
+ProgramFlow flowOf(const std::vector<CycleStatement>& list) {
+  return flowIn(list);
+}
+
+ProgramFlow flowOf(const std::vector<ProgramStatement>& list) {
+  return flowIn(list);
+}
+
+bool isComputedJump(const CycleStatement&) {
+  return false;
+}
+
+bool isComputedJump(const ProgramStatement& statement) {
+  const auto* jump = std::get_if<JumpTo>(&statement.node);
+  return jump != nullptr && jump->number != nullptr;
 }
 
 bool endsProgram(const CycleStatement&) {

@@ -30,7 +30,7 @@ bool cross(const Interval& a, const Interval& b) {
 class Analysis {
 public:
   explicit Analysis(const Program& program)
-      : program_(program), body_(program.body), next_(successors(body_)), before_(body_.size()) {
+      : program_(program), body_(program.body), next_(flowOf(body_).next), before_(body_.size()) {
     for (Index i = 0; i < body_.size(); ++i) {
       if (const auto* label = std::get_if<Label>(&body_[i].node)) places_.try_emplace(label->label, i);
       for (const Index to : next_[i])
@@ -261,7 +261,7 @@ private:
 
   const Program& program_;
   const std::vector<ProgramStatement>& body_;
-  const std::vector<std::vector<Index>> next_;
+  const std::vector<Next> next_;
   std::vector<std::vector<Index>> before_;
   std::map<LabelId, Index> places_;
   std::vector<Index> reached_, order_, dominator_;

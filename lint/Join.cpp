@@ -2,7 +2,11 @@
 #include "lint/Project.h"
 #include "project/Compilation.h"
 
-#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <set>
+#include <string>
+#include <utility>
 
 namespace dotek::lint {
 namespace {
@@ -15,30 +19,82 @@ void takeLowered(Joined& joined, std::optional<dotek::project::LoweredCycle> low
   joined.lowered = std::make_shared<const ir::Cycle>(std::move(lowered->cycle));
 }
 
+// The folders above a file or folder, the nearest first, the last of them empty.
+std::vector<std::string> foldersAbove(const std::string& name) {
+  std::vector<std::string> out;
+  std::filesystem::path at = std::filesystem::path(name).lexically_normal();
+  if (!at.has_filename()) at = at.parent_path();
+  for (std::filesystem::path above = at.parent_path(); above != at; at = above, above = at.parent_path())
+    out.push_back(above.string());
+  if (out.empty() || !out.back().empty()) out.emplace_back();
+  return out;
+}
+
+// What lies nearest to a file, by the folder that both are in: where the files of several shops or machines
+// are beside one another, a Prog goes with the cycles of its own folder.
+class Nearest {
+public:
+  void add(const std::string& name, const std::vector<std::string>& folders, std::size_t index) {
+    for (const std::string& folder : folders)
+      below_[{name, folder}].push_back(index);
+  }
+  std::vector<std::size_t> to(const std::string& name, const std::vector<std::string>& folders) const {
+    for (const std::string& folder : folders)
+      if (const auto found = below_.find({name, folder}); found != below_.end()) return found->second;
+    return {};
+  }
+
+private:
+  std::map<std::pair<std::string, std::string>, std::vector<std::size_t>> below_; // by name and folder
+};
+
+template <class Tree> void addOnce(std::vector<const Tree*>& out, std::set<FileId>& files, const Tree& tree) {
+  if (files.insert(tree.file).second) out.push_back(&tree);
+}
+
 } // namespace
 
 void join(Project& project, dotek::project::Compilation& compilation, bool lower) {
-  const auto holds = [](const auto& list, const auto& one) {
-    return std::find(list.begin(), list.end(), one) != list.end();
-  };
-  // What its macros come to without any Prog: for the findings alone.
-  for (const dotek::project::CycleFolder& folder : compilation.folders())
-    if (folder.cycle && holds(project.cycles, folder.cycle.get()))
-      compilation.lower(folder, dotek::project::Strictness::Lenient);
-  for (const auto& prog : compilation.progs()) {
-    if (!holds(project.progs, prog.get())) continue;
-    const std::vector<std::string> ids = compost::cycleIds(*prog);
-    for (const dotek::project::CycleFolder& folder : compilation.folders()) {
-      if (!folder.cycle || !holds(project.cycles, folder.cycle.get()) || !holds(ids, folder.cycle->name))
-        continue;
+  const SourceMap& sources = compilation.session().sources();
+  const auto& folders = compilation.folders();
+  const auto& progs = compilation.progs();
+  const std::set<const gibbs::Cycle*> ownCycles(project.cycles.begin(), project.cycles.end());
+  const std::set<const compost::Program*> ownProgs(project.progs.begin(), project.progs.end());
+  Nearest nearFolders, nearProgs;
+  std::vector<std::vector<std::string>> above(folders.size());
+  for (std::size_t i = 0; i < folders.size(); ++i) {
+    if (!folders[i].cycle || !ownCycles.contains(folders[i].cycle.get())) continue;
+    // What its macros come to without any Prog: for the findings alone.
+    compilation.lower(folders[i], dotek::project::Strictness::Lenient);
+    above[i] = foldersAbove(sources.file(folders[i].place).name());
+    nearFolders.add(folders[i].cycle->name, above[i], i);
+  }
+  // Nearest seen from either side: a cycle whose own folder has no Prog goes with another's.
+  std::vector<std::set<std::size_t>> pairs(progs.size());
+  for (std::size_t i = 0; i < progs.size(); ++i) {
+    if (!ownProgs.contains(progs[i].get())) continue;
+    const auto names = foldersAbove(sources.file(progs[i]->file).name());
+    for (const std::string& id : compost::cycleIds(*progs[i])) {
+      nearProgs.add(id, names, i);
+      const std::vector<std::size_t> near = nearFolders.to(id, names);
+      pairs[i].insert(near.begin(), near.end());
+    }
+  }
+  for (std::size_t i = 0; i < folders.size(); ++i)
+    if (!above[i].empty())
+      for (const std::size_t prog : nearProgs.to(folders[i].cycle->name, above[i]))
+        pairs[prog].insert(i);
+  for (std::size_t i = 0; i < progs.size(); ++i) {
+    for (const std::size_t at : pairs[i]) {
       Joined joined;
-      joined.cycle = folder.cycle.get();
-      joined.prog = prog.get();
-      const auto routines = compost::printingRoutines(*prog, project.compostKeywords, folder.cycle->name);
+      joined.cycle = folders[at].cycle.get();
+      joined.prog = progs[i].get();
+      const auto routines =
+          compost::printingRoutines(*progs[i], project.compostKeywords, folders[at].cycle->name);
       if (routines.size() == 1) joined.routine = routines.front();
       if (joined.routine != nullptr && lower)
-        takeLowered(joined,
-                    compilation.lower(folder, prog, *joined.routine, dotek::project::Strictness::Lenient));
+        takeLowered(joined, compilation.lower(folders[at], progs[i], *joined.routine,
+                                              dotek::project::Strictness::Lenient));
       project.joined.push_back(std::move(joined));
     }
   }
@@ -46,35 +102,28 @@ void join(Project& project, dotek::project::Compilation& compilation, bool lower
 
 std::vector<const gibbs::Macro*> Project::allMacros() const {
   std::vector<const gibbs::Macro*> out;
-  const auto add = [&](const gibbs::Macro& macro) {
-    // A file may be an input of its own and be called by a cycle.
-    if (std::none_of(out.begin(), out.end(), [&](const gibbs::Macro* m) { return m->file == macro.file; }))
-      out.push_back(&macro);
-  };
+  std::set<FileId> files; // one may be an input of its own and be called by a cycle
   for (const gibbs::Cycle* cycle : cycles) {
-    if (cycle->cycleData) add(*cycle->cycleData);
-    if (cycle->toolPath) add(*cycle->toolPath);
+    if (cycle->cycleData) addOnce(out, files, *cycle->cycleData);
+    if (cycle->toolPath) addOnce(out, files, *cycle->toolPath);
     for (const gibbs::Macro* other : cycle->others)
-      add(*other);
+      addOnce(out, files, *other);
   }
   for (const gibbs::Macro* macro : macros)
-    add(*macro);
+    addOnce(out, files, *macro);
   return out;
 }
 
 std::vector<const gibbs::Dialog*> Project::allDialogs() const {
   std::vector<const gibbs::Dialog*> out;
-  const auto add = [&](const gibbs::Dialog& dialog) {
-    if (std::none_of(out.begin(), out.end(), [&](const gibbs::Dialog* d) { return d->file == dialog.file; }))
-      out.push_back(&dialog);
-  };
+  std::set<FileId> files;
   for (const gibbs::Cycle* cycle : cycles) {
-    if (cycle->dialog) add(*cycle->dialog);
+    if (cycle->dialog) addOnce(out, files, *cycle->dialog);
     for (const gibbs::Dialog* other : cycle->otherDialogs)
-      add(*other);
+      addOnce(out, files, *other);
   }
   for (const gibbs::Dialog* dialog : dialogs)
-    add(*dialog);
+    addOnce(out, files, *dialog);
   return out;
 }
 

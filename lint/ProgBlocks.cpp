@@ -13,6 +13,7 @@ namespace {
 constexpr std::size_t kCallDepth = 16;
 // Routines that call one another many times would give more blocks than anybody prints.
 constexpr std::size_t kMostCalls = 2000;
+constexpr std::size_t kMostCalledPieces = 20'000;
 
 // The sink that rules look at: both sides of an IF, one after the other.
 class Collector : private compost::Walk {
@@ -32,7 +33,8 @@ private:
 
   bool enter(const compost::Routine& routine, SourceRange) override {
     const bool open = std::find(open_.begin(), open_.end(), &routine) != open_.end();
-    if (open || open_.size() >= kCallDepth || ++calls_ > kMostCalls) return false;
+    if (++calls_ > kMostCalls || calledPieces_ > kMostCalledPieces || open || open_.size() >= kCallDepth)
+      return false;
     open_.push_back(&routine);
     return true;
   }
@@ -70,6 +72,7 @@ private:
 
   void add(ProgPiece piece) {
     piece.arm = arm_;
+    if (!open_.empty()) ++calledPieces_;
     if (block_.pieces.empty()) {
       block_.range = piece.range;
       block_.conditional = conditions_ > 0;
@@ -89,7 +92,7 @@ private:
   const Project& project_;
   std::vector<const compost::Routine*> open_;
   std::size_t conditions_ = 0;
-  std::size_t calls_ = 0;
+  std::size_t calls_ = 0, calledPieces_ = 0;
   std::uint32_t arm_ = 0, arms_ = 0;
   ProgBlock block_;
   std::vector<ProgBlock> out_;

@@ -1,6 +1,9 @@
-#include "support/Source.h"
+#include "support/Characters.h"
 
+#include <algorithm>
 #include <array>
+#include <cstdint>
+#include <cstring>
 
 namespace dotek {
 namespace {
@@ -91,6 +94,24 @@ bool isUtf8(std::string_view bytes) {
     at += length;
   }
   return true;
+}
+
+std::size_t charactersOf(std::string_view bytes, Encoding encoding) {
+  if (encoding != Encoding::Utf8) return bytes.size();
+  constexpr std::uint64_t kHigh = 0x8080808080808080;
+  std::size_t count = 0;
+  for (std::size_t at = 0; at < bytes.size();) {
+    std::uint64_t eight = kHigh;
+    if (at + sizeof eight <= bytes.size()) std::memcpy(&eight, bytes.data() + at, sizeof eight);
+    if ((eight & kHigh) == 0) {
+      at += sizeof eight;
+      count += sizeof eight;
+      continue;
+    }
+    at += std::max<std::size_t>(sequenceLength(bytes, at), 1);
+    ++count;
+  }
+  return count;
 }
 
 std::string toUtf8(std::string_view bytes, Encoding encoding) {

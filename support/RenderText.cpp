@@ -2,28 +2,41 @@
 #include "support/Printable.h"
 
 #include <algorithm>
+#include <vector>
 
 namespace dotek {
 namespace {
 
 constexpr std::size_t kShownColumns = 160;
 
-std::size_t characters(std::string_view utf8) {
-  return static_cast<std::size_t>(
-      std::count_if(utf8.begin(), utf8.end(), [](char c) { return (c & 0xC0) != 0x80; }));
-}
-
-// Byte offset of the character with index `count`.
-std::size_t byteOf(std::string_view utf8, std::size_t count) {
-  std::size_t at = 0;
-  while (at < utf8.size() && count > 0) {
-    ++at;
-    while (at < utf8.size() && (utf8[at] & 0xC0) == 0x80)
-      ++at;
-    --count;
+// The last line that an excerpt was cut from: findings in one long line decode it once.
+class ShownLine {
+public:
+  void take(const SourceFile& file, std::uint32_t line) {
+    if (file_ == &file && line_ == line) return;
+    file_ = &file;
+    line_ = line;
+    text_ = printable(file.lineUtf8(line));
+    starts_.clear();
+    for (std::size_t i = 0; i < text_.size(); ++i)
+      if ((text_[i] & 0xC0) != 0x80) starts_.push_back(static_cast<std::uint32_t>(i));
   }
-  return at;
-}
+  std::size_t length() const { return starts_.size(); } // in characters
+  std::string part(std::size_t from, std::size_t count) const {
+    const std::size_t begin = byteOf(from);
+    return text_.substr(begin, byteOf(from + count) - begin);
+  }
+
+private:
+  std::size_t byteOf(std::size_t character) const {
+    return character < starts_.size() ? starts_[character] : text_.size();
+  }
+
+  const SourceFile* file_ = nullptr;
+  std::uint32_t line_ = 0;
+  std::string text_;
+  std::vector<std::uint32_t> starts_; // first byte of each character
+};
 
 void appendPlace(std::string& out, SourceRange range, const SourceMap& sources) {
   if (!range.hasPlace()) {
@@ -35,13 +48,13 @@ void appendPlace(std::string& out, SourceRange range, const SourceMap& sources) 
 }
 
 // The line and the caret below it; a long line is cut around the caret.
-void appendExcerpt(std::string& out, SourceRange range, const SourceMap& sources) {
+void appendExcerpt(std::string& out, SourceRange range, const SourceMap& sources, ShownLine& shown) {
   if (!range.hasPlace()) return;
   const SourceFile& file = sources.file(range.file);
   const LineColumn begin = file.place(range.begin);
-  std::string text = printable(file.lineUtf8(begin.line));
-  if (text.empty()) return; // nothing to point at
-  const std::size_t length = characters(text);
+  shown.take(file, begin.line);
+  const std::size_t length = shown.length();
+  if (length == 0) return; // nothing to point at
   std::size_t column = begin.column - 1;
   std::size_t width = 1;
   if (range.end > range.begin) {
@@ -52,15 +65,15 @@ void appendExcerpt(std::string& out, SourceRange range, const SourceMap& sources
   const std::size_t from =
       column > kShownColumns / 2 && length > kShownColumns ? column - kShownColumns / 2 : 0;
   const bool cutEnd = length > from + kShownColumns;
-  const std::size_t first = byteOf(text, from);
-  text = text.substr(first, byteOf(std::string_view(text).substr(first), kShownColumns));
+  std::string text = shown.part(from, kShownColumns);
+  std::size_t characters = std::min(length - std::min(from, length), kShownColumns);
   column -= from;
   if (from > 0) {
     text.insert(0, "...");
+    characters += 3;
     column += 3;
   }
-  width =
-      std::min(width, std::max<std::size_t>(characters(text) > column ? characters(text) - column : 1, 1));
+  width = std::min(width, std::max<std::size_t>(characters > column ? characters - column : 1, 1));
   if (cutEnd) text += "...";
   out += "  " + text + "\n  " + std::string(column, ' ') + "^" + std::string(width - 1, '~') + "\n";
 }
@@ -71,6 +84,7 @@ std::string renderText(const Diagnostics& diagnostics, const SourceMap& sources,
   std::string out;
   std::uint32_t errors = 0;
   std::uint32_t left = 0;
+  ShownLine shown;
   for (const Diagnostic& d : diagnostics.all()) {
     if (d.severity == Severity::Error && ++errors > maxErrors && maxErrors != 0) {
       ++left;
@@ -78,11 +92,11 @@ std::string renderText(const Diagnostics& diagnostics, const SourceMap& sources,
     }
     appendPlace(out, d.range, sources);
     out += fmt::format("{}: {} [{}]\n", severityName(d.severity), printable(d.message), d.code);
-    appendExcerpt(out, d.range, sources);
+    appendExcerpt(out, d.range, sources, shown);
     for (const DiagnosticNote& note : d.notes) {
       appendPlace(out, note.range, sources);
       out += fmt::format("note: {}\n", printable(note.message));
-      appendExcerpt(out, note.range, sources);
+      appendExcerpt(out, note.range, sources, shown);
     }
     if (d.fix) {
       appendPlace(out, d.fix->edits.empty() ? d.range : d.fix->edits.front().range, sources);

@@ -1,5 +1,7 @@
 #include "support/Source.h"
 
+#include "support/Characters.h"
+
 #include <algorithm>
 
 namespace dotek {
@@ -45,13 +47,7 @@ LineColumn SourceFile::place(std::uint32_t offset) const {
   const std::uint32_t line = lineOf(at);
   const std::uint32_t begin = lineStart(line);
   const std::string_view before = std::string_view(bytes_).substr(begin, at - begin);
-  std::size_t column = before.size();
-  if (encoding_ == Encoding::Utf8) {
-    const std::string text = toUtf8(before, encoding_);
-    column = static_cast<std::size_t>(
-        std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xC0) != 0x80; }));
-  }
-  return {line, static_cast<std::uint32_t>(column + 1)};
+  return {line, static_cast<std::uint32_t>(charactersOf(before, encoding_) + 1)};
 }
 
 FileId SourceMap::add(SourceFile file) {

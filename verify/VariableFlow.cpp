@@ -142,16 +142,25 @@ std::set<VariableKey> VariableFlow::readByCheck(SourceRange raise) const {
       ++at;
     if (at == body.size()) continue;
     std::vector<std::vector<std::size_t>> before(body.size());
-    const auto next = ir::successors(body);
-    for (std::size_t i = 0; i < next.size(); ++i)
-      for (const std::size_t to : next[i])
+    const ir::ProgramFlow flow = ir::flowOf(body);
+    for (std::size_t i = 0; i < body.size(); ++i)
+      for (const std::size_t to : flow.next[i])
         if (to < body.size()) before[to].push_back(i);
+    // What leads to one of the labels of computed jumps leads to all of them.
+    std::vector<std::size_t> computed;
+    for (std::size_t i = 0; i < body.size() && !flow.labels.empty(); ++i)
+      if (isComputedJump(body[i])) computed.push_back(i);
     std::set<std::size_t> seen{at};
     std::vector<std::size_t> open{at};
     while (!open.empty()) {
       const std::size_t now = open.back();
       open.pop_back();
-      for (const std::size_t one : before[now]) {
+      std::vector<std::size_t>& sources = before[now];
+      if (!computed.empty() && std::binary_search(flow.labels.begin(), flow.labels.end(), now)) {
+        sources.insert(sources.end(), computed.begin(), computed.end());
+        computed.clear();
+      }
+      for (const std::size_t one : sources) {
         if (!seen.insert(one).second) continue;
         const ir::ConditionPtr* condition = ir::conditionOf(body[one]);
         if (condition == nullptr || !*condition) {
@@ -159,8 +168,8 @@ std::set<VariableKey> VariableFlow::readByCheck(SourceRange raise) const {
           continue;
         }
         for (const std::uint32_t number : operandsOf(*condition).variables) {
-          const std::set<VariableKey> sources = sourcesOf(key(p, number));
-          out.insert(sources.begin(), sources.end());
+          const std::set<VariableKey> from = sourcesOf(key(p, number));
+          out.insert(from.begin(), from.end());
         }
       }
     }

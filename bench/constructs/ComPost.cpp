@@ -27,6 +27,9 @@ void addComPost(std::vector<Construct>& out) {
     return "last:\nSeqC ' M5' EOL\nRETURN\n" +
            repeated(n, [](long i) { return fmt::format("routine{}:\nlast last\nRETURN\n", i); });
   });
+  linted("calls of itself", 1000, [](long n) { return "same:\n" + times(n, "same\n") + "RETURN\n"; });
+  linted("words in a routine that calls itself", 1000,
+         [](long n) { return "same:\n" + times(n, "SeqC ' X1.' EOL\nsame\n") + "RETURN\n"; });
   linted("routines of one name", 1000,
          [](long n) { return times(n, "same:\nSeqC ' G0 X1.' EOL\nRETURN\n"); });
   linted("routines misspelt", 500, [](long n) {

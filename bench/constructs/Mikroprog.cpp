@@ -29,6 +29,7 @@ void addMikroprog(std::vector<Construct>& out) {
   add("blocks", 3000, {"dump", "--stage", "ir"}, moves);
   linted("blocks without numbers", 3000, [](long n) { return times(n, "G1 X1 Z1\n"); });
   linted("words on one line", 2000, [](long n) { return "N1 G1" + times(n, " X1") + "\n"; });
+  linted("words without blanks", 5000, [](long n) { return "N1 G1" + times(n, "X1") + "\n"; });
   linted("different words on one line", 2000,
          [](long n) { return "N1 G1" + times(n, " X1 Z1 F1 M5 G0") + "\n"; });
   linted("unreadable words on one line", 2000, [](long n) { return "N1 G1" + times(n, " X1..") + "\n"; });

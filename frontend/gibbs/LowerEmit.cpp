@@ -1,6 +1,8 @@
 #include "frontend/gibbs/LowerEmit.h"
 
 #include <algorithm>
+#include <numeric>
+#include <utility>
 
 namespace dotek::frontend::gibbs {
 namespace {
@@ -21,8 +23,7 @@ public:
       if (walk_.reached[at]) emit(at);
     }
     starts_[size] = out_.size();
-    while (shorten()) {
-    }
+    shortenAll();
     return placed();
   }
 
@@ -89,50 +90,81 @@ private:
     out_.push_back({std::move(alarm), kNowhere, false});
   }
 
-  // Where a jump to the step arrives in the end.
-  std::size_t arrival(std::size_t step) const {
+  // Where a jump to the step arrives in the end; in a circle of jumps somewhere in it.
+  std::size_t arrival(std::size_t step) {
+    std::vector<std::size_t> passed;
     std::size_t place = starts_[step];
-    for (std::size_t hops = 0; hops < out_.size() && place < out_.size(); ++hops) {
-      const Emitted& there = out_[place];
-      if (!std::holds_alternative<ir::Jump>(there.statement.node)) break;
-      const std::size_t next = starts_[there.target];
-      if (next == place) break;
-      place = next;
+    for (; place < out_.size() && arrivals_[place] == kNowhere; place = starts_[out_[place].target]) {
+      if (!std::holds_alternative<ir::Jump>(out_[place].statement.node)) break;
+      arrivals_[place] = place; // until it is known: where a circle ends
+      passed.push_back(place);
     }
+    if (place < out_.size() && arrivals_[place] != kNowhere) place = arrivals_[place];
+    for (const std::size_t one : passed)
+      arrivals_[one] = place;
     return place;
   }
 
-  bool isTarget(std::size_t place) const {
-    return std::any_of(out_.begin(), out_.end(), [&](const Emitted& each) {
-      return each.target != kNowhere && starts_[each.target] == place;
-    });
+  // The first statement from the place on that is still there.
+  std::size_t present(std::size_t place) {
+    std::size_t root = place;
+    while (next_[root] != root)
+      root = next_[root];
+    while (next_[place] != root)
+      place = std::exchange(next_[place], root);
+    return root;
+  }
+  std::size_t after(std::size_t place) { return place < out_.size() ? present(place + 1) : place; }
+  std::size_t goal(std::size_t place) { return present(starts_[out_[place].target]); }
+
+  // What led there leads to the next one.
+  void erase(std::size_t place) {
+    next_[place] = place + 1;
+    sources_[present(place)] += sources_[place];
   }
 
-  void erase(std::size_t place) {
-    out_.erase(out_.begin() + static_cast<std::ptrdiff_t>(place));
+  void shortenAll() {
+    next_.resize(out_.size() + 1);
+    std::iota(next_.begin(), next_.end(), std::size_t{0});
+    sources_.assign(out_.size() + 1, 0);
+    for (const Emitted& each : out_)
+      if (each.target != kNowhere) ++sources_[starts_[each.target]];
+    while (shorten()) {
+    }
+    std::vector<std::size_t> places(out_.size() + 1);
+    std::vector<Emitted> left;
+    for (std::size_t i = 0; i <= out_.size(); ++i) {
+      places[i] = left.size();
+      if (i < out_.size() && next_[i] == i) left.push_back(std::move(out_[i]));
+    }
     for (std::size_t& start : starts_)
-      if (start > place) --start;
+      start = places[start];
+    out_ = std::move(left);
+    arrivals_.assign(out_.size(), kNowhere);
   }
 
   // One pass: jumps to the next statement go, branches around a jump are turned round. false: nothing found.
   bool shorten() {
     bool changed = false;
-    for (std::size_t i = 0; i < out_.size(); ++i) {
-      const auto* jump = std::get_if<ir::Jump>(&out_[i].statement.node);
-      if (jump != nullptr && starts_[out_[i].target] == i + 1) {
+    for (std::size_t i = present(0); i < out_.size(); i = after(i)) {
+      const std::size_t following = after(i);
+      if (std::holds_alternative<ir::Jump>(out_[i].statement.node) && goal(i) == following) {
+        --sources_[following];
         erase(i);
         changed = true;
+        i = following;
         continue;
       }
       auto* branch = std::get_if<ir::Branch>(&out_[i].statement.node);
-      if (branch == nullptr || i + 1 >= out_.size() ||
-          !std::holds_alternative<ir::Jump>(out_[i + 1].statement.node) || starts_[out_[i].target] != i + 2 ||
-          isTarget(i + 1))
+      if (branch == nullptr || following >= out_.size() ||
+          !std::holds_alternative<ir::Jump>(out_[following].statement.node) || goal(i) != after(following) ||
+          sources_[following] > 0)
         continue;
+      --sources_[goal(i)];
       branch->condition = ir::negate(branch->condition);
-      out_[i].target = out_[i + 1].target;
-      out_[i].statement.origin.ranges = mergedRanges(out_[i].statement, out_[i + 1].statement);
-      erase(i + 1);
+      out_[i].target = out_[following].target;
+      out_[i].statement.origin.ranges = mergedRanges(out_[i].statement, out_[following].statement);
+      erase(following);
       changed = true;
     }
     return changed;
@@ -180,7 +212,10 @@ private:
   const EmitOptions& options_;
   ir::Cycle& cycle_;
   std::vector<Emitted> out_;
-  std::vector<std::size_t> starts_; // of steps, in out_
+  std::vector<std::size_t> starts_;   // of steps, in out_
+  std::vector<std::size_t> next_;     // of out_: itself, or a later one where it is gone
+  std::vector<std::size_t> sources_;  // of out_: how many jumps and branches lead there
+  std::vector<std::size_t> arrivals_; // of jumps in out_, as far as they are known
 };
 
 } // namespace

@@ -86,6 +86,7 @@ void Walk::start() {
   result_.jumps.assign(size, false);
   result_.falls.assign(size, false);
   joins_.assign(size, false);
+  seen_.resize(size);
   heads_.assign(size, false);
   for (std::size_t at = 0; at < size; ++at) {
     const auto* jump = std::get_if<FlatJump>(&flat_.steps[at].step);
@@ -172,10 +173,12 @@ bool Walk::isNew(WalkState& state) {
 // Facts that no later condition can ask for: one of their symbols is in no value that is read again.
 void Walk::forget(WalkState& state) const {
   if (!options_.forget || state.facts.empty()) return;
-  std::set<Symbol> symbols;
+  std::vector<const Symbol*> symbols;
   const auto add = [&](const std::optional<Value>& value) {
     const Unknown* unknown = value ? unknownIn(*value) : nullptr;
-    if (unknown != nullptr) symbols.insert(unknown->sources.begin(), unknown->sources.end());
+    if (unknown == nullptr) return;
+    for (const Symbol& symbol : unknown->sources)
+      symbols.push_back(&symbol);
   };
   for (ir::VariableId id = 0; id < state.values.size(); ++id)
     if (live(state.at, id)) add(state.values[id]);
@@ -186,52 +189,68 @@ void Walk::forget(WalkState& state) const {
     add((*leg)->begin);
     add((*leg)->target);
   }
+  const auto less = [](const Symbol* a, const Symbol* b) { return *a < *b; };
+  std::sort(symbols.begin(), symbols.end(), less);
   std::erase_if(state.facts, [&](const auto& fact) {
-    return !std::includes(symbols.begin(), symbols.end(), fact.second.symbols.begin(),
-                          fact.second.symbols.end());
+    return std::any_of(fact.second.symbols.begin(), fact.second.symbols.end(), [&](const Symbol& symbol) {
+      return !std::binary_search(symbols.begin(), symbols.end(), &symbol, less);
+    });
   });
 }
 
-std::string Walk::keyOf(const WalkState& state) const {
-  std::string key;
-  const auto add = [&](const std::optional<Value>& value) { key += (value ? canonical(*value) : "-") + ";"; };
+std::uint32_t Walk::numberOf(const std::optional<Value>& value) {
+  bytes_.clear();
+  if (value) appendKey(bytes_, *value);
+  return numberOf(bytes_);
+}
+
+std::u32string Walk::keyOf(const WalkState& state) {
+  std::u32string key;
+  const auto add = [&](std::size_t number) { key += static_cast<char32_t>(number); };
   for (ir::VariableId id = 0; id < state.values.size(); ++id)
-    if (live(state.at, id)) add(state.values[id]);
+    if (live(state.at, id)) add(numberOf(state.values[id]));
+  add(state.facts.size());
   for (const auto& [quantity, fact] : state.facts) {
-    key += quantity;
-    for (const auto& [relation, bound] : fact.learnt)
-      key += fmt::format(" {}{}", static_cast<int>(relation), bound);
-    key += ';';
+    add(numberOf(quantity));
+    add(fact.numbers.empty() ? 0 : fact.numbers.back());
   }
+  add(state.messages.size());
   for (const std::size_t message : state.messages)
-    key += fmt::format("m{}", message);
-  key += fmt::format("c{};", state.codeAt);
+    add(message);
+  add(state.codeAt);
   if (options_.observer == nullptr) return key;
   for (const auto& axis : state.track.at)
-    add(axis);
+    add(numberOf(axis));
   for (const auto* leg : {&state.track.before, &state.track.last}) {
-    key += '|';
+    add(leg->has_value());
     if (!*leg) continue;
-    key += fmt::format("{}/{}/{}/{}/{}", (*leg)->step, (*leg)->sign, (*leg)->forced, (*leg)->exempt,
-                       static_cast<int>((*leg)->axis));
-    add((*leg)->begin);
-    add((*leg)->target);
+    add((*leg)->step);
+    add(static_cast<std::size_t>((*leg)->sign + 1));
+    add((*leg)->forced);
+    add((*leg)->exempt);
+    add(ir::indexOf((*leg)->axis));
+    add(numberOf((*leg)->begin));
+    add(numberOf((*leg)->target));
   }
-  key += fmt::format("r{}", state.track.run);
+  add(state.track.run);
+  add(state.track.stood.size());
   for (const std::size_t place : state.track.stood)
-    key += fmt::format("s{}", place);
-  for (const Turn& turn : state.track.turns)
-    key += fmt::format("t{}/{}/{}", turn.run, turn.step, turn.place);
+    add(place);
+  for (const Turn& turn : state.track.turns) {
+    add(turn.run);
+    add(turn.step);
+    add(turn.place);
+  }
   return key;
 }
 
 // What differs from the first visit of the place.
-void Walk::compareVisit(Head& head, const WalkState& state) const {
-  std::vector<std::string> now;
+void Walk::compareVisit(Head& head, const WalkState& state) {
+  std::vector<std::uint32_t> now;
   for (const auto& value : state.values)
-    now.push_back(value ? canonical(*value) : "");
+    now.push_back(numberOf(value));
   for (const auto& value : state.track.at)
-    now.push_back(value ? canonical(*value) : "");
+    now.push_back(numberOf(value));
   if (head.first.empty()) {
     head.first = std::move(now);
     head.varies.assign(head.first.size(), false);

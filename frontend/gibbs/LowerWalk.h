@@ -9,11 +9,14 @@
 #include "support/Limits.h"
 
 #include <array>
+#include <cstdint>
 #include <map>
 #include <memory>
 #include <optional>
 #include <set>
 #include <string>
+#include <unordered_map>
+#include <unordered_set>
 #include <utility>
 #include <vector>
 
@@ -22,7 +25,8 @@ namespace dotek::frontend::gibbs {
 // What a path has learnt of one quantity, by conditions that it has passed.
 struct Fact {
   Range range;
-  std::set<std::pair<Relation, double>> learnt;
+  std::vector<std::pair<Relation, double>> learnt; // ascending
+  std::vector<std::uint32_t> numbers;              // of what is learnt up to each of these, in keys
   std::set<Symbol> symbols;
 };
 using Facts = std::map<std::string, Fact>;
@@ -113,8 +117,8 @@ public:
 private:
   struct Head {
     CycleChanges changes;
-    std::vector<std::string> first; // values when it was first reached: variables, axes
-    std::vector<bool> varies;       // since then
+    std::vector<std::uint32_t> first; // values when it was first reached: variables, axes
+    std::vector<bool> varies;         // since then
   };
 
   void start();
@@ -134,8 +138,13 @@ private:
   void ended(const WalkState& state, bool rejects);
   bool isNew(WalkState& state);
   void forget(WalkState& state) const;
-  std::string keyOf(const WalkState& state) const;
-  void compareVisit(Head& head, const WalkState& state) const;
+  // Equal keys are states from which the path goes on in the same way.
+  std::u32string keyOf(const WalkState& state);
+  std::uint32_t numberOf(const std::optional<Value>& value);
+  std::uint32_t numberOf(const std::string& bytes) {
+    return numbers_.emplace(bytes, static_cast<std::uint32_t>(numbers_.size())).first->second;
+  }
+  void compareVisit(Head& head, const WalkState& state);
   void widen(WalkState& state, const Head& head);
   void computeLiveness();
   bool live(std::size_t at, ir::VariableId variable) const { return live_.empty() || live_[at][variable]; }
@@ -149,7 +158,7 @@ private:
   std::optional<bool> decide(WalkState& state, const ir::Comparison& comparison);
   std::optional<bool> compare(const WalkState& state, const Value& left, Relation relation,
                               const Value& right);
-  void learn(WalkState& state, const Question& question, Relation relation) const;
+  void learn(WalkState& state, const Question& question, Relation relation);
 
   const Flat& flat_;
   const ir::Cycle& cycle_;
@@ -158,9 +167,11 @@ private:
   std::size_t steps_ = 0;
   WalkResult result_;
   std::vector<WalkState> waiting_;
-  std::vector<bool> joins_; // steps that something jumps to
-  std::vector<bool> heads_; // of these, from further down: every circle has one
-  std::map<std::size_t, std::set<std::string>> seen_;
+  std::vector<bool> joins_;                              // steps that something jumps to
+  std::vector<bool> heads_;                              // of these, from further down: every circle has one
+  std::vector<std::unordered_set<std::u32string>> seen_; // by place
+  std::unordered_map<std::string, std::uint32_t> numbers_; // of values and quantities, in keys
+  std::string bytes_;                                      // room for what is looked up in `numbers_`
   std::size_t states_ = 0;
   std::map<std::size_t, Head> circles_; // by place
   std::vector<std::vector<bool>> live_; // by step and variable; empty: all

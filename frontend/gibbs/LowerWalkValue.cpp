@@ -173,16 +173,36 @@ std::optional<bool> Walk::compare(const WalkState& state, const Value& left, Rel
   return std::nullopt;
 }
 
-void Walk::learn(WalkState& state, const Question& question, Relation relation) const {
+void Walk::learn(WalkState& state, const Question& question, Relation relation) {
   if (!options_.facts) return;
   Fact& fact = state.facts[question.key];
   fact.range.restrict(relation, question.bound);
-  // What was open is narrower than what was known before on its side.
-  std::erase_if(fact.learnt, [&](const auto& known) {
-    return sideOf(known.first) != 0 && sideOf(known.first) == sideOf(relation);
-  });
-  fact.learnt.insert({relation, question.bound});
   fact.symbols = question.sources;
+  const std::pair<Relation, double> added{relation, question.bound};
+  std::size_t place = 0;
+  if (relation == Relation::Equal) {
+    // One value is all there is to know.
+    fact.learnt = std::vector{added};
+    fact.numbers = {};
+  } else {
+    // What was open is narrower than what was known before on its side.
+    const auto wider = [&](const auto& known) {
+      return sideOf(known.first) != 0 && sideOf(known.first) == sideOf(relation);
+    };
+    const auto first = std::find_if(fact.learnt.begin(), fact.learnt.end(), wider);
+    place = static_cast<std::size_t>(first - fact.learnt.begin());
+    fact.learnt.erase(std::remove_if(first, fact.learnt.end(), wider), fact.learnt.end());
+    const auto at = std::upper_bound(fact.learnt.begin(), fact.learnt.end(), added);
+    place = std::min(place, static_cast<std::size_t>(at - fact.learnt.begin()));
+    fact.learnt.insert(at, added);
+  }
+  fact.numbers.resize(place);
+  for (; place < fact.learnt.size(); ++place) {
+    bytes_ = fmt::format("{} {} ", static_cast<int>(fact.learnt[place].first),
+                         place == 0 ? 0 : fact.numbers[place - 1]);
+    appendKey(bytes_, Value(fact.learnt[place].second));
+    fact.numbers.push_back(numberOf(bytes_));
+  }
 }
 
 } // namespace dotek::frontend::gibbs

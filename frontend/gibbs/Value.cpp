@@ -46,6 +46,14 @@ std::string termsText(const std::map<Symbol, double>& terms, double scale) {
   return text;
 }
 
+void appendBytes(std::string& bytes, double number) {
+  const double plain = number == 0 ? 0.0 : number; // no -0
+  bytes.append(reinterpret_cast<const char*>(&plain), sizeof plain);
+}
+void appendBytes(std::string& bytes, std::size_t number) {
+  bytes.append(reinterpret_cast<const char*>(&number), sizeof number);
+}
+
 Relation mirrored(Relation relation) {
   switch (relation) {
   case Relation::Less: return Relation::Greater;
@@ -106,6 +114,23 @@ std::string canonical(const Value& value) {
   std::string text = termsText(unknown.terms, 1);
   if (unknown.constant != 0) text += " + " + numberText(unknown.constant);
   return text;
+}
+
+void appendKey(std::string& bytes, const Value& value) {
+  bytes += static_cast<char>(value.index());
+  if (const double* number = std::get_if<double>(&value)) appendBytes(bytes, *number);
+  if (const std::string* text = std::get_if<std::string>(&value)) bytes += *text;
+  const Unknown* unknown = unknownIn(value);
+  if (unknown == nullptr) return;
+  appendBytes(bytes, unknown->constant);
+  for (const auto& [symbol, factor] : unknown->terms) {
+    appendBytes(bytes, factor);
+    bytes += static_cast<char>(symbol.kind);
+    appendBytes(bytes, symbol.number);
+    appendBytes(bytes, symbol.part);
+    appendBytes(bytes, symbol.name.size());
+    bytes += symbol.name;
+  }
 }
 
 std::optional<Value> linear(const Value& a, double factorA, const Value& b, double factorB) {
@@ -204,29 +229,50 @@ bool holds(double left, Relation relation, double right) {
   return false;
 }
 
-bool Range::restrict(Relation relation, double bound) {
+void Range::Bounds::narrow(Relation relation, double bound) {
   const bool fromBelow =
       relation == Relation::Greater || relation == Relation::GreaterEqual || relation == Relation::Equal;
   const bool fromAbove =
       relation == Relation::Less || relation == Relation::LessEqual || relation == Relation::Equal;
   const bool open = relation == Relation::Less || relation == Relation::Greater;
-  if (relation == Relation::NotEqual) excluded_.push_back(bound);
-  if (fromBelow && (!low_ || bound > *low_ || (bound == *low_ && open))) {
-    low_ = bound;
-    lowOpen_ = open;
+  if (fromBelow && (!low || bound > *low || (bound == *low && open))) {
+    low = bound;
+    lowOpen = open;
   }
-  if (fromAbove && (!high_ || bound < *high_ || (bound == *high_ && open))) {
-    high_ = bound;
-    highOpen_ = open;
+  if (fromAbove && (!high || bound < *high || (bound == *high && open))) {
+    high = bound;
+    highOpen = open;
   }
-  if (!low_ || !high_ || *low_ < *high_) return true;
-  return *low_ == *high_ && !lowOpen_ && !highOpen_ &&
-         std::find(excluded_.begin(), excluded_.end(), *low_) == excluded_.end();
+}
+
+bool Range::leaves(const Bounds& bounds, std::optional<double> except) const {
+  if (!bounds.low || !bounds.high || *bounds.low < *bounds.high) return true;
+  return *bounds.low == *bounds.high && !bounds.lowOpen && !bounds.highOpen && except != bounds.low &&
+         !std::binary_search(excluded_.begin(), excluded_.end(), *bounds.low);
+}
+
+bool Range::restrict(Relation relation, double bound) {
+  if (relation == Relation::NotEqual) {
+    const auto place = std::lower_bound(excluded_.begin(), excluded_.end(), bound);
+    if (place == excluded_.end() || *place != bound) excluded_.insert(place, bound);
+  }
+  bounds_.narrow(relation, bound);
+  const bool left = leaves(bounds_, std::nullopt);
+  // Of one value nothing can be left out any more.
+  if (left && bounds_.low && bounds_.low == bounds_.high) excluded_ = {};
+  return left;
+}
+
+bool Range::allows(Relation relation, double bound) const {
+  if (relation == Relation::NotEqual) return leaves(bounds_, bound);
+  Bounds bounds = bounds_;
+  bounds.narrow(relation, bound);
+  return leaves(bounds, std::nullopt);
 }
 
 std::optional<bool> Range::answer(Relation relation, double bound) const {
-  if (!Range(*this).restrict(opposite(relation), bound)) return true;
-  if (!Range(*this).restrict(relation, bound)) return false;
+  if (!allows(opposite(relation), bound)) return true;
+  if (!allows(relation, bound)) return false;
   return std::nullopt;
 }
 

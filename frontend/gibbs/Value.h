@@ -72,6 +72,8 @@ const Symbol* symbolIn(const Value& value);
 double factorOf(const Symbol& symbol, const Value& value);
 // Canonical text: equal texts mean equal values. An expression of the IR has none.
 std::string canonical(const Value& value);
+// Appends bytes that are equal where the canonical text is, faster to make and not to be read.
+void appendKey(std::string& bytes, const Value& value);
 // a * factorA + b * factorB with at least one unknown; nullopt where it is no short linear form.
 std::optional<Value> linear(const Value& a, double factorA, const Value& b, double factorB);
 // What an operator makes of two numbers, or of one; angles in degrees. Neither value nor error: one of them
@@ -98,9 +100,18 @@ public:
   std::optional<bool> answer(Relation relation, double bound) const;
 
 private:
-  std::optional<double> low_, high_;
-  bool lowOpen_ = false, highOpen_ = false;
-  std::vector<double> excluded_;
+  // From low to high, where they are known.
+  struct Bounds {
+    std::optional<double> low, high;
+    bool lowOpen = false, highOpen = false;
+    void narrow(Relation relation, double bound);
+  };
+  // Something is left of the bounds without what is excluded, and without `except`.
+  bool leaves(const Bounds& bounds, std::optional<double> except) const;
+  bool allows(Relation relation, double bound) const;
+
+  Bounds bounds_;
+  std::vector<double> excluded_; // ascending
 };
 
 // A comparison that depends on an unknown: `key` is in `relation` to `bound`, or does not.

@@ -8,6 +8,8 @@
 #include <array>
 #include <cmath>
 #include <fmt/format.h>
+#include <iterator>
+#include <map>
 
 namespace dotek::frontend::macrob {
 namespace {
@@ -290,37 +292,30 @@ void rotationWords(const CheckedProgram& input, Report& report) {
 void callsItself(const CheckedProgram& input, Report& report) {
   if (!input.program.name || input.modes.empty()) return;
   const std::uint64_t own = input.program.name->number;
-  const std::size_t count = input.program.blocks.size();
-  // The call is certain where no path from the start goes around it.
-  const auto successors = successorsOf(input.program);
+  std::vector<bool> passed;
+  std::map<const nc::Word*, std::size_t> blocks; // by the first of their words
   for (const std::vector<Call>* list : {&input.calls, &input.subprograms})
     for (const Call& call : *list) {
       if (call.kind == CallKind::AfterMoves || call.kind == CallKind::EachBlock || call.program == nullptr ||
           own == 0 || literal(*call.program) != static_cast<double>(own))
         continue;
-      std::vector<bool> reached(count + 1, false);
-      std::vector<std::size_t> work = {0};
-      reached[0] = true;
-      while (!work.empty() && !reached[count]) {
-        const std::size_t at = work.back();
-        work.pop_back();
-        const Block& block = input.program.blocks[at];
-        const auto* words = std::get_if<Words>(&block.body);
-        const bool here = words != nullptr && !words->words.empty() && call.program >= words->words.data() &&
-                          call.program < words->words.data() + words->words.size();
-        if (here && !block.blockDelete) continue;
-        for (const std::size_t next : successors[at])
-          if (next <= count && !reached[next]) {
-            reached[next] = true;
-            work.push_back(next);
-          }
+      if (passed.empty()) {
+        passed = passedByAllPaths(input.program);
+        for (std::size_t i = 0; i < passed.size(); ++i)
+          if (const auto* words = std::get_if<Words>(&input.program.blocks[i].body);
+              words != nullptr && !words->words.empty())
+            blocks.emplace(words->words.data(), i);
       }
-      if (!reached[count])
-        report.at(
-            call.program->range,
-            "O{} calls itself here, and no path ends before the call; the control stops with alarm 122 or 77 "
-            "(too many levels); call the program that is meant, or write the IF that ends it",
-            own);
+      const auto behind = blocks.upper_bound(call.program);
+      if (behind == blocks.begin()) continue;
+      // The call is certain where no path from the start goes around it.
+      const std::size_t at = std::prev(behind)->second;
+      if (!passed[at] || input.program.blocks[at].blockDelete) continue;
+      report.at(
+          call.program->range,
+          "O{} calls itself here, and no path ends before the call; the control stops with alarm 122 or 77 "
+          "(too many levels); call the program that is meant, or write the IF that ends it",
+          own);
     }
 }
 

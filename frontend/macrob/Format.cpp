@@ -24,16 +24,26 @@ bool endsWithArcTangent(const Expression& expression) {
   return call != nullptr && call->name == "ATAN" && !call->bare && call->arguments.size() == 1;
 }
 
-std::string bracketed(std::string text, std::uint32_t count) {
-  return std::string(count, '[') + std::move(text) + std::string(count, ']');
+// Brackets around what is appended while it lives.
+class Bracketed {
+public:
+  Bracketed(std::string& out, std::uint32_t count) : out_(out), count_(count) { out_.append(count_, '['); }
+  ~Bracketed() { out_.append(count_, ']'); }
+  Bracketed(const Bracketed&) = delete;
+  Bracketed& operator=(const Bracketed&) = delete;
+
+private:
+  std::string& out_;
+  std::uint32_t count_;
+};
+
+// Its own pairs of brackets, or one where `needed` and there is none.
+std::uint32_t bracketsOf(const Expression& expression, bool needed) {
+  return expression.brackets > 0 ? expression.brackets : needed ? 1 : 0;
 }
 
-std::string inner(const Expression& expression);
-
-// With its own brackets, and one more pair where `needed` and there is none.
-std::string text(const Expression& expression, bool needed = false) {
-  const std::uint32_t count = expression.brackets > 0 ? expression.brackets : needed ? 1 : 0;
-  return bracketed(inner(expression), count);
+bool isOperation(const Expression& expression) {
+  return std::holds_alternative<nc::Operation>(expression.node);
 }
 
 bool isSum(const Expression& expression) {
@@ -41,73 +51,111 @@ bool isSum(const Expression& expression) {
   return operation != nullptr && levelOf(operation->op) == 1;
 }
 
-std::string inner(const Expression& expression) {
-  return std::visit(
-      [](const auto& node) -> std::string {
-        using T = std::decay_t<decltype(node)>;
-        if constexpr (std::is_same_v<T, nc::Number>) {
-          return node.digits;
-        } else if constexpr (std::is_same_v<T, nc::Hole>) {
-          return "{" + node.name + "}";
-        } else if constexpr (std::is_same_v<T, nc::VariableRef>) {
-          const bool plain =
-              std::holds_alternative<nc::Number>(node.number->node) && node.number->brackets == 0;
-          return "#" + text(*node.number, !plain);
-        } else if constexpr (std::is_same_v<T, nc::Negated>) {
-          return "-" + text(*node.operand, std::holds_alternative<nc::Operation>(node.operand->node));
-        } else if constexpr (std::is_same_v<T, nc::Operation>) {
-          const bool product = levelOf(node.op) == 2;
-          std::string right = text(*node.right, std::holds_alternative<nc::Operation>(node.right->node) &&
-                                                    (product || isSum(*node.right)));
-          const bool takesSlash = node.op == "/" && right.starts_with('[') && endsWithArcTangent(*node.left);
-          std::string left = text(*node.left, (product && isSum(*node.left)) || takesSlash);
-          return left + operatorText(node.op) + right;
-        } else {
-          if (node.bare) return node.name + text(*node.arguments.front());
-          std::string out = node.name;
-          if (node.comma) return out + "[" + text(*node.arguments[0]) + "," + text(*node.arguments[1]) + "]";
-          for (std::size_t i = 0; i < node.arguments.size(); ++i)
-            out += (i == 0 ? "[" : "/[") + text(*node.arguments[i]) + "]";
-          return out;
-        }
-      },
-      expression.node);
+// Appends, so that a long sum costs its length and not the square of it.
+class ExpressionText {
+public:
+  explicit ExpressionText(std::string& out) : out_(out) {}
+
+  void add(const Expression& expression, bool needed = false) {
+    const Bracketed brackets(out_, bracketsOf(expression, needed));
+    std::visit([this](const auto& node) { inner(node); }, expression.node);
+  }
+
+  // What follows an address or GOTO: a number, a variable, or brackets; a minus before it.
+  void addValue(const Expression& expression) {
+    if (const auto* negated = std::get_if<nc::Negated>(&expression.node);
+        negated != nullptr && expression.brackets == 0) {
+      out_ += '-';
+      return addValue(*negated->operand);
+    }
+    const bool plain = std::holds_alternative<nc::Number>(expression.node) ||
+                       std::holds_alternative<nc::Hole>(expression.node) ||
+                       std::holds_alternative<nc::VariableRef>(expression.node);
+    add(expression, !plain);
+  }
+
+  void addVariable(const Expression& number) {
+    out_ += '#';
+    add(number, number.brackets > 0 || !std::holds_alternative<nc::Number>(number.node));
+  }
+
+private:
+  void inner(const nc::Number& node) { out_ += node.digits; }
+  void inner(const nc::Hole& node) { out_ += "{" + node.name + "}"; }
+  void inner(const nc::VariableRef& node) { addVariable(*node.number); }
+  void inner(const nc::Negated& node) {
+    out_ += '-';
+    add(*node.operand, isOperation(*node.operand));
+  }
+  void inner(const nc::Operation& node) {
+    const bool product = levelOf(node.op) == 2;
+    const bool pair = isOperation(*node.right) && (product || isSum(*node.right));
+    const bool takesSlash =
+        node.op == "/" && bracketsOf(*node.right, pair) > 0 && endsWithArcTangent(*node.left);
+    add(*node.left, (product && isSum(*node.left)) || takesSlash);
+    out_ += operatorText(node.op);
+    add(*node.right, pair);
+  }
+  void inner(const nc::FunctionCall& node) {
+    out_ += node.name;
+    if (node.bare) return add(*node.arguments.front());
+    for (std::size_t i = 0; i < node.arguments.size(); ++i) {
+      if (i == 0 || !node.comma) out_ += i == 0 ? "[" : "/[";
+      if (i > 0 && node.comma) out_ += ',';
+      add(*node.arguments[i]);
+      if (!node.comma || i + 1 == node.arguments.size()) out_ += ']';
+    }
+  }
+
+  std::string& out_;
+};
+
+std::string text(const Expression& expression) {
+  std::string out;
+  ExpressionText(out).add(expression);
+  return out;
 }
 
-// What follows an address or GOTO: a number, a variable, or brackets; a minus before it.
-std::string value(const Expression& expression) {
-  if (const auto* negated = std::get_if<nc::Negated>(&expression.node);
-      negated != nullptr && expression.brackets == 0)
-    return "-" + value(*negated->operand);
-  const bool plain = std::holds_alternative<nc::Number>(expression.node) ||
-                     std::holds_alternative<nc::Hole>(expression.node) ||
-                     std::holds_alternative<nc::VariableRef>(expression.node);
-  return text(expression, !plain);
+void addCondition(std::string& out, const Condition& condition, bool needed) {
+  const Bracketed brackets(out, condition.brackets > 0 ? condition.brackets : needed ? 1 : 0);
+  if (const auto* comparison = std::get_if<Comparison>(&condition.node)) {
+    ExpressionText(out).add(*comparison->left);
+    out += " " + comparison->op + " ";
+    return ExpressionText(out).add(*comparison->right);
+  }
+  const auto& joined = std::get<JoinedConditions>(condition.node);
+  // Each comparison is in brackets; a join where the levels of AND and OR demand them.
+  const auto side = [&](const Condition& one, int least) {
+    const auto* join = std::get_if<JoinedConditions>(&one.node);
+    addCondition(out, one, join == nullptr || levelOf(join->op) < least);
+  };
+  const int level = levelOf(joined.op);
+  side(*joined.left, level);
+  out += " " + joined.op + " ";
+  side(*joined.right, level + 1);
 }
 
 std::string conditionText(const Condition& condition, bool needed) {
   std::string out;
-  if (const auto* comparison = std::get_if<Comparison>(&condition.node)) {
-    out = text(*comparison->left) + " " + comparison->op + " " + text(*comparison->right);
-  } else {
-    const auto& joined = std::get<JoinedConditions>(condition.node);
-    // Each comparison is in brackets; a join where the levels of AND and OR demand them.
-    const auto side = [&](const Condition& one, int least) {
-      const auto* join = std::get_if<JoinedConditions>(&one.node);
-      return conditionText(one, join == nullptr || levelOf(join->op) < least);
-    };
-    const int level = levelOf(joined.op);
-    out = side(*joined.left, level) + " " + joined.op + " " + side(*joined.right, level + 1);
-  }
-  return bracketed(std::move(out), condition.brackets > 0 ? condition.brackets : needed ? 1 : 0);
+  addCondition(out, condition, needed);
+  return out;
+}
+
+std::string value(const Expression& expression) {
+  std::string out;
+  ExpressionText(out).addValue(expression);
+  return out;
 }
 
 struct StatementText {
   std::string operator()(const std::monostate&) const { return ""; }
   std::string operator()(const Words&) const { return ""; } // printed word by word
   std::string operator()(const nc::Assignment& one) const {
-    const bool plain = std::holds_alternative<nc::Number>(one.variable->node) && one.variable->brackets == 0;
-    return "#" + text(*one.variable, !plain) + "=" + text(*one.value);
+    std::string out;
+    ExpressionText(out).addVariable(*one.variable);
+    out += '=';
+    ExpressionText(out).add(*one.value);
+    return out;
   }
   std::string operator()(const Goto& one) const { return "GOTO " + value(*one.target); }
   std::string operator()(const If& one) const {

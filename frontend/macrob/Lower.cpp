@@ -24,6 +24,8 @@ bool isForRunTime(std::string_view code) {
          code == wordOutOfRangeCheck.code;
 }
 
+constexpr std::size_t kSmall = 1000; // statements
+
 class ProgramLowering {
 public:
   ProgramLowering(const Program& program, const stdlib::Control& control, Diagnostics& diagnostics)
@@ -34,8 +36,11 @@ public:
     for (std::size_t i = 0; i < program_.blocks.size(); ++i)
       if (const auto& number = program_.blocks[i].sequenceNumber; number && number->value != UINT64_MAX)
         labels_[number->value].push_back({i, out_.addLabel({number->value, number->digits, number->range})});
+    out_.body.reserve(2 * program_.blocks.size());
     for (at_ = 0; at_ < program_.blocks.size(); ++at_)
       block(program_.blocks[at_]);
+    // Of many small programs the room that is left over adds up; that of a large one is never touched.
+    if (out_.body.size() < kSmall) out_.body.shrink_to_fit();
     return std::move(out_);
   }
 

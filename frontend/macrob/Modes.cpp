@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <utility>
 
 namespace dotek::frontend::macrob {
 namespace {
@@ -212,12 +213,27 @@ Modes within(const Words& words, Modes out) {
   return out;
 }
 
-std::vector<std::vector<std::size_t>> successorsOf(const Program& program) {
+namespace {
+
+// Blocks that may run after each block; `blocks.size()`: the program ends there. All computed jumps lead to
+// the same ones.
+struct Successors {
+  std::vector<std::vector<std::size_t>> next;
+  std::vector<bool> computed;
+  std::vector<std::size_t> numbered; // blocks with a number
+};
+
+Successors successorsOf(const Program& program) {
   const std::size_t count = program.blocks.size();
   std::map<std::uint64_t, std::vector<std::size_t>> numbered;
   for (std::size_t i = 0; i < count; ++i)
     if (program.blocks[i].sequenceNumber) numbered[program.blocks[i].sequenceNumber->value].push_back(i);
-  std::vector<std::vector<std::size_t>> out(count);
+  Successors successors;
+  for (const auto& [number, places] : numbered)
+    successors.numbered.insert(successors.numbered.end(), places.begin(), places.end());
+  successors.computed.resize(count);
+  std::vector<std::vector<std::size_t>>& out = successors.next;
+  out.resize(count);
   std::vector<std::size_t> open;
   for (std::size_t i = 0; i < count; ++i) {
     const Block& block = program.blocks[i];
@@ -237,8 +253,7 @@ std::vector<std::vector<std::size_t>> successorsOf(const Program& program) {
           out[i].push_back(later != found->second.end() ? *later : found->second.front());
         }
       } else {
-        for (const auto& [number, places] : numbered)
-          out[i].insert(out[i].end(), places.begin(), places.end());
+        successors.computed[i] = true;
       }
     }
     if (std::holds_alternative<Do>(block.body)) open.push_back(i);
@@ -252,8 +267,10 @@ std::vector<std::vector<std::size_t>> successorsOf(const Program& program) {
     }
     if (falls) out[i].push_back(i + 1);
   }
-  return out;
+  return successors;
 }
+
+} // namespace
 
 std::vector<std::optional<Modes>> modesBefore(const Program& program, const stdlib::Control* control) {
   const std::size_t count = program.blocks.size();
@@ -268,7 +285,8 @@ std::vector<std::optional<Modes>> modesBefore(const Program& program, const stdl
     entry.system = 54;
   }
   out[0] = entry;
-  const auto successors = successorsOf(program);
+  const Successors successors = successorsOf(program);
+  std::optional<Modes> atJumps; // after the computed jumps
   std::vector<std::size_t> work = {0};
   while (!work.empty()) {
     const std::size_t at = work.back();
@@ -276,13 +294,74 @@ std::vector<std::optional<Modes>> modesBefore(const Program& program, const stdl
     const Block& block = program.blocks[at];
     Modes then = after(block, *out[at], control);
     if (block.blockDelete) then = joined(then, *out[at]);
-    for (const std::size_t next : successors[at]) {
-      if (next >= count) continue;
-      std::optional<Modes>& there = out[next];
+    const auto reaches = [&](std::optional<Modes>& there) {
       const Modes merged = there ? joined(*there, then) : then;
-      if (there && *there == merged) continue;
+      if (there && *there == merged) return false;
       there = merged;
+      return true;
+    };
+    for (const std::size_t next : successors.next[at])
+      if (next < count && reaches(out[next])) work.push_back(next);
+    if (!successors.computed[at] || !reaches(atJumps)) continue;
+    for (const std::size_t next : successors.numbered)
+      if (reaches(out[next])) work.push_back(next);
+  }
+  return out;
+}
+
+std::vector<bool> passedByAllPaths(const Program& program) {
+  const std::size_t count = program.blocks.size();
+  const Successors successors = successorsOf(program);
+  constexpr std::size_t kNone = SIZE_MAX;
+  std::vector<std::size_t> from(count + 1, kNone); // on the way from the first block
+  bool jumped = false;                             // what computed jumps lead to is looked at once
+  const auto eachNext = [&](std::size_t at, const auto& visit) {
+    if (at >= count) return;
+    for (const std::size_t next : successors.next[at])
+      if (next <= count) visit(next);
+    if (!successors.computed[at] || std::exchange(jumped, true)) return;
+    for (const std::size_t next : successors.numbered)
+      visit(next);
+  };
+  std::vector<std::size_t> work = {0};
+  from[0] = 0;
+  while (!work.empty()) {
+    const std::size_t at = work.back();
+    work.pop_back();
+    eachNext(at, [&](std::size_t next) {
+      if (from[next] != kNone) return;
+      from[next] = at;
       work.push_back(next);
+    });
+  }
+  std::vector<bool> out(count, from[count] == kNone);
+  if (count == 0 || from[count] == kNone) return out;
+
+  // One path to the end; all others leave it and come back. A block that none goes around is passed by all.
+  std::vector<std::size_t> path = {count};
+  while (path.back() != 0)
+    path.push_back(from[path.back()]);
+  std::reverse(path.begin(), path.end());
+  std::vector<std::size_t> place(count + 1, kNone);
+  for (std::size_t i = 0; i < path.size(); ++i)
+    place[path[i]] = i;
+  std::vector<bool> seen(count + 1, false);
+  std::size_t farthest = 0;
+  jumped = false;
+  for (std::size_t i = 0; i + 1 < path.size(); ++i) {
+    if (farthest == i) out[path[i]] = true;
+    work = {path[i]};
+    while (!work.empty()) {
+      const std::size_t at = work.back();
+      work.pop_back();
+      eachNext(at, [&](std::size_t next) {
+        if (place[next] != kNone) {
+          farthest = std::max(farthest, place[next]);
+        } else if (!seen[next]) {
+          seen[next] = true;
+          work.push_back(next);
+        }
+      });
     }
   }
   return out;

@@ -338,7 +338,10 @@ File parse(FileId file, const SourceMap& sources, const Limits& limits, Diagnost
     Block& block = *blocks[i];
     block.range = line.range;
     const bool header = line.header.has_value();
-    if (header && !out.programs.empty()) out.programs.back().closed = true;
+    if (header && !out.programs.empty()) {
+      out.programs.back().closed = true;
+      out.programs.back().blocks.shrink_to_fit(); // of many programs the room that is left over adds up
+    }
     if (header || out.programs.empty()) out.programs.emplace_back();
     Program& program = out.programs.back();
     if (header) program.name = std::move(line.header);

@@ -119,7 +119,7 @@ private:
       line_.add(std::move(word));
       return true;
     }
-    if (!isLetter(peek(0)) || !fanucSyntax(text_.substr(at_, rest(at_).end - begin_ - at_)).empty())
+    if (!isLetter(peek(0)) || !fanucSyntax(text_.substr(at_)).empty())
       return fail(rest(from));
     if (at('P') && isDigit(peek(1))) {
       ++at_;

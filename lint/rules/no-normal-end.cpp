@@ -25,7 +25,7 @@ void check(const Project& project, Report& report) {
   eachProgram(project, [&](const ir::Program& program, const macrob::File& file) {
     if (program.nameKind == ir::Program::NameKind::None || program.body.empty()) return;
     const auto& body = program.body;
-    const auto next = ir::successors(body);
+    const auto next = ir::flowOf(body).next;
     const std::vector<bool> reached = ir::reachable(body);
     bool ends = false;
     bool alarms = false;

@@ -87,17 +87,17 @@ TEST_CASE("ir: flow") {
       statement(Return{}),             // 6
       statement(Jump{9}),              // 7: nowhere
   };
-  using Next = std::vector<std::size_t>;
+  using Places = std::vector<std::size_t>;
   const auto next = successors(list);
   REQUIRE(next.size() == list.size());
-  CHECK(next[0] == Next{1, 3});
-  CHECK(next[1] == Next{5});
-  CHECK(next[2] == Next{3});
+  CHECK(next[0] == Places{1, 3});
+  CHECK(next[1] == Places{5});
+  CHECK(next[2] == Places{3});
   CHECK(next[4].empty());
-  CHECK(next[6] == Next{8});
+  CHECK(next[6] == Places{8});
   CHECK(next[7].empty());
   CHECK(reachable(list) == std::vector<bool>{true, true, false, true, true, true, true, false});
-  CHECK(successors(std::vector{statement(Branch{condition, 0}), statement(Label{0})})[0] == Next{1});
+  CHECK(successors(std::vector{statement(Branch{condition, 0}), statement(Label{0})})[0] == Places{1});
   CHECK(reachable(std::vector<CycleStatement>{}).empty());
 }
 
@@ -113,17 +113,20 @@ TEST_CASE("ir: flow of a program") {
       {Exit{}, {}},                    // 6
       {Raise{constant(1), "end"}, {}}, // 7
   };
-  using Next = std::vector<std::size_t>;
-  auto next = successors(list);
+  ProgramFlow flow = flowOf(list);
+  const auto& next = flow.next;
   CHECK(next[1] == Next{2, 4});
   CHECK(next[3] == Next{0});
-  CHECK(next[5] == Next{0, 4});
+  CHECK(next[5].empty());
+  CHECK(isComputedJump(list[5]));
+  CHECK(flow.labels == std::vector<std::size_t>{0, 4});
   CHECK(next[6] == Next{8});
   CHECK(next[7].empty());
   CHECK(reachable(list) == std::vector<bool>{true, true, true, true, true, true, false, false});
   list[5].blockDelete = 1;
-  next = successors(list);
-  CHECK(next[5] == Next{0, 4, 6});
+  flow = flowOf(list);
+  CHECK(next[5] == Next{6});
+  CHECK(flow.labels == std::vector<std::size_t>{0, 4});
   CHECK(reachable(list)[6]);
 }
 
@@ -133,22 +136,21 @@ TEST_CASE("ir: M30 and M2 end a program") {
     block.words.push_back({'M', constant(number), {}});
     return ProgramStatement{std::move(block), {}};
   };
-  using Next = std::vector<std::size_t>;
   for (const double number : {30.0, 2.0}) {
     std::vector<ProgramStatement> list = {code(9), code(number), code(5)};
-    CHECK(successors(list)[0] == Next{1});
-    CHECK(successors(list)[1] == Next{3});
+    CHECK(flowOf(list).next[0] == Next{1});
+    CHECK(flowOf(list).next[1] == Next{3});
     CHECK(reachable(list) == std::vector<bool>{true, true, false});
     CHECK(endsProgram(list[1]));
     CHECK_FALSE(endsProgram(list[0]));
     // With the switch on, the control leaves the block out.
     list[1].blockDelete = 1;
-    CHECK(successors(list)[1] == Next{3, 2});
+    CHECK(flowOf(list).next[1] == Next{3, 2});
     CHECK(reachable(list)[2]);
   }
   // Which code this is turns out as it runs.
   NcBlock computed;
   computed.words.push_back({'M', machineVariable(constant(1)), {}});
   const ProgramStatement statement{std::move(computed), {}};
-  CHECK(successors(std::vector{statement})[0] == Next{1});
+  CHECK(flowOf(std::vector{statement}).next[0] == Next{1});
 }

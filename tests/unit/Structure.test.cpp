@@ -101,7 +101,7 @@ TEST_CASE("structure: regions nest, and nothing outside leads into one") {
     INFO(text);
     if (structure.refused) continue;
     ++structured;
-    const auto next = ir::successors(program.body);
+    const auto next = ir::flowOf(program.body).next;
     for (const ir::Region& region : structure.regions) {
       REQUIRE(region.begin < region.end);
       REQUIRE(region.end <= program.body.size());

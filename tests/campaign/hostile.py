@@ -1,0 +1,68 @@
+"""Texts that grow along one dimension, as each kind of file, at two sizes: nothing crashes or hangs."""
+
+import pathlib
+
+# One piece of the text; it is repeated up to the size, between a beginning and an end.
+NC = [
+    ("", "(", ""), ("", ")", ""), ("", "[", ""), ("", "]", ""), ("", "#", ""), ("#1=", "#", "1"), ("#1=", "[", "1"),
+    ("#1=", "-", "1"), ("#1=1", "+1", ""), ("#1=1", "*[1", ""), ("#1=", "SIN[", "1"), ("IF[1EQ1", "AND[1EQ1]", "]GOTO1"),
+    ("", "IF[1EQ1]THEN", "#1=1"), ("", "WHILE[1EQ1]DO1\n", ""), ("", "DO1\nEND1\n", ""), ("", "END1\n", ""),
+    ("", "N1 GOTO 1\n", ""), ("", "GOTO#1\n", ""), ("", "O1\n", "M99\n"), ("", "%\n", ""), ("", "%", ""), ("", "/", ""),
+    ("", "G65P9810", ""), ("", "G65P1\n", ""), ("", "M98P1\n", ""), ("", "M98P1L9999\n", ""), ("", "X", ""), ("", "X1.", ""),
+    ("", "9", ""), ("", ".", ""), ("X", "0", "1"), ("", "\0", ""), ("", "\xff", ""), ("", "\r", ""), ("", "\n", ""),
+    ("", "\t", ""), ("", " ", "X"), ("", "\xe2\x80\xae", ""), ("", "\x1b[2J", ""), ("", "DPRNT[X#1[53]]\n", ""),
+    ("DPRNT[", "X#1[53]", "]"), ("POPEN\n", "BPRNT[X#1[3]]\n", ""), ("SETVN 500[", "A,", "A]"), ("", "G31X1.F1.\n", ""),
+    ("", "G2X1.I1.\n", ""), ("", "G91G28Z0.\n", ""), ("", "G10L2P1X1.\n", ""), ("", "#3000=1(T)\n", ""),
+    ("", "#[#1]=#[#[1]]\n", ""), ("#1=", "#[", "1"), ("(DOTEK: IGNORE ", "A,", ")"), ("", "(DOTEK: IGNORE-START A)\n", ""),
+]
+MAC = [
+    ("", "if a then ", "b=1"), ("", "[", ""), ("", "if a then [\n", ""), ("", "for i=1 to 9\n", ""), ("", ":a\ngoto a\n", ""),
+    ("x=", "(", "1"), ("x=", "-", "1"), ("x=1", "+1", ""), ("x=", "sin(", "1"), ("", 'call "a.mac"\n', ""),
+    ("", '#include "a.mac"\n', ""), ("", '"', ""), ("message ", '"a"&', '"b"'), ("", "!", ""), ("", "global a\n", ""),
+    ("", "dialog \"a\",1,1,1,1\n", ""), ("", "a,", ""), ("if a", " and a", " then b=1"), ("", "x=1e9\n", ""), ("", "else ", ""),
+]
+PROG = [
+    ("a:\n", "IF CycleType?('a')\n", ""), ("a:\n", "END\n", ""), ("", "a:\nRETURN\n", ""), ("a:\n", "CALL a\n", "RETURN\n"),
+    ("a:\n", "SeqC 'G1' EOL\n", "RETURN\n"), ("", "'", ""), ("a:\nSeqC ", "'x'", " EOL\n"), ("", "#1='#.#'\n", ""),
+    ("#1='", "#", "'\n"), ("", "FORMAT(a,1)\n", ""), ("a:\n", "IF 1 ELSE ", ""), ("", "(", ""), ("", "a:", ""), ("", "! x\n", ""),
+]
+SUF = [
+    ("", "N1 G0 X1\n", ""), ("", "G31 X1 L10\n", ""), ("", "N10 M20 L10\n", ""), ("", "#1=#1+1\n", ""), ("", "(", ""), ("", "L1", ""),
+    ("", "G92 X1\n", ""), ("", "%", ""), ("", "9", ""), ("", ";", ""),
+]
+TOML = [
+    ("a=", "[", ""), ("", "[a]\n", ""), ("", "[a.", ""), ("a=", "{b=", ""), ("a='", "x", "'"), ('a="', "\\u0041", '"'), ("", "a=1\n", ""),
+    ("a", ".a", "=1"), ("", '"', ""), ("", "[[lint.path]]\n", ""), ("a=", "1", ""), ("", "#", ""),
+]
+STL = [
+    ("solid\n", "facet normal 0 0 1\n", ""), ("solid\n", "vertex 1 1 1\n", ""), ("", "\0", ""), ("solid ", "x", ""),
+    ("x" * 80 + "\xff\xff\xff\x7f", "\1", ""), ("solid\n", "facet normal 0 0 1 outer loop vertex 0 0 0 vertex 1 0 0 "
+     "vertex 0 1 0 endloop endfacet\n", "endsolid\n"),
+]
+KINDS = [
+    (NC, "a.nc", [["lint", "--select", "all", "a.nc"], ["sim", "--json", "a.nc"], ["dump", "a.nc"],
+                  ["convert", "a.nc", "--to", "fanuc", "--control", "fanuc-31i-b"]]),
+    (MAC, "a.mac", [["lint", "--select", "all", "--from", "mac", "a.mac"]]),
+    (PROG, "p.txt", [["lint", "--select", "all", "--from", "prog", "p.txt"]]),
+    (SUF, "a.SUF", [["lint", "--select", "all", "a.SUF"], ["sim", "--json", "a.SUF"]]),
+    (TOML, "dotek.toml", [["lint", "b.nc"], ["sim", "--json", "--part", "dotek.toml", "b.nc"], ["sim", "--json", "--job", "dotek.toml", "b.nc"]]),
+    (STL, "a.stl", [["sim", "--json", "--part", "part.toml", "--machine", "machine.toml", "b.nc"]]),
+]
+SIZES = (20_000, 400_000)  # bytes
+
+
+def run(judge, folder):
+    folder = pathlib.Path(folder)
+    (folder / "b.nc").write_text("%\nO1\nG90 G54 G0 X0 Y0\nG31 Z-5. F100.\nM30\n%\n")
+    (folder / "part.toml").write_text('[[add]]\nshape = "mesh"\nfile = "a.stl"\nunit = "mm"\n')
+    (folder / "machine.toml").write_text("")
+    for texts, name, commands in KINDS:
+        for begin, piece, end in texts:
+            for size in SIZES:
+                text = begin + piece * (size // len(piece)) + end
+                (folder / name).write_bytes(text.encode("latin1"))
+                for command in commands:
+                    prints = "sim" if "--json" in command else None
+                    fault = judge.run(command, folder, prints=prints)
+                    yield fault and f"{fault} ({begin!r} {piece!r} to {size} bytes)", command, folder
+        (folder / name).unlink()

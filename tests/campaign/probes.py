@@ -1,0 +1,157 @@
+"""Files, streams, limits and signals: what is written is whole or absent, what fails says so."""
+
+import os
+import pathlib
+import subprocess
+
+from judge import ROOT
+
+CYCLE = f"{ROOT}/examples/surface-x --prog {ROOT}/examples/post.txt --form thesis-a"
+COMMANDS = {
+    "version": "--version", "help": "convert --help", "limits": "list limits", "rules": "list rules", "explain": "explain jump-to-itself",
+    "lint": "lint p.nc", "sarif": "lint p.nc --format sarif", "sim": "sim p.nc", "json": "sim --json p.nc", "dump": "dump p.nc",
+    "post": f"post {CYCLE} --clearance 5", "convert": f"convert {CYCLE} --to fanuc", "fusion": f"convert {CYCLE} --to fusion",
+    "verify": f"verify {CYCLE} --to fusion --assume probe-on --cases 5", "new": f"new form shop --prog {ROOT}/examples/post.txt",
+    "fanuc": f"verify {CYCLE} --to fanuc --assume probe-on --cases 100",
+}
+# Put before the command: a limit that may or may not be enough.
+LIMITS = [
+    "ulimit -v 20000", "ulimit -v 40000", "ulimit -v 80000", "ulimit -v 200000", "ulimit -n 3", "ulimit -n 4", "ulimit -n 8", "ulimit -u 1",
+    "ulimit -s 64", "ulimit -s 200", "ulimit -Ss 64", "ulimit -s unlimited", "ulimit -f 0", "ulimit -f 1", "ulimit -c 0", "ulimit -l 0",
+]
+STREAMS = {"> /dev/full": 2, ">&-": 2, "<&-": None, "2>&-": None, "2> /dev/full": None, "<&- 2>&-": None, "| head -c 1 > /dev/null": None}
+# Files that a command writes, and how it writes them.
+WRITERS = {
+    "-o": f"convert {CYCLE} --to fanuc -o OUT", "--map": f"convert {CYCLE} --to fanuc -o o.nc --map OUT", "--trace": "sim big.nc --trace OUT",
+    "--svg": "sim p.nc --quiet --svg OUT", "--html": "sim p.nc --quiet --html OUT", "new": f"new form shop --prog {ROOT}/examples/post.txt -o OUT --force",
+    "--fix": "lint OUT --fix",
+}
+NAMES = ["a\x1b[2Jb.nc", "a\nb.nc", "a\u202eb.nc", "a\u009bb.nc", "-a.nc", " .nc", "a'b.nc", "a\"b.nc", "a%sb.nc", "\u00e9.nc", "a\x7f.nc", "x" * 250 + ".nc"]
+OLD = "%\nO1\nN1 GO X1.\nM30\n%\n"
+
+
+class Probe:
+    def __init__(self, judge, folder):
+        self.judge, self.folder = judge, folder
+        self.count = 0
+
+    def bash(self, script):
+        try:
+            done = subprocess.run(["bash", "-c", f"dotek() {{ '{self.judge.dotek}' \"$@\"; }}\n{script}"], cwd=self.here, timeout=self.judge.limit,
+                                  stdin=subprocess.DEVNULL, capture_output=True)
+        except subprocess.TimeoutExpired:
+            return None
+        self.judge.exits[done.returncode] = self.judge.exits.get(done.returncode, 0) + 1
+        return done
+
+    def fresh(self):
+        self.count += 1
+        self.here = self.folder / str(self.count)
+        self.here.mkdir()
+        (self.here / "p.nc").write_text(OLD)
+        (self.here / "big.nc").write_text("%\nO1\n" + "G1 X1. F100.\nX2.\n" * 60_000 + "M30\n%\n")
+
+    def fault(self, script, statuses, more=lambda done: None):
+        """`statuses` that are right, and `more` that has to hold of the run."""
+        done = self.bash(script)
+        if done is None:
+            return f"does not end within {self.judge.limit:g} s"
+        if done.returncode not in statuses:
+            return f"exit status {done.returncode}: {done.stderr[-200:].decode('latin1')}"
+        for word in (b"Sanitizer", b"runtime error", b"terminate called", b"defect of Dotek"):
+            if word in done.stderr:
+                return "defect: " + done.stderr[-300:].decode("latin1")
+        left = [p.name for p in self.here.iterdir() if p.name.startswith(".dotek")]
+        if left:
+            return f"leaves {left}"
+        return more(done)
+
+
+def whole(probe, command):
+    """What OUT is after the command without any hindrance."""
+    probe.fresh()
+    (probe.here / "OUT").write_text(OLD)
+    probe.bash("dotek " + command + " --force")
+    return (probe.here / "OUT").read_bytes()
+
+
+def kept(probe, new, name="OUT"):
+    def check(done):
+        path = probe.here / name
+        if not path.exists():
+            return f"{name} is gone"
+        data = path.read_bytes()
+        if data not in (OLD.encode(), new):
+            return f"{name} is neither what it was nor complete ({len(data)} bytes)"
+        if done.returncode == 0 and data != new:
+            return f"says that it wrote {name} and did not"
+        return None
+
+    return check
+
+
+def quiet_names(done):
+    """No byte of a file's name that acts on a terminal."""
+    text = (done.stdout + done.stderr).decode("utf-8", "replace").replace("\n", " ")
+    bad = [c for c in text if ord(c) < 32 or 127 <= ord(c) < 160 or c in "\u202a\u202b\u202c\u202d\u202e\u2066\u2067\u2068\u2069\u200e\u200f\u061c"]
+    return f"prints {bad[0]!r} of a name" if bad else None
+
+
+def run(judge, folder):
+    probe = Probe(judge, pathlib.Path(folder))
+
+    def told(script, statuses, more=lambda done: None):
+        return probe.fault(script, statuses, more), [script], probe.here
+
+    for command in COMMANDS.values():
+        for stream, status in STREAMS.items():
+            probe.fresh()
+            right = (status,) if status is not None else (0, 1, 2)
+            if stream == ">&-" or stream == "> /dev/full":
+                probe.bash(f"dotek {command} > plain")  # nothing to print is no failure
+                if (probe.here / "plain").stat().st_size == 0:
+                    right = (0, 1, 2)
+            yield told(f"set -o pipefail; dotek {command} {stream}", right + ((141,) if "|" in stream else ()))
+    for name in ("lint", "json", "post", "fusion", "verify", "fanuc"):
+        for limit in LIMITS:
+            probe.fresh()
+            # The loader may be refused the memory for a library: 127, before Dotek runs.
+            yield told(f"{limit}; dotek {COMMANDS[name]} > out", (0, 1, 2) + ((127,) if "-v" in limit or "-n 3" in limit else ()))
+    for flag, command in WRITERS.items():
+        new = whole(probe, command)
+        hindrances = {
+            "folder": ("rm -f OUT; mkdir OUT", None), "file size": ("ulimit -f 1", new), "no descriptors": ("ulimit -n 4", new),
+            "read only": ("chmod a-w OUT", new), "full": ("rm OUT; ln -s /dev/full OUT", None), "link": ("mv OUT real; ln -s real OUT", new),
+            "loop": ("rm OUT; ln -s OUT OUT", None), "hard link": ("ln OUT other", new), "planted": ("for i in $(seq 50); do ln -s /etc/passwd .dotek-$i; done; "
+            "trap 'rm -f .dotek-*' EXIT", new), "gone": ("cd ..", None),
+        }
+        for before, after in hindrances.values():
+            probe.fresh()
+            (probe.here / "OUT").write_text(OLD)
+            more = kept(probe, after) if after is not None else lambda done: None
+            yield told(f"{before}; dotek {command}", (0, 1, 2), more)
+        for signal in ("INT", "TERM", "HUP", "KILL"):
+            probe.fresh()
+            (probe.here / "OUT").write_text(OLD)
+            script = (f"set -m; '{judge.dotek}' {command} --force > /dev/null 2>&1 & sleep 0.0{probe.count % 10}; kill -{signal} $! 2> /dev/null; "
+                      "wait $!; s=$?; [ $s -le 2 ] || [ $s -gt 128 ] || exit 99" + ("; rm -f .dotek*" if signal == "KILL" else "") + "; exit 0")
+            yield told(script, (0,), lambda done: kept(probe, new)(subprocess.CompletedProcess([], 1)))
+    for name in NAMES:
+        for command in ("lint", "sim", "sim --json", "lint --format sarif", "dump", "convert --to fanuc --control fanuc-31i-b", "sim --quiet --svg o.svg"):
+            probe.fresh()
+            path = probe.here / name
+            path.write_text(OLD)
+            script = f"dotek {command} -- \"$(cat name)\""
+            (probe.here / "name").write_text(name + "\n")
+            yield told(script.replace('"$(cat name)"', "'" + name.replace("'", "'\\''") + "'"), (0, 1, 2), quiet_names)
+    pairs = ["lint p.nc p.nc", "lint p.nc ./p.nc", f"convert {CYCLE} --to fanuc -o F --map F", "sim p.nc --svg F --html F", "sim p.nc --trace F --html F",
+             "sim p.nc --trace p.nc", "sim p.nc --svg p.nc", "convert p.nc --to fanuc --control fanuc-31i-b -o p.nc", "convert p.nc --to fanuc --control fanuc-31i-b -o -"]
+    for command in pairs:
+        probe.fresh()
+        yield told("dotek " + command, (0, 1, 2), lambda done: None if (probe.here / "p.nc").read_text() == OLD else "writes over its input")
+    others = ["mkfifo f.nc; dotek lint .", "mkfifo f.nc; (printf '%s' 'O1' > f.nc &) ; dotek lint f.nc", "ln -s . d; ln -s .. e; dotek lint .", "dotek lint /dev/null",
+              "dotek lint /dev/stdin < p.nc", "mkdir x.nc; dotek lint x.nc", "dotek lint nowhere", "dotek sim -", "dotek lint ''", "dotek lint /proc/self/mem",
+              "ln -s x.nc x.nc; dotek lint x.nc", "chmod 0 p.nc; dotek lint p.nc", "dotek lint p.nc/x", "rm -f p.nc; mkdir gone; cd gone; rmdir ../gone; dotek lint ."]
+    for script in others:
+        probe.fresh()
+        yield told(script, (0, 1, 2))
