@@ -18,6 +18,18 @@ void addComPost(std::vector<Construct>& out) {
   linted("routines", 1000, [](long n) {
     return repeated(n, [](long i) { return fmt::format("routine{}:\nSeqC ' G0 X1.' EOL\nRETURN\n", i); });
   });
+  // Some 330 bytes a piece, as posts have them.
+  linted("ordinary text (KB)", 60, [](long n) {
+    return repeated(3 * n, [](long i) {
+      return fmt::format(
+          "! cycle {0}\nprobe{0}:\nIF CycleType?('c{0}')\n SeqC ' (SIDE {0})' EOL\n SeqC ' G65 P9770 "
+          "Z'OpFieldData#('Z')' "
+          "F3000' EOL\n IF Flag?('F{0}')\n  SeqC ' G65 P9023 S'OpFieldData#('G')' X'OpFieldData#('X{0}')' "
+          "I'OpFieldData#('I') EOL\n"
+          " ELSE\n  SeqC ' G65 P9019 D'OpFieldData#('D') EOL\n END\n SeqC ' M5' EOL\nEND\nRETURN\n\n",
+          i);
+    });
+  });
   linted("routines that call the next", 1000, [](long n) {
     return repeated(n, [](long i) {
       return fmt::format("routine{}:\nroutine{}\nSeqC ' G0 X1.' EOL\nRETURN\n", i, i + 1);

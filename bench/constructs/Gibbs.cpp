@@ -39,6 +39,17 @@ void addGibbs(std::vector<Construct>& out) {
            return Input{{{"a.mac", text(n)}}, {"lint", "--select", "all", "--from", "mac", "a.mac"}};
          }});
   };
+  // Some 330 bytes a piece, as macros of probing cycles have them.
+  macro("ordinary text (KB)", 60, [](long n) {
+    return repeated(3 * n, [](long i) {
+      return fmt::format(
+          "! side {0}: where the ball touches\nif dia{0} < 0.5 then message \"hole {0} is too small\"\n"
+          "reach{0} = dia{0}/2 + over*1.5\nif abs(reach{0}) > 40 then [\nstep{0} = reach{0} - 3.25\n"
+          "] else [\nstep{0} = 0\n]\nfor k = 1 to {1}\npos{0} = pos{0} + step{0}*cos(k*30)\nnext k\n"
+          "add_custom_drill_cycle_path feed_x, X+pos{0}\nadd_custom_drill_cycle_path feed_z, R-plane\n\n",
+          i, 2 + i % 5);
+    });
+  });
   macro("variables", 1500,
         [](long n) { return repeated(n, [](long i) { return fmt::format("v{} = v{} + 1\n", i, i / 2); }); });
   macro("variables with IF", 1000, [](long n) {

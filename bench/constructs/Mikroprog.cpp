@@ -27,6 +27,20 @@ void addMikroprog(std::vector<Construct>& out) {
   linted("blocks", 3000, moves);
   add("blocks", 3000, sim, moves);
   add("blocks", 3000, {"dump", "--stage", "ir"}, moves);
+  // Some 250 bytes a piece.
+  linted("ordinary text (KB)", 60, [](long n) {
+    return "N1 G17 G90 G94\n" +
+           repeated(
+               4 * n,
+               [](long i) {
+                 return fmt::format(
+                     "N{0} G0 X{4}.125 Y-{5}.5 ;TO SIDE {6}\nN{1} G1 Z-{5}.25 F250\nN{2} P1={4}.5\nN{3} G1 "
+                     "X{5}.5 Y{4}.375 F500\n"
+                     "N{3}1 G1 XP1 Y0\nN{3}2 X{4}.5\nN{3}3 G0 Z50 ;UP\nN{3}4 G4 H1\nN{3}5 X0 Y0\nN{3}6 M5\n",
+                     10 * i + 2, 10 * i + 3, 10 * i + 4, 10 * i + 5, i % 90, 1 + i % 30, i);
+               }) +
+           "N99999999 M30\n";
+  });
   linted("blocks without numbers", 3000, [](long n) { return times(n, "G1 X1 Z1\n"); });
   linted("words on one line", 2000, [](long n) { return "N1 G1" + times(n, " X1") + "\n"; });
   linted("words without blanks", 5000, [](long n) { return "N1 G1" + times(n, "X1") + "\n"; });

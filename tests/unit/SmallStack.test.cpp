@@ -45,7 +45,7 @@ TEST_CASE("threads and scripts have room where the stack is small") {
   const std::string verify = fmt::format(
       "dotek verify {0}/examples/surface-x --prog {0}/examples/post.txt --to fusion --assume probe-on "
       "--cases 70 --jobs 2",
-      projectRoot().string());
+      root().string());
   const ShellResult plain = folder.run(verify);
   CHECK(plain.status == 0);
   const ShellResult small = folder.run("ulimit -s 64; " + verify);
