@@ -52,7 +52,8 @@ Modes within(const Words& words, Modes before);
 // programs come from a CAM. `control` may be null.
 std::vector<std::optional<Modes>> modesBefore(const Program& program, const stdlib::Control* control);
 
-// Blocks that every path from the first block to the end of the program passes; all of them where no path ends.
+// Blocks that every path from the first block to the end of the program passes; all of them where no path
+// ends.
 std::vector<bool> passedByAllPaths(const Program& program);
 
 } // namespace dotek::frontend::macrob

@@ -119,8 +119,7 @@ private:
       line_.add(std::move(word));
       return true;
     }
-    if (!isLetter(peek(0)) || !fanucSyntax(text_.substr(at_)).empty())
-      return fail(rest(from));
+    if (!isLetter(peek(0)) || !fanucSyntax(text_.substr(at_)).empty()) return fail(rest(from));
     if (at('P') && isDigit(peek(1))) {
       ++at_;
       const auto number = digits();
