@@ -190,6 +190,10 @@ int runCommand(Arguments& arguments, std::ostream& out, std::ostream& err) {
     return printer.verification(arguments.verify, arguments);
   case Command::Explain: return printer.result(driver::explain(arguments.inputs.front()), arguments);
   case Command::New:
+    if (!arguments.convert.fromControl.empty())
+      return printer.result(
+          driver::newControl({arguments.inputs.back(), arguments.convert.fromControl, arguments.common}),
+          arguments);
     return printer.result(driver::newForm({arguments.inputs.back(), arguments.source.prog, arguments.common}),
                           arguments);
   case Command::List:

@@ -115,6 +115,16 @@ std::string folderOf(const std::string& flag, const std::string& path) {
 
 } // namespace
 
+namespace {
+
+std::string probeCode(const std::string& flag, const std::string& text) {
+  if (!text.empty() && !stdlib::codeOf(text))
+    throw UsageError(flag + " takes a code such as M31, not `" + text + "`");
+  return text;
+}
+
+} // namespace
+
 driver::CommonOptions commonOf(const Raw& raw) {
   driver::CommonOptions out;
   if (!raw.job.empty()) out.job = raw.job;
@@ -135,6 +145,7 @@ driver::CommonOptions commonOf(const Raw& raw) {
   }
   for (const auto& [name, value] : pairsOf("--limit", raw.limit))
     applyLimit(name, value, out.limits);
+  out.probeCodes = {probeCode("--probe-on", raw.probeOn), probeCode("--probe-off", raw.probeOff)};
   out.data = raw.data;
   for (const std::string& folder : raw.include)
     out.include.push_back(folderOf("--include", folder));
@@ -148,11 +159,18 @@ driver::CommonOptions commonOf(const Raw& raw) {
   return out;
 }
 
+void addProbeCodes(CLI::App& app, Raw& raw) {
+  app.add_option("--probe-on", raw.probeOn, "code that switches the probe on, where the profile has none")
+      ->type_name("CODE");
+  app.add_option("--probe-off", raw.probeOff, "code that switches it off")->type_name("CODE");
+}
+
 void addCommon(CLI::App& app, Raw& raw) {
   app.add_option("--encoding", raw.encoding, "utf-8, cp1250 or cp852 instead of the recognised encoding");
   app.add_option("--from", raw.from, "kind of the inputs: prog, mac, dlg, define, nc, listing or suf");
   app.add_option("--max-errors", raw.maxErrors, "print at most N errors; 0 prints all")->type_name("N");
   addSeveral(app, "--limit", raw.limit, "set a limit (see `dotek list limits`)", "NAME=N");
+  addProbeCodes(app, raw);
   addFolders(app, "--data", raw.data, "folder whose data files are added or replace built-in ones");
 }
 

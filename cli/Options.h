@@ -33,7 +33,8 @@ struct Raw {
   bool fix = false, followLinks = false;
   std::string stage = "ast";
   std::vector<std::string> letters, defaults;
-  std::string to, control, fromControl, renumber, probeMacros, programNumber, outputFolder, mapFile;
+  std::string to, control, fromControl, renumber, probeMacros, probeOn, probeOff, programNumber, outputFolder,
+      mapFile;
   std::string defaultsMode = "alarm";
   std::string probePower = "source";
   std::string datum;
@@ -88,6 +89,7 @@ driver::NamedTexts pairsOf(const std::string& flag, const std::vector<std::strin
 
 // Flags that several commands have.
 void addCommon(CLI::App& app, Raw& raw);
+void addProbeCodes(CLI::App& app, Raw& raw);
 void addValues(CLI::App& app, Raw& raw);
 void addIncludes(CLI::App& app, Raw& raw); // which files inputs may name
 void addSource(CLI::App& app, Raw& raw);   // what says where the post is

@@ -13,6 +13,16 @@ void addNew(CLI::App& app, Raw& raw) {
   form->add_option("-o", raw.output, "write the form to a file")->type_name("FILE");
   addForce(*form, raw);
   addCommon(*form, raw);
+  CLI::App* control =
+      command->add_subcommand("control", "what a machine has otherwise than a control that Dotek knows");
+  control->add_option("NAME", raw.inputs, "name of the control")->required()->expected(1);
+  control->add_option("--from", raw.fromControl, "the control that it extends (see `dotek list controls`)")
+      ->type_name("NAME")
+      ->required();
+  control->add_option("-o", raw.output, "write the control to a file")->type_name("FILE");
+  addForce(*control, raw);
+  addProbeCodes(*control, raw);
+  addFolders(*control, "--data", raw.data, "folder whose data files are added or replace built-in ones");
 }
 
 void addExplain(CLI::App& app, Raw& raw) {

@@ -53,6 +53,12 @@ struct NewFormOptions {
   CommonOptions common;
 };
 
+struct NewControlOptions {
+  std::string name;
+  std::string base; // the control that it extends
+  CommonOptions common;
+};
+
 // What a command gives. `status` is 0, 1 or 2 as docs/cli.md says; with a status other than 0 of post,
 // `output` is empty.
 struct Outcome {
@@ -92,6 +98,8 @@ Outcome sim(const SimOptions& options);
 Outcome verify(const VerifyOptions& options);
 // The beginning of a form's data file: what the Prog's keywords print, as far as it is known.
 Outcome newForm(const NewFormOptions& options);
+// The same for a control that differs from one that Dotek knows.
+Outcome newControl(const NewControlOptions& options);
 // The text of one message or rule; status 2 for an unknown code.
 Outcome explain(const std::string& code);
 // `what`: cycles, controls, macros, forms, rules, targets, hosts, limits, assumptions.

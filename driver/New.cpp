@@ -1,5 +1,7 @@
 #include "driver/Command.h"
+#include "project/ControlDraft.h"
 #include "project/FormDraft.h"
+#include "project/Lowering.h"
 #include "project/Prog.h"
 
 #include <algorithm>
@@ -26,6 +28,13 @@ Outcome newForm(const NewFormOptions& options) {
       if (auto form = session.form(file->name)) known.push_back(std::move(*form));
     return outcomeOf(session,
                      draftForm(options.name, *program, session.sources(), session.compostKeywords(), known));
+  });
+}
+
+Outcome newControl(const NewControlOptions& options) {
+  return guarded(options.common, [&](Session& session) {
+    const auto base = loadControl(options.base, session);
+    return outcomeOf(session, base ? draftControl(options.name, *base, session.probeCodes()) : std::string());
   });
 }
 

@@ -213,8 +213,8 @@ CheckRun runChecks(const Cycle& cycle, Environment environment, std::uint32_t ma
         [](const Return&) -> std::optional<End> { return End::Passes; },
         [](const OpaqueBlock&) -> std::optional<End> { return End::Unknown; },
         // What verify() refuses in checks, and what changes no variable of the cycle.
-        [](const OneOf<Store, Label, Move, Measure, ProbePower, Spindle, Coolant, SetMode, Dwell, Stop,
-                       Comment> auto&) -> std::optional<End> { return std::nullopt; });
+        [](const OneOf<Store, Label, Move, Measure, CallCycle, ProbePower, Spindle, Coolant, SetMode, Dwell,
+                       Stop, Comment> auto&) -> std::optional<End> { return std::nullopt; });
     if (end) return {*end, *end == End::Passes ? nullptr : &statement};
     if (!target) {
       ++at;

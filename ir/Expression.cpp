@@ -17,6 +17,24 @@ template <class Node> ConditionPtr makeCondition(SourceRange range, Node node) {
 
 } // namespace
 
+std::string_view resultText(ResultName name) {
+  static constexpr std::string_view kTexts[] = {
+#define DOTEK_RESULT(id, text, title) text,
+      DOTEK_RESULTS(DOTEK_RESULT)
+#undef DOTEK_RESULT
+  };
+  return kTexts[static_cast<std::size_t>(name)];
+}
+
+std::string_view resultTitle(ResultName name) {
+  static constexpr std::string_view kTitles[] = {
+#define DOTEK_RESULT(id, text, title) title,
+      DOTEK_RESULTS(DOTEK_RESULT)
+#undef DOTEK_RESULT
+  };
+  return kTitles[static_cast<std::size_t>(name)];
+}
+
 ExpressionPtr constant(double value, SourceRange range, std::string digits) {
   return make(range, Constant{value == 0 ? 0.0 : value, std::move(digits)});
 }

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <variant>
 
 namespace dotek::ir {
@@ -33,7 +34,36 @@ struct MachineVariable {
 };
 // What the last measurement that was carried out left. `Documented` ones are defined by the macro set;
 // Main is "the result" of a set that does not say what it holds (EasyProbe #138).
-enum class ResultName : std::uint8_t { Main, PositionX, PositionY, PositionZ, Size };
+// X(id, text form, as messages name it)
+#define DOTEK_RESULTS(X)                                                                                     \
+  X(Main, "main", "the result")                                                                              \
+  X(PositionX, "x", "the position in X")                                                                     \
+  X(PositionY, "y", "the position in Y")                                                                     \
+  X(PositionZ, "z", "the position in Z")                                                                     \
+  X(Size, "size", "the size")                                                                                \
+  X(Angle, "angle", "the angle")                                                                             \
+  X(AngleY, "angle-y", "the angle of the Y face")                                                            \
+  X(ErrorX, "error-x", "the error in X")                                                                     \
+  X(ErrorY, "error-y", "the error in Y")                                                                     \
+  X(ErrorZ, "error-z", "the error in Z")                                                                     \
+  X(SizeError, "size-error", "the error of the size")                                                        \
+  X(AngleError, "angle-error", "the error of the angle")                                                     \
+  X(AngleErrorY, "angle-error-y", "the error of the angle of the Y face")                                    \
+  X(TruePosition, "true-position", "the true position")                                                      \
+  X(MetalCondition, "metal-condition", "the metal condition")                                                \
+  X(TouchDirection, "direction", "the direction of the touch")                                               \
+  X(Hole, "hole", "the number of the hole")                                                                  \
+  X(Maximum, "maximum", "the greatest value")                                                                \
+  X(Variation, "variation", "the variation")                                                                 \
+  X(OutOfTolerance, "out-of-tolerance", "the flag of the tolerances")                                        \
+  X(ProbeError, "probe-error", "the flag of the probe")
+enum class ResultName : std::uint8_t {
+#define DOTEK_RESULT(id, text, title) id,
+  DOTEK_RESULTS(DOTEK_RESULT)
+#undef DOTEK_RESULT
+};
+std::string_view resultText(ResultName name);  // "x"
+std::string_view resultTitle(ResultName name); // "the position in X"
 struct MeasuredResult {
   ResultName name = ResultName::Main;
 };

@@ -53,8 +53,8 @@ template <AnyStatement Statement> ProgramFlow flowIn(const std::vector<Statement
         [&](const OneOf<Return, Exit> auto&) { out[i].add(list.size()); },
         [&](const NcBlock& block) { out[i].add(endsHere(block) ? list.size() : i + 1); },
         [](const OneOf<Alarm, Raise, JumpTo> auto&) {},
-        [&](const OneOf<Label, Store, Move, Measure, ProbePower, Comment, Assign, Spindle, Coolant, SetMode,
-                        Dwell, Stop, OpaqueBlock, Call, Notice, Port, Print, NameVariables> auto&) {
+        [&](const OneOf<Label, Store, Move, Measure, CallCycle, ProbePower, Comment, Assign, Spindle, Coolant,
+                        SetMode, Dwell, Stop, OpaqueBlock, Call, Notice, Port, Print, NameVariables> auto&) {
           out[i].add(i + 1);
         });
     // Block delete leaves a statement out.
@@ -66,17 +66,19 @@ template <AnyStatement Statement> ProgramFlow flowIn(const std::vector<Statement
 template <AnyStatement Statement> std::optional<LabelId> targetIn(const Statement& statement) {
   return match(
       statement, [](const OneOf<Jump, Branch> auto& node) { return std::optional(node.target); },
-      [](const OneOf<Label, Store, Move, Measure, ProbePower, Comment, Assign, Return, Spindle, Coolant,
-                     SetMode, Dwell, Stop, Alarm, OpaqueBlock, NcBlock, JumpTo, Loop, LoopEnd, Call, Exit,
-                     Raise, Notice, Port, Print, NameVariables> auto&) { return std::optional<LabelId>(); });
+      [](const OneOf<Label, Store, Move, Measure, CallCycle, ProbePower, Comment, Assign, Return, Spindle,
+                     Coolant, SetMode, Dwell, Stop, Alarm, OpaqueBlock, NcBlock, JumpTo, Loop, LoopEnd, Call,
+                     Exit, Raise, Notice, Port, Print, NameVariables> auto&) {
+        return std::optional<LabelId>();
+      });
 }
 
 template <AnyStatement Statement> bool layoutOnly(const Statement& statement) {
   return match(
       statement, [](const OneOf<Label, Comment> auto&) { return true; },
-      [](const OneOf<Jump, Branch, Store, Move, Measure, ProbePower, Assign, Return, Spindle, Coolant,
-                     SetMode, Dwell, Stop, Alarm, OpaqueBlock, NcBlock, JumpTo, Loop, LoopEnd, Call, Exit,
-                     Raise, Notice, Port, Print, NameVariables> auto&) { return false; });
+      [](const OneOf<Jump, Branch, Store, Move, Measure, CallCycle, ProbePower, Assign, Return, Spindle,
+                     Coolant, SetMode, Dwell, Stop, Alarm, OpaqueBlock, NcBlock, JumpTo, Loop, LoopEnd, Call,
+                     Exit, Raise, Notice, Port, Print, NameVariables> auto&) { return false; });
 }
 
 template <AnyStatement Statement> std::vector<bool> reachableIn(const std::vector<Statement>& list) {

@@ -84,7 +84,7 @@ private:
           groups_.push_back(std::move(group));
         },
         [&](const Branch& node) { read(node.condition); },
-        [&](const OneOf<Move, Measure, SetMode> auto&) {
+        [&](const OneOf<Move, Measure, CallCycle, SetMode> auto&) {
           eachRequirement(statement, [&](const ExpressionPtr& value, Kind kind) { add(value, kind); });
         },
         [&](const OneOf<Store, Label, Jump, Return, ProbePower, Spindle, Coolant, Dwell, Stop, Alarm, Comment,

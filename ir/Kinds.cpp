@@ -124,6 +124,15 @@ void eachRequirement(const CycleStatement& statement,
         for (const auto& nominal : node.setting->nominal)
           require(nominal, Kind::Length);
       },
+      [&](const CallCycle& node) {
+        for (const CycleArgument& argument : node.arguments)
+          if (argument.kind == Kind::Length || argument.kind == Kind::Angle || argument.kind == Kind::Feed)
+            require(argument.value, argument.kind);
+        if (!node.setting) return;
+        require(node.setting->system, Kind::WorkOffset);
+        for (const auto& nominal : node.setting->nominal)
+          require(nominal, Kind::Length);
+      },
       [&](const SetMode& node) { require(node.system, Kind::WorkOffset); },
       [](const OneOf<Assign, Store, Label, Jump, Branch, Return, ProbePower, Spindle, Coolant, Dwell, Stop,
                      Alarm, Comment, OpaqueBlock> auto&) {});

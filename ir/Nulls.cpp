@@ -33,8 +33,8 @@ Set behind(const std::vector<CycleStatement>& list, std::size_t from, std::size_
         const bool taken = to != from + 1;
         if (taken == negated) nulls.erase(use->variable);
       },
-      [](const OneOf<Store, Label, Jump, Return, Move, Measure, ProbePower, Spindle, Coolant, SetMode, Dwell,
-                     Stop, Alarm, Comment, OpaqueBlock> auto&) {});
+      [](const OneOf<Store, Label, Jump, Return, Move, Measure, CallCycle, ProbePower, Spindle, Coolant,
+                     SetMode, Dwell, Stop, Alarm, Comment, OpaqueBlock> auto&) {});
   return nulls;
 }
 

@@ -15,6 +15,7 @@ using State = AxisPosition::State;
 
 // Travels that are added up before a position counts as unknown: keeps expressions small.
 constexpr std::uint32_t kMostTravels = 100;
+constexpr double kFirstOfMachine = 1000; // number of a variable
 
 struct Fact {
   Position position;
@@ -101,6 +102,15 @@ Fact behind(const CycleStatement& statement, Fact fact) {
             if (node.setting->nominal[indexOf(axis)]) forget(fact.position[indexOf(axis)]);
         forgetValues(fact, readsResult);
       },
+      [&](const CallCycle& node) {
+        const bool active = node.setting && mayBeActive(node.setting->system, fact);
+        for (const Axis axis : kAxes) {
+          const bool tool = node.setsTool && axis == Axis::Z; // its length may be the one in force
+          if (!node.returns || tool || (active && node.setting->axes[indexOf(axis)]))
+            forget(fact.position[indexOf(axis)]);
+        }
+        forgetValues(fact, readsResult);
+      },
       [&](const SetMode& node) {
         if (node.mode != Mode::WorkSystem) return;
         for (AxisPosition& axis : fact.position)
@@ -113,12 +123,19 @@ Fact behind(const CycleStatement& statement, Fact fact) {
           return use && use->variable == node.variable;
         });
       },
+      [&](const Store& node) {
+        // A variable of the machine: an offset, perhaps the one in force.
+        const double* number = constantValue(node.number);
+        if (number != nullptr && *number < kFirstOfMachine) return;
+        for (AxisPosition& axis : fact.position)
+          forget(axis);
+      },
       [&](const OpaqueBlock&) {
         for (AxisPosition& axis : fact.position)
           forget(axis);
         fact.system = nullptr;
       },
-      [](const OneOf<Store, Label, Jump, Branch, Return, ProbePower, Spindle, Coolant, Dwell, Stop, Alarm,
+      [](const OneOf<Label, Jump, Branch, Return, ProbePower, Spindle, Coolant, Dwell, Stop, Alarm,
                      Comment> auto&) {});
   return fact;
 }
@@ -163,31 +180,38 @@ std::vector<Position> positions(const Cycle& cycle) {
   return out;
 }
 
-std::vector<const Measure*> lastMeasurements(const Cycle& cycle) {
-  const auto facts = factsBefore<const Measure*>(
+std::vector<const CycleStatement*> lastMeasurements(const Cycle& cycle) {
+  const auto facts = factsBefore<const CycleStatement*>(
       cycle.body, nullptr,
-      [&](std::size_t at, std::size_t, const Measure* last) -> const Measure* {
+      [&](std::size_t at, std::size_t, const CycleStatement* last) -> const CycleStatement* {
         return match(
-            cycle.body[at], [](const OpaqueBlock&) -> const Measure* { return nullptr; },
-            [](const Measure& node) { return &node; },
+            cycle.body[at], [](const OpaqueBlock&) -> const CycleStatement* { return nullptr; },
+            [&](const Measure&) { return &cycle.body[at]; },
+            [&](const CallCycle& node) { return node.power ? last : &cycle.body[at]; },
             [&](const OneOf<Assign, Store, Label, Jump, Branch, Return, Move, ProbePower, Spindle, Coolant,
                             SetMode, Dwell, Stop, Alarm, Comment> auto&) { return last; });
       },
-      [](const Measure*& into, const Measure* other) {
+      [](const CycleStatement*& into, const CycleStatement* other) {
         if (!into || into == other) return false;
         into = nullptr;
         return true;
       });
-  std::vector<const Measure*> out;
+  std::vector<const CycleStatement*> out;
   out.reserve(facts.size());
   for (const auto& fact : facts)
     out.push_back(fact ? *fact : nullptr);
   return out;
 }
 
+std::optional<bool> switchesProbe(const CycleStatement& statement) {
+  if (const auto* power = std::get_if<ProbePower>(&statement.node)) return power->on;
+  const auto* cycle = std::get_if<CallCycle>(&statement.node);
+  return cycle == nullptr ? std::nullopt : cycle->power;
+}
+
 bool probes(const CycleStatement& statement) {
   return match(
-      statement, [](const Measure&) { return true; },
+      statement, [](const Measure&) { return true; }, [](const CallCycle& node) { return node.moves; },
       [](const Move& node) { return node.motion == Motion::Protected; },
       [](const OneOf<Assign, Store, Label, Jump, Branch, Return, ProbePower, Spindle, Coolant, SetMode, Dwell,
                      Stop, Alarm, Comment, OpaqueBlock> auto&) { return false; });
@@ -205,6 +229,10 @@ bool countsFrom(const Cycle& cycle, Frame frame) {
   return std::any_of(cycle.body.begin(), cycle.body.end(), [&](const CycleStatement& statement) {
     return match(
         statement, [&](const Measure& node) { return counts(node.target); },
+        [&](const CallCycle& node) {
+          return std::any_of(node.arguments.begin(), node.arguments.end(),
+                             [&](const CycleArgument& argument) { return argument.frame == frame; });
+        },
         [&](const Move& node) { return std::any_of(node.axes.begin(), node.axes.end(), counts); },
         [](const OneOf<Assign, Store, Label, Jump, Branch, Return, ProbePower, Spindle, Coolant, SetMode,
                        Dwell, Stop, Alarm, Comment, OpaqueBlock> auto&) { return false; });

@@ -22,14 +22,17 @@ using Position = std::array<AxisPosition, 3>; // by Axis
 
 // One entry for each statement of `cycle.body`: before it. Unreachable statements: Unknown. A measurement
 // returns to where it began; where it may set the active work system, the axes that it sets become
-// Unknown. A change of the work system makes all axes Unknown; a coordinate in the machine's or the retract
-// frame, in another work system, of the contact point or read from a machine variable makes its axis Unknown.
+// Unknown; after a cycle that does not return all are. A change of the work system makes all axes Unknown; a
+// coordinate in the machine's or the retract frame, in another work system, of the contact point or read from
+// a machine variable makes its axis Unknown.
 std::vector<Position> positions(const Cycle& cycle);
 
-// The last measurement before each statement of the body, on every path; nullptr: none, paths disagree, or an
-// opaque block, which may measure, is between. Points into `cycle.body`.
-std::vector<const Measure*> lastMeasurements(const Cycle& cycle);
+// The last Measure or CallCycle before each statement of the body, on every path; nullptr: none, paths
+// disagree, or an opaque block, which may measure, is between. Points into `cycle.body`.
+std::vector<const CycleStatement*> lastMeasurements(const Cycle& cycle);
 
+// Whether the statement switches the probe on or off; nullopt: neither.
+std::optional<bool> switchesProbe(const CycleStatement& statement);
 // The statement touches: a measurement or a protected move.
 bool probes(const CycleStatement& statement);
 // Whether a statement of the body does.

@@ -61,17 +61,6 @@ Operator operatorOf(BinaryOp op) {
   return {"", Level::Primary};
 }
 
-std::string_view resultText(ResultName name) {
-  switch (name) {
-  case ResultName::Main: return "main";
-  case ResultName::PositionX: return "x";
-  case ResultName::PositionY: return "y";
-  case ResultName::PositionZ: return "z";
-  case ResultName::Size: return "size";
-  }
-  return "";
-}
-
 std::string_view relationText(Relation relation) {
   switch (relation) {
   case Relation::Equal: return " = ";

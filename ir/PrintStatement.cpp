@@ -164,6 +164,35 @@ public:
       put("=", nominal);
     }
   }
+  void operator()(const CallCycle& node) {
+    word(quoted(node.cycle));
+    if (node.axis) {
+      text_ += ' ';
+      text_ += axisText(*node.axis);
+    }
+    if (!node.set.empty()) word("of " + quoted(node.set));
+    char before = ':';
+    for (const CycleArgument& argument : node.arguments) {
+      text_ += before;
+      before = ',';
+      word(argument.parameter);
+      word("=");
+      if (argument.frame) word(frameName(*argument.frame));
+      put(argument.value);
+    }
+    if (!node.setting) return;
+    text_ += ", set system";
+    put(node.setting->system);
+    before = ':';
+    for (const Axis axis : kAxes) {
+      if (!node.setting->axes[indexOf(axis)]) continue;
+      text_ += before;
+      before = ',';
+      text_ += ' ';
+      text_ += axisText(axis);
+      put("=", node.setting->nominal[indexOf(axis)]);
+    }
+  }
   void operator()(const ProbePower& node) { word(node.on ? "on" : "off"); }
   void operator()(const Spindle& node) {
     word(spindleText(node.state));

@@ -96,8 +96,8 @@ private:
           if (taken != false) reachLabel(node.target, environment);
           return taken != true;
         },
-        [](const OneOf<Store, Move, Measure, ProbePower, Spindle, Coolant, SetMode, Dwell, Stop, Comment,
-                       OpaqueBlock> auto&) { return true; });
+        [](const OneOf<Store, Move, Measure, CallCycle, ProbePower, Spindle, Coolant, SetMode, Dwell, Stop,
+                       Comment, OpaqueBlock> auto&) { return true; });
   }
 
   void reachLabel(LabelId label, const Environment& environment) {
@@ -144,8 +144,8 @@ CycleStatement specialisedStatement(const CycleStatement& statement, const Envir
   CycleStatement out = statement;
   const bool takesNull = match(
       out, [](const OneOf<Assign, OpaqueBlock> auto&) { return true; },
-      [](const OneOf<Store, Label, Jump, Branch, Return, Move, Measure, ProbePower, Spindle, Coolant, SetMode,
-                     Dwell, Stop, Alarm, Comment> auto&) { return false; });
+      [](const OneOf<Store, Label, Jump, Branch, Return, Move, Measure, CallCycle, ProbePower, Spindle,
+                     Coolant, SetMode, Dwell, Stop, Alarm, Comment> auto&) { return false; });
   eachSlot(out, [&](ExpressionPtr& slot) {
     ExpressionPtr value = substitute(slot, environment);
     if (takesNull || !std::holds_alternative<NullValue>(value->node)) slot = std::move(value);
@@ -204,8 +204,8 @@ std::vector<CycleStatement> specialised(const std::vector<CycleStatement>& list,
           if (node.variable < environment.size()) assigned.push_back(node.variable);
         },
         [&](const OneOf<Jump, Return, Alarm> auto&) { reached = false; },
-        [](const OneOf<Store, Label, Branch, Move, Measure, ProbePower, Spindle, Coolant, SetMode, Dwell,
-                       Stop, Comment, OpaqueBlock> auto&) {});
+        [](const OneOf<Store, Label, Branch, Move, Measure, CallCycle, ProbePower, Spindle, Coolant, SetMode,
+                       Dwell, Stop, Comment, OpaqueBlock> auto&) {});
   }
   return out;
 }
@@ -241,8 +241,8 @@ std::optional<Unrolled> unroll(const std::vector<CycleStatement>& list, Environm
           out.statements.push_back(specialisedStatement(statement, environment));
           return Then::Alarm;
         },
-        [&](const OneOf<Store, Move, Measure, ProbePower, Spindle, Coolant, SetMode, Dwell, Stop, Comment,
-                        OpaqueBlock> auto&) {
+        [&](const OneOf<Store, Move, Measure, CallCycle, ProbePower, Spindle, Coolant, SetMode, Dwell, Stop,
+                        Comment, OpaqueBlock> auto&) {
           out.statements.push_back(specialisedStatement(statement, environment));
           return Then::Next;
         });

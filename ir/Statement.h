@@ -119,6 +119,36 @@ struct Alarm {
 struct Comment {
   std::string text; // UTF-8, without the target's brackets
 };
+// An argument of a CallCycle, by the name of the parameter that it fills.
+struct CycleArgument {
+  std::string parameter;      // of the cycle, its axis included: "depth", "target x"
+  ExpressionPtr value;        // never a null pointer
+  std::optional<Frame> frame; // of a coordinate: Work (the active system) or Here; nothing: it is none
+  Kind kind = Kind::Number;
+  bool moves = true; // the probe moves by it; else it checks, prints or corrects
+};
+// The work offset that a cycle sets.
+struct CycleSetting {
+  ExpressionPtr system;       // G number, 54 to 59
+  std::array<bool, 3> axes{}; // by Axis: offsets that change
+  // By Axis: what the feature gets as its coordinate; null pointer: where it is expected, that is the target
+  // along the axis, or, where there is none, the place of the probe.
+  std::array<ExpressionPtr, 3> nominal;
+};
+// Carries out a probing cycle by its name. What the cycle consists of says who defines it: a macro set, by
+// its signature.
+struct CallCycle {
+  std::string cycle;        // "web", "three-point-bore"
+  std::optional<Axis> axis; // along which it measures, of a cycle that is there for each axis
+  std::string set; // macro set that the source calls: what the name leaves open is as that set has it
+  std::vector<CycleArgument> arguments; // in the order of the source, the work system aside
+  std::optional<CycleSetting> setting;
+  std::optional<bool> power;       // it switches the probe
+  std::vector<ResultName> results; // that it leaves
+  bool moves = true;               // the probe moves
+  bool returns = true;             // to where it began; else its place is unknown afterwards
+  bool setsTool = false;           // a tool offset may change
+};
 // A word of an opaque block: address and number, or address and expression.
 struct Word {
   char address = 0;

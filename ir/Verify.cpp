@@ -117,8 +117,8 @@ private:
             mixed(node.value->range, "`" + names_.variable(node.variable) + "` = " + text(*node.value),
                   variable, value, statement);
         },
-        [&](const OneOf<Store, Label, Jump, Return, Move, Measure, ProbePower, Spindle, Coolant, SetMode,
-                        Dwell, Stop, Alarm, Comment, OpaqueBlock> auto&) { slotKinds(statement); });
+        [&](const OneOf<Store, Label, Jump, Return, Move, Measure, CallCycle, ProbePower, Spindle, Coolant,
+                        SetMode, Dwell, Stop, Alarm, Comment, OpaqueBlock> auto&) { slotKinds(statement); });
   }
 
   void slotKinds(const CycleStatement& statement) {
@@ -163,8 +163,8 @@ private:
     match(
         statement, [&](const Branch& node) { nullsOf(node.condition, statement, nulls); },
         [&](const OneOf<Assign, OpaqueBlock> auto&) { slotNulls(true, statement, nulls); },
-        [&](const OneOf<Store, Label, Jump, Return, Move, Measure, ProbePower, Spindle, Coolant, SetMode,
-                        Dwell, Stop, Alarm, Comment> auto&) { slotNulls(false, statement, nulls); });
+        [&](const OneOf<Store, Label, Jump, Return, Move, Measure, CallCycle, ProbePower, Spindle, Coolant,
+                        SetMode, Dwell, Stop, Alarm, Comment> auto&) { slotNulls(false, statement, nulls); });
   }
 
   void slotNulls(bool free, const CycleStatement& statement, const NumberSet& nulls) {

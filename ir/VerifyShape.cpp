@@ -1,6 +1,9 @@
 #include "ir/VerifyShape.h"
 
+#include <algorithm>
 #include <cmath>
+#include <set>
+#include <string_view>
 #include <utility>
 
 namespace dotek::ir {
@@ -65,6 +68,27 @@ public:
         fault("a measurement sets an axis that it does not measure");
     }
     if (!any) fault("a measurement sets a work system along no axis");
+  }
+  void operator()(const CallCycle& node) {
+    if (node.cycle.empty()) fault("a call names no cycle");
+    std::set<std::string_view> names;
+    for (const CycleArgument& argument : node.arguments) {
+      need(argument.value, "an argument of a cycle");
+      if (!names.insert(argument.parameter).second) fault("a call fills a parameter twice");
+      if (argument.frame && *argument.frame != Frame::Work && *argument.frame != Frame::Here)
+        fault("a coordinate of a cycle counts from the active system or from the probe");
+    }
+    if (!node.moves && !node.returns) fault("a cycle without a move leaves the probe elsewhere");
+    if (!node.setting) return;
+    need(node.setting->system, "the work system of a cycle");
+    for (const Axis axis : kAxes)
+      if (const ExpressionPtr& nominal = node.setting->nominal[indexOf(axis)]) {
+        allow(nominal);
+        if (!node.setting->axes[indexOf(axis)])
+          fault("a cycle has a nominal of an axis that it does not set");
+      }
+    if (std::none_of(node.setting->axes.begin(), node.setting->axes.end(), [](bool set) { return set; }))
+      fault("a cycle sets a work system along no axis");
   }
   void operator()(const ProbePower&) {}
   void operator()(const Spindle& node) {
@@ -166,6 +190,7 @@ private:
 struct Doing {
   std::string_view operator()(const Move&) const { return "a move"; }
   std::string_view operator()(const Measure&) const { return "a measurement"; }
+  std::string_view operator()(const CallCycle&) const { return "a cycle"; }
   std::string_view operator()(const ProbePower&) const { return "a switch of the probe"; }
   std::string_view operator()(const Spindle&) const { return "a switch of the spindle"; }
   std::string_view operator()(const Coolant&) const { return "a switch of the coolant"; }

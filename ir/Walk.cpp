@@ -34,6 +34,14 @@ template <class Statement, class Visit> void slots(Statement& statement, const V
         for (auto& nominal : node.setting->nominal)
           slot(nominal);
       },
+      [&](OneOf<CallCycle> auto& node) {
+        for (auto& argument : node.arguments)
+          slot(argument.value);
+        if (!node.setting) return;
+        slot(node.setting->system);
+        for (auto& nominal : node.setting->nominal)
+          slot(nominal);
+      },
       [&](OneOf<Spindle> auto& node) { slot(node.speed); },
       [&](OneOf<SetMode> auto& node) { slot(node.system); },
       [&](OneOf<Dwell> auto& node) { slot(node.seconds); },
@@ -58,9 +66,11 @@ template <class Condition, class Statement> Condition* conditionIn(Statement& st
   return match(
       statement, [](OneOf<Branch> auto& node) -> Condition* { return &node.condition; },
       [](OneOf<Loop> auto& node) -> Condition* { return node.condition ? &node.condition : nullptr; },
-      [](const OneOf<Assign, Store, Label, Jump, Return, Move, Measure, ProbePower, Spindle, Coolant, SetMode,
-                     Dwell, Stop, Alarm, Comment, OpaqueBlock, NcBlock, JumpTo, LoopEnd, Call, Exit, Raise,
-                     Notice, Port, Print, NameVariables> auto&) -> Condition* { return nullptr; });
+      [](const OneOf<Assign, Store, Label, Jump, Return, Move, Measure, CallCycle, ProbePower, Spindle,
+                     Coolant, SetMode, Dwell, Stop, Alarm, Comment, OpaqueBlock, NcBlock, JumpTo, LoopEnd,
+                     Call, Exit, Raise, Notice, Port, Print, NameVariables> auto&) -> Condition* {
+        return nullptr;
+      });
 }
 
 template <class Statement>

@@ -77,7 +77,9 @@ std::shared_ptr<const Configs::File> Configs::load(const std::string& path, cons
   config.ignore = codesOf(*document, lint.value("ignore"), false);
   if (const TomlValue failOn = lint.value("fail-on")) config.failOn = failOnOf(failOn);
   config.control = lint.value("control").text();
-  config.form = dotek::project::settingsIn(*document).form;
+  const dotek::project::Settings settings = dotek::project::settingsIn(*document);
+  config.form = settings.form;
+  session_.takeProbeCodes(settings.probe);
   for (const TomlEntry& entry : lint.value("severity").table().entries()) {
     checkCode(*document, entry.key, entry.keyRange);
     const std::string level = entry.value.choice({"off", "note", "warning", "error"}, "warning");

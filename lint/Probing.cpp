@@ -176,6 +176,10 @@ template <ir::AnyStatement Statement> ProbeStep Probing::stepOf(const Statement&
       [](const ir::Measure&) -> ProbeStep {
         return {Kind::Measure, 0};
       },
+      [](const ir::CallCycle& node) -> ProbeStep {
+        if (node.power) return {*node.power ? Kind::On : Kind::Off, 0};
+        return {node.moves ? Kind::Measure : Kind::PackCall, 0};
+      },
       [](const ir::Move& node) -> ProbeStep {
         return {node.motion == ir::Motion::Protected ? Kind::Protected : Kind::None, 0};
       },

@@ -1,6 +1,7 @@
 #include "project/Job.h"
 
 #include "project/Hosts.h"
+#include "project/Settings.h"
 #include "stdlib/HostInputs.h"
 #include "stdlib/Toml.h"
 #include "support/Files.h"
@@ -110,6 +111,7 @@ std::optional<Job> loadJob(const std::string& path, Session& session) {
   readHosts(*document, root.value("host").table(), job.hosts);
   readTool(*document, root.value("tool").table(), job);
   job.setup = stdlib::readSetup(*document, root.value("setup").table());
+  session.takeProbeCodes(probeCodesIn(*document, root));
   for (const TomlTable& operation : root.value("operation").tables())
     job.operations.push_back(readOperation(*document, operation));
   if (job.operations.empty() && !root.has("setup"))

@@ -5,6 +5,7 @@
 #include "frontend/gibbs/Lower.h"
 #include "ir/Flow.h"
 #include "ir/InferKinds.h"
+#include "ir/Liveness.h"
 #include "ir/Positions.h"
 #include "ir/Rewrite.h"
 #include "ir/Verify.h"
@@ -35,6 +36,16 @@ std::optional<stdlib::Control> loadControl(const std::string& name, Session& ses
     known += (known.empty() ? "" : ", ") + file->name;
   session.diagnostics().report<diag::UnknownProfile>({}, name, known);
   return std::nullopt;
+}
+
+void checkProbeCodes(const stdlib::Control& control, Session& session) {
+  for (const bool on : {true, false}) {
+    const std::string& code = on ? session.probeCodes().on : session.probeCodes().off;
+    const std::string meaning = stdlib::otherMeaning(control, code, on);
+    if (!meaning.empty())
+      session.diagnostics().report<diag::ProbeCodeTaken>({}, code, control.title, meaning,
+                                                         on ? "--probe-on" : "--probe-off");
+  }
 }
 
 namespace {
@@ -75,6 +86,8 @@ private:
   std::optional<ir::VariableId> fieldVariable(FieldTable& fields, const std::string& name, SourceRange where);
   ir::VariableId host(const std::string& name);
   bool settleChangedFields();
+  bool takeComputed();
+  bool isTyped(const std::string& name) const;
   bool verified();
   gibbs::LowerContext gibbsContext();
 
@@ -231,6 +244,48 @@ bool Lowering::turnedAway() {
   return alarm.has_value();
 }
 
+// The dialog has an input for the field.
+bool Lowering::isTyped(const std::string& name) const {
+  const auto& dialog = folder_.cycle->dialog;
+  const std::string folded = gibbs::foldCase(name);
+  return dialog &&
+         std::any_of(dialog->controls.begin(), dialog->controls.end(), [&](const gibbs::Control& control) {
+           return control.variable && gibbs::foldCase(control.variable->text) == folded;
+         });
+}
+
+// A field that the macro sets before anything reads it, and that nobody can type, is no input: a local.
+// false: it was given a value.
+bool Lowering::takeComputed() {
+  std::map<ir::VariableId, const ir::CycleStatement*> assigned;
+  for (const ir::CycleStatement& statement : cycle().checks)
+    if (const auto* assign = std::get_if<ir::Assign>(&statement.node))
+      if (cycle().variable(assign->variable).role == ir::Role::Parameter)
+        assigned.emplace(assign->variable, &statement);
+  if (assigned.empty()) return true;
+  const std::set<ir::VariableId> live = ir::liveAtEntry(cycle().checks, ir::liveAtEntry(cycle().body, {}));
+  bool good = true;
+  for (const auto& [id, statement] : assigned) {
+    ir::Variable& variable = cycle().variables[id];
+    if (live.contains(id) ||
+        (isTyped(variable.name) && !session_.options().assume.contains("changed-field=macro")))
+      continue;
+    const SourceRange range = statement->origin.range();
+    if (out_.fixed.contains(id)) {
+      session_.diagnostics().report<diag::FieldIsComputed>(range, variable.name);
+      good = false;
+      continue;
+    }
+    variable.role = ir::Role::Local;
+    variable.defaultValue.reset();
+    variable.optional = false;
+    const SourceFile& file = session_.sources().file(range.file);
+    out_.computed.emplace(id,
+                          toUtf8(file.bytes().substr(range.begin, range.end - range.begin), file.encoding()));
+  }
+  return good;
+}
+
 // Which value of a field the CAM stores is certain where the user cannot type it; else an assumption says it.
 bool Lowering::settleChangedFields() {
   const auto& assume = session_.options().assume;
@@ -240,13 +295,7 @@ bool Lowering::settleChangedFields() {
     const auto* assign = std::get_if<ir::Assign>(&statement.node);
     if (assign == nullptr || cycle().variable(assign->variable).role != ir::Role::Parameter) continue;
     const std::string name = cycle().variable(assign->variable).name;
-    const std::string folded = gibbs::foldCase(name);
-    const auto& controls = folder_.cycle->dialog;
-    const bool typed =
-        controls &&
-        std::any_of(controls->controls.begin(), controls->controls.end(), [&](const gibbs::Control& control) {
-          return control.variable && gibbs::foldCase(control.variable->text) == folded;
-        });
+    const bool typed = isTyped(name);
     const bool given = assume.contains("changed-field=given");
     if (!typed || assume.contains("changed-field=macro") || (lenient_ && !given)) {
       session_.diagnostics().report<diag::FieldAssigned>(statement.origin.range(), name);
@@ -314,6 +363,7 @@ std::optional<LoweredCycle> Lowering::run(std::set<std::string>& usedSets) {
   if (good && !lenient_ && turnedAway()) return std::nullopt;
   good = (routine != nullptr ? branch(*routine, fields) : path()) && good;
   if (!good || session_.diagnostics().hasErrors()) return std::nullopt;
+  if (!takeComputed() && !lenient_) return std::nullopt;
   if (!settleChangedFields()) return std::nullopt;
   ir::inferKinds(cycle());
   if (!lenient_ && !verified()) return std::nullopt;
@@ -342,6 +392,7 @@ std::optional<LoweringInputs> loadSettings(const SourceOptions& source, Session&
     inputs.routineAt = inputs.job->operationRange;
   }
   if (source.prog) {
+    session.takeProbeCodes(settingsOf(*source.prog, session).probe);
     inputs.formChoice = chooseForm(source, session);
     inputs.form = session.form(inputs.formChoice.name);
   }
@@ -362,6 +413,7 @@ std::optional<LoweringInputs> loadLoweringInputs(const SourceOptions& source, co
   std::optional<LoweringInputs> inputs = loadSettings(source, session);
   std::optional<stdlib::Control> target;
   if (!control.empty()) target = loadControl(control, session);
+  if (target) checkProbeCodes(*target, session);
   if (!inputs) return std::nullopt;
   inputs->control = std::move(target);
   inputs->sourceControl = inputs->form && !inputs->form->control.empty()

@@ -27,6 +27,8 @@ inline constexpr std::string_view kDefaultControl = "fanuc-0i-md";
 
 // The control of this name. nullopt: there is none, reported.
 std::optional<stdlib::Control> loadControl(const std::string& name, Session& session);
+// Reports codes of the user for the probe that mean something else on the control that is written.
+void checkProbeCodes(const stdlib::Control& control, Session& session);
 
 // What one command reads before its first cycle.
 struct LoweringInputs {
@@ -62,6 +64,8 @@ struct LoweredCycle {
   std::map<std::string, double> fixedByName; // the same, as the command line names them
   std::set<ir::VariableId> givenDefaults;    // defaults that the command line gave
   std::vector<ir::PrintedBlock> printed;     // what the Prog prints, block by block; empty without a Prog
+  // Fields that CycleData.mac computes from others: locals, with the text of what is computed.
+  std::map<ir::VariableId, std::string> computed;
   bool checked = true; // the checks of the dialog are lowered; false of a lenient one that cannot read them
 };
 

@@ -1,6 +1,7 @@
 // What every command that reads inputs learns about them.
 #pragma once
 
+#include "stdlib/ProbeCodes.h"
 #include "support/Files.h"
 #include "support/Limits.h"
 #include "support/Source.h"
@@ -28,6 +29,7 @@ struct CommonOptions {
   bool recover = false;
   std::optional<Encoding> encoding;
   Limits limits;
+  stdlib::ProbeCodes probeCodes;          // that switch the probe, where the control's profile has none
   std::vector<std::string> data;          // folders of data files
   std::optional<std::string> from;        // kind of the inputs
   std::vector<std::string> include;       // folders of files that inputs name, beside that of the input

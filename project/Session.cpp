@@ -8,7 +8,7 @@
 
 namespace dotek::project {
 
-Session::Session(const CommonOptions& options) : options_(options) {
+Session::Session(const CommonOptions& options) : options_(options), probeCodes_(options.probeCodes) {
   checkAssumptions(options.assume, diagnostics_);
   for (const std::string& folder : options.data)
     data_.addFolder(folder, options.limits, diagnostics_);
@@ -27,7 +27,13 @@ const stdlib::ComPostKeywords& Session::compostKeywords() {
 const stdlib::Control* Session::control(const std::string& name) {
   const auto [at, isNew] = controls_.try_emplace(name);
   if (isNew) at->second = stdlib::Control::load(data_, name);
+  if (isNew && at->second) stdlib::addProbeCodes(*at->second, probeCodes_);
   return at->second ? &*at->second : nullptr;
+}
+
+void Session::takeProbeCodes(const stdlib::ProbeCodes& codes) {
+  if (probeCodes_.on.empty()) probeCodes_.on = codes.on;
+  if (probeCodes_.off.empty()) probeCodes_.off = codes.off;
 }
 
 const std::vector<stdlib::MacroSet>& Session::macroSets() {

@@ -10,6 +10,7 @@
 #include "stdlib/Form.h"
 #include "stdlib/GibbsKeywords.h"
 #include "stdlib/MacroSet.h"
+#include "stdlib/ProbeCodes.h"
 #include "support/Diagnostics.h"
 #include "support/Files.h"
 
@@ -32,8 +33,12 @@ public:
   const stdlib::DataFiles& data() const { return data_; }
   const stdlib::GibbsKeywords& gibbsKeywords();
   const stdlib::ComPostKeywords& compostKeywords();
-  // The profile of this name, read once. nullptr: there is none.
+  // The profile of this name, read once, with the probe codes of the user. nullptr: there is none.
   const stdlib::Control* control(const std::string& name);
+  // Codes that switch the probe, of the flags; else of what said them first. For controls that are read
+  // later.
+  const stdlib::ProbeCodes& probeCodes() const { return probeCodes_; }
+  void takeProbeCodes(const stdlib::ProbeCodes& codes);
   // All sets of probing macros, by name.
   const std::vector<stdlib::MacroSet>& macroSets();
   const stdlib::MacroSet* macroSet(const std::string& name); // nullptr: there is none
@@ -69,6 +74,7 @@ private:
   std::optional<stdlib::GibbsKeywords> gibbs_;
   std::optional<stdlib::ComPostKeywords> compost_;
   std::map<std::string, std::optional<stdlib::Control>> controls_;
+  stdlib::ProbeCodes probeCodes_;
   std::optional<std::vector<stdlib::MacroSet>> macroSets_;
   std::map<std::string, std::optional<FileId>> read_;
   std::map<std::string, Settings> settings_;

@@ -29,12 +29,27 @@ Settings load(fs::path folder, Session& session) {
 
 } // namespace
 
+stdlib::ProbeCodes probeCodesIn(const stdlib::TomlDocument& document, const stdlib::TomlTable& table) {
+  stdlib::ProbeCodes out;
+  for (const bool on : {true, false}) {
+    const stdlib::TomlValue value = table.value(on ? "probe_on" : "probe_off");
+    if (!value) continue;
+    std::string text = value.text();
+    if (stdlib::codeOf(text))
+      (on ? out.on : out.off) = std::move(text);
+    else
+      document.fail(value.range(), "`" + text + "` is no code; `M31` is the form");
+  }
+  return out;
+}
+
 Settings settingsIn(const stdlib::TomlDocument& document) {
   Settings out;
   const stdlib::TomlTable root = document.root();
   out.form = root.value("form").text();
   const std::string ofLint = root.value("lint").table().value("form").text();
   if (out.form.empty()) out.form = ofLint;
+  out.probe = probeCodesIn(document, root);
   if (const stdlib::TomlValue from = root.value("from"))
     out.listing = from.choice({"nc", "listing"}, "nc") == "listing";
   return out;

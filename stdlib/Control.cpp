@@ -19,7 +19,7 @@ constexpr std::string_view kMacroFunctions[] = {
 } // namespace
 
 Control ControlReader::read() {
-  control_.title = root_.require("title", "what lists print").text();
+  control_.title = require("title", "what lists print").text();
   decimal();
   lengths();
   words();
@@ -28,8 +28,14 @@ Control ControlReader::read() {
   readOnly();
   alarm();
   programs();
-  for (const TomlTable& table : root_.require("codes", "tables of G and M codes").tables())
+  // Codes are taken one by one, other sections as a whole.
+  const TomlValue own =
+      base_ == nullptr ? require("codes", "tables of G and M codes") : roots_.front().value("codes");
+  for (const TomlTable& table : own.tables())
     codes(table);
+  if (base_ != nullptr)
+    for (const CodeInfo& code : base_->codes)
+      if (control_.find(code.letter, code.tenths) == nullptr) control_.codes.push_back(code);
   motion();
   rotation();
   calls();
@@ -62,7 +68,7 @@ void ControlReader::decimal() {
 }
 
 void ControlReader::lengths() {
-  const TomlValue value = root_.value("lengths");
+  const TomlValue value = find("lengths");
   if (!value) return;
   const TomlTable table = value.table();
   origin(table);
@@ -127,7 +133,7 @@ void ControlReader::language() {
 }
 
 void ControlReader::common() {
-  for (const TomlTable& table : root_.require("common", "tables of common variables").tables()) {
+  for (const TomlTable& table : require("common", "tables of common variables").tables()) {
     origin(table);
     if (control_.common.size() == kMostRanges)
       document_.fail(table.range(), fmt::format("more than {} ranges", kMostRanges));
@@ -149,7 +155,7 @@ void ControlReader::common() {
 }
 
 void ControlReader::readOnly() {
-  for (const TomlTable& table : root_.value("read_only").tables()) {
+  for (const TomlTable& table : find("read_only").tables()) {
     origin(table);
     if (control_.readOnly.size() == kMostRanges)
       document_.fail(table.range(), fmt::format("more than {} ranges", kMostRanges));
@@ -187,7 +193,7 @@ void ControlReader::programs() {
 }
 
 void ControlReader::motion() {
-  const TomlValue value = root_.value("motion");
+  const TomlValue value = find("motion");
   if (!value) return;
   const TomlTable table = value.table();
   origin(table);
@@ -200,7 +206,7 @@ void ControlReader::motion() {
 }
 
 void ControlReader::rotation() {
-  if (!root_.value("rotation")) return;
+  if (!find("rotation")) return;
   const TomlTable table = optional("rotation");
   origin(table);
   if (const TomlValue frame = table.value("positions"))
@@ -244,15 +250,37 @@ bool Control::isReadOnly(std::uint32_t number) const {
   });
 }
 
+namespace {
+
+// More is a loop.
+constexpr std::size_t kMostExtended = 8;
+
+Control loadFrom(const DataFiles& files, const DataFile& file, std::size_t depth) {
+  std::vector<TomlDocument> documents = {TomlDocument::parse(file)};
+  const TomlDocument own = documents.front(); // a handle
+  std::optional<Control> base;
+  for (std::size_t i = 0; i < documents.size(); ++i) {
+    const TomlValue extends = documents[i].root().value("extends");
+    if (!extends) break;
+    const DataFile* other = files.find("controls", extends.text());
+    if (other == nullptr) own.fail(extends.range(), fmt::format("there is no control `{}`", extends.text()));
+    if (depth + i >= kMostExtended) own.fail(extends.range(), "the controls extend one another");
+    if (i == 0) base = loadFrom(files, *other, depth + 1);
+    documents.push_back(TomlDocument::parse(*other));
+  }
+  Control control = ControlReader(documents, base ? &*base : nullptr).read();
+  documents.front().finish();
+  control.name = file.name;
+  control.origin = file.origin;
+  return control;
+}
+
+} // namespace
+
 std::optional<Control> Control::load(const DataFiles& files, std::string_view name) {
   const DataFile* file = files.find("controls", name);
   if (file == nullptr) return std::nullopt;
-  const TomlDocument document = TomlDocument::parse(*file);
-  Control control = ControlReader(document).read();
-  document.finish();
-  control.name = name;
-  control.origin = file->origin;
-  return control;
+  return loadFrom(files, *file, 0);
 }
 
 } // namespace dotek::stdlib

@@ -27,11 +27,11 @@ std::optional<std::pair<char, std::uint32_t>> ControlReader::parseName(const Tom
 }
 
 void ControlReader::calls() {
-  if (const TomlTable table = optional("nesting"); root_.value("nesting")) {
+  if (const TomlTable table = optional("nesting"); find("nesting")) {
     origin(table);
     control_.callDepth = whole(table, "calls", "how deep calls of all kinds nest", 1, 99);
   }
-  for (const TomlTable& table : root_.value("calls").tables()) {
+  for (const TomlTable& table : find("calls").tables()) {
     const Origin origin = ControlReader::origin(table);
     CallCode call;
     const TomlValue code = table.require("code", "G5101, M50, or T");
@@ -75,7 +75,7 @@ void ControlReader::calls() {
 }
 
 void ControlReader::readAhead() {
-  if (!root_.value("read_ahead")) return;
+  if (!find("read_ahead")) return;
   const TomlTable table = optional("read_ahead");
   origin(table);
   for (const TomlValue& item : table.require("stops", "codes that wait for motion to end").items())
@@ -84,7 +84,7 @@ void ControlReader::readAhead() {
 }
 
 void ControlReader::output() {
-  if (!root_.value("output")) return;
+  if (!find("output")) return;
   const TomlTable table = optional("output");
   origin(table);
   control_.printPadding =

@@ -197,7 +197,7 @@ void ControlReader::check(const CodeInfo& code, const TomlValue& item) {
 
 // "no-feed 11: NO FEEDRATE COMMANDED"
 void ControlReader::alarms() {
-  for (const TomlTable& table : root_.value("alarms").tables()) {
+  for (const TomlTable& table : find("alarms").tables()) {
     const Origin origin = ControlReader::origin(table);
     for (const TomlValue& item : table.require("list", "a list of alarms").items()) {
       const std::string text = item.text();

@@ -20,7 +20,14 @@ std::string codeText(char letter, std::uint32_t tenths); // "G54.1"
 
 class ControlReader {
 public:
-  explicit ControlReader(const TomlDocument& document) : document_(document), root_(document.root()) {}
+  // `documents`: of the control, then those that it extends, the nearest first. A section is taken from the
+  // first that has it. `base`: the control that the first extends; nullptr: none. Its codes are those of the
+  // new one, too, unless the new one gives them another meaning.
+  ControlReader(const std::vector<TomlDocument>& documents, const Control* base)
+      : document_(documents.front()), base_(base) {
+    for (const TomlDocument& document : documents)
+      roots_.push_back(document.root());
+  }
   Control read();
 
 private:
@@ -30,10 +37,17 @@ private:
   static Origin origin(const TomlTable& table);
   static std::uint32_t whole(const TomlTable& table, std::string_view key, std::string_view what,
                              std::int64_t least, std::int64_t most);
-  TomlTable section(std::string_view key, std::string_view what) const {
-    return root_.require(key, what).table();
+  TomlValue find(std::string_view key) const {
+    for (const TomlTable& root : roots_)
+      if (const TomlValue found = root.value(key)) return found;
+    return {};
   }
-  TomlTable optional(std::string_view key) const { return root_.value(key).table(); }
+  TomlValue require(std::string_view key, std::string_view what) const {
+    const TomlValue found = find(key);
+    return found ? found : roots_.front().require(key, what);
+  }
+  TomlTable section(std::string_view key, std::string_view what) const { return require(key, what).table(); }
+  TomlTable optional(std::string_view key) const { return find(key).table(); }
 
   // Control.cpp
   void decimal();
@@ -68,7 +82,8 @@ private:
   void overlaps(const TomlTable& table, const Taken& blocks) const;
 
   const TomlDocument& document_;
-  TomlTable root_;
+  const Control* base_;
+  std::vector<TomlTable> roots_; // of the documents
   Control control_;
 };
 

@@ -85,7 +85,7 @@ void ControlReader::variables() {
 }
 
 void ControlReader::withToolLength() {
-  if (!root_.value("with_tool_length")) return;
+  if (!find("with_tool_length")) return;
   const TomlTable table = optional("with_tool_length");
   const Origin from = origin(table);
   LengthInPositions out{false, false, from.grade, from.source};
@@ -103,7 +103,7 @@ void ControlReader::withToolLength() {
 void ControlReader::overlaps(const TomlTable& table, const Taken& blocks) const {
   std::map<int, std::string_view> taken;
   for (const auto& [key, number] : blocks) {
-    const SourceRange range = (table.has(key) ? table : root_).value(key).range();
+    const SourceRange range = (table.has(key) ? table.value(key) : find(key)).range();
     const auto [at, added] = taken.try_emplace(number, key);
     const bool shared = key == "modal_first" && at->second == key; // one group, many codes
     if (!added && !shared)
@@ -118,7 +118,7 @@ void ControlReader::overlaps(const TomlTable& table, const Taken& blocks) const 
 
 // Each may be written by `--var`; what a program may do says `access`.
 void ControlReader::state(Taken& blocks) {
-  for (const TomlTable& table : root_.value("state").tables()) {
+  for (const TomlTable& table : find("state").tables()) {
     const Origin origin = ControlReader::origin(table);
     if (control_.state.size() == kMostRanges)
       document_.fail(table.range(), fmt::format("more than {} ranges", kMostRanges));
@@ -154,7 +154,7 @@ void ControlReader::state(Taken& blocks) {
 }
 
 void ControlReader::window(Taken& blocks) {
-  if (!root_.value("window")) return;
+  if (!find("window")) return;
   const TomlTable table = optional("window");
   origin(table);
   PmcWindow window;

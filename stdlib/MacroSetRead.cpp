@@ -26,7 +26,6 @@ constexpr RoleFacts kRoles[] = {
 constexpr std::size_t kIntents = static_cast<std::size_t>(Intent::ProbeOff) + 1;
 constexpr std::size_t kOutputs = static_cast<std::size_t>(Output::ProbeError) + 1;
 constexpr std::size_t kAlarms = static_cast<std::size_t>(MacroAlarm::UpperLimit) + 1;
-constexpr std::size_t kResultNames = static_cast<std::size_t>(ir::ResultName::Size) + 1;
 constexpr std::string_view kNoArgument = "GLNOP";
 // More than any pack has; checks compare each with each.
 constexpr std::size_t kMostSignatures = 2000;
@@ -329,8 +328,7 @@ private:
     MacroResult out;
     const TomlValue name = table.require("name", "what the variable holds");
     out.output = chosen<Output>(name, kOutputs, outputName);
-    if (static_cast<std::size_t>(out.output) < kResultNames)
-      out.name = static_cast<ir::ResultName>(out.output); // the same order
+    out.name = static_cast<ir::ResultName>(out.output); // the same names in the same order
     const TomlValue variable = table.require("variable", "a variable number");
     out.variable = static_cast<std::uint32_t>(variable.integer(1, 1, 999999));
     out.documented = table.value("documented").flag(true);

@@ -17,6 +17,20 @@ ir::ExpressionPtr systemNumber(const stdlib::MacroArgument& argument, const ir::
       ir::binary(ir::BinaryOp::Subtract, system, ir::constant(kBeforeFirstSystem), system->range));
 }
 
+const ir::CycleArgument* find(const ir::CallCycle& cycle, const std::string& parameter) {
+  const auto found =
+      std::find_if(cycle.arguments.begin(), cycle.arguments.end(),
+                   [&](const ir::CycleArgument& argument) { return argument.parameter == parameter; });
+  return found == cycle.arguments.end() ? nullptr : &*found;
+}
+
+const stdlib::MacroArgument* placeOf(const stdlib::MacroSignature& signature, const std::string& parameter) {
+  const auto found =
+      std::find_if(signature.arguments.begin(), signature.arguments.end(),
+                   [&](const stdlib::MacroArgument& one) { return stdlib::parameterName(one) == parameter; });
+  return found == signature.arguments.end() ? nullptr : &*found;
+}
+
 ir::ExpressionPtr valueOf(const stdlib::MacroArgument& argument, const ir::Measure& measure,
                           const CallValues& values) {
   switch (argument.role) {
@@ -38,6 +52,20 @@ ir::ExpressionPtr valueOf(const stdlib::MacroArgument& argument, const ir::Move&
   if (argument.role != stdlib::ArgumentRole::Target) return nullptr;
   const auto& coordinate = move.axes[ir::indexOf(argument.axis)];
   return coordinate ? values.place(*coordinate, argument.axis, argument.frame) : nullptr;
+}
+
+ir::ExpressionPtr valueOf(const stdlib::MacroArgument& argument, const ir::CallCycle& cycle,
+                          const CallValues& values) {
+  if (argument.role == stdlib::ArgumentRole::System)
+    return cycle.setting && values.setsSystem ? systemNumber(argument, cycle.setting->system) : nullptr;
+  if (argument.role == stdlib::ArgumentRole::Nominal)
+    return cycle.setting ? cycle.setting->nominal[ir::indexOf(argument.axis)] : nullptr;
+  const ir::CycleArgument* given = find(cycle, stdlib::parameterName(argument));
+  if (given == nullptr)
+    return argument.role == stdlib::ArgumentRole::Overtravel && values.overtravel ? values.overtravel()
+                                                                                  : nullptr;
+  if (!given->frame) return given->value;
+  return values.place(ir::Coordinate{given->value, *given->frame, nullptr}, argument.axis, argument.frame);
 }
 
 template <class Node>
@@ -67,6 +95,63 @@ const stdlib::MacroSignature* signatureOf(const stdlib::MacroSet& macros, const 
                      measure.axis);
 }
 
+const stdlib::MacroArgument* macroArgument(const stdlib::MacroSignature& signature,
+                                           const std::string& parameter) {
+  return placeOf(signature, parameter);
+}
+
+const stdlib::MacroSignature* signatureOf(const stdlib::MacroSet& macros, const ir::CallCycle& cycle) {
+  const stdlib::MacroSignature* out = nullptr;
+  std::ptrdiff_t most = -1;
+  for (const stdlib::MacroSignature& one : macros.signatures) {
+    if (stdlib::intentName(one.intent) != cycle.cycle || stdlib::axisOf(one) != cycle.axis) continue;
+    const bool lacks =
+        std::any_of(one.arguments.begin(), one.arguments.end(), [&](const stdlib::MacroArgument& argument) {
+          return argument.required && argument.role != stdlib::ArgumentRole::System &&
+                 argument.role != stdlib::ArgumentRole::Nominal &&
+                 find(cycle, stdlib::parameterName(argument)) == nullptr;
+        });
+    const auto taken =
+        std::count_if(cycle.arguments.begin(), cycle.arguments.end(), [&](const ir::CycleArgument& argument) {
+          return placeOf(one, argument.parameter) != nullptr;
+        });
+    const std::ptrdiff_t worth = lacks ? 0 : taken + 1;
+    if (worth <= most) continue;
+    most = worth;
+    out = &one;
+  }
+  return out;
+}
+
+const stdlib::MacroSignature* signatureOf(const stdlib::MacroSet& macros,
+                                          const ir::CycleStatement& statement) {
+  if (const auto* measure = std::get_if<ir::Measure>(&statement.node)) return signatureOf(macros, *measure);
+  if (const auto* cycle = std::get_if<ir::CallCycle>(&statement.node)) return signatureOf(macros, *cycle);
+  return nullptr;
+}
+
+std::string featureName(const ir::CallCycle& cycle) {
+  std::string out = cycle.cycle;
+  std::replace(out.begin(), out.end(), '-', ' ');
+  out = (std::string_view("aeiou").find(out.front()) == std::string_view::npos ? "a " : "an ") + out;
+  return cycle.axis ? out + " along " + ir::letterOf(*cycle.axis) : out;
+}
+
+std::string openMeaning(const stdlib::MacroSignature& signature, const ir::CallCycle& cycle,
+                        const stdlib::MacroSet& macros) {
+  if (cycle.set == macros.name) return "";
+  // What one set leaves open no other is known to do alike, though its own text is known.
+  if (!signature.unknown.empty())
+    return signature.unknown.starts_with("nothing") ? "more than its letters say" : signature.unknown;
+  for (const ir::CycleArgument& given : cycle.arguments) {
+    const stdlib::MacroArgument* place = placeOf(signature, given.parameter);
+    if (place == nullptr) continue;
+    if (!place->unknown.empty()) return place->unknown;
+    if (place->role == stdlib::ArgumentRole::Unstated) return "what its " + given.parameter + " says";
+  }
+  return "";
+}
+
 std::string featureName(const ir::Measure& measure) {
   if (measure.feature == ir::Feature::Bore) return "a bore";
   return std::string("a surface along ") + ir::letterOf(measure.axis);
@@ -91,6 +176,14 @@ MacroCall macroCall(const stdlib::MacroSignature& signature, const ir::Measure& 
   return callOf(signature, measure, values);
 }
 
+MacroCall macroCall(const stdlib::MacroSignature& signature, const ir::CallCycle& cycle,
+                    const CallValues& values) {
+  MacroCall out = callOf(signature, cycle, values);
+  for (const ir::CycleArgument& given : cycle.arguments)
+    if (placeOf(signature, given.parameter) == nullptr) out.notTaken.push_back(given.parameter);
+  return out;
+}
+
 MacroCall macroCall(const stdlib::MacroSignature& signature, const ir::Move& move, const CallValues& values) {
   return callOf(signature, move, values);
 }
@@ -100,17 +193,6 @@ std::optional<ir::Axis> axisNotTaken(const stdlib::MacroSignature& signature, co
     if (move.axes[ir::indexOf(axis)] && signature.find(stdlib::ArgumentRole::Target, axis) == nullptr)
       return axis;
   return std::nullopt;
-}
-
-std::string_view resultName(ir::ResultName name) {
-  switch (name) {
-  case ir::ResultName::Main: return "the result";
-  case ir::ResultName::PositionX: return "the position in X";
-  case ir::ResultName::PositionY: return "the position in Y";
-  case ir::ResultName::PositionZ: return "the position in Z";
-  case ir::ResultName::Size: return "the size";
-  }
-  return "";
 }
 
 const stdlib::MacroResult* findResult(const stdlib::MacroSignature& signature, ir::ResultName name) {
@@ -126,6 +208,13 @@ FoundResult resultAfter(const stdlib::MacroSignature& signature, const ir::Measu
   out.result = findResult(signature, ownResult(measure));
   if (out.result != nullptr) out.instead = ownResult(measure);
   return out;
+}
+
+FoundResult resultAfter(const stdlib::MacroSignature& signature, const ir::CycleStatement& measured,
+                        ir::ResultName name) {
+  if (const auto* measure = std::get_if<ir::Measure>(&measured.node))
+    return resultAfter(signature, *measure, name);
+  return {findResult(signature, name), std::nullopt};
 }
 
 } // namespace dotek::backends

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "ir/Statement.h"
+#include "stdlib/MacroCycle.h"
 #include "stdlib/MacroSet.h"
 #include "support/messages/Fanuc.h"
 
@@ -16,6 +17,20 @@ namespace dotek::backends {
 
 // The signature that measures so; nullptr: the set has none.
 const stdlib::MacroSignature* signatureOf(const stdlib::MacroSet& macros, const ir::Measure& measure);
+// Of a cycle: the one that takes most of its parameters; nullptr: the set has none of its name and axis.
+const stdlib::MacroSignature* signatureOf(const stdlib::MacroSet& macros, const ir::CallCycle& cycle);
+// Of a Measure or a CallCycle; nullptr for any other statement, too.
+const stdlib::MacroSignature* signatureOf(const stdlib::MacroSet& macros,
+                                          const ir::CycleStatement& statement);
+// The argument of the macro that the parameter of a cycle fills; nullptr: none.
+const stdlib::MacroArgument* macroArgument(const stdlib::MacroSignature& signature,
+                                           const std::string& parameter);
+// "a three-point bore", "a web along X"
+std::string featureName(const ir::CallCycle& cycle);
+// What no source says of the cycle, where `macros` is not the set of its source: "the path round the corner";
+// "": the same set, or all is known.
+std::string openMeaning(const stdlib::MacroSignature& signature, const ir::CallCycle& cycle,
+                        const stdlib::MacroSet& macros);
 // "a bore", "a surface along X"
 std::string featureName(const ir::Measure& measure);
 // The axes along which the measurement finds a coordinate.
@@ -39,11 +54,15 @@ struct GivenArgument {
 
 struct MacroCall {
   const stdlib::MacroSignature* signature = nullptr;
-  std::vector<GivenArgument> arguments;              // in the order of the signature
-  std::vector<const stdlib::MacroArgument*> missing; // required, and the statement states no value
+  std::vector<GivenArgument> arguments;                   // in the order of the signature
+  std::vector<const stdlib::MacroArgument*> missing = {}; // required, and the statement states no value
+  std::vector<std::string> notTaken = {};                 // parameters that the macro has no letter for
 };
 
 MacroCall macroCall(const stdlib::MacroSignature& signature, const ir::Measure& measure,
+                    const CallValues& values);
+// Of a cycle by its name and its parameters. A nominal that the macro wants is `setting`'s.
+MacroCall macroCall(const stdlib::MacroSignature& signature, const ir::CallCycle& cycle,
                     const CallValues& values);
 // Of a protected move.
 MacroCall macroCall(const stdlib::MacroSignature& signature, const ir::Move& move, const CallValues& values);
@@ -62,8 +81,6 @@ void refuseMissing(State& state, const stdlib::MacroSet& macros, const MacroCall
     state.template refuse<diag::MacroArgumentMissing>(range, call.signature->program, letter);
 }
 
-// "the result", "the position in X"
-std::string_view resultName(ir::ResultName name);
 const stdlib::MacroResult* findResult(const stdlib::MacroSignature& signature, ir::ResultName name);
 
 struct FoundResult {
@@ -72,6 +89,8 @@ struct FoundResult {
   std::optional<ir::ResultName> instead;
 };
 FoundResult resultAfter(const stdlib::MacroSignature& signature, const ir::Measure& measure,
+                        ir::ResultName name);
+FoundResult resultAfter(const stdlib::MacroSignature& signature, const ir::CycleStatement& measured,
                         ir::ResultName name);
 
 } // namespace dotek::backends

@@ -4,6 +4,7 @@
 #include "support/messages/Fanuc.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace dotek::backends::fanuc {
 
@@ -37,8 +38,8 @@ public:
           code(node.on ? Function::ProbeOn : Function::ProbeOff, "the probe", origin);
         },
         // Lines of their own (isAlone), and what Flow.cpp writes.
-        [](const ir::OneOf<ir::Measure, ir::OpaqueBlock, ir::Assign, ir::Store, ir::Label, ir::Jump,
-                           ir::Branch, ir::Return, ir::Alarm, ir::Comment> auto&) {});
+        [](const ir::OneOf<ir::Measure, ir::CallCycle, ir::OpaqueBlock, ir::Assign, ir::Store, ir::Label,
+                           ir::Jump, ir::Branch, ir::Return, ir::Alarm, ir::Comment> auto&) {});
     ranges_.insert(ranges_.end(), origin.ranges.begin(), origin.ranges.end());
   }
 
@@ -223,7 +224,7 @@ bool isAlone(const State& state, const ir::CycleStatement& statement) {
         return state.macros.find(node.on ? stdlib::Intent::ProbeOn : stdlib::Intent::ProbeOff) != nullptr ||
                state.control.find(node.on ? Function::ProbeOn : Function::ProbeOff) == nullptr;
       },
-      [](const ir::OneOf<ir::Measure, ir::OpaqueBlock> auto&) { return true; },
+      [](const ir::OneOf<ir::Measure, ir::CallCycle, ir::OpaqueBlock> auto&) { return true; },
       [](const ir::OneOf<ir::SetMode, ir::Spindle, ir::Coolant, ir::Dwell, ir::Stop, ir::Assign, ir::Store,
                          ir::Label, ir::Jump, ir::Branch, ir::Return, ir::Alarm, ir::Comment> auto&) {
         return false;
@@ -235,22 +236,25 @@ bool isBlock(const ir::CycleStatement& statement) {
       statement,
       [](const ir::OneOf<ir::Move, ir::SetMode, ir::Spindle, ir::Coolant, ir::ProbePower, ir::Dwell,
                          ir::Stop> auto&) { return true; },
-      [](const ir::OneOf<ir::Measure, ir::OpaqueBlock, ir::Assign, ir::Store, ir::Label, ir::Jump, ir::Branch,
-                         ir::Return, ir::Alarm, ir::Comment> auto&) { return false; });
+      [](const ir::OneOf<ir::Measure, ir::CallCycle, ir::OpaqueBlock, ir::Assign, ir::Store, ir::Label,
+                         ir::Jump, ir::Branch, ir::Return, ir::Alarm, ir::Comment> auto&) { return false; });
 }
 
 void writeOpaque(State& state, const ir::OpaqueBlock& block, const ir::Origin& origin) {
-  std::string text;
-  for (const ir::Word& given : block.words) {
-    if (given.address == 'N') continue; // the source's own numbering
-    text += text.empty() ? "" : " ";
-    text += given.value == nullptr ? std::string(1, given.address)
-                                   : word(state, given.address, given.value, Form::Source, origin);
-  }
-  if (state.control.name != state.options.sourceControl.name) {
-    state.refuse<diag::OpaqueBlockRefused>(origin.range(), text, state.options.sourceControl.title);
-    return;
-  }
+  const std::string text = copiedText(state, block, origin);
+  if (text.empty()) return;
+  // H0 would take the tool's length away, and the next move is as much lower.
+  const bool adds = std::any_of(block.words.begin(), block.words.end(), [&](const ir::Word& word) {
+    const double* code = word.address == 'G' && word.value ? ir::constantValue(word.value) : nullptr;
+    const auto* info = code == nullptr || *code < 0 || *code > 9999
+                           ? nullptr
+                           : state.control.find('G', static_cast<std::uint32_t>(std::lround(*code * 10)));
+    return info != nullptr && info->function == Function::ToolLengthPlus;
+  });
+  for (const ir::Word& word : block.words)
+    if (adds && word.address == 'H' && word.value && ir::constantValue(word.value) == nullptr)
+      alarmIf(state, ir::compare(ir::Relation::LessEqual, word.value, ir::constant(0)),
+              "TOOL OFFSET NOT ABOVE 0", origin);
   state.sheet.add(text, origin);
 }
 
@@ -258,6 +262,7 @@ void writeAlone(State& state, const ir::CycleStatement& statement) {
   match(
       statement, [&](const ir::Move& node) { writeProtectedMove(state, node, statement.origin); },
       [&](const ir::Measure& node) { writeMeasure(state, node, statement.origin); },
+      [&](const ir::CallCycle& node) { writeCycle(state, node, statement.origin); },
       [&](const ir::ProbePower& node) { writeProbePower(state, node.on, statement.origin); },
       [&](const ir::OpaqueBlock& node) { writeOpaque(state, node, statement.origin); },
       // isAlone() says no.

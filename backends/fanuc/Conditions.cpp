@@ -47,9 +47,16 @@ std::string atomText(State& state, const ir::ConditionPtr& condition, const ir::
     return atomText(state, ir::negate(inverse->inner), origin, depth);
   }
   const auto& comparison = std::get<ir::Comparison>(condition->node);
-  const std::string left = operandText(state, comparison.left, origin, depth);
+  const bool orders =
+      comparison.relation != ir::Relation::Equal && comparison.relation != ir::Relation::NotEqual;
+  // An empty variable counts as 0 where the control asks for the greater one.
+  const auto bare = [&](const ir::ExpressionPtr& side) {
+    const auto* unary = std::get_if<ir::Unary>(&side->node);
+    return orders && unary != nullptr && unary->op == ir::UnaryOp::NullAsZero ? unary->operand : side;
+  };
+  const std::string left = operandText(state, bare(comparison.left), origin, depth);
   return left + " " + std::string(relationName(comparison.relation)) + " " +
-         operandText(state, comparison.right, origin, depth);
+         operandText(state, bare(comparison.right), origin, depth);
 }
 
 // One IF says it. Two comparisons are joined, not more: longer chains are not in any source.

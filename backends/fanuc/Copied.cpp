@@ -73,8 +73,7 @@ public:
 
   CopiedModes find() {
     const auto& list = state_.cycle.body;
-    const bool same = state_.control.name == state_.options.sourceControl.name; // else they are refused
-    if (!same || std::none_of(list.begin(), list.end(), [](const ir::CycleStatement& statement) {
+    if (std::none_of(list.begin(), list.end(), [](const ir::CycleStatement& statement) {
           return std::holds_alternative<ir::OpaqueBlock>(statement.node);
         }))
       return {};
@@ -130,9 +129,9 @@ private:
           if (node.mode == ir::Mode::WorkSystem) now.erase(extendedKey());
         },
         [&](const ir::OpaqueBlock& node) { apply(at, node, now); },
-        [](const ir::OneOf<ir::Label, ir::Jump, ir::Branch, ir::Store, ir::Move, ir::Measure, ir::ProbePower,
-                           ir::Comment, ir::Assign, ir::Return, ir::Spindle, ir::Coolant, ir::Dwell, ir::Stop,
-                           ir::Alarm> auto&) {});
+        [](const ir::OneOf<ir::Label, ir::Jump, ir::Branch, ir::Store, ir::Move, ir::Measure, ir::CallCycle,
+                           ir::ProbePower, ir::Comment, ir::Assign, ir::Return, ir::Spindle, ir::Coolant,
+                           ir::Dwell, ir::Stop, ir::Alarm> auto&) {});
     return now;
   }
   void clear(InForce& now, Function function) const {

@@ -8,12 +8,12 @@
 #include "support/messages/Fanuc.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace dotek::backends::fanuc {
 
 namespace {
 
-constexpr double kFirstSystem = 1000; // the first variable that is the control's own
 // Programs that parameters give to G, M and T codes.
 constexpr std::uint32_t kFirstOfCodes = 9000, kLastOfCodes = 9029;
 
@@ -24,10 +24,8 @@ ir::Origin made(std::string reason) {
 }
 
 bool switches(const ir::Cycle& cycle, bool on) {
-  return std::any_of(cycle.body.begin(), cycle.body.end(), [&](const ir::CycleStatement& statement) {
-    const auto* power = std::get_if<ir::ProbePower>(&statement.node);
-    return power != nullptr && power->on == on;
-  });
+  return std::any_of(cycle.body.begin(), cycle.body.end(),
+                     [&](const ir::CycleStatement& statement) { return ir::switchesProbe(statement) == on; });
 }
 
 // Between the modes: the cycle's blocks.
@@ -45,23 +43,33 @@ void writeBody(State& state) {
   state.body = nullptr;
 }
 
-// Variables of the machine that the source reads: common ones, and others of its own control.
-void checkMachineVariables(State& state) {
-  for (const auto* list : {&state.cycle.checks, &state.cycle.body})
-    for (const ir::CycleStatement& statement : *list)
-      ir::eachNode(statement, [&](const ir::Expression& node) {
-        const auto* machine = std::get_if<ir::MachineVariable>(&node.node);
-        if (machine == nullptr) return;
-        const double* number = ir::constantValue(tidy(machine->number));
-        const bool same = state.control.name == state.options.sourceControl.name;
-        const bool known = number != nullptr && *number >= 0 && *number < 1e9 &&
-                           (state.control.isCommon(static_cast<std::uint32_t>(*number)) ||
-                            (same && *number >= kFirstSystem));
-        if (known) return;
-        state.refuse<diag::MachineVariableRefused>(
-            node.range.hasPlace() ? node.range : statement.origin.range(),
-            number == nullptr ? "[..]" : numberText(*number), state.control.title);
-      });
+// A G43 of the body comes before anything moves the tool or measures: the caller's length does not count.
+bool takesOwnLength(const State& state) {
+  const auto takes = [&](const ir::OpaqueBlock& block) {
+    return std::any_of(block.words.begin(), block.words.end(), [&](const ir::Word& word) {
+      const double* code = word.address == 'G' && word.value ? ir::constantValue(word.value) : nullptr;
+      if (code == nullptr || *code < 0 || *code > 9999) return false;
+      const auto* info = state.control.find('G', static_cast<std::uint32_t>(std::lround(*code * 10)));
+      return info != nullptr && info->function == stdlib::Function::ToolLengthPlus;
+    });
+  };
+  enum class Then : std::uint8_t { GoOn, Takes, Ends };
+  for (const ir::CycleStatement& statement : state.cycle.body) {
+    const Then then = match(
+        statement, [&](const ir::OpaqueBlock& node) { return takes(node) ? Then::Takes : Then::GoOn; },
+        [](const ir::Move& node) {
+          const bool down = node.axes[ir::indexOf(ir::Axis::Z)].has_value();
+          return down || node.motion == ir::Motion::Protected ? Then::Ends : Then::GoOn;
+        },
+        [](const ir::CallCycle& node) { return node.moves ? Then::Ends : Then::GoOn; },
+        [](const ir::OneOf<ir::Measure, ir::Label, ir::Jump, ir::Branch, ir::Return> auto&) {
+          return Then::Ends;
+        },
+        [](const ir::OneOf<ir::Store, ir::ProbePower, ir::Comment, ir::Assign, ir::Spindle, ir::Coolant,
+                           ir::SetMode, ir::Dwell, ir::Stop, ir::Alarm> auto&) { return Then::GoOn; });
+    if (then != Then::GoOn) return then == Then::Takes;
+  }
+  return false;
 }
 
 bool fits(const EmitOptions& options, SourceRange range, Diagnostics& diagnostics) {
@@ -93,8 +101,9 @@ std::optional<std::vector<EmittedLine>> emit(const ir::Cycle& cycle, const EmitO
   if (state.macros.needsSkipPosition && !state.control.variables.skip && ir::probes(cycle))
     state.refuse<diag::NoSkipPosition>(cycle.range, "macros of " + state.macros.title, state.control.title);
   state.guards = findGuards(state.control);
+  if (takesOwnLength(state)) state.guards.toolLength = Guard::Absent;
   state.moving = movingVariables(state.cycle);
-  checkMachineVariables(state);
+  translateVariables(state);
   collectAlarms(state);
   state.copied = findCopiedModes(state);
   const auto saved = planModes(state);

@@ -31,6 +31,7 @@ struct EmitOptions {
   bool plainMessages = false;
   // The source calls another set: calls are written in the order of the signature, not of the source's block.
   bool foreignMacros = false;
+  std::map<ir::VariableId, std::string> computed = {}; // fields that are no arguments, with their formulas
 };
 
 // The argument of a parameter or host input in a call of the program.

@@ -141,8 +141,9 @@ private:
     }
     const auto* binary = std::get_if<ir::Binary>(&expression->node);
     if (binary == nullptr || binary->op == ir::BinaryOp::ValueOr) return true;
-    const std::string_view name =
-        binary->op == ir::BinaryOp::Direction ? "ATAN[y]/[x]" : trimmed(infixOf(binary->op).text);
+    const std::string_view name = binary->op == ir::BinaryOp::Direction || binary->op == ir::BinaryOp::Bearing
+                                      ? "ATAN[y]/[x]"
+                                      : trimmed(infixOf(binary->op).text);
     if (notation_.infix(binary->op).text.empty() && !has(state_.control, name)) {
       state_.refuse<diag::FunctionMissing>(rangeOf(expression), state_.control.title, name);
       return false;
@@ -200,8 +201,34 @@ void collectTerms(const ir::ExpressionPtr& expression, int sign, double& constan
   collectTerms(binary->right, binary->op == ir::BinaryOp::Add ? sign : -sign, constant, constants, terms);
 }
 
-std::string textOf(State& state, const ir::ExpressionPtr& value, Form form, const ir::Origin& origin,
+// A variable of the machine that is empty counts as 0 in arithmetic by itself.
+ir::ExpressionPtr withoutZeroes(const ir::ExpressionPtr& expression) {
+  const auto operand = [](const ir::ExpressionPtr& given) {
+    const ir::ExpressionPtr value = withoutZeroes(given);
+    const auto* unary = std::get_if<ir::Unary>(&value->node);
+    const bool machine = unary != nullptr && unary->op == ir::UnaryOp::NullAsZero &&
+                         std::holds_alternative<ir::MachineVariable>(unary->operand->node);
+    return machine ? unary->operand : value;
+  };
+  if (const auto* machine = std::get_if<ir::MachineVariable>(&expression->node)) {
+    const ir::ExpressionPtr number = withoutZeroes(machine->number);
+    return number == machine->number ? expression : ir::machineVariable(number, expression->range);
+  }
+  if (const auto* unary = std::get_if<ir::Unary>(&expression->node)) {
+    const bool zero = unary->op == ir::UnaryOp::NullAsZero;
+    const ir::ExpressionPtr inner = zero ? withoutZeroes(unary->operand) : operand(unary->operand);
+    return inner == unary->operand ? expression : ir::unary(unary->op, inner, expression->range);
+  }
+  const auto* binary = std::get_if<ir::Binary>(&expression->node);
+  if (binary == nullptr || binary->op == ir::BinaryOp::ValueOr) return expression;
+  const ir::ExpressionPtr left = operand(binary->left), right = operand(binary->right);
+  if (left == binary->left && right == binary->right) return expression;
+  return ir::binary(binary->op, left, right, expression->range);
+}
+
+std::string textOf(State& state, const ir::ExpressionPtr& given, Form form, const ir::Origin& origin,
                    std::uint32_t depth) {
+  const ir::ExpressionPtr value = withoutZeroes(given);
   checkModulo(state, value, origin);
   Printer printer(state, form, origin);
   return printer.print(value, depth);
@@ -337,6 +364,13 @@ void assign(State& state, const std::string& left, const ir::ExpressionPtr& give
     if (binary->op == ir::BinaryOp::ValueOr) return assignValueOr(state, left, *binary, origin);
     if (binary->op == ir::BinaryOp::Direction && has(state.control, "ATAN[y]/[x]"))
       return assignDirection(state, left, *binary, origin);
+    if (binary->op == ir::BinaryOp::Bearing && has(state.control, "ATAN[y]/[x]")) {
+      // As the source has it: its range is a parameter of the control.
+      const std::string y = textOf(state, binary->right, Form::Length, origin, depthOf(state) - 1);
+      const std::string x = textOf(state, binary->left, Form::Length, origin, depthOf(state) - 1);
+      state.sheet.add(left + "=ATAN[" + y + "]/[" + x + "]", origin);
+      return;
+    }
   }
   const std::string text = valueText(state, value, origin);
   state.sheet.add(left + "=" + text, origin);

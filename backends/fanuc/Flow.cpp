@@ -1,6 +1,8 @@
 // The statements of a list: assignments, jumps, alarms; blocks are left to Blocks.cpp.
 #include "backends/fanuc/State.h"
 #include "ir/Fold.h"
+#include "ir/Positions.h"
+#include "ir/Walk.h"
 #include "support/messages/Fanuc.h"
 
 #include <algorithm>
@@ -67,8 +69,8 @@ private:
           state_.sheet.comment(text, origin);
           return i + 1;
         },
-        [&](const ir::OneOf<ir::Move, ir::Measure, ir::ProbePower, ir::Spindle, ir::Coolant, ir::SetMode,
-                            ir::Dwell, ir::Stop, ir::OpaqueBlock> auto&) {
+        [&](const ir::OneOf<ir::Move, ir::Measure, ir::CallCycle, ir::ProbePower, ir::Spindle, ir::Coolant,
+                            ir::SetMode, ir::Dwell, ir::Stop, ir::OpaqueBlock> auto&) {
           return writeBlock(state_, list_, i);
         });
   }
@@ -93,6 +95,12 @@ private:
           doIf(state_, ir::negate(branch.condition), text, guarded.origin);
           return true;
         },
+        [&](const ir::Stop& node) {
+          if (node.optional || !state_.control.variables.message) return false;
+          const std::string text = stopText(state_, node, guarded.origin);
+          doIf(state_, ir::negate(branch.condition), text, guarded.origin);
+          return true;
+        },
         [&](const ir::Assign& node) {
           return writeGuarded(branch, guarded.origin, node.value,
                               [&] { return std::optional(state_.local(node.variable)); });
@@ -101,9 +109,9 @@ private:
           return writeGuarded(branch, guarded.origin, node.value,
                               [&] { return storeTarget(node, guarded.origin); });
         },
-        [](const ir::OneOf<ir::Label, ir::Jump, ir::Branch, ir::Move, ir::Measure, ir::ProbePower,
-                           ir::Comment, ir::Return, ir::Spindle, ir::Coolant, ir::SetMode, ir::Dwell,
-                           ir::Stop, ir::OpaqueBlock> auto&) { return false; });
+        [](const ir::OneOf<ir::Label, ir::Jump, ir::Branch, ir::Move, ir::Measure, ir::CallCycle,
+                           ir::ProbePower, ir::Comment, ir::Return, ir::Spindle, ir::Coolant, ir::SetMode,
+                           ir::Dwell, ir::OpaqueBlock> auto&) { return false; });
   }
 
   template <class Target>
@@ -129,6 +137,10 @@ private:
     const double* value = ir::constantValue(number);
     const bool whole = value != nullptr && *value >= 0 && *value < 1e9 &&
                        *value == static_cast<double>(static_cast<std::uint32_t>(*value));
+    const auto base = value == nullptr ? ir::firstNumber(number) : std::nullopt;
+    if (base && state_.control.isCommon(*base)) return machineText(state_, number, origin);
+    if (whole && isSettable(state_.control, static_cast<std::uint32_t>(*value)))
+      return machineText(state_, number, origin);
     if (!whole || !state_.control.isCommon(static_cast<std::uint32_t>(*value))) {
       state_.refuse<diag::StoreVariable>(
           origin.range(), value == nullptr ? "a computed number" : machineText(state_, number, origin),
@@ -136,7 +148,10 @@ private:
       return std::nullopt;
     }
     const auto variable = static_cast<std::uint32_t>(*value);
+    // Where no macro is called, its variables are like any other.
+    const bool calls = ir::probes(state_.cycle);
     for (const auto& [first, last] : state_.macros.scratch) {
+      if (!calls) break;
       if (variable < first || variable > last) continue;
       const bool kept = std::any_of(state_.control.common.begin(), state_.control.common.end(),
                                     [&](const stdlib::VariableRange& range) {

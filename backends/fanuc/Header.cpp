@@ -30,6 +30,7 @@ std::string withPoint(double value) {
 double typical(const ir::Variable& variable) {
   if (variable.defaultValue) return *variable.defaultValue;
   if (variable.kind == ir::Kind::WorkOffset) return 54;
+  if (variable.kind == ir::Kind::ToolOffset || variable.kind == ir::Kind::Count) return 1;
   if (variable.role != ir::Role::Host) return 0;
   if (variable.name == "clearance") return 50;
   if (variable.name == "retract") return 5;
@@ -50,6 +51,7 @@ public:
     if (!state_.cycle.measurementStated)
       say("THE SOURCE STATES A PATH ONLY: NO OFFSET IS SET BY THIS PROGRAM");
     table();
+    computed();
     call();
     fixed();
     requirements();
@@ -125,6 +127,17 @@ private:
           from.ranges.push_back(range);
       row(rows[i], widths, from);
     }
+  }
+
+  void computed() {
+    std::string text;
+    for (auto [id, formula] : state_.options.computed) {
+      // Round brackets would end the comment.
+      std::replace(formula.begin(), formula.end(), '(', '[');
+      std::replace(formula.begin(), formula.end(), ')', ']');
+      if (state_.locals.contains(id)) text += (text.empty() ? "COMPUTED, NO ARGUMENTS: " : ", ") + formula;
+    }
+    if (!text.empty()) say(text);
   }
 
   void row(const Row& cells, const std::vector<std::size_t>& widths, const ir::Origin& from) {

@@ -1,10 +1,12 @@
 // Calls of the vendor's macros, built from their signatures.
+#include "backends/common/CycleTouches.h"
 #include "backends/common/MacroCall.h"
 #include "backends/fanuc/State.h"
 #include "ir/Linear.h"
 #include "support/messages/Fanuc.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace dotek::backends::fanuc {
 
@@ -33,17 +35,18 @@ void order(std::vector<CallWord>& arguments, const std::string& addresses) {
     if (isIjk(argument)) argument = *next++;
 }
 
-Form formOf(const stdlib::MacroArgument& argument) {
+Form formOf(const State& state, const stdlib::MacroArgument& argument) {
   if (!argument.selector && argument.role != stdlib::ArgumentRole::System) return Form::Length;
-  return argument.point ? Form::Selector : Form::Whole;
+  // Without a point a letter that counts lengths would count least increments.
+  return argument.point || state.control.isLength(argument.letter) ? Form::Selector : Form::Whole;
 }
 
 // Nothing is written where something was refused.
 void writeCall(State& state, const MacroCall& call, const ir::Origin& origin) {
   std::vector<CallWord> arguments;
   for (const GivenArgument& one : call.arguments)
-    arguments.push_back(
-        {one.argument->letter, word(state, one.argument->letter, one.value, formOf(*one.argument), origin)});
+    arguments.push_back({one.argument->letter,
+                         word(state, one.argument->letter, one.value, formOf(state, *one.argument), origin)});
   if (!state.failed) refuseMissing(state, state.macros, call, origin.range());
   if (state.failed) return;
   order(arguments, state.options.foreignMacros ? "" : origin.addresses);
@@ -64,8 +67,7 @@ CallValues valuesFor(State& state, const ir::Origin& origin) {
 void warnIfOff(State& state, const ir::Origin& origin) {
   const auto& body = state.cycle.body;
   const bool switched = std::any_of(body.begin(), body.end(), [](const ir::CycleStatement& statement) {
-    const auto* power = std::get_if<ir::ProbePower>(&statement.node);
-    return power != nullptr && power->on;
+    return ir::switchesProbe(statement) == true;
   });
   if (switched || state.options.probePower == ProbePowerMode::Macro) return;
   if (!state.reported.insert("probe off").second) return;
@@ -89,7 +91,7 @@ public:
     if (measure_.setting) guardSystem(state_, measure_.setting->system, origin_);
     writeCall(state_, macroCall(signature_, measure_, values), origin_);
     if (state_.failed) return;
-    keepResults(state_, measure_, origin_);
+    keepResults(state_, origin_);
     if (!measure_.setting || values.setsSystem) return;
     for (const ir::Axis axis : ir::kAxes)
       if (measure_.setting->nominal[ir::indexOf(axis)] != nullptr)
@@ -133,6 +135,152 @@ private:
   const ir::Origin& origin_;
 };
 
+// Where the source expects the feature along the axis, work coordinates; nullptr: not known.
+ir::ExpressionPtr expectedAt(State& state, const ir::CallCycle& cycle, ir::Axis axis,
+                             const ir::Origin& origin) {
+  const auto target = std::find_if(cycle.arguments.begin(), cycle.arguments.end(), [&](const auto& one) {
+    return one.frame && one.parameter.back() == "xyz"[ir::indexOf(axis)];
+  });
+  if (target == cycle.arguments.end()) return workPosition(state, axis);
+  return place(state, {target->value, *target->frame, nullptr}, axis, ir::Frame::Work, origin.range());
+}
+
+// Tolerances of the source's call that the macro has no letter for: the program compares after it, as the
+// macro would have, before an offset changes.
+class Tolerances {
+public:
+  Tolerances(State& state, const stdlib::MacroSignature& signature, const ir::Origin& origin)
+      : state_(state), signature_(signature), origin_(origin) {
+    origin_.reason = "tolerance of the source's macro";
+  }
+
+  // Takes them out of the cycle's arguments. What they compare has to be a result of the macro.
+  void take(ir::CallCycle& cycle) {
+    std::erase_if(cycle.arguments, [&](const ir::CycleArgument& one) {
+      if (macroArgument(signature_, one.parameter) != nullptr || one.moves) return false;
+      ir::ExpressionPtr error;
+      std::string_view text;
+      if (one.parameter == stdlib::roleName(stdlib::ArgumentRole::UpperLimit)) {
+        text = "UPPER LIMIT";
+        for (const ir::Axis axis : axesOf(cycle))
+          if (!add(compared(errorAlong(cycle, axis)), one.value, text)) return false;
+        if (const ir::ExpressionPtr size = sizeError(cycle)) return add(compared(size), one.value, text);
+        return true;
+      }
+      if (one.parameter == stdlib::roleName(stdlib::ArgumentRole::SizeTolerance)) {
+        text = "OUT OF TOLERANCE";
+        error = isSized(cycle) ? compared(sizeError(cycle)) : off(cycle);
+      } else if (one.parameter == stdlib::roleName(stdlib::ArgumentRole::PositionTolerance)) {
+        text = "OUT OF POSITION";
+        error = off(cycle);
+        if (error != nullptr) error = ir::binary(ir::BinaryOp::Multiply, ir::constant(2), error);
+      } else if (one.parameter == stdlib::roleName(stdlib::ArgumentRole::AngleTolerance)) {
+        text = "ANGLE OUT OF TOLERANCE";
+        const stdlib::MacroResult* angle = signature_.find(stdlib::Output::AngleError);
+        if (angle != nullptr) error = compared(systemVariable(static_cast<int>(angle->variable)));
+      }
+      return add(error, one.value, text);
+    });
+  }
+
+  bool any() const { return !checks_.empty(); }
+
+  void write() {
+    for (const Check& check : checks_) {
+      alarmIf(state_, ir::compare(ir::Relation::Greater, check.error, check.limit), check.text, origin_);
+      state_.releaseHelpers();
+    }
+  }
+
+private:
+  struct Check {
+    ir::ExpressionPtr error, limit;
+    std::string_view text;
+  };
+
+  bool add(const ir::ExpressionPtr& error, const ir::ExpressionPtr& limit, std::string_view text) {
+    if (error != nullptr) checks_.push_back({error, compared(limit), text});
+    return error != nullptr;
+  }
+  // Its size; null stays null.
+  static ir::ExpressionPtr compared(const ir::ExpressionPtr& value) {
+    if (value == nullptr) return nullptr;
+    if (const double* known = ir::constantValue(value)) return ir::constant(std::abs(*known), value->range);
+    return ir::unary(ir::UnaryOp::Absolute, value);
+  }
+  static std::vector<ir::Axis> axesOf(const ir::CallCycle& cycle) {
+    if (cycle.axis) return {*cycle.axis};
+    return {ir::Axis::X, ir::Axis::Y};
+  }
+  static const ir::CycleArgument* sizeOf(const ir::CallCycle& cycle) {
+    const std::string width(stdlib::roleName(stdlib::ArgumentRole::Width));
+    const std::string diameter(stdlib::roleName(stdlib::ArgumentRole::Diameter));
+    for (const ir::CycleArgument& one : cycle.arguments)
+      if (one.parameter == diameter || one.parameter.starts_with(width)) return &one;
+    return nullptr;
+  }
+  static bool isSized(const ir::CallCycle& cycle) { return sizeOf(cycle) != nullptr; }
+
+  ir::ExpressionPtr measured(stdlib::Output output) const {
+    const stdlib::MacroResult* result = signature_.find(output);
+    return result == nullptr || !result->documented ? nullptr
+                                                    : systemVariable(static_cast<int>(result->variable));
+  }
+  ir::ExpressionPtr sizeError(const ir::CallCycle& cycle) const {
+    const ir::CycleArgument* size = sizeOf(cycle);
+    const ir::ExpressionPtr found = size == nullptr ? nullptr : measured(stdlib::Output::Size);
+    return found == nullptr ? nullptr : ir::binary(ir::BinaryOp::Subtract, found, size->value);
+  }
+  ir::ExpressionPtr errorAlong(const ir::CallCycle& cycle, ir::Axis axis) {
+    constexpr stdlib::Output kPositions[] = {stdlib::Output::PositionX, stdlib::Output::PositionY,
+                                             stdlib::Output::PositionZ};
+    const ir::ExpressionPtr found = measured(kPositions[ir::indexOf(axis)]);
+    const ir::ExpressionPtr wanted = found == nullptr ? nullptr : expectedAt(state_, cycle, axis, origin_);
+    return wanted == nullptr ? nullptr : tidy(ir::binary(ir::BinaryOp::Subtract, found, wanted));
+  }
+  // How far the feature lies from where it is expected.
+  ir::ExpressionPtr off(const ir::CallCycle& cycle) {
+    ir::ExpressionPtr out;
+    for (const ir::Axis axis : axesOf(cycle)) {
+      const ir::ExpressionPtr error = errorAlong(cycle, axis);
+      if (error == nullptr) return nullptr;
+      if (cycle.axis) return compared(error);
+      const ir::ExpressionPtr square = ir::binary(ir::BinaryOp::Multiply, error, error);
+      out = out == nullptr ? square : ir::binary(ir::BinaryOp::Add, out, square);
+    }
+    return ir::unary(ir::UnaryOp::SquareRoot, out);
+  }
+
+  State& state_;
+  const stdlib::MacroSignature& signature_;
+  ir::Origin origin_;
+  std::vector<Check> checks_;
+};
+
+// Whether the macro itself sets the offset as the cycle does. Where not, or where it wants the nominal, that
+// gets its value: the coordinate at which the feature is expected.
+bool setsByItself(State& state, ir::CallCycle& cycle, const stdlib::MacroSignature& signature, bool checked,
+                  const ir::Origin& origin) {
+  ir::CycleSetting& setting = *cycle.setting;
+  const auto system =
+      std::find_if(signature.arguments.begin(), signature.arguments.end(),
+                   [](const auto& argument) { return argument.role == stdlib::ArgumentRole::System; });
+  const bool has = system != signature.arguments.end();
+  const bool corrects = has && system->systemRule == stdlib::SystemRule::Error;
+  const auto isSet = [](const ir::ExpressionPtr& nominal) { return nominal != nullptr; };
+  if (corrects && !checked && std::none_of(setting.nominal.begin(), setting.nominal.end(), isSet))
+    return true;
+  for (const ir::Axis axis : ir::kAxes) {
+    ir::ExpressionPtr& nominal = setting.nominal[ir::indexOf(axis)];
+    if (!setting.axes[ir::indexOf(axis)] || nominal != nullptr) continue;
+    nominal = expectedAt(state, cycle, axis, origin);
+    if (nominal == nullptr && !state.failed)
+      state.refuse<diag::StartUnknown>(origin.range(), std::string(1, ir::letterOf(axis)));
+    if (nominal == nullptr) return false;
+  }
+  return has && !corrects && !checked;
+}
+
 } // namespace
 
 void writeProtectedMove(State& state, const ir::Move& move, const ir::Origin& origin) {
@@ -160,6 +308,45 @@ void writeMeasure(State& state, const ir::Measure& measure, const ir::Origin& or
     Measurement(state, measure, *signature, origin).write();
   else
     state.refuse<diag::MacroSetCannot>(origin.range(), state.macros.title, featureName(measure));
+}
+
+void writeCycle(State& state, const ir::CallCycle& given, const ir::Origin& origin) {
+  if (given.moves) warnIfOff(state, origin);
+  const stdlib::MacroSignature* signature = signatureOf(state.macros, given);
+  if (signature == nullptr) {
+    const std::vector<ir::Measure> touches = touchesOf(given);
+    for (const ir::Measure& touch : touches)
+      writeMeasure(state, touch, origin);
+    if (touches.empty())
+      state.refuse<diag::MacroSetCannot>(origin.range(), state.macros.title, featureName(given));
+    return;
+  }
+  if (const std::string open = openMeaning(*signature, given, state.macros); !open.empty()) {
+    state.refuse<diag::CycleOpen>(origin.range(), featureName(given), given.set, open, given.set);
+    return;
+  }
+  ir::CallCycle cycle = given;
+  CallValues values = valuesFor(state, origin);
+  Tolerances tolerances(state, *signature, origin);
+  tolerances.take(cycle);
+  if (cycle.setting) {
+    guardSystem(state, cycle.setting->system, origin);
+    values.setsSystem = setsByItself(state, cycle, *signature, tolerances.any(), origin);
+    if (state.failed) return;
+  }
+  const MacroCall call = macroCall(*signature, cycle, values);
+  for (const std::string& parameter : call.notTaken)
+    state.refuse<diag::ParameterNotTaken>(origin.range(), parameter, signature->program, state.macros.title,
+                                          given.set);
+  if (state.failed) return;
+  writeCall(state, call, origin);
+  if (state.failed) return;
+  keepResults(state, origin);
+  tolerances.write();
+  if (!cycle.setting || values.setsSystem) return;
+  const ir::OffsetSetting setting{cycle.setting->system, cycle.setting->nominal};
+  for (const ir::Axis axis : ir::kAxes)
+    if (cycle.setting->axes[ir::indexOf(axis)]) writeOffset(state, setting, axis, *signature, origin);
 }
 
 void writeProbePower(State& state, bool on, const ir::Origin& origin) {

@@ -11,6 +11,8 @@ namespace dotek::backends::fanuc {
 
 namespace {
 
+constexpr double kFirstOfMachine = 1000; // number of a variable: an offset, perhaps
+
 struct Facts {
   Distance distance = Distance::Absolute;
   std::array<bool, 3> start{};
@@ -57,14 +59,24 @@ Facts behind(const ir::CycleStatement& statement, Facts facts) {
           if (node.setting->nominal[i] != nullptr) facts.start[i] = true;
         facts.feed = false;
       },
+      [&](const ir::CallCycle& node) {
+        for (std::size_t i = 0; i < 3; ++i)
+          facts.start[i] = facts.start[i] || (node.setting && node.setting->axes[i]) ||
+                           (node.setsTool && i == ir::indexOf(ir::Axis::Z));
+        facts.feed = false;
+      },
+      [&](const ir::Store& node) {
+        const double* number = ir::constantValue(node.number);
+        if (number == nullptr || *number >= kFirstOfMachine) facts.start = {true, true, true};
+      },
       [&](const ir::OpaqueBlock& node) {
         facts.distance = Distance::Unknown;
         facts.start = {true, true, true};
         facts.feed = facts.feed || std::any_of(node.words.begin(), node.words.end(),
                                                [](const ir::Word& word) { return word.address == 'F'; });
       },
-      [](const ir::OneOf<ir::Label, ir::Jump, ir::Branch, ir::Store, ir::ProbePower, ir::Comment, ir::Assign,
-                         ir::Return, ir::Spindle, ir::Coolant, ir::Dwell, ir::Stop, ir::Alarm> auto&) {});
+      [](const ir::OneOf<ir::Label, ir::Jump, ir::Branch, ir::ProbePower, ir::Comment, ir::Assign, ir::Return,
+                         ir::Spindle, ir::Coolant, ir::Dwell, ir::Stop, ir::Alarm> auto&) {});
   return facts;
 }
 

@@ -33,7 +33,7 @@ bool callsMacro(const State& state, const ir::CycleStatement& statement) {
       [&](const ir::ProbePower& node) {
         return state.macros.find(node.on ? stdlib::Intent::ProbeOn : stdlib::Intent::ProbeOff) != nullptr;
       },
-      [](const ir::OneOf<ir::Measure, ir::OpaqueBlock> auto&) { return true; },
+      [](const ir::OneOf<ir::Measure, ir::CallCycle, ir::OpaqueBlock> auto&) { return true; },
       [](const ir::OneOf<ir::Label, ir::Jump, ir::Branch, ir::Store, ir::Comment, ir::Assign, ir::Return,
                          ir::Spindle, ir::Coolant, ir::SetMode, ir::Dwell, ir::Stop, ir::Alarm> auto&) {
         return false;
@@ -56,27 +56,69 @@ bool overwritten(const State& state, std::size_t measure, std::size_t use) {
   return false;
 }
 
+// What an error is the error of, where it has an axis that one.
+struct ErrorOf {
+  ir::ResultName measured;
+  std::optional<ir::Axis> axis;
+};
+std::optional<ErrorOf> errorOf(ir::ResultName name) {
+  switch (name) {
+  case ir::ResultName::ErrorX: return ErrorOf{ir::ResultName::PositionX, ir::Axis::X};
+  case ir::ResultName::ErrorY: return ErrorOf{ir::ResultName::PositionY, ir::Axis::Y};
+  case ir::ResultName::ErrorZ: return ErrorOf{ir::ResultName::PositionZ, ir::Axis::Z};
+  case ir::ResultName::SizeError: return ErrorOf{ir::ResultName::Size, std::nullopt};
+  default: return std::nullopt;
+  }
+}
+
+// The macro leaves what was measured, and not its error.
+bool isComputed(const State& state, const ir::CycleStatement& measured, ir::ResultName name) {
+  const auto of = errorOf(name);
+  const stdlib::MacroSignature* signature = of ? signatureOf(state.macros, measured) : nullptr;
+  if (signature == nullptr || findResult(*signature, name) != nullptr) return false;
+  const stdlib::MacroResult* found = findResult(*signature, of->measured);
+  return found != nullptr && found->documented;
+}
+
+// What the source expects there, as the statement that is being written has it; nullptr: not known.
+ir::ExpressionPtr expectedOf(State& state, const ir::CycleStatement& measured, std::optional<ir::Axis> axis) {
+  if (const auto* measure = std::get_if<ir::Measure>(&measured.node)) {
+    if (!axis) return measure->diameter;
+    return measure->target ? place(state, *measure->target, *axis, ir::Frame::Work, measured.origin.range())
+                           : workPosition(state, *axis);
+  }
+  const auto* cycle = std::get_if<ir::CallCycle>(&measured.node);
+  if (cycle == nullptr) return nullptr;
+  for (const ir::CycleArgument& one : cycle->arguments) {
+    if (!axis && (one.parameter == stdlib::roleName(stdlib::ArgumentRole::Diameter) ||
+                  one.parameter.starts_with(stdlib::roleName(stdlib::ArgumentRole::Width))))
+      return one.value;
+    if (axis && one.frame && one.parameter.back() == "xyz"[ir::indexOf(*axis)])
+      return place(state, {one.value, *one.frame, nullptr}, *axis, ir::Frame::Work, measured.origin.range());
+  }
+  return axis ? workPosition(state, *axis) : nullptr;
+}
+
 } // namespace
 
 void planResults(State& state, Body& body) {
   const auto& list = state.cycle.body;
   for (std::size_t i = 0; i < list.size(); ++i) {
-    const ir::Measure* last = body.last[i];
+    const ir::CycleStatement* last = body.last[i];
     if (last == nullptr) continue;
     std::set<ir::ResultName> names;
     ir::eachNode(list[i], [&](const ir::Expression& node) {
       if (const auto* result = std::get_if<ir::MeasuredResult>(&node.node)) names.insert(result->name);
     });
     if (names.empty()) continue;
-    const auto at = std::find_if(list.begin(), list.end(), [&](const ir::CycleStatement& statement) {
-      return std::get_if<ir::Measure>(&statement.node) == last;
-    });
-    if (!overwritten(state, static_cast<std::size_t>(at - list.begin()), i)) continue;
+    const bool lost = overwritten(state, static_cast<std::size_t>(last - list.data()), i);
     for (const ir::ResultName name : names) {
+      if (!lost && !isComputed(state, *last, name)) continue;
       if (body.kept.contains({last, name})) continue;
       const std::uint32_t local = state.pool.take();
       if (local == 0)
-        state.refuse<diag::TooManyLocals>(list[i].origin.range(), resultName(name), state.control.locals);
+        state.refuse<diag::TooManyLocals>(list[i].origin.range(), ir::resultTitle(name),
+                                          state.control.locals);
       body.kept[{last, name}] = local;
     }
   }
@@ -85,7 +127,7 @@ void planResults(State& state, Body& body) {
 namespace {
 
 // The macro's own variable for a result of the measurement; nothing where it was refused.
-std::optional<std::uint32_t> variableOf(State& state, ir::ResultName name, const ir::Measure* measure,
+std::optional<std::uint32_t> variableOf(State& state, ir::ResultName name, const ir::CycleStatement* measure,
                                         SourceRange range) {
   if (measure == nullptr) {
     if (const auto shared = common(state.macros, name)) return shared;
@@ -93,33 +135,47 @@ std::optional<std::uint32_t> variableOf(State& state, ir::ResultName name, const
     const FoundResult found = resultAfter(*signature, *measure, name);
     if (found.instead)
       state.diagnostics.report<diag::ResultDiffers>(range, found.result->variable, state.macros.title,
-                                                    resultName(*found.instead));
+                                                    ir::resultTitle(*found.instead));
     if (found.result != nullptr) return found.result->variable;
   }
-  state.refuse<diag::ResultUnknown>(range, state.macros.title, resultName(name));
+  state.refuse<diag::ResultUnknown>(range, state.macros.title, ir::resultTitle(name));
   return std::nullopt;
 }
 
 } // namespace
 
-void keepResults(State& state, const ir::Measure& measure, const ir::Origin& given) {
+void keepResults(State& state, const ir::Origin& given) {
+  const ir::CycleStatement* measure = &state.cycle.body[state.at];
   for (const auto& [key, local] : state.body->kept) {
-    if (key.first != &measure) continue;
+    if (key.first != measure) continue;
     ir::Origin origin;
     origin.ranges = given.ranges;
+    if (isComputed(state, *measure, key.second)) {
+      origin.reason = "measured minus expected";
+      const ErrorOf of = *errorOf(key.second);
+      const ir::ExpressionPtr expected = expectedOf(state, *measure, of.axis);
+      const auto variable = variableOf(state, of.measured, measure, origin.range());
+      if (expected == nullptr)
+        state.refuse<diag::ResultUnknown>(origin.range(), state.macros.title, ir::resultTitle(key.second));
+      else if (variable)
+        assign(state, "#" + std::to_string(local),
+               ir::binary(ir::BinaryOp::Subtract, systemVariable(static_cast<int>(*variable)), expected),
+               origin);
+      continue;
+    }
     origin.reason = "kept before the next call overwrites it";
-    if (const auto variable = variableOf(state, key.second, &measure, origin.range()))
+    if (const auto variable = variableOf(state, key.second, measure, origin.range()))
       state.sheet.add("#" + std::to_string(local) + "=#" + std::to_string(*variable), origin);
   }
 }
 
 std::string resultText(State& state, ir::ResultName name, SourceRange range) {
-  const ir::Measure* measure = state.body == nullptr ? nullptr : state.body->last[state.at];
+  const ir::CycleStatement* measure = state.body == nullptr ? nullptr : state.body->last[state.at];
   if (measure != nullptr)
     if (const auto kept = state.body->kept.find({measure, name}); kept != state.body->kept.end())
       return "#" + std::to_string(kept->second);
   if (state.body == nullptr) {
-    state.refuse<diag::ResultUnknown>(range, state.macros.title, resultName(name));
+    state.refuse<diag::ResultUnknown>(range, state.macros.title, ir::resultTitle(name));
     return "#0";
   }
   const auto variable = variableOf(state, name, measure, range);

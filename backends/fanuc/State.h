@@ -46,12 +46,13 @@ struct AlarmText {
 enum class Distance : std::uint8_t { Unknown, Absolute, Incremental };
 struct Body {
   std::vector<ir::Position> positions;
-  std::vector<const ir::Measure*> last;
+  std::vector<const ir::CycleStatement*> last; // Measure or CallCycle
   std::vector<Distance> distance;
   std::vector<bool> feed; // stated since the beginning, and since the last call of a macro
   // An offset was set since entry: the start point is no coordinate of the active system any more.
   std::vector<std::array<bool, 3>> staleStart;
-  std::map<std::pair<const ir::Measure*, ir::ResultName>, std::uint32_t> kept; // results kept in locals
+  std::map<std::pair<const ir::CycleStatement*, ir::ResultName>, std::uint32_t>
+      kept; // results kept in locals
 };
 
 // What copied blocks change.
@@ -178,6 +179,16 @@ void writeList(State& state, const std::vector<ir::CycleStatement>& list, bool b
 // Writes the block that begins at `at` of the body; gives the index after it.
 std::size_t writeBlock(State& state, const std::vector<ir::CycleStatement>& list, std::size_t at);
 
+// ---- CycleVariables.cpp ----
+
+// Machine variables of the source become those of the control that mean the same; refused where none does.
+void translateVariables(State& state);
+// A copied block. For another control than the source's: where both know its codes by one meaning; else
+// refused, "".
+std::string copiedText(State& state, const ir::OpaqueBlock& block, const ir::Origin& origin);
+// A program may write the variable: an offset or a timer.
+bool isSettable(const stdlib::Control& control, std::uint32_t number);
+
 // ---- Places.cpp ----
 
 Body findBody(const State& state);
@@ -193,6 +204,7 @@ ir::ExpressionPtr workPosition(State& state, ir::Axis axis);
 
 void writeProtectedMove(State& state, const ir::Move& move, const ir::Origin& origin);
 void writeMeasure(State& state, const ir::Measure& measure, const ir::Origin& origin);
+void writeCycle(State& state, const ir::CallCycle& cycle, const ir::Origin& origin);
 // By the macro set's own call, else by the control's code; reports where neither has one.
 void writeProbePower(State& state, bool on, const ir::Origin& origin);
 
@@ -216,8 +228,8 @@ void guardSystem(State& state, const ir::ExpressionPtr& system, const ir::Origin
 
 // Reserves locals for results that a later call of a macro would overwrite before they are used.
 void planResults(State& state, Body& body);
-// After a measurement: keeps what was reserved.
-void keepResults(State& state, const ir::Measure& measure, const ir::Origin& origin);
+// After the measurement that is being written: keeps what was reserved.
+void keepResults(State& state, const ir::Origin& origin);
 // "#135": what holds the result; "" where it was refused.
 std::string resultText(State& state, ir::ResultName name, SourceRange range);
 

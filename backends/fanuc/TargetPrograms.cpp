@@ -17,6 +17,7 @@ namespace fanuc = backends::fanuc;
 bool ProgramConversion::load() {
   const std::string target = options_.control.empty() ? std::string(kDefaultControl) : options_.control;
   control_ = loadControl(target, session_);
+  if (control_) checkProbeCodes(*control_, session_);
   source_ = options_.fromControl.empty() ? control_ : loadControl(options_.fromControl, session_);
   if (!control_ || !source_) return false;
   if (!options_.probeMacros) return true;

@@ -41,6 +41,10 @@ Ids movesBy(const ir::CycleStatement& statement) {
         if (node.target) collect(out, node.target->value);
         collect(out, node.diameter);
       },
+      [&](const ir::CallCycle& node) {
+        for (const ir::CycleArgument& argument : node.arguments)
+          if (argument.moves) collect(out, argument.value);
+      },
       [&](const ir::OpaqueBlock& node) {
         for (const ir::Word& word : node.words)
           collect(out, word.value);
@@ -53,7 +57,8 @@ Ids movesBy(const ir::CycleStatement& statement) {
 
 bool mayMove(const ir::CycleStatement& statement) {
   return match(
-      statement, [](const ir::OneOf<ir::Move, ir::Measure, ir::OpaqueBlock> auto&) { return true; },
+      statement,
+      [](const ir::OneOf<ir::Move, ir::Measure, ir::CallCycle, ir::OpaqueBlock> auto&) { return true; },
       [](const ir::OneOf<ir::Label, ir::Jump, ir::Branch, ir::Store, ir::ProbePower, ir::Comment, ir::Assign,
                          ir::Return, ir::Spindle, ir::Coolant, ir::SetMode, ir::Dwell, ir::Stop,
                          ir::Alarm> auto&) { return false; });

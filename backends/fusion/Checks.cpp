@@ -108,9 +108,11 @@ private:
           state_.script.add("return;", origin);
         },
         [&](const ir::Comment& node) { state_.script.comment(node.text); }, [](const ir::Label&) {},
-        [&](const ir::OneOf<ir::Jump, ir::Branch, ir::Store, ir::Move, ir::Measure, ir::ProbePower,
-                            ir::Return, ir::Spindle, ir::Coolant, ir::SetMode, ir::Dwell, ir::Stop,
-                            ir::OpaqueBlock> auto&) { state_.refuse<diag::FusionRunTime>(origin.range()); });
+        [&](const ir::OneOf<ir::Jump, ir::Branch, ir::Store, ir::Move, ir::Measure, ir::CallCycle,
+                            ir::ProbePower, ir::Return, ir::Spindle, ir::Coolant, ir::SetMode, ir::Dwell,
+                            ir::Stop, ir::OpaqueBlock> auto&) {
+          state_.refuse<diag::FusionRunTime>(origin.range());
+        });
   }
 
   // Jumps that are no ifs: a switch in a loop, a case for each label.

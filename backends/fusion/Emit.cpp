@@ -15,8 +15,8 @@ bool isStraight(const ir::Cycle& cycle) {
   return std::all_of(cycle.body.begin(), cycle.body.end(), [](const ir::CycleStatement& statement) {
     return match(
         statement, [](const ir::OneOf<ir::Label, ir::Jump, ir::Branch, ir::Assign> auto&) { return false; },
-        [](const ir::OneOf<ir::Store, ir::Move, ir::Measure, ir::ProbePower, ir::Comment, ir::Return,
-                           ir::Spindle, ir::Coolant, ir::SetMode, ir::Dwell, ir::Stop, ir::Alarm,
+        [](const ir::OneOf<ir::Store, ir::Move, ir::Measure, ir::CallCycle, ir::ProbePower, ir::Comment,
+                           ir::Return, ir::Spindle, ir::Coolant, ir::SetMode, ir::Dwell, ir::Stop, ir::Alarm,
                            ir::OpaqueBlock> auto&) { return true; });
   });
 }
@@ -37,7 +37,8 @@ State::State(const ir::Cycle& given, const EmitOptions& emitOptions, Diagnostics
 std::optional<std::vector<EmittedLine>> emit(const ir::Cycle& cycle, const EmitOptions& options,
                                              Diagnostics& diagnostics) {
   State state(cycle, options, diagnostics);
-  if (options.printed.empty() || !isStraight(cycle)) {
+  // Jumps that the Prog prints are printed as they are.
+  if (options.printed.empty() || (options.foreignMacros && !isStraight(cycle))) {
     state.refuse<diag::FusionNeedsProg>(cycle.range);
     return std::nullopt;
   }
@@ -79,6 +80,14 @@ std::optional<std::vector<EmittedLine>> emit(const ir::Cycle& cycle, const EmitO
   script.open("function " + state.prefix + "_dispatch(x, y, z) {");
   script.add("switch (currentSection.getProperty(\"dotekCycle\")) {");
   script.open("case " + quoted(state.prefix) + ":");
+  script.open("if (String(currentSection.strategy).indexOf(\"probe\") === 0) {");
+  script.add("error(localize(" +
+             quoted(cycle.name +
+                    ": take a drilling operation with the probe as its tool; around a probing operation "
+                    "the post prints calls of its own") +
+             "));");
+  script.add("return true;");
+  script.close();
   script.add(state.prefix + "_write(x, y, z);");
   script.add("return true;");
   script.close("default:");

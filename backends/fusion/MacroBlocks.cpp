@@ -1,4 +1,5 @@
 // Blocks of another macro set than the source's: from what they mean, by the signatures of the set.
+#include "backends/common/CycleTouches.h"
 #include "backends/common/MacroCall.h"
 #include "backends/fusion/State.h"
 #include "ir/Fold.h"
@@ -39,7 +40,7 @@ bool isMacro(const State& state, const ir::CycleStatement& statement) {
         const bool called = statement.origin.addresses.find('P') != std::string::npos;
         return called || switchOf(state, node) != nullptr;
       },
-      [](const ir::Measure&) { return true; },
+      [](const ir::OneOf<ir::Measure, ir::CallCycle> auto&) { return true; },
       [](const ir::OneOf<ir::Label, ir::Jump, ir::Branch, ir::Store, ir::Move, ir::Comment, ir::Assign,
                          ir::Return, ir::Spindle, ir::Coolant, ir::SetMode, ir::Dwell, ir::Stop, ir::Alarm,
                          ir::OpaqueBlock> auto&) { return false; });
@@ -74,8 +75,15 @@ bool MacroBlocks::block(const std::vector<const ir::CycleStatement*>& statements
     const ir::Origin& origin = one->origin;
     match(
         *one,
-        [&](const ir::OpaqueBlock&) {
-          state_.refuse<diag::FusionOpaque>(origin.range(), state_.options.macros.title);
+        [&](const ir::OpaqueBlock& node) {
+          opaque_ = &origin;
+          if (!leavesModes(node)) {
+            state_.refuse<diag::FusionOpaque>(origin.range(), state_.options.macros.title);
+            return;
+          }
+          for (Place& place : at_)
+            place.value = nullptr;
+          last_ = nullptr;
         },
         [&](const ir::SetMode& node) {
           if (node.mode == ir::Mode::WorkSystem) {
@@ -86,9 +94,9 @@ bool MacroBlocks::block(const std::vector<const ir::CycleStatement*>& statements
             overwritten_ = false;
           }
         },
-        [](const ir::OneOf<ir::Label, ir::Jump, ir::Branch, ir::Store, ir::Move, ir::Measure, ir::ProbePower,
-                           ir::Comment, ir::Assign, ir::Return, ir::Spindle, ir::Coolant, ir::Dwell, ir::Stop,
-                           ir::Alarm> auto&) {});
+        [](const ir::OneOf<ir::Label, ir::Jump, ir::Branch, ir::Store, ir::Move, ir::Measure, ir::CallCycle,
+                           ir::ProbePower, ir::Comment, ir::Assign, ir::Return, ir::Spindle, ir::Coolant,
+                           ir::Dwell, ir::Stop, ir::Alarm> auto&) {});
   }
   if (!rewritten) return false;
   Text codes;
@@ -100,7 +108,14 @@ bool MacroBlocks::block(const std::vector<const ir::CycleStatement*>& statements
     };
     match(
         *one, [&](const ir::Move& node) { move(node, origin, lines); },
-        [&](const ir::Measure& node) { measure(node, origin, lines); },
+        [&](const ir::Measure& node) {
+          measure(node, origin, lines);
+          last_ = one;
+        },
+        [&](const ir::CallCycle& node) {
+          cycle(node, origin, lines);
+          last_ = one;
+        },
         [&](const ir::ProbePower& node) {
           if (isMacro(state_, *one))
             switchProbe(node, origin, lines);
@@ -123,6 +138,37 @@ const ir::Origin* MacroBlocks::putBack(Text& text) {
   if (incremental_ == nullptr || !overwritten_) return nullptr;
   code(Function::Incremental, "incremental programming", *incremental_, text);
   return incremental_;
+}
+
+// The block moves the machine, changes the tool or takes its length: what macros rely on stays as it is.
+bool MacroBlocks::leavesModes(const ir::OpaqueBlock& block) {
+  for (const ir::Word& word : block.words) {
+    if (word.address != 'G' && word.address != 'M') continue;
+    const double* code = word.value == nullptr ? nullptr : ir::constantValue(word.value);
+    const stdlib::CodeInfo* info =
+        code == nullptr || *code < 0 || *code > 9999
+            ? nullptr
+            : state_.options.control.find(word.address, static_cast<std::uint32_t>(std::lround(*code * 10)));
+    if (info == nullptr) return false;
+    switch (info->function) {
+    case Function::Absolute:
+    case Function::Incremental:
+      incremental_ = info->function == Function::Incremental ? opaque_ : nullptr;
+      overwritten_ = false;
+      break;
+    case Function::ReferenceReturn:
+    case Function::MachineCoordinates:
+    case Function::ToolLengthPlus:
+    case Function::ToolChange:
+    case Function::Auxiliary:
+    case Function::Rapid:
+    case Function::Feed:
+    case Function::SpindleOff:
+    case Function::CoolantOff: break;
+    default: return false;
+    }
+  }
+  return true;
 }
 
 void MacroBlocks::code(Function function, std::string_view what, const ir::Origin& origin, Text& text) {
@@ -150,8 +196,8 @@ bool MacroBlocks::otherCode(const ir::CycleStatement& statement, Text& text) {
         code(Function::CoolantOff, "the coolant off", origin, text);
         return true;
       },
-      [](const ir::OneOf<ir::Label, ir::Jump, ir::Branch, ir::Store, ir::Move, ir::Measure, ir::ProbePower,
-                         ir::Comment, ir::Assign, ir::Return, ir::Dwell, ir::Stop, ir::Alarm,
+      [](const ir::OneOf<ir::Label, ir::Jump, ir::Branch, ir::Store, ir::Move, ir::Measure, ir::CallCycle,
+                         ir::ProbePower, ir::Comment, ir::Assign, ir::Return, ir::Dwell, ir::Stop, ir::Alarm,
                          ir::OpaqueBlock> auto&) { return false; });
 }
 
@@ -311,6 +357,11 @@ void MacroBlocks::measure(const ir::Measure& measure, const ir::Origin& origin, 
     if (system->systemRule == stdlib::SystemRule::Error && !requireNominal(measure, origin)) return;
     guardSystem(measure.setting->system, origin);
   }
+  for (const ir::Axis axis : ir::kAxes)
+    expected_[ir::indexOf(axis)].value =
+        measure.target && axis == measure.axis && measure.target->frame == ir::Frame::Work
+            ? measure.target->value
+            : at_[ir::indexOf(axis)].value;
   MacroCall out = macroCall(*signature, measure, values(origin));
   // A system that the call corrects is last, as posts write it.
   std::stable_partition(out.arguments.begin(), out.arguments.end(), [](const GivenArgument& one) {
@@ -319,10 +370,60 @@ void MacroBlocks::measure(const ir::Measure& measure, const ir::Origin& origin, 
   });
   call(out, origin, lines);
   if (state_.failed) return;
-  last_ = &measure;
   // The system that was set may be the active one.
   for (const ir::Axis axis : ir::kAxes)
     if (measure.setting && measure.setting->nominal[ir::indexOf(axis)] != nullptr)
+      at_[ir::indexOf(axis)].value = nullptr;
+}
+
+void MacroBlocks::cycle(const ir::CallCycle& given, const ir::Origin& origin, std::vector<Text>& lines) {
+  const stdlib::MacroSet& macros = state_.options.macros;
+  const stdlib::MacroSignature* signature = signatureOf(macros, given);
+  if (signature == nullptr) {
+    const std::vector<ir::Measure> touches = touchesOf(given);
+    for (const ir::Measure& touch : touches)
+      measure(touch, origin, lines);
+    if (touches.empty())
+      state_.refuse<diag::MacroSetCannot>(origin.range(), macros.title, featureName(given));
+    return;
+  }
+  if (const std::string open = openMeaning(*signature, given, macros); !open.empty()) {
+    state_.refuse<diag::CycleOpen>(origin.range(), featureName(given), given.set, open, given.set);
+    return;
+  }
+  ir::CallCycle call = given;
+  if (call.setting) {
+    const auto system =
+        std::find_if(signature->arguments.begin(), signature->arguments.end(),
+                     [](const auto& argument) { return argument.role == stdlib::ArgumentRole::System; });
+    if (system == signature->arguments.end()) {
+      state_.refuse<diag::MacroSetCannot>(origin.range(), macros.title,
+                                          "a work offset of " + featureName(given));
+      return;
+    }
+    guardSystem(call.setting->system, origin);
+    for (const ir::Axis axis : ir::kAxes) {
+      ir::ExpressionPtr& nominal = call.setting->nominal[ir::indexOf(axis)];
+      if (!call.setting->axes[ir::indexOf(axis)] || system->systemRule == stdlib::SystemRule::Error) continue;
+      if (nominal == nullptr) nominal = at_[ir::indexOf(axis)].value;
+      if (nominal == nullptr)
+        state_.refuse<diag::StartUnknown>(origin.range(), std::string(1, ir::letterOf(axis)));
+    }
+  }
+  for (const ir::Axis axis : ir::kAxes) {
+    expected_[ir::indexOf(axis)] = at_[ir::indexOf(axis)];
+    for (const ir::CycleArgument& one : call.arguments)
+      if (one.frame && one.parameter.back() == "xyz"[ir::indexOf(axis)])
+        expected_[ir::indexOf(axis)].value =
+            place({one.value, *one.frame, nullptr}, axis, ir::Frame::Work, origin);
+  }
+  MacroCall out = macroCall(*signature, call, values(origin));
+  for (const std::string& parameter : out.notTaken)
+    state_.refuse<diag::ParameterNotTaken>(origin.range(), parameter, signature->program, macros.title,
+                                           given.set);
+  this->call(out, origin, lines);
+  for (const ir::Axis axis : ir::kAxes)
+    if (!given.returns || (given.setting && given.setting->axes[ir::indexOf(axis)]))
       at_[ir::indexOf(axis)].value = nullptr;
 }
 
@@ -387,6 +488,39 @@ void MacroBlocks::switchProbe(const ir::ProbePower& power, const ir::Origin& ori
   last_ = nullptr;
 }
 
+bool MacroBlocks::errorText(ir::ResultName name, const stdlib::MacroSignature& signature,
+                            const ir::Origin& origin, Text& text) {
+  ir::ResultName measured = ir::ResultName::Size;
+  ir::ExpressionPtr expected;
+  switch (name) {
+  case ir::ResultName::ErrorX: measured = ir::ResultName::PositionX; break;
+  case ir::ResultName::ErrorY: measured = ir::ResultName::PositionY; break;
+  case ir::ResultName::ErrorZ: measured = ir::ResultName::PositionZ; break;
+  case ir::ResultName::SizeError: break;
+  default: return false;
+  }
+  if (name == ir::ResultName::SizeError) {
+    const auto* cycle = std::get_if<ir::CallCycle>(&last_->node);
+    const auto* measure = std::get_if<ir::Measure>(&last_->node);
+    if (measure != nullptr) expected = measure->diameter;
+    for (std::size_t i = 0; cycle != nullptr && i < cycle->arguments.size(); ++i)
+      if (const ir::CycleArgument& one = cycle->arguments[i];
+          one.parameter == stdlib::roleName(stdlib::ArgumentRole::Diameter) ||
+          one.parameter.starts_with(stdlib::roleName(stdlib::ArgumentRole::Width)))
+        expected = one.value;
+  } else {
+    expected =
+        expected_[static_cast<std::size_t>(measured) - static_cast<std::size_t>(ir::ResultName::PositionX)]
+            .value;
+  }
+  const stdlib::MacroResult* found = findResult(signature, measured);
+  if (found == nullptr || !found->documented || expected == nullptr) return false;
+  text.add("#" + std::to_string(found->variable) + "-[");
+  texts_.number(text, expected, origin);
+  text.add("]");
+  return true;
+}
+
 void MacroBlocks::store(const ir::Store& store, const ir::Origin& origin, std::vector<Text>& lines) {
   const auto* result = std::get_if<ir::MeasuredResult>(&store.value->node);
   const double* number = ir::constantValue(store.number);
@@ -400,11 +534,18 @@ void MacroBlocks::store(const ir::Store& store, const ir::Origin& origin, std::v
       signature == nullptr ? FoundResult() : resultAfter(*signature, *last_, result->name);
   const stdlib::MacroResult* found = known.result;
   if (known.instead)
-    state_.diagnostics.report<diag::ResultDiffers>(store.value->range, found->variable,
-                                                   state_.options.macros.title, resultName(*known.instead));
+    state_.diagnostics.report<diag::ResultDiffers>(
+        store.value->range, found->variable, state_.options.macros.title, ir::resultTitle(*known.instead));
   if (found == nullptr) {
     if (state_.failed) return; // the measurement was refused
-    state_.refuse<diag::ResultUnknown>(origin.range(), state_.options.macros.title, resultName(result->name));
+    Text computed;
+    computed.add("#" + numberText(*number) + "=");
+    if (signature != nullptr && errorText(result->name, *signature, origin, computed)) {
+      lines.push_back(std::move(computed));
+      return;
+    }
+    state_.refuse<diag::ResultUnknown>(origin.range(), state_.options.macros.title,
+                                       ir::resultTitle(result->name));
     return;
   }
   Text text;

@@ -139,9 +139,10 @@ void writeHead(State& state) {
       "localize, createFormat.");
   script.comment("Dispatch: onCyclePoint(x, y, z) begins with  if (" + state.prefix +
                  "_dispatch(x, y, z)) { return; }");
-  script.comment(
-      "The operation chooses the cycle with the property dotekCycle. Its point is where the cycle starts, in "
-      "the work system of the operation.");
+  script.comment("The operation is a drilling operation with the probe as its tool. It chooses the cycle "
+                 "with the property "
+                 "dotekCycle. Its point is where the cycle starts, in "
+                 "the work system of the operation.");
   if (!state.options.macros.needs.empty())
     script.comment("Set before the first call of a macro: " + state.options.macros.needs);
   if (!state.options.fixedByName.empty()) {

@@ -131,12 +131,17 @@ private:
   };
   void move(const ir::Move& move, const ir::Origin& origin, std::vector<Text>& lines);
   void measure(const ir::Measure& measure, const ir::Origin& origin, std::vector<Text>& lines);
+  void cycle(const ir::CallCycle& given, const ir::Origin& origin, std::vector<Text>& lines);
   CallValues values(const ir::Origin& origin);
   void guardSystem(const ir::ExpressionPtr& system, const ir::Origin& origin);
   void call(const MacroCall& call, const ir::Origin& origin, std::vector<Text>& lines);
   void code(stdlib::Function function, std::string_view what, const ir::Origin& origin, Text& text);
+  // "#138-[12.5]": an error that the macros do not leave, from what they do; false: not known.
+  bool errorText(ir::ResultName name, const stdlib::MacroSignature& signature, const ir::Origin& origin,
+                 Text& text);
   void store(const ir::Store& store, const ir::Origin& origin, std::vector<Text>& lines);
   void switchProbe(const ir::ProbePower& power, const ir::Origin& origin, std::vector<Text>& lines);
+  bool leavesModes(const ir::OpaqueBlock& block);
   bool otherCode(const ir::CycleStatement& statement, Text& text);
   bool modeCode(const ir::SetMode& mode, const ir::Origin& origin, Text& text);
   bool requireNominal(const ir::Measure& measure, const ir::Origin& origin);
@@ -148,9 +153,11 @@ private:
   State& state_;
   Texts& texts_;
   Place at_[3];
-  const ir::Measure* last_ = nullptr;       // measurement whose results are
-  const ir::Origin* incremental_ = nullptr; // of the G91 that is in force in the source
-  bool overwritten_ = false;                // by a G90 of ours
+  Place expected_[3];                        // where the last measurement expects the feature
+  const ir::CycleStatement* last_ = nullptr; // Measure or CallCycle whose results are
+  const ir::Origin* incremental_ = nullptr;  // of the G91 that is in force in the source
+  const ir::Origin* opaque_ = nullptr;       // of the copied block that is looked at
+  bool overwritten_ = false;                 // by a G90 of ours
 };
 
 // ---- Properties.cpp ----

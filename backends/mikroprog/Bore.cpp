@@ -61,7 +61,7 @@ void compareAxis(State& state, ir::Axis axis, const Plan& plan, double centre, d
                  const ir::Origin& origin) {
   const SourceRange range = origin.range();
   AxisState& now = state.axes[ir::indexOf(axis)];
-  const double over = state.host("overtravel");
+  const double over = state.overtravel();
   const auto word = [&](double value) { return axisWord(state, axis, value, range); };
   const ir::Origin way = made("middle of the bore by comparing", origin);
   state.sheet.comment(fmt::format("MIDDLE ALONG {}", ir::letterOf(axis)), way);
@@ -87,7 +87,7 @@ void compareAxis(State& state, ir::Axis axis, const Plan& plan, double centre, d
 // One axis by documented functions alone: a record of each contact, and back to where the probe stood.
 void recordAxis(State& state, ir::Axis axis, const Plan& plan, double centre, const ir::Origin& origin) {
   const AxisState& now = state.axes[ir::indexOf(axis)];
-  const double over = state.host("overtravel");
+  const double over = state.overtravel();
   const double here = sum(centre, now.shift);
   const std::string back =
       fmt::format("{} {} F{}", state.code("feed"), axisWord(state, axis, here, origin.range()),
@@ -103,9 +103,9 @@ void recordAxis(State& state, ir::Axis axis, const Plan& plan, double centre, co
 
 } // namespace
 
-void bore(State& state, const ir::Measure& measure, const ir::Origin& origin) {
+void middle(State& state, const std::vector<ir::Axis>& axes, Hollow hollow, const ir::ExpressionPtr& size,
+            const std::optional<ir::OffsetSetting>& setting, const ir::Origin& origin) {
   const SourceRange range = origin.range();
-  const ir::Axis axes[] = {ir::Axis::X, ir::Axis::Y};
   std::array<double, 2> centre{}, nominal{};
   for (const ir::Axis axis : axes) {
     if (!checkAxis(state, axis, range)) return;
@@ -113,36 +113,36 @@ void bore(State& state, const ir::Measure& measure, const ir::Origin& origin) {
     if (!here) return;
     centre[ir::indexOf(axis)] = *here;
   }
-  const std::optional<double> diameter =
-      rangedValueOf(state, 'D', measure.diameter, "a diameter", false, range);
+  const std::optional<double> diameter = rangedValueOf(state, 'D', size, hollow.size, false, range);
   if (!diameter) return;
   const double radius = state.host("tool_radius");
   Plan plan;
   plan.half = sum(*diameter / 2, -radius);
-  plan.widest = sum(2 * plan.half, state.host("overtravel"));
+  plan.widest = sum(2 * plan.half, state.overtravel());
   if (plan.half <= 0) {
-    state.refuse<diag::MikroprogCannot>(range,
-                                        fmt::format("the ball of radius {} does not fit into the bore of {}",
-                                                    numberText(radius), numberText(*diameter)),
-                                        "give the diameter of the bore, or another radius");
+    state.refuse<diag::MikroprogCannot>(
+        range,
+        fmt::format("the ball of radius {} does not fit into the {} of {}", numberText(radius), hollow.name,
+                    numberText(*diameter)),
+        fmt::format("give the size of the {}, or another radius", hollow.name));
     return;
   }
   for (plan.first = kFirstStep; 2 * plan.first <= plan.widest; plan.first *= 2) {
   }
   std::string system;
-  if (measure.setting) {
-    const std::optional<double> number = valueOf(state, measure.setting->system, range);
+  if (setting) {
+    const std::optional<double> number = valueOf(state, setting->system, range);
     if (!number) return;
     system = numberText(*number);
     for (const ir::Axis axis : axes) {
       const std::size_t i = ir::indexOf(axis);
-      const auto value = valueOf(state, measure.setting->nominal[i], range);
+      const auto value = valueOf(state, setting->nominal[i], range);
       if (!value) return;
       nominal[i] = *value;
     }
   }
-  const bool compares = measure.setting && state.options.datum == Datum::SetPosition;
-  if (compares && !relyOn(state, {10, 13, 7}, "the middle of a bore", range)) return;
+  const bool compares = setting && state.options.datum == Datum::SetPosition;
+  if (compares && !relyOn(state, {10, 13, 7}, fmt::format("the middle of a {}", hollow.name), range)) return;
   if (compares && !relyOn(state, {12, 23}, "a datum and its record", range)) return;
   if (!relyOn(state, {20, 22}, "a search along one axis", range)) return;
   guard(state, origin);
@@ -155,7 +155,7 @@ void bore(State& state, const ir::Measure& measure, const ir::Origin& origin) {
       recordAxis(state, axis, plan, centre[i], origin);
   }
   state.feed.reset();
-  if (!measure.setting) return;
+  if (!setting) return;
   if (compares) {
     state.diagnostics.report<diag::OffsetNumberDropped>(
         range, system, state.code("set-position") + " sets the active system itself",
@@ -174,8 +174,9 @@ void bore(State& state, const ir::Measure& measure, const ir::Origin& origin) {
     state.diagnostics.report<diag::SystemCorrected>(range, by);
     return;
   }
-  const std::string place =
-      axisWord(state, ir::Axis::X, nominal[0], range) + " " + axisWord(state, ir::Axis::Y, nominal[1], range);
+  std::string place;
+  for (const ir::Axis axis : axes)
+    place += (place.empty() ? "" : " ") + axisWord(state, axis, nominal[ir::indexOf(axis)], range);
   state.sheet.add(state.code("stop") + " ;" + fmt::format(fmt::runtime(state.control.enterCentre), place),
                   origin);
   state.guarded = false;

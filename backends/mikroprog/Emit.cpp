@@ -25,7 +25,8 @@ constexpr std::uint32_t kSubprograms = 5000; // the first, each at a thousand
 
 bool measures(const ir::Cycle& cycle) {
   return std::any_of(cycle.body.begin(), cycle.body.end(), [](const ir::CycleStatement& statement) {
-    return std::holds_alternative<ir::Measure>(statement.node);
+    const auto* call = std::get_if<ir::CallCycle>(&statement.node);
+    return std::holds_alternative<ir::Measure>(statement.node) || (call != nullptr && call->moves);
   });
 }
 
@@ -65,7 +66,7 @@ private:
             turns = true;
           },
           [&](const ir::Coolant& node) { off = node.state == ir::Coolant::State::Off; },
-          [](const ir::OneOf<ir::Label, ir::Jump, ir::Branch, ir::Store, ir::Move, ir::Measure,
+          [](const ir::OneOf<ir::Label, ir::Jump, ir::Branch, ir::Store, ir::Move, ir::Measure, ir::CallCycle,
                              ir::ProbePower, ir::Comment, ir::Assign, ir::Return, ir::SetMode, ir::Dwell,
                              ir::Stop, ir::Alarm, ir::OpaqueBlock> auto&) {});
       if (!off) continue;
@@ -98,6 +99,7 @@ private:
     match(
         statement, [&](const ir::Move& node) { move(node, origin); },
         [&](const ir::Measure& node) { measure(s_, node, index); },
+        [&](const ir::CallCycle& node) { cycle(s_, node, index); },
         [&](const ir::Comment& node) {
           if (isOfStop(index))
             stopText_ += (stopText_.empty() ? "" : " ") + node.text;
@@ -134,7 +136,8 @@ private:
         },
         [&](const ir::Return&) { toEnd(origin); },
         [&](const ir::OpaqueBlock& node) {
-          s_.refuse<diag::OpaqueBlockRefused>(range, addresses(node), "the source's control");
+          s_.refuse<diag::OpaqueBlockRefused>(range, addresses(node), "the source's control",
+                                              s_.control.title);
         },
         [&](const ir::Branch&) {
           s_.refuse<diag::FlowRefused>(range, "what only the running program knows");
@@ -319,7 +322,15 @@ void writeBeginning(State& state) {
     state.start[i] = state.axes[i].at = given->second;
     if (axis != ir::Axis::Z) words += " " + axisWord(state, axis, given->second, {});
   }
-  if (!words.empty()) state.sheet.add(state.code("rapid") + words, made("start point"));
+  if (words.empty()) return;
+  // The source's cycle begins where the CAM has brought the probe; here that is up to the operator.
+  const bool height = state.start[ir::indexOf(ir::Axis::Z)].has_value();
+  if (height) guard(state, made("contact before anything moves"));
+  state.remarks.push_back(
+      fmt::format("THE FIRST MOVE GOES TO{} AT THE HEIGHT WHERE Z IS{}", words,
+                  height ? ", WHICH HAS TO BE Z" + numberText(*state.start[ir::indexOf(ir::Axis::Z)])
+                         : ": BEGIN WITH Z ABOVE ALL THAT LIES BETWEEN"));
+  state.sheet.add(state.code("rapid") + words, made("start point"));
 }
 
 void numberSheets(State& state, std::vector<EmittedLine>& out) {
@@ -367,6 +378,9 @@ bool movesY(const ir::Cycle& cycle) {
     return match(
         statement,
         [](const ir::Measure& node) { return node.feature == ir::Feature::Bore || node.axis == ir::Axis::Y; },
+        [](const ir::CallCycle& node) {
+          return node.moves && node.axis.value_or(ir::Axis::Y) == ir::Axis::Y;
+        },
         [](const ir::Move& node) { return node.axes[kY].has_value(); },
         [](const ir::OneOf<ir::Label, ir::Jump, ir::Branch, ir::Store, ir::ProbePower, ir::Comment,
                            ir::Assign, ir::Return, ir::Spindle, ir::Coolant, ir::SetMode, ir::Dwell, ir::Stop,

@@ -47,8 +47,8 @@ bool leavesByItself(State& state, std::size_t index, ir::Axis axis, double to, d
             return Goes::Away;
           return (*value - to) * back >= 0 ? Goes::Back : Goes::Away;
         },
-        [](const ir::OneOf<ir::Label, ir::Jump, ir::Branch, ir::Measure, ir::ProbePower, ir::Assign,
-                           ir::Return, ir::Spindle, ir::Coolant, ir::Dwell, ir::Stop, ir::Alarm,
+        [](const ir::OneOf<ir::Label, ir::Jump, ir::Branch, ir::Measure, ir::CallCycle, ir::ProbePower,
+                           ir::Assign, ir::Return, ir::Spindle, ir::Coolant, ir::Dwell, ir::Stop, ir::Alarm,
                            ir::OpaqueBlock> auto&) { return Goes::Away; });
     if (goes != Goes::On) return goes == Goes::Back;
   }
@@ -169,7 +169,11 @@ void record(State& state, const ir::Origin& origin) {
 void measure(State& state, const ir::Measure& measure, std::size_t index) {
   const ir::Origin& origin = state.cycle.body[index].origin;
   const SourceRange range = origin.range();
-  if (measure.feature == ir::Feature::Bore) return bore(state, measure, origin);
+  if (measure.feature == ir::Feature::Bore) {
+    middle(state, {ir::Axis::X, ir::Axis::Y}, {"bore", "a diameter"}, measure.diameter, measure.setting,
+           origin);
+    return;
+  }
   const ir::Axis axis = measure.axis;
   if (!measure.target) {
     state.refuse<diag::MikroprogCannot>(range, "the surface has no place", "nothing says where to search");
@@ -188,7 +192,7 @@ void measure(State& state, const ir::Measure& measure, std::size_t index) {
   }
   if (!relyOn(state, {20}, "a search along one axis", range)) return;
   if (axis == ir::Axis::Y && !relyOn(state, {22}, "G31 with Y", range)) return;
-  const double over = state.host("overtravel");
+  const double over = state.overtravel();
   guard(state, origin);
   search(state, axis, sum(sum(*face, way < 0 ? -over : over), now.shift), origin,
          "SURFACE EXPECTED AT " + shownPlace(state, axis, sum(*face, now.shift)));
@@ -210,7 +214,7 @@ void measure(State& state, const ir::Measure& measure, std::size_t index) {
   }
   state.feed.reset();
   if (state.failed) return;
-  if (leavesByItself(state, index, axis, *from, way < 0 ? 1 : -1)) {
+  if (!state.oneOfSeveral && leavesByItself(state, index, axis, *from, way < 0 ? 1 : -1)) {
     state.diagnostics.report<diag::RetreatMerged>(range);
     if (state.remarked.insert("retreat").second)
       state.remarks.push_back("THE PATH BACK FROM A SURFACE IS THE MOVE OF THE SOURCE AFTER IT");

@@ -36,6 +36,9 @@ struct State {
   std::string code(std::string_view what) const { return control.function(what).code(); }
   double host(std::string_view name) const { return options.hosts.at(std::string(name)); }
 
+  // mm beyond what is expected: of the call that is being written, else for the whole program.
+  double overtravel() const { return overtravelGiven ? *overtravelGiven : host("overtravel"); }
+
   const ir::Cycle& cycle;
   const EmitOptions& options;
   const stdlib::MikroprogControl& control;
@@ -56,6 +59,8 @@ struct State {
   std::vector<std::string> remarks;         // of the header: what is dropped or changed
   std::set<std::string> remarked;           // what is said once
   std::set<const ir::CycleStatement*> done; // written before their place
+  std::optional<double> overtravelGiven;
+  bool oneOfSeveral = false; // of the touches of a cycle: each goes back to where the cycle began
   bool failed = false;
 };
 
@@ -103,7 +108,18 @@ void measure(State& state, const ir::Measure& measure, std::size_t index);
 
 // ---- Bore.cpp ----
 
-void bore(State& state, const ir::Measure& measure, const ir::Origin& origin);
+// What has a middle: "bore", and what its size is called: "a diameter".
+struct Hollow {
+  std::string_view name, size;
+};
+// The middle between walls along each of `axes`, X and Y or one of them, from about where the probe is.
+void middle(State& state, const std::vector<ir::Axis>& axes, Hollow hollow, const ir::ExpressionPtr& size,
+            const std::optional<ir::OffsetSetting>& setting, const ir::Origin& origin);
+
+// ---- Cycles.cpp ----
+
+// A cycle by the touches that it consists of; refused where G31 cannot do it.
+void cycle(State& state, const ir::CallCycle& cycle, std::size_t index);
 
 // ---- Header.cpp ----
 

@@ -76,9 +76,7 @@ std::optional<Lowered> lowerRoutine(const Program& program, const Routine& routi
   nc::LiftContext context{settings.control, lowered.macros, cycle, diagnostics};
   context.fixed = settings.fixed;
   context.encoding = settings.sources.file(program.file).encoding();
-  for (const nc::Block& block : run.blocks()) {
-    if (!nc::lift(block, context, lowered.body)) ok = false;
-  }
+  if (!nc::liftAll(run.blocks(), context, lowered.body)) ok = false;
   nc::reportPictures(context);
   if (!ok || run.hasFailed()) return std::nullopt;
   lowered.printed = run.takePrinted();

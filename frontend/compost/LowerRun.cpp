@@ -162,9 +162,9 @@ void LowerRun::add(nc::Piece piece, std::size_t bytes, SourceRange where) {
   state_.line.push_back(std::move(piece));
 }
 
-// Some number: the emitted program counts its own blocks.
+// 0, which no GOTO names: the emitted program counts its own blocks.
 void LowerRun::sequenceNumber(const std::string& address, SourceRange range) {
-  text(address + "1", range);
+  text(address + "0", range);
 }
 
 void LowerRun::text(std::string_view bytes, SourceRange range) {
@@ -202,8 +202,21 @@ void LowerRun::endLine(SourceRange where) {
   }
   nc::noteModal(*block, settings_.control, state_.modal);
   if (comparing_) return;
-  printed_.push_back(printedBlock(line, block->sequenceNumber.has_value(), settings_.sources));
+  const bool own = block->sequenceNumber && *block->sequenceNumber != 0;
+  printed_.push_back(printedBlock(line, block->sequenceNumber && !own, settings_.sources));
   blocks_.push_back(std::move(*block));
+}
+
+std::vector<ir::PrintedBlock> LowerRun::takePrinted() {
+  // A number that the Prog itself writes is a target of its jumps, or one like any other.
+  const bool jumps = std::any_of(blocks_.begin(), blocks_.end(),
+                                 [](const nc::Block& block) { return block.statement.has_value(); });
+  for (std::size_t i = 0; i < printed_.size() && !jumps; ++i) {
+    if (!blocks_[i].sequenceNumber || printed_[i].numbered) continue;
+    printed_[i].numbered = true;
+    printed_[i].pieces.front().text = withoutNumber(printed_[i].pieces.front().text);
+  }
+  return std::move(printed_);
 }
 
 } // namespace dotek::frontend::compost

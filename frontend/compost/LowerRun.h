@@ -18,7 +18,7 @@ public:
   bool hasFailed() const { return failed_; }
   const std::vector<nc::Block>& blocks() const { return blocks_; }
   // The text of each of blocks().
-  std::vector<ir::PrintedBlock> takePrinted() { return std::move(printed_); }
+  std::vector<ir::PrintedBlock> takePrinted();
 
 private:
   // What an untaken side of a condition must not change; the flags of the conditions neither.

@@ -66,6 +66,32 @@ struct Expression {
   std::uint32_t brackets = 0; // pairs written around it, beyond those that are part of the node
 };
 
+struct Condition;
+using ConditionPtr = std::unique_ptr<Condition>;
+
+struct Comparison {
+  std::string relation; // EQ NE GT LT GE LE
+  ExpressionPtr left, right;
+};
+struct Joined {     // [..] AND [..]
+  bool both = true; // else OR
+  ConditionPtr left, right;
+};
+struct Condition {
+  SourceRange range;
+  std::variant<Comparison, Joined> node;
+};
+
+// A macro statement that steers the program.
+struct Statement {
+  // IfThen: the assignment of the block is what is done.
+  enum class Kind : std::uint8_t { GoTo, If, IfThen, While, End };
+  Kind kind = Kind::GoTo;
+  SourceRange range;
+  ConditionPtr condition;   // of If, IfThen, While; null: DO without a condition
+  std::uint64_t number = 0; // GoTo, If: of the block to go on at; While, End: of the loop
+};
+
 struct Word {
   char address = 0;
   SourceRange range;
@@ -87,6 +113,7 @@ struct Block {
   std::optional<std::uint64_t> sequenceNumber;
   std::vector<Word> words;
   std::vector<Assignment> assignments;
+  std::optional<Statement> statement;
   std::vector<Comment> comments;
   bool programMark = false; // % alone
 };

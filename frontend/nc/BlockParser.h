@@ -31,6 +31,12 @@ private:
   bool word(Block& block);
   bool assignment(Block& block);
   bool wordValue(Word& word);
+  bool statement(Block& block); // at its word
+  bool take(std::string_view word);
+  // The number of a block or a loop; reports one that is computed.
+  bool statementNumber(std::string_view after, std::uint64_t& out);
+  bool holdsRelation() const; // at the [
+  ConditionPtr conditionHere();
   bool addressesOnce(const Block& block);
 
   ExpressionPtr expression(); // + - OR XOR

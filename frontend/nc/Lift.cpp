@@ -62,6 +62,11 @@ bool Lifter::run() {
   for (const Word& word : block_.words) {
     if (!word.value) return refuse<diag::BareWord>(word.range, word.address);
   }
+  if (block_.sequenceNumber)
+    if (const auto label = context_.flow.targets.find(*block_.sequenceNumber);
+        label != context_.flow.targets.end())
+      enter(label->second);
+  if (block_.statement) return statement();
   if (!block_.assignments.empty()) return assignments();
   for (const Comment& comment : block_.comments)
     add(ir::Comment{toUtf8(comment.text, context_.encoding)});
@@ -81,6 +86,7 @@ bool Lifter::run() {
 
 bool Lifter::assignments() {
   const Assignment& assignment = block_.assignments.front();
+  if (isComputed(*assignment.variable)) return computedAssignment(assignment);
   const std::optional<std::uint32_t> number = variableNumber(*assignment.variable);
   if (!number) return false;
   const ir::ExpressionPtr read = formula(*assignment.value, false);
@@ -90,6 +96,7 @@ bool Lifter::assignments() {
     message += (message.empty() ? "" : " ") + toUtf8(comment.text, context_.encoding);
   if (*number == kAlarmVariable) {
     add(ir::Alarm{message});
+    context_.flow.reachable = false;
     const double* given = ir::constantValue(read);
     context_.diagnostics.report<diag::AlarmRenumbered>(assignment.range,
                                                        given == nullptr ? "" : numberText(*given));
@@ -104,6 +111,16 @@ bool Lifter::assignments() {
   context_.stored.insert(*number);
   if (!message.empty()) add(ir::Comment{message});
   add(ir::Store{ir::constant(*number, assignment.variable->range), read});
+  return true;
+}
+
+bool Lifter::computedAssignment(const Assignment& assignment) {
+  const ir::ExpressionPtr number = computedNumber(*assignment.variable);
+  const ir::ExpressionPtr read = number ? formula(*assignment.value, false) : nullptr;
+  if (!read) return false;
+  for (const Comment& comment : block_.comments)
+    add(ir::Comment{toUtf8(comment.text, context_.encoding)});
+  add(ir::Store{number, read});
   return true;
 }
 

@@ -34,6 +34,24 @@ struct PictureUse {
 };
 using PictureUses = std::map<std::string, PictureUse>; // by the text of the picture
 
+// Jumps within a branch, and what is in force where they lead to.
+struct LiftFlow {
+  struct Loop {
+    std::uint64_t number = 0;
+    ir::LabelId begin = 0, end = 0;
+    SourceRange range;
+    std::size_t place = 0; // of the branch's loops
+  };
+  std::map<std::uint64_t, ir::LabelId> targets; // N numbers that a GOTO of the branch names
+  std::map<ir::LabelId, ModalState> arriving;   // with jumps to the label
+  std::map<ir::LabelId, ModalState> entered;    // with which the blocks after the label were read
+  std::map<std::size_t, ModalState> loopStates; // that arrive at the beginning of a loop, by its place
+  std::vector<Loop> loops;                      // open ones
+  std::size_t placed = 0;                       // loops so far
+  bool reachable = true;                        // the block before goes on here
+  bool again = false; // a jump back brings what was not known where the blocks were read
+};
+
 struct LiftContext {
   const stdlib::Control& control; // the source's machine: codes, decimal mode
   const stdlib::MacroSet* macros; // the set that the source calls; nullptr: it calls none
@@ -47,8 +65,9 @@ struct LiftContext {
   Encoding encoding = Encoding::Utf8;               // of comments
   const stdlib::MacroSignature* measured = nullptr; // the last measurement; its results are in variables
   std::set<std::uint32_t> stored = {};              // variables that were assigned since the last call
-  PictureUses coarse = {};                          // pictures with fewer decimals than the control
-  PictureUses blankZero = {};                       // pictures that print nothing for 0
+  LiftFlow flow = {};
+  PictureUses coarse = {};    // pictures with fewer decimals than the control
+  PictureUses blankZero = {}; // pictures that print nothing for 0
 };
 
 // Appends the statements of the block to `out`: comments, modes, probe, spindle and coolant, dwell, motion or
@@ -61,6 +80,10 @@ struct LiftContext {
 // is left to reportPictures(). A macro call leaves motion and feed unknown. Block numbers
 // and a feed alone make no statement.
 bool lift(const Block& block, LiftContext& context, std::vector<ir::CycleStatement>& out);
+
+// All blocks of a branch, with the jumps between them: GOTO to N numbers of the branch, IF, WHILE. What is in
+// force after a label is what all paths to it agree in.
+bool liftAll(const std::vector<Block>& blocks, LiftContext& context, std::vector<ir::CycleStatement>& out);
 
 // After the last block: one finding for each picture, with all that is printed with it.
 void reportPictures(LiftContext& context);

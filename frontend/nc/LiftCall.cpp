@@ -1,17 +1,43 @@
 // Calls of a vendor's macros by their signatures.
 #include "frontend/nc/Lifter.h"
+#include "stdlib/MacroCycle.h"
 #include "stdlib/ReadCall.h"
 #include "support/Decimal.h"
 #include "support/messages/Nc.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <fmt/format.h>
+#include <initializer_list>
 
 namespace dotek::frontend::nc {
 namespace {
 
 constexpr std::uint32_t kFirstSystem = 54; // SystemCode::Index 1
+
+// A statement of the IR of its own says the call.
+bool isPlain(const stdlib::CallReading& reading) {
+  using stdlib::ArgumentRole;
+  const auto only = [&](std::initializer_list<ArgumentRole> roles) {
+    return std::all_of(reading.arguments.begin(), reading.arguments.end(), [&](const auto& one) {
+      return std::find(roles.begin(), roles.end(), one.meaning->role) != roles.end();
+    });
+  };
+  switch (reading.signature->intent) {
+  case stdlib::Intent::ProtectedMove: return only({ArgumentRole::Target, ArgumentRole::Feed});
+  case stdlib::Intent::ProbeOn:
+  case stdlib::Intent::ProbeOff: return reading.arguments.empty();
+  case stdlib::Intent::Surface:
+    return only({ArgumentRole::Target, ArgumentRole::Nominal, ArgumentRole::System});
+  case stdlib::Intent::Bore: {
+    // The nominal centre of one that corrects by the error is the place of the probe.
+    const stdlib::ReadArgument* system = reading.find(ArgumentRole::System);
+    return only({ArgumentRole::Diameter, ArgumentRole::Nominal, ArgumentRole::System}) &&
+           (system == nullptr || system->meaning->systemRule == stdlib::SystemRule::Nominal);
+  }
+  default: return false;
+  }
+}
 
 bool isCall(const stdlib::CodeInfo* info) {
   return info != nullptr && info->function == stdlib::Function::MacroCall;
@@ -59,50 +85,25 @@ bool Lifter::call(std::uint32_t program, const Word& programWord) {
   context_.state.motion = std::nullopt;
   context_.state.feed = nullptr;
   context_.stored.clear();
+  if (!isPlain(reading)) return cycle(reading, words);
   switch (signature.intent) {
   case stdlib::Intent::ProtectedMove: return protectedMove(reading, words);
-  case stdlib::Intent::Surface:
-  case stdlib::Intent::Bore: return measure(reading, words);
   case stdlib::Intent::ProbeOn:
   case stdlib::Intent::ProbeOff:
-    if (!reading.arguments.empty())
-      return notTranslated(*words[reading.arguments[0].at], *reading.arguments[0].meaning, program);
     add(ir::ProbePower{signature.intent == stdlib::Intent::ProbeOn});
     return true;
-  case stdlib::Intent::Boss:
-  case stdlib::Intent::Pocket:
-  case stdlib::Intent::Web:
-  case stdlib::Intent::InnerCorner:
-  case stdlib::Intent::OuterCorner:
-  case stdlib::Intent::Angle:
-  case stdlib::Intent::AngledSurface:
-  case stdlib::Intent::AngledPocket:
-  case stdlib::Intent::AngledWeb:
-  case stdlib::Intent::ThreePointBore:
-  case stdlib::Intent::ThreePointBoss:
-  case stdlib::Intent::BoltCircle:
-  case stdlib::Intent::StockAllowance:
-  case stdlib::Intent::FeatureToFeature:
-  case stdlib::Intent::ToolUpdate:
-  case stdlib::Intent::Calibration: break;
+  default: return measure(reading, words);
   }
-  return refuse<diag::MacroNotTranslated>(programWord.range, program, context_.macros->name,
-                                          "`" + signature.title + "`");
-}
-
-bool Lifter::notTranslated(const Word& word, const stdlib::MacroArgument& argument, std::uint32_t program) {
-  return refuse<diag::MacroLetterNotTranslated>(word.range, program, word.address,
-                                                stdlib::roleName(argument.role));
 }
 
 ir::ExpressionPtr Lifter::argument(const stdlib::MacroArgument& argument, const Word& word) {
   Reading reading{argument.kind, false};
-  const bool measures =
-      !argument.selector && (argument.kind == ir::Kind::Length || argument.kind == ir::Kind::Angle);
   if (argument.selector) reading.kind = ir::Kind::Number;
   if (argument.role == stdlib::ArgumentRole::Feed && !inRange(word, "a feed", false)) return nullptr;
   if (argument.role == stdlib::ArgumentRole::Diameter && !inRange(word, "a diameter", false)) return nullptr;
-  reading.increments = measures && context_.control.isLength(argument.letter);
+  // A number without a point counts least increments whatever it means to the macro.
+  reading.increments =
+      argument.role != stdlib::ArgumentRole::System && context_.control.isLength(argument.letter);
   const ir::ExpressionPtr out = value(word, reading);
   if (!out) return nullptr;
   if (const auto* use = std::get_if<ir::VariableUse>(&out->node))
@@ -119,10 +120,8 @@ bool Lifter::protectedMove(const stdlib::CallReading& reading, const std::vector
     if (!read) return false;
     if (meaning.role == stdlib::ArgumentRole::Target)
       move.axes[ir::indexOf(meaning.axis)] = ir::Coordinate{read, meaning.frame, nullptr};
-    else if (meaning.role == stdlib::ArgumentRole::Feed)
-      move.feed = read;
     else
-      return notTranslated(*words[one.at], meaning, reading.program);
+      move.feed = read;
   }
   add(std::move(move));
   return true;
@@ -157,14 +156,10 @@ bool Lifter::measure(const stdlib::CallReading& reading, const std::vector<const
       if (!setting.system) return false;
       sets = true;
       break;
-    default: return notTranslated(word, *found, signature.program);
+    default: break; // isPlain() says no
     }
   }
   if (sets && system->meaning->systemRule == stdlib::SystemRule::Error) {
-    // The place of the probe is the nominal centre of a bore: the source does not write it.
-    if (!measure.target)
-      return refuse<diag::OffsetWithoutNominal>(words[system->at]->range, signature.program,
-                                                system->meaning->letter);
     setting.nominal[ir::indexOf(measure.axis)] = measure.target->value;
     nominals = true;
   }
@@ -174,6 +169,44 @@ bool Lifter::measure(const stdlib::CallReading& reading, const std::vector<const
   if (sets) measure.setting = std::move(setting);
   context_.measured = &signature;
   add(std::move(measure));
+  return true;
+}
+
+bool Lifter::cycle(const stdlib::CallReading& reading, const std::vector<const Word*>& words) {
+  const stdlib::MacroSignature& signature = *reading.signature;
+  const stdlib::CycleFacts facts = stdlib::cycleFacts(signature);
+  ir::CallCycle call;
+  call.cycle = stdlib::intentName(signature.intent);
+  call.axis = stdlib::axisOf(signature);
+  call.set = context_.macros->name;
+  call.power = facts.power;
+  call.moves = facts.moves;
+  call.returns = facts.returns;
+  for (const stdlib::MacroResult& result : signature.results)
+    if (result.name) call.results.push_back(*result.name);
+  std::array<ir::ExpressionPtr, 3> nominal;
+  for (const stdlib::ReadArgument& one : reading.arguments) {
+    const stdlib::MacroArgument& meaning = *one.meaning;
+    const Word& word = *words[one.at];
+    const ir::ExpressionPtr read = argument(meaning, word);
+    if (!read) return false;
+    call.setsTool = call.setsTool || meaning.kind == ir::Kind::ToolOffset;
+    if (meaning.role == stdlib::ArgumentRole::Nominal) {
+      nominal[ir::indexOf(meaning.axis)] = read;
+    } else if (meaning.role == stdlib::ArgumentRole::System) {
+      const ir::ExpressionPtr system = workSystem(meaning, word, read);
+      if (!system) return false;
+      call.setting = ir::CycleSetting{system, facts.sets, {}};
+    } else {
+      const bool coordinate = meaning.role == stdlib::ArgumentRole::Target;
+      call.arguments.push_back({stdlib::parameterName(meaning), read,
+                                coordinate ? std::optional(meaning.frame) : std::nullopt, meaning.kind,
+                                stdlib::movesProbe(meaning.role)});
+    }
+  }
+  if (call.setting) call.setting->nominal = std::move(nominal);
+  if (!call.power) context_.measured = &signature;
+  add(std::move(call));
   return true;
 }
 

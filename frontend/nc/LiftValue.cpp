@@ -1,5 +1,6 @@
 // Numbers of words: decimal points, pictures, formulas.
 #include "frontend/nc/Lifter.h"
+#include "ir/Walk.h"
 #include "support/Decimal.h"
 #include "support/messages/ComPost.h"
 #include "support/messages/Nc.h"
@@ -270,7 +271,13 @@ ir::ExpressionPtr Lifter::functionCall(const Expression& expression, const Funct
   if (!context_.control.functions.contains(one ? "ATAN[y]" : call.name))
     return notRead("the control `" + context_.control.name + "` does not have it");
   if (call.name == "ASIN" || (call.name == "ATAN" && call.arguments.size() == 2))
-    return notRead("the range of the angle that it gives depends on a parameter of the control");
+    context_.diagnostics.report<diag::AngleRange>(expression.range,
+                                                  call.name == "ASIN" ? "ASIN[..]" : "ATAN[..]/[..]");
+  if (call.name == "ATAN" && call.arguments.size() == 2) {
+    const ir::ExpressionPtr y = operand(*call.arguments[0], inWord);
+    const ir::ExpressionPtr x = y ? operand(*call.arguments[1], inWord) : nullptr;
+    return x ? ir::binary(ir::BinaryOp::Bearing, x, y, expression.range) : nullptr;
+  }
   if (call.name == "ROUND" && inWord)
     return notRead("in a word of NC it rounds to the least increment of the word on some controls");
   for (const UnaryName& known : kUnary) {
@@ -279,6 +286,21 @@ ir::ExpressionPtr Lifter::functionCall(const Expression& expression, const Funct
     return inner ? ir::unary(known.op, inner, expression.range) : nullptr;
   }
   return notRead("Dotek has no translation of it");
+}
+
+bool Lifter::isComputed(const Expression& number) {
+  return std::holds_alternative<Operation>(number.node) || std::holds_alternative<VariableRef>(number.node) ||
+         std::holds_alternative<FunctionCall>(number.node);
+}
+
+ir::ExpressionPtr Lifter::computedNumber(const Expression& number) {
+  const ir::ExpressionPtr out = formula(number, false);
+  if (!out) return nullptr;
+  // From a common variable on: it reaches no local, which would be another program's.
+  const auto first = ir::firstNumber(out);
+  if (first && context_.control.isCommon(*first)) return out;
+  refuse<diag::ComputedVariable>(number.range);
+  return nullptr;
 }
 
 // nullopt: reported.
@@ -299,6 +321,10 @@ std::optional<std::uint32_t> Lifter::variableNumber(const Expression& number) {
 }
 
 ir::ExpressionPtr Lifter::variableValue(const Expression& expression, const VariableRef& variable) {
+  if (isComputed(*variable.number)) {
+    const ir::ExpressionPtr computed = computedNumber(*variable.number);
+    return computed ? ir::machineVariable(computed, expression.range) : nullptr;
+  }
   const std::optional<std::uint32_t> number = variableNumber(*variable.number);
   if (!number) return nullptr;
   if (context_.measured != nullptr) {

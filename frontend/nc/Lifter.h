@@ -50,6 +50,7 @@ private:
 
   // LiftRun: blocks without a call.
   bool assignments();
+  bool computedAssignment(const Assignment& assignment);
   bool readCodes(char address);
   bool onePerGroup();
   bool words();
@@ -65,12 +66,18 @@ private:
   bool dwell();
   bool opaque(const Plan& plan);
 
+  // LiftFlow
+  bool statement();
+  void enter(ir::LabelId label);
+  void arrive(ir::LabelId label);
+  ir::ConditionPtr condition(const Condition& condition); // null pointer: reported
+
   // LiftCall
   bool call(std::uint32_t program, const Word& programWord);
   // `words`: of the letters of the reading.
   bool protectedMove(const stdlib::CallReading& reading, const std::vector<const Word*>& words);
   bool measure(const stdlib::CallReading& reading, const std::vector<const Word*>& words);
-  bool notTranslated(const Word& word, const stdlib::MacroArgument& argument, std::uint32_t program);
+  bool cycle(const stdlib::CallReading& reading, const std::vector<const Word*>& words);
   ir::ExpressionPtr workSystem(const stdlib::MacroArgument& argument, const Word& word,
                                const ir::ExpressionPtr& read);
   ir::ExpressionPtr argument(const stdlib::MacroArgument& argument, const Word& word);
@@ -87,6 +94,10 @@ private:
   ir::ExpressionPtr operation(const Expression& expression, const Operation& operation, bool inWord);
   ir::ExpressionPtr functionCall(const Expression& expression, const FunctionCall& call, bool inWord);
   ir::ExpressionPtr variableValue(const Expression& expression, const VariableRef& variable);
+  // The number of a variable is an expression of variables: #[541+#540].
+  static bool isComputed(const Expression& number);
+  // It, where it counts from a common variable; null pointer: reported.
+  ir::ExpressionPtr computedNumber(const Expression& number);
   std::optional<std::uint32_t> variableNumber(const Expression& number);
   std::optional<double> fixedValue(const Hole& hole) const;
   std::optional<double> knownNumber(const Expression& value) const;

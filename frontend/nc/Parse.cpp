@@ -15,6 +15,11 @@ constexpr std::array<std::string_view, 11> kStatements = {"IF",    "GOTO",  "WHI
                                                           "POPEN", "PCLOS", "DPRNT", "BPRNT", "SETVN"};
 constexpr std::size_t kMostDigits = 8;
 
+// Statements of a port, and THEN without IF.
+bool isOther(std::string_view statement) {
+  return statement == "THEN" || statement.size() == 5 ? statement != "WHILE" : false;
+}
+
 std::size_t lengthOf(const std::vector<Piece>& pieces) {
   std::size_t length = 0;
   for (const Piece& piece : pieces) {
@@ -76,6 +81,15 @@ bool BlockParser::item(Block& block) {
   }
   const auto statement = std::find_if(kStatements.begin(), kStatements.end(),
                                       [&](std::string_view one) { return in_.startsWith(one); });
+  if (block.statement) {
+    diagnostics_.report<diag::MixedBlock>(here);
+    return false;
+  }
+  if (statement != kStatements.end() && !isOther(*statement)) {
+    if (block.words.empty() && block.assignments.empty()) return this->statement(block);
+    diagnostics_.report<diag::MixedBlock>(here);
+    return false;
+  }
   if (statement != kStatements.end()) {
     diagnostics_.report<diag::MacroStatement>(in_.range(in_.position(), in_.position() + statement->size()),
                                               *statement);

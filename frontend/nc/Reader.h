@@ -18,6 +18,8 @@ public:
   std::size_t position() const { return position_; }
   // The character here; kHole for a hole, kEnd after the last one.
   char peek() const { return position_ < text_.size() ? text_[position_] : kEnd; }
+  // The same at a place.
+  char at(std::size_t place) const { return place < text_.size() ? text_[place] : kEnd; }
   void skip(std::size_t count = 1) { position_ += count; }
   void skipBlanks();
   bool startsWith(std::string_view text) const {

@@ -20,10 +20,11 @@ template <ir::AnyStatement Statement> AxisSet movedBy(const Statement& statement
             out = static_cast<AxisSet>(out | (1U << (argument.letter - 'X')));
         return out;
       },
-      [](const ir::OneOf<ir::Label, ir::Jump, ir::Branch, ir::Store, ir::Measure, ir::ProbePower, ir::Comment,
-                         ir::Assign, ir::Return, ir::Spindle, ir::Coolant, ir::SetMode, ir::Dwell, ir::Stop,
-                         ir::Alarm, ir::OpaqueBlock, ir::JumpTo, ir::Loop, ir::LoopEnd, ir::Exit, ir::Raise,
-                         ir::Notice, ir::Port, ir::Print, ir::NameVariables> auto&) { return AxisSet{0}; });
+      [](const ir::OneOf<ir::Label, ir::Jump, ir::Branch, ir::Store, ir::Measure, ir::CallCycle,
+                         ir::ProbePower, ir::Comment, ir::Assign, ir::Return, ir::Spindle, ir::Coolant,
+                         ir::SetMode, ir::Dwell, ir::Stop, ir::Alarm, ir::OpaqueBlock, ir::JumpTo, ir::Loop,
+                         ir::LoopEnd, ir::Exit, ir::Raise, ir::Notice, ir::Port, ir::Print,
+                         ir::NameVariables> auto&) { return AxisSet{0}; });
 }
 
 struct Travel {

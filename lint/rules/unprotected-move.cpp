@@ -38,10 +38,11 @@ template <ir::AnyStatement Statement>
 std::optional<std::optional<double>> protectedZ(const Statement& statement) {
   return match(
       statement, [](const ir::OneOf<ir::Move, ir::Call> auto& node) { return zOf(node); },
-      [](const ir::OneOf<ir::Label, ir::Jump, ir::Branch, ir::Store, ir::Measure, ir::ProbePower, ir::Comment,
-                         ir::Assign, ir::Return, ir::Spindle, ir::Coolant, ir::SetMode, ir::Dwell, ir::Stop,
-                         ir::Alarm, ir::OpaqueBlock, ir::NcBlock, ir::JumpTo, ir::Loop, ir::LoopEnd, ir::Exit,
-                         ir::Raise, ir::Notice, ir::Port, ir::Print, ir::NameVariables> auto&) {
+      [](const ir::OneOf<ir::Label, ir::Jump, ir::Branch, ir::Store, ir::Measure, ir::CallCycle,
+                         ir::ProbePower, ir::Comment, ir::Assign, ir::Return, ir::Spindle, ir::Coolant,
+                         ir::SetMode, ir::Dwell, ir::Stop, ir::Alarm, ir::OpaqueBlock, ir::NcBlock,
+                         ir::JumpTo, ir::Loop, ir::LoopEnd, ir::Exit, ir::Raise, ir::Notice, ir::Port,
+                         ir::Print, ir::NameVariables> auto&) {
         return std::optional<std::optional<double>>();
       });
 }
@@ -94,12 +95,11 @@ template <ir::AnyStatement Statement> Motion motionOf(const Statement& statement
   return match(
       statement, [](const ir::Move& move) { return motionOf(move); },
       [&](const ir::NcBlock& block) { return motionOf(block, before); },
-      [](const ir::OneOf<ir::Label, ir::Jump, ir::Branch, ir::Store, ir::Measure, ir::ProbePower, ir::Comment,
-                         ir::Assign, ir::Return, ir::Spindle, ir::Coolant, ir::SetMode, ir::Dwell, ir::Stop,
-                         ir::Alarm, ir::OpaqueBlock, ir::JumpTo, ir::Loop, ir::LoopEnd, ir::Call, ir::Exit,
-                         ir::Raise, ir::Notice, ir::Port, ir::Print, ir::NameVariables> auto&) {
-        return Motion{};
-      });
+      [](const ir::OneOf<ir::Label, ir::Jump, ir::Branch, ir::Store, ir::Measure, ir::CallCycle,
+                         ir::ProbePower, ir::Comment, ir::Assign, ir::Return, ir::Spindle, ir::Coolant,
+                         ir::SetMode, ir::Dwell, ir::Stop, ir::Alarm, ir::OpaqueBlock, ir::JumpTo, ir::Loop,
+                         ir::LoopEnd, ir::Call, ir::Exit, ir::Raise, ir::Notice, ir::Port, ir::Print,
+                         ir::NameVariables> auto&) { return Motion{}; });
 }
 
 // What G codes and a tool change make of it.

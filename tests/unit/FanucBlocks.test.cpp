@@ -132,7 +132,7 @@ TEST_CASE("fanuc blocks: switching the probe") {
   }
 }
 
-TEST_CASE("fanuc blocks: a block without a meaning is copied to its own control alone") {
+TEST_CASE("fanuc blocks: a block without a meaning is copied to a control that has its codes") {
   Maker cycle;
   ir::OpaqueBlock block;
   block.words.push_back({'N', ir::constant(90, {}, "90"), {}});
@@ -142,6 +142,10 @@ TEST_CASE("fanuc blocks: a block without a meaning is copied to its own control 
   const Emission out = Target().emit(cycle.cycle);
   CHECK(out.body() == Lines{"G30 Z0."});
   CHECK(out.codes().empty()); // the lowering has given it
+  CHECK(Target("easyprobe", "fanuc-31i-b").emit(cycle.cycle).body() == Lines{"G30 Z0."});
+  cycle.cycle.body.clear();
+  block.words[1].value = ir::constant(10, {}, "10");
+  cycle.add(block);
   CHECK(Target("easyprobe", "fanuc-31i-b").emit(cycle.cycle).codes() ==
         std::set<std::string>{"opaque-block-refused"});
 }

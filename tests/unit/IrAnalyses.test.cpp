@@ -209,11 +209,11 @@ TEST_CASE("ir: the last measurement") {
   const auto last = lastMeasurements(cycle);
   REQUIRE(last.size() == cycle.body.size());
   CHECK(last[0] == nullptr);
-  CHECK(last[2] == std::get_if<Measure>(&cycle.body[1].node));
+  CHECK(last[2] == &cycle.body[1]);
   CHECK(last[3] == last[2]);
   CHECK(last[4] == nullptr);
   CHECK(last[5] == nullptr);
-  CHECK(last[7] == std::get_if<Measure>(&cycle.body[6].node));
+  CHECK(last[7] == &cycle.body[6]);
   CHECK(last[8] == nullptr);
 }
 

@@ -3,6 +3,7 @@
 
 #include "frontend/nc/Lift.h"
 #include "frontend/nc/Parse.h"
+#include "ir/PrintStatement.h"
 #include "stdlib/DataFiles.h"
 #include "support/Decimal.h"
 
@@ -55,6 +56,27 @@ inline std::string show(const ir::CycleStatement& s, const ir::Cycle& cycle) {
       if (const auto& n = m->setting->nominal[ir::indexOf(axis)])
         out += std::string(" ") + ir::letterOf(axis) + "=" + show(n, cycle);
     return out;
+  }
+  if (const auto* n = std::get_if<ir::CallCycle>(&s.node)) {
+    std::string out = "cycle " + n->cycle;
+    if (n->axis) out += std::string(" ") + ir::letterOf(*n->axis);
+    for (const ir::CycleArgument& one : n->arguments)
+      out +=
+          " " + one.parameter + "=" +
+          (one.frame ? show(ir::Coordinate{one.value, *one.frame, nullptr}, cycle) : show(one.value, cycle));
+    if (n->setting) {
+      out += " sets " + show(n->setting->system, cycle) + " ";
+      for (const ir::Axis axis : ir::kAxes)
+        if (n->setting->axes[ir::indexOf(axis)]) out += ir::letterOf(axis);
+    }
+    return out + (!n->moves ? ", no move" : !n->returns ? ", stays there" : "");
+  }
+  if (const auto* n = std::get_if<ir::Label>(&s.node)) return cycle.labels[n->label].name + ":";
+  if (const auto* n = std::get_if<ir::Jump>(&s.node)) return "goto " + cycle.labels[n->target].name;
+  if (const auto* n = std::get_if<ir::Branch>(&s.node)) {
+    std::string out;
+    ir::write(*n->condition, ir::Names(cycle), out);
+    return "if " + out + " goto " + cycle.labels[n->target].name;
   }
   if (const auto* n = std::get_if<ir::Store>(&s.node))
     return "store " + show(n->number, cycle) + "=" + show(n->value, cycle);
@@ -129,12 +151,15 @@ public:
       return found == fixed.end() ? std::nullopt : std::optional<double>(found->second);
     };
     bool ok = true;
+    std::vector<frontend::nc::Block> blocks;
     for (std::size_t i = 0; i <= text.size();) {
       const std::size_t end = std::min(text.find('\n', i), text.size());
-      const auto block = parse(text.substr(i, end - i));
-      ok = block && frontend::nc::lift(*block, context, body) && ok;
+      auto block = parse(text.substr(i, end - i));
+      ok = block && ok;
+      if (block) blocks.push_back(std::move(*block));
       i = end + 1;
     }
+    ok = frontend::nc::liftAll(blocks, context, body) && ok;
     frontend::nc::reportPictures(context);
     state = context.state;
     return ok;

@@ -41,8 +41,7 @@ TEST_CASE("Inspection Plus: the target is absolute, S counts from 1 and corrects
   CHECK(lifted("G65 P9814 D{d}", "inspection-plus") == "bore D=d\n");
   CHECK(lifted("G65 P9832\nG65 P9833", "inspection-plus") == "probe on\nprobe off\n");
   // The nominal centre is where the probe is: no block says it.
-  CHECK(lifted("G65 P9814 D{d} S1", "inspection-plus") == "refused: [offset-without-nominal]");
-  CHECK(pointed("G65 P9814 D{d} S1", "inspection-plus") == "S1");
+  CHECK(lifted("G65 P9814 D{d} S1", "inspection-plus") == "cycle bore diameter=d sets 54 XY\n");
   CHECK(lifted("G65 P9811 X1. S7", "inspection-plus") == "refused: [no-work-system]");
   CHECK(lifted("G65 P9023 S60. X10. I0.") == "refused: [no-work-system]");
   CHECK(lifted("G65 P9023 S3. X10. I0.") == "refused: [no-work-system]");
@@ -71,26 +70,44 @@ TEST_CASE("calls that have no single meaning are refused") {
   CHECK(lifted("G65 P9770 Z F5") == "refused: [bare-word]");
 }
 
-TEST_CASE(
-    "letters and calls that the macro set knows and a cycle cannot say are refused, each with what it is") {
+TEST_CASE("every call that a set knows is a cycle by its parameters, whatever measures it") {
   const char* const plus = "inspection-plus";
-  CHECK(lifted("G65 P9811 Y-1. Q5.", plus) == "refused: [macro-letter-not-translated]");
-  CHECK(pointed("G65 P9811 Y-1. Q5.", plus) == "Q5.");
-  CHECK(message("G65 P9811 Y-1. Q5.", plus).find("`Q` of program `9811` is the overtravel") !=
-        std::string::npos);
-  CHECK(message("G65 P9814 D30. H.1", plus).find("size-tolerance") != std::string::npos);
-  CHECK(lifted("G65 P9814 D30. T5", plus) == "refused: [macro-letter-not-translated]");
-  CHECK(lifted("G65 P9810 Z5. M1", plus) == "refused: [macro-letter-not-translated]");
-  CHECK(lifted("G65 P9832 W1", plus) == "refused: [macro-letter-not-translated]");
-  CHECK(lifted("G65 P9814 D30. Z-5.", plus) == "refused: [macro-not-translated]");
-  CHECK(message("G65 P9814 D30. Z-5.", plus).find("boss") != std::string::npos);
-  CHECK(lifted("G65 P9812 X30.", plus) == "refused: [macro-not-translated]");
-  CHECK(lifted("G65 P9801 K2", plus) == "refused: [macro-not-translated]");
+  CHECK(lifted("G65 P9811 Y-1. Q5.", plus) == "cycle surface Y target y=work:-1 overtravel=5\n");
+  CHECK(lifted("G65 P9811 Z{z} T{t} F.5 W1.", plus) ==
+        "cycle surface Z target z=work:z tool=t feedback=0.5 print=1\n");
+  CHECK(lifted("G65 P9812 X30.", plus) == "cycle pocket X width x=30\n");
+  CHECK(lifted("G65 P9812 Y{w} Z-5. R-3. S{s}", plus) ==
+        "cycle web Y width y=w depth=-5 clearance=-3 sets (s+53) Y\n");
+  CHECK(lifted("G65 P9814 D30. H.1", plus) == "cycle bore diameter=30 size-tolerance=0.1\n");
+  CHECK(lifted("G65 P9814 D30. Z-5.", plus) == "cycle boss diameter=30 depth=-5\n");
+  CHECK(lifted("G65 P9815 X{x} Y{y} S2", plus) ==
+        "cycle inner-corner target x=work:x target y=work:y sets 55 XY\n");
+  CHECK(lifted("G65 P9823 A0. B120. C240. D25.", plus) ==
+        "cycle three-point-bore first-angle=0 second-angle=120 third-angle=240 diameter=25\n");
+  CHECK(lifted("G65 P9843 X{x} D10. A90.", plus) ==
+        "cycle angle X target x=work:x spacing y=10 face-angle=90\n");
+  CHECK(lifted("G65 P9834", plus) == "cycle feature-to-feature, no move\n");
+  CHECK(lifted("G65 P9834 Z5.", plus) == "cycle feature-to-feature letter z=5, no move\n");
+  CHECK(lifted("G65 P9801 K2.", plus) == "cycle calibration task=2, stays there\n");
+  CHECK(lifted("G65 P9810 Z5. M1.", plus) ==
+        "cycle protected-move target z=work:5 flag-only=1, stays there\n");
+  CHECK(lifted("G65 P9832 W1.", plus) == "cycle probe-on print=1, no move\n");
+  CHECK(lifted("G65 P8812 X{w} Q3.", "dotek") == "cycle pocket X width x=w overtravel=3\n");
   CHECK(lifted("G65 P9817 D30. E20.", plus) == "refused: [unknown-macro]");
   CHECK(lifted("G65 P9814 D30. S1 T5", plus) == "refused: [macro-letters-refused]");
   CHECK(message("G65 P9811 X1. T5 M.1", plus).find("T and M together") != std::string::npos);
   CHECK(message("G65 P9811 X1. T5 M.1", plus).find("TM INPUT MIXED") != std::string::npos);
   CHECK(lifted("G65 P9811 X1. Y1.", plus) == "refused: [macro-letters-refused]");
+}
+
+TEST_CASE("what a call leaves is a result by its name, whichever of them it is") {
+  const char* const plus = "inspection-plus";
+  CHECK(lifted("G65 P9812 X30.\n#601=#143", plus) ==
+        "cycle pocket X width x=30\nstore 601=result" +
+            std::to_string(static_cast<int>(ir::ResultName::SizeError)) + "\n");
+  CHECK(lifted("G65 P9811 Z0.\n#601=#142", plus) ==
+        "surface Z=work:0\nstore 601=result" + std::to_string(static_cast<int>(ir::ResultName::ErrorZ)) +
+            "\n");
 }
 
 TEST_CASE("a macro leaves its motion and feed after it") {
@@ -262,7 +279,7 @@ TEST_CASE("formulas: the same arithmetic, or a refusal") {
   CHECK(lifted("#550=#551AND3") == "store 550=(u14(#551)and3)\n");
   CHECK(lifted("G0 X[{a}+1]") == "rapid X=work:(a+1)\n"); // no decimal mode in a formula
   CHECK(lifted("G0 X[ROUND[#551]]") == "refused: [function-not-read]");
-  CHECK(lifted("#550=ATAN[1]/[2]") == "refused: [function-not-read]"); // 0 to 360, or -180 to 180
+  CHECK(lifted("#550=ATAN[1]/[2]") == "with [angle-range]"); // 0 to 360, or -180 to 180
   CHECK(lifted("#550=ASIN[1]") == "refused: [function-not-read]");
   CHECK(lifted("#550=BIN[1]") == "refused: [function-not-read]");
   CHECK(lifted("#550=7MOD3") == "refused: [function-not-read]"); // not on the 0i

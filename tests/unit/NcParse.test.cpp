@@ -153,12 +153,30 @@ TEST_CASE("what is no block is refused at its place") {
 }
 
 TEST_CASE("statements of a macro program are refused by name") {
-  for (const std::string one : {"IF[#1EQ0]GOTO10", "GOTO100", "WHILE[#1LE5]DO1", "DO1", "END1", "THEN#1=2",
-                                "POPEN", "PCLOS", "DPRNT[X#100[53]]", "BPRNT[#1[4]]", "SETVN500[A]"}) {
+  for (const std::string one :
+       {"THEN#1=2", "POPEN", "PCLOS", "DPRNT[X#100[53]]", "BPRNT[#1[4]]", "SETVN500[A]"}) {
     INFO(one);
     CHECK(parsed("N10 " + one) == "refused: [macro-statement]");
   }
-  CHECK(pointed("N5 GOTO100") == "GOTO");
+  CHECK(pointed("N5 POPEN") == "POPEN");
+}
+
+TEST_CASE("statements that steer a branch: their condition and where they lead") {
+  for (const std::string one :
+       {"IF[#100EQ0]GOTO10", "IF [ABS[#100-[5.+.1]] LT .01] THEN #101=2.", "GOTO100", "WHILE[#100LE5]DO1",
+        "DO2", "END2", "IF[[#100GT1]AND[#101LT[#102+2]]]GOTO8", "IF[#100NE#0]THEN GOTO10"}) {
+    INFO(one);
+    CHECK(parsed("N10 " + one).find("refused") == std::string::npos);
+  }
+  CHECK(parsed("IF[#100]GOTO10") == "refused: [syntax-error]");
+  CHECK(parsed("IF[#100EQ1]") == "refused: [syntax-error]");
+  CHECK(parsed("IF#100EQ1 GOTO10") == "refused: [syntax-error]");
+  CHECK(parsed("IF[#100EQ1]THEN M5") == "refused: [syntax-error]");
+  CHECK(parsed("WHILE[#100EQ1]GOTO5") == "refused: [syntax-error]");
+  CHECK(parsed("GOTO#100") == "refused: [jump-computed]");
+  CHECK(parsed("GOTO[100+1]") == "refused: [jump-computed]");
+  CHECK(parsed("G0 GOTO10") == "refused: [mixed-block]");
+  CHECK(parsed("GOTO10 G0") == "refused: [mixed-block]");
 }
 
 TEST_CASE("words and an assignment exclude each other, an address appears once") {

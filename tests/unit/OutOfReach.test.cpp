@@ -239,10 +239,25 @@ TEST_CASE("a block without a translation is copied with a note to its own contro
     CHECK(fusion.output.find("\"" + std::string(block) + "\"") != std::string::npos);
     CHECK(codesAt(one.convert("mikroprog", block), Severity::Error, "post.txt", kLine) ==
           Codes{"opaque-block-refused"});
-    const auto set = [](auto& options) { options.probeMacros = "inspection-plus"; };
+  }
+}
+
+TEST_CASE("a copied block goes where its codes mean the same, and beside other macros where it leaves their "
+          "modes") {
+  OneBlock one;
+  const auto set = [](auto& options) { options.probeMacros = "inspection-plus"; };
+  const auto other = [](auto& options) { options.control = "fanuc-6m"; };
+  for (const char* block : {"G43 H1", "T5", "M6"}) {
+    CAPTURE(block);
+    const auto fusion = one.convert("fusion", block, set);
+    CHECK(fusion.output.find("\"" + std::string(block) + "\"") != std::string::npos);
+    const auto fanuc = one.convert("fanuc", block, other);
+    CHECK(fanuc.output.find(std::string("\n") + block + "\n") != std::string::npos);
+  }
+  for (const char* block : {"G10 L2 P1 X0.", "M77"}) {
+    CAPTURE(block);
     CHECK(codesAt(one.convert("fusion", block, set), Severity::Error, "post.txt", kLine) ==
           Codes{"fusion-opaque"});
-    const auto other = [](auto& options) { options.control = "fanuc-6m"; };
     CHECK(codesAt(one.convert("fanuc", block, other), Severity::Error, "post.txt", kLine) ==
           Codes{"opaque-block-refused"});
   }

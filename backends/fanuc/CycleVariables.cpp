@@ -1,0 +1,159 @@
+// Variables and copied blocks of the source on the control that is written: by what they mean in both
+// profiles.
+#include "backends/fanuc/ProgramVariables.h"
+#include "backends/fanuc/State.h"
+#include "ir/Rewrite.h"
+#include "ir/Walk.h"
+#include "support/Decimal.h"
+#include "support/messages/Fanuc.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace dotek::backends::fanuc {
+
+namespace {
+
+constexpr std::uint32_t kFirstSystem = 1000; // the first variable that is the control's own
+
+std::optional<std::uint32_t> wholeOf(const ir::ExpressionPtr& number) {
+  const ir::ExpressionPtr simple = tidy(number);
+  const double* value = ir::constantValue(simple);
+  if (value == nullptr || !(*value >= 0 && *value < 1e9) || *value != std::floor(*value)) return std::nullopt;
+  return static_cast<std::uint32_t>(*value);
+}
+
+class Variables {
+public:
+  explicit Variables(State& state) : state_(state) {}
+
+  void run() {
+    for (auto* list : {&state_.cycle.checks, &state_.cycle.body})
+      for (ir::CycleStatement& statement : *list) {
+        range_ = statement.origin.range();
+        ir::rewrite(statement, [&](const ir::ExpressionPtr& node) { return used(node); });
+        if (auto* store = std::get_if<ir::Store>(&statement.node)) stored(*store);
+      }
+  }
+
+private:
+  bool same() const { return state_.control.name == state_.options.sourceControl.name; }
+
+  ir::ExpressionPtr used(const ir::ExpressionPtr& expression) {
+    const auto* machine = std::get_if<ir::MachineVariable>(&expression->node);
+    if (machine == nullptr) return expression;
+    const SourceRange range = expression->range.hasPlace() ? expression->range : range_;
+    const auto number = wholeOf(machine->number);
+    if (!number) {
+      computed(machine->number, range);
+      return expression;
+    }
+    if (*number <= state_.control.locals ||
+        (same() && *number < kFirstSystem && !state_.control.isCommon(*number))) {
+      state_.refuse<diag::MachineVariableRefused>(range, numberText(*number), state_.control.title);
+      return expression;
+    }
+    const auto there = moved(*number, range);
+    if (!there || *there == *number) return expression;
+    return ir::machineVariable(ir::constant(*there, machine->number->range), expression->range);
+  }
+
+  std::optional<std::uint32_t> moved(std::uint32_t number, SourceRange range) {
+    const VariableThere there = variableThere(number, state_.options.sourceControl, state_.control);
+    if (!there.number) {
+      state_.refuse<diag::VariableElsewhere>(range, number, there.why);
+      return std::nullopt;
+    }
+    if (*there.number != number && state_.reported.insert("variable " + std::to_string(number)).second)
+      state_.diagnostics.report<diag::VariableMoved>(range, number, there.what, *there.number,
+                                                     state_.control.title);
+    return there.number;
+  }
+
+  void computed(const ir::ExpressionPtr& number, SourceRange range) {
+    const auto base = ir::firstNumber(number);
+    if (!base || *base <= state_.control.locals || !state_.control.isCommon(*base))
+      state_.refuse<diag::MachineVariableRefused>(range, "[..]", state_.control.title);
+    else if (!same() && !holdsVariablesOf(state_.control, state_.options.sourceControl))
+      state_.refuse<diag::VariableNumberComputed>(range, state_.control.title,
+                                                  state_.options.sourceControl.title);
+  }
+
+  void stored(ir::Store& store) {
+    const auto number = wholeOf(store.number);
+    if (!number) return computed(store.number, range_);
+    if (*number < kFirstSystem) return; // Flow.cpp looks at the common ones
+    const auto there = moved(*number, range_);
+    if (!there) return;
+    if (state_.control.isReadOnly(*there))
+      state_.refuse<diag::VariableReadOnly>(range_, *there, state_.control.title);
+    store.number = ir::constant(*there, store.number->range);
+  }
+
+  State& state_;
+  SourceRange range_;
+};
+
+} // namespace
+
+void translateVariables(State& state) {
+  Variables(state).run();
+}
+
+std::string copiedText(State& state, const ir::OpaqueBlock& block, const ir::Origin& origin) {
+  const stdlib::Control& from = state.options.sourceControl;
+  const bool same = state.control.name == from.name;
+  const bool reads = from.decimal == state.control.decimal && from.increment == state.control.increment;
+  std::string text, foreign;
+  for (const ir::Word& given : block.words) {
+    if (given.address == 'N') continue; // the source's own numbering
+    const double* number = given.value == nullptr ? nullptr : ir::constantValue(given.value);
+    if (!same && (given.address == 'G' || given.address == 'M')) {
+      const double tenths = number == nullptr ? -1 : std::round(*number * 10);
+      const auto* here = tenths < 0 ? nullptr : from.find(given.address, static_cast<std::uint32_t>(tenths));
+      const auto* there =
+          tenths < 0 ? nullptr : state.control.find(given.address, static_cast<std::uint32_t>(tenths));
+      const bool known = here != nullptr && there != nullptr && here->function == there->function &&
+                         here->function != stdlib::Function::Other &&
+                         here->function != stdlib::Function::DataInput; // its words differ
+      if (!known && foreign.empty())
+        foreign = std::string(1, given.address) + (number == nullptr ? ".." : numberText(*number));
+    }
+    text += text.empty() ? "" : " ";
+    if (given.value == nullptr) {
+      text += given.address;
+    } else if (ir::numberWithoutPoint(given.value) != nullptr && from.isLength(given.address) && !reads) {
+      // Without a point the two controls would read other lengths.
+      const double value =
+          from.decimal == stdlib::DecimalMode::Increment ? *number * from.increment : *number;
+      text += word(state, given.address, ir::constant(value, given.range), Form::Length, origin);
+    } else {
+      text += word(state, given.address, given.value, Form::Source, origin);
+    }
+  }
+  if (!foreign.empty()) {
+    state.refuse<diag::OpaqueBlockRefused>(origin.range(), foreign, from.title, state.control.title);
+    return "";
+  }
+  return text;
+}
+
+bool isSettable(const stdlib::Control& control, std::uint32_t number) {
+  if (control.isReadOnly(number)) return false;
+  const stdlib::SystemVariables& v = control.variables;
+  const auto offsets = [&](const std::optional<int>& first, int systems, int step) {
+    for (int system = 0; first && system < systems; ++system)
+      for (int axis = 0; axis < 4; ++axis)
+        if (static_cast<int>(number) == *first + system * step + axis * v.axisStep) return true;
+    return false;
+  };
+  const auto tools = [&](const std::optional<int>& base) {
+    return base && static_cast<int>(number) > *base && static_cast<int>(number) <= *base + v.toolCount;
+  };
+  return offsets(v.externalX, 1, 0) || offsets(v.workOffsetX, 6, v.systemStep) ||
+         offsets(v.extendedX, v.extendedCount, v.extendedStep) || tools(v.toolWear) ||
+         tools(v.toolGeometry) || (v.timer && static_cast<int>(number) == *v.timer) ||
+         (v.hours && static_cast<int>(number) == *v.hours);
+}
+
+} // namespace dotek::backends::fanuc

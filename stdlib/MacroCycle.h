@@ -1,0 +1,32 @@
+// A call of a probing macro as a cycle of the IR: names of its parameters, and what it does to the machine.
+// Until cycles have definitions of their own, signatures and this table are what they consist of.
+#pragma once
+
+#include "stdlib/MacroSet.h"
+
+#include <array>
+#include <optional>
+#include <string>
+
+namespace dotek::stdlib {
+
+// What a cycle does beside measuring.
+struct CycleFacts {
+  bool moves = true;          // the probe moves
+  bool returns = true;        // and comes back to where it began; false: it may end elsewhere
+  std::array<bool, 3> sets{}; // by Axis: offsets that a System argument changes
+  std::optional<bool> power;  // it switches the probe
+};
+CycleFacts cycleFacts(const MacroSignature& signature);
+
+// The axis along which it measures, of an intent with a signature for each axis; nullopt: it has one for all.
+std::optional<ir::Axis> axisOf(const MacroSignature& signature);
+
+// Name of the parameter that the argument fills, its axis included: "target x", "depth". Of a letter whose
+// meaning is in no source: "letter k".
+std::string parameterName(const MacroArgument& argument);
+
+// The probe moves by the argument; false: it checks, corrects or prints.
+bool movesProbe(ArgumentRole role);
+
+} // namespace dotek::stdlib
