@@ -84,6 +84,8 @@ VerifyOptions optionsOf(const ConvertOptions& options, const std::string& input)
   VerifyOptions out;
   static_cast<TranslationOptions&>(out) = options;
   out.inputs = {input};
+  out.defaults = options.defaults;
+  out.useDefaults = options.useDefaults;
   // The program switches the probe by itself, so the source is where it is on.
   if (options.switchProbe) out.common.assume.insert("probe-on");
   out.cases = kCases;

@@ -1,8 +1,6 @@
 #include "support/messages/Verify.h"
 #include "driver/Driver.h"
 #include "driver/VerifyPrograms.h"
-#include "frontend/gibbs/Cycle.h"
-#include "ir/Rewrite.h"
 #include "project/CycleFolder.h"
 #include "project/FormChoice.h"
 #include "project/Prog.h"
@@ -10,6 +8,7 @@
 #include "support/Files.h"
 #include "support/messages/Commands.h"
 #include "targets/CycleCases.h"
+#include "targets/CycleFields.h"
 #include "targets/Target.h"
 #include "targets/Translation.h"
 #include "targets/VerifyReport.h"
@@ -85,7 +84,8 @@ private:
     none(!options_.fromControl.empty(), "--from-control", diag::OptionOfPrograms{});
     if (options_.to.empty()) {
       none(options_.programNumber.has_value(), "--program-number", diag::FlagWithoutTarget{});
-      none(options_.probeMacros.has_value(), "--probe-macros", diag::FlagWithoutTarget{});
+      if (options_.probeMacros && session_.macroSet(*options_.probeMacros) == nullptr)
+        reportUnknownMacroSet(*options_.probeMacros, session_);
       none(options_.translation.has_value(), "--translation", diag::FlagWithoutTarget{});
       none(!options_.datum.empty(), "--datum", diag::FlagWithoutTarget{});
     }
@@ -115,51 +115,25 @@ private:
     if (!loadWorld(options_, plan_, session)) return false;
     std::optional<LoweredCycle> lowered = main_.compilation().lower(main_.folder());
     if (!lowered && (!options_.to.empty() || !main_.inputs().program)) return false;
+    if (!lowered) {
+      // Not to be translated, but it prints: what can be read of it is enough to draw.
+      session.diagnostics() = Diagnostics();
+      std::set<std::string> used;
+      lowered = lowerCycle(main_.folder(), main_.inputs(), used, session, Strictness::Lenient);
+      session.diagnostics() = Diagnostics();
+      plan_.findsMacros = true;
+    }
     if (lowered) {
       if (lowered->macros != nullptr) plan_.sourceMacros = lowered->macros->name;
-      takeFields(*lowered);
+      takeFields(*lowered, main_.folder(), main_.inputs(), plan_);
     } else {
-      session.diagnostics() = Diagnostics();
-      for (const frontend::gibbs::Field& field : frontend::gibbs::declaredFields(*main_.folder().cycle))
-        addField(field.name.text, ir::Kind::Number, field.value, {});
+      takeDeclaredFields(main_.folder(), main_.inputs(), plan_);
     }
-    if (options_.to.empty()) return true;
+    if (options_.to.empty()) {
+      if (options_.probeMacros) plan_.sourceMacros = *options_.probeMacros;
+      return true;
+    }
     return translate();
-  }
-
-  void addField(const std::string& name, ir::Kind kind, std::optional<double> initial,
-                std::vector<double> thresholds, int decimals = 3) {
-    verify::DrawField field;
-    field.name = name;
-    field.kind = kind;
-    field.initial = initial;
-    field.decimals = decimals;
-    field.thresholds = std::move(thresholds);
-    for (const auto& [given, value] : main_.inputs().sets)
-      if (frontend::gibbs::foldCase(given) == frontend::gibbs::foldCase(name)) field.fixed = value;
-    plan_.fields.push_back(std::move(field));
-  }
-
-  void takeFields(const LoweredCycle& lowered) {
-    std::map<ir::VariableId, int> decimals;
-    for (const ir::PrintedBlock& block : lowered.printed)
-      for (const ir::PrintedPiece& piece : block.pieces)
-        if (piece.picture) {
-          const auto [at, added] = decimals.emplace(piece.variable, piece.picture->decimals());
-          if (!added) at->second = std::min(at->second, piece.picture->decimals());
-        }
-    for (const auto& [id, places] : decimals)
-      if (const ir::Variable& host = lowered.cycle.variable(id); host.role == ir::Role::Host)
-        plan_.hostDecimals.emplace(host.name, places);
-    const std::set<double> compared = ir::constantsOf(lowered.cycle.checks);
-    const std::vector<double> thresholds(compared.begin(), compared.end());
-    for (ir::VariableId id = 0; id < lowered.cycle.variables.size(); ++id) {
-      const ir::Variable& variable = lowered.cycle.variable(id);
-      if (variable.role != ir::Role::Parameter) continue;
-      const auto places = decimals.find(id);
-      addField(variable.name, variable.kind, variable.defaultValue, thresholds,
-               places == decimals.end() ? 3 : places->second);
-    }
   }
 
   bool translate() {

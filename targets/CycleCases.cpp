@@ -33,6 +33,7 @@ namespace gibbs = frontend::gibbs;
 namespace {
 
 constexpr std::uint32_t kAttempts = 2000; // to find values that the cycle takes
+constexpr std::uint64_t kCallerCases = 8; // in which callers break what the translation demands
 constexpr double kNear = 0.01;            // beside what a corrected path measures, mm
 constexpr double kReach = 12;             // how far a search goes beyond a surface, mm
 
@@ -48,20 +49,6 @@ std::set<std::uint32_t> storesOf(const std::vector<ir::Program>& programs) {
     }
   }
   return out;
-}
-
-std::optional<SourceRange> spindleOffIn(const ir::Program& program, const stdlib::Control& control) {
-  for (const ir::ProgramStatement& statement : program.body) {
-    const auto* block = std::get_if<ir::NcBlock>(&statement.node);
-    if (block == nullptr) continue;
-    for (const ir::Word& word : block->words) {
-      const double* code = word.address == 'M' ? ir::constantValue(word.value) : nullptr;
-      const stdlib::CodeInfo* info =
-          code == nullptr ? nullptr : control.find('M', static_cast<std::uint32_t>(std::lround(*code * 10)));
-      if (info != nullptr && info->function == stdlib::Function::SpindleOff) return statement.origin.range();
-    }
-  }
-  return std::nullopt;
 }
 
 // What a posted program selects by itself: the first tool offset, and the work system before it moves in one.
@@ -141,7 +128,7 @@ bool CaseRunner::prepare() {
   std::vector<std::string> hosts;
   for (const std::string_view name : stdlib::hostInputNames())
     hosts.emplace_back(name);
-  draws_.emplace(plan_.fields, std::move(hosts), plan_.fixedHosts, options_.seed);
+  draws_.emplace(plan_.fields, std::move(hosts), plan_.fixedHosts, options_.seed, plan_.bounds);
   sourceSet_ = session_.macroSet(plan_.sourceMacros);
   std::vector<const stdlib::MacroSet*> sets;
   if (sourceSet_ != nullptr) sets.push_back(sourceSet_);
@@ -166,7 +153,8 @@ void CaseRunner::roundHosts(verify::Case& drawn) const {
 std::unique_ptr<CaseRunner::Values> CaseRunner::check(const verify::Case& drawn, bool settle) {
   if (stopped_) return nullptr;
   session_.diagnostics() = Diagnostics();
-  auto out = std::unique_ptr<Values>(new Values{drawn, *fields_, {}, {}, false, "", {}, {}, {}, nullptr, {}});
+  auto out =
+      std::unique_ptr<Values>(new Values{drawn, *fields_, {}, {}, false, "", {}, {}, {}, false, nullptr, {}});
   for (const auto& [name, value] : drawn.values)
     out->fields.set(name, value, {});
   if (settle) roundHosts(out->drawn);
@@ -266,17 +254,17 @@ void CaseRunner::takeSelected(verify::Case& drawn, bool others) {
   constexpr std::uint32_t kFirst = 54, kSystems = 6;
   for (const verify::DrawField& field : plan_.fields) {
     if (!others || field.kind != ir::Kind::WorkOffset || field.fixed) continue;
-    if (drawn.values.at(field.name) != drawn.system) continue;
+    if (field.systemOf(drawn.values.at(field.name)) != drawn.system) continue;
     verify::Case other = drawn;
     const auto beside = static_cast<std::uint32_t>(1 + drawn.stream % (kSystems - 1));
-    other.values[field.name] = kFirst + (drawn.system - kFirst + beside) % kSystems;
+    other.values[field.name] = field.firstSystem + (drawn.system - kFirst + beside) % kSystems;
     const std::optional<Selected> again = selected(other);
     if (again && again->system == drawn.system) drawn = std::move(other);
   }
 }
 
 // nullptr: the values are rejected; refusal_ says why.
-std::unique_ptr<CaseRunner::Values> CaseRunner::attempt(const verify::Case& proposal) {
+std::unique_ptr<CaseRunner::Values> CaseRunner::attemptAsIs(const verify::Case& proposal) {
   refusal_.clear();
   refusedAt_ = {};
   verify::Case taken = proposal;
@@ -318,7 +306,7 @@ std::unique_ptr<CaseRunner::Values> CaseRunner::attempt(const verify::Case& prop
     const Selected found = selectedIn(values->posted->file.programs.front(), *inputs_->sourceControl);
     if (found.system || found.toolOffset) {
       selects_ = true;
-      return attempt(proposal);
+      return attemptAsIs(proposal);
     }
   }
   if (values->path) refusal_ = whyNotMeasured(*values);
@@ -330,6 +318,7 @@ std::optional<verify::Case> CaseRunner::draw(std::uint64_t index) {
   for (std::uint32_t tries = 0; tries < kAttempts; ++tries) {
     verify::Case proposal = draws_->propose(index, tries);
     if (options_.activeSystem) proposal.system = *options_.activeSystem;
+    proposal.callers = plan_.translation && (index < kCallerCases || options_.replay);
     if (options_.partError) {
       const auto& [x, y, z, turn] = *options_.partError;
       proposal.error = {{x, y, z}, turn};
@@ -481,6 +470,9 @@ bool CaseRunner::readPosted(Values& values) {
   for (const compost::PostedLine& line : values.lines)
     text += line.text + "\n";
   text += "M30\n";
+  values.losesDigits =
+      std::any_of(session_.diagnostics().all().begin(), session_.diagnostics().all().end(),
+                  [](const Diagnostic& one) { return one.code == diag::LostDecimals::code; });
   auto posted = std::make_unique<Posted>();
   Diagnostics found;
   auto file =
@@ -491,8 +483,12 @@ bool CaseRunner::readPosted(Values& values) {
   }
   posted->file = std::move(*file);
   const ir::Program& program = posted->file.programs.front();
-  values.spindleOff = spindleOffIn(program, *inputs_->sourceControl);
+  values.spindleOff = blockWith(program, *inputs_->sourceControl, stdlib::Function::SpindleOff);
+  posted->stopsSpindle = values.spindleOff.has_value();
+  posted->stopsCoolant =
+      blockWith(program, *inputs_->sourceControl, stdlib::Function::CoolantOff).has_value();
   posted->stores = storesOf(posted->file.programs);
+  if (sourceSet_ == nullptr && plan_.findsMacros) findMacros(program);
   posted->code = sim::compile({&program}, *inputs_->sourceControl, posted->sources);
   values.posted = std::move(posted);
   return true;
@@ -505,8 +501,8 @@ verify::Record CaseRunner::runPosted(const Values& values, sim::World& world, bo
     meaning.emplace(*sourceSet_, *inputs_->sourceControl);
     meaning->setStylusRadius(values.drawn.hosts.at("tool_radius"));
   }
-  return sourceStand_->run(values.posted->code, world, entryFor(plan_, values.drawn, probeOn),
-                           values.posted->stores, meaning ? &*meaning : nullptr, way);
+  return sourceStand_->run(values.posted->code, world, entryOf(values, probeOn), values.posted->stores,
+                           meaning ? &*meaning : nullptr, way);
 }
 
 // What the source measures, whatever the part: surfaces that the probe cannot get at by its own axes are out
@@ -515,7 +511,7 @@ std::string CaseRunner::whyNotMeasured(Values& values) {
   sim::World nothing(*values.part, probeFor(plan_, values.drawn));
   values.rehearsal = runPosted(values, nothing, true, verify::Stand::Way::Rehearse);
   for (const verify::Measure& measure : values.rehearsal->measures) {
-    if (measure.nominal.empty()) return "a measure has no path to its surface";
+    if (measure.nominal.empty() && !measure.aim) return "a measure has no path to its surface";
     for (const verify::Touch& touch : measure.nominal)
       if (touch.direction.z > 0) return "a measure leads upward, where the stylus touches nothing";
   }

@@ -56,10 +56,13 @@ public:
 private:
   struct Posted; // the posted program of one case
   struct Values; // of one case, after the checks
+  class Questions;
   std::unique_ptr<Values> check(const verify::Case& drawn, bool settle);
   verify::Case settled(verify::Case drawn);
   void takeSelected(verify::Case& drawn, bool others);
+  verify::Case coarser(verify::Case drawn, double unit) const;
   std::unique_ptr<Values> attempt(const verify::Case& proposal);
+  std::unique_ptr<Values> attemptAsIs(const verify::Case& proposal);
   void takeValues(verify::Case& drawn) const;
   bool knowsValues();
   void roundHosts(verify::Case& drawn) const;
@@ -72,11 +75,12 @@ private:
   sim::Point3 zeroOf(const verify::Case& drawn) const;
   bool post(Values& values);
   bool readPosted(Values& values);
+  void findMacros(const ir::Program& program);
+  verify::Entry entryOf(const Values& values, bool probeOn) const;
   verify::Record runPosted(const Values& values, sim::World& world, bool probeOn,
                            verify::Stand::Way way) const;
   std::string whyNotMeasured(Values& values);
-  TargetRun runTarget(const Values& values, sim::World& world, bool probeOn,
-                      const verify::Record* source) const;
+  TargetRun runTarget(const Values& values, sim::World& world, bool probeOn, const verify::Record* source);
   void addFinding(CaseResult& result, const verify::Difference& difference, const Values& values) const;
   void noteEndless(const verify::Case& drawn);
   void noteStopped(const TargetRun& ran, const verify::Case& drawn);
@@ -100,7 +104,8 @@ private:
   bool unreadable_ = false; // the path cannot be run, whatever is drawn
   std::optional<bool>
       selects_; // the post selects a work system or a tool offset by itself; nothing: not known
-  std::unique_ptr<Values> drawn_; // of draw(), for the next run()
+  std::unique_ptr<Values> drawn_;      // of draw(), for the next run()
+  std::map<std::string, bool> moving_; // fields of which Questions knows whether they move something
 
   const stdlib::MacroSet* sourceSet_ = nullptr;
   std::optional<verify::Stand> sourceStand_;

@@ -12,6 +12,7 @@ struct CaseRunner::Posted {
   ir::ProgramFile file;
   sim::Bytecode code;
   std::set<std::uint32_t> stores;
+  bool stopsSpindle = false, stopsCoolant = false; // by codes of its own
 };
 
 struct CaseRunner::Values {
@@ -24,8 +25,29 @@ struct CaseRunner::Values {
   SourceRange rejectedAt;
   std::vector<frontend::compost::PostedLine> lines;
   std::optional<SourceRange> spindleOff; // the first block that stops the spindle, as posted
+  bool losesDigits = false;              // the post prints fewer digits of a value than it has
   std::unique_ptr<Posted> posted;
   std::optional<verify::Record> rehearsal;
+  std::optional<std::uint64_t> caller = {}; // whose caller it has; nothing: one of its own values
+};
+
+// Runs of the source beside those of one case. What it learns of the fields is kept for the next.
+class CaseRunner::Questions final : public SourceQuestions {
+public:
+  // All outlive it; `world` holds the part of the case.
+  Questions(CaseRunner& runner, const Values& values, sim::World& world, bool probeOn)
+      : runner_(runner), values_(values), world_(world), probeOn_(probeOn) {}
+  Ran with(const std::string& field, double value) override;
+  bool moves(const std::string& field) override;
+
+private:
+  bool setsActive(const std::string& field, double value) const;
+  Ran play(const std::string& field, double value, verify::Stand::Way way);
+
+  CaseRunner& runner_;
+  const Values& values_;
+  sim::World& world_;
+  const bool probeOn_;
 };
 
 } // namespace dotek::targets

@@ -12,16 +12,24 @@ namespace dotek::targets {
 namespace compost = frontend::compost;
 
 TargetRun CaseRunner::runTarget(const Values& values, sim::World& world, bool probeOn,
-                                const verify::Record* source) const {
-  const verify::Entry entry = entryFor(plan_, values.drawn, probeOn);
+                                const verify::Record* source) {
+  const verify::Entry entry = entryOf(values, probeOn);
   const std::set<std::uint32_t> none;
-  TargetCase now{values.drawn, entry,  values.posted ? values.posted->stores : none,
-                 world,        source, nullptr,
-                 false,        {},     {}};
+  TargetCase now{.drawn = values.drawn,
+                 .entry = entry,
+                 .stores = values.posted ? values.posted->stores : none,
+                 .world = world,
+                 .source = source,
+                 .stream = callerStream(values.drawn)};
   if (routine_ == nullptr && values.path) now.path = &*values.path;
   now.rejected = values.rejected;
+  now.rejection = values.rejection;
   now.inItsDatums = [&] { return runPosted(values, world, probeOn, verify::Stand::Way::MovePath); };
   now.sourceOf = [&](SourceRange posted) { return sourceOf(posted, values); };
+  now.lines = values.lines;
+  if (values.posted) now.posted = &values.posted->file.programs.front();
+  Questions questions(*this, values, world, probeOn);
+  if (values.drawn.callers) now.questions = &questions;
   return target_->run(now);
 }
 
@@ -84,6 +92,11 @@ CaseResult CaseRunner::run(const verify::Case& drawn) {
     if (!values->posted && !readPosted(*values)) {
       result.verdict = CaseVerdict::NoProgram;
       result.why = refusal_;
+      return result;
+    }
+    if (drawn.edge && values->losesDigits) {
+      result.verdict = CaseVerdict::NoProgram;
+      result.why = "the post prints fewer digits than these values have";
       return result;
     }
     source = runPosted(*values, world, probeOn, verify::Stand::Way::Run);

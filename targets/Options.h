@@ -79,6 +79,9 @@ struct VerifyOptions : TranslationOptions {
   double tolerance = 1e-6; // mm
   std::uint32_t jobs = 0;  // 0: one for each processor
   NamedTexts variables;    // --var N=VALUE, of programs: not drawn
+  // Of what convert wrote: --default and --defaults use.
+  NamedTexts defaults;
+  bool useDefaults = false;
   // What convert wrote; nullptr: verify converts the input itself.
   std::shared_ptr<const ConvertedInput> converted;
   // Of a replay: values of fields and host inputs, which the translation gets as arguments like drawn ones.

@@ -1,5 +1,10 @@
 #include "targets/Stage.h"
 
+#include "verify/Random.h"
+
+#include <bit>
+#include <cmath>
+
 namespace dotek::targets {
 
 namespace {
@@ -30,6 +35,14 @@ sim::Probe probeFor(const VerifyPlan& plan, const verify::Case& drawn) {
   return probe;
 }
 
+std::uint64_t callerStream(const verify::Case& drawn) {
+  std::uint64_t out = drawn.system;
+  for (const auto* values : {&drawn.values, &drawn.hosts})
+    for (const auto& [name, value] : *values)
+      out = verify::Random::sub(out, std::bit_cast<std::uint64_t>(value + 0.0));
+  return out;
+}
+
 verify::Entry entryFor(const VerifyPlan& plan, const verify::Case& drawn, bool probeOn) {
   verify::Entry entry;
   const auto host = [&](const char* name) {
@@ -53,6 +66,21 @@ verify::Entry entryFor(const VerifyPlan& plan, const verify::Case& drawn, bool p
       one = one + sim::Point3{middle[0], middle[1], middle[2]};
   }
   return entry;
+}
+
+std::optional<SourceRange> blockWith(const ir::Program& program, const stdlib::Control& control,
+                                     stdlib::Function function) {
+  for (const ir::ProgramStatement& statement : program.body) {
+    const auto* block = std::get_if<ir::NcBlock>(&statement.node);
+    if (block == nullptr) continue;
+    for (const ir::Word& word : block->words) {
+      const double* code = word.address == 'M' ? ir::constantValue(word.value) : nullptr;
+      const stdlib::CodeInfo* info =
+          code == nullptr ? nullptr : control.find('M', static_cast<std::uint32_t>(std::lround(*code * 10)));
+      if (info != nullptr && info->function == function) return statement.origin.range();
+    }
+  }
+  return std::nullopt;
 }
 
 sim::Part emptyPart(const sim::Point3& middle) {

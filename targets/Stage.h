@@ -1,6 +1,7 @@
 // The stage on which both sides of a case run.
 #pragma once
 
+#include "ir/Program.h"
 #include "stdlib/Control.h"
 #include "targets/Subject.h"
 
@@ -8,7 +9,12 @@ namespace dotek::targets {
 
 // A calibrated probe with the ball of the case, as exact as its signal; off.
 sim::Probe probeFor(const VerifyPlan& plan, const verify::Case& drawn);
+// The same for the same values and host inputs: what is drawn of the caller by it comes again in a replay.
+std::uint64_t callerStream(const verify::Case& drawn);
 verify::Entry entryFor(const VerifyPlan& plan, const verify::Case& drawn, bool probeOn);
+// The first block of the program with an M code of this function.
+std::optional<SourceRange> blockWith(const ir::Program& program, const stdlib::Control& control,
+                                     stdlib::Function function);
 // Nothing that a probe could meet.
 sim::Part emptyPart(const sim::Point3& middle);
 // A run that was recorded with its moves, in the part that it met. `empty`: there is none to be seen.

@@ -7,6 +7,7 @@
 #include "sim/geometry/Probe.h"
 #include "sim/picture/Picture.h"
 #include "targets/Options.h"
+#include "verify/Bounds.h"
 #include "verify/Compare.h"
 #include "verify/Draw.h"
 #include "verify/Stand.h"
@@ -39,9 +40,11 @@ struct Translation {
 struct VerifyPlan {
   std::vector<verify::DrawField> fields; // of a cycle
   std::map<std::string, double> fixedHosts;
-  std::map<std::string, int> hostDecimals; // of host inputs that the post prints
-  std::string sourceMacros, targetMacros;  // names of sets; "": none
-  std::optional<Translation> translation;  // nothing: the path is compared with the posted program
+  std::shared_ptr<const verify::Bounds> bounds; // of the checks; nullptr: not known
+  std::map<std::string, int> hostDecimals;      // of host inputs that the post prints
+  std::string sourceMacros, targetMacros;       // names of sets; "": none
+  bool findsMacros = false; // the source's set, where it is "", is that which the posted program calls
+  std::optional<Translation> translation; // nothing: the path is compared with the posted program
   std::optional<sim::MachineFile> machine;
   std::optional<sim::Part> part; // of --part; nothing: made from the path of each case
   bool programs = false;         // macro B against its conversion: fields are variables by number

@@ -1,6 +1,8 @@
 // How a target runs its text on the cases of `verify` and compares it with the source.
 #pragma once
 
+#include "frontend/compost/Post.h"
+#include "ir/Program.h"
 #include "project/CycleFolder.h"
 #include "project/Lowering.h"
 #include "project/Session.h"
@@ -13,11 +15,27 @@
 #include <cstdint>
 #include <functional>
 #include <set>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
 namespace dotek::targets {
+
+// What the source does with other values of the case at hand, in the same part: by it a translation that is
+// called with arguments is held to the contract of docs/convert.md.
+class SourceQuestions {
+public:
+  virtual ~SourceQuestions() = default;
+  enum class Answer : std::uint8_t { Runs, Rejected, None }; // by the dialog; None: nothing can be run
+  struct Ran {
+    Answer answer = Answer::None;
+    verify::Record record; // of Runs
+  };
+  virtual Ran with(const std::string& field, double value) = 0;
+  // Some value of the field makes the path, or what is measured, another one.
+  virtual bool moves(const std::string& field) = 0;
+};
 
 // One case as a translation sees it.
 struct TargetCase {
@@ -29,11 +47,18 @@ struct TargetCase {
   const verify::Record* source = nullptr;
   // Without a Prog: what is compared instead; nullptr: there is one, or the macro draws nothing.
   const verify::DrawnPath* path = nullptr;
-  bool rejected = false; // by the dialog
+  bool rejected = false;           // by the dialog
+  std::string_view rejection = {}; // what it says then
   // What the source does where each datum that it sets moves the path that follows, as it does in the target.
-  std::function<verify::Record()> inItsDatums;
+  std::function<verify::Record()> inItsDatums = {};
   // Where the source says what its record shows at a place of the posted program.
-  std::function<SourceRange(SourceRange)> sourceOf;
+  std::function<SourceRange(SourceRange)> sourceOf = {};
+  // Callers who break what the translation demands are looked at, too. nullptr: not in this case.
+  SourceQuestions* questions = nullptr;
+  const ir::Program* posted = nullptr;                       // nullptr: there is no Prog
+  std::span<const frontend::compost::PostedLine> lines = {}; // as the Prog prints them, with its N numbers
+  // A number that is the same for the same values, for what the caller has in force.
+  std::uint64_t stream = 0;
 };
 
 // A difference, and the line of the translation that shows it: by number where the plan holds its text, as

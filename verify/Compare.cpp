@@ -16,7 +16,8 @@ namespace {
 
 using sim::Point3;
 
-constexpr int kShown = 6; // decimals
+constexpr int kShown = 6;                 // decimals
+constexpr double kPrintedHalf = 0.000501; // of the last place of a word, mm
 
 std::string_view switchName(Switch state) {
   switch (state) {
@@ -57,6 +58,7 @@ public:
     path();
     measures();
     faults();
+    early();
     zeros();
     tools();
     stores();
@@ -129,7 +131,7 @@ private:
   std::vector<Piece> pieces(const Record& record) const {
     std::vector<Piece> out = record.pieces;
     for (Piece& piece : out)
-      if (rules_.atMeasures) piece.with = {}, piece.feed.reset();
+      if (rules_.atMeasures) piece.with = {}, piece.modes = {}, piece.feed.reset();
     return out;
   }
 
@@ -160,6 +162,19 @@ private:
       }
       state(a[i].with, b[i].with, "", a[i].range, b[i].range);
       feed(a[i], b[i]);
+      underModes(a[i], b[i]);
+    }
+  }
+
+  // A macro of the vendor counts on them, and a feed means another speed.
+  void underModes(const Piece& a, const Piece& b) {
+    for (std::size_t i = 0; i < a.modes.size(); ++i) {
+      if (a.modes[i] == b.modes[i] || a.modes[i] == 0 || b.modes[i] == 0) continue;
+      if (i == 1 && a.kind == sim::PathKind::Rapid) continue;
+      add(Aspect::Modal,
+          fmt::format("a {} move under G{} against G{}", pathKindName(a.kind), numberText(a.modes[i] / 10.0),
+                      numberText(b.modes[i] / 10.0)),
+          a.range, b.range);
     }
   }
 
@@ -208,6 +223,7 @@ private:
         return;
       }
       nominal(a[i], b[i]);
+      if (!rules_.atMeasures) options(a[i], b[i]);
       contacts(a[i], b[i]);
       if (rules_.atMeasures) settled(a[i], b[i]);
       if (rules_.atMeasures) datums(a[i], b[i]);
@@ -235,6 +251,48 @@ private:
     }
   }
 
+  // How a measure is made; of another vendor's macro how far it searches, where the source says so.
+  void options(const Measure& a, const Measure& b) {
+    const auto shown = [](const Measure& measure, stdlib::ArgumentRole role) {
+      const auto found = measure.options.find(role);
+      return found == measure.options.end() ? "nothing" : numberText(found->second);
+    };
+    std::set<stdlib::ArgumentRole> roles;
+    for (const Measure* one : {&a, &b})
+      for (const auto& [role, value] : one->options)
+        if (rules_.sameAlarmNumbers || role == stdlib::ArgumentRole::Overtravel) roles.insert(role);
+    for (const stdlib::ArgumentRole role : roles) {
+      const auto one = a.options.find(role), other = b.options.find(role);
+      if (one != a.options.end() && other != b.options.end() &&
+          std::abs(one->second - other->second) <= rules_.results)
+        continue;
+      if (role == stdlib::ArgumentRole::Overtravel && one == a.options.end() && rules_.overtravel &&
+          std::abs(other->second - *rules_.overtravel) <= kPrintedHalf)
+        continue;
+      add(Aspect::Nominal,
+          fmt::format("{} {} against {}", stdlib::roleName(role), shown(a, role), shown(b, role)), a.range,
+          b.range);
+      return;
+    }
+  }
+
+  // The control reads ahead: without a block that waits it reads an earlier position, or moves what is still
+  // to be moved to.
+  void early() {
+    if (!rules_.waits) return;
+    for (const EarlyUse& use : target_.early) {
+      const bool known = std::any_of(source_.early.begin(), source_.early.end(), [&](const EarlyUse& one) {
+        return one.write == use.write &&
+               (rules_.samePlace ? rules_.samePlace(one.range, use.range) : one.number == use.number);
+      });
+      if (known) continue;
+      add(use.write ? Aspect::Offset : Aspect::Variable,
+          fmt::format("nothing against #{}, which is {} before the motion before it has ended", use.number,
+                      use.write ? "written" : "read"),
+          {}, use.range);
+    }
+  }
+
   void contacts(const Measure& a, const Measure& b) {
     if (a.contacts.size() != b.contacts.size()) {
       add(Aspect::Contact, fmt::format("{} contacts against {}", a.contacts.size(), b.contacts.size()),
@@ -257,6 +315,9 @@ private:
     const auto flows = [](const Surroundings& with) {
       return with.coolant != sim::Machine::Coolant::NotSwitched && with.coolant != sim::Machine::Coolant::Off;
     };
+    // What the caller has left on and the source goes on with, the target may have switched off already.
+    if (a.with.spindle != 0 && a.with.spindle == source_.before.spindle) one.spindle = other.spindle;
+    if (flows(a.with) && a.with.coolant == source_.before.coolant) one.coolant = other.coolant;
     const bool switched = b.with.coolant != sim::Machine::Coolant::NotSwitched;
     if (a.with.coolant == sim::Machine::Coolant::NotSwitched || (switched && flows(a.with) == flows(b.with)))
       one.coolant = other.coolant;

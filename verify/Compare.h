@@ -48,8 +48,11 @@ struct CompareRules {
   // alone, coolant only where the source has switched it. Each measure sets the same axes, of whatever
   // system.
   bool atMeasures = false;
-  bool toolParts = false;        // geometry and wear of a tool offset count each, else their sum
-  bool sameAlarmNumbers = false; // both call the same macros: numbers and texts count, not only their kind
+  bool toolParts = false;           // geometry and wear of a tool offset count each, else their sum
+  bool sameAlarmNumbers = false;    // both call the same macros: numbers and texts count, not only their kind
+  std::optional<double> overtravel; // that the target's calls may state where the source states none, mm
+  bool waits = false; // the target's control knows a code that waits: it uses nothing early that the source
+                      // does not
 };
 
 // The first difference of each aspect, in the order of the aspects. After a different ending only that is

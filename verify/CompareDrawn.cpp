@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <set>
 
 namespace dotek::verify {
 
@@ -42,6 +43,31 @@ std::vector<Piece> withoutTouches(const DrawnPath& path, const Point3& offset) {
   return out;
 }
 
+// Of the ball, as the touches along X and Y show it.
+double radiusOf(const DrawnPath& path) {
+  for (const DrawnTouch& one : path.touches)
+    if (one.touch.direction.z == 0) return one.touch.point.z - path.points[one.move].z;
+  return 0;
+}
+
+// A bare skip move expects its surface where it ends.
+std::vector<Touch> nominalOf(const Measure& measure, double radius) {
+  if (!measure.nominal.empty() || !measure.aim) return measure.nominal;
+  const Point3 way = *measure.aim - measure.start;
+  if (!(way.length() > 0)) return {};
+  Touch out{*measure.aim, way * (1 / way.length())};
+  if (out.direction.z == 0) out.point = out.point + out.direction * radius + Point3{0, 0, radius};
+  return {out};
+}
+
+// A travel that goes on beyond the surface finds it.
+bool isOnTheWay(const Touch& wanted, const Point3& surface, double tolerance) {
+  constexpr double kMostBeyond = 12; // mm, as parts are made for
+  const Point3 beyond = wanted.point - surface;
+  const double along = beyond.dot(wanted.direction);
+  return along >= -tolerance && along <= kMostBeyond && near(beyond, wanted.direction * along, tolerance);
+}
+
 } // namespace
 
 std::vector<Difference> compare(const DrawnPath& path, const Point3& offset, const Record& program,
@@ -53,30 +79,39 @@ std::vector<Difference> compare(const DrawnPath& path, const Point3& offset, con
     if (!there) out.push_back({aspect, std::move(text), source, target});
   };
   // Contacts: of one measure in any order.
+  const double radius = radiusOf(path);
   std::size_t next = 0;
-  for (const Measure& measure : program.measures) {
-    std::vector<bool> used(measure.nominal.size(), false);
-    for (std::size_t n = 0; n < measure.nominal.size(); ++n, ++next) {
+  std::set<std::size_t> again; // measures of the surface that the one before has found
+  for (std::size_t m = 0; m < program.measures.size(); ++m) {
+    const Measure& measure = program.measures[m];
+    const std::vector<Touch> nominal = nominalOf(measure, radius);
+    const auto meets = [&](const Touch& wanted, const Touch& drawn) {
+      return near(wanted.direction, drawn.direction, 1e-9) &&
+             (near(wanted.point, drawn.point + offset, tolerance) ||
+              (measure.travels && isOnTheWay(wanted, drawn.point + offset, tolerance)));
+    };
+    if (measure.travels && nominal.size() == 1 && next > 0 &&
+        !(next < path.touches.size() && meets(nominal[0], path.touches[next].touch)) &&
+        meets(nominal[0], path.touches[next - 1].touch)) {
+      again.insert(m);
+      continue;
+    }
+    std::vector<bool> used(nominal.size(), false);
+    for (std::size_t n = 0; n < nominal.size(); ++n, ++next) {
       if (next >= path.touches.size()) {
         add(Aspect::Nominal,
-            fmt::format("the path touches nothing more against a surface at {}",
-                        textOf(measure.nominal[n].point)),
+            fmt::format("the path touches nothing more against a surface at {}", textOf(nominal[n].point)),
             path.ranges.empty() ? SourceRange{} : path.ranges.back(), measure.range);
         break;
       }
       const Touch& drawn = path.touches[next].touch;
-      const Point3 point = drawn.point + offset;
-      const auto fits = [&](std::size_t i) {
-        return !used[i] && near(measure.nominal[i].point, point, tolerance) &&
-               near(measure.nominal[i].direction, drawn.direction, 1e-9);
-      };
       std::size_t i = 0;
-      while (i < used.size() && !fits(i))
+      while (i < used.size() && (used[i] || !meets(nominal[i], drawn)))
         ++i;
       if (i == used.size()) {
         add(Aspect::Nominal,
-            fmt::format("the path touches a surface at {} against {}", textOf(point),
-                        textOf(measure.nominal[n].point)),
+            fmt::format("the path touches a surface at {} against {}", textOf(drawn.point + offset),
+                        textOf(nominal[n].point)),
             path.touches[next].range, measure.range);
         break;
       }
@@ -93,8 +128,16 @@ std::vector<Difference> compare(const DrawnPath& path, const Point3& offset, con
   if (program.ending != Ending::Finished) return out;
   const std::vector<Piece> a = straight(withoutTouches(path, offset), false, tolerance);
   std::vector<Piece> moves;
-  for (const Piece& piece : program.pieces)
-    if (piece.kind != sim::PathKind::Measuring) moves.push_back(piece);
+  std::size_t found = 0; // moves before the last measure
+  std::size_t measures = 0;
+  for (const Piece& piece : program.pieces) {
+    if (piece.kind != sim::PathKind::Measuring) {
+      moves.push_back(piece);
+      continue;
+    }
+    if (again.contains(measures++)) moves.resize(found); // what lies between two touches of one surface
+    found = moves.size();
+  }
   const std::vector<Piece> b = straight(moves, false, tolerance);
   for (std::size_t i = 0; i < std::max(a.size(), b.size()); ++i) {
     if (i < a.size() && i < b.size() && near(a[i].to, b[i].to, tolerance)) continue;

@@ -1,5 +1,6 @@
 #include "verify/Draw.h"
 
+#include "verify/Bounds.h"
 #include "verify/Random.h"
 
 #include <algorithm>
@@ -140,8 +141,10 @@ double hostValue(const std::string& name, Random& random) {
 } // namespace
 
 Draws::Draws(std::vector<DrawField> fields, std::vector<std::string> hosts,
-             std::map<std::string, double> fixedHosts, std::uint64_t seed)
-    : fields_(std::move(fields)), hosts_(std::move(hosts)), fixedHosts_(std::move(fixedHosts)), seed_(seed) {
+             std::map<std::string, double> fixedHosts, std::uint64_t seed,
+             std::shared_ptr<const Bounds> bounds)
+    : fields_(std::move(fields)), hosts_(std::move(hosts)), fixedHosts_(std::move(fixedHosts)), seed_(seed),
+      bounds_(std::move(bounds)) {
   for (std::size_t n = 0; n < fields_.size(); ++n)
     fieldNames_.push_back({n, Random::hash(fields_[n].name)});
   std::sort(fieldNames_.begin(), fieldNames_.end(),
@@ -152,6 +155,7 @@ Draws::Draws(std::vector<DrawField> fields, std::vector<std::string> hosts,
   for (std::size_t n = 0; n < hosts_.size(); ++n)
     hostNames_.push_back({n, Random::hash(hosts_[n])});
 
+  edges_ = boundEdges();
   // One of each field after the other, so that few cases see many fields.
   std::vector<std::vector<Edge>> each;
   std::size_t most = 0;
@@ -171,7 +175,9 @@ bool Draws::isDrawn(const char* host) const {
 
 double Draws::value(const DrawField& field, bool near, std::uint32_t attempt, Random& random) const {
   if (field.fixed) return *field.fixed;
-  if (field.kind == Kind::WorkOffset) return static_cast<double>(random.whole(kFirstSystem, kLastSystem));
+  if (field.kind == Kind::WorkOffset)
+    return field.firstSystem + static_cast<double>(random.whole(0, kLastSystem - kFirstSystem));
+  if (!field.choices.empty()) return field.choices[random.below(field.choices.size())];
   if (field.initial && random.chance(keeps(attempt))) return rounded(*field.initial, field.decimals);
   switch (field.kind) {
   case Kind::Flag: return static_cast<double>(random.whole(0, 1));
@@ -199,7 +205,7 @@ void Draws::drawSystem(Case& drawn, Random& random) const {
   for (std::uint32_t n = 0; n < 6; ++n) {
     drawn.system = kFirstSystem + (first + n) % 6;
     const bool taken = std::any_of(fields_.begin(), fields_.end(), [&](const DrawField& field) {
-      return field.kind == Kind::WorkOffset && drawn.values.at(field.name) == drawn.system;
+      return field.kind == Kind::WorkOffset && field.systemOf(drawn.values.at(field.name)) == drawn.system;
     });
     if (!taken) return;
   }
@@ -306,15 +312,16 @@ std::vector<Draws::Edge> Draws::edgesOf(std::size_t index) const {
     if (!known) out.push_back({index, Means::Value, value, 0});
   };
   if (field.kind == Kind::WorkOffset) {
-    out.push_back({index, Means::System, kFirstSystem, 0});
-    add(kFirstSystem - 1);
-    add(kLastSystem + 1);
-    if (field.decimals > 0) add(kFirstSystem + 0.5);
+    const double first = field.firstSystem, last = first + kLastSystem - kFirstSystem;
+    out.push_back({index, Means::System, first, 0});
+    add(first - 1);
+    add(last + 1);
+    if (field.decimals > 0) add(first + 0.5);
     add(0);
-    out.push_back({index, Means::System, kLastSystem, 0});
-    add(-static_cast<double>(kFirstSystem));
-    add(kFirstSystem - step);
-    add(kLastSystem + step);
+    out.push_back({index, Means::System, last, 0});
+    add(-first);
+    add(first - step);
+    add(last + step);
     add(largest);
     return out;
   }
@@ -350,6 +357,21 @@ std::vector<Draws::Edge> Draws::edgesOf(std::size_t index) const {
   return out;
 }
 
+// Each comparison that some proposals meet: there, and one step to each side.
+std::vector<Draws::Edge> Draws::boundEdges() const {
+  std::vector<Edge> out;
+  if (bounds_ == nullptr) return out;
+  constexpr std::uint32_t kSamples = 12;
+  std::vector<Case> samples;
+  for (std::uint32_t n = 0; n < kSamples; ++n)
+    samples.push_back(propose(n, 1000));
+  const std::vector<Bound> bounds = bounds_->find(fields_, samples, isDrawn("tool_radius"));
+  for (const int steps : {0, -1, 1})
+    for (const Bound& bound : bounds)
+      out.push_back({bound.field, Edge::Means::Bound, 0, steps, bound.comparison});
+  return out;
+}
+
 void Draws::apply(const Edge& edge, Case& drawn) const {
   const DrawField& field = fields_[edge.field];
   double& value = drawn.values[field.name];
@@ -357,7 +379,12 @@ void Draws::apply(const Edge& edge, Case& drawn) const {
   case Edge::Means::Value: value = edge.value; return;
   case Edge::Means::System:
     value = edge.value;
-    drawn.system = static_cast<std::uint32_t>(edge.value);
+    drawn.system = field.systemOf(edge.value);
+    return;
+  case Edge::Means::Bound:
+    if (const auto met = bounds_->meet({edge.comparison, edge.field}, fields_, drawn, isDrawn("tool_radius")))
+      drawn = *met;
+    drawn.values[field.name] = rounded(drawn.values[field.name] + edge.steps * stepOf(field), field.decimals);
     return;
   case Edge::Means::Radius: {
     const auto radius = drawn.hosts.find("tool_radius");

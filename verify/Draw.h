@@ -7,12 +7,14 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace dotek::verify {
 
+class Bounds;
 class Random;
 
 // A parameter of the cycle.
@@ -22,7 +24,15 @@ struct DrawField {
   std::optional<double> initial;  // of DefineData.txt
   int decimals = 3;               // that the field's picture prints; 0 to 9
   std::vector<double> thresholds; // constants that the checks compare it with
+  std::vector<double> choices;    // that the dialog offers; empty: any number
+  double firstSystem = 54;        // of a work offset: the number that is G54
   std::optional<double> fixed;    // by --set or the job: always this
+
+  // Of a work offset the G code that the value is: 54 to 59; 0: none of them.
+  std::uint32_t systemOf(double value) const {
+    const double code = value - firstSystem + 54;
+    return code >= 54 && code <= 59 ? static_cast<std::uint32_t>(code) : 0;
+  }
 };
 
 struct Case {
@@ -32,6 +42,7 @@ struct Case {
   std::uint32_t toolOffset = 1;         // that of the probe, in force at entry
   PartError error;
   bool edge = false;        // edge and illegal values
+  bool callers = false;     // it is also called by those who break what the translation demands
   std::uint64_t stream = 0; // seed of what settleHosts() draws
 };
 
@@ -39,7 +50,8 @@ class Draws {
 public:
   // `hosts`: names that are drawn; `fixedHosts`: given ones, which every case has.
   Draws(std::vector<DrawField> fields, std::vector<std::string> hosts,
-        std::map<std::string, double> fixedHosts, std::uint64_t seed);
+        std::map<std::string, double> fixedHosts, std::uint64_t seed,
+        std::shared_ptr<const Bounds> bounds = nullptr);
 
   // The `attempt`-th proposal for case `index`: the same arguments give the same case, whatever ran before.
   // It may be illegal or out of reach; the caller asks for further attempts. What is drawn for a name does
@@ -49,10 +61,10 @@ public:
   // `start_z` above all; they stay where they are fixed or not drawn. Also keeps the part's error so small
   // that the ball finds the surface. The path begins at `start_z`: compute it again afterwards.
   void settleHosts(Case& drawn, const DrawnPath& path) const;
-  // An edge case: values at the thresholds, one step beside them, 0, illegal systems, the largest value that
-  // the picture prints, values at the ball's radius and diameter, the active system as the one that is set.
-  // Each of these comes once for each field, then again beside another one. Its hosts are settled like
-  // others.
+  // An edge case: values at which comparisons of the checks turn, one step beside them, at the thresholds, 0,
+  // illegal systems, the largest value that the picture prints, values at the ball's radius and diameter, the
+  // active system as the one that is set. Each of these comes once for each field, then again beside another
+  // one. Its hosts are settled like others.
   Case edge(std::uint64_t index) const;
 
   const std::vector<DrawField>& fields() const { return fields_; }
@@ -64,13 +76,16 @@ private:
       Value,  // the field gets `value`
       Radius, // the ball's radius times `value`, plus `steps` of the field
       System, // `value`, which is the active system, too
+      Bound,  // where a comparison turns, plus `steps` of the field
     };
     std::size_t field = 0;
     Means means = Means::Value;
     double value = 0;
     int steps = 0;
+    std::size_t comparison = 0; // of a Bound
   };
   std::vector<Edge> edgesOf(std::size_t field) const;
+  std::vector<Edge> boundEdges() const;
   void apply(const Edge& edge, Case& drawn) const;
   double value(const DrawField& field, bool near, std::uint32_t attempt, Random& random) const;
   void drawSystem(Case& drawn, Random& random) const;
@@ -84,6 +99,7 @@ private:
   std::vector<std::string> hosts_;
   std::map<std::string, double> fixedHosts_;
   std::uint64_t seed_;
+  std::shared_ptr<const Bounds> bounds_;     // nullptr: not known
   std::vector<Name> fieldNames_, hostNames_; // in the order of their names
   std::vector<Edge> edges_;
 };

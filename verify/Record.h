@@ -6,6 +6,7 @@
 #include "sim/machine/Machine.h"
 #include "sim/machine/World.h"
 #include "sim/picture/Picture.h"
+#include "stdlib/MacroSet.h"
 #include "support/Source.h"
 
 #include <array>
@@ -37,6 +38,9 @@ struct Piece {
   SourceRange range; // in the program that ran
   // As programmed, for the move itself; nothing: a rapid, or what the control or a macro takes by itself.
   std::optional<double> feed = {};
+  // Codes in force, times ten: of the plane and of the kind of feed; of a call of the distance, too. 0: not
+  // looked at.
+  std::array<std::uint32_t, 3> modes = {};
 };
 
 // Where a surface is expected, or was found. In X and Y the ball's centre is one radius before it, in Z
@@ -57,6 +61,17 @@ struct Measure {
   std::map<std::pair<std::uint32_t, std::uint32_t>, double> datums;
   SourceRange datumRange = {}; // of a bare skip move: the block that set the last of them; none: `range`
   std::optional<sim::Point3> aim = {}; // of a bare skip move: where it ends without contact
+  bool travels = false;                // it looks along a travel, which may lead beyond the surface
+  // Arguments of the call that say neither where a surface is nor what is set: how far it searches, tools,
+  // tolerances, what is printed.
+  std::map<stdlib::ArgumentRole, double> options = {};
+};
+
+// Something that motion changes, or that changes motion, was used while motion before it may not have ended.
+struct EarlyUse {
+  SourceRange range; // of the block
+  std::uint32_t number = 0;
+  bool write = false; // of an offset; else a position was read
 };
 
 // What a program does beside moving, where its control has codes for it.
@@ -98,8 +113,8 @@ struct Record {
   std::map<std::uint32_t, double> stores; // variables that the program itself writes; kNull is a value
   std::string printed;                    // by DPRNT and BPRNT, bytes
   sim::Point3 start, end;
-  Surroundings after;     // what is on at the end
-  bool pathMoved = false; // by a datum (Stand::Way::MovePath)
+  Surroundings before, after; // what is on at entry and at the end
+  bool pathMoved = false;     // by a datum (Stand::Way::MovePath)
   // Bare skip moves of a length that ran, those that look for a surface and those that are to meet nothing,
   // and questions whether the probe is in contact.
   std::size_t searches = 0, protectedMoves = 0, guards = 0;
@@ -108,6 +123,12 @@ struct Record {
   std::optional<std::pair<std::size_t, std::size_t>> disturbed;
   // Modal codes by group, times ten, at entry and at the end.
   std::array<std::uint32_t, 32> modalBefore{}, modalAfter{};
+  double feedBefore = 0, feedAfter = 0; // F in force
+  // At the end the motion code, or F, is what a macro of the vendor has left.
+  bool motionOfMacro = false, feedOfMacro = false;
+  SourceRange lastBlock;               // that ran
+  std::vector<EarlyUse> early;         // each place once
+  bool ownOffsetOfZ = false;           // written by the program, not within a measuring call
   std::vector<sim::PictureMove> moves; // every motion, for pictures; only where asked for
 };
 

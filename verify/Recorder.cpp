@@ -1,5 +1,6 @@
 #include "verify/Recorder.h"
 
+#include "sim/machine/Measurement.h"
 #include "sim/machine/Value.h"
 #include "sim/machine/VendorMacros.h"
 #include "verify/Nominal.h"
@@ -35,7 +36,18 @@ bool same(const sim::ProbeEvent& a, const sim::ProbeEvent& b) {
 
 Recorder::Recorder(sim::Machine& machine, sim::World& world, std::vector<const stdlib::MacroSet*> sets,
                    double toolLength)
-    : machine_(machine), world_(world), sets_(std::move(sets)), length_(toolLength) {}
+    : machine_(machine), world_(world), sets_(std::move(sets)), length_(toolLength) {
+  using stdlib::Function;
+  constexpr Function kModes[] = {Function::PlaneXY, Function::FeedPerMinute, Function::Absolute};
+  for (std::size_t i = 0; i < groups_.size(); ++i)
+    if (const stdlib::CodeInfo* code = machine.control().find(kModes[i]); code != nullptr && code->group)
+      groups_[i] = static_cast<std::uint32_t>(*code->group);
+}
+
+std::array<std::uint32_t, 3> Recorder::modes(bool call) const {
+  const auto code = [&](std::size_t i) { return groups_[i] == 0 ? 0 : machine_.modalCode(groups_[i]); };
+  return {code(0), code(1), call ? code(2) : 0};
+}
 
 sim::Point3 Recorder::lowest(const sim::Position& machine) const {
   return {machine[0], machine[1], machine[2] - length_};
@@ -59,6 +71,8 @@ void Recorder::begin(const sim::Run& run, bool keepMoves) {
   run_ = &run;
   keepMoves_ = keepMoves;
   record_.start = lowest(machine_.machinePosition());
+  record_.before = surroundings();
+  record_.feedBefore = machine_.feed();
   tools_ = machine_.toolTable();
   for (std::uint32_t group = 0; group < record_.modalBefore.size(); ++group)
     record_.modalBefore[group] = machine_.modalCode(group);
@@ -133,7 +147,7 @@ void Recorder::mark(Mark::Kind kind, std::string_view text, double value) {
 
 void Recorder::addPiece(sim::PathKind kind, const sim::Point3& from, const sim::Point3& to,
                         SourceRange range) {
-  Piece piece{kind, from, to, surroundings(), range, std::nullopt};
+  Piece piece{kind, from, to, surroundings(), range, std::nullopt, modes(false)};
   if (kind != sim::PathKind::Rapid) piece.feed = machine_.feed();
   record_.pieces.push_back(std::move(piece));
 }
@@ -178,6 +192,7 @@ void Recorder::moved(const sim::MachineMotion& motion) {
       measure.with = surroundings();
       measure.range = place();
       measure.aim = aim_;
+      measure.travels = true;
       record_.measures.push_back(std::move(measure));
     }
     addPiece(kind, from, to, place());
@@ -195,6 +210,10 @@ void Recorder::moved(const sim::MachineMotion& motion) {
   }
 }
 
+void Recorder::offsetWritten(const sim::OffsetWrite& write) {
+  if (call_.depth == 0 && write.name.ends_with(" Z")) record_.ownOffsetOfZ = true;
+}
+
 void Recorder::callBegins(std::uint32_t program, std::span<const double> locals) {
   if (call_.depth > 0) {
     ++call_.depth;
@@ -207,6 +226,7 @@ void Recorder::callBegins(std::uint32_t program, std::span<const double> locals)
   call_.range = place();
   call_.start = lowest(machine_.machinePosition());
   call_.with = surroundings();
+  call_.modes = modes(true);
   const stdlib::MacroSignature* const signature = signatureOf(**set, program, locals);
   const Intent intent = signature == nullptr ? Intent::Surface : signature->intent;
   call_.moves = intent == Intent::ProtectedMove;
@@ -225,6 +245,7 @@ void Recorder::callBegins(std::uint32_t program, std::span<const double> locals)
   measure.range = call_.range;
   if (signature != nullptr) {
     noteSystem(*signature, locals);
+    noteOptions(*signature, locals, measure);
     const sim::Position& at = machine_.position();
     measure.nominal = nominalTouches(*signature, locals, {at[0], at[1], at[2]}, world_.probe().ballRadius());
     for (Touch& touch : measure.nominal)
@@ -250,6 +271,40 @@ void Recorder::noteSystem(const stdlib::MacroSignature& signature, std::span<con
     call_.names[ir::indexOf(axis)] = given(signature.find(stdlib::ArgumentRole::Nominal, axis)).has_value();
 }
 
+// Roles that the nominal contacts and the datum show already are none.
+void Recorder::noteOptions(const stdlib::MacroSignature& signature, std::span<const double> locals,
+                           Measure& measure) const {
+  using stdlib::ArgumentRole;
+  const auto given = [&](const stdlib::MacroArgument& argument) {
+    const std::uint32_t local = stdlib::localOf(argument.letter);
+    return local < locals.size() && !sim::isNull(locals[local]) && !sim::isUnknown(locals[local]);
+  };
+  for (const stdlib::MacroArgument& argument : signature.arguments) {
+    if (argument.role == ArgumentRole::Target && argument.frame == ir::Frame::Here && given(argument))
+      measure.travels = true;
+    switch (argument.role) {
+    case ArgumentRole::Feed:
+    case ArgumentRole::Overtravel:
+    case ArgumentRole::FlagOnly:
+    case ArgumentRole::Tool:
+    case ArgumentRole::SpareTool:
+    case ArgumentRole::Experience:
+    case ArgumentRole::SizeTolerance:
+    case ArgumentRole::PositionTolerance:
+    case ArgumentRole::AngleTolerance:
+    case ArgumentRole::UpperLimit:
+    case ArgumentRole::NullBand:
+    case ArgumentRole::Feedback:
+    case ArgumentRole::Print:
+    case ArgumentRole::Task:
+    case ArgumentRole::Number:
+    case ArgumentRole::Unstated: break;
+    default: continue;
+    }
+    if (given(argument)) measure.options[argument.role] = locals[stdlib::localOf(argument.letter)];
+  }
+}
+
 void Recorder::endCall() {
   takeEvents();
   const sim::Point3 end = lowest(machine_.machinePosition());
@@ -264,11 +319,11 @@ void Recorder::endCall() {
     }
     if (datumsMovePath_ && machine_.running()) movePath(measure);
     measure.end = lowest(machine_.machinePosition());
-    record_.pieces.push_back(
-        {sim::PathKind::Measuring, call_.start, call_.start, call_.with, call_.range, std::nullopt});
+    record_.pieces.push_back({sim::PathKind::Measuring, call_.start, call_.start, call_.with, call_.range,
+                              std::nullopt, call_.modes});
   } else if (call_.moves) {
     record_.pieces.push_back(
-        {sim::PathKind::Protected, call_.start, end, call_.with, call_.range, call_.feed});
+        {sim::PathKind::Protected, call_.start, end, call_.with, call_.range, call_.feed, call_.modes});
   }
   call_ = {};
 }
@@ -302,6 +357,11 @@ Record Recorder::finish(const std::set<std::uint32_t>& stores) {
   record_.after = surroundings();
   for (std::uint32_t group = 0; group < record_.modalAfter.size(); ++group)
     record_.modalAfter[group] = machine_.modalCode(group);
+  record_.feedAfter = machine_.feed();
+  record_.motionOfMacro = !machine_.knowsMotion();
+  record_.feedOfMacro = !machine_.knowsFeed();
+  record_.lastBlock = place();
+  noteEarlyUses();
   for (std::uint32_t system = 0; system < 6; ++system) {
     const sim::Position zero = machine_.zeroOf(system);
     for (std::uint32_t axis = 0; axis < 3; ++axis)
@@ -320,6 +380,18 @@ Record Recorder::finish(const std::set<std::uint32_t>& stores) {
     if (!sim::isFresh(value)) record_.stores.emplace(number, value);
   }
   return std::move(record_);
+}
+
+// The end point of a block does not wait for the motion to it.
+void Recorder::noteEarlyUses() {
+  if (run_ == nullptr) return;
+  constexpr std::uint32_t kPositions = 20; // variables of one kind
+  const std::optional<int> end = machine_.control().variables.blockEnd;
+  for (const sim::EarlyRead& read : run_->earlyReads())
+    if (!end || read.number - static_cast<std::uint32_t>(*end) >= kPositions)
+      record_.early.push_back({read.range, read.number, false});
+  for (const sim::EarlyRead& write : run_->earlyWrites())
+    record_.early.push_back({write.range, write.number, true});
 }
 
 // What the macros of all sets call the same: no contact, an obstructed path.

@@ -35,6 +35,7 @@ public:
     mark(value ? Mark::Kind::Value : Mark::Kind::Position, file, value.value_or(0));
   }
   bool isThere(const sim::SkipMove& here) override;
+  void offsetWritten(const sim::OffsetWrite& write) override;
   void callBegins(std::uint32_t program, std::span<const double> locals) override;
   void callEnded(std::uint32_t program) override;
   void assumeProbe(Switch probe) { probe_ = probe; }
@@ -56,6 +57,7 @@ private:
   sim::Point3 offset() const; // from the active work system to the machine, without the tool's length
   Surroundings surroundings() const;
   SourceRange place() const;
+  std::array<std::uint32_t, 3> modes(bool call) const;
   void addPiece(sim::PathKind kind, const sim::Point3& from, const sim::Point3& to, SourceRange range);
   void mark(Mark::Kind kind, std::string_view text = "", double value = 0);
   void movePath(const Measure& measure);
@@ -63,6 +65,9 @@ private:
   void disturb(std::size_t pieces); // how many belong to it and are still to come
   void takeEvents();
   void noteSystem(const stdlib::MacroSignature& signature, std::span<const double> locals);
+  void noteOptions(const stdlib::MacroSignature& signature, std::span<const double> locals,
+                   Measure& measure) const;
+  void noteEarlyUses();
   void endCall();
   std::string alarmKindOf(const sim::RunEnd& end) const;
 
@@ -70,6 +75,8 @@ private:
   sim::World& world_;
   std::vector<const stdlib::MacroSet*> sets_;
   const double length_;
+  std::array<std::uint32_t, 3>
+      groups_{}; // modal groups of the plane, the kind of feed, the distance; 0: none
   const sim::Run* run_ = nullptr;
   bool keepMoves_ = false;
   bool rehearsal_ = false;
@@ -92,7 +99,8 @@ private:
     std::array<bool, 3> names{};        // axes whose coordinate it names
     std::array<sim::Position, 6> zeros; // of G54 to G59, of one that measures
     std::optional<double> feed;         // an argument
-    std::vector<sim::Point3> signals;   // centres of the ball where a measuring move was stopped
+    std::array<std::uint32_t, 3> modes{};
+    std::vector<sim::Point3> signals; // centres of the ball where a measuring move was stopped
   } call_;
 };
 

@@ -28,6 +28,8 @@ Stand::Stand(const stdlib::Control& control, std::vector<const stdlib::MacroSet*
     : sets_(std::move(sets)), limits_(limits), fresh_(control, dialect) {}
 
 bool Stand::prepare(sim::Machine& machine, const Entry& entry, double ballRadius, double length) const {
+  machine.startSpindle(entry.spindle);
+  machine.startCoolant(entry.coolant);
   if (machine.dialect().holdsTool) {
     // One active system, and no code that would put a tool or another system in force.
     const sim::Point3& zero = entry.zeros[entry.system - 54];
@@ -55,13 +57,15 @@ bool Stand::prepare(sim::Machine& machine, const Entry& entry, double ballRadius
       machine.preset(number, value);
   }
   const std::string text =
-      fmt::format("G21G17G40G49G80G90G94G{}\nG0X{:.6f}Y{:.6f}\nG43H{}Z{:.6f}\nF{:.1f}\n", entry.system,
-                  entry.start.x, entry.start.y, own, entry.start.z, entry.feed);
+      fmt::format("G21G17G40G49G80G90G94G{}\nG0X{:.6f}Y{:.6f}\nG43H{}Z{:.6f}\nF{:.1f}\n{}", entry.system,
+                  entry.start.x, entry.start.y, own, entry.start.z, entry.feed, entry.blocks);
   LineChunks chunks(text);
   frontend::nc::Scanner scanner(chunks);
   ir::NcWords words;
   while (scanner.next(words) == frontend::nc::Scanner::Result::Block)
     if (!machine.execute(words)) return false;
+  for (const auto& [group, tenths] : entry.modal)
+    machine.presetModal(group, tenths);
   for (const auto& [number, value] : entry.variables)
     machine.preset(number, value);
   return machine.running();
@@ -81,6 +85,7 @@ Record Stand::run(const sim::Bytecode& code, sim::World& world, const Entry& ent
   world.restart(entry.noiseSeed);
   world.setOn(entry.probeOn);
   sim::Run run(machine, code, limits_, meaning);
+  run.expectMotion();
   Recorder recorder(machine, world, sets_, length);
   recorder.assumeProbe(entry.probeOn ? Switch::On : Switch::Off);
   if (way == Way::Rehearse) recorder.rehearse();

@@ -31,7 +31,13 @@ struct Entry {
   std::uint32_t system = 54;
   std::uint32_t toolOffset = 1; // in force: its length is the probe's; 1 where the control has no such number
   std::array<sim::Point3, 6> zeros = standZeros();
-  double feed = 800; // mm/min
+  double feed = 800;        // mm/min
+  std::uint8_t spindle = 0; // 1 clockwise, 2 counterclockwise
+  sim::Machine::Coolant coolant = sim::Machine::Coolant::NotSwitched;
+  // What the caller has put in force besides: blocks of NC, then codes (times ten) by their groups that only
+  // a read of the group sees.
+  std::string blocks;
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> modal;
   bool probeOn = false;
   std::uint64_t noiseSeed = 0;                             // of a probe whose signal is noisy
   std::vector<std::pair<std::uint32_t, double>> variables; // set before: locals, commons

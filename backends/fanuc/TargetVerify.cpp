@@ -5,9 +5,14 @@
 #include "frontend/gibbs/Ast.h"
 #include "sim/machine/Value.h"
 #include "sim/machine/VendorMacros.h"
+#include "support/Decimal.h"
 #include "targets/Stage.h"
+#include "verify/Callers.h"
 
 #include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <cmath>
 #include <cstdlib>
 #include <fmt/format.h>
 #include <optional>
@@ -17,6 +22,33 @@ namespace dotek::targets {
 namespace gibbs = frontend::gibbs;
 
 namespace {
+
+constexpr std::uint32_t kOwnAlarms = 3000; // of programs
+constexpr const char* kSystemAlarm = "WORK OFFSET NOT 54 TO 59";
+
+// Numbers and texts after `before`, "#3000=103(ARGUMENT X MISSING)": the text to the next bracket or line.
+std::vector<std::pair<std::uint32_t, std::string>> alarmsIn(std::string_view text, std::string_view before,
+                                                            char open) {
+  std::vector<std::pair<std::uint32_t, std::string>> out;
+  for (std::size_t at = 0; (at = text.find(before, at)) != std::string_view::npos;) {
+    at += before.size();
+    std::uint32_t number = 0;
+    const auto end = std::from_chars(text.data() + at, text.data() + text.size(), number);
+    const auto begin = static_cast<std::size_t>(end.ptr - text.data());
+    if (end.ec != std::errc() || begin >= text.size() || text[begin] != open) continue;
+    out.emplace_back(number, text.substr(begin + 1, text.find_first_of(")\n", begin + 1) - begin - 1));
+  }
+  return out;
+}
+
+// Letters and digits, in upper case.
+std::string plain(std::string_view text) {
+  std::string out;
+  for (const char c : text)
+    if (std::isalnum(static_cast<unsigned char>(c)) != 0)
+      out += static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+  return out;
+}
 
 // What the program leaves: zeros of the systems in coordinates of the machine, variables.
 void traceResults(const verify::Record& record, sim::Trace& trace) {
@@ -76,21 +108,26 @@ public:
 
   TargetRun run(const TargetCase& now) override {
     TargetRun out;
-    const verify::Record record = runText(now, out.trace);
+    const verify::Entry entry = entryOf(now);
+    const verify::Record record = runText(now, entry, &out.trace);
     if (record.overLimit)
       out.stopped = record.text;
     else if (now.rejected)
-      compareRejection(record, out);
+      compareRejection(record, now, out);
     else if (now.source == nullptr)
       comparePath(now, record, out);
     else
       compareRecords(now, record, out);
+    if (now.questions != nullptr && !now.rejected && out.differences.empty() && out.stopped.empty() &&
+        record.ending == verify::Ending::Finished)
+      callOtherwise(now, entry, record, out);
     return out;
   }
 
 private:
-  verify::Record runText(const TargetCase& now, std::string& trace) {
+  verify::Entry entryOf(const TargetCase& now) const {
     verify::Entry entry = now.entry;
+    entry.blocks = verify::callerModes(control_, now.stream);
     for (const OutputArgument& argument : translation_.arguments) {
       const std::uint32_t local = stdlib::localOf(argument.letter);
       const std::string folded = gibbs::foldCase(argument.name);
@@ -101,14 +138,19 @@ private:
       else if (const auto host = now.drawn.hosts.find(argument.name); host != now.drawn.hosts.end())
         entry.variables.emplace_back(local, host->second);
     }
+    return entry;
+  }
+
+  // `trace`: nullptr: nobody reads it.
+  verify::Record runText(const TargetCase& now, const verify::Entry& entry, std::string* trace) {
     std::optional<sim::VendorMacros> meaning;
     if (set_ != nullptr) {
       meaning.emplace(*set_, control_);
       meaning->setStylusRadius(now.drawn.hosts.at("tool_radius"));
     }
     std::optional<sim::Trace> writer;
-    if (from_.options.traces) {
-      writer.emplace([&](std::string_view lines) { trace += lines; });
+    if (from_.options.traces && trace != nullptr) {
+      writer.emplace([trace](std::string_view lines) { *trace += lines; });
       const sim::Point3& at = entry.start;
       writer->begin("start").word("X", at.x).word("Y", at.y).word("Z", at.z).end();
     }
@@ -116,6 +158,8 @@ private:
     verify::Record record =
         stand_.run(text_.code(), now.world, entry, now.stores, meaning ? &*meaning : nullptr);
     if (writer) traceResults(record, *writer);
+    // What macros do inside is their own business.
+    std::erase_if(record.early, [&](const verify::EarlyUse& use) { return text_.line(use.range) == 0; });
     return record;
   }
 
@@ -127,15 +171,32 @@ private:
   }
 
   // The dialog has rejected the values: the translation raises an alarm, and nothing has moved.
-  void compareRejection(const verify::Record& record, TargetRun& out) const {
+  void compareRejection(const verify::Record& record, const TargetCase& now, TargetRun& out) const {
     const std::uint32_t line = text_.line(record.endedAt);
-    if (record.ending != verify::Ending::Alarm)
+    if (record.ending == verify::Ending::Alarm && record.pieces.empty() && setsSomething(record, now.entry))
+      out.differsAt(verify::Aspect::Ending,
+                    "the dialog rejects the values, and the program sets an offset before its alarm", line);
+    else if (record.ending != verify::Ending::Alarm)
       out.differsAt(verify::Aspect::Ending, "the dialog rejects the values, and the program runs", line);
     else if (!record.pieces.empty())
       out.differsAt(verify::Aspect::Ending,
                     "the dialog rejects the values, and the program moves before its alarm", line);
+    else if (!saysSo(record.text, now.rejection))
+      out.differsAt(verify::Aspect::Ending,
+                    fmt::format("the dialog rejects the values, `{}`, and the program stops with `{}`",
+                                now.rejection, record.text),
+                    line);
     else
       out.refused = true;
+  }
+
+  // The text of an alarm is that of a message, in upper case and cut, or one of the translation's own. What a
+  // message has beside ASCII is written in several ways.
+  static bool saysSo(std::string_view alarm, std::string_view message) {
+    const bool ascii = std::all_of(message.begin(), message.end(),
+                                   [](char c) { return static_cast<unsigned char>(c) < 0x80; });
+    return !ascii || plain(message).find(plain(alarm)) != std::string::npos ||
+           std::string_view(kSystemAlarm).starts_with(alarm);
   }
 
   // Without a Prog: the path and the touches alone.
@@ -145,10 +206,21 @@ private:
                     text_.line(record.endedAt));
     else if (now.path != nullptr)
       add(verify::compare(*now.path, {}, record, from_.options.tolerance), out);
+    if (now.path != nullptr) compareReturn(record, nullptr, out);
   }
 
-  void compareRecords(const TargetCase& now, const verify::Record& record, TargetRun& out) const {
-    const verify::Record& source = *now.source;
+  // It goes back to its caller and leaves him what he had in force.
+  void compareReturn(const verify::Record& record, const verify::Record* source, TargetRun& out) const {
+    if (record.ending != verify::Ending::Finished) return;
+    if (const std::uint32_t line = text_.line(record.lastBlock); line != 0) {
+      out.differsAt(verify::Aspect::Ending, "it ends in place of going back to its caller (M99)", line);
+      return;
+    }
+    const std::string why = verify::whyNotPutBack(control_, record, source);
+    if (!why.empty()) out.differs(verify::Aspect::Modal, why);
+  }
+
+  verify::CompareRules rulesFor(const TargetCase& now, const verify::Record& source) const {
     verify::CompareRules rules;
     rules.results = std::max(from_.options.tolerance, resultTolerance(control_, *from_.inputs.sourceControl));
     // After a write of the system that is active, what follows is as exactly as the control computes.
@@ -157,9 +229,17 @@ private:
     rules.relative = rules.results > from_.options.tolerance ? 2e-7 : 0;
     rules.mayRestoreModes = true;
     rules.sameAlarmNumbers = sourceSet_ == set_;
-    rules.samePlace = [&](SourceRange one, SourceRange other) {
+    const stdlib::CodeInfo* const wait = control_.find(stdlib::Function::MachineCoordinates);
+    rules.waits = wait != nullptr && wait->grade != "assumed";
+    rules.samePlace = [this, &now](SourceRange one, SourceRange other) {
       return translation_.stemsFrom(now.sourceOf(one), text_.line(other), from_.session.sources());
     };
+    return rules;
+  }
+
+  void compareRecords(const TargetCase& now, const verify::Record& record, TargetRun& out) const {
+    const verify::Record& source = *now.source;
+    const verify::CompareRules rules = rulesFor(now, source);
     if (record.ending == verify::Ending::Alarm && record.pieces.empty() &&
         translation_.madeUp(text_.line(record.endedAt))) {
       out.refused = true;
@@ -169,10 +249,208 @@ private:
     // How far another vendor's macro searches is its own business: it may find what the source's does not.
     const bool searches = source.ending == verify::Ending::Alarm &&
                           source.alarmKind == stdlib::macroAlarmName(stdlib::MacroAlarm::ProbeFail);
-    if (sourceSet_ != set_ && searches && !rules.samePlace(source.endedAt, record.endedAt))
+    // So is whether it begins where the ball is already in contact: at an edge the travel is that short.
+    const bool begins = record.alarmKind == stdlib::macroAlarmName(stdlib::MacroAlarm::ProbeOpen);
+    if (sourceSet_ != set_ && now.drawn.edge && begins && source.alarmKind != record.alarmKind) {
+      out.undecided = true;
+      out.why = "the ball touches where a measure begins: " + record.text;
+    } else if (sourceSet_ != set_ && searches && !rules.samePlace(source.endedAt, record.endedAt))
       out.undecided = true;
     else
       add(verify::compare(source, record, rules), out);
+    if (!out.undecided && out.differences.empty()) compareReturn(record, &source, out);
+  }
+
+  // The list in the header says what each alarm is. "" or what is wrong.
+  static std::string whyListsOther(std::string_view program) {
+    const auto listed = alarmsIn(program, "(ALARM ", ' ');
+    if (listed.empty()) return "";
+    for (const auto& [number, alarm] : alarmsIn(program, "#3000=", '(')) {
+      const bool there = std::any_of(listed.begin(), listed.end(), [&](const auto& one) {
+        const std::string text = plain(one.second), own = plain(alarm);
+        return one.first == number && (text.starts_with(own) || own.starts_with(text));
+      });
+      if (!there) return fmt::format("alarm {} `{}` is not in the list of the header", number, alarm);
+    }
+    return "";
+  }
+
+  // ---- callers who break what it demands
+
+  static bool setsSomething(const verify::Record& record, const verify::Entry& entry) {
+    for (std::uint32_t system = 0; system < entry.zeros.size(); ++system) {
+      const double before[] = {entry.zeros[system].x, entry.zeros[system].y, entry.zeros[system].z};
+      for (std::uint32_t axis = 0; axis < 3; ++axis)
+        if (const auto zero = record.zeros.find({54 + system, axis});
+            zero != record.zeros.end() && zero->second != before[axis])
+          return true;
+    }
+    return !record.tools.empty();
+  }
+
+  // An alarm before anything moves or is set; `text`: which one, as far as the control shows it; "": any.
+  static bool stopsAtOnce(const verify::Record& record, const verify::Entry& entry, std::string_view text) {
+    if (record.ending != verify::Ending::Alarm || record.alarm < kOwnAlarms || !record.pieces.empty() ||
+        setsSomething(record, entry))
+      return false;
+    return text.empty() || (!record.text.empty() && text.starts_with(record.text));
+  }
+
+  static std::string didInstead(const verify::Record& record) {
+    switch (record.ending) {
+    case verify::Ending::Finished: return "it runs to its end";
+    case verify::Ending::Inconclusive: return "what it does is not known: " + record.text;
+    case verify::Ending::Alarm: break;
+    }
+    return fmt::format("it {}stops with `{}`", record.pieces.empty() ? "" : "moves, then ", record.text);
+  }
+
+  void differs(const std::string& who, const std::string& wanted, const verify::Record& record,
+               TargetRun& out) const {
+    out.differsAt(verify::Aspect::Ending, fmt::format("called {}: {}; {}", who, wanted, didInstead(record)),
+                  text_.line(record.endedAt));
+  }
+
+  void callOtherwise(const TargetCase& now, const verify::Entry& entry, const verify::Record& ran,
+                     TargetRun& out) {
+    if (const std::string why = whyListsOther(translation_.text); !why.empty())
+      out.differs(verify::Aspect::Ending, why);
+    for (const verify::BrokenCaller& caller : verify::brokenCallers(control_, ran.ownOffsetOfZ)) {
+      if (caller.ofToolLength && loadsTool(now)) continue;
+      verify::Entry broken = entry;
+      broken.blocks = caller.blocks;
+      broken.modal = caller.modal;
+      const verify::Record record = runText(now, broken, nullptr);
+      // A shift moves the start as well, where that is fixed.
+      if (!caller.blocks.empty() && stopsAtOnce(record, broken, "") &&
+          record.text.starts_with("START NOT AT"))
+        continue;
+      if (!stopsAtOnce(record, broken, caller.alarm))
+        differs(caller.who, fmt::format("`{}` has to stop it before anything moves", caller.alarm), record,
+                out);
+    }
+    callInOtherSystem(now, entry, out);
+    for (const OutputArgument& argument : translation_.arguments)
+      callWithout(argument, now, entry, out);
+    for (const verify::DrawField& field : from_.plan.fields)
+      if (field.kind == ir::Kind::WorkOffset && !field.fixed) callWithSystems(field, now, entry, out);
+  }
+
+  // From the same place, with another work system in force: what the source selects is put back.
+  void callInOtherSystem(const TargetCase& now, const verify::Entry& entry, TargetRun& out) {
+    if (now.posted == nullptr || !blockWithG(*now.posted, stdlib::Function::WorkSystem)) return;
+    verify::Entry other = entry;
+    other.system = entry.system == 54 ? 55 : 54;
+    other.start = entry.start + entry.zeros[entry.system - 54] - entry.zeros[other.system - 54];
+    const verify::Record record = runText(now, other, nullptr);
+    if (record.ending != verify::Ending::Finished) return;
+    const std::string why = verify::whyNotPutBack(control_, record, nullptr);
+    if (!why.empty()) out.differs(verify::Aspect::Modal, why);
+  }
+
+  bool loadsTool(const TargetCase& now) const {
+    return now.posted != nullptr && blockWithG(*now.posted, stdlib::Function::ToolLengthPlus);
+  }
+
+  bool blockWithG(const ir::Program& program, stdlib::Function function) const {
+    const auto isIt = [&](const ir::Word& word) {
+      const double* code = word.address == 'G' ? ir::constantValue(word.value) : nullptr;
+      const bool known = code != nullptr && *code >= 0 && *code < 1000;
+      const stdlib::CodeInfo* info =
+          known ? control_.find('G', static_cast<std::uint32_t>(std::lround(*code * 10))) : nullptr;
+      return info != nullptr && info->function == function;
+    };
+    return std::any_of(program.body.begin(), program.body.end(), [&](const ir::ProgramStatement& statement) {
+      const auto* block = std::get_if<ir::NcBlock>(&statement.node);
+      return block != nullptr && std::any_of(block->words.begin(), block->words.end(), isIt);
+    });
+  }
+
+  const verify::DrawField* fieldOf(const std::string& name) const {
+    const std::string folded = gibbs::foldCase(name);
+    const auto found =
+        std::find_if(from_.plan.fields.begin(), from_.plan.fields.end(),
+                     [&](const verify::DrawField& one) { return gibbs::foldCase(one.name) == folded; });
+    return found == from_.plan.fields.end() ? nullptr : &*found;
+  }
+
+  std::optional<double> defaultOf(const verify::DrawField& field) const {
+    for (const auto& [name, text] : from_.options.defaults)
+      if (gibbs::foldCase(name) == gibbs::foldCase(field.name)) return parseNumber(text);
+    return field.initial;
+  }
+
+  // Where the argument is left out: an alarm if it moves something, else the default.
+  void callWithout(const OutputArgument& argument, const TargetCase& now, const verify::Entry& entry,
+                   TargetRun& out) {
+    const std::uint32_t local = stdlib::localOf(argument.letter);
+    verify::Entry without = entry;
+    std::erase_if(without.variables, [&](const auto& one) { return one.first == local; });
+    const verify::Record record = runText(now, without, nullptr);
+    const std::string who = fmt::format("without {} ({})", argument.letter, argument.name);
+    const std::string alarm = fmt::format("ARGUMENT {} MISSING", argument.letter);
+    if (stopsAtOnce(record, without, alarm)) {
+      if (!from_.options.useDefaults) return;
+      const verify::DrawField* const field = fieldOf(argument.name);
+      if (field == nullptr || !defaultOf(*field)) return;
+      const SourceQuestions::Ran meant = now.questions->with(field->name, *defaultOf(*field));
+      if (meant.answer == SourceQuestions::Answer::Runs)
+        differs(who, "its default has to be taken", record, out);
+      return;
+    }
+    const std::string wanted = fmt::format("`{}` has to stop it before anything moves", alarm);
+    const verify::DrawField* const field = fieldOf(argument.name);
+    const std::optional<double> value = field == nullptr ? std::nullopt : defaultOf(*field);
+    if (field != nullptr && !from_.options.useDefaults && now.questions->moves(field->name)) {
+      differs(who, wanted, record, out);
+      return;
+    }
+    // A parameter without a default that only feeds a check changes nothing where it is left out.
+    SourceQuestions::Ran meant;
+    if (value)
+      meant = now.questions->with(field->name, *value);
+    else if (now.source != nullptr)
+      meant = {SourceQuestions::Answer::Runs, *now.source};
+    if (meant.answer == SourceQuestions::Answer::None) return;
+    if (meant.answer == SourceQuestions::Answer::Rejected) {
+      if (!stopsAtOnce(record, without, ""))
+        differs(who, "an alarm has to stop it before anything moves", record, out);
+      return;
+    }
+    std::vector<verify::Difference> found =
+        verify::compare(meant.record, record, rulesFor(now, meant.record));
+    for (verify::Difference& one : found)
+      one.text =
+          value ? fmt::format("called {}, for which {} is the default: {}", who, numberText(*value), one.text)
+                : fmt::format("called {}: {}", who, one.text);
+    add(std::move(found), out);
+  }
+
+  // Beside the six work systems, and between two of them.
+  void callWithSystems(const verify::DrawField& field, const TargetCase& now, const verify::Entry& entry,
+                       TargetRun& out) {
+    const auto argument =
+        std::find_if(translation_.arguments.begin(), translation_.arguments.end(), [&](const auto& one) {
+          return gibbs::foldCase(one.name) == gibbs::foldCase(field.name);
+        });
+    const auto drawn = now.drawn.values.find(field.name);
+    if (argument == translation_.arguments.end() || drawn == now.drawn.values.end()) return;
+    const double first = field.firstSystem;
+    if (field.systemOf(drawn->second) == 0) return;
+    for (const double value : {first - 1, first + 6, first + 0.5}) {
+      const SourceQuestions::Ran meant = now.questions->with(field.name, value);
+      // What the source takes is no fault of the translation.
+      if (meant.answer == SourceQuestions::Answer::Runs && meant.record.ending == verify::Ending::Finished)
+        continue;
+      verify::Entry other = entry;
+      const std::uint32_t local = stdlib::localOf(argument->letter);
+      std::erase_if(other.variables, [&](const auto& one) { return one.first == local; });
+      other.variables.emplace_back(local, value);
+      const verify::Record record = runText(now, other, nullptr);
+      if (!stopsAtOnce(record, other, ""))
+        differs(fmt::format("with {} {}", argument->letter, numberText(value)),
+                "an alarm has to stop it before anything moves, it is no work offset", record, out);
+    }
   }
 
   const VerificationSource from_;

@@ -80,6 +80,14 @@ bool ProgramRunner::load() {
   if (sourceSet_ != nullptr) used.push_back(sourceSet_);
   if (targetSet_ != sourceSet_) used.push_back(targetSet_);
   variables_ = verify::variablesOf(*programs_, *sourceControl_, used);
+  const auto has = [&](stdlib::Function function) {
+    return std::any_of(programs_->programs.begin(), programs_->programs.end(),
+                       [&](const ir::Program& program) {
+                         return blockWith(program, *sourceControl_, function).has_value();
+                       });
+  };
+  stopsSpindle_ = has(stdlib::Function::SpindleOff);
+  stopsCoolant_ = has(stdlib::Function::CoolantOff);
   flow_ = std::make_unique<verify::VariableFlow>(*programs_, *sourceControl_);
   // Signals go by the same number on both.
   std::erase_if(variables_, [&](const verify::ProgramVariable& one) {
@@ -322,7 +330,18 @@ verify::Record ProgramRunner::runSide(const Side& side, const verify::Case& draw
     meaning.emplace(*side.set, *side.control);
     meaning->setStylusRadius(drawn.hosts.at("tool_radius"));
   }
-  return side.stand->run(*side.code, world, entry, stores_, meaning ? &*meaning : nullptr, way);
+  // What the programs switch off is on before, on both sides.
+  verify::Random random(callerStream(drawn));
+  const bool left = random.chance(0.5), mist = random.chance(0.5);
+  if (stopsSpindle_) entry.spindle = left ? 2 : 1;
+  if (stopsCoolant_) entry.coolant = mist ? sim::Machine::Coolant::Mist : sim::Machine::Coolant::Flood;
+  verify::Record record =
+      side.stand->run(*side.code, world, entry, stores_, meaning ? &*meaning : nullptr, way);
+  // What macros do inside is their own business.
+  std::erase_if(record.early, [&](const verify::EarlyUse& use) {
+    return side.code == &translation_.code() ? translation_.line(use.range) == 0 : use.range.file != file_;
+  });
+  return record;
 }
 
 // The source's side: a rehearsal says what is measured, the part is made for that, then it runs.
@@ -378,6 +397,8 @@ verify::CompareRules ProgramRunner::rules() const {
                          sourceSet_ != targetSet_ ? resultTolerance(*sourceControl_, *targetControl_) : 0);
   out.relative = otherArithmetic ? kEightDigits : 0;
   out.sameProgram = true;
+  const stdlib::CodeInfo* const wait = targetControl_->find(stdlib::Function::MachineCoordinates);
+  out.waits = wait != nullptr && wait->grade != "assumed";
   out.sameAlarmNumbers = sourceSet_ == targetSet_;
   out.toolParts = sourceSet_ == targetSet_ && sourceControl_->variables.toolGeometry.has_value() ==
                                                   targetControl_->variables.toolGeometry.has_value();

@@ -89,7 +89,8 @@ private:
   std::vector<verify::ProgramVariable> variables_; // to draw
   std::unique_ptr<verify::VariableFlow> flow_;     // of the source
   std::map<std::uint32_t, double> fixed_;
-  std::set<std::uint32_t> stores_; // common variables that count
+  bool stopsSpindle_ = false, stopsCoolant_ = false; // by codes of the programs
+  std::set<std::uint32_t> stores_;                   // common variables that count
   sim::Bytecode sourceCode_, sourceAsTargetCode_;
   std::unique_ptr<verify::Stand> sourceStand_, targetStand_, sourceAsTargetStand_;
   FanucText translation_;

@@ -469,18 +469,23 @@ function setProperty(name, value) {
 
 // ---- running one operation ------------------------------------------------------------------------------
 
+// Outputs of a post, whose values are forgotten by who writes words without them.
+var dotekOutputs = ["xOutput", "yOutput", "zOutput", "feedOutput", "gMotionModal"];
+
 // input: {unit, properties: {name: value}, points: [[x, y, z]], tool, cycle, cycleType, entry: function name,
 // most: characters of text}. With `entry`, that function alone is called for each point; else the entry
-// functions of a post in their order. Gives {text, errors, warnings, afterError}.
+// functions of a post in their order. Gives {text, errors, warnings, afterError}; with `entry` also `taken`,
+// what its last call returned, and `kept`, names of outputs that have not forgotten what was printed before.
 function dotekRun(input) {
   var global = (function () {
     return this;
   }()) || globalThis;
   function call(name, list) {
     if (typeof global[name] === "function") {
-      global[name].apply(null, list || []);
+      return global[name].apply(null, list || []);
     }
   }
+  var taken, kept = [];
   unit = input.unit === undefined ? MM : input.unit;
   dotekValues = input.properties || {};
   dotekState.most = input.most;
@@ -511,7 +516,17 @@ function dotekRun(input) {
     throw new Error("there is no function `" + input.entry + "`");
   }
   for (var i = 0; i < input.points.length; ++i) {
-    call(input.entry === undefined ? "onCyclePoint" : input.entry, input.points[i]);
+    for (var j = 0; input.entry !== undefined && j < dotekOutputs.length; ++j) {
+      if (global[dotekOutputs[j]] !== undefined) {
+        global[dotekOutputs[j]].format(1);
+      }
+    }
+    taken = call(input.entry === undefined ? "onCyclePoint" : input.entry, input.points[i]);
+  }
+  for (var k = 0; input.entry !== undefined && k < dotekOutputs.length; ++k) {
+    if (global[dotekOutputs[k]] !== undefined && global[dotekOutputs[k]].getCurrent() !== undefined) {
+      kept.push(dotekOutputs[k]);
+    }
   }
   if (input.entry === undefined) {
     call("onCycleEnd");
@@ -520,13 +535,14 @@ function dotekRun(input) {
     call("onTerminate");
   }
   return {text: dotekState.before.join("") + dotekState.text, errors: dotekState.errors,
-    warnings: dotekState.warnings, afterError: dotekState.afterError};
+    warnings: dotekState.warnings, afterError: dotekState.afterError, taken: taken, kept: kept};
 }
 
 // ---- what Dotek calls -----------------------------------------------------------------------------------
 
 // A function of the input that gives texts: ["flood"], or the NC text, "late" or "", then each error after an
-// "e", each warning after a "w". A post that replaces what the double works with is refused: what it does on
+// "e", each warning after a "w", each output that was kept after a "k", "t" where the entry function returned
+// true. A post that replaces what the double works with is refused: what it does on
 // the double says nothing of the kernel.
 (function () {
   var global = (function () {
@@ -576,6 +592,12 @@ function dotekRun(input) {
     }
     for (i = 0; i < result.warnings.length; ++i) {
       out[out.length] = "w" + result.warnings[i];
+    }
+    for (i = 0; i < result.kept.length; ++i) {
+      out[out.length] = "k" + result.kept[i];
+    }
+    if (result.taken === true) {
+      out[out.length] = "t";
     }
     return out;
   };

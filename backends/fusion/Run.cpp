@@ -27,11 +27,13 @@ std::string inputText(std::string_view prefix, bool whole, const RunInput& input
                           numberLiteral(z));
   return fmt::format(
       R"({{"unit": {}, "properties": {}, "points": [{}], "tool": {}, "cycle": {}, {}"most": {}}})",
-      input.inch ? kInch : kMillimetre, object(input.properties, "\"dotekCycle\": " + quoted(prefix)), points,
+      input.inch ? kInch : kMillimetre,
+      object(input.properties, "\"dotekCycle\": " + quoted(input.chosen ? prefix : "none")), points,
       object({{"diameter", input.toolDiameter},
               {"number", input.toolNumber},
               {"lengthOffset", input.toolLengthOffset}}),
-      object(input.cycle), whole ? "" : "\"entry\": " + quoted(std::string(prefix) + "_write") + ", ", most);
+      object(input.cycle), whole ? "" : "\"entry\": " + quoted(std::string(prefix) + "_dispatch") + ", ",
+      most);
 }
 
 std::string textOf(const std::vector<EmittedLine>& lines) {
@@ -43,13 +45,17 @@ std::string textOf(const std::vector<EmittedLine>& lines) {
 
 } // namespace
 
-std::optional<script::Fault> Fragment::load(std::string_view fragment, std::string_view prefix) {
+std::optional<script::Fault> Fragment::load(std::string_view fragment, std::string_view prefix,
+                                            bool numbered) {
   prefix_ = prefix;
   whole_ = false;
   // Read by itself, so that a brace too many is found here and lines are the fragment's own. It is no
   // beginning of a script: a "use strict" in it says nothing.
   const std::string own = "0;" + std::string(fragment);
-  const std::string head = textOf(postHead());
+  std::string head = textOf(postHead());
+  if (numbered)
+    head += "function writeBlock() {\n  var text = formatWords(arguments);\n"
+            "  if (text !== \"\") { writeln(\"N1 \" + text); }\n}\n";
   return runner_.load({{"kernel", kernelText()}, {"post", head}, {kFragment, own}});
 }
 
@@ -74,8 +80,13 @@ RunResult Fragment::run(const RunInput& input) const {
   }
   out.text = texts[0];
   out.wroteAfterError = !texts[1].empty();
-  for (std::size_t i = 2; i < texts.size(); ++i)
-    (texts[i].front() == 'e' ? out.errors : out.warnings).push_back(texts[i].substr(1));
+  for (std::size_t i = 2; i < texts.size(); ++i) {
+    const char kind = texts[i].front();
+    if (kind == 't')
+      out.taken = true;
+    else
+      (kind == 'e' ? out.errors : kind == 'w' ? out.warnings : out.kept).push_back(texts[i].substr(1));
+  }
   return out;
 }
 

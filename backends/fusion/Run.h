@@ -23,6 +23,7 @@ struct RunInput {
   double toolNumber = 1;
   double toolLengthOffset = 1;
   std::map<std::string, double> cycle; // "clearance", "retract", "probeOvertravel"
+  bool chosen = true;                  // the operation names this cycle; else none
 };
 
 struct RunResult {
@@ -30,6 +31,8 @@ struct RunResult {
   std::vector<std::string> errors;    // of error(..), in order
   std::vector<std::string> warnings;  // of warning(..)
   bool wroteAfterError = false;       // a defect: something was written after an error
+  bool taken = false;                 // of a fragment: its dispatch says that the operation is its own
+  std::vector<std::string> kept;      // of a fragment: outputs of the post that were not reset
   std::optional<script::Fault> fault; // an exception, a limit: nothing else is known then
   bool ok() const { return !fault && errors.empty(); }
 };
@@ -43,10 +46,12 @@ class Fragment {
 public:
   // `runner` outlives the fragment, and runs this one alone after load().
   explicit Fragment(script::Runner& runner) : runner_(runner) {}
-  // The text, whose names begin with `prefix`. A fault where it cannot be read.
-  std::optional<script::Fault> load(std::string_view fragment, std::string_view prefix);
+  // The text, whose names begin with `prefix`. `numbered`: the post's writeBlock puts `N1 ` before each
+  // block. A fault where it cannot be read.
+  std::optional<script::Fault> load(std::string_view fragment, std::string_view prefix,
+                                    bool numbered = false);
   std::optional<script::Fault> loadPost(std::string_view post, std::string_view prefix);
-  // PREFIX_write(x, y, z) for each point, of a post its entry functions in their order; the prefix chooses
+  // PREFIX_dispatch(x, y, z) for each point, of a post its entry functions in their order; the prefix chooses
   // the cycle.
   RunResult run(const RunInput& input) const;
 

@@ -5,6 +5,7 @@
 #include "ir/Program.h"
 #include "sim/machine/Compile.h"
 #include "sim/machine/VendorMacros.h"
+#include "support/Decimal.h"
 #include "support/messages/Verify.h"
 #include "targets/ReadBack.h"
 #include "targets/Stage.h"
@@ -40,7 +41,7 @@ public:
   bool prepare() override {
     const Translation& translation = *from_.plan.translation;
     prefix_ = fusion::prefixOf(from_.folder.name);
-    if (const auto fault = fragment_.load(translation.text, prefix_)) {
+    if (const auto fault = fragment_.load(translation.text, prefix_, true)) {
       report(*fault);
       return false;
     }
@@ -80,6 +81,9 @@ public:
     }
     if (now.source == nullptr) return out; // it runs
     runText(now, result.text, out);
+    if (!out.stopped.empty() || !out.differences.empty()) return out;
+    compareFrame(now, result, out);
+    if (now.questions != nullptr && out.differences.empty()) runOtherwise(now, out);
     return out;
   }
 
@@ -138,7 +142,121 @@ private:
     return out;
   }
 
-  void runText(const TargetCase& now, const std::string& text, TargetRun& out) {
+  // ---- what it owes the post (docs/fusion.md)
+
+  // Lines without the numbers of writeBlock, and whether each had one.
+  struct Written {
+    std::string text;
+    std::vector<std::string> lines;
+    std::vector<bool> numbered;
+  };
+  static Written writtenOf(const std::string& text) {
+    Written out;
+    constexpr std::string_view kNumber = "N1 ";
+    for (std::size_t at = 0; at < text.size();) {
+      const std::size_t end = std::min(text.find('\n', at), text.size());
+      std::string line = text.substr(at, end - at);
+      const bool numbered = line.starts_with(kNumber);
+      if (numbered) line.erase(0, kNumber.size());
+      out.text += line + "\n";
+      out.lines.push_back(std::move(line));
+      out.numbered.push_back(numbered);
+      at = end + 1;
+    }
+    return out;
+  }
+
+  static bool isComment(const std::string& line) {
+    const std::size_t at = line.find_first_not_of(" \t");
+    return at == std::string::npos || (line[at] == '(' && line.find(')') == line.find_last_not_of(" \t\r"));
+  }
+
+  static bool hasNumber(const std::string& posted) {
+    const std::size_t at = posted.find_first_not_of(" \t");
+    return at != std::string::npos && posted[at] == 'N' && at + 1 < posted.size() && posted[at + 1] >= '0' &&
+           posted[at + 1] <= '9';
+  }
+
+  void compareFrame(const TargetCase& now, const fusion::RunResult& result, TargetRun& out) const {
+    if (!result.taken)
+      out.differs(verify::Aspect::Ending,
+                  fmt::format("`{}_dispatch` prints the cycle and does not return true", prefix_));
+    std::string kept;
+    for (const std::string& name : result.kept)
+      kept += (kept.empty() ? "`" : ", `") + name + "`";
+    if (!kept.empty())
+      out.differs(verify::Aspect::Modal,
+                  kept + " not reset: the post leaves out words that the macros have made necessary");
+    const Written written = writtenOf(result.text);
+    // Each line of the Prog has its line where the macros are the same, and each block its number otherwise.
+    const bool each = sourceSet_ == set_ && now.lines.size() == written.lines.size();
+    const bool all = std::all_of(now.lines.begin(), now.lines.end(), [](const auto& line) {
+      return hasNumber(line.text) || isComment(line.text);
+    });
+    for (std::size_t i = 0; i < written.lines.size(); ++i) {
+      const bool wanted = each ? hasNumber(now.lines[i].text) : all && !isComment(written.lines[i]);
+      if (written.numbered[i] == wanted || (!each && !all)) continue;
+      out.differs(verify::Aspect::Printed,
+                  wanted ? "a block that the post numbers is written without its number (writeBlock)"
+                         : "a line that the post does not number is written as a block (writeln)",
+                  written.lines[i]);
+      return;
+    }
+  }
+
+  static std::string didInstead(const fusion::RunResult& result) {
+    if (result.fault) return "it fails: " + result.fault->text;
+    if (!result.errors.empty()) return "it stops with `" + result.errors.front() + "`";
+    return result.text.empty() ? "it writes nothing" : "it writes blocks";
+  }
+
+  // The operation of another cycle, a document in inches, a field that the operation does not give.
+  void runOtherwise(const TargetCase& now, TargetRun& out) {
+    fusion::RunInput input = inputOf(now.drawn);
+    input.chosen = false;
+    fusion::RunResult result = fragment_.run(input);
+    if (!result.ok() || !result.text.empty() || result.taken)
+      out.differs(verify::Aspect::Ending,
+                  "an operation that names no cycle: it has to write nothing; " +
+                      (result.taken ? "its dispatch returns true" : didInstead(result)));
+    input = inputOf(now.drawn);
+    input.inch = true;
+    result = fragment_.run(input);
+    if (result.fault || result.errors.empty() || !result.text.empty())
+      out.differs(verify::Aspect::Ending, "a document in inches has to be an error; " + didInstead(result));
+    for (const verify::DrawField& field : from_.plan.fields) {
+      input = inputOf(now.drawn);
+      if (field.fixed || input.properties.erase(fusion::propertyOf(prefix_, field.name)) == 0) continue;
+      runWithout(field, now, fragment_.run(input), out);
+    }
+  }
+
+  // As with the first value of DefineData; without one an error where the field moves something.
+  void runWithout(const verify::DrawField& field, const TargetCase& now, const fusion::RunResult& result,
+                  TargetRun& out) {
+    const std::string who = fmt::format("`{}` as its property is defined", field.name);
+    if (!field.initial) {
+      const bool stops = !result.fault && !result.errors.empty() && result.text.empty();
+      if (!stops && now.questions->moves(field.name))
+        out.differs(verify::Aspect::Ending,
+                    who + ": without a default it has to be an error; " + didInstead(result));
+      return;
+    }
+    fusion::RunInput given = inputOf(now.drawn);
+    given.properties[fusion::propertyOf(prefix_, field.name)] = inJob(*field.initial);
+    const fusion::RunResult meant = fragment_.run(given);
+    if (meant.text == result.text && meant.errors == result.errors &&
+        meant.fault.has_value() == result.fault.has_value())
+      return;
+    const Written one = writtenOf(meant.text), other = writtenOf(result.text);
+    const auto at = std::mismatch(one.lines.begin(), one.lines.end(), other.lines.begin(), other.lines.end());
+    out.differs(verify::Aspect::Variable,
+                fmt::format("{} against {}, the first value of the field", who, numberText(*field.initial)),
+                at.second == other.lines.end() ? "" : *at.second);
+  }
+
+  void runText(const TargetCase& now, const std::string& numbered, TargetRun& out) {
+    const std::string text = writtenOf(numbered).text;
     Diagnostics found;
     auto file = readBack("posted by the fragment", "O1\n" + text + "M30\n", control_, from_.session.limits(),
                          sources_, found);
@@ -170,6 +288,9 @@ private:
     if (control_.arithmetic == stdlib::Arithmetic::Decimal8)
       rules.results = std::max(rules.tolerance, kEightDigits);
     rules.sameAlarmNumbers = sourceSet_ == set_;
+    if (const auto host = now.drawn.hosts.find("overtravel");
+        sourceSet_ != set_ && host != now.drawn.hosts.end())
+      rules.overtravel = host->second;
     for (verify::Difference& difference : verify::compare(*now.source, record, rules)) {
       std::string line;
       if (difference.target.hasPlace() && difference.target.file == id)

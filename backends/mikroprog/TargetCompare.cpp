@@ -183,6 +183,21 @@ private:
   Point3 zero_; // of the active system
 };
 
+// What follows a search in feed begins with the path back, at the feed that the program was written with.
+void pathsBack(const verify::Record& ran, const MikroprogFacts& facts, std::vector<verify::Difference>& out) {
+  for (std::size_t i = 1; i < ran.pieces.size(); ++i) {
+    const verify::Piece &search = ran.pieces[i - 1], &back = ran.pieces[i];
+    if (search.kind != sim::PathKind::Measuring || back.kind != sim::PathKind::Feed) continue;
+    if (back.feed && std::abs(*back.feed - facts.returnFeed) <= kSame) continue;
+    out.push_back({Aspect::State,
+                   fmt::format("the path back at F{} against {}", numberText(facts.returnFeed),
+                               back.feed ? "F" + numberText(*back.feed) : "no feed"),
+                   {},
+                   back.range});
+    return;
+  }
+}
+
 } // namespace
 
 void takeEnding(verify::Record& ran, const stdlib::MikroprogControl& control) {
@@ -233,6 +248,7 @@ std::vector<verify::Difference> compareWithSource(verify::Record source, const v
          mark.kind == Mark::Kind::Datum ? "nothing against a datum" : "nothing against a record",
          {},
          mark.range});
+  pathsBack(ran, facts, meaning.own);
   std::vector<verify::Difference> out = compare(source, got.record, rules);
   if (!out.empty() && out.front().aspect == Aspect::Ending) return out;
   for (verify::Difference& one : meaning.own)

@@ -18,6 +18,7 @@ struct MikroprogFacts {
   sim::Point3 zero;        // of the active system at entry, in the machine
   double overtravel = 0;   // with which the program was written, mm
   double ballRadius = 0;   // mm
+  double returnFeed = 0;   // of the path back after a contact, mm/min
   bool byOperator = false; // the datum is a stop with a text, not G92
   double tolerance = 1e-6; // mm
 };

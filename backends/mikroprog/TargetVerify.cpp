@@ -105,6 +105,7 @@ public:
                                now.entry.zeros[now.entry.system - 54],
                                now.drawn.hosts.at("overtravel"),
                                now.world.probe().ballRadius(),
+                               now.drawn.hosts.at("return_feed"),
                                byOperator,
                                from_.options.tolerance};
     const bool sets = std::any_of(now.source->measures.begin(), now.source->measures.end(),

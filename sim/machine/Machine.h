@@ -112,6 +112,12 @@ public:
   // Wear and geometry of its offset, mm; 0 where there is no such offset.
   double toolLengthOf(std::uint32_t tool) const;
   void putTool(std::uint32_t tool); // into the spindle, before the program begins
+  // Before the program begins: what turns and flows, and a code in force (times ten) that changes nothing but
+  // what programs read of its group.
+  void startSpindle(std::uint8_t direction) { spindle_ = direction; }
+  void presetModal(std::uint32_t group, std::uint32_t tenths) {
+    if (group < kGroups) groups_[group] = tenths;
+  }
   // Moves the zero of the active system along an axis, and the machine with it: its coordinates stay.
   void moveZero(std::size_t axis, double by);
   // An entry of the tool table, mm. Without a geometry of its own the whole length is `wear`.
@@ -131,7 +137,8 @@ public:
   double spindleSpeed() const { return speed_; }
   std::uint8_t spindle() const { return spindle_; } // 0 off, 1 clockwise, 2 counterclockwise
   enum class Coolant : std::uint8_t { NotSwitched, Off, Flood, Mist };
-  Coolant coolant() const { return coolant_; } // what the program switched last
+  Coolant coolant() const { return coolant_; }               // what the program switched last
+  void startCoolant(Coolant coolant) { coolant_ = coolant; } // before the program begins
   // Axes (bits in the order of kAxisLetters) whose position is not known, since what moved them is not.
   std::uint32_t uncertain() const { return uncertain_; }
   std::uint32_t movedAxes() const { return shown_; }
@@ -158,6 +165,9 @@ public:
   std::uint32_t addCells(std::uint32_t count);
   // A value that a motion still in the queue may change: a position, the window of the PMC.
   bool changesWithMotion(std::uint32_t number) const;
+  // An offset, of a work system or of a tool: where a motion that waits in the queue leads may change with
+  // it.
+  bool movesPositions(std::uint32_t number) const;
   // The common variables and the locals of the main program that were written, by number.
   std::vector<std::pair<std::uint32_t, double>> written() const;
   // Of a common variable as it is; kFresh: nobody wrote it, or there is none of this number.
@@ -195,6 +205,8 @@ public:
   void forget(std::uint32_t number);
   bool hasUnknown() const { return hasUnknown_; } // a cell may hold kUnknown (Value.h)
   void forgetMotion(std::optional<double> feed);  // the code of group 1, and the feed unless it is given
+  bool knowsMotion() const { return !motionForgotten_; } // and forgetMotion() was not the last that set them
+  bool knowsFeed() const { return !feedForgotten_; }
   std::size_t extendedSystem() const { return extendedNow_; }  // n of G54.1 Pn
   void remark(std::string_view action, std::string_view text); // a line of the trace
   bool raiseUnnumbered(std::string_view text);                 // an alarm whose number is not known; false

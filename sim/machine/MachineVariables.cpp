@@ -95,6 +95,14 @@ bool Machine::changesWithMotion(std::uint32_t number) const {
           place.kind == Kind::Skip || place.kind == Kind::Window);
 }
 
+bool Machine::movesPositions(std::uint32_t number) const {
+  using Kind = Place::Kind;
+  Place place;
+  return number >= 1000 && find(number, place) &&
+         (place.kind == Kind::External || place.kind == Kind::System || place.kind == Kind::Extended ||
+          place.kind == Kind::Wear || place.kind == Kind::Geometry);
+}
+
 std::optional<double> Machine::readSystem(std::uint32_t number, const Place& place) {
   using Kind = Place::Kind;
   const auto position = [&](const Position& of, bool exact) -> std::optional<double> {

@@ -192,6 +192,12 @@ void Run::noteRead(std::uint32_t number) {
   early_.push_back({code_.statementOf(place_).origin.range(), number});
 }
 
+void Run::noteWrite(std::uint32_t number) {
+  if (readEarly_[place_] || !machine_.movesPositions(number)) return;
+  readEarly_[place_] = true;
+  earlyWrites_.push_back({code_.statementOf(place_).origin.range(), number});
+}
+
 bool Run::readAt(double number, double& value) {
   const double whole = std::round(nullAsZero(number));
   if (whole >= 1 && whole <= control_.locals) {
@@ -209,7 +215,9 @@ bool Run::readAt(double number, double& value) {
 bool Run::writeAt(double number, double value) {
   const double whole = std::round(nullAsZero(number));
   if (!(whole >= 0 && whole < 1e9)) return machine_.raise(Alarm::NoSuchVariable);
-  return machine_.write(static_cast<std::uint32_t>(whole), value);
+  const auto n = static_cast<std::uint32_t>(whole);
+  if (ahead_ && expectsMotion_) noteWrite(n);
+  return machine_.write(n, value);
 }
 
 // Runs until a block, a call or whatever else changes more than cells; false: the run has ended. The places
@@ -347,6 +355,7 @@ template <bool kDecimal8, bool kWatched> bool Run::execute() {
     }
     case Op::Write:
       leave();
+      if (ahead_ && expectsMotion_) noteWrite(at->a);
       if (!machine_.write(at->a, cells[at->b])) return false;
       break;
     case Op::WriteAt:

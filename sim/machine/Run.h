@@ -15,7 +15,8 @@
 
 namespace dotek::sim {
 
-// A variable that motion changes was read while blocks of motion may still have been waiting.
+// A variable that motion changes was read, or an offset written, while blocks of motion may still have been
+// waiting.
 struct EarlyRead {
   SourceRange range; // of the block
   std::uint32_t number = 0;
@@ -32,6 +33,10 @@ public:
   const std::string& output() const { return output_; }
   // Each place once, in the order of the run.
   const std::vector<EarlyRead>& earlyReads() const { return early_; }
+  // Before the run: motion of the caller may be waiting, and what a macro without text has moved last may be,
+  // too. Offsets that are written then are noted as well.
+  void expectMotion() { ahead_ = expectsMotion_ = true; }
+  const std::vector<EarlyRead>& earlyWrites() const { return earlyWrites_; }
   // The block, or the word of it, at which the run ended.
   SourceRange place() const;
   // The number of the program that holds it; 0: none.
@@ -103,6 +108,7 @@ private:
   bool readAt(double number, double& value);
   bool writeAt(double number, double value);
   void noteRead(std::uint32_t number);
+  void noteWrite(std::uint32_t number);
   bool refuse(std::string why) { return machine_.inconclusive(std::move(why)); }
   double cell(std::uint32_t at) const { return cells_[at]; }
 
@@ -118,10 +124,11 @@ private:
   std::vector<ModalCall> modal_;
   std::vector<double> locals_; // of the next call, by number
   ir::NcWords words_;
-  bool ahead_ = false; // blocks of motion may be waiting
+  bool ahead_ = false;         // blocks of motion may be waiting
+  bool expectsMotion_ = false; // also at the beginning, and after macros without text
   bool portOpen_ = false;
   std::string output_;
-  std::vector<EarlyRead> early_;
+  std::vector<EarlyRead> early_, earlyWrites_;
   std::vector<bool> readEarly_; // by instruction
 };
 

@@ -100,7 +100,7 @@ bool Run::begin(const Request& request) {
     machine_.leave();
     if (MotionWatcher* const watcher = machine_.watcher(); watcher != nullptr) watcher->callEnded(number);
   }
-  ahead_ = false;
+  ahead_ = expectsMotion_;
   ++place_;
   return true;
 }

@@ -164,16 +164,16 @@ TEST_CASE("an edited fragment that fails or does something else differs") {
       {edited.after("Number = function () { return NaN; };"), "it replaces `Number`"},
       {edited.after("surfaceX_write = function () {};"), "path differs"},
       {edited.after("surfaceX_write = function () { return null; };"), "path differs"},
-      {edited.after("surfaceX_write = null;"), "there is no function `surfaceX_write`"},
-      {edited.replaced(kWrite, "function surface_write(x, y, z) {\n"),
-       "there is no function `surfaceX_write`"},
+      {edited.after("surfaceX_write = null;"), "not callable"},
+      {edited.after("surfaceX_dispatch = null;"), "there is no function `surfaceX_dispatch`"},
+      {edited.replaced(kWrite, "function surface_write(x, y, z) {\n"), "surfaceX_write"},
       {edited.after("writeBlock = undefined;"), "writeBlock"},
       {edited.after("writeBlock('G0 X0');"), "differs"},
       {edited.after("error('stop');"), "stop"},
       {edited.within("writeBlock('\\u0000\\ud800(');"), "the text of the fragment cannot be read"},
       {edited.within("error('late');"), "beside its error"},
-      {"", "there is no function `surfaceX_write`"},
-      {"\n\n\n", "there is no function `surfaceX_write`"},
+      {"", "there is no function `surfaceX_dispatch`"},
+      {"\n\n\n", "there is no function `surfaceX_dispatch`"},
   };
   for (const auto& [text, words] : kBad) {
     const driver::Outcome outcome = edited.verified(text);

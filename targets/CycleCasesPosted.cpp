@@ -1,0 +1,66 @@
+// What the posted program of a case says of its values and macros.
+#include "targets/CycleCasesParts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace dotek::targets {
+
+// Values that are printed through others, as half of a diameter, with no more digits than the post prints:
+// multiples of `unit`.
+verify::Case CaseRunner::coarser(verify::Case drawn, double unit) const {
+  const auto coarsen = [&](double& value, double least) {
+    value = std::max(least, std::round(value / unit) * unit + 0.0);
+  };
+  for (const verify::DrawField& field : plan_.fields) {
+    const bool measured = field.kind == ir::Kind::Length || field.kind == ir::Kind::Number ||
+                          field.kind == ir::Kind::Angle || field.kind == ir::Kind::Ratio;
+    if (!field.fixed && measured && field.choices.empty())
+      coarsen(drawn.values[field.name], -std::numeric_limits<double>::max());
+  }
+  for (const char* host : {"tool_radius", "overtravel", "start_x", "start_y"})
+    if (const auto value = drawn.hosts.find(host);
+        value != drawn.hosts.end() && !plan_.fixedHosts.contains(host))
+      coarsen(value->second, std::string_view(host).starts_with("start") ? -1e9 : unit);
+  return drawn;
+}
+
+// The proposal, or where the post drops digits of it a coarser one. nullptr: the values are rejected;
+// refusal_ says why.
+std::unique_ptr<CaseRunner::Values> CaseRunner::attempt(const verify::Case& proposal) {
+  std::unique_ptr<Values> out = attemptAsIs(proposal);
+  for (const double unit : {0.02, 0.2, 2.0}) {
+    if (!out || !out->losesDigits || !plan_.translation) return out;
+    out = attemptAsIs(coarser(proposal, unit));
+  }
+  if (!out || !out->losesDigits) return out;
+  refusal_ = "the post prints fewer digits than these values have";
+  refusedAt_ = {};
+  return nullptr;
+}
+
+// The one set that knows all macros which the posted program calls.
+void CaseRunner::findMacros(const ir::Program& program) {
+  std::set<std::uint32_t> called;
+  for (const ir::ProgramStatement& statement : program.body) {
+    const auto* call = std::get_if<ir::Call>(&statement.node);
+    const double* number = call != nullptr && call->program ? ir::constantValue(call->program) : nullptr;
+    if (number != nullptr && *number >= 1 && *number < 1e8)
+      called.insert(static_cast<std::uint32_t>(std::lround(*number)));
+  }
+  const stdlib::MacroSet* only = nullptr;
+  for (const stdlib::MacroSet& set : session_.macroSets()) {
+    const bool all =
+        std::all_of(called.begin(), called.end(), [&](std::uint32_t number) { return set.calls(number); });
+    if (called.empty() || !all) continue;
+    if (only != nullptr) return;
+    only = &set;
+  }
+  if (only == nullptr) return;
+  sourceSet_ = only;
+  sourceStand_.emplace(*inputs_->sourceControl, std::vector<const stdlib::MacroSet*>{only},
+                       session_.limits());
+}
+
+} // namespace dotek::targets

@@ -1,0 +1,112 @@
+#include "targets/CycleFields.h"
+
+#include "frontend/gibbs/Ast.h"
+#include "frontend/gibbs/Cycle.h"
+#include "ir/Rewrite.h"
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+namespace dotek::targets {
+
+namespace gibbs = frontend::gibbs;
+
+namespace {
+
+std::optional<double> numberIn(const gibbs::Expression& expression) {
+  if (const auto* unary = std::get_if<gibbs::Unary>(&expression.node)) {
+    const std::optional<double> inner = numberIn(*unary->operand);
+    if (!inner || unary->op != gibbs::UnaryOperator::Minus) return std::nullopt;
+    return 0 - *inner;
+  }
+  const auto* number = std::get_if<gibbs::NumberLiteral>(&expression.node);
+  return number == nullptr ? std::nullopt : std::optional(number->value);
+}
+
+// By folded name of the field: the entries of its list, both states of its check box.
+std::map<std::string, std::vector<double>> offeredIn(const CycleFolder& folder) {
+  std::map<std::string, std::vector<double>> out;
+  if (!folder.cycle->dialog) return out;
+  std::vector<std::string> lists; // by number, from 1
+  for (const gibbs::Control& control : folder.cycle->dialog->controls) {
+    const std::string kind = gibbs::foldCase(control.kind.text);
+    const std::string field = control.variable ? gibbs::foldCase(control.variable->text) : "";
+    if (kind == gibbs::foldCase("CHECK") && !field.empty()) out[field] = {0, 1};
+    if (kind == gibbs::foldCase("DROPDOWN_NEW")) lists.push_back(field);
+    if (kind != gibbs::foldCase("DROPDOWN_ADD") || control.arguments.size() != 3) continue;
+    const auto list = numberIn(*control.arguments[0]), value = numberIn(*control.arguments[2]);
+    if (!list || !value || *list < 1 || *list > static_cast<double>(lists.size())) continue;
+    const std::string& name = lists[static_cast<std::size_t>(*list) - 1];
+    if (!name.empty()) out[name].push_back(*value);
+  }
+  return out;
+}
+
+// 1 where 1 to 6 are G54 to G59, as the first value, the list or the checks show.
+double firstSystemOf(const verify::DrawField& field) {
+  constexpr double kCode = 54, kMost = 6;
+  const auto isIndex = [](double value) { return value >= 1 && value <= kMost; };
+  const auto isCode = [](double value) { return value >= kCode && value < kCode + kMost; };
+  std::vector<double> shown = field.choices;
+  if (field.initial) shown.insert(shown.begin(), *field.initial);
+  for (const double value : shown)
+    if (isIndex(value) || isCode(value)) return isIndex(value) ? 1 : kCode;
+  const auto compared = [&](double value) {
+    return std::find(field.thresholds.begin(), field.thresholds.end(), value) != field.thresholds.end();
+  };
+  return !compared(kCode) && !compared(kCode + kMost - 1) && compared(kMost) ? 1 : kCode;
+}
+
+void add(verify::DrawField field, const LoweringInputs& inputs, VerifyPlan& plan) {
+  for (const auto& [given, value] : inputs.sets)
+    if (gibbs::foldCase(given) == gibbs::foldCase(field.name)) field.fixed = value;
+  if (field.kind == ir::Kind::WorkOffset) field.firstSystem = firstSystemOf(field);
+  plan.fields.push_back(std::move(field));
+}
+
+} // namespace
+
+void takeFields(const LoweredCycle& lowered, const CycleFolder& folder, const LoweringInputs& inputs,
+                VerifyPlan& plan) {
+  std::map<ir::VariableId, int> decimals;
+  for (const ir::PrintedBlock& block : lowered.printed)
+    for (const ir::PrintedPiece& piece : block.pieces)
+      if (piece.picture) {
+        const auto [at, added] = decimals.emplace(piece.variable, piece.picture->decimals());
+        if (!added) at->second = std::min(at->second, piece.picture->decimals());
+      }
+  for (const auto& [id, places] : decimals)
+    if (const ir::Variable& host = lowered.cycle.variable(id); host.role == ir::Role::Host)
+      plan.hostDecimals.emplace(host.name, places);
+  plan.bounds = std::make_shared<verify::Bounds>(lowered.cycle);
+  const std::set<double> compared = ir::constantsOf(lowered.cycle.checks);
+  const std::map<std::string, std::vector<double>> offered = offeredIn(folder);
+  for (ir::VariableId id = 0; id < lowered.cycle.variables.size(); ++id) {
+    const ir::Variable& variable = lowered.cycle.variable(id);
+    if (variable.role != ir::Role::Parameter) continue;
+    verify::DrawField field;
+    field.name = variable.name;
+    field.kind = variable.kind;
+    field.initial = variable.defaultValue;
+    field.thresholds.assign(compared.begin(), compared.end());
+    if (const auto places = decimals.find(id); places != decimals.end()) field.decimals = places->second;
+    if (const auto list = offered.find(gibbs::foldCase(variable.name)); list != offered.end())
+      field.choices = list->second;
+    add(std::move(field), inputs, plan);
+  }
+}
+
+void takeDeclaredFields(const CycleFolder& folder, const LoweringInputs& inputs, VerifyPlan& plan) {
+  const std::map<std::string, std::vector<double>> offered = offeredIn(folder);
+  for (const gibbs::Field& declared : gibbs::declaredFields(*folder.cycle)) {
+    verify::DrawField field;
+    field.name = declared.name.text;
+    field.initial = declared.value;
+    if (const auto list = offered.find(gibbs::foldCase(field.name)); list != offered.end())
+      field.choices = list->second;
+    add(std::move(field), inputs, plan);
+  }
+}
+
+} // namespace dotek::targets

@@ -1,0 +1,98 @@
+// What the source does with other values than those of a case, and what its caller has in force.
+#include "targets/CycleCasesParts.h"
+#include "targets/Stage.h"
+#include "verify/PathPieces.h"
+#include "verify/Random.h"
+
+#include <algorithm>
+
+namespace dotek::targets {
+
+namespace {
+
+constexpr double kSame = 1e-9;
+
+bool sameMotion(const verify::Record& a, const verify::Record& b) {
+  const auto samePiece = [](const verify::Piece& one, const verify::Piece& other) {
+    return one.kind == other.kind && one.feed == other.feed && one.with == other.with &&
+           verify::near(one.from, other.from, kSame) && verify::near(one.to, other.to, kSame);
+  };
+  const auto sameTouch = [](const verify::Touch& one, const verify::Touch& other) {
+    return verify::near(one.point, other.point, kSame) && verify::near(one.direction, other.direction, kSame);
+  };
+  const auto sameMeasure = [&](const verify::Measure& one, const verify::Measure& other) {
+    return one.options == other.options && std::equal(one.nominal.begin(), one.nominal.end(),
+                                                      other.nominal.begin(), other.nominal.end(), sameTouch);
+  };
+  return std::equal(a.pieces.begin(), a.pieces.end(), b.pieces.begin(), b.pieces.end(), samePiece) &&
+         std::equal(a.measures.begin(), a.measures.end(), b.measures.begin(), b.measures.end(), sameMeasure);
+}
+
+} // namespace
+
+SourceQuestions::Ran CaseRunner::Questions::play(const std::string& field, double value,
+                                                 verify::Stand::Way way) {
+  Ran out;
+  verify::Case other = values_.drawn;
+  other.values[field] = value;
+  const std::unique_ptr<Values> now = runner_.check(other, false);
+  if (!now) return out;
+  if (now->rejected) {
+    out.answer = Answer::Rejected;
+    return out;
+  }
+  if (!runner_.readPosted(*now)) return out;
+  now->part = values_.part;
+  now->caller = callerStream(values_.drawn);
+  out.record = runner_.runPosted(*now, world_, probeOn_, way);
+  if (out.record.ending != verify::Ending::Inconclusive) out.answer = Answer::Runs;
+  return out;
+}
+
+SourceQuestions::Ran CaseRunner::Questions::with(const std::string& field, double value) {
+  return values_.posted ? play(field, value, verify::Stand::Way::Run) : Ran{};
+}
+
+bool CaseRunner::Questions::setsActive(const std::string& field, double value) const {
+  const auto& fields = runner_.plan_.fields;
+  return std::any_of(fields.begin(), fields.end(), [&](const verify::DrawField& one) {
+    return one.name == field && one.kind == ir::Kind::WorkOffset &&
+           one.systemOf(value) == values_.drawn.system;
+  });
+}
+
+bool CaseRunner::Questions::moves(const std::string& field) {
+  const auto known = runner_.moving_.find(field);
+  if (known != runner_.moving_.end() && known->second) return true;
+  bool& moving = runner_.moving_[field];
+  const auto now = values_.drawn.values.find(field);
+  if (!values_.posted || now == values_.drawn.values.end()) return moving;
+  const Ran here = play(field, now->second, verify::Stand::Way::Rehearse);
+  constexpr std::uint32_t kOthers = 6; // values that are tried
+  for (std::uint32_t n = 0; n < kOthers && !moving; ++n) {
+    const verify::Case other = runner_.draws_->propose(values_.drawn.stream + n, 0);
+    const auto value = other.values.find(field);
+    if (value == other.values.end() || value->second == now->second) continue;
+    // Where the active system is set, the path that follows is another one.
+    if (setsActive(field, value->second)) continue;
+    const Ran there = play(field, value->second, verify::Stand::Way::Rehearse);
+    if (here.answer == Answer::Runs && there.answer == Answer::Runs)
+      moving = !sameMotion(here.record, there.record);
+  }
+  return moving;
+}
+
+verify::Entry CaseRunner::entryOf(const Values& values, bool probeOn) const {
+  verify::Entry out = entryFor(plan_, values.drawn, probeOn);
+  if (!plan_.translation) return out;
+  verify::Random random(values.caller.value_or(callerStream(values.drawn)));
+  out.feed = 50.5 + static_cast<double>(random.below(4000));
+  const bool left = random.chance(0.5), mist = random.chance(0.5);
+  if (!values.posted) return out;
+  if (values.posted->stopsSpindle) out.spindle = left ? 2 : 1;
+  if (values.posted->stopsCoolant)
+    out.coolant = mist ? sim::Machine::Coolant::Mist : sim::Machine::Coolant::Flood;
+  return out;
+}
+
+} // namespace dotek::targets

@@ -1,0 +1,139 @@
+// Faults planted by seed into the frame of every translation of the shops' cycles, by operators: `verify`
+// sees them, whatever the program does (docs/verify-faults.md).
+#include "driver/Driver.h"
+#include "support/Decimal.h"
+#include "tests/Draws.h"
+#include "tests/GoldenRunner.h"
+#include "tests/TestFolder.h"
+#include "tests/unit/FrameFaults.h"
+#include "verify/Random.h"
+
+#include <cstdlib>
+#include <doctest/doctest.h>
+#include <filesystem>
+#include <fmt/format.h>
+#include <map>
+#include <regex>
+#include <set>
+
+using namespace dotek;
+using namespace dotek::tests;
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr std::uint64_t kCases = 60;
+
+struct Translation {
+  std::string name;
+  driver::VerifyOptions options;
+  std::string text;
+};
+
+// What is converted with its own macros and agrees.
+std::vector<Translation> translations() {
+  std::vector<Translation> out;
+  const fs::path shops = root() / "tests" / "shops";
+  for (const char* shop : {"direct", "easyprobe", "inspection", "toolchange"}) {
+    std::vector<fs::path> folders;
+    for (const auto& entry : fs::directory_iterator(shops / shop))
+      if (entry.is_directory()) folders.push_back(entry.path());
+    std::sort(folders.begin(), folders.end());
+    for (const fs::path& folder : folders)
+      for (const char* set : {"easyprobe", "inspection-plus", "dotek"}) {
+        Translation one;
+        one.name = folder.filename().string() + ", " + set;
+        one.options.inputs = {folder.generic_string()};
+        one.options.source.prog = (shops / shop / "post.txt").generic_string();
+        one.options.common.data = {(shops / "data").generic_string()};
+        one.options.common.limits.simSteps = 20000; // a fault may make a loop endless
+        one.options.to = "fanuc";
+        one.options.probeMacros = set;
+        one.options.cases = kCases;
+        one.options.jobs = 1;
+        driver::ConvertOptions convert;
+        static_cast<targets::TranslationOptions&>(convert) = one.options;
+        const driver::Outcome written = driver::convert(convert);
+        if (written.status != 0) continue;
+        one.text = written.files.front().text;
+        if (driver::verify(one.options).status == 0) out.push_back(std::move(one));
+      }
+  }
+  return out;
+}
+
+// Without an effect, whoever calls. "" where there is one.
+std::string_view whyNothing(const Fault& fault, const std::string& program) {
+  if (fault.before.find("#4014 LT 54.") != std::string::npos ||
+      fault.before.find("#4014 GT 59.") != std::string::npos)
+    return "no code of the group lies there, the question for whole numbers meets G54.1";
+  if (fault.kind == "take no default" && fault.before.ends_with("=0.")) {
+    const std::string local = fault.before.substr(fault.before.rfind('#'));
+    const std::string variable = local.substr(0, local.find('='));
+    const bool bare = std::regex_search(program, std::regex("[A-Z]" + variable + "(?![0-9])"));
+    if (!bare) return "null counts as 0 in a formula";
+  }
+  if (fault.kind == "do not set a mode" &&
+      (fault.after.find("G40") == std::string::npos || fault.after.find("G80") == std::string::npos))
+    return "G40 and G80 are demanded of the caller";
+  return "";
+}
+
+} // namespace
+
+TEST_CASE("verify sees faults in the frame of programs") {
+  std::size_t wanted = draws<std::size_t>(30, 5);
+  if (const char* text = std::getenv("DOTEK_FRAME_FAULTS"))
+    wanted = static_cast<std::size_t>(parseNumber(text).value_or(1000));
+  const std::vector<Translation> all = translations();
+  REQUIRE(all.size() >= 10);
+  struct Place {
+    const Translation* in = nullptr;
+    Fault fault;
+  };
+  std::map<std::string_view, std::vector<Place>> places;
+  for (const Translation& one : all)
+    for (const std::string_view kind : frameFaultKinds())
+      for (Fault& fault : frameFaultsOf(kind, one.text))
+        if (whyNothing(fault, one.text).empty()) places[kind].push_back({&one, std::move(fault)});
+  struct Counts {
+    std::size_t drawn = 0, seen = 0;
+  };
+  std::map<std::string_view, Counts> counts;
+  verify::Random random(1);
+  std::set<std::pair<std::string, std::string>> drawn;
+  std::string survivors;
+  const TestFolder folder("dotek-frame-faults");
+  std::size_t most = 0;
+  for (const auto& [kind, list] : places)
+    most += list.size();
+  wanted = std::min(wanted, most);
+  // The operators in turn, so that each has its share; those whose places are used up are passed over.
+  for (std::size_t turn = 0; drawn.size() < wanted; ++turn) {
+    std::vector<Place>& list = places[frameFaultKinds()[turn % frameFaultKinds().size()]];
+    if (list.empty()) continue;
+    const std::size_t at = random.below(list.size());
+    const Place place = std::move(list[at]);
+    list.erase(list.begin() + static_cast<std::ptrdiff_t>(at));
+    drawn.emplace(place.in->name, place.fault.text());
+    driver::VerifyOptions options = place.in->options;
+    options.translation = folder.write("faulty.nc", withFault(place.in->text, place.fault));
+    Counts& count = counts[place.fault.kind == "" ? "" : frameFaultKinds()[turn % frameFaultKinds().size()]];
+    ++count.drawn;
+    if (driver::verify(options).status == 1)
+      ++count.seen;
+    else
+      survivors += fmt::format("  {}: {}\n", place.in->name, place.fault.text());
+  }
+  std::string table;
+  Counts sum;
+  for (const std::string_view kind : frameFaultKinds()) {
+    const Counts& one = counts[kind];
+    table += fmt::format("{:42}{:>6} drawn{:>6} seen\n", kind, one.drawn, one.seen);
+    sum.drawn += one.drawn;
+    sum.seen += one.seen;
+  }
+  MESSAGE(fmt::format("{} faults in the frames of {} translations, {} seen\n{}{}", sum.drawn, all.size(),
+                      sum.seen, table, survivors));
+  CHECK(sum.seen * 100 >= sum.drawn * 99);
+}

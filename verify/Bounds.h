@@ -1,0 +1,41 @@
+// Values at which the checks of a cycle turn: both sides of a comparison are the same there.
+#pragma once
+
+#include "ir/Cycle.h"
+#include "verify/Draw.h"
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+namespace dotek::verify {
+
+// One comparison, met by changing one field.
+struct Bound {
+  std::size_t comparison = 0; // in the order of the checks
+  std::size_t field = 0;      // index of the fields
+};
+
+class Bounds {
+public:
+  // The cycle with its checks; what they compare is shared, the rest is not kept.
+  explicit Bounds(const ir::Cycle& cycle);
+
+  // Those that some of the samples meet. `roundsRadius`: as for meet().
+  std::vector<Bound> find(const std::vector<DrawField>& fields, const std::vector<Case>& samples,
+                          bool roundsRadius) const;
+  // The case with the field changed so that both sides are equal, for a control with eight digits, too: what
+  // else they depend on is a multiple of a half then; of the ball's radius only where it may be changed.
+  // nullopt: no such value was found.
+  std::optional<Case> meet(const Bound& bound, const std::vector<DrawField>& fields, Case drawn,
+                           bool roundsRadius) const;
+
+private:
+  // Left less right where the checks come to the comparison; nothing: they do not, or it is not known.
+  std::optional<double> margin(std::size_t comparison, const Case& drawn) const;
+
+  ir::Cycle cycle_;
+  std::vector<const ir::Comparison*> comparisons_;
+};
+
+} // namespace dotek::verify

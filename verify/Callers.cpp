@@ -1,0 +1,149 @@
+#include "verify/Callers.h"
+
+#include "support/Decimal.h"
+#include "verify/Random.h"
+
+#include <cmath>
+#include <fmt/format.h>
+#include <optional>
+#include <set>
+
+namespace dotek::verify {
+
+namespace {
+
+using stdlib::CodeInfo;
+using stdlib::Control;
+using stdlib::Function;
+
+constexpr double kSameFeed = 1e-6;
+
+// The variable that tells the code in force of the function's group; nothing: programs cannot ask.
+bool tellsGroup(const Control& control, Function function) {
+  const CodeInfo* code = control.find(function);
+  return code != nullptr && code->group && control.variables.modalFirst;
+}
+
+bool isCertain(const CodeInfo* code) {
+  return code != nullptr && code->grade != "assumed";
+}
+
+// How well the control can be asked for what `on` puts in force: not there, asked, or not.
+enum class Asked : std::uint8_t { Absent, Yes, No };
+
+Asked asked(const Control& control, Function on, Function off) {
+  const CodeInfo* code = control.find(on);
+  if (code == nullptr) return Asked::Absent;
+  return isCertain(code) && tellsGroup(control, off) ? Asked::Yes : Asked::No;
+}
+
+bool asksForShift(const Control& control) {
+  const stdlib::SystemVariables& v = control.variables;
+  return control.find(Function::LocalShift) != nullptr && v.machine && v.position && v.externalX &&
+         v.workOffsetX && v.systemStep != 0 && v.axisStep != 0 && tellsGroup(control, Function::WorkSystem) &&
+         asked(control, Function::RotationOn, Function::RotationOff) != Asked::No &&
+         asked(control, Function::ScalingOn, Function::ScalingOff) != Asked::No;
+}
+
+// Groups that a bare code puts back, whatever has changed them.
+std::set<std::uint32_t> restored(const Control& control) {
+  std::set<std::uint32_t> out;
+  for (const Function function :
+       {Function::Rapid, Function::PlaneXY, Function::Absolute, Function::FeedPerMinute, Function::WorkSystem,
+        Function::PathMode, Function::ReturnInitial, Function::PolarOff})
+    if (tellsGroup(control, function)) out.insert(static_cast<std::uint32_t>(*control.find(function)->group));
+  return out;
+}
+
+} // namespace
+
+std::string callerModes(const Control& control, std::uint64_t stream) {
+  Random random(stream);
+  std::string out;
+  const auto oneOf = [&](std::initializer_list<Function> functions) {
+    std::vector<const CodeInfo*> codes;
+    for (const Function function : functions)
+      if (const CodeInfo* code = control.find(function)) codes.push_back(code);
+    if (codes.empty()) return;
+    out += fmt::format("G{}", numberText(codes[random.below(codes.size())]->tenths / 10.0));
+  };
+  oneOf({Function::Absolute, Function::Incremental});
+  oneOf({Function::PlaneXY, Function::PlaneZX, Function::PlaneYZ});
+  oneOf({Function::FeedPerMinute, Function::FeedPerRevolution});
+  oneOf({Function::Rapid, Function::Feed});
+  return out + "\n";
+}
+
+std::vector<BrokenCaller> brokenCallers(const Control& control, bool shiftOfZ) {
+  std::vector<BrokenCaller> out;
+  // A code in force that the program can ask for.
+  const auto inForce = [&](const CodeInfo* code, std::string alarm) {
+    if (code == nullptr || !code->group) return;
+    BrokenCaller caller;
+    caller.who = fmt::format("with G{} in force", numberText(code->tenths / 10.0));
+    caller.alarm = std::move(alarm);
+    caller.modal.emplace_back(static_cast<std::uint32_t>(*code->group), code->tenths);
+    out.push_back(std::move(caller));
+  };
+  const auto wrong = [&](Function right, Function other, const char* alarm) {
+    if (tellsGroup(control, right)) inForce(control.find(other), alarm);
+  };
+  wrong(Function::Metric, Function::Inch, "NOT METRIC");
+  // What is only assumed to exist is asked for by itself.
+  const auto off = [&](Function on, Function ends, const char* alarm) {
+    const CodeInfo* code = control.find(on);
+    if (code != nullptr && tellsGroup(control, isCertain(code) ? ends : on)) inForce(code, alarm);
+  };
+  off(Function::RotationOn, Function::RotationOff, "ROTATION ACTIVE");
+  off(Function::ScalingOn, Function::ScalingOff, "SCALING ACTIVE");
+  wrong(Function::CutterCompOff, Function::CutterCompLeft, "CUTTER COMPENSATION ON");
+  wrong(Function::CutterCompOff, Function::CutterCompRight, "CUTTER COMPENSATION ON");
+  wrong(Function::CannedCycleOff, Function::CannedCycle, "CANNED CYCLE ACTIVE");
+  if (tellsGroup(control, Function::ToolLengthOff)) {
+    inForce(control.find(Function::ToolLengthOff), "TOOL LENGTH NOT ACTIVE");
+    out.back().ofToolLength = true;
+  }
+  const CodeInfo* extended = control.find(Function::ExtendedWorkSystem);
+  if (extended != nullptr && tellsGroup(control, Function::WorkSystem)) {
+    CodeInfo other = *extended;
+    other.group = control.find(Function::WorkSystem)->group;
+    inForce(&other, "G54 TO G59 NOT ACTIVE");
+  }
+  if (!asksForShift(control)) return out;
+  const CodeInfo* shift = control.find(Function::LocalShift);
+  for (const char axis : {'X', 'Y', 'Z'}) {
+    if (axis == 'Z' && !shiftOfZ) continue;
+    BrokenCaller caller;
+    caller.who = fmt::format("after G{} {}3.", numberText(shift->tenths / 10.0), axis);
+    caller.alarm = "LOCAL SHIFT ACTIVE";
+    caller.blocks = fmt::format("G{}{}3.\n", numberText(shift->tenths / 10.0), axis);
+    out.push_back(std::move(caller));
+  }
+  return out;
+}
+
+std::string whyNotPutBack(const Control& control, const Record& ran, const Record* source) {
+  const std::set<std::uint32_t> groups = restored(control);
+  for (std::uint32_t group = 1; group < ran.modalAfter.size(); ++group) {
+    const std::uint32_t before = ran.modalBefore[group], after = ran.modalAfter[group];
+    if (before == after) continue;
+    if (!groups.contains(group) &&
+        (!control.variables.modalFirst || (source != nullptr && source->modalAfter[group] == after)))
+      continue;
+    return fmt::format("called under G{} it leaves G{} of group {}", numberText(before / 10.0),
+                       numberText(after / 10.0), group);
+  }
+  const CodeInfo* motion = control.find(Function::Rapid);
+  if (ran.motionOfMacro && tellsGroup(control, Function::Rapid))
+    return fmt::format("called under G{} it leaves what a macro has put in force",
+                       numberText(ran.modalBefore[static_cast<std::size_t>(*motion->group)] / 10.0));
+  if (control.variables.modalFeed && ran.feedOfMacro)
+    return fmt::format("called under F{} it leaves what a macro has put in force",
+                       numberText(ran.feedBefore));
+  if (control.variables.modalFeed && std::abs(ran.feedBefore - ran.feedAfter) > kSameFeed)
+    return fmt::format("called under F{} it leaves F{}", numberText(ran.feedBefore),
+                       numberText(ran.feedAfter));
+  return "";
+}
+
+} // namespace dotek::verify

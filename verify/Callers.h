@@ -1,0 +1,36 @@
+// Who calls a program that `convert` writes for a control: callers with all kinds of modes in force, and such
+// that break what the program demands of them. What it owes to each is the contract in docs/convert.md,
+// computed here from the control's profile alone.
+#pragma once
+
+#include "stdlib/Control.h"
+#include "verify/Record.h"
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace dotek::verify {
+
+// Distance, plane, kind of feed and motion, as many as the control has codes for: a block of NC for
+// Entry::blocks. The same `stream` gives the same.
+std::string callerModes(const stdlib::Control& control, std::uint64_t stream);
+
+// A caller who breaks a demand, and the text of the alarm that has to stop him before anything moves.
+struct BrokenCaller {
+  std::string who; // "with G20 in force"
+  std::string alarm;
+  // For Entry: `blocks` and `modal`.
+  std::string blocks;
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> modal;
+  bool ofToolLength = false; // not demanded by a program that puts a length in force itself
+};
+// `shiftOfZ`: the program writes an offset along Z by itself, so no shift of Z may be in force either.
+std::vector<BrokenCaller> brokenCallers(const stdlib::Control& control, bool shiftOfZ);
+
+// Modal groups that the program has to leave as it found them, and F; "" or what it leaves otherwise.
+// `source`: what the original leaves, which counts for groups that no bare code puts back; nullptr: nothing.
+std::string whyNotPutBack(const stdlib::Control& control, const Record& ran, const Record* source);
+
+} // namespace dotek::verify
