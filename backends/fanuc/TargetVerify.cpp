@@ -315,7 +315,8 @@ private:
                      TargetRun& out) {
     if (const std::string why = whyListsOther(translation_.text); !why.empty())
       out.differs(verify::Aspect::Ending, why);
-    for (const verify::BrokenCaller& caller : verify::brokenCallers(control_, ran.ownOffsetOfZ)) {
+    const bool writesZ = ran.ownOffsetOfZ && (now.source == nullptr || !now.source->ownOffsetOfZ);
+    for (const verify::BrokenCaller& caller : verify::brokenCallers(control_, writesZ)) {
       if (caller.ofToolLength && loadsTool(now)) continue;
       verify::Entry broken = entry;
       broken.blocks = caller.blocks;
@@ -417,8 +418,10 @@ private:
         differs(who, "an alarm has to stop it before anything moves", record, out);
       return;
     }
-    std::vector<verify::Difference> found =
-        verify::compare(meant.record, record, rulesFor(now, meant.record));
+    // Its places are those of another posted text.
+    verify::CompareRules rules = rulesFor(now, meant.record);
+    rules.samePlace = nullptr;
+    std::vector<verify::Difference> found = verify::compare(meant.record, record, rules);
     for (verify::Difference& one : found)
       one.text =
           value ? fmt::format("called {}, for which {} is the default: {}", who, numberText(*value), one.text)
