@@ -1,4 +1,5 @@
 // Blocks that a control or a command refuses whatever values run through them.
+#include "frontend/macrob/BlockWords.h"
 #include "frontend/macrob/Calls.h"
 #include "frontend/macrob/Check.h"
 #include "frontend/macrob/Format.h"
@@ -15,22 +16,6 @@ namespace {
 
 bool isOneOf(double code, std::initializer_list<double> codes) {
   return std::find(codes.begin(), codes.end(), code) != codes.end();
-}
-
-std::string wordText(const nc::Word& word) {
-  return word.address + print(*word.value);
-}
-
-const nc::Word* find(const Words& words, char letter) {
-  for (const nc::Word& word : words.words)
-    if (word.address == letter && word.value != nullptr) return &word;
-  return nullptr;
-}
-
-bool hasAny(const Words& words, std::string_view letters) {
-  return std::any_of(words.words.begin(), words.words.end(), [&](const nc::Word& word) {
-    return letters.find(word.address) != std::string_view::npos;
-  });
 }
 
 // Codes that take none of the letters that a straight move does not take either.
@@ -214,7 +199,7 @@ private:
   }
   // P of G10: work systems (L2, L20) and tool offsets (L10 to L13).
   void dataNumber(const Words& words, const nc::Word& word, double value) const {
-    const nc::Word* kind = find(words, 'L');
+    const nc::Word* kind = findWord(words, 'L');
     const auto l = kind == nullptr ? std::nullopt : literal(*kind);
     if (!l) return;
     if (*l == 20) system(word, value);
@@ -354,7 +339,7 @@ void arcWithoutCentre(const CheckedProgram& input, Report& report) {
       other = other || (word.address == 'G' && !isArc && !(code && isPlain(*code)));
     }
     if (arc == nullptr || other || !hasAny(*words, "XYZUVW")) continue;
-    const nc::Word* radius = find(*words, 'R');
+    const nc::Word* radius = findWord(*words, 'R');
     if (radius != nullptr && literal(*radius) == 0.0)
       report.at(radius->range, "the arc has the radius 0; the control stops with an alarm; write the radius");
     else if (!hasAny(*words, "IJKR"))

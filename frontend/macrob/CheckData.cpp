@@ -1,4 +1,5 @@
 // Blocks that set something: data input (G10), dwells, signals; and calculations that stop in every run.
+#include "frontend/macrob/BlockWords.h"
 #include "frontend/macrob/Calls.h"
 #include "frontend/macrob/Check.h"
 #include "frontend/macrob/Constant.h"
@@ -12,22 +13,6 @@
 namespace dotek::frontend::macrob {
 namespace {
 
-const nc::Word* find(const Words& words, char letter) {
-  for (const nc::Word& word : words.words)
-    if (word.address == letter && word.value != nullptr) return &word;
-  return nullptr;
-}
-
-const nc::Word* findAny(const Words& words, std::string_view letters) {
-  for (const nc::Word& word : words.words)
-    if (letters.find(word.address) != std::string_view::npos) return &word;
-  return nullptr;
-}
-
-std::string wordText(const nc::Word& word) {
-  return word.address + print(*word.value);
-}
-
 bool isOneOf(double value, std::initializer_list<double> list) {
   return std::find(list.begin(), list.end(), value) != list.end();
 }
@@ -38,10 +23,10 @@ void dataInputWords(const CheckedProgram& input, Report& report) {
   for (const Words* words : input.plain) {
     const nc::Word* code = findCode(*words, 'G', 10);
     if (code == nullptr) continue;
-    const nc::Word* kind = find(*words, 'L');
-    const nc::Word* number = find(*words, 'P');
-    const nc::Word* axis = findAny(*words, "XYZABCUVW");
-    const nc::Word* value = find(*words, 'R');
+    const nc::Word* kind = findWord(*words, 'L');
+    const nc::Word* number = findWord(*words, 'P');
+    const nc::Word* axis = findAnyOf(*words, "XYZABCUVW");
+    const nc::Word* value = findWord(*words, 'R');
     if (kind == nullptr) {
       // Controls with one memory for lengths set a tool offset by G10 P R.
       const bool oneMemory = input.control != nullptr && !input.control->variables.toolGeometry;

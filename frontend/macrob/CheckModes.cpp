@@ -1,8 +1,8 @@
 // Blocks that the modes before them make wrong: a feed that nobody gave, canned cycles without their levels,
 // arcs that do not close, codes that a mode does not allow.
+#include "frontend/macrob/BlockWords.h"
 #include "frontend/macrob/Calls.h"
 #include "frontend/macrob/Check.h"
-#include "frontend/macrob/Format.h"
 
 #include <algorithm>
 #include <array>
@@ -14,26 +14,10 @@
 namespace dotek::frontend::macrob {
 namespace {
 
-const nc::Word* find(const Words& words, char letter) {
-  for (const nc::Word& word : words.words)
-    if (word.address == letter && word.value != nullptr) return &word;
-  return nullptr;
-}
-
-bool hasAny(const Words& words, std::string_view letters) {
-  return std::any_of(words.words.begin(), words.words.end(), [&](const nc::Word& word) {
-    return letters.find(word.address) != std::string_view::npos;
-  });
-}
-
 const nc::Word* findAny(const Words& words, std::initializer_list<double> codes) {
   for (const double code : codes)
     if (const nc::Word* word = findCode(words, 'G', code)) return word;
   return nullptr;
-}
-
-std::string wordText(const nc::Word& word) {
-  return word.address + print(*word.value);
 }
 
 // All codes of the block are numbers, and none is a builder's.
@@ -81,7 +65,7 @@ void cycleWords(const CheckedProgram& input, Report& report) {
   bool told = false; // of this cycle, whose further holes lack the same
   eachBlock(input, [&](const Words& words, const Modes&, const Modes& now) {
     if (now.cycle != Certain::Yes || takesWords(words) != nullptr) return;
-    const nc::Word* code = find(words, 'G');
+    const nc::Word* code = findWord(words, 'G');
     for (const nc::Word& word : words.words) {
       if (word.address != 'G' || literal(word) != now.cycleCode) continue;
       code = &word;
@@ -90,15 +74,14 @@ void cycleWords(const CheckedProgram& input, Report& report) {
     const SourceRange range = code != nullptr ? code->range : words.words.front().range;
     const std::string name = now.cycleCode != 0 ? fmt::format("G{}", now.cycleCode) : "the cycle";
     for (const char letter : {'K', 'L'})
-      if (const nc::Word* repeats = find(words, letter))
+      if (const nc::Word* repeats = findWord(words, letter))
         if (const auto value = literal(*repeats); value && (*value < 0 || *value != std::floor(*value)))
           report.at(
               repeats->range,
               "`{}` counts the holes of a canned cycle and is no whole number from 0; the control stops with "
               "an alarm; correct it",
               wordText(*repeats));
-    const bool storesOnly = (find(words, 'K') != nullptr && literal(*find(words, 'K')) == 0.0) ||
-                            (find(words, 'L') != nullptr && literal(*find(words, 'L')) == 0.0);
+    const bool storesOnly = findCode(words, 'K', 0) != nullptr || findCode(words, 'L', 0) != nullptr;
     if (told || !hasAny(words, "XYZR") || storesOnly) return;
     const auto tell = [&]<class... Args>(fmt::format_string<Args...> text, Args&&... args) {
       told = true;
@@ -174,8 +157,8 @@ public:
     const PlaneLetters& plane = lettersOf(now.plane);
     const nc::Word* code = findAny(words, {2, 3});
     const SourceRange range = code != nullptr ? code->range : words.words.front().range;
-    const nc::Word* radius = find(words, 'R');
-    if (const nc::Word* unused = find(words, plane.unusedCentre); unused != nullptr && radius == nullptr)
+    const nc::Word* radius = findWord(words, 'R');
+    if (const nc::Word* unused = findWord(words, plane.unusedCentre); unused != nullptr && radius == nullptr)
       report_.at(
           unused->range,
           "an arc in G{} has its centre at {} and {}, and `{}` belongs to another plane; the control stops "
@@ -212,18 +195,18 @@ private:
             SourceRange range) const {
     std::array<double, 2> way{}, centre{};
     for (std::size_t i = 0; i < 2; ++i) {
-      const nc::Word* end = find(words, plane.axes[i]);
+      const nc::Word* end = findWord(words, plane.axes[i]);
       const auto start = before.at[static_cast<std::size_t>(plane.axes[i] - 'X')];
       if (end != nullptr) {
         if (!isCertain(*end) || now.distance == 0 || (now.distance == 90 && !start)) return;
         way[i] = *literal(*end) - (now.distance == 90 ? *start : 0);
       }
-      const nc::Word* middle = find(words, plane.centre[i]);
+      const nc::Word* middle = findWord(words, plane.centre[i]);
       if (middle != nullptr && !isCertain(*middle)) return;
       centre[i] = orZero(middle);
     }
     const double chord = std::hypot(way[0], way[1]);
-    if (const nc::Word* radius = find(words, 'R')) {
+    if (const nc::Word* radius = findWord(words, 'R')) {
       if (!isCertain(*radius)) return;
       if (chord == 0) return fullCircle(*radius, plane);
       if (const double r = std::abs(*literal(*radius)); r > 0 && chord / 2 - r > tolerance_)
@@ -268,7 +251,7 @@ void rotationWords(const CheckedProgram& input, Report& report) {
     if (const nc::Word* off = findCode(words, 'G', 69))
       report.at(off->range,
                 "G68 and G69 in one block; which of them holds is not known; give each a block of its own");
-    const nc::Word* angle = find(words, 'R');
+    const nc::Word* angle = findWord(words, 'R');
     if (angle == nullptr)
       report.at(code->range,
                 "G68 without R turns by an angle that a parameter holds (5410 on a Fanuc); on another "
@@ -279,7 +262,7 @@ void rotationWords(const CheckedProgram& input, Report& report) {
                 wordText(*angle));
     if (now.plane == 0) return;
     const char depth = lettersOf(now.plane).depth;
-    if (const nc::Word* word = find(words, depth))
+    if (const nc::Word* word = findWord(words, depth))
       report.at(word->range,
                 "the centre of a rotation lies in the plane, which is G{}, and `{}` does not; the control "
                 "stops with an alarm or moves {}; leave it out",

@@ -1,7 +1,7 @@
 // NC words: decimal points, arguments of calls, positions that are read too early.
+#include "frontend/macrob/BlockWords.h"
 #include "frontend/macrob/Calls.h"
 #include "frontend/macrob/Check.h"
-#include "frontend/macrob/Format.h"
 #include "frontend/macrob/Walk.h"
 #include "frontend/nc/Findings.h"
 
@@ -26,10 +26,6 @@ const nc::Number* withoutPoint(const nc::Word& word) {
   if (const auto* negated = std::get_if<nc::Negated>(&value->node)) value = negated->operand.get();
   const auto* number = std::get_if<nc::Number>(&value->node);
   return number != nullptr && !number->point && number->value != 0 ? number : nullptr;
-}
-
-std::string wordText(const nc::Word& word) {
-  return word.address + print(*word.value);
 }
 
 std::string millimetres(const nc::Number& number, const stdlib::Control& control) {

@@ -1,0 +1,22 @@
+// The words of one NC block, for checks.
+#pragma once
+
+#include "frontend/macrob/Ast.h"
+
+#include <string>
+#include <string_view>
+
+namespace dotek::frontend::macrob {
+
+// The first word of this letter that has a value; nullptr: there is none.
+const nc::Word* findWord(const Words& words, char letter);
+// The first word of any of these letters, with or without a value; nullptr: there is none.
+const nc::Word* findAnyOf(const Words& words, std::string_view letters);
+inline bool hasAny(const Words& words, std::string_view letters) {
+  return findAnyOf(words, letters) != nullptr;
+}
+
+// As messages show it: "X[#1+2.]". It has a value.
+std::string wordText(const nc::Word& word);
+
+} // namespace dotek::frontend::macrob
