@@ -211,6 +211,13 @@ private:
       return;
     }
     ++checkedFiles_;
+    const bool program = found->kind == InputKind::Nc || found->kind == InputKind::Suf;
+    if (program && found->reason == kEmptyInput) {
+      // A transfer that broke off leaves such a file.
+      if (const auto empty = session_.read(path, Encoding::Cp1250))
+        session_.diagnostics().report<diag::EmptyFile>({*empty, 0, 0}, inputName(path));
+      return;
+    }
     read(path, *found->kind);
   }
 

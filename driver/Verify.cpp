@@ -70,9 +70,12 @@ public:
 private:
   bool checkOptions() {
     Diagnostics& diagnostics = session_.diagnostics();
-    if (options_.inputs.size() != 1)
+    if (options_.inputs.empty())
       diagnostics.report<diag::MissingOption>({}, "verify", "INPUT",
                                               "one folder of a cycle, or one file of programs");
+    else if (options_.inputs.size() > 1)
+      diagnostics.report<diag::OneInput>({}, "verify", options_.inputs.size(),
+                                         "`convert --verify` takes several");
     if (target_ != nullptr)
       checkTargetOptions(*target_, options_, diagnostics);
     else if (!options_.to.empty())

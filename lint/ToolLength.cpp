@@ -15,19 +15,13 @@ namespace {
 constexpr std::uint32_t kZ = 2; // axes after X
 constexpr std::uint32_t kLastLocal = 33;
 constexpr std::uint32_t kFirstSystem = 1000;
-constexpr std::uint32_t kFirstToolOffset = 2000, kLastToolOffset = 2999;
-constexpr std::uint32_t kFirstLongOffset = 10000, kLastLongOffset = 13999; // of later controls
-
-bool isToolOffset(std::uint32_t number) {
-  return (number > kFirstToolOffset && number <= kLastToolOffset) ||
-         (number > kFirstLongOffset && number <= kLastLongOffset);
-}
 
 // Numbers of variables that matter, of the profiles that a program may be for.
 struct Numbers {
   std::set<std::uint32_t> positions; // that hold the length
   std::set<std::uint32_t> machine, length;
   std::set<std::uint32_t> zeroes; // Z of work systems
+  std::vector<stdlib::VariableRange> toolOffsets;
 
   explicit Numbers(const Project& project) {
     if (project.control != nullptr) add(*project.control);
@@ -35,6 +29,12 @@ struct Numbers {
       add(control);
     for (const stdlib::Control& control : project.controls)
       drop(control);
+  }
+
+  bool isToolOffset(std::uint32_t number) const {
+    return std::any_of(toolOffsets.begin(), toolOffsets.end(), [&](const stdlib::VariableRange& range) {
+      return number >= range.first && number <= range.last;
+    });
   }
 
 private:
@@ -47,6 +47,7 @@ private:
     if (control.withToolLength && control.withToolLength->skip) put(positions, v.skip);
     put(machine, v.machine);
     put(length, v.toolLength);
+    toolOffsets.insert(toolOffsets.end(), control.toolOffsets.begin(), control.toolOffsets.end());
     const auto zero = [&](std::optional<int> first, int system) {
       if (first) zeroes.insert(static_cast<std::uint32_t>(*first + system + 2 * v.axisStep));
     };
@@ -209,16 +210,18 @@ private:
   }
 
   bool setsToolOffset() const {
-    return std::any_of(program_.body.begin(), program_.body.end(), [](const ir::ProgramStatement& statement) {
-      if (const auto* block = std::get_if<ir::NcBlock>(&statement.node))
-        if (const auto l = wordValue(*block, 'L'); l && hasCode(*block, 'G', 10)) return *l >= 10 && *l <= 13;
-      const auto* store = std::get_if<ir::Store>(&statement.node);
-      if (store == nullptr) return false;
-      const auto number = storedNumber(statement);
-      if (number) return isToolOffset(*number);
-      const auto first = ir::firstNumber(store->number);
-      return first && isToolOffset(*first + 1);
-    });
+    return std::any_of(program_.body.begin(), program_.body.end(),
+                       [this](const ir::ProgramStatement& statement) {
+                         if (const auto* block = std::get_if<ir::NcBlock>(&statement.node))
+                           if (const auto l = wordValue(*block, 'L'); l && hasCode(*block, 'G', 10))
+                             return *l >= 10 && *l <= 13;
+                         const auto* store = std::get_if<ir::Store>(&statement.node);
+                         if (store == nullptr) return false;
+                         const auto number = storedNumber(statement);
+                         if (number) return numbers_.isToolOffset(*number);
+                         const auto first = ir::firstNumber(store->number);
+                         return first && numbers_.isToolOffset(*first + 1);
+                       });
   }
 
   Held variable(const ir::Expression& expression, const Fact& fact) const {
@@ -241,7 +244,7 @@ private:
     }
     if (const Held* held = fact.values.find(*number)) return *held;
     if (*number < kFirstSystem) return fact.lost ? unknownHeld() : entryValue(*number);
-    out.maybeAdded = isToolOffset(*number);
+    out.maybeAdded = numbers_.isToolOffset(*number);
     return out;
   }
 

@@ -25,7 +25,8 @@ Control ControlReader::read() {
   words();
   language();
   common();
-  readOnly();
+  control_.readOnly = systemRanges("read_only");
+  control_.toolOffsets = systemRanges("tool_offsets");
   alarm();
   programs();
   // Codes are taken one by one, other sections as a whole.
@@ -154,18 +155,20 @@ void ControlReader::common() {
   }
 }
 
-void ControlReader::readOnly() {
-  for (const TomlTable& table : find("read_only").tables()) {
+std::vector<VariableRange> ControlReader::systemRanges(std::string_view key) {
+  std::vector<VariableRange> out;
+  for (const TomlTable& table : find(key).tables()) {
     origin(table);
-    if (control_.readOnly.size() == kMostRanges)
+    if (out.size() == kMostRanges)
       document_.fail(table.range(), fmt::format("more than {} ranges", kMostRanges));
     VariableRange range;
     range.first = whole(table, "first", "a variable number", 1000, 999999);
     range.last = whole(table, "last", "a variable number", 1000, 999999);
     if (range.first > range.last)
       document_.fail(table.range(), fmt::format("#{} to #{} is no range", range.first, range.last));
-    control_.readOnly.push_back(range);
+    out.push_back(range);
   }
+  return out;
 }
 
 void ControlReader::alarm() {
@@ -244,13 +247,13 @@ bool Control::isCommon(std::uint32_t number) const {
   });
 }
 
-bool Control::isReadOnly(std::uint32_t number) const {
-  return std::any_of(readOnly.begin(), readOnly.end(), [&](const VariableRange& range) {
-    return range.first <= number && number <= range.last;
+namespace {
+
+bool isIn(const std::vector<VariableRange>& ranges, std::uint32_t number) {
+  return std::any_of(ranges.begin(), ranges.end(), [&](const VariableRange& range) {
+    return number >= range.first && number <= range.last;
   });
 }
-
-namespace {
 
 // More is a loop.
 constexpr std::size_t kMostExtended = 8;
@@ -281,6 +284,14 @@ std::optional<Control> Control::load(const DataFiles& files, std::string_view na
   const DataFile* file = files.find("controls", name);
   if (file == nullptr) return std::nullopt;
   return loadFrom(files, *file, 0);
+}
+
+bool Control::isReadOnly(std::uint32_t number) const {
+  return isIn(readOnly, number);
+}
+
+bool Control::isToolOffset(std::uint32_t number) const {
+  return isIn(toolOffsets, number);
 }
 
 } // namespace dotek::stdlib

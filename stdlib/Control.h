@@ -257,6 +257,9 @@ struct Control {
   std::uint32_t macroLevels = 4;
   std::vector<VariableRange> common;
   std::vector<VariableRange> readOnly; // system variables that no program writes (alarm 116)
+  // Lengths and radii of tools, geometry and wear: all that the family may have, beyond what `variables`
+  // says.
+  std::vector<VariableRange> toolOffsets;
   // SIN, ATAN, AND, ...; beside ATAN the forms that exist: "ATAN[y]" (-90 to 90), "ATAN[y]/[x]", "ATAN[y,x]".
   std::set<std::string> functions;
   std::uint32_t alarmFirst = 0, alarmLast = 200; // n of #3000=n
@@ -293,6 +296,7 @@ struct Control {
   const AlarmInfo* find(Alarm alarm) const;                      // nullptr: its number is not known
   bool isCommon(std::uint32_t number) const;
   bool isReadOnly(std::uint32_t number) const;
+  bool isToolOffset(std::uint32_t number) const;
 
   // Throws DataError where the file has a defect. nullopt: no such control.
   static std::optional<Control> load(const DataFiles& files, std::string_view name);

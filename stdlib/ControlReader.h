@@ -55,7 +55,7 @@ private:
   void words();
   void language();
   void common();
-  void readOnly();
+  std::vector<VariableRange> systemRanges(std::string_view key);
   void alarm();
   void programs();
   void motion();

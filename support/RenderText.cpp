@@ -100,7 +100,9 @@ std::string renderText(const Diagnostics& diagnostics, const SourceMap& sources,
     }
     if (d.fix) {
       appendPlace(out, d.fix->edits.empty() ? d.range : d.fix->edits.front().range, sources);
-      out += fmt::format("fix: {}\n", printable(d.fix->title));
+      const bool safe = d.fix->applicability == Fix::Applicability::Safe;
+      out += fmt::format("{}: {}\n", safe ? "fix (`dotek lint --fix` makes it)" : "fix by hand",
+                         printable(d.fix->title));
     }
   }
   if (left > 0)

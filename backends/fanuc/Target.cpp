@@ -29,7 +29,6 @@ public:
       : Conversion(context), programs_(context.options, context.session) {}
 
   bool beginPrograms() override { return programs_.load(); }
-  bool beginCycles() override { return numbersDiffer(); }
 
   bool cycle(const CycleFolder& folder, std::size_t index) override {
     std::optional<LoweredSource> source = lowerSource(folder, context_);
@@ -76,17 +75,12 @@ public:
 
 private:
   std::uint32_t numberOf(std::size_t index) const {
-    if (options_.programNumber) return *options_.programNumber;
-    if (context_.inputs->job && context_.inputs->job->number)
-      return static_cast<std::uint32_t>(*context_.inputs->job->number);
-    return kFirstProgram + static_cast<std::uint32_t>(index);
-  }
-
-  bool numbersDiffer() {
-    if (context_.folders.size() < 2 || numberOf(0) != numberOf(1)) return true;
-    session_.diagnostics().report<diag::ProgramNumberTwice>({}, numberOf(0), context_.folders[0].name,
-                                                            context_.folders[1].name);
-    return false;
+    std::uint32_t first = kFirstProgram;
+    if (options_.programNumber)
+      first = *options_.programNumber;
+    else if (context_.inputs->job && context_.inputs->job->number)
+      first = static_cast<std::uint32_t>(*context_.inputs->job->number);
+    return first + static_cast<std::uint32_t>(index);
   }
 
   // The set that the program calls: given, else the source's; a path alone takes the first that touches

@@ -45,7 +45,7 @@ std::string marksOf(std::string_view name) {
   return out;
 }
 
-// doOfstOn and doOfstOff.
+// doWashOn and doWashOff.
 bool switchesOther(std::string_view one, std::string_view other) {
   const auto ends = [](std::string_view name, std::string_view end) { return name.ends_with(end); };
   return (ends(one, "On") && ends(other, "Off")) || (ends(one, "Off") && ends(other, "On"));

@@ -1,7 +1,9 @@
 #include "ir/Dataflow.h"
+#include "ir/Walk.h"
 #include "lint/Skips.h"
 
 #include <algorithm>
+#include <map>
 
 namespace dotek::lint::rule {
 namespace {
@@ -16,15 +18,55 @@ std::string names(AxisSet axes) {
   return out;
 }
 
+// How often a variable is read, and how often as the second length of ATAN alone: the way along the surface
+// between two touches, for which any position serves.
+struct Reads {
+  std::map<std::uint32_t, std::size_t> all, alongAngle;
+
+  explicit Reads(const std::vector<ir::ProgramStatement>& body) {
+    const auto count = [](const ir::Expression& node, std::map<std::uint32_t, std::size_t>& into) {
+      const auto* variable = std::get_if<ir::MachineVariable>(&node.node);
+      const double* number = variable == nullptr ? nullptr : ir::constantValue(variable->number);
+      if (number != nullptr && *number >= 1) ++into[static_cast<std::uint32_t>(*number)];
+    };
+    for (const ir::ProgramStatement& statement : body)
+      ir::eachNode(statement, [&](const ir::Expression& node) {
+        count(node, all);
+        const auto* binary = std::get_if<ir::Binary>(&node.node);
+        if (binary == nullptr || binary->op != ir::BinaryOp::Bearing) return;
+        ir::eachNode(binary->left, [&](const ir::Expression& inner) { count(inner, alongAngle); });
+      });
+  }
+  bool onlyAlongAngle(std::uint32_t variable) const {
+    const auto found = alongAngle.find(variable);
+    return found != alongAngle.end() && found->second == all.at(variable);
+  }
+};
+
+// The axes of the G31s of a loop, and kAnyAxis where it calls a program.
+AxisSet touchedIn(const std::vector<ir::ProgramStatement>& body, std::size_t loop, std::size_t end) {
+  AxisSet out = 0;
+  for (std::size_t i = loop; i < end; ++i) {
+    if (const ir::NcBlock* skip = skipOf(body[i])) out = static_cast<AxisSet>(out | axesOf(*skip));
+    if (callOf(body[i]) != nullptr) out = static_cast<AxisSet>(out | kAnyAxis);
+  }
+  return out;
+}
+
 void checkProgram(const ir::Program& program, Report& report) {
   const auto& body = program.body;
+  const Reads reads(body);
   const bool skips = std::any_of(body.begin(), body.end(),
                                  [](const ir::ProgramStatement& s) { return skipOf(s) != nullptr; });
   // A macro may evaluate what its caller measured.
   if (!skips && !endsProgram(program)) return;
   const auto moved = ir::factsBefore<AxisSet>(
       body, kNone,
-      [&](std::size_t at, std::size_t, AxisSet axes) -> AxisSet {
+      [&](std::size_t at, std::size_t to, AxisSet axes) -> AxisSet {
+        // A loop that touches is written to run.
+        if (std::holds_alternative<ir::Loop>(body[at].node) && to > at + 1 && (axes & kNone) != 0)
+          if (const AxisSet touched = touchedIn(body, at, to); touched != 0)
+            return static_cast<AxisSet>((axes & ~kNone) | touched);
         if (const ir::NcBlock* skip = skipOf(body[at])) return axesOf(*skip);
         return callOf(body[at]) != nullptr ? kAnyAxis : axes;
       },
@@ -40,6 +82,9 @@ void checkProgram(const ir::Program& program, Report& report) {
       const auto axis = contactAxis(number);
       const bool none = (*moved[i] & kNone) != 0;
       if (!axis || told || (!none && (*moved[i] & *axis) != 0)) return;
+      const auto* store = std::get_if<ir::Store>(&body[i].node);
+      const auto kept = store == nullptr ? std::nullopt : storedNumber(body[i]);
+      if (!none && kept && reads.onlyAlongAngle(*kept)) return;
       told = true;
       const SourceRange place = range.hasPlace() ? range : body[i].origin.range();
       if (none)

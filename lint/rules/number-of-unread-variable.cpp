@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 #include <set>
+#include <vector>
 
 namespace dotek::lint::rule {
 namespace {
@@ -17,12 +18,16 @@ bool isSystem(double number) {
 }
 
 void check(const Project& project, Report& report) {
-  std::map<std::uint32_t, SourceRange> stored;
-  std::set<std::uint32_t> read;
-  std::map<std::uint32_t, SourceRange> numbers; // without a point, in calculations
+  // Of a program: what it sets, and numbers without a point in calculations.
+  struct Numbers {
+    std::map<std::uint32_t, SourceRange> stored, used;
+  };
+  std::vector<Numbers> programs;
+  std::set<std::uint32_t> read; // in any
   eachProgram(project, [&](const ir::Program& program, const macrob::File&) {
+    Numbers& mine = programs.emplace_back();
     for (const ir::ProgramStatement& statement : program.body) {
-      if (const auto number = storedNumber(statement)) stored.emplace(*number, statement.origin.range());
+      if (const auto number = storedNumber(statement)) mine.stored.emplace(*number, statement.origin.range());
       eachRead(statement, [&](std::uint32_t number, SourceRange) { read.insert(number); });
       std::set<const ir::Expression*> indices; // numbers of variables
       ir::eachNode(statement, [&](const ir::Expression& node) {
@@ -61,21 +66,23 @@ void check(const Project& project, Report& report) {
         if (constant->value < kFirstCommon || constant->value > kLastCommon ||
             constant->digits.find('.') != std::string::npos || constant->value != std::floor(constant->value))
           return;
-        numbers.emplace(static_cast<std::uint32_t>(constant->value),
-                        node.range.hasPlace() ? node.range : statement.origin.range());
+        mine.used.emplace(static_cast<std::uint32_t>(constant->value),
+                          node.range.hasPlace() ? node.range : statement.origin.range());
       });
     }
   });
-  for (const auto& [number, range] : numbers) {
-    const auto at = stored.find(number);
-    if (at == stored.end() || read.contains(number)) continue;
-    report
-        .at(range,
-            "{0} is a number here, and #{0} is set and read nowhere; the control calculates with {0}; write "
-            "`#{0}` if the variable is meant",
-            number)
-        .note(at->second, fmt::format("#{} is set here", number));
-  }
+  for (const Numbers& one : programs)
+    for (const auto& [number, range] : one.used) {
+      const auto at = one.stored.find(number);
+      if (at == one.stored.end() || read.contains(number)) continue;
+      report
+          .at(range,
+              "{0} is a number here, and #{0} is set and read nowhere; the control calculates with {0}; "
+              "write "
+              "`#{0}` if the variable is meant",
+              number)
+          .note(at->second, fmt::format("#{} is set here", number));
+    }
 }
 
 } // namespace

@@ -39,7 +39,18 @@ std::vector<Travel> travels(const std::vector<Statement>& body, const Probing& p
   std::vector<Travel> out;
   bool measured = false;
   bool lifted = false;
+  bool armed = false; // G66 is in force
   for (std::size_t i = 0; i < body.size(); ++i) {
+    // G66 only says what runs after the moves that follow, and that macro knows its own way back.
+    if constexpr (std::same_as<Statement, ir::ProgramStatement>) {
+      const auto* call = std::get_if<ir::Call>(&body[i].node);
+      if (call != nullptr && call->kind != ir::CallKind::Macro && call->kind != ir::CallKind::Subprogram) {
+        armed = call->kind != ir::CallKind::Off;
+        measured = false;
+        continue;
+      }
+    }
+    if (armed) continue;
     const ProbeStep step = probing.step(body[i]);
     if (step.kind == ProbeStep::Kind::Measure ||
         (step.kind == ProbeStep::Kind::OwnCall && probing.skips(step.program))) {
