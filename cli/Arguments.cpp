@@ -40,6 +40,8 @@ void fill(const Raw& raw, Arguments& parsed) {
   parsed.json = raw.format == "json" || raw.json;
   parsed.quiet = raw.quiet;
   parsed.force = raw.force;
+  parsed.write = raw.write;
+  parsed.check = raw.check;
   parsed.traceFile = raw.traceFile;
   parsed.svgFile = raw.svgFile;
   parsed.htmlFile = raw.htmlFile;
@@ -60,7 +62,8 @@ constexpr CommandFlags kCommands[] = {
     {"lint", Command::Lint, addLint}, {"dump", Command::Dump, addDump},
     {"sim", Command::Sim, addSim},    {"verify", Command::Verify, addVerify},
     {"new", Command::New, addNew},    {"explain", Command::Explain, addExplain},
-    {"list", Command::List, addList},
+    {"list", Command::List, addList}, {"check", Command::Check, addCheck},
+    {"fmt", Command::Fmt, addFmt},
 };
 
 // A command that is named first is the only one that is declared: declaring all flags takes longer than many
@@ -224,6 +227,8 @@ std::optional<int> parseArguments(const std::vector<std::string>& arguments, Arg
     const std::string command = app.get_subcommands().front()->get_name();
     for (const CommandFlags& one : kCommands)
       if (one.name == command) parsed.command = one.command;
+    if (parsed.command == Command::New && app.get_subcommands().front()->got_subcommand("cycle"))
+      parsed.command = Command::NewCycle;
     fill(raw, parsed);
     return std::nullopt;
   } catch (const CLI::Success& success) {

@@ -11,7 +11,7 @@
 
 namespace dotek::cli {
 
-enum class Command : unsigned char { Post, Convert, Lint, Dump, Explain, List, New, Sim, Verify };
+enum class Command : unsigned char { Post, Convert, Lint, Dump, Explain, List, New, NewCycle, Check, Fmt, Sim, Verify };
 
 struct Arguments {
   Command command = Command::Post;
@@ -34,6 +34,7 @@ struct Arguments {
   bool quiet = false;
   bool force = false; // of --force: outputs that are write-protected are replaced
   driver::Stage stage = driver::Stage::Ast;
+  bool write = false, check = false; // of fmt: --write, --check
   std::uint32_t maxErrors = 50;
 };
 

@@ -134,6 +134,25 @@ public:
     return outcome.status;
   }
 
+  // One text to standard output, or those that change in place, or the names of these.
+  int layout(const driver::Outcome& outcome, const Arguments& arguments) {
+    err_ << renderText(outcome.diagnostics, outcome.sources, maxErrors_);
+    std::vector<NamedText> texts;
+    for (const driver::OutputFile& file : outcome.files) {
+      const bool changes =
+          std::find(outcome.inputs.begin(), outcome.inputs.end(), file.name) != outcome.inputs.end();
+      if (arguments.check && changes) out_ << printable(file.name) << "\n";
+      if (arguments.write && changes) texts.push_back({file.name, &file.text});
+      if (!arguments.check && !arguments.write && outcome.status == 0)
+        texts.push_back({orStandardOutput(arguments.output), &file.text});
+    }
+    if (arguments.check) return outcome.status != 0 || outcome.inputs.empty() ? outcome.status : kInputError;
+    Diagnostics writing;
+    const bool done = writeAll(texts, "", {arguments.force, &out_}, writing);
+    err_ << renderText(writing, SourceMap(), maxErrors_);
+    return done ? outcome.status : kUsage;
+  }
+
 private:
   bool write(const std::vector<NamedText>& texts, const driver::Outcome& outcome,
              const Arguments& arguments) {
@@ -196,6 +215,11 @@ int runCommand(Arguments& arguments, std::ostream& out, std::ostream& err) {
           arguments);
     return printer.result(driver::newForm({arguments.inputs.back(), arguments.source.prog, arguments.common}),
                           arguments);
+  case Command::NewCycle:
+    return printer.result(driver::newCycle(arguments.inputs.back(), arguments.common), arguments);
+  case Command::Check:
+    return printer.findings(driver::check({arguments.inputs, arguments.common}), arguments);
+  case Command::Fmt: return printer.layout(driver::layOut({arguments.inputs, arguments.common}), arguments);
   case Command::List:
     return printer.result(driver::list(arguments.inputs.front(), arguments.common), arguments);
   }

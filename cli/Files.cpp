@@ -46,8 +46,8 @@ std::vector<OutputName> outputsOf(const Arguments& arguments) {
 std::vector<std::string> inputsOf(const Arguments& arguments) {
   std::vector<std::string> out;
   // The name of a new form and what `explain` and `list` take are no files.
-  if (arguments.command != Command::New && arguments.command != Command::Explain &&
-      arguments.command != Command::List)
+  if (arguments.command != Command::New && arguments.command != Command::NewCycle &&
+      arguments.command != Command::Explain && arguments.command != Command::List)
     out = arguments.inputs;
   for (const auto& one :
        {arguments.source.prog, arguments.common.job, arguments.sim.part, arguments.sim.machine,

@@ -153,7 +153,8 @@ driver::CommonOptions commonOf(const Raw& raw) {
   out.scriptProgram = runningProgram();
   if (!raw.from.empty()) {
     if (!project::kindByName(raw.from))
-      throw UsageError("--from takes prog, mac, dlg, define, nc, listing or suf, not `" + raw.from + "`");
+      throw UsageError("--from takes prog, mac, dlg, define, nc, listing, suf or cycle, not `" + raw.from +
+                       "`");
     out.from = raw.from;
   }
   return out;
@@ -167,7 +168,7 @@ void addProbeCodes(CLI::App& app, Raw& raw) {
 
 void addCommon(CLI::App& app, Raw& raw) {
   app.add_option("--encoding", raw.encoding, "utf-8, cp1250 or cp852 instead of the recognised encoding");
-  app.add_option("--from", raw.from, "kind of the inputs: prog, mac, dlg, define, nc, listing or suf");
+  app.add_option("--from", raw.from, "kind of the inputs: prog, mac, dlg, define, nc, listing, suf or cycle");
   app.add_option("--max-errors", raw.maxErrors, "print at most N errors; 0 prints all")->type_name("N");
   addSeveral(app, "--limit", raw.limit, "set a limit (see `dotek list limits`)", "NAME=N");
   addProbeCodes(app, raw);

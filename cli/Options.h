@@ -31,6 +31,7 @@ struct Raw {
   std::vector<std::string> select, ignore;
   std::string failOn;
   bool fix = false, followLinks = false;
+  bool write = false, check = false; // of fmt
   std::string stage = "ast";
   std::vector<std::string> letters, defaults;
   std::string to, control, fromControl, renumber, probeMacros, probeOn, probeOff, programNumber, outputFolder,
@@ -112,6 +113,8 @@ void addDump(CLI::App& app, Raw& raw);
 void addSim(CLI::App& app, Raw& raw);
 void addVerify(CLI::App& app, Raw& raw);
 void addNew(CLI::App& app, Raw& raw);
+void addCheck(CLI::App& app, Raw& raw);
+void addFmt(CLI::App& app, Raw& raw);
 void addExplain(CLI::App& app, Raw& raw);
 void addList(CLI::App& app, Raw& raw);
 

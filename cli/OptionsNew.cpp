@@ -1,4 +1,4 @@
-// Flags of `dotek new`, `dotek explain` and `dotek list`.
+// Flags of `dotek new`, `dotek check`, `dotek fmt`, `dotek explain` and `dotek list`.
 #include "cli/Options.h"
 
 namespace dotek::cli {
@@ -23,6 +23,33 @@ void addNew(CLI::App& app, Raw& raw) {
   addForce(*control, raw);
   addProbeCodes(*control, raw);
   addFolders(*control, "--data", raw.data, "folder whose data files are added or replace built-in ones");
+  CLI::App* cycle = command->add_subcommand("cycle", "a cycle of your own, with a comment to each part");
+  cycle->add_option("NAME", raw.inputs, "name of the cycle: small letters, digits and `_`")
+      ->required()
+      ->expected(1);
+  cycle->add_option("-o", raw.output, "write the cycle to a file")->type_name("FILE");
+  addForce(*cycle, raw);
+}
+
+void addCheck(CLI::App& app, Raw& raw) {
+  CLI::App* check =
+      app.add_subcommand("check", "say what is wrong with cycles (.cycle), whatever their values");
+  check->add_option("FILE", raw.inputs, "files of the cycle language; `-` is standard input");
+  check->add_option("--format", raw.format, "text, json or sarif")
+      ->check(CLI::IsMember({"text", "json", "sarif"}));
+  addCommon(*check, raw);
+}
+
+void addFmt(CLI::App& app, Raw& raw) {
+  CLI::App* fmt = app.add_subcommand("fmt", "print a cycle (.cycle) in the one layout of the language");
+  fmt->add_option("FILE", raw.inputs, "files of the cycle language; `-` is standard input");
+  CLI::Option* write = fmt->add_flag("--write", raw.write, "change the files instead; several may be given");
+  fmt->add_flag("--check", raw.check,
+                "print the names of files that would change; status 1 where there are any")
+      ->excludes(write);
+  fmt->add_option("-o", raw.output, "write the text to a file")->type_name("OUT")->excludes(write);
+  addForce(*fmt, raw);
+  addCommon(*fmt, raw);
 }
 
 void addExplain(CLI::App& app, Raw& raw) {

@@ -1,6 +1,7 @@
 #include "driver/Command.h"
 #include "driver/Driver.h"
 #include "frontend/compost/Parse.h"
+#include "frontend/cycle/Parse.h"
 #include "frontend/gibbs/Run.h"
 #include "frontend/macrob/Parse.h"
 #include "frontend/mikroprog/Lower.h"
@@ -81,6 +82,16 @@ private:
                                               : frontend::mikroprog::dumpAst(program, session_.sources());
       return;
     }
+    if (*kind == InputKind::Cycle) {
+      out_ +=
+          options_.stage == Stage::Tokens
+              ? frontend::cycle::dumpTokens(*id, session_.sources(), session_.limits(),
+                                            session_.diagnostics())
+              : frontend::cycle::dumpAst(frontend::cycle::parse(*id, session_.sources(), session_.limits(),
+                                                                session_.diagnostics()),
+                                         session_.sources());
+      return;
+    }
     const gibbs::ParseContext context{session_.sources(), session_.gibbsKeywords(), session_.limits(),
                                       session_.diagnostics()};
     if (options_.stage == Stage::Tokens) {
@@ -109,6 +120,7 @@ private:
     case InputKind::Dialog:
       out_ += gibbs::dumpAst(gibbs::parseDialog(*id, context), session_.sources());
       break;
+    case InputKind::Cycle:
     case InputKind::Suf: break; // above
     case InputKind::DefineData:
       out_ += gibbs::dumpAst(gibbs::parseDefineData(*id, context), session_.sources());

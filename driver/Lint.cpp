@@ -11,6 +11,7 @@
 #include "lint/Shared.h"
 #include "lint/Suppressions.h"
 #include "project/Compilation.h"
+#include "project/CycleFiles.h"
 #include "project/CycleFolder.h"
 #include "project/InputWalk.h"
 #include "project/Job.h"
@@ -37,7 +38,7 @@ namespace {
 class LintCommand {
 public:
   LintCommand(const LintOptions& options, Session& session)
-      : options_(options), session_(session), configs_(session), compilation_(session),
+      : options_(options), session_(session), configs_(session), compilation_(session), cycles_(session),
         projects_(options, configs_, compilation_),
         walk_(
             options.followLinks, [this](const std::string& path, bool) { folder(path); },
@@ -243,6 +244,10 @@ private:
         entryPoints_.insert(routine->name);
       return;
     }
+    if (kind == InputKind::Cycle) {
+      cycles_.check(path);
+      return;
+    }
     const std::optional<FileId> id =
         session_.read(path, kind == InputKind::Suf ? Encoding::Cp852 : Encoding::Cp1250);
     if (!id) return;
@@ -332,6 +337,7 @@ private:
   Session& session_;
   lint::Configs configs_;
   Compilation compilation_;
+  CycleFiles cycles_;
   lint::Projects projects_;
   InputWalk walk_;
   std::size_t checkedFiles_ = 0, excluded_ = 0;

@@ -19,8 +19,8 @@ constexpr int kMostLines = 2000;
 constexpr std::size_t kMostOfLine = 4096;
 constexpr int kLongestLeader = 12; // lines before the first `%`, or after the last
 
-constexpr std::array kKinds = {InputKind::Prog,       InputKind::Macro, InputKind::Dialog,
-                               InputKind::DefineData, InputKind::Nc,    InputKind::Suf};
+constexpr std::array kKinds = {InputKind::Prog, InputKind::Macro, InputKind::Dialog, InputKind::DefineData,
+                               InputKind::Nc,   InputKind::Suf,   InputKind::Cycle};
 
 // What the lines of a text say for one language.
 struct Tally {
@@ -69,7 +69,7 @@ private:
 };
 
 struct Evidence {
-  Tally prog, macro, dialog, suf;
+  Tally prog, macro, dialog, suf, cycle;
   NcTally nc;
   Dialects dialects;
   int definitions = 0, prose = 0;
@@ -82,6 +82,7 @@ struct Evidence {
     case InputKind::DefineData: return macro;
     case InputKind::Dialog: return dialog;
     case InputKind::Nc: return nc.tally;
+    case InputKind::Cycle: return cycle;
     case InputKind::Suf: break;
     }
     return suf;
@@ -107,6 +108,7 @@ Evidence look(View text) {
     out.nc.add(block);
     out.prose += !block.fits && !block.blank && isProse(line) ? 1 : 0;
     out.suf.add(sufShape(line));
+    out.cycle.add(cycleShape(line));
     out.schema = out.schema || line.starts_with("schema =");
     out.definitions += isDefinition(line) ? 1 : 0;
     out.dialects.look(line);
@@ -122,6 +124,7 @@ std::optional<InputKind> kindOfName(const std::string& name) {
   if (end == ".MAC") return InputKind::Macro;
   if (end == ".DLG") return InputKind::Dialog;
   if (end == ".SUF" || end == ".FCB") return InputKind::Suf;
+  if (end == ".CYCLE") return InputKind::Cycle;
   constexpr std::array<View, 12> kNc = {".NC",  ".CNC", ".TAP", ".EIA", ".PRG", ".NCC",
                                         ".NCF", ".ISO", ".DNC", ".FAN", ".PIM", ".MIN"};
   const bool number = name.size() > 1 && name[0] == 'O' &&
@@ -147,6 +150,7 @@ View linesOf(InputKind kind) {
   case InputKind::Dialog: return "controls of a dialog";
   case InputKind::DefineData: return "definitions";
   case InputKind::Nc: return "blocks of NC";
+  case InputKind::Cycle: return "statements of a cycle";
   case InputKind::Suf: break;
   }
   return "blocks of Mikroprog";
@@ -156,6 +160,7 @@ Recognition recogniseText(View text, std::optional<InputKind> named) {
   if (text.find_first_not_of(" \t\r\n\v\f\x1A") == View::npos) return {named, std::string(kEmptyInput)};
   if (named == InputKind::DefineData) return {named, "its name is fixed in GibbsCAM"};
   if (auto other = otherFormat(text)) return {std::nullopt, std::move(*other)};
+  if (named == InputKind::Cycle) return {named, "its name"};
   const Evidence seen = look(text);
   const Tally& nc = seen.nc.tally;
   // Words of Mikroprog look like any NC, and its comments like those of other controls.
@@ -175,6 +180,8 @@ Recognition recogniseText(View text, std::optional<InputKind> named) {
   if (seen.dialects.certain() || (!suf && !ours && foreign >= 2 && foreign > own))
     return {std::nullopt, seen.dialects.name(nc.lines)};
   if (suf) return {InputKind::Suf, share(seen.suf, linesOf(InputKind::Suf))};
+  if (seen.cycle.weight >= 4 && seen.cycle.share() >= 0.5)
+    return {InputKind::Cycle, share(seen.cycle, linesOf(InputKind::Cycle))};
   std::optional<InputKind> best;
   double score = 0;
   for (const InputKind kind : {InputKind::Nc, InputKind::Macro, InputKind::Dialog, InputKind::Prog}) {
@@ -213,6 +220,7 @@ std::string_view kindName(InputKind kind) {
   case InputKind::DefineData: return "define";
   case InputKind::Nc: return "nc";
   case InputKind::Suf: return "suf";
+  case InputKind::Cycle: return "cycle";
   }
   return "";
 }
@@ -225,6 +233,7 @@ std::string_view kindText(InputKind kind) {
   case InputKind::DefineData: return "a DefineData.txt";
   case InputKind::Nc: return "an NC program";
   case InputKind::Suf: return "a program of Mikroprog";
+  case InputKind::Cycle: return "a cycle";
   }
   return "";
 }

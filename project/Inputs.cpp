@@ -1,6 +1,7 @@
 #include "project/Inputs.h"
 
 #include "support/messages/Common.h"
+#include "support/messages/Cycle.h"
 
 #include <algorithm>
 
@@ -12,11 +13,13 @@ std::optional<InputKind> kindAmong(const std::string& path, std::initializer_lis
   if (found == nullptr) return std::nullopt;
   if (!found->kind)
     session.diagnostics().report<diag::UnknownKind>({}, inputName(path), otherwise(*found));
-  else if (std::find(kinds.begin(), kinds.end(), *found->kind) == kinds.end())
+  else if (std::find(kinds.begin(), kinds.end(), *found->kind) != kinds.end())
+    return found->kind;
+  else if (found->kind == InputKind::Cycle)
+    session.diagnostics().report<diag::CycleNotRun>({}, inputName(path));
+  else
     session.diagnostics().report<diag::WrongKind>({}, inputName(path), kindText(*found->kind), expected,
                                                   kindName(*kinds.begin()));
-  else
-    return found->kind;
   return std::nullopt;
 }
 

@@ -325,4 +325,23 @@ Shape progShape(View line, bool& inComment) {
   return ProgReader(trimmed(text)).read();
 }
 
+Shape cycleShape(View line) {
+  const std::size_t begin = line.find_first_not_of(" \t");
+  if (begin == View::npos || line.substr(begin).starts_with("//")) return {true, false, 0};
+  const View text = line.substr(begin);
+  const View word = text.substr(0, text.find_first_of(" \t"));
+  const View rest = text.substr(std::min(text.size(), word.size() + 1));
+  const auto has = [&](View what) { return rest.find(what) != View::npos; };
+  if (word == "cycle") return {false, rest.find('"') != View::npos, 3};
+  if ((word == "parameter" || word == "result") && has(":")) return {false, true, 3};
+  if (word == "touch" && (has(" by ") || has(" to "))) return {false, true, 3};
+  if ((word == "protected" || word == "rapid" || word == "feed") && rest.starts_with("move "))
+    return {false, true, 3};
+  if (word == "probe" && (rest == "on" || rest == "off")) return {false, true, 1};
+  if (word == "set" && has(" becomes ")) return {false, true, 3};
+  if (word == "if" || word == "else" || word == "end" || word == "call" || word == "alarm")
+    return {false, true, 0};
+  return {false, has("= "), 0};
+}
+
 } // namespace dotek::project

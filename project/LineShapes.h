@@ -32,6 +32,9 @@ Shape macroShape(std::string_view line);
 // A control of a GibbsCAM dialog: a word and the four numbers of its box.
 Shape dialogShape(std::string_view line);
 
+// A statement of the cycle language.
+Shape cycleShape(std::string_view line);
+
 // A sentence: mostly words, not all in capitals.
 bool isProse(std::string_view line);
 

@@ -13,6 +13,7 @@ std::span<const MessageInfo> messageTable() {
 #include "support/messages/ComPost.def"
 #include "support/messages/Commands.def"
 #include "support/messages/Common.def"
+#include "support/messages/Cycle.def"
 #include "support/messages/Fanuc.def"
 #include "support/messages/Fusion.def"
 #include "support/messages/Gibbs.def"

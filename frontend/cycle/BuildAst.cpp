@@ -1,0 +1,173 @@
+// Lines to blocks: comments, blank lines, `end`.
+#include "frontend/cycle/BuildAst.h"
+
+#include "frontend/cycle/Parse.h"
+#include "support/Ascii.h"
+#include "support/messages/Common.h"
+#include "support/messages/Cycle.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace dotek::frontend::cycle {
+
+Builder::Builder(FileId file, const SourceMap& sources, const Limits& limits, Diagnostics& diagnostics)
+    : sources_(sources), source_(sources.file(file)), limits_(limits), diagnostics_(diagnostics) {
+  file_.file = file;
+}
+
+// ---- comments --------------------------------------------------------------------------------------------
+
+bool Builder::blankAbove(std::uint32_t offset) const {
+  const std::uint32_t line = lineOf(offset);
+  return line > 1 && source_.line(line - 1).find_first_not_of(" \t\f\v") == std::string_view::npos;
+}
+
+void Builder::comments(const TokenBuffer& tokens) {
+  for (const antlr4::Token* token : tokens.all()) {
+    if (token->getType() != Parser::COMMENT) continue;
+    Comment comment;
+    comment.range = rangeOf(*token);
+    comment.text = sources_.text({file_.file, comment.range.begin + 2, comment.range.end});
+    while (!comment.text.empty() && (comment.text.back() == ' ' || comment.text.back() == '\t'))
+      comment.text.pop_back();
+    comment.blankBefore = blankAbove(comment.range.begin);
+    comments_.push_back(std::move(comment));
+  }
+}
+
+std::vector<Comment> Builder::commentsBefore(std::uint32_t offset) {
+  std::vector<Comment> out;
+  for (; nextComment_ < comments_.size() && comments_[nextComment_].range.begin < offset; ++nextComment_)
+    out.push_back(std::move(comments_[nextComment_]));
+  return out;
+}
+
+void Builder::attach(Statement& statement) {
+  statement.blankBefore = blankAbove(statement.range.begin);
+  statement.before = commentsBefore(statement.range.begin);
+  const std::uint32_t line = lineOf(std::max(statement.range.end, statement.range.begin + 1) - 1);
+  while (nextComment_ < comments_.size() && lineOf(comments_[nextComment_].range.begin) <= line) {
+    if (statement.after) {
+      statement.after->blankBefore = false;
+      statement.before.push_back(std::move(*statement.after));
+    }
+    statement.after = std::move(comments_[nextComment_++]);
+  }
+  if (statement.after) statement.after->blankBefore = false;
+}
+
+// ---- blocks ----------------------------------------------------------------------------------------------
+
+Block& Builder::block() {
+  if (open_.empty()) return file_.body;
+  Open& top = open_.back();
+  if (auto* choice = std::get_if<If>(&top.statement.node))
+    return choice->otherwise != nullptr ? *choice->otherwise : choice->parts.back().body;
+  if (auto* touch = std::get_if<Touch>(&top.statement.node)) return *touch->otherwise;
+  if (auto* repeat = std::get_if<Repeat>(&top.statement.node)) return repeat->body;
+  if (auto* loop = std::get_if<For>(&top.statement.node)) return loop->body;
+  return std::get<While>(top.statement.node).body;
+}
+
+void Builder::add(Statement statement) {
+  attach(statement);
+  statements().push_back(std::move(statement));
+}
+
+void Builder::open(Statement statement, SourceRange word, std::string name) {
+  attach(statement);
+  if (open_.size() >= limits_.nesting) {
+    error<diag::NestingTooDeep>(word, limits_.nesting);
+    statement.node = ErrorStatement{};
+    statements().push_back(std::move(statement));
+    return;
+  }
+  open_.push_back({std::move(statement), word, std::move(name), false});
+}
+
+void Builder::close(SourceRange range, bool written) {
+  if (open_.empty()) {
+    error<diag::EndWithoutBlock>(range);
+    return;
+  }
+  block().comments = commentsBefore(range.begin);
+  Open done = std::move(open_.back());
+  open_.pop_back();
+  if (written) {
+    done.statement.range.end = range.end;
+    // A comment after `end` would be lost; it moves to the next statement.
+  } else {
+    error<diag::BlockNotClosed>(done.word, done.end);
+  }
+  statements().push_back(std::move(done.statement));
+}
+
+void Builder::line(const ParseSession::Unit& unit) {
+  if (unit.failed || unit.tree == nullptr) {
+    file_.hasErrorNodes = true;
+    Statement lost;
+    lost.range = unit.range;
+    add(std::move(lost));
+    return;
+  }
+  auto* line = dynamic_cast<Parser::LineContext*>(unit.tree);
+  if (line != nullptr && line->statement() != nullptr) statement(*line->statement());
+}
+
+File Builder::finish() {
+  const auto end = static_cast<std::uint32_t>(source_.bytes().size());
+  while (!open_.empty())
+    close({file_.file, end, end}, false);
+  file_.body.comments = commentsBefore(end + 1);
+  return std::move(file_);
+}
+
+// ---- the parser ------------------------------------------------------------------------------------------
+
+const Header* File::header() const {
+  for (const Statement& statement : body.statements)
+    if (const auto* header = std::get_if<Header>(&statement.node)) return header;
+  return nullptr;
+}
+
+File parse(FileId file, const SourceMap& sources, const Limits& limits, Diagnostics& diagnostics) {
+  ByteStream bytes = openBytes(file, sources, limits, diagnostics);
+  TokenReader reader(&bytes);
+  const Language cycles = language();
+  TokenBuffer tokens(reader, file, sources, cycles, limits, diagnostics);
+  grammar::CycleParser parser(&tokens.stream());
+  ParseSession session(parser, file, cycles, limits, diagnostics);
+  Builder builder(file, sources, limits, diagnostics);
+  builder.comments(tokens);
+  while (!session.atEnd())
+    builder.line(session.run([&] { return parser.line(); }));
+  for (const auto& [first, last] : reader.capitals()) {
+    const SourceRange range{file, static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(last) + 1};
+    std::string small = lowerCase(sources.text(range));
+    Diagnostic& found = diagnostics.report<diag::WordInCapitals>(range, sources.textUtf8(range), small);
+    found.fix = Fix{Fix::Applicability::Safe, "write `" + small + "`", {{range, small}}};
+  }
+  return builder.finish();
+}
+
+std::string dumpTokens(FileId file, const SourceMap& sources, const Limits& limits,
+                       Diagnostics& diagnostics) {
+  ByteStream bytes = openBytes(file, sources, limits, diagnostics);
+  TokenReader reader(&bytes);
+  const Language cycles = language();
+  const TokenBuffer tokens(reader, file, sources, cycles, limits, diagnostics);
+  std::string out;
+  for (const antlr4::Token* token : tokens.all()) {
+    if (token->getType() == antlr4::Token::EOF) continue;
+    const SourceRange range = rangeOf(file, *token);
+    const LineColumn place = sources.file(file).place(range.begin);
+    const std::string text =
+        token->getType() == grammar::CycleLexer::NEWLINE ? "" : " " + sources.textUtf8(range);
+    out += fmt::format("{}:{} {}{}\n", place.line, place.column,
+                       reader.getVocabulary().getSymbolicName(token->getType()), text);
+  }
+  return out;
+}
+
+} // namespace dotek::frontend::cycle

@@ -1,0 +1,85 @@
+// One cycle as its checks walk it: what is known at each place of the control flow.
+#pragma once
+
+#include "frontend/cycle/Check.h"
+#include "frontend/cycle/Kinds.h"
+
+#include <set>
+#include <string>
+#include <string_view>
+
+namespace dotek::frontend::cycle {
+
+enum class ProbeState : std::uint8_t { Off, On, Either };
+
+// What holds on every path to a place.
+struct Known {
+  std::set<std::string, std::less<>> set;   // results, variables, touches and calls that have their values
+  std::set<std::string, std::less<>> given; // optional parameters that the caller has given
+  ProbeState probe = ProbeState::Off;
+  bool ended = false; // no path gets here
+};
+Known joined(const Known& a, const Known& b);
+
+class Checker {
+public:
+  Checker(const File& file, const SourceMap& sources, const FindCycle& find, Diagnostics& diagnostics);
+  void run();
+
+private:
+  // ---- CheckDeclarations.cpp
+  void header();
+  void declare(const Statement& statement);
+  void parameter(const Parameter& parameter);
+  bool declareName(const Name& name, Symbol symbol);
+  void clauses(const Parameter& parameter);
+  void unread();
+  // Names of touches, called cycles and values, wherever they get their values.
+  void collect(const Block& block);
+
+  // ---- CheckFlow.cpp
+  void block(const Block& block, Known& known);
+  void statement(const Statement& statement, Known& known);
+  void loopBody(const Block& body, Known& known, bool runsOnce);
+  void touch(const Touch& touch, const Statement& statement, Known& known);
+  void move(const Move& move, const Statement& statement, Known& known);
+  void assign(const Assign& assign, Known& known);
+  void gives(const Name& name, Symbol symbol, Known& known);
+  void finish(const Known& known, SourceRange where);
+
+  // ---- CheckCalls.cpp
+  void call(const Call& call, Known& known);
+  bool callsItself(const File& file, std::set<std::string>& seen) const;
+
+  // ---- CheckExpressions.cpp
+  // The kind of a value, read where `known` holds. `known` gains what a condition says of its right operand
+  // only within it.
+  Quantity quantity(const Expression& expression, const Known& known);
+  Quantity binary(const Expression& expression, const Binary& binary, const Known& known);
+  Quantity name(const Expression& expression, const NameUse& use, const Known& known);
+  Quantity member(const Expression& expression, const Member& member, const Known& known);
+  Quantity function(const Expression& expression, const Function& function, const Known& known);
+  Quantity choice(const Expression& expression, const Quantity& of);
+  // Reports a value that is not what is wanted there; `what` is the place: "the distance".
+  void want(const Expression& expression, Quantity wanted, std::string_view what, const Known& known);
+  void wantFlag(const Expression& expression, std::string_view where, const Known& known);
+  void wantAxis(const Expression& expression, Axis axis, std::string_view what, const Known& known);
+  void mismatch(const Expression& left, const Quantity& a, const Expression& right, const Quantity& b,
+                SourceRange where, std::string_view doing);
+  void unknownName(SourceRange range, const std::string& name);
+  // The optional parameters that are given where the condition is true, or where it is false.
+  void addGiven(const Expression& condition, bool truth, Known& known) const;
+
+  std::string text(SourceRange range) const { return sources_.textUtf8(range); }
+
+  const File& file_;
+  const SourceMap& sources_;
+  const FindCycle& find_;
+  Diagnostics& diagnostics_;
+  Symbols symbols_;
+  std::map<std::string, Symbol::Role, std::less<>> later_;
+  bool needsProbe_ = false;
+  bool declarations_ = false; // in a default or a condition of a declaration: no results, no touches
+};
+
+} // namespace dotek::frontend::cycle

@@ -1,0 +1,312 @@
+#include "frontend/cycle/Tokens.h"
+
+#include "frontend/cycle/Parse.h"
+#include "frontend/cycle/Words.h"
+#include "support/Ascii.h"
+#include "support/NearestName.h"
+
+#include <CycleParser.h>
+
+#include <algorithm>
+#include <array>
+#include <fmt/format.h>
+#include <string_view>
+
+namespace dotek::frontend::cycle {
+
+using Lexer = grammar::CycleLexer;
+using Parser = grammar::CycleParser;
+
+namespace {
+
+struct Keyword {
+  std::string_view text;
+  size_t type = 0;
+};
+
+constexpr Keyword kWords[] = {
+    {"cycle", Lexer::KW_CYCLE},
+    {"needs", Lexer::KW_NEEDS},
+    {"parameter", Lexer::KW_PARAMETER},
+    {"result", Lexer::KW_RESULT},
+    {"optional", Lexer::KW_OPTIONAL},
+    {"require", Lexer::KW_REQUIRE},
+    {"choice", Lexer::KW_CHOICE},
+    {"of", Lexer::KW_OF},
+    {"probe", Lexer::KW_PROBE},
+    {"spindle", Lexer::KW_SPINDLE},
+    {"coolant", Lexer::KW_COOLANT},
+    {"on", Lexer::KW_ON},
+    {"off", Lexer::KW_OFF},
+    {"dwell", Lexer::KW_DWELL},
+    {"stop", Lexer::KW_STOP},
+    {"alarm", Lexer::KW_ALARM},
+    {"report", Lexer::KW_REPORT},
+    {"move", Lexer::KW_MOVE},
+    {"rapid", Lexer::KW_RAPID},
+    {"feed", Lexer::KW_FEED},
+    {"protected", Lexer::KW_PROTECTED},
+    {"to", Lexer::KW_TO},
+    {"by", Lexer::KW_BY},
+    {"start", Lexer::KW_START},
+    {"here", Lexer::KW_HERE},
+    {"machine", Lexer::KW_MACHINE},
+    {"work", Lexer::KW_WORK},
+    {"touch", Lexer::KW_TOUCH},
+    {"set", Lexer::KW_SET},
+    {"tool", Lexer::KW_TOOL},
+    {"length", Lexer::KW_LENGTH},
+    {"if", Lexer::KW_IF},
+    {"then", Lexer::KW_THEN},
+    {"else", Lexer::KW_ELSE},
+    {"end", Lexer::KW_END},
+    {"repeat", Lexer::KW_REPEAT},
+    {"for", Lexer::KW_FOR},
+    {"while", Lexer::KW_WHILE},
+    {"call", Lexer::KW_CALL},
+    {"given", Lexer::KW_GIVEN},
+    {"is", Lexer::KW_IS},
+    {"not", Lexer::KW_NOT},
+    {"and", Lexer::KW_AND},
+    {"or", Lexer::KW_OR},
+    {"angle", Lexer::TYPE},
+    {"time", Lexer::TYPE},
+    {"count", Lexer::TYPE},
+    {"ratio", Lexer::TYPE},
+    {"flag", Lexer::TYPE},
+    {"text", Lexer::TYPE},
+    {"work_offset", Lexer::TYPE},
+    {"tool_offset", Lexer::TYPE},
+};
+
+// Words only after an operand (a name, a number, a text, a bracket), else names.
+constexpr Keyword kWordsAfterOperand[] = {
+    {"nominal", Lexer::KW_NOMINAL}, {"measured", Lexer::KW_MEASURED},     {"tolerance", Lexer::KW_TOLERANCE},
+    {"range", Lexer::KW_RANGE},     {"group", Lexer::KW_GROUP},           {"letter", Lexer::KW_LETTER},
+    {"picture", Lexer::KW_PICTURE}, {"overtravel", Lexer::KW_OVERTRAVEL}, {"becomes", Lexer::KW_BECOMES},
+    {"radius", Lexer::KW_RADIUS},   {"times", Lexer::KW_TIMES},           {"step", Lexer::KW_STEP},
+    {"at", Lexer::KW_AT},
+};
+
+// Words only after another word.
+struct Follower {
+  std::string_view text;
+  size_t type = 0;
+  size_t after = 0;
+};
+constexpr Follower kFollowers[] = {
+    {"flood", Lexer::KW_FLOOD, Lexer::KW_COOLANT}, {"mist", Lexer::KW_MIST, Lexer::KW_COOLANT},
+    {"stored", Lexer::KW_STORED, Lexer::KW_SET},   {"once", Lexer::KW_ONCE, Lexer::KW_TOUCH},
+    {"along", Lexer::KW_ALONG, Lexer::KW_TOUCH},   {"along", Lexer::KW_ALONG, Lexer::KW_ONCE},
+    {"most", Lexer::KW_MOST, Lexer::KW_AT},        {"measured", Lexer::KW_MEASURED, Lexer::TEXT},
+};
+
+template <class Table> size_t typeIn(const Table& table, std::string_view word) {
+  for (const auto& entry : table)
+    if (entry.text == word) return entry.type;
+  return Lexer::NAME;
+}
+
+// Where a line goes on after one of these.
+constexpr std::array kOpenEnds = {
+    Lexer::COMMA,         Lexer::PLUS,    Lexer::MINUS,  Lexer::STAR,  Lexer::SLASH,  Lexer::LESS,
+    Lexer::LESS_EQUAL,    Lexer::GREATER, Lexer::EQUALS, Lexer::COLON, Lexer::ARROW,  Lexer::GREATER_EQUAL,
+    Lexer::FOREIGN_EQUAL, Lexer::KW_IS,   Lexer::KW_AND, Lexer::KW_OR, Lexer::KW_NOT,
+};
+
+// Begins a statement, and nothing else can: what is open before it ends.
+constexpr std::array kBegins = {
+    Lexer::KW_CYCLE, Lexer::KW_PARAMETER, Lexer::KW_RESULT, Lexer::KW_PROBE,  Lexer::KW_SPINDLE,
+    Lexer::KW_RAPID, Lexer::KW_PROTECTED, Lexer::KW_MOVE,   Lexer::KW_TOUCH,  Lexer::KW_SET,
+    Lexer::KW_IF,    Lexer::KW_ELSE,      Lexer::KW_END,    Lexer::KW_REPEAT, Lexer::KW_FOR,
+    Lexer::KW_WHILE, Lexer::KW_CALL,      Lexer::KW_ALARM,  Lexer::KW_STOP,   Lexer::KW_REPORT,
+    Lexer::KW_DWELL, Lexer::KW_COOLANT,
+};
+
+template <class Types> bool isOneOf(size_t type, const Types& types) {
+  return std::find(types.begin(), types.end(), type) != types.end();
+}
+
+std::string misspelt(const std::string& word) {
+  if (word == "endif" || word == "endwhile" || word == "next" || word == "wend" || word == "done")
+    return "a block ends with `end`";
+  if (word == "elseif" || word == "elsif" || word == "elif") return "write `else if CONDITION then`";
+  if (word == "goto" || word == "jump" || word == "label" || word == "return")
+    return "there are no jumps; write what is to happen inside `if CONDITION then` .. `end`";
+  if (word == "let" || word == "var" || word == "int" || word == "float")
+    return "a value needs no declaration; write `name = value`";
+  const std::string near = nearestName(word, statementWords());
+  return near.empty() ? "" : fmt::format("did you mean `{}`?", near);
+}
+
+// What is wrong with a line that the grammar does not take, at its first token that does not fit.
+std::string explain(const antlr4::Token& offending, const antlr4::Parser& parser) {
+  auto& input = *const_cast<antlr4::Parser&>(parser).getTokenStream();
+  size_t first = offending.getTokenIndex();
+  const auto endsLine = [&](size_t index) { return input.get(index)->getType() == Lexer::NEWLINE; };
+  for (size_t at = first; at > 0 && !endsLine(at - 1); --at)
+    if (input.get(at - 1)->getChannel() == antlr4::Token::DEFAULT_CHANNEL) first = at - 1;
+  const antlr4::Token& head = *input.get(first);
+  const std::string word = head.getText();
+  const std::string text = offending.getText();
+  const size_t type = offending.getType();
+  const std::string_view usage = usageOf(lowerCase(word));
+  const std::string write = usage.empty() ? "" : fmt::format("; write {}", usage);
+  if (type == Lexer::OPEN_TEXT) return "the text has no closing quote; write `\"` at its end";
+  const size_t next = first + 1 < input.size() ? input.get(first + 1)->getType() : antlr4::Token::EOF;
+  const bool second = first + 1 == offending.getTokenIndex();
+  if (text == ";" || text == "!" || text == "{" || text == "'" || text == "%")
+    return fmt::format("`{}` has no meaning; a comment begins with `//`, a text is in `\"`", text);
+  if (type == Lexer::MINUS && (word == "parameter" || word == "result" || word == "cycle" || word == "call"))
+    return "a name has `_` between its words, no `-`";
+  if (second && type == Lexer::EQUALS && isReserved(word))
+    return fmt::format("`{0}` is a word of the language, so nothing can be called that; write `{1}`", word,
+                       proposeName(word));
+  if (&head == &offending || (head.getType() == Lexer::NAME && second)) {
+    if (isReserved(word) && next == Lexer::EQUALS)
+      return fmt::format("`{0}` is a word of the language, so nothing can be called that; write `{1}`", word,
+                         proposeName(word));
+    if (head.getType() == Lexer::NAME) {
+      const std::string hint = misspelt(word);
+      return fmt::format("no statement begins with `{}`; {}", word,
+                         hint.empty() ? "a value is given as `name = value`" : hint);
+    }
+    if (head.getType() == Lexer::CODE || head.getType() == Lexer::WORK_OFFSET)
+      return fmt::format("`{}` is G code, which no cycle holds; write what is to happen: `rapid move to x "
+                         "5 mm`, `touch z to 0 mm -> top`, `probe on`",
+                         word);
+    if (head.getType() == Lexer::ODD_NAME)
+      return fmt::format("names are written small, with `_` between words: `{}`", proposeName(word));
+    if (&head == &offending)
+      return fmt::format("no statement begins with `{}`", type == Lexer::NEWLINE ? "" : word);
+  }
+  if (type == Lexer::NEWLINE || type == antlr4::Token::EOF)
+    return fmt::format("the line ends before the statement is complete{}", write);
+  if (type == Lexer::CODE)
+    return fmt::format("`{}` is G code; in a cycle coordinates are written `x 5 mm`{}", text, write);
+  if (type == Lexer::ODD_NAME && (word == "stop" || word == "alarm" || word == "report"))
+    return fmt::format("a text is in `\"`{}", write);
+  if (type == Lexer::ODD_NAME)
+    return fmt::format("names are written small, with `_` between words: `{}`", proposeName(text));
+  if (isReserved(text)) return fmt::format("`{}` does not fit here{}", text, write);
+  return fmt::format("`{}` does not fit here{}", text, write);
+}
+
+} // namespace
+
+bool TokenReader::goesOn() const {
+  return depth_ > 0 || isOneOf(previous_, kOpenEnds);
+}
+
+bool TokenReader::operandEnded() const {
+  switch (previous_) {
+  case NAME:
+  case ODD_NAME:
+  case NUMBER:
+  case COMMA_NUMBER:
+  case UNIT:
+  case WORK_OFFSET:
+  case TEXT:
+  case TYPE:
+  case KW_LENGTH:
+  case KW_FEED:
+  case KW_OPTIONAL:
+  case KW_START:
+  case KW_HERE:
+  case RPAREN: return true;
+  default: return false;
+  }
+}
+
+void TokenReader::classify(antlr4::CommonToken& word) {
+  const std::string text = word.getText();
+  if (previous_ == DOT) {
+    if (word.getType() == WORD || word.getType() == UNIT) word.setType(NAME);
+    return;
+  }
+  if (word.getType() != WORD) return;
+  for (const Follower& follower : kFollowers)
+    if (previous_ == follower.after && follower.text == text) return word.setType(follower.type);
+  if (operandEnded())
+    if (const size_t known = typeIn(kWordsAfterOperand, text); known != NAME) return word.setType(known);
+  if (const size_t known = typeIn(kWords, text); known != NAME) return word.setType(known);
+  if (text.size() == 1 && std::string_view("xyzabc").find(text) != std::string_view::npos)
+    return word.setType(AXIS);
+  if (isName(text)) return word.setType(NAME);
+  // `IF`, `End`: the word, written as in other languages.
+  const std::string small = lowerCase(text);
+  if (const size_t known = typeIn(kWords, small); known != NAME && text.size() > 1) {
+    capitals_.emplace_back(word.getStartIndex(), word.getStopIndex());
+    return word.setType(known);
+  }
+  word.setType(ODD_NAME);
+}
+
+std::unique_ptr<antlr4::Token> TokenReader::read() {
+  std::unique_ptr<antlr4::Token> next = CycleLexer::nextToken();
+  if (next->getChannel() == antlr4::Token::DEFAULT_CHANNEL)
+    classify(static_cast<antlr4::CommonToken&>(*next));
+  return next;
+}
+
+std::unique_ptr<antlr4::Token> TokenReader::nextToken() {
+  std::unique_ptr<antlr4::Token> next;
+  if (!queue_.empty()) {
+    next = std::move(queue_.front());
+    queue_.pop_front();
+  } else {
+    next = read();
+    if (next->getType() == NEWLINE && goesOn()) {
+      // What the next line begins with decides.
+      const size_t before = previous_;
+      previous_ = NEWLINE;
+      size_t ahead = antlr4::Token::EOF;
+      while (true) {
+        queue_.push_back(read());
+        antlr4::Token& found = *queue_.back();
+        if (found.getChannel() != antlr4::Token::DEFAULT_CHANNEL) continue;
+        if (found.getType() == NEWLINE) {
+          static_cast<antlr4::CommonToken&>(found).setChannel(antlr4::Token::HIDDEN_CHANNEL);
+          continue;
+        }
+        ahead = found.getType();
+        break;
+      }
+      previous_ = before;
+      if (!isOneOf(ahead, kBegins) && ahead != antlr4::Token::EOF)
+        static_cast<antlr4::CommonToken&>(*next).setChannel(antlr4::Token::HIDDEN_CHANNEL);
+    }
+  }
+  if (next->getChannel() != antlr4::Token::DEFAULT_CHANNEL) return next;
+  const size_t kind = next->getType();
+  if (kind == antlr4::Token::EOF) {
+    if (previous_ == NEWLINE) return next;
+    auto end = std::make_unique<antlr4::CommonToken>(static_cast<antlr4::CommonToken&>(*next));
+    end->setType(NEWLINE);
+    end->setStopIndex(end->getStartIndex() - 1);
+    queue_.push_front(std::move(next));
+    previous_ = NEWLINE;
+    depth_ = 0;
+    return end;
+  }
+  if (kind == LPAREN) ++depth_;
+  if (kind == RPAREN && depth_ > 0) --depth_;
+  if (kind == NEWLINE) depth_ = 0;
+  previous_ = kind;
+  return next;
+}
+
+Language language() {
+  Language result;
+  result.unitStops = {Lexer::NEWLINE};
+  result.insertableAnywhere = {Lexer::RPAREN};
+  result.opening = {Lexer::LPAREN};
+  result.closing = {Lexer::RPAREN};
+  result.depthResets = {Lexer::NEWLINE};
+  result.explain = [](size_t, const antlr4::Token& offending, const antlr4::Parser& parser) {
+    return explain(offending, parser);
+  };
+  return result;
+}
+
+} // namespace dotek::frontend::cycle

@@ -1,0 +1,41 @@
+// Tokens of a cycle and what the ANTLR shell needs to know of the language. Included by builder sources only.
+#pragma once
+
+#include "frontend/common/ParseSession.h"
+#include "support/Diagnostics.h"
+#include "support/Limits.h"
+#include "support/Source.h"
+
+#include <CycleLexer.h>
+
+#include <deque>
+#include <memory>
+#include <vector>
+
+namespace dotek::frontend::cycle {
+
+// Names the words and ends the statements: a line end within brackets, after a comma or after an operator is
+// hidden, unless a new statement begins on the next line. The last line gets an end, too.
+class TokenReader final : public grammar::CycleLexer {
+public:
+  using CycleLexer::CycleLexer;
+  std::unique_ptr<antlr4::Token> nextToken() override;
+
+  // Words of the language in capitals; each is taken for the word.
+  const std::vector<std::pair<size_t, size_t>>& capitals() const { return capitals_; } // first and last byte
+
+private:
+  std::unique_ptr<antlr4::Token> read();
+  void classify(antlr4::CommonToken& token);
+  bool goesOn() const;
+  bool operandEnded() const;
+
+  std::deque<std::unique_ptr<antlr4::Token>> queue_;
+  std::vector<std::pair<size_t, size_t>> capitals_;
+  size_t previous_ = NEWLINE; // type of the last token of the default channel
+  size_t depth_ = 0;          // of brackets
+};
+
+Language language();
+
+} // namespace dotek::frontend::cycle
