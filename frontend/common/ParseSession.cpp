@@ -113,8 +113,9 @@ bool ParseSession::atEnd() const {
 
 ParseSession::Unit ParseSession::runErased(const std::function<antlr4::ParserRuleContext*()>& rule) {
   antlr4::TokenStream& input = *parser_.getTokenStream();
-  const size_t before = input.index();
+  // The stream has an index only once something was looked at.
   const SourceRange first = rangeOf(file_, *input.LT(1));
+  const size_t before = input.index();
   guard_->depth = 0;
   strategy_->failed = false;
   strategy_->reset(&parser_);
