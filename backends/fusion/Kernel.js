@@ -495,7 +495,7 @@ function dotekRun(input) {
   currentSection = {
     workOffset: 1,
     probeWorkOffset: 1,
-    strategy: "probe",
+    strategy: input.strategy || "drill",
     getTool: function () {
       return tool;
     },

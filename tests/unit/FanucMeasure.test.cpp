@@ -195,16 +195,28 @@ TEST_CASE("fanuc measure: results") {
 }
 
 TEST_CASE("fanuc measure: where values may be stored") {
-  const auto codes = [](double variable) {
-    Maker cycle;
-    cycle.add(ir::Store{number(variable), number(1)});
-    return Target("inspection-plus").emit(cycle.cycle).codes();
+  const auto codes = [](double variable, bool calls) {
+    std::set<std::string> out;
+    const auto store = [&](Maker& cycle) {
+      cycle.add(ir::Store{number(variable), number(1)});
+      for (const std::string& code : Target("inspection-plus").emit(cycle.cycle).codes())
+        if (code.starts_with("store-")) out.insert(code);
+    };
+    SurfaceCycle measuring;
+    Maker alone;
+    store(calls ? measuring : alone);
+    return out;
   };
-  CHECK(codes(600).empty());
-  CHECK(codes(5221) == std::set<std::string>{"store-variable"});
-  CHECK(codes(5) == std::set<std::string>{"store-variable"});
-  CHECK(codes(510) == std::set<std::string>{"store-calibration"});
-  CHECK(codes(140) == std::set<std::string>{"store-scratch"});
+  CHECK(codes(600, true).empty());
+  CHECK(codes(5, true) == std::set<std::string>{"store-variable"});
+  CHECK(codes(4001, true) == std::set<std::string>{"store-variable"});
+  // A work offset is one on both controls.
+  CHECK(codes(5221, true).empty());
+  CHECK(codes(510, true) == std::set<std::string>{"store-calibration"});
+  CHECK(codes(140, true) == std::set<std::string>{"store-scratch"});
+  // Where no macro is called, its variables are like any other.
+  CHECK(codes(510, false).empty());
+  CHECK(codes(140, false).empty());
   Maker computed;
   computed.add(ir::Store{use(computed.field("n", 600)), number(1)});
   CHECK(Target().emit(computed.cycle).codes() == std::set<std::string>{"store-variable"});
@@ -218,7 +230,7 @@ TEST_CASE("fanuc measure: variables of the machine that a source reads") {
   };
   CHECK(codes(551, "fanuc-31i-b").empty());
   CHECK(codes(5041, "fanuc-0i-md").empty());
-  CHECK(codes(5041, "fanuc-31i-b") == std::set<std::string>{"machine-variable-refused"});
+  CHECK(codes(5041, "fanuc-31i-b").empty());
   CHECK(codes(24, "fanuc-0i-md") == std::set<std::string>{"machine-variable-refused"});
 }
 
