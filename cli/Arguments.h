@@ -11,7 +11,20 @@
 
 namespace dotek::cli {
 
-enum class Command : unsigned char { Post, Convert, Lint, Dump, Explain, List, New, NewCycle, Check, Fmt, Sim, Verify };
+enum class Command : unsigned char {
+  Post,
+  Convert,
+  Lint,
+  Dump,
+  Explain,
+  List,
+  New,
+  NewCycle,
+  Check,
+  Fmt,
+  Sim,
+  Verify
+};
 
 struct Arguments {
   Command command = Command::Post;

@@ -77,8 +77,8 @@ struct Outcome {
   std::string macros;              // of convert: the set that the last result calls; "": none
   std::vector<std::vector<OutputArgument>> arguments; // of convert to fanuc, cycle by cycle
   std::vector<std::string> macrosByCycle;             // the sets that these call
-  // Of convert: those whose results are given, in their order; with --keep-going not all. Of layOut: those whose
-  // layout is another than that of `files`.
+  // Of convert: those whose results are given, in their order; with --keep-going not all. Of layOut: those
+  // whose layout is another than that of `files`.
   std::vector<std::string> inputs;
   std::string
       summary; // of lint of folders: what was read and what was not; of --keep-going: what is refused; a line
@@ -109,8 +109,8 @@ Outcome newForm(const NewFormOptions& options);
 Outcome newControl(const NewControlOptions& options);
 // What is wrong with cycles, whatever their values; as of lint the diagnostics are the result.
 Outcome check(const CycleOptions& options);
-// Cycles in the one layout of the language: `files`, by the name of the input. A file that cannot be read whole
-// is an error and has none.
+// Cycles in the one layout of the language: `files`, by the name of the input. A file that cannot be read
+// whole is an error and has none.
 Outcome layOut(const CycleOptions& options);
 // The beginning of a cycle: what a new one is made from.
 Outcome newCycle(const std::string& name, const CommonOptions& common);

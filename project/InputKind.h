@@ -10,8 +10,8 @@ namespace dotek::project {
 
 enum class InputKind : unsigned char { Prog, Macro, Dialog, DefineData, Nc, Suf, Cycle };
 
-// "prog", "mac", "dlg", "define", "nc", "suf", "cycle": what --from takes, beside "listing", which is NC as a book
-// prints it.
+// "prog", "mac", "dlg", "define", "nc", "suf", "cycle": what --from takes, beside "listing", which is NC as a
+// book prints it.
 std::string_view kindName(InputKind kind);
 // For messages: "a GibbsCAM macro".
 std::string_view kindText(InputKind kind);

@@ -108,6 +108,9 @@ std::string copiedText(State& state, const ir::OpaqueBlock& block, const ir::Ori
   for (const ir::Word& given : block.words) {
     if (given.address == 'N') continue; // the source's own numbering
     const double* number = given.value == nullptr ? nullptr : ir::constantValue(given.value);
+    // Whether the other machine has the axis, and what it moves there, is in no table.
+    if (!same && std::string_view("ABCUVW").find(given.address) != std::string_view::npos && foreign.empty())
+      foreign = std::string(1, given.address) + (number == nullptr ? ".." : numberText(*number));
     if (!same && (given.address == 'G' || given.address == 'M')) {
       const double tenths = number == nullptr ? -1 : std::round(*number * 10);
       const auto* here = tenths < 0 ? nullptr : from.find(given.address, static_cast<std::uint32_t>(tenths));

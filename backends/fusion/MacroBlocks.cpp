@@ -81,8 +81,18 @@ bool MacroBlocks::block(const std::vector<const ir::CycleStatement*>& statements
             state_.refuse<diag::FusionOpaque>(origin.range(), state_.options.macros.title);
             return;
           }
+          // T only turns the magazine, and a tool length is along Z.
+          const auto isOnly = [&](std::string_view addresses, double code) {
+            return std::all_of(node.words.begin(), node.words.end(), [&](const ir::Word& word) {
+              const double* number = word.value == nullptr ? nullptr : ir::constantValue(word.value);
+              if (word.address == 'G') return number != nullptr && *number == code;
+              return addresses.find(word.address) != std::string_view::npos;
+            });
+          };
+          if (isOnly("NT", -1)) return;
+          const bool length = isOnly("NH", 43);
           for (Place& place : at_)
-            place.value = nullptr;
+            if (!length || &place == &at_[ir::indexOf(ir::Axis::Z)]) place.value = nullptr;
           last_ = nullptr;
         },
         [&](const ir::SetMode& node) {

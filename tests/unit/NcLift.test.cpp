@@ -251,7 +251,7 @@ TEST_CASE("assignments: variables of the machine, results, alarms") {
   CHECK(lifted("#3006=1(CLEAN IT)") == "stop CLEAN IT\n");
   CHECK(lifted("#3006=5(CLEAN IT)") == "stop 5 CLEAN IT\n");
   CHECK(lifted("#3006=#551(CLEAN IT)") == "with [message-number-computed]");
-  CHECK(lifted("#[500+1]=2") == "refused: [computed-variable]");
+  CHECK(lifted("#[500+1]=2") == "store (500+1)=2\n");
   CHECK(lifted("#550=#[#551]") == "refused: [computed-variable]");
   CHECK(lifted("#1=5") == "refused: [local-of-caller]");
   CHECK(lifted("#550=#33") == "refused: [local-of-caller]");
@@ -280,7 +280,7 @@ TEST_CASE("formulas: the same arithmetic, or a refusal") {
   CHECK(lifted("G0 X[{a}+1]") == "rapid X=work:(a+1)\n"); // no decimal mode in a formula
   CHECK(lifted("G0 X[ROUND[#551]]") == "refused: [function-not-read]");
   CHECK(lifted("#550=ATAN[1]/[2]") == "with [angle-range]"); // 0 to 360, or -180 to 180
-  CHECK(lifted("#550=ASIN[1]") == "refused: [function-not-read]");
+  CHECK(lifted("#550=ASIN[1]") == "with [angle-range]");
   CHECK(lifted("#550=BIN[1]") == "refused: [function-not-read]");
   CHECK(lifted("#550=7MOD3") == "refused: [function-not-read]"); // not on the 0i
   CHECK(lifted("#550=ACOS[1]", "", "fanuc-6m") == "refused: [function-not-read]");

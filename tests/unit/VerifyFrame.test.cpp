@@ -170,7 +170,7 @@ TEST_CASE("verify sees what a fragment owes its post") {
   const std::vector<Damage> damages = {
       {"xOutput.reset();", "", "", "`xOutput` not reset"},
       {"gMotionModal.reset();", "", "", "`gMotionModal` not reset"},
-      {"return true;", "true", "false", "does not return true"},
+      {"surfaceX_write(x, y, z);", ";", "; return false;", "does not return true"},
       {"case \"surfaceX\":", "surfaceX", "surfaceY", ""},
       {"unit !== MM", "unit !== MM", "false", "a document in inches has to be an error"},
       {"writeBlock(\"M5\")", "writeBlock", "writeln", "written without its number"},
