@@ -82,9 +82,9 @@ struct Project {
   std::vector<const gibbs::Dialog*> allDialogs() const;
 };
 
-// Fills `joined`: each cycle with the Progs that name it, lowered where `lower` says so. Where several cycles of
-// a name or several Progs are there, those that lie nearest to one another: in the deepest folder that holds
-// both, seen from the cycle or from the Prog.
+// Fills `joined`: each cycle with the Progs that name it, lowered where `lower` says so. Where several cycles
+// of a name or several Progs are there, those that lie nearest to one another: in the deepest folder that
+// holds both, seen from the cycle or from the Prog.
 void join(Project& project, dotek::project::Compilation& compilation, bool lower);
 
 // Runs the rules for which `wanted` holds.

@@ -38,8 +38,8 @@ Findings subprogramsBeforeEnd(const Reading& reading);
 Findings subprogramsWithoutReturn(const Reading& reading);
 Findings strayReturns(const Reading& reading);
 
-// Loops and calls of which no path leads to an end, each once. The control takes them, so refuse() leaves them
-// out.
+// Loops and calls of which no path leads to an end, each once. The control takes them, so refuse() leaves
+// them out.
 Findings endlessLoops(const Reading& reading);
 
 // What follows from where the tool is.
