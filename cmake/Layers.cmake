@@ -15,7 +15,7 @@ endif()
 target_include_directories(dotek_options INTERFACE ${PROJECT_SOURCE_DIR})
 if(DOTEK_SANITIZE)
   target_compile_options(dotek_options INTERFACE
-    -O1 -fno-omit-frame-pointer -fsanitize=address,undefined -fno-sanitize-recover=all)
+    -fno-omit-frame-pointer -fsanitize=address,undefined -fno-sanitize-recover=all)
   target_link_options(dotek_options INTERFACE -fsanitize=address,undefined)
   if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
     # The instrumented code of a std::variant's move looks uninitialised to GCC.
