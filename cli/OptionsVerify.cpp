@@ -74,9 +74,10 @@ void addVerify(CLI::App& app, Raw& raw) {
   verify->add_option("--machine", raw.machine, "probe and travel of the machine")->type_name("MACHINE.toml");
   verify->add_option("--cases", raw.cases, "cases to draw (1000)")->type_name("N");
   verify->add_option("--seed", raw.seed, "which cases are drawn (1)")->type_name("S");
-  verify->add_option("--min-agreed", raw.minAgreed, "share of the cases that has to agree (95)")
-      ->type_name("PERCENT");
-  verify->add_option("--min-proved", raw.minAgreed)->group(""); // the name it had
+  CLI::Option* const agreed =
+      verify->add_option("--min-agreed", raw.minAgreed, "share of the cases that has to agree (95)")
+          ->type_name("PERCENT");
+  verify->add_option("--min-proved", raw.minAgreed)->group("")->excludes(agreed); // the name it had
   verify->add_option("--tolerance", raw.tolerance, "what counts as equal (0.000001)")->type_name("MM");
   verify->add_option("--jobs", raw.jobs, "cases that run at one time (one for each processor)")
       ->type_name("N");

@@ -88,6 +88,8 @@ VerifyOptions optionsOf(const ConvertOptions& options, const std::string& input)
   out.useDefaults = options.useDefaults;
   // The program switches the probe by itself, so the source is where it is on.
   if (options.switchProbe) out.common.assume.insert("probe-on");
+  out.switchProbe = options.switchProbe;
+  out.byConvert = true;
   out.cases = kCases;
   out.format = options.report.value_or(ReportFormat::Text);
   out.date = options.date;

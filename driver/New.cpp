@@ -8,14 +8,20 @@
 
 namespace dotek::driver {
 
+namespace {
+
+// A data file NAME.toml, which flags name.
+bool isPlain(const std::string& name) {
+  return !name.empty() && std::all_of(name.begin(), name.end(), [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_';
+  });
+}
+
+} // namespace
+
 Outcome newForm(const NewFormOptions& options) {
   return guarded(options.common, [&](Session& session) {
-    const bool plain =
-        !options.name.empty() && std::all_of(options.name.begin(), options.name.end(), [](char c) {
-          return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' ||
-                 c == '_';
-        });
-    if (!plain) session.diagnostics().report<diag::FormName>({}, options.name);
+    if (!isPlain(options.name)) session.diagnostics().report<diag::FormName>({}, options.name);
     if (!options.prog)
       session.diagnostics().report<diag::MissingOption>({}, "new form", "--prog PROG.txt",
                                                         "the Prog whose keywords the form explains");
@@ -33,8 +39,12 @@ Outcome newForm(const NewFormOptions& options) {
 
 Outcome newControl(const NewControlOptions& options) {
   return guarded(options.common, [&](Session& session) {
+    if (!isPlain(options.name)) session.diagnostics().report<diag::ControlName>({}, options.name);
     const auto base = loadControl(options.base, session);
-    return outcomeOf(session, base ? draftControl(options.name, *base, session.probeCodes()) : std::string());
+    if (base) checkProbeCodes(*base, session);
+    const bool sound = base && !session.diagnostics().hasErrors();
+    return outcomeOf(session,
+                     sound ? draftControl(options.name, *base, session.probeCodes()) : std::string());
   });
 }
 

@@ -3,6 +3,7 @@
 #include "driver/Driver.h"
 #include "frontend/nc/Scan.h"
 #include "project/Inputs.h"
+#include "project/Lowering.h"
 #include "project/ProgramLibrary.h"
 #include "project/SufProgram.h"
 #include "project/VariableFlags.h"
@@ -45,7 +46,9 @@ public:
              kind == InputKind::Suf)
       return runSuf();
     if (diagnostics().hasErrors()) return outcomeOf(session_, "");
-    control_ = loadControl();
+    control_ =
+        loadControl(options_.control.empty() ? std::string(kFirstControl) : options_.control, session_);
+    if (control_) checkProbeCodes(*control_, session_);
     if (diagnostics().hasErrors()) return outcomeOf(session_, "");
     world_ = sim::SimWorld::load(options_, session_);
     if (!world_) return outcomeOf(session_, "");
@@ -77,18 +80,6 @@ private:
                             true);
     out.files = world_->pictures();
     return out;
-  }
-
-  std::optional<stdlib::Control> loadControl() {
-    const std::string name(options_.control.empty() ? kFirstControl : std::string_view(options_.control));
-    std::optional<stdlib::Control> control = stdlib::Control::load(session_.data(), name);
-    if (!control) {
-      std::string known;
-      for (const stdlib::DataFile* file : session_.data().list("controls"))
-        known += (known.empty() ? "" : ", ") + file->name;
-      diagnostics().report<diag::UnknownProfile>({}, name, known);
-    }
-    return control;
   }
 
   bool setVariables(sim::Machine& machine) {

@@ -156,10 +156,9 @@ std::optional<std::uint32_t> firstNumber(const ExpressionPtr& number) {
     return static_cast<std::uint32_t>(std::lround(*value));
   };
   const auto* sum = std::get_if<Binary>(&number->node);
-  if (sum == nullptr || (sum->op != BinaryOp::Add && sum->op != BinaryOp::Subtract)) return std::nullopt;
+  if (sum == nullptr || sum->op != BinaryOp::Add) return std::nullopt;
   if (const auto left = whole(sum->left)) return left;
-  if (sum->op == BinaryOp::Add)
-    if (const auto right = whole(sum->right)) return right;
+  if (const auto right = whole(sum->right)) return right;
   return firstNumber(sum->left);
 }
 

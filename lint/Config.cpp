@@ -79,7 +79,7 @@ std::shared_ptr<const Configs::File> Configs::load(const std::string& path, cons
   config.control = lint.value("control").text();
   const dotek::project::Settings settings = dotek::project::settingsIn(*document);
   config.form = settings.form;
-  session_.takeProbeCodes(settings.probe);
+  config.probe = settings.probe;
   for (const TomlEntry& entry : lint.value("severity").table().entries()) {
     checkCode(*document, entry.key, entry.keyRange);
     const std::string level = entry.value.choice({"off", "note", "warning", "error"}, "warning");

@@ -22,6 +22,7 @@ struct Config {
   std::map<std::string, std::optional<Severity>, std::less<>> severity; // nothing: off
   std::optional<FailOn> failOn;
   std::string control, form; // "": not said
+  stdlib::ProbeCodes probe;  // of the machine
   bool exclude = false;      // it is not checked, unless it is named on the command line
 };
 

@@ -22,6 +22,7 @@ Settings Projects::settingsOf(FileId file) {
   out.form = options_.source.form.value_or(config.form);
   out.formGiven = !out.form.empty();
   if (!out.formGiven) out.form = dotek::project::kDefaultForm;
+  out.probe = stdlib::merged(compilation_.session().probeCodes(), config.probe);
   return out;
 }
 
@@ -100,7 +101,7 @@ Project& Projects::begin(const Settings& settings) {
   // An unknown control is an error, and what holds on every control is said beside it.
   const stdlib::Control* control = nullptr;
   if (!settings.control.empty() && session.data().find("mikroprog", settings.control) == nullptr) {
-    control = session.control(settings.control);
+    control = session.control(settings.control, settings.probe);
     if (control == nullptr && unknownControls_.insert(settings.control).second)
       dotek::project::loadControl(settings.control, session);
   }
@@ -113,11 +114,12 @@ Project& Projects::begin(const Settings& settings) {
   if (blocks) project.macroSets = session.macroSets();
   if (inputs_->form) {
     project.form = &forms_.emplace_back(*inputs_->form);
-    if (!project.form->control.empty()) project.postControl = session.control(project.form->control);
+    if (!project.form->control.empty())
+      project.postControl = session.control(project.form->control, settings.probe);
   }
   project.control = control;
   project.analyses = std::make_shared<Analyses>();
-  if (control == nullptr && blocks) project.controls = compilation_.controls();
+  if (control == nullptr && blocks) project.controls = compilation_.controls(settings.probe);
   return project;
 }
 

@@ -18,7 +18,8 @@ namespace dotek::lint {
 struct Settings {
   std::string control; // "": what holds on every control
   std::string form;
-  bool formGiven = false; // else it is the one that is taken where nobody names one
+  bool formGiven = false;   // else it is the one that is taken where nobody names one
+  stdlib::ProbeCodes probe; // of the flags, else of dotek.toml
   auto operator<=>(const Settings&) const = default;
 };
 

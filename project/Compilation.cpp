@@ -24,12 +24,12 @@ gibbs::ParseContext contextOf(Session& session) {
 
 } // namespace
 
-const std::vector<stdlib::Control>& Compilation::controls() {
-  if (controls_) return *controls_;
-  controls_.emplace();
+const std::vector<stdlib::Control>& Compilation::controls(const stdlib::ProbeCodes& probe) {
+  const auto [at, isNew] = controls_.try_emplace(probe);
+  if (!isNew) return at->second;
   for (const stdlib::DataFile* file : session_.data().list("controls"))
-    if (const stdlib::Control* control = session_.control(file->name)) controls_->push_back(*control);
-  return *controls_;
+    if (const stdlib::Control* control = session_.control(file->name, probe)) at->second.push_back(*control);
+  return at->second;
 }
 
 LoweringInputs* Compilation::load(const SourceOptions& source, const std::string& control) {
@@ -97,7 +97,7 @@ std::shared_ptr<const ir::ProgramFile> Compilation::lower(const macrob::File& fi
     return program ? std::make_shared<const ir::ProgramFile>(std::move(*program)) : nullptr;
   };
   if (control != nullptr) return as(*control);
-  for (const stdlib::Control& one : controls())
+  for (const stdlib::Control& one : controls(session_.probeCodes()))
     if (auto program = as(one)) return program;
   return nullptr;
 }

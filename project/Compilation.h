@@ -30,8 +30,8 @@ public:
 
   Session& session() const { return session_; }
 
-  // All profiles of controls, by name; loaded when first asked for.
-  const std::vector<stdlib::Control>& controls();
+  // All profiles of controls, by name, with these codes of the probe; loaded when first asked for.
+  const std::vector<stdlib::Control>& controls(const stdlib::ProbeCodes& probe);
 
   // Under which settings cycles are lowered; reads the Prog of the command line. nullptr: a flag, the Prog or
   // a data file has a defect, reported.
@@ -72,7 +72,7 @@ public:
 
 private:
   Session& session_;
-  std::optional<std::vector<stdlib::Control>> controls_;
+  std::map<stdlib::ProbeCodes, std::vector<stdlib::Control>> controls_;
   std::optional<LoweringInputs> inputs_;
   std::deque<std::shared_ptr<const frontend::compost::Program>> progs_;
   std::deque<CycleFolder> folders_;

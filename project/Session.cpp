@@ -25,15 +25,18 @@ const stdlib::ComPostKeywords& Session::compostKeywords() {
 }
 
 const stdlib::Control* Session::control(const std::string& name) {
-  const auto [at, isNew] = controls_.try_emplace(name);
+  return control(name, probeCodes_);
+}
+
+const stdlib::Control* Session::control(const std::string& name, const stdlib::ProbeCodes& codes) {
+  const auto [at, isNew] = controls_.try_emplace({name, codes});
   if (isNew) at->second = stdlib::Control::load(data_, name);
-  if (isNew && at->second) stdlib::addProbeCodes(*at->second, probeCodes_);
+  if (isNew && at->second) stdlib::addProbeCodes(*at->second, codes);
   return at->second ? &*at->second : nullptr;
 }
 
 void Session::takeProbeCodes(const stdlib::ProbeCodes& codes) {
-  if (probeCodes_.on.empty()) probeCodes_.on = codes.on;
-  if (probeCodes_.off.empty()) probeCodes_.off = codes.off;
+  probeCodes_ = stdlib::merged(probeCodes_, codes);
 }
 
 const std::vector<stdlib::MacroSet>& Session::macroSets() {

@@ -35,6 +35,7 @@ public:
   const stdlib::ComPostKeywords& compostKeywords();
   // The profile of this name, read once, with the probe codes of the user. nullptr: there is none.
   const stdlib::Control* control(const std::string& name);
+  const stdlib::Control* control(const std::string& name, const stdlib::ProbeCodes& codes);
   // Codes that switch the probe, of the flags; else of what said them first. For controls that are read
   // later.
   const stdlib::ProbeCodes& probeCodes() const { return probeCodes_; }
@@ -73,7 +74,7 @@ private:
   stdlib::DataFiles data_;
   std::optional<stdlib::GibbsKeywords> gibbs_;
   std::optional<stdlib::ComPostKeywords> compost_;
-  std::map<std::string, std::optional<stdlib::Control>> controls_;
+  std::map<std::pair<std::string, stdlib::ProbeCodes>, std::optional<stdlib::Control>> controls_;
   stdlib::ProbeCodes probeCodes_;
   std::optional<std::vector<stdlib::MacroSet>> macroSets_;
   std::map<std::string, std::optional<FileId>> read_;

@@ -12,6 +12,14 @@
 namespace dotek::stdlib {
 namespace {
 
+// The outputs are the results of the IR, in the same order.
+#define DOTEK_OUTPUT(id, name) static_assert(static_cast<int>(Output::id) == static_cast<int>(ir::ResultName::id));
+DOTEK_OUTPUTS(DOTEK_OUTPUT)
+#undef DOTEK_OUTPUT
+ir::ResultName resultOf(Output output) {
+  return static_cast<ir::ResultName>(output);
+}
+
 struct RoleFacts {
   std::string_view name;
   ir::Kind kind;
@@ -328,7 +336,7 @@ private:
     MacroResult out;
     const TomlValue name = table.require("name", "what the variable holds");
     out.output = chosen<Output>(name, kOutputs, outputName);
-    out.name = static_cast<ir::ResultName>(out.output); // the same names in the same order
+    out.name = resultOf(out.output);
     const TomlValue variable = table.require("variable", "a variable number");
     out.variable = static_cast<std::uint32_t>(variable.integer(1, 1, 999999));
     out.documented = table.value("documented").flag(true);

@@ -2,6 +2,10 @@
 
 namespace dotek::stdlib {
 
+ProbeCodes merged(const ProbeCodes& first, const ProbeCodes& second) {
+  return {first.on.empty() ? second.on : first.on, first.off.empty() ? second.off : first.off};
+}
+
 std::optional<std::pair<char, std::uint32_t>> codeOf(std::string_view text) {
   if (text.size() < 2 || text.size() > 5) return std::nullopt;
   const char letter = static_cast<char>(text[0] & ~0x20);

@@ -4,6 +4,7 @@
 
 #include "stdlib/Control.h"
 
+#include <compare>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -15,8 +16,12 @@ namespace dotek::stdlib {
 struct ProbeCodes {
   std::string on, off;
 
+  auto operator<=>(const ProbeCodes&) const = default;
   bool any() const { return !on.empty() || !off.empty(); }
 };
+
+// What of `first` is not given, of `second`.
+ProbeCodes merged(const ProbeCodes& first, const ProbeCodes& second);
 
 // Letter and code times ten of "M31", "m31" or "G105"; nullopt: neither an M nor a G code.
 std::optional<std::pair<char, std::uint32_t>> codeOf(std::string_view text);

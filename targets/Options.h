@@ -79,7 +79,9 @@ struct VerifyOptions : TranslationOptions {
   double tolerance = 1e-6; // mm
   std::uint32_t jobs = 0;  // 0: one for each processor
   NamedTexts variables;    // --var N=VALUE, of programs: not drawn
-  // Of what convert wrote: --default and --defaults use.
+  bool byConvert = false;  // what the report names as its command is `convert --verify`
+  // Of what convert wrote: --default, --defaults use and --probe-power macro.
+  bool switchProbe = false;
   NamedTexts defaults;
   bool useDefaults = false;
   // What convert wrote; nullptr: verify converts the input itself.

@@ -177,8 +177,10 @@ std::string VerifyReport::command() const {
   if (options_.part) flag("--part", *options_.part);
   if (options_.machine) flag("--machine", *options_.machine);
   for (const std::string& assumption : options_.common.assume)
-    flag("--assume", assumption);
+    if (!options_.switchProbe || assumption != "probe-on") flag("--assume", assumption);
   if (options_.common.recover) out += " --recover";
+  if (!options_.common.probeCodes.on.empty()) flag("--probe-on", options_.common.probeCodes.on);
+  if (!options_.common.probeCodes.off.empty()) flag("--probe-off", options_.common.probeCodes.off);
   for (const auto& [field, variable] : options_.common.field)
     flag("--field", field + "=" + variable);
   for (const std::string& folder : options_.common.data)
@@ -277,6 +279,7 @@ SourceRange VerifyReport::sourceOfLine(std::uint32_t line) const {
 // The command that makes the document, as far as others get the same report with it.
 std::string VerifyReport::wholeCommand() const {
   std::string out = command();
+  if (options_.byConvert) out.replace(out.find("verify"), 6, "convert --verify --report REPORT");
   const auto pairs = [&](std::string_view flag, const project::NamedTexts& given) {
     for (const auto& [name, text] : given)
       addFlag(out, flag, name + "=" + text);
@@ -284,6 +287,10 @@ std::string VerifyReport::wholeCommand() const {
   pairs("--set", options_.common.set);
   pairs("--host", options_.common.host);
   pairs("--var", options_.variables);
+  pairs("--default", options_.defaults);
+  if (options_.useDefaults) addFlag(out, "--defaults", "use");
+  if (options_.switchProbe) addFlag(out, "--probe-power", "macro");
+  if (options_.byConvert) return out;
   const VerifyOptions usual;
   if (options_.cases != usual.cases) addFlag(out, "--cases", std::to_string(options_.cases));
   if (options_.seed != usual.seed) addFlag(out, "--seed", std::to_string(options_.seed));

@@ -138,7 +138,10 @@ private:
     const bool whole = value != nullptr && *value >= 0 && *value < 1e9 &&
                        *value == static_cast<double>(static_cast<std::uint32_t>(*value));
     const auto base = value == nullptr ? ir::firstNumber(number) : std::nullopt;
-    if (base && state_.control.isCommon(*base)) return machineText(state_, number, origin);
+    if (base && state_.control.isCommon(*base)) {
+      warnOfReach(*base, origin);
+      return machineText(state_, number, origin);
+    }
     if (whole && isSettable(state_.control, static_cast<std::uint32_t>(*value)))
       return machineText(state_, number, origin);
     if (!whole || !state_.control.isCommon(static_cast<std::uint32_t>(*value))) {
@@ -148,22 +151,46 @@ private:
       return std::nullopt;
     }
     const auto variable = static_cast<std::uint32_t>(*value);
-    // Where no macro is called, its variables are like any other.
-    const bool calls = ir::probes(state_.cycle);
     for (const auto& [first, last] : state_.macros.scratch) {
-      if (!calls) break;
       if (variable < first || variable > last) continue;
-      const bool kept = std::any_of(state_.control.common.begin(), state_.control.common.end(),
-                                    [&](const stdlib::VariableRange& range) {
-                                      return range.kept && variable >= range.first && variable <= range.last;
-                                    });
-      if (kept) {
+      if (!isKept(variable)) {
+        // Where no macro is called, what it works in is like any other variable.
+        if (calls())
+          state_.diagnostics.report<diag::StoreScratch>(origin.range(), variable, state_.macros.title);
+      } else if (calls()) {
         state_.refuse<diag::StoreCalibration>(origin.range(), variable, state_.macros.title);
         return std::nullopt;
+      } else {
+        state_.diagnostics.report<diag::StoreCalibrationUncalled>(origin.range(), variable,
+                                                                  state_.macros.title);
       }
-      state_.diagnostics.report<diag::StoreScratch>(origin.range(), variable, state_.macros.title);
     }
     return "#" + std::to_string(variable);
+  }
+
+  bool calls() const {
+    return std::any_of(state_.cycle.body.begin(), state_.cycle.body.end(),
+                       [&](const ir::CycleStatement& one) { return callsMacro(state_, one); });
+  }
+
+  bool isKept(std::uint32_t variable) const {
+    return std::any_of(state_.control.common.begin(), state_.control.common.end(),
+                       [&](const stdlib::VariableRange& range) {
+                         return range.kept && variable >= range.first && variable <= range.last;
+                       });
+  }
+
+  // A number that counts from `base` may reach what the macros work in, in the same bank of variables.
+  void warnOfReach(std::uint32_t base, const ir::Origin& origin) {
+    for (const auto& [first, last] : state_.macros.scratch)
+      for (const stdlib::VariableRange& bank : state_.control.common) {
+        const bool together =
+            bank.first <= base && base <= bank.last && first <= bank.last && last >= bank.first;
+        if (!together || base > last || (!bank.kept && !calls())) continue;
+        state_.diagnostics.report<diag::StoreReachesScratch>(origin.range(), base, first, last,
+                                                             state_.macros.title);
+        return;
+      }
   }
 
   State& state_;

@@ -10,6 +10,19 @@
 
 namespace dotek::backends::fanuc {
 
+bool callsMacro(const State& state, const ir::CycleStatement& statement) {
+  return match(
+      statement, [](const ir::Move& node) { return node.motion == ir::Motion::Protected; },
+      [&](const ir::ProbePower& node) {
+        return state.macros.find(node.on ? stdlib::Intent::ProbeOn : stdlib::Intent::ProbeOff) != nullptr;
+      },
+      [](const ir::OneOf<ir::Measure, ir::CallCycle, ir::OpaqueBlock> auto&) { return true; },
+      [](const ir::OneOf<ir::Label, ir::Jump, ir::Branch, ir::Store, ir::Comment, ir::Assign, ir::Return,
+                         ir::Spindle, ir::Coolant, ir::SetMode, ir::Dwell, ir::Stop, ir::Alarm> auto&) {
+        return false;
+      });
+}
+
 namespace {
 
 // Beyond this, every result is kept.
@@ -25,19 +38,6 @@ std::optional<std::uint32_t> common(const stdlib::MacroSet& macros, ir::ResultNa
     out = result->variable;
   }
   return out;
-}
-
-bool callsMacro(const State& state, const ir::CycleStatement& statement) {
-  return match(
-      statement, [](const ir::Move& node) { return node.motion == ir::Motion::Protected; },
-      [&](const ir::ProbePower& node) {
-        return state.macros.find(node.on ? stdlib::Intent::ProbeOn : stdlib::Intent::ProbeOff) != nullptr;
-      },
-      [](const ir::OneOf<ir::Measure, ir::CallCycle, ir::OpaqueBlock> auto&) { return true; },
-      [](const ir::OneOf<ir::Label, ir::Jump, ir::Branch, ir::Store, ir::Comment, ir::Assign, ir::Return,
-                         ir::Spindle, ir::Coolant, ir::SetMode, ir::Dwell, ir::Stop, ir::Alarm> auto&) {
-        return false;
-      });
 }
 
 // Whether a call of a macro may appear between the measurement and the use.

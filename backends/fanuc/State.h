@@ -226,6 +226,9 @@ void guardSystem(State& state, const ir::ExpressionPtr& system, const ir::Origin
 
 // ---- Results.cpp ----
 
+// A macro of the set may run where the statement does.
+bool callsMacro(const State& state, const ir::CycleStatement& statement);
+
 // Reserves locals for results that a later call of a macro would overwrite before they are used.
 void planResults(State& state, Body& body);
 // After the measurement that is being written: keeps what was reserved.

@@ -414,7 +414,15 @@ void MacroBlocks::cycle(const ir::CallCycle& given, const ir::Origin& origin, st
     guardSystem(call.setting->system, origin);
     for (const ir::Axis axis : ir::kAxes) {
       ir::ExpressionPtr& nominal = call.setting->nominal[ir::indexOf(axis)];
-      if (!call.setting->axes[ir::indexOf(axis)] || system->systemRule == stdlib::SystemRule::Error) continue;
+      if (!call.setting->axes[ir::indexOf(axis)]) continue;
+      if (system->systemRule == stdlib::SystemRule::Error) {
+        // It corrects by measured minus expected: a coordinate of its own would be lost.
+        if (nominal != nullptr)
+          state_.refuse<diag::MacroSetCannot>(origin.range(), macros.title,
+                                              "a work offset that gives the feature another coordinate than "
+                                              "the expected one");
+        continue;
+      }
       if (nominal == nullptr) nominal = at_[ir::indexOf(axis)].value;
       if (nominal == nullptr)
         state_.refuse<diag::StartUnknown>(origin.range(), std::string(1, ir::letterOf(axis)));

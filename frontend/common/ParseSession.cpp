@@ -19,7 +19,7 @@ public:
   void recover(antlr4::Parser* parser, std::exception_ptr) override {
     if (staysEmpty(parser)) return;
     antlr4::TokenStream* input = parser->getTokenStream();
-    while (input->LA(1) != antlr4::Token::EOF && !isStop(input->LA(1)))
+    while (!isStop(input->LA(1)))
       parser->consume();
   }
 
@@ -46,12 +46,13 @@ public:
     });
   }
 
-private:
+  // A unit ends before a token of this type.
   bool isStop(size_t type) const {
     return type == antlr4::Token::EOF || std::find(language_.unitStops.begin(), language_.unitStops.end(),
                                                    type) != language_.unitStops.end();
   }
 
+private:
   bool staysEmpty(antlr4::Parser* parser) const {
     if (parser->getContext() == nullptr) return false;
     const std::vector<size_t>& rules = language_.emptyOnError;
@@ -127,7 +128,9 @@ ParseSession::Unit ParseSession::runErased(const std::function<antlr4::ParserRul
     diagnostics_.report<diag::NestingTooDeep>(rangeOf(file_, *input.LT(1)), limits_.nesting);
     strategy_->failed = true;
     parser_.setContext(nullptr);
-    strategy_->recover(&parser_, nullptr);
+    // The parser's own consume() would add to a context, and there is none.
+    while (!strategy_->isStop(input.LA(1)))
+      input.consume();
   }
   unit.failed = strategy_->failed;
   if (input.index() == before && !atEnd()) {
@@ -137,7 +140,7 @@ ParseSession::Unit ParseSession::runErased(const std::function<antlr4::ParserRul
                                              language_.explain(0, *input.LT(1), parser_));
       unit.failed = true;
     }
-    parser_.consume();
+    input.consume();
   }
   const antlr4::Token* last = input.index() > 0 ? input.LT(-1) : nullptr;
   unit.range = last == nullptr ? first : spanning(first, rangeOf(file_, *last));

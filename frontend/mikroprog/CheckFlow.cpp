@@ -11,12 +11,10 @@ namespace {
 // none ends for certain never.
 class Flow {
 public:
-  explicit Flow(const Reading& reading) : reading_(reading), next_(reading.blocks.size()) {
-    ends_.resize(next_.size());
-    for (std::size_t at = 0; at < next_.size(); ++at)
+  explicit Flow(const Reading& reading)
+      : reading_(reading), next_(reading.blocks.size() + 1), ends_(next_.size()) {
+    for (std::size_t at = 0; at < reading_.blocks.size(); ++at)
       follow(at);
-    for (std::size_t at = 0; at < next_.size(); ++at)
-      if (reading_.blocks[at].does("return")) next_[at] = afterCalls_;
   }
 
   // Blocks that may run, and of which no path leads to an end.
@@ -30,6 +28,7 @@ public:
       if (ends_[at]) ends.push_back(at);
     const std::vector<bool> leaves = from(std::move(ends), before);
     std::vector<bool> out = from({0}, next_);
+    out.pop_back();
     for (std::size_t at = 0; at < out.size(); ++at)
       out[at] = out[at] && !leaves[at];
     return out;
@@ -50,7 +49,8 @@ public:
 private:
   void follow(std::size_t at) {
     const Block& block = reading_.blocks[at];
-    if (block.line->unread || block.hasUnknownCode() || at + 1 == next_.size()) ends_[at] = true;
+    const bool last = at + 1 == reading_.blocks.size();
+    if (block.line->unread || block.hasUnknownCode() || last) ends_[at] = true;
     // An operator may end a program that waits; M60 and the macros do what is not known.
     for (const char* one : {"end", "leave", "stop", "stop-if", "run-program", "run-macro"})
       ends_[at] = ends_[at] || block.does(one);
@@ -60,7 +60,10 @@ private:
       ends_[at] = true;
     const bool jump = block.does("jump"), call = block.does("call");
     const bool branch = block.does("jump-if") || block.does("probe-move") || block.does("wait");
-    if (block.does("return")) return;
+    if (block.does("return")) {
+      next_[at].push_back(reading_.blocks.size());
+      return;
+    }
     if (jump || call || branch) {
       const auto to = target(at);
       if (to)
@@ -69,8 +72,8 @@ private:
         ends_[at] =
             true; // without L a missed contact and a timeout end it; where a wrong L leads is not known
     }
-    if (at + 1 == next_.size() || jump) return;
-    (call ? afterCalls_ : next_[at]).push_back(at + 1);
+    if (last || jump) return;
+    (call ? next_.back() : next_[at]).push_back(at + 1);
   }
 
   static std::vector<bool> from(std::vector<std::size_t> open,
@@ -92,8 +95,7 @@ private:
   }
 
   const Reading& reading_;
-  std::vector<std::vector<std::size_t>> next_;
-  std::vector<std::size_t> afterCalls_;
+  std::vector<std::vector<std::size_t>> next_; // the last: from any return to the block after any call
   std::vector<bool> ends_;
 };
 

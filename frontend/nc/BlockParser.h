@@ -35,8 +35,11 @@ private:
   bool take(std::string_view word);
   // The number of a block or a loop; reports one that is computed.
   bool statementNumber(std::string_view after, std::uint64_t& out);
-  bool holdsRelation() const; // at the [
-  ConditionPtr conditionHere();
+  bool holdsRelation() const;   // at the [
+  ConditionPtr conditionHere(); // in its brackets
+  ConditionPtr junction();      // OR
+  ConditionPtr conjunction();   // AND, the higher one as among numbers
+  ConditionPtr joined(std::string_view op, ConditionPtr (BlockParser::*operand)());
   bool addressesOnce(const Block& block);
 
   ExpressionPtr expression(); // + - OR XOR

@@ -167,7 +167,9 @@ bool Lifter::statement() {
   flow.loops.pop_back();
   add(ir::Jump{loop.begin});
   if (flow.reachable) arrive(loop.begin);
-  flow.loopStates.insert_or_assign(loop.place, flow.arriving.at(loop.begin));
+  // Nothing comes back where an alarm or a jump ends each pass.
+  const auto arrived = flow.arriving.find(loop.begin);
+  if (arrived != flow.arriving.end()) flow.loopStates.insert_or_assign(loop.place, arrived->second);
   flow.reachable = false;
   enter(loop.end);
   return true;

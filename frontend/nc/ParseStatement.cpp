@@ -92,6 +92,28 @@ bool BlockParser::holdsRelation() const {
   return false;
 }
 
+ConditionPtr BlockParser::joined(std::string_view op, ConditionPtr (BlockParser::*operand)()) {
+  ConditionPtr out = (this->*operand)();
+  while (out && !operatorHere({op}).empty()) {
+    if (!count()) return nullptr;
+    ConditionPtr right = (this->*operand)();
+    if (!right) return nullptr;
+    auto both = std::make_unique<Condition>();
+    both->range = {out->range.file, out->range.begin, right->range.end};
+    both->node = Joined{op == "AND", std::move(out), std::move(right)};
+    out = std::move(both);
+  }
+  return out;
+}
+
+ConditionPtr BlockParser::junction() {
+  return joined("OR", &BlockParser::conjunction);
+}
+
+ConditionPtr BlockParser::conjunction() {
+  return joined("AND", &BlockParser::conditionHere);
+}
+
 ConditionPtr BlockParser::conditionHere() {
   in_.skipBlanks();
   if (in_.peek() != '[') {
@@ -104,17 +126,7 @@ ConditionPtr BlockParser::conditionHere() {
   in_.skipBlanks();
   auto out = std::make_unique<Condition>();
   if (in_.peek() == '[' && holdsRelation()) {
-    out = conditionHere();
-    while (out) {
-      const std::string_view op = operatorHere({"AND", "OR"});
-      if (op.empty()) break;
-      if (!count()) return nullptr;
-      ConditionPtr right = conditionHere();
-      if (!right) return nullptr;
-      auto joined = std::make_unique<Condition>();
-      joined->node = Joined{op == "AND", std::move(out), std::move(right)};
-      out = std::move(joined);
-    }
+    out = junction();
     if (!out) return nullptr;
   } else {
     Comparison comparison;

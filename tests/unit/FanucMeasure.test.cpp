@@ -213,12 +213,32 @@ TEST_CASE("fanuc measure: where values may be stored") {
   CHECK(codes(5221, true).empty());
   CHECK(codes(510, true) == std::set<std::string>{"store-calibration"});
   CHECK(codes(140, true) == std::set<std::string>{"store-scratch"});
-  // Where no macro is called, its variables are like any other.
-  CHECK(codes(510, false).empty());
+  // Where no macro is called, what it works in is like any other variable; what it keeps is not.
+  CHECK(codes(510, false) == std::set<std::string>{"store-calibration-uncalled"});
   CHECK(codes(140, false).empty());
+  Maker switching;
+  switching.add(ir::ProbePower{true});
+  switching.add(ir::Store{number(140), number(1)});
+  CHECK(Target("inspection-plus").emit(switching.cycle).codes().contains("store-scratch"));
   Maker computed;
   computed.add(ir::Store{use(computed.field("n", 600)), number(1)});
-  CHECK_FALSE(Target().emit(computed.cycle).codes().empty());
+  CHECK(Target().emit(computed.cycle).codes().contains("store-variable"));
+}
+
+TEST_CASE("fanuc measure: where a computed number may lead") {
+  const auto codes = [](double base, ir::BinaryOp op) {
+    SurfaceCycle cycle;
+    cycle.add(ir::Store{ir::binary(op, number(base), ir::machineVariable(number(601))), number(1)});
+    std::set<std::string> out;
+    for (const std::string& code : Target("inspection-plus").emit(cycle.cycle).codes())
+      if (code.starts_with("store-")) out.insert(code);
+    return out;
+  };
+  CHECK(codes(600, ir::BinaryOp::Add).empty());
+  CHECK(codes(115, ir::BinaryOp::Add) == std::set<std::string>{"store-reaches-scratch"});
+  CHECK(codes(500, ir::BinaryOp::Add) == std::set<std::string>{"store-reaches-scratch"});
+  // Taken off, it may reach the arguments of the program itself.
+  CHECK(codes(600, ir::BinaryOp::Subtract) == std::set<std::string>{"store-variable"});
 }
 
 TEST_CASE("fanuc measure: variables of the machine that a source reads") {

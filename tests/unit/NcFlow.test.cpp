@@ -35,6 +35,24 @@ TEST_CASE("a loop jumps back to its condition") {
   CHECK(lifted("DO1\nDO2\nEND1\nEND2").find("loop-unbalanced") != std::string::npos);
 }
 
+TEST_CASE("a loop that nothing goes back to is a loop all the same") {
+  CHECK(lifted("WHILE[#601LT3]DO1\n#3000=1(NO)\nEND1\nM5") ==
+        "loop:\nif or_zero(#{601}) >= 3 goto end\nalarm NO\ngoto loop\nend:\nspindle 0\n");
+  CHECK(lifted("WHILE[#601LT3]DO1\nGOTO10\nEND1\nN10 M5") ==
+        "loop:\nif or_zero(#{601}) >= 3 goto end\ngoto N10\ngoto loop\nend:\nN10:\nspindle 0\n");
+}
+
+// Fanuc macro B, reference 1.4: AND with * and /, OR with + and -.
+TEST_CASE("AND binds more than OR") {
+  const std::string grouped = lifted("IF[[#601EQ1]OR[[#602EQ1]AND[#603EQ1]]]GOTO10\nN10 M5");
+  CHECK(grouped.find("refused") == std::string::npos);
+  CHECK(lifted("IF[[#601EQ1]OR[#602EQ1]AND[#603EQ1]]GOTO10\nN10 M5") == grouped);
+  CHECK(lifted("IF[[#602EQ1]AND[#603EQ1]OR[#601EQ1]]GOTO10\nN10 M5") !=
+        lifted("IF[[#602EQ1]AND[[#603EQ1]OR[#601EQ1]]]GOTO10\nN10 M5"));
+  CHECK(lifted("IF[[[#602EQ1]AND[#603EQ1]]OR[#601EQ1]]GOTO10\nN10 M5") ==
+        lifted("IF[[#602EQ1]AND[#603EQ1]OR[#601EQ1]]GOTO10\nN10 M5"));
+}
+
 TEST_CASE("after a label the modes hold in which all paths to it agree") {
   // Both come with G0.
   CHECK(lifted("G0 X1.\nIF[#601GT5.]GOTO2\nG0 Y2.\nN2 Z5.").find("rapid Z=work:5") != std::string::npos);
@@ -52,4 +70,5 @@ TEST_CASE("a variable with a computed number counts from a common one") {
   CHECK(lifted("#603=#[601+#602]") == "store 603=#(601+u14(#602))\n");
   CHECK(lifted("#[#602]=1") == "refused: [computed-variable]");
   CHECK(lifted("#[5+#602]=1") == "refused: [computed-variable]");
+  CHECK(lifted("#[600-#602]=1") == "refused: [computed-variable]");
 }
