@@ -156,7 +156,8 @@ View linesOf(InputKind kind) {
   return "blocks of Mikroprog";
 }
 
-Recognition recogniseText(View text, std::optional<InputKind> named) {
+// `named`: its name says so, or, where not `byName`, the command takes that.
+Recognition recogniseText(View text, std::optional<InputKind> named, bool byName) {
   if (text.find_first_not_of(" \t\r\n\v\f\x1A") == View::npos) return {named, std::string(kEmptyInput)};
   if (named == InputKind::DefineData) return {named, "its name is fixed in GibbsCAM"};
   if (auto other = otherFormat(text)) return {std::nullopt, std::move(*other)};
@@ -188,7 +189,8 @@ Recognition recogniseText(View text, std::optional<InputKind> named) {
     const Tally& tally = seen.of(kind);
     if (!suffices(kind, tally, named == kind)) continue;
     // A text about programs quotes some.
-    if (kind == InputKind::Nc && named != kind && (seen.prose * 4 > nc.lines || !seen.nc.code)) continue;
+    const bool quotes = seen.prose * 4 > nc.lines;
+    if (kind == InputKind::Nc && (named != kind ? quotes || !seen.nc.code : quotes && !byName)) continue;
     const double one = tally.score() * (named == kind ? 1.5 : 1);
     if (one > score) best = kind;
     score = std::max(score, one);
@@ -196,6 +198,7 @@ Recognition recogniseText(View text, std::optional<InputKind> named) {
   if (best) return {best, share(seen.of(*best), linesOf(*best))};
   if (seen.schema) return {std::nullopt, "settings in TOML"};
   if (named && *named != InputKind::Suf && seen.of(*named).lines == 0) return {named, "nothing but comments"};
+  if (!byName && named == InputKind::Nc && seen.prose * 4 > nc.lines) return {std::nullopt, std::string(kUnknown)};
   if (named && seen.of(*named).share() >= 0.5) return {named, share(seen.of(*named), linesOf(*named))};
   if (named == InputKind::Nc && (nc.fits + nc.begins) * 4 >= nc.lines)
     return {named, "its name, and blocks with defects"};
@@ -256,6 +259,7 @@ std::string otherwise(const Recognition& recognition) {
 Recognition recognise(View fileName, View bytes, std::optional<InputKind> expected) {
   const std::size_t slash = fileName.find_last_of("/\\");
   auto named = kindOfName(upperCase(slash == View::npos ? fileName : fileName.substr(slash + 1)));
+  const bool byName = named.has_value();
   if (!named) named = expected;
   View text = bytes.substr(0, kRecognisedBytes);
   if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
@@ -264,7 +268,7 @@ Recognition recognise(View fileName, View bytes, std::optional<InputKind> expect
                     (nuls > 0 && nuls * 2 + 2 >= text.size() && nuls * 2 <= text.size() + 2);
   if (auto other = otherFormat(text)) return {std::nullopt, std::move(*other)};
   if (wide) {
-    Recognition out = recogniseText(narrowed(text), named);
+    Recognition out = recogniseText(narrowed(text), named, byName);
     out.reason = out.kind ? "UTF-16, and " + out.reason : "UTF-16 text; save it as ANSI or UTF-8";
     return out;
   }
@@ -281,7 +285,7 @@ Recognition recognise(View fileName, View bytes, std::optional<InputKind> expect
   const auto inner = static_cast<std::size_t>(std::count(middle.begin(), middle.end(), '\0'));
   const std::size_t most = std::max<std::size_t>(8, middle.size() / 20); // a copy may be damaged
   if (inner > most || static_cast<std::size_t>(controls) > most) return {std::nullopt, "binary data"};
-  return nuls == 0 ? recogniseText(text, named) : recogniseText(narrowed(middle), named);
+  return nuls == 0 ? recogniseText(text, named, byName) : recogniseText(narrowed(middle), named, byName);
 }
 
 } // namespace dotek::project

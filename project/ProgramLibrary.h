@@ -33,6 +33,7 @@ public:
                                                   const stdlib::Control& control, Session& session);
   // Further programs that can be called; of one number the first stays.
   void addCallable(ir::ProgramFile file, Session& session) { add(std::move(file), false, session); }
+  const std::string& mainPath() const { return main_; }
   // The main program first; of each number one. They live as long as this object.
   std::vector<const ir::Program*> programs() const;
 

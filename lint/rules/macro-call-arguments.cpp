@@ -1,6 +1,8 @@
 #include "frontend/macrob/Calls.h"
 #include "lint/Probing.h"
 
+#include <set>
+
 namespace dotek::lint::rule {
 namespace {
 
@@ -14,7 +16,17 @@ bool readsWithoutOne(const stdlib::MacroSet& set, std::uint32_t program, const s
   return false;
 }
 
-void checkCall(const macrob::Words& words, const Project& project, Report& report) {
+// Numbers of the programs of the files: one of these runs, whatever a vendor has under its number.
+std::set<std::uint64_t> ownPrograms(const Project& project) {
+  std::set<std::uint64_t> out;
+  for (const NcFile& nc : project.programs)
+    for (const macrob::Program& program : nc.file->programs)
+      if (program.name && program.name->number > 0) out.insert(program.name->number);
+  return out;
+}
+
+void checkCall(const macrob::Words& words, const Project& project, const std::set<std::uint64_t>& own,
+               Report& report) {
   const auto call = macrob::callOf(words);
   if (!call || call->kind != macrob::CallKind::Simple || call->program == nullptr) return;
   // Words that are no arguments are reported already, and are what is missing here.
@@ -22,6 +34,7 @@ void checkCall(const macrob::Words& words, const Project& project, Report& repor
   const auto number = macrob::literal(*call->program);
   if (!number || *number < 1) return;
   const auto program = static_cast<std::uint32_t>(*number);
+  if (own.contains(program)) return;
   for (const stdlib::MacroSet& set : project.macroSets) {
     if (!set.calls(program)) continue;
     std::string letters;
@@ -49,10 +62,12 @@ void checkCall(const macrob::Words& words, const Project& project, Report& repor
 }
 
 void check(const Project& project, Report& report) {
+  const std::set<std::uint64_t> own = ownPrograms(project);
   for (const NcFile& nc : project.programs)
     for (const macrob::Program& program : nc.file->programs)
       for (const macrob::Block& block : program.blocks)
-        if (const auto* words = std::get_if<macrob::Words>(&block.body)) checkCall(*words, project, report);
+        if (const auto* words = std::get_if<macrob::Words>(&block.body)) 
+          checkCall(*words, project, own, report);
 }
 
 } // namespace

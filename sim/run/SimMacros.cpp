@@ -6,10 +6,13 @@
 #include "stdlib/ReadCall.h"
 #include "support/Files.h"
 #include "support/messages/Commands.h"
+#include "support/messages/Sim.h"
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <fmt/format.h>
+#include <map>
 
 namespace dotek::sim {
 namespace {
@@ -31,6 +34,30 @@ std::set<std::uint32_t> missing(const ProgramLibrary& library) {
   return out;
 }
 
+// A program of the user's own lies beside the one that calls its number, and the meaning of a set runs.
+void noteOwnPrograms(const std::set<std::uint32_t>& called, const std::vector<const stdlib::MacroSet*>& sets,
+                     const ProgramLibrary& library, Session& session) {
+  namespace fs = std::filesystem;
+  const fs::path main(library.mainPath());
+  const fs::path folder = main.has_parent_path() ? main.parent_path() : fs::path(".");
+  std::map<std::uint64_t, std::string> beside;
+  std::error_code error;
+  for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error)) {
+    const std::string name = at->path().filename().string();
+    const std::uint64_t number = project::numberOfName(name);
+    if (number > 0 && name != main.filename()) beside.emplace(number, (folder / name).lexically_normal().string());
+  }
+  for (const std::uint32_t program : called) {
+    const auto own = beside.find(program);
+    if (own == beside.end()) continue;
+    const auto set = std::find_if(sets.begin(), sets.end(),
+                                  [&](const stdlib::MacroSet* one) { return one->calls(program); });
+    if (set != sets.end())
+      session.diagnostics().report<diag::OwnProgramBeside>({}, program, (*set)->title, own->second,
+                                                           folder.lexically_normal().string());
+  }
+}
+
 } // namespace
 
 std::unique_ptr<SimMacros> SimMacros::load(const std::optional<std::string>& chosen, bool all,
@@ -45,6 +72,7 @@ std::unique_ptr<SimMacros> SimMacros::load(const std::optional<std::string>& cho
     project::reportUnknownMacroSet(*chosen, session);
     return nullptr;
   }
+  noteOwnPrograms(called, out->sets_, library, session);
   for (const stdlib::MacroSet* set : out->sets_) {
     const stdlib::DataFile* text = session.data().find("macrob", set->name);
     if (text == nullptr) {
