@@ -8,7 +8,8 @@ options { tokenVocab = CycleLexer; }
 line : statement? NEWLINE ;
 
 statement
-  : KW_CYCLE name text?                                                         # header
+  : (KW_CYCLE | KW_OPTIONS) name text?                                          # header
+  | KW_USE name                                                                 # use
   | KW_NEEDS KW_PROBE                                                           # needs
   | KW_PARAMETER names COLON type KW_OPTIONAL? initial? text? clause*           # parameter
   | KW_RESULT names COLON type text?                                            # result
@@ -45,13 +46,14 @@ coordinates : coordinate (COMMA coordinate)* ;
 // in the active work offset where nothing else is said
 coordinate : (KW_MACHINE | KW_WORK primary)? AXIS expression ;
 becomes : expression KW_BECOMES AXIS expression ;
-argument : NAME EQUALS expression ;
+// `use NAME` hands on options
+argument : NAME EQUALS expression | KW_USE name ;
 
 names : name (COMMA name)* ;
 // a reserved word is reported
 name : NAME | ODD_NAME | AXIS | UNIT | TYPE | CODE | word ;
 word
-  : KW_CYCLE | KW_NEEDS | KW_PARAMETER | KW_RESULT | KW_OPTIONAL | KW_REQUIRE | KW_CHOICE | KW_OF | KW_PROBE
+  : KW_CYCLE | KW_OPTIONS | KW_USE | KW_NEEDS | KW_PARAMETER | KW_RESULT | KW_OPTIONAL | KW_REQUIRE | KW_CHOICE | KW_OF | KW_PROBE
   | KW_SPINDLE | KW_COOLANT | KW_ON | KW_OFF | KW_DWELL | KW_STOP | KW_ALARM | KW_REPORT | KW_MOVE | KW_RAPID
   | KW_FEED | KW_PROTECTED | KW_BY | KW_START | KW_HERE | KW_MACHINE | KW_WORK | KW_TOUCH | KW_SET | KW_TOOL
   | KW_LENGTH | KW_IF | KW_REPEAT | KW_FOR | KW_WHILE | KW_CALL | KW_GIVEN | KW_IS

@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view kKinds[] = {"controls", "cycles", "forms",    "keywords",
                                        "macrob",   "macros", "mikroprog"};
-constexpr std::string_view kReads = "`controls/*.toml`, `cycles/*.toml`, `forms/*.toml`, `keywords/*.toml`, "
+constexpr std::string_view kReads = "`controls/*.toml`, `cycles/*.cycle`, `forms/*.toml`, `keywords/*.toml`, "
                                     "`macrob/*.nc`, `macros/*.toml` and `mikroprog/*.toml`";
 
 // Entries of a folder in byte order; false with a diagnostic where it cannot be read.
@@ -44,11 +44,11 @@ bool before(const DataFile& file, std::string_view folder, std::string_view name
   return file.folder != folder ? file.folder < folder : file.name < name;
 }
 
-// Programs of a control in `macrob`, data elsewhere.
+// Programs of a control in `macrob`, cycles in `cycles`, data elsewhere.
 bool isDataFile(const fs::path& path, std::string_view kind) {
   std::error_code error;
-  return path.extension() == (kind == "macrob" ? ".nc" : ".toml") && !path.stem().empty() &&
-         !fs::is_directory(path, error);
+  const char* const end = kind == "macrob" ? ".nc" : kind == "cycles" ? ".cycle" : ".toml";
+  return path.extension() == end && !path.stem().empty() && !fs::is_directory(path, error);
 }
 
 } // namespace

@@ -32,9 +32,9 @@ struct DataFile {
 class DataFiles {
 public:
   DataFiles(); // the embedded files
-  // Adds every DIR/<folder>/<name>.toml, and DIR/macrob/<name>.nc; one of an embedded name replaces it. false
-  // with diagnostics where the folder cannot be read. Files that would be passed over in silence are
-  // warnings.
+  // Adds every DIR/<folder>/<name>.toml, DIR/macrob/<name>.nc and DIR/cycles/<name>.cycle; one of an embedded
+  // name replaces it. false with diagnostics where the folder cannot be read. Files that would be passed over
+  // in silence are warnings.
   bool addFolder(const std::string& path, const Limits& limits, Diagnostics& diagnostics);
 
   const DataFile* find(std::string_view folder, std::string_view name) const; // nullptr: none

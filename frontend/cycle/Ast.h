@@ -122,10 +122,17 @@ struct Block {
   std::vector<Comment> comments; // after the last statement
 };
 
-// cycle NAME "title"
+struct File;
+// cycle NAME "title"; options NAME "title"
 struct Header {
+  bool options = false; // parameters and results that cycles share, and nothing that runs
   Name name;
   std::optional<Text> title;
+};
+// use NAME: what a file of options declares
+struct Use {
+  Name name;
+  const File* options = nullptr; // by link(); nullptr: there is none, or the tree is not linked
 };
 // needs probe: the caller has switched the probe on.
 struct Needs {};
@@ -291,11 +298,15 @@ struct Argument {
   Name name;
   ExpressionPtr value;
 };
-// call CYCLE name = E, ... -> NAME
+// call CYCLE name = E, ..., use OPTIONS -> NAME
 struct Call {
   Name cycle;
   std::vector<Argument> arguments;
+  std::vector<Name> uses; // options of the caller that are handed on; printed after the arguments
   std::optional<Name> result;
+  // By link(), not written in the text:
+  const File* called = nullptr;   // nullptr: there is none, or the tree is not linked
+  std::vector<Argument> handedOn; // the parameters of `uses`: the caller's of the same name as values
 };
 struct ErrorStatement {};
 
@@ -304,9 +315,9 @@ struct Statement {
   bool blankBefore = false; // an empty line is above it, or above the comments before it
   std::vector<Comment> before;
   std::optional<Comment> after; // on its last line; of a block, on its first
-  std::variant<ErrorStatement, Header, Needs, Parameter, Result, Require, ProbeSwitch, SpindleOff, Coolant,
-               Dwell, Stop, Alarm, Report, Move, Touch, SetOffset, SetTool, SetStored, Assign, If, Repeat,
-               For, While, Call>
+  std::variant<ErrorStatement, Header, Use, Needs, Parameter, Result, Require, ProbeSwitch, SpindleOff,
+               Coolant, Dwell, Stop, Alarm, Report, Move, Touch, SetOffset, SetTool, SetStored, Assign, If,
+               Repeat, For, While, Call>
       node;
 };
 

@@ -178,6 +178,10 @@ Call Builder::call(Parser::CallContext& context) {
   Call out;
   out.cycle = name(*context.name(0));
   for (Parser::ArgumentContext* one : context.argument()) {
+    if (one->KW_USE() != nullptr) {
+      out.uses.push_back(name(*one->name()));
+      continue;
+    }
     const SourceRange range = rangeOf(*one->NAME()->getSymbol());
     out.arguments.push_back({{range, std::string(sources_.text(range))}, expression(one->expression())});
   }
@@ -216,7 +220,10 @@ void Builder::statement(Parser::StatementContext& context) {
     add(std::move(out));
   };
   if (auto* header = dynamic_cast<Parser::HeaderContext*>(&context))
-    return simple(Header{name(*header->name()), optionalText(header->text())});
+    return simple(
+        Header{header->KW_OPTIONS() != nullptr, name(*header->name()), optionalText(header->text())});
+  if (auto* use = dynamic_cast<Parser::UseContext*>(&context))
+    return simple(Use{name(*use->name()), nullptr});
   if (dynamic_cast<Parser::NeedsContext*>(&context) != nullptr) return simple(Needs{});
   if (auto* one = dynamic_cast<Parser::ParameterContext*>(&context)) return simple(parameter(*one));
   if (auto* one = dynamic_cast<Parser::ResultContext*>(&context))

@@ -4,15 +4,10 @@
 #include "frontend/cycle/Ast.h"
 #include "support/Diagnostics.h"
 
-#include <functional>
-#include <string>
-
 namespace dotek::frontend::cycle {
 
-// The sound tree of a cycle by its name; nullptr: there is none.
-using FindCycle = std::function<const File*(const std::string& name)>;
-
-// Reports to `diagnostics`. Broken parts of the tree are passed over: they were reported.
-void check(const File& file, const SourceMap& sources, const FindCycle& find, Diagnostics& diagnostics);
+// Reports to `diagnostics`. Broken parts of the tree are passed over: they were reported. Cycles that it
+// calls and options that it uses are those that link() found.
+void check(const File& file, const SourceMap& sources, Diagnostics& diagnostics);
 
 } // namespace dotek::frontend::cycle

@@ -1,75 +1,82 @@
 #include "frontend/cycle/Checker.h"
+#include "frontend/cycle/Link.h"
 #include "support/NearestName.h"
 #include "support/messages/Cycle.h"
 
+#include <algorithm>
 #include <map>
 
 namespace dotek::frontend::cycle {
+
 namespace {
 
-// Calls of a block and the blocks within it.
-template <class Visit> void eachCall(const Block& block, const Visit& visit) {
-  for (const Statement& statement : block.statements) {
-    if (const auto* call = std::get_if<Call>(&statement.node)) visit(*call);
-    if (const auto* choice = std::get_if<If>(&statement.node)) {
-      for (const If::Part& part : choice->parts)
-        eachCall(part.body, visit);
-      if (choice->otherwise != nullptr) eachCall(*choice->otherwise, visit);
-    }
-    if (const auto* touch = std::get_if<Touch>(&statement.node);
-        touch != nullptr && touch->otherwise != nullptr)
-      eachCall(*touch->otherwise, visit);
-    if (const auto* repeat = std::get_if<Repeat>(&statement.node)) eachCall(repeat->body, visit);
-    if (const auto* loop = std::get_if<For>(&statement.node)) eachCall(loop->body, visit);
-    if (const auto* loop = std::get_if<While>(&statement.node)) eachCall(loop->body, visit);
-  }
+bool usesOptions(const File& file, const std::string& name) {
+  return std::any_of(file.body.statements.begin(), file.body.statements.end(), [&](const Statement& one) {
+    const auto* use = std::get_if<Use>(&one.node);
+    return use != nullptr && use->name.text == name;
+  });
 }
 
 } // namespace
 
 // A cycle that comes back to this one.
-bool Checker::callsItself(const File& file, std::set<std::string>& seen) const {
-  const Header* own = file_.header();
-  bool found = false;
-  eachCall(file.body, [&](const Call& call) {
-    if (own != nullptr && call.cycle.text == own->name.text) found = true;
-    if (found || !seen.insert(call.cycle.text).second) return;
-    const File* called = find_(call.cycle.text);
-    if (called != nullptr && callsItself(*called, seen)) found = true;
-  });
-  return found;
+bool Checker::callsItself(const File& file, std::set<const File*>& seen) const {
+  for (const Call* call : callsOf(file.body)) {
+    if (call->called == nullptr) continue;
+    if (call->called == &file_) return true;
+    if (seen.insert(call->called).second && callsItself(*call->called, seen)) return true;
+  }
+  return false;
+}
+
+void Checker::argument(const Argument& argument, const Parameter& parameter, const Known& known) {
+  // What the caller may have left out may be left out of the call as well.
+  Known handed = known;
+  const auto* use = std::get_if<NameUse>(&argument.value->node);
+  if (use != nullptr && parameter.optional) handed.given.insert(use->name);
+  want(*argument.value, quantityOf(parameter.type), "`" + argument.name.text + "`", handed);
 }
 
 void Checker::call(const Call& call, Known& known) {
   const Header* own = file_.header();
   const bool self = own != nullptr && call.cycle.text == own->name.text;
-  const File* called = self ? nullptr : find_(call.cycle.text);
-  std::set<std::string> seen;
+  const File* called = self ? nullptr : call.called;
+  const Header* header = called == nullptr ? nullptr : called->header();
+  std::set<const File*> seen;
   if (self || (called != nullptr && callsItself(*called, seen)))
     diagnostics_.report<diag::CycleRecursion>(call.cycle.range, call.cycle.text);
   else if (called == nullptr)
     diagnostics_.report<diag::UnknownCycle>(call.cycle.range, call.cycle.text);
+  else if (header != nullptr && header->options)
+    diagnostics_.report<diag::CallOfOptions>(call.cycle.range, call.cycle.text);
   std::map<std::string, const Parameter*> parameters;
   if (called != nullptr)
-    for (const Statement& statement : called->body.statements)
-      if (const auto* parameter = std::get_if<Parameter>(&statement.node))
+    for (const Statement* statement : declarations(*called))
+      if (const auto* parameter = std::get_if<Parameter>(&statement->node))
         for (const Name& name : parameter->names)
           parameters.emplace(name.text, parameter);
   std::set<std::string> given;
-  for (const Argument& argument : call.arguments) {
-    if (!given.insert(argument.name.text).second)
-      diagnostics_.report<diag::ArgumentTwice>(argument.name.range, argument.name.text);
-    const auto at = parameters.find(argument.name.text);
+  for (const Argument& one : call.arguments) {
+    if (!given.insert(one.name.text).second)
+      diagnostics_.report<diag::ArgumentTwice>(one.name.range, one.name.text);
+    const auto at = parameters.find(one.name.text);
     if (at != parameters.end()) {
-      want(*argument.value, quantityOf(at->second->type), "`" + argument.name.text + "`", known);
+      argument(one, *at->second, known);
       continue;
     }
     if (called != nullptr) {
-      const std::string near = nearestName(argument.name.text, parameters);
-      diagnostics_.report<diag::UnknownArgument>(argument.name.range, call.cycle.text, argument.name.text,
+      const std::string near = nearestName(one.name.text, parameters);
+      diagnostics_.report<diag::UnknownArgument>(one.name.range, call.cycle.text, one.name.text,
                                                  near.empty() ? "" : "; did you mean `" + near + "`?");
     }
-    if (called != nullptr || !self) quantity(*argument.value, known);
+    if (called != nullptr || !self) quantity(*one.value, known);
+  }
+  for (const Name& options : call.uses)
+    if (!usesOptions(file_, options.text) || (called != nullptr && !usesOptions(*called, options.text)))
+      diagnostics_.report<diag::OptionsNotShared>(options.range, options.text, call.cycle.text);
+  for (const Argument& one : call.handedOn) {
+    given.insert(one.name.text);
+    if (const auto at = symbols_.find(one.name.text); at != symbols_.end()) at->second.read = true;
   }
   std::string missing;
   for (const auto& [name, parameter] : parameters)

@@ -8,8 +8,8 @@ namespace dotek::frontend::cycle {
 namespace {
 
 bool isDeclaration(const Statement& statement) {
-  return std::holds_alternative<Header>(statement.node) || std::holds_alternative<Needs>(statement.node) ||
-         std::holds_alternative<Parameter>(statement.node) ||
+  return std::holds_alternative<Header>(statement.node) || std::holds_alternative<Use>(statement.node) ||
+         std::holds_alternative<Needs>(statement.node) || std::holds_alternative<Parameter>(statement.node) ||
          std::holds_alternative<Result>(statement.node) || std::holds_alternative<Require>(statement.node) ||
          std::holds_alternative<ErrorStatement>(statement.node);
 }
@@ -26,13 +26,13 @@ std::string stemOf(const std::string& path) {
 } // namespace
 
 bool Checker::declareName(const Name& name, Symbol symbol) {
-  symbol.range = name.range;
+  symbol.range = used_.hasPlace() ? used_ : name.range;
   const auto [at, isNew] = symbols_.try_emplace(name.text, symbol);
   if (isNew) return true;
   if (at->second.role == Symbol::Role::Host)
-    diagnostics_.report<diag::HostName>(name.range, name.text, proposeName("my_" + name.text));
+    diagnostics_.report<diag::HostName>(symbol.range, name.text, proposeName("my_" + name.text));
   else
-    diagnostics_.report<diag::NameDeclaredTwice>(name.range, name.text)
+    diagnostics_.report<diag::NameDeclaredTwice>(symbol.range, name.text)
         .note(at->second.range, "the first is here");
   return false;
 }
@@ -48,6 +48,7 @@ void Checker::header() {
       continue;
     }
     first = header;
+    options_ = header->options;
     if (&statement != &all.front()) diagnostics_.report<diag::HeaderFirst>(statement.range);
     std::string stem = stemOf(sources_.file(file_.file).name());
     std::string wanted = header->name.text;
@@ -82,6 +83,11 @@ void Checker::parameter(const Parameter& parameter) {
       diagnostics_.report<diag::OptionalWithDefault>(parameter.value->range, parameter.names.front().text);
     want(*parameter.value, quantityOf(parameter.type), "the default", Known());
   }
+  declareNames(parameter);
+  clauses(parameter);
+}
+
+void Checker::declareNames(const Parameter& parameter) {
   for (const Name& name : parameter.names) {
     Symbol symbol;
     symbol.role = Symbol::Role::Parameter;
@@ -89,7 +95,35 @@ void Checker::parameter(const Parameter& parameter) {
     symbol.parameter = &parameter;
     declareName(name, symbol);
   }
-  clauses(parameter);
+}
+
+void Checker::result(const Result& result) {
+  for (const Name& name : result.names) {
+    Symbol symbol;
+    symbol.role = Symbol::Role::Result;
+    symbol.quantity = quantityOf(result.type);
+    symbol.read = true;
+    declareName(name, symbol);
+  }
+}
+
+// Values and conditions of options are checked in their own file.
+void Checker::use(const Use& use) {
+  const Header* header = use.options == nullptr ? nullptr : use.options->header();
+  if (header == nullptr) {
+    diagnostics_.report<diag::UnknownOptions>(use.name.range, use.name.text);
+    return;
+  }
+  if (!header->options) {
+    diagnostics_.report<diag::UseOfCycle>(use.name.range, use.name.text);
+    return;
+  }
+  used_ = use.name.range;
+  for (const Statement& statement : use.options->body.statements) {
+    if (const auto* one = std::get_if<Parameter>(&statement.node)) declareNames(*one);
+    if (const auto* one = std::get_if<Result>(&statement.node)) result(*one);
+  }
+  used_ = {};
 }
 
 void Checker::declare(const Statement& statement) {
@@ -97,15 +131,8 @@ void Checker::declare(const Statement& statement) {
   if (std::holds_alternative<Needs>(statement.node)) needsProbe_ = true;
   if (const auto* require = std::get_if<Require>(&statement.node))
     wantFlag(*require->condition, "`require`", Known());
-  const auto* result = std::get_if<Result>(&statement.node);
-  if (result == nullptr) return;
-  for (const Name& name : result->names) {
-    Symbol symbol;
-    symbol.role = Symbol::Role::Result;
-    symbol.quantity = quantityOf(result->type);
-    symbol.read = true;
-    declareName(name, symbol);
-  }
+  if (const auto* one = std::get_if<Result>(&statement.node)) result(*one);
+  if (const auto* one = std::get_if<Use>(&statement.node)) use(*one);
 }
 
 void Checker::unread() {
@@ -115,8 +142,8 @@ void Checker::unread() {
       diagnostics_.report<diag::ParameterUnread>(symbol.range, name);
 }
 
-Checker::Checker(const File& file, const SourceMap& sources, const FindCycle& find, Diagnostics& diagnostics)
-    : file_(file), sources_(sources), find_(find), diagnostics_(diagnostics) {
+Checker::Checker(const File& file, const SourceMap& sources, Diagnostics& diagnostics)
+    : file_(file), sources_(sources), diagnostics_(diagnostics) {
   addHosts(symbols_);
 }
 
@@ -150,9 +177,13 @@ void Checker::run() {
     if (declares && running && !std::holds_alternative<Header>(statement.node) &&
         !std::holds_alternative<ErrorStatement>(statement.node))
       diagnostics_.report<diag::LateDeclaration>(statement.range);
+    const bool own = options_ && (!declares || std::holds_alternative<Use>(statement.node) ||
+                                  std::holds_alternative<Needs>(statement.node));
+    if (own) diagnostics_.report<diag::OptionsOnlyDeclare>(statement.range);
     running = running || !declares;
-    if (declares) declare(statement);
+    if (declares && !own) declare(statement);
   }
+  if (options_) return; // whoever uses them reads the parameters and gives the results their values
   Known known;
   known.probe = needsProbe_ ? ProbeState::On : ProbeState::Off;
   block(file_.body, known);
@@ -162,8 +193,8 @@ void Checker::run() {
   unread();
 }
 
-void check(const File& file, const SourceMap& sources, const FindCycle& find, Diagnostics& diagnostics) {
-  Checker(file, sources, find, diagnostics).run();
+void check(const File& file, const SourceMap& sources, Diagnostics& diagnostics) {
+  Checker(file, sources, diagnostics).run();
 }
 
 } // namespace dotek::frontend::cycle

@@ -1,4 +1,5 @@
 #include "frontend/cycle/Checker.h"
+#include "frontend/cycle/Link.h"
 #include "frontend/cycle/Words.h"
 #include "ir/Match.h"
 #include "support/NearestName.h"
@@ -210,8 +211,8 @@ Quantity Checker::member(const Expression& expression, const Member& member, con
   }
   if (symbol.cycle == nullptr) return {};
   std::string names;
-  for (const Statement& statement : symbol.cycle->body.statements) {
-    const auto* result = std::get_if<Result>(&statement.node);
+  for (const Statement* statement : declarations(*symbol.cycle)) {
+    const auto* result = std::get_if<Result>(&statement->node);
     if (result == nullptr) continue;
     for (const Name& one : result->names) {
       if (one.text == part) return quantityOf(result->type);

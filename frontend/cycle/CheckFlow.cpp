@@ -195,7 +195,8 @@ void Checker::statement(const Statement& s, Known& known) {
   std::visit(
       ir::Overloaded{
           [](const ErrorStatement&) {},
-          [](const ir::OneOf<Header, Needs, Parameter, Result, Require, SpindleOff, Coolant, Stop> auto&) {},
+          [](const ir::OneOf<Header, Use, Needs, Parameter, Result, Require, SpindleOff, Coolant,
+                             Stop> auto&) {},
           [&](const ProbeSwitch& probe) {
             if (needsProbe_) diagnostics_.report<diag::ProbeOfCaller>(s.range);
             known.probe = probe.on ? ProbeState::On : ProbeState::Off;

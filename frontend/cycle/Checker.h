@@ -23,15 +23,18 @@ Known joined(const Known& a, const Known& b);
 
 class Checker {
 public:
-  Checker(const File& file, const SourceMap& sources, const FindCycle& find, Diagnostics& diagnostics);
+  Checker(const File& file, const SourceMap& sources, Diagnostics& diagnostics);
   void run();
 
 private:
   // ---- CheckDeclarations.cpp
   void header();
   void declare(const Statement& statement);
+  void use(const Use& use);
+  void result(const Result& result);
   void parameter(const Parameter& parameter);
   bool declareName(const Name& name, Symbol symbol);
+  void declareNames(const Parameter& parameter);
   void clauses(const Parameter& parameter);
   void unread();
   // Names of touches, called cycles and values, wherever they get their values.
@@ -49,7 +52,8 @@ private:
 
   // ---- CheckCalls.cpp
   void call(const Call& call, Known& known);
-  bool callsItself(const File& file, std::set<std::string>& seen) const;
+  void argument(const Argument& argument, const Parameter& parameter, const Known& known);
+  bool callsItself(const File& file, std::set<const File*>& seen) const;
 
   // ---- CheckExpressions.cpp
   // The kind of a value, read where `known` holds. `known` gains what a condition says of its right operand
@@ -74,10 +78,12 @@ private:
 
   const File& file_;
   const SourceMap& sources_;
-  const FindCycle& find_;
   Diagnostics& diagnostics_;
   Symbols symbols_;
   std::map<std::string, Symbol::Role, std::less<>> later_;
+  // Where `use` brought the declarations that are being taken; no place: they are the file's own.
+  SourceRange used_;
+  bool options_ = false; // a file of options
   bool needsProbe_ = false;
   bool declarations_ = false; // in a default or a condition of a declaration: no results, no touches
 };

@@ -100,7 +100,10 @@ private:
     std::visit(
         ir::Overloaded{
             [&](const ErrorStatement&) { put("error"); },
-            [&](const Header& h) { put("cycle " + h.name.text + " " + dump(h.title)); },
+            [&](const Header& h) {
+              put((h.options ? "options " : "cycle ") + h.name.text + " " + dump(h.title));
+            },
+            [&](const Use& use) { put("use " + use.name.text); },
             [&](const Needs&) { put("needs probe"); },
             [&](const Parameter& p) {
               put(fmt::format("parameter {} {}{}{} default {} title {}", dump(p.names), typeText(p.type.name),
@@ -182,6 +185,8 @@ private:
               std::string arguments;
               for (const Argument& argument : c.arguments)
                 arguments += " (" + argument.name.text + " " + dump(argument.value) + ")";
+              for (const Name& options : c.uses)
+                arguments += " (use " + options.text + ")";
               put("call " + c.cycle.text + arguments + " -> " + (c.result ? c.result->text : "-"));
             }},
         s.node);

@@ -239,8 +239,10 @@ private:
         ir::Overloaded{
             [](const ErrorStatement&) {},
             [&](const Header& header) {
-              simple("cycle " + header.name.text + (header.title ? " " + quoted(*header.title) : ""));
+              simple((header.options ? "options " : "cycle ") + header.name.text +
+                     (header.title ? " " + quoted(*header.title) : ""));
             },
+            [&](const Use& use) { simple("use " + use.name.text); },
             [&](const Needs&) { simple("needs probe"); },
             [](const Parameter&) {},
             [](const Result&) {},
@@ -321,6 +323,8 @@ private:
               for (const Argument& argument : call.arguments)
                 arguments +=
                     (arguments.empty() ? " " : ", ") + argument.name.text + " = " + print(argument.value);
+              for (const Name& options : call.uses)
+                arguments += (arguments.empty() ? " use " : ", use ") + options.text;
               simple("call " + call.cycle.text + arguments + (call.result ? " -> " + call.result->text : ""));
             }},
         s.node);

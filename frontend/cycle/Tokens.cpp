@@ -26,6 +26,8 @@ struct Keyword {
 
 constexpr Keyword kWords[] = {
     {"cycle", Lexer::KW_CYCLE},
+    {"options", Lexer::KW_OPTIONS},
+    {"use", Lexer::KW_USE},
     {"needs", Lexer::KW_NEEDS},
     {"parameter", Lexer::KW_PARAMETER},
     {"result", Lexer::KW_RESULT},
@@ -116,11 +118,11 @@ constexpr std::array kOpenEnds = {
 
 // Begins a statement, and nothing else can: what is open before it ends.
 constexpr std::array kBegins = {
-    Lexer::KW_CYCLE, Lexer::KW_PARAMETER, Lexer::KW_RESULT, Lexer::KW_PROBE,  Lexer::KW_SPINDLE,
-    Lexer::KW_RAPID, Lexer::KW_PROTECTED, Lexer::KW_MOVE,   Lexer::KW_TOUCH,  Lexer::KW_SET,
-    Lexer::KW_IF,    Lexer::KW_ELSE,      Lexer::KW_END,    Lexer::KW_REPEAT, Lexer::KW_FOR,
-    Lexer::KW_WHILE, Lexer::KW_CALL,      Lexer::KW_ALARM,  Lexer::KW_STOP,   Lexer::KW_REPORT,
-    Lexer::KW_DWELL, Lexer::KW_COOLANT,
+    Lexer::KW_CYCLE, Lexer::KW_PARAMETER, Lexer::KW_RESULT,  Lexer::KW_PROBE,  Lexer::KW_SPINDLE,
+    Lexer::KW_RAPID, Lexer::KW_PROTECTED, Lexer::KW_MOVE,    Lexer::KW_TOUCH,  Lexer::KW_SET,
+    Lexer::KW_IF,    Lexer::KW_ELSE,      Lexer::KW_END,     Lexer::KW_REPEAT, Lexer::KW_FOR,
+    Lexer::KW_WHILE, Lexer::KW_CALL,      Lexer::KW_ALARM,   Lexer::KW_STOP,   Lexer::KW_REPORT,
+    Lexer::KW_DWELL, Lexer::KW_COOLANT,   Lexer::KW_OPTIONS,
 };
 
 template <class Types> bool isOneOf(size_t type, const Types& types) {

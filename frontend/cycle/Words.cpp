@@ -17,15 +17,17 @@ constexpr std::array<View, 7> kUnits = {"", "mm", "in", "deg", "mm/min", "in/min
 constexpr std::array<View, 12> kOperators = {
     " + ", " - ", " * ", " / ", " < ", " <= ", " > ", " >= ", " is ", " is not ", " and ", " or "};
 
-constexpr std::array<View, 25> kStatements = {
-    "cycle", "needs", "parameter", "result", "require", "probe", "spindle",   "coolant", "dwell",
-    "stop",  "alarm", "report",    "move",   "rapid",   "feed",  "protected", "touch",   "set",
-    "if",    "else",  "end",       "repeat", "for",     "while", "call"};
+constexpr std::array<View, 27> kStatements = {
+    "cycle",   "options", "use",  "needs", "parameter", "result", "require", "probe", "spindle",
+    "coolant", "dwell",   "stop", "alarm", "report",    "move",   "rapid",   "feed",  "protected",
+    "touch",   "set",     "if",   "else",  "end",       "repeat", "for",     "while", "call"};
 constexpr std::array<View, 16> kOthers = {"optional", "of",   "on",   "off",  "to",    "by", "start", "here",
                                           "machine",  "work", "tool", "then", "given", "is", "not",   "and"};
 
-constexpr std::array<std::pair<View, View>, 25> kUsage = {{
+constexpr std::array<std::pair<View, View>, 27> kUsage = {{
     {"cycle", "`cycle bore \"Bore, four touches\"`"},
+    {"options", "`options datum \"Work offset that the cycle sets\"`"},
+    {"use", "`use datum`"},
     {"needs", "`needs probe`"},
     {"parameter", "`parameter depth : length = 5 mm \"Depth below the start\"`"},
     {"result", "`result size : length \"Measured diameter\"`"},

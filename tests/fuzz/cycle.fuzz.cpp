@@ -15,8 +15,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       SourceFile("input.cycle", std::string(reinterpret_cast<const char*>(data), size), Encoding::Utf8));
   Diagnostics diagnostics;
   const cycle::File file = cycle::parse(id, sources, limits, diagnostics);
-  cycle::check(
-      file, sources, [](const std::string&) { return nullptr; }, diagnostics);
+  cycle::check(file, sources, diagnostics);
   renderText(diagnostics, sources, 0);
   cycle::dumpTokens(id, sources, limits, diagnostics);
   cycle::dumpAst(file, sources);

@@ -147,8 +147,7 @@ TEST_CASE("cycles: the layout is the same cycle, and stays as it is") {
 TEST_CASE("cycles: what dotek new writes is laid out, and nothing is wrong with it") {
   const std::string draft = project::cycleDraft("step_height");
   Reading reading(draft);
-  cycle::check(
-      reading.file, reading.sources, [](const std::string&) { return nullptr; }, reading.diagnostics);
+  cycle::check(reading.file, reading.sources, reading.diagnostics);
   // The file of the test has another name than the cycle.
   for (const Diagnostic& found : reading.diagnostics.all())
     CHECK_MESSAGE(found.code == diag::CycleFileName::code, found.message);
@@ -169,8 +168,7 @@ TEST_CASE("cycles: any bytes end in a diagnostic, not in a crash") {
       }
     }
     Reading reading(text);
-    cycle::check(
-        reading.file, reading.sources, [](const std::string&) { return nullptr; }, reading.diagnostics);
+    cycle::check(reading.file, reading.sources, reading.diagnostics);
     CHECK((!reading.file.hasErrorNodes || reading.diagnostics.hasErrors()));
   }
 }

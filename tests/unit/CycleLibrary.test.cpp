@@ -1,0 +1,79 @@
+// The library of cycles: each file is sound, laid out, and says what it is.
+#include "frontend/cycle/Check.h"
+#include "frontend/cycle/Link.h"
+#include "frontend/cycle/Parse.h"
+#include "project/CycleFiles.h"
+#include "project/Session.h"
+
+#include <algorithm>
+#include <cctype>
+#include <doctest/doctest.h>
+#include <string>
+
+namespace dotek::tests {
+namespace {
+
+namespace cycle = frontend::cycle;
+
+bool startsLarge(const std::string& title) {
+  return !title.empty() && (std::isupper(static_cast<unsigned char>(title[0])) != 0 || title.find(':') < 5);
+}
+
+struct Library {
+  project::CommonOptions options;
+  project::Session session{options};
+  project::CycleFiles files{session};
+
+  template <class Visit> void each(const Visit& visit) {
+    for (const stdlib::DataFile* data : session.data().list("cycles")) {
+      INFO(data->name);
+      std::string name = data->name;
+      std::replace(name.begin(), name.end(), '-', '_');
+      const cycle::File* file = files.library(name);
+      REQUIRE(file != nullptr);
+      visit(*data, *file);
+    }
+  }
+};
+
+TEST_CASE("library of cycles: no finding, and every file is laid out") {
+  Library library;
+  std::size_t cycles = 0;
+  library.each([&](const stdlib::DataFile& data, const cycle::File& file) {
+    cycle::check(file, library.session.sources(), library.session.diagnostics());
+    CHECK_MESSAGE(library.session.diagnostics().all().empty(),
+                  renderText(library.session.diagnostics(), library.session.sources(), 0));
+    CHECK(cycle::layOut(file) == data.text);
+    cycles += file.header() != nullptr && !file.header()->options ? 1U : 0U;
+  });
+  CHECK(cycles >= 50);
+}
+
+TEST_CASE("library of cycles: what a dialog and a catalogue print is there") {
+  Library library;
+  library.each([&](const stdlib::DataFile&, const cycle::File& file) {
+    const cycle::Header* header = file.header();
+    REQUIRE(header != nullptr);
+    CHECK((header->title && startsLarge(header->title->text)));
+    CHECK(!file.body.statements.front().before.empty());
+    std::string letters;
+    for (const cycle::Statement* one : cycle::declarations(file)) {
+      if (const auto* result = std::get_if<cycle::Result>(&one->node)) CHECK(result->title);
+      if (const auto* require = std::get_if<cycle::Require>(&one->node)) CHECK(require->message);
+      const auto* parameter = std::get_if<cycle::Parameter>(&one->node);
+      if (parameter == nullptr) continue;
+      CHECK(parameter->title);
+      for (const cycle::Clause& clause : parameter->clauses) {
+        if (clause.kind == cycle::Clause::Kind::Require) CHECK(clause.text);
+        if (clause.letter) letters += clause.letter->text;
+      }
+    }
+    std::sort(letters.begin(), letters.end());
+    CHECK_MESSAGE(std::adjacent_find(letters.begin(), letters.end()) == letters.end(), letters);
+    // Words of a block, and those that call a macro.
+    CHECK_MESSAGE(letters.find_first_of("GLNOP") == std::string::npos, letters);
+  });
+}
+
+} // namespace
+} // namespace dotek::tests
