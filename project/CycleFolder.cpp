@@ -33,7 +33,8 @@ std::optional<fs::path> findEntry(const fs::path& folder, std::string_view name)
   return *std::min_element(found.begin(), found.end());
 }
 
-// One key a file, however its path is spelt.
+// One key a file, however its path is spelt. Asks the file system for each folder on the way, so trees are
+// known by their path as it was spelt as well.
 std::string keyOf(const fs::path& path) {
   std::error_code error;
   const fs::path real = fs::canonical(path, error);
@@ -110,13 +111,17 @@ const gibbs::Macro* MacroLoader::macro(const std::string& name, SourceRange wher
     session_.diagnostics().report<diag::MacroNotFound>(where, name, folderName());
     return nullptr;
   }
+  const std::string spelt = path->generic_string();
+  if (const auto known = macros_.find(spelt); known != macros_.end()) return known->second;
   const std::string key = keyOf(*path);
-  if (const auto known = macros_.find(key); known != macros_.end()) return known->second;
+  if (const auto known = macros_.find(key); known != macros_.end())
+    return macros_.emplace(spelt, known->second).first->second;
   const gibbs::Macro* parsed = nullptr;
   std::optional<FileId> id;
   if (mayRead(*path, where)) id = session_.read(path->generic_string(), Encoding::Cp1250);
   if (id) parsed = &ownMacros_.emplace_back(gibbs::parseMacro(*id, contextOf(session_)));
   macros_.emplace(key, parsed);
+  macros_.emplace(spelt, parsed);
   return parsed;
 }
 
@@ -126,13 +131,17 @@ const gibbs::Dialog* MacroLoader::dialog(const std::string& name, SourceRange wh
     session_.diagnostics().report<diag::DialogNotFound>(where, name, folderName());
     return nullptr;
   }
+  const std::string spelt = path->generic_string();
+  if (const auto known = dialogs_.find(spelt); known != dialogs_.end()) return known->second;
   const std::string key = keyOf(*path);
-  if (const auto known = dialogs_.find(key); known != dialogs_.end()) return known->second;
+  if (const auto known = dialogs_.find(key); known != dialogs_.end())
+    return dialogs_.emplace(spelt, known->second).first->second;
   const gibbs::Dialog* parsed = nullptr;
   std::optional<FileId> id;
   if (mayRead(*path, where)) id = session_.read(path->generic_string(), Encoding::Cp1250);
   if (id) parsed = &ownDialogs_.emplace_back(gibbs::parseDialog(*id, contextOf(session_)));
   dialogs_.emplace(key, parsed);
+  dialogs_.emplace(spelt, parsed);
   return parsed;
 }
 

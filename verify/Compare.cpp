@@ -223,6 +223,7 @@ private:
         return;
       }
       nominal(a[i], b[i]);
+      if (!rules_.atMeasures) aims(a[i], b[i]);
       if (!rules_.atMeasures) options(a[i], b[i]);
       contacts(a[i], b[i]);
       if (rules_.atMeasures) settled(a[i], b[i]);
@@ -249,6 +250,14 @@ private:
           a.range, b.range);
       return;
     }
+  }
+
+  // How far a bare skip move looks for its surface; the contact comes before.
+  void aims(const Measure& a, const Measure& b) {
+    if (!a.aim || !b.aim || near(*a.aim, *b.aim, rules_.tolerance)) return;
+    add(Aspect::Nominal,
+        fmt::format("the surface is looked for as far as {} against {}", textOf(*a.aim), textOf(*b.aim)),
+        a.range, b.range);
   }
 
   // How a measure is made; of another vendor's macro how far it searches, where the source says so.

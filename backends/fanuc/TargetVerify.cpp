@@ -7,6 +7,7 @@
 #include "sim/machine/VendorMacros.h"
 #include "support/Decimal.h"
 #include "targets/Stage.h"
+#include "verify/Bounds.h"
 #include "verify/Callers.h"
 
 #include <algorithm>
@@ -16,6 +17,7 @@
 #include <cstdlib>
 #include <fmt/format.h>
 #include <optional>
+#include <set>
 
 namespace dotek::targets {
 
@@ -39,6 +41,23 @@ std::vector<std::pair<std::uint32_t, std::string>> alarmsIn(std::string_view tex
     out.emplace_back(number, text.substr(begin + 1, text.find_first_of(")\n", begin + 1) - begin - 1));
   }
   return out;
+}
+
+// What the list of arguments in the header gives as the default of a letter: a number, or GIVE. "": no such
+// line.
+std::string_view listedDefault(std::string_view program, char letter) {
+  const std::size_t heading = program.find("(      NAME ");
+  if (heading == std::string_view::npos) return "";
+  const std::size_t column = program.substr(heading).find(" DEFAULT ");
+  for (std::size_t at = heading; (at = program.find('\n', at)) != std::string_view::npos;) {
+    const std::size_t begin = ++at;
+    const std::string_view line = program.substr(begin, program.find('\n', begin) - begin);
+    if (!line.starts_with('(')) return "";
+    if (line.size() <= column + 1 || line[1] != letter || !line.substr(2).starts_with(" #")) continue;
+    const std::string_view rest = line.substr(column + 1);
+    return rest.substr(0, rest.find_first_of(" )"));
+  }
+  return "";
 }
 
 // Letters and digits, in upper case.
@@ -128,17 +147,21 @@ private:
   verify::Entry entryOf(const TargetCase& now) const {
     verify::Entry entry = now.entry;
     entry.blocks = verify::callerModes(control_, now.stream);
+    addArguments(now.drawn, entry);
+    return entry;
+  }
+
+  void addArguments(const verify::Case& drawn, verify::Entry& entry) const {
     for (const OutputArgument& argument : translation_.arguments) {
       const std::uint32_t local = stdlib::localOf(argument.letter);
       const std::string folded = gibbs::foldCase(argument.name);
-      const auto field = std::find_if(now.drawn.values.begin(), now.drawn.values.end(),
+      const auto field = std::find_if(drawn.values.begin(), drawn.values.end(),
                                       [&](const auto& one) { return gibbs::foldCase(one.first) == folded; });
-      if (field != now.drawn.values.end())
+      if (field != drawn.values.end())
         entry.variables.emplace_back(local, field->second);
-      else if (const auto host = now.drawn.hosts.find(argument.name); host != now.drawn.hosts.end())
+      else if (const auto host = drawn.hosts.find(argument.name); host != drawn.hosts.end())
         entry.variables.emplace_back(local, host->second);
     }
-    return entry;
   }
 
   // `trace`: nullptr: nobody reads it.
@@ -391,7 +414,11 @@ private:
     const std::string who = fmt::format("without {} ({})", argument.letter, argument.name);
     const std::string alarm = fmt::format("ARGUMENT {} MISSING", argument.letter);
     if (stopsAtOnce(record, without, alarm)) {
-      if (!from_.options.useDefaults) return;
+      const std::string_view listed = listedDefault(translation_.text, argument.letter);
+      if (!listed.empty() && listed != "GIVE")
+        differs(who, fmt::format("its default of {} has to be taken", listed), record, out);
+      else if (!listed.empty() || !from_.options.useDefaults)
+        return;
       const verify::DrawField* const field = fieldOf(argument.name);
       if (field == nullptr || !defaultOf(*field)) return;
       const SourceQuestions::Ran meant = now.questions->with(field->name, *defaultOf(*field));
@@ -427,6 +454,53 @@ private:
           value ? fmt::format("called {}, for which {} is the default: {}", who, numberText(*value), one.text)
                 : fmt::format("called {}: {}", who, one.text);
     add(std::move(found), out);
+    if (value) callAtBounds(argument, *field, *value, now, entry, out);
+  }
+
+  // Where a check that reads the argument turns, and a step beside it: it does the same with the default
+  // given.
+  void callAtBounds(const OutputArgument& argument, const verify::DrawField& field, double value,
+                    const TargetCase& now, const verify::Entry& entry, TargetRun& out) {
+    if (from_.plan.bounds == nullptr || atBounds_.contains(argument.letter)) return;
+    const verify::Bounds& bounds = *from_.plan.bounds;
+    verify::Case given = now.drawn;
+    given.values[field.name] = value;
+    std::vector<verify::DrawField> alone = from_.plan.fields, others = from_.plan.fields;
+    for (std::size_t i = 0; i < others.size(); ++i)
+      (others[i].name == field.name ? others : alone)[i].fixed = value;
+    std::set<std::size_t> ofField;
+    for (const verify::Bound& bound : bounds.find(alone, {given}, true))
+      ofField.insert(bound.comparison);
+    for (const verify::Bound& bound : bounds.find(others, {given}, true)) {
+      const auto met = ofField.contains(bound.comparison) ? bounds.meet(bound, others, given, true)
+                                                          : std::optional<verify::Case>();
+      for (const int steps : {-1, 0, 1}) {
+        if (!met) break;
+        atBounds_.insert(argument.letter);
+        verify::Case beside = *met;
+        const verify::DrawField& moved = others[bound.field];
+        beside.values[moved.name] += steps * std::pow(10.0, -moved.decimals);
+        verify::Entry with = now.entry;
+        with.blocks = entry.blocks;
+        addArguments(beside, with);
+        verify::Entry without = with;
+        std::erase_if(without.variables,
+                      [&](const auto& one) { return one.first == stdlib::localOf(argument.letter); });
+        const verify::Record meant = runText(now, with, nullptr), ran = runText(now, without, nullptr);
+        if (meant.ending == ran.ending && meant.alarm == ran.alarm && meant.text == ran.text) continue;
+        out.differsAt(verify::Aspect::Ending,
+                      fmt::format("called with {} {}: with {} {}, its default, it {}; without {} it {}",
+                                  moved.name, numberText(beside.values[moved.name]), argument.letter,
+                                  numberText(value), endingOf(meant), argument.letter, endingOf(ran)),
+                      text_.line(ran.endedAt));
+        return;
+      }
+    }
+  }
+
+  static std::string endingOf(const verify::Record& record) {
+    return record.ending == verify::Ending::Finished ? "runs to its end"
+                                                     : fmt::format("stops with `{}`", record.text);
   }
 
   // Beside the six work systems, and between two of them.
@@ -463,6 +537,7 @@ private:
   const Limits limits_ = limitsOfRun(from_.session.limits());
   verify::Stand stand_;
   FanucText text_;
+  std::set<char> atBounds_; // letters of arguments whose defaults were looked at where checks turn
 };
 
 } // namespace

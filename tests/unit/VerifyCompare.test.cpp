@@ -91,6 +91,8 @@ TEST_CASE("verify: each aspect has its difference") {
   CHECK(differing(kTouch, kOn + "G65P9811X30.S3\n") == Aspects{Aspect::Offset});
   CHECK(differing(kTouch, kOn + "G0Y1.\n" + "G65P9811X30.S2\nG0Y0\n") ==
         Aspects{Aspect::Path, Aspect::Nominal, Aspect::Contact});
+  CHECK(differing(kOn + "G31X40.F100.\n", kOn + "G31X45.F100.\n") ==
+        Aspects{Aspect::Nominal}); // the wall comes before
   CHECK(differing("#500=1.\n", "#500=1.1\n") == Aspects{Aspect::Variable});
   CHECK(differing("#500=1.\n", "\n") == Aspects{Aspect::Variable});
   CHECK(differing("#502=1.\n", "#502=2.\n").empty()); // not asked for
