@@ -17,26 +17,23 @@ Scalar operand(const Scalar& value) {
   return value.state == State::Null ? Scalar::failed(ArithmeticError::NoValue) : value;
 }
 
-Scalar evaluateUnary(const Unary& node, const Environment& environment) {
-  const Scalar value = evaluate(*node.operand, environment);
+Scalar evaluateUnary(const Unary& node, const Environment& environment, const Readings* readings) {
+  const Scalar value = evaluate(*node.operand, environment, readings);
   if (node.op == UnaryOp::NullAsZero && value.state == State::Null) return Scalar::of(0);
   const Scalar a = operand(value);
   return a.known() ? scalar(compute(node.op, a.value)) : a;
 }
 
-Scalar evaluateBinary(const Binary& node, const Environment& environment) {
-  const Scalar left = evaluate(*node.left, environment);
+Scalar evaluateBinary(const Binary& node, const Environment& environment, const Readings* readings) {
+  const Scalar left = evaluate(*node.left, environment, readings);
   if (node.op == BinaryOp::ValueOr)
-    return left.state == State::Null ? evaluate(*node.right, environment) : left;
+    return left.state == State::Null ? evaluate(*node.right, environment, readings) : left;
   const Scalar a = operand(left);
   if (a.state == State::Failed) return a;
-  const Scalar b = operand(evaluate(*node.right, environment));
+  const Scalar b = operand(evaluate(*node.right, environment, readings));
   if (b.state == State::Failed || !b.known()) return b;
   return a.known() ? scalar(compute(node.op, a.value, b.value)) : a;
 }
-
-// Unknown outweighs Failed: the unknown side may still decide.
-enum class Verdict : std::uint8_t { False, True, Unknown, Failed };
 
 bool compareNumbers(Relation relation, double a, double b) {
   switch (relation) {
@@ -52,30 +49,28 @@ bool compareNumbers(Relation relation, double a, double b) {
   return false;
 }
 
-Verdict decide(const Condition& condition, const Environment& environment);
-
 // Null is a value of its own.
-Verdict decideSameness(const Comparison& node, const Environment& environment) {
-  const Scalar a = evaluate(*node.left, environment);
-  const Scalar b = evaluate(*node.right, environment);
+Verdict decideSameness(const Comparison& node, const Environment& environment, const Readings* readings) {
+  const Scalar a = evaluate(*node.left, environment, readings);
+  const Scalar b = evaluate(*node.right, environment, readings);
   if (a.state == State::Failed || b.state == State::Failed) return Verdict::Failed;
   if (a.state == State::Unknown || b.state == State::Unknown) return Verdict::Unknown;
   const bool same = a.state == b.state && (a.state == State::Null || a.value == b.value);
   return same == (node.relation == Relation::Same) ? Verdict::True : Verdict::False;
 }
 
-Verdict decideComparison(const Comparison& node, const Environment& environment) {
+Verdict decideComparison(const Comparison& node, const Environment& environment, const Readings* readings) {
   if (node.relation == Relation::Same || node.relation == Relation::Different)
-    return decideSameness(node, environment);
-  const Scalar a = operand(evaluate(*node.left, environment));
-  const Scalar b = operand(evaluate(*node.right, environment));
+    return decideSameness(node, environment, readings);
+  const Scalar a = operand(evaluate(*node.left, environment, readings));
+  const Scalar b = operand(evaluate(*node.right, environment, readings));
   if (a.state == State::Failed || b.state == State::Failed) return Verdict::Failed;
   if (!a.known() || !b.known()) return Verdict::Unknown;
   return compareNumbers(node.relation, a.value, b.value) ? Verdict::True : Verdict::False;
 }
 
-Verdict decideNull(const IsNull& node, const Environment& environment) {
-  switch (evaluate(*node.value, environment).state) {
+Verdict decideNull(const IsNull& node, const Environment& environment, const Readings* readings) {
+  switch (evaluate(*node.value, environment, readings).state) {
   case State::Known: return Verdict::False;
   case State::Null: return Verdict::True;
   case State::Unknown: return Verdict::Unknown;
@@ -84,28 +79,15 @@ Verdict decideNull(const IsNull& node, const Environment& environment) {
   return Verdict::Unknown;
 }
 
-Verdict decideJunction(const Junction& node, const Environment& environment) {
+Verdict decideJunction(const Junction& node, const Environment& environment, const Readings* readings) {
   const Verdict deciding = node.op == Connective::And ? Verdict::False : Verdict::True;
-  const Verdict left = decide(*node.left, environment);
+  const Verdict left = decide(*node.left, environment, readings);
   if (left == deciding) return left;
-  const Verdict right = decide(*node.right, environment);
+  const Verdict right = decide(*node.right, environment, readings);
   if (right == deciding) return right;
   for (const Verdict open : {Verdict::Unknown, Verdict::Failed})
     if (left == open || right == open) return open;
   return left;
-}
-
-Verdict decide(const Condition& condition, const Environment& environment) {
-  return match(
-      condition, [&](const Comparison& node) { return decideComparison(node, environment); },
-      [&](const IsNull& node) { return decideNull(node, environment); },
-      [&](const Junction& node) { return decideJunction(node, environment); },
-      [&](const Not& node) {
-        const Verdict inner = decide(*node.inner, environment);
-        if (inner == Verdict::True) return Verdict::False;
-        return inner == Verdict::False ? Verdict::True : inner;
-      },
-      [](const Truth& node) { return node.value ? Verdict::True : Verdict::False; });
 }
 
 } // namespace
@@ -159,16 +141,36 @@ Computed compute(BinaryOp op, double a, double b) {
   return {0, ArithmeticError::Domain};
 }
 
-Scalar evaluate(const Expression& expression, const Environment& environment) {
+Scalar evaluate(const Expression& expression, const Environment& environment, const Readings* readings) {
   return match(
       expression, [](const Constant& node) { return Scalar::of(node.value); },
       [](const NullValue&) { return Scalar::null(); },
       [&](const VariableUse& node) {
         return node.variable < environment.size() ? environment[node.variable] : Scalar{};
       },
-      [&](const Unary& node) { return evaluateUnary(node, environment); },
-      [&](const Binary& node) { return evaluateBinary(node, environment); },
-      [](const OneOf<MachineVariable, MeasuredResult> auto&) { return Scalar{}; });
+      [&](const Unary& node) { return evaluateUnary(node, environment, readings); },
+      [&](const Binary& node) { return evaluateBinary(node, environment, readings); },
+      [&](const MachineVariable& node) {
+        if (readings == nullptr) return Scalar{};
+        const Scalar number = operand(evaluate(*node.number, environment, readings));
+        return number.known() ? readings->machineVariable(number.value) : number;
+      },
+      [&](const MeasuredResult& node) {
+        return readings == nullptr ? Scalar{} : readings->result(node.name);
+      });
+}
+
+Verdict decide(const Condition& condition, const Environment& environment, const Readings* readings) {
+  return match(
+      condition, [&](const Comparison& node) { return decideComparison(node, environment, readings); },
+      [&](const IsNull& node) { return decideNull(node, environment, readings); },
+      [&](const Junction& node) { return decideJunction(node, environment, readings); },
+      [&](const Not& node) {
+        const Verdict inner = decide(*node.inner, environment, readings);
+        if (inner == Verdict::True) return Verdict::False;
+        return inner == Verdict::False ? Verdict::True : inner;
+      },
+      [](const Truth& node) { return node.value ? Verdict::True : Verdict::False; });
 }
 
 std::optional<bool> holds(const Condition& condition, const Environment& environment) {

@@ -1,4 +1,4 @@
-// Values of expressions and conditions: the one evaluator after folding, checks and (later) simulation.
+// Values of expressions and conditions: the one evaluator after folding, checks and simulation.
 #pragma once
 
 #include "ir/Arithmetic.h"
@@ -31,9 +31,22 @@ using Environment = std::vector<Scalar>;
 Computed compute(UnaryOp op, double a);
 Computed compute(BinaryOp op, double a, double b);
 
-// Machine variables and measured results are unknown. Null in arithmetic fails (NoValue); what fails
-// outweighs what is unknown.
-Scalar evaluate(const Expression& expression, const Environment& environment);
+// What a run has beside the variables of the cycle.
+class Readings {
+public:
+  virtual ~Readings() = default;
+  virtual Scalar result(ResultName name) const = 0; // of the last measurement
+  virtual Scalar machineVariable(double number) const = 0;
+};
+
+// Without `readings` machine variables and measured results are unknown. Null in arithmetic fails (NoValue);
+// what fails outweighs what is unknown.
+Scalar evaluate(const Expression& expression, const Environment& environment,
+                const Readings* readings = nullptr);
+// Unknown outweighs Failed: the unknown side may still decide.
+enum class Verdict : std::uint8_t { False, True, Unknown, Failed };
+Verdict decide(const Condition& condition, const Environment& environment,
+               const Readings* readings = nullptr);
 // A side that is known decides AND and OR, whatever the other one is. nullopt: it depends on something
 // unknown or failed; Null in a comparison fails.
 std::optional<bool> holds(const Condition& condition, const Environment& environment);

@@ -64,11 +64,16 @@ Surroundings Recorder::surroundings() const {
 }
 
 SourceRange Recorder::place() const {
-  return run_ == nullptr ? SourceRange{} : run_->place();
+  return place_ ? place_() : SourceRange{};
 }
 
 void Recorder::begin(const sim::Run& run, bool keepMoves) {
   run_ = &run;
+  begin([&run] { return run.place(); }, keepMoves);
+}
+
+void Recorder::begin(std::function<SourceRange()> place, bool keepMoves) {
+  place_ = std::move(place);
   keepMoves_ = keepMoves;
   record_.start = lowest(machine_.machinePosition());
   record_.before = surroundings();
@@ -331,6 +336,47 @@ void Recorder::endCall() {
 void Recorder::callEnded(std::uint32_t /*program*/) {
   if (call_.depth == 0) return;
   if (--call_.depth == 0) endCall();
+}
+
+// What a cycle does by itself counts as one thing, as a call of a macro does.
+void Recorder::beginOwn() {
+  call_.depth = 1;
+  call_.range = place();
+  call_.start = lowest(machine_.machinePosition());
+  call_.with = surroundings();
+  call_.modes = modes(true);
+}
+
+void Recorder::endOwn() {
+  if (call_.depth == 0) return;
+  call_.depth = 0;
+  endCall();
+}
+
+void Recorder::protectedBegins(std::optional<double> feed) {
+  beginOwn();
+  call_.moves = true;
+  call_.feed = feed;
+}
+
+void Recorder::touchBegins(std::span<const sim::PlannedTouch> touches) {
+  beginOwn();
+  call_.measures = true;
+  for (std::uint32_t system = 0; system < call_.zeros.size(); ++system)
+    call_.zeros[system] = machine_.zeroOf(system);
+  Measure measure;
+  measure.start = call_.start;
+  measure.with = call_.with;
+  measure.range = call_.range;
+  for (const sim::PlannedTouch& touch : touches) {
+    const sim::Point3 direction{touch.direction[0], touch.direction[1], touch.direction[2]};
+    sim::Point3 point = sim::Point3{touch.from[0], touch.from[1], touch.from[2]} + offset();
+    // Straight down the lowest point touches, else the ball at the height of its centre.
+    if (!touch.isDown()) point.z += world_.probe().ballRadius();
+    measure.nominal.push_back({point + direction * touch.distance, direction});
+    if (touch.stated) measure.options[stdlib::ArgumentRole::Overtravel] = touch.overtravel;
+  }
+  record_.measures.push_back(std::move(measure));
 }
 
 Record Recorder::finish(const std::set<std::uint32_t>& stores) {

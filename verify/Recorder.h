@@ -8,7 +8,10 @@
 #include "verify/Record.h"
 
 #include <array>
+#include <functional>
+#include <optional>
 #include <set>
+#include <span>
 #include <vector>
 
 namespace dotek::verify {
@@ -26,6 +29,8 @@ public:
 
   // Before the run: entry state is taken here.
   void begin(const sim::Run& run, bool keepMoves);
+  // The same of what is no program; `place` says where it is.
+  void begin(std::function<SourceRange()> place, bool keepMoves);
   std::optional<double> contact(const sim::SkipMove& move) override;
   void moved(const sim::MachineMotion& motion) override;
   void probeSwitched(bool on) override { world_.probeSwitched(on), probe_ = on ? Switch::On : Switch::Off; }
@@ -38,6 +43,10 @@ public:
   void offsetWritten(const sim::OffsetWrite& write) override;
   void callBegins(std::uint32_t program, std::span<const double> locals) override;
   void callEnded(std::uint32_t program) override;
+  void touchBegins(std::span<const sim::PlannedTouch> touches) override;
+  void touchEnded() override { endOwn(); }
+  void protectedBegins(std::optional<double> feed) override;
+  void protectedEnded() override { endOwn(); }
   void assumeProbe(Switch probe) { probe_ = probe; }
   // Without a part: each measuring move makes its contact at its end, no other one does. So a run shows all
   // that the program would measure.
@@ -68,6 +77,8 @@ private:
   void noteOptions(const stdlib::MacroSignature& signature, std::span<const double> locals,
                    Measure& measure) const;
   void noteEarlyUses();
+  void beginOwn();
+  void endOwn();
   void endCall();
   std::string alarmKindOf(const sim::RunEnd& end) const;
 
@@ -78,6 +89,7 @@ private:
   std::array<std::uint32_t, 3>
       groups_{}; // modal groups of the plane, the kind of feed, the distance; 0: none
   const sim::Run* run_ = nullptr;
+  std::function<SourceRange()> place_;
   bool keepMoves_ = false;
   bool rehearsal_ = false;
   bool datumsMovePath_ = false;

@@ -199,7 +199,9 @@ public:
   void switchProbe(bool on);
   // Straight to `end` of the active system, at a feed that is not stated; the probe's contact ends the move
   // there: true. nullopt: the run has ended. `positions`: it is meant to meet nothing.
-  std::optional<bool> probeTo(const Position& end, bool positions = false);
+  // `action`: of the trace.
+  std::optional<bool> probeTo(const Position& end, bool positions = false,
+                              std::string_view action = "probing");
   bool travelTo(const Position& end); // without watching for contact; false: the run has ended
   // What the macro leaves there is not known: who reads it ends the run. `number`: of a common variable.
   void forget(std::uint32_t number);
@@ -210,6 +212,31 @@ public:
   std::size_t extendedSystem() const { return extendedNow_; }  // n of G54.1 Pn
   void remark(std::string_view action, std::string_view text); // a line of the trace
   bool raiseUnnumbered(std::string_view text);                 // an alarm whose number is not known; false
+
+  // ---- cycles that run by their meaning (MachineCycle.cpp)
+  // Straight to `end` of the active system. `feed`: stays in force; nothing: the one in force. false: the run
+  // has ended.
+  bool goTo(const Position& end, MotionKind kind, std::optional<double> feed);
+  void setFeed(double feed) { feed_ = feed; } // mm/min
+  // G54 (0) to G59 (5), or G54.1 Pn (n).
+  struct WorkSystem {
+    std::uint32_t index = 0;
+    bool extended = false;
+    bool operator==(const WorkSystem&) const = default;
+  };
+  // By its number: 54 to 59, 5410 + n for G54.1 Pn; nothing: the machine has none of it.
+  std::optional<WorkSystem> workSystem(double number) const;
+  WorkSystem activeSystem() const;
+  static std::string nameOf(const WorkSystem& system); // "G54", "G54.1 P3"
+  // Its own value, mm, without what shifts all of them.
+  double offsetOf(const WorkSystem& system, std::size_t axis) const;
+  bool writeOffset(const WorkSystem& system, std::size_t axis, double value); // false: the run has ended
+  // Of its offset; the length in force stays.
+  void writeTool(std::uint32_t tool, bool radius, double value);
+  bool selectSystem(const WorkSystem& system); // as above
+  void switchSpindle(std::uint8_t direction, std::optional<double> speed);
+  void switchCoolant(Coolant coolant);
+  void dwellFor(double seconds);
 
   // ---- what only some dialects have (MachineDialect.cpp)
   const Dialect& dialect() const { return dialect_; }
@@ -354,6 +381,7 @@ private:
   double toolLength_ = 0;           // added to Z
   std::uint32_t toolNumber_ = 0;
   std::vector<ToolOffset> tools_;
+  std::vector<double> toolRadii_;        // that cycles have set, by number
   Position skipped_{}, skippedTurned_{}; // in the work system, and as the program counts under G68
   // Canned cycles: the level at the cycle's begin, and what stays in force within it.
   double initialLevel_ = 0, cycleR_ = 0, cycleDepth_ = 0;

@@ -20,7 +20,7 @@ void Machine::switchProbe(bool on) {
   if (trace_ != nullptr) trace_->begin("probe").text(on ? "on" : "off").end();
 }
 
-std::optional<bool> Machine::probeTo(const Position& end, bool positions) {
+std::optional<bool> Machine::probeTo(const Position& end, bool positions, std::string_view action) {
   if (skip_ == nullptr) {
     inconclusive(
         "no part is given, so whether the probe touches is not known; `--part PART.toml --machine "
@@ -48,7 +48,7 @@ std::optional<bool> Machine::probeTo(const Position& end, bool positions) {
   skipped_ = skippedTurned_ = work_; // macros by their meaning do not run under G68
   if (watcher_ != nullptr) tellMotion(MotionKind::Skip, changed(skip.from, work_));
   if (trace_ != nullptr) {
-    trace_->begin("probing").position(skip.to, shown_).text(contact ? "contact" : "no-contact");
+    trace_->begin(action).position(skip.to, shown_).text(contact ? "contact" : "no-contact");
     trace_->position(work_, shown_).end();
   }
   if (!running()) return std::nullopt; // who watches has ended it

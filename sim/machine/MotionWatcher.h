@@ -3,6 +3,7 @@
 
 #include "sim/machine/Trace.h"
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -19,6 +20,16 @@ struct MachineMotion {
   Position from, to;      // of the machine
   std::uint64_t line = 0; // of the program; 0: not known
   bool known = true;      // false: where it began or ended is not certain
+};
+
+// A touch of a cycle (sim/cycle): from where, active work system, and the surface that it expects.
+struct PlannedTouch {
+  Position from;                     // of the ball's lowest point
+  std::array<double, 3> direction{}; // length 1
+  double distance = 0;   // of the surface from the ball's centre; straight down from its lowest point
+  double overtravel = 0; // of the search, after the expected contact
+  bool stated = false;   // the overtravel is one of its own
+  bool isDown() const { return direction[2] < 0 && direction[0] == 0 && direction[1] == 0; }
 };
 
 struct Measurement;
@@ -40,8 +51,15 @@ public:
   // kNull where there is none. Each call that begins ends, but for those in which the run ends.
   virtual void callBegins(std::uint32_t /*program*/, std::span<const double> /*locals*/) {}
   virtual void callEnded(std::uint32_t /*program*/) {}
+  // Touches of a cycle that are one measurement, and all that they move and set; and a protected move of a
+  // cycle, with its feed where one is stated. Each that begins ends, but for one in which the run ends.
+  virtual void touchBegins(std::span<const PlannedTouch> /*touches*/) {}
+  virtual void touchEnded() {}
+  virtual void protectedBegins(std::optional<double> /*feed*/) {}
+  virtual void protectedEnded() {}
   // What a macro that ran by its meaning found, before tolerances are checked and offsets are set.
   virtual void measured(const Measurement& /*found*/) {}
+  virtual void reported(const Measurement& /*line*/) {} // of a cycle's protocol
   virtual void offsetWritten(const OffsetWrite& /*write*/) {}
 };
 

@@ -36,12 +36,12 @@ PictureResult endOf(const RunFacts& facts) {
   case Ending::ProgramEnd:
   case Ending::TextEnd:
     out.word = "PASS";
-    out.text = "the program came to its end";
+    out.text = fmt::format("the {} came to its end", facts.subject);
     return out;
   case Ending::Running:
     if (facts.unread.empty()) {
       out.word = "PASS";
-      out.text = "the program came to its end";
+      out.text = fmt::format("the {} came to its end", facts.subject);
       return out;
     }
     out.verdict = Verdict::Fail;
@@ -116,10 +116,10 @@ PictureResult resultOf(const Picture& picture, const RunFacts& facts) {
   } else if (ended && misses > 0) {
     out.verdict = Verdict::Doubt;
     out.word = "PASS, WITH MISSES";
-    out.text =
-        fmt::format("the program came to its end, and {} nothing: right for a move to a position, wrong "
-                    "for one that measures",
-                    misses == 1 ? "a skip move met" : fmt::format("{} skip moves met", misses));
+    out.text = fmt::format("the {} came to its end, and {} nothing: right for a move to a position, wrong "
+                           "for one that measures",
+                           facts.subject,
+                           misses == 1 ? "a skip move met" : fmt::format("{} skip moves met", misses));
   }
   if (ended && !crashed && !picture.part && picture.contacts.empty())
     out.text += "; no part was given, so nothing could be touched";

@@ -8,6 +8,7 @@
 #include <array>
 #include <cstdint>
 #include <string>
+#include <string_view>
 
 namespace dotek::sim {
 
@@ -17,6 +18,7 @@ struct RunFacts {
   std::string unread;                     // of a program that could not be read: why
   PictureBlock block;                     // at which the run ended
   std::array<std::uint64_t, 16> events{}; // by Outcome; misses that were meant are none
+  std::string_view subject = "program";   // what ran
 };
 
 // The banner of a picture whose moves, errors and frames are complete. A collision comes before the alarm

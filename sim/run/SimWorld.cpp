@@ -86,35 +86,71 @@ std::unique_ptr<SimWorld> SimWorld::load(const SimOptions& options, Session& ses
         "what touches the part of `--part` is a stylus of that length and that diameter of its ball");
     return nullptr;
   }
-  if (options.machine && given->ballDiameter) {
-    session.diagnostics().report<diag::SetupFlag>(
-        {}, "--diameter", "the ball's diameter is that of [probe] in the machine's file; write it there");
-    return nullptr;
-  }
+  if (!out->takeBall(*given)) return nullptr;
   out->setup_ = *given;
   if (!options.machine && !stylus) return out;
-  std::optional<PartFile> part;
-  if (options.machine)
-    out->machine_ = loadMachine(*options.machine, session.limits(), session.sources(), session.diagnostics());
-  else
-    out->machine_ = bareStylus(*given->ballDiameter, *given->length);
-  if (options.part)
-    part = loadPart(*options.part, session.limits(), session.bounds(folderOf(*options.part)),
-                    session.sources(), session.diagnostics());
-  if (!out->machine_ || (options.part && !part)) return nullptr;
-  out->setup_ = out->machine_->setup;
-  // A machine's file serves runs without a part, too.
-  if (!part) std::erase_if(out->setup_.zeros, [](const Setup::Zero& zero) { return zero.ofPart; });
-  out->setup_.override(*given);
-  // The probe is the tool, unless it is said to be longer or shorter in the table.
-  if (out->setup_.tool && !out->setup_.length) {
-    const CuttingTool* const tool = out->machine_->devices.find(*out->setup_.tool);
-    out->setup_.length = tool != nullptr ? tool->length : out->machine_->probe.length;
+  if (!options.machine) out->machine_ = bareStylus(*given->ballDiameter, *given->length);
+  return out->loadFiles(*given) ? std::move(out) : nullptr;
+}
+
+std::unique_ptr<SimWorld> SimWorld::loadForCycle(const SimOptions& options, const Probe& stylus,
+                                                 Session& session) {
+  std::unique_ptr<SimWorld> out(new SimWorld(options, session));
+  out->picture_ = options.svg || options.html;
+  out->subject_ = "cycle";
+  std::optional<Setup> given = setupOfJob(session);
+  if (!given) return nullptr;
+  given->override(options.setup);
+  if (!out->takeBall(*given)) return nullptr;
+  if (!options.machine) {
+    out->machine_ = MachineFile();
+    out->machine_->probe = stylus;
+    if (given->ballDiameter) {
+      out->machine_->probe.ballDiameter = *given->ballDiameter;
+      out->machine_->probe.effectiveRadius = *given->ballDiameter / 2;
+    }
+    if (given->length) out->machine_->probe.length = *given->length;
   }
-  if (part) out->partZero_ = {part->nominal.shift.x, part->nominal.shift.y, part->nominal.shift.z};
-  out->world_.emplace(part ? part->part : Part(), out->machine_->probe, out->machine_->limits);
-  out->world_->setDevices(out->machine_->devices);
+  if (!out->loadFiles(*given)) return nullptr;
+  Setup& setup = out->setup_;
+  if (!setup.tool) setup.tool = 1;
+  // Z of a cycle is the lowest point of the ball, whatever the length of the probe counts to.
+  const Probe& probe = out->machine_->probe;
+  if (!given->length) setup.length = probe.centreLength() + probe.ballRadius();
+  if (!setup.at) setup.at = {0, 0, 0};
   return out;
+}
+
+// false: reported.
+bool SimWorld::takeBall(const Setup& given) {
+  if (!options_.machine || !given.ballDiameter) return true;
+  session_.diagnostics().report<diag::SetupFlag>(
+      {}, "--diameter", "the ball's diameter is that of [probe] in the machine's file; write it there");
+  return false;
+}
+
+// The files of --machine and --part, and what they say of the setup. false: reported.
+bool SimWorld::loadFiles(const Setup& given) {
+  std::optional<PartFile> part;
+  if (options_.machine)
+    machine_ = loadMachine(*options_.machine, session_.limits(), session_.sources(), session_.diagnostics());
+  if (options_.part)
+    part = loadPart(*options_.part, session_.limits(), session_.bounds(folderOf(*options_.part)),
+                    session_.sources(), session_.diagnostics());
+  if (!machine_ || (options_.part && !part)) return false;
+  setup_ = machine_->setup;
+  // A machine's file serves runs without a part, too.
+  if (!part) std::erase_if(setup_.zeros, [](const Setup::Zero& zero) { return zero.ofPart; });
+  setup_.override(given);
+  // The probe is the tool, unless it is said to be longer or shorter in the table.
+  if (setup_.tool && !setup_.length) {
+    const CuttingTool* const tool = machine_->devices.find(*setup_.tool);
+    setup_.length = tool != nullptr ? tool->length : machine_->probe.length;
+  }
+  if (part) partZero_ = {part->nominal.shift.x, part->nominal.shift.y, part->nominal.shift.z};
+  world_.emplace(part ? part->part : Part(), machine_->probe, machine_->limits);
+  world_->setDevices(machine_->devices);
+  return true;
 }
 
 void SimWorld::begin() {
@@ -267,6 +303,15 @@ void SimWorld::callEnded(std::uint32_t program) {
   if (recorder_) recorder_->callEnded(program);
 }
 
+// What it measures counts as that of a call.
+void SimWorld::touchBegins(std::span<const PlannedTouch> /*touches*/) {
+  log_.callBegins(0, {});
+}
+
+void SimWorld::touchEnded() {
+  log_.callEnded(0);
+}
+
 void SimWorld::takeEvents() {
   if (!world_ || world_->events().empty()) return;
   // Places of a program that is not kept are copies of its lines: none is made for nothing.
@@ -339,6 +384,7 @@ void SimWorld::finishPicture() {
   if (!recorder_) return;
   RunFacts facts;
   facts.end = end_();
+  facts.subject = subject_;
   facts.end.text = toUtf8Text(facts.end.text);
   facts.callers = callersText(facts.end);
   facts.block = block_ ? block_() : blockNow();
@@ -346,6 +392,20 @@ void SimWorld::finishPicture() {
   if (facts.end.ending == Ending::Running && session_.diagnostics().hasErrors())
     facts.unread = session_.diagnostics().all().back().message;
   recorder_->finish(facts, log_.entries());
+}
+
+void SimWorld::addFound(const Measurement& found) {
+  log_.callBegins(0, {});
+  log_.measured(found);
+  log_.callEnded(0);
+}
+
+std::uint64_t SimWorld::collisions() const {
+  std::uint64_t out = 0;
+  for (const Outcome outcome : {Outcome::EarlyContact, Outcome::Overtravel, Outcome::StemCollision,
+                                Outcome::BodyCollision, Outcome::RapidIntoPart})
+    out += outcomes_[static_cast<std::size_t>(outcome)];
+  return out;
 }
 
 std::string SimWorld::measuredTable() const {

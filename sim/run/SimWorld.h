@@ -38,6 +38,14 @@ public:
 
   // nullptr: an error was reported.
   static std::unique_ptr<SimWorld> load(const SimOptions& options, Session& session);
+  // The same for a cycle, which runs on no control: the probe is tool 1 and lies in the spindle, it begins at
+  // X0 Y0 Z0 of G54, and its stylus is `stylus` in length and ball, as far as nothing says otherwise.
+  static std::unique_ptr<SimWorld> loadForCycle(const SimOptions& options, const Probe& stylus,
+                                                Session& session);
+  // A part that no file gives.
+  void setPart(const Part& part) { world_->setPart(part); }
+  const Probe& probe() const { return machine_->probe; } // of one for a cycle
+  bool hasMachineFile() const { return options_.machine.has_value(); }
 
   // What the flags and the machine's file say of what is set before the run.
   const Setup& setup() const { return setup_; }
@@ -65,6 +73,13 @@ public:
   // The radius that the calibration of the stylus would have found; nothing: no machine was given.
   std::optional<double> calibratedRadius() const;
 
+  // What a run came to as a whole, beside what it touched: `found` is a row of the table.
+  void addFound(const Measurement& found);
+  // Collisions of the run, and touches that nothing asked for.
+  std::uint64_t collisions() const;
+  // What the banner of the pictures calls what ran: "cycle".
+  void setSubject(std::string_view subject) { subject_ = subject; }
+
   // After the run and after reportRest(): the pictures that were asked for.
   std::vector<OutputFile> pictures() const;
   // What was measured, as text; "": nothing.
@@ -85,6 +100,9 @@ public:
   void lengthNotSet(std::uint32_t offset) override;
   void callBegins(std::uint32_t program, std::span<const double> locals) override;
   void callEnded(std::uint32_t program) override;
+  void touchBegins(std::span<const PlannedTouch> touches) override;
+  void touchEnded() override;
+  void reported(const Measurement& line) override { addFound(line); }
   void measured(const Measurement& found) override { log_.measured(found); }
   void offsetWritten(const OffsetWrite& write) override { log_.offsetWritten(write); }
 
@@ -105,6 +123,8 @@ private:
   };
 
   SimWorld(const SimOptions& options, Session& session) : options_(options), session_(session) {}
+  bool takeBall(const Setup& given);
+  bool loadFiles(const Setup& given);
   bool isActive() const { return world_.has_value() || picture_; }
   void begin();
   void checkSystem(); // that somebody has set the work system that the probe measures in
@@ -128,6 +148,7 @@ private:
   std::optional<std::array<double, 3>> partZero_; // where the part is meant to be
   std::optional<World> world_;
   bool picture_ = false;
+  std::string_view subject_ = "program";
   std::optional<PictureRecorder> recorder_;
   PlaceNow place_;
   PictureRecorder::BlockNow block_;

@@ -1,0 +1,129 @@
+// The meaning of a cycle: runs its IR, statement by statement, with a probe on the virtual machine
+// (docs/cycles.md, "What a cycle does"). What the back ends write is compared with it.
+#pragma once
+
+#include "ir/Cycle.h"
+#include "ir/Evaluate.h"
+#include "sim/geometry/Point.h"
+#include "sim/machine/Machine.h"
+#include "stdlib/MacroSet.h"
+#include "support/Limits.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace dotek::sim {
+
+// What a run is given. Lengths in mm.
+struct CycleInputs {
+  // By variable of the cycle: parameters and host inputs; null: left out by the caller. One that is not there
+  // is not known, and the run ends where it is read.
+  ir::Environment values;
+  double ballRadius = 3;         // of the stylus: its lowest point lies so far below the centre
+  double stylusRadius = 3;       // that the calibration found: taken off each measured point along X and Y
+  double overtravel = 10;        // how far a search goes on after the expected contact
+  double backOff = 0.5;          // between the two touches of one search
+  double tipLength = 0;          // from the gauge line of the spindle down to the lowest point of the ball
+  std::optional<double> retract; // Z of the retract plane, active work system; nothing: not known
+};
+
+// A surface that a touch expects: where, in coordinates of the machine, and the direction of the touch.
+struct ExpectedSurface {
+  Point3 point;
+  Point3 direction; // length 1
+};
+
+class CycleRun final : private ir::Readings {
+public:
+  // All outlive the run; the machine holds the length of the probe's tool (Machine::holdTool). `nominal`:
+  // each touch finds its surface where it is expected, and nothing else is in the way; no part is asked.
+  CycleRun(Machine& machine, const ir::Cycle& cycle, CycleInputs inputs, const Limits& limits,
+           bool nominal = false);
+
+  // The checks, then the body: Machine::end() says how it came.
+  void run();
+
+  // The statement that runs, or at which the run ended; nullptr: none has begun.
+  const ir::CycleStatement* statement() const { return at_; }
+  SourceRange place() const;
+  // Of calls that are open, the outermost first.
+  std::vector<SourceRange> openCalls() const;
+  // The move that runs is to meet nothing.
+  bool isProtected() const { return protected_; }
+  // Of an alarm that the run itself raised: what all probing macros call the same.
+  std::optional<stdlib::MacroAlarm> alarmKind() const { return alarmKind_; }
+  const ir::Scalar& value(ir::VariableId id) const { return inputs_.values[id]; }
+  // Surfaces that the touches expected, in the order of the run; at most kMostExpected.
+  static constexpr std::size_t kMostExpected = 10'000;
+  const std::vector<ExpectedSurface>& expected() const { return expected_; }
+
+private:
+  using Direction = std::array<double, 3>; // length 1
+
+  // ---- CycleRun.cpp
+  bool runList(const std::vector<ir::CycleStatement>& list);
+  bool step(const ir::CycleStatement& statement);
+  bool spend(std::uint64_t steps);
+  bool inconclusive(std::string why);
+  bool alarm(stdlib::MacroAlarm kind);
+  bool assign(const ir::Assign& node);
+  bool store(const ir::Store& node);
+  bool setMode(const ir::SetMode& node);
+  // The value; nothing: the run has ended.
+  std::optional<double> number(const ir::ExpressionPtr& expression);
+  std::optional<bool> decide(const ir::ConditionPtr& condition);
+  std::optional<Machine::WorkSystem> system(const ir::ExpressionPtr& expression);
+  ir::Scalar result(ir::ResultName name) const override;
+  ir::Scalar machineVariable(double number) const override;
+
+  // ---- CycleMove.cpp
+  bool move(const ir::Move& node);
+  // Where the lowest point of the ball gets along the axis, in the active system.
+  std::optional<double> coordinate(const ir::Coordinate& target, std::size_t axis, ir::ProbePoint point);
+  double shift(std::size_t axis) const; // from the active system to the machine, the tool's length included
+  bool goTo(const Position& end, MotionKind kind, std::optional<double> feed = std::nullopt);
+  bool protectedTo(const Position& end); // contact is an alarm; without the watcher's notice
+
+  // ---- CycleTouch.cpp
+  struct Touched {
+    Position at{};      // of the lowest point, active system
+    bool found = false; // else the run goes on, with the probe where the touch began
+  };
+  bool measure(const ir::Measure& node);
+  bool surface(const ir::Measure& node);
+  bool bore(const ir::Measure& node);
+  // From where the probe is: the surface is expected `distance` from the ball's centre (straight down: from
+  // its lowest point). The probe is back afterwards.
+  bool touch(const PlannedTouch& planned, bool once, Touched& touched);
+  bool search(const Direction& direction, double travel, bool once, Touched& touched);
+  bool notFound();
+  // From where the probe is.
+  PlannedTouch plan(const Direction& direction, double distance, double overtravel) const;
+  void begin(std::span<const PlannedTouch> touches);
+  void end();
+  // From the place that `touched` gives to the surface, along the axis.
+  double surfaceFrom(std::size_t axis, double sign) const;
+  bool set(const ir::OffsetSetting& setting, const std::array<std::optional<double>, 3>& measured);
+
+  Machine& machine_;
+  const ir::Cycle& cycle_;
+  CycleInputs inputs_;
+  const bool nominal_;
+  std::uint64_t fuel_;
+  const ir::CycleStatement* at_ = nullptr;
+  std::optional<ir::LabelId> jump_; // of the statement that ran
+  bool returned_ = false;
+  bool protected_ = false;
+  std::optional<stdlib::MacroAlarm> alarmKind_;
+  Position start_{}; // of the machine, where the cycle began
+  std::map<ir::ResultName, double> results_;
+  std::vector<ExpectedSurface> expected_;
+};
+
+} // namespace dotek::sim

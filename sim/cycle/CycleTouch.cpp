@@ -1,0 +1,199 @@
+// Touches of a cycle: the search, what it measured, and the offsets that are set by it.
+#include "sim/cycle/CycleRun.h"
+#include "sim/machine/Measurement.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace dotek::sim {
+
+namespace {
+
+constexpr std::size_t kZ = 2;
+constexpr double kNothing = 1e-6; // mm
+
+constexpr ir::ResultName kPositions[] = {ir::ResultName::PositionX, ir::ResultName::PositionY,
+                                         ir::ResultName::PositionZ};
+constexpr ir::ResultName kErrors[] = {ir::ResultName::ErrorX, ir::ResultName::ErrorY, ir::ResultName::ErrorZ};
+
+Position along(const Position& from, const std::array<double, 3>& direction, double distance) {
+  Position out = from;
+  for (std::size_t i = 0; i < direction.size(); ++i)
+    out[i] += direction[i] * distance;
+  return out;
+}
+
+double distance(const Position& a, const Position& b) {
+  return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
+}
+
+std::array<double, 3> axisDirection(std::size_t axis, double sign) {
+  std::array<double, 3> out{};
+  out[axis] = sign;
+  return out;
+}
+
+std::string sideOf(std::size_t axis, double sign) {
+  return fmt::format("{}{}", "XYZ"[axis], sign > 0 ? '+' : '-');
+}
+
+} // namespace
+
+// Downward the lowest point touches, upward the highest; to the side the calibrated radius counts.
+double CycleRun::surfaceFrom(std::size_t axis, double sign) const {
+  if (axis == kZ) return sign > 0 ? 2 * inputs_.ballRadius : 0;
+  return sign * inputs_.stylusRadius;
+}
+
+PlannedTouch CycleRun::plan(const Direction& direction, double distance, double overtravel) const {
+  return {machine_.position(), direction, distance, overtravel};
+}
+
+void CycleRun::begin(std::span<const PlannedTouch> touches) {
+  if (MotionWatcher* const watcher = machine_.watcher(); watcher != nullptr) watcher->touchBegins(touches);
+}
+
+void CycleRun::end() {
+  if (MotionWatcher* const watcher = machine_.watcher(); watcher != nullptr) watcher->touchEnded();
+}
+
+// false: the run has ended.
+bool CycleRun::search(const Direction& direction, double travel, bool once, Touched& touched) {
+  const Position from = machine_.position();
+  Position aim = along(from, direction, travel);
+  for (int pass = 0; pass < (once ? 1 : 2); ++pass) { // to find it, and to measure it
+    const Position began = machine_.position();
+    const std::optional<bool> contact = machine_.probeTo(aim);
+    if (!contact) return false;
+    touched.found = *contact;
+    touched.at = machine_.position();
+    if (!*contact) break;
+    if (distance(began, touched.at) < kNothing) return alarm(stdlib::MacroAlarm::ProbeOpen);
+    if (pass > 0 || once) break;
+    const double back = std::min(inputs_.backOff, distance(from, touched.at));
+    aim = along(touched.at, direction, inputs_.backOff);
+    if (!goTo(along(touched.at, direction, -back), MotionKind::Feed)) return false;
+  }
+  return goTo(from, MotionKind::Feed);
+}
+
+bool CycleRun::touch(const PlannedTouch& planned, bool once, Touched& touched) {
+  const double ball = planned.isDown()             ? 0
+                      : planned.direction[kZ] != 0 ? inputs_.ballRadius
+                                                   : inputs_.stylusRadius;
+  const double travel = planned.distance - ball + planned.overtravel;
+  if (!(travel > kNothing))
+    return machine_.raiseUnnumbered("the touch has no way to go: the surface is expected at the ball, or "
+                                    "beyond it by more than the overtravel");
+  if (expected_.size() < kMostExpected) {
+    const Position at = machine_.machinePosition();
+    const double low = at[kZ] - inputs_.tipLength;
+    const Point3 way{planned.direction[0], planned.direction[1], planned.direction[kZ]};
+    const Point3 from{at[0], at[1], planned.isDown() ? low : low + inputs_.ballRadius};
+    expected_.push_back({from + way * planned.distance, way});
+  }
+  if (nominal_) {
+    touched = {along(machine_.position(), planned.direction, planned.distance - ball), true};
+    return true;
+  }
+  return search(planned.direction, travel, once, touched);
+}
+
+bool CycleRun::notFound() {
+  return alarm(stdlib::MacroAlarm::ProbeFail);
+}
+
+bool CycleRun::measure(const ir::Measure& node) {
+  results_.clear();
+  return node.feature == ir::Feature::Bore ? bore(node) : surface(node);
+}
+
+bool CycleRun::surface(const ir::Measure& node) {
+  const std::size_t i = ir::indexOf(node.axis);
+  const std::optional<double> expected = coordinate(*node.target, i, ir::ProbePoint::Lowest);
+  if (!expected) return false;
+  const double from = machine_.position()[i];
+  if (std::abs(*expected - from) < kNothing)
+    return machine_.raiseUnnumbered(
+        "the surface is expected where the probe is; which way it lies is not known");
+  const double sign = *expected > from ? 1 : -1;
+  // Upward the way counts from the ball's centre.
+  const double centre = i == kZ && sign > 0 ? inputs_.ballRadius : 0;
+  const PlannedTouch planned =
+      plan(axisDirection(i, sign), std::abs(*expected - from) - centre, inputs_.overtravel);
+  begin({&planned, 1});
+  Touched touched;
+  if (!touch(planned, false, touched)) return false;
+  if (!touched.found) return notFound();
+  std::array<std::optional<double>, 3> found;
+  const double measured = touched.at[i] + surfaceFrom(i, sign);
+  found[i] = measured;
+  results_[kPositions[i]] = measured;
+  results_[kErrors[i]] = measured - *expected;
+  if (MotionWatcher* const watcher = machine_.watcher(); watcher != nullptr)
+    watcher->measured({0, "surface " + sideOf(i, sign), {{std::string(1, "XYZ"[i]), *expected, measured}}});
+  if (node.setting && !set(*node.setting, found)) return false;
+  end();
+  return true;
+}
+
+// Along X, then along Y through the middle that X gave, where the size is true.
+bool CycleRun::bore(const ir::Measure& node) {
+  const std::optional<double> diameter = number(node.diameter);
+  if (!diameter) return false;
+  if (!(*diameter > 0)) return machine_.raiseUnnumbered("a diameter that is not above 0");
+  const Position start = machine_.position();
+  std::vector<PlannedTouch> all;
+  for (const std::size_t i : {std::size_t(0), std::size_t(1)})
+    for (const double sign : {1.0, -1.0})
+      all.push_back(plan(axisDirection(i, sign), *diameter / 2, inputs_.overtravel));
+  begin(all);
+  std::array<std::optional<double>, 3> found;
+  double size = 0;
+  for (const std::size_t i : {std::size_t(0), std::size_t(1)}) {
+    std::array<double, 2> sides{};
+    for (std::size_t side = 0; side < sides.size(); ++side) {
+      PlannedTouch planned = all[2 * i + side];
+      planned.from = machine_.position();
+      Touched touched;
+      if (!touch(planned, false, touched)) return false;
+      if (!touched.found) return notFound();
+      sides[side] = touched.at[i] + surfaceFrom(i, planned.direction[i]);
+    }
+    found[i] = (sides[0] + sides[1]) / 2;
+    size = sides[0] - sides[1];
+    results_[kPositions[i]] = *found[i];
+    results_[kErrors[i]] = *found[i] - start[i];
+    Position middle = machine_.position();
+    middle[i] = *found[i];
+    if (!protectedTo(middle)) return false;
+  }
+  if (!protectedTo(start)) return false;
+  results_[ir::ResultName::Size] = size;
+  results_[ir::ResultName::SizeError] = size - *diameter;
+  if (MotionWatcher* const watcher = machine_.watcher(); watcher != nullptr)
+    watcher->measured(
+        {0, "bore", {{"X", start[0], *found[0]}, {"Y", start[1], *found[1]}, {"diameter", *diameter, size}}});
+  if (node.setting && !set(*node.setting, found)) return false;
+  end();
+  return true;
+}
+
+// The system gets the offset in force, and the difference of what was measured and what that gets.
+bool CycleRun::set(const ir::OffsetSetting& setting, const std::array<std::optional<double>, 3>& measured) {
+  const auto which = system(setting.system);
+  if (!which) return false;
+  std::array<std::optional<double>, 3> values;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (!setting.nominal[i] || !measured[i]) continue;
+    const std::optional<double> nominal = number(setting.nominal[i]);
+    if (!nominal) return false;
+    values[i] = machine_.offsetOf(machine_.activeSystem(), i) + *measured[i] - *nominal;
+  }
+  for (std::size_t i = 0; i < values.size(); ++i)
+    if (values[i] && !machine_.writeOffset(*which, i, *values[i])) return false;
+  return true;
+}
+
+} // namespace dotek::sim

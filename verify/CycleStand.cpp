@@ -1,0 +1,78 @@
+#include "verify/CycleStand.h"
+
+#include "sim/cycle/CycleMachine.h"
+
+#include <utility>
+
+namespace dotek::verify {
+
+namespace {
+
+sim::Machine machineAt(const Entry& entry, double length) {
+  sim::Machine machine(sim::cycleControl());
+  for (std::uint32_t system = 0; system < entry.zeros.size(); ++system) {
+    const sim::Point3& zero = entry.zeros[system];
+    machine.setZero(system, {zero.x, zero.y, zero.z});
+  }
+  const auto own = entry.toolOffset;
+  for (std::uint32_t tool = 1; tool <= 999; ++tool)
+    machine.setToolLength(tool, length + kToolStep * (static_cast<double>(tool) - static_cast<double>(own)));
+  machine.putTool(own);
+  machine.startSpindle(entry.spindle);
+  machine.startCoolant(entry.coolant);
+  machine.setFeed(entry.feed);
+  machine.selectSystem({entry.system - 54, false});
+  machine.holdTool(length);
+  const sim::Point3 at = entry.start + entry.zeros[entry.system - 54];
+  machine.startAt({at.x, at.y, at.z + length});
+  for (const auto& [number, value] : entry.variables)
+    machine.preset(number, value);
+  return machine;
+}
+
+} // namespace
+
+void takeProbe(sim::CycleInputs& inputs, const sim::Probe& probe) {
+  inputs.ballRadius = probe.ballRadius();
+  inputs.stylusRadius = probe.effectiveRadius - probe.preTravel;
+  inputs.tipLength = probe.centreLength() + probe.ballRadius();
+}
+
+Record CycleStand::run(const ir::Cycle& cycle, sim::CycleInputs inputs, sim::World& world, const Entry& entry,
+                       const std::set<std::uint32_t>& stores, bool keepMoves) const {
+  takeProbe(inputs, world.probe());
+  const double length = inputs.tipLength;
+  sim::Machine machine = machineAt(entry, length);
+  world.restart(entry.noiseSeed);
+  world.setOn(entry.probeOn);
+  sim::CycleRun run(machine, cycle, std::move(inputs), limits_);
+  Recorder recorder(machine, world, {}, length);
+  recorder.assumeProbe(entry.probeOn ? Switch::On : Switch::Off);
+  recorder.begin([&run] { return run.place(); }, keepMoves);
+  machine.setSkipSignal(&recorder);
+  machine.setWatcher(&recorder);
+  run.run();
+  machine.setWatcher(nullptr);
+  Record record = recorder.finish(stores);
+  if (const auto kind = run.alarmKind()) record.alarmKind = stdlib::macroAlarmName(*kind);
+  return record;
+}
+
+CycleStand::Rehearsal CycleStand::rehearse(const ir::Cycle& cycle, sim::CycleInputs inputs,
+                                           const sim::Probe& probe, const Entry& entry) const {
+  takeProbe(inputs, probe);
+  sim::Machine machine = machineAt(entry, inputs.tipLength);
+  sim::CycleRun run(machine, cycle, std::move(inputs), limits_, true);
+  run.run();
+  Rehearsal out;
+  for (const sim::ExpectedSurface& one : run.expected())
+    out.surfaces.push_back({one.point, one.direction});
+  const sim::RunEnd& end = machine.end();
+  if (end.ending == sim::Ending::TextEnd) return out;
+  out.ending = end.ending == sim::Ending::Alarm ? Ending::Alarm : Ending::Inconclusive;
+  out.text = end.text;
+  out.at = run.place();
+  return out;
+}
+
+} // namespace dotek::verify
