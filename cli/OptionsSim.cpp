@@ -11,14 +11,21 @@ namespace dotek::cli {
 
 void addSim(CLI::App& app, Raw& raw) {
   CLI::App* sim = app.add_subcommand("sim", "run an NC program on a machine and print what it does");
-  sim->add_option("PROGRAM", raw.inputs, "the program")->expected(1);
+  sim->add_option("PROGRAM", raw.inputs, "the program, or a cycle (NAME.cycle)")->expected(1);
   addTarget(*sim, raw);
   addSeveral(*sim, "--var", raw.variables, "value of a variable before the program begins", "N=VALUE");
+  addSeveral(*sim, "--set", raw.set,
+             "value of a parameter of a cycle: diameter=30, diameter=1.2in, system=G55", "NAME=VALUE");
+  addSeveral(*sim, "--host", raw.host, "value that a cycle takes from the machine (see `dotek list hosts`)",
+             "NAME=VALUE");
   addFolders(*sim, "--programs", raw.programs, "folder of programs that can be called");
   sim->add_option("--probe-macros", raw.probeMacros,
                   "set of probing macros that calls without a program mean (all)")
       ->type_name("SET");
-  sim->add_option("--part", raw.part, "part that the probe touches; needs --machine")->type_name("PART.toml");
+  sim->add_option("--part", raw.part,
+                  "part that the probe touches; a cycle without one gets that which its touches expect "
+                  "(`none`: no part)")
+      ->type_name("PART.toml");
   sim->add_option("--machine", raw.machine, "probe and travel of the machine")->type_name("MACHINE.toml");
   sim->add_option("--job", raw.job, "job file whose [setup] says what an operator sets; flags win over it")
       ->type_name("JOB.toml");

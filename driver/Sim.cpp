@@ -1,6 +1,7 @@
 #include "support/messages/Sim.h"
 #include "driver/Command.h"
 #include "driver/Driver.h"
+#include "driver/SimCycle.h"
 #include "frontend/nc/Scan.h"
 #include "project/Inputs.h"
 #include "project/Lowering.h"
@@ -41,10 +42,14 @@ public:
   Outcome run() {
     if (options_.program.empty())
       diagnostics().report<diag::MissingOption>({}, "sim", "PROGRAM", "an NC program");
-    else if (const auto kind =
-                 kindAmong(options_.program, {InputKind::Nc, InputKind::Suf}, "an NC program", session_);
-             kind == InputKind::Suf)
+    else if (const auto kind = kindAmong(options_.program, {InputKind::Nc, InputKind::Suf, InputKind::Cycle},
+                                         "an NC program", session_);
+             kind == InputKind::Cycle)
+      return simCycle(options_, session_);
+    else if (kind == InputKind::Suf)
       return runSuf();
+    if (!options_.common.set.empty()) diagnostics().report<diag::OptionOfCycles>({}, "--set");
+    if (!options_.common.host.empty()) diagnostics().report<diag::OptionOfCycles>({}, "--host");
     if (diagnostics().hasErrors()) return outcomeOf(session_, "");
     control_ =
         loadControl(options_.control.empty() ? std::string(kFirstControl) : options_.control, session_);

@@ -32,15 +32,9 @@ sim::Machine machineAt(const Entry& entry, double length) {
 
 } // namespace
 
-void takeProbe(sim::CycleInputs& inputs, const sim::Probe& probe) {
-  inputs.ballRadius = probe.ballRadius();
-  inputs.stylusRadius = probe.effectiveRadius - probe.preTravel;
-  inputs.tipLength = probe.centreLength() + probe.ballRadius();
-}
-
 Record CycleStand::run(const ir::Cycle& cycle, sim::CycleInputs inputs, sim::World& world, const Entry& entry,
                        const std::set<std::uint32_t>& stores, bool keepMoves) const {
-  takeProbe(inputs, world.probe());
+  inputs.take(world.probe());
   const double length = inputs.tipLength;
   sim::Machine machine = machineAt(entry, length);
   world.restart(entry.noiseSeed);
@@ -60,7 +54,7 @@ Record CycleStand::run(const ir::Cycle& cycle, sim::CycleInputs inputs, sim::Wor
 
 CycleStand::Rehearsal CycleStand::rehearse(const ir::Cycle& cycle, sim::CycleInputs inputs,
                                            const sim::Probe& probe, const Entry& entry) const {
-  takeProbe(inputs, probe);
+  inputs.take(probe);
   sim::Machine machine = machineAt(entry, inputs.tipLength);
   sim::CycleRun run(machine, cycle, std::move(inputs), limits_, true);
   run.run();

@@ -34,8 +34,4 @@ private:
   const Limits& limits_;
 };
 
-// What a run takes from the probe: the ball, the radius that the calibration of the stylus would have found,
-// the length down to the ball's lowest point.
-void takeProbe(sim::CycleInputs& inputs, const sim::Probe& probe);
-
 } // namespace dotek::verify

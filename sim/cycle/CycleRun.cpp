@@ -21,6 +21,12 @@ std::unordered_map<ir::LabelId, std::size_t> placesOf(const std::vector<ir::Cycl
 
 } // namespace
 
+void CycleInputs::take(const Probe& probe) {
+  ballRadius = probe.ballRadius();
+  stylusRadius = probe.effectiveRadius - probe.preTravel;
+  tipLength = probe.centreLength() + probe.ballRadius();
+}
+
 CycleRun::CycleRun(Machine& machine, const ir::Cycle& cycle, CycleInputs inputs, const Limits& limits,
                    bool nominal)
     : machine_(machine), cycle_(cycle), inputs_(std::move(inputs)), nominal_(nominal),
@@ -28,8 +34,30 @@ CycleRun::CycleRun(Machine& machine, const ir::Cycle& cycle, CycleInputs inputs,
   inputs_.values.resize(cycle.variables.size());
 }
 
+// Where the cycle begins and what its stylus is like follows from the machine, unless the caller gives it.
+void CycleRun::fillHosts() {
+  const Position& at = machine_.position();
+  const std::pair<std::string_view, std::optional<double>> known[] = {
+      {"start_x", at[0]},
+      {"start_y", at[1]},
+      {"start_z", at[2]},
+      {"tool_radius", inputs_.ballRadius},
+      {"overtravel", inputs_.overtravel},
+      {"retract", inputs_.retract},
+      {"approach_feed", inputs_.approachFeed},
+      {"measuring_feed", inputs_.measuringFeed},
+  };
+  for (ir::VariableId id = 0; id < cycle_.variables.size(); ++id) {
+    ir::Scalar& value = inputs_.values[id];
+    if (cycle_.variable(id).role != ir::Role::Host || value.state != ir::Scalar::State::Unknown) continue;
+    for (const auto& [name, number] : known)
+      if (name == cycle_.variable(id).name && number) value = ir::Scalar::of(*number);
+  }
+}
+
 void CycleRun::run() {
   start_ = machine_.machinePosition();
+  fillHosts();
   if (!runList(cycle_.checks) || returned_ || !runList(cycle_.body)) return;
   machine_.finish();
 }
@@ -86,8 +114,11 @@ bool CycleRun::alarm(stdlib::MacroAlarm kind) {
 bool CycleRun::step(const ir::CycleStatement& statement) {
   return ir::match(
       statement, [&](const ir::Assign& node) { return assign(node); },
-      [&](const ir::Store& node) { return store(node); },
-      [](const ir::OneOf<ir::Label, ir::Comment> auto&) { return true; },
+      [&](const ir::Store& node) { return store(node); }, [](const ir::Label&) { return true; },
+      [&](const ir::Comment& node) {
+        comment_ = node.text;
+        return true;
+      },
       [&](const ir::Jump& node) {
         jump_ = node.target;
         return true;
@@ -135,11 +166,7 @@ bool CycleRun::step(const ir::CycleStatement& statement) {
         return true;
       },
       [&](const ir::Alarm& node) { return machine_.raiseUnnumbered(node.message); },
-      [&](const ir::CallCycle& node) {
-        return inconclusive(
-            fmt::format("what the cycle `{}` of the macros `{}` consists of is written in no cycle",
-                        node.cycle, node.set));
-      },
+      [&](const ir::CallCycle& node) { return call(node); },
       [&](const ir::OpaqueBlock&) {
         return inconclusive("what this block means is not known, so the cycle cannot be run");
       });

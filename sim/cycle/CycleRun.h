@@ -5,6 +5,7 @@
 #include "ir/Cycle.h"
 #include "ir/Evaluate.h"
 #include "sim/geometry/Point.h"
+#include "sim/geometry/Probe.h"
 #include "sim/machine/Machine.h"
 #include "stdlib/MacroSet.h"
 #include "support/Limits.h"
@@ -16,6 +17,8 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 namespace dotek::sim {
@@ -25,12 +28,16 @@ struct CycleInputs {
   // By variable of the cycle: parameters and host inputs; null: left out by the caller. One that is not there
   // is not known, and the run ends where it is read.
   ir::Environment values;
-  double ballRadius = 3;         // of the stylus: its lowest point lies so far below the centre
-  double stylusRadius = 3;       // that the calibration found: taken off each measured point along X and Y
-  double overtravel = 10;        // how far a search goes on after the expected contact
-  double backOff = 0.5;          // between the two touches of one search
+  double ballRadius = 3;   // of the stylus: its lowest point lies so far below the centre
+  double stylusRadius = 3; // that the calibration found: taken off each measured point along X and Y
+  double overtravel = 10;  // how far a search goes on after the expected contact
+  double approachFeed = 500, measuringFeed = 50; // mm/min
+  double backOff = 0.5;                          // between the two touches of one search
   double tipLength = 0;          // from the gauge line of the spindle down to the lowest point of the ball
   std::optional<double> retract; // Z of the retract plane, active work system; nothing: not known
+
+  // Of the probe: the ball, the radius that the calibration of the stylus would have found, the length.
+  void take(const Probe& probe);
 };
 
 // A surface that a touch expects: where, in coordinates of the machine, and the direction of the touch.
@@ -59,6 +66,8 @@ public:
   // Of an alarm that the run itself raised: what all probing macros call the same.
   std::optional<stdlib::MacroAlarm> alarmKind() const { return alarmKind_; }
   const ir::Scalar& value(ir::VariableId id) const { return inputs_.values[id]; }
+  // What the cycle leaves its caller, by the names of its results; empty where it did not come to its end.
+  const std::vector<std::pair<std::string, double>>& left() const { return left_; }
   // Surfaces that the touches expected, in the order of the run; at most kMostExpected.
   static constexpr std::size_t kMostExpected = 10'000;
   const std::vector<ExpectedSurface>& expected() const { return expected_; }
@@ -75,6 +84,7 @@ private:
   bool assign(const ir::Assign& node);
   bool store(const ir::Store& node);
   bool setMode(const ir::SetMode& node);
+  void fillHosts();
   // The value; nothing: the run has ended.
   std::optional<double> number(const ir::ExpressionPtr& expression);
   std::optional<bool> decide(const ir::ConditionPtr& condition);
@@ -90,23 +100,42 @@ private:
   bool goTo(const Position& end, MotionKind kind, std::optional<double> feed = std::nullopt);
   bool protectedTo(const Position& end); // contact is an alarm; without the watcher's notice
 
+  // ---- CycleCalls.cpp: what the language has beside moves and plain touches (ir/CycleNames.h)
+  bool call(const ir::CallCycle& node);
+  // The argument; nothing: there is none. false: the run has ended.
+  bool read(const ir::CallCycle& node, std::string_view name, std::optional<double>& value);
+  bool callSurface(const ir::CallCycle& node);
+  bool callSurfaceAlong(const ir::CallCycle& node);
+  bool setOffset(const ir::CallCycle& node);
+  bool setTool(const ir::CallCycle& node);
+  bool report(const ir::CallCycle& node);
+
   // ---- CycleTouch.cpp
   struct Touched {
     Position at{};      // of the lowest point, active system
     bool found = false; // else the run goes on, with the probe where the touch began
   };
+  struct Search {
+    double overtravel = 0;
+    bool stated = false;  // the statement's own
+    bool once = false;    // a single touch
+    bool mayMiss = false; // that it finds nothing is foreseen
+  };
   bool measure(const ir::Measure& node);
   bool surface(const ir::Measure& node);
   bool bore(const ir::Measure& node);
-  // From where the probe is: the surface is expected `distance` from the ball's centre (straight down: from
-  // its lowest point). The probe is back afterwards.
-  bool touch(const PlannedTouch& planned, bool once, Touched& touched);
-  bool search(const Direction& direction, double travel, bool once, Touched& touched);
+  Search usualSearch() const { return {inputs_.overtravel, false, false, false}; }
+  // Along an axis, between begin() and end(); nothing: it was not found, and that was foreseen.
+  bool touchAxis(std::size_t axis, double expected, const Search& search, std::optional<double>& measured);
+  // From where the probe is; it is back afterwards.
+  bool touch(const PlannedTouch& planned, const Search& search, Touched& touched);
+  bool search(const Direction& direction, double travel, const Search& how, Touched& touched);
   bool notFound();
   // From where the probe is.
-  PlannedTouch plan(const Direction& direction, double distance, double overtravel) const;
+  PlannedTouch plan(const Direction& direction, double distance, const Search& search) const;
   void begin(std::span<const PlannedTouch> touches);
   void end();
+  double ballAlong(const PlannedTouch& planned) const; // from its centre, or lowest point, to the contact
   // From the place that `touched` gives to the surface, along the axis.
   double surfaceFrom(std::size_t axis, double sign) const;
   bool set(const ir::OffsetSetting& setting, const std::array<std::optional<double>, 3>& measured);
@@ -123,6 +152,8 @@ private:
   std::optional<stdlib::MacroAlarm> alarmKind_;
   Position start_{}; // of the machine, where the cycle began
   std::map<ir::ResultName, double> results_;
+  std::string comment_; // the last one
+  std::vector<std::pair<std::string, double>> left_;
   std::vector<ExpectedSurface> expected_;
 };
 

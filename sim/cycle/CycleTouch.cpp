@@ -46,8 +46,13 @@ double CycleRun::surfaceFrom(std::size_t axis, double sign) const {
   return sign * inputs_.stylusRadius;
 }
 
-PlannedTouch CycleRun::plan(const Direction& direction, double distance, double overtravel) const {
-  return {machine_.position(), direction, distance, overtravel};
+PlannedTouch CycleRun::plan(const Direction& direction, double distance, const Search& search) const {
+  return {machine_.position(), direction, distance, search.overtravel, search.stated};
+}
+
+double CycleRun::ballAlong(const PlannedTouch& planned) const {
+  if (planned.isDown()) return 0;
+  return planned.direction[kZ] != 0 ? inputs_.ballRadius : inputs_.stylusRadius;
 }
 
 void CycleRun::begin(std::span<const PlannedTouch> touches) {
@@ -59,18 +64,18 @@ void CycleRun::end() {
 }
 
 // false: the run has ended.
-bool CycleRun::search(const Direction& direction, double travel, bool once, Touched& touched) {
+bool CycleRun::search(const Direction& direction, double travel, const Search& how, Touched& touched) {
   const Position from = machine_.position();
   Position aim = along(from, direction, travel);
-  for (int pass = 0; pass < (once ? 1 : 2); ++pass) { // to find it, and to measure it
+  for (int pass = 0; pass < (how.once ? 1 : 2); ++pass) { // to find it, and to measure it
     const Position began = machine_.position();
-    const std::optional<bool> contact = machine_.probeTo(aim);
+    const std::optional<bool> contact = machine_.probeTo(aim, how.mayMiss);
     if (!contact) return false;
     touched.found = *contact;
     touched.at = machine_.position();
     if (!*contact) break;
     if (distance(began, touched.at) < kNothing) return alarm(stdlib::MacroAlarm::ProbeOpen);
-    if (pass > 0 || once) break;
+    if (pass > 0 || how.once) break;
     const double back = std::min(inputs_.backOff, distance(from, touched.at));
     aim = along(touched.at, direction, inputs_.backOff);
     if (!goTo(along(touched.at, direction, -back), MotionKind::Feed)) return false;
@@ -78,10 +83,8 @@ bool CycleRun::search(const Direction& direction, double travel, bool once, Touc
   return goTo(from, MotionKind::Feed);
 }
 
-bool CycleRun::touch(const PlannedTouch& planned, bool once, Touched& touched) {
-  const double ball = planned.isDown()             ? 0
-                      : planned.direction[kZ] != 0 ? inputs_.ballRadius
-                                                   : inputs_.stylusRadius;
+bool CycleRun::touch(const PlannedTouch& planned, const Search& how, Touched& touched) {
+  const double ball = ballAlong(planned);
   const double travel = planned.distance - ball + planned.overtravel;
   if (!(travel > kNothing))
     return machine_.raiseUnnumbered("the touch has no way to go: the surface is expected at the ball, or "
@@ -97,7 +100,7 @@ bool CycleRun::touch(const PlannedTouch& planned, bool once, Touched& touched) {
     touched = {along(machine_.position(), planned.direction, planned.distance - ball), true};
     return true;
   }
-  return search(planned.direction, travel, once, touched);
+  return search(planned.direction, travel, how, touched);
 }
 
 bool CycleRun::notFound() {
@@ -112,29 +115,31 @@ bool CycleRun::measure(const ir::Measure& node) {
 bool CycleRun::surface(const ir::Measure& node) {
   const std::size_t i = ir::indexOf(node.axis);
   const std::optional<double> expected = coordinate(*node.target, i, ir::ProbePoint::Lowest);
-  if (!expected) return false;
-  const double from = machine_.position()[i];
-  if (std::abs(*expected - from) < kNothing)
-    return machine_.raiseUnnumbered(
-        "the surface is expected where the probe is; which way it lies is not known");
-  const double sign = *expected > from ? 1 : -1;
-  // Upward the way counts from the ball's centre.
-  const double centre = i == kZ && sign > 0 ? inputs_.ballRadius : 0;
-  const PlannedTouch planned =
-      plan(axisDirection(i, sign), std::abs(*expected - from) - centre, inputs_.overtravel);
-  begin({&planned, 1});
-  Touched touched;
-  if (!touch(planned, false, touched)) return false;
-  if (!touched.found) return notFound();
   std::array<std::optional<double>, 3> found;
-  const double measured = touched.at[i] + surfaceFrom(i, sign);
-  found[i] = measured;
-  results_[kPositions[i]] = measured;
-  results_[kErrors[i]] = measured - *expected;
-  if (MotionWatcher* const watcher = machine_.watcher(); watcher != nullptr)
-    watcher->measured({0, "surface " + sideOf(i, sign), {{std::string(1, "XYZ"[i]), *expected, measured}}});
+  if (!expected || !touchAxis(i, *expected, usualSearch(), found[i])) return false;
   if (node.setting && !set(*node.setting, found)) return false;
   end();
+  return true;
+}
+
+bool CycleRun::touchAxis(std::size_t i, double expected, const Search& how, std::optional<double>& measured) {
+  const double from = machine_.position()[i];
+  if (std::abs(expected - from) < kNothing)
+    return machine_.raiseUnnumbered(
+        "the surface is expected where the probe is; which way it lies is not known");
+  const double sign = expected > from ? 1 : -1;
+  // Upward the way counts from the ball's centre.
+  const double centre = i == kZ && sign > 0 ? inputs_.ballRadius : 0;
+  const PlannedTouch planned = plan(axisDirection(i, sign), std::abs(expected - from) - centre, how);
+  begin({&planned, 1});
+  Touched touched;
+  if (!touch(planned, how, touched)) return false;
+  if (!touched.found) return how.mayMiss || notFound();
+  measured = touched.at[i] + surfaceFrom(i, sign);
+  results_[kPositions[i]] = *measured;
+  results_[kErrors[i]] = *measured - expected;
+  if (MotionWatcher* const watcher = machine_.watcher(); watcher != nullptr)
+    watcher->measured({0, "surface " + sideOf(i, sign), {{std::string(1, "XYZ"[i]), expected, *measured}}});
   return true;
 }
 
@@ -147,7 +152,7 @@ bool CycleRun::bore(const ir::Measure& node) {
   std::vector<PlannedTouch> all;
   for (const std::size_t i : {std::size_t(0), std::size_t(1)})
     for (const double sign : {1.0, -1.0})
-      all.push_back(plan(axisDirection(i, sign), *diameter / 2, inputs_.overtravel));
+      all.push_back(plan(axisDirection(i, sign), *diameter / 2, usualSearch()));
   begin(all);
   std::array<std::optional<double>, 3> found;
   double size = 0;
@@ -157,7 +162,7 @@ bool CycleRun::bore(const ir::Measure& node) {
       PlannedTouch planned = all[2 * i + side];
       planned.from = machine_.position();
       Touched touched;
-      if (!touch(planned, false, touched)) return false;
+      if (!touch(planned, usualSearch(), touched)) return false;
       if (!touched.found) return notFound();
       sides[side] = touched.at[i] + surfaceFrom(i, planned.direction[i]);
     }

@@ -117,7 +117,7 @@ std::unique_ptr<SimWorld> SimWorld::loadForCycle(const SimOptions& options, cons
   // Z of a cycle is the lowest point of the ball, whatever the length of the probe counts to.
   const Probe& probe = out->machine_->probe;
   if (!given->length) setup.length = probe.centreLength() + probe.ballRadius();
-  if (!setup.at) setup.at = {0, 0, 0};
+  if (!setup.at && !options.machine) setup.at = {0, 0, 0};
   return out;
 }
 

@@ -1,0 +1,173 @@
+// Statements of the cycle language that the IR has as cycles by their names.
+#include "ir/CycleNames.h"
+#include "sim/cycle/CycleRun.h"
+#include "sim/machine/Measurement.h"
+#include "support/Decimal.h"
+
+#include <cmath>
+#include <fmt/format.h>
+
+namespace dotek::sim {
+
+namespace {
+
+constexpr std::size_t kZ = 2;
+constexpr double kNothing = 1e-6; // mm
+constexpr int kDecimals = 6;      // of lines of the trace
+
+// "target x": of an axis.
+std::string ofAxis(std::string_view what, std::size_t axis) {
+  return fmt::format("{} {}", what, "xyz"[axis]);
+}
+
+const ir::CycleArgument* argumentOf(const ir::CallCycle& node, std::string_view name) {
+  for (const ir::CycleArgument& argument : node.arguments)
+    if (argument.parameter == name) return &argument;
+  return nullptr;
+}
+
+} // namespace
+
+bool CycleRun::read(const ir::CallCycle& node, std::string_view name, std::optional<double>& value) {
+  const ir::CycleArgument* const argument = argumentOf(node, name);
+  if (argument == nullptr) return true;
+  value = number(argument->value);
+  return value.has_value();
+}
+
+bool CycleRun::call(const ir::CallCycle& node) {
+  if (!node.set.empty())
+    return inconclusive(fmt::format(
+        "what the cycle `{}` of the macros `{}` consists of is written in no cycle", node.cycle, node.set));
+  if (node.cycle == ir::kSetOffset) return setOffset(node);
+  if (node.cycle == ir::kSetTool) return setTool(node);
+  if (node.cycle == ir::kReport) return report(node);
+  if (node.cycle == ir::kSurface) return callSurface(node);
+  if (node.cycle == ir::kSurfaceAlong) return callSurfaceAlong(node);
+  const bool keeps = node.cycle == ir::kKeep;
+  if (!keeps && node.cycle != ir::kResults)
+    return inconclusive(fmt::format("what the cycle `{}` consists of is not known", node.cycle));
+  for (const ir::CycleArgument& argument : node.arguments) {
+    const std::optional<double> value = number(argument.value);
+    if (!value) return false;
+    if (keeps)
+      machine_.remark("stored", fmt::format("{} {}", argument.parameter, fixedText(*value, kDecimals)));
+    else
+      left_.emplace_back(argument.parameter, *value);
+  }
+  return true;
+}
+
+// All values are read before anything changes.
+bool CycleRun::setOffset(const ir::CallCycle& node) {
+  if (!node.setting) return inconclusive("the offset that is set is not named");
+  std::array<std::optional<double>, 3> measured;
+  for (std::size_t i = 0; i < measured.size(); ++i)
+    if (!read(node, ofAxis("measured", i), measured[i])) return false;
+  return set({node.setting->system, node.setting->nominal}, measured);
+}
+
+bool CycleRun::setTool(const ir::CallCycle& node) {
+  std::optional<double> tool, length, radius;
+  if (!read(node, "tool", tool) || !read(node, "length", length) || !read(node, "radius", radius))
+    return false;
+  constexpr double kMostTool = 999;
+  if (!tool || !(*tool >= 1 && *tool <= kMostTool) || *tool != std::floor(*tool))
+    return machine_.raiseUnnumbered(
+        fmt::format("there is no tool offset {}", tool ? numberText(*tool) : "without a number"));
+  if (length) machine_.writeTool(static_cast<std::uint32_t>(*tool), false, *length);
+  if (radius) machine_.writeTool(static_cast<std::uint32_t>(*tool), true, *radius);
+  return true;
+}
+
+// The comment before it is its name.
+bool CycleRun::report(const ir::CallCycle& node) {
+  std::optional<double> measured, nominal, tolerance;
+  if (!read(node, "measured", measured) || !read(node, "nominal", nominal) ||
+      !read(node, "tolerance", tolerance))
+    return false;
+  if (!measured) return inconclusive("the report has no value");
+  std::string text = fmt::format("\"{}\" measured {}", comment_, fixedText(*measured, kDecimals));
+  if (nominal) text += fmt::format(" nominal {}", fixedText(*nominal, kDecimals));
+  if (tolerance) text += fmt::format(" tolerance {}", fixedText(*tolerance, kDecimals));
+  machine_.remark("report", text);
+  if (MotionWatcher* const watcher = machine_.watcher(); watcher != nullptr)
+    watcher->reported({0, "report", {{comment_, nominal, *measured}}});
+  return true;
+}
+
+bool CycleRun::callSurface(const ir::CallCycle& node) {
+  std::optional<double> overtravel, once, miss;
+  if (!read(node, "overtravel", overtravel) || !read(node, "once", once) || !read(node, "miss", miss))
+    return false;
+  const std::size_t i = ir::indexOf(node.axis.value_or(ir::Axis::X));
+  const ir::CycleArgument* const target = argumentOf(node, ofAxis("target", i));
+  if (target == nullptr) return inconclusive("where the surface is expected is not said");
+  const std::optional<double> expected = coordinate(
+      {target->value, target->frame.value_or(ir::Frame::Here), nullptr}, i, ir::ProbePoint::Lowest);
+  if (!expected) return false;
+  if (overtravel && *overtravel < 0) return machine_.raiseUnnumbered("an overtravel below 0");
+  results_.clear();
+  const Search how{overtravel.value_or(inputs_.overtravel), overtravel.has_value(), once.value_or(0) != 0,
+                   miss.value_or(0) != 0};
+  std::optional<double> measured;
+  if (!touchAxis(i, *expected, how, measured)) return false;
+  results_[ir::ResultName::ProbeError] = measured ? 0 : 1;
+  end();
+  return true;
+}
+
+bool CycleRun::callSurfaceAlong(const ir::CallCycle& node) {
+  std::optional<double> travel, overtravel, once, miss;
+  std::array<std::optional<double>, 3> parts;
+  for (std::size_t i = 0; i < parts.size(); ++i)
+    if (!read(node, ofAxis("direction", i), parts[i])) return false;
+  if (!read(node, "travel", travel) || !read(node, "overtravel", overtravel) || !read(node, "once", once) ||
+      !read(node, "miss", miss))
+    return false;
+  const double length = std::hypot(parts[0].value_or(0), parts[1].value_or(0), parts[kZ].value_or(0));
+  if (!(length > 0)) return machine_.raiseUnnumbered("a direction of no length");
+  if (!travel || std::abs(*travel) < kNothing)
+    return machine_.raiseUnnumbered(
+        "the surface is expected where the probe is; which way it lies is not known");
+  if (overtravel && *overtravel < 0) return machine_.raiseUnnumbered("an overtravel below 0");
+  Direction direction{};
+  for (std::size_t i = 0; i < parts.size(); ++i)
+    direction[i] = parts[i].value_or(0) / length * (*travel > 0 ? 1 : -1) + 0.0;
+  results_.clear();
+  const Search how{overtravel.value_or(inputs_.overtravel), overtravel.has_value(), once.value_or(0) != 0,
+                   miss.value_or(0) != 0};
+  PlannedTouch planned = plan(direction, std::abs(*travel), how);
+  // Straight down the way counts from the lowest point.
+  const double low = planned.isDown() ? inputs_.ballRadius : 0;
+  planned.distance -= low;
+  begin({&planned, 1});
+  Touched touched;
+  if (!touch(planned, how, touched)) return false;
+  results_[ir::ResultName::ProbeError] = touched.found ? 0 : 1;
+  if (!touched.found) {
+    if (!how.mayMiss) return notFound();
+    end();
+    return true;
+  }
+  constexpr ir::ResultName kPositions[] = {ir::ResultName::PositionX, ir::ResultName::PositionY,
+                                           ir::ResultName::PositionZ};
+  const double ball = ballAlong(planned);
+  double along = 0;
+  Measurement found{0, "surface along a direction", {}};
+  for (std::size_t i = 0; i < direction.size(); ++i) {
+    along += (touched.at[i] - planned.from[i]) * direction[i];
+    // From the lowest point up to the centre, unless that point touches.
+    const double up = i == kZ && !planned.isDown() ? inputs_.ballRadius : 0;
+    const double at = touched.at[i] + up + direction[i] * ball;
+    results_[kPositions[i]] = at;
+    found.values.push_back(
+        {std::string(1, "XYZ"[i]), planned.from[i] + up + direction[i] * planned.distance, at});
+  }
+  results_[ir::ResultName::Main] = along + ball - planned.distance;
+  if (MotionWatcher* const watcher = machine_.watcher(); watcher != nullptr) watcher->measured(found);
+  end();
+  return true;
+}
+
+} // namespace dotek::sim
