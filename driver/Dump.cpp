@@ -9,16 +9,21 @@
 #include "ir/Fold.h"
 #include "ir/Print.h"
 #include "project/Compilation.h"
+#include "project/CycleLowering.h"
 #include "project/Fields.h"
 #include "project/Hosts.h"
 #include "project/Prog.h"
 #include "project/Programs.h"
 #include "support/Decimal.h"
 #include "support/Files.h"
+#include "support/NearestName.h"
 #include "support/messages/Commands.h"
 #include "support/messages/Common.h"
 
+#include <algorithm>
 #include <filesystem>
+#include <map>
+#include <set>
 
 namespace dotek::driver {
 
@@ -132,7 +137,7 @@ private:
   void ir() {
     std::vector<std::string> rest;
     for (const std::string& input : options_.inputs)
-      if (!mikroprogIr(input)) rest.push_back(input);
+      if (!mikroprogIr(input) && !cycleIr(input)) rest.push_back(input);
     if (rest.empty() && !options_.inputs.empty()) return;
     const LoweringInputs* inputs = compilation_.load(
         options_.source, options_.control.empty() ? std::string(kDefaultControl) : options_.control);
@@ -168,6 +173,46 @@ private:
     const auto program = frontend::mikroprog::parse(*id, session_.sources(), session_.diagnostics());
     if (const auto file = frontend::mikroprog::lower(program, session_.sources()))
       out_ += ir::print(*file, &session_.sources());
+    return true;
+  }
+
+  // Puts in the values of --set and --host.
+  void fix(ir::Cycle& cycle) {
+    const std::map<std::string, double> hosts = parseHosts(options_.common.host, session_.diagnostics());
+    std::map<ir::VariableId, double> fixed;
+    std::set<std::string> names;
+    for (ir::VariableId id = 0; id < cycle.variables.size(); ++id) {
+      const ir::Variable& variable = cycle.variable(id);
+      const auto host = hosts.find(variable.name);
+      if (variable.role == ir::Role::Host && host != hosts.end()) fixed[id] = host->second;
+      if (variable.role != ir::Role::Parameter) continue;
+      names.insert(variable.name);
+      const auto set = std::find_if(options_.common.set.begin(), options_.common.set.end(),
+                                    [&](const auto& one) { return one.first == variable.name; });
+      if (set == options_.common.set.end()) continue;
+      if (const auto value = parseNumber(set->second))
+        fixed[id] = *value;
+      else
+        session_.diagnostics().report<diag::NotANumber>({}, "--set", set->first, set->second);
+    }
+    for (const auto& [name, text] : options_.common.set) {
+      if (names.contains(name)) continue;
+      const std::string near = nearestName(name, names);
+      session_.diagnostics().report<diag::NoSuchField>({}, name, cycle.name,
+                                                       near.empty() ? "" : "; did you mean `" + near + "`?");
+    }
+    if (!fixed.empty()) ir::fold(cycle, fixed);
+  }
+
+  // false: it is no cycle of the cycle language.
+  bool cycleIr(const std::string& input) {
+    if (!isCycleFile(input, session_)) return false;
+    std::optional<frontend::cycle::Lowered> lowered = lowerCycleFile(input, session_);
+    if (!lowered) return true;
+    ir::Module module;
+    module.cycles.push_back(std::move(lowered->cycle));
+    fix(module.cycles.front());
+    out_ += ir::print(module, &session_.sources());
     return true;
   }
 

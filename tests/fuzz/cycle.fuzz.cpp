@@ -1,11 +1,15 @@
 #include "frontend/cycle/Check.h"
+#include "frontend/cycle/Lower.h"
 #include "frontend/cycle/Parse.h"
+#include "ir/Print.h"
+#include "ir/Verify.h"
 
 #include <cstdint>
 #include <cstdlib>
 #include <string>
 
-// What is read without a defect is laid out, and the layout is read as the same cycle.
+// What is read without a defect is laid out, and the layout is read as the same cycle. What the checks find
+// nothing wrong with is lowered to IR that holds together.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace dotek;
   namespace cycle = frontend::cycle;
@@ -16,6 +20,14 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   Diagnostics diagnostics;
   const cycle::File file = cycle::parse(id, sources, limits, diagnostics);
   cycle::check(file, sources, diagnostics);
+  if (!file.hasErrorNodes && !diagnostics.hasErrors())
+    if (const auto lowered = cycle::lower(file, sources, diagnostics)) {
+      for (const ir::Violation& violation : ir::verify(lowered->cycle))
+        if (!violation.mixedKinds) std::abort();
+      ir::Module module;
+      module.cycles.push_back(lowered->cycle);
+      ir::print(module, &sources);
+    }
   renderText(diagnostics, sources, 0);
   cycle::dumpTokens(id, sources, limits, diagnostics);
   cycle::dumpAst(file, sources);

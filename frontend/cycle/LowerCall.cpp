@@ -1,0 +1,131 @@
+#include "frontend/cycle/Lowering.h"
+#include "ir/Match.h"
+#include "support/messages/Cycle.h"
+
+namespace dotek::frontend::cycle {
+namespace {
+
+bool switchesProbe(const Block& block) {
+  for (const Statement& one : block.statements) {
+    if (std::holds_alternative<ProbeSwitch>(one.node)) return true;
+    if (const auto* choice = std::get_if<If>(&one.node)) {
+      for (const If::Part& part : choice->parts)
+        if (switchesProbe(part.body)) return true;
+      if (choice->otherwise != nullptr && switchesProbe(*choice->otherwise)) return true;
+    }
+    if (const auto* touch = std::get_if<Touch>(&one.node);
+        touch != nullptr && touch->otherwise != nullptr && switchesProbe(*touch->otherwise))
+      return true;
+    if (const auto* loop = std::get_if<Repeat>(&one.node); loop != nullptr && switchesProbe(loop->body))
+      return true;
+    if (const auto* loop = std::get_if<For>(&one.node); loop != nullptr && switchesProbe(loop->body))
+      return true;
+    if (const auto* loop = std::get_if<While>(&one.node); loop != nullptr && switchesProbe(loop->body))
+      return true;
+  }
+  return false;
+}
+
+bool needsProbe(const File& file) {
+  for (const Statement& one : file.body.statements)
+    if (std::holds_alternative<Needs>(one.node)) return true;
+  return false;
+}
+
+} // namespace
+
+void Lowering::call(const Call& call, SourceRange range) {
+  const File* called = find_(call.cycle.text);
+  if (called == nullptr || called->hasErrorNodes) {
+    refuse<diag::UnknownCycle>(call.cycle.range, call.cycle.text);
+    return;
+  }
+  if (depth_ >= kMostCalls) {
+    if (!failed_) refuse<diag::CycleTooLong>(range, kMostStatements);
+    return;
+  }
+  if (needsProbe(*called) && probe_ != Probe::On)
+    refuse<diag::ProbeForCall>(call.cycle.range, call.cycle.text);
+  if (switchesProbe(called->body) && probe_ == Probe::Either)
+    refuse<diag::ProbeUncertain>(call.cycle.range, call.cycle.text);
+
+  Scope inner;
+  inner.prefix = scope_.prefix + (call.result ? call.result->text : call.cycle.text) + "_";
+  inner.inlined = true;
+  inner.keepsProbe = probe_ == Probe::On;
+  inner.begin = out_->size();
+  if (call.result) // of a call before, whose results have their variables
+    if (const auto before = scope_.names.find(call.result->text); before != scope_.names.end())
+      inner.names = before->second.members;
+
+  std::map<std::string, const Argument*, std::less<>> given;
+  for (const Argument& argument : call.arguments)
+    given.emplace(argument.name.text, &argument);
+  std::map<std::string, ir::ExpressionPtr, std::less<>> values;
+  const auto eachName = [&](const auto& visit) {
+    for (const Statement& one : called->body.statements)
+      if (const auto* parameter = std::get_if<Parameter>(&one.node))
+        for (const Name& name : parameter->names)
+          visit(*parameter, name);
+  };
+  const auto choicesOfType = [](const Type& type) {
+    return type.name == TypeName::Choice ? &type.choices : nullptr;
+  };
+  // The arguments, as the caller reads them, in the order in which he writes them.
+  for (const Argument& argument : call.arguments)
+    eachName([&](const Parameter& parameter, const Name& name) {
+      if (name.text != argument.name.text) return;
+      const ir::ExpressionPtr read = value(*argument.value, choicesOfType(parameter.type));
+      const auto* use = std::get_if<ir::VariableUse>(&read->node);
+      // A parameter is never assigned, so it needs no copy.
+      const bool lasts = use != nullptr && cycle_.variable(use->variable).role != ir::Role::Local;
+      values[name.text] = lasts ? read
+                                : kept(read, inner.prefix.substr(scope_.prefix.size()) + name.text,
+                                       kindOf(*argument.value), argument.name.range);
+    });
+
+  inner.begin = out_->size();
+  Scope outer = std::move(scope_);
+  scope_ = std::move(inner);
+  ++depth_;
+  for (const Statement& one : called->body.statements) {
+    if (const auto* parameter = std::get_if<Parameter>(&one.node)) {
+      for (const Name& name : parameter->names) {
+        Meaning meaning;
+        meaning.choices = choicesOfType(parameter->type);
+        meaning.kind = kindOfType(parameter->type.name);
+        const auto argument = values.find(name.text);
+        meaning.given = argument != values.end() || parameter->value != nullptr;
+        if (argument != values.end())
+          meaning.value = argument->second;
+        else if (parameter->value != nullptr)
+          meaning.value =
+              kept(value(*parameter->value, meaning.choices), name.text, meaning.kind, name.range);
+        else
+          meaning.value = ir::constant(0, name.range); // nothing reads it
+        if (const auto* use = std::get_if<ir::VariableUse>(&meaning.value->node);
+            use != nullptr && cycle_.variable(use->variable).kind == ir::Kind::Number)
+          cycle_.variables[use->variable].kind = meaning.kind;
+        scope_.names[name.text] = meaning;
+      }
+      clauses(*parameter);
+    }
+    if (const auto* result = std::get_if<Result>(&one.node)) this->result(*result);
+    if (const auto* require = std::get_if<Require>(&one.node))
+      demand(*require->condition, require->message ? require->message->text : "require not met", one.range);
+  }
+  block(called->body);
+  --depth_;
+  inner = std::move(scope_);
+  scope_ = std::move(outer);
+  for (std::size_t i = 0; i < 3; ++i)
+    scope_.shifted[i] = scope_.shifted[i] || inner.shifted[i];
+  if (!call.result) return;
+  Meaning& out = scope_.names[call.result->text];
+  for (const Statement& one : called->body.statements)
+    if (const auto* result = std::get_if<Result>(&one.node))
+      for (const Name& name : result->names)
+        out.members[name.text] = inner.names.at(name.text);
+}
+
+} // namespace dotek::frontend::cycle

@@ -1,0 +1,250 @@
+// Where the probe is: `here`, `start` and `move to start`. What the moves before come to is known when all of
+// them are, so each leaves a mark that is resolved at the end.
+#include "frontend/cycle/Lowering.h"
+#include "ir/Positions.h"
+#include "ir/Walk.h"
+#include "support/messages/Cycle.h"
+
+#include <algorithm>
+
+namespace dotek::frontend::cycle {
+namespace {
+
+using State = ir::AxisPosition::State;
+
+bool isZero(const ir::ExpressionPtr& value) {
+  const double* known = ir::constantValue(value);
+  return known != nullptr && *known == 0;
+}
+
+std::string startName(ir::Axis axis) {
+  return std::string("start_") + "xyz"[ir::indexOf(axis)];
+}
+
+} // namespace
+
+ir::ExpressionPtr Lowering::host(std::string_view name, ir::Kind kind) {
+  const auto found = hosts_.find(name);
+  if (found != hosts_.end()) return ir::variable(found->second);
+  ir::Variable variable;
+  variable.name = std::string(name);
+  variable.kind = kind;
+  variable.role = ir::Role::Host;
+  variable.unit = std::string(ir::kindUnit(kind));
+  const ir::VariableId id = cycle_.add(std::move(variable));
+  hosts_.emplace(name, id);
+  return ir::variable(id);
+}
+
+ir::ExpressionPtr Lowering::here(ir::Axis axis, SourceRange range) {
+  const ir::VariableId id = local(std::string("here_") + "xyz"[ir::indexOf(axis)], ir::Kind::Length, range);
+  places_.emplace(id, axis);
+  emit(ir::Assign{id, ir::constant(0, range)}, range, "where the probe is");
+  return ir::variable(id, range);
+}
+
+ir::ExpressionPtr Lowering::start(ir::Axis axis, SourceRange range) {
+  const std::size_t i = ir::indexOf(axis);
+  if (scope_.shifted[i]) refuse<diag::StartShifted>(range, std::string(1, "xyz"[i]));
+  if (!scope_.inlined) return host(startName(axis), ir::Kind::Length);
+  if (!scope_.start[i]) {
+    const ir::VariableId id = local(startName(axis), ir::Kind::Length, range);
+    places_.emplace(id, axis);
+    scope_.start[i] = id;
+    ir::CycleStatement read;
+    read.node = ir::Assign{id, ir::constant(0, range)};
+    read.origin.ranges = {range};
+    read.origin.reason = "where the called cycle begins";
+    out_->insert(out_->begin() + static_cast<std::ptrdiff_t>(scope_.begin), std::move(read));
+  }
+  return ir::variable(*scope_.start[i], range);
+}
+
+void Lowering::moveToStart(const Move& move, SourceRange range) {
+  ir::Move out;
+  out.motion = static_cast<ir::Motion>(move.kind);
+  for (const ir::Axis axis : ir::kAxes) {
+    ir::Coordinate coordinate;
+    if (scope_.inlined)
+      coordinate = {start(axis, range), ir::Frame::Work, nullptr};
+    else
+      coordinate = {ir::constant(0), ir::Frame::Start, nullptr};
+    out.axes[ir::indexOf(axis)] = std::move(coordinate);
+  }
+  if (move.feed != nullptr) out.feed = value(*move.feed);
+  emit(std::move(out), range).origin.block = ++startMoves_;
+}
+
+Lowering::Sign Lowering::signOf(const ir::ExpressionPtr& expression) const {
+  const auto flipped = [](Sign sign) { return Sign{sign.below, sign.above}; };
+  if (const double* known = ir::constantValue(expression)) return {*known >= 0, *known <= 0};
+  if (const auto* use = std::get_if<ir::VariableUse>(&expression->node)) {
+    const ir::Variable& variable = cycle_.variable(use->variable);
+    if (variable.role == ir::Role::Host)
+      return {variable.name == "tool_radius" || variable.name == "overtravel", false};
+    const auto found = signs_.find(use->variable);
+    return found == signs_.end() ? Sign{} : found->second;
+  }
+  if (const auto* one = std::get_if<ir::Unary>(&expression->node)) {
+    if (one->op == ir::UnaryOp::Negate) return flipped(signOf(one->operand));
+    return {one->op == ir::UnaryOp::Absolute || one->op == ir::UnaryOp::SquareRoot, false};
+  }
+  const auto* both = std::get_if<ir::Binary>(&expression->node);
+  if (both == nullptr) return {};
+  const Sign left = signOf(both->left), right = signOf(both->right);
+  switch (both->op) {
+  case ir::BinaryOp::Add: return {left.above && right.above, left.below && right.below};
+  case ir::BinaryOp::Subtract: return {left.above && right.below, left.below && right.above};
+  case ir::BinaryOp::Multiply:
+  case ir::BinaryOp::Divide:
+    return {(left.above && right.above) || (left.below && right.below),
+            (left.above && right.below) || (left.below && right.above)};
+  default: return {};
+  }
+}
+
+// The two moves of `move to start`: z first where the start lies higher, x and y first where it lies lower.
+void Lowering::toStart(const ir::CycleStatement& marked, const ir::ExpressionPtr& height,
+                       const std::array<bool, 3>& same) {
+  const auto& whole = std::get<ir::Move>(marked.node);
+  const SourceRange range = marked.origin.range();
+  const auto part = [&](bool z) {
+    ir::Move move;
+    move.motion = whole.motion;
+    move.feed = whole.feed;
+    bool any = false;
+    for (const ir::Axis axis : ir::kAxes) {
+      const std::size_t i = ir::indexOf(axis);
+      if ((axis == ir::Axis::Z) != z || same[i]) continue;
+      move.axes[i] = whole.axes[i];
+      any = true;
+    }
+    if (any) emit(std::move(move), range);
+  };
+  if (same[2] || (same[0] && same[1])) {
+    part(true);
+    part(false);
+    return;
+  }
+  const Sign sign = signOf(height);
+  if (sign.below || sign.above) {
+    part(sign.below);
+    part(!sign.below);
+    return;
+  }
+  const ir::LabelId higher = label("start_is_lower", range), end = label("at_start", range);
+  emit(ir::Branch{ir::compare(ir::Relation::Greater, height, ir::constant(0), range), higher}, range);
+  part(true);
+  part(false);
+  emit(ir::Jump{end}, range);
+  place(higher, range);
+  part(false);
+  part(true);
+  place(end, range);
+}
+
+void Lowering::resolvePlaces() {
+  if (places_.empty() && startMoves_ == 0) return;
+  // Adds the hosts that the places need before they are read.
+  for (const ir::Axis axis : ir::kAxes)
+    if (std::any_of(places_.begin(), places_.end(), [&](const auto& one) { return one.second == axis; }) ||
+        (startMoves_ != 0 && axis == ir::Axis::Z))
+      host(startName(axis), ir::Kind::Length);
+  const std::vector<ir::Position> known = ir::positions(cycle_);
+  const auto work = [&](const ir::AxisPosition& at, ir::Axis axis) -> ir::ExpressionPtr {
+    if (at.state == State::Unknown) return nullptr;
+    if (at.state == State::Work) return at.value;
+    const ir::ExpressionPtr from = host(startName(axis), ir::Kind::Length);
+    return isZero(at.value) ? from : ir::binary(ir::BinaryOp::Add, from, at.value);
+  };
+  std::vector<ir::CycleStatement> list = std::move(cycle_.body);
+  cycle_.body.clear();
+  out_ = &cycle_.body;
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    ir::CycleStatement& statement = list[i];
+    const SourceRange range = statement.origin.range();
+    if (auto* assign = std::get_if<ir::Assign>(&statement.node)) {
+      const auto asked = places_.find(assign->variable);
+      if (asked != places_.end()) {
+        const ir::AxisPosition& at = known[i][ir::indexOf(asked->second)];
+        assign->value = work(at, asked->second);
+        if (assign->value == nullptr) {
+          refuse<diag::PlaceUnknown>(range, std::string(1, "xyz"[ir::indexOf(asked->second)]));
+          assign->value = ir::constant(0);
+        }
+        began_[assign->variable] = at;
+      }
+    }
+    const bool marked = std::holds_alternative<ir::Move>(statement.node) && statement.origin.block != 0;
+    statement.origin.block = 0;
+    if (!marked) {
+      cycle_.body.push_back(std::move(statement));
+      continue;
+    }
+    const auto& move = std::get<ir::Move>(statement.node);
+    std::array<bool, 3> same{};
+    ir::ExpressionPtr height;
+    for (const ir::Axis axis : ir::kAxes) {
+      const std::size_t a = ir::indexOf(axis);
+      const ir::AxisPosition& at = known[i][a];
+      const ir::Coordinate& to = *move.axes[a];
+      ir::ExpressionPtr away; // here less start; nullptr: not known
+      if (to.frame == ir::Frame::Start) {
+        if (at.state == State::Start) away = at.value;
+        if (at.state == State::Work && axis == ir::Axis::Z)
+          away = ir::binary(ir::BinaryOp::Subtract, at.value, host(startName(axis), ir::Kind::Length));
+      } else {
+        away = awayFrom(at, std::get<ir::VariableUse>(to.value->node).variable);
+        if (const ir::ExpressionPtr here = work(at, axis); away == nullptr && here != nullptr)
+          away = ir::binary(ir::BinaryOp::Subtract, here, to.value);
+      }
+      same[a] = away != nullptr && isZero(away);
+      if (axis == ir::Axis::Z) height = away;
+    }
+    if (height == nullptr && !(same[0] && same[1])) {
+      refuse<diag::PlaceUnknown>(range, "z");
+      continue;
+    }
+    toStart(statement, height, same);
+  }
+}
+
+// How far the probe has come from where a called cycle began, where the travels say it alone; else nullptr.
+ir::ExpressionPtr Lowering::awayFrom(const ir::AxisPosition& at, ir::VariableId start) const {
+  const auto found = began_.find(start);
+  if (found == began_.end() || at.state == State::Unknown || found->second.state != at.state) return nullptr;
+  const ir::ExpressionPtr& from = found->second.value;
+  bool lasts = true; // it means what it meant there
+  ir::eachNode(from, [&](const ir::Expression& node) {
+    const auto* use = std::get_if<ir::VariableUse>(&node.node);
+    lasts = lasts && !std::holds_alternative<ir::MeasuredResult>(node.node) &&
+            (use == nullptr || cycle_.variable(use->variable).role != ir::Role::Local);
+  });
+  if (!lasts) return nullptr;
+  if (isZero(from) && at.state == State::Start) return at.value;
+  ir::ExpressionPtr rest = at.value, out = ir::constant(0);
+  while (!ir::equal(rest, from)) {
+    const auto* sum = std::get_if<ir::Binary>(&rest->node);
+    if (sum == nullptr || sum->op != ir::BinaryOp::Add) return nullptr;
+    out = isZero(out) ? sum->right : ir::binary(ir::BinaryOp::Add, sum->right, out);
+    rest = sum->left;
+  }
+  return out;
+}
+
+// Values of touches and places that nothing reads.
+void Lowering::dropUnread() {
+  std::set<ir::VariableId> read;
+  for (const auto* list : {&cycle_.checks, &cycle_.body})
+    for (const ir::CycleStatement& statement : *list)
+      ir::eachNode(statement, [&](const ir::Expression& node) {
+        if (const auto* use = std::get_if<ir::VariableUse>(&node.node)) read.insert(use->variable);
+      });
+  std::erase_if(cycle_.body, [&](const ir::CycleStatement& statement) {
+    const auto* assign = std::get_if<ir::Assign>(&statement.node);
+    return assign != nullptr && !read.contains(assign->variable) &&
+           (touched_.contains(assign->variable) || places_.contains(assign->variable));
+  });
+}
+
+} // namespace dotek::frontend::cycle

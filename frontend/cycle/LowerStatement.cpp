@@ -1,0 +1,429 @@
+#include "frontend/cycle/Lowering.h"
+#include "ir/CycleNames.h"
+#include "ir/Match.h"
+#include "support/messages/Cycle.h"
+
+#include <algorithm>
+#include <iterator>
+
+namespace dotek::frontend::cycle {
+namespace {
+
+constexpr ir::ResultName kPositions[] = {ir::ResultName::PositionX, ir::ResultName::PositionY,
+                                         ir::ResultName::PositionZ};
+constexpr ir::ResultName kErrors[] = {ir::ResultName::ErrorX, ir::ResultName::ErrorY, ir::ResultName::ErrorZ};
+
+std::optional<ir::Axis> linear(Axis axis) {
+  if (axis > Axis::Z) return std::nullopt;
+  return static_cast<ir::Axis>(axis);
+}
+
+std::string trimmed(const std::string& text) {
+  const std::size_t first = text.find_first_not_of(' ');
+  return first == std::string::npos ? "" : text.substr(first);
+}
+
+} // namespace
+
+bool Lowering::ended() const {
+  const auto last = std::find_if(out_->rbegin(), out_->rend(), [](const ir::CycleStatement& one) {
+    return !std::holds_alternative<ir::Comment>(one.node);
+  });
+  return last != out_->rend() &&
+         (std::holds_alternative<ir::Alarm>(last->node) || std::holds_alternative<ir::Jump>(last->node));
+}
+
+void Lowering::jump(ir::LabelId label, SourceRange range) {
+  if (!ended()) emit(ir::Jump{label}, range);
+}
+
+void Lowering::comments(const std::vector<Comment>& list) {
+  if (scope_.inlined) return;
+  for (const Comment& comment : list)
+    if (const std::string words = trimmed(comment.text); !words.empty())
+      emit(ir::Comment{words}, comment.range);
+}
+
+void Lowering::block(const Block& block) {
+  for (const Statement& one : block.statements)
+    statement(one);
+  comments(block.comments);
+}
+
+void Lowering::statement(const Statement& s) {
+  if (out_->size() > kMostStatements) {
+    if (!failed_) refuse<diag::CycleTooLong>(s.range, kMostStatements);
+    return;
+  }
+  const SourceRange range = s.range;
+  const bool declares = std::visit(
+      ir::Overloaded{
+          [](const ir::OneOf<ErrorStatement, Header, Needs, Parameter, Result, Require> auto&) {
+            return true;
+          },
+          [](const ir::OneOf<ProbeSwitch, SpindleOff, Coolant, Dwell, Stop, Alarm, Report, Move, Touch,
+                             SetOffset, SetTool, SetStored, Assign, If, Repeat, For, While, Call> auto&) {
+            return false;
+          }},
+      s.node);
+  if (declares) return;
+  comments(s.before);
+  if (s.after) comments({*s.after});
+  std::visit(
+      ir::Overloaded{
+          [](const ir::OneOf<ErrorStatement, Header, Needs, Parameter, Result, Require> auto&) {},
+          [&](const ProbeSwitch& one) { probe(one, range); },
+          [&](const SpindleOff&) {
+            emit(ir::Spindle{ir::Spindle::State::Off, nullptr}, range);
+          },
+          [&](const Coolant& one) { emit(ir::Coolant{static_cast<ir::Coolant::State>(one.state)}, range); },
+          [&](const Dwell& one) {
+            const ir::ExpressionPtr time = value(*one.time);
+            emit(ir::Dwell{time}, range);
+          },
+          [&](const Stop& one) {
+            emit(ir::Stop{false, one.text.text, 1}, range);
+          },
+          [&](const Alarm& one) { emit(ir::Alarm{one.text.text}, range); },
+          [&](const Report& one) { report(one, range); }, [&](const Move& one) { move(one, range); },
+          [&](const Touch& one) { touch(one, range); }, [&](const SetOffset& one) { setOffset(one, range); },
+          [&](const SetTool& one) {
+            ir::CallCycle set = quiet(ir::kSetTool);
+            set.setsTool = true;
+            set.arguments.push_back({"tool", value(*one.tool), std::nullopt, ir::Kind::ToolOffset, false});
+            set.arguments.push_back(
+                {one.radius ? "radius" : "length", value(*one.value), std::nullopt, ir::Kind::Length, false});
+            emit(std::move(set), range);
+            if (!one.radius) scope_.shifted[2] = true;
+          },
+          [&](const SetStored& one) {
+            ir::CallCycle keep = quiet(ir::kKeep);
+            keep.arguments.push_back(
+                {one.name.text, value(*one.value), std::nullopt, ir::Kind::Number, false});
+            emit(std::move(keep), range);
+          },
+          [&](const Assign& one) { assign(one, range); }, [&](const If& one) { choose(one, range); },
+          [&](const Repeat& one) { repeat(one, range); }, [&](const For& one) { count(one, range); },
+          [&](const While& one) { loop(one, range); }, [&](const Call& one) { call(one, range); }},
+      s.node);
+}
+
+void Lowering::probe(const ProbeSwitch& probe, SourceRange range) {
+  if (scope_.keepsProbe) return;
+  probe_ = probe.on ? Probe::On : Probe::Off;
+  emit(ir::ProbePower{probe.on}, range);
+}
+
+ir::CallCycle Lowering::quiet(std::string_view name) const {
+  ir::CallCycle out;
+  out.cycle = std::string(name);
+  out.moves = false;
+  return out;
+}
+
+void Lowering::report(const Report& report, SourceRange range) {
+  ir::CallCycle out = quiet(ir::kReport);
+  const auto add = [&](const char* name, const ExpressionPtr& expression) {
+    if (expression != nullptr)
+      out.arguments.push_back({name, value(*expression), std::nullopt, ir::Kind::Number, false});
+  };
+  add("measured", report.measured);
+  add("nominal", report.nominal);
+  add("tolerance", report.tolerance);
+  emit(ir::Comment{report.name.text}, range);
+  emit(std::move(out), range);
+}
+
+// What the caller gets, after the last statement.
+void Lowering::leaveResults(SourceRange range) {
+  if (results_.empty() || ended()) return;
+  ir::CallCycle out = quiet(ir::kResults);
+  for (const auto& [name, id] : results_)
+    out.arguments.push_back({name, ir::variable(id), std::nullopt, ir::Kind::Number, false});
+  emit(std::move(out), range, "results");
+}
+
+void Lowering::assign(const Assign& assign, SourceRange range) {
+  const auto found = scope_.names.find(assign.name.text);
+  const std::vector<Name>* choices =
+      found == scope_.names.end() ? choicesOf(*assign.value) : found->second.choices;
+  const ir::Kind kind = kindOf(*assign.value);
+  const ir::ExpressionPtr given = value(*assign.value, choices);
+  if (found == scope_.names.end()) {
+    Meaning meaning;
+    meaning.kind = kind;
+    meaning.choices = choices;
+    meaning.variable = local(assign.name.text, kind, assign.name.range);
+    meaning.value = ir::variable(*meaning.variable, assign.name.range);
+    scope_.names[assign.name.text] = meaning;
+  }
+  const Meaning& meaning = scope_.names.at(assign.name.text);
+  if (meaning.variable) emit(ir::Assign{*meaning.variable, given}, range);
+}
+
+void Lowering::move(const Move& move, SourceRange range) {
+  if (move.toStart) return moveToStart(move, range);
+  ir::Move out;
+  out.motion = static_cast<ir::Motion>(move.kind);
+  for (const Coordinate& one : move.axes) {
+    const auto axis = linear(one.axis);
+    if (!axis) {
+      refuse<diag::RotaryAxis>(one.range, std::string(1, axisLetter(one.axis)));
+      return;
+    }
+    ir::Coordinate coordinate;
+    coordinate.value = value(*one.value);
+    coordinate.frame = move.reach == Reach::By                   ? ir::Frame::Here
+                       : one.frame == Coordinate::Frame::Machine ? ir::Frame::Machine
+                                                                 : ir::Frame::Work;
+    if (one.frame == Coordinate::Frame::Work && one.system != nullptr) coordinate.system = value(*one.system);
+    // The lowest point of the probe; a distance is that of any point of it.
+    if (*axis == ir::Axis::Z && move.reach == Reach::To) out.point = ir::ProbePoint::Lowest;
+    out.axes[ir::indexOf(*axis)] = std::move(coordinate);
+  }
+  if (move.feed != nullptr) out.feed = value(*move.feed);
+  emit(std::move(out), range);
+}
+
+void Lowering::touch(const Touch& touch, SourceRange range) {
+  if (!touch.along.empty() && touch.reach == Reach::To) {
+    refuse<diag::TouchAlongTo>(range);
+    return;
+  }
+  if (touch.along.empty() && !linear(touch.axis)) {
+    refuse<diag::RotaryAxis>(range, std::string(1, axisLetter(touch.axis)));
+    return;
+  }
+  const bool plain =
+      touch.along.empty() && !touch.once && touch.overtravel == nullptr && touch.otherwise == nullptr;
+  if (plain) {
+    ir::Measure measure;
+    measure.axis = *linear(touch.axis);
+    measure.target = ir::Coordinate{value(*touch.value),
+                                    touch.reach == Reach::By ? ir::Frame::Here : ir::Frame::Work, nullptr};
+    emit(std::move(measure), range);
+  } else {
+    touchCall(touch, range);
+  }
+  if (touch.otherwise == nullptr) return readTouch(touch, range);
+  const ir::LabelId missed = label("not_found", range), end = label("found", range);
+  emit(ir::Branch{ir::compare(ir::Relation::NotEqual, ir::result(ir::ResultName::ProbeError, range),
+                              ir::constant(0), range),
+                  missed},
+       range);
+  readTouch(touch, range);
+  jump(end, range);
+  place(missed, range);
+  block(*touch.otherwise);
+  place(end, range);
+}
+
+// A touch that says how it searches.
+void Lowering::touchCall(const Touch& touch, SourceRange range) {
+  ir::CallCycle out;
+  const auto add = [&](std::string name, ir::ExpressionPtr given, ir::Kind kind,
+                       std::optional<ir::Frame> frame = std::nullopt) {
+    out.arguments.push_back({std::move(name), std::move(given), frame, kind, true});
+  };
+  if (touch.along.empty()) {
+    const ir::Axis axis = *linear(touch.axis);
+    out.cycle = std::string(ir::kSurface);
+    out.axis = axis;
+    add(std::string("target ") + "xyz"[ir::indexOf(axis)], value(*touch.value), ir::Kind::Length,
+        touch.reach == Reach::By ? ir::Frame::Here : ir::Frame::Work);
+    out.results = {kPositions[ir::indexOf(axis)], kErrors[ir::indexOf(axis)]};
+  } else {
+    out.cycle = std::string(ir::kSurfaceAlong);
+    for (const Coordinate& part : touch.along)
+      if (const auto axis = linear(part.axis))
+        add(std::string("direction ") + "xyz"[ir::indexOf(*axis)], value(*part.value), ir::Kind::Number);
+    add("travel", value(*touch.value), ir::Kind::Length);
+    out.results = {std::begin(kPositions), std::end(kPositions)};
+    out.results.push_back(ir::ResultName::Main);
+  }
+  if (touch.overtravel != nullptr) add("overtravel", value(*touch.overtravel), ir::Kind::Length);
+  if (touch.once) add("once", ir::constant(1, range), ir::Kind::Flag);
+  if (touch.otherwise != nullptr) {
+    add("miss", ir::constant(1, range), ir::Kind::Flag);
+    out.results.push_back(ir::ResultName::ProbeError);
+  }
+  emit(std::move(out), range);
+}
+
+void Lowering::readTouch(const Touch& touch, SourceRange range) {
+  if (!touch.name) return;
+  Meaning& meaning = scope_.names[touch.name->text];
+  const auto read = [&](const std::string& part, ir::ResultName result) {
+    Meaning& one = meaning.members[part];
+    if (!one.variable) {
+      one.kind = ir::Kind::Length;
+      one.variable = local(touch.name->text + "_" + part, ir::Kind::Length, touch.name->range);
+      one.value = ir::variable(*one.variable, touch.name->range);
+      touched_.insert(*one.variable);
+    }
+    emit(ir::Assign{*one.variable, ir::result(result, range)}, range);
+  };
+  if (touch.along.empty()) {
+    const std::size_t i = ir::indexOf(*linear(touch.axis));
+    read("at", kPositions[i]);
+    read("error", kErrors[i]);
+    return;
+  }
+  read("at_x", ir::ResultName::PositionX);
+  read("at_y", ir::ResultName::PositionY);
+  read("at_z", ir::ResultName::PositionZ);
+  read("error", ir::ResultName::Main);
+}
+
+void Lowering::setOffset(const SetOffset& set, SourceRange range) {
+  ir::CallCycle out = quiet(ir::kSetOffset);
+  out.setting.emplace();
+  out.setting->system = value(*set.system);
+  for (const Becomes& item : set.items) {
+    const auto axis = linear(item.axis);
+    if (!axis) {
+      refuse<diag::RotaryAxis>(range, std::string(1, axisLetter(item.axis)));
+      return;
+    }
+    const std::size_t i = ir::indexOf(*axis);
+    out.arguments.push_back(
+        {std::string("measured ") + "xyz"[i], value(*item.value), std::nullopt, ir::Kind::Length, false});
+    out.setting->axes[i] = true;
+    out.setting->nominal[i] = value(*item.coordinate);
+    scope_.shifted[i] = true;
+  }
+  emit(std::move(out), range);
+}
+
+void Lowering::choose(const If& choice, SourceRange range) {
+  const ir::LabelId end = label("end_if", range);
+  const Probe before = probe_;
+  std::optional<Probe> after; // on every path so far
+  const auto leave = [&](bool gone) {
+    if (!gone) after = !after || *after == probe_ ? probe_ : Probe::Either;
+    probe_ = before;
+  };
+  bool open = true; // a path leads to the part
+  for (const If::Part& part : choice.parts) {
+    comments(part.comments);
+    const auto known = decided(*part.condition);
+    if (!open || known == false) continue;
+    const ir::LabelId next = label("otherwise", range);
+    if (!known) branch(*part.condition, false, next);
+    block(part.body);
+    const bool gone = ended();
+    leave(gone);
+    if (known) {
+      open = false;
+      continue;
+    }
+    jump(end, range);
+    place(next, range);
+  }
+  comments(choice.elseComments);
+  if (open) {
+    if (choice.otherwise != nullptr) block(*choice.otherwise);
+    leave(ended());
+  }
+  probe_ = after.value_or(before);
+  place(end, range);
+}
+
+// A `set` in the body is before what the next run reads.
+void Lowering::loopBody(const Block& body) {
+  const Probe before = probe_;
+  const auto shifts = [&](const auto& self, const Block& list) -> void {
+    for (const Statement& one : list.statements) {
+      if (const auto* set = std::get_if<SetOffset>(&one.node))
+        for (const Becomes& item : set->items)
+          if (const auto axis = linear(item.axis)) scope_.shifted[ir::indexOf(*axis)] = true;
+      if (const auto* call = std::get_if<Call>(&one.node))
+        if (const File* called = find_(call->cycle.text)) self(self, called->body);
+      if (const auto* choice = std::get_if<If>(&one.node)) {
+        for (const If::Part& part : choice->parts)
+          self(self, part.body);
+        if (choice->otherwise != nullptr) self(self, *choice->otherwise);
+      }
+      if (const auto* touch = std::get_if<Touch>(&one.node); touch != nullptr && touch->otherwise != nullptr)
+        self(self, *touch->otherwise);
+      if (const auto* inner = std::get_if<Repeat>(&one.node)) self(self, inner->body);
+      if (const auto* inner = std::get_if<For>(&one.node)) self(self, inner->body);
+      if (const auto* inner = std::get_if<While>(&one.node)) self(self, inner->body);
+    }
+  };
+  shifts(shifts, body);
+  block(body);
+  if (probe_ != before) probe_ = Probe::Either;
+}
+
+void Lowering::repeat(const Repeat& repeat, SourceRange range) {
+  const ir::ExpressionPtr times = kept(value(*repeat.count), "times", ir::Kind::Number, range);
+  const ir::VariableId done = local("runs", ir::Kind::Number, range);
+  const ir::LabelId begin = label("loop", range), end = label("loop_end", range);
+  emit(ir::Assign{done, ir::constant(0)}, range);
+  place(begin, range);
+  emit(ir::Branch{ir::compare(ir::Relation::GreaterEqual, ir::variable(done), times, range), end}, range);
+  loopBody(repeat.body);
+  emit(ir::Assign{done, ir::binary(ir::BinaryOp::Add, ir::variable(done), ir::constant(1))}, range);
+  emit(ir::Jump{begin}, range);
+  place(end, range);
+}
+
+void Lowering::count(const For& loop, SourceRange range) {
+  const ir::Kind kind = kindOf(*loop.first);
+  const ir::ExpressionPtr first = value(*loop.first);
+  const ir::ExpressionPtr last = kept(value(*loop.last), "last", kind, range);
+  const ir::ExpressionPtr step =
+      loop.step == nullptr ? ir::constant(1) : kept(value(*loop.step), "step", kind, range);
+  const auto named = scope_.names.find(loop.name.text);
+  const ir::VariableId id = named != scope_.names.end() && named->second.variable
+                                ? *named->second.variable
+                                : local(loop.name.text, kind, loop.name.range);
+  Meaning meaning;
+  meaning.kind = kind;
+  meaning.variable = id;
+  meaning.value = ir::variable(id, loop.name.range);
+  scope_.names[loop.name.text] = meaning;
+  const ir::LabelId begin = label("loop", range), end = label("loop_end", range);
+  const auto beyond = [&](ir::Relation relation) {
+    emit(ir::Branch{ir::compare(relation, ir::variable(id), last, range), end}, range);
+  };
+  emit(ir::Assign{id, first}, range);
+  place(begin, range);
+  const double* known = ir::constantValue(step);
+  if (known != nullptr) {
+    beyond(*known < 0 ? ir::Relation::Less : ir::Relation::Greater);
+  } else {
+    const ir::LabelId falls = label("falls", range), inside = label("inside", range);
+    emit(ir::Branch{ir::compare(ir::Relation::Less, step, ir::constant(0), range), falls}, range);
+    beyond(ir::Relation::Greater);
+    emit(ir::Jump{inside}, range);
+    place(falls, range);
+    beyond(ir::Relation::Less);
+    place(inside, range);
+  }
+  loopBody(loop.body);
+  if (known != nullptr && *known == 0)
+    emit(ir::Jump{end}, range); // it would never end
+  else if (known == nullptr)
+    emit(ir::Branch{ir::compare(ir::Relation::Equal, step, ir::constant(0), range), end}, range);
+  emit(ir::Assign{id, ir::binary(ir::BinaryOp::Add, ir::variable(id), step)}, range);
+  emit(ir::Jump{begin}, range);
+  place(end, range);
+}
+
+void Lowering::loop(const While& loop, SourceRange range) {
+  const ir::ExpressionPtr most = kept(value(*loop.most), "most", ir::Kind::Number, range);
+  const ir::VariableId done = local("runs", ir::Kind::Number, range);
+  const ir::LabelId begin = label("loop", range), end = label("loop_end", range);
+  emit(ir::Assign{done, ir::constant(0)}, range);
+  place(begin, range);
+  branch(*loop.condition, false, end);
+  emit(ir::Branch{ir::compare(ir::Relation::GreaterEqual, ir::variable(done), most, range), end}, range);
+  loopBody(loop.body);
+  emit(ir::Assign{done, ir::binary(ir::BinaryOp::Add, ir::variable(done), ir::constant(1))}, range);
+  emit(ir::Jump{begin}, range);
+  place(end, range);
+}
+
+} // namespace dotek::frontend::cycle

@@ -1,0 +1,171 @@
+// One cycle as it becomes IR, with the cycles that it calls.
+#pragma once
+
+#include "frontend/cycle/Lower.h"
+
+#include "ir/Positions.h"
+
+#include <array>
+#include <map>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace dotek::frontend::cycle {
+
+ir::Kind kindOfType(TypeName type);
+
+// What a name stands for while a cycle is lowered.
+struct Meaning {
+  ir::ExpressionPtr value;                // that reading it gives; nullptr: of a touch or a call
+  std::optional<ir::VariableId> variable; // that an assignment writes
+  const std::vector<Name>* choices = nullptr;
+  ir::Kind kind = ir::Kind::Number;
+  std::optional<bool> given;                                // of an optional parameter, where it is certain
+  std::map<std::string, Meaning, std::less<>> members = {}; // of a touch or a call
+};
+
+// The names of one cycle: of the one that is lowered, or of one that is written in the place of its call.
+struct Scope {
+  std::string prefix; // of its variables: "hole_"; "" of the outermost
+  bool inlined = false;
+  bool keepsProbe = false; // the caller has switched the probe on, and switches it off
+  std::map<std::string, Meaning, std::less<>> names = {};
+  // Where a cycle began that was called, work coordinates; empty: nothing has asked.
+  std::array<std::optional<ir::VariableId>, 3> start = {};
+  std::size_t begin = 0;         // index in the body of its first statement, of one that was called
+  std::array<bool, 3> shifted{}; // a `set` since it began may have moved its coordinates
+};
+
+class Lowering {
+public:
+  Lowering(const File& file, const SourceMap& sources, const FindCycle& find, Diagnostics& diagnostics);
+  std::optional<Lowered> run();
+
+private:
+  enum class Probe : std::uint8_t { Off, On, Either };
+
+  template <class Id, class... Args> void refuse(SourceRange range, const Args&... args) {
+    failed_ = true;
+    diagnostics_.report<Id>(range, args...);
+  }
+  template <class Node> ir::CycleStatement& emit(Node node, SourceRange range, std::string reason = "") {
+    ir::CycleStatement& added = out_->emplace_back();
+    added.node = std::move(node);
+    added.origin.ranges = {range};
+    added.origin.reason = std::move(reason);
+    return added;
+  }
+  void place(ir::LabelId label, SourceRange range) { emit(ir::Label{label}, range); }
+  void jump(ir::LabelId label, SourceRange range);
+  ir::LabelId label(std::string_view name, SourceRange range);
+  ir::VariableId local(std::string_view name, ir::Kind kind, SourceRange range);
+  std::string text(SourceRange range) const { return sources_.textUtf8(range); }
+
+  // ---- LowerDeclarations.cpp
+  void declarations(const File& file);
+  void parameter(const Parameter& parameter, bool inlined, const Call* call);
+  void declareParameter(const Parameter& parameter, const Name& name);
+  void clauses(const Parameter& parameter);
+  void result(const Result& result);
+  // An alarm unless the condition holds.
+  void demand(const Expression& condition, const std::string& message, SourceRange range);
+  void bound(const Expression& condition);
+  static std::string alarmText(const std::string& name);
+
+  // ---- LowerExpression.cpp
+  // Statements that compute parts of the value are emitted first. `choices`: what it is one of, where the
+  // place says so.
+  ir::ExpressionPtr value(const Expression& expression, const std::vector<Name>* choices = nullptr);
+  ir::ExpressionPtr binary(const Expression& expression, const Binary& binary);
+  ir::ExpressionPtr function(const Expression& expression, const Function& function);
+  ir::ExpressionPtr name(const Expression& expression, const NameUse& use, const std::vector<Name>* choices);
+  ir::ExpressionPtr member(const Expression& expression, const Member& member);
+  ir::ExpressionPtr flag(const Expression& expression);
+  ir::ExpressionPtr least(const ir::ExpressionPtr& a, const ir::ExpressionPtr& b, bool greatest,
+                          SourceRange range);
+  ir::ExpressionPtr towards(const ir::ExpressionPtr& value, bool up, SourceRange range);
+  // The value in a variable, where it is more than a constant or a variable.
+  ir::ExpressionPtr kept(const ir::ExpressionPtr& value, std::string_view name, ir::Kind kind,
+                         SourceRange range);
+  const Meaning* meaningOf(const Expression& expression) const;
+  const std::vector<Name>* choicesOf(const Expression& expression) const;
+  ir::Kind kindOf(const Expression& expression) const;
+  bool isFlag(const Expression& expression) const;
+  // A condition that is written out.
+  bool isLogicValue(const Expression& expression) const;
+  // Jumps to `target` where the condition is `when`, else goes on.
+  void branch(const Expression& condition, bool when, ir::LabelId target);
+  ir::ConditionPtr condition(const Expression& expression);
+  // What the condition is whatever the values are.
+  std::optional<bool> decided(const Expression& condition) const;
+  // It is one condition of the IR: without statements before a part of it, or a part that guards another.
+  bool isSimple(const Expression& condition) const;
+
+  // ---- LowerStatement.cpp
+  void block(const Block& block);
+  void statement(const Statement& statement);
+  void comments(const std::vector<Comment>& list);
+  void move(const Move& move, SourceRange range);
+  void touch(const Touch& touch, SourceRange range);
+  void touchCall(const Touch& touch, SourceRange range);
+  void readTouch(const Touch& touch, SourceRange range);
+  // A cycle by its name that moves nothing.
+  ir::CallCycle quiet(std::string_view name) const;
+  void setOffset(const SetOffset& set, SourceRange range);
+  void leaveResults(SourceRange range);
+  void report(const Report& report, SourceRange range);
+  void assign(const Assign& assign, SourceRange range);
+  void probe(const ProbeSwitch& probe, SourceRange range);
+  void choose(const If& choice, SourceRange range);
+  void repeat(const Repeat& repeat, SourceRange range);
+  void count(const For& loop, SourceRange range);
+  void loop(const While& loop, SourceRange range);
+  void loopBody(const Block& body);
+  bool ended() const;
+
+  // ---- LowerCall.cpp
+  void call(const Call& call, SourceRange range);
+
+  // ---- LowerPlaces.cpp
+  // Where the probe is along the axis, as a value.
+  ir::ExpressionPtr here(ir::Axis axis, SourceRange range);
+  // Where the cycle of the scope began.
+  ir::ExpressionPtr start(ir::Axis axis, SourceRange range);
+  ir::ExpressionPtr host(std::string_view name, ir::Kind kind);
+  void moveToStart(const Move& move, SourceRange range);
+  // Puts in what was asked for above, when all moves are known.
+  void resolvePlaces();
+  void toStart(const ir::CycleStatement& marked, const ir::ExpressionPtr& height,
+               const std::array<bool, 3>& same);
+  ir::ExpressionPtr awayFrom(const ir::AxisPosition& at, ir::VariableId start) const;
+  struct Sign {
+    bool above = false, below = false; // certainly 0 or more, 0 or less
+  };
+  Sign signOf(const ir::ExpressionPtr& expression) const;
+  void dropUnread();
+
+  const File& file_;
+  const SourceMap& sources_;
+  const FindCycle& find_;
+  Diagnostics& diagnostics_;
+  ir::Cycle cycle_;
+  std::vector<ir::CycleStatement>* out_ = nullptr; // the checks or the body
+  Scope scope_;
+  Probe probe_ = Probe::Off;
+  bool failed_ = false;
+  std::set<std::string, std::less<>> taken_;  // names of variables
+  std::set<ir::VariableId> touched_;          // of touches: dropped where nothing reads them
+  std::map<ir::VariableId, ir::Axis> places_; // variables that get the place of the probe
+  std::map<ir::VariableId, Sign> signs_;      // of parameters, by their checks
+  std::map<std::string, ir::VariableId, std::less<>> hosts_;
+  std::map<ir::VariableId, ir::AxisPosition> began_; // where the called cycles began
+  std::map<ir::VariableId, char> letters_;
+  std::vector<std::pair<std::string, ir::VariableId>> results_;
+  std::uint32_t startMoves_ = 0;
+  std::size_t depth_ = 0; // of calls
+  static constexpr std::size_t kMostStatements = 20000, kMostCalls = 50;
+};
+
+} // namespace dotek::frontend::cycle

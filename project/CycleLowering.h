@@ -1,0 +1,18 @@
+// Files of the cycle language as IR.
+#pragma once
+
+#include "frontend/cycle/Lower.h"
+#include "project/Session.h"
+
+#include <optional>
+#include <string>
+
+namespace dotek::project {
+
+// A file of the cycle language. Nothing is reported; a folder, or what cannot be read, is none.
+bool isCycleFile(const std::string& path, Session& session);
+
+// The cycle of a file with those that it calls, which lie beside it. nullopt: it has a defect, reported.
+std::optional<frontend::cycle::Lowered> lowerCycleFile(const std::string& path, Session& session);
+
+} // namespace dotek::project
