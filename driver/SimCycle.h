@@ -6,6 +6,6 @@
 
 namespace dotek::driver {
 
-Outcome simCycle(const SimOptions& options, Session& session);
+Outcome simCycle(const SimOptions& options, project::Session& session);
 
 } // namespace dotek::driver

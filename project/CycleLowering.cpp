@@ -1,12 +1,13 @@
 #include "project/CycleLowering.h"
 
+#include "frontend/cycle/Check.h"
+#include "frontend/cycle/Link.h"
 #include "ir/Verify.h"
 #include "project/CycleFiles.h"
 #include "support/messages/Commands.h"
 
-#include <algorithm>
 #include <filesystem>
-#include <map>
+#include <set>
 #include <system_error>
 
 namespace dotek::project {
@@ -27,20 +28,18 @@ std::optional<cycle::Lowered> lowerCycleFile(const std::string& path, Session& s
   CycleFiles files(session);
   const cycle::File* file = files.check(path);
   if (file == nullptr || file->hasErrorNodes || diagnostics.hasErrors()) return std::nullopt;
-  const fs::path folder = isStream(path) ? fs::path(".") : fs::path(path).parent_path();
   // What is called has to be sound as well; it is checked once.
-  std::map<std::string, const cycle::File*> called;
-  const cycle::FindCycle find = [&](const std::string& name) {
-    const auto [at, isNew] = called.try_emplace(name, nullptr);
-    if (!isNew) return at->second;
-    std::string stem = name;
-    std::replace(stem.begin(), stem.end(), '_', '-');
-    const std::string beside = (folder / (stem + ".cycle")).generic_string();
-    std::error_code error;
-    if (fs::is_regular_file(beside, error)) at->second = files.check(beside);
-    return at->second;
+  std::set<const cycle::File*> seen = {file};
+  const auto checkCalled = [&](const auto& self, const cycle::File& one) -> void {
+    for (const cycle::Call* const call : cycle::callsOf(one.body)) {
+      if (call->called == nullptr || !seen.insert(call->called).second) continue;
+      cycle::check(*call->called, session.sources(), diagnostics);
+      self(self, *call->called);
+    }
   };
-  std::optional<cycle::Lowered> out = cycle::lower(*file, session.sources(), find, diagnostics);
+  checkCalled(checkCalled, *file);
+  if (diagnostics.hasErrors()) return std::nullopt;
+  std::optional<cycle::Lowered> out = cycle::lower(*file, session.sources(), diagnostics);
   if (!out || diagnostics.hasErrors()) return std::nullopt;
   for (const ir::Violation& violation : ir::verify(out->cycle))
     if (!violation.mixedKinds) // the checks of the language know the kinds better

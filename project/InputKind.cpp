@@ -198,7 +198,8 @@ Recognition recogniseText(View text, std::optional<InputKind> named, bool byName
   if (best) return {best, share(seen.of(*best), linesOf(*best))};
   if (seen.schema) return {std::nullopt, "settings in TOML"};
   if (named && *named != InputKind::Suf && seen.of(*named).lines == 0) return {named, "nothing but comments"};
-  if (!byName && named == InputKind::Nc && seen.prose * 4 > nc.lines) return {std::nullopt, std::string(kUnknown)};
+  if (!byName && named == InputKind::Nc && seen.prose * 4 > nc.lines)
+    return {std::nullopt, std::string(kUnknown)};
   if (named && seen.of(*named).share() >= 0.5) return {named, share(seen.of(*named), linesOf(*named))};
   if (named == InputKind::Nc && (nc.fits + nc.begins) * 4 >= nc.lines)
     return {named, "its name, and blocks with defects"};

@@ -13,7 +13,8 @@ namespace dotek::stdlib {
 namespace {
 
 // The outputs are the results of the IR, in the same order.
-#define DOTEK_OUTPUT(id, name) static_assert(static_cast<int>(Output::id) == static_cast<int>(ir::ResultName::id));
+#define DOTEK_OUTPUT(id, name)                                                                               \
+  static_assert(static_cast<int>(Output::id) == static_cast<int>(ir::ResultName::id));
 DOTEK_OUTPUTS(DOTEK_OUTPUT)
 #undef DOTEK_OUTPUT
 ir::ResultName resultOf(Output output) {

@@ -50,9 +50,8 @@ std::map<ir::VariableId, ir::VariableId> compact(ir::Cycle& cycle) {
 
 } // namespace
 
-Lowering::Lowering(const File& file, const SourceMap& sources, const FindCycle& find,
-                   Diagnostics& diagnostics)
-    : file_(file), sources_(sources), find_(find), diagnostics_(diagnostics) {}
+Lowering::Lowering(const File& file, const SourceMap& sources, Diagnostics& diagnostics)
+    : file_(file), sources_(sources), diagnostics_(diagnostics) {}
 
 ir::LabelId Lowering::label(std::string_view name, SourceRange range) {
   return cycle_.addLabel({std::string(name), range});
@@ -92,9 +91,8 @@ std::optional<Lowered> Lowering::run() {
   return out;
 }
 
-std::optional<Lowered> lower(const File& file, const SourceMap& sources, const FindCycle& find,
-                             Diagnostics& diagnostics) {
-  return Lowering(file, sources, find, diagnostics).run();
+std::optional<Lowered> lower(const File& file, const SourceMap& sources, Diagnostics& diagnostics) {
+  return Lowering(file, sources, diagnostics).run();
 }
 
 } // namespace dotek::frontend::cycle

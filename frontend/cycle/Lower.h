@@ -2,7 +2,7 @@
 #pragma once
 
 #include "frontend/cycle/Ast.h"
-#include "frontend/cycle/Check.h"
+#include "frontend/cycle/Link.h"
 #include "ir/Cycle.h"
 #include "support/Diagnostics.h"
 
@@ -16,13 +16,12 @@ struct Lowered {
   std::map<ir::VariableId, char> letters; // that the source wishes for arguments
 };
 
-// The cycle with the cycles that it calls written in the place of their calls. Only of a tree without error
-// nodes in which check() found no error. Lengths are mm, angles degrees, feeds mm/min; a flag is 0 or 1, a
-// choice the place of its name in the list, from 1. A parameter whose default is a constant has it as
+// The cycle with the cycles that it calls written in the place of their calls. Only of a linked tree without
+// error nodes in which check() found no error. Lengths are mm, angles degrees, feeds mm/min; a flag is 0 or
+// 1, a choice the place of its name in the list, from 1. A parameter whose default is a constant has it as
 // Variable::defaultValue; one whose default is computed is optional, and the checks compute it. What the
 // language has beside moves and touches are cycles by the names of ir/CycleNames.h. What the IR has no form
 // for is reported at its place; nullopt then.
-std::optional<Lowered> lower(const File& file, const SourceMap& sources, const FindCycle& find,
-                             Diagnostics& diagnostics);
+std::optional<Lowered> lower(const File& file, const SourceMap& sources, Diagnostics& diagnostics);
 
 } // namespace dotek::frontend::cycle

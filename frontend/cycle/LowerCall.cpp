@@ -35,7 +35,7 @@ bool needsProbe(const File& file) {
 } // namespace
 
 void Lowering::call(const Call& call, SourceRange range) {
-  const File* called = find_(call.cycle.text);
+  const File* called = call.called;
   if (called == nullptr || called->hasErrorNodes) {
     refuse<diag::UnknownCycle>(call.cycle.range, call.cycle.text);
     return;
@@ -58,13 +58,12 @@ void Lowering::call(const Call& call, SourceRange range) {
     if (const auto before = scope_.names.find(call.result->text); before != scope_.names.end())
       inner.names = before->second.members;
 
-  std::map<std::string, const Argument*, std::less<>> given;
-  for (const Argument& argument : call.arguments)
-    given.emplace(argument.name.text, &argument);
+  const std::vector<const Statement*> declared = cycle::declarations(*called);
   std::map<std::string, ir::ExpressionPtr, std::less<>> values;
+  std::map<std::string, std::optional<bool>, std::less<>> handed; // whether the caller has it himself
   const auto eachName = [&](const auto& visit) {
-    for (const Statement& one : called->body.statements)
-      if (const auto* parameter = std::get_if<Parameter>(&one.node))
+    for (const Statement* const one : declared)
+      if (const auto* parameter = std::get_if<Parameter>(&one->node))
         for (const Name& name : parameter->names)
           visit(*parameter, name);
   };
@@ -72,9 +71,11 @@ void Lowering::call(const Call& call, SourceRange range) {
     return type.name == TypeName::Choice ? &type.choices : nullptr;
   };
   // The arguments, as the caller reads them, in the order in which he writes them.
-  for (const Argument& argument : call.arguments)
+  const auto take = [&](const Argument& argument) {
     eachName([&](const Parameter& parameter, const Name& name) {
       if (name.text != argument.name.text) return;
+      const Meaning* const own = meaningOf(*argument.value);
+      handed[name.text] = own != nullptr && parameter.optional ? own->given : std::optional(true);
       const ir::ExpressionPtr read = value(*argument.value, choicesOfType(parameter.type));
       const auto* use = std::get_if<ir::VariableUse>(&read->node);
       // A parameter is never assigned, so it needs no copy.
@@ -83,19 +84,25 @@ void Lowering::call(const Call& call, SourceRange range) {
                                 : kept(read, inner.prefix.substr(scope_.prefix.size()) + name.text,
                                        kindOf(*argument.value), argument.name.range);
     });
+  };
+  for (const Argument& argument : call.arguments)
+    take(argument);
+  for (const Argument& argument : call.handedOn)
+    take(argument);
 
   inner.begin = out_->size();
   Scope outer = std::move(scope_);
   scope_ = std::move(inner);
   ++depth_;
-  for (const Statement& one : called->body.statements) {
+  for (const Statement* const statement : declared) {
+    const Statement& one = *statement;
     if (const auto* parameter = std::get_if<Parameter>(&one.node)) {
       for (const Name& name : parameter->names) {
         Meaning meaning;
         meaning.choices = choicesOfType(parameter->type);
         meaning.kind = kindOfType(parameter->type.name);
         const auto argument = values.find(name.text);
-        meaning.given = argument != values.end() || parameter->value != nullptr;
+        meaning.given = argument != values.end() ? handed[name.text] : parameter->value != nullptr;
         if (argument != values.end())
           meaning.value = argument->second;
         else if (parameter->value != nullptr)
@@ -122,8 +129,8 @@ void Lowering::call(const Call& call, SourceRange range) {
     scope_.shifted[i] = scope_.shifted[i] || inner.shifted[i];
   if (!call.result) return;
   Meaning& out = scope_.names[call.result->text];
-  for (const Statement& one : called->body.statements)
-    if (const auto* result = std::get_if<Result>(&one.node))
+  for (const Statement* const one : declared)
+    if (const auto* result = std::get_if<Result>(&one->node))
       for (const Name& name : result->names)
         out.members[name.text] = inner.names.at(name.text);
 }

@@ -56,7 +56,8 @@ std::string Lowering::alarmText(const std::string& name) {
 }
 
 void Lowering::declarations(const File& file) {
-  for (const Statement& statement : file.body.statements) {
+  for (const Statement* const declared : cycle::declarations(file)) {
+    const Statement& statement = *declared;
     if (const auto* one = std::get_if<Parameter>(&statement.node)) {
       for (const Name& name : one->names)
         declareParameter(*one, name);
@@ -65,8 +66,9 @@ void Lowering::declarations(const File& file) {
     if (const auto* one = std::get_if<Result>(&statement.node)) result(*one);
     if (const auto* one = std::get_if<Require>(&statement.node))
       demand(*one->condition, one->message ? one->message->text : "require not met", statement.range);
-    if (std::holds_alternative<Needs>(statement.node)) probe_ = Probe::On;
   }
+  for (const Statement& statement : file.body.statements)
+    if (std::holds_alternative<Needs>(statement.node)) probe_ = Probe::On;
 }
 
 void Lowering::declareParameter(const Parameter& parameter, const Name& name) {

@@ -58,7 +58,7 @@ void Lowering::statement(const Statement& s) {
   const SourceRange range = s.range;
   const bool declares = std::visit(
       ir::Overloaded{
-          [](const ir::OneOf<ErrorStatement, Header, Needs, Parameter, Result, Require> auto&) {
+          [](const ir::OneOf<ErrorStatement, Header, Use, Needs, Parameter, Result, Require> auto&) {
             return true;
           },
           [](const ir::OneOf<ProbeSwitch, SpindleOff, Coolant, Dwell, Stop, Alarm, Report, Move, Touch,
@@ -71,7 +71,7 @@ void Lowering::statement(const Statement& s) {
   if (s.after) comments({*s.after});
   std::visit(
       ir::Overloaded{
-          [](const ir::OneOf<ErrorStatement, Header, Needs, Parameter, Result, Require> auto&) {},
+          [](const ir::OneOf<ErrorStatement, Header, Use, Needs, Parameter, Result, Require> auto&) {},
           [&](const ProbeSwitch& one) { probe(one, range); },
           [&](const SpindleOff&) {
             emit(ir::Spindle{ir::Spindle::State::Off, nullptr}, range);
@@ -338,7 +338,7 @@ void Lowering::loopBody(const Block& body) {
         for (const Becomes& item : set->items)
           if (const auto axis = linear(item.axis)) scope_.shifted[ir::indexOf(*axis)] = true;
       if (const auto* call = std::get_if<Call>(&one.node))
-        if (const File* called = find_(call->cycle.text)) self(self, called->body);
+        if (call->called != nullptr) self(self, call->called->body);
       if (const auto* choice = std::get_if<If>(&one.node)) {
         for (const If::Part& part : choice->parts)
           self(self, part.body);

@@ -40,7 +40,7 @@ struct Scope {
 
 class Lowering {
 public:
-  Lowering(const File& file, const SourceMap& sources, const FindCycle& find, Diagnostics& diagnostics);
+  Lowering(const File& file, const SourceMap& sources, Diagnostics& diagnostics);
   std::optional<Lowered> run();
 
 private:
@@ -148,7 +148,6 @@ private:
 
   const File& file_;
   const SourceMap& sources_;
-  const FindCycle& find_;
   Diagnostics& diagnostics_;
   ir::Cycle cycle_;
   std::vector<ir::CycleStatement>* out_ = nullptr; // the checks or the body

@@ -66,7 +66,7 @@ void check(const Project& project, Report& report) {
   for (const NcFile& nc : project.programs)
     for (const macrob::Program& program : nc.file->programs)
       for (const macrob::Block& block : program.blocks)
-        if (const auto* words = std::get_if<macrob::Words>(&block.body)) 
+        if (const auto* words = std::get_if<macrob::Words>(&block.body))
           checkCall(*words, project, own, report);
 }
 

@@ -45,7 +45,8 @@ void noteOwnPrograms(const std::set<std::uint32_t>& called, const std::vector<co
   for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error)) {
     const std::string name = at->path().filename().string();
     const std::uint64_t number = project::numberOfName(name);
-    if (number > 0 && name != main.filename()) beside.emplace(number, (folder / name).lexically_normal().string());
+    if (number > 0 && name != main.filename())
+      beside.emplace(number, (folder / name).lexically_normal().string());
   }
   for (const std::uint32_t program : called) {
     const auto own = beside.find(program);

@@ -38,8 +38,8 @@ public:
 
   // nullptr: an error was reported.
   static std::unique_ptr<SimWorld> load(const SimOptions& options, Session& session);
-  // The same for a cycle, which runs on no control: as far as nothing says otherwise the probe is tool 1 and in
-  // the spindle. Without a machine's file its stylus is `stylus`, and it begins at X0 Y0 Z0 of G54.
+  // The same for a cycle, which runs on no control: as far as nothing says otherwise the probe is tool 1 and
+  // in the spindle. Without a machine's file its stylus is `stylus`, and it begins at X0 Y0 Z0 of G54.
   static std::unique_ptr<SimWorld> loadForCycle(const SimOptions& options, const Probe& stylus,
                                                 Session& session);
   // A part that no file gives.

@@ -41,10 +41,13 @@ struct Lowering {
       const auto found = files.find(name);
       return found == files.end() ? nullptr : found->second.get();
     };
-    const cycle::File file = read("main", main);
-    cycle::check(file, sources, find, diagnostics);
+    for (const auto& [name, one] : files)
+      cycle::link(*one, find);
+    cycle::File file = read("main", main);
+    cycle::link(file, find);
+    cycle::check(file, sources, diagnostics);
     REQUIRE_MESSAGE(!diagnostics.hasErrors(), renderText(diagnostics, sources, 0));
-    lowered = cycle::lower(file, sources, find, diagnostics);
+    lowered = cycle::lower(file, sources, diagnostics);
     if (!lowered) return;
     for (const ir::Violation& one : ir::verify(lowered->cycle))
       FAIL_CHECK(one.message);

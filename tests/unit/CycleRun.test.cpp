@@ -485,8 +485,8 @@ ir::CallCycle named(std::string_view name, std::vector<ir::CycleArgument> argume
 TEST_CASE("cycle run: set gives what was measured its coordinates in the system") {
   Bench bench;
   ir::CallCycle set = named(ir::kSetOffset, {given("measured x", 20), given("measured y", -3)});
-  set.setting = ir::CycleSetting{
-      ir::constant(55), {true, true, false}, {ir::constant(7), ir::constant(1), nullptr}};
+  set.setting =
+      ir::CycleSetting{ir::constant(55), {true, true, false}, {ir::constant(7), ir::constant(1), nullptr}};
   bench.add(std::move(set));
   const verify::Record record = bench.run();
   REQUIRE_MESSAGE(record.ending == verify::Ending::Finished, record.text);
@@ -521,7 +521,8 @@ TEST_CASE("cycle run: a tool offset gets its length, and the length in force sta
   near(record.end, record.start);
 }
 
-TEST_CASE("cycle run: a touch along a direction finds the point of the surface, whatever the direction's length") {
+TEST_CASE(
+    "cycle run: a touch along a direction finds the point of the surface, whatever the direction's length") {
   for (const double length : {1.0, 5.0}) {
     Bench bench;
     PartBuilder builder;
@@ -589,7 +590,8 @@ TEST_CASE("cycle run: a single touch is one contact of the probe, the usual one 
   for (const bool once : {true, false}) {
     Bench bench;
     bench.box({20, -20, -20}, {60, 20, 20});
-    ir::CallCycle touch = named(ir::kSurface, {given("target x", 20, Frame::Here), given("once", once ? 1 : 0)});
+    ir::CallCycle touch =
+        named(ir::kSurface, {given("target x", 20, Frame::Here), given("once", once ? 1 : 0)});
     touch.axis = Axis::X;
     bench.add(std::move(touch));
     sim::World world(*bench.part, bench.probe);
