@@ -66,6 +66,7 @@ public:
     machine.holdTool(machine.toolLengthOf(*world_->setup().tool));
     machine.startAt(world_->startOf(machine));
     takeProbe();
+    machine.setFeed(cycleInputs_.approachFeed);
     if (!options_.part && !noPart && !makePart(machine)) return outcomeOf(session_, "");
     return runIn(machine);
   }

@@ -1,8 +1,8 @@
 // `dotek sim NAME.cycle`.
 #pragma once
 
+#include "driver/Command.h"
 #include "driver/Driver.h"
-#include "project/Session.h"
 
 namespace dotek::driver {
 

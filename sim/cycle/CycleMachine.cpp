@@ -10,6 +10,11 @@ const stdlib::Control& cycleControl() {
     out.origin = "built in";
     out.locals = 0;
     out.common = {{100, 999, false}};
+    // Its work offsets have their names.
+    stdlib::CodeInfo system;
+    system.tenths = 540;
+    system.function = stdlib::Function::WorkSystem;
+    out.codes.push_back(system);
     out.variables.toolCount = 999;
     out.variables.extendedCount = 300;
     return out;

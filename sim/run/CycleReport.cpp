@@ -73,7 +73,7 @@ std::string cycleSummary(const ir::Cycle& cycle, const CycleRun& run, const Mach
   std::string parameters, results;
   const auto add = [](std::string& list, const std::string& name, const ir::Scalar& value) {
     list += fmt::format("{}{}: {}", list.empty() ? "" : ", ", jsonString(name),
-                        value.known() ? numberText(value.value) : "null");
+                        value.known() ? jsonNumber(value.value, 6) : "null");
   };
   for (ir::VariableId id = 0; id < cycle.variables.size(); ++id)
     if (cycle.variable(id).role == ir::Role::Parameter)
