@@ -249,7 +249,7 @@ private:
 Outcome sim(const SimOptions& options) {
   Outcome out = guarded(options.common, [&](Session& session) { return SimCommand(options, session).run(); });
   if (options.json && out.output.empty()) out.output = sim::notRunSummary(out.diagnostics, out.sources);
-  if ((options.svg || options.html) && out.files.empty()) out.diagnostics.report<diag::NoPicture>({});
+  if ((options.svg || options.html) && out.files.empty()) out.diagnostics.report<diag::PictureNotWritten>({});
   return out;
 }
 
