@@ -163,9 +163,9 @@ if abs(size - diameter) <= tolerance goto otherwise
 alarm "Diameter out of tolerance"
 label otherwise
 if "system" is null goto otherwise_2
-cycle set-offset: measured x = centre_x, measured y = centre_y, set system "system": x = at_x, y = at_y
+cycle "set-offset": measured x = centre_x, measured y = centre_y, set system "system": x = at_x, y = at_y
 label otherwise_2
-cycle results: size = size, centre_x = centre_x, centre_y = centre_y
+cycle "results": size = size, centre_x = centre_x, centre_y = centre_y
 )");
   const double radius = 3;
   CHECK(bore.passes({{"diameter", 30}, {"tool_radius", radius}}));
@@ -200,10 +200,10 @@ label at_start
 }
 
 TEST_CASE("cycle lowering: places as values") {
-  CHECK(Lowering("cycle c \"C\"\nmove by x 5 mm\nmove to y here.x - start.x\n").body() ==
+  CHECK(Lowering("cycle demo \"C\"\nmove by x 5 mm\nmove to y here.x - start.x\n").body() ==
         "move rapid x = here 5.\nset here_x = start_x + 5.\nmove rapid y = work here_x - start_x\n");
-  CHECK(refusal("cycle c \"C\"\nset G54: 0 mm becomes x 1 mm\nmove to y start.x\n") == "start-shifted");
-  CHECK(refusal("cycle c \"C\"\nset G54: 0 mm becomes x 1 mm\nmove to y here.x\n") == "place-unknown");
+  CHECK(refusal("cycle demo \"C\"\nset G54: 0 mm becomes x 1 mm\nmove to y start.x\n") == "start-shifted");
+  CHECK(refusal("cycle demo \"C\"\nset G54: 0 mm becomes x 1 mm\nmove to y here.x\n") == "place-unknown");
 }
 
 constexpr const char* kEdge = R"(cycle edge "Edge"
@@ -225,7 +225,7 @@ move to start
 TEST_CASE("cycle lowering: a called cycle is written in the place of its call") {
   const Texts others = {{"edge", kEdge}};
   // The caller has switched the probe on: the called cycle leaves it. Nothing gives `limit`.
-  CHECK(Lowering(R"(cycle c "C"
+  CHECK(Lowering(R"(cycle demo "C"
 parameter d : length "D" require d > 0 mm
 result found : length "At"
 probe on
@@ -247,10 +247,10 @@ move rapid x = here -first_back
 move rapid x = work first_start_x
 probe off
 set found = first_position
-cycle results: found = found
+cycle "results": found = found
 )");
   const std::string alone =
-      Lowering("cycle c \"C\"\ncall edge distance = 5 mm, limit = 1 mm\n", others).body();
+      Lowering("cycle demo \"C\"\ncall edge distance = 5 mm, limit = 1 mm\n", others).body();
   CHECK(alone.find("probe on\n") != std::string::npos);
   CHECK(alone.find("probe off\n") != std::string::npos);
   CHECK(alone.find("if abs(edge_surface_error) <= 1. goto") != std::string::npos);
@@ -258,32 +258,32 @@ cycle results: found = found
 
 TEST_CASE("cycle lowering: values that need steps") {
   const auto holds = [](const std::string& condition, double a) {
-    return Lowering("cycle c \"C\"\nparameter a : ratio \"A\"\nparameter b : ratio optional \"B\"\n"
+    return Lowering("cycle demo \"C\"\nparameter p : ratio \"A\"\nparameter q : ratio optional \"B\"\n"
                     "parameter side : choice of near, far = far \"Side\"\nparameter ask : flag = no \"Ask\"\n"
                     "require " +
                     condition + "\nstop \"b\"\n")
-        .passes({{"a", a}});
+        .passes({{"p", a}});
   };
   for (const auto& [a, down, up] : {std::tuple(-1.5, -2, -1), std::tuple(1.5, 1, 2), std::tuple(-2.0, -2, -2),
                                     std::tuple(0.0, 0, 0), std::tuple(3.0, 3, 3)}) {
-    CHECK(holds("down(a) is " + std::to_string(down), a));
-    CHECK(!holds("down(a) is " + std::to_string(down + 1), a));
-    CHECK(holds("up(a) is " + std::to_string(up), a));
+    CHECK(holds("down(p) is " + std::to_string(down), a));
+    CHECK(!holds("down(p) is " + std::to_string(down + 1), a));
+    CHECK(holds("up(p) is " + std::to_string(up), a));
   }
-  CHECK(holds("min(a, 2) is 1 and max(a, 2) is 2", 1));
-  CHECK(holds("min(a, 2) is 2 and max(a, 2) is 3", 3));
-  CHECK(holds("square(a) is 9", 3));
-  CHECK(holds("atan(a, 0) is 90 deg", 2));
+  CHECK(holds("min(p, 2) is 1 and max(p, 2) is 2", 1));
+  CHECK(holds("min(p, 2) is 2 and max(p, 2) is 3", 3));
+  CHECK(holds("square(p) is 9", 3));
+  CHECK(holds("atan(p, 0) is 90 deg", 2));
   CHECK(holds("side is far and not ask", 0));
   CHECK(!holds("side is near or ask", 0));
-  // `b` is read only where it is given.
-  CHECK(holds("not given b or b > a", 1));
-  CHECK(!holds("given b and b > a", 1));
-  CHECK(holds("not (given b and b > a) and a is 1", 1));
+  // `q` is read only where it is given.
+  CHECK(holds("not given q or q > p", 1));
+  CHECK(!holds("given q and q > p", 1));
+  CHECK(holds("not (given q and q > p) and p is 1", 1));
 }
 
 TEST_CASE("cycle lowering: what is not among the choices is an alarm") {
-  const Lowering c("cycle c \"C\"\nparameter side : choice of near, far \"Side\"\n"
+  const Lowering c("cycle demo \"C\"\nparameter side : choice of near, far \"Side\"\n"
                    "parameter ask : flag = yes \"Ask\"\nparameter d : length \"D\" range 1 mm to 2 mm\n"
                    "if side is far or ask then\n  stop \"b\"\nend\nmove by x d\n");
   CHECK(c.passes({{"side", 1}, {"d", 1}}));
@@ -295,9 +295,9 @@ TEST_CASE("cycle lowering: what is not among the choices is an alarm") {
 }
 
 TEST_CASE("cycle lowering: loops") {
-  CHECK(
-      Lowering("cycle c \"C\"\nparameter n : count \"N\"\nrepeat n times\n  move by x 1 mm\nend\n").body() ==
-      R"(set times = n
+  CHECK(Lowering("cycle demo \"C\"\nparameter n : count \"N\"\nrepeat n times\n  move by x 1 mm\nend\n")
+            .body() ==
+        R"(set times = n
 set runs = {0}
 label loop
 if runs >= times goto loop_end
@@ -306,7 +306,7 @@ set runs = runs + {1}
 goto loop
 label loop_end
 )");
-  CHECK(Lowering("cycle c \"C\"\nfor i = 6 mm to 2 mm step -2 mm\n  move to x i\nend\n").body() ==
+  CHECK(Lowering("cycle demo \"C\"\nfor i = 6 mm to 2 mm step -2 mm\n  move to x i\nend\n").body() ==
         R"(set i = 6.
 label loop
 if i < 2. goto loop_end
@@ -318,7 +318,7 @@ label loop_end
 }
 
 TEST_CASE("cycle lowering: touches that say how they search") {
-  const std::string text = Lowering(R"(cycle c "C"
+  const std::string text = Lowering(R"(cycle demo "C"
 result z_at : length "Z"
 probe on
 touch once z to -5 mm overtravel 3 mm -> top else
@@ -329,15 +329,15 @@ probe off
 z_at = p.at_x + p.error
 )")
                                .body();
-  CHECK(text.find("cycle surface z: target z = work -5., overtravel = 3., once = {1}, miss = {1}\n"
+  CHECK(text.find("cycle \"surface\" z: target z = work -5., overtravel = 3., once = {1}, miss = {1}\n"
                   "if result probe-error <> {0} goto not_found\n") != std::string::npos);
-  CHECK(text.find("cycle surface-along: direction x = 1., direction y = 1., travel = 20.\n"
+  CHECK(text.find("cycle \"surface-along\": direction x = 1., direction y = 1., travel = 20.\n"
                   "set p_at_x = result x\nset p_error = result main\n") != std::string::npos);
   CHECK(text.find("p_at_y") == std::string::npos); // nothing reads it
 }
 
 TEST_CASE("cycle lowering: what has no form yet is refused where it is written") {
-  const std::string head = "cycle c \"C\"\n";
+  const std::string head = "cycle demo \"C\"\n";
   CHECK(refusal(head + "parameter t : text \"T\"\nrequire t is \"a\"\nstop \"b\"\n") == "text-parameter");
   CHECK(refusal(head + "set G54.1 P7: 0 mm becomes x 1 mm\n") == "offset-extended");
   CHECK(refusal(head + "move to a 30 deg\n") == "rotary-axis");
