@@ -3,7 +3,7 @@
 lexer grammar CycleLexer;
 
 tokens {
-  // Words of the language, by a table (frontend/cycle/Words.cpp). Those of the second list are words only where
+  // Words of the language, by a table (frontend/cycle/Tokens.cpp). Those of the second list are words only where
   // an operand cannot begin, and names elsewhere
   KW_CYCLE, KW_OPTIONS, KW_USE, KW_NEEDS, KW_PARAMETER, KW_RESULT, KW_OPTIONAL, KW_REQUIRE, KW_CHOICE, KW_OF, KW_PROBE, KW_SPINDLE,
   KW_COOLANT, KW_ON, KW_OFF, KW_DWELL, KW_STOP, KW_ALARM, KW_REPORT, KW_MOVE, KW_RAPID, KW_FEED, KW_PROTECTED,

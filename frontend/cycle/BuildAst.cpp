@@ -28,7 +28,7 @@ void Builder::comments(const TokenBuffer& tokens) {
     if (token->getType() != Parser::COMMENT) continue;
     Comment comment;
     comment.range = rangeOf(*token);
-    comment.text = sources_.text({file_.file, comment.range.begin + 2, comment.range.end});
+    comment.text = sources_.textUtf8({file_.file, comment.range.begin + 2, comment.range.end});
     while (!comment.text.empty() && (comment.text.back() == ' ' || comment.text.back() == '\t'))
       comment.text.pop_back();
     comment.blankBefore = blankAbove(comment.range.begin);
@@ -83,7 +83,7 @@ void Builder::open(Statement statement, SourceRange word, std::string name) {
     statements().push_back(std::move(statement));
     return;
   }
-  open_.push_back({std::move(statement), word, std::move(name), false});
+  open_.push_back({std::move(statement), word, std::move(name)});
 }
 
 void Builder::close(SourceRange range, bool written) {
@@ -103,12 +103,49 @@ void Builder::close(SourceRange range, bool written) {
   statements().push_back(std::move(done.statement));
 }
 
+// A line that could not be read. One that was to open a block opens it all the same, so that its `end` and
+// `else` are where they belong.
+void Builder::lost(SourceRange range) {
+  std::string_view text = sources_.text(range);
+  const auto word = [&] {
+    text.remove_prefix(std::min(text.find_first_not_of(" \t"), text.size()));
+    const std::string_view found = text.substr(0, text.find_first_of(" \t\r\n=(\""));
+    text.remove_prefix(found.size());
+    return std::string(found);
+  };
+  const auto missing = [&] {
+    auto out = std::make_unique<Expression>();
+    out->range = range;
+    return out;
+  };
+  Statement out;
+  out.range = range;
+  const std::string first = lowerCase(word());
+  if (first == "if") {
+    If choice;
+    choice.parts.push_back({missing(), {}, {}});
+    out.node = std::move(choice);
+  } else if (first == "repeat") {
+    out.node = Repeat{missing(), {}};
+  } else if (first == "while") {
+    out.node = While{missing(), missing(), {}};
+  } else if (first == "for") {
+    For loop;
+    loop.name = {range, word()};
+    loop.first = missing();
+    loop.last = missing();
+    out.node = std::move(loop);
+  } else {
+    add(std::move(out));
+    return;
+  }
+  open(std::move(out), range, first);
+}
+
 void Builder::line(const ParseSession::Unit& unit) {
   if (unit.failed || unit.tree == nullptr) {
     file_.hasErrorNodes = true;
-    Statement lost;
-    lost.range = unit.range;
-    add(std::move(lost));
+    lost(unit.range);
     return;
   }
   auto* line = dynamic_cast<Parser::LineContext*>(unit.tree);
@@ -142,6 +179,10 @@ File parse(FileId file, const SourceMap& sources, const Limits& limits, Diagnost
   builder.comments(tokens);
   while (!session.atEnd())
     builder.line(session.run([&] { return parser.line(); }));
+  for (const std::size_t at : reader.tooLong()) {
+    const auto place = static_cast<std::uint32_t>(at);
+    diagnostics.report<diag::StatementTooLong>({file, place, place}, kStatementTokens);
+  }
   for (const auto& [first, last] : reader.capitals()) {
     const SourceRange range{file, static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(last) + 1};
     std::string small = lowerCase(sources.text(range));

@@ -33,7 +33,6 @@ private:
     Statement statement;
     SourceRange word; // that opened it
     std::string end;  // how it begins, for messages: "if"
-    bool inElse = false;
   };
 
   SourceRange rangeOf(const antlr4::Token& token) const { return frontend::rangeOf(file_.file, token); }
@@ -50,6 +49,7 @@ private:
   void add(Statement statement);
   void open(Statement statement, SourceRange word, std::string name);
   void close(SourceRange range, bool written);
+  void lost(SourceRange range);
 
   template <class Id, class... Args> Diagnostic& error(SourceRange range, const Args&... args) {
     file_.hasErrorNodes = true;
@@ -94,7 +94,6 @@ private:
   std::vector<Open> open_;
   std::vector<Comment> comments_; // in source order
   std::size_t nextComment_ = 0;
-  std::uint32_t lastLine_ = 0; // of the statement that was added last
 };
 
 } // namespace dotek::frontend::cycle

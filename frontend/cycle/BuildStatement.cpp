@@ -3,8 +3,6 @@
 #include "support/NearestName.h"
 #include "support/messages/Cycle.h"
 
-#include <array>
-
 namespace dotek::frontend::cycle {
 
 // ---- pieces ----------------------------------------------------------------------------------------------
@@ -34,7 +32,7 @@ Text Builder::text(Parser::TextContext& context) {
   out.range = rangeOf(context);
   const bool closed = context.TEXT() != nullptr;
   if (!closed) error<diag::TextNotClosed>(out.range);
-  out.text = sources_.text({file_.file, out.range.begin + 1, out.range.end - (closed ? 1U : 0U)});
+  out.text = sources_.textUtf8({file_.file, out.range.begin + 1, out.range.end - (closed ? 1U : 0U)});
   return out;
 }
 
@@ -65,9 +63,6 @@ Type Builder::type(Parser::TypeContext& context) {
     out.name = *known;
     return out;
   }
-  static constexpr std::array<std::string_view, 11> kTypes = {"length", "angle",       "feed",       "time",
-                                                              "count",  "ratio",       "flag",       "text",
-                                                              "choice", "work_offset", "tool_offset"};
   const std::optional<Unit> unit = unitOf(word);
   const bool isLength = unit == Unit::Millimetre || unit == Unit::Inch;
   const std::string near = isLength               ? "length"
@@ -78,7 +73,7 @@ Type Builder::type(Parser::TypeContext& context) {
                            : word == "distance"   ? "length"
                            : word == "bool"       ? "flag"
                            : word == "string"     ? "text"
-                                                  : nearestName(word, kTypes);
+                                                  : nearestName(word, typeWords());
   error<diag::UnknownType>(out.range, word, near.empty() ? "" : " (did you mean `" + near + "`?)");
   return out;
 }

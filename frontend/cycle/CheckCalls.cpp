@@ -17,6 +17,11 @@ bool usesOptions(const File& file, const std::string& name) {
   });
 }
 
+bool needsProbe(const File& file) {
+  return std::any_of(file.body.statements.begin(), file.body.statements.end(),
+                     [](const Statement& one) { return std::holds_alternative<Needs>(one.node); });
+}
+
 } // namespace
 
 // A cycle that comes back to this one.
@@ -49,6 +54,11 @@ void Checker::call(const Call& call, Known& known) {
     diagnostics_.report<diag::UnknownCycle>(call.cycle.range, call.cycle.text);
   else if (header != nullptr && header->options)
     diagnostics_.report<diag::CallOfOptions>(call.cycle.range, call.cycle.text);
+  if (called != nullptr && needsProbe(*called) && known.probe != ProbeState::On && !known.ended)
+    diagnostics_.report<diag::TouchWithProbeOff>(call.cycle.range, "calls a cycle that touches",
+                                                 known.probe == ProbeState::Off ? "" : " on some paths");
+  // What is broken may be the declaration that is missing.
+  if (called != nullptr && called->hasErrorNodes) called = nullptr;
   std::map<std::string, const Parameter*> parameters;
   if (called != nullptr)
     for (const Statement* statement : declarations(*called))
@@ -69,7 +79,7 @@ void Checker::call(const Call& call, Known& known) {
       diagnostics_.report<diag::UnknownArgument>(one.name.range, call.cycle.text, one.name.text,
                                                  near.empty() ? "" : "; did you mean `" + near + "`?");
     }
-    if (called != nullptr || !self) quantity(*one.value, known);
+    if (!self) quantity(*one.value, known);
   }
   for (const Name& options : call.uses)
     if (!usesOptions(file_, options.text) || (called != nullptr && !usesOptions(*called, options.text)))

@@ -85,6 +85,7 @@ void Checker::parameter(const Parameter& parameter) {
   }
   declareNames(parameter);
   clauses(parameter);
+  constants(parameter);
 }
 
 void Checker::declareNames(const Parameter& parameter) {

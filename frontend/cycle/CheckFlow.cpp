@@ -4,7 +4,9 @@
 #include "support/messages/Cycle.h"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
+#include <optional>
 
 namespace dotek::frontend::cycle {
 
@@ -24,12 +26,85 @@ Names common(const Names& a, const Names& b) {
   return out;
 }
 
-const Number* constant(const Expression& expression) {
-  if (const auto* bracketed = std::get_if<Bracketed>(&expression.node)) return constant(*bracketed->inner);
-  return std::get_if<Number>(&expression.node);
+// A written number in mm, degrees, mm/min or seconds; nullopt: the value is computed, or missing.
+std::optional<double> constant(const ExpressionPtr& expression) {
+  if (expression == nullptr) return std::nullopt;
+  if (const auto* bracketed = std::get_if<Bracketed>(&expression->node)) return constant(bracketed->inner);
+  if (const auto* unary = std::get_if<Unary>(&expression->node); unary != nullptr) {
+    const std::optional<double> value = constant(unary->operand);
+    return value && unary->op == UnaryOp::Negate ? std::optional(-*value) : std::nullopt;
+  }
+  const auto* number = std::get_if<Number>(&expression->node);
+  if (number == nullptr) return std::nullopt;
+  const bool inch = number->unit == Unit::Inch || number->unit == Unit::InchPerMinute;
+  return inch ? number->value * 25.4 : number->value;
+}
+
+bool isWhole(double value) {
+  return std::floor(value) == value;
+}
+
+using MaybeProbe = std::optional<ProbeState>; // nullopt: no path gets there
+
+MaybeProbe joinedProbe(MaybeProbe a, MaybeProbe b) {
+  if (!a || !b) return a ? a : b;
+  return *a == *b ? a : ProbeState::Either;
+}
+
+MaybeProbe probeAfter(const Block& block, ProbeState before);
+
+MaybeProbe probeAfter(const Statement& statement, ProbeState before) {
+  const auto loop = [&](const Block& body) { return joinedProbe(before, probeAfter(body, before)); };
+  if (const auto* probe = std::get_if<ProbeSwitch>(&statement.node))
+    return probe->on ? ProbeState::On : ProbeState::Off;
+  if (std::holds_alternative<Alarm>(statement.node)) return std::nullopt;
+  if (const auto* repeat = std::get_if<Repeat>(&statement.node)) return loop(repeat->body);
+  if (const auto* counted = std::get_if<For>(&statement.node)) return loop(counted->body);
+  if (const auto* asked = std::get_if<While>(&statement.node)) return loop(asked->body);
+  if (const auto* touch = std::get_if<Touch>(&statement.node);
+      touch != nullptr && touch->otherwise != nullptr)
+    return loop(*touch->otherwise);
+  const auto* choice = std::get_if<If>(&statement.node);
+  if (choice == nullptr) return before;
+  MaybeProbe after = choice->otherwise == nullptr ? before : probeAfter(*choice->otherwise, before);
+  for (const If::Part& part : choice->parts)
+    after = joinedProbe(after, probeAfter(part.body, before));
+  return after;
+}
+
+// What is known of the probe after a block. Nothing is reported.
+MaybeProbe probeAfter(const Block& block, ProbeState before) {
+  MaybeProbe state = before;
+  for (const Statement& statement : block.statements)
+    if (state) state = probeAfter(statement, *state);
+  return state;
 }
 
 } // namespace
+
+void Checker::wantConstant(const ExpressionPtr& expression, bool (*takes)(double), std::string_view what,
+                           std::string_view wanted) {
+  const std::optional<double> value = constant(expression);
+  if (value && !takes(*value))
+    diagnostics_.report<diag::ConstantOutside>(expression->range, what, wanted, text(expression->range));
+}
+
+void Checker::wantCount(const ExpressionPtr& expression, std::string_view what) {
+  wantConstant(
+      expression, [](double value) { return value >= 1 && isWhole(value); }, what, "a whole number from 1");
+}
+
+void Checker::constants(const Parameter& parameter) {
+  if (parameter.type.name == TypeName::Count)
+    wantConstant(parameter.value, isWhole, "a count", "a whole number");
+  for (const Clause& clause : parameter.clauses) {
+    if (clause.kind != Clause::Kind::Range) continue;
+    const std::optional<double> least = constant(clause.first), largest = constant(clause.second);
+    if (least && largest && *least > *largest)
+      diagnostics_.report<diag::ConstantOutside>(clause.range, "`range`",
+                                                 "the least value and then the largest", text(clause.range));
+  }
+}
 
 Known joined(const Known& a, const Known& b) {
   if (a.ended) return b;
@@ -56,6 +131,7 @@ void Checker::gives(const Name& name, Symbol symbol, Known& known) {
   if (!isNew) {
     old.direction = old.direction || symbol.direction;
     old.cycle = symbol.cycle;
+    if (symbol.role == Symbol::Role::Counter) old.quantity = symbol.quantity;
   }
   known.set.insert(name.text);
 }
@@ -99,7 +175,7 @@ void Checker::assign(const Assign& assign, Known& known) {
   }
   if (!found.fits(symbol.quantity)) {
     if (std::get_if<Number>(&assign.value->node) != nullptr && !unitFor(symbol.quantity).empty())
-      want(*assign.value, symbol.quantity, "", known);
+      want(*assign.value, symbol.quantity, "`" + assign.name.text + "`", known);
     else
       diagnostics_.report<diag::WrongValue>(assign.value->range, "`" + assign.name.text + "`",
                                             quantityText(symbol.quantity), text(assign.value->range),
@@ -123,9 +199,15 @@ void Checker::touch(const Touch& touch, const Statement& statement, Known& known
   }
   want(*touch.value, plain(Base::Length), touch.reach == Reach::By ? "the distance" : "the coordinate",
        known);
-  const Number* distance = constant(*touch.value);
-  if (touch.reach == Reach::By && distance != nullptr && distance->value == 0)
+  if (touch.reach == Reach::By && constant(touch.value) == 0.0)
     diagnostics_.report<diag::TouchWithoutDirection>(touch.value->range);
+  const auto isZero = [](const Coordinate& part) { return constant(part.value) == 0.0; };
+  if (!touch.along.empty() && std::all_of(touch.along.begin(), touch.along.end(), isZero)) {
+    const SourceRange all{touch.along.front().range.file, touch.along.front().range.begin,
+                          touch.along.back().range.end};
+    diagnostics_.report<diag::ConstantOutside>(all, "`along`", "a direction with a part that is not 0",
+                                               text(all));
+  }
   if (touch.overtravel != nullptr) want(*touch.overtravel, plain(Base::Length), "the overtravel", known);
   if (touch.otherwise != nullptr) {
     Known missed = known;
@@ -167,14 +249,10 @@ void Checker::move(const Move& move, const Statement& statement, Known& known) {
 void Checker::loopBody(const Block& body, Known& known, bool runsOnce) {
   const Known before = known;
   Known within = before;
-  block(body, within);
   // What the body leaves is what its next run begins with.
-  const ProbeState again = within.ended ? before.probe : within.probe;
-  if (again != before.probe) {
-    within = before;
-    within.probe = ProbeState::Either;
-    block(body, within);
-  }
+  const std::optional<ProbeState> again = probeAfter(body, before.probe);
+  if (again && *again != before.probe) within.probe = ProbeState::Either;
+  block(body, within);
   if (runsOnce)
     known = within.ended ? within : Known{within.set, within.given, within.probe, false};
   else
@@ -182,26 +260,35 @@ void Checker::loopBody(const Block& body, Known& known, bool runsOnce) {
 }
 
 void Checker::block(const Block& all, Known& known) {
+  ++depth_;
   for (const Statement& one : all.statements) {
     if (known.ended) {
       diagnostics_.report<diag::NeverReached>(one.range);
-      return;
+      break;
     }
     statement(one, known);
   }
+  --depth_;
 }
 
 void Checker::statement(const Statement& s, Known& known) {
   std::visit(
       ir::Overloaded{
-          [](const ErrorStatement&) {},
-          [](const ir::OneOf<Header, Use, Needs, Parameter, Result, Require, SpindleOff, Coolant,
-                             Stop> auto&) {},
+          [](const ErrorStatement&) {}, [](const ir::OneOf<Header, SpindleOff, Coolant, Stop> auto&) {},
+          [&](const ir::OneOf<Use, Needs, Parameter, Result, Require> auto&) {
+            // Those of the file itself are taken before.
+            if (depth_ > 1) diagnostics_.report<diag::LateDeclaration>(s.range);
+          },
           [&](const ProbeSwitch& probe) {
             if (needsProbe_) diagnostics_.report<diag::ProbeOfCaller>(s.range);
             known.probe = probe.on ? ProbeState::On : ProbeState::Off;
           },
-          [&](const Dwell& dwell) { want(*dwell.time, plain(Base::Time), "`dwell`", known); },
+          [&](const Dwell& dwell) {
+            want(*dwell.time, plain(Base::Time), "`dwell`", known);
+            wantConstant(
+                dwell.time, [](double value) { return value >= 0; }, "`dwell`",
+                "a time that is not negative");
+          },
           [&](const Alarm&) { known.ended = true; },
           [&](const Report& report) {
             const Quantity measured = quantity(*report.measured, known);
@@ -252,27 +339,28 @@ void Checker::statement(const Statement& s, Known& known) {
           },
           [&](const Repeat& repeat) {
             want(*repeat.count, plain(Base::Number), "`repeat`", known);
-            const Number* count = constant(*repeat.count);
-            loopBody(repeat.body, known, count != nullptr && count->value >= 1);
+            wantCount(repeat.count, "`repeat`");
+            loopBody(repeat.body, known, constant(repeat.count) >= 1.0);
           },
           [&](const For& loop) {
             const Quantity first = quantity(*loop.first, known);
             want(*loop.last, first, "the last value", known);
             if (loop.step != nullptr) want(*loop.step, first, "`step`", known);
+            wantConstant(
+                loop.step, [](double value) { return value != 0; }, "`step`", "a step that is not 0");
             Symbol counter;
             counter.role = Symbol::Role::Counter;
             counter.quantity = first.base == Base::Zero ? quantity(*loop.last, known) : first;
             counter.read = true;
             gives(loop.name, counter, known);
-            const Number* from = constant(*loop.first);
-            const Number* to = constant(*loop.last);
-            loopBody(loop.body, known,
-                     from != nullptr && to != nullptr && from->value <= to->value && loop.step == nullptr);
+            const std::optional<double> from = constant(loop.first), to = constant(loop.last);
+            loopBody(loop.body, known, from && to && *from <= *to && loop.step == nullptr);
             known.set.erase(loop.name.text);
           },
           [&](const While& loop) {
             wantFlag(*loop.condition, "`while`", known);
             want(*loop.most, plain(Base::Number), "`at most`", known);
+            wantCount(loop.most, "`at most`");
             Known within = known;
             addGiven(*loop.condition, true, within);
             loopBody(loop.body, within, false);

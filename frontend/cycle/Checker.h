@@ -43,6 +43,11 @@ private:
   // ---- CheckFlow.cpp
   void block(const Block& block, Known& known);
   void statement(const Statement& statement, Known& known);
+  // Reports a written number that is none of those that are taken there.
+  void wantConstant(const ExpressionPtr& expression, bool (*takes)(double), std::string_view what,
+                    std::string_view wanted);
+  void wantCount(const ExpressionPtr& expression, std::string_view what);
+  void constants(const Parameter& parameter);
   void loopBody(const Block& body, Known& known, bool runsOnce);
   void touch(const Touch& touch, const Statement& statement, Known& known);
   void move(const Move& move, const Statement& statement, Known& known);
@@ -85,7 +90,7 @@ private:
   SourceRange used_;
   bool options_ = false; // a file of options
   bool needsProbe_ = false;
-  bool declarations_ = false; // in a default or a condition of a declaration: no results, no touches
+  int depth_ = 0; // of blocks: 1 in the file itself
 };
 
 } // namespace dotek::frontend::cycle

@@ -190,7 +190,6 @@ std::string explain(const antlr4::Token& offending, const antlr4::Parser& parser
     return fmt::format("a text is in `\"`{}", write);
   if (type == Lexer::ODD_NAME)
     return fmt::format("names are written small, with `_` between words: `{}`", proposeName(text));
-  if (isReserved(text)) return fmt::format("`{}` does not fit here{}", text, write);
   return fmt::format("`{}` does not fit here{}", text, write);
 }
 
@@ -258,7 +257,9 @@ std::unique_ptr<antlr4::Token> TokenReader::nextToken() {
     queue_.pop_front();
   } else {
     next = read();
-    if (next->getType() == NEWLINE && goesOn()) {
+    const bool tooLong = next->getType() == NEWLINE && goesOn() && tokens_ > kStatementTokens;
+    if (tooLong) tooLong_.push_back(next->getStartIndex());
+    if (next->getType() == NEWLINE && goesOn() && !tooLong) {
       // What the next line begins with decides.
       const size_t before = previous_;
       previous_ = NEWLINE;
@@ -294,6 +295,7 @@ std::unique_ptr<antlr4::Token> TokenReader::nextToken() {
   if (kind == LPAREN) ++depth_;
   if (kind == RPAREN && depth_ > 0) --depth_;
   if (kind == NEWLINE) depth_ = 0;
+  tokens_ = kind == NEWLINE ? 0 : tokens_ + 1;
   previous_ = kind;
   return next;
 }

@@ -14,6 +14,9 @@
 
 namespace dotek::frontend::cycle {
 
+// Words of a statement over several lines.
+inline constexpr size_t kStatementTokens = 2000;
+
 // Names the words and ends the statements: a line end within brackets, after a comma or after an operator is
 // hidden, unless a new statement begins on the next line. The last line gets an end, too.
 class TokenReader final : public grammar::CycleLexer {
@@ -23,6 +26,8 @@ public:
 
   // Words of the language in capitals; each is taken for the word.
   const std::vector<std::pair<size_t, size_t>>& capitals() const { return capitals_; } // first and last byte
+  // Line ends that end a statement because it goes on for too long.
+  const std::vector<size_t>& tooLong() const { return tooLong_; }
 
 private:
   std::unique_ptr<antlr4::Token> read();
@@ -34,6 +39,8 @@ private:
   std::vector<std::pair<size_t, size_t>> capitals_;
   size_t previous_ = NEWLINE; // type of the last token of the default channel
   size_t depth_ = 0;          // of brackets
+  size_t tokens_ = 0;         // of the statement so far
+  std::vector<size_t> tooLong_;
 };
 
 Language language();

@@ -73,6 +73,10 @@ std::string_view typeText(TypeName type) {
   return kTypes[static_cast<std::size_t>(type)];
 }
 
+std::span<const std::string_view> typeWords() {
+  return kTypes;
+}
+
 std::span<const std::string_view> statementWords() {
   return kStatements;
 }

@@ -12,6 +12,8 @@ namespace dotek::frontend::cycle {
 
 // Words that begin a statement, in the order of docs/cycles.md.
 std::span<const std::string_view> statementWords();
+// length, angle, ...
+std::span<const std::string_view> typeWords();
 // A word that no parameter, result or variable may be called: of the language, a type, a unit or an axis.
 bool isReserved(std::string_view word);
 // lower_snake: a letter, then letters, digits and `_`.
