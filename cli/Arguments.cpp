@@ -63,7 +63,7 @@ constexpr CommandFlags kCommands[] = {
     {"sim", Command::Sim, addSim},    {"verify", Command::Verify, addVerify},
     {"new", Command::New, addNew},    {"explain", Command::Explain, addExplain},
     {"list", Command::List, addList}, {"check", Command::Check, addCheck},
-    {"fmt", Command::Fmt, addFmt},
+    {"fmt", Command::Fmt, addFmt},    {"doc", Command::Doc, addDoc},
 };
 
 // A command that is named first is the only one that is declared: declaring all flags takes longer than many

@@ -22,6 +22,7 @@ enum class Command : unsigned char {
   NewCycle,
   Check,
   Fmt,
+  Doc,
   Sim,
   Verify
 };

@@ -153,6 +153,18 @@ public:
     return done ? outcome.status : kUsage;
   }
 
+  // The pages as files of a folder, or their Markdown as one text.
+  int catalogue(const driver::Outcome& outcome, const Arguments& arguments) {
+    err_ << renderText(outcome.diagnostics, outcome.sources, maxErrors_);
+    if (outcome.status != 0) return outcome.status;
+    std::vector<NamedText> texts;
+    if (arguments.outputFolder.empty()) texts.push_back({"-", &outcome.output});
+    for (const driver::OutputFile& file : outcome.files)
+      if (!arguments.outputFolder.empty())
+        texts.push_back({arguments.outputFolder + "/" + file.name, &file.text});
+    return write(texts, outcome, arguments) ? outcome.status : kUsage;
+  }
+
 private:
   bool write(const std::vector<NamedText>& texts, const driver::Outcome& outcome,
              const Arguments& arguments) {
@@ -220,6 +232,8 @@ int runCommand(Arguments& arguments, std::ostream& out, std::ostream& err) {
   case Command::Check:
     return printer.findings(driver::check({arguments.inputs, arguments.common}), arguments);
   case Command::Fmt: return printer.layout(driver::layOut({arguments.inputs, arguments.common}), arguments);
+  case Command::Doc:
+    return printer.catalogue(driver::catalogue({arguments.inputs, arguments.common}), arguments);
   case Command::List:
     return printer.result(driver::list(arguments.inputs.front(), arguments.common), arguments);
   }

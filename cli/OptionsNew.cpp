@@ -1,4 +1,4 @@
-// Flags of `dotek new`, `dotek check`, `dotek fmt`, `dotek explain` and `dotek list`.
+// Flags of `dotek new`, `dotek check`, `dotek fmt`, `dotek doc`, `dotek explain` and `dotek list`.
 #include "cli/Options.h"
 
 namespace dotek::cli {
@@ -50,6 +50,15 @@ void addFmt(CLI::App& app, Raw& raw) {
   fmt->add_option("-o", raw.output, "write the text to a file")->type_name("OUT")->excludes(write);
   addForce(*fmt, raw);
   addCommon(*fmt, raw);
+}
+
+void addDoc(CLI::App& app, Raw& raw) {
+  CLI::App* doc = app.add_subcommand("doc", "pages of cycles: parameters, results, what they refuse");
+  doc->add_option("INPUT", raw.inputs, "cycles, or folders of cycles; none: the library");
+  doc->add_option("-o", raw.outputFolder, "write a catalogue of HTML and Markdown to a folder")
+      ->type_name("SITE");
+  addForce(*doc, raw);
+  addCommon(*doc, raw);
 }
 
 void addExplain(CLI::App& app, Raw& raw) {

@@ -1,9 +1,15 @@
-// `dotek check`, `dotek fmt` and `dotek new cycle`.
+// `dotek check`, `dotek fmt`, `dotek doc` and `dotek new cycle`.
 #include "driver/Command.h"
 #include "frontend/cycle/Parse.h"
 #include "frontend/cycle/Words.h"
+#include "project/CycleCatalogue.h"
 #include "project/CycleFiles.h"
 #include "project/Inputs.h"
+#include "support/messages/Common.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <system_error>
 
 namespace dotek::driver {
 
@@ -17,6 +23,33 @@ bool hasInputs(const CycleOptions& options, const char* command, Session& sessio
   if (!options.inputs.empty()) return true;
   session.diagnostics().report<diag::MissingOption>({}, command, "FILE.cycle", kExpected);
   return false;
+}
+
+// Files as named, and the cycles of each folder by name.
+std::vector<std::string> cyclePaths(const std::vector<std::string>& inputs, Session& session) {
+  std::vector<std::string> out;
+  for (const std::string& input : inputs) {
+    std::error_code error;
+    if (!std::filesystem::is_directory(input, error)) {
+      out.push_back(input);
+      continue;
+    }
+    const std::size_t first = out.size();
+    std::filesystem::directory_iterator entries(input, error);
+    for (; !error && entries != std::filesystem::directory_iterator(); entries.increment(error))
+      if (entries->path().extension() == ".cycle") out.push_back(entries->path().generic_string());
+    if (error) session.diagnostics().report<diag::FileNotReadable>({}, input, error.message());
+    if (!error && out.size() == first)
+      session.diagnostics().report<diag::FileNotReadable>({}, input, "it holds no cycle");
+    std::sort(out.begin() + static_cast<std::ptrdiff_t>(first), out.end());
+  }
+  return out;
+}
+
+// `bore-3` is the file of `bore_3`.
+std::string cycleName(std::string stem) {
+  std::replace(stem.begin(), stem.end(), '-', '_');
+  return stem;
 }
 
 } // namespace
@@ -47,6 +80,34 @@ Outcome layOut(const CycleOptions& options) {
     Outcome outcome = outcomeOf(session, "", true);
     outcome.files = std::move(files);
     outcome.inputs = std::move(inputs);
+    return outcome;
+  });
+}
+
+Outcome catalogue(const CycleOptions& options) {
+  return guarded(options.common, [&](Session& session) {
+    CycleFiles cycles(session);
+    std::vector<CyclePage> pages;
+    const auto add = [&](const cycle::File* file) {
+      if (file != nullptr && !file->hasErrorNodes && file->header() != nullptr)
+        pages.push_back(cyclePage(*file));
+    };
+    if (options.inputs.empty())
+      for (const stdlib::DataFile* data : session.data().list("cycles"))
+        if (data->name.find('/') == std::string::npos) add(cycles.library(cycleName(data->name)));
+    for (const std::string& path : cyclePaths(options.inputs, session))
+      if (kindAmong(path, {InputKind::Cycle}, kExpected, session)) add(cycles.check(path));
+    std::string all;
+    std::vector<OutputFile> files;
+    for (const CyclePage& page : pages) {
+      files.push_back({fileStem(page.name) + ".md", markdown(page)});
+      files.push_back({fileStem(page.name) + ".html", html(page)});
+      all += (all.empty() ? "" : "\n") + files[files.size() - 2].text;
+    }
+    files.push_back({"index.md", markdownIndex(pages)});
+    files.push_back({"index.html", htmlIndex(pages)});
+    Outcome outcome = outcomeOf(session, std::move(all));
+    if (outcome.status == 0) outcome.files = std::move(files);
     return outcome;
   });
 }

@@ -112,6 +112,9 @@ Outcome check(const CycleOptions& options);
 // Cycles in the one layout of the language: `files`, by the name of the input. A file that cannot be read
 // whole is an error and has none.
 Outcome layOut(const CycleOptions& options);
+// Pages of cycles: an HTML and a Markdown page for each, and an index of both, as `files`; `output` is the
+// Markdown of all. Inputs are files and folders of cycles; none: the library.
+Outcome catalogue(const CycleOptions& options);
 // The beginning of a cycle: what a new one is made from.
 Outcome newCycle(const std::string& name, const CommonOptions& common);
 // The text of one message or rule; status 2 for an unknown code.

@@ -349,4 +349,8 @@ std::string layOut(const File& file) {
   return Layout().run(file);
 }
 
+std::string layOut(const Expression& expression) {
+  return print(expression);
+}
+
 } // namespace dotek::frontend::cycle

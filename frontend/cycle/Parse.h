@@ -15,6 +15,8 @@ File parse(FileId file, const SourceMap& sources, const Limits& limits, Diagnost
 // The file in the one layout of the language, comments and blank lines kept. Only of a tree without error
 // nodes; parsing the text gives the same tree.
 std::string layOut(const File& file);
+// A value or a condition as the layout writes it.
+std::string layOut(const Expression& expression);
 
 // `dump --stage tokens`: one token a line: line:column, kind, text.
 std::string dumpTokens(FileId file, const SourceMap& sources, const Limits& limits, Diagnostics& diagnostics);

@@ -1,4 +1,5 @@
 // The library of cycles: each file is sound, laid out, and says what it is.
+#include "driver/Driver.h"
 #include "frontend/cycle/Check.h"
 #include "frontend/cycle/Link.h"
 #include "frontend/cycle/Parse.h"
@@ -8,6 +9,7 @@
 #include <algorithm>
 #include <cctype>
 #include <doctest/doctest.h>
+#include <set>
 #include <string>
 
 namespace dotek::tests {
@@ -73,6 +75,31 @@ TEST_CASE("library of cycles: what a dialog and a catalogue print is there") {
     // Words of a block, and those that call a macro.
     CHECK_MESSAGE(letters.find_first_of("GLNOP") == std::string::npos, letters);
   });
+}
+
+TEST_CASE("library of cycles: each has a page, and links of pages lead somewhere") {
+  const driver::Outcome site = driver::catalogue({});
+  REQUIRE(site.status == 0);
+  std::set<std::string> names;
+  for (const OutputFile& file : site.files)
+    CHECK(names.insert(file.name).second);
+  std::size_t links = 0;
+  for (const OutputFile& file : site.files) {
+    INFO(file.name);
+    const bool page = file.name.ends_with(".html");
+    const std::string before = page ? "href=\"" : "](";
+    for (std::size_t at = 0; (at = file.text.find(before, at)) != std::string::npos; ++links) {
+      at += before.size();
+      const std::string target = file.text.substr(at, file.text.find(page ? '"' : ')', at) - at);
+      CHECK_MESSAGE(names.contains(target), target);
+    }
+  }
+  Library library;
+  for (const stdlib::DataFile* data : library.session.data().list("cycles")) {
+    CHECK(names.contains(data->name + ".html"));
+    CHECK(names.contains(data->name + ".md"));
+  }
+  CHECK(links > 300);
 }
 
 } // namespace
