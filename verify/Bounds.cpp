@@ -53,6 +53,14 @@ Bounds::Bounds(const ir::Cycle& cycle) {
 }
 
 std::optional<double> Bounds::margin(std::size_t comparison, const Case& drawn) const {
+  return walk(comparisons_[comparison], drawn).margin;
+}
+
+bool Bounds::rejects(const Case& drawn) const {
+  return walk(nullptr, drawn).alarm;
+}
+
+Bounds::Walk Bounds::walk(const ir::Comparison* wanted, const Case& drawn) const {
   ir::Environment environment(cycle_.variables.size());
   for (std::size_t id = 0; id < environment.size(); ++id) {
     const ir::Variable& variable = cycle_.variables[id];
@@ -64,15 +72,14 @@ std::optional<double> Bounds::margin(std::size_t comparison, const Case& drawn) 
   std::map<ir::LabelId, std::size_t> places;
   for (std::size_t i = 0; i < cycle_.checks.size(); ++i)
     if (const auto* label = std::get_if<ir::Label>(&cycle_.checks[i].node)) places.emplace(label->label, i);
-  const ir::Comparison* const wanted = comparisons_[comparison];
   std::size_t at = 0;
   for (std::uint32_t steps = 0; at < cycle_.checks.size() && steps < kMaxSteps; ++steps) {
     const ir::CycleStatement& statement = cycle_.checks[at++];
     if (const auto* assign = std::get_if<ir::Assign>(&statement.node))
       if (assign->variable < environment.size())
         environment[assign->variable] = ir::evaluate(*assign->value, environment);
-    if (std::holds_alternative<ir::Alarm>(statement.node)) return std::nullopt;
-    if (std::holds_alternative<ir::Return>(statement.node)) return std::nullopt;
+    if (std::holds_alternative<ir::Alarm>(statement.node)) return {true, std::nullopt};
+    if (std::holds_alternative<ir::Return>(statement.node)) return {};
     std::optional<ir::LabelId> target;
     if (const auto* jump = std::get_if<ir::Jump>(&statement.node)) target = jump->target;
     if (const auto* branch = std::get_if<ir::Branch>(&statement.node)) {
@@ -81,19 +88,19 @@ std::optional<double> Bounds::margin(std::size_t comparison, const Case& drawn) 
       if (here) {
         const ir::Scalar left = ir::evaluate(*wanted->left, environment);
         const ir::Scalar right = ir::evaluate(*wanted->right, environment);
-        if (!left.known() || !right.known()) return std::nullopt;
-        return left.value - right.value;
+        if (!left.known() || !right.known()) return {};
+        return {false, left.value - right.value};
       }
       const std::optional<bool> holds = ir::holds(*branch->condition, environment);
-      if (!holds) return std::nullopt;
+      if (!holds) return {};
       if (*holds) target = branch->target;
     }
     if (!target) continue;
     const auto place = places.find(*target);
-    if (place == places.end()) return std::nullopt;
+    if (place == places.end()) return {};
     at = place->second;
   }
-  return std::nullopt;
+  return {};
 }
 
 std::optional<Case> Bounds::meet(const Bound& bound, const std::vector<DrawField>& fields, Case drawn,

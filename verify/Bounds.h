@@ -30,7 +30,15 @@ public:
   std::optional<Case> meet(const Bound& bound, const std::vector<DrawField>& fields, Case drawn,
                            bool roundsRadius) const;
 
+  // The checks, as they are translated, raise an alarm. What is not known of them rejects nothing.
+  bool rejects(const Case& drawn) const;
+
 private:
+  struct Walk {
+    bool alarm = false;
+    std::optional<double> margin; // of the comparison that is wanted, where the checks come to it
+  };
+  Walk walk(const ir::Comparison* wanted, const Case& drawn) const;
   // Left less right where the checks come to the comparison; nothing: they do not, or it is not known.
   std::optional<double> margin(std::size_t comparison, const Case& drawn) const;
 

@@ -60,6 +60,7 @@ public:
     faults();
     early();
     zeros();
+    otherZeros();
     tools();
     stores();
     if (!stopsInMacros() && !near(source_.end, target_.end, rules_.tolerance))
@@ -367,9 +368,27 @@ private:
       const std::string found = other == target_.zeros.end() ? "nothing" : fixedText(other->second, kShown);
       const bool shift = key.first == 52 || key.first == 92;
       add(Aspect::Offset,
-          fmt::format("{} G{} along {} {} {}{} against {}", shift ? "what" : "the zero of", key.first,
-                      "XYZ"[key.second], shift ? "has shifted all work systems by is" : "lies at",
-                      fixedText(value, kShown), shift ? "" : " of the machine", found),
+          fmt::format("{} {} along {} {} {}{} against {}", shift ? "what" : "the zero of",
+                      systemName(key.first), "XYZ"[key.second],
+                      shift ? "has shifted all work systems by is" : "lies at", fixedText(value, kShown),
+                      shift ? "" : " of the machine", found),
+          lastMeasure(source_), lastMeasure(target_));
+      return;
+    }
+  }
+
+  static std::string systemName(std::uint32_t system) {
+    constexpr std::uint32_t kExtended = 5410;
+    return system > kExtended ? fmt::format("G54.1 P{}", system - kExtended) : fmt::format("G{}", system);
+  }
+
+  // Of additional systems only those are there that were changed.
+  void otherZeros() {
+    for (const auto& [key, value] : target_.zeros) {
+      if (source_.zeros.contains(key)) continue;
+      add(Aspect::Offset,
+          fmt::format("nothing against the zero of {} along {}, which is moved to {}", systemName(key.first),
+                      "XYZ"[key.second], fixedText(value, kShown)),
           lastMeasure(source_), lastMeasure(target_));
       return;
     }

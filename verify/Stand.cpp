@@ -11,6 +11,7 @@ namespace dotek::verify {
 namespace {
 
 constexpr double kMacroFeed = 1000; // of protected moves, where a set keeps it in a variable
+constexpr std::uint32_t kFirstSystemVariable = 1000;
 
 } // namespace
 
@@ -66,8 +67,12 @@ bool Stand::prepare(sim::Machine& machine, const Entry& entry, double ballRadius
     if (!machine.execute(words)) return false;
   for (const auto& [group, tenths] : entry.modal)
     machine.presetModal(group, tenths);
-  for (const auto& [number, value] : entry.variables)
-    machine.preset(number, value);
+  for (const auto& [number, value] : entry.variables) {
+    if (number < kFirstSystemVariable)
+      machine.preset(number, value);
+    else if (!machine.write(number, value))
+      return false;
+  }
   return machine.running();
 }
 

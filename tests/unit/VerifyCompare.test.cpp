@@ -95,7 +95,11 @@ TEST_CASE("verify: each aspect has its difference") {
         Aspects{Aspect::Nominal}); // the wall comes before
   CHECK(differing("#500=1.\n", "#500=1.1\n") == Aspects{Aspect::Variable});
   CHECK(differing("#500=1.\n", "\n") == Aspects{Aspect::Variable});
-  CHECK(differing("#502=1.\n", "#502=2.\n").empty()); // not asked for
+  CHECK(differing("#502=1.\n", "#502=2.\n").empty());              // not asked for
+  CHECK(differing("#7002=5.\n", "\n") == Aspects{Aspect::Offset}); // of G54.1 P1
+  CHECK(differing("\n", "#7002=5.\n") == Aspects{Aspect::Offset});
+  CHECK(differing("#7002=5.\n", "#7022=5.\n") == Aspects{Aspect::Offset});
+  CHECK(differing("#7002=5.\n", "#7002=5.\n").empty());
   CHECK(differing("G91\n", "G90\n") == Aspects{Aspect::Modal});
   CHECK(differing("G91\n", "G90\n", true).empty()); // as it stood at entry
   CHECK(differing("G90\n", "G91\n", true) == Aspects{Aspect::Modal});
