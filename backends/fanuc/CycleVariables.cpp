@@ -72,11 +72,20 @@ private:
 
   void computed(const ir::ExpressionPtr& number, SourceRange range) {
     const auto base = ir::firstNumber(number);
+    // Over the offsets of work systems, where they lie as on the source's control.
+    if (base && *base >= kFirstSystem && isSettable(state_.control, *base) && sameOffsets()) return;
     if (!base || *base <= state_.control.locals || !state_.control.isCommon(*base))
       state_.refuse<diag::MachineVariableRefused>(range, "[..]", state_.control.title);
     else if (!same() && !holdsVariablesOf(state_.control, state_.options.sourceControl))
       state_.refuse<diag::VariableNumberComputed>(range, state_.control.title,
                                                   state_.options.sourceControl.title);
+  }
+
+  bool sameOffsets() const {
+    const stdlib::SystemVariables& here = state_.control.variables;
+    const stdlib::SystemVariables& there = state_.options.sourceControl.variables;
+    return here.externalX == there.externalX && here.workOffsetX == there.workOffsetX &&
+           here.systemStep == there.systemStep && here.axisStep == there.axisStep;
   }
 
   void stored(ir::Store& store) {

@@ -18,6 +18,12 @@ namespace dotek::backends::fanuc {
 enum class Defaults : std::uint8_t { Alarm, Use };
 enum class ProbePowerMode : std::uint8_t { Source, Macro };
 
+// A value that a field may have, and what the dialog says of it (UTF-8).
+struct Choice {
+  double value = 0;
+  std::string title;
+};
+
 struct EmitOptions {
   const stdlib::Control& control;
   const stdlib::MacroSet& macros;
@@ -32,6 +38,7 @@ struct EmitOptions {
   // The source calls another set: calls are written in the order of the signature, not of the source's block.
   bool foreignMacros = false;
   std::map<ir::VariableId, std::string> computed = {}; // fields that are no arguments, with their formulas
+  std::map<ir::VariableId, std::vector<Choice>> choices = {}; // of a field that the dialog offers as a list
 };
 
 // The argument of a parameter or host input in a call of the program.

@@ -1,6 +1,7 @@
 // The comments before the first block: what a machinist needs to call the program.
 #include "backends/common/PlainText.h"
 #include "backends/fanuc/State.h"
+#include "backends/fanuc/Uses.h"
 #include "stdlib/HostInputs.h"
 #include "support/Decimal.h"
 
@@ -51,6 +52,8 @@ public:
     if (!state_.cycle.measurementStated)
       say("THE SOURCE STATES A PATH ONLY: NO OFFSET IS SET BY THIS PROGRAM");
     table();
+    legends();
+    effects();
     computed();
     call();
     fixed();
@@ -127,6 +130,31 @@ private:
           from.ranges.push_back(range);
       row(rows[i], widths, from);
     }
+  }
+
+  // What the values of lists mean.
+  void legends() {
+    for (const Argument& argument : state_.arguments) {
+      const auto found = state_.options.choices.find(argument.variable);
+      if (found == state_.options.choices.end() || found->second.empty()) continue;
+      std::string text;
+      for (const Choice& choice : found->second)
+        text += (text.empty() ? "" : ", ") + numberText(choice.value) + " = " + choice.title;
+      say(std::string(1, argument.letter) + " IS A LIST: " + text);
+    }
+  }
+
+  // Which arguments move the probe, and which only feed checks.
+  void effects() {
+    const std::set<ir::VariableId> used = bodyVariables(state_.cycle);
+    std::string moving, checking;
+    for (const Argument& argument : state_.arguments) {
+      const ir::VariableId id = argument.variable;
+      if (state_.moving.contains(id)) moving += std::string(" ") + argument.letter;
+      if (!used.contains(id)) checking += std::string(" ") + argument.letter;
+    }
+    if (!moving.empty()) say("MOVE THE PROBE:" + moving);
+    if (!checking.empty()) say("ONLY CHECKED, MOVE AND SET NOTHING:" + checking);
   }
 
   void computed() {

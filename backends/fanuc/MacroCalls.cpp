@@ -1,4 +1,5 @@
 // Calls of the vendor's macros, built from their signatures.
+#include "backends/common/CycleTolerances.h"
 #include "backends/common/CycleTouches.h"
 #include "backends/common/MacroCall.h"
 #include "backends/fanuc/State.h"
@@ -59,7 +60,16 @@ void writeCall(State& state, const MacroCall& call, const ir::Origin& origin) {
 CallValues valuesFor(State& state, const ir::Origin& origin) {
   CallValues out;
   out.place = [&state, &origin](const ir::Coordinate& coordinate, ir::Axis axis, ir::Frame frame) {
-    return place(state, coordinate, axis, frame, origin.range());
+    const SourceRange range = origin.range();
+    const bool travels = coordinate.system == nullptr && coordinate.frame != frame &&
+                         (coordinate.frame == ir::Frame::Here || frame == ir::Frame::Here);
+    const ir::ExpressionPtr now =
+        travels && workPosition(state, axis) == nullptr ? positionNow(state, axis, origin) : nullptr;
+    if (now == nullptr) return place(state, coordinate, axis, frame, range);
+    if (frame == ir::Frame::Work)
+      return ir::binary(ir::BinaryOp::Add, now, coordinate.value, coordinate.value->range);
+    const ir::ExpressionPtr work = place(state, coordinate, axis, ir::Frame::Work, range);
+    return work == nullptr ? nullptr : ir::binary(ir::BinaryOp::Subtract, work, now, work->range);
   };
   return out;
 }
@@ -145,118 +155,6 @@ ir::ExpressionPtr expectedAt(State& state, const ir::CallCycle& cycle, ir::Axis 
   return place(state, {target->value, *target->frame, nullptr}, axis, ir::Frame::Work, origin.range());
 }
 
-// Tolerances of the source's call that the macro has no letter for: the program compares after it, as the
-// macro would have, before an offset changes.
-class Tolerances {
-public:
-  Tolerances(State& state, const stdlib::MacroSignature& signature, const ir::Origin& origin)
-      : state_(state), signature_(signature), origin_(origin) {
-    origin_.reason = "tolerance of the source's macro";
-  }
-
-  // Takes them out of the cycle's arguments. What they compare has to be a result of the macro.
-  void take(ir::CallCycle& cycle) {
-    std::erase_if(cycle.arguments, [&](const ir::CycleArgument& one) {
-      if (macroArgument(signature_, one.parameter) != nullptr || one.moves) return false;
-      ir::ExpressionPtr error;
-      std::string_view text;
-      if (one.parameter == stdlib::roleName(stdlib::ArgumentRole::UpperLimit)) {
-        text = "UPPER LIMIT";
-        for (const ir::Axis axis : axesOf(cycle))
-          if (!add(compared(errorAlong(cycle, axis)), one.value, text)) return false;
-        if (const ir::ExpressionPtr size = sizeError(cycle)) return add(compared(size), one.value, text);
-        return true;
-      }
-      if (one.parameter == stdlib::roleName(stdlib::ArgumentRole::SizeTolerance)) {
-        text = "OUT OF TOLERANCE";
-        error = isSized(cycle) ? compared(sizeError(cycle)) : off(cycle);
-      } else if (one.parameter == stdlib::roleName(stdlib::ArgumentRole::PositionTolerance)) {
-        text = "OUT OF POSITION";
-        error = off(cycle);
-        if (error != nullptr) error = ir::binary(ir::BinaryOp::Multiply, ir::constant(2), error);
-      } else if (one.parameter == stdlib::roleName(stdlib::ArgumentRole::AngleTolerance)) {
-        text = "ANGLE OUT OF TOLERANCE";
-        const stdlib::MacroResult* angle = signature_.find(stdlib::Output::AngleError);
-        if (angle != nullptr) error = compared(systemVariable(static_cast<int>(angle->variable)));
-      }
-      return add(error, one.value, text);
-    });
-  }
-
-  bool any() const { return !checks_.empty(); }
-
-  void write() {
-    for (const Check& check : checks_) {
-      alarmIf(state_, ir::compare(ir::Relation::Greater, check.error, check.limit), check.text, origin_);
-      state_.releaseHelpers();
-    }
-  }
-
-private:
-  struct Check {
-    ir::ExpressionPtr error, limit;
-    std::string_view text;
-  };
-
-  bool add(const ir::ExpressionPtr& error, const ir::ExpressionPtr& limit, std::string_view text) {
-    if (error != nullptr) checks_.push_back({error, compared(limit), text});
-    return error != nullptr;
-  }
-  // Its size; null stays null.
-  static ir::ExpressionPtr compared(const ir::ExpressionPtr& value) {
-    if (value == nullptr) return nullptr;
-    if (const double* known = ir::constantValue(value)) return ir::constant(std::abs(*known), value->range);
-    return ir::unary(ir::UnaryOp::Absolute, value);
-  }
-  static std::vector<ir::Axis> axesOf(const ir::CallCycle& cycle) {
-    if (cycle.axis) return {*cycle.axis};
-    return {ir::Axis::X, ir::Axis::Y};
-  }
-  static const ir::CycleArgument* sizeOf(const ir::CallCycle& cycle) {
-    const std::string width(stdlib::roleName(stdlib::ArgumentRole::Width));
-    const std::string diameter(stdlib::roleName(stdlib::ArgumentRole::Diameter));
-    for (const ir::CycleArgument& one : cycle.arguments)
-      if (one.parameter == diameter || one.parameter.starts_with(width)) return &one;
-    return nullptr;
-  }
-  static bool isSized(const ir::CallCycle& cycle) { return sizeOf(cycle) != nullptr; }
-
-  ir::ExpressionPtr measured(stdlib::Output output) const {
-    const stdlib::MacroResult* result = signature_.find(output);
-    return result == nullptr || !result->documented ? nullptr
-                                                    : systemVariable(static_cast<int>(result->variable));
-  }
-  ir::ExpressionPtr sizeError(const ir::CallCycle& cycle) const {
-    const ir::CycleArgument* size = sizeOf(cycle);
-    const ir::ExpressionPtr found = size == nullptr ? nullptr : measured(stdlib::Output::Size);
-    return found == nullptr ? nullptr : ir::binary(ir::BinaryOp::Subtract, found, size->value);
-  }
-  ir::ExpressionPtr errorAlong(const ir::CallCycle& cycle, ir::Axis axis) {
-    constexpr stdlib::Output kPositions[] = {stdlib::Output::PositionX, stdlib::Output::PositionY,
-                                             stdlib::Output::PositionZ};
-    const ir::ExpressionPtr found = measured(kPositions[ir::indexOf(axis)]);
-    const ir::ExpressionPtr wanted = found == nullptr ? nullptr : expectedAt(state_, cycle, axis, origin_);
-    return wanted == nullptr ? nullptr : tidy(ir::binary(ir::BinaryOp::Subtract, found, wanted));
-  }
-  // How far the feature lies from where it is expected.
-  ir::ExpressionPtr off(const ir::CallCycle& cycle) {
-    ir::ExpressionPtr out;
-    for (const ir::Axis axis : axesOf(cycle)) {
-      const ir::ExpressionPtr error = errorAlong(cycle, axis);
-      if (error == nullptr) return nullptr;
-      if (cycle.axis) return compared(error);
-      const ir::ExpressionPtr square = ir::binary(ir::BinaryOp::Multiply, error, error);
-      out = out == nullptr ? square : ir::binary(ir::BinaryOp::Add, out, square);
-    }
-    return ir::unary(ir::UnaryOp::SquareRoot, out);
-  }
-
-  State& state_;
-  const stdlib::MacroSignature& signature_;
-  ir::Origin origin_;
-  std::vector<Check> checks_;
-};
-
 // Whether the macro itself sets the offset as the cycle does. Where not, or where it wants the nominal, that
 // gets its value: the coordinate at which the feature is expected.
 bool setsByItself(State& state, ir::CallCycle& cycle, const stdlib::MacroSignature& signature, bool checked,
@@ -327,11 +225,14 @@ void writeCycle(State& state, const ir::CallCycle& given, const ir::Origin& orig
   }
   ir::CallCycle cycle = given;
   CallValues values = valuesFor(state, origin);
-  Tolerances tolerances(state, *signature, origin);
-  tolerances.take(cycle);
+  const std::vector<Tolerance> tolerances =
+      takeTolerances(cycle, *signature, [&](const ir::CallCycle& of, ir::Axis axis) {
+        const ir::ExpressionPtr at = expectedAt(state, of, axis, origin);
+        return at == nullptr ? nullptr : tidy(at);
+      });
   if (cycle.setting) {
     guardSystem(state, cycle.setting->system, origin);
-    values.setsSystem = setsByItself(state, cycle, *signature, tolerances.any(), origin);
+    values.setsSystem = setsByItself(state, cycle, *signature, !tolerances.empty(), origin);
     if (state.failed) return;
   }
   const MacroCall call = macroCall(*signature, cycle, values);
@@ -342,7 +243,12 @@ void writeCycle(State& state, const ir::CallCycle& given, const ir::Origin& orig
   writeCall(state, call, origin);
   if (state.failed) return;
   keepResults(state, origin);
-  tolerances.write();
+  ir::Origin compared = origin;
+  compared.reason = "tolerance of the source's macro";
+  for (const Tolerance& one : tolerances) {
+    alarmIf(state, ir::compare(ir::Relation::Greater, tidy(one.error), one.limit), one.text, compared);
+    state.releaseHelpers();
+  }
   if (!cycle.setting || values.setsSystem) return;
   const ir::OffsetSetting setting{cycle.setting->system, cycle.setting->nominal};
   for (const ir::Axis axis : ir::kAxes)

@@ -134,6 +134,20 @@ ir::ExpressionPtr workPosition(State& state, ir::Axis axis) {
   return position.value == nullptr ? start : sum(start, position.value);
 }
 
+ir::ExpressionPtr positionNow(State& state, ir::Axis axis, const ir::Origin& origin) {
+  const stdlib::SystemVariables& v = state.control.variables;
+  const std::optional<stdlib::LengthInPositions>& with = state.control.withToolLength;
+  const bool held = axis == ir::Axis::Z && (!with || with->position);
+  const auto* wait = state.control.find(stdlib::Function::MachineCoordinates);
+  if (!v.position || (held && (!with || !v.toolLength)) || wait == nullptr || wait->grade == "assumed")
+    return nullptr;
+  if (state.waited != state.sheet.size()) writeWait(state, origin);
+  state.waited = state.sheet.size();
+  const int i = static_cast<int>(ir::indexOf(axis));
+  const ir::ExpressionPtr now = systemVariable(*v.position + i);
+  return held ? ir::binary(ir::BinaryOp::Subtract, now, systemVariable(*v.toolLength + i)) : now;
+}
+
 ir::ExpressionPtr place(State& state, const ir::Coordinate& coordinate, ir::Axis axis, ir::Frame wanted,
                         SourceRange range) {
   if (coordinate.frame == wanted && coordinate.system == nullptr) return coordinate.value;

@@ -110,6 +110,7 @@ struct State {
   std::set<std::string> reported;         // what is said once for the whole program
   std::set<ir::VariableId> moving;        // movingVariables() of the cycle
   bool shiftOfZ = false;                  // an offset of Z is written
+  std::size_t waited = 0;                 // size of `sheet` where the axes are waited for
   const Body* body = nullptr;             // facts of the body while it is written, else null
   std::size_t at = 0;                     // index of the statement of the body that is being written
 };
@@ -199,6 +200,9 @@ ir::ExpressionPtr place(State& state, const ir::Coordinate& coordinate, ir::Axis
 bool isOfContact(State& state, const ir::Move& move, const ir::Origin& origin);
 // Where the probe is, work coordinates; nullptr: not known (nothing is reported).
 ir::ExpressionPtr workPosition(State& state, ir::Axis axis);
+// The same as the control tells it where the program gets there: a block that waits goes to the sheet before
+// (once for several axes), the tool's length is taken off. nullptr: the control has no variable for it.
+ir::ExpressionPtr positionNow(State& state, ir::Axis axis, const ir::Origin& origin);
 
 // ---- MacroCalls.cpp ----
 

@@ -11,6 +11,7 @@
 #include "support/messages/Commands.h"
 #include "support/messages/Fanuc.h"
 #include "targets/Conversion.h"
+#include "targets/DialogChoices.h"
 
 #include <algorithm>
 
@@ -48,6 +49,9 @@ public:
     emit.plainMessages = options_.common.assume.contains("plain-messages");
     emit.foreignMacros = macros != lowered.macros;
     emit.computed = lowered.computed;
+    for (auto& [id, choices] : dialogChoices(folder, lowered.cycle, session_.sources()))
+      for (DialogChoice& choice : choices)
+        emit.choices[id].push_back({choice.value, std::move(choice.title)});
     emit.programNumber = numberOf(index);
     emit.defaults = options_.useDefaults ? fanuc::Defaults::Use : fanuc::Defaults::Alarm;
     emit.probePower = options_.switchProbe ? fanuc::ProbePowerMode::Macro : fanuc::ProbePowerMode::Source;

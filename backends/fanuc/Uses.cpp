@@ -133,6 +133,22 @@ std::vector<bool> reachableFrom(const std::vector<std::vector<std::size_t>>& nex
   return out;
 }
 
+Ids bodyVariables(const ir::Cycle& cycle) {
+  Ids out;
+  for (const ir::CycleStatement& statement : cycle.body)
+    ir::eachNode(statement, [&](const ir::Expression& node) {
+      if (const auto* use = std::get_if<ir::VariableUse>(&node.node)) out.insert(use->variable);
+    });
+  for (std::size_t before = out.size() + 1; before != out.size();) {
+    before = out.size();
+    for (const ir::CycleStatement& statement : cycle.checks) {
+      const auto* assign = std::get_if<ir::Assign>(&statement.node);
+      if (assign != nullptr && out.contains(assign->variable)) collect(out, assign->value);
+    }
+  }
+  return out;
+}
+
 Ids movingVariables(const ir::Cycle& cycle) {
   Ids out;
   for (const ir::CycleStatement& statement : cycle.body)

@@ -17,6 +17,9 @@ bool isStartHost(const ir::Variable& variable);
 // Variables that reach a coordinate, travel, diameter or feed of a move or a measurement, directly, through
 // assignments, or by choosing which of them happen.
 std::set<ir::VariableId> movingVariables(const ir::Cycle& cycle);
+// Variables that reach anything that the body does: read there, or in assignments to what is read there. What
+// checks alone read is not among them.
+std::set<ir::VariableId> bodyVariables(const ir::Cycle& cycle);
 // Statements that may follow each statement, whatever many later, itself only in a loop.
 std::vector<bool> reachableFrom(const std::vector<std::vector<std::size_t>>& next, std::size_t from);
 

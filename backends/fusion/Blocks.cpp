@@ -20,16 +20,38 @@ struct Line {
   Text text;
   bool numbered = true;
   ir::Origin origin;
+  std::string comment; // the whole line is this comment
 };
 
 bool isAscii(std::string_view text) {
   return std::all_of(text.begin(), text.end(), [](char c) { return c >= ' ' && c <= '~'; });
 }
 
+// "A TEXT" where the line is one comment and nothing else; "": it is not.
+std::string commentOf(const ir::PrintedBlock& block) {
+  std::string text;
+  for (const ir::PrintedPiece& piece : block.pieces) {
+    if (piece.picture) return "";
+    text += piece.text;
+  }
+  if (block.numbered || text.size() < 3 || text.front() != '(' || text.back() != ')') return "";
+  text = text.substr(1, text.size() - 2);
+  return text.find_first_of("()") == std::string::npos ? text : "";
+}
+
+// "N8012", which jumps of the Prog name, at the beginning of a block; "": none.
+std::string numberOf(const ir::PrintedBlock& block) {
+  if (block.numbered || block.pieces.empty() || block.pieces.front().picture) return "";
+  const std::string& text = block.pieces.front().text;
+  const std::size_t end = std::min(text.find_first_not_of("0123456789", 1), text.size());
+  return text.starts_with('N') && end > 1 ? text.substr(0, end) : "";
+}
+
 Line printed(State& state, Texts& texts, const ir::PrintedBlock& block) {
   Line line;
   line.numbered = block.numbered;
   line.origin.ranges = {block.range};
+  line.comment = commentOf(block);
   for (const ir::PrintedPiece& piece : block.pieces) {
     if (piece.picture) {
       texts.picture(line.text, piece, block.range);
@@ -155,14 +177,24 @@ void writeBlocks(State& state) {
       lines.push_back(printed(state, texts, blocks[i]));
       continue;
     }
+    // Jumps of other blocks lead here.
+    if (const std::string number = numberOf(blocks[i]); !number.empty()) {
+      Text text;
+      text.add(number);
+      lines.push_back({std::move(text), false, statements.front()->origin, ""});
+    }
     for (Text& text : own)
-      lines.push_back({std::move(text), true, statements.front()->origin});
+      lines.push_back({std::move(text), true, statements.front()->origin, ""});
   }
   Text last;
-  if (const ir::Origin* origin = macros.putBack(last)) lines.push_back({std::move(last), true, *origin});
-  for (const Line& line : lines)
-    state.script.add((line.numbered ? "writeBlock(" : "writeln(") + line.text.expression() + ");",
-                     line.origin);
+  if (const ir::Origin* origin = macros.putBack(last)) lines.push_back({std::move(last), true, *origin, ""});
+  for (const Line& line : lines) {
+    if (!line.comment.empty())
+      state.script.add(state.helper(Helper::Comment) + "(" + quoted(line.comment) + ");", line.origin);
+    else
+      state.script.add((line.numbered ? "writeBlock(" : "writeln(") + line.text.expression() + ");",
+                       line.origin);
+  }
   for (const char* output : {"xOutput", "yOutput", "zOutput", "feedOutput", "gMotionModal"})
     state.script.add(std::string(output) + ".reset();");
 }

@@ -11,6 +11,14 @@ namespace dotek::backends::fusion {
 
 namespace {
 
+// Jumps may lead from G91 to G90: nothing says what our own G90 would have to be put back to.
+bool turnsIncremental(const ir::Cycle& cycle) {
+  return std::any_of(cycle.body.begin(), cycle.body.end(), [](const ir::CycleStatement& statement) {
+    const auto* mode = std::get_if<ir::SetMode>(&statement.node);
+    return mode != nullptr && mode->mode == ir::Mode::Incremental;
+  });
+}
+
 bool isStraight(const ir::Cycle& cycle) {
   return std::all_of(cycle.body.begin(), cycle.body.end(), [](const ir::CycleStatement& statement) {
     return match(
@@ -38,7 +46,7 @@ std::optional<std::vector<EmittedLine>> emit(const ir::Cycle& cycle, const EmitO
                                              Diagnostics& diagnostics) {
   State state(cycle, options, diagnostics);
   // Jumps that the Prog prints are printed as they are.
-  if (options.printed.empty() || (options.foreignMacros && !isStraight(cycle))) {
+  if (options.printed.empty() || (options.foreignMacros && !isStraight(cycle) && turnsIncremental(cycle))) {
     state.refuse<diag::FusionNeedsProg>(cycle.range);
     return std::nullopt;
   }

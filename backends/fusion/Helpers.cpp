@@ -13,7 +13,7 @@ struct HelperText {
   std::string_view text;
 };
 
-constexpr std::array<HelperText, 22> kHelpers = {{
+constexpr std::array<HelperText, 23> kHelpers = {{
     {Helper::Given, "given",
      R"(// The decimal that was typed: a job keeps numbers in 32 bits, so 5.08 arrives as 5.079999923706055.
 function PREFIX_given(value) {
@@ -122,6 +122,15 @@ function PREFIX_warnOfDigits(name, value, printed) {
   }
 }
 )"},
+    {Helper::Comment, "comment", R"~(// A comment, as the post writes its own.
+function PREFIX_comment(text) {
+  if (typeof writeComment === "function") {
+    writeComment(text);
+  } else {
+    writeln("(" + text + ")");
+  }
+}
+)~"},
     {Helper::Truncate, "truncate", R"(function PREFIX_truncate(value) {
   return value < 0 ? Math.ceil(value) : Math.floor(value);
 }

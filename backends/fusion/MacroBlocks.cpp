@@ -1,4 +1,5 @@
 // Blocks of another macro set than the source's: from what they mean, by the signatures of the set.
+#include "backends/common/CycleTolerances.h"
 #include "backends/common/CycleTouches.h"
 #include "backends/common/MacroCall.h"
 #include "backends/fusion/State.h"
@@ -44,6 +45,14 @@ bool isMacro(const State& state, const ir::CycleStatement& statement) {
       [](const ir::OneOf<ir::Label, ir::Jump, ir::Branch, ir::Store, ir::Move, ir::Comment, ir::Assign,
                          ir::Return, ir::Spindle, ir::Coolant, ir::SetMode, ir::Dwell, ir::Stop, ir::Alarm,
                          ir::OpaqueBlock> auto&) { return false; });
+}
+
+bool readsControl(const ir::ExpressionPtr& value) {
+  bool found = false;
+  ir::eachNode(value, [&](const ir::Expression& node) {
+    found = found || std::holds_alternative<ir::MachineVariable>(node.node);
+  });
+  return found;
 }
 
 bool readsResult(const ir::CycleStatement& statement) {
@@ -104,9 +113,10 @@ bool MacroBlocks::block(const std::vector<const ir::CycleStatement*>& statements
             overwritten_ = false;
           }
         },
-        [](const ir::OneOf<ir::Label, ir::Jump, ir::Branch, ir::Store, ir::Move, ir::Measure, ir::CallCycle,
-                           ir::ProbePower, ir::Comment, ir::Assign, ir::Return, ir::Spindle, ir::Coolant,
-                           ir::Dwell, ir::Stop, ir::Alarm> auto&) {});
+        [&](const ir::OneOf<ir::Label, ir::Store> auto&) { flow(*one); },
+        [](const ir::OneOf<ir::Jump, ir::Branch, ir::Move, ir::Measure, ir::CallCycle, ir::ProbePower,
+                           ir::Comment, ir::Assign, ir::Return, ir::Spindle, ir::Coolant, ir::Dwell, ir::Stop,
+                           ir::Alarm> auto&) {});
   }
   if (!rewritten) return false;
   Text codes;
@@ -134,7 +144,8 @@ bool MacroBlocks::block(const std::vector<const ir::CycleStatement*>& statements
         },
         [&](const ir::Store& node) { store(node, origin, lines); },
         [&](const ir::Comment& node) { comment += " (" + node.text + ")"; },
-        [&](const ir::OneOf<ir::Label, ir::Jump, ir::Branch, ir::Assign, ir::Return, ir::Spindle, ir::Coolant,
+        [](const ir::Label&) {}, // its number is before the lines
+        [&](const ir::OneOf<ir::Jump, ir::Branch, ir::Assign, ir::Return, ir::Spindle, ir::Coolant,
                             ir::SetMode, ir::Dwell, ir::Stop, ir::Alarm, ir::OpaqueBlock> auto&) {
           other();
         });
@@ -223,10 +234,17 @@ bool MacroBlocks::modeCode(const ir::SetMode& mode, const ir::Origin& origin, Te
   case ir::Mode::PlaneXY: return write(Function::PlaneXY, "the plane XY");
   case ir::Mode::CutterCompOff: return write(Function::CutterCompOff, "cutter compensation off");
   case ir::Mode::CannedCycleOff: return write(Function::CannedCycleOff, "canned cycles off");
+  case ir::Mode::WorkSystem: {
+    const double* system = mode.system == nullptr ? nullptr : ir::constantValue(ir::simplify(mode.system));
+    if (system == nullptr || *system < kFirstSystem || *system > kLastSystem ||
+        *system != std::trunc(*system))
+      return false;
+    text.add((text.expression() == "\"\"" ? "G" : " G") + numberText(*system));
+    return true;
+  }
   case ir::Mode::FeedPerRevolution:
   case ir::Mode::PlaneZX:
   case ir::Mode::PlaneYZ:
-  case ir::Mode::WorkSystem:
   case ir::Mode::RapidMotion:
   case ir::Mode::FeedMotion: break;
   }
@@ -234,9 +252,12 @@ bool MacroBlocks::modeCode(const ir::SetMode& mode, const ir::Origin& origin, Te
 }
 
 ir::ExpressionPtr MacroBlocks::place(const ir::Coordinate& coordinate, ir::Axis axis, ir::Frame wanted,
-                                     const ir::Origin& origin) {
-  const ir::ExpressionPtr& here = at_[ir::indexOf(axis)].value;
+                                     const ir::Origin& origin, bool reads) {
   const std::string letter(1, ir::letterOf(axis));
+  const bool travels = coordinate.system == nullptr && coordinate.frame != wanted &&
+                       (coordinate.frame == ir::Frame::Here || wanted == ir::Frame::Here);
+  ir::ExpressionPtr here = at_[ir::indexOf(axis)].value;
+  if (here == nullptr && travels && reads) here = positionNow(axis);
   ir::ExpressionPtr work;
   switch (coordinate.frame) {
   case ir::Frame::Work:
@@ -304,11 +325,18 @@ void MacroBlocks::move(const ir::Move& move, const ir::Origin& origin, std::vect
     for (const ir::Axis axis : ir::kAxes) {
       const auto& coordinate = move.axes[ir::indexOf(axis)];
       if (!coordinate) continue;
-      const ir::ExpressionPtr value = place(*coordinate, axis, ir::Frame::Work, origin);
+      const ir::ExpressionPtr value = place(*coordinate, axis, ir::Frame::Work, origin, true);
       if (value == nullptr) continue;
       text.add(std::string(" ") + ir::letterOf(axis));
-      texts_.number(text, value, origin);
+      if (readsControl(value)) {
+        text.add("[");
+        macro(text, ir::simplify(value), origin);
+        text.add("]");
+      } else {
+        texts_.number(text, value, origin);
+      }
     }
+    if (waits_) wait(lines);
     if (move.feed != nullptr) {
       text.add(" F");
       texts_.number(text, move.feed, origin);
@@ -361,18 +389,24 @@ void MacroBlocks::measure(const ir::Measure& measure, const ir::Origin& origin, 
   };
   if (signature == nullptr) return cannot(featureName(measure));
   const auto* system = signature->find(stdlib::ArgumentRole::System, measure.axis);
+  CallValues given = values(origin);
   if (measure.setting) {
     if (system == nullptr) return cannot("a work offset");
     if (setsAnotherAxis(measure)) cannot("an offset of an axis that it does not measure");
-    if (system->systemRule == stdlib::SystemRule::Error && !requireNominal(measure, origin)) return;
+    given.setsSystem = system->systemRule != stdlib::SystemRule::Error || tellsNominal(measure) ||
+                       !offsetObstacle(*signature, *measure.setting).empty();
+    if (given.setsSystem && system->systemRule == stdlib::SystemRule::Error &&
+        !requireNominal(measure, origin))
+      return;
     guardSystem(measure.setting->system, origin);
+    if (!given.setsSystem) checkShift(*measure.setting, lines, origin);
   }
   for (const ir::Axis axis : ir::kAxes)
     expected_[ir::indexOf(axis)].value =
         measure.target && axis == measure.axis && measure.target->frame == ir::Frame::Work
             ? measure.target->value
             : at_[ir::indexOf(axis)].value;
-  MacroCall out = macroCall(*signature, measure, values(origin));
+  MacroCall out = macroCall(*signature, measure, given);
   // A system that the call corrects is last, as posts write it.
   std::stable_partition(out.arguments.begin(), out.arguments.end(), [](const GivenArgument& one) {
     return one.argument->role != stdlib::ArgumentRole::System ||
@@ -380,6 +414,7 @@ void MacroBlocks::measure(const ir::Measure& measure, const ir::Origin& origin, 
   });
   call(out, origin, lines);
   if (state_.failed) return;
+  if (!given.setsSystem) writeOffset(*measure.setting, *signature, lines, origin);
   // The system that was set may be the active one.
   for (const ir::Axis axis : ir::kAxes)
     if (measure.setting && measure.setting->nominal[ir::indexOf(axis)] != nullptr)
@@ -402,6 +437,16 @@ void MacroBlocks::cycle(const ir::CallCycle& given, const ir::Origin& origin, st
     return;
   }
   ir::CallCycle call = given;
+  const ExpectedAlong expects = [&](const ir::CallCycle& of, ir::Axis axis) {
+    for (const ir::CycleArgument& one : of.arguments)
+      if (one.frame && one.parameter.back() == "xyz"[ir::indexOf(axis)])
+        return place({one.value, *one.frame, nullptr}, axis, ir::Frame::Work, origin);
+    return at_[ir::indexOf(axis)].value;
+  };
+  std::vector<Tolerance> tolerances;
+  if (state_.options.control.ifThen) tolerances = takeTolerances(call, *signature, expects);
+  CallValues asked = values(origin);
+  std::optional<ir::OffsetSetting> own; // what the blocks set themselves, after the tolerances
   if (call.setting) {
     const auto system =
         std::find_if(signature->arguments.begin(), signature->arguments.end(),
@@ -427,6 +472,18 @@ void MacroBlocks::cycle(const ir::CallCycle& given, const ir::Origin& origin, st
       if (nominal == nullptr)
         state_.refuse<diag::StartUnknown>(origin.range(), std::string(1, ir::letterOf(axis)));
     }
+    if (!tolerances.empty()) {
+      own = ir::OffsetSetting{call.setting->system, call.setting->nominal};
+      for (const ir::Axis axis : ir::kAxes)
+        if (call.setting->axes[ir::indexOf(axis)] && own->nominal[ir::indexOf(axis)] == nullptr)
+          own->nominal[ir::indexOf(axis)] = expects(call, axis);
+      if (const std::string why = offsetObstacle(*signature, *own); !why.empty()) {
+        state_.refuse<diag::OffsetWriteUnsafe>(origin.range(), "the feature", why);
+        return;
+      }
+      asked.setsSystem = false;
+      checkShift(*own, lines, origin);
+    }
   }
   for (const ir::Axis axis : ir::kAxes) {
     expected_[ir::indexOf(axis)] = at_[ir::indexOf(axis)];
@@ -435,11 +492,14 @@ void MacroBlocks::cycle(const ir::CallCycle& given, const ir::Origin& origin, st
         expected_[ir::indexOf(axis)].value =
             place({one.value, *one.frame, nullptr}, axis, ir::Frame::Work, origin);
   }
-  MacroCall out = macroCall(*signature, call, values(origin));
+  MacroCall out = macroCall(*signature, call, asked);
   for (const std::string& parameter : out.notTaken)
     state_.refuse<diag::ParameterNotTaken>(origin.range(), parameter, signature->program, macros.title,
                                            given.set);
   this->call(out, origin, lines);
+  for (const Tolerance& one : tolerances)
+    if (!state_.failed) alarmAbove(one.error, one.limit, one.text, lines, origin);
+  if (own && !state_.failed) writeOffset(*own, *signature, lines, origin);
   for (const ir::Axis axis : ir::kAxes)
     if (!given.returns || (given.setting && given.setting->axes[ir::indexOf(axis)]))
       at_[ir::indexOf(axis)].value = nullptr;
@@ -460,7 +520,7 @@ void MacroBlocks::guardSystem(const ir::ExpressionPtr& system, const ir::Origin&
 CallValues MacroBlocks::values(const ir::Origin& origin) {
   CallValues out;
   out.place = [this, &origin](const ir::Coordinate& coordinate, ir::Axis axis, ir::Frame frame) {
-    return place(coordinate, axis, frame, origin);
+    return place(coordinate, axis, frame, origin, true);
   };
   out.overtravel = [this] {
     const auto fixed = state_.options.fixedByName.find("overtravel");
@@ -486,8 +546,16 @@ void MacroBlocks::call(const MacroCall& call, const ir::Origin& origin, std::vec
                          std::to_string(signature.program) + " is not above 0",
                      origin);
     text.add(std::string(" ") + argument->letter);
-    texts_.number(text, value, origin);
+    // What the control reads is a formula there.
+    if (readsControl(value)) {
+      text.add("[");
+      macro(text, ir::simplify(value), origin);
+      text.add("]");
+    } else {
+      texts_.number(text, value, origin);
+    }
   }
+  if (waits_) wait(lines);
   lines.push_back(std::move(text));
 }
 
@@ -543,7 +611,11 @@ void MacroBlocks::store(const ir::Store& store, const ir::Origin& origin, std::v
   const auto* result = std::get_if<ir::MeasuredResult>(&store.value->node);
   const double* number = ir::constantValue(store.number);
   if (result == nullptr || number == nullptr) {
-    state_.refuse<diag::FusionMixedBlock>(origin.range());
+    Text text;
+    macro(text, ir::machineVariable(store.number), origin);
+    text.add("=");
+    macro(text, ir::simplify(store.value), origin);
+    lines.push_back(std::move(text));
     return;
   }
   const stdlib::MacroSignature* signature =

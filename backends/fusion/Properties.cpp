@@ -66,8 +66,10 @@ void writeProperty(State& state, ir::VariableId id) {
   if (isWhole(variable.kind) && value && *value != static_cast<double>(static_cast<long long>(*value)))
     state.refuse<diag::NotWhole>(variable.range, variable.name, numberText(*value));
   state.script.open("properties." + propertyName(state, variable) + " = {", origin);
-  state.script.add("title: " + quoted(state.cycle.name + ": " + variable.name) + ",");
-  state.script.add("description: " + quoted(variable.meaning.empty() ? variable.name : variable.meaning) +
+  state.script.add("title: " + quoted(variable.meaning.empty() ? variable.name : variable.meaning) + ",");
+  state.script.add("description: " +
+                   quoted(variable.name + " of " + state.cycle.name +
+                          (variable.unit.empty() ? std::string() : ", " + variable.unit)) +
                    ",");
   state.script.add("group: " + quoted(state.prefix) + ",");
   state.script.add(std::string("type: ") +
@@ -135,14 +137,17 @@ void writeHead(State& state) {
   script.comment("minimumRevision: " + std::to_string(kFirstRevision));
   script.comment(
       "Needs of the post: writeBlock(text), which puts the block number before; xOutput, yOutput, zOutput, "
-      "feedOutput, gMotionModal, which are reset after the macros. Kernel: writeln, error, warning, "
+      "feedOutput, gMotionModal, which are reset after the macros. Comments go through writeComment(text) "
+      "where the post has it. Kernel: writeln, error, warning, "
       "localize, createFormat.");
   script.comment("Dispatch: onCyclePoint(x, y, z) begins with  if (" + state.prefix +
                  "_dispatch(x, y, z)) { return; }");
-  script.comment("The operation is a drilling operation with the probe as its tool. It chooses the cycle "
-                 "with the property "
-                 "dotekCycle. Its point is where the cycle starts, in "
-                 "the work system of the operation.");
+  script.comment(
+      "The operation is a drilling operation with the probe as its tool; a probing operation is an "
+      "error. It chooses the cycle "
+      "with the property "
+      "dotekCycle. Its point is where the cycle starts, in "
+      "the work system of the operation.");
   if (!state.options.macros.needs.empty())
     script.comment("Set before the first call of a macro: " + state.options.macros.needs);
   if (!state.options.fixedByName.empty()) {
@@ -168,6 +173,12 @@ void writeProperties(State& state) {
   script.close("};");
   script.close();
   const std::string& title = state.cycle.title.empty() ? state.cycle.name : state.cycle.title;
+  script.open("if (typeof groupDefinitions === \"undefined\") {");
+  script.add("groupDefinitions = {};");
+  script.close();
+  script.add("groupDefinitions.dotek = {title: \"Probing cycle\", order: 100};");
+  script.add("groupDefinitions." + state.prefix + " = {title: " + quoted("Probing: " + title) +
+             ", order: 101};");
   script.add("properties.dotekCycle.values.push({title: " + quoted(title) + ", id: " + quoted(state.prefix) +
              "});");
   std::set<std::string> taken;

@@ -21,6 +21,7 @@ enum class Helper : std::uint8_t {
   Shown,   // value that a picture prints
   Number,  // text of a value in the fixed format
   Loses,   // a warning where the text says another value
+  Comment, // a comment as the post writes it
   Truncate,
   RoundUp,
   Round,
@@ -129,6 +130,27 @@ private:
   struct Place {
     ir::ExpressionPtr value; // work coordinate; null pointer: not known
   };
+  // Labels, jumps and stores of the block: what is known of the position no more.
+  void flow(const ir::CycleStatement& statement);
+  // An expression of macro B; what the script knows is printed as its value.
+  void macro(Text& text, const ir::ExpressionPtr& value, const ir::Origin& origin);
+  void macroOperand(Text& text, const ir::ExpressionPtr& value, const ir::Origin& origin);
+  // "IF[..GT..]THEN #3000=101(TEXT)"
+  void alarmAbove(const ir::ExpressionPtr& value, const ir::ExpressionPtr& limit, std::string_view what,
+                  std::vector<Text>& lines, const ir::Origin& origin);
+  // Where the axis is as the control tells it; the lines then begin with a block that waits. nullptr: no
+  // variable tells.
+  ir::ExpressionPtr positionNow(ir::Axis axis);
+  void wait(std::vector<Text>& lines);
+  // Whether the script can tell that the macro's own correction is the source's setting.
+  bool tellsNominal(const ir::Measure& measure);
+  // Why the blocks cannot write an offset themselves; "": they can.
+  std::string offsetObstacle(const stdlib::MacroSignature& signature, const ir::OffsetSetting& setting) const;
+  ir::ExpressionPtr offsetOf(const ir::ExpressionPtr& system, ir::Axis axis) const;
+  // Active offset + measured - nominal, after a check that nothing else shifts the axis.
+  void checkShift(const ir::OffsetSetting& setting, std::vector<Text>& lines, const ir::Origin& origin);
+  void writeOffset(const ir::OffsetSetting& setting, const stdlib::MacroSignature& signature,
+                   std::vector<Text>& lines, const ir::Origin& origin);
   void move(const ir::Move& move, const ir::Origin& origin, std::vector<Text>& lines);
   void measure(const ir::Measure& measure, const ir::Origin& origin, std::vector<Text>& lines);
   void cycle(const ir::CallCycle& given, const ir::Origin& origin, std::vector<Text>& lines);
@@ -145,9 +167,10 @@ private:
   bool otherCode(const ir::CycleStatement& statement, Text& text);
   bool modeCode(const ir::SetMode& mode, const ir::Origin& origin, Text& text);
   bool requireNominal(const ir::Measure& measure, const ir::Origin& origin);
-  // The coordinate in the frame that the macro wants; null pointer: refused.
+  // The coordinate in the frame that the macro wants; null pointer: refused. `reads`: where nothing else
+  // tells where the probe is, the control's own variable does.
   ir::ExpressionPtr place(const ir::Coordinate& coordinate, ir::Axis axis, ir::Frame wanted,
-                          const ir::Origin& origin);
+                          const ir::Origin& origin, bool reads = false);
   void moved(const ir::Move& move);
 
   State& state_;
@@ -158,6 +181,8 @@ private:
   const ir::Origin* incremental_ = nullptr;  // of the G91 that is in force in the source
   const ir::Origin* opaque_ = nullptr;       // of the copied block that is looked at
   bool overwritten_ = false;                 // by a G90 of ours
+  bool waits_ = false;                       // the next line reads where the axes are
+  std::map<std::string, int> alarms_;        // numbers of alarms of ours, by their texts
 };
 
 // ---- Properties.cpp ----

@@ -2,12 +2,12 @@
 #include "backends/fusion/TargetVerify.h"
 
 #include "backends/fusion/Emit.h"
-#include "frontend/gibbs/Ast.h"
 #include "ir/Fold.h"
 #include "support/messages/Commands.h"
 #include "support/messages/Fusion.h"
 #include "support/messages/Nc.h"
 #include "targets/Conversion.h"
+#include "targets/DialogChoices.h"
 #include "targets/Target.h"
 
 #include <algorithm>
@@ -15,47 +15,8 @@
 namespace dotek::targets {
 
 namespace fusion = backends::fusion;
-namespace gibbs = frontend::gibbs;
 
 namespace {
-
-std::optional<double> numberOf(const gibbs::Expression& expression) {
-  const auto* unary = std::get_if<gibbs::Unary>(&expression.node);
-  const auto* number =
-      std::get_if<gibbs::NumberLiteral>(unary != nullptr ? &unary->operand->node : &expression.node);
-  if (number == nullptr) return std::nullopt;
-  const bool minus = unary != nullptr && unary->op == gibbs::UnaryOperator::Minus;
-  return minus && number->value != 0 ? -number->value : number->value;
-}
-
-// What the dialog offers for its fields: both states of a check box, the entries of a list.
-std::map<ir::VariableId, std::vector<fusion::Choice>>
-choicesOf(const CycleFolder& folder, const ir::Cycle& cycle, const SourceMap& sources) {
-  std::map<ir::VariableId, std::vector<fusion::Choice>> out;
-  if (!folder.cycle->dialog) return out;
-  const Encoding encoding = sources.file(folder.cycle->dialog->file).encoding();
-  std::map<std::string, ir::VariableId> ids;
-  for (ir::VariableId id = 0; id < cycle.variables.size(); ++id)
-    if (cycle.variable(id).role == ir::Role::Parameter)
-      ids.emplace(gibbs::foldCase(cycle.variable(id).name), id);
-  std::vector<std::optional<ir::VariableId>> lists; // in the order of creation, which is their number
-  for (const gibbs::Control& control : folder.cycle->dialog->controls) {
-    const std::string kind = gibbs::foldCase(control.kind.text);
-    const auto found = control.variable ? ids.find(gibbs::foldCase(control.variable->text)) : ids.end();
-    if (kind == gibbs::foldCase("CHECK") && found != ids.end()) out[found->second] = {{0, "no"}, {1, "yes"}};
-    if (kind == gibbs::foldCase("DROPDOWN_NEW"))
-      lists.push_back(found == ids.end() ? std::nullopt : std::optional(found->second));
-    if (kind != gibbs::foldCase("DROPDOWN_ADD") || control.arguments.size() != 3) continue;
-    const auto list = numberOf(*control.arguments[0]);
-    const auto value = numberOf(*control.arguments[2]);
-    const auto* text = std::get_if<gibbs::TextLiteral>(&control.arguments[1]->node);
-    if (!list || !value || text == nullptr || *list < 1 || *list > static_cast<double>(lists.size()))
-      continue;
-    if (const auto id = lists[static_cast<std::size_t>(*list) - 1])
-      out[*id].push_back({*value, toUtf8(text->text, encoding)});
-  }
-  return out;
-}
 
 // Notes on what a program on a control changes; a post prints the Prog's text as it is.
 void dropNotesOfPrograms(Diagnostics& diagnostics) {
@@ -146,7 +107,9 @@ private:
                              lowered.fixedByName,
                              {},
                              std::move(defaults)};
-    emit.choices = choicesOf(folder, lowered.cycle, session_.sources());
+    for (auto& [id, choices] : dialogChoices(folder, lowered.cycle, session_.sources()))
+      for (DialogChoice& choice : choices)
+        emit.choices[id].push_back({choice.value, std::move(choice.title)});
     emit.fixedByName.insert(inputs.hosts.begin(), inputs.hosts.end());
     const std::string prefix = fusion::prefixOf(lowered.cycle.name);
     for (const Part& part : parts_)

@@ -4,6 +4,7 @@
 #include "frontend/gibbs/LowerTerms.h"
 #include "frontend/gibbs/LowerTouch.h"
 #include "support/messages/Gibbs.h"
+#include "support/messages/Path.h"
 #include "support/messages/Sim.h"
 
 #include <algorithm>
@@ -131,8 +132,11 @@ private:
                "the contact may lie where this move begins, and no move asks for the other side; the path "
                "goes back along the same axis");
     const auto candidates = notes.candidates();
-    if (candidates.empty()) return ok_;
     const ReversalTrace trace = reversals();
+    std::set<std::size_t> oblique = notes.oblique();
+    oblique.insert(trace.oblique().begin(), trace.oblique().end());
+    for (const std::size_t step : oblique)
+      refuse<diag::TouchOblique>(flat_.steps[step].range);
     for (const auto& [run, steps] : candidates) {
       const bool tells = std::any_of(steps.begin(), steps.end(),
                                      [&](std::size_t step) { return trace.reversals().contains(step); });

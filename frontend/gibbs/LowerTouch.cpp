@@ -1,6 +1,7 @@
 #include "frontend/gibbs/LowerTouch.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace dotek::frontend::gibbs {
 namespace {
@@ -235,6 +236,13 @@ void TouchNotes::move(WalkState& state, std::size_t step, const std::array<std::
     return;
   }
   if (axis == kNowhere) {
+    if (radius_ != kNoVariable && target[0] && target[1]) {
+      const Symbol radius = Symbol::variable(radius_);
+      const double x = factorOf(radius, *target[0]), y = factorOf(radius, *target[1]);
+      constexpr double kSame = 1e-6;
+      if (std::abs(x) > kSame && std::abs(y) > kSame && std::abs(std::hypot(x, y) - 1) < kSame)
+        oblique_.insert(step);
+    }
     notes.oneAxis = false;
     notes.moves = true;
     notes.alwaysIdle = false;
@@ -294,6 +302,19 @@ void ReversalTrace::move(WalkState& state, std::size_t step,
   if (forced_.contains(step)) {
     track.last.reset();
     return;
+  }
+  if (out_ && std::all_of(std::begin(ir::kAxes), std::end(ir::kAxes), [&](ir::Axis each) {
+        const std::size_t i = ir::indexOf(each);
+        const auto& there = target[i] ? target[i] : track.at[i];
+        const auto way = difference(there, outBegin_[i]);
+        const double* known = way ? std::get_if<double>(&*way) : nullptr;
+        return known != nullptr && *known == 0;
+      }))
+    oblique_.insert(*out_);
+  out_.reset();
+  if (changed == std::vector<ir::Axis>{ir::Axis::X, ir::Axis::Y}) {
+    out_ = step;
+    outBegin_ = track.at;
   }
   for (std::size_t i = 0; i < 3; ++i)
     if (target[i]) track.at[i] = target[i];

@@ -63,6 +63,8 @@ public:
   // Moves that end the radius before a contact at or beyond their begin, where no move does so for the other
   // side: nothing says that a contact at the begin is none.
   std::set<std::size_t> oneSided() const;
+  // Moves along X and Y at once that end the radius before a point.
+  const std::set<std::size_t>& oblique() const { return oblique_; }
   // Moves that go back from the touch.
   std::set<std::size_t> returnsOf(std::size_t touch) const;
 
@@ -83,6 +85,7 @@ private:
   std::map<std::size_t, std::set<std::size_t>> returns_;
   std::set<std::size_t> withoutReturn_;
   std::set<std::size_t> approaches_; // moves after which a touch follows
+  std::set<std::size_t> oblique_;
 };
 
 // Follows one path with known values: the moves after which the path goes back along the same axis.
@@ -94,12 +97,17 @@ public:
   const std::set<std::size_t>& reversals() const { return reversals_; }
   // Moves along Z that lead up before the path goes down again.
   const std::set<std::size_t>& rises() const { return rises_; }
+  // Moves along X and Y at once after which the path goes straight back.
+  const std::set<std::size_t>& oblique() const { return oblique_; }
 
 private:
   const Flat& flat_;
   std::set<std::size_t> forced_;
   std::set<std::size_t> reversals_;
   std::set<std::size_t> rises_;
+  std::set<std::size_t> oblique_;
+  std::optional<std::size_t> out_; // the last move, where it is along X and Y at once
+  std::array<std::optional<Value>, 3> outBegin_;
 };
 
 } // namespace dotek::frontend::gibbs

@@ -12,6 +12,19 @@
 namespace dotek::frontend::nc {
 namespace {
 
+// An offset of a work system, or the external one.
+bool isOffset(const stdlib::Control& control, std::uint32_t number) {
+  const stdlib::SystemVariables& v = control.variables;
+  constexpr int kAxes = 4, kSystems = 6;
+  const auto among = [&](const std::optional<int>& first, int systems, int step) {
+    for (int system = 0; first && system < systems; ++system)
+      for (int axis = 0; axis < kAxes; ++axis)
+        if (static_cast<int>(number) == *first + system * step + axis * v.axisStep) return true;
+    return false;
+  };
+  return among(v.externalX, 1, 0) || among(v.workOffsetX, kSystems, v.systemStep);
+}
+
 // These messages put the name between backticks themselves.
 std::string bareName(const Hole& hole) {
   std::string out = hole.name;
@@ -296,9 +309,10 @@ bool Lifter::isComputed(const Expression& number) {
 ir::ExpressionPtr Lifter::computedNumber(const Expression& number) {
   const ir::ExpressionPtr out = formula(number, false);
   if (!out) return nullptr;
-  // From a common variable on: it reaches no local, which would be another program's.
+  // From a common variable on, or over the offsets of work systems (`#[5201+20*#1]`): it reaches no local,
+  // which would be another program's.
   const auto first = ir::firstNumber(out);
-  if (first && context_.control.isCommon(*first)) return out;
+  if (first && (context_.control.isCommon(*first) || isOffset(context_.control, *first))) return out;
   refuse<diag::ComputedVariable>(number.range);
   return nullptr;
 }

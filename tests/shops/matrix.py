@@ -82,6 +82,9 @@ def remedy(message, used):
     for pattern, flags in offers:
         if re.search(pattern, message) and flags[0] not in used:
             return flags
+    field = re.search(r"write `--set (\w+)=VALUE`", message)
+    if field and "--set" not in used:
+        return ["--set", f"{field[1]}=30"]
     for question in re.findall(r"--assume (Q\d+)", message):
         if question not in used:
             return ["--assume", question]

@@ -161,8 +161,16 @@ TEST_CASE("fanuc measure: a position that is not known") {
   cycle.move(ir::Motion::Protected, ir::Axis::X, number(7));
   cycle.add(ir::Label{skip});
   cycle.surface(ir::Axis::X, number(10), number(56), number(0));
-  CHECK(Target("inspection-plus").emit(cycle.cycle).codes().contains("start-unknown"));
+  // The control tells it where the program gets there.
+  const Emission read = Target("inspection-plus").emit(cycle.cycle);
+  CHECK_FALSE(read.codes().contains("start-unknown"));
+  CHECK(read.has("G53"));
+  CHECK(read.has("G65 P9811 X[#5041+10.]"));
   CHECK_FALSE(Target().emit(cycle.cycle).codes().contains("start-unknown"));
+  // Without a variable of the position nothing does.
+  Target silent("inspection-plus");
+  silent.control.variables.position.reset();
+  CHECK(silent.emit(cycle.cycle).codes().contains("start-unknown"));
 }
 
 TEST_CASE("fanuc measure: the start point is stale after a change of the offset") {
@@ -222,7 +230,11 @@ TEST_CASE("fanuc measure: where values may be stored") {
   CHECK(Target("inspection-plus").emit(switching.cycle).codes().contains("store-scratch"));
   Maker computed;
   computed.add(ir::Store{use(computed.field("n", 600)), number(1)});
-  CHECK(Target().emit(computed.cycle).codes().contains("store-variable"));
+  CHECK(Target().emit(computed.cycle).codes() == std::set<std::string>{"machine-variable-refused"});
+  // Modal codes are read only.
+  Maker modal;
+  modal.add(ir::Store{number(4001), number(1)});
+  CHECK(Target().emit(modal.cycle).codes() == std::set<std::string>{"variable-read-only"});
 }
 
 TEST_CASE("fanuc measure: where a computed number may lead") {
@@ -231,14 +243,14 @@ TEST_CASE("fanuc measure: where a computed number may lead") {
     cycle.add(ir::Store{ir::binary(op, number(base), ir::machineVariable(number(601))), number(1)});
     std::set<std::string> out;
     for (const std::string& code : Target("inspection-plus").emit(cycle.cycle).codes())
-      if (code.starts_with("store-")) out.insert(code);
+      if (code.starts_with("store-") || code == "machine-variable-refused") out.insert(code);
     return out;
   };
   CHECK(codes(600, ir::BinaryOp::Add).empty());
   CHECK(codes(115, ir::BinaryOp::Add) == std::set<std::string>{"store-reaches-scratch"});
   CHECK(codes(500, ir::BinaryOp::Add) == std::set<std::string>{"store-reaches-scratch"});
   // Taken off, it may reach the arguments of the program itself.
-  CHECK(codes(600, ir::BinaryOp::Subtract) == std::set<std::string>{"store-variable"});
+  CHECK(codes(600, ir::BinaryOp::Subtract) == std::set<std::string>{"machine-variable-refused"});
 }
 
 TEST_CASE("fanuc measure: variables of the machine that a source reads") {

@@ -120,6 +120,20 @@ TEST_CASE("gibbs lower: paths of the corpus") {
   CHECK(folderPath(folder / "MERENI.STRED.OTVOR").starts_with(kRefusedX + "D/2-toolrad"));
 }
 
+TEST_CASE("gibbs lower: touches at an angle") {
+  const std::string refused = "touch-oblique@add_custom_drill_cycle_path feed, ";
+  // Out and straight back.
+  CHECK(path("to 0, 0, Z-plane\nto a, b, Z-plane\nto 0, 0, Z-plane\nz h-plane\n") ==
+        refused + "a, b, Z-plane");
+  // The radius before a point, and on to the next.
+  CHECK(path("degrees\nto 0, 0, Z-plane\nto (a-r)*cos(30), (a-r)*sin(30), Z-plane\nto 0, 1, Z-plane\n"
+             "z h-plane\n") == refused + "(a-r)*cos(30), (a-r)*sin(30), Z-plane");
+  // A start that keeps the radius away from both walls, or that the path leaves another way, is none.
+  CHECK(path("to a-r, b-r, Z-plane\nz h-plane\nz Z-plane\n").find("touch-oblique") == std::string::npos);
+  CHECK(path("z h-plane\nto a, b, h-plane\nz h+1-plane\nto 0, 0, h+1-plane\n").find("touch-oblique") ==
+        std::string::npos);
+}
+
 TEST_CASE("gibbs lower: shapes that show a touch") {
   const std::string wanted =
       "move Z W Z\na<=0 -> L1\nmeasure X S a\nL1:\na>=0 -> L2\nmeasure X S a\nL2:\nmove Z W h\n";

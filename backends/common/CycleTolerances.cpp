@@ -1,0 +1,122 @@
+#include "backends/common/CycleTolerances.h"
+
+#include "backends/common/MacroCall.h"
+#include "ir/Fold.h"
+#include "stdlib/MacroCycle.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+namespace dotek::backends {
+
+namespace {
+
+class Tolerances {
+public:
+  Tolerances(const stdlib::MacroSignature& signature, const ExpectedAlong& expected)
+      : signature_(signature), expected_(expected) {}
+
+  std::vector<Tolerance> take(ir::CallCycle& cycle) {
+    std::erase_if(cycle.arguments, [&](const ir::CycleArgument& one) {
+      return macroArgument(signature_, one.parameter) == nullptr && !one.moves && isTaken(cycle, one);
+    });
+    return std::move(checks_);
+  }
+
+private:
+  bool isTaken(const ir::CallCycle& cycle, const ir::CycleArgument& one) {
+    if (one.parameter == stdlib::roleName(stdlib::ArgumentRole::UpperLimit))
+      return addLimit(cycle, one.value);
+    if (one.parameter == stdlib::roleName(stdlib::ArgumentRole::SizeTolerance))
+      return add(sizeOf(cycle) != nullptr ? compared(sizeError(cycle)) : off(cycle), one.value,
+                 "OUT OF TOLERANCE");
+    if (one.parameter == stdlib::roleName(stdlib::ArgumentRole::PositionTolerance)) {
+      const ir::ExpressionPtr error = off(cycle);
+      return add(error == nullptr ? nullptr : ir::binary(ir::BinaryOp::Multiply, ir::constant(2), error),
+                 one.value, "OUT OF POSITION");
+    }
+    if (one.parameter == stdlib::roleName(stdlib::ArgumentRole::AngleTolerance)) {
+      const stdlib::MacroResult* angle = signature_.find(stdlib::Output::AngleError);
+      return add(angle == nullptr ? nullptr : compared(variable(*angle)), one.value,
+                 "ANGLE OUT OF TOLERANCE");
+    }
+    return false;
+  }
+
+  // Along each axis, and of the size.
+  bool addLimit(const ir::CallCycle& cycle, const ir::ExpressionPtr& limit) {
+    constexpr std::string_view kText = "UPPER LIMIT";
+    for (const ir::Axis axis : axesOf(cycle))
+      if (!add(compared(errorAlong(cycle, axis)), limit, kText)) return false;
+    const ir::ExpressionPtr size = sizeError(cycle);
+    return size == nullptr || add(compared(size), limit, kText);
+  }
+
+  bool add(const ir::ExpressionPtr& error, const ir::ExpressionPtr& limit, std::string_view text) {
+    if (error != nullptr) checks_.push_back({error, compared(limit), text});
+    return error != nullptr;
+  }
+  static ir::ExpressionPtr variable(const stdlib::MacroResult& result) {
+    return ir::machineVariable(ir::constant(static_cast<double>(result.variable)));
+  }
+  // Its size; null stays null.
+  static ir::ExpressionPtr compared(const ir::ExpressionPtr& value) {
+    if (value == nullptr) return nullptr;
+    if (const double* known = ir::constantValue(value)) return ir::constant(std::abs(*known), value->range);
+    return ir::unary(ir::UnaryOp::Absolute, value);
+  }
+  static std::vector<ir::Axis> axesOf(const ir::CallCycle& cycle) {
+    if (cycle.axis) return {*cycle.axis};
+    return {ir::Axis::X, ir::Axis::Y};
+  }
+  static const ir::CycleArgument* sizeOf(const ir::CallCycle& cycle) {
+    const std::string width(stdlib::roleName(stdlib::ArgumentRole::Width));
+    const std::string diameter(stdlib::roleName(stdlib::ArgumentRole::Diameter));
+    for (const ir::CycleArgument& one : cycle.arguments)
+      if (one.parameter == diameter || one.parameter.starts_with(width)) return &one;
+    return nullptr;
+  }
+
+  ir::ExpressionPtr measured(stdlib::Output output) const {
+    const stdlib::MacroResult* result = signature_.find(output);
+    return result == nullptr || !result->documented ? nullptr : variable(*result);
+  }
+  ir::ExpressionPtr sizeError(const ir::CallCycle& cycle) const {
+    const ir::CycleArgument* size = sizeOf(cycle);
+    const ir::ExpressionPtr found = size == nullptr ? nullptr : measured(stdlib::Output::Size);
+    return found == nullptr ? nullptr : ir::binary(ir::BinaryOp::Subtract, found, size->value);
+  }
+  ir::ExpressionPtr errorAlong(const ir::CallCycle& cycle, ir::Axis axis) {
+    constexpr stdlib::Output kPositions[] = {stdlib::Output::PositionX, stdlib::Output::PositionY,
+                                             stdlib::Output::PositionZ};
+    const ir::ExpressionPtr found = measured(kPositions[ir::indexOf(axis)]);
+    const ir::ExpressionPtr wanted = found == nullptr ? nullptr : expected_(cycle, axis);
+    return wanted == nullptr ? nullptr : ir::binary(ir::BinaryOp::Subtract, found, wanted);
+  }
+  // How far the feature lies from where it is expected.
+  ir::ExpressionPtr off(const ir::CallCycle& cycle) {
+    ir::ExpressionPtr out;
+    for (const ir::Axis axis : axesOf(cycle)) {
+      const ir::ExpressionPtr error = errorAlong(cycle, axis);
+      if (error == nullptr) return nullptr;
+      if (cycle.axis) return compared(error);
+      const ir::ExpressionPtr square = ir::binary(ir::BinaryOp::Multiply, error, error);
+      out = out == nullptr ? square : ir::binary(ir::BinaryOp::Add, out, square);
+    }
+    return ir::unary(ir::UnaryOp::SquareRoot, out);
+  }
+
+  const stdlib::MacroSignature& signature_;
+  const ExpectedAlong& expected_;
+  std::vector<Tolerance> checks_;
+};
+
+} // namespace
+
+std::vector<Tolerance> takeTolerances(ir::CallCycle& cycle, const stdlib::MacroSignature& signature,
+                                      const ExpectedAlong& expected) {
+  return Tolerances(signature, expected).take(cycle);
+}
+
+} // namespace dotek::backends

@@ -1,0 +1,29 @@
+// Tolerances of a call that a macro has no letter for: what is compared after it instead, by the target
+// itself.
+#pragma once
+
+#include "ir/Statement.h"
+#include "stdlib/MacroSet.h"
+
+#include <functional>
+#include <string_view>
+#include <vector>
+
+namespace dotek::backends {
+
+// An alarm where `error` is above `limit`; both count sizes, mm or degrees. Results of the macro are
+// variables of the machine in `error`.
+struct Tolerance {
+  ir::ExpressionPtr error, limit; // never null
+  std::string_view text;          // of the alarm
+};
+
+// Where the source expects the feature of the cycle along the axis, work coordinates; nullptr: not known.
+using ExpectedAlong = std::function<ir::ExpressionPtr(const ir::CallCycle& cycle, ir::Axis axis)>;
+
+// Takes the tolerances that `signature` has no letter for out of the cycle's arguments, in their order. One
+// stays where what it compares is no documented result of the macro, or where `expected` does not know.
+std::vector<Tolerance> takeTolerances(ir::CallCycle& cycle, const stdlib::MacroSignature& signature,
+                                      const ExpectedAlong& expected);
+
+} // namespace dotek::backends
