@@ -377,15 +377,16 @@ private:
     }
   }
 
+  static constexpr std::uint32_t kExtended = 5410; // and n: G54.1 Pn
+
   static std::string systemName(std::uint32_t system) {
-    constexpr std::uint32_t kExtended = 5410;
     return system > kExtended ? fmt::format("G54.1 P{}", system - kExtended) : fmt::format("G{}", system);
   }
 
   // Of additional systems only those are there that were changed.
   void otherZeros() {
     for (const auto& [key, value] : target_.zeros) {
-      if (source_.zeros.contains(key)) continue;
+      if (key.first <= kExtended || source_.zeros.contains(key)) continue;
       add(Aspect::Offset,
           fmt::format("nothing against the zero of {} along {}, which is moved to {}", systemName(key.first),
                       "XYZ"[key.second], fixedText(value, kShown)),
