@@ -603,7 +603,7 @@ TEST_CASE("cycle run: a single touch is one contact of the probe, the usual one 
 
 TEST_CASE("cycle run: a cycle of a macro set is not known here") {
   Bench bench;
-  ir::CallCycle call = named("web", {});
+  ir::CallCycle call = named("web", std::vector<ir::CycleArgument>{});
   call.set = "some-set";
   bench.add(std::move(call));
   CHECK(bench.run().ending == verify::Ending::Inconclusive);
