@@ -473,7 +473,7 @@ ir::CycleArgument given(const std::string& name, double value, std::optional<Fra
   return out;
 }
 
-ir::CallCycle named(std::string_view name, std::vector<ir::CycleArgument> arguments) {
+ir::CallCycle cycleCall(std::string_view name, std::vector<ir::CycleArgument> arguments) {
   ir::CallCycle out;
   out.cycle = name;
   out.arguments = std::move(arguments);
@@ -484,7 +484,11 @@ ir::CallCycle named(std::string_view name, std::vector<ir::CycleArgument> argume
 
 TEST_CASE("cycle run: set gives what was measured its coordinates in the system") {
   Bench bench;
+<<<<<<< HEAD
   ir::CallCycle set = named(ir::kSetOffset, {given("measured x", 20), given("measured y", -3)});
+=======
+  ir::CallCycle set = cycleCall(ir::kSetOffset, {given("measured x", 20), given("measured y", -3)});
+>>>>>>> 72887ddc (Tests of the statements of cycles are laid out and build)
   set.setting =
       ir::CycleSetting{ir::constant(55), {true, true, false}, {ir::constant(7), ir::constant(1), nullptr}};
   bench.add(std::move(set));
@@ -500,20 +504,20 @@ TEST_CASE("cycle run: set gives what was measured its coordinates in the system"
 TEST_CASE("cycle run: set of a work offset or a tool that is none is an alarm") {
   for (const double system : {53.0, 60.0, 54.5}) {
     Bench bench;
-    ir::CallCycle set = named(ir::kSetOffset, {given("measured x", 20)});
+    ir::CallCycle set = cycleCall(ir::kSetOffset, {given("measured x", 20)});
     set.setting =
         ir::CycleSetting{ir::constant(system), {true, false, false}, {ir::constant(0), nullptr, nullptr}};
     bench.add(std::move(set));
     CHECK(bench.run().ending == verify::Ending::Alarm);
   }
   Bench bench;
-  bench.add(named(ir::kSetTool, {given("tool", 0), given("length", 80)}));
+  bench.add(cycleCall(ir::kSetTool, {given("tool", 0), given("length", 80)}));
   CHECK(bench.run().ending == verify::Ending::Alarm);
 }
 
 TEST_CASE("cycle run: a tool offset gets its length, and the length in force stays") {
   Bench bench;
-  bench.add(named(ir::kSetTool, {given("tool", 7), given("length", 80.02)}));
+  bench.add(cycleCall(ir::kSetTool, {given("tool", 7), given("length", 80.02)}));
   const verify::Record record = bench.run();
   REQUIRE_MESSAGE(record.ending == verify::Ending::Finished, record.text);
   REQUIRE(record.tools.contains(7));
@@ -528,8 +532,8 @@ TEST_CASE(
     PartBuilder builder;
     builder.halfSpace({20, 20, 0}, {-std::sqrt(0.5), -std::sqrt(0.5), 0}); // through X20 Y20
     bench.take(builder);
-    bench.add(named(ir::kSurfaceAlong,
-                    {given("direction x", length), given("direction y", length), given("travel", 28)}));
+    bench.add(cycleCall(ir::kSurfaceAlong,
+                        {given("direction x", length), given("direction y", length), given("travel", 28)}));
     const ir::ResultName results[] = {ir::ResultName::PositionX, ir::ResultName::PositionY,
                                       ir::ResultName::PositionZ, ir::ResultName::Main};
     for (std::uint32_t i = 0; i < 4; ++i)
@@ -549,7 +553,7 @@ TEST_CASE("cycle run: straight down a direction finds what a touch along z finds
   bench.box({-20, -20, -20}, {20, 20, -0.37});
   bench.entry.start = {0, 0, 12};
   // From the ball's centre, which is at Z15.
-  bench.add(named(ir::kSurfaceAlong, {given("direction z", -1), given("travel", 15)}));
+  bench.add(cycleCall(ir::kSurfaceAlong, {given("direction z", -1), given("travel", 15)}));
   bench.keep(101, ir::result(ir::ResultName::PositionZ));
   bench.keep(102, ir::result(ir::ResultName::Main));
   const verify::Record record = bench.run();
@@ -562,7 +566,7 @@ TEST_CASE("cycle run: a touch that may miss goes on with its flag, back where it
   for (const bool there : {true, false}) {
     Bench bench;
     bench.box({there ? 20.0 : 200.0, -20, -20}, {300, 20, 20});
-    ir::CallCycle touch = named(ir::kSurface, {given("target x", 19, Frame::Here), given("miss", 1)});
+    ir::CallCycle touch = cycleCall(ir::kSurface, {given("target x", 19, Frame::Here), given("miss", 1)});
     touch.axis = Axis::X;
     bench.add(std::move(touch));
     bench.keep(101, ir::result(ir::ResultName::ProbeError));
@@ -578,7 +582,8 @@ TEST_CASE("cycle run: an overtravel of the touch's own counts instead of the usu
     Bench bench;
     bench.inputs.overtravel = 10;
     bench.box({22 + beyond, -20, -20}, {60, 20, 20}); // expected at X20, searched to X22
-    ir::CallCycle touch = named(ir::kSurface, {given("target x", 20, Frame::Here), given("overtravel", 2)});
+    ir::CallCycle touch =
+        cycleCall(ir::kSurface, {given("target x", 20, Frame::Here), given("overtravel", 2)});
     touch.axis = Axis::X;
     bench.add(std::move(touch));
     const verify::Record record = bench.run();
@@ -591,7 +596,11 @@ TEST_CASE("cycle run: a single touch is one contact of the probe, the usual one 
     Bench bench;
     bench.box({20, -20, -20}, {60, 20, 20});
     ir::CallCycle touch =
+<<<<<<< HEAD
         named(ir::kSurface, {given("target x", 20, Frame::Here), given("once", once ? 1 : 0)});
+=======
+        cycleCall(ir::kSurface, {given("target x", 20, Frame::Here), given("once", once ? 1 : 0)});
+>>>>>>> 72887ddc (Tests of the statements of cycles are laid out and build)
     touch.axis = Axis::X;
     bench.add(std::move(touch));
     sim::World world(*bench.part, bench.probe);
@@ -603,7 +612,11 @@ TEST_CASE("cycle run: a single touch is one contact of the probe, the usual one 
 
 TEST_CASE("cycle run: a cycle of a macro set is not known here") {
   Bench bench;
+<<<<<<< HEAD
   ir::CallCycle call = named("web", std::vector<ir::CycleArgument>{});
+=======
+  ir::CallCycle call = cycleCall("web", {});
+>>>>>>> 72887ddc (Tests of the statements of cycles are laid out and build)
   call.set = "some-set";
   bench.add(std::move(call));
   CHECK(bench.run().ending == verify::Ending::Inconclusive);
