@@ -2,10 +2,13 @@
 #include "driver/ConvertVerify.h"
 #include "frontend/gibbs/Ast.h"
 #include "project/Compilation.h"
+#include "project/CycleLowering.h"
+#include "project/Inputs.h"
 #include "project/Prog.h"
 #include "project/Programs.h"
 #include "support/NearestName.h"
 #include "support/messages/Commands.h"
+#include "support/messages/Cycle.h"
 #include "support/messages/Fanuc.h"
 #include "targets/Conversion.h"
 #include "targets/Target.h"
@@ -140,7 +143,13 @@ private:
     for (Input& input : order_)
       if (!input.isProgram)
         byItself(input, [&] {
-          compilation_.addFolder(folderPaths_[input.index]);
+          const std::string& path = folderPaths_[input.index];
+          if (isCycleFile(path, session_)) {
+            compilation_.addFile(path);
+            if (!target.takesPathAlone) session_.diagnostics().report<diag::CycleTarget>({}, inputName(path));
+            return;
+          }
+          compilation_.addFolder(path);
           if (options_.keepGoing) leaveFindingsToLint(session_);
         });
     if (options_.source.cycle) context_.folders.front().name = *options_.source.cycle;
@@ -156,7 +165,10 @@ private:
     for (std::size_t i = 0; i < options_.inputs.size(); ++i) {
       Input& input = order_.emplace_back();
       input.place = i;
-      byItself(input, [&] { input.isProgram = isProgramFile(options_.inputs[i], session_); });
+      byItself(input, [&] {
+        input.isProgram =
+            !isCycleFile(options_.inputs[i], session_) && isProgramFile(options_.inputs[i], session_);
+      });
       input.index = input.isProgram ? i : folderPaths_.size();
       programs = programs || input.isProgram;
       if (!input.isProgram) folderPaths_.push_back(options_.inputs[i]);

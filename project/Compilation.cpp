@@ -5,8 +5,12 @@
 #include "frontend/gibbs/Parse.h"
 #include "frontend/macrob/Lower.h"
 #include "frontend/macrob/Parse.h"
+#include "project/CycleLowering.h"
+#include "project/Inputs.h"
 #include "project/Prog.h"
 #include "support/Files.h"
+#include "support/NearestName.h"
+#include "support/messages/Commands.h"
 
 #include <utility>
 
@@ -74,7 +78,20 @@ const macrob::File& Compilation::addPrograms(FileId file) {
       macrob::parse(file, session_.sources(), session_.limits(), session_.diagnostics(), text));
 }
 
+CycleFolder& Compilation::addFile(const std::string& path) {
+  CycleFolder& folder = folders_.emplace_back();
+  folder.name = inputName(path);
+  cycleFiles_.emplace(&folder, path);
+  return folder;
+}
+
+const std::string* Compilation::fileOf(const CycleFolder& folder) const {
+  const auto found = cycleFiles_.find(&folder);
+  return found == cycleFiles_.end() ? nullptr : &found->second;
+}
+
 std::optional<LoweredCycle> Compilation::lower(const CycleFolder& folder, Strictness strictness) {
+  if (const std::string* file = fileOf(folder)) return lowerFile(*file, {});
   return lowerCycle(folder, *inputs_, usedSets_, session_, strictness);
 }
 
@@ -86,6 +103,66 @@ std::optional<LoweredCycle> Compilation::lower(const CycleFolder& folder,
   std::optional<LoweredCycle> out = lower(folder, strictness);
   inputs_->program = program;
   inputs_->routine = named;
+  return out;
+}
+
+namespace {
+
+// A protected move of the language goes at the approach feed where it states none; a control has no such
+// feed.
+void giveApproachFeed(ir::Cycle& cycle) {
+  std::optional<ir::VariableId> feed;
+  for (ir::VariableId id = 0; id < cycle.variables.size(); ++id)
+    if (cycle.variable(id).role == ir::Role::Host && cycle.variable(id).name == "approach_feed") feed = id;
+  for (ir::CycleStatement& statement : cycle.body) {
+    auto* move = std::get_if<ir::Move>(&statement.node);
+    if (move == nullptr || move->motion != ir::Motion::Protected || move->feed != nullptr) continue;
+    if (!feed) {
+      ir::Variable variable;
+      variable.name = "approach_feed";
+      variable.kind = ir::Kind::Feed;
+      variable.role = ir::Role::Host;
+      variable.range = cycle.range;
+      feed = cycle.add(std::move(variable));
+    }
+    move->feed = ir::variable(*feed, statement.origin.range());
+  }
+}
+
+} // namespace
+
+std::optional<LoweredCycle> Compilation::lowerFile(const std::string& path, const SourceOptions& source) {
+  if (!inputs_ && loadSettings(source) == nullptr) return std::nullopt;
+  std::optional<frontend::cycle::Lowered> lowered = lowerCycleFile(path, session_);
+  if (!lowered) return std::nullopt;
+  LoweredCycle out;
+  out.cycle = std::move(lowered->cycle);
+  out.letters = std::move(lowered->letters);
+  giveApproachFeed(out.cycle);
+  std::set<std::string> names;
+  for (ir::VariableId id = 0; id < out.cycle.variables.size(); ++id) {
+    const ir::Variable& variable = out.cycle.variable(id);
+    const auto fix = [&](double value) {
+      out.fixed[id] = value;
+      out.fixedByName[variable.name] = value;
+    };
+    if (variable.role == ir::Role::Parameter) {
+      names.insert(variable.name);
+      for (const auto& [name, value] : inputs_->sets)
+        if (name == variable.name) fix(value);
+    }
+    if (variable.role != ir::Role::Host) continue;
+    if (const auto given = inputs_->hosts.find(variable.name); given != inputs_->hosts.end())
+      fix(given->second);
+  }
+  for (const auto& [name, value] : inputs_->sets) {
+    usedSets_.insert(name); // reported here, once
+    if (names.contains(name)) continue;
+    const std::string near = nearestName(name, names);
+    session_.diagnostics().report<diag::NoSuchField>({}, name, out.cycle.name,
+                                                     near.empty() ? "" : "; did you mean `" + near + "`?");
+  }
+  if (session_.diagnostics().hasErrors()) return std::nullopt;
   return out;
 }
 

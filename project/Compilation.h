@@ -64,6 +64,13 @@ public:
   std::optional<LoweredCycle> lower(const CycleFolder& folder,
                                     std::shared_ptr<const frontend::compost::Program> prog,
                                     const frontend::compost::Routine& routine, Strictness strictness);
+  // A file of the cycle language, with the values of --set, --host and the job. nullopt: it has a defect,
+  // reported.
+  std::optional<LoweredCycle> lowerFile(const std::string& path, const SourceOptions& source);
+  // A file of the cycle language beside the folders; lower() takes it as it takes them.
+  CycleFolder& addFile(const std::string& path);
+  // The file that the folder stands for; nullptr: it is a folder.
+  const std::string* fileOf(const CycleFolder& folder) const;
   // Names of --set that some cycle knows which was lowered.
   std::set<std::string>& usedSets() { return usedSets_; }
   // Programs as this control reads them, or, without one, as the first that can. nullptr: none can.
@@ -80,6 +87,7 @@ private:
   std::deque<frontend::gibbs::Dialog> dialogs_;
   std::deque<frontend::gibbs::DefineData> defines_;
   std::deque<frontend::macrob::File> programs_;
+  std::map<const CycleFolder*, std::string> cycleFiles_;
   std::set<std::string> usedSets_;
 };
 

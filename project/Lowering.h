@@ -66,6 +66,7 @@ struct LoweredCycle {
   std::vector<ir::PrintedBlock> printed;     // what the Prog prints, block by block; empty without a Prog
   // Fields that CycleData.mac computes from others: locals, with the text of what is computed.
   std::map<ir::VariableId, std::string> computed;
+  std::map<ir::VariableId, char> letters; // that the source wishes for arguments
   bool checked = true; // the checks of the dialog are lowered; false of a lenient one that cannot read them
 };
 

@@ -25,6 +25,8 @@ inline constexpr HostInput kHostInputs[] = {
     {"tool_offset", "number of the tool offset"},
     {"overtravel", "distance that a measuring move goes on after the expected surface, mm"},
     {"return_feed", "feed of the path back after a contact, mm/min"},
+    {"approach_feed", "feed of the protected moves of a cycle that state none, mm/min"},
+    {"measuring_feed", "feed of the second touch of a cycle, mm/min"},
 };
 
 // The names alone, in the order of the table.
@@ -42,7 +44,8 @@ constexpr bool isHostInput(std::string_view name) {
 
 // What a host input has to be where `value` cannot be meant ("a number above 0"); "" for a value that can.
 constexpr std::string_view hostInputRefuses(std::string_view name, double value) {
-  if (name == "tool_radius" || name == "return_feed") return value > 0 ? "" : "a number above 0";
+  if (name == "tool_radius" || name == "return_feed" || name == "approach_feed" || name == "measuring_feed")
+    return value > 0 ? "" : "a number above 0";
   if (name == "overtravel") return value >= 0 ? "" : "0 or more";
   if (name == "tool_number" || name == "tool_offset") {
     const bool whole =

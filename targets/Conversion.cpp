@@ -49,6 +49,10 @@ std::optional<LoweredSource> lowerSource(const CycleFolder& folder, ConversionCo
   std::optional<LoweredCycle> lowered = context.compilation.lower(folder);
   if (!lowered) return std::nullopt;
   LoweredSource out{std::move(*lowered), {}};
+  if (context.compilation.fileOf(folder) != nullptr) {
+    applyDefaults(context.options.defaults, out.lowered, context.usedDefaults, session);
+    return out;
+  }
   ir::Cycle& cycle = out.lowered.cycle;
   cycle.name = folder.name;
   applyDefaults(context.options.defaults, out.lowered, context.usedDefaults, session);

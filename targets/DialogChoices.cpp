@@ -24,7 +24,7 @@ std::optional<double> numberOf(const gibbs::Expression& expression) {
 std::map<ir::VariableId, std::vector<DialogChoice>>
 dialogChoices(const project::CycleFolder& folder, const ir::Cycle& cycle, const SourceMap& sources) {
   std::map<ir::VariableId, std::vector<DialogChoice>> out;
-  if (!folder.cycle->dialog) return out;
+  if (folder.cycle == nullptr || !folder.cycle->dialog) return out;
   const Encoding encoding = sources.file(folder.cycle->dialog->file).encoding();
   std::map<std::string, ir::VariableId> ids;
   for (ir::VariableId id = 0; id < cycle.variables.size(); ++id)

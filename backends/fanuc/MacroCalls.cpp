@@ -2,6 +2,7 @@
 #include "backends/common/CycleTolerances.h"
 #include "backends/common/CycleTouches.h"
 #include "backends/common/MacroCall.h"
+#include "backends/fanuc/OwnCycles.h"
 #include "backends/fanuc/State.h"
 #include "ir/Linear.h"
 #include "support/messages/Fanuc.h"
@@ -209,6 +210,7 @@ void writeMeasure(State& state, const ir::Measure& measure, const ir::Origin& or
 }
 
 void writeCycle(State& state, const ir::CallCycle& given, const ir::Origin& origin) {
+  if (writeOwnCycle(state, given, origin)) return;
   if (given.moves) warnIfOff(state, origin);
   const stdlib::MacroSignature* signature = signatureOf(state.macros, given);
   if (signature == nullptr) {

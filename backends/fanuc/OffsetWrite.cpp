@@ -1,4 +1,5 @@
 // Writing a work offset ourselves, where the macro's own rule is another one than the source's.
+#include "backends/fanuc/OwnCycles.h"
 #include "backends/fanuc/State.h"
 #include "backends/fanuc/Uses.h"
 #include "ir/Evaluate.h"
@@ -6,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace dotek::backends::fanuc {
 
@@ -57,12 +59,18 @@ std::vector<ir::Environment> environments(const State& state) {
 
 // Whether the checks reject all that is no system. Tried, not proved: an alarm too many does no harm.
 bool checksConfine(const State& state, ir::VariableId id) {
-  for (ir::Environment& environment : environments(state))
+  bool tried = false;
+  for (ir::Environment& environment : environments(state)) {
+    // Where they reject a system, too, they say nothing of what is none.
+    environment[id] = ir::Scalar::of(kFirstSystem);
+    if (ir::runChecks(state.cycle, environment, kMaxSteps).end == ir::CheckRun::End::Alarm) continue;
+    tried = true;
     for (const double value : {-99999.0, -1.0, 0.0, 1.0, 53.0, 53.5, 59.5, 60.0, 61.0, 100.0, 99999.0}) {
       environment[id] = ir::Scalar::of(value);
       if (ir::runChecks(state.cycle, environment, kMaxSteps).end != ir::CheckRun::End::Alarm) return false;
     }
-  return true;
+  }
+  return tried;
 }
 
 } // namespace
@@ -110,6 +118,35 @@ void writeOffset(State& state, const ir::OffsetSetting& setting, ir::Axis axis,
   assign(state, left, value, origin);
 }
 
+void writeSetOffset(State& state, const ir::CallCycle& set, const ir::Origin& given) {
+  const std::string why = obstacle(state);
+  guardSystem(state, set.setting->system, given);
+  ir::Origin origin = given;
+  origin.reason = "offset: active one + measured - nominal";
+  bool waits = false;
+  for (const ir::Axis axis : ir::kAxes) {
+    const std::string parameter = std::string("measured ") + "xyz"[ir::indexOf(axis)];
+    const auto measured =
+        std::find_if(set.arguments.begin(), set.arguments.end(),
+                     [&](const ir::CycleArgument& one) { return one.parameter == parameter; });
+    if (measured == set.arguments.end()) continue;
+    if (!why.empty()) {
+      state.refuse<diag::OffsetWriteUnsafe>(given.range(), std::string(1, ir::letterOf(axis)), why);
+      return;
+    }
+    if (axis == ir::Axis::Z) state.shiftOfZ = true;
+    if (!std::exchange(waits, true)) writeWait(state, origin);
+    const ir::ExpressionPtr active = systemVariable(*workSystemVariable(state.control));
+    const ir::ExpressionPtr value =
+        tidy(minus(plus(ir::machineVariable(offsetNumber(state.control, active, axis)), measured->value),
+                   set.setting->nominal[ir::indexOf(axis)]));
+    const std::string left =
+        machineText(state, offsetNumber(state.control, set.setting->system, axis), origin);
+    assign(state, left, value, origin);
+    state.releaseHelpers();
+  }
+}
+
 void writeWait(State& state, const ir::Origin& origin) {
   const auto* wait = state.control.find(stdlib::Function::MachineCoordinates);
   if (wait != nullptr && wait->grade != "assumed") state.sheet.add(codeText(*wait), origin);
@@ -134,11 +171,23 @@ void guardSystem(State& state, const ir::ExpressionPtr& given, const ir::Origin&
     writeSystemAlarm(state, system, origin);
 }
 
-void writeSystemAlarm(State& state, const ir::ExpressionPtr& system, const ir::Origin& given) {
+void writeSystemAlarm(State& state, const ir::ExpressionPtr& named, const ir::Origin& given) {
   ir::Origin origin;
   origin.ranges = given.ranges;
   origin.reason = "range of the work system";
-  const auto* use = std::get_if<ir::VariableUse>(&system->node);
+  const auto* use = std::get_if<ir::VariableUse>(&named->node);
+  // What may be left out is not looked at where it is.
+  const bool mayMiss = use != nullptr && state.cycle.variable(use->variable).optional &&
+                       !state.cycle.variable(use->variable).defaultValue;
+  ir::ExpressionPtr system = named;
+  if (mayMiss) {
+    const std::uint32_t helper = state.helper();
+    const std::string left = "#" + std::to_string(helper);
+    system = systemVariable(static_cast<int>(helper));
+    state.sheet.add(left + "=" + valueText(state, named, origin), origin);
+    doIf(state, ir::isNull(system), left + "=" + valueText(state, ir::constant(kFirstSystem), origin),
+         origin);
+  }
   constexpr std::string_view kText = "WORK OFFSET NOT 54 TO 59";
   if (use == nullptr || state.cycle.variable(use->variable).role == ir::Role::Local ||
       !checksConfine(state, use->variable)) {

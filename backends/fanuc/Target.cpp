@@ -5,15 +5,19 @@
 #include "backends/fanuc/TargetVerify.h"
 #include "backends/fanuc/TargetVerifyPrograms.h"
 #include "frontend/gibbs/Ast.h"
+#include "ir/CycleNames.h"
 #include "ir/Fold.h"
 #include "ir/Positions.h"
 #include "ir/Walk.h"
 #include "support/messages/Commands.h"
+#include "support/messages/Cycle.h"
 #include "support/messages/Fanuc.h"
 #include "targets/Conversion.h"
 #include "targets/DialogChoices.h"
 
 #include <algorithm>
+#include <set>
+#include <string_view>
 
 namespace dotek::targets {
 
@@ -44,6 +48,8 @@ public:
       if (!ir::uses(lowered.cycle, id) && !plane && variable.role == ir::Role::Host)
         lowered.fixedByName.erase(variable.name);
     }
+    const bool ofLanguage = context_.compilation.fileOf(folder) != nullptr;
+    if (ofLanguage) loseResults(lowered.cycle);
     ir::fold(lowered.cycle, lowered.fixed);
     fanuc::EmitOptions emit{*inputs.control, *macros, *inputs.sourceControl, 0, {}, {}, {}, {}};
     emit.plainMessages = options_.common.assume.contains("plain-messages");
@@ -55,6 +61,8 @@ public:
     emit.programNumber = numberOf(index);
     emit.defaults = options_.useDefaults ? fanuc::Defaults::Use : fanuc::Defaults::Alarm;
     emit.probePower = options_.switchProbe ? fanuc::ProbePowerMode::Macro : fanuc::ProbePowerMode::Source;
+    if (ofLanguage)
+      emit.defaults = fanuc::Defaults::Use; // a default of the language is a value, not a proposal
     emit.letters = lettersOf(lowered);
     emit.fixed = lowered.fixedByName;
     for (const char* place : {"start_x", "start_y", "start_z"}) {
@@ -78,6 +86,20 @@ public:
   void program(const std::string& path) override { programs_.convert(path, context_.result); }
 
 private:
+  // A program hands nothing back.
+  void loseResults(ir::Cycle& cycle) {
+    std::set<std::string> lost;
+    std::erase_if(cycle.body, [&](const ir::CycleStatement& statement) {
+      const auto* call = std::get_if<ir::CallCycle>(&statement.node);
+      if (call == nullptr || call->cycle != ir::kResults) return false;
+      for (const ir::CycleArgument& one : call->arguments)
+        lost.insert(one.parameter);
+      return true;
+    });
+    for (const std::string& name : lost)
+      session_.diagnostics().report<diag::ResultNotLeft>(cycle.range, name);
+  }
+
   std::uint32_t numberOf(std::size_t index) const {
     std::uint32_t first = kFirstProgram;
     if (options_.programNumber)
@@ -110,12 +132,19 @@ private:
   // --arg names are those of this cycle, as it spells them.
   std::map<std::string, char> lettersOf(const LoweredCycle& lowered) {
     std::map<std::string, char> out;
+    std::set<char> taken;
+    for (const auto& [name, letter] : context_.letters)
+      taken.insert(letter);
+    for (const auto& [id, letter] : lowered.letters) // wishes, as far as they can be granted
+      if (ir::uses(lowered.cycle, id) && std::string_view("GLNOP").find(letter) == std::string_view::npos &&
+          taken.insert(letter).second)
+        out.emplace(lowered.cycle.variable(id).name, letter);
     for (const auto& [name, letter] : context_.letters) {
       const std::string folded = frontend::gibbs::foldCase(name);
       for (const ir::Variable& variable : lowered.cycle.variables) {
         if (variable.role == ir::Role::Local || frontend::gibbs::foldCase(variable.name) != folded) continue;
         context_.usedLetters.insert(name);
-        out.emplace(variable.name, letter);
+        out[variable.name] = letter;
       }
     }
     return out;

@@ -17,7 +17,7 @@ using FindCycle = std::function<const File*(const std::string& name)>;
 // live as long as the tree.
 void link(File& file, const FindCycle& find);
 
-// Parameters, results and conditions of a linked cycle in their order, those of options where `use` stands.
+// Parameters, results and conditions of a linked cycle in their order, those of options where `use` is.
 // Places of the latter lie in the options' file. Header and Needs are not among them.
 std::vector<const Statement*> declarations(const File& file);
 

@@ -26,12 +26,6 @@ bool switchesProbe(const Block& block) {
   return false;
 }
 
-bool needsProbe(const File& file) {
-  for (const Statement& one : file.body.statements)
-    if (std::holds_alternative<Needs>(one.node)) return true;
-  return false;
-}
-
 } // namespace
 
 void Lowering::call(const Call& call, SourceRange range) {
@@ -44,8 +38,6 @@ void Lowering::call(const Call& call, SourceRange range) {
     if (!failed_) refuse<diag::CycleTooLong>(range, kMostStatements);
     return;
   }
-  if (needsProbe(*called) && probe_ != Probe::On)
-    refuse<diag::ProbeForCall>(call.cycle.range, call.cycle.text);
   if (switchesProbe(called->body) && probe_ == Probe::Either)
     refuse<diag::ProbeUncertain>(call.cycle.range, call.cycle.text);
 

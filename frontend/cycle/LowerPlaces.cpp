@@ -92,15 +92,12 @@ Lowering::Sign Lowering::signOf(const ir::ExpressionPtr& expression) const {
   const auto* both = std::get_if<ir::Binary>(&expression->node);
   if (both == nullptr) return {};
   const Sign left = signOf(both->left), right = signOf(both->right);
-  switch (both->op) {
-  case ir::BinaryOp::Add: return {left.above && right.above, left.below && right.below};
-  case ir::BinaryOp::Subtract: return {left.above && right.below, left.below && right.above};
-  case ir::BinaryOp::Multiply:
-  case ir::BinaryOp::Divide:
+  if (both->op == ir::BinaryOp::Add) return {left.above && right.above, left.below && right.below};
+  if (both->op == ir::BinaryOp::Subtract) return {left.above && right.below, left.below && right.above};
+  if (both->op == ir::BinaryOp::Multiply || both->op == ir::BinaryOp::Divide)
     return {(left.above && right.above) || (left.below && right.below),
             (left.above && right.below) || (left.below && right.above)};
-  default: return {};
-  }
+  return {};
 }
 
 // The two moves of `move to start`: z first where the start lies higher, x and y first where it lies lower.

@@ -30,7 +30,11 @@ bool Lowering::ended() const {
     return !std::holds_alternative<ir::Comment>(one.node);
   });
   return last != out_->rend() &&
-         (std::holds_alternative<ir::Alarm>(last->node) || std::holds_alternative<ir::Jump>(last->node));
+         ir::match(
+             *last, [](const ir::OneOf<ir::Alarm, ir::Jump, ir::Return> auto&) { return true; },
+             [](const ir::OneOf<ir::Label, ir::Branch, ir::Store, ir::Comment, ir::Assign, ir::Move,
+                                ir::Measure, ir::ProbePower, ir::Spindle, ir::Coolant, ir::SetMode, ir::Dwell,
+                                ir::Stop, ir::CallCycle, ir::OpaqueBlock> auto&) { return false; });
 }
 
 void Lowering::jump(ir::LabelId label, SourceRange range) {

@@ -72,14 +72,14 @@ bool BlockParser::statementNumber(std::string_view after, std::uint64_t& out) {
   return true;
 }
 
-// Whether the bracket here holds a comparison, not a number: a relation lies directly within it.
+// Whether the bracket here holds a comparison, not a number: no number has a relation within it.
 bool BlockParser::holdsRelation() const {
   std::size_t depth = 0;
   for (std::size_t at = in_.position(); in_.at(at) != Reader::kEnd; ++at) {
     const char c = in_.at(at);
     if (c == '[') ++depth;
     if (c == ']' && --depth == 0) return false;
-    if (depth != 1 || !isCapital(c)) continue;
+    if (!isCapital(c)) continue;
     std::size_t end = at;
     while (isCapital(in_.at(end)))
       ++end;

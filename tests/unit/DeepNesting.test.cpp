@@ -2,6 +2,7 @@
 #include "driver/Driver.h"
 #include "tests/TestFolder.h"
 
+#include <algorithm>
 #include <doctest/doctest.h>
 
 using namespace dotek;
@@ -27,8 +28,10 @@ driver::Outcome linted(const std::string& name, const std::string& text) {
 void isOneError(const std::string& name, const std::string& text) {
   const driver::Outcome outcome = linted(name, text);
   CHECK_MESSAGE(outcome.status == 1, name << ": " << text.substr(0, 20));
-  CHECK_MESSAGE(outcome.output.find("nesting-too-deep") != std::string::npos,
-                name << ": " << text.substr(0, 20));
+  const auto& all = outcome.diagnostics.all();
+  const bool deep = std::any_of(all.begin(), all.end(),
+                                [](const Diagnostic& one) { return one.code == "nesting-too-deep"; });
+  CHECK_MESSAGE(deep, name << ": " << text.substr(0, 60));
 }
 
 } // namespace

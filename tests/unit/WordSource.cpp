@@ -181,6 +181,11 @@ std::vector<ResultLine> resultLines(const driver::Outcome& outcome, WordTarget t
       const std::size_t open = text.find('(');
       one.text = texts.printed(std::string_view(text).substr(open + 1, text.size() - open - 3));
       one.words = wordsOf(one.text);
+    } else if (const std::size_t open = text.find("_comment(\""); open != std::string::npos) {
+      // The post's own writeComment, or brackets around it.
+      const std::size_t begin = text.find('"');
+      one.text = "(" + texts.printed(std::string_view(text).substr(begin, text.size() - begin - 2)) + ")";
+      one.words = wordsOf(one.text);
     }
     out.push_back(std::move(one));
   }
