@@ -52,14 +52,16 @@ void takeChanges(const gibbs::ChecksResult& result, const CycleFolder& folder, F
 
 // One finding, however many messages the macro shows.
 void rejected(const gibbs::ChecksResult& result, const CycleFolder& folder, const gibbs::RunContext& context,
-              Diagnostics& diagnostics) {
+              Blame blame, Diagnostics& diagnostics) {
   // A value that the user types; what the macro computes from it follows.
   std::set<std::string> typed;
   for (const auto& [name, value] : context.fields)
     if (boundByDialog(folder, name)) typed.insert(name);
   std::vector<std::pair<std::string, double>> blamed;
-  for (const std::string& folded :
-       gibbs::fieldsToBlame(*folder.cycle->cycleData, folder.cycle->others, context, typed)) {
+  std::vector<std::string> causes;
+  if (blame == Blame::Fields)
+    causes = gibbs::fieldsToBlame(*folder.cycle->cycleData, folder.cycle->others, context, typed);
+  for (const std::string& folded : causes) {
     std::string written = folded;
     for (const gibbs::Field& field : gibbs::declaredFields(*folder.cycle))
       if (gibbs::foldCase(field.name.text) == folded) written = field.name.text;
@@ -95,7 +97,7 @@ std::string rejectedValues(const std::vector<std::pair<std::string, double>>& va
 }
 
 void runCycleChecks(const CycleFolder& folder, FieldTable& fields, const std::map<std::string, double>& hosts,
-                    Session& session) {
+                    Session& session, Blame blame) {
   if (!folder.cycle->cycleData) return;
   Diagnostics& diagnostics = session.diagnostics();
   gibbs::RunContext context{
@@ -110,7 +112,7 @@ void runCycleChecks(const CycleFolder& folder, FieldTable& fields, const std::ma
       [&](const std::string& name, SourceRange where) { return folder.loader->dialog(name, where); }};
   const gibbs::ChecksResult result = gibbs::runChecks(*folder.cycle->cycleData, context);
   switch (result.verdict) {
-  case gibbs::ChecksResult::Verdict::Rejected: rejected(result, folder, context, diagnostics); return;
+  case gibbs::ChecksResult::Verdict::Rejected: rejected(result, folder, context, blame, diagnostics); return;
   case gibbs::ChecksResult::Verdict::Depends: {
     if (result.neededHosts.empty()) break; // no flag helps; what is unknown has been reported
     const SourceRange where = result.rejections.empty() ? SourceRange{folder.cycle->cycleData->file, 0, 0}

@@ -19,7 +19,7 @@ bool isCycleFile(const std::string& path, Session& session) {
   std::error_code error;
   if (!isStream(path) && !fs::is_regular_file(path, error)) return false;
   Diagnostics ignored; // who reads it reports
-  const Recognition* const found = session.kindOf(path, ignored, InputKind::Cycle);
+  const Recognition* const found = session.kindOf(path, ignored, InputKind::Nc);
   return found != nullptr && found->kind == InputKind::Cycle;
 }
 

@@ -161,7 +161,7 @@ Recognition recogniseText(View text, std::optional<InputKind> named, bool byName
   if (text.find_first_not_of(" \t\r\n\v\f\x1A") == View::npos) return {named, std::string(kEmptyInput)};
   if (named == InputKind::DefineData) return {named, "its name is fixed in GibbsCAM"};
   if (auto other = otherFormat(text)) return {std::nullopt, std::move(*other)};
-  if (named == InputKind::Cycle) return {named, "its name"};
+  if (byName && named == InputKind::Cycle) return {named, "its name"};
   const Evidence seen = look(text);
   const Tally& nc = seen.nc.tally;
   // Words of Mikroprog look like any NC, and its comments like those of other controls.

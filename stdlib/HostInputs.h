@@ -11,7 +11,8 @@ namespace dotek::stdlib {
 
 struct HostInput {
   std::string_view name;
-  std::string_view meaning; // with unit and frame
+  std::string_view meaning;   // with unit and frame
+  bool ofCyclesAlone = false; // of the cycle language, never of a folder and its post
 };
 
 inline constexpr HostInput kHostInputs[] = {
@@ -25,8 +26,8 @@ inline constexpr HostInput kHostInputs[] = {
     {"tool_offset", "number of the tool offset"},
     {"overtravel", "distance that a measuring move goes on after the expected surface, mm"},
     {"return_feed", "feed of the path back after a contact, mm/min"},
-    {"approach_feed", "feed of the protected moves of a cycle that state none, mm/min"},
-    {"measuring_feed", "feed of the second touch of a cycle, mm/min"},
+    {"approach_feed", "feed of the protected moves of a cycle that state none, mm/min", true},
+    {"measuring_feed", "feed of the second touch of a cycle, mm/min", true},
 };
 
 // The names alone, in the order of the table.

@@ -132,8 +132,8 @@ bool CaseRunner::prepare() {
   for (const auto& [postField, variable] : options_.common.field)
     if (!fields_->map(postField, variable)) return false;
   std::vector<std::string> hosts;
-  for (const std::string_view name : stdlib::hostInputNames())
-    hosts.emplace_back(name);
+  for (const stdlib::HostInput& host : stdlib::kHostInputs)
+    if (!host.ofCyclesAlone) hosts.emplace_back(host.name);
   draws_.emplace(plan_.fields, std::move(hosts), plan_.fixedHosts, options_.seed, plan_.bounds);
   sourceSet_ = session_.macroSet(plan_.sourceMacros);
   std::vector<const stdlib::MacroSet*> sets;
@@ -164,7 +164,7 @@ std::unique_ptr<CaseRunner::Values> CaseRunner::check(const verify::Case& drawn,
   for (const auto& [name, value] : drawn.values)
     out->fields.set(name, value, {});
   if (settle) roundHosts(out->drawn);
-  runCycleChecks(*folder_, out->fields, out->drawn.hosts, session_);
+  runCycleChecks(*folder_, out->fields, out->drawn.hosts, session_, project::Blame::Nothing);
   noteEndless(out->drawn);
   if (stopped_) return nullptr;
   for (const Diagnostic& one : session_.diagnostics().all()) {
