@@ -101,6 +101,20 @@ std::string_view whyNoWait(const std::string& program, std::size_t at) {
   return "what follows reads the end of the block before, and writes nothing that moves";
 }
 
+// The motion mode is put back by our own macros, too, and nothing else in the program sets it.
+bool isMotionModeOfMacros(const Fault& fault, const std::string& program) {
+  std::smatch kept;
+  if (!std::regex_search(program, kept, std::regex("#(\\d+)=#4001\\b"))) return false;
+  const std::string back = "G#" + kept[1].str() + " ";
+  if (!fault.before.starts_with(back) || fault.after.starts_with(back)) return false;
+  for (const std::string& line : linesOf(program)) {
+    if (line.starts_with("(")) continue;
+    if (std::regex_search(line, std::regex("(^|[^0-9A-Z#])G0?[0-3](?![0-9])"))) return false;
+    if (std::regex_search(line, std::regex("G65 ?P(?!88)"))) return false;
+  }
+  return true;
+}
+
 // Without an effect, whoever calls. "" where there is one.
 std::string_view whyNothing(const Fault& fault, const std::string& program) {
   if (fault.before.find("#4014 LT 54.") != std::string::npos ||
@@ -116,6 +130,8 @@ std::string_view whyNothing(const Fault& fault, const std::string& program) {
       (fault.after.find("G40") == std::string::npos || fault.after.find("G80") == std::string::npos))
     return "G40 and G80 are demanded of the caller";
   if (fault.kind == "do not wait for the axes") return whyNoWait(program, fault.line);
+  if (fault.kind == "do not put a mode back" && isMotionModeOfMacros(fault, program))
+    return "the macros put the motion mode back, and nothing else sets it";
   return "";
 }
 

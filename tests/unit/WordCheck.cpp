@@ -272,6 +272,16 @@ private:
         if (holds(other.value, word)) return true;
         continue;
       }
+      // Where the axis is, is asked of the control: [#5041+19.], [#5041+[-13]].
+      if (given->role == ArgumentRole::Target && given->frame == ir::Frame::Here) {
+        const std::string from = fmt::format("#504{}", axis + 1);
+        const std::string plain = withoutBrackets(other.value);
+        if (plain.starts_with(from)) {
+          const std::string rest = plain.substr(from.size());
+          const auto added = parseNumber(rest.starts_with("+") ? rest.substr(1) : rest);
+          if (added && std::abs(*added - *number) < 1e-6) return true;
+        }
+      }
       const auto value = numberOf(other);
       if (!value) continue;
       double wanted = *number;
@@ -298,11 +308,15 @@ private:
     }
     if (given->role == ArgumentRole::System || given->role == ArgumentRole::Nominal)
       return std::any_of(here_.begin(), here_.end(), [&](const ResultLine* line) {
-        const bool writes =
-            line->text.starts_with("#[52") || line->text.find("Math.abs(") != std::string::npos;
+        const bool writes = line->text.starts_with("#[52") || line->text.starts_with("#{String(52") ||
+                            line->text.find("Math.abs(") != std::string::npos;
         return line != call && writes && holds(line->text, word);
       });
     return false;
+  }
+  static std::string withoutBrackets(std::string text) {
+    std::erase_if(text, [](char c) { return c == '[' || c == ']'; });
+    return text;
   }
   static bool hasLetter(const ResultLine& line, char letter) {
     return std::any_of(line.words.begin(), line.words.end(),
@@ -314,8 +328,9 @@ private:
       const std::size_t at = line->text.rfind("]+#");
       if (!line->text.starts_with("#") || at == std::string::npos) return false;
       const std::size_t end = line->text.find_first_of("+-", at + 3);
-      const auto value = end == std::string::npos ? std::optional(0.0)
-                                                  : parseNumber(std::string_view(line->text).substr(end));
+      std::string rest = end == std::string::npos ? "0" : withoutBrackets(line->text.substr(end));
+      if (rest.starts_with("--")) rest.erase(0, 2); // -[-3]
+      const auto value = parseNumber(rest);
       return value && std::abs(*value + nominal) < 1e-6;
     });
   }
