@@ -76,6 +76,11 @@ void takeFields(const LoweredCycle& lowered, const CycleFolder& folder, const Lo
         const auto [at, added] = decimals.emplace(piece.variable, piece.picture->decimals());
         if (!added) at->second = std::min(at->second, piece.picture->decimals());
       }
+  // A picture finer than the least increment of a control prints what that one rounds.
+  for (const auto& control : {inputs.control, inputs.sourceControl})
+    if (control)
+      for (auto& [id, places] : decimals)
+        places = std::min(places, static_cast<int>(control->decimals));
   for (const auto& [id, places] : decimals)
     if (const ir::Variable& host = lowered.cycle.variable(id); host.role == ir::Role::Host)
       plan.hostDecimals.emplace(host.name, places);

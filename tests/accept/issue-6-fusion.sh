@@ -36,7 +36,7 @@ for cycle in MERENI.OSA.X MERENI.OSA.Y MERENI.OSA.Z MERENI.OSA.XYZ MERENI.STRED.
       check "$cycle, $macros: ES5" isEs5
       check "$cycle, $macros: properties of operations" says 'scope: "operation"' 'type: "number"' 'type: "integer"'
       check "$cycle, $macros: errors are followed by return" awk '
-        /error\(localize\(/ { getline next_line; if (next_line !~ /^ *return;$/) { print NR ": " $0; bad = 1 } } END { exit bad }' "$out"
+        /error\(localize\(/ { getline next_line; if (next_line !~ /^ *return( true)?;$/) { print NR ": " $0; bad = 1 } } END { exit bad }' "$out"
       check "$cycle, $macros: never spatial" bash -c '! grep -q spatial "$1"' _ "$out"
     else
       check "$cycle, $macros: refused with a reason at a place" says ": error: "
