@@ -84,9 +84,11 @@ bool hasToWait(const std::string& line) {
   return std::regex_search(line, reads) || std::regex_search(line, writes);
 }
 
-// Control profiles, [read_ahead]: these blocks are done before the next one is read.
+// Control profiles, [read_ahead]: these blocks are done before the next one is read. Our own macros for a
+// protected move and for a bore end in a G31.
 bool stopsReading(const std::string& line) {
-  return line == "G53" || std::regex_search(line, std::regex("^(N\\d+ ?)?(G\\d+ )*G31\\b"));
+  return line == "G53" || std::regex_search(line, std::regex("^(N\\d+ ?)?G65 ?P88(10|14)\\b")) ||
+         std::regex_search(line, std::regex("^(N\\d+ ?)?(G\\d+ )*G31\\b"));
 }
 
 // Why nothing waits for the G53 of this line, or nothing has moved since the one before it. "": it counts.
