@@ -5,6 +5,7 @@
 #include "frontend/macrob/Listing.h"
 #include "frontend/macrob/Misprints.h"
 #include "frontend/macrob/Scan.h"
+#include "support/messages/Common.h"
 #include "support/messages/MacroB.h"
 
 #include <algorithm>
@@ -202,6 +203,8 @@ private:
     ignored_ = Diagnostics();
     offending_ = tokens.size();
     const ParseSession::Unit unit = session_.run([this] { return parser_.block(); });
+    for (const Diagnostic& one : ignored_.all())
+      if (one.code == diag::NestingTooDeep::code) return one;
     if (unit.failed || unit.tree == nullptr)
       return explainBlock(tokens, std::min(offending_, tokens.size()), file_, source_, end);
     Builder builder(file_);

@@ -3,6 +3,8 @@
 #include "tests/TestFolder.h"
 
 #include <doctest/doctest.h>
+#include <set>
+#include <string>
 
 using namespace dotek;
 using namespace dotek::tests;
@@ -24,25 +26,31 @@ driver::Outcome linted(const std::string& name, const std::string& text) {
   return driver::lint(options);
 }
 
-void isAnError(const std::string& name, const std::string& text) {
+// At a greater depth another limit may be met first.
+void isTooDeep(int depth, const std::string& name, const std::string& text) {
   const driver::Outcome outcome = linted(name, text);
-  CHECK_MESSAGE(outcome.status == 1, name << ": " << text.substr(0, 20));
-  CHECK_MESSAGE(outcome.diagnostics.hasErrors(), name << ": " << text.substr(0, 60));
+  std::set<std::string> allowed = {"nesting-too-deep"};
+  if (depth > 1000) allowed.insert({"too-many-tokens", "line-too-long"});
+  bool found = false;
+  for (const Diagnostic& one : outcome.diagnostics.all())
+    found = found || allowed.contains(std::string(one.code));
+  CHECK_MESSAGE(outcome.status == 1, name << ": " << text.substr(0, 60));
+  CHECK_MESSAGE(found, name << ": " << text.substr(0, 60));
 }
 
 } // namespace
 
 TEST_CASE("signs, brackets and negations of any depth are an error") {
   for (const int depth : {700, 5000}) {
-    isAnError("deep.nc", "O1\n#1=" + repeated("-", depth) + "1\nM99\n");
-    isAnError("deep.nc", "O1\n#1=" + repeated("[", depth) + "1\nM99\n");
-    isAnError("deep.nc", "O1\nIF[" + repeated("[", depth) + "#1EQ1]GOTO1\nN1M99\n");
-    isAnError("deep.mac", "x = " + repeated("-", depth) + "1\nPOINT_TO_POINT x, 1, 1\n");
-    isAnError("deep.mac", "x = " + repeated("(", depth) + "1\nPOINT_TO_POINT x, 1, 1\n");
+    isTooDeep(depth, "deep.nc", "O1\n#1=" + repeated("-", depth) + "1\nM99\n");
+    isTooDeep(depth, "deep.nc", "O1\n#1=" + repeated("[", depth) + "1\nM99\n");
+    isTooDeep(depth, "deep.nc", "O1\nIF[" + repeated("[", depth) + "#1EQ1]GOTO1\nN1M99\n");
+    isTooDeep(depth, "deep.mac", "x = " + repeated("-", depth) + "1\nPOINT_TO_POINT x, 1, 1\n");
+    isTooDeep(depth, "deep.mac", "x = " + repeated("(", depth) + "1\nPOINT_TO_POINT x, 1, 1\n");
     const std::string head = "cycle deep \"Deep\"\nresult size : length \"Size\"\n";
-    isAnError("deep.cycle", head + "size = " + repeated("-", depth) + "1 mm\n");
-    isAnError("deep.cycle", head + "size = " + repeated("(", depth) + "1 mm\n");
-    isAnError("deep.cycle", head + "if " + repeated("not ", depth) + "1 < 2 then\nend\nsize = 1 mm\n");
-    isAnError("deep.txt", "probe:\n  IF " + repeated("(", depth) + "1 = 1\n  END\nRETURN\n");
+    isTooDeep(depth, "deep.cycle", head + "size = " + repeated("-", depth) + "1 mm\n");
+    isTooDeep(depth, "deep.cycle", head + "size = " + repeated("(", depth) + "1 mm\n");
+    isTooDeep(depth, "deep.cycle", head + "if " + repeated("not ", depth) + "1 < 2 then\nend\nsize = 1 mm\n");
+    isTooDeep(depth, "deep.txt", "probe:\n  IF " + repeated("(", depth) + "1 = 1\n  END\nRETURN\n");
   }
 }
