@@ -183,8 +183,11 @@ void writeBlocks(State& state) {
       text.add(number);
       lines.push_back({std::move(text), false, statements.front()->origin, ""});
     }
-    for (Text& text : own)
-      lines.push_back({std::move(text), true, statements.front()->origin, ""});
+    for (Text& text : own) {
+      ir::Origin origin = statements.front()->origin;
+      if (!text.reason().empty()) origin.reason = text.reason();
+      lines.push_back({std::move(text), true, std::move(origin), ""});
+    }
   }
   Text last;
   if (const ir::Origin* origin = macros.putBack(last)) lines.push_back({std::move(last), true, *origin, ""});

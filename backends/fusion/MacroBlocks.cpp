@@ -47,14 +47,6 @@ bool isMacro(const State& state, const ir::CycleStatement& statement) {
                          ir::OpaqueBlock> auto&) { return false; });
 }
 
-bool readsControl(const ir::ExpressionPtr& value) {
-  bool found = false;
-  ir::eachNode(value, [&](const ir::Expression& node) {
-    found = found || std::holds_alternative<ir::MachineVariable>(node.node);
-  });
-  return found;
-}
-
 bool readsResult(const ir::CycleStatement& statement) {
   bool found = false;
   ir::eachNode(statement, [&](const ir::Expression& node) {
@@ -328,13 +320,7 @@ void MacroBlocks::move(const ir::Move& move, const ir::Origin& origin, std::vect
       const ir::ExpressionPtr value = place(*coordinate, axis, ir::Frame::Work, origin, true);
       if (value == nullptr) continue;
       text.add(std::string(" ") + ir::letterOf(axis));
-      if (readsControl(value)) {
-        text.add("[");
-        macro(text, ir::simplify(value), origin);
-        text.add("]");
-      } else {
-        texts_.number(text, value, origin);
-      }
+      valueOfWord(text, value, origin);
     }
     if (waits_) wait(lines);
     if (move.feed != nullptr) {
@@ -546,14 +532,7 @@ void MacroBlocks::call(const MacroCall& call, const ir::Origin& origin, std::vec
                          std::to_string(signature.program) + " is not above 0",
                      origin);
     text.add(std::string(" ") + argument->letter);
-    // What the control reads is a formula there.
-    if (readsControl(value)) {
-      text.add("[");
-      macro(text, ir::simplify(value), origin);
-      text.add("]");
-    } else {
-      texts_.number(text, value, origin);
-    }
+    valueOfWord(text, value, origin);
   }
   if (waits_) wait(lines);
   lines.push_back(std::move(text));

@@ -205,6 +205,13 @@ void MacroBlocks::macroOperand(Text& text, const ir::ExpressionPtr& value, const
   text.add(plain ? "" : "]");
 }
 
+void MacroBlocks::valueOfWord(Text& text, const ir::ExpressionPtr& value, const ir::Origin& origin) {
+  if (!needsControl(value)) return texts_.number(text, value, origin);
+  text.add("[");
+  macro(text, ir::simplify(value), origin);
+  text.add("]");
+}
+
 void MacroBlocks::alarmAbove(const ir::ExpressionPtr& value, const ir::ExpressionPtr& limit,
                              std::string_view what, std::vector<Text>& lines, const ir::Origin& origin) {
   const auto [known, fresh] = alarms_.emplace(what, 0);
@@ -275,6 +282,7 @@ void MacroBlocks::checkShift(const ir::OffsetSetting& setting, std::vector<Text>
                                           offsetOf(active, axis));
     alarmAbove(ir::unary(ir::UnaryOp::Absolute, shift), ir::constant(kSamePlace), "LOCAL SHIFT ACTIVE", lines,
                origin);
+    lines.back().because("local shift checked");
   }
 }
 

@@ -94,10 +94,13 @@ public:
   void add(std::string_view literal) { pending_ += literal; }
   void addExpression(std::string expression);
   std::string expression() const;
+  // Why the line is there, of one that no block of the source makes; "" of the others.
+  void because(std::string reason) { reason_ = std::move(reason); }
+  const std::string& reason() const { return reason_; }
 
 private:
   std::vector<std::string> parts_;
-  std::string pending_;
+  std::string pending_, reason_;
 };
 
 // A value that blocks print: its text is computed once, checked, and kept in a variable.
@@ -147,6 +150,8 @@ private:
   // Why the blocks cannot write an offset themselves; "": they can.
   std::string offsetObstacle(const stdlib::MacroSignature& signature, const ir::OffsetSetting& setting) const;
   ir::ExpressionPtr offsetOf(const ir::ExpressionPtr& system, ir::Axis axis) const;
+  // What follows the letter of a word; what the control reads is a formula there.
+  void valueOfWord(Text& text, const ir::ExpressionPtr& value, const ir::Origin& origin);
   // Active offset + measured - nominal, after a check that nothing else shifts the axis.
   void checkShift(const ir::OffsetSetting& setting, std::vector<Text>& lines, const ir::Origin& origin);
   void writeOffset(const ir::OffsetSetting& setting, const stdlib::MacroSignature& signature,

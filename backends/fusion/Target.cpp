@@ -28,10 +28,7 @@ void dropNotesOfPrograms(Diagnostics& diagnostics) {
 }
 
 void checkFusionConvert(const ConvertOptions& options, Diagnostics& diagnostics) {
-  // No Prog belongs to a file of the cycle language, which is refused as such.
-  const bool folders = std::any_of(options.inputs.begin(), options.inputs.end(),
-                                   [](const std::string& input) { return !input.ends_with(".cycle"); });
-  if (folders && !options.source.prog) diagnostics.report<diag::FusionNeedsProg>({});
+  if (!options.source.prog) diagnostics.report<diag::FusionNeedsProg>({});
 }
 
 void refuseFlag(std::string_view flag, Diagnostics& diagnostics) {

@@ -69,8 +69,7 @@ bool isAddition(const ResultLine& line, const NcWord& word, WordTarget target) {
   return word.letter == 'Q' && line.text.find(" Q{overtravel}") != std::string::npos;
 }
 bool isAddition(const ResultLine& line) {
-  // A fragment that writes an offset waits and asks for a shift; its lines have no reasons of their own.
-  return line.text == "G53" || line.text.ends_with("(LOCAL SHIFT ACTIVE)") || !line.reason.empty();
+  return line.text == "G53" || !line.reason.empty();
 }
 
 // Whether the line comes from a block of the Prog: the dialog's checks are no words.
