@@ -45,9 +45,10 @@ public:
 private:
   struct Input {
     bool isProgram = false;
-    bool refused = false;  // with --keep-going
-    std::size_t place = 0; // among the inputs
-    std::size_t index = 0; // in the inputs of a program, in the folders of a cycle
+    bool isCycleFile = false; // of the cycle language; else, and if it is no program, the folder of a cycle
+    bool refused = false;     // with --keep-going
+    std::size_t place = 0;    // among the inputs
+    std::size_t index = 0;    // in the inputs of a program, in the folders of a cycle
   };
 
   // With --keep-going an error of this input refuses it alone, and what it has added is taken away.
@@ -120,6 +121,7 @@ private:
     readLetters();
     const bool programs = classify();
     const bool cycles = !folderPaths_.empty();
+    if (!takesCycleFiles()) return false;
     const Target* const target = checkedTarget(options_, programs, cycles, "convert",
                                                "the language to write: " + targetNames(), diagnostics);
     if (diagnostics.hasErrors() || target == nullptr) return false;
@@ -140,18 +142,15 @@ private:
       reportUnknownMacroSet(*options_.probeMacros, session_);
       return false;
     }
-    for (Input& input : order_)
-      if (!input.isProgram)
+    for (Input& input : order_) {
+      if (input.isCycleFile)
+        compilation_.addFile(folderPaths_[input.index]);
+      else if (!input.isProgram)
         byItself(input, [&] {
-          const std::string& path = folderPaths_[input.index];
-          if (isCycleFile(path, session_)) {
-            compilation_.addFile(path);
-            if (!target.takesPathAlone) session_.diagnostics().report<diag::CycleTarget>({}, inputName(path));
-            return;
-          }
-          compilation_.addFolder(path);
+          compilation_.addFolder(folderPaths_[input.index]);
           if (options_.keepGoing) leaveFindingsToLint(session_);
         });
+    }
     if (options_.source.cycle) context_.folders.front().name = *options_.source.cycle;
     leaveFindingsToLint(session_);
     if (!target.fixesValues && inputs.job && !inputs.job->operations.empty())
@@ -166,14 +165,26 @@ private:
       Input& input = order_.emplace_back();
       input.place = i;
       byItself(input, [&] {
-        input.isProgram =
-            !isCycleFile(options_.inputs[i], session_) && isProgramFile(options_.inputs[i], session_);
+        input.isCycleFile = isCycleFile(options_.inputs[i], session_);
+        input.isProgram = !input.isCycleFile && isProgramFile(options_.inputs[i], session_);
       });
       input.index = input.isProgram ? i : folderPaths_.size();
       programs = programs || input.isProgram;
       if (!input.isProgram) folderPaths_.push_back(options_.inputs[i]);
     }
     return programs;
+  }
+
+  // false: refused, and reported.
+  bool takesCycleFiles() {
+    const Target* const target = findTarget(options_.to);
+    if (target == nullptr || target->takesCycleFiles) return true;
+    for (Input& input : order_)
+      if (input.isCycleFile)
+        byItself(input, [&] {
+          session_.diagnostics().report<diag::CycleTarget>({}, inputName(options_.inputs[input.place]));
+        });
+    return !session_.diagnostics().hasErrors();
   }
 
   void readLetters() {

@@ -36,7 +36,8 @@ struct Target {
   // Its programs take no values when they run. Each is written with those that the command line, the job's
   // operation and the defaults give, and verify writes one for each case.
   bool fixesValues = false;
-  bool takesPathAlone = false; // verify takes a cycle without a Prog: its path alone
+  bool takesPathAlone = false;  // verify takes a cycle without a Prog: its path alone
+  bool takesCycleFiles = false; // convert takes files of the cycle language
   // Where it fixes values: host inputs that every program needs.
   std::span<const std::string_view> hosts = {};
 

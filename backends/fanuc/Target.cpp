@@ -164,6 +164,7 @@ DOTEK_TARGET(fanuc) = {
     .text = "program that is called with G65",
     .flags = kFlags,
     .takesPathAlone = true,
+    .takesCycleFiles = true,
     .convert = conversionBy<FanucConversion>,
     .verify = fanucVerification,
     .programs = programsBy<ProgramRunner>,
