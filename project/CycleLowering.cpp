@@ -19,6 +19,7 @@ bool isCycleFile(const std::string& path, Session& session) {
   std::error_code error;
   if (!isStream(path) && !fs::is_regular_file(path, error)) return false;
   Diagnostics ignored; // who reads it reports
+  // Asked first, it decides what a text of no certain kind is: a program, as wherever one is expected.
   const Recognition* const found = session.kindOf(path, ignored, InputKind::Nc);
   return found != nullptr && found->kind == InputKind::Cycle;
 }

@@ -234,6 +234,16 @@ void Recorder::offsetWritten(const sim::OffsetWrite& write) {
   if (call_.depth == 0 && write.name.ends_with(" Z")) record_.ownOffsetOfZ = true;
 }
 
+Measure Recorder::begunMeasure() {
+  for (std::uint32_t system = 0; system < call_.zeros.size(); ++system)
+    call_.zeros[system] = machine_.zeroOf(system);
+  Measure out;
+  out.start = call_.start;
+  out.with = call_.with;
+  out.range = call_.range;
+  return out;
+}
+
 void Recorder::callBegins(std::uint32_t program, std::span<const double> locals) {
   if (call_.depth > 0) {
     ++call_.depth;
@@ -257,12 +267,7 @@ void Recorder::callBegins(std::uint32_t program, std::span<const double> locals)
   }
   call_.measures = !call_.moves && intent != Intent::ProbeOn && intent != Intent::ProbeOff;
   if (!call_.measures) return;
-  for (std::uint32_t system = 0; system < call_.zeros.size(); ++system)
-    call_.zeros[system] = machine_.zeroOf(system);
-  Measure measure;
-  measure.start = call_.start;
-  measure.with = call_.with;
-  measure.range = call_.range;
+  Measure measure = begunMeasure();
   if (signature != nullptr) {
     noteSystem(*signature, locals);
     noteOptions(*signature, locals, measure);
@@ -377,12 +382,7 @@ void Recorder::protectedBegins(std::optional<double> feed) {
 void Recorder::touchBegins(std::span<const sim::PlannedTouch> touches) {
   beginOwn();
   call_.measures = true;
-  for (std::uint32_t system = 0; system < call_.zeros.size(); ++system)
-    call_.zeros[system] = machine_.zeroOf(system);
-  Measure measure;
-  measure.start = call_.start;
-  measure.with = call_.with;
-  measure.range = call_.range;
+  Measure measure = begunMeasure();
   for (const sim::PlannedTouch& touch : touches) {
     const sim::Point3 direction{touch.direction[0], touch.direction[1], touch.direction[2]};
     sim::Point3 point = sim::Point3{touch.from[0], touch.from[1], touch.from[2]} + offset();

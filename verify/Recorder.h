@@ -65,6 +65,8 @@ private:
   sim::Point3 lowest(const sim::Position& machine) const;
   sim::Point3 offset() const; // from the active work system to the machine, without the tool's length
   Surroundings surroundings() const;
+  // Of the call that is open, with the zeros kept that it begins with.
+  Measure begunMeasure();
   SourceRange place() const;
   std::array<std::uint32_t, 3> modes(bool call) const;
   void addPiece(sim::PathKind kind, const sim::Point3& from, const sim::Point3& to, SourceRange range);

@@ -1,25 +1,15 @@
 #include "frontend/cycle/Link.h"
+#include "frontend/cycle/Walk.h"
 
 #include <algorithm>
 
 namespace dotek::frontend::cycle {
 namespace {
 
-// `Blocks`: Block or const Block.
 template <class Blocks, class Visit> void eachCall(Blocks& block, const Visit& visit) {
-  for (auto& statement : block.statements) {
+  eachStatement(block, [&](auto& statement) {
     if (auto* call = std::get_if<Call>(&statement.node)) visit(*call);
-    if (auto* choice = std::get_if<If>(&statement.node)) {
-      for (auto& part : choice->parts)
-        eachCall(part.body, visit);
-      if (choice->otherwise != nullptr) eachCall(*choice->otherwise, visit);
-    }
-    if (auto* touch = std::get_if<Touch>(&statement.node); touch != nullptr && touch->otherwise != nullptr)
-      eachCall(*touch->otherwise, visit);
-    if (auto* repeat = std::get_if<Repeat>(&statement.node)) eachCall(repeat->body, visit);
-    if (auto* loop = std::get_if<For>(&statement.node)) eachCall(loop->body, visit);
-    if (auto* loop = std::get_if<While>(&statement.node)) eachCall(loop->body, visit);
-  }
+  });
 }
 
 const File* optionsOf(const File& file, const std::string& name) {

@@ -1,4 +1,5 @@
 #include "frontend/cycle/Lowering.h"
+#include "frontend/cycle/Walk.h"
 #include "ir/Match.h"
 #include "support/messages/Cycle.h"
 
@@ -6,24 +7,10 @@ namespace dotek::frontend::cycle {
 namespace {
 
 bool switchesProbe(const Block& block) {
-  for (const Statement& one : block.statements) {
-    if (std::holds_alternative<ProbeSwitch>(one.node)) return true;
-    if (const auto* choice = std::get_if<If>(&one.node)) {
-      for (const If::Part& part : choice->parts)
-        if (switchesProbe(part.body)) return true;
-      if (choice->otherwise != nullptr && switchesProbe(*choice->otherwise)) return true;
-    }
-    if (const auto* touch = std::get_if<Touch>(&one.node);
-        touch != nullptr && touch->otherwise != nullptr && switchesProbe(*touch->otherwise))
-      return true;
-    if (const auto* loop = std::get_if<Repeat>(&one.node); loop != nullptr && switchesProbe(loop->body))
-      return true;
-    if (const auto* loop = std::get_if<For>(&one.node); loop != nullptr && switchesProbe(loop->body))
-      return true;
-    if (const auto* loop = std::get_if<While>(&one.node); loop != nullptr && switchesProbe(loop->body))
-      return true;
-  }
-  return false;
+  bool out = false;
+  eachStatement(block,
+                [&](const Statement& one) { out = out || std::holds_alternative<ProbeSwitch>(one.node); });
+  return out;
 }
 
 } // namespace

@@ -1,4 +1,5 @@
 #include "frontend/cycle/Lowering.h"
+#include "frontend/cycle/Walk.h"
 #include "ir/CycleNames.h"
 #include "ir/Match.h"
 #include "support/messages/Cycle.h"
@@ -337,23 +338,13 @@ void Lowering::choose(const If& choice, SourceRange range) {
 void Lowering::loopBody(const Block& body) {
   const Probe before = probe_;
   const auto shifts = [&](const auto& self, const Block& list) -> void {
-    for (const Statement& one : list.statements) {
+    eachStatement(list, [&](const Statement& one) {
       if (const auto* set = std::get_if<SetOffset>(&one.node))
         for (const Becomes& item : set->items)
           if (const auto axis = linear(item.axis)) scope_.shifted[ir::indexOf(*axis)] = true;
       if (const auto* call = std::get_if<Call>(&one.node))
         if (call->called != nullptr) self(self, call->called->body);
-      if (const auto* choice = std::get_if<If>(&one.node)) {
-        for (const If::Part& part : choice->parts)
-          self(self, part.body);
-        if (choice->otherwise != nullptr) self(self, *choice->otherwise);
-      }
-      if (const auto* touch = std::get_if<Touch>(&one.node); touch != nullptr && touch->otherwise != nullptr)
-        self(self, *touch->otherwise);
-      if (const auto* inner = std::get_if<Repeat>(&one.node)) self(self, inner->body);
-      if (const auto* inner = std::get_if<For>(&one.node)) self(self, inner->body);
-      if (const auto* inner = std::get_if<While>(&one.node)) self(self, inner->body);
-    }
+    });
   };
   shifts(shifts, body);
   block(body);

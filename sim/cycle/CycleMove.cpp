@@ -1,18 +1,12 @@
 // Moves of a cycle, and the frames of their coordinates.
 #include "sim/cycle/CycleRun.h"
-
-#include <cmath>
+#include "sim/machine/Paths.h"
 
 namespace dotek::sim {
 
 namespace {
 
 constexpr std::size_t kZ = 2;
-constexpr double kNothing = 1e-6; // mm: no way, as lengths lie on a grid of a nanometre
-
-double distance(const Position& a, const Position& b) {
-  return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
-}
 
 } // namespace
 
@@ -47,14 +41,14 @@ bool CycleRun::goTo(const Position& end, MotionKind kind, std::optional<double> 
 }
 
 bool CycleRun::protectedTo(const Position& end) {
-  if (distance(machine_.position(), end) < kNothing) return true;
+  if (distance(machine_.position(), end) < kNoPath) return true;
   if (nominal_) return goTo(end, MotionKind::Feed);
   protected_ = true;
   const std::optional<bool> contact = machine_.probeTo(end, true, "protected");
   protected_ = false;
   if (!contact) return false;
   // One that touches where it ends has got there.
-  const bool stopped = *contact && distance(machine_.position(), end) > kNothing;
+  const bool stopped = *contact && distance(machine_.position(), end) > kNoPath;
   return !stopped || alarm(stdlib::MacroAlarm::PathObstructed);
 }
 

@@ -1,6 +1,7 @@
 // Touches of a cycle: the search, what it measured, and the offsets that are set by it.
 #include "sim/cycle/CycleRun.h"
 #include "sim/machine/Measurement.h"
+#include "sim/machine/Paths.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,22 +12,10 @@ namespace dotek::sim {
 namespace {
 
 constexpr std::size_t kZ = 2;
-constexpr double kNothing = 1e-6; // mm
 
 constexpr ir::ResultName kPositions[] = {ir::ResultName::PositionX, ir::ResultName::PositionY,
                                          ir::ResultName::PositionZ};
 constexpr ir::ResultName kErrors[] = {ir::ResultName::ErrorX, ir::ResultName::ErrorY, ir::ResultName::ErrorZ};
-
-Position along(const Position& from, const std::array<double, 3>& direction, double distance) {
-  Position out = from;
-  for (std::size_t i = 0; i < direction.size(); ++i)
-    out[i] += direction[i] * distance;
-  return out;
-}
-
-double distance(const Position& a, const Position& b) {
-  return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
-}
 
 std::array<double, 3> axisDirection(std::size_t axis, double sign) {
   std::array<double, 3> out{};
@@ -74,7 +63,7 @@ bool CycleRun::search(const Direction& direction, double travel, const Search& h
     touched.found = *contact;
     touched.at = machine_.position();
     if (!*contact) break;
-    if (distance(began, touched.at) < kNothing) return alarm(stdlib::MacroAlarm::ProbeOpen);
+    if (distance(began, touched.at) < kNoPath) return alarm(stdlib::MacroAlarm::ProbeOpen);
     if (pass > 0 || how.once) break;
     const double back = std::min(inputs_.backOff, distance(from, touched.at));
     aim = along(touched.at, direction, inputs_.backOff);
@@ -86,7 +75,7 @@ bool CycleRun::search(const Direction& direction, double travel, const Search& h
 bool CycleRun::touch(const PlannedTouch& planned, const Search& how, Touched& touched) {
   const double ball = ballAlong(planned);
   const double travel = planned.distance - ball + planned.overtravel;
-  if (!(travel > kNothing))
+  if (!(travel > kNoPath))
     return machine_.raiseUnnumbered("the touch has no way to go: the surface is expected at the ball, or "
                                     "beyond it by more than the overtravel");
   if (expected_.size() < kMostExpected) {
@@ -124,7 +113,7 @@ bool CycleRun::surface(const ir::Measure& node) {
 
 bool CycleRun::touchAxis(std::size_t i, double expected, const Search& how, std::optional<double>& measured) {
   const double from = machine_.position()[i];
-  if (std::abs(expected - from) < kNothing)
+  if (std::abs(expected - from) < kNoPath)
     return machine_.raiseUnnumbered(
         "the surface is expected where the probe is; which way it lies is not known");
   const double sign = expected > from ? 1 : -1;

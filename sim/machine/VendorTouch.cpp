@@ -1,4 +1,5 @@
 // Touching: where the ball's centre is at the contact, and how the probe gets there.
+#include "sim/machine/Paths.h"
 #include "sim/machine/VendorRun.h"
 
 #include <cmath>
@@ -6,20 +7,6 @@
 namespace dotek::sim {
 
 namespace {
-
-// Shorter paths are none: lengths lie on a grid of a nanometre.
-constexpr double kNothing = 1e-6;
-
-Position along(const Position& from, const Direction& direction, double distance) {
-  Position out = from;
-  for (std::size_t i = 0; i < direction.size(); ++i)
-    out[i] += direction[i] * distance;
-  return out;
-}
-
-double distance(const Position& a, const Position& b) {
-  return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
-}
 
 Direction opposite(const Direction& direction) {
   return {-direction[0], -direction[1], -direction[2]};
@@ -78,7 +65,7 @@ bool VendorRun::touch(const Direction& direction, double expected, Position& cen
   const bool known = argument(Role::Overtravel) != nullptr || set_.probing.overtravel;
   if (!plain && !known) return notKnown("how far beyond the expected surface it probes is in no source");
   const double travel = plain ? expected : expected - ball + overtravel(direction);
-  if (!(travel > kNothing)) return notKnown("the expected surface does not lie ahead of the probe");
+  if (!(travel > kNoPath)) return notKnown("the expected surface does not lie ahead of the probe");
   const Position from = machine_.position();
   const Position end = along(from, direction, travel);
   for (int pass = 0; pass < 2; ++pass) { // a fast touch and a slow one
@@ -86,14 +73,14 @@ bool VendorRun::touch(const Direction& direction, double expected, Position& cen
     if (!contact) return false;
     if (!*contact) return alarm(stdlib::MacroAlarm::ProbeFail);
     centre = machine_.position();
-    if (distance(from, centre) < kNothing) return alarm(stdlib::MacroAlarm::ProbeOpen);
+    if (distance(from, centre) < kNoPath) return alarm(stdlib::MacroAlarm::ProbeOpen);
     if (!machine_.travelTo(from)) return false;
   }
   return true;
 }
 
 bool VendorRun::watched(const Position& end) {
-  if (distance(machine_.position(), end) < kNothing) return true;
+  if (distance(machine_.position(), end) < kNoPath) return true;
   const std::optional<bool> contact = machine_.probeTo(end, true);
   if (!contact) return false;
   return !*contact || alarm(stdlib::MacroAlarm::PathObstructed);
