@@ -97,7 +97,7 @@ private:
     hosts_ = parseHosts(session_.options().host, diagnostics());
     if (session_.options().job) job_ = loadJob(*session_.options().job, session_);
     if (job_) hosts_.insert(job_->hosts.begin(), job_->hosts.end());
-    if (cycle_) sets_ = cycleValues(*files_.load(options_.program), session_.options().set, diagnostics());
+    if (cycle_) sets_ = cycleValues(*files_.linked(options_.program), session_.options().set, diagnostics());
     return cycle_ && !diagnostics().hasErrors();
   }
 

@@ -1,5 +1,6 @@
 #include "project/CycleValues.h"
 
+#include "frontend/cycle/Link.h"
 #include "support/Decimal.h"
 #include "support/NearestName.h"
 #include "support/messages/Commands.h"
@@ -96,8 +97,8 @@ std::map<std::string, double> cycleValues(const cycle::File& file, const NamedTe
                                           Diagnostics& diagnostics) {
   std::map<std::string, const cycle::Type*> types;
   std::vector<std::string_view> names;
-  for (const cycle::Statement& statement : file.body.statements)
-    if (const auto* parameter = std::get_if<cycle::Parameter>(&statement.node))
+  for (const cycle::Statement* const statement : cycle::declarations(file))
+    if (const auto* parameter = std::get_if<cycle::Parameter>(&statement->node))
       for (const cycle::Name& name : parameter->names) {
         types.emplace(name.text, &parameter->type);
         names.push_back(name.text);

@@ -114,6 +114,8 @@ void Lowering::toStart(const ir::CycleStatement& marked, const ir::ExpressionPtr
       const std::size_t i = ir::indexOf(axis);
       if ((axis == ir::Axis::Z) != z || same[i]) continue;
       move.axes[i] = whole.axes[i];
+      // A z of the work system is that of the lowest point; one from the start is of any point of the probe.
+      if (z && move.axes[i]->frame == ir::Frame::Work) move.point = ir::ProbePoint::Lowest;
       any = true;
     }
     if (any) emit(std::move(move), range);
