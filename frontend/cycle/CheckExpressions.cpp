@@ -44,10 +44,9 @@ bool isBareNumber(const Expression& expression) {
 } // namespace
 
 void Checker::unknownName(SourceRange range, const std::string& name) {
-  std::set<std::string> names;
-  for (const auto& [known, symbol] : symbols_)
-    names.insert(known);
-  const std::string near = nearestName(name, names);
+  // Past the first ones no hint is read, and each costs as much as there are names.
+  constexpr int kMostHints = 200;
+  const std::string near = nameHints_++ < kMostHints ? nearestName(name, symbols_) : "";
   diagnostics_.report<diag::UnknownValueName>(range, name,
                                               near.empty() ? "" : "; did you mean `" + near + "`?");
 }

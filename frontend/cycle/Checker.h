@@ -85,6 +85,7 @@ private:
   const SourceMap& sources_;
   Diagnostics& diagnostics_;
   Symbols symbols_;
+  int nameHints_ = 0; // names looked up for "did you mean"
   std::map<std::string, Symbol::Role, std::less<>> later_;
   // Where `use` brought the declarations that are being taken; no place: they are the file's own.
   SourceRange used_;

@@ -39,7 +39,18 @@ STL = [
     ("x" * 80 + "\xff\xff\xff\x7f", "\1", ""), ("solid\n", "facet normal 0 0 1 outer loop vertex 0 0 0 vertex 1 0 0 "
      "vertex 0 1 0 endloop endfacet\n", "endsolid\n"),
 ]
+CYCLE = [
+    ("", "x = ", "1 mm\n"), ("x = ", "(", "1 mm\n"), ("x = ", "-", "1 mm\n"), ("x = 1 mm", " + 1 mm", "\n"), ("x = 1 mm", " +\n 1 mm", "\n"),
+    ("if 1 > 2", " and 1 > 2", " then\n"), ("", "if yes then\n", ""), ("", "repeat 2 times\n", ""), ("", "end\n", ""), ("", '"', ""),
+    ("", "//", ""), ("", "move by x 1 mm\n", ""), ("touch x by 1 mm", ", y 1 mm", "\n"), ("", "touch x by 1 mm -> a else\n", ""),
+    ("", "call grows\n", ""), ("", "call bore diameter = 30 mm\n", ""), ("", "use datum\n", ""), ("", "use a,", "\n"), ("", "cycle b\n", ""),
+    ("", "parameter p : length\n", ""), ("", "\0", ""), ("", "\xff", ""), ("", "\t", ""), ("", "9", " mm\n"), ("x = ", "sqrt(", "\n"),
+    ("", "set G54: 0 mm becomes x 0 mm\n", ""), ("", "zzz\n", ""), ("", "repeat 999999999 times\nend\n", ""), ("", "not ", "\n"),
+]
+CYCLE = [('cycle grows "Grows"\nspindle off\n' + begin, piece, end) for begin, piece, end in CYCLE]
 KINDS = [
+    (CYCLE, "grows.cycle", [["check", "grows.cycle"], ["fmt", "grows.cycle"], ["dump", "grows.cycle", "--stage", "ir"],
+                            ["sim", "--json", "grows.cycle"], ["convert", "grows.cycle", "--to", "fanuc"]]),
     (NC, "a.nc", [["lint", "--select", "all", "a.nc"], ["sim", "--json", "a.nc"], ["dump", "a.nc"],
                   ["convert", "a.nc", "--to", "fanuc", "--control", "fanuc-31i-b"]]),
     (MAC, "a.mac", [["lint", "--select", "all", "--from", "mac", "a.mac"]]),

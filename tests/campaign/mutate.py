@@ -78,8 +78,10 @@ class Campaign:
         self.stl = _files([ROOT / "tests"], ".stl")
         self.progs = [ROOT / "examples/post.txt", ROOT / "examples/mill-post.txt", *_files([corpus / "compost"], ".txt")]
         self.cycles = [p.parent for p in _files([*folders, corpus], "DefineData.txt")]
+        self.cycle_files = _files([ROOT / "stdlib/cycles", *folders], ".cycle")
         self.translations = {}
-        self.kinds = [self.program] * 3 + [self.mikroprog, self.settings, self.part] + [self.cycle] * 5 + [self.translation] * 2
+        self.kinds = ([self.program] * 3 + [self.mikroprog, self.settings, self.part] + [self.cycle] * 5 +
+                      [self.cycle_file] * 3 + [self.translation] * 2)
 
     def one(self, number):
         """Runs one damaged input; (what is wrong or None, arguments, folder)."""
@@ -181,6 +183,31 @@ class Campaign:
             ["verify", *base, "--to", "mikroprog", "--control", "mikroprog-mill", "--cases", "3"],
             ["verify", *base, "--cases", "5"],
             ["dump", "c", "--stage", "path"],
+        )
+
+    def cycle_file(self):
+        """A file of the cycle language, with the values that its parameters may get."""
+        source = self.random.choice(self.cycle_files)
+        self.put(source, source.name)
+        name = source.name
+        names = re.findall(r"^parameter ([a-z0-9_]+)", source.read_text(errors="replace"), re.M)
+        sets = []
+        for one in names:
+            if self.random.random() < 0.8:
+                sets += ["--set", f"{one}={self.random.choice(['5', '30mm', '-8', '1.2in', '45deg', 'G55', 'T5', 'yes', '1e9', 'x'])}"]
+        return self.choose(
+            ["check", name],
+            ["check", "--format", self.random.choice(["json", "sarif"]), name],
+            ["lint", "--select", "all", "--format", "json", name],
+            ["fmt", name],
+            ["dump", name, "--stage", self.random.choice(["tokens", "ast", "ir"])],
+            ["doc", name, "-o", "site"],
+            ["sim", name, *sets, "--json"],
+            ["sim", name, *sets, "--part", ROOT / "examples/plate-part.toml", "--json"],
+            ["sim", name, *sets, "--svg", "o.svg", "--html", "o.html", "--quiet"],
+            ["convert", name, "--to", "fanuc", "--probe-macros", self.random.choice(["dotek", "inspection-plus", "easyprobe"])],
+            ["convert", name, "--to", "fanuc", "--control", "fanuc-0i-md", "--map", "m.json", "-o", "o.nc"],
+            ["convert", name, "--to", self.random.choice(["mikroprog", "fusion"])],
         )
 
     def translation(self):
