@@ -24,8 +24,18 @@ const std::vector<ProgBlock>& Analyses::blocks(const std::vector<compost::Statem
   return blocks_.emplace(&statements, collectBlocks(statements, prog, project)).first->second;
 }
 
+const std::vector<NameUse>& Analyses::names(const gibbs::Macro& macro, const Project& project) {
+  const auto known = names_.find(&macro);
+  if (known != names_.end()) return known->second;
+  return names_.emplace(&macro, collectNames(macro, project)).first->second;
+}
+
 const SharedInputs& sharedOf(const Project& project) {
   return project.analyses->shared(project);
+}
+
+const std::vector<NameUse>& namesOf(const gibbs::Macro& macro, const Project& project) {
+  return project.analyses->names(macro, project);
 }
 
 const Probing& probingOf(const Project& project) {

@@ -1,6 +1,7 @@
 // What several rules ask of one project, computed when first asked for.
 #pragma once
 
+#include "lint/MacroNames.h"
 #include "lint/Probing.h"
 #include "lint/ProgBlocks.h"
 #include "lint/Shared.h"
@@ -21,11 +22,14 @@ public:
   const std::vector<ProgBlock>& blocks(const std::vector<compost::Statement>& statements,
                                        const compost::Program& prog, const Project& project);
 
+  const std::vector<NameUse>& names(const gibbs::Macro& macro, const Project& project);
+
 private:
   std::optional<SharedInputs> shared_;
   std::optional<Probing> probing_;
   std::optional<std::vector<Siblings>> siblings_;
   std::map<const std::vector<compost::Statement>*, std::vector<ProgBlock>> blocks_;
+  std::map<const gibbs::Macro*, std::vector<NameUse>> names_;
 };
 
 } // namespace dotek::lint

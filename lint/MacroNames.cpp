@@ -81,7 +81,7 @@ const gibbs::Expression& unwrapped(const gibbs::Expression& expression) {
 
 } // namespace
 
-std::vector<NameUse> namesOf(const gibbs::Macro& macro, const Project& project) {
+std::vector<NameUse> collectNames(const gibbs::Macro& macro, const Project& project) {
   Collector collector(project);
   gibbs::walkLines(macro.lines, [&](const gibbs::Statement& s) { collector.statement(s); });
   return std::move(collector.out);

@@ -19,8 +19,10 @@ struct NameUse {
 };
 
 // Names of all statements of a macro, in the order of the text. A word of a command that the table is not
-// sure of reads and writes.
-std::vector<NameUse> namesOf(const gibbs::Macro& macro, const Project& project);
+// sure of reads and writes. Computed once a project.
+const std::vector<NameUse>& namesOf(const gibbs::Macro& macro, const Project& project);
+// What namesOf() keeps.
+std::vector<NameUse> collectNames(const gibbs::Macro& macro, const Project& project);
 // Names that an expression reads, folded.
 std::set<std::string> readsOf(const gibbs::Expression& expression);
 

@@ -30,7 +30,12 @@ void check(const Project& project, Report& report) {
   std::set<std::string> fields; // their values come from the user
   for (const gibbs::Cycle* cycle : project.cycles)
     fields.merge(fieldsOf(*cycle));
-  for (const gibbs::Macro* macro : project.allMacros()) {
+  const std::vector<const gibbs::Macro*> macros = project.allMacros();
+  std::map<std::string, std::set<const gibbs::Macro*>> writers;
+  for (const gibbs::Macro* macro : macros)
+    for (const NameUse& use : namesOf(*macro, project))
+      if (use.writes) writers[use.key].insert(macro);
+  for (const gibbs::Macro* macro : macros) {
     if (macro->hasErrorNodes) continue;
     std::map<std::string, Numbers> all;
     eachStatement(*macro, [&](const gibbs::Statement& statement) {
@@ -52,15 +57,12 @@ void check(const Project& project, Report& report) {
           numbers.other = true;
       }
     });
-    // What a called macro sets, or sees of this one, is not seen here.
-    std::set<std::string> shared;
-    for (const gibbs::Macro* other : project.allMacros()) {
-      if (other == macro) continue;
-      for (const NameUse& use : namesOf(*other, project))
-        if (use.writes) shared.insert(use.key);
-    }
     for (const auto& [name, numbers] : all) {
-      if (shared.contains(name) && shares(*macro, name)) continue;
+      // What a called macro sets, or sees of this one, is not seen here.
+      const auto written = writers.find(name);
+      const bool elsewhere =
+          written != writers.end() && written->second.size() > written->second.count(macro);
+      if (elsewhere && shares(*macro, name)) continue;
       const auto isError = [](const auto& one) { return one.first != 0; };
       const bool codes = std::count_if(numbers.set.begin(), numbers.set.end(), isError) > 0 &&
                          std::count_if(numbers.compared.begin(), numbers.compared.end(), isError) > 0;
