@@ -11,7 +11,6 @@
 namespace dotek::sim {
 namespace {
 
-constexpr double kMostWork = 1e8; // evaluations of a surface, about
 constexpr int kRulings = 96;
 constexpr int kArcs = 32; // of a circle: each smooth()
 constexpr int kDepth = 16;
@@ -35,7 +34,7 @@ bool Solid::findEdges() {
   for (std::uint32_t i = 0; i < surfaces_.size(); ++i) {
     for (std::uint32_t j = i + 1; j < surfaces_.size(); ++j) {
       const std::size_t begin = pieces_.size();
-      if (!meet(i, j) || (work_ += 1) > kMostWork) return false;
+      if (!meet(i, j) || (work_ += 1) > mostWork_) return false;
       addChains(begin);
     }
   }
@@ -160,7 +159,7 @@ bool Solid::straight(const Vec& o, const Vec& d, std::uint32_t i, std::uint32_t 
     }
     open = kept;
   }
-  return work_ < kMostWork;
+  return work_ < mostWork_;
 }
 
 bool Solid::circle(const Vec& centre, const Vec& axis, double radius, std::uint32_t i, std::uint32_t j) {
@@ -245,7 +244,7 @@ bool Solid::rulings(std::uint32_t i, std::uint32_t j) {
 }
 
 bool Solid::link(const Ruling& a, const Ruling& b, std::uint32_t i, std::uint32_t j, int depth) {
-  if (work_ > kMostWork) return false;
+  if (work_ > mostWork_) return false;
   if (a.count == 0 && b.count == 0) return true;
   const auto split = [&] {
     const Ruling middle = ruling((a.angle + b.angle) / 2, i, j);
@@ -330,7 +329,7 @@ double Solid::bend(const Surface& surface, const Piece& piece, double length) {
 
 // Cuts a curved piece where other surfaces cross it and keeps what is an edge of the part.
 bool Solid::keep(const Piece& piece, int depth) {
-  if (work_ > kMostWork) return false;
+  if (work_ > mostWork_) return false;
   const double length = (piece.b - piece.a).norm();
   if (!isOnOwners((piece.a + piece.b) / 2, piece, length + piece.sag + 1e-6)) return true;
   // Far from all that is left of the part it is no edge, and cuts in it would be for nothing.

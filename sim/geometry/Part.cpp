@@ -267,6 +267,10 @@ std::string checkList(const std::vector<Solid::Node>& list, bool& mesh, std::siz
 
 } // namespace
 
+void PartBuilder::limitWork(double most) {
+  state_->solid.limitWork(most);
+}
+
 std::unique_ptr<Part> PartBuilder::finish(std::string& fault) {
   if (!state_->actions.empty()) refuse("a group is not ended");
   state_->solid.nodes = std::move(state_->open.front());

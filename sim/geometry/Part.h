@@ -96,6 +96,8 @@ public:
   void beginGroup(Action action);
   void endGroup();
 
+  // How many times, about, a surface may be evaluated to find the edges; 1e8 where it is not called.
+  void limitWork(double most);
   // What is wrong so far; empty: nothing.
   const std::string& fault() const { return fault_; }
   std::size_t shapeCount() const;

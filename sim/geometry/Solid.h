@@ -35,6 +35,8 @@ public:
   // Finds faces, edges and corners. false: that takes more than a bounded amount of work, or the curve in
   // which two surfaces meet cannot be followed.
   bool build();
+  // As PartBuilder::limitWork.
+  void limitWork(double most) { mostWork_ = most; }
 
   // Never more than the true distance; its sign is right. Cheap.
   double bound(const Vec& p) const;
@@ -109,7 +111,7 @@ private:
   std::vector<Piece> pieces_;
   std::vector<Chain> chains_;
   std::vector<Vec> corners_;
-  double work_ = 0; // of build()
+  double work_ = 0, mostWork_ = 1e8; // of build(): evaluations of a surface, about
 };
 
 } // namespace dotek::sim
