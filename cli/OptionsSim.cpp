@@ -39,7 +39,7 @@ void addSim(CLI::App& app, Raw& raw) {
   sim->add_option("--work-offset", raw.workOffsets,
                   "zero of G54 to G59 in coordinates of the machine; `G54=part`: where the part is meant to "
                   "be; repeat it for several")
-      ->type_name("G54=X,Y,Z")
+      ->option_text("G54=X,Y,Z")
       ->allow_extra_args(false);
   sim->add_option("--at", raw.at, "where the tool's end is before the program, in G54")->type_name("X,Y,Z");
   sim->add_option("--call", raw.call, "call the program by G65 with these arguments")

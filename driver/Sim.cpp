@@ -65,7 +65,8 @@ public:
     if (!chunks || diagnostics().hasErrors()) return outcomeOf(session_, "");
     sim::Machine machine(*control_);
     // Flags that set a variable go before what the setup says of it, and it may ask for one of them.
-    if (!setVariables(machine) || !world_->prepare(machine) || !setVariables(machine))
+    if (!setVariables(machine) || !world_->prepare(machine) || !setVariables(machine) ||
+        !world_->startsWithinTravel(machine))
       return outcomeOf(session_, "");
     if (!options_.programs.empty() || !world_->setup().call.empty() || frontend::nc::mayHoldMacros(*chunks))
       return runLoaded(kept, machine);
@@ -125,6 +126,7 @@ private:
     world_->setReader([&](std::uint32_t program, std::span<const double> locals) {
       return macros->foundBy(program, locals, machine);
     });
+    unreadable_ = library->unreadable();
     safe_ = sim::safeMoves(library->programs(), *control_);
     if (sim::mayWriteOffsets(library->programs(), *control_)) world_->keepOffsets();
     const std::string advice = world_->setup().call.empty()
@@ -165,6 +167,7 @@ private:
     std::optional<sim::Trace> trace;
     if (options_.trace) machine.setTrace(&trace.emplace(options_.trace));
     sim::Run run(machine, code, session_.limits(), macros);
+    run.setUnreadable(unreadable_);
     world_->setPlace([&run] { return sim::RunPlace{run.place(), run.openCalls(), run.program()}; });
     world_->setSafeMove([this, &run] {
       const SourceRange range = run.place();
@@ -242,6 +245,7 @@ private:
   std::optional<stdlib::Control> control_;
   std::unique_ptr<sim::SimWorld> world_;
   std::set<std::pair<FileId, std::uint32_t>> safe_; // skip moves to a position
+  std::map<std::uint64_t, std::string> unreadable_; // programs that have errors, with their files
 };
 
 } // namespace

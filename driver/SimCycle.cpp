@@ -62,7 +62,7 @@ public:
         options_, usualProbe(radius == hosts_.end() ? kBall : 2 * radius->second), session_);
     if (!world_) return outcomeOf(session_, "");
     sim::Machine machine(sim::cycleControl());
-    if (!world_->prepare(machine)) return outcomeOf(session_, "");
+    if (!world_->prepare(machine) || !world_->startsWithinTravel(machine)) return outcomeOf(session_, "");
     machine.holdTool(machine.toolLengthOf(*world_->setup().tool));
     machine.startAt(world_->startOf(machine));
     takeProbe();

@@ -179,8 +179,11 @@ void ProgramLibrary::addPossible(const stdlib::Control& control, Session& sessio
     for (Unread& file : files) {
       if (std::none_of(file.numbers.begin(), file.numbers.end(), isPossible))
         unread_.push_back(std::move(file));
-      else if (!read(file, session))
+      else if (!read(file, session)) {
         leftOut.insert(file.path);
+        for (const std::uint64_t number : file.numbers)
+          unreadable_.emplace(number, file.path);
+      }
     }
     std::vector<LoneProgram> programs = std::exchange(waiting_, {});
     for (LoneProgram& one : programs) {
@@ -191,7 +194,10 @@ void ProgramLibrary::addPossible(const stdlib::Control& control, Session& sessio
       }
       const std::string& path = session.sources().file(one.file.file).name();
       std::optional<ir::Program> program = lowerAlone(one, control, session);
-      if (!program) leftOut.insert(fmt::format("O{:04} of {}", one.number, path));
+      if (!program) {
+        leftOut.insert(fmt::format("O{:04} of {}", one.number, path));
+        unreadable_.emplace(one.number, path);
+      }
       if (program) add(std::move(*program), false, session);
       found = true;
     }

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <deque>
 #include <functional>
+#include <map>
 #include <optional>
 #include <set>
 #include <string>
@@ -34,6 +35,8 @@ public:
   // Further programs that can be called; of one number the first stays.
   void addCallable(ir::ProgramFile file, Session& session) { add(std::move(file), false, session); }
   const std::string& mainPath() const { return main_; }
+  // Programs of the folders that have errors and that a computed call may mean, with their files.
+  const std::map<std::uint64_t, std::string>& unreadable() const { return unreadable_; }
   // The main program first; of each number one. They live as long as this object.
   std::vector<const ir::Program*> programs() const;
 
@@ -61,6 +64,7 @@ private:
   std::vector<Unread> unread_;
   std::vector<LoneProgram> waiting_; // of files that were read; nothing has called them so far
   std::deque<ir::Program> programs_;
+  std::map<std::uint64_t, std::string> unreadable_;
 };
 
 } // namespace dotek::project

@@ -36,6 +36,15 @@ struct MachineLimits {
     double least = 0, most = 0;
   };
   std::array<std::optional<Span>, 3> travel; // X, Y, Z in coordinates of the machine; nothing: not checked
+
+  // The end of the travel that `place` lies beyond; nothing: it lies within.
+  std::optional<double> endBefore(std::size_t axis, double place) const {
+    constexpr double kNear = 1e-9; // what sums of coordinates leave
+    if (!travel[axis]) return std::nullopt;
+    const auto [least, most] = *travel[axis];
+    if (place < least - kNear) return least;
+    return place > most + kNear ? std::optional(most) : std::nullopt;
+  }
 };
 
 struct MachineFile {

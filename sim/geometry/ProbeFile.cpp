@@ -1,6 +1,7 @@
 #include "sim/geometry/Probe.h"
 
 #include "stdlib/Toml.h"
+#include "support/Decimal.h"
 #include "support/Files.h"
 
 #include <cmath>
@@ -98,6 +99,14 @@ std::optional<MachineFile> readMachine(FileId file, const SourceMap& sources, Di
       out.limits.travel[axis] = MachineLimits::Span{ends[0], ends[1]};
     else if (value.isArray())
       document->fail(value.range(), "two ends of the travel [least, most] are expected");
+  }
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const TomlValue value = start.value(kNames[axis]);
+    const std::optional<double> end = value ? out.limits.endBefore(axis, out.start[axis]) : std::nullopt;
+    const char letter = "XYZ"[axis];
+    if (end)
+      document->fail(value.range(), fmt::format("{}{} is beyond the travel, which ends at {}{}", letter,
+                                                fixedText(out.start[axis], 3), letter, fixedText(*end, 3)));
   }
   const TomlValue probe = root.require("probe", "a table [probe]");
   if (probe) readProbe(*document, probe.table(), out.probe);

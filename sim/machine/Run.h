@@ -10,6 +10,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -43,6 +44,9 @@ public:
   std::uint64_t program() const { return levels_.empty() ? 0 : levels_.back().routine->number; }
   // The calls that were open then, the outermost first.
   std::vector<SourceRange> openCalls() const;
+  // Programs that the control has and that could not be read, with their files: a call of one ends the run as
+  // inconclusive.
+  void setUnreadable(std::map<std::uint64_t, std::string> files) { unreadable_ = std::move(files); }
 
 private:
   struct Level {
@@ -129,6 +133,7 @@ private:
   bool portOpen_ = false;
   std::string output_;
   std::vector<EarlyRead> early_, earlyWrites_;
+  std::map<std::uint64_t, std::string> unreadable_;
   std::vector<bool> readEarly_; // by instruction
 };
 

@@ -88,6 +88,11 @@ bool Run::begin(const Request& request) {
     levels_.push_back(std::move(level));
     return true;
   }
+  if (const auto file = unreadable_.find(request.program); file != unreadable_.end())
+    return refuse(
+        fmt::format("it calls O{:04}, which is in `{}` and has errors, so what it does is not known; "
+                    "`dotek lint` shows them",
+                    request.program, file->second));
   const auto number = static_cast<std::uint32_t>(request.program);
   if (meaning_ == nullptr || !request.macro || !meaning_->knows(number))
     return machine_.raise(Alarm::NoSuchProgram);

@@ -1,5 +1,6 @@
 #include "sim/run/SetupRun.h"
 
+#include "sim/machine/Trace.h"
 #include "support/Ascii.h"
 #include "support/Decimal.h"
 #include "support/messages/Commands.h"
@@ -53,6 +54,25 @@ std::optional<Position> startOf(const Setup& setup, const Machine& machine) {
     out[i] += (*setup.at)[i];
   if (setup.tool) out[2] += machine.toolLengthOf(*setup.tool);
   return out;
+}
+
+bool startsWithinTravel(const Setup& setup, std::string_view saidBy, const MachineLimits& limits,
+                        const Machine& machine, Diagnostics& diagnostics) {
+  const std::optional<Position> start = startOf(setup, machine);
+  if (!start) return true;
+  bool within = true;
+  for (std::size_t axis = 0; axis < limits.travel.size(); ++axis) {
+    const std::optional<double> end = limits.endBefore(axis, (*start)[axis]);
+    if (!end) continue;
+    const auto value = [&](double place) { return kAxisLetters[axis] + fixedText(place, 3); };
+    diagnostics.report<diag::SetupFlag>(
+        {}, saidBy,
+        fmt::format("it puts the spindle to machine {}, and the travel ends at {}; the place counts from the "
+                    "zero of G54, and the tool's length is added to it",
+                    value((*start)[axis]), value(*end)));
+    within = false;
+  }
+  return within;
 }
 
 std::string callingProgram(const Setup& setup, std::uint64_t number, const Machine& machine,

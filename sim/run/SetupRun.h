@@ -10,6 +10,7 @@
 #include <array>
 #include <optional>
 #include <string>
+#include <string_view>
 
 namespace dotek::sim {
 
@@ -23,6 +24,11 @@ bool prepare(const Setup& setup, const std::optional<std::array<double, 3>>& par
 // Where the machine is before the program, with the tool's end at `setup.at` of G54; nothing: the setup does
 // not say.
 std::optional<Position> startOf(const Setup& setup, const Machine& machine);
+
+// Whether X, Y and Z are within the machine's travel where `setup.at` puts the tool; one that says nothing
+// is. false: reported as what `saidBy` says ("--at").
+bool startsWithinTravel(const Setup& setup, std::string_view saidBy, const MachineLimits& limits,
+                        const Machine& machine, Diagnostics& diagnostics);
 
 // A main program that calls O`number` with the arguments of `setup.call`. Where the setup names a tool its
 // length is in force (G43), and the machine stays where it is.

@@ -188,6 +188,11 @@ Position SimWorld::startOf(const Machine& machine) const {
   return out;
 }
 
+bool SimWorld::startsWithinTravel(const Machine& machine) const {
+  return !machine_ || sim::startsWithinTravel(setup_, options_.setup.at ? "--at" : "at` of `[setup]",
+                                              machine_->limits, machine, session_.diagnostics());
+}
+
 void SimWorld::attach(Machine& machine) {
   position_ = [&machine] { return machine.position(); };
   if (setup_.at || machine_) machine.startAt(startOf(machine));

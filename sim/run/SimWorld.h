@@ -53,6 +53,9 @@ public:
   bool prepare(Machine& machine) const;
   // Where the machine is before the program.
   Position startOf(const Machine& machine) const;
+  // Whether the setup puts it within the travel of the machine's file, with the offsets that are set by now;
+  // false: reported.
+  bool startsWithinTravel(const Machine& machine) const;
   // From now on the machine, which gets its start, asks this world. Nothing else happens where neither a
   // part, nor a machine, nor a picture was asked for.
   void attach(Machine& machine);

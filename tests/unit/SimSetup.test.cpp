@@ -175,6 +175,45 @@ TEST_CASE("setup: [setup] of a job file is checked by every command that reads t
   CHECK(has(posted, "G65 P9023 S54"));
 }
 
+TEST_CASE("setup: a start beyond the machine's travel is an error with axis, place and limit") {
+  const TestFolder scratch("dotek-setup-travel");
+  scratch.write("down.nc", kDown);
+  const std::string probe = "[probe]\nball_diameter = 6\nlength = 80\nlength_to = \"tip\"\non = true\n";
+  const std::string travel = "schema = 1\n[travel]\nx = [-400, 0]\nz = [-500, 0]\n";
+  const std::string setup = "[setup]\ntool = 2\nwork_offset = { G54 = [-300, -200, -400] }\n";
+  scratch.write("machine.toml", travel + setup + probe);
+  const std::string run = "sim down.nc --machine machine.toml --json ";
+  // Z of the spindle: -400 + 80 of the tool + what --at says. The end of the travel itself is allowed.
+  CHECK_FALSE(has(runIn(scratch, run + "--at 10,20,320"), "travel"));
+  const CommandResult above = runIn(scratch, run + "--at 10,20,320.5");
+  CHECK(above.status == 1);
+  CHECK(has(above, "`--at`: it puts the spindle to machine Z0.500, and the travel ends at Z0.000"));
+  CHECK(has(runIn(scratch, run + "--at -100.25,20,5"),
+            "it puts the spindle to machine X-400.250, and the travel ends at X-400.000"));
+  // An axis without travel is not judged.
+  CHECK_FALSE(has(runIn(scratch, run + "--at 10,2000,5"), "travel"));
+  // As said by the machine's file and by the job's.
+  scratch.write("machine.toml", travel + setup + "at = [10, 20, 330]\n" + probe);
+  CHECK(has(runIn(scratch, run), "`at` of `[setup]`: it puts the spindle to machine Z10.000"));
+  CHECK_FALSE(has(runIn(scratch, run + "--at 10,20,5"), "travel"));
+  scratch.write("job.toml", "schema = 1\nhost = { clearance = 5.0 }\n[setup]\nat = [301, 20, 5]\n");
+  CHECK(has(runIn(scratch, run + "--job job.toml"),
+            "`at` of `[setup]`: it puts the spindle to machine X1.000"));
+  // A variable of a flag may move the system.
+  CHECK(has(runIn(scratch, run + "--at 10,20,5 --var 5223=0"), "machine Z85.000"));
+  scratch.write("machine.toml", travel + "[start]\nz = 20\n" + probe);
+  const CommandResult start = runIn(scratch, run);
+  CHECK(start.status != 0);
+  CHECK(has(start, "Z20.000 is beyond the travel, which ends at Z0.000"));
+  // A cycle as well.
+  scratch.write("down.cycle",
+                "cycle down \"Down\"\n\nspindle off\nprobe on\ntouch z by -9 mm -> face\nprobe off\n");
+  scratch.write("machine.toml", travel + setup + probe);
+  const CommandResult cycle = runIn(scratch, "sim down.cycle --machine machine.toml --at 10,20,400");
+  CHECK(cycle.status == 1);
+  CHECK(has(cycle, "machine Z80.000"));
+}
+
 TEST_CASE("setup: a program that is not there names the folders that were searched") {
   const TestFolder scratch("dotek-setup-missing");
   scratch.write("main.nc", "O1\nM98 P777\nM30\n");
@@ -183,6 +222,25 @@ TEST_CASE("setup: a program that is not there names the folders that were search
   const CommandResult searched = runIn(scratch, "sim main.nc --programs macros");
   CHECK(has(searched, "neither this file nor `macros` (`--programs`) has a program of this number"));
   CHECK_FALSE(has(searched, "are found with"));
+}
+
+TEST_CASE("setup: a computed call of a program that has errors says so, and is no alarm of the control") {
+  const TestFolder scratch("dotek-setup-broken");
+  scratch.write("main.nc", "O1\n#1=9001\nG65 P#1\nM30\n");
+  scratch.write("macros/O9001.nc", "O9001\n#1=[2+\nM99\n");
+  scratch.write("macros/O9812", "O9812\n#1=[2+\nM99\n");
+  const CommandResult broken = runIn(scratch, "sim main.nc --programs macros --json");
+  CHECK(broken.status == 1);
+  CHECK(has(broken, "\"ending\": \"inconclusive\""));
+  CHECK(has(broken, "O9001, which is in `macros/O9001.nc` and has errors"));
+  CHECK_FALSE(has(broken, "alarm 78"));
+  // Nor does a vendor's macro of that number run instead.
+  scratch.write("main.nc", "O1\n#1=9812\nG65 P#1 X10.\nM30\n");
+  CHECK(has(runIn(scratch, "sim main.nc --programs macros"),
+            "O9812, which is in `macros/O9812` and has errors"));
+  // One that nothing calls in the end does not matter, and one that is nowhere is the alarm.
+  scratch.write("main.nc", "O1\n#1=9002\nG65 P#1\nM30\n");
+  CHECK(has(runIn(scratch, "sim main.nc --programs macros"), "alarm 78"));
 }
 
 TEST_CASE("setup: a flag that does not say enough names what is missing") {
