@@ -65,6 +65,10 @@ public:
         texts.push_back({arguments.outputFolder + "/" + file.name, &file.text});
     if (arguments.outputFolder.empty())
       texts.push_back({orStandardOutput(arguments.output), &outcome.output});
+    if (Diagnostics others; !arguments.force && !checkMarks(outcome.files, arguments.outputFolder, others)) {
+      err_ << renderText(others, SourceMap(), maxErrors_);
+      return kUsage;
+    }
     if (!arguments.mapFile.empty()) texts.push_back({arguments.mapFile, &outcome.map});
     return write(texts, outcome, arguments) ? outcome.status : kUsage;
   }

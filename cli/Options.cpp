@@ -225,8 +225,8 @@ void addSource(CLI::App& app, Raw& raw) {
   app.add_flag("--recover", raw.recover, "accept the repairs that diagnostics offer");
 }
 
-void addForce(CLI::App& app, Raw& raw) {
-  app.add_flag("--force", raw.force, "replace files that are write-protected");
+void addForce(CLI::App& app, Raw& raw, const char* also) {
+  app.add_flag("--force", raw.force, std::string("replace files that are write-protected") + also);
 }
 
 void addTarget(CLI::App& app, Raw& raw) {

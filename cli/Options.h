@@ -30,7 +30,7 @@ struct Raw {
   std::string format = "text";
   std::vector<std::string> select, ignore;
   std::string failOn;
-  bool fix = false, followLinks = false;
+  bool fix = false, followLinks = false, listSkipped = false;
   bool write = false, check = false; // of fmt
   std::string stage = "ast";
   std::vector<std::string> letters, defaults;
@@ -98,7 +98,7 @@ void addTarget(CLI::App& app, Raw& raw);
 // Of convert and verify: what a translation is. `to`: what --to says there.
 void addTranslation(CLI::App& app, Raw& raw, const std::string& to);
 void fillTranslation(const Raw& raw, targets::TranslationOptions& options);
-void addForce(CLI::App& app, Raw& raw);
+void addForce(CLI::App& app, Raw& raw, const char* also = "");
 std::optional<std::uint32_t> programNumberOf(const Raw& raw);
 targets::ReportFormat reportFormatOf(const std::string& path); // by the ending of its name
 std::string noReport(const std::string& path); // why a name cannot be that of a report; "": it can

@@ -52,7 +52,7 @@ void addConvert(CLI::App& app, Raw& raw) {
           "--keep-going", raw.keepGoing,
           "with -d: write the good ones of several inputs, list those that are refused, and exit with 1")
       ->needs(folder);
-  addForce(*convert, raw);
+  addForce(*convert, raw, ", and in the folder of -d programs of another cycle");
   addIncludes(*convert, raw);
   addCommon(*convert, raw);
 }

@@ -35,6 +35,7 @@ void addLint(CLI::App& app, Raw& raw) {
   lint->add_option("--format", raw.format, "text, json or sarif")
       ->check(CLI::IsMember({"text", "json", "sarif"}));
   lint->add_flag("--follow-links", raw.followLinks, "of folders: also links that lead out of them");
+  lint->add_flag("--list-skipped", raw.listSkipped, "of folders: name each file that is skipped");
   lint->add_flag("--fix", raw.fix, "make the repairs that change no motion, coordinate or meaning");
   lint->add_option("--form", raw.form, "what the Form of the post decides (see `dotek list forms`)")
       ->type_name("NAME");
@@ -57,6 +58,7 @@ driver::LintOptions lintOf(const Raw& raw) {
   out.ignore = codes(raw.ignore, false);
   out.control = raw.control;
   out.fix = raw.fix;
+  out.listSkipped = raw.listSkipped;
   out.force = raw.force;
   out.followLinks = raw.followLinks;
   if (!raw.failOn.empty())

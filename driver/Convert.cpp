@@ -136,6 +136,7 @@ private:
     context_.inputs =
         compilation_.load(options_.source, first ? std::string(kDefaultControl) : options_.control);
     if (context_.inputs == nullptr) return false;
+    context_.inputs->oneOfSeveral = folderPaths_.size() > 1;
     const LoweringInputs& inputs = *context_.inputs;
     if (options_.probeMacros && session_.macroSet(*options_.probeMacros) == nullptr) {
       leaveFindingsToLint(session_);
@@ -215,8 +216,8 @@ private:
     std::string cycles;
     std::vector<std::string> names;
     for (const CycleFolder& folder : context_.folders) {
-      if (!folder.cycle) continue;
       cycles += (cycles.empty() ? "" : ", ") + folder.name;
+      if (!folder.cycle) continue;
       for (const auto& field : frontend::gibbs::declaredFields(*folder.cycle))
         names.push_back(field.name.text);
     }
@@ -232,6 +233,12 @@ private:
     };
     for (const auto& [name, value] : context_.inputs->sets)
       if (!context_.usedSets.contains(name)) unknown(name);
+    if (context_.inputs->oneOfSeveral && !failed_) // a cycle that is refused may know them
+      for (const auto& [postField, variable] : options_.common.field)
+        if (const std::string pair = postField + "=" + variable; !context_.usedSets.contains(pair))
+          session_.diagnostics().report<diag::UnknownName>(
+              {}, "--field", pair, "pair of a field that the post prints and a variable of the macro in `",
+              cycles + "`");
     for (const auto& [name, text] : options_.defaults)
       if (!context_.usedDefaults.contains(name)) unknown(name);
     for (const auto& [name, letter] : context_.letters) {

@@ -90,6 +90,7 @@ VerifyOptions optionsOf(const ConvertOptions& options, const std::string& input)
   if (options.switchProbe) out.common.assume.insert("probe-on");
   out.switchProbe = options.switchProbe;
   out.byConvert = true;
+  out.oneOfSeveral = options.inputs.size() > 1;
   out.cases = kCases;
   out.format = options.report.value_or(ReportFormat::Text);
   out.date = options.date;

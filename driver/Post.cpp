@@ -161,6 +161,8 @@ void PostCommand::prepare(const JobOperation& operation) {
   if (routine == nullptr) {
     for (const auto& set : inputs_->sets)
       compilation_.usedSets().insert(set.first); // one finding for one cause
+    for (const auto& [postField, variable] : options_.common.field)
+      compilation_.usedSets().insert(postField + "=" + variable);
     return;
   }
 
@@ -180,8 +182,12 @@ void PostCommand::prepare(const JobOperation& operation) {
   FieldTable fields(*folder, std::move(printed), session_);
   applySets(operation, fields, *folder);
   bool mapped = true;
-  for (const auto& [postField, variable] : options_.common.field)
+  const bool several = compilation_.folders().size() > 1;
+  for (const auto& [postField, variable] : options_.common.field) {
+    if (several && !fields.knows(postField, variable)) continue;
+    compilation_.usedSets().insert(postField + "=" + variable);
     mapped = fields.map(postField, variable) && mapped;
+  }
   if (mapped && fields.certain())
     prepared_.push_back({&operation, folder, routine, std::move(hosts), std::move(fields)});
 }
@@ -227,11 +233,17 @@ void PostCommand::boundary(const std::optional<std::string>& name, SourceRange w
 }
 
 void PostCommand::reportUnknownSets() {
+  std::string cycles;
+  for (const CycleFolder& folder : compilation_.folders())
+    cycles += (cycles.empty() ? "" : ", ") + folder.name;
+  if (compilation_.folders().size() > 1)
+    for (const auto& [postField, variable] : options_.common.field)
+      if (const std::string pair = postField + "=" + variable; !compilation_.usedSets().contains(pair))
+        session_.diagnostics().report<diag::UnknownName>(
+            {}, "--field", pair, "pair of a field that the post prints and a variable of the macro in `",
+            cycles + "`");
   for (const auto& [name, value] : inputs_->sets) {
     if (compilation_.usedSets().contains(name)) continue;
-    std::string cycles;
-    for (const CycleFolder& folder : compilation_.folders())
-      cycles += (cycles.empty() ? "" : ", ") + folder.name;
     const auto hint = hints_.find(name);
     session_.diagnostics().report<diag::NoSuchField>(SourceRange{}, name, cycles,
                                                      hint == hints_.end() ? "" : hint->second);

@@ -24,6 +24,7 @@ struct LintOptions {
   std::string control;          // profile that programs are checked for; "": what dotek.toml says
   std::optional<FailOn> failOn; // nothing: what dotek.toml says, else Warning
   bool followLinks = false;     // of folders: also links that lead out of them
+  bool listSkipped = false;     // the summary names each file that was skipped
   bool fix = false;             // makes the safe repairs, then says what is left
   bool force = false;           // repairs files that are write-protected, too
 };

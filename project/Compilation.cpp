@@ -156,6 +156,7 @@ std::optional<LoweredCycle> Compilation::lowerFile(const std::string& path, cons
       fix(given->second);
   }
   for (const auto& [name, value] : inputs_->sets) {
+    if (inputs_->oneOfSeveral && !names.contains(name)) continue;
     usedSets_.insert(name); // reported here, once
     if (names.contains(name)) continue;
     const std::string near = nearestName(name, names);

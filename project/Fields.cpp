@@ -42,6 +42,10 @@ bool FieldTable::set(const std::string& name, double value, SourceRange where) {
   return true;
 }
 
+bool FieldTable::knows(const std::string& postField, const std::string& variable) const {
+  return std::find(printed_.begin(), printed_.end(), postField) != printed_.end() && declares(variable);
+}
+
 bool FieldTable::map(const std::string& postField, const std::string& variable) {
   if (std::find(printed_.begin(), printed_.end(), postField) == printed_.end()) {
     const std::string near = nearestName(postField, printed_);

@@ -347,6 +347,8 @@ std::optional<LoweredCycle> Lowering::run(std::set<std::string>& usedSets) {
     if (routine == nullptr) {
       for (const auto& set : inputs_.sets)
         usedSets.insert(set.first); // one finding for one cause
+      for (const auto& [postField, variable] : session_.options().field)
+        usedSets.insert(postField + "=" + variable);
       return std::nullopt;
     }
     for (const compost::FieldRef& field : compost::fieldsPrinted(*inputs_.program, *routine, folder_.name))
@@ -355,8 +357,11 @@ std::optional<LoweredCycle> Lowering::run(std::set<std::string>& usedSets) {
   FieldTable fields(folder_, std::move(printed), session_);
   applySets(fields, usedSets);
   bool good = true;
-  for (const auto& [postField, variable] : session_.options().field)
+  for (const auto& [postField, variable] : session_.options().field) {
+    if (inputs_.oneOfSeveral && !fields.knows(postField, variable)) continue;
+    usedSets.insert(postField + "=" + variable);
     good = fields.map(postField, variable) && good;
+  }
   if (!good && !lenient_) return std::nullopt;
   good = checks();
   // What the dialog rejects is reported before what its blocks would come to.

@@ -44,6 +44,7 @@ struct LoweringInputs {
   std::vector<std::pair<std::string, double>> sets; // --set
   std::optional<std::string> routine;               // --routine, else the job's
   SourceRange routineAt;
+  bool oneOfSeveral = false; // cycles: a name of --set or --field may be that of another one
 };
 
 // Reports and gives nothing where an option, the Prog or a data file has a defect. `control` may be "".
@@ -76,7 +77,8 @@ struct LoweredCycle {
 // that they reject are taken. For who judges what is written.
 enum class Strictness : std::uint8_t { Strict, Lenient };
 
-// `usedSets` collects the names of --set that the cycle knows. nullopt where something has no single meaning:
+// `usedSets` collects the names of --set that the cycle knows and, where it is one of several, the pairs
+// POSTFIELD=VARIABLE of --field. nullopt where something has no single meaning:
 // reported by a strict lowering.
 std::optional<LoweredCycle> lowerCycle(const CycleFolder& folder, const LoweringInputs& inputs,
                                        std::set<std::string>& usedSets, Session& session,

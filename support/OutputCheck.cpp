@@ -4,7 +4,9 @@
 #include "support/messages/Output.h"
 
 #include <algorithm>
+#include <fstream>
 #include <map>
+#include <string_view>
 #include <unistd.h>
 
 namespace dotek {
@@ -55,6 +57,31 @@ bool checkOutputs(const std::vector<OutputName>& outputs, const std::vector<std:
     const bool withMessages = descriptorOf(one->path) < 0 && meet(*one, messages);
     if (twin == one && !withMessages) continue;
     diagnostics.report<diag::OutputGivenTwice>({}, twin == one ? messages.name : twin->name, one->name);
+    good = false;
+  }
+  return good;
+}
+
+bool checkMarks(const std::vector<OutputFile>& files, const std::string& folder, Diagnostics& diagnostics) {
+  bool good = true;
+  for (const OutputFile& file : files) {
+    const std::string path = folder + "/" + file.name;
+    if (folder.empty() || file.mark.empty()) continue;
+    std::ifstream stream(path, std::ios::binary);
+    constexpr std::size_t kMost = 4096; // a mark is at the head of its file
+    std::string head(kMost, '\0');
+    stream.read(head.data(), static_cast<std::streamsize>(kMost));
+    head.resize(static_cast<std::size_t>(stream.gcount()));
+    std::erase(head, '\r');
+    if (head.empty() || ("\n" + head).find("\n" + file.mark + "\n") != std::string::npos) continue;
+    // Its first line with a word says what it is.
+    std::string_view line;
+    for (std::string_view rest = head; !rest.empty() && line.size() < 3;) {
+      line = rest.substr(0, rest.find('\n'));
+      rest.remove_prefix(std::min(rest.size(), line.size() + 1));
+    }
+    constexpr std::size_t kMostShown = 60;
+    diagnostics.report<diag::OutputOfAnother>({}, path, line.substr(0, kMostShown));
     good = false;
   }
   return good;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "support/Output.h"
+#include "support/OutputFile.h"
 
 #include <string>
 #include <vector>
@@ -16,6 +17,9 @@ struct OutputName {
 // false with a diagnostic: one cannot be written, one is written by two, or one is an input.
 bool checkOutputs(const std::vector<OutputName>& outputs, const std::vector<std::string>& inputs, bool force,
                   Diagnostics& diagnostics);
+
+// false with a diagnostic: a file of `folder` that one of `files` would replace is not of the same input.
+bool checkMarks(const std::vector<OutputFile>& files, const std::string& folder, Diagnostics& diagnostics);
 
 // false with a diagnostic: one of `paths` is one of the files that were read.
 bool checkRead(const std::vector<std::string>& paths, const SourceMap& sources, Diagnostics& diagnostics);

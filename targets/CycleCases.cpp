@@ -104,6 +104,7 @@ bool CaseRunner::load() {
   const Target* target = findTarget(options_.to);
   const bool first = options_.control.empty() || (target != nullptr && target->ownControls);
   inputs_ = compilation_.load(options_.source, first ? std::string(kDefaultControl) : options_.control);
+  if (inputs_ != nullptr) inputs_->oneOfSeveral = options_.oneOfSeveral; // of `convert`, which reports them
   if (inputs_ == nullptr) return false;
   folder_ = &compilation_.addFolder(options_.inputs.front());
   if (options_.source.cycle) folder_->name = *options_.source.cycle;

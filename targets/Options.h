@@ -75,11 +75,12 @@ struct VerifyOptions : TranslationOptions {
   std::optional<std::uint32_t> programNumber; // of what convert writes
   std::uint64_t cases = 1000;
   std::uint64_t seed = 1;
-  double minAgreed = 95;   // percent of the cases that have to agree
-  double tolerance = 1e-6; // mm
-  std::uint32_t jobs = 0;  // 0: one for each processor
-  NamedTexts variables;    // --var N=VALUE, of programs: not drawn
-  bool byConvert = false;  // what the report names as its command is `convert --verify`
+  double minAgreed = 95;     // percent of the cases that have to agree
+  double tolerance = 1e-6;   // mm
+  std::uint32_t jobs = 0;    // 0: one for each processor
+  NamedTexts variables;      // --var N=VALUE, of programs: not drawn
+  bool oneOfSeveral = false; // what --set and --field name may be of another input
+  bool byConvert = false;    // what the report names as its command is `convert --verify`
   // Of what convert wrote: --default, --defaults use and --probe-power macro.
   bool switchProbe = false;
   NamedTexts defaults;

@@ -80,12 +80,22 @@ public:
     result.macrosByCycle.push_back(macros->name);
     result.numbers.emplace_back(emit.programNumber, folder.name);
     result.add(fmt::format("O{:04}.nc", emit.programNumber), *lines);
+    result.files.back().mark = markOf(*lines);
     return true;
   }
 
   void program(const std::string& path) override { programs_.convert(path, context_.result); }
 
 private:
+  // The lines of the header that name the cycle: those between the program's number and the control, else
+  // the number, which has its name as a comment.
+  static std::string markOf(const std::vector<backends::EmittedLine>& lines) {
+    std::string out;
+    for (std::size_t i = 2; i < lines.size() && !lines[i].text.starts_with("(FOR "); ++i)
+      out += (out.empty() ? "" : "\n") + lines[i].text;
+    return out.empty() ? lines.at(1).text : out;
+  }
+
   // A program hands nothing back.
   void loseResults(ir::Cycle& cycle) {
     std::set<std::string> lost;

@@ -117,6 +117,10 @@ public:
     std::optional<MikroprogProgram> program = write(folder);
     if (!program) return false;
     context_.result.add(program->name, program->lines, "\r\n");
+    const auto named = std::find_if(program->lines.begin(), program->lines.end(), [](const auto& line) {
+      return line.text.find("CYCLE ") != std::string::npos;
+    });
+    if (named != program->lines.end()) context_.result.files.back().mark = named->text;
     return true;
   }
 

@@ -59,6 +59,97 @@ TEST_CASE("convert leaves nothing after it where one program of several is refus
   CHECK(folder.files() == 0);
 }
 
+TEST_CASE("convert -d replaces a program of the same cycle, and no other") {
+  const Folder folder;
+  const std::string into = (folder.path / "nc").generic_string();
+  const fs::path file = folder.path / "nc" / "O8000.nc";
+  const auto convert = [&](const char* cycle, std::vector<std::string> more = {}) {
+    std::vector<std::string> arguments = {"convert", example(cycle), "--prog", example("mill-post.txt"),
+                                          "--to",    "fanuc",        "-d",     into};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return runDotek(arguments, root());
+  };
+  CHECK(convert("surface-x").status == 0);
+  const std::string first = readAll(file);
+  CHECK(convert("surface-x").status == 0);
+  const CommandResult second = convert("surface-y");
+  CHECK(second.status == 2);
+  CHECK(second.err.find("[output-of-another]") != std::string::npos);
+  CHECK(second.err.find("O8000(SURFACE ALONG X)") != std::string::npos);
+  CHECK(second.err.find("--program-number") != std::string::npos);
+  CHECK(readAll(file) == first);
+  CHECK(convert("surface-y", {"--program-number", "8001"}).status == 0);
+  CHECK(folder.files() == 2);
+  // Nothing is written where one of several is refused.
+  fs::remove(folder.path / "nc" / "O8001.nc");
+  CHECK(convert("surface-y", {example("surface-x")}).status == 2);
+  CHECK(folder.files() == 1);
+  CHECK(convert("surface-y", {"--force"}).status == 0);
+  CHECK(readAll(file) != first);
+  // As it comes back from a control or an editor it is the same program.
+  std::string text = readAll(file), windows;
+  for (const char c : text)
+    windows += c == '\n' ? std::string("\r\n") : std::string(1, c);
+  std::ofstream(file, std::ios::binary) << windows;
+  CHECK(convert("surface-y").status == 0);
+  // A program that somebody else wrote.
+  std::ofstream(file, std::ios::binary) << "%\nO8000(WARM UP)\nM99\n%\n";
+  CHECK(convert("surface-y").status == 2);
+  CHECK(readAll(file).find("WARM UP") != std::string::npos);
+}
+
+TEST_CASE("convert takes --field for the inputs whose post and macro know it") {
+  const Folder folder;
+  const auto convert = [&](const std::string& field) {
+    return runDotek({"convert", example("surface-x"), example("surface-y"), "--prog",
+                     example("mill-post.txt"), "--to", "fanuc", "--field", field, "-d",
+                     (folder.path / "nc").generic_string()},
+                    root());
+  };
+  const CommandResult one = convert("X=X"); // surface-y prints no X
+  CHECK_MESSAGE(one.status == 0, one.err);
+  CHECK(folder.files() == 2);
+  for (const std::string wrong : {"Q=X", "X=Q"}) {
+    const CommandResult none = convert(wrong);
+    CHECK(none.status == 2);
+    const std::size_t told = none.err.find("`--field` names `" + wrong + "`");
+    REQUIRE(told != std::string::npos);
+    CHECK(none.err.find("`surface-x, surface-y`", told) != std::string::npos);
+    CHECK(none.err.find("error:", none.err.find("error:") + 1) == std::string::npos);
+  }
+}
+
+TEST_CASE("post takes --field for the folders whose post and macro know it") {
+  const auto post = [&](const std::string& field) {
+    return runDotek({"post", example("surface-x"), example("surface-y"), "--prog", example("mill-post.txt"),
+                     "--field", field, "--host", "clearance=50"},
+                    root());
+  };
+  const CommandResult one = post("X=X");
+  CHECK_MESSAGE(one.status == 0, one.err);
+  CHECK(post("Q=X").err.find("`--field` names `Q=X`") != std::string::npos);
+}
+
+TEST_CASE("convert of several cycles takes --set for those that know it") {
+  const Folder folder;
+  std::ofstream(folder.path / "one.cycle")
+      << "cycle one \"One\"\n\nparameter diameter : length \"Size\"\n\n"
+         "spindle off\nprobe on\ntouch x by diameter -> face\nprobe off\n";
+  std::ofstream(folder.path / "two.cycle") << "cycle two \"Two\"\n\nspindle off\nprobe on\n"
+                                              "touch x by 9 mm -> face\nprobe off\n";
+  const auto convert = [&](const std::string& set) {
+    return runDotek({"convert", (folder.path / "one.cycle").generic_string(),
+                     (folder.path / "two.cycle").generic_string(), "--to", "fanuc", "--set", set, "-d",
+                     (folder.path / "nc").generic_string()},
+                    root());
+  };
+  const CommandResult known = convert("diameter=30");
+  CHECK_MESSAGE(known.status == 0, known.err);
+  const CommandResult unknown = convert("diametre=30");
+  CHECK(unknown.status == 2);
+  CHECK(unknown.err.find("[no-such-field]") != std::string::npos);
+}
+
 TEST_CASE("a file that cannot be renamed leaves no temporary file") {
   const Folder folder;
   fs::create_directories(folder.path / "O2.nc" / "in the way");
