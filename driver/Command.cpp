@@ -1,10 +1,12 @@
 #include "driver/Command.h"
 
+#include "frontend/compost/Check.h"
 #include "frontend/gibbs/Check.h"
 #include "support/messages/ComPost.h"
 #include "support/messages/Common.h"
 #include "support/messages/Fanuc.h"
 #include "support/messages/Gibbs.h"
+#include "support/messages/MacroB.h"
 #include "support/messages/Mikroprog.h"
 #include "support/messages/Nc.h"
 #include "support/messages/Output.h"
@@ -29,6 +31,43 @@ void keepFirstOfCause(Diagnostics& diagnostics) {
   std::erase_if(diagnostics.all(), [&](const Diagnostic& d) {
     return d.code == diag::FormAssumed::code && !told.insert(d.message).second;
   });
+}
+
+// Of findings that a whole file has for one cause the first one stays and lists the others. They are sorted.
+void joinAlike(Diagnostics& diagnostics, const SourceMap& sources) {
+  constexpr std::array<std::string_view, 3> kJoined = {diag::SmallLetter::code, "position-read-at-entry",
+                                                       frontend::compost::routineNeverCalledCheck.code};
+  struct Others {
+    std::size_t count = 0;
+    SourceRange next;
+    std::string text;
+  };
+  std::map<std::pair<std::string_view, FileId>, std::size_t> first; // place in all()
+  std::map<std::size_t, Others> others;
+  std::vector<Diagnostic> kept;
+  for (Diagnostic& one : diagnostics.all()) {
+    const bool joined = one.range.hasPlace() && std::find(kJoined.begin(), kJoined.end(),
+                                                          std::string_view(one.code)) != kJoined.end();
+    if (joined) {
+      const auto [at, added] = first.try_emplace({one.code, one.range.file}, kept.size());
+      if (!added) {
+        Others& more = others[at->second];
+        constexpr std::size_t kListed = 5;
+        if (more.count++ == 0) more.next = one.range;
+        if (more.count <= kListed)
+          more.text +=
+              fmt::format("{}`{}` (line {})", more.text.empty() ? "" : ", ", sources.textUtf8(one.range),
+                          sources.file(one.range.file).place(one.range.begin).line);
+        else if (more.count == kListed + 1)
+          more.text += ", ..";
+        continue;
+      }
+    }
+    kept.push_back(std::move(one));
+  }
+  for (const auto& [at, more] : others)
+    kept[at].note(more.next, fmt::format("and {} more in this file: {}", more.count, more.text));
+  diagnostics.all() = std::move(kept);
 }
 
 } // namespace
@@ -59,6 +98,7 @@ Outcome outcomeOf(Session& session, std::string output, bool keepOutput) {
   outcome.diagnostics = std::move(session.diagnostics());
   outcome.diagnostics.sort();
   keepFirstOfCause(outcome.diagnostics);
+  joinAlike(outcome.diagnostics, outcome.sources);
   return outcome;
 }
 

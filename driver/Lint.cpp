@@ -72,6 +72,7 @@ public:
     keepStrongest(session_.diagnostics());
     run([&](const lint::NamedRule& rule) { return !rule.rule->shared && isWantedSomewhere(rule.id); });
     reportUnknownSets();
+    configs_.reportUnused(options_.paths);
     suppress(projects);
     lint::keepOneOfEach(session_.diagnostics());
     select();
@@ -98,7 +99,7 @@ private:
                                      [&](const std::string& path) { return fs::is_directory(path, error); });
     if (!folders) return "";
     return walkSummary(checkedFiles_, excluded_, walk_.passedOver(),
-                       options_.paths.size() == 1 ? options_.paths.front() : "");
+                       options_.paths.size() == 1 ? options_.paths.front() : "", options_.listSkipped);
   }
 
   static std::string quoted(const std::vector<std::string>& paths) {

@@ -6,6 +6,7 @@
 #include "support/Files.h"
 #include "support/Glob.h"
 #include "support/NearestName.h"
+#include "support/messages/Lint.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -49,8 +50,8 @@ std::set<std::string> codesOf(const TomlDocument& document, const TomlValue& val
 
 // Of one control or one form: a name, and one that is empty takes back what was said before.
 std::optional<std::string> nameIn(const TomlTable& table, std::string_view key) {
-  if (!table.has(key)) return std::nullopt;
-  return table.value(key).text();
+  const TomlValue value = table.value(key);
+  return value ? std::optional(value.text()) : std::nullopt;
 }
 
 FailOn failOnOf(const TomlValue& value) {
@@ -63,7 +64,7 @@ FailOn failOnOf(const TomlValue& value) {
 
 } // namespace
 
-std::shared_ptr<const Configs::File> Configs::load(const std::string& path, const std::string& folder) {
+std::shared_ptr<Configs::File> Configs::load(const std::string& path, const std::string& folder) {
   auto file = std::make_shared<File>();
   file->folder = folder;
   Config& config = file->base;
@@ -93,8 +94,11 @@ std::shared_ptr<const Configs::File> Configs::load(const std::string& path, cons
     Section& section = file->sections.emplace_back();
     const TomlValue patterns =
         table.require("path", "a pattern of paths such as \"lathe/**\", or a list of them");
-    section.patterns = patterns.isArray() ? patterns.texts() : std::vector{patterns.text()};
-    for (const std::string& pattern : section.patterns) {
+    if (!patterns.isArray()) section.patterns.push_back({patterns.text(), patterns.range()});
+    if (patterns.isArray())
+      for (const TomlValue& item : patterns.items())
+        section.patterns.push_back({item.text(), item.range()});
+    for (const auto& [pattern, range, taken] : section.patterns) {
       if (pattern.empty()) continue; // of no text, reported; or it takes nothing
       if (pattern.find_first_not_of("./") == std::string::npos || pattern.find("..") != std::string::npos ||
           pattern.find('\\') != std::string::npos)
@@ -106,18 +110,18 @@ std::shared_ptr<const Configs::File> Configs::load(const std::string& path, cons
     section.ignore = codesOf(*document, table.value("ignore"), false);
     section.control = nameIn(table, "control");
     section.form = nameIn(table, "form");
-    if (table.has("exclude")) section.exclude = table.value("exclude").flag();
+    if (const TomlValue exclude = table.value("exclude")) section.exclude = exclude.flag();
   }
   document->finish();
   return file;
 }
 
-std::shared_ptr<const Configs::File> Configs::inFolder(const std::string& folder) {
+std::shared_ptr<Configs::File> Configs::inFolder(const std::string& folder) {
   if (const auto known = folders_.find(folder); known != folders_.end()) return known->second;
   const fs::path here(folder);
   std::error_code error;
   const fs::path file = here / "dotek.toml";
-  std::shared_ptr<const File> config;
+  std::shared_ptr<File> config;
   if (fs::is_regular_file(file, error)) {
     const fs::path near = file.lexically_proximate(fs::current_path(error));
     config = load(near.empty() ? file.generic_string() : near.generic_string(), folder);
@@ -136,14 +140,18 @@ const Config* Configs::of(const std::string& path) {
   fs::path whole = fs::absolute(path, error).lexically_normal();
   if (!whole.has_filename() && whole.has_relative_path()) whole = whole.parent_path();
   const bool isFolder = fs::is_directory(whole, error);
-  const std::shared_ptr<const File> file =
-      inFolder((isFolder ? whole : whole.parent_path()).generic_string());
+  const std::shared_ptr<File> file = inFolder((isFolder ? whole : whole.parent_path()).generic_string());
   Config config = file->base;
   const std::string below =
       file->folder.empty() ? "" : whole.lexically_relative(file->folder).generic_string();
-  for (const Section& section : file->sections) {
-    const auto takes = [&](const std::string& pattern) { return matchesGlob(pattern, below); };
-    if (std::none_of(section.patterns.begin(), section.patterns.end(), takes)) continue;
+  for (Section& section : file->sections) {
+    bool takes = false;
+    for (Pattern& pattern : section.patterns) {
+      if (!matchesGlob(pattern.text, below)) continue;
+      takes = true;
+      if (!isFolder) pattern.taken = true;
+    }
+    if (!takes) continue;
     if (section.select) {
       config.select = section.select;
       for (const std::string& code : *section.select)
@@ -155,6 +163,29 @@ const Config* Configs::of(const std::string& path) {
     config.exclude = section.exclude.value_or(config.exclude);
   }
   return &files_.emplace(path, std::move(config)).first->second;
+}
+
+void Configs::reportUnused(const std::vector<std::string>& paths) {
+  std::vector<fs::path> walked;
+  for (const std::string& path : paths) {
+    std::error_code error;
+    fs::path whole = fs::absolute(path, error).lexically_normal();
+    if (!whole.has_filename() && whole.has_relative_path()) whole = whole.parent_path();
+    if (fs::is_directory(whole, error)) walked.push_back(std::move(whole));
+  }
+  std::set<const File*> told;
+  for (const auto& [folder, file] : folders_) {
+    if (file->folder.empty() || !told.insert(file.get()).second) continue;
+    const fs::path own(file->folder);
+    const bool whole = std::any_of(walked.begin(), walked.end(), [&](const fs::path& one) {
+      return std::mismatch(one.begin(), one.end(), own.begin(), own.end()).first == one.end();
+    });
+    if (!whole) continue;
+    for (const Section& section : file->sections)
+      for (const Pattern& pattern : section.patterns)
+        if (!pattern.taken && !pattern.text.empty())
+          session_.diagnostics().report<diag::PathUnused>(pattern.range, pattern.text);
+  }
 }
 
 bool isWanted(std::string_view code, const LintOptions& options, const Config& config) {

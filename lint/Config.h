@@ -35,9 +35,17 @@ public:
   // For a file or a folder, by its path. A defect of the dotek.toml is reported. Never null.
   const Config* of(const std::string& path);
 
+  // Patterns of [[lint.path]] that took no file, of each dotek.toml whose whole folder is in `paths`.
+  void reportUnused(const std::vector<std::string>& paths);
+
 private:
+  struct Pattern {
+    std::string text;
+    SourceRange range;
+    bool taken = false; // a file
+  };
   struct Section { // [[lint.path]]
-    std::vector<std::string> patterns;
+    std::vector<Pattern> patterns;
     std::optional<std::set<std::string>> select;
     std::set<std::string> ignore;
     std::optional<std::string> control, form;
@@ -48,12 +56,12 @@ private:
     std::vector<Section> sections;
     std::string folder; // absolute; "": there is no dotek.toml
   };
-  std::shared_ptr<const File> load(const std::string& path, const std::string& folder);
-  std::shared_ptr<const File> inFolder(const std::string& folder);
+  std::shared_ptr<File> load(const std::string& path, const std::string& folder);
+  std::shared_ptr<File> inFolder(const std::string& folder);
 
   dotek::project::Session& session_;
-  std::map<std::string, std::shared_ptr<const File>> folders_; // by absolute path
-  std::map<std::string, Config> files_;                        // by path
+  std::map<std::string, std::shared_ptr<File>> folders_; // by absolute path
+  std::map<std::string, Config> files_;                  // by path
 };
 
 // Whether findings of this code are wanted, and with which severity.

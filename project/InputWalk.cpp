@@ -79,7 +79,7 @@ void InputWalk::entry(const std::string& path, Diagnostics& diagnostics) {
 }
 
 std::string walkSummary(std::size_t checked, std::size_t excluded, const std::vector<PassedOver>& passedOver,
-                        const std::string& folder) {
+                        const std::string& folder, bool all) {
   constexpr std::size_t kNames = 3; // of one reason
   std::string out = fmt::format("{} file{} checked", checked, checked == 1 ? "" : "s");
   if (excluded > 0) out += fmt::format(", {} excluded", excluded);
@@ -93,13 +93,22 @@ std::string walkSummary(std::size_t checked, std::size_t excluded, const std::ve
     at->second.push_back(inside ? one.path.substr(folder.size() + 1) : one.path);
   }
   std::string list;
+  bool cut = false;
   for (const auto& [reason, names] : reasons) {
+    if (all) {
+      for (const std::string& name : names)
+        list += "\n  " + name + ": " + reason;
+      continue;
+    }
+    cut = cut || names.size() > kNames;
     list += list.empty() ? "" : "; ";
     for (std::size_t i = 0; i < std::min(names.size(), kNames); ++i)
       list += (i == 0 ? "" : ", ") + names[i];
     if (names.size() > kNames) list += fmt::format(" and {} more", names.size() - kNames);
     list += ": " + reason;
   }
+  if (all) return out + fmt::format(", {} skipped:{}", passedOver.size(), list);
+  if (cut) list += "; `--list-skipped` names each";
   return out + fmt::format(", {} skipped ({})", passedOver.size(), list);
 }
 

@@ -49,8 +49,9 @@ private:
 };
 
 // "30 files checked, 4 excluded, 2 skipped (README.md: no language that Dotek reads; a, b, c and 4 more: an
-// image)". Names are printed without `folder`, where that is not empty.
+// image; `--list-skipped` names each)". Names are printed without `folder`, where that is not empty. `all`:
+// each is named, on a line of its own.
 std::string walkSummary(std::size_t checked, std::size_t excluded, const std::vector<PassedOver>& passedOver,
-                        const std::string& folder);
+                        const std::string& folder, bool all);
 
 } // namespace dotek::project

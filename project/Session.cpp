@@ -2,6 +2,7 @@
 
 #include "project/Assumptions.h"
 #include "support/Files.h"
+#include "support/Tape.h"
 #include "support/messages/Commands.h"
 
 #include <algorithm>
@@ -105,8 +106,10 @@ ReadBounds Session::bounds(const std::string& folder) const {
 }
 
 std::optional<std::string> Session::bytes(const std::string& path, Diagnostics& diagnostics) {
-  return isStream(path) ? options_.streams->read(path, options_.limits, diagnostics)
-                        : readBytes(path, options_.limits, diagnostics);
+  std::optional<std::string> out = isStream(path) ? options_.streams->read(path, options_.limits, diagnostics)
+                                                  : readBytes(path, options_.limits, diagnostics);
+  if (out) blankTape(*out);
+  return out;
 }
 
 const Recognition* Session::kindOf(const std::string& path, Diagnostics& diagnostics,
@@ -118,6 +121,7 @@ const Recognition* Session::kindOf(const std::string& path, Diagnostics& diagnos
   std::optional<std::string> text =
       stream ? bytes(path, diagnostics) : readBeginning(path, kRecognisedBytes, diagnostics);
   if (!text) return nullptr;
+  blankTape(*text);
   Recognition found = recognise(stream ? "" : path, *text, expected);
   // Of a longer file only the beginning was read.
   if (found.kind && !stream && text->size() < kRecognisedBytes && text->size() <= options_.limits.inputBytes)

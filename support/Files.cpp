@@ -1,4 +1,5 @@
 #include "support/Files.h"
+#include "support/Tape.h"
 #include "support/messages/Common.h"
 
 #include <algorithm>
@@ -166,6 +167,7 @@ std::optional<FileId> readText(const std::string& path, Encoding fallback, std::
 
 std::optional<FileId> addText(std::string name, std::string bytes, Encoding fallback,
                               std::optional<Encoding> forced, SourceMap& sources, Diagnostics& diagnostics) {
+  if (fallback != Encoding::Utf8) blankTape(bytes); // a language of controls
   // Every second byte NUL is UTF-16 without its mark.
   const auto nulAt = [&bytes](std::size_t i) { return bytes[i] == '\0'; };
   const bool wide = bytes.size() > 3 && (nulAt(0) || nulAt(1)) && (nulAt(2) || nulAt(3));

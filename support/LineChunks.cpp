@@ -11,6 +11,14 @@
 namespace dotek {
 namespace {
 
+bool isAroundText(char c) {
+  return c == '\0' || c == '\x1A' || c == ' ' || c == '\t' || c == '\r' || c == '\n';
+}
+
+void blank(char& c) {
+  if (c == '\0' || c == '\x1A') c = ' ';
+}
+
 // After the last whole line of [begin, end); `begin` where there is none. A lone CR ends a line too.
 const char* behindLastLine(const char* begin, const char* end) {
   const std::string_view text(begin, static_cast<std::size_t>(end - begin));
@@ -84,6 +92,13 @@ LineChunks::State LineChunks::next() {
     left += n;
   }
   filled_ = left;
+  if (first_)
+    for (char* at = base; at < base + left && isAroundText(*at); ++at)
+      blank(*at);
+  if (ended_)
+    for (char* at = base + left; at > base && isAroundText(at[-1]); --at)
+      blank(at[-1]);
+  first_ = false;
   begin_ = base;
   end_ = base + left;
   if (!error_.empty()) return State::Failed;
@@ -106,6 +121,7 @@ bool LineChunks::rewind() {
   textAt_ = 0;
   filled_ = 0;
   ended_ = false;
+  first_ = true;
   error_.clear();
   begin_ = end_ = buffer_.get();
   return true;

@@ -33,7 +33,8 @@ public:
     TooLong, // the next line is longer than the buffer: [begin, end) is its beginning
     Failed,  // reading failed: error()
   };
-  // The chunk before is no longer good.
+  // The chunk before is no longer good. Feed holes before and after the text, and the Ctrl-Z of a DOS file,
+  // are blanks (Tape.h).
   State next();
   const char* begin() const { return begin_; }
   const char* end() const { return end_; }
@@ -54,6 +55,7 @@ private:
   const char* end_ = nullptr;
   std::size_t filled_ = 0; // bytes in the buffer
   bool ended_ = false;     // the source is empty
+  bool first_ = true;      // nothing has been read
   std::string error_;
 };
 

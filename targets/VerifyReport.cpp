@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <set>
+#include <tuple>
 
 namespace dotek::targets {
 
@@ -319,12 +321,18 @@ void VerifyReport::tellProbe() {
   if (unarmed_) told_.report<diag::ProbeNeverOn>(*unarmed_);
 }
 
-// Once for each field: a value that is finer than what its picture prints.
+// Fields whose value may be finer than what their pictures print.
 void VerifyReport::tellPictures() {
   if (!agreeing_ || options_.replay) return;
-  const auto dropped = runner_.droppedDigits(agreeing_->second);
+  auto dropped = runner_.droppedDigits(agreeing_->second);
+  std::stable_sort(dropped.begin(), dropped.end(), [](const auto& a, const auto& b) {
+    return std::tie(a.second.file, a.second.begin) < std::tie(b.second.file, b.second.begin);
+  });
+  std::string names;
+  std::set<std::string> named;
   for (const auto& [name, range] : dropped)
-    told_.report<diag::PictureDropsDigits>(range, name);
+    if (named.insert(name).second) names += (names.empty() ? "" : ", ") + name;
+  if (!dropped.empty()) told_.report<diag::PictureDropsDigits>(dropped.front().second, names);
 }
 
 // The verdict, of drawn and of edge cases how many it is said of, and what the others come to. It agrees

@@ -212,8 +212,8 @@ private:
       name.kind = ProgramName::Kind::Name;
       name.text = bytes().substr(at + 1, close - at - 1);
       at = close + 1;
-    } else if (first == 'O' || first == ':') {
-      name.kind = first == 'O' ? ProgramName::Kind::Number : ProgramName::Kind::Colon;
+    } else if (first == 'O' || first == 'o' || first == ':') {
+      name.kind = first == ':' ? ProgramName::Kind::Colon : ProgramName::Kind::Number;
       std::size_t digits = skipBlanks(at + 1, end);
       std::size_t behind = digits;
       while (behind < end && isDigit(bytes()[behind]))
@@ -226,6 +226,11 @@ private:
       return false;
     }
     name.range = range(line.range.begin, at);
+    if (first == 'o') {
+      const SourceRange letter = range(line.range.begin, line.range.begin + 1);
+      diagnostics_.report<diag::SmallLetter>(letter, "o").fix =
+          Fix{Fix::Applicability::Display, "write capitals", {{letter, "O"}}};
+    }
     blank(line.range.begin, at);
     line.range = range(skipBlanks(at, end), end);
     line.header = std::move(name);

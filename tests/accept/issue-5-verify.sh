@@ -56,7 +56,7 @@ check "OSA.XYZ: at its first measure" at probe-never-on 61
 check "OSA.XYZ: its first protected move" at protected-while-off 55
 verify MERENI.OSA.X --to fanuc --cases 50
 check "OSA.X: its first protected move" at protected-while-off 20
-check "a finer value than the picture prints is reported" says "picture drops digits of Zb" "picture drops digits of a"
+check "a finer value than the picture prints is reported" says "picture drops digits of Zb, Z, a, I:"
 
 # ---- what the programmer saw against what the post prints
 for cycle in MERENI.OSA.X MERENI.OSA.Y; do

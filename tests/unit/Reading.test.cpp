@@ -92,6 +92,116 @@ TEST_CASE("reading: a folder is checked whatever the names are, and says what it
         "(`%_N_`))\n");
 }
 
+TEST_CASE("reading: what a tape or a serial line leaves around a program is passed over") {
+  const std::string body = "O7312\nG31Z-10.F100\n#101=#5063\nM99\n", plain = "O7313\nG0Z50.\nM30\n";
+  const std::string holes(60, '\0'), end = "%\n";
+  std::string windows;
+  for (const char c : end + body + end)
+    windows += c == '\n' ? std::string("\r\n") : std::string(1, c);
+  for (const std::string& text :
+       {end + body + end + "\x1A", end + body + "%\x1A", body + "\x1A", holes + end + body + end + holes,
+        holes + windows + holes + "\x1A", end + body + end + std::string(200, '\x1A'),
+        end + body + "%" + holes, end + plain + "%" + holes, plain + "\x1A", holes + plain + holes,
+        end + body + end + std::string(1, '\0')}) {
+    const DataFolder folder;
+    folder.write("m/O7312", text);
+    CAPTURE(text);
+    const CommandResult lint = dotekIn(folder, {"lint", "--select",
+                                                "syntax-error,unexpected-character,nul-byte,"
+                                                "text-after-end,utf16-input,nothing-read",
+                                                "m"});
+    CHECK(lint.err == "1 file checked\n");
+    CHECK(lint.out == "");
+    CHECK(dotekIn(folder, {"lint", "--fail-on", "error", "m/O7312"}).status == 0);
+    const CommandResult converted =
+        dotekIn(folder, {"convert", "m/O7312", "--to", "fanuc", "--control", "fanuc-31i-b"});
+    CHECK_MESSAGE(converted.status == 0, converted.err);
+    CHECK(converted.out.find('\0') == std::string::npos);
+    CHECK(converted.out.find('\x1A') == std::string::npos);
+    folder.write("machine.toml",
+                 "schema = 1\n[probe]\nball_diameter = 6\nlength = 80\nlength_to = \"tip\"\non = "
+                 "true\n");
+    const CommandResult run = dotekIn(
+        folder, {"sim", "m/O7312", "--machine", "machine.toml", "--json", "--limit", "sim-steps=1000"});
+    CHECK_FALSE(holds(run.out, "not-read"));
+    CHECK_FALSE(holds(run.out, "not-run"));
+  }
+  // Text after the end is one; what lies there besides is not read.
+  const DataFolder folder;
+  folder.write("late.nc", end + body + "%" + holes + "junk\n");
+  CHECK_FALSE(holds(dotekIn(folder, {"lint", "late.nc"}).out, "nul-byte"));
+  CHECK_FALSE(holds(dotekIn(folder, {"lint", "late.nc"}).out, "unknown-kind"));
+  // Within a program it is a damaged copy; and UTF-16 stays UTF-16.
+  folder.write("damaged.nc", holes + end + "O7312\nG0X" + std::string(1, '\0') + "5.\nM99\n" + end + holes);
+  CHECK(holds(dotekIn(folder, {"lint", "damaged.nc"}).out, "damaged.nc:3:5: error: the file holds a byte 0"));
+  for (const bool low : {false, true}) {
+    std::string wide;
+    for (const char c : end + body + end) {
+      if (low) wide += '\0';
+      wide += c;
+      if (!low) wide += '\0';
+    }
+    folder.write("wide.nc", wide);
+    CHECK(holds(dotekIn(folder, {"lint", "wide.nc"}).out, "UTF-16"));
+  }
+}
+
+TEST_CASE("reading: --list-skipped names each file that is skipped") {
+  const DataFolder folder;
+  folder.write("m/good.nc", kGood);
+  for (const char* name : {"a.md", "b.md", "c.md", "d.md", "e.md"})
+    folder.write(std::string("m/") + name, "# Macros\n\nLoad them.\n");
+  CHECK(dotekIn(folder, {"lint", "m"}).err ==
+        "1 file checked, 5 skipped (a.md, b.md, c.md and 2 more: no language that Dotek reads; "
+        "`--list-skipped` names each)\n");
+  const CommandResult all = dotekIn(folder, {"lint", "m", "--list-skipped"});
+  CHECK(holds(all.err, "1 file checked, 5 skipped:\n  a.md: no language that Dotek reads\n"));
+  CHECK(holds(all.err, "\n  e.md: no language that Dotek reads\n"));
+}
+
+TEST_CASE(
+    "reading: a pattern of [[lint.path]] that takes no file is reported where the whole folder is linted") {
+  const DataFolder folder;
+  folder.write("shop/mill/good.nc", kGood);
+  folder.write("shop/lathe/good.nc", kGood);
+  folder.write("shop/dotek.toml",
+               "schema = 1\n[[lint.path]]\npath = [\"mill/**\", \"lahte/**\"]\n"
+               "ignore = [\"indentation\"]\n[[lint.path]]\npath = \"old\"\nexclude = true\n");
+  const CommandResult run = dotekIn(folder, {"lint", "shop"});
+  CHECK(run.status == 1);
+  CHECK(holds(run.out, "dotek.toml:3:20: warning: `lahte/**` takes none"));
+  CHECK(holds(run.out, "dotek.toml:6:8: warning: `old` takes none"));
+  CHECK_FALSE(holds(run.out, "`mill/**`"));
+  CHECK(holds(dotekIn(folder, {"lint", "."}).out, "path-unused"));
+  // Of a part of the folder nothing is known.
+  CHECK(dotekIn(folder, {"lint", "shop/mill"}).status == 0);
+  CHECK(dotekIn(folder, {"lint", "shop/mill/good.nc"}).status == 0);
+  // A key that no section has: all that are known.
+  folder.write("shop/dotek.toml", "schema = 1\n[[lint.path]]\npath = \"mill/**\"\nlevel = 1\n");
+  CHECK(holds(dotekIn(folder, {"lint", "shop"}).out,
+              "unknown key `level`; known here: `control`, `exclude`, `form`, `ignore`, `path`, `select`"));
+}
+
+TEST_CASE("reading: what a whole file has for one cause is told once") {
+  const DataFolder folder;
+  folder.write("small.nc", "O9111\ng65 p9103 x10.\ng0 x1. y2.\nM99\n");
+  const CommandResult run = dotekIn(folder, {"lint", "--select", "small-letter", "small.nc"});
+  CHECK(holds(run.out, "small.nc:2:1: warning: `g` is in small letters"));
+  CHECK(holds(run.out, "and 5 more in this file: `p` (line 2), `x` (line 2), `g` (line 3), `x` (line 3), `y` "
+                       "(line 3)"));
+  CHECK(run.out.find("[small-letter]") == run.out.rfind("[small-letter]"));
+  // The letter of the number is one of them.
+  folder.write("header.nc", "o9113\ng0 x1.\nm99\n");
+  const CommandResult header = dotekIn(folder, {"lint", "header.nc"});
+  CHECK(holds(header.out, "header.nc:1:1: warning: `o` is in small letters"));
+  CHECK_FALSE(holds(header.out, "error:"));
+  CHECK(holds(dotekIn(folder, {"convert", "header.nc", "--to", "fanuc"}).out, "O9113"));
+  // Files are not each other's.
+  folder.write("other.nc", "O9112\ng0 X1.\nM99\n");
+  const CommandResult two = dotekIn(folder, {"lint", "--select", "small-letter", "small.nc", "other.nc"});
+  CHECK(holds(two.out, "other.nc:2:1: warning: `g` is in small letters"));
+}
+
 TEST_CASE("reading: a folder of which nothing is read is no clean folder") {
   const DataFolder folder;
   folder.write("m/README", "Nothing here yet, as you see.\n");

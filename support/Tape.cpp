@@ -1,0 +1,50 @@
+#include "support/Tape.h"
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+namespace dotek {
+namespace {
+
+constexpr std::string_view kAroundTape("\0\x1A\r\n \t", 6);
+
+// Every second byte is 0 at the beginning: UTF-16 without its mark.
+bool isWide(std::string_view bytes) {
+  const std::string_view head = bytes.substr(0, 64);
+  std::array<std::size_t, 2> nuls{};
+  for (std::size_t i = 0; i < head.size(); ++i)
+    nuls.at(i % 2) += head[i] == '\0' ? 1 : 0;
+  const std::size_t half = head.size() / 2;
+  return half > 1 && (nuls[0] >= half) != (nuls[1] >= half);
+}
+
+// After the second line that begins with `%`; the end where there is none.
+std::size_t afterProgram(std::string_view bytes, std::size_t from) {
+  std::size_t marks = 0;
+  for (std::size_t at = from; at < bytes.size();) {
+    const std::size_t first = bytes.find_first_not_of(std::string_view("\0 \t", 3), at);
+    if (first != std::string_view::npos && bytes[first] == '%' && ++marks == 2) return first + 1;
+    const std::size_t end = bytes.find_first_of("\r\n", at);
+    at = end == std::string_view::npos ? bytes.size() : end + 1;
+  }
+  return bytes.size();
+}
+
+} // namespace
+
+void blankTape(std::string& bytes) {
+  const std::string_view view = bytes;
+  if (view.find_first_of(std::string_view("\0\x1A", 2)) == std::string_view::npos || isWide(view)) return;
+  const std::size_t first = view.find_first_not_of(std::string_view("\0\r\n \t", 5));
+  if (first == std::string_view::npos) return; // nothing but feed holes
+  const std::size_t last = std::min(view.find_last_not_of(kAroundTape) + 1, afterProgram(view, first));
+  const auto blank = [&](std::size_t begin, std::size_t end, bool controlZ) {
+    for (std::size_t i = begin; i < end; ++i)
+      if (bytes[i] == '\0' || (controlZ && bytes[i] == '\x1A')) bytes[i] = ' ';
+  };
+  blank(0, first, false);
+  blank(last, bytes.size(), true);
+}
+
+} // namespace dotek
