@@ -174,11 +174,21 @@ void VerifyReport::addNotes() {
 }
 
 void VerifyReport::addPicture() {
-  const verify::Case* const shown = this->shown();
+  const verify::Case* shown = this->shown();
+  const Idle* idle = nullptr;
+  // Nothing was decided: what the source does as far as it runs.
+  for (auto at = idle_.begin(); shown == nullptr && at != idle_.end(); ++at)
+    if (!at->second.edge && at->second.rejected == 0 && (idle == nullptr || at->second.count > idle->count))
+      idle = &at->second;
+  if (idle != nullptr) shown = &idle->drawn;
   if (shown == nullptr) return;
   document_.picture = runner_.picture(*shown);
-  document_.caption = groups_.empty() ? "The source on a case in which both sides agree: "
-                                      : "The source on a case that differs: ";
+  const bool differs =
+      std::any_of(groups_.begin(), groups_.end(), [](const auto& one) { return !one.second.edge; });
+  document_.caption = idle != nullptr
+                          ? fmt::format("The source on a case that is undecided ({}): ", idle->why)
+                      : differs ? "The source on a case that differs: "
+                                : "The source on a case in which both sides agree: ";
   std::string values;
   for (const auto& [name, value] : shown->values)
     values += fmt::format("{}{}{} = {}", values.empty() ? "" : ", ", plan_.programs ? "#" : "", name,

@@ -353,7 +353,13 @@ private:
         if (const Box candidate = box(way, away); isFree(candidate)) return candidate;
       }
     }
-    return box(kWays[0], 7);
+    // Within the view, where that is wide enough: the legend is beside it.
+    Box close = box(kWays[0], 7);
+    const double over = std::max(0.0, close.right - box_.right + 2);
+    const double shift = std::min(over, std::max(0.0, close.left - box_.left - 2));
+    close.left -= shift;
+    close.right -= shift;
+    return close;
   }
   void label(const PlanePoint& at, const std::string& text, const char* colour) {
     const Box box = labelBox(at, 6.9 * static_cast<double>(text.size()) + 2);
@@ -393,8 +399,11 @@ private:
     std::string d;
     for (const Mark& mark : errors_)
       d += fmt::format("M{}l11 11m0 -11l-11 11", pair({mark.at[0] - 5.5, mark.at[1] - 5.5}));
-    out_ +=
-        fmt::format("<path d=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"2.6\"/>\n", d, kErrorColour);
+    // A light rim lifts the crosses off the hatching and off the path.
+    out_ += fmt::format("<path d=\"{0}\" fill=\"none\" stroke=\"#ffffff\" stroke-width=\"6\" "
+                        "stroke-linecap=\"round\"/>\n<path d=\"{0}\" fill=\"none\" stroke=\"{1}\" "
+                        "stroke-width=\"2.6\"/>\n",
+                        d, kErrorColour);
     out_ += "<g font-size=\"12.5\" font-weight=\"bold\" stroke=\"#ffffff\" stroke-width=\"3\" "
             "paint-order=\"stroke\" "
             "stroke-linejoin=\"round\">\n";

@@ -5,6 +5,7 @@
 #include "tests/GoldenRunner.h"
 #include "tests/unit/PictureHelper.h"
 
+#include <algorithm>
 #include <cstdlib>
 #include <doctest/doctest.h>
 #include <filesystem>
@@ -129,6 +130,37 @@ TEST_CASE("svg: three views, the kinds of moves, contacts, errors, legend, scale
   CHECK(countOf(svg, "http") == 1);
   CHECK(svg.size() < 60'000);
   CHECK(svg == pictureSvg(borePicture()));
+}
+
+TEST_CASE("svg: crosses have a rim that lifts them off the hatching, labels stay within their view") {
+  CHECK(countOf(pictureSvg(borePicture()),
+                "stroke=\"#ffffff\" stroke-width=\"6\" stroke-linecap=\"round\"") == 3);
+  // A narrow view, that of a long way down onto the setter.
+  PictureMaker make;
+  make.picture.setter.emplace();
+  make.picture.setter->at = {-50, -40, -430};
+  make.picture.setter->diameter = 20;
+  make.start({-50, -40, -130});
+  make.block("G31 Z-430.");
+  make.move(PathKind::Measuring, {-50, -40, -430});
+  const std::string svg = pictureSvg(make.picture);
+  constexpr double kWidth = 6.9 * 11 + 2;
+  std::size_t labels = 0;
+  for (const char* view : {"2", "1", "0"}) {
+    const std::string clip = std::string("id=\"clip") + view + "\"";
+    const double left = attribute(svg, clip, "x"), width = attribute(svg, clip, "width");
+    const std::string name = view[0] == '2'   ? "<g id=\"XY\""
+                             : view[0] == '1' ? "<g id=\"XZ\""
+                                              : "<g id=\"YZ\"";
+    const std::size_t begin = svg.find(name), end = svg.find(">tool setter<", begin);
+    REQUIRE(end != std::string::npos);
+    const std::size_t text = svg.rfind("<text", end);
+    const double middle = std::strtod(svg.c_str() + svg.find("x=\"", text) + 3, nullptr);
+    CHECK(middle - kWidth / 2 >= left);
+    CHECK(middle - kWidth / 2 <= left + std::max(width - kWidth, 2.5));
+    ++labels;
+  }
+  CHECK(labels == 3);
 }
 
 TEST_CASE("svg: kinds of moves differ in colour and in line") {
