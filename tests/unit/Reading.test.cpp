@@ -133,7 +133,7 @@ TEST_CASE("reading: what a tape or a serial line leaves around a program is pass
   CHECK_FALSE(holds(dotekIn(folder, {"lint", "late.nc"}).out, "unknown-kind"));
   // Within a program it is a damaged copy; and UTF-16 stays UTF-16.
   folder.write("damaged.nc", holes + end + "O7312\nG0X" + std::string(1, '\0') + "5.\nM99\n" + end + holes);
-  CHECK(holds(dotekIn(folder, {"lint", "damaged.nc"}).out, "damaged.nc:3:5: error: the file holds a byte 0"));
+  CHECK(holds(dotekIn(folder, {"lint", "damaged.nc"}).out, "damaged.nc:3:4: error: the file holds a byte 0"));
   for (const bool low : {false, true}) {
     std::string wide;
     for (const char c : end + body + end) {
