@@ -33,7 +33,8 @@ namespace gibbs = frontend::gibbs;
 
 namespace {
 
-constexpr std::uint32_t kAttempts = 2000; // to find values that the cycle takes
+constexpr std::uint32_t kAttempts = 2000;    // to find values that the cycle takes
+constexpr std::uint32_t kMoreAttempts = 200; // for others in the place of those
 // What the checks of the translation reject is not asked of the source, which takes a thousand times as long.
 // It is asked in one case of so many, for checks that were translated wrong, and where many attempts were in
 // vain.
@@ -321,12 +322,23 @@ std::unique_ptr<CaseRunner::Values> CaseRunner::attemptAsIs(const verify::Case& 
 }
 
 std::optional<verify::Case> CaseRunner::draw(std::uint64_t index) {
+  rejected_.clear();
+  return drawFrom(index, 0, kAttempts);
+}
+
+std::optional<verify::Case> CaseRunner::another(std::uint64_t index) {
+  if (options_.replay) return std::nullopt;
+  return drawFrom(index, tries_, std::min(kAttempts, tries_ + kMoreAttempts));
+}
+
+// Proposals from `tries` on, up to `end`.
+std::optional<verify::Case> CaseRunner::drawFrom(std::uint64_t index, std::uint32_t tries,
+                                                 std::uint32_t end) {
   const auto isForeseen = [&](verify::Case proposal) {
     roundHosts(proposal);
     return plan_.bounds != nullptr && !plan_.findsMacros && plan_.bounds->rejects(proposal);
   };
-  rejected_.clear();
-  for (std::uint32_t tries = 0; tries < kAttempts; ++tries) {
+  for (; tries < end; ++tries) {
     verify::Case proposal = draws_->propose(index, tries);
     if (options_.activeSystem) proposal.system = *options_.activeSystem;
     proposal.callers = plan_.translation && (index < kCallerCases || options_.replay);
@@ -346,6 +358,7 @@ std::optional<verify::Case> CaseRunner::draw(std::uint64_t index) {
     if (values) {
       verify::Case drawn = values->drawn;
       drawn_ = std::move(values);
+      tries_ = tries + 1;
       return drawn;
     }
     Rejection& rejection = rejected_[{refusal_, refusedAt_.begin}];
@@ -501,9 +514,16 @@ bool CaseRunner::readPosted(Values& values) {
       blockWith(program, *inputs_->sourceControl, stdlib::Function::CoolantOff).has_value();
   posted->stores = storesOf(posted->file.programs);
   if (sourceSet_ == nullptr && plan_.findsMacros) findMacros(program);
+  if (sourceSet_ != nullptr && plan_.sourceMacros != plan_.targetMacros && halvesBetweenSteps(program))
+    values.losesDigits = true;
   posted->code = sim::compile({&program}, *inputs_->sourceControl, posted->sources);
   values.posted = std::move(posted);
   return true;
+}
+
+// What both sides call alike need not be known.
+bool CaseRunner::passesUnstated() const {
+  return target_ != nullptr && !plan_.sourceMacros.empty() && plan_.sourceMacros == plan_.targetMacros;
 }
 
 verify::Record CaseRunner::runPosted(const Values& values, sim::World& world, bool probeOn,
@@ -512,6 +532,8 @@ verify::Record CaseRunner::runPosted(const Values& values, sim::World& world, bo
   if (sourceSet_ != nullptr) {
     meaning.emplace(*sourceSet_, *inputs_->sourceControl);
     meaning->setStylusRadius(values.drawn.hosts.at("tool_radius"));
+    if (passesUnstated()) meaning->passUnstated();
+    if (way == verify::Stand::Way::MovePath) meaning->touchApart();
   }
   return sourceStand_->run(values.posted->code, world, entryOf(values, probeOn), values.posted->stores,
                            meaning ? &*meaning : nullptr, way);
@@ -523,7 +545,8 @@ std::string CaseRunner::whyNotMeasured(Values& values) {
   sim::World nothing(*values.part, probeFor(plan_, values.drawn));
   values.rehearsal = runPosted(values, nothing, true, verify::Stand::Way::Rehearse);
   for (const verify::Measure& measure : values.rehearsal->measures) {
-    if (measure.nominal.empty() && !measure.aim) return "a measure has no path to its surface";
+    if (measure.nominal.empty() && !measure.aim && measure.unstated.empty())
+      return "a measure has no path to its surface";
     for (const verify::Touch& touch : measure.nominal)
       if (touch.direction.z > 0) return "a measure leads upward, where the stylus touches nothing";
   }

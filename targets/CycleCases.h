@@ -46,6 +46,7 @@ public:
   Compilation& compilation() { return compilation_; }
 
   std::optional<verify::Case> draw(std::uint64_t index) override;
+  std::optional<verify::Case> another(std::uint64_t index) override;
   verify::Case edge(std::uint64_t index) override { return settled(draws_->edge(index)); }
   CaseResult run(const verify::Case& drawn) override;
   std::vector<std::pair<std::string, SourceRange>> droppedDigits(const verify::Case& drawn) override;
@@ -58,6 +59,9 @@ private:
   struct Values; // of one case, after the checks
   class Questions;
   std::unique_ptr<Values> check(const verify::Case& drawn, bool settle);
+  std::optional<verify::Case> drawFrom(std::uint64_t index, std::uint32_t tries, std::uint32_t end);
+  bool passesUnstated() const;
+  bool halvesBetweenSteps(const ir::Program& program) const;
   verify::Case settled(verify::Case drawn);
   void takeSelected(verify::Case& drawn, bool others);
   verify::Case coarser(verify::Case drawn, double unit) const;
@@ -105,6 +109,7 @@ private:
   std::optional<bool>
       selects_; // the post selects a work system or a tool offset by itself; nothing: not known
   std::unique_ptr<Values> drawn_;      // of draw(), for the next run()
+  std::uint32_t tries_ = 0;            // proposals of the last draw() or another()
   std::map<std::string, bool> moving_; // fields of which Questions knows whether they move something
 
   const stdlib::MacroSet* sourceSet_ = nullptr;

@@ -40,6 +40,31 @@ std::unique_ptr<CaseRunner::Values> CaseRunner::attempt(const verify::Case& prop
   return nullptr;
 }
 
+// A call spaces its touches by a length whose half lies between two steps of the control: macros that come to
+// these places by words round it, others may not.
+bool CaseRunner::halvesBetweenSteps(const ir::Program& program) const {
+  constexpr double kSteps = 1000, kSame = 1e-6; // in a mm
+  for (const ir::ProgramStatement& statement : program.body) {
+    const auto* call = std::get_if<ir::Call>(&statement.node);
+    const double* number = call != nullptr && call->program ? ir::constantValue(call->program) : nullptr;
+    if (number == nullptr || !(*number >= 1 && *number < 1e8)) continue;
+    const auto called = static_cast<std::uint32_t>(std::lround(*number));
+    for (const stdlib::MacroSignature& signature : sourceSet_->signatures) {
+      if (signature.program != called) continue;
+      for (const stdlib::MacroArgument& argument : signature.arguments) {
+        if (argument.role != stdlib::ArgumentRole::Spacing) continue;
+        for (const ir::CallArgument& given : call->arguments) {
+          const double* value = given.letter == argument.letter ? ir::constantValue(given.value) : nullptr;
+          if (value == nullptr) continue;
+          const double half = *value / 2 * kSteps;
+          if (std::abs(half - std::round(half)) > kSame) return true;
+        }
+      }
+    }
+  }
+  return false;
+}
+
 // The one set that knows all macros which the posted program calls.
 void CaseRunner::findMacros(const ir::Program& program) {
   std::set<std::uint32_t> called;

@@ -105,8 +105,14 @@ CaseResult CaseRunner::run(const verify::Case& drawn) {
   result.why = verify::whyNoEvidence(*source, at);
   result.whyAt = values->rejected ? values->rejectedAt : sourceOf(at, *values);
   noteProbe(result, *source, *values);
+  for (const verify::Measure& measure : source->measures)
+    if (!measure.unstated.empty())
+      result.unstated.emplace_back(sourceOf(measure.range, *values), measure.unstated);
+  const bool ofValues = !drawn.edge && !values->rejected && !result.why.empty() && !result.unarmed &&
+                        (source->ending == verify::Ending::Alarm || !source->measures.empty());
   if (source->ending == verify::Ending::Inconclusive) {
     result.verdict = CaseVerdict::NoProgram;
+    result.ofValues = source->ofValue && !drawn.edge;
     return result;
   }
   if (target_ != nullptr) {
@@ -122,6 +128,7 @@ CaseResult CaseRunner::run(const verify::Case& drawn) {
     }
     if (ran.undecided) {
       result.verdict = CaseVerdict::NoProgram;
+      result.ofValues = ofValues || (ran.ofValues && !drawn.edge);
       result.trace = std::move(ran.trace);
       if (ran.why.empty()) return result;
       result.why = std::move(ran.why);
@@ -137,6 +144,7 @@ CaseResult CaseRunner::run(const verify::Case& drawn) {
   result.verdict = !result.findings.empty() ? CaseVerdict::Differ
                    : result.why.empty()     ? CaseVerdict::Agrees
                                             : CaseVerdict::Undecided;
+  result.ofValues = ofValues && result.verdict == CaseVerdict::Undecided;
   return result;
 }
 

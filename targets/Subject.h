@@ -79,7 +79,11 @@ struct CaseResult {
   bool spindleLater = false;
   std::optional<SourceRange> unarmed; // the first measuring move with the probe off
   bool partMade = false;              // of the touches that the path shows
-  std::string trace;                  // of the translation; only where VerifyOptions::traces wants it
+  // Undecided, but with other values the source may come to its end: it stops, or is not known, for these.
+  bool ofValues = false;
+  // Calls that both sides make alike and whose work no source states, with what it does not state.
+  std::vector<std::pair<SourceRange, std::string>> unstated = {};
+  std::string trace; // of the translation; only where VerifyOptions::traces wants it
 };
 
 // What the two sides run on, for people; "": there is none.
@@ -109,6 +113,8 @@ public:
   virtual SourceRange place() const = 0; // of the source as a whole
   // The case of this number; nothing: no values were found within the attempts.
   virtual std::optional<verify::Case> draw(std::uint64_t index) = 0;
+  // Another one of this number, after draw() or another() gave one; nothing: there is none.
+  virtual std::optional<verify::Case> another(std::uint64_t /*index*/) { return std::nullopt; }
   virtual verify::Case edge(std::uint64_t index) = 0;
   // The case that `draw` gave last is run without another look at it.
   virtual CaseResult run(const verify::Case& drawn) = 0;

@@ -73,6 +73,7 @@ struct TargetRun {
   // Nothing is written for these values, or the translation stops with an error before anything moves.
   bool refused = false;
   bool undecided = false; // the two cannot be compared
+  bool ofValues = false;  // undecided for these values; others may tell more
   std::string why;        // it is refused or undecided; "": the reason is that of the source
   std::string stopped;    // the translation can be run no more, for these values or others: why; "": it can
   std::vector<TargetDifference> differences;

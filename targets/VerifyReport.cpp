@@ -91,6 +91,8 @@ void VerifyReport::add(std::uint64_t number, bool edge, verify::Case drawn, Case
     idle.rejected += result.rejected;
   }
   if (edge) return;
+  for (auto& [at, what] : result.unstated)
+    unstated_.emplace(std::pair(at.file, at.begin), std::pair(at, std::move(what)));
   if (result.unprotected) {
     const auto [at, added] =
         unprotected_.emplace(std::pair(result.unprotected->file, result.unprotected->begin),
@@ -100,6 +102,17 @@ void VerifyReport::add(std::uint64_t number, bool edge, verify::Case drawn, Case
   if (result.unarmed && (!unarmed_ || before(*result.unarmed, *unarmed_))) unarmed_ = result.unarmed;
   if (result.verdict == CaseVerdict::Agrees && (!agreeing_ || number < agreeing_->first))
     agreeing_.emplace(number, std::move(drawn));
+}
+
+void VerifyReport::addReplaced(std::uint64_t number, verify::Case drawn, CaseResult result) {
+  Idle& one = replaced_[{false, result.whyAt.file, result.whyAt.begin, result.why}];
+  if (one.count == 0 || number < one.first) {
+    one.first = number;
+    one.at = result.whyAt;
+    one.why = result.why;
+    one.drawn = std::move(drawn);
+  }
+  ++one.count;
 }
 
 void VerifyReport::addStopped(std::uint64_t number, Stopped stopped) {
@@ -314,6 +327,26 @@ void VerifyReport::tellIdle(const Idle& idle) {
                                  idle.rejected > 0 ? idle.remedy : "", command});
 }
 
+void VerifyReport::tellReplaced() {
+  std::vector<const Idle*> all;
+  for (const auto& [key, one] : replaced_)
+    all.push_back(&one);
+  std::sort(all.begin(), all.end(), [](const Idle* a, const Idle* b) {
+    return std::tuple(b->count, a->first) < std::tuple(a->count, b->first);
+  });
+  constexpr std::size_t kMost = 5;
+  for (std::size_t i = 0; i < std::min(all.size(), kMost); ++i) {
+    const Idle& one = *all[i];
+    told_.report<diag::VerifyReplaced>(one.at, one.count, cases_.all(), one.why)
+        .note({}, "the first: " + replay(one.drawn));
+  }
+}
+
+void VerifyReport::tellUnstated() {
+  for (const auto& [place, one] : unstated_)
+    told_.report<diag::VerifyUnstated>(one.first, one.second);
+}
+
 void VerifyReport::tellProbe() {
   for (const auto& [place, what] : unprotected_)
     told_.report<diag::UnprotectedMove>(what.first,
@@ -389,6 +422,8 @@ std::string VerifyReport::finish() {
   constexpr std::size_t kMostReasons = 5;
   for (std::size_t i = 0; i < std::min(reasons.size(), kMostReasons); ++i)
     if (stated) tellIdle(*reasons[i]);
+  tellReplaced();
+  tellUnstated();
   const std::uint64_t all = cases_.all();
   if (stated && static_cast<double>(cases_.agree) < options_.minAgreed / 100 * static_cast<double>(all))
     told_.report<diag::VerifyTooFew>({}, cases_.agree, all, numberText(options_.minAgreed));

@@ -17,6 +17,8 @@ public:
       : options_(options), plan_(plan), runner_(runner) {}
 
   void add(std::uint64_t number, bool edge, verify::Case drawn, CaseResult result);
+  // Values of a case in whose place others were drawn, and what came of them: nothing.
+  void addReplaced(std::uint64_t number, verify::Case drawn, CaseResult result);
   // A case that ended the verification: nothing else is reported than the first of them.
   void addStopped(std::uint64_t number, Stopped stopped);
   // Reports the first of them to the runner's session; false: there is none.
@@ -59,6 +61,8 @@ private:
   void tellDifference(const Group& group, std::uint64_t of);
   std::string verdict();
   void tellIdle(const Idle& idle);
+  void tellReplaced();
+  void tellUnstated();
   VerifyDocument::Excerpt excerptOf(SourceRange range);
   std::string pairText() const;
   void describe();
@@ -80,7 +84,9 @@ private:
   Counts cases_, edges_;
   VerifyDocument document_;
   std::map<Key, Group> groups_;
-  std::map<std::tuple<bool, FileId, std::uint32_t, std::string>, Idle> idle_; // edges apart
+  using Reason = std::tuple<bool, FileId, std::uint32_t, std::string>; // edges apart
+  std::map<Reason, Idle> idle_, replaced_;
+  std::map<std::pair<FileId, std::uint32_t>, std::pair<SourceRange, std::string>> unstated_; // by place
   std::map<std::pair<FileId, std::uint32_t>, std::pair<SourceRange, bool>> unprotected_;
   std::optional<SourceRange> unarmed_;
   std::optional<std::pair<std::uint64_t, verify::Case>> agreeing_; // the first

@@ -15,7 +15,10 @@ namespace dotek::targets {
 
 namespace {
 
-constexpr std::uint64_t kEdgeShare = 10;                 // one edge case beside so many others
+constexpr std::uint64_t kEdgeShare = 10; // one edge case beside so many others
+// How often other values are drawn for a case; less often once the first ones have shown that it is in vain.
+constexpr std::uint32_t kReplaced = 23, kReplacedLater = 7;
+constexpr std::uint64_t kFirst = 20;
 constexpr std::uint64_t kEdges = std::uint64_t{1} << 62; // numbers of edge cases begin here
 
 // The places of the checks are those of one thread's files, which all threads read alike.
@@ -38,6 +41,22 @@ bool runCases(const VerifyOptions& options, bool edges, CaseSubject& main,
   std::atomic<bool> stop = false;
   std::mutex mutex;
   std::vector<Rejection> noValues;
+  // What says nothing for its values alone is compared, and others are drawn for it.
+  const auto replace = [&](CaseSubject& runner, std::uint64_t n, verify::Case& drawn, CaseResult& result) {
+    const std::uint32_t most = n < kFirst ? kReplaced : kReplacedLater;
+    for (std::uint32_t i = 0; i < most; ++i) {
+      std::optional<verify::Case> other = runner.another(n);
+      if (!other) return;
+      CaseResult ran = runner.run(*other);
+      if (runner.stopped()) return;
+      if (ran.ofValues) continue;
+      const std::lock_guard lock(mutex);
+      report.addReplaced(n, std::move(drawn), std::move(result));
+      drawn = std::move(*other);
+      result = std::move(ran);
+      return;
+    }
+  };
   const auto work = [&](CaseSubject& runner) {
     for (std::uint64_t n = next++; n < end && !stop; n = next++) {
       const bool edge = n >= options.cases;
@@ -62,6 +81,8 @@ bool runCases(const VerifyOptions& options, bool edges, CaseSubject& main,
         return;
       }
       CaseResult result = runner.run(*drawn);
+      if (stopped()) return;
+      if (!edge && result.ofValues) replace(runner, n, *drawn, result);
       if (stopped()) return;
       const std::lock_guard lock(mutex);
       if (options.traces) options.traces(n, result.verdict == CaseVerdict::Agrees, result.trace);

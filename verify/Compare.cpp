@@ -47,6 +47,64 @@ std::string_view faultName(sim::Outcome outcome) {
   return "";
 }
 
+// Calls of the target that touch by several from one place what one call of the source does: as one.
+class Joining {
+public:
+  Joining(const Record& source, const Record& target, double tolerance)
+      : source_(source), target_(target), tolerance_(tolerance) {}
+
+  // nullopt: nothing is to be joined.
+  std::optional<Record> run() {
+    if (std::none_of(source_.measures.begin(), source_.measures.end(),
+                     [](const Measure& one) { return one.nominal.size() > 1; }))
+      return std::nullopt;
+    for (std::size_t i = 0; i < target_.pieces.size(); ++i)
+      if (target_.pieces[i].kind == sim::PathKind::Measuring) pieces_.push_back(i);
+    if (pieces_.size() != target_.measures.size()) return std::nullopt;
+    std::vector<Measure> measures;
+    std::vector<bool> left(target_.pieces.size(), false);
+    bool any = false;
+    for (std::size_t next = 0; next < target_.measures.size();) {
+      Measure joined = target_.measures[next];
+      const std::size_t wanted =
+          measures.size() < source_.measures.size() ? source_.measures[measures.size()].nominal.size() : 0;
+      std::size_t last = next;
+      while (joined.nominal.size() < wanted && last + 1 < target_.measures.size() && follows(last)) {
+        const Measure& more = target_.measures[++last];
+        joined.nominal.insert(joined.nominal.end(), more.nominal.begin(), more.nominal.end());
+        joined.contacts.insert(joined.contacts.end(), more.contacts.begin(), more.contacts.end());
+        for (const auto& [key, zero] : more.datums)
+          joined.datums[key] = zero;
+        joined.end = more.end;
+        left[pieces_[last]] = any = true;
+      }
+      measures.push_back(std::move(joined));
+      next = last + 1;
+    }
+    if (!any) return std::nullopt;
+    std::optional<Record> out(target_);
+    out->measures = std::move(measures);
+    out->pieces.clear();
+    for (std::size_t i = 0; i < target_.pieces.size(); ++i)
+      if (!left[i]) out->pieces.push_back(target_.pieces[i]);
+    return out;
+  }
+
+private:
+  // The next call is made in the place of the one before, which has come back to it, with the same options.
+  bool follows(std::size_t measure) const {
+    const Measure &one = target_.measures[measure], &next = target_.measures[measure + 1];
+    const Piece& piece = target_.pieces[pieces_[measure + 1]];
+    return pieces_[measure + 1] == pieces_[measure] + 1 && near(piece.from, piece.to, tolerance_) &&
+           near(one.start, one.end, tolerance_) && near(one.end, next.start, tolerance_) &&
+           one.options == next.options && one.with == next.with;
+  }
+
+  const Record &source_, &target_;
+  const double tolerance_;
+  std::vector<std::size_t> pieces_; // of each measure
+};
+
 class Comparison {
 public:
   Comparison(const Record& source, const Record& target, const CompareRules& rules)
@@ -84,9 +142,32 @@ private:
     if (!there) out_.push_back({aspect, std::move(text), source, target});
   }
 
-  // Where other macros stop with their alarm is their own business.
+  // Where other macros stop with their alarm is their own business; but after a measurement that is out of
+  // its limits they have come back to where it began.
   bool stopsInMacros() const {
-    return !rules_.sameAlarmNumbers && source_.ending == Ending::Alarm && !source_.alarmKind.empty();
+    return !rules_.sameAlarmNumbers && source_.ending == Ending::Alarm && !source_.alarmKind.empty() &&
+           ownTextOf(source_.alarmKind).empty();
+  }
+
+  // What a translation says that compares a limit by itself (docs/convert.md, Calls); "": it compares none.
+  static std::string_view ownTextOf(std::string_view alarmKind) {
+    using stdlib::MacroAlarm;
+    static constexpr std::pair<MacroAlarm, std::string_view> kTexts[] = {
+        {MacroAlarm::OutOfTolerance, "OUT OF TOLERANCE"},
+        {MacroAlarm::OutOfPosition, "OUT OF POSITION"},
+        {MacroAlarm::OutOfAngle, "ANGLE OUT OF TOLERANCE"},
+        {MacroAlarm::UpperLimit, "UPPER LIMIT"}};
+    for (const auto& [kind, text] : kTexts)
+      if (stdlib::macroAlarmName(kind) == alarmKind) return text;
+    return "";
+  }
+
+  // The source's macro stops for a limit that the target compares by itself, with the alarm for that limit,
+  // after the same measurement.
+  bool comparesLimit() const {
+    constexpr std::uint32_t kOwn = 3000;
+    const std::string_view text = rules_.sameProgram ? std::string_view() : ownTextOf(source_.alarmKind);
+    return !text.empty() && target_.alarmKind.empty() && target_.alarm > kOwn && target_.text == text;
   }
 
   // A number that is not known agrees with any. Controls show texts of different length.
@@ -114,7 +195,7 @@ private:
     const bool alarms = source_.ending == Ending::Alarm && target_.ending == Ending::Alarm;
     bool same = source_.ending == target_.ending;
     if (alarms && (!source_.alarmKind.empty() || !target_.alarmKind.empty()))
-      same = source_.alarmKind == target_.alarmKind;
+      same = source_.alarmKind == target_.alarmKind || comparesLimit();
     if (alarms && rules_.sameAlarmNumbers && same)
       same = source_.alarm == target_.alarm && source_.text == target_.text;
     else if (alarms && rules_.sameProgram && same && source_.alarmKind.empty())
@@ -223,6 +304,7 @@ private:
             i < a.size() ? a[i].range : SourceRange{}, i < b.size() ? b[i].range : SourceRange{});
         return;
       }
+      if (!a[i].unstated.empty() || !b[i].unstated.empty()) unstated(a[i], b[i]);
       nominal(a[i], b[i]);
       if (!rules_.atMeasures) aims(a[i], b[i]);
       if (!rules_.atMeasures) options(a[i], b[i]);
@@ -234,6 +316,24 @@ private:
             fmt::format("the measure leaves the probe at {} against {}", textOf(a[i].end), textOf(b[i].end)),
             a[i].range, b[i].range);
     }
+  }
+
+  // Of a call whose work is not known all that the macro can see is the same.
+  void unstated(const Measure& a, const Measure& b) {
+    const auto told = [](const Measure& measure) {
+      std::string out =
+          measure.unstated.empty() ? "a call that is known" : fmt::format("P{}", measure.program);
+      for (const auto& [number, value] : measure.locals)
+        out += fmt::format(" #{}={}", number, numberText(value));
+      return out;
+    };
+    const bool same = a.unstated == b.unstated && a.program == b.program &&
+                      std::equal(a.locals.begin(), a.locals.end(), b.locals.begin(), b.locals.end(),
+                                 [&](const auto& one, const auto& other) {
+                                   return one.first == other.first &&
+                                          std::abs(one.second - other.second) <= rules_.tolerance;
+                                 });
+    if (!same) add(Aspect::Nominal, told(a) + " against " + told(b), a.range, b.range);
   }
 
   void nominal(const Measure& a, const Measure& b) {
@@ -501,6 +601,9 @@ std::string_view aspectName(Aspect aspect) {
 }
 
 std::vector<Difference> compare(const Record& source, const Record& target, const CompareRules& rules) {
+  if (!rules.sameAlarmNumbers && !rules.sameProgram && !rules.atMeasures)
+    if (const std::optional<Record> joined = Joining(source, target, rules.tolerance).run())
+      return Comparison(source, *joined, rules).run();
   return Comparison(source, target, rules).run();
 }
 

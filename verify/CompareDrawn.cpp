@@ -81,9 +81,14 @@ std::vector<Difference> compare(const DrawnPath& path, const Point3& offset, con
   // Contacts: of one measure in any order.
   const double radius = radiusOf(path);
   std::size_t next = 0;
+  bool unstated = false;
   std::set<std::size_t> again; // measures of the surface that the one before has found
   for (std::size_t m = 0; m < program.measures.size(); ++m) {
     const Measure& measure = program.measures[m];
+    if (!measure.unstated.empty() && measure.nominal.empty()) {
+      unstated = true; // what it touches of what is drawn is not known
+      break;
+    }
     const std::vector<Touch> nominal = nominalOf(measure, radius);
     const auto meets = [&](const Touch& wanted, const Touch& drawn) {
       return near(wanted.direction, drawn.direction, 1e-9) &&
@@ -119,7 +124,7 @@ std::vector<Difference> compare(const DrawnPath& path, const Point3& offset, con
     }
     if (!out.empty()) break;
   }
-  if (out.empty() && program.ending == Ending::Finished && next < path.touches.size())
+  if (out.empty() && !unstated && program.ending == Ending::Finished && next < path.touches.size())
     add(Aspect::Nominal,
         fmt::format("the path touches a surface at {} against no measure",
                     textOf(path.touches[next].touch.point + offset)),

@@ -17,8 +17,12 @@ struct Interference {
   std::optional<std::size_t> touching; // this question finds contact
 };
 
+// Pieces after the last stop, which the operator has read, that go straight up in feed. 0 where anything else
+// comes after it.
+std::size_t retractsAtEnd(const Record& record);
+
 // Whether the run came to the interference and then ended with the alarm of this kind: nothing moved any
-// more, no datum was set, nothing recorded. "" or what it did instead; `at`: where.
+// more, but up after a stop, no datum was set, nothing recorded. "" or what it did instead; `at`: where.
 std::string whyNotCaught(const Record& record, std::string_view alarmKind, SourceRange& at);
 
 } // namespace dotek::verify

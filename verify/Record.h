@@ -65,6 +65,11 @@ struct Measure {
   // Arguments of the call that say neither where a surface is nor what is set: how far it searches, tools,
   // tolerances, what is printed.
   std::map<stdlib::ArgumentRole, double> options = {};
+  // What no source says of the call, which the run has passed over; "" where all is known. Then its number,
+  // and all of its letters.
+  std::string unstated = {};
+  std::uint32_t program = 0;
+  std::map<std::uint32_t, double> locals = {};
 };
 
 // Something that motion changes, or that changes motion, was used while motion before it may not have ended.
@@ -99,6 +104,7 @@ struct Record {
   std::string text;        // of the alarm, or why it is inconclusive
   SourceRange endedAt;
   bool overLimit = false; // inconclusive: a limit of Dotek
+  bool ofValue = false;   // inconclusive: a macro's argument has a value that no source gives a meaning
   std::string alarmKind;  // of a probing macro's alarm, as all sets call it; "" for others
 
   std::vector<Piece> pieces;

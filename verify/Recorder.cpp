@@ -141,7 +141,7 @@ void Recorder::movePath(const Measure& measure) {
   std::array<double, 3> off{};
   std::array<int, 3> touches{};
   const double radius = world_.probe().ballRadius();
-  for (std::size_t i = 0; i < measure.nominal.size() && i < call_.signals.size(); ++i) {
+  for (std::size_t i = call_.moved; i < measure.nominal.size() && i < call_.signals.size(); ++i) {
     const sim::Point3 direction = measure.nominal[i].direction;
     const sim::Point3 beside = call_.signals[i] + direction * radius - measure.nominal[i].point;
     const double along[] = {direction.x, direction.y, direction.z}, by[] = {beside.x, beside.y, beside.z};
@@ -253,6 +253,7 @@ void Recorder::callBegins(std::uint32_t program, std::span<const double> locals)
                                 [&](const stdlib::MacroSet* one) { return one->calls(program); });
   if (set == sets_.end()) return;
   call_.depth = 1;
+  call_.program = program;
   call_.range = place();
   call_.start = lowest(machine_.machinePosition());
   call_.with = surroundings();
@@ -277,6 +278,16 @@ void Recorder::callBegins(std::uint32_t program, std::span<const double> locals)
       touch.point = touch.point + offset();
   }
   record_.measures.push_back(std::move(measure));
+}
+
+void Recorder::callUnstated(std::string_view what, std::span<const double> locals) {
+  if (call_.depth == 0 || !call_.measures) return;
+  Measure& measure = record_.measures.back();
+  measure.unstated = what;
+  measure.program = call_.program;
+  for (std::uint32_t number = 1; number < locals.size(); ++number)
+    if (!sim::isNull(locals[number]) && !sim::isUnknown(locals[number]))
+      measure.locals[number] = locals[number];
 }
 
 // A datum that moves nothing is one, too.
@@ -330,19 +341,40 @@ void Recorder::noteOptions(const stdlib::MacroSignature& signature, std::span<co
   }
 }
 
+void Recorder::noteDatums(Measure& measure) const {
+  for (std::uint32_t system = 0; system < call_.zeros.size(); ++system) {
+    const sim::Position now = machine_.zeroOf(system);
+    for (std::uint32_t axis = 0; axis < 3; ++axis)
+      if (now[axis] != call_.zeros[system][axis] ||
+          (machine_.running() && 54 + system == call_.system && call_.names[axis]))
+        measure.datums.try_emplace({54 + system, axis}, now[axis]);
+  }
+}
+
+// What is still to be touched lies where the moved path leads.
+void Recorder::touchedApart() {
+  if (call_.depth == 0 || !call_.measures || !datumsMovePath_) return;
+  takeEvents();
+  Measure& measure = record_.measures.back();
+  noteDatums(measure);
+  const sim::Point3 before = offset();
+  movePath(measure);
+  const sim::Point3 by = offset() - before;
+  // The zero of the active system is no datum for that it moves.
+  for (std::uint32_t system = 0; system < call_.zeros.size(); ++system)
+    call_.zeros[system] = machine_.zeroOf(system);
+  call_.moved = std::max<std::size_t>(call_.signals.size(), 1);
+  for (std::size_t i = call_.moved; i < measure.nominal.size(); ++i)
+    measure.nominal[i].point = measure.nominal[i].point + by;
+}
+
 void Recorder::endCall() {
   takeEvents();
   const sim::Point3 end = lowest(machine_.machinePosition());
   if (call_.measures) {
     Measure& measure = record_.measures.back();
-    for (std::uint32_t system = 0; system < call_.zeros.size(); ++system) {
-      const sim::Position now = machine_.zeroOf(system);
-      for (std::uint32_t axis = 0; axis < 3; ++axis)
-        if (now[axis] != call_.zeros[system][axis] ||
-            (machine_.running() && 54 + system == call_.system && call_.names[axis]))
-          measure.datums[{54 + system, axis}] = now[axis];
-    }
-    if (datumsMovePath_ && machine_.running()) movePath(measure);
+    if (call_.moved == 0) noteDatums(measure);
+    if (datumsMovePath_ && machine_.running() && call_.moved == 0) movePath(measure);
     measure.end = lowest(machine_.machinePosition());
     record_.pieces.push_back({sim::PathKind::Measuring, call_.start, call_.start, call_.with, call_.range,
                               std::nullopt, call_.modes});
@@ -404,6 +436,7 @@ Record Recorder::finish(const std::set<std::uint32_t>& stores) {
   default: record_.ending = Ending::Inconclusive; break;
   }
   record_.overLimit = end.ending == sim::Ending::Limit;
+  record_.ofValue = end.ofValue;
   if (record_.ending != Ending::Finished) {
     record_.alarm = end.number;
     record_.text = end.text;

@@ -43,6 +43,8 @@ public:
   void offsetWritten(const sim::OffsetWrite& write) override;
   void callBegins(std::uint32_t program, std::span<const double> locals) override;
   void callEnded(std::uint32_t program) override;
+  void touchedApart() override;
+  void callUnstated(std::string_view what, std::span<const double> locals) override;
   void touchBegins(std::span<const sim::PlannedTouch> touches) override;
   void touchEnded() override { endOwn(); }
   void protectedBegins(std::optional<double> feed) override;
@@ -72,6 +74,7 @@ private:
   void addPiece(sim::PathKind kind, const sim::Point3& from, const sim::Point3& to, SourceRange range);
   void mark(Mark::Kind kind, std::string_view text = "", double value = 0);
   void movePath(const Measure& measure);
+  void noteDatums(Measure& measure) const;
   void noteSignal(const sim::ProbeEvent& event);
   void disturb(std::size_t pieces); // how many belong to it and are still to come
   void takeEvents();
@@ -106,6 +109,7 @@ private:
   struct OpenCall {
     std::uint32_t depth = 0; // 0: none
     bool measures = false, moves = false;
+    std::uint32_t program = 0;
     sim::Point3 start;
     SourceRange range;
     Surroundings with;
@@ -114,6 +118,7 @@ private:
     std::array<sim::Position, 6> zeros; // of G54 to G59, of one that measures
     std::optional<double> feed;         // an argument
     std::array<std::uint32_t, 3> modes{};
+    std::size_t moved = 0;            // touches after which the path was moved (touchedApart)
     std::vector<sim::Point3> signals; // centres of the ball where a measuring move was stopped
   } call_;
 };

@@ -170,6 +170,7 @@ private:
     if (set_ != nullptr) {
       meaning.emplace(*set_, control_);
       meaning->setStylusRadius(now.drawn.hosts.at("tool_radius"));
+      if (sourceSet_ == set_) meaning->passUnstated();
     }
     std::optional<sim::Trace> writer;
     if (from_.options.traces && trace != nullptr) {

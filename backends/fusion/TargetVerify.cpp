@@ -80,6 +80,11 @@ public:
       return out;
     }
     if (now.source == nullptr) return out; // it runs
+    if (sourceSet_ != set_ && losesDigits(result)) {
+      out.undecided = out.ofValues = true;
+      out.why = "calls of another set get fewer digits than these values have, and the fragment warns of it";
+      return out;
+    }
     runText(now, result.text, out);
     if (!out.stopped.empty() || !out.differences.empty()) return out;
     compareFrame(now, result, out);
@@ -194,7 +199,9 @@ private:
       return hasNumber(line.text) || isComment(line.text);
     });
     for (std::size_t i = 0; i < written.lines.size(); ++i) {
-      const bool wanted = each ? hasNumber(now.lines[i].text) : all && !isComment(written.lines[i]);
+      // A block that a jump leads to brings its own.
+      const bool wanted = !hasNumber(written.lines[i]) &&
+                          (each ? hasNumber(now.lines[i].text) : all && !isComment(written.lines[i]));
       if (written.numbered[i] == wanted || (!each && !all)) continue;
       out.differs(verify::Aspect::Printed,
                   wanted ? "a block that the post numbers is written without its number (writeBlock)"
@@ -202,6 +209,13 @@ private:
                   written.lines[i]);
       return;
     }
+  }
+
+  // As the fragment itself warns.
+  static bool losesDigits(const fusion::RunResult& result) {
+    return std::any_of(result.warnings.begin(), result.warnings.end(), [](const std::string& one) {
+      return one.find("has more digits than are printed") != std::string::npos;
+    });
   }
 
   static std::string didInstead(const fusion::RunResult& result) {
@@ -276,6 +290,7 @@ private:
     if (set_ != nullptr) {
       meaning.emplace(*set_, control_);
       meaning->setStylusRadius(now.drawn.hosts.at("tool_radius"));
+      if (sourceSet_ == set_) meaning->passUnstated();
     }
     const verify::Record record =
         stand_.run(code, now.world, now.entry, now.stores, meaning ? &*meaning : nullptr);

@@ -20,8 +20,8 @@ constexpr std::uint32_t kStep = 10;      // from block to block
 constexpr std::uint32_t kTails = 900;    // the first tail, or the next hundred after the main program
 constexpr std::uint32_t kCollision = 10; // from there
 constexpr std::uint32_t kEnd = 90;       // from there
-constexpr std::uint32_t kTailStep = 5;
-constexpr std::uint32_t kSubprograms = 5000; // the first, each at a thousand
+constexpr std::uint32_t kTailStep = 5, kLongTailStep = 3; // of one that retracts
+constexpr std::uint32_t kSubprograms = 5000;              // the first, each at a thousand
 
 bool measures(const ir::Cycle& cycle) {
   return std::any_of(cycle.body.begin(), cycle.body.end(), [](const ir::CycleStatement& statement) {
@@ -202,6 +202,7 @@ private:
       const bool lift =
           move.point == ir::ProbePoint::Lowest && axis == ir::Axis::Z && s_.options.lengthToCentre;
       now.at = lift ? *to + s_.host("tool_radius") : *to;
+      s_.reaches(axis, *now.at);
       const double word = ir::exactSum(*now.at, now.shift).value_or(*now.at + now.shift);
       words += " " + axisWord(s_, axis, word, range);
       any = true;
@@ -307,6 +308,27 @@ private:
   std::string stopText_; // comments of the block of the next stop
 };
 
+// Above all that lies between, in the coordinates of the source, where it is known at which Z the operator
+// starts: that Z, or the clearance plane where it is higher.
+std::optional<double> safeHeight(const State& state) {
+  const auto& given = state.start[ir::indexOf(ir::Axis::Z)];
+  if (!given) return std::nullopt;
+  const auto clearance = state.options.hosts.find("clearance");
+  return clearance == state.options.hosts.end() ? *given : std::max(*given, clearance->second);
+}
+
+// Up from a start below the clearance plane, before anything moves across.
+void retractFirst(State& state) {
+  AxisState& now = state.axes[ir::indexOf(ir::Axis::Z)];
+  const double height = *safeHeight(state);
+  if (*now.at >= height) return;
+  ir::Move move;
+  move.motion = ir::Motion::Protected;
+  move.axes[ir::indexOf(ir::Axis::Z)] = ir::Coordinate{ir::constant(height), ir::Frame::Work, nullptr};
+  state.remarks.push_back(fmt::format("BEFORE IT Z GOES UP TO {}, THE CLEARANCE", numberText(height)));
+  protectedMove(state, move, made("up to the clearance plane"));
+}
+
 // Modes and the path to the start point.
 void writeBeginning(State& state) {
   const ir::Origin origin = made("beginning");
@@ -325,11 +347,18 @@ void writeBeginning(State& state) {
   if (words.empty()) return;
   // The source's cycle begins where the CAM has brought the probe; here that is up to the operator.
   const bool height = state.start[ir::indexOf(ir::Axis::Z)].has_value();
-  if (height) guard(state, made("contact before anything moves"));
+  const auto clearance = state.options.hosts.find("clearance");
+  const std::string least = clearance == state.options.hosts.end()
+                                ? ""
+                                : fmt::format(", AT Z{} OR HIGHER", numberText(clearance->second));
   state.remarks.push_back(
       fmt::format("THE FIRST MOVE GOES TO{} AT THE HEIGHT WHERE Z IS{}", words,
                   height ? ", WHICH HAS TO BE Z" + numberText(*state.start[ir::indexOf(ir::Axis::Z)])
-                         : ": BEGIN WITH Z ABOVE ALL THAT LIES BETWEEN"));
+                         : ": BEGIN WITH Z ABOVE ALL THAT LIES BETWEEN" + least));
+  if (height) {
+    guard(state, made("contact before anything moves"));
+    retractFirst(state);
+  }
   state.sheet.add(state.code("rapid") + words, made("start point"));
 }
 
@@ -340,15 +369,28 @@ void numberSheets(State& state, std::vector<EmittedLine>& out) {
   const ir::Origin none = made("end of the program");
   if (tails) state.sheet.jump(jump, state.end, "", none);
   Sheet notFound, collision, end;
+  // Up, once the operator has read it and goes on. Before a datum and after it, so the higher of the two.
+  const std::optional<double> height = safeHeight(state);
+  const bool retracts = height && state.options.hosts.contains("return_feed");
+  const auto retract = [&](Sheet& sheet) {
+    if (!retracts) return;
+    const double shift = std::max(0.0, state.axes[ir::indexOf(ir::Axis::Z)].shift);
+    const double top = std::max(*height, state.highest.value_or(*height));
+    sheet.add(fmt::format("{} {} F{}", state.code("feed"), axisWord(state, ir::Axis::Z, top + shift, {}),
+                          numberWord(state, state.host("return_feed"), {})),
+              made("up after a stop"));
+  };
   if (state.usesNotFound) {
     const ir::Origin tail = made("tail: the surface was not found");
     notFound.place(state.notFound);
     notFound.add(stop + " ;" + state.control.notFound, tail);
+    retract(notFound);
     notFound.jump(jump, state.end, "", tail);
   }
   if (state.usesCollision) {
     collision.place(state.collision);
     collision.add(stop + " ;" + state.control.collision, made("tail: contact where none was expected"));
+    retract(collision);
   }
   end.place(state.end);
   end.add(state.code("end"), none);
@@ -356,8 +398,9 @@ void numberSheets(State& state, std::vector<EmittedLine>& out) {
   state.sheet.number(kStep, kStep, numbers);
   const std::uint32_t behind = static_cast<std::uint32_t>(state.sheet.blocks()) * kStep + 1;
   const std::uint32_t base = std::max(kTails, roundedUp(behind, 100));
-  notFound.number(base, kTailStep, numbers);
-  collision.number(base + kCollision, kTailStep, numbers);
+  const std::uint32_t step = retracts ? kLongTailStep : kTailStep;
+  notFound.number(base, step, numbers);
+  collision.number(base + kCollision, step, numbers);
   end.number(tails ? base + kEnd : behind - 1 + kStep, kStep, numbers);
   std::uint32_t entry = std::max(kSubprograms, roundedUp(base + kEnd + 1, 1000));
   for (Subprogram& sub : state.subprograms) {

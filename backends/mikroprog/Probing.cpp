@@ -128,6 +128,7 @@ void protectedMove(State& state, const ir::Move& move, const ir::Origin& origin)
     const bool lift =
         move.point == ir::ProbePoint::Lowest && axis == ir::Axis::Z && state.options.lengthToCentre;
     now.at = lift ? sum(*to, state.host("tool_radius")) : *to;
+    state.reaches(axis, *now.at);
     words += " " + axisWord(state, axis, sum(*now.at, now.shift), range);
     several = any;
     any = true;

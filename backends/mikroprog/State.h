@@ -5,6 +5,7 @@
 #include "support/messages/Fanuc.h"
 #include "support/messages/Mikroprog.h"
 
+#include <algorithm>
 #include <array>
 #include <deque>
 
@@ -36,6 +37,10 @@ struct State {
   std::string code(std::string_view what) const { return control.function(what).code(); }
   double host(std::string_view name) const { return options.hosts.at(std::string(name)); }
 
+  void reaches(ir::Axis axis, double place) {
+    if (axis == ir::Axis::Z) highest = std::max(highest.value_or(place), place);
+  }
+
   // mm beyond what is expected: of the call that is being written, else for the whole program.
   double overtravel() const { return overtravelGiven ? *overtravelGiven : host("overtravel"); }
 
@@ -52,6 +57,7 @@ struct State {
 
   std::array<AxisState, 3> axes;
   std::array<std::optional<double>, 3> start; // where the cycle begins, in the coordinates of the source
+  std::optional<double> highest;              // Z that the program goes to, in the coordinates of the source
   std::optional<double> feed;                 // in force in the source, mm/min
   bool guarded = false;                       // O7 was asked since the last stop
   std::size_t guards = 0, probeMoves = 0;

@@ -3,6 +3,7 @@
 #include "stdlib/MacroSet.h"
 #include "support/Decimal.h"
 #include "verify/Gather.h"
+#include "verify/Interference.h"
 
 #include <algorithm>
 #include <charconv>
@@ -76,13 +77,16 @@ private:
   void nominals(Measure& want, Measure& got, const verify::Gathered::Parts& parts, bool bore) {
     double beside = 0; // by how much the first wall of a pair lies off its place
     double middle = 0; // the same of the middle between the two, along X
+    // As far as the call says, else as far as the program was written for.
+    const auto stated = want.options.find(stdlib::ArgumentRole::Overtravel);
+    const double overtravel = stated == want.options.end() ? facts_.overtravel : stated->second;
     for (std::size_t i = 0; i < parts.touches.size(); ++i) {
       const Measure& search = parts.touches[i];
       const Point3 way = *search.aim - search.start;
       if (!(way.length() > 0)) continue;
       verify::Touch touch;
       touch.direction = way * (1 / way.length());
-      touch.point = *search.aim - touch.direction * facts_.overtravel;
+      touch.point = *search.aim - touch.direction * overtravel;
       if (touch.direction.z == 0) touch.point.z += facts_.ballRadius;
       if (bore && i < want.nominal.size()) {
         // The ball's centre is searched, where the wall is less a radius; the second wall of a pair from the
@@ -200,21 +204,26 @@ void pathsBack(const verify::Record& ran, const MikroprogFacts& facts, std::vect
 
 } // namespace
 
-void takeEnding(verify::Record& ran, const stdlib::MikroprogControl& control) {
+std::optional<double> takeEnding(verify::Record& ran, const stdlib::MikroprogControl& control) {
   if (ran.ending == verify::Ending::Alarm)
     ran.ending = verify::Ending::Inconclusive; // a fault of the control
   if (!ran.endedAt.hasPlace() && !ran.pieces.empty()) ran.endedAt = ran.pieces.back().range;
-  if (ran.ending != verify::Ending::Finished) return;
+  if (ran.ending != verify::Ending::Finished) return std::nullopt;
   for (auto mark = ran.marks.rbegin(); mark != ran.marks.rend(); ++mark) {
     if (mark->kind != Mark::Kind::Stop) continue;
     const bool missing = mark->text == control.notFound;
-    if (!missing && mark->text != control.collision) return;
+    if (!missing && mark->text != control.collision) return std::nullopt;
     ran.ending = verify::Ending::Alarm;
     ran.text = mark->text;
     ran.alarmKind = macroAlarmName(missing ? MacroAlarm::ProbeFail : MacroAlarm::PathObstructed);
     ran.endedAt = mark->range;
-    return;
+    const double height = ran.end.z;
+    const std::size_t retracts = verify::retractsAtEnd(ran);
+    if (retracts > 0) ran.end = ran.pieces[ran.pieces.size() - retracts].from;
+    ran.pieces.resize(ran.pieces.size() - retracts);
+    return height;
   }
+  return std::nullopt;
 }
 
 std::vector<verify::Difference> compareWithSource(verify::Record source, const verify::Record& ran,

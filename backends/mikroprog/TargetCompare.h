@@ -5,6 +5,7 @@
 #include "stdlib/MikroprogControl.h"
 #include "verify/Compare.h"
 
+#include <optional>
 #include <vector>
 
 namespace dotek::targets {
@@ -23,8 +24,9 @@ struct MikroprogFacts {
   double tolerance = 1e-6; // mm
 };
 
-// The stop in which a run ends, as the alarm that it stands for.
-void takeEnding(verify::Record& ran, const stdlib::MikroprogControl& control);
+// The stop in which a run ends, as the alarm that it stands for, without the retract after it: where that
+// ends, as Z of the machine. nullopt: the run does not end so.
+std::optional<double> takeEnding(verify::Record& ran, const stdlib::MikroprogControl& control);
 
 // `source` goes on in its datums as the target does (verify::Stand::Way::MovePath), unless an operator sets
 // them; `ran` has its ending. The first difference of each aspect.

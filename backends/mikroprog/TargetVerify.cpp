@@ -18,7 +18,14 @@ namespace dialect = sim::mikroprog;
 
 namespace {
 
-using Runs = std::function<verify::Record(const verify::Interference&)>;
+// A run, and the height at which it ends after the retract of a tail, in coordinates of the machine.
+struct Ran {
+  verify::Record record;
+  std::optional<double> height;
+};
+using Runs = std::function<Ran(const verify::Interference&)>;
+
+constexpr double kDatum = 0.5; // by how much a datum may move what follows, mm
 
 class MikroprogVerification final : public Verification {
 public:
@@ -96,10 +103,10 @@ public:
     const Runs runs = [&](const verify::Interference& interference) {
       verify::Record ran =
           stand.run(code, now.world, entry, {}, nullptr, verify::Stand::Way::Run, interference);
-      takeEnding(ran, *control_);
-      return ran;
+      const std::optional<double> height = takeEnding(ran, *control_);
+      return Ran{std::move(ran), height};
     };
-    const verify::Record ran = runs({});
+    const verify::Record ran = runs({}).record;
     const bool byOperator = from_.options.datum == "operator";
     const MikroprogFacts facts{*control_,
                                now.entry.zeros[now.entry.system - 54],
@@ -122,11 +129,20 @@ public:
       out.differences.push_back({std::move(difference), 0, std::move(line)});
     }
     if (out.differences.empty() && now.source->ending == verify::Ending::Finished)
-      interfere(runs, ran, lineOf, out);
+      interfere(runs, ran, lineOf, safeHeight(now), out);
     return out;
   }
 
 private:
+  // Where the tails go up to, in coordinates of the machine: the program knows at which Z it begins. nullopt:
+  // it does not, as one that is edited and was written without it.
+  std::optional<double> safeHeight(const TargetCase& now) const {
+    const bool edited = !from_.plan.translation->text.empty();
+    if (edited && !from_.plan.fixedHosts.contains("start_z")) return std::nullopt;
+    const double zero = now.entry.zeros[now.entry.system - 54].z;
+    return zero + std::max(now.drawn.hosts.at("start_z"), now.drawn.hosts.at("clearance"));
+  }
+
   // Why the path that a datum has moved is no evidence; `source` is the run on it.
   static std::string_view whyBeside(const verify::Record& source) {
     const auto stem = [](const auto& event) { return event.first.outcome == sim::Outcome::StemCollision; };
@@ -167,12 +183,16 @@ private:
   // Each search once without its surface, each protected move with an obstacle half way, each guard with
   // contact already there.
   static void interfere(const Runs& runs, const verify::Record& ran,
-                        const std::function<std::string(SourceRange)>& lineOf, TargetRun& out) {
+                        const std::function<std::string(SourceRange)>& lineOf,
+                        const std::optional<double>& safe, TargetRun& out) {
     using stdlib::MacroAlarm;
     const auto attempt = [&](const verify::Interference& interference, MacroAlarm alarm,
                              std::string_view what, std::size_t number) {
       SourceRange at;
-      const std::string why = whyNotCaught(runs(interference), macroAlarmName(alarm), at);
+      const Ran disturbed = runs(interference);
+      std::string why = whyNotCaught(disturbed.record, macroAlarmName(alarm), at);
+      if (why.empty() && safe && disturbed.height && *disturbed.height < *safe - kDatum)
+        why = "after the stop nothing takes the probe up";
       if (!why.empty() && out.differences.empty())
         out.differs(verify::Aspect::Ending, fmt::format("{} {}: {}", what, number + 1, why), lineOf(at));
     };

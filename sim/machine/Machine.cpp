@@ -376,6 +376,11 @@ bool Machine::inconclusive(std::string why, char letter, std::uint32_t which) {
   return false;
 }
 
+bool Machine::meaningless(std::string why, char letter) {
+  end_.ofValue = true;
+  return inconclusive(std::move(why), letter);
+}
+
 bool Machine::overLimit(std::string what) {
   stop(Ending::Limit);
   end_.text = std::move(what);

@@ -49,6 +49,7 @@ struct RunEnd {
   std::string text;         // of an alarm what the control shows; else what Dotek does not know
   char letter = 0;          // the word that the text speaks of; 0: the block
   std::uint32_t which = 0;  // of several words with this letter, from 0
+  bool ofValue = false;     // inconclusive: an argument has a value that no source gives a meaning
   std::uint64_t line = 0;
   std::vector<Frame> stack; // the outermost first
 };
@@ -267,6 +268,7 @@ public:
   bool finish() { return stop(Ending::TextEnd); }                               // false
   bool overLimit(std::string what);                                             // false
   bool inconclusive(std::string why, char letter = 0, std::uint32_t which = 0); // false
+  bool meaningless(std::string why, char letter = 0); // the same, because of an argument's value
   // Time goes by: #3001, #3002. Dwells do it by themselves; moves take no time.
   void advance(double seconds) { seconds_ += seconds; }
 

@@ -51,6 +51,10 @@ public:
   // kNull where there is none. Each call that begins ends, but for those in which the run ends.
   virtual void callBegins(std::uint32_t /*program*/, std::span<const double> /*locals*/) {}
   virtual void callEnded(std::uint32_t /*program*/) {}
+  // One of the touches of the open call is done, and what it sets is set; VendorMacros::touchApart.
+  virtual void touchedApart() {}
+  // The call that is open does something that no source states, and the run goes on as if it did nothing.
+  virtual void callUnstated(std::string_view /*what*/, std::span<const double> /*locals*/) {}
   // Touches of a cycle that are one measurement, and all that they move and set; and a protected move of a
   // cycle, with its feed where one is stated. Each that begins ends, but for one in which the run ends.
   virtual void touchBegins(std::span<const PlannedTouch> /*touches*/) {}

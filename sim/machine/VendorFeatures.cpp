@@ -47,7 +47,7 @@ void VendorRun::foundSize(double measured, double expected) {
 bool VendorRun::protectedMove() {
   const auto& feedVariable = set_.probing.feedVariable;
   if (const auto feed = value(Role::Feed)) {
-    if (!(*feed > 0)) return notKnown("what it does with a feed that is not above 0 is in no source");
+    if (!(*feed > 0)) return meaningless("what it does with a feed that is not above 0 is in no source");
     feed_ = *feed;
   } else if (feedVariable) {
     const std::optional<double> kept = machine_.read(*feedVariable);
@@ -80,7 +80,7 @@ bool VendorRun::surface() {
     const bool travel = target->frame == ir::Frame::Here;
     const double way = *value(Role::Target, axis) - (travel ? 0 : start_[i]);
     if (std::abs(way) < kNothing)
-      return notKnown("which way the surface lies is not known: the probe is there");
+      return meaningless("which way the surface lies is not known: the probe is there");
     const Direction direction = directionOf(axis, way > 0 ? 1 : -1);
     Position centre;
     double ball = 0;
@@ -134,8 +134,9 @@ bool VendorRun::faceAngle() {
     const std::size_t n = ir::indexOf(normal), f = ir::indexOf(face);
     const double spacing = std::abs(value(Role::Spacing, face).value_or(0));
     const double way = *target - start_[n];
-    if (spacing < kNothing) return notKnown("two touches without a distance tell no angle");
-    if (std::abs(way) < kNothing) return notKnown("which way the face lies is not known: the probe is there");
+    if (spacing < kNothing) return meaningless("two touches without a distance tell no angle");
+    if (std::abs(way) < kNothing)
+      return meaningless("which way the face lies is not known: the probe is there");
     const double expected = value(Role::FaceAngle).value_or(normal == ir::Axis::X ? kRightAngle : 0);
     std::array<Position, 2> touched;
     for (std::size_t i = 0; i < 2; ++i) {
@@ -186,7 +187,7 @@ bool VendorRun::angledFlat() {
 // The circle through the ball's three places, and the ball beside it.
 bool VendorRun::threePoints() {
   const double diameter = need(Role::Diameter);
-  if (!(diameter > 0)) return notKnown("a size that is not above 0");
+  if (!(diameter > 0)) return meaningless("a size that is not above 0");
   if (!findSides()) return false;
   std::array<Position, 3> p;
   constexpr Role kAngles[] = {Role::FirstAngle, Role::SecondAngle, Role::ThirdAngle};
@@ -201,7 +202,7 @@ bool VendorRun::threePoints() {
   const double bx = p[1][0] - p[0][0], by = p[1][1] - p[0][1];
   const double cx = p[2][0] - p[0][0], cy = p[2][1] - p[0][1];
   const double twice = 2 * (bx * cy - by * cx);
-  if (std::abs(twice) < kNothing) return notKnown("three touches on one line tell no circle");
+  if (std::abs(twice) < kNothing) return meaningless("three touches on one line tell no circle");
   const double b = bx * bx + by * by, c = cx * cx + cy * cy;
   const double ux = (cy * b - by * c) / twice, uy = (bx * c - cx * b) / twice;
   foundPosition(ir::Axis::X, p[0][0] + ux, start_[0]);

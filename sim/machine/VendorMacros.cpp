@@ -5,6 +5,7 @@
 #include "stdlib/ReadCall.h"
 
 #include <fmt/format.h>
+#include <vector>
 
 namespace dotek::sim {
 
@@ -30,7 +31,25 @@ bool VendorMacros::run(Machine& machine, std::uint32_t program, std::span<const 
     return machine.inconclusive(stdlib::refusalText(reading) + "; what the macro does then is not known",
                                 reading.letter());
   }
+  if (memory_.touchesApart && reading.signature->intent == Intent::InnerCorner)
+    return runApart(machine, *reading.signature, locals);
   return VendorRun(machine, set_, control_, *reading.signature, locals, memory_).run();
+}
+
+bool VendorMacros::runApart(Machine& machine, const stdlib::MacroSignature& signature,
+                            std::span<const double> locals) {
+  const Position start = machine.position();
+  for (const ir::Axis axis : {ir::Axis::X, ir::Axis::Y}) {
+    const ir::Axis other = axis == ir::Axis::X ? ir::Axis::Y : ir::Axis::X;
+    std::vector<double> given(locals.begin(), locals.end());
+    if (const stdlib::MacroArgument* target = signature.find(stdlib::ArgumentRole::Target, other))
+      if (const std::uint32_t local = stdlib::localOf(target->letter); local < given.size())
+        given[local] = kNull;
+    if (!VendorRun(machine, set_, control_, signature, given, memory_).run()) return false;
+    if (machine.watcher() != nullptr) machine.watcher()->touchedApart();
+    if (!machine.travelTo(start)) return false;
+  }
+  return true;
 }
 
 const stdlib::MacroArgument* VendorRun::argument(Role role, ir::Axis axis) const {
@@ -48,6 +67,25 @@ std::optional<double> VendorRun::value(Role role, ir::Axis axis) const {
 bool VendorRun::notKnown(std::string_view what, char letter) {
   return machine_.inconclusive(
       fmt::format("P{} of `{}`, {}: {}", signature_.program, set_.name, signature_.title, what), letter);
+}
+
+bool VendorRun::meaningless(std::string_view what, char letter) {
+  return machine_.meaningless(
+      fmt::format("P{} of `{}`, {}: {}", signature_.program, set_.name, signature_.title, what), letter);
+}
+
+bool VendorRun::passes(std::string_view what, char letter) {
+  if (!memory_.passUnstated) return notKnown(what, letter);
+  if (MotionWatcher* const watcher = machine_.watcher(); watcher != nullptr)
+    watcher->callUnstated(
+        fmt::format("P{} of `{}`, {}: {}", signature_.program, set_.name, signature_.title, what), locals_);
+  return true;
+}
+
+bool VendorRun::leave() {
+  writeResults();
+  machine_.forgetMotion(std::nullopt);
+  return true;
 }
 
 std::string_view macroAlarmText(stdlib::MacroAlarm alarm) {
@@ -84,18 +122,25 @@ bool VendorRun::run() {
     writeResults();
     return true;
   }
-  return begin() && features() && finish();
+  if (!begin()) return false;
+  return passed_ ? leave() : features() && finish();
 }
 
 // What the machine has to be like, and what of the call is known.
 bool VendorRun::begin() {
-  if (!signature_.unknown.empty()) return notKnown(signature_.unknown + " is in no source");
+  if (!signature_.unknown.empty()) {
+    if (!passes(signature_.unknown + " is in no source")) return false;
+    passed_ = true;
+  }
   for (const stdlib::MacroArgument& one : signature_.arguments) {
     const std::uint32_t local = stdlib::localOf(one.letter);
     const bool given = local < locals_.size() && !isNull(locals_[local]);
-    if (given && (!one.unknown.empty() || one.role == Role::Unstated))
-      return notKnown((one.unknown.empty() ? "what the argument means" : one.unknown) + " is in no source",
-                      one.letter);
+    if (given && !passed_ && (!one.unknown.empty() || one.role == Role::Unstated)) {
+      if (!passes((one.unknown.empty() ? "what the argument means" : one.unknown) + " is in no source",
+                  one.letter))
+        return false;
+      passed_ = true;
+    }
     if (given && isUnknown(locals_[local])) return notKnown("the value is not known", one.letter);
   }
   if (machine_.mode(kDistance) != 0) return notKnown("what it does under G91 is in no source");

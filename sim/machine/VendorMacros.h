@@ -17,6 +17,8 @@ namespace dotek::sim {
 struct VendorMemory {
   std::optional<double> stylusRadius; // of a calibrated stylus, mm, where the set's variables do not hold it
   std::set<std::string> said;         // remarks that appear once in a trace
+  bool passUnstated = false;
+  bool touchesApart = false;
 };
 
 // What an alarm without a text of its own tells the operator.
@@ -31,10 +33,21 @@ public:
   // of the calibration, the macros count with 0 as on a machine that was never calibrated.
   void setStylusRadius(double radius) { memory_.stylusRadius = radius; }
 
+  // A call whose work no source states is passed over, as MotionWatcher::callUnstated says, instead of ending
+  // the run: the probe stays where it is, and the results are not known. For comparing programs that make it
+  // alike.
+  void passUnstated() { memory_.passUnstated = true; }
+
+  // A corner is touched face by face, each with what it sets and from the coordinates in which the call
+  // began.
+  void touchApart() { memory_.touchesApart = true; }
+
   bool knows(std::uint32_t program) const override { return set_.calls(program); }
   bool run(Machine& machine, std::uint32_t program, std::span<const double> locals) override;
 
 private:
+  bool runApart(Machine& machine, const stdlib::MacroSignature& signature, std::span<const double> locals);
+
   const stdlib::MacroSet& set_;
   const stdlib::Control& control_;
   VendorMemory memory_;

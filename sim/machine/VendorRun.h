@@ -30,8 +30,11 @@ private:
   std::optional<double> value(Role role, ir::Axis axis = ir::Axis::X) const;
   double need(Role role) const { return value(role).value_or(0); } // of one that is required
   bool begin();
-  bool notKnown(std::string_view what, char letter = 0); // false: inconclusive
-  bool alarm(stdlib::MacroAlarm alarm);                  // false
+  bool notKnown(std::string_view what, char letter = 0);    // false: inconclusive
+  bool meaningless(std::string_view what, char letter = 0); // the same, of an argument's value
+  bool passes(std::string_view what, char letter = 0);      // true: noted, and passed over
+  bool leave();                                             // after a call that is passed over
+  bool alarm(stdlib::MacroAlarm alarm);                     // false
   void sayOnce(std::string_view action, const std::string& text);
   bool features();
 
@@ -83,6 +86,7 @@ private:
   const Position start_;
   std::optional<double> feed_; // that stays in force; nothing: not known
 
+  bool passed_ = false; // nothing is touched
   double radiusX_ = 0, radiusY_ = 0;
   bool vectors_ = false; // radii by direction are in force
   // How a width or a diameter is touched: from within at the height of the start; or beside the feature, down

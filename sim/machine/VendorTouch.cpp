@@ -65,7 +65,7 @@ bool VendorRun::touch(const Direction& direction, double expected, Position& cen
   const bool known = argument(Role::Overtravel) != nullptr || set_.probing.overtravel;
   if (!plain && !known) return notKnown("how far beyond the expected surface it probes is in no source");
   const double travel = plain ? expected : expected - ball + overtravel(direction);
-  if (!(travel > kNoPath)) return notKnown("the expected surface does not lie ahead of the probe");
+  if (!(travel > kNoPath)) return meaningless("the expected surface does not lie ahead of the probe");
   const Position from = machine_.position();
   const Position end = along(from, direction, travel);
   for (int pass = 0; pass < 2; ++pass) { // a fast touch and a slow one
@@ -95,7 +95,7 @@ bool VendorRun::findSides() {
   const auto clearance =
       argument(Role::Clearance) != nullptr ? value(Role::Clearance) : set_.probing.clearance;
   if (!clearance) return notKnown("how far it keeps away from the surface without R is in no source");
-  if (*clearance == 0) return notKnown("what R0 means is in no source", 'R');
+  if (*clearance == 0) return meaningless("what R0 means is in no source", 'R');
   outside_ = *clearance > 0;
   beside_ = std::abs(*clearance);
   return true;
@@ -106,7 +106,7 @@ bool VendorRun::touchSide(const Position& middle, const Direction& direction, do
   double ball = 0;
   if (!radius(direction, ball)) return false;
   const double out = outside_ ? half + beside_ + ball : half - beside_ - ball;
-  if (out < 0) return notKnown("the clearance is larger than the feature");
+  if (out < 0) return meaningless("the clearance is larger than the feature");
   const Position above = along(middle, direction, out);
   Position below = above;
   below[2] = depth_;
@@ -117,7 +117,7 @@ bool VendorRun::touchSide(const Position& middle, const Direction& direction, do
 
 bool VendorRun::touchPair(const Position& middle, const Direction& direction, double width, double& offset,
                           double& size) {
-  if (!(width > 0)) return notKnown("a size that is not above 0");
+  if (!(width > 0)) return meaningless("a size that is not above 0");
   Position plus, minus;
   if (!touchSide(middle, direction, width / 2, plus) ||
       !touchSide(middle, opposite(direction), width / 2, minus))

@@ -61,7 +61,7 @@ bool VendorRun::addExperience() {
     return notKnown("what an experience value does without a size is in no source",
                     argument(Role::Experience)->letter);
   if (!number || *number == 0 || static_cast<int>(*number) > v.toolCount || !v.toolWear)
-    return notKnown("it is no tool offset of the control", argument(Role::Experience)->letter);
+    return meaningless("it is no tool offset of the control", argument(Role::Experience)->letter);
   double sum = 0;
   bool both = true;
   for (const auto& first : {v.toolWear, v.toolGeometry}) {
@@ -125,7 +125,7 @@ bool VendorRun::setSystem() {
   const bool extended = number && chosen->extendedFirst != 0 && *number >= chosen->extendedFirst &&
                         *number <= chosen->extendedLast;
   if (!number || (!extended && (*number < first || *number >= first + kSystems)))
-    return notKnown("which work offset this number names is in no source", chosen->letter);
+    return meaningless("which work offset this number names is in no source", chosen->letter);
   const std::uint32_t system = extended ? *number - chosen->extendedFirst + 1 : *number - first;
   const bool activeExtended = machine_.mode(kSystem) == kExtended;
   const auto active = activeExtended ? static_cast<std::uint32_t>(machine_.extendedSystem())
@@ -135,7 +135,7 @@ bool VendorRun::setSystem() {
     if (!error) continue;
     const auto from = offsetVariable(active, activeExtended, axis);
     const auto to = offsetVariable(system, extended, axis);
-    if (!from || !to) return notKnown("the control has no such work offset", chosen->letter);
+    if (!from || !to) return meaningless("the control has no such work offset", chosen->letter);
     const auto before = machine_.read(*from);
     if (!before || !machine_.write(*to, *before + *error)) return false;
     const auto after = machine_.read(*to);
@@ -154,21 +154,21 @@ bool VendorRun::setTool() {
   if (chosen == nullptr) return true;
   const auto number = whole(*value(Role::Tool));
   const auto& error = error_[ir::indexOf(ir::Axis::Z)];
-  if (!error || size_) return notKnown("Dotek keeps no offsets of the tool's radius", chosen->letter);
+  if (!error || size_) return passes("Dotek keeps no offsets of the tool's radius", chosen->letter);
   if (const auto band = value(Role::NullBand); band && std::abs(*error) < *band) return true;
   const auto share = value(Role::Feedback);
   if (!share)
-    return notKnown("which share of the error corrects the tool without F is in no source", chosen->letter);
+    return passes("which share of the error corrects the tool without F is in no source", chosen->letter);
   if (!(*share >= 0 && *share <= 1))
-    return notKnown("a feedback goes from 0 to 1", argument(Role::Feedback)->letter);
+    return meaningless("a feedback goes from 0 to 1", argument(Role::Feedback)->letter);
   const auto& v = control_.variables;
   using Register = stdlib::ProbingFacts::ToolRegister;
   if (set_.probing.toolLength == Register::Unknown)
-    return notKnown("whether it corrects the wear or the geometry is in no source", chosen->letter);
+    return passes("whether it corrects the wear or the geometry is in no source", chosen->letter);
   const bool geometry = set_.probing.toolLength == Register::Geometry && v.toolGeometry;
   const auto& firstOffset = geometry ? v.toolGeometry : v.toolWear;
   if (!number || *number == 0 || static_cast<int>(*number) > v.toolCount || !firstOffset)
-    return notKnown("it is no tool offset of the control", chosen->letter);
+    return meaningless("it is no tool offset of the control", chosen->letter);
   const std::uint32_t variable = static_cast<std::uint32_t>(*firstOffset) + *number;
   const auto before = machine_.read(variable);
   if (!before || !machine_.write(variable, *before - *share * *error)) return false;

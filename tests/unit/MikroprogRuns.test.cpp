@@ -137,6 +137,53 @@ TEST_CASE("mikroprog: contact where none is expected ends in its tail") {
   }
 }
 
+TEST_CASE("mikroprog: where the start is known the tails take the probe up, once the operator goes on") {
+  for (const double start : {60.0, 2.0}) {
+    MikroprogTarget target;
+    target.options.hosts["start_z"] = start;
+    const Touch cycle(ir::Axis::X, -5, 10, 0);
+    Box nothing;
+    nothing.low = {500, 500, -500};
+    nothing.high[2] = -400;
+    const Run missing(target, cycle.cycle, nothing);
+    CHECK(missing.lastStop() == target.control.notFound);
+    // The highest that the program goes to is 50.
+    CHECK(missing.machine.machinePosition()[2] == doctest::Approx(std::max(start, 50.0)));
+    Box part; // under the start point
+    part.high[2] = -2;
+    part.low[2] = -50;
+    const Run blocked(target, cycle.cycle, part);
+    CHECK(blocked.lastStop() == target.control.collision);
+    CHECK(blocked.machine.machinePosition()[2] == doctest::Approx(std::max(start, 50.0)));
+  }
+}
+
+TEST_CASE("mikroprog: a known start below the clearance plane goes up before anything moves across") {
+  const auto blocks = [](std::optional<double> start) {
+    MikroprogTarget target;
+    if (start) target.options.hosts["start_z"] = *start;
+    const Touch cycle(ir::Axis::X, -5, 10, 0);
+    MikroprogEmission out = target.emit(cycle.cycle);
+    return out;
+  };
+  // Contact is asked for, then up to 5, then across.
+  const std::vector<std::string> low = blocks(2).blocks();
+  REQUIRE(low.size() > 5);
+  CHECK(low[1] == "G23 L910 O7");
+  CHECK(low[2].starts_with("G31 Z5 L"));
+  CHECK(low[3] == "G27 L910");
+  CHECK(low[4] == "G0 X-10 Y10");
+  const std::vector<std::string> high = blocks(60).blocks();
+  CHECK(high[1] == "G23 L910 O7");
+  CHECK(high[2] == "G0 X-10 Y10");
+  CHECK(blocks(60).text().find("BE Z60") != std::string::npos);
+  // Not known: the header says where the operator begins.
+  CHECK(blocks(std::nullopt).blocks()[1] == "G0 X-10 Y10");
+  const std::string text = blocks(std::nullopt).text();
+  CHECK(text.find("AT Z5 OR HIGHER") != std::string::npos);
+  CHECK(text.find("N905 G27 L990") != std::string::npos);
+}
+
 TEST_CASE("mikroprog: a probe that is in contact at the start moves nowhere") {
   MikroprogTarget target;
   const Touch cycle(ir::Axis::X, -5, 10, 0);

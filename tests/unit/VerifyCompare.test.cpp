@@ -16,7 +16,8 @@ namespace {
 // Blocks of O1, and what it calls; a wall at X = 30 of G54.
 struct OneRun {
   explicit OneRun(const std::string& blocks, const std::string& macros = "inspection-plus",
-                  verify::Entry entry = {}, verify::Stand::Way way = verify::Stand::Way::Run)
+                  verify::Entry entry = {}, verify::Stand::Way way = verify::Stand::Way::Run,
+                  bool passUnstated = false)
       : profile(controlOf("fanuc-31i-b")), set(*stdlib::MacroSet::load(stdlib::DataFiles(), macros)),
         meaning(set, profile), parsed("%\nO1\n" + blocks + "M30\n%\n") {
     file = frontend::macrob::lower(parsed.file, profile, parsed.sources, parsed.diagnostics);
@@ -24,6 +25,7 @@ struct OneRun {
     CAPTURE(parsed.told());
     REQUIRE(file);
     meaning.setStylusRadius(3);
+    if (passUnstated) meaning.passUnstated();
     sim::PartBuilder builder;
     const sim::Point3 zero = verify::standZeros()[0];
     builder.box(zero + sim::Point3{30, -20, -20}, zero + sim::Point3{60, 20, 20});
@@ -135,6 +137,67 @@ TEST_CASE("verify: endings") {
   // Of macros their kind counts: no contact against a path that is blocked.
   CHECK(differing(kOn + "G65P9811X-30.S2\n", kOn + "G65P9810X40.F500.\n") == Aspects{Aspect::Ending});
   CHECK(differing(kOn + "G65P9811X-30.S2\n", kOn + "G65P9811X-30.S2\n").empty());
+}
+
+TEST_CASE("verify: a limit that the translation compares by itself") {
+  // The wall is at 30: an error of 2 against a limit of 1. What is told is the limit, and nothing else.
+  const std::string limited = kOn + "G65P9811X28.U1.\n", free = kOn + "G65P9811X28.\n";
+  CHECK(differing(limited, free + "IF[ABS[#140]GT1.]THEN#3000=103(UPPER LIMIT)\n").empty());
+  CHECK(differing(limited, free + "IF[ABS[#140]GT1.]THEN#3000=103(OUT OF POSITION)\n") ==
+        Aspects{Aspect::Ending});
+  CHECK(differing(limited, free + "IF[ABS[#140]GT3.]THEN#3000=103(UPPER LIMIT)\n") ==
+        Aspects{Aspect::Ending});
+  // Another place, or more than is measured before: not the same stop.
+  CHECK_FALSE(differing(limited, free + "G0Y1.\n#3000=103(UPPER LIMIT)\n").empty());
+  CHECK_FALSE(differing(limited, free + "#5221=1.\n#3000=103(UPPER LIMIT)\n").empty());
+  CHECK_FALSE(differing(limited, "#3000=103(UPPER LIMIT)\n").empty());
+  // Other alarms of a macro are not to be written by hand.
+  CHECK(differing(kOn + "G65P9810X40.F500.\n", kOn + "#3000=103(PATH OBSTRUCTED)\n") ==
+        Aspects{Aspect::Ending});
+  // From the same place of the source.
+  const OneRun one(limited), other(free + "IF[ABS[#140]GT1.]THEN#3000=103(UPPER LIMIT)\n");
+  verify::CompareRules rules;
+  rules.samePlace = [](SourceRange, SourceRange) { return false; };
+  CHECK(verify::compare(one.record, other.record, rules).size() == 1);
+}
+
+TEST_CASE("verify: a corner that the translation touches face by face") {
+  const std::string at = kOn + "G0X20.Y-10.\nZ-5.\n";
+  // The part's corner is outside of both faces here: the Y face is that of the same block, from below.
+  const std::string corner = at + "G65P9815X30.Y-9.\n";
+  CHECK(differing(corner, corner).empty());
+  CHECK_FALSE(differing(corner, at + "G65P9811X30.\n").empty());
+  CHECK_FALSE(differing(corner, at + "G65P9811X30.\nG0Y-10.5\nG65P9811Y-9.\n").empty());
+  CHECK_FALSE(differing(corner, at + "G65P9811X30.\nG65P9811Y-8.\n").empty());
+}
+
+TEST_CASE("verify: a call whose work no source states is compared by all that it is given") {
+  const auto told = [](const std::string& one, const std::string& other) {
+    const OneRun source(one, "inspection-plus", {}, verify::Stand::Way::Run, true);
+    const OneRun target(other, "inspection-plus", {}, verify::Stand::Way::Run, true);
+    verify::CompareRules rules;
+    rules.sameAlarmNumbers = true;
+    std::vector<Aspect> out;
+    for (const verify::Difference& difference : verify::compare(source.record, target.record, rules))
+      out.push_back(difference.aspect);
+    return out;
+  };
+  const std::string corner = kOn + "G65P9816X40.Y20.S2\n";
+  const OneRun passed(corner, "inspection-plus", {}, verify::Stand::Way::Run, true);
+  REQUIRE(passed.record.ending == verify::Ending::Finished);
+  REQUIRE(passed.record.measures.size() == 1);
+  CHECK(passed.record.measures[0].unstated.find("the way round the corner") != std::string::npos);
+  SourceRange at;
+  CHECK(verify::whyNoEvidence(passed.record, at) == "");
+  CHECK(OneRun(corner).record.ending == verify::Ending::Inconclusive); // unless it is asked for
+  CHECK(told(corner, corner).empty());
+  CHECK(told(corner, kOn + "G65P9816X41.Y20.S2\n") == Aspects{Aspect::Nominal});
+  CHECK(told(corner, kOn + "G65P9816X40.Y20.S3\n") == Aspects{Aspect::Nominal});
+  CHECK(told(corner, kOn + "G65P9816X40.Y20.S2W1.\n") == Aspects{Aspect::Nominal});
+  CHECK_FALSE(told(corner, kOn + "G0X1.\n" + corner + "G0X0\n").empty());
+  CHECK_FALSE(told(corner, kOn).empty());
+  // What it leaves is not known, on both sides.
+  CHECK(told(corner + "#500=#135\n", corner + "#500=#135\n").empty());
 }
 
 TEST_CASE("verify: what is evidence") {

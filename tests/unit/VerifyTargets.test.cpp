@@ -124,7 +124,12 @@ TEST_CASE("a damaged program of Mikroprog never agrees") {
       {"G23 L910 O7", "G23 L990 O7"},               // contact before the chain ends without a word
       {"N20 G23 L910 O7", "N20 M9"},                // nobody asks for it
       {"N900 M0 ;SONDA NENASLA PLOCHU", "N900 M9"}, // no tail
-      {"N905 G27 L990", "N905 G27 L60"},            // the tail goes back to work
+      {"N906 G27 L990", "N906 G27 L60"},            // the tail goes back to work
+      {"N903 G1 Z", "N903 G1 X"},                   // the tail goes aside
+      {"N903 G1 Z", "N903 G1 Z-"},                  // down
+      {"N903 G1 Z", "N903 G0 Z"},                   // up at top speed
+      {"N903 G1 Z", "N903 M9 ;"},                   // not up
+      {"N913 G1 Z", "N913 M9 ;"},                   // the same after contact
       {"G0 X-15 Y10", "G0 X-15 Y11"},               // another start
       {"M5", "M3 S100"},                            // the spindle turns
       {"M9", ""},                                   // nobody switches the coolant off
