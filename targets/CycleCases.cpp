@@ -21,6 +21,7 @@
 #include "targets/Target.h"
 #include "targets/Verification.h"
 #include "verify/Bounds.h"
+#include "verify/Rehearsal.h"
 
 #include <algorithm>
 #include <cmath>
@@ -287,11 +288,15 @@ std::unique_ptr<CaseRunner::Values> CaseRunner::attemptAsIs(const verify::Case& 
     refusedAt_ = values->rejectedAt;
     return nullptr;
   }
+  bool stated = false; // the part is that of what the calls state
   if (values->path) {
     refusal_ = verify::whyNoWay(*values->path);
     if (refusal_.empty()) refusal_ = whyNotClear(*values);
     if (!refusal_.empty()) return nullptr;
-    if (makePart(*values)) {
+    stated = takeStatedPart(*values);
+    if (stated) {
+      // It is not walked: what the path shows is not known to be touched.
+    } else if (makePart(*values)) {
       const sim::Part nominal = *values->part;
       misplace(*values);
       const double off =
@@ -317,7 +322,7 @@ std::unique_ptr<CaseRunner::Values> CaseRunner::attemptAsIs(const verify::Case& 
       return attemptAsIs(proposal);
     }
   }
-  if (values->path) refusal_ = whyNotMeasured(*values);
+  if (values->path && !stated) refusal_ = whyNotMeasured(*values);
   return refusal_.empty() ? std::move(values) : nullptr;
 }
 
@@ -451,6 +456,27 @@ bool CaseRunner::makePart(Values& values) const {
   const double radius = values.drawn.hosts.at("tool_radius");
   values.part = verify::partOf(values.path->nominal(), radius, std::max(radius, kReach), {});
   return values.part.has_value();
+}
+
+// The part of what the calls state, where the path shows more than that and a call is not stated. false: it
+// is none of these.
+bool CaseRunner::takeStatedPart(Values& values) {
+  if (!passesUnstated() || (!values.posted && !readPosted(values))) return false;
+  const sim::Part empty = emptyPart(zeroOf(values.drawn));
+  sim::World nothing(empty, probeFor(plan_, values.drawn));
+  values.rehearsal = runPosted(values, nothing, true, verify::Stand::Way::Rehearse);
+  bool unstated = false;
+  std::size_t surfaces = 0;
+  for (const verify::Measure& measure : values.rehearsal->measures) {
+    unstated = unstated || (!measure.unstated.empty() && measure.nominal.empty());
+    surfaces += measure.nominal.size();
+  }
+  if (!unstated || values.path->touches.size() <= surfaces) return false;
+  const double radius = values.drawn.hosts.at("tool_radius");
+  values.part = verify::partOf(verify::touchesOf(*values.rehearsal, radius), radius, std::max(radius, kReach),
+                               values.drawn.error);
+  if (!values.part) values.part = empty;
+  return true;
 }
 
 // Where a translation is looked at, the part is off its place.

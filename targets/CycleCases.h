@@ -75,6 +75,7 @@ private:
   std::string whyNotCorrected(const Values& values, const sim::Part& nominal, double off) const;
   std::string whyNotClear(const Values& values) const;
   bool makePart(Values& values) const;
+  bool takeStatedPart(Values& values);
   void misplace(Values& values) const;
   sim::Point3 zeroOf(const verify::Case& drawn) const;
   bool post(Values& values);

@@ -66,7 +66,9 @@ CaseResult CaseRunner::run(const verify::Case& drawn) {
     result.why = refusal_;
     return result;
   }
-  if (!values->part && values->path && makePart(*values))
+  const bool stated =
+      !values->part && values->path && routine_ != nullptr && !values->rejected && takeStatedPart(*values);
+  if (!stated && !values->part && values->path && makePart(*values))
     misplace(*values);
   else if (!values->part)
     values->part = plan_.part;
