@@ -106,13 +106,9 @@ const compost::Routine* chooseRoutine(const compost::Program& program,
 
 void leaveFindingsToLint(Session& session) {
   auto& all = session.diagnostics().all();
-  // These change what is posted: a form, a repair, a reading, a word that is taken for no keyword, a value
-  // that the user would see differ.
-  constexpr std::array kKept = {diag::FormTaken::code,
-                                diag::OpenIfAtReturn::code,
-                                diag::MissingReturn::code,
+  // These change what is posted: a form, a repair, a reading, a value that the user would see differ.
+  constexpr std::array kKept = {diag::FormTaken::code, diag::OpenIfAtReturn::code, diag::MissingReturn::code,
                                 compost::unverifiedInProgCheck.code,
-                                compost::keywordMisspeltCheck.code,
                                 frontend::gibbs::inputOpensWithOtherCheck.code};
   const auto isFinding = [&](const Diagnostic& d) {
     return d.severity != Severity::Error && d.range.hasPlace() &&
