@@ -182,6 +182,10 @@ void writeSystemAlarm(State& state, const ir::ExpressionPtr& named, const ir::Or
   ir::ExpressionPtr system = named;
   if (mayMiss) {
     const std::uint32_t helper = state.helper();
+    if (helper == 0) {
+      state.refuse<diag::TooManyLocals>(state.cycle.range, "the work system", state.control.locals);
+      return;
+    }
     const std::string left = "#" + std::to_string(helper);
     system = systemVariable(static_cast<int>(helper));
     state.sheet.add(left + "=" + valueText(state, named, origin), origin);
