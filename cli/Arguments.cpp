@@ -120,8 +120,8 @@ bool isMeantAsAssumption(const std::string& argument) {
 // follow `--assume` to that. What is the name of a file is an input, unless it could be both.
 std::vector<std::string> spreadPairs(const std::vector<std::string>& arguments) {
   constexpr std::string_view kAssume = "--assume";
-  constexpr std::array<std::string_view, 9> kFlags = {"--set", "--field", "--host",  "--default", "--arg",
-                                                      "--var", "--value", "--limit", kAssume};
+  constexpr std::array<std::string_view, 10> kFlags = {"--set", "--field", "--host",  "--default", "--arg",
+                                                      "--var", "--value", "--limit", "--result", kAssume};
   std::vector<std::string> out;
   std::string flag;      // whose values may follow
   bool first = false;    // the next argument is its value

@@ -204,6 +204,9 @@ void addTranslation(CLI::App& app, Raw& raw, const std::string& to) {
   app.add_option("--datum", raw.datum,
                  "of mikroprog: g92 sets the active system, operator stops for an entry by hand")
       ->type_name("g92|operator");
+  addSeveral(app, "--result", raw.results,
+             "of a file of the cycle language: common variable that gets a result of the cycle",
+             "NAME=#NUMBER");
 }
 
 void fillTranslation(const Raw& raw, targets::TranslationOptions& options) {
@@ -212,6 +215,7 @@ void fillTranslation(const Raw& raw, targets::TranslationOptions& options) {
   options.fromControl = raw.fromControl;
   if (!raw.probeMacros.empty()) options.probeMacros = raw.probeMacros;
   options.datum = raw.datum;
+  options.results = pairsOf("--result", raw.results);
 }
 
 void addSource(CLI::App& app, Raw& raw) {

@@ -39,6 +39,7 @@ struct Raw {
   std::string defaultsMode = "alarm";
   std::string probePower = "source";
   std::string datum;
+  std::vector<std::string> results;
   std::vector<std::string> variables;
   std::vector<std::string> programs;
   std::string traceFile, svgFile, htmlFile;

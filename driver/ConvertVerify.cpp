@@ -1,6 +1,7 @@
 #include "driver/ConvertVerify.h"
 
 #include "driver/Command.h"
+#include "project/CycleLowering.h"
 #include "project/FormChoice.h"
 #include "project/Programs.h"
 #include "support/messages/Verify.h"
@@ -119,7 +120,9 @@ void leaveOut(const std::vector<std::size_t>& inputs, Outcome& outcome) {
 Outcome verified(const ConvertOptions& options, Outcome outcome) {
   Session session(options.common);
   const std::vector<std::string> inputs = outcome.inputs;
-  const auto isProgram = [&](const std::string& input) { return isProgramFile(input, session); };
+  const auto isProgram = [&](const std::string& input) {
+    return !isCycleFile(input, session) && isProgramFile(input, session);
+  };
   const auto programs = std::count_if(inputs.begin(), inputs.end(), isProgram);
   // Each cycle has its own result; else verify converts it by itself.
   const bool own = outcome.macrosByCycle.size() + static_cast<std::size_t>(programs) == inputs.size();

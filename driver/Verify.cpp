@@ -1,7 +1,9 @@
 #include "support/messages/Verify.h"
 #include "driver/Driver.h"
+#include "driver/VerifyCycleFile.h"
 #include "driver/VerifyPrograms.h"
 #include "project/CycleFolder.h"
+#include "project/CycleLowering.h"
 #include "project/FormChoice.h"
 #include "project/Prog.h"
 #include "project/Programs.h"
@@ -201,6 +203,8 @@ private:
 
 Outcome verify(const VerifyOptions& options) {
   return guarded(options.common, [&](Session& session) {
+    if (options.inputs.size() == 1 && isCycleFile(options.inputs.front(), session))
+      return verifyCycleFile(options, session);
     const bool programs = options.inputs.size() == 1 && isProgramFile(options.inputs.front(), session);
     if (session.diagnostics().hasErrors()) return outcomeOf(session, "");
     return programs ? verifyPrograms(options, session) : VerifyCommand(options, session).run();

@@ -27,6 +27,7 @@ std::vector<std::string> cycleOptions(const ConvertOptions& options) {
   add(!options.defaults.empty(), "--default");
   add(options.useDefaults, "--defaults");
   add(options.switchProbe, "--probe-power");
+  add(!options.results.empty(), "--result");
   for (const std::string& name : common.assume)
     if (name != "plain-messages") out.push_back("--assume " + name);
   return out;

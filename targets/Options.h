@@ -32,6 +32,7 @@ struct TranslationOptions {
   std::string fromControl;                // that programs are written for; "": the same
   std::optional<std::string> probeMacros; // nothing: the set that the source calls
   std::string datum;                      // --datum of mikroprog: "", "g92" or "operator"
+  NamedTexts results;                     // --result NAME=#NUMBER, of files of the cycle language
 };
 
 // Of verify and of convert --verify. Text: the line of the verdict. The others: a document beside it.

@@ -47,6 +47,7 @@ struct VerifyPlan {
   std::optional<Translation> translation; // nothing: the path is compared with the posted program
   std::optional<sim::MachineFile> machine;
   std::optional<sim::Part> part; // of --part; nothing: made from the path of each case
+  bool cycleFile = false;        // of the cycle language: its own meaning is the source
   bool programs = false;         // macro B against its conversion: fields are variables by number
 };
 

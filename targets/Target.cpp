@@ -64,7 +64,8 @@ void checkTargetOptions(const Target& target, const ConvertOptions& options, Dia
                          {TargetFlag::ProbeMacros, options.probeMacros.has_value(), "--probe-macros"},
                          {TargetFlag::DefaultsUse, options.useDefaults, "--defaults use"},
                          {TargetFlag::ProbePower, options.switchProbe, "--probe-power macro"},
-                         {TargetFlag::WholePost, options.wholePost, "--whole-post"}};
+                         {TargetFlag::WholePost, options.wholePost, "--whole-post"},
+                         {TargetFlag::Result, !options.results.empty(), "--result"}};
   refuse(target, options.to, flags, diagnostics);
   checkDatum(target, options.to, options.datum, diagnostics);
   if (target.checkConvert != nullptr) target.checkConvert(options, diagnostics);
@@ -90,7 +91,8 @@ void checkTargetOptions(const Target& target, const VerifyOptions& options, Diag
     diagnostics.report<diag::MissingOption>(
         {}, "verify", "--prog PROG.txt", "a drawn path states no measurement that such a program could make");
   const Given flags[] = {{TargetFlag::ProgramNumber, options.programNumber.has_value(), "--program-number"},
-                         {TargetFlag::ProbeMacros, options.probeMacros.has_value(), "--probe-macros"}};
+                         {TargetFlag::ProbeMacros, options.probeMacros.has_value(), "--probe-macros"},
+                         {TargetFlag::Result, !options.results.empty(), "--result"}};
   refuse(target, options.to, flags, diagnostics);
   checkDatum(target, options.to, options.datum, diagnostics);
 }

@@ -186,6 +186,8 @@ std::string VerifyReport::command() const {
   if (!options_.fromControl.empty()) flag("--from-control", options_.fromControl);
   if (options_.probeMacros) flag("--probe-macros", *options_.probeMacros);
   if (!options_.datum.empty()) flag("--datum", options_.datum);
+  for (const auto& [name, variable] : options_.results)
+    flag("--result", name + "=" + variable);
   if (options_.programNumber) flag("--program-number", std::to_string(*options_.programNumber));
   if (options_.common.job) flag("--job", *options_.common.job);
   if (options_.translation) flag("--translation", *options_.translation);
@@ -402,7 +404,7 @@ std::string VerifyReport::verdict() {
 
 std::string VerifyReport::finish() {
   Session& session = runner_.session();
-  const bool stated = options_.source.prog || plan_.programs;
+  const bool stated = options_.source.prog || plan_.programs || plan_.cycleFile;
   if (!stated) told_.report<diag::MeasurementNotStated>(runner_.place(), cases_.undecided, cases_.all());
   if (partsMade_) told_.report<diag::PartNotUsed>({});
   tellProbe();

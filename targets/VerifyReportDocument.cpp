@@ -74,6 +74,7 @@ VerifyDocument::Excerpt VerifyReport::excerptOf(SourceRange range) {
 
 std::string VerifyReport::pairText() const {
   if (plan_.programs) return "source program against its translation";
+  if (plan_.cycleFile) return "the cycle by its own meaning against its translation";
   if (!plan_.translation) return "drawn path against post";
   return options_.source.prog ? "posted program against translation, and drawn path against post"
                               : "drawn path against translation";

@@ -133,7 +133,8 @@ double hostValue(const std::string& name, Random& random) {
   if (name == "start_z") return thousandths(random.between(100, 160));
   if (name == "clearance" || name == "retract") return thousandths(random.between(1, 60));
   if (name == "overtravel") return thousandths(random.between(2, 10));
-  if (name == "return_feed") return static_cast<double>(10 * random.whole(10, 90));
+  if (name == "return_feed" || name == "approach_feed" || name == "measuring_feed")
+    return static_cast<double>(10 * random.whole(10, 90));
   if (name == "tool_number" || name == "tool_offset") return static_cast<double>(random.whole(1, 20));
   return thousandths(random.between(1, 60));
 }

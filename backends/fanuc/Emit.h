@@ -39,6 +39,7 @@ struct EmitOptions {
   bool foreignMacros = false;
   std::map<ir::VariableId, std::string> computed = {}; // fields that are no arguments, with their formulas
   std::map<ir::VariableId, std::vector<Choice>> choices = {}; // of a field that the dialog offers as a list
+  std::vector<std::string> remarks = {}; // further lines of the header, capitals and digits
 };
 
 // The argument of a parameter or host input in a call of the program.

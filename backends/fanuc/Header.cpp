@@ -59,6 +59,8 @@ public:
     fixed();
     requirements();
     alarms();
+    for (const std::string& remark : state_.options.remarks)
+      say(remark);
     for (const std::string& remark : state_.remarks)
       say(remark);
     return std::move(out_);

@@ -5,15 +5,16 @@
 #include "backends/fanuc/TargetVerify.h"
 #include "backends/fanuc/TargetVerifyPrograms.h"
 #include "frontend/gibbs/Ast.h"
-#include "ir/CycleNames.h"
 #include "ir/Fold.h"
 #include "ir/Positions.h"
+#include "ir/ShareVariables.h"
 #include "ir/Walk.h"
 #include "support/messages/Commands.h"
 #include "support/messages/Cycle.h"
 #include "support/messages/Fanuc.h"
 #include "targets/Conversion.h"
 #include "targets/DialogChoices.h"
+#include "targets/KeptResults.h"
 
 #include <algorithm>
 #include <set>
@@ -49,12 +50,18 @@ public:
         lowered.fixedByName.erase(variable.name);
     }
     const bool ofLanguage = context_.compilation.fileOf(folder) != nullptr;
-    if (ofLanguage) loseResults(lowered.cycle);
+    KeptResults results;
+    if (ofLanguage)
+      results = leaveResults(lowered.cycle);
+    else
+      for (const auto& [name, number] : options_.results)
+        session_.diagnostics().report<diag::CycleResultUnknown>({}, name, folder.name, "");
     ir::fold(lowered.cycle, lowered.fixed);
     fanuc::EmitOptions emit{*inputs.control, *macros, *inputs.sourceControl, 0, {}, {}, {}, {}};
     emit.plainMessages = options_.common.assume.contains("plain-messages");
     emit.foreignMacros = macros != lowered.macros;
     emit.computed = lowered.computed;
+    emit.remarks = std::move(results.headings);
     for (auto& [id, choices] : dialogChoices(folder, lowered.cycle, session_.sources()))
       for (DialogChoice& choice : choices)
         emit.choices[id].push_back({choice.value, std::move(choice.title)});
@@ -69,7 +76,7 @@ public:
       if (const auto given = inputs.hosts.find(place); given != inputs.hosts.end()) emit.fixed.insert(*given);
     }
     std::vector<fanuc::Argument> letters;
-    const auto lines = fanuc::emit(lowered.cycle, emit, session_.sources(), session_.diagnostics(), &letters);
+    const auto lines = written(lowered.cycle, emit, ofLanguage, letters);
     if (!lines) return true;
     std::vector<OutputArgument> arguments;
     for (const fanuc::Argument& one : letters)
@@ -96,18 +103,33 @@ private:
     return out.empty() ? lines.at(1).text : out;
   }
 
-  // A program hands nothing back.
-  void loseResults(ir::Cycle& cycle) {
-    std::set<std::string> lost;
-    std::erase_if(cycle.body, [&](const ir::CycleStatement& statement) {
-      const auto* call = std::get_if<ir::CallCycle>(&statement.node);
-      if (call == nullptr || call->cycle != ir::kResults) return false;
-      for (const ir::CycleArgument& one : call->arguments)
-        lost.insert(one.parameter);
-      return true;
-    });
-    for (const std::string& name : lost)
+  // A program hands nothing back but what --result names.
+  KeptResults leaveResults(ir::Cycle& cycle) {
+    KeptResults out = keepResults(cycle, options_.results, session_.diagnostics());
+    for (const std::string& name : out.lost)
       session_.diagnostics().report<diag::ResultNotLeft>(cycle.range, name);
+    return out;
+  }
+
+  // A cycle of the language, with those that it calls, has more names than a control has locals: where they
+  // do not do, names share one that are not needed at the same time.
+  std::optional<std::vector<backends::EmittedLine>> written(const ir::Cycle& cycle,
+                                                            const fanuc::EmitOptions& emit, bool mayShare,
+                                                            std::vector<fanuc::Argument>& letters) {
+    Diagnostics said;
+    auto lines = fanuc::emit(cycle, emit, session_.sources(), said, &letters);
+    const bool few = !lines && std::any_of(said.all().begin(), said.all().end(), [](const Diagnostic& one) {
+      return one.code == diag::TooManyLocals::code || one.code == diag::ExpressionDepth::code;
+    });
+    if (few && mayShare) {
+      ir::Cycle shared = cycle;
+      ir::shareVariables(shared);
+      said = Diagnostics();
+      lines = fanuc::emit(shared, emit, session_.sources(), said, &letters);
+    }
+    for (Diagnostic& one : said.all())
+      session_.diagnostics().add(std::move(one));
+    return lines;
   }
 
   std::uint32_t numberOf(std::size_t index) const {
@@ -163,8 +185,8 @@ private:
   ProgramConversion programs_;
 };
 
-constexpr TargetFlag kFlags[] = {TargetFlag::Arg, TargetFlag::ProgramNumber, TargetFlag::ProbeMacros,
-                                 TargetFlag::DefaultsUse, TargetFlag::ProbePower};
+constexpr TargetFlag kFlags[] = {TargetFlag::Arg,         TargetFlag::ProgramNumber, TargetFlag::ProbeMacros,
+                                 TargetFlag::DefaultsUse, TargetFlag::ProbePower,    TargetFlag::Result};
 
 } // namespace
 

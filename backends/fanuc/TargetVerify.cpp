@@ -26,6 +26,8 @@ namespace gibbs = frontend::gibbs;
 namespace {
 
 constexpr std::uint32_t kOwnAlarms = 3000; // of programs
+// Of a position whose word is rounded, and of what is met from there, mm.
+constexpr double kRoundedWord = 0.0006;
 constexpr const char* kSystemAlarm = "WORK OFFSET NOT 54 TO 59";
 
 // Numbers and texts after `before`, "#3000=103(ARGUMENT X MISSING)": the text to the next bracket or line.
@@ -115,7 +117,11 @@ public:
     Session& session = from_.session;
     // The arguments are in the locals of the caller; one that is null is left out of the call.
     std::string call = fmt::format("O1\nG65P{}", programNumber(translation_.text));
-    for (const OutputArgument& argument : translation_.arguments)
+    // In the order of the alphabet: of I, J and K out of it the control reads the second set.
+    std::vector<OutputArgument> arguments = translation_.arguments;
+    std::sort(arguments.begin(), arguments.end(),
+              [](const OutputArgument& a, const OutputArgument& b) { return a.letter < b.letter; });
+    for (const OutputArgument& argument : arguments)
       call += fmt::format("{}#{}", argument.letter, stdlib::localOf(argument.letter));
     if (!text_.read("call", call + "\nM30\n", control_, session) ||
         !text_.readTranslation(translation_, control_, session) ||
@@ -249,6 +255,12 @@ private:
     rules.results = std::max(from_.options.tolerance, resultTolerance(control_, *from_.inputs.sourceControl));
     // After a write of the system that is active, what follows is as exactly as the control computes.
     rules.tolerance = writesActive(source, now.entry) ? rules.results : from_.options.tolerance;
+    // Positions that the cycle computes go to the control rounded to its least increment, and contacts on
+    // round surfaces follow.
+    if (from_.plan.cycleFile) {
+      rules.tolerance = std::max(rules.tolerance, kRoundedWord);
+      rules.results = std::max(rules.results, kRoundedWord);
+    }
     // Of eight digits the last one is a ten millionth at most; two of them.
     rules.relative = rules.results > from_.options.tolerance ? 2e-7 : 0;
     rules.mayRestoreModes = true;
@@ -270,6 +282,13 @@ private:
       out.why = record.text;
       return;
     }
+    // The text of an alarm of the cycle's own.
+    const std::uint32_t line = text_.line(record.endedAt);
+    if (from_.plan.cycleFile && source.ending == verify::Ending::Alarm && source.alarmKind.empty() &&
+        record.ending == verify::Ending::Alarm && record.alarm >= kOwnAlarms && !translation_.madeUp(line) &&
+        !saysSo(record.text, source.text))
+      out.differsAt(verify::Aspect::Ending,
+                    fmt::format("an alarm (`{}`) against `{}`", source.text, record.text), line);
     // How far another vendor's macro searches is its own business: it may find what the source's does not.
     const bool searches = source.ending == verify::Ending::Alarm &&
                           source.alarmKind == stdlib::macroAlarmName(stdlib::MacroAlarm::ProbeFail);

@@ -1,0 +1,147 @@
+// A file of the cycle language beside what convert writes of it: both do the same, and a change of the
+// program is seen.
+#include "driver/Driver.h"
+#include "tests/Draws.h"
+#include "tests/GoldenRunner.h"
+#include "tests/TestFolder.h"
+
+#include <algorithm>
+#include <doctest/doctest.h>
+#include <string>
+#include <vector>
+
+using namespace dotek;
+using namespace dotek::tests;
+
+namespace {
+
+std::string libraryPath(const std::string& name) {
+  return (root() / "stdlib/cycles" / (name + ".cycle")).string();
+}
+
+driver::VerifyOptions optionsOf(const std::string& path, const std::string& set,
+                                const std::string& control = "") {
+  driver::VerifyOptions out;
+  out.inputs = {path};
+  out.to = "fanuc";
+  out.control = control;
+  out.probeMacros = set;
+  out.jobs = 1;
+  if (set == "easyprobe" || control == "fanuc-31i-b") {
+    out.common.probeCodes.on = "M97"; // no profile says it of these
+    out.common.probeCodes.off = "M98";
+  }
+  return out;
+}
+
+std::string said(const driver::Outcome& outcome) {
+  return outcome.output + renderText(outcome.diagnostics, outcome.sources, 0);
+}
+
+bool says(const driver::Outcome& outcome, std::string_view code) {
+  const auto& all = outcome.diagnostics.all();
+  return std::any_of(all.begin(), all.end(), [&](const Diagnostic& one) { return one.code == code; });
+}
+
+struct Planted {
+  const char* was;
+  const char* is;
+};
+
+// `is` in the place of the first `was` of what convert writes.
+driver::Outcome verifyPlanted(driver::VerifyOptions options, const Planted& planted) {
+  driver::ConvertOptions convert;
+  static_cast<targets::TranslationOptions&>(convert) = options;
+  const driver::Outcome written = driver::convert(convert);
+  REQUIRE_MESSAGE(written.files.size() == 1, said(written));
+  std::string text = written.files.front().text;
+  const std::size_t at = text.find(planted.was);
+  REQUIRE_MESSAGE(at != std::string::npos, text);
+  text.replace(at, std::string_view(planted.was).size(), planted.is);
+  const TestFolder folder("dotek-planted");
+  options.translation = folder.write("O8000.nc", text);
+  return driver::verify(options);
+}
+
+} // namespace
+
+TEST_CASE("verify cycles: the library does on a control what it means") {
+  for (const char* const name :
+       {"bore", "bore-depth", "surface-x", "surface-y", "surface-z", "web-x", "channel-y", "mean-touch-z",
+        "corner-inner", "corner-outer", "rectangle-inside", "step-height", "edge-angle-x", "judge"})
+    for (const char* const set : {"inspection-plus", "dotek"}) {
+      CAPTURE(name);
+      CAPTURE(set);
+      driver::VerifyOptions options = optionsOf(libraryPath(name), set);
+      options.cases = draws(20U, 4U);
+      const driver::Outcome outcome = driver::verify(options);
+      CHECK_MESSAGE(outcome.status == 0, said(outcome));
+      CHECK_MESSAGE(outcome.output.starts_with("AGREES"), outcome.output);
+    }
+}
+
+TEST_CASE("verify cycles: a change of the program is a difference") {
+  driver::VerifyOptions options = optionsOf(libraryPath("bore"), "inspection-plus");
+  options.cases = 60;
+  options.results = {{"size", "#520"}, {"centre_x", "#521"}};
+  const driver::Outcome sound = driver::verify(options);
+  REQUIRE_MESSAGE(sound.status == 0, said(sound));
+  for (const Planted& planted : {
+           Planted{"P9811 X[#27+#7/2.]", "P9811 X[#27+#7]"},        // expects the wall elsewhere
+           Planted{"P9811 X[#27+#7/2.]", "P9811 Y[#14+#7/2.]"},     // another axis
+           Planted{"G65 P9810 X[[#", "G65 P9810 X[1.+[#"},          // beside the middle
+           Planted{"G65 P9832\n", ""},                              // the probe stays off
+           Planted{"M5\n", ""},                                     // the spindle turns
+           Planted{"THEN #26=0.", "THEN #26=1."},                   // another default
+           Planted{"GT #11]", "LT #11]"},                           // the tolerance the other way
+           Planted{"#[5221+[#19-54]*20]=", "#[5222+[#19-54]*20]="}, // the offset of another axis
+           Planted{"#520=", "#522="},                               // a result elsewhere
+       }) {
+    CAPTURE(planted.was);
+    CAPTURE(planted.is);
+    const driver::Outcome outcome = verifyPlanted(options, planted);
+    CHECK_MESSAGE(outcome.status == 1, said(outcome));
+    CHECK_MESSAGE(outcome.output.starts_with("DIFFERS"), said(outcome));
+  }
+}
+
+TEST_CASE("verify cycles: results go to variables that the caller names") {
+  driver::VerifyOptions options = optionsOf(libraryPath("bore"), "inspection-plus");
+  options.cases = 8;
+  options.results = {{"siz", "#520"}};
+  CHECK(says(driver::verify(options), "cycle-result-unknown"));
+  for (const char* const wrong : {"#0", "size", "520.5", "#-1"}) {
+    options.results = {{"size", wrong}};
+    CHECK(says(driver::verify(options), "cycle-result-number"));
+  }
+  options.results = {{"size", "#520"}, {"centre_x", "520"}};
+  CHECK(says(driver::verify(options), "cycle-result-number"));
+  options.results = {{"size", "#33"}}; // a local
+  CHECK(says(driver::verify(options), "store-variable"));
+}
+
+TEST_CASE("verify cycles: convert --verify writes what agrees") {
+  driver::ConvertOptions options;
+  options.inputs = {libraryPath("surface-x")};
+  options.to = "fanuc";
+  options.probeMacros = "inspection-plus";
+  options.verify = true;
+  const driver::Outcome outcome = driver::convert(options);
+  CHECK_MESSAGE(outcome.status == 0, said(outcome));
+  CHECK(outcome.files.size() == 1);
+  CHECK(says(outcome, "verified"));
+}
+
+TEST_CASE("verify cycles: a replay runs the case that was found, with what it left out") {
+  driver::VerifyOptions options = optionsOf(libraryPath("surface-x"), "inspection-plus");
+  options.cases = 40;
+  const driver::Outcome outcome = verifyPlanted(options, {"THEN #4=0.", "THEN #4=2."});
+  REQUIRE_MESSAGE(outcome.status == 1, said(outcome));
+  // The argument is left out in the case that shows it, so its replay does not give it.
+  const std::string text = said(outcome);
+  const std::size_t at = text.find("replay: ");
+  REQUIRE(at != std::string::npos);
+  const std::string replay = text.substr(at, text.find('\n', at) - at);
+  CHECK(replay.find("at_x") == std::string::npos);
+  CHECK(replay.find("system=") != std::string::npos);
+}
