@@ -220,6 +220,9 @@ std::optional<double> takeEnding(verify::Record& ran, const stdlib::MikroprogCon
     const double height = ran.end.z;
     const std::size_t retracts = verify::retractsAtEnd(ran);
     if (retracts > 0) ran.end = ran.pieces[ran.pieces.size() - retracts].from;
+    // What the ball leans on while it comes up is the operator's, who has read the stop.
+    for (std::size_t i = ran.pieces.size() - retracts; i < ran.pieces.size(); ++i)
+      std::erase_if(ran.events, [&](const auto& event) { return event.second == ran.pieces[i].range; });
     ran.pieces.resize(ran.pieces.size() - retracts);
     return height;
   }
