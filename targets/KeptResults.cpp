@@ -58,6 +58,7 @@ KeptResults keepResults(ir::Cycle& cycle, const NamedTexts& given, Diagnostics& 
       body.push_back({ir::Store{ir::constant(at->second), one.value}, statement.origin});
     }
   }
+  std::sort(out.lost.begin(), out.lost.end());
   cycle.body = std::move(body);
   for (const auto& [name, number] : wanted) {
     if (known.contains(name)) continue;

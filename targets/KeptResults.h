@@ -15,7 +15,7 @@ namespace dotek::targets {
 struct KeptResults {
   std::set<std::uint32_t> numbers;   // of the variables
   std::vector<std::string> headings; // "RESULT SIZE IN #520", in the order of the results
-  std::vector<std::string> lost;     // results that nobody gets
+  std::vector<std::string> lost;     // results that nobody gets, by name
 };
 
 // Ends the cycle with a store for each result that `given` names (NAME and #NUMBER) in the place of what it
