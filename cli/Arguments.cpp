@@ -121,7 +121,7 @@ bool isMeantAsAssumption(const std::string& argument) {
 std::vector<std::string> spreadPairs(const std::vector<std::string>& arguments) {
   constexpr std::string_view kAssume = "--assume";
   constexpr std::array<std::string_view, 10> kFlags = {"--set", "--field", "--host",  "--default", "--arg",
-                                                      "--var", "--value", "--limit", "--result", kAssume};
+                                                       "--var", "--value", "--limit", "--result",  kAssume};
   std::vector<std::string> out;
   std::string flag;      // whose values may follow
   bool first = false;    // the next argument is its value

@@ -111,6 +111,15 @@ Outcome refusalOf(Session& session) {
   return outcome;
 }
 
+void reportUnknownPairs(const CommonOptions& options, const std::set<std::string>& used,
+                        const std::string& cycles, Diagnostics& diagnostics) {
+  for (const auto& [postField, variable] : options.field)
+    if (const std::string pair = postField + "=" + variable; !used.contains(pair))
+      diagnostics.report<diag::UnknownName>(
+          {}, "--field", pair, "pair of a field that the post prints and a variable of the macro in `",
+          cycles + "`");
+}
+
 Outcome outcomeOf(const std::exception_ptr& thrown) {
   Outcome outcome;
   outcome.status = 2;

@@ -6,6 +6,7 @@
 #include "support/messages/Commands.h"
 
 #include <exception>
+#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -30,6 +31,11 @@ bool isUsageCode(std::string_view code);
 // Of findings that begin at one place, keeps those of the highest severity: the others report the same
 // cause.
 void keepStrongest(Diagnostics& diagnostics);
+
+// --field of several cycles: pairs that none of them knows. `used` has the others as "FIELD=VARIABLE"; `cycles`
+// are their names, for the message.
+void reportUnknownPairs(const CommonOptions& options, const std::set<std::string>& used,
+                        const std::string& cycles, Diagnostics& diagnostics);
 
 // What a command gives that threw: a defect of the data files, what the system refused, a lack of memory, or
 // a defect of Dotek (status 3).

@@ -234,11 +234,7 @@ private:
     for (const auto& [name, value] : context_.inputs->sets)
       if (!context_.usedSets.contains(name)) unknown(name);
     if (context_.inputs->oneOfSeveral && !failed_) // a cycle that is refused may know them
-      for (const auto& [postField, variable] : options_.common.field)
-        if (const std::string pair = postField + "=" + variable; !context_.usedSets.contains(pair))
-          session_.diagnostics().report<diag::UnknownName>(
-              {}, "--field", pair, "pair of a field that the post prints and a variable of the macro in `",
-              cycles + "`");
+      reportUnknownPairs(options_.common, context_.usedSets, cycles, session_.diagnostics());
     for (const auto& [name, text] : options_.defaults)
       if (!context_.usedDefaults.contains(name)) unknown(name);
     for (const auto& [name, letter] : context_.letters) {

@@ -237,11 +237,7 @@ void PostCommand::reportUnknownSets() {
   for (const CycleFolder& folder : compilation_.folders())
     cycles += (cycles.empty() ? "" : ", ") + folder.name;
   if (compilation_.folders().size() > 1)
-    for (const auto& [postField, variable] : options_.common.field)
-      if (const std::string pair = postField + "=" + variable; !compilation_.usedSets().contains(pair))
-        session_.diagnostics().report<diag::UnknownName>(
-            {}, "--field", pair, "pair of a field that the post prints and a variable of the macro in `",
-            cycles + "`");
+    reportUnknownPairs(options_.common, compilation_.usedSets(), cycles, session_.diagnostics());
   for (const auto& [name, value] : inputs_->sets) {
     if (compilation_.usedSets().contains(name)) continue;
     const auto hint = hints_.find(name);

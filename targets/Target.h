@@ -19,7 +19,15 @@ struct VerificationSource;
 struct VerifyPlan;
 
 // Flags that some targets take and others do not.
-enum class TargetFlag : std::uint8_t { Arg, ProgramNumber, ProbeMacros, DefaultsUse, ProbePower, WholePost, Result };
+enum class TargetFlag : std::uint8_t {
+  Arg,
+  ProgramNumber,
+  ProbeMacros,
+  DefaultsUse,
+  ProbePower,
+  WholePost,
+  Result
+};
 
 struct Target {
   std::string_view text; // what `list targets` says of it

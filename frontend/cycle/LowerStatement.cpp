@@ -199,6 +199,15 @@ void Lowering::touch(const Touch& touch, SourceRange range) {
     refuse<diag::RotaryAxis>(range, std::string(1, axisLetter(touch.axis)));
     return;
   }
+  if (touch.along.empty() && touch.reach == Reach::By && *linear(touch.axis) == ir::Axis::Z) {
+    const std::size_t before = out_->size();
+    const Sign sign = signOf(value(*touch.value));
+    out_->resize(before);
+    if (sign.above && !sign.below) {
+      refuse<diag::TouchUpward>(range);
+      return;
+    }
+  }
   const bool plain =
       touch.along.empty() && !touch.once && touch.overtravel == nullptr && touch.otherwise == nullptr;
   if (plain) {

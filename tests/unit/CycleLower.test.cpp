@@ -342,6 +342,7 @@ TEST_CASE("cycle lowering: what has no form yet is refused where it is written")
   CHECK(refusal(head + "set G54.1 P7: 0 mm becomes x 1 mm\n") == "offset-extended");
   CHECK(refusal(head + "move to a 30 deg\n") == "rotary-axis");
   CHECK(refusal(head + "probe on\ntouch along x 1, y 1 to 20 mm -> p\nprobe off\n") == "touch-along-to");
+  CHECK(refusal(head + "probe on\ntouch z by 5 mm -> p\nprobe off\n") == "touch-upward");
   const Texts needs = {{"edge", kEdge}};
   CHECK(refusal(head + "parameter f : flag \"F\"\nif f then\n  probe on\nend\ncall edge distance = 1 mm\n"
                        "probe off\n",
