@@ -32,8 +32,8 @@ bool isUsageCode(std::string_view code);
 // cause.
 void keepStrongest(Diagnostics& diagnostics);
 
-// --field of several cycles: pairs that none of them knows. `used` has the others as "FIELD=VARIABLE"; `cycles`
-// are their names, for the message.
+// --field of several cycles: pairs that none of them knows. `used` has the others as "FIELD=VARIABLE";
+// `cycles` are their names, for the message.
 void reportUnknownPairs(const CommonOptions& options, const std::set<std::string>& used,
                         const std::string& cycles, Diagnostics& diagnostics);
 

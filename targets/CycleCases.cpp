@@ -464,18 +464,19 @@ bool CaseRunner::takeStatedPart(Values& values) {
   if (!passesUnstated() || (!values.posted && !readPosted(values))) return false;
   const sim::Part empty = emptyPart(zeroOf(values.drawn));
   sim::World nothing(empty, probeFor(plan_, values.drawn));
-  values.rehearsal = runPosted(values, nothing, true, verify::Stand::Way::Rehearse);
+  verify::Record rehearsal = runPosted(values, nothing, true, verify::Stand::Way::Rehearse);
   bool unstated = false;
   std::size_t surfaces = 0;
-  for (const verify::Measure& measure : values.rehearsal->measures) {
+  for (const verify::Measure& measure : rehearsal.measures) {
     unstated = unstated || (!measure.unstated.empty() && measure.nominal.empty());
     surfaces += measure.nominal.size();
   }
   if (!unstated || values.path->touches.size() <= surfaces) return false;
   const double radius = values.drawn.hosts.at("tool_radius");
-  values.part = verify::partOf(verify::touchesOf(*values.rehearsal, radius), radius, std::max(radius, kReach),
+  values.part = verify::partOf(verify::touchesOf(rehearsal, radius), radius, std::max(radius, kReach),
                                values.drawn.error);
   if (!values.part) values.part = empty;
+  values.rehearsal = std::move(rehearsal);
   return true;
 }
 

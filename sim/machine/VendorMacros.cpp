@@ -31,7 +31,13 @@ bool VendorMacros::run(Machine& machine, std::uint32_t program, std::span<const 
     return machine.inconclusive(stdlib::refusalText(reading) + "; what the macro does then is not known",
                                 reading.letter());
   }
-  if (memory_.touchesApart && reading.signature->intent == Intent::InnerCorner)
+  const auto targets = [&](ir::Axis axis) {
+    const stdlib::MacroArgument* const target = reading.signature->find(stdlib::ArgumentRole::Target, axis);
+    const std::uint32_t local = target == nullptr ? 0 : stdlib::localOf(target->letter);
+    return target != nullptr && local < locals.size() && !isNull(locals[local]);
+  };
+  if (memory_.touchesApart && reading.signature->intent == Intent::InnerCorner && targets(ir::Axis::X) &&
+      targets(ir::Axis::Y) && !targets(ir::Axis::Z))
     return runApart(machine, *reading.signature, locals);
   return VendorRun(machine, set_, control_, *reading.signature, locals, memory_).run();
 }

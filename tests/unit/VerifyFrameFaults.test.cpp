@@ -16,6 +16,8 @@
 #include <fmt/format.h>
 #include <map>
 #include <regex>
+#include <set>
+#include <sstream>
 
 using namespace dotek;
 using namespace dotek::tests;
@@ -117,6 +119,30 @@ bool isMotionModeOfMacros(const Fault& fault, const std::string& program) {
   return true;
 }
 
+std::set<std::string> modeWords(const std::string& line) {
+  std::set<std::string> out;
+  std::istringstream words(line);
+  for (std::string word; words >> word;)
+    out.insert(word);
+  return out;
+}
+
+// What the fault leaves out is set by blocks of the source before anything moves, calls or jumps.
+bool isSetAgain(const Fault& fault, const std::string& program) {
+  std::set<std::string> lost = modeWords(fault.before);
+  for (const std::string& kept : modeWords(fault.after))
+    lost.erase(kept);
+  const std::vector<std::string> lines = linesOf(program);
+  for (std::size_t i = fault.line + 1; i < lines.size() && !lost.empty(); ++i) {
+    const std::string& line = lines[i];
+    if (line.starts_with("(")) continue;
+    if (std::regex_search(line, std::regex("[XYZ][-#0-9.\\[]|G65|G31|IF|GOTO|^N"))) return false;
+    for (const std::string& word : modeWords(line))
+      lost.erase(word);
+  }
+  return lost.empty();
+}
+
 // Without an effect, whoever calls. "" where there is one.
 std::string_view whyNothing(const Fault& fault, const std::string& program) {
   if (fault.before.find("#4014 LT 54.") != std::string::npos ||
@@ -131,6 +157,8 @@ std::string_view whyNothing(const Fault& fault, const std::string& program) {
   if (fault.kind == "do not set a mode" &&
       (fault.after.find("G40") == std::string::npos || fault.after.find("G80") == std::string::npos))
     return "G40 and G80 are demanded of the caller";
+  if (fault.kind == "do not set a mode" && isSetAgain(fault, program))
+    return "blocks of the source set it again before anything moves";
   if (fault.kind == "do not wait for the axes") return whyNoWait(program, fault.line);
   if (fault.kind == "do not put a mode back" && isMotionModeOfMacros(fault, program))
     return "the macros put the motion mode back, and nothing else sets it";
