@@ -19,6 +19,14 @@ bool isWide(std::string_view bytes) {
   return half > 1 && (nuls[0] >= half) != (nuls[1] >= half);
 }
 
+// `%`, a comment, or a letter of NC with a number: no file of a CAM or of Dotek begins so.
+bool isProgram(std::string_view text) {
+  if (text.front() == '%' || text.front() == '(') return true;
+  const bool letter = std::string_view("OoNnGgMmTt:").find(text.front()) != std::string_view::npos;
+  const std::size_t after = text.find_first_not_of(' ', 1);
+  return letter && after != std::string_view::npos && text[after] >= '0' && text[after] <= '9';
+}
+
 // After the second line that begins with `%`; the end where there is none.
 std::size_t afterProgram(std::string_view bytes, std::size_t from) {
   std::size_t marks = 0;
@@ -38,6 +46,7 @@ void blankTape(std::string& bytes) {
   if (view.find_first_of(std::string_view("\0\x1A", 2)) == std::string_view::npos || isWide(view)) return;
   const std::size_t first = view.find_first_not_of(std::string_view("\0\r\n \t", 5));
   if (first == std::string_view::npos) return; // nothing but feed holes
+  if (!isProgram(view.substr(first))) return;
   const std::size_t last = std::min(view.find_last_not_of(kAroundTape) + 1, afterProgram(view, first));
   const auto blank = [&](std::size_t begin, std::size_t end, bool controlZ) {
     for (std::size_t i = begin; i < end; ++i)

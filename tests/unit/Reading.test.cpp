@@ -92,6 +92,14 @@ TEST_CASE("reading: a folder is checked whatever the names are, and says what it
         "(`%_N_`))\n");
 }
 
+TEST_CASE("reading: bytes 0 around what is no program are reported") {
+  const DataFolder folder;
+  folder.write("a.mac", "x = 1\n" + std::string(1, '\0'));
+  folder.write("b.mac", std::string(3, '\0') + "x = 1\n");
+  CHECK(dotekIn(folder, {"lint", "a.mac"}).status == 1);
+  CHECK(dotekIn(folder, {"lint", "b.mac"}).status == 1);
+}
+
 TEST_CASE("reading: what a tape or a serial line leaves around a program is passed over") {
   const std::string body = "O7312\nG31Z-10.F100\n#101=#5063\nM99\n", plain = "O7313\nG0Z50.\nM30\n";
   const std::string holes(60, '\0'), end = "%\n";
