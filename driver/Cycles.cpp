@@ -4,6 +4,7 @@
 #include "frontend/cycle/Words.h"
 #include "project/CycleCatalogue.h"
 #include "project/CycleFiles.h"
+#include "project/CycleLowering.h"
 #include "project/Inputs.h"
 #include "support/messages/Common.h"
 
@@ -59,7 +60,7 @@ Outcome check(const CycleOptions& options) {
     CycleFiles cycles(session);
     if (hasInputs(options, "check", session))
       for (const std::string& path : options.inputs)
-        if (kindAmong(path, {InputKind::Cycle}, kExpected, session)) cycles.check(path);
+        if (kindAmong(path, {InputKind::Cycle}, kExpected, session)) checkCycleFile(path, cycles, session);
     return outcomeOf(session, "", true);
   });
 }

@@ -13,6 +13,7 @@
 #include "project/Compilation.h"
 #include "project/CycleFiles.h"
 #include "project/CycleFolder.h"
+#include "project/CycleLowering.h"
 #include "project/InputWalk.h"
 #include "project/Job.h"
 #include "support/Files.h"
@@ -246,7 +247,7 @@ private:
       return;
     }
     if (kind == InputKind::Cycle) {
-      cycles_.check(path);
+      checkCycleFile(path, cycles_, session_);
       return;
     }
     const std::optional<FileId> id =

@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <set>
 #include <system_error>
+#include <utility>
 
 namespace dotek::project {
 
@@ -24,13 +25,12 @@ bool isCycleFile(const std::string& path, Session& session) {
   return found != nullptr && found->kind == InputKind::Cycle;
 }
 
-std::optional<cycle::Lowered> lowerCycleFile(const std::string& path, Session& session) {
+namespace {
+
+// Of a cycle in which check() found no error. What it calls has to be sound as well; it is checked once.
+std::optional<cycle::Lowered> lowered(const cycle::File& file, Session& session) {
   Diagnostics& diagnostics = session.diagnostics();
-  CycleFiles files(session);
-  const cycle::File* file = files.check(path);
-  if (file == nullptr || file->hasErrorNodes || diagnostics.hasErrors()) return std::nullopt;
-  // What is called has to be sound as well; it is checked once.
-  std::set<const cycle::File*> seen = {file};
+  std::set<const cycle::File*> seen = {&file};
   const auto checkCalled = [&](const auto& self, const cycle::File& one) -> void {
     for (const cycle::Call* const call : cycle::callsOf(one.body)) {
       if (call->called == nullptr || !seen.insert(call->called).second) continue;
@@ -38,15 +38,34 @@ std::optional<cycle::Lowered> lowerCycleFile(const std::string& path, Session& s
       self(self, *call->called);
     }
   };
-  checkCalled(checkCalled, *file);
+  checkCalled(checkCalled, file);
   if (diagnostics.hasErrors()) return std::nullopt;
-  std::optional<cycle::Lowered> out = cycle::lower(*file, session.sources(), diagnostics);
+  std::optional<cycle::Lowered> out = cycle::lower(file, session.sources(), diagnostics);
   if (!out || diagnostics.hasErrors()) return std::nullopt;
   for (const ir::Violation& violation : ir::verify(out->cycle))
     if (!violation.mixedKinds) // the checks of the language know the kinds better
       diagnostics.report<diag::InternalDefect>(violation.range, violation.message);
   if (diagnostics.hasErrors()) return std::nullopt;
   return out;
+}
+
+} // namespace
+
+std::optional<cycle::Lowered> lowerCycleFile(const std::string& path, Session& session) {
+  CycleFiles files(session);
+  const cycle::File* file = files.check(path);
+  if (file == nullptr || file->hasErrorNodes || session.diagnostics().hasErrors()) return std::nullopt;
+  return lowered(*file, session);
+}
+
+void checkCycleFile(const std::string& path, CycleFiles& files, Session& session) {
+  Diagnostics before = std::exchange(session.diagnostics(), Diagnostics());
+  const cycle::File* file = files.check(path);
+  const bool sound = file != nullptr && !file->hasErrorNodes && !session.diagnostics().hasErrors();
+  if (sound && file->header() != nullptr && !file->header()->options) lowered(*file, session);
+  for (Diagnostic& one : session.diagnostics().all())
+    before.add(std::move(one));
+  session.diagnostics() = std::move(before);
 }
 
 } // namespace dotek::project

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "frontend/cycle/Lower.h"
+#include "project/CycleFiles.h"
 #include "project/Session.h"
 
 #include <optional>
@@ -14,5 +15,9 @@ bool isCycleFile(const std::string& path, Session& session);
 
 // The cycle of a file with those that it calls, which lie beside it. nullopt: it has a defect, reported.
 std::optional<frontend::cycle::Lowered> lowerCycleFile(const std::string& path, Session& session);
+
+// Reports all that is wrong with a cycle, whatever its values are: its mistakes and, where it has none, what
+// no command can run or write.
+void checkCycleFile(const std::string& path, CycleFiles& files, Session& session);
 
 } // namespace dotek::project

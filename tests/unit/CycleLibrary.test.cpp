@@ -4,11 +4,16 @@
 #include "frontend/cycle/Link.h"
 #include "frontend/cycle/Parse.h"
 #include "project/CycleFiles.h"
+#include "project/CycleLowering.h"
 #include "project/Session.h"
+#include "support/messages/Cycle.h"
+#include "tests/GoldenRunner.h"
+#include "tests/TestFolder.h"
 
 #include <algorithm>
 #include <cctype>
 #include <doctest/doctest.h>
+#include <filesystem>
 #include <set>
 #include <string>
 
@@ -49,6 +54,40 @@ TEST_CASE("library of cycles: no finding, and every file is laid out") {
     cycles += file.header() != nullptr && !file.header()->options ? 1U : 0U;
   });
   CHECK(cycles >= 50);
+}
+
+// Those of rotary axes are part of the language, and nothing runs them yet.
+TEST_CASE("library of cycles: what nothing can run is said by the check") {
+  for (const auto& entry : std::filesystem::directory_iterator(root() / "stdlib/cycles")) {
+    if (entry.path().extension() != ".cycle") continue;
+    const project::CommonOptions options;
+    project::Session session(options);
+    project::CycleFiles files(session);
+    project::checkCycleFile(entry.path().string(), files, session);
+    for (const Diagnostic& one : session.diagnostics().all())
+      CHECK_MESSAGE(one.code == diag::RotaryAxis::code,
+                    renderText(session.diagnostics(), session.sources(), 0));
+  }
+}
+
+TEST_CASE("library of cycles: the check says what lowering refuses, and what is wrong with a called cycle") {
+  const TestFolder folder("dotek-cycle-check");
+  const std::string head = "// A lid.\ncycle lid \"Lid\"\n", on = "spindle off\nprobe on\n";
+  const auto codes = [&](const std::string& name, const std::string& text) {
+    const project::CommonOptions options;
+    project::Session session(options);
+    project::CycleFiles files(session);
+    project::checkCycleFile(folder.write(name, text), files, session);
+    std::set<std::string> out;
+    for (const Diagnostic& one : session.diagnostics().all())
+      out.insert(std::string(one.code));
+    return out;
+  };
+  CHECK(codes("lid.cycle", head + on + "touch z by 5 mm -> top\nprobe off\n").contains("touch-upward"));
+  CHECK(codes("lid.cycle", head + on + "touch z by -5 mm -> top\nprobe off\n").empty());
+  CHECK(codes("lid.cycle", "options lid \"Lid\"\n\nparameter wide : length \"Wide\"\n").empty());
+  folder.write("low.cycle", "// Low.\ncycle low \"Low\"\n" + on + "touch z by 5 mm -> top\nprobe off\n");
+  CHECK(codes("lid.cycle", head + "call low\n").contains("touch-upward"));
 }
 
 TEST_CASE("library of cycles: what a dialog and a catalogue print is there") {
