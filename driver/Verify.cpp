@@ -1,5 +1,6 @@
 #include "support/messages/Verify.h"
 #include "driver/Driver.h"
+#include "driver/VerifyCases.h"
 #include "driver/VerifyCycleFile.h"
 #include "driver/VerifyPrograms.h"
 #include "project/CycleFolder.h"
@@ -13,8 +14,6 @@
 #include "targets/CycleFields.h"
 #include "targets/Target.h"
 #include "targets/Translation.h"
-#include "targets/VerifyReport.h"
-#include "targets/VerifyRuns.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -58,15 +57,7 @@ public:
       return runner->prepare() ? std::move(runner) : nullptr;
     };
     const bool edges = !options_.to.empty() && !options_.replay;
-    if (!runCases(options_, edges, main_, another, report)) return outcomeOf(main_.session(), "");
-    main_.session().diagnostics() = Diagnostics();
-    Outcome outcome = outcomeOf(main_.session(), report.finish(), true);
-    if (options_.format != targets::ReportFormat::Text)
-      outcome.files.push_back({"report", report.rendered()});
-    for (const Diagnostic& one : ofForm.all())
-      outcome.diagnostics.add(one);
-    outcome.diagnostics.sort();
-    return outcome;
+    return outcomeOfCases(options_, edges, main_, another, report, ofForm);
   }
 
 private:

@@ -1,13 +1,12 @@
 #include "driver/VerifyCycleFile.h"
 
+#include "driver/VerifyCases.h"
 #include "support/messages/Commands.h"
 #include "support/messages/Cycle.h"
 #include "support/messages/Verify.h"
 #include "targets/CycleFileCases.h"
 #include "targets/Target.h"
 #include "targets/Translation.h"
-#include "targets/VerifyReport.h"
-#include "targets/VerifyRuns.h"
 
 #include <memory>
 
@@ -49,12 +48,7 @@ public:
       runner->session().diagnostics() = Diagnostics();
       return runner->prepare() ? std::move(runner) : nullptr;
     };
-    if (!runCases(options_, !options_.replay, main_, another, report)) return outcomeOf(own, "");
-    own.diagnostics() = Diagnostics();
-    Outcome outcome = outcomeOf(own, report.finish(), true);
-    if (options_.format != targets::ReportFormat::Text)
-      outcome.files.push_back({"report", report.rendered()});
-    return outcome;
+    return outcomeOfCases(options_, !options_.replay, main_, another, report);
   }
 
 private:

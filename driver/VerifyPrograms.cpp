@@ -1,12 +1,11 @@
 #include "driver/VerifyPrograms.h"
 
+#include "driver/VerifyCases.h"
 #include "support/messages/Commands.h"
 #include "support/messages/Fanuc.h"
 #include "targets/Conversion.h"
 #include "targets/Target.h"
 #include "targets/Translation.h"
-#include "targets/VerifyReport.h"
-#include "targets/VerifyRuns.h"
 
 namespace dotek::driver {
 
@@ -52,12 +51,7 @@ public:
       runner->session().diagnostics() = Diagnostics();
       return runner->prepare() ? std::move(runner) : nullptr;
     };
-    if (!runCases(options_, !options_.replay, main, another, report)) return outcomeOf(own, "");
-    own.diagnostics() = Diagnostics();
-    Outcome outcome = outcomeOf(own, report.finish(), true);
-    if (options_.format != targets::ReportFormat::Text)
-      outcome.files.push_back({"report", report.rendered()});
-    return outcome;
+    return outcomeOfCases(options_, !options_.replay, main, another, report);
   }
 
 private:

@@ -100,6 +100,12 @@ void shareVariables(Cycle& cycle) {
     found->push_back(id);
   }
   rename(cycle.body, names);
+  // A copy between two that became one.
+  std::erase_if(cycle.body, [](const CycleStatement& statement) {
+    const auto* assign = std::get_if<Assign>(&statement.node);
+    const auto* use = assign != nullptr ? std::get_if<VariableUse>(&assign->value->node) : nullptr;
+    return use != nullptr && use->variable == assign->variable;
+  });
 }
 
 } // namespace dotek::ir

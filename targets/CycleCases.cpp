@@ -374,12 +374,7 @@ std::optional<verify::Case> CaseRunner::drawFrom(std::uint64_t index, std::uint3
 }
 
 std::vector<Rejection> CaseRunner::rejections() const {
-  std::vector<Rejection> out;
-  for (const auto& [key, one] : rejected_)
-    out.push_back(one);
-  std::stable_sort(out.begin(), out.end(),
-                   [](const Rejection& a, const Rejection& b) { return a.count > b.count; });
-  return out;
+  return commonestFirst(rejected_);
 }
 
 // Where start and travel have to lead to the nominal: changes what is nominal. The path stays as it is.

@@ -104,8 +104,8 @@ private:
   std::optional<FieldTable> fields_;
   std::optional<verify::Draws> draws_;
   std::string refusal_;
-  SourceRange refusedAt_;                                               // by a check
-  std::map<std::pair<std::string, std::uint32_t>, Rejection> rejected_; // of the last draw()
+  SourceRange refusedAt_;   // by a check
+  Rejections rejected_;     // of the last draw()
   bool unreadable_ = false; // the path cannot be run, whatever is drawn
   std::optional<bool>
       selects_; // the post selects a work system or a tool offset by itself; nothing: not known

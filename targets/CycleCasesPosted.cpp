@@ -43,7 +43,8 @@ std::unique_ptr<CaseRunner::Values> CaseRunner::attempt(const verify::Case& prop
 // A call spaces its touches by a length whose half lies between two steps of the control: macros that come to
 // these places by words round it, others may not.
 bool CaseRunner::halvesBetweenSteps(const ir::Program& program) const {
-  constexpr double kSteps = 1000, kSame = 1e-6; // in a mm
+  constexpr double kSame = 1e-6;
+  const double steps = std::pow(10, inputs_->sourceControl->decimals); // in a mm
   for (const ir::ProgramStatement& statement : program.body) {
     const auto* call = std::get_if<ir::Call>(&statement.node);
     const double* number = call != nullptr && call->program ? ir::constantValue(call->program) : nullptr;
@@ -56,7 +57,7 @@ bool CaseRunner::halvesBetweenSteps(const ir::Program& program) const {
         for (const ir::CallArgument& given : call->arguments) {
           const double* value = given.letter == argument.letter ? ir::constantValue(given.value) : nullptr;
           if (value == nullptr) continue;
-          const double half = *value / 2 * kSteps;
+          const double half = *value / 2 * steps;
           if (std::abs(half - std::round(half)) > kSame) return true;
         }
       }

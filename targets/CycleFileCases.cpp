@@ -347,12 +347,7 @@ CaseResult CycleFileRunner::run(const verify::Case& drawn) {
 }
 
 std::vector<Rejection> CycleFileRunner::rejections() const {
-  std::vector<Rejection> out;
-  for (const auto& [key, one] : rejected_)
-    out.push_back(one);
-  std::stable_sort(out.begin(), out.end(),
-                   [](const Rejection& a, const Rejection& b) { return a.count > b.count; });
-  return out;
+  return commonestFirst(rejected_);
 }
 
 VerifySides CycleFileRunner::sides() const {

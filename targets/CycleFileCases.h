@@ -73,8 +73,8 @@ private:
   Limits limitsOfCycle_;
   std::optional<verify::CycleStand> stand_;
   std::unique_ptr<Verification> target_;
-  std::unique_ptr<Played> drawn_;                                       // of draw(), for the next run()
-  std::map<std::pair<std::string, std::uint32_t>, Rejection> rejected_; // of the last draw()
+  std::unique_ptr<Played> drawn_; // of draw(), for the next run()
+  Rejections rejected_;           // of the last draw()
 };
 
 } // namespace dotek::targets

@@ -1,6 +1,7 @@
 #include "targets/KeptResults.h"
 
 #include "ir/CycleNames.h"
+#include "support/Ascii.h"
 #include "support/NearestName.h"
 #include "support/messages/Cycle.h"
 
@@ -23,10 +24,8 @@ std::optional<std::uint32_t> numberOf(std::string_view text) {
   return out;
 }
 
-std::string heading(std::string name, std::uint32_t number) {
-  std::transform(name.begin(), name.end(), name.begin(),
-                 [](char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c; });
-  return fmt::format("RESULT {} IN #{}", name, number);
+std::string heading(std::string_view name, std::uint32_t number) {
+  return fmt::format("RESULT {} IN #{}", upperCase(name), number);
 }
 
 } // namespace

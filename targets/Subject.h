@@ -100,6 +100,11 @@ struct Rejection {
   SourceRange at; // of a check; no place: the reach of the probe, or what the post prints
 };
 
+// By reason and place.
+using Rejections = std::map<std::pair<std::string, std::uint32_t>, Rejection>;
+// The commonest first.
+std::vector<Rejection> commonestFirst(const Rejections& rejections);
+
 // What ends the whole verification: the macro or the translation goes on for ever, or needs more than it may.
 struct Stopped {
   Diagnostic why;

@@ -26,8 +26,8 @@ namespace gibbs = frontend::gibbs;
 namespace {
 
 constexpr std::uint32_t kOwnAlarms = 3000; // of programs
-// Of a position whose word is rounded, and of what is met from there, mm.
-constexpr double kRoundedWord = 0.0006;
+// Of a position whose word is rounded, and of what is met from there: in steps of the control's words.
+constexpr double kRoundedWord = 0.6;
 constexpr const char* kSystemAlarm = "WORK OFFSET NOT 54 TO 59";
 
 // Numbers and texts after `before`, "#3000=103(ARGUMENT X MISSING)": the text to the next bracket or line.
@@ -258,8 +258,9 @@ private:
     // Positions that the cycle computes go to the control rounded to its least increment, and contacts on
     // round surfaces follow.
     if (from_.plan.cycleFile) {
-      rules.tolerance = std::max(rules.tolerance, kRoundedWord);
-      rules.results = std::max(rules.results, kRoundedWord);
+      const double rounded = kRoundedWord * std::pow(10, -control_.decimals);
+      rules.tolerance = std::max(rules.tolerance, rounded);
+      rules.results = std::max(rules.results, rounded);
     }
     // Of eight digits the last one is a ten millionth at most; two of them.
     rules.relative = rules.results > from_.options.tolerance ? 2e-7 : 0;
