@@ -2,6 +2,7 @@
 
 #include "stdlib/ControlReader.h"
 #include "stdlib/DataFiles.h"
+#include "stdlib/StoredTables.h"
 #include "support/NearestName.h"
 
 #include <algorithm>
@@ -280,10 +281,8 @@ Control loadFrom(const DataFiles& files, const DataFile& file, std::size_t depth
 
 } // namespace
 
-std::optional<Control> Control::load(const DataFiles& files, std::string_view name) {
-  const DataFile* file = files.find("controls", name);
-  if (file == nullptr) return std::nullopt;
-  return loadFrom(files, *file, 0);
+Control TableStore::readControl(const DataFiles& files, const DataFile& file) {
+  return loadFrom(files, file, 0);
 }
 
 bool Control::isReadOnly(std::uint32_t number) const {

@@ -2,6 +2,7 @@
 #include "stdlib/DataFiles.h"
 #include "stdlib/MacroSet.h"
 #include "stdlib/MacroSetRules.h"
+#include "stdlib/StoredTables.h"
 #include "stdlib/Toml.h"
 
 #include <algorithm>
@@ -405,14 +406,12 @@ private:
 
 } // namespace
 
-std::optional<MacroSet> MacroSet::load(const DataFiles& files, std::string_view name) {
-  const DataFile* file = files.find("macros", name);
-  if (file == nullptr) return std::nullopt;
-  const TomlDocument document = TomlDocument::parse(*file);
+MacroSet TableStore::readMacroSet(const DataFile& file) {
+  const TomlDocument document = TomlDocument::parse(file);
   MacroSet set = SetReader(document).read();
   document.finish();
-  set.name = name;
-  set.origin = file->origin;
+  set.name = file.name;
+  set.origin = file.origin;
   return set;
 }
 

@@ -1,4 +1,4 @@
-// The keyword tables that the build stored are those of the TOML files.
+// The tables that the build stored are those of the TOML files.
 #include "stdlib/StoredTables.h"
 #include "stdlib/DataFiles.h"
 
@@ -32,4 +32,50 @@ TEST_CASE("damaged stored tables are refused") {
     CHECK_THROWS_AS(TableStore::restoreGibbs(whole.substr(0, length)), DataError);
   CHECK_THROWS_AS(TableStore::restoreGibbs(std::string(whole) + "1\n"), DataError);
   CHECK_THROWS_AS(TableStore::restoreComPost("x\n"), DataError);
+}
+
+TEST_CASE("stored macro sets and controls are what the TOML files say, and survive the path back") {
+  const DataFiles files;
+  REQUIRE(embeddedTables().macros.size() == files.list("macros").size());
+  for (const StoredTable& table : embeddedTables().macros) {
+    CAPTURE(table.name);
+    MacroSet set = TableStore::readMacroSet(*files.find("macros", table.name));
+    CHECK(TableStore::store(set) == table.text);
+    MacroSet back = TableStore::restoreMacroSet(table.text);
+    CHECK(TableStore::store(back) == table.text);
+    CHECK(back.name == table.name);
+    CHECK(back.signatures.size() == set.signatures.size());
+  }
+  REQUIRE(embeddedTables().controls.size() == files.list("controls").size());
+  for (const StoredTable& table : embeddedTables().controls) {
+    CAPTURE(table.name);
+    Control control = TableStore::readControl(files, *files.find("controls", table.name));
+    CHECK(TableStore::store(control) == table.text);
+    Control back = TableStore::restoreControl(table.text);
+    CHECK(TableStore::store(back) == table.text);
+    CHECK(back.increment == control.increment);
+    CHECK(back.codes.size() == control.codes.size());
+  }
+  CHECK_THROWS_AS(TableStore::restoreControl("x\n"), DataError);
+}
+
+TEST_CASE("numbers, absent values and letters of a macro set survive the path back") {
+  MacroSet set;
+  set.name = "made";
+  set.probing.overtravel = 0.1 + 0.2; // no short decimal
+  set.probing.overtravelZ = -1e-300;
+  set.probing.lengthToTip = false;
+  set.callerValues = {{4, 1.0 / 3.0}};
+  set.scratch = {{100, 149}};
+  set.signatures.resize(1);
+  set.signatures.front().arguments.resize(1);
+  set.signatures.front().arguments.front().letter = 'Z';
+  const MacroSet back = TableStore::restoreMacroSet(TableStore::store(set));
+  CHECK(back.probing.overtravel == set.probing.overtravel);
+  CHECK(back.probing.overtravelZ == set.probing.overtravelZ);
+  CHECK_FALSE(back.probing.clearance.has_value());
+  CHECK_FALSE(back.probing.lengthToTip);
+  CHECK(back.callerValues == set.callerValues);
+  CHECK(back.scratch == set.scratch);
+  CHECK(back.signatures.front().arguments.front().letter == 'Z');
 }
