@@ -17,6 +17,7 @@
 #include <exception>
 #include <memory>
 #include <ostream>
+#include <set>
 #include <unistd.h>
 
 namespace dotek::cli {
@@ -60,17 +61,20 @@ public:
     if (outcome.status != 0 && outcome.files.empty()) {
       return texts.empty() || write(texts, outcome, arguments) ? outcome.status : kUsage;
     }
+    std::set<std::string> held; // stay what they are
+    if (Diagnostics others; !arguments.force) {
+      held = heldByOthers(outcome.files, arguments.outputFolder, others);
+      err_ << renderText(others, SourceMap(), maxErrors_);
+      if (!held.empty() && !arguments.convert.keepGoing) return kUsage;
+    }
     for (const driver::OutputFile& file : outcome.files)
-      if (!arguments.outputFolder.empty())
+      if (!arguments.outputFolder.empty() && !held.contains(file.name))
         texts.push_back({arguments.outputFolder + "/" + file.name, &file.text});
     if (arguments.outputFolder.empty())
       texts.push_back({orStandardOutput(arguments.output), &outcome.output});
-    if (Diagnostics others; !arguments.force && !checkMarks(outcome.files, arguments.outputFolder, others)) {
-      err_ << renderText(others, SourceMap(), maxErrors_);
-      return kUsage;
-    }
     if (!arguments.mapFile.empty()) texts.push_back({arguments.mapFile, &outcome.map});
-    return write(texts, outcome, arguments) ? outcome.status : kUsage;
+    if (!write(texts, outcome, arguments)) return kUsage;
+    return held.empty() ? outcome.status : kInputError;
   }
 
   // The trace goes to standard output while the program runs, or to `--trace`; what stops the run is no

@@ -62,8 +62,9 @@ bool checkOutputs(const std::vector<OutputName>& outputs, const std::vector<std:
   return good;
 }
 
-bool checkMarks(const std::vector<OutputFile>& files, const std::string& folder, Diagnostics& diagnostics) {
-  bool good = true;
+std::set<std::string> heldByOthers(const std::vector<OutputFile>& files, const std::string& folder,
+                                   Diagnostics& diagnostics) {
+  std::set<std::string> out;
   for (const OutputFile& file : files) {
     const std::string path = folder + "/" + file.name;
     if (folder.empty() || file.mark.empty()) continue;
@@ -82,9 +83,9 @@ bool checkMarks(const std::vector<OutputFile>& files, const std::string& folder,
     }
     constexpr std::size_t kMostShown = 60;
     diagnostics.report<diag::OutputOfAnother>({}, path, line.substr(0, kMostShown));
-    good = false;
+    out.insert(file.name);
   }
-  return good;
+  return out;
 }
 
 bool checkRead(const std::vector<std::string>& paths, const SourceMap& sources, Diagnostics& diagnostics) {

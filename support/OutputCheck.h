@@ -4,6 +4,7 @@
 #include "support/Output.h"
 #include "support/OutputFile.h"
 
+#include <set>
 #include <string>
 #include <vector>
 
@@ -18,8 +19,9 @@ struct OutputName {
 bool checkOutputs(const std::vector<OutputName>& outputs, const std::vector<std::string>& inputs, bool force,
                   Diagnostics& diagnostics);
 
-// false with a diagnostic: a file of `folder` that one of `files` would replace is not of the same input.
-bool checkMarks(const std::vector<OutputFile>& files, const std::string& folder, Diagnostics& diagnostics);
+// Names of `files` that would replace a file of `folder` which is not of the same input; a diagnostic each.
+std::set<std::string> heldByOthers(const std::vector<OutputFile>& files, const std::string& folder,
+                                   Diagnostics& diagnostics);
 
 // false with a diagnostic: one of `paths` is one of the files that were read.
 bool checkRead(const std::vector<std::string>& paths, const SourceMap& sources, Diagnostics& diagnostics);

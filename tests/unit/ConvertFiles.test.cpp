@@ -84,6 +84,13 @@ TEST_CASE("convert -d replaces a program of the same cycle, and no other") {
   fs::remove(folder.path / "nc" / "O8001.nc");
   CHECK(convert("surface-y", {example("surface-x")}).status == 2);
   CHECK(folder.files() == 1);
+  // With --keep-going the others are.
+  const CommandResult going = convert("surface-y", {example("surface-x"), "--keep-going"});
+  CHECK(going.status == 1);
+  CHECK(going.err.find("[output-of-another]") != std::string::npos);
+  CHECK(readAll(file) == first);
+  CHECK(folder.files() == 2);
+  fs::remove(folder.path / "nc" / "O8001.nc");
   CHECK(convert("surface-y", {"--force"}).status == 0);
   CHECK(readAll(file) != first);
   // As it comes back from a control or an editor it is the same program.
