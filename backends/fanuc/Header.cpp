@@ -1,5 +1,6 @@
 // The comments before the first block: what a machinist needs to call the program.
 #include "backends/common/PlainText.h"
+#include "backends/fanuc/Example.h"
 #include "backends/fanuc/State.h"
 #include "backends/fanuc/Uses.h"
 #include "stdlib/HostInputs.h"
@@ -25,19 +26,6 @@ std::string withPoint(double value) {
   std::string text = numberText(Decimal::of(value).rounded(6).value());
   if (text.find('.') == std::string::npos) text += '.';
   return text;
-}
-
-// A value that is in the example of a call, where the source has none.
-double typical(const ir::Variable& variable) {
-  if (variable.defaultValue) return *variable.defaultValue;
-  if (variable.kind == ir::Kind::WorkOffset) return 54;
-  if (variable.kind == ir::Kind::ToolOffset || variable.kind == ir::Kind::Count) return 1;
-  if (variable.role != ir::Role::Host) return 0;
-  if (variable.name == "clearance") return 50;
-  if (variable.name == "retract") return 5;
-  if (variable.name == "tool_radius") return 3;
-  if (variable.name == "return_feed") return 1000;
-  return 0;
 }
 
 class Header {
@@ -189,10 +177,11 @@ private:
     std::vector<Argument> order = state_.arguments;
     std::stable_sort(order.begin(), order.end(),
                      [](const Argument& a, const Argument& b) { return a.letter < b.letter; });
+    const std::map<ir::VariableId, double> values = exampleValues(state_);
     for (const Argument& argument : order) {
       const ir::Variable& variable = state_.cycle.variable(argument.variable);
       if (!variable.defaultValue && variable.optional) continue;
-      text += std::string(" ") + argument.letter + withPoint(typical(variable));
+      text += std::string(" ") + argument.letter + withPoint(values.at(argument.variable));
       if (!variable.defaultValue) made += std::string(" ") + argument.letter;
     }
     say(text);

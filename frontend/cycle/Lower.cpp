@@ -78,7 +78,7 @@ std::optional<Lowered> Lowering::run() {
   declarations(file_);
   out_ = &cycle_.body;
   block(file_.body);
-  leaveResults(cycle_.range);
+  leaveResults(results_, cycle_.range);
   if (failed_) return std::nullopt;
   resolvePlaces();
   if (failed_) return std::nullopt;

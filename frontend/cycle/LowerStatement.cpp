@@ -50,8 +50,10 @@ void Lowering::comments(const std::vector<Comment>& list) {
 }
 
 void Lowering::block(const Block& block) {
+  const std::size_t before = known_.size();
   for (const Statement& one : block.statements)
     statement(one);
+  known_.resize(before);
   comments(block.comments);
 }
 
@@ -89,7 +91,10 @@ void Lowering::statement(const Statement& s) {
           [&](const Stop& one) {
             emit(ir::Stop{false, one.text.text, 1}, range);
           },
-          [&](const Alarm& one) { emit(ir::Alarm{one.text.text}, range); },
+          [&](const Alarm& one) {
+            leaveResults(known_, range);
+            emit(ir::Alarm{one.text.text}, range);
+          },
           [&](const Report& one) { report(one, range); }, [&](const Move& one) { move(one, range); },
           [&](const Touch& one) { touch(one, range); }, [&](const SetOffset& one) { setOffset(one, range); },
           [&](const SetTool& one) {
@@ -139,11 +144,11 @@ void Lowering::report(const Report& report, SourceRange range) {
   emit(std::move(out), range);
 }
 
-// What the caller gets, after the last statement.
-void Lowering::leaveResults(SourceRange range) {
-  if (results_.empty() || ended()) return;
+// What the caller gets, after the last statement; before an alarm, what the operator looks at.
+void Lowering::leaveResults(const Results& results, SourceRange range) {
+  if (results.empty() || ended()) return;
   ir::CallCycle out = quiet(ir::kResults);
-  for (const auto& [name, id] : results_)
+  for (const auto& [name, id] : results)
     out.arguments.push_back({name, ir::variable(id), std::nullopt, ir::Kind::Number, false});
   emit(std::move(out), range, "results");
 }
@@ -163,7 +168,13 @@ void Lowering::assign(const Assign& assign, SourceRange range) {
     scope_.names[assign.name.text] = meaning;
   }
   const Meaning& meaning = scope_.names.at(assign.name.text);
-  if (meaning.variable) emit(ir::Assign{*meaning.variable, given}, range);
+  if (!meaning.variable) return;
+  emit(ir::Assign{*meaning.variable, given}, range);
+  const std::pair<std::string, ir::VariableId> result{assign.name.text, *meaning.variable};
+  const auto among = [&](const Results& list) {
+    return std::find(list.begin(), list.end(), result) != list.end();
+  };
+  if (among(results_) && !among(known_)) known_.push_back(result);
 }
 
 void Lowering::move(const Move& move, SourceRange range) {

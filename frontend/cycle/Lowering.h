@@ -114,7 +114,8 @@ private:
   // A cycle by its name that moves nothing.
   ir::CallCycle quiet(std::string_view name) const;
   void setOffset(const SetOffset& set, SourceRange range);
-  void leaveResults(SourceRange range);
+  using Results = std::vector<std::pair<std::string, ir::VariableId>>;
+  void leaveResults(const Results& results, SourceRange range);
   void report(const Report& report, SourceRange range);
   void assign(const Assign& assign, SourceRange range);
   void probe(const ProbeSwitch& probe, SourceRange range);
@@ -161,7 +162,8 @@ private:
   std::map<std::string, ir::VariableId, std::less<>> hosts_;
   std::map<ir::VariableId, ir::AxisPosition> began_; // where the called cycles began
   std::map<ir::VariableId, char> letters_;
-  std::vector<std::pair<std::string, ir::VariableId>> results_;
+  Results results_;
+  Results known_; // those that have a value on each path to the statement
   std::uint32_t startMoves_ = 0;
   std::size_t depth_ = 0; // of calls
   static constexpr std::size_t kMostStatements = 20000, kMostCalls = 50;

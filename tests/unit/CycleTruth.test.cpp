@@ -13,6 +13,7 @@
 #include <array>
 #include <cstdlib>
 #include <map>
+#include <ranges>
 #include <string>
 #include <vector>
 
@@ -150,9 +151,9 @@ struct Library {
   std::vector<verify::Touch> touches;
 
 private:
-  // What the cycle leaves goes to variables of the machine, in the order of the truths.
+  // What the cycle leaves at its end goes to variables of the machine, in the order of the truths.
   static void keepResults(const Given& given, Bench& bench) {
-    for (ir::CycleStatement& statement : bench.cycle.body) {
+    for (ir::CycleStatement& statement : std::views::reverse(bench.cycle.body)) {
       const auto* call = std::get_if<ir::CallCycle>(&statement.node);
       if (call == nullptr || call->cycle != ir::kResults) continue;
       const std::vector<ir::CycleArgument> left = call->arguments;

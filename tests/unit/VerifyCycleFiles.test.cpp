@@ -120,6 +120,79 @@ TEST_CASE("verify cycles: results go to variables that the caller names") {
   CHECK(says(driver::verify(options), "store-variable"));
 }
 
+TEST_CASE("verify cycles: what a cycle has measured is left before its alarm, too") {
+  const TestFolder folder("dotek-alarm");
+  const std::string path = folder.write("step.cycle", R"(cycle step "Step with a limit"
+
+parameter limit : length "Largest height" range 1 mm to 20 mm
+
+result height : length "Height over the start"
+result verdict : flag "Within the limit"
+
+spindle off
+probe on
+touch z by -10 mm -> top
+probe off
+height = top.error
+if abs(height) > limit / 10 then
+  alarm "Height out of limits"
+end
+verdict = yes
+)");
+  driver::VerifyOptions options = optionsOf(path, "inspection-plus");
+  options.cases = draws(60U, 10U);
+  options.results = {{"height", "#560"}, {"verdict", "#561"}};
+  const driver::Outcome outcome = driver::verify(options);
+  CHECK_MESSAGE(outcome.status == 0, said(outcome));
+  driver::ConvertOptions convert;
+  static_cast<targets::TranslationOptions&>(convert) = options;
+  const driver::Outcome written = driver::convert(convert);
+  REQUIRE_MESSAGE(written.files.size() == 1, said(written));
+  const std::string& text = written.files.front().text;
+  const std::size_t limit = text.rfind("HEIGHT OUT OF LIMITS)");
+  REQUIRE_MESSAGE(limit != std::string::npos, text);
+  CHECK_MESSAGE(text.find("#560=") < limit, text);
+  CHECK_MESSAGE(text.find("#561=") > limit, text); // it has no value there
+  CHECK_MESSAGE(text.find("#560=", limit) != std::string::npos, text);
+}
+
+TEST_CASE("convert: the call in the header of a cycle passes the checks of the cycle") {
+  const TestFolder folder("dotek-example");
+  const std::string path = folder.write("slot.cycle", R"(cycle slot "Slot"
+
+parameter width : length "Width"          require width > 2 * ball_radius + 1 mm
+parameter depth : length "Depth"          range 2 mm to 40 mm
+parameter side  : angle  "Which side"     range 30 deg to 60 deg
+
+result size : length "Width as measured"
+
+spindle off
+probe on
+touch x by width / 2 -> right
+touch x by -width / 2 -> left
+probe off
+size = right.at - left.at + depth * sin(side) * 0
+)");
+  driver::ConvertOptions options;
+  options.inputs = {path};
+  options.to = "fanuc";
+  options.probeMacros = "inspection-plus";
+  options.results = {{"size", "#560"}};
+  const driver::Outcome written = driver::convert(options);
+  REQUIRE_MESSAGE(written.files.size() == 1, said(written));
+  const std::string& text = written.files.front().text;
+  const std::size_t call = text.find("(CALL: G65 P8000 ");
+  REQUIRE_MESSAGE(call != std::string::npos, text);
+  // Called as the header says, the program goes on to the touch that finds nothing.
+  const std::string file = folder.write("O8000.nc", text);
+  driver::SimOptions sim;
+  sim.program = file;
+  sim.setup.call = text.substr(call + 17, text.find(')', call) - call - 17);
+  const driver::Outcome run = driver::sim(sim);
+  CHECK_MESSAGE(run.output.find("OUT OF RANGE") == std::string::npos, run.output);
+  CHECK_MESSAGE(said(run).find("P9811") != std::string::npos, said(run));
+}
+
 TEST_CASE("verify cycles: convert --verify writes what agrees") {
   driver::ConvertOptions options;
   options.inputs = {libraryPath("surface-x")};
