@@ -371,6 +371,10 @@ Outcome lintAndFix(const LintOptions& options) {
     outcome = lintOnce(options);
   }
   reportFixes(total, outcome);
+  const std::string repairs =
+      total.empty() ? "no repair to make: `dotek list rules` marks the rules that --fix repairs"
+                    : fmt::format("{} repair{} made", total.size(), total.size() == 1 ? "" : "s");
+  outcome.summary += (outcome.summary.empty() ? "" : "\n") + repairs;
   for (const Diagnostic& d : writing.all())
     outcome.diagnostics.add(d);
   if (writing.hasErrors()) outcome.status = 2;

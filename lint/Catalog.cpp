@@ -144,6 +144,15 @@ std::string_view areaOf(const NamedRule& rule) {
   return kAreas[3];
 }
 
+namespace {
+
+// The page of a rule whose finding carries a safe repair says so.
+bool repairs(const NamedRule& rule) {
+  return pageOf(rule.id).find("`--fix`") != std::string_view::npos;
+}
+
+} // namespace
+
 std::string ruleList() {
   std::size_t width = 0;
   for (const NamedRule& rule : rules())
@@ -153,8 +162,9 @@ std::string ruleList() {
     out += (out.empty() ? "" : "\n") + std::string(area) + "\n";
     for (const NamedRule& rule : rules())
       if (areaOf(rule) == area)
-        out += fmt::format("  {:<{}}  {:<7}  {}{}\n", rule.id, width, severityName(rule.rule->severity),
-                           rule.rule->byDefault ? "" : "(off unless it is selected) ", described(rule));
+        out += fmt::format("  {:<{}}  {:<7}  {}{}{}\n", rule.id, width, severityName(rule.rule->severity),
+                           rule.rule->byDefault ? "" : "(off unless it is selected) ", described(rule),
+                           repairs(rule) ? "; --fix repairs it" : "");
   }
   return out;
 }

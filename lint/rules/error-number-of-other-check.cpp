@@ -24,10 +24,14 @@ void checkCycle(const gibbs::Cycle& cycle, Report& report) {
     const auto number = assign != nullptr && assign->value ? plainNumber(*assign->value) : std::nullopt;
     if (!number || *number == 0) return;
     std::string field;
+    bool several = false; // a relation of two fields is nobody's range
     for (const auto* side : {comparison->left.get(), comparison->right.get()})
       for (const std::string& name : readsOf(*side))
-        if (fields.contains(name) && field.empty()) field = name;
-    if (!field.empty())
+        if (fields.contains(name)) {
+          several = several || (!field.empty() && field != name);
+          field = name;
+        }
+    if (!field.empty() && !several)
       all[gibbs::foldCase(assign->target.name.text)].push_back({field, *number, branch->then->range});
   });
   for (const auto& [variable, checks] : all) {

@@ -283,10 +283,11 @@ bool Machine::readCodes(const NcWords& w) {
     if (w.m[i] == NcWords::kNoCode) return inconclusive("it is no code of a control", 'M', i);
     if ((code.flags & Code::Unknown) != 0)
       return inconclusive(
-          fmt::format("`{0}` does not list it; where it moves no axis, a copy of that file as "
-                      "DIR/controls/{0}.toml with the line \"M{1} auxiliary: ..\" and `--data DIR` let it "
-                      "pass",
-                      control_.name, w.m[i]),
+          fmt::format(
+              "`{0}` does not list it; where it switches the probe, `--probe-on M{1}` or `--probe-off "
+              "M{1}` says so; where it moves no axis, a copy of that file as DIR/controls/{0}.toml "
+              "with the line \"M{1} auxiliary: ..\" and `--data DIR` let it pass",
+              control_.name, w.m[i]),
           'M', i);
     if (code.function == Function::Other)
       return inconclusive("what it does here is not known to Dotek", 'M', i);
