@@ -40,8 +40,9 @@ std::map<ir::VariableId, double> exampleValues(const State& state) {
     if (variable.defaultValue) continue;
     if (variable.optional)
       all[argument.variable] = ir::Scalar::null();
-    else if (variable.kind == ir::Kind::Length || variable.kind == ir::Kind::Angle ||
-             variable.kind == ir::Kind::Number || variable.kind == ir::Kind::Ratio)
+    else if (variable.role == ir::Role::Parameter &&
+             (variable.kind == ir::Kind::Length || variable.kind == ir::Kind::Angle ||
+              variable.kind == ir::Kind::Number || variable.kind == ir::Kind::Ratio))
       open.push_back(argument.variable);
   }
   const auto passes = [&] {

@@ -160,6 +160,7 @@ set centre_y = (back_at + front_at) / 2.
 set size = back_at - front_at
 if tolerance is null goto otherwise
 if abs(size - diameter) <= tolerance goto otherwise
+cycle "results": centre_x = centre_x, centre_y = centre_y, size = size
 alarm "Diameter out of tolerance"
 label otherwise
 if "system" is null goto otherwise_2

@@ -48,14 +48,14 @@ struct Planted {
   const char* is;
 };
 
-// `is` in the place of the first `was` of what convert writes.
+// `is` in the place of the last `was` of what convert writes.
 driver::Outcome verifyPlanted(driver::VerifyOptions options, const Planted& planted) {
   driver::ConvertOptions convert;
   static_cast<targets::TranslationOptions&>(convert) = options;
   const driver::Outcome written = driver::convert(convert);
   REQUIRE_MESSAGE(written.files.size() == 1, said(written));
   std::string text = written.files.front().text;
-  const std::size_t at = text.find(planted.was);
+  const std::size_t at = text.rfind(planted.was);
   REQUIRE_MESSAGE(at != std::string::npos, text);
   text.replace(at, std::string_view(planted.was).size(), planted.is);
   const TestFolder folder("dotek-planted");
@@ -187,6 +187,8 @@ size = right.at - left.at + depth * sin(side) * 0
   const std::string file = folder.write("O8000.nc", text);
   driver::SimOptions sim;
   sim.program = file;
+  sim.setup.tool = 1;
+  sim.setup.length = 80;
   sim.setup.call = text.substr(call + 17, text.find(')', call) - call - 17);
   const driver::Outcome run = driver::sim(sim);
   CHECK_MESSAGE(run.output.find("OUT OF RANGE") == std::string::npos, run.output);
