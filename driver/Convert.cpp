@@ -120,6 +120,7 @@ private:
       diagnostics.report<diag::OutputForOne>({}, options_.inputs.size());
     readLetters();
     const bool programs = classify();
+    if (foldersOfPrograms_) return false; // flags of programs would be called wrong
     const bool cycles = !folderPaths_.empty();
     if (!takesCycleFiles()) return false;
     const Target* const target = checkedTarget(options_, programs, cycles, "convert",
@@ -168,6 +169,8 @@ private:
       byItself(input, [&] {
         input.isCycleFile = isCycleFile(options_.inputs[i], session_);
         input.isProgram = !input.isCycleFile && isProgramFile(options_.inputs[i], session_);
+        if (!input.isCycleFile && !input.isProgram && isFolderOfPrograms(options_.inputs[i], session_))
+          foldersOfPrograms_ = !options_.keepGoing;
       });
       input.index = input.isProgram ? i : folderPaths_.size();
       programs = programs || input.isProgram;
@@ -254,6 +257,7 @@ private:
   std::vector<std::string> folderPaths_;
   std::vector<Diagnostic> said_; // of inputs by themselves
   bool failed_ = false;
+  bool foldersOfPrograms_ = false;
 };
 
 // "2 of 4 inputs are converted; refused: `a.nc`, `web`"; "" where none is.

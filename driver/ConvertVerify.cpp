@@ -78,7 +78,8 @@ void dropOthers(VerifyOptions& options, bool program) {
   common.field.clear();
   common.host.clear();
   common.recover = false;
-  std::erase_if(common.assume, [](const std::string& name) { return name != "plain-messages"; });
+  std::erase_if(common.assume,
+                [](const std::string& name) { return name != "plain-messages" && name != "probe-on"; });
 }
 
 VerifyOptions optionsOf(const ConvertOptions& options, const std::string& input) {

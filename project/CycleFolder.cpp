@@ -295,6 +295,14 @@ void noteCyclesWithin(Diagnostic& missing, const std::string& path, const fs::pa
 
 } // namespace
 
+bool isFolderOfPrograms(const std::string& path, Session& session) {
+  std::error_code error;
+  if (!fs::is_directory(path, error) || isCycleFolder(path)) return false;
+  const std::string programs = programsIn(path, session);
+  if (!programs.empty()) session.diagnostics().report<diag::FolderOfPrograms>({}, path, programs);
+  return !programs.empty();
+}
+
 CycleFolder loadCycleFolder(const std::string& path, Session& session, bool checked) {
   CycleFolder folder;
   std::error_code error;

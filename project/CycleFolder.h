@@ -71,6 +71,9 @@ std::optional<std::filesystem::path> cycleFile(const std::filesystem::path& fold
 // true: `path` is a folder that holds at least one of the four files.
 bool isCycleFolder(const std::filesystem::path& path);
 
+// true, reported: the folder holds programs, and none of the four files.
+bool isFolderOfPrograms(const std::string& path, Session& session);
+
 // Reads, parses and checks the folder. Missing and unreadable files are reported. Without `checked` what the
 // files say is left to the rules of lint.
 CycleFolder loadCycleFolder(const std::string& path, Session& session, bool checked = true);

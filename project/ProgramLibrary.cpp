@@ -48,8 +48,9 @@ std::optional<ProgramLibrary> ProgramLibrary::loadCalled(FileId main, const Call
   std::optional<ir::ProgramFile> file = loadPrograms(main, control, session);
   if (!file) return std::nullopt;
   nameByFile(*file, fs::path(out.main_));
-  const bool numbered =
-      !file->programs.empty() && file->programs.front().nameKind == ir::Program::NameKind::Number;
+  using NameKind = ir::Program::NameKind;
+  const NameKind kind = file->programs.empty() ? NameKind::None : file->programs.front().nameKind;
+  const bool numbered = kind == NameKind::Number || kind == NameKind::Colon;
   if (!numbered) {
     session.diagnostics().report<diag::SetupFlag>(
         {}, "--call",

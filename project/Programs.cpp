@@ -29,16 +29,34 @@ bool isProgramFile(const std::string& path, Session& session) {
   return file;
 }
 
-std::optional<ir::ProgramFile> loadPrograms(FileId file, const stdlib::Control& control, Session& session,
-                                            SourceRange* leader) {
+namespace {
+
+struct Loaded {
+  std::optional<ir::ProgramFile> programs;
+  SourceRange leader; // the text before the first `%`
+};
+
+Loaded load(FileId file, const stdlib::Control& control, Session& session, frontend::macrob::LowerFor use) {
   Diagnostics found;
   const frontend::macrob::Text text = textOf(file, session);
   const frontend::macrob::File tree =
       frontend::macrob::parse(file, session.sources(), session.limits(), found, text);
   for (Diagnostic& one : found.all())
     if (one.severity == Severity::Error) session.diagnostics().add(std::move(one));
-  if (leader != nullptr) *leader = tree.leader;
-  return frontend::macrob::lower(tree, control, session.sources(), session.diagnostics());
+  return {frontend::macrob::lower(tree, control, session.sources(), session.diagnostics(), use), tree.leader};
+}
+
+} // namespace
+
+std::optional<ir::ProgramFile> loadPrograms(FileId file, const stdlib::Control& control, Session& session) {
+  return load(file, control, session, frontend::macrob::LowerFor::Run).programs;
+}
+
+std::optional<ir::ProgramFile> loadForTranslation(FileId file, const stdlib::Control& control,
+                                                  Session& session, SourceRange& leader) {
+  Loaded loaded = load(file, control, session, frontend::macrob::LowerFor::Translation);
+  leader = loaded.leader;
+  return std::move(loaded.programs);
 }
 
 } // namespace dotek::project

@@ -18,8 +18,11 @@ frontend::macrob::Text textOf(FileId file, Session& session);
 bool isProgramFile(const std::string& path, Session& session);
 
 // nullopt where the file cannot run on the control: reported. What matters to the writing of the programs
-// alone is left to lint. `leader`: gets the place of the text before the first `%`, if there is any.
-std::optional<ir::ProgramFile> loadPrograms(FileId file, const stdlib::Control& control, Session& session,
-                                            SourceRange* leader = nullptr);
+// alone is left to lint.
+std::optional<ir::ProgramFile> loadPrograms(FileId file, const stdlib::Control& control, Session& session);
+// For a translation: a jump that no run gets past refuses it, too. `leader`: gets the place of the text
+// before the first `%`, if there is any.
+std::optional<ir::ProgramFile> loadForTranslation(FileId file, const stdlib::Control& control,
+                                                  Session& session, SourceRange& leader);
 
 } // namespace dotek::project

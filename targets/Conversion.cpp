@@ -29,7 +29,9 @@ std::vector<std::string> cycleOptions(const ConvertOptions& options) {
   add(options.switchProbe, "--probe-power");
   add(!options.results.empty(), "--result");
   for (const std::string& name : common.assume)
-    if (name != "plain-messages") out.push_back("--assume " + name);
+    // The run of --verify takes it for the source.
+    if (name != "plain-messages" && !(name == "probe-on" && options.verify))
+      out.push_back("--assume " + name);
   return out;
 }
 

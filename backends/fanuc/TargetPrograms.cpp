@@ -36,7 +36,7 @@ void ProgramConversion::convert(const std::string& path, ConversionResult& resul
   const std::optional<FileId> id = session_.read(path, Encoding::Cp1250);
   if (!id) return;
   SourceRange leader;
-  std::optional<ir::ProgramFile> programs = loadPrograms(*id, *source_, session_, &leader);
+  std::optional<ir::ProgramFile> programs = loadForTranslation(*id, *source_, session_, leader);
   if (!programs) return;
   if (programs->programs.empty()) {
     session_.diagnostics().report<diag::NoProgram>({*id, 0, 0}, path);

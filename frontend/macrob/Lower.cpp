@@ -17,9 +17,9 @@ namespace dotek::frontend::macrob {
 namespace {
 
 // The control reaches these while it runs, if ever: an alarm there, no reason not to begin.
-bool isForRunTime(std::string_view code) {
-  return code == gotoTargetMissingCheck.code || code == jumpIntoLoopCheck.code ||
-         code == variableOutOfRangeCheck.code || code == nullWrittenCheck.code ||
+bool isForRunTime(std::string_view code, LowerFor use) {
+  if (code == gotoTargetMissingCheck.code || code == jumpIntoLoopCheck.code) return use == LowerFor::Run;
+  return code == variableOutOfRangeCheck.code || code == nullWrittenCheck.code ||
          code == readOnlyWrittenCheck.code || code == argumentWithoutPointCheck.code ||
          code == wordOutOfRangeCheck.code;
 }
@@ -306,12 +306,12 @@ void reportMarks(const File& file, const SourceMap& sources, Diagnostics& diagno
 } // namespace
 
 std::optional<ir::ProgramFile> lower(const File& file, const stdlib::Control& control,
-                                     const SourceMap& sources, Diagnostics& diagnostics) {
+                                     const SourceMap& sources, Diagnostics& diagnostics, LowerFor use) {
   Diagnostics found;
   checkFile(file, &control, sources, found);
   bool fails = file.hasErrors;
   for (Diagnostic& one : found.all()) {
-    if (one.severity != Severity::Error || isForRunTime(one.code)) continue;
+    if (one.severity != Severity::Error || isForRunTime(one.code, use)) continue;
     fails = true;
     diagnostics.add(std::move(one));
   }

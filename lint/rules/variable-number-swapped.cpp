@@ -23,7 +23,7 @@ bool areSwapped(std::uint32_t a, std::uint32_t b) {
 }
 
 void check(const Project& project, Report& report) {
-  // Over all files: a common variable may be set in one and read in another.
+  // A common variable may be set in one file and read in another, but a misprint is made in one.
   std::map<std::uint32_t, SourceRange> stored, read;
   eachProgram(project, [&](const ir::Program& program, const macrob::File&) {
     for (const ir::ProgramStatement& statement : program.body) {
@@ -35,9 +35,10 @@ void check(const Project& project, Report& report) {
   });
   for (const auto& [number, range] : read) {
     if (number < kFirstCommon || number > kLastCommon || stored.contains(number)) continue;
-    const auto other = std::find_if(stored.begin(), stored.end(), [&, to = number](const auto& one) {
-      return !read.contains(one.first) && areSwapped(one.first, to);
-    });
+    const auto other =
+        std::find_if(stored.begin(), stored.end(), [&, to = number, at = range](const auto& one) {
+          return one.second.file == at.file && !read.contains(one.first) && areSwapped(one.first, to);
+        });
     if (other == stored.end()) continue;
     report
         .at(range,

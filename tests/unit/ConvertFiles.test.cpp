@@ -321,4 +321,39 @@ TEST_CASE("convert of a folder of programs says to name its files") {
       result.err.find("`macros` holds programs, and none of the files of a cycle; name the files instead of "
                       "the folder: `macros/O9161` [folder-of-programs]") != std::string::npos);
   CHECK(result.err.find("DefineData") == std::string::npos);
+  // A flag of programs is no mistake there.
+  const CommandResult flagged = runDotek({"convert", "macros", "--to", "fanuc", "--from-control",
+                                          "fanuc-0i-md", "--control", "fanuc-31i-b", "-d", "out"},
+                                         folder.path);
+  CHECK(flagged.err.find("[folder-of-programs]") != std::string::npos);
+  CHECK(flagged.err.find("[option-of-programs]") == std::string::npos);
+}
+
+TEST_CASE("convert refuses a program whose jump leads nowhere") {
+  const Folder folder;
+  write(folder.path / "O9162", "%\nO9162\nIF[#7EQ#0]GOTO90\nG0X#7\nM99\n%\n");
+  const CommandResult result = runDotek({"convert", "O9162", "--to", "fanuc"}, folder.path);
+  CHECK(result.status == 1);
+  CHECK(result.out.empty());
+  CHECK(result.err.find("O9162:3:16: error: ") != std::string::npos);
+  CHECK(result.err.find("[goto-target-missing]") != std::string::npos);
+  CHECK(result.err.find("[not-structured]") == std::string::npos);
+}
+
+TEST_CASE("convert --verify of a program takes --assume probe-on, which its message names") {
+  const Folder folder;
+  write(folder.path / "O9163", "%\nO9163\nG91G31Z-[#26]F80.\n#111=#5063-#5083\nG0Z#26\nG90\nM99\n%\n");
+  const std::vector<std::string> arguments = {"convert",   "O9163",          "--to",
+                                              "fanuc",     "--from-control", "fanuc-0i-md",
+                                              "--control", "fanuc-31i-b",    "--verify"};
+  const CommandResult without = runDotek(arguments, folder.path);
+  CHECK(without.err.find("--assume probe-on") != std::string::npos);
+  std::vector<std::string> with = arguments;
+  with.insert(with.end(), {"--assume", "probe-on"});
+  const CommandResult result = runDotek(with, folder.path);
+  CHECK(result.err.find("[option-of-cycles]") == std::string::npos);
+  CHECK(result.err.find("the probe is off") == std::string::npos);
+  // Without --verify nothing runs, and it would change nothing.
+  with.erase(with.begin() + 8);
+  CHECK(runDotek(with, folder.path).err.find("[option-of-cycles]") != std::string::npos);
 }

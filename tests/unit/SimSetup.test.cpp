@@ -264,6 +264,8 @@ TEST_CASE("setup: a flag that does not say enough names what is missing") {
   CHECK(refused("sim down.nc --tool 1 --length 5 --radius 3 --diameter 6", "the same"));
   CHECK(refused("sim down.nc --tool 1", "[setup-flag]"));
   CHECK(refused("sim nameless.nc --call \"Z1.\"", "O9100"));
+  scratch.write("colon.nc", "%\n:9107(HEADED AS ON TAPES)\n#100=#1\nM99\n%\n");
+  CHECK(runIn(scratch, "sim colon.nc --call \"A1.\"").status == 0);
   CHECK(refused("sim p.SUF --at 1,2,3", "--at"));
 }
 
