@@ -70,6 +70,7 @@ public:
       return kUsage;
     }
     if (!arguments.mapFile.empty()) texts.push_back({arguments.mapFile, &outcome.map});
+    if (!arguments.helpersFile.empty()) texts.push_back({arguments.helpersFile, &outcome.helpers});
     return write(texts, outcome, arguments) ? outcome.status : kUsage;
   }
 
