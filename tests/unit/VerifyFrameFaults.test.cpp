@@ -313,14 +313,15 @@ Came plant(PlantedKind::Place& place, const Family& family, const TestFolder& fo
 } // namespace
 
 TEST_CASE("verify sees faults in the motion and the frame of what becomes of the shops' cycles") {
+  // A measurement on demand: how many are seen is in docs/verify-faults.md.
   const char* const given = std::getenv("DOTEK_SHOP_FAULTS");
-  std::size_t wanted = draws<std::size_t>(20, 4);
-  if (given != nullptr) wanted = static_cast<std::size_t>(parseNumber(given).value_or(1000));
+  if (given == nullptr) return;
+  const auto wanted = static_cast<std::size_t>(parseNumber(given).value_or(1000));
   std::uint64_t seed = 1;
   if (const char* text = std::getenv("DOTEK_FAULTS_SEED"))
     seed = static_cast<std::uint64_t>(parseNumber(text).value_or(1));
-  std::vector<Translation> all = translations(given != nullptr);
-  for (Translation& one : translations(given != nullptr, "fusion"))
+  std::vector<Translation> all = translations(true);
+  for (Translation& one : translations(true, "fusion"))
     all.push_back(std::move(one));
   REQUIRE(all.size() >= 20);
   std::vector<PlantedKind> kinds = plantedKinds(all);
@@ -333,8 +334,7 @@ TEST_CASE("verify sees faults in the motion and the frame of what becomes of the
     return std::any_of(kinds.begin(), kinds.end(),
                        [](const PlantedKind& one) { return !one.places.empty(); });
   };
-  for (std::size_t turn = given == nullptr ? random.below(kinds.size()) : 0; drawn < wanted && left();
-       ++turn) {
+  for (std::size_t turn = 0; drawn < wanted && left(); ++turn) {
     PlantedKind& kind = kinds[turn % kinds.size()];
     if (kind.places.empty()) continue;
     const std::size_t at = random.below(kind.places.size());
@@ -349,7 +349,7 @@ TEST_CASE("verify sees faults in the motion and the frame of what becomes of the
                                : kind.survived);
     if (came == Came::Survived) {
       survivors += fmt::format("  {}: {}\n", place.in->name, place.fault.text());
-      if (given != nullptr) fmt::print("survived {} {}: {}\n", drawn, place.in->name, place.fault.text());
+      fmt::print("survived {} {}: {}\n", drawn, place.in->name, place.fault.text());
     }
   }
   std::string table = "| of | operator | places | drawn | not read | without effect | seen | survived |\n"
