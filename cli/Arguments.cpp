@@ -33,6 +33,7 @@ void fill(const Raw& raw, Arguments& parsed) {
   parsed.sim = simOf(raw);
   parsed.outputFolder = raw.outputFolder;
   parsed.mapFile = raw.mapFile;
+  parsed.helpersFile = raw.helpersFile;
   parsed.reportFile = raw.report;
   parsed.output = raw.output;
   parsed.maxErrors = raw.maxErrors;

@@ -40,6 +40,7 @@ struct Arguments {
   driver::ConvertOptions convert; // inputs, common and source aside
   std::string outputFolder;       // -d
   std::string mapFile;            // --map
+  std::string helpersFile;        // --helpers
   std::string reportFile;         // --report
   driver::SimOptions sim;         // common aside
   std::string traceFile;          // --trace

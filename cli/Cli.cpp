@@ -73,6 +73,7 @@ public:
     if (arguments.outputFolder.empty())
       texts.push_back({orStandardOutput(arguments.output), &outcome.output});
     if (!arguments.mapFile.empty()) texts.push_back({arguments.mapFile, &outcome.map});
+    if (!arguments.helpersFile.empty()) texts.push_back({arguments.helpersFile, &outcome.helpers});
     if (!write(texts, outcome, arguments)) return kUsage;
     return held.empty() ? outcome.status : kInputError;
   }

@@ -34,6 +34,7 @@ std::vector<OutputName> outputsOf(const Arguments& arguments) {
   if (prints) out.push_back({"standard output", "-"});
   add("-o", arguments.output);
   add("--map", arguments.mapFile);
+  add("--helpers", arguments.helpersFile);
   if (!arguments.reportFile.empty())
     for (const std::string& input : arguments.inputs)
       add("--report", reportPath(arguments, input));

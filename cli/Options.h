@@ -35,7 +35,7 @@ struct Raw {
   std::string stage = "ast";
   std::vector<std::string> letters, defaults;
   std::string to, control, fromControl, renumber, probeMacros, probeOn, probeOff, programNumber, outputFolder,
-      mapFile;
+      mapFile, helpersFile;
   std::string defaultsMode = "alarm";
   std::string probePower = "source";
   std::string datum;

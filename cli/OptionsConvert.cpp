@@ -25,6 +25,11 @@ void addConvert(CLI::App& app, Raw& raw) {
   convert->add_option("--program-number", raw.programNumber, "O number of the program (8000)")
       ->type_name("N");
   convert->add_flag("--whole-post", raw.wholePost, "with --to fusion: the smallest post around the cycles");
+  convert
+      ->add_option("--helpers", raw.helpersFile,
+                   "with --to fusion: write the functions that fragments share to a file, once for all "
+                   "cycles of a post")
+      ->type_name("FILE.js");
   CLI::Option* verify = convert->add_flag(
       "--verify", raw.verify, "run 200 cases of source and result first; write nothing that differs");
   CLI::Option* report =
@@ -79,11 +84,15 @@ driver::ConvertOptions convertOf(const Raw& raw) {
   out.useDefaults = raw.defaultsMode == "use";
   out.switchProbe = raw.probePower == "macro";
   out.wholePost = raw.wholePost;
+  out.helpersApart = !raw.helpersFile.empty();
   out.verify = raw.verify;
   out.keepGoing = raw.keepGoing;
   if (!raw.report.empty()) out.report = reportFormatOf(raw.report);
   out.date = raw.date;
   out.remark = raw.remark;
+  if (out.helpersApart && out.wholePost)
+    throw UsageError(
+        "--whole-post holds all that it needs; --helpers goes with parts that are pasted into a post");
   if (out.keepGoing && out.wholePost)
     throw UsageError("--whole-post makes one file of all inputs; --keep-going goes with a file for each");
   return out;

@@ -103,6 +103,7 @@ private:
       if (!input.refused) outcome.inputs.push_back(options_.inputs[input.place]);
     outcome.files = std::move(result.files);
     outcome.map = std::move(map);
+    outcome.helpers = std::move(result.helpers);
     outcome.maps = std::move(result.maps);
     outcome.arguments = std::move(result.arguments);
     outcome.macros = std::move(result.macros);

@@ -39,6 +39,7 @@ public:
       : runner_(runner), values_(values), world_(world), probeOn_(probeOn) {}
   Ran with(const std::string& field, double value) override;
   bool moves(const std::string& field) override;
+  bool rejectsSome(const std::string& name) override;
 
 private:
   bool setsActive(const std::string& field, double value) const;

@@ -95,6 +95,17 @@ SourceQuestions::Ran CaseRunner::Questions::with(const std::string& field, doubl
   return values_.posted ? play(field, value, verify::Stand::Way::Run) : Ran{};
 }
 
+bool CaseRunner::Questions::rejectsSome(const std::string& name) {
+  constexpr double kFar = 1e5;
+  for (const double value : {0.0, kFar, -kFar}) {
+    verify::Case other = values_.drawn;
+    (other.hosts.contains(name) ? other.hosts : other.values)[name] = value;
+    const std::unique_ptr<Values> now = runner_.check(other, false);
+    if (now && now->rejected) return true;
+  }
+  return false;
+}
+
 bool CaseRunner::Questions::setsActive(const std::string& field, double value) const {
   const auto& fields = runner_.plan_.fields;
   return std::any_of(fields.begin(), fields.end(), [&](const verify::DrawField& one) {

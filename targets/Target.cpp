@@ -65,6 +65,7 @@ void checkTargetOptions(const Target& target, const ConvertOptions& options, Dia
                          {TargetFlag::DefaultsUse, options.useDefaults, "--defaults use"},
                          {TargetFlag::ProbePower, options.switchProbe, "--probe-power macro"},
                          {TargetFlag::WholePost, options.wholePost, "--whole-post"},
+                         {TargetFlag::Helpers, options.helpersApart, "--helpers"},
                          {TargetFlag::Result, !options.results.empty(), "--result"}};
   refuse(target, options.to, flags, diagnostics);
   checkDatum(target, options.to, options.datum, diagnostics);

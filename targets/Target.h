@@ -26,6 +26,7 @@ enum class TargetFlag : std::uint8_t {
   DefaultsUse,
   ProbePower,
   WholePost,
+  Helpers,
   Result
 };
 

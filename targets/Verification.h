@@ -35,6 +35,8 @@ public:
   virtual Ran with(const std::string& field, double value) = 0;
   // Some value of the field makes the path, or what is measured, another one.
   virtual bool moves(const std::string& field) = 0;
+  // With some value of the field or the host input the dialog rejects the others.
+  virtual bool rejectsSome(const std::string& name) = 0;
 };
 
 // One case as a translation sees it.

@@ -19,10 +19,12 @@ constexpr double kSame = 1e-9;     // mm: coordinates that differ by rounding
 constexpr double kExact = 1e-6;    // mm: a contact is where it was drawn
 constexpr double kLeastWay = 0.01; // mm to a touch; macros take less for a stylus that is deflected
 
-// The path of a move along one axis.
+// The path of a move along one axis, or at an angle in the plane XY.
 struct Step {
-  int axis = -1; // none: along several, or it is
+  static constexpr int kOblique = 3;
+  int axis = -1; // none: none of these, or it is
   double way = 0;
+  Point3 direction = {}; // of one at an angle
 };
 
 Step stepOf(const Point3& from, const Point3& to) {
@@ -31,7 +33,11 @@ Step stepOf(const Point3& from, const Point3& to) {
   for (int axis = 0; axis < 3; ++axis) {
     const double part = way[static_cast<std::size_t>(axis)];
     if (std::abs(part) <= kSame) continue;
-    if (out.axis >= 0) return {};
+    if (out.axis >= 0) {
+      const double length = std::hypot(way[0], way[1]);
+      if (std::abs(way[2]) > kSame) return {};
+      return {Step::kOblique, length, {way[0] / length, way[1] / length, 0}};
+    }
     out = {axis, part};
   }
   return out;
@@ -40,7 +46,9 @@ Step stepOf(const Point3& from, const Point3& to) {
 Touch touchAt(const Point3& end, const Step& step, double ballRadius) {
   const double sign = step.way > 0 ? 1 : -1;
   if (step.axis == 2) return {end, {0, 0, sign}};
-  const Point3 direction = step.axis == 0 ? Point3{sign, 0, 0} : Point3{0, sign, 0};
+  const Point3 direction = step.axis == Step::kOblique ? step.direction
+                           : step.axis == 0            ? Point3{sign, 0, 0}
+                                                       : Point3{0, sign, 0};
   return {end + direction * ballRadius + Point3{0, 0, ballRadius}, direction};
 }
 
@@ -48,7 +56,15 @@ void findTouches(DrawnPath& path, double ballRadius) {
   const std::vector<Point3>& points = path.points;
   for (std::size_t n = 1; n + 1 < points.size(); ++n) {
     const Step step = stepOf(points[n - 1], points[n]), next = stepOf(points[n], points[n + 1]);
-    if (step.axis < 0 || next.axis != step.axis || step.way * next.way >= 0) continue;
+    if (step.axis < 0 || next.axis != step.axis) continue;
+    if (step.axis == Step::kOblique) {
+      // Straight back to where it began; what comes after it is the path back, and no touch by itself.
+      const bool goesBack = (points[n + 1] - points[n - 1]).length() <= kSame;
+      if (goesBack && (path.touches.empty() || path.touches.back().move + 1 != n))
+        path.touches.push_back({touchAt(points[n], step, ballRadius), n, path.ranges[n]});
+      continue;
+    }
+    if (step.way * next.way >= 0) continue;
     if (step.axis == 2 && step.way > 0) continue;
     if (!path.touches.empty() &&
         path.touches.back().move + 1 == n) { // the path back, or on to the other side

@@ -38,6 +38,10 @@ public:
     case Intent::Web: flat(); break;
     case Intent::Angle: face(); break;
     case Intent::AngledSurface: angledSurface(); break;
+    case Intent::AngledPocket:
+    case Intent::AngledWeb: angledPair(); break;
+    case Intent::ThreePointBore:
+    case Intent::ThreePointBoss: threePoints(); break;
     default: break;
     }
     return std::move(out_);
@@ -123,12 +127,32 @@ private:
     }
   }
 
+  static sim::Point3 directionOf(double angle) {
+    return {ir::cosine(angle, ir::AngleUnit::Degrees).value, ir::sine(angle, ir::AngleUnit::Degrees).value,
+            0};
+  }
   void angledSurface() {
     const auto angle = value(ArgumentRole::Direction), distance = value(ArgumentRole::Distance);
     if (!angle || !distance) return;
-    add(start_,
-        {ir::cosine(*angle, ir::AngleUnit::Degrees).value, ir::sine(*angle, ir::AngleUnit::Degrees).value, 0},
-        *distance);
+    add(start_, directionOf(*angle), *distance);
+  }
+  // The wall on that side of the middle, touched from within or from outside.
+  void side(const sim::Point3& direction, double away) {
+    sim::Point3 point = probed() + direction * away;
+    point.z += ball_;
+    out_.push_back({point, direction * (outside() ? -1 : 1)});
+  }
+  void angledPair() {
+    const auto angle = value(ArgumentRole::Direction), width = value(ArgumentRole::Width);
+    if (!angle || !width) return;
+    for (const double sign : {1.0, -1.0})
+      side(directionOf(*angle) * sign, *width / 2);
+  }
+  void threePoints() {
+    const auto diameter = value(ArgumentRole::Diameter);
+    for (const ArgumentRole role :
+         {ArgumentRole::FirstAngle, ArgumentRole::SecondAngle, ArgumentRole::ThirdAngle})
+      if (const auto angle = value(role); angle && diameter) side(directionOf(*angle), *diameter / 2);
   }
 
   const stdlib::MacroSignature& signature_;

@@ -1,6 +1,7 @@
 // Conditions as jumps: joined in one IF where the control has that, else as several.
 #include "backends/fanuc/MacroNames.h"
 #include "backends/fanuc/State.h"
+#include "backends/fanuc/Uses.h"
 #include "ir/Fold.h"
 #include "support/messages/Fanuc.h"
 
@@ -82,12 +83,14 @@ void jump(State& state, const ir::ConditionPtr& condition, Mark target, const ir
     if (truth->value) state.sheet.jump("GOTO ", target, origin);
     return;
   }
-  if (fitsOneIf(state, condition)) {
+  const auto* joined = std::get_if<ir::Junction>(&condition->node);
+  if (joined == nullptr) demand(state, variablesOf(condition), origin);
+  if (fitsOneIf(state, condition) && !demandsWithin(state, condition)) {
     const std::string text = ifText(state, condition, origin);
     state.sheet.jump(text + "GOTO ", target, origin);
     return;
   }
-  const auto& junction = std::get<ir::Junction>(condition->node);
+  const ir::Junction& junction = *joined;
   if (junction.op == ir::Connective::Or) {
     jump(state, junction.left, target, origin);
     jump(state, junction.right, target, origin);
@@ -95,8 +98,10 @@ void jump(State& state, const ir::ConditionPtr& condition, Mark target, const ir
   }
   const Mark skip = state.mark();
   jump(state, pushedIn(ir::negate(junction.left)), skip, origin);
+  const std::set<ir::VariableId> toAsk = state.toAsk;
   jump(state, junction.right, target, origin);
   state.sheet.place(skip);
+  state.toAsk = toAsk;
 }
 
 } // namespace

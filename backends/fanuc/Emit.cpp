@@ -113,6 +113,7 @@ std::optional<std::vector<EmittedLine>> emit(const ir::Cycle& cycle, const EmitO
   writeBody(state);
   const Sheet body = std::exchange(state.sheet, Sheet());
   if (state.failed) return std::nullopt;
+  planDemands(state);
   writeArguments(state);
   writeStarts(state);
   writeRequirements(state);

@@ -1,11 +1,13 @@
 // The statements of a list: assignments, jumps, alarms; blocks are left to Blocks.cpp.
 #include "backends/fanuc/State.h"
+#include "backends/fanuc/Uses.h"
 #include "ir/Fold.h"
 #include "ir/Positions.h"
 #include "ir/Walk.h"
 #include "support/messages/Fanuc.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace dotek::backends::fanuc {
 
@@ -36,6 +38,9 @@ private:
     const ir::CycleStatement& statement = list_[i];
     const ir::Origin& origin = statement.origin;
     if (state_.body != nullptr && body_) state_.at = i;
+    state_.toAsk = toAsk(i);
+    if (const auto* node = std::get_if<ir::Assign>(&statement.node))
+      demand(state_, variablesOf(node->value), origin);
     return match(
         statement,
         [&](const ir::Assign& node) {
@@ -75,10 +80,26 @@ private:
         });
   }
 
+  std::set<ir::VariableId> toAsk(std::size_t i) const {
+    return body_ || i >= state_.notAsked.size() ? std::set<ir::VariableId>() : state_.notAsked[i];
+  }
+
+  // Neither the branch nor the one statement that it skips reads what has to be asked for first.
+  bool asksNothing(std::size_t i, const ir::Branch& branch) const {
+    if (demandsWithin(state_, branch.condition)) return false;
+    const auto* assign = std::get_if<ir::Assign>(&list_[i + 1].node);
+    if (assign == nullptr) return true;
+    const std::set<ir::VariableId> open = toAsk(i + 1), read = variablesOf(assign->value);
+    return std::none_of(read.begin(), read.end(), [&](ir::VariableId id) { return open.contains(id); });
+  }
+
   // A branch over one statement is an IF .. THEN with that statement.
   std::size_t writeBranch(std::size_t i, const ir::Branch& branch) {
     const ir::Origin& origin = list_[i].origin;
-    if (state_.control.ifThen && i + 2 < list_.size()) {
+    if (!std::holds_alternative<ir::Junction>(branch.condition->node) &&
+        !std::holds_alternative<ir::Not>(branch.condition->node))
+      demand(state_, variablesOf(branch.condition), origin);
+    if (state_.control.ifThen && i + 2 < list_.size() && asksNothing(i, branch)) {
       const auto* label = std::get_if<ir::Label>(&list_[i + 2].node);
       if (label != nullptr && label->label == branch.target && writeGuarded(branch, list_[i + 1]))
         return i + 2; // the label itself may have other jumps
@@ -157,7 +178,7 @@ private:
         // Where no macro is called, what it works in is like any other variable.
         if (calls())
           state_.diagnostics.report<diag::StoreScratch>(origin.range(), variable, state_.macros.title);
-      } else if (calls()) {
+      } else if (measures()) {
         state_.refuse<diag::StoreCalibration>(origin.range(), variable, state_.macros.title);
         return std::nullopt;
       } else {
@@ -171,6 +192,31 @@ private:
   bool calls() const {
     return std::any_of(state_.cycle.body.begin(), state_.cycle.body.end(),
                        [&](const ir::CycleStatement& one) { return callsMacro(state_, one); });
+  }
+
+  // A macro of the set may measure, by what the variable holds: no switch of the probe, no block that is none
+  // of its calls.
+  bool measures() const {
+    return std::any_of(state_.cycle.body.begin(), state_.cycle.body.end(),
+                       [&](const ir::CycleStatement& one) {
+                         if (std::holds_alternative<ir::ProbePower>(one.node)) return false;
+                         const auto* block = std::get_if<ir::OpaqueBlock>(&one.node);
+                         return block != nullptr ? mayCall(*block) : callsMacro(state_, one);
+                       });
+  }
+
+  // Codes that the control has for something else than a call call nothing.
+  bool mayCall(const ir::OpaqueBlock& block) const {
+    return std::any_of(block.words.begin(), block.words.end(), [&](const ir::Word& word) {
+      if (word.address != 'G' && word.address != 'M') return false;
+      const double* code = word.value == nullptr ? nullptr : ir::constantValue(word.value);
+      if (code == nullptr || *code < 0 || *code > 9999) return true;
+      const auto* info =
+          state_.control.find(word.address, static_cast<std::uint32_t>(std::lround(*code * 10)));
+      return info == nullptr || info->function == stdlib::Function::MacroCall ||
+             info->function == stdlib::Function::ModalCall ||
+             info->function == stdlib::Function::SubprogramCall;
+    });
   }
 
   bool isKept(std::uint32_t variable) const {

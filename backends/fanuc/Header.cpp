@@ -137,14 +137,16 @@ private:
   // Which arguments move the probe, and which only feed checks.
   void effects() {
     const std::set<ir::VariableId> used = bodyVariables(state_.cycle);
-    std::string moving, checking;
+    std::string moving, checking, late;
     for (const Argument& argument : state_.arguments) {
       const ir::VariableId id = argument.variable;
       if (state_.moving.contains(id)) moving += std::string(" ") + argument.letter;
       if (!used.contains(id)) checking += std::string(" ") + argument.letter;
+      if (state_.late.contains(id)) late += std::string(" ") + argument.letter;
     }
     if (!moving.empty()) say("MOVE THE PROBE:" + moving);
     if (!checking.empty()) say("ONLY CHECKED, MOVE AND SET NOTHING:" + checking);
+    if (!late.empty()) say("NO ALARM WHERE NO CHECK COMES TO READ THEM:" + late);
   }
 
   void computed() {

@@ -138,7 +138,7 @@ bool mayBeOmitted(const State& state, ir::VariableId id) {
 void writeArguments(State& state) {
   for (const Argument& argument : state.arguments) {
     const ir::Variable& variable = state.cycle.variable(argument.variable);
-    if (variable.optional) continue;
+    if (variable.optional || state.late.contains(argument.variable)) continue;
     ir::Origin origin = made("argument omitted");
     if (variable.range.hasPlace()) origin.ranges.push_back(variable.range);
     const ir::ConditionPtr omitted = ir::isNull(ir::variable(argument.variable));

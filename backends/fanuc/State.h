@@ -109,10 +109,16 @@ struct State {
   std::vector<std::string> remarks;       // of the header
   std::set<std::string> reported;         // what is said once for the whole program
   std::set<ir::VariableId> moving;        // movingVariables() of the cycle
-  bool shiftOfZ = false;                  // an offset of Z is written
-  std::size_t waited = 0;                 // size of `sheet` where the axes are waited for
-  const Body* body = nullptr;             // facts of the body while it is written, else null
-  std::size_t at = 0;                     // index of the statement of the body that is being written
+  // Arguments that checks ask for where they read them; before each statement of the checks those of them
+  // that some way to it has not asked for; of the statement that is being written, those still to be asked
+  // for.
+  std::set<ir::VariableId> late;
+  std::vector<std::set<ir::VariableId>> notAsked;
+  std::set<ir::VariableId> toAsk;
+  bool shiftOfZ = false;      // an offset of Z is written
+  std::size_t waited = 0;     // size of `sheet` where the axes are waited for
+  const Body* body = nullptr; // facts of the body while it is written, else null
+  std::size_t at = 0;         // index of the statement of the body that is being written
 };
 
 // "G65", "G54.1", "M3".
@@ -251,6 +257,15 @@ void writeStarts(State& state);
 void writeRequirements(State& state);
 // The argument may be omitted: it has a default that moves nothing, or may be null.
 bool mayBeOmitted(const State& state, ir::VariableId id);
+
+// ---- Demands.cpp ----
+
+// Which mandatory arguments are needed on some ways through the checks only, and by nothing else.
+void planDemands(State& state);
+// The alarm of each of `ids` that is still to be asked for.
+void demand(State& state, const std::set<ir::VariableId>& ids, const ir::Origin& origin);
+// The condition reads an argument that is still to be asked for.
+bool demandsWithin(const State& state, const ir::ConditionPtr& condition);
 
 // ---- Copied.cpp ----
 

@@ -454,7 +454,12 @@ private:
       differs(who, wanted, record, out);
       return;
     }
-    // A parameter without a default that only feeds a check changes nothing where it is left out.
+    // A parameter without a default that only feeds a check changes nothing where it is left out and the
+    // checks can be decided without it.
+    if (!value && now.questions->rejectsSome(field == nullptr ? argument.name : field->name)) {
+      differs(who, wanted, record, out);
+      return;
+    }
     SourceQuestions::Ran meant;
     if (value)
       meant = now.questions->with(field->name, *value);

@@ -32,6 +32,8 @@ struct EmitOptions {
   std::map<std::string, double> fixedByName; // named in the head; a start point that is here is checked
   std::map<ir::VariableId, std::vector<Choice>> choices; // of a field that the dialog offers as a list
   std::map<ir::VariableId, double> defaults; // values of the source, those its checks reject included
+  // The functions of sharedHelpers() are in the post: the fragment calls them and holds none of them.
+  bool helpersApart = false;
 };
 
 // "surfaceX" of "surface-x": what each name of the fragment begins with. Letters and digits of ASCII alone; a
@@ -45,6 +47,9 @@ std::string propertyOf(std::string_view prefix, std::string_view field);
 // need. nullopt where something cannot be said: reported. `cycle` is folded; its body is straight.
 std::optional<std::vector<EmittedLine>> emit(const ir::Cycle& cycle, const EmitOptions& options,
                                              Diagnostics& diagnostics);
+
+// The private functions of fragments under one name for all, whatever cycles a post holds.
+std::string sharedHelpers(const stdlib::Control& control);
 
 // What is around fragments in the post of postAround(): before the first, after the last.
 std::vector<EmittedLine> postHead();

@@ -13,6 +13,9 @@ struct HelperText {
   std::string_view text;
 };
 
+// What the names of shared functions begin with.
+constexpr std::string_view kShared = "dotekShared";
+
 constexpr std::array<HelperText, 23> kHelpers = {{
     {Helper::Given, "given",
      R"(// The decimal that was typed: a job keeps numbers in 32 bits, so 5.08 arrives as 5.079999923706055.
@@ -224,19 +227,39 @@ std::string filled(std::string_view text, const std::string& prefix, const std::
   return out;
 }
 
+// Above what a word of the control holds.
+std::string limitOf(const stdlib::Control& control) {
+  return "1" + std::string(static_cast<std::size_t>(control.integerDigits), '0');
+}
+
 } // namespace
 
 std::string State::helper(Helper which) {
   helpers.insert(which);
   if (which == Helper::Picture || which == Helper::Shown) helpers.insert(Helper::Digits);
   for (const HelperText& one : kHelpers)
-    if (one.which == which) return prefix + "_" + std::string(one.name);
+    if (one.which == which)
+      return (options.helpersApart ? std::string(kShared) : prefix) + "_" + std::string(one.name);
   return "";
 }
 
+std::string sharedHelpers(const stdlib::Control& control) {
+  Script script;
+  script.comment(
+      "What the parts of a post share that Dotek writes with --helpers. Paste it once, before them.");
+  for (const HelperText& one : kHelpers) {
+    script.blank();
+    script.text(filled(one.text, std::string(kShared), limitOf(control)));
+  }
+  std::string out;
+  for (const EmittedLine& line : script.lines())
+    out += line.text + "\n";
+  return out;
+}
+
 void writeHelpers(State& state) {
-  const std::string limit =
-      "1" + std::string(static_cast<std::size_t>(state.options.control.integerDigits), '0');
+  if (state.options.helpersApart) return;
+  const std::string limit = limitOf(state.options.control);
   for (const HelperText& one : kHelpers) {
     if (!state.helpers.contains(one.which)) continue;
     state.script.text(filled(one.text, state.prefix, limit));

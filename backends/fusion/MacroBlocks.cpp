@@ -3,6 +3,7 @@
 #include "backends/common/CycleTouches.h"
 #include "backends/common/MacroCall.h"
 #include "backends/fusion/State.h"
+#include "ir/Evaluate.h"
 #include "ir/Fold.h"
 #include "ir/Linear.h"
 #include "ir/Walk.h"
@@ -334,6 +335,36 @@ void MacroBlocks::move(const ir::Move& move, const ir::Origin& origin, std::vect
   moved(move);
 }
 
+// With the first values of the fields the target is not the nominal, wherever the cycle starts.
+bool MacroBlocks::missesNominal(const ir::Measure& measure, const ir::Origin& origin) {
+  const ir::Cycle& cycle = state_.cycle;
+  ir::Environment known(cycle.variables.size());
+  for (ir::VariableId id = 0; id < cycle.variables.size(); ++id) {
+    const ir::Variable& variable = cycle.variable(id);
+    const auto given = state_.options.defaults.find(id);
+    if (variable.role != ir::Role::Parameter) continue;
+    if (given != state_.options.defaults.end())
+      known[id] = ir::Scalar::of(given->second);
+    else if (variable.defaultValue)
+      known[id] = ir::Scalar::of(*variable.defaultValue);
+  }
+  for (const ir::CycleStatement& statement : cycle.checks)
+    if (const auto* assign = std::get_if<ir::Assign>(&statement.node))
+      known[assign->variable] = ir::evaluate(*assign->value, known);
+  const std::vector<ir::Axis> axes = measuredAxes(measure);
+  return std::any_of(axes.begin(), axes.end(), [&](ir::Axis axis) {
+    const ir::ExpressionPtr& nominal = measure.setting->nominal[ir::indexOf(axis)];
+    if (nominal == nullptr || state_.failed) return false;
+    const ir::ExpressionPtr target =
+        measure.target ? place(*measure.target, axis, ir::Frame::Work, origin) : at_[ir::indexOf(axis)].value;
+    if (target == nullptr) return false;
+    const ir::ExpressionPtr between = difference(target, nominal);
+    if (ir::constantValue(between) != nullptr) return false; // decided when converting
+    const ir::Scalar away = ir::evaluate(*between, known);
+    return away.known() && std::abs(away.value) > kSame;
+  });
+}
+
 // The macro corrects the system by measured minus target: right where the target is the nominal.
 bool MacroBlocks::requireNominal(const ir::Measure& measure, const ir::Origin& origin) {
   for (const ir::Axis axis : measuredAxes(measure)) {
@@ -379,7 +410,8 @@ void MacroBlocks::measure(const ir::Measure& measure, const ir::Origin& origin, 
   if (measure.setting) {
     if (system == nullptr) return cannot("a work offset");
     if (setsAnotherAxis(measure)) cannot("an offset of an axis that it does not measure");
-    given.setsSystem = system->systemRule != stdlib::SystemRule::Error || tellsNominal(measure) ||
+    const bool own = !tellsNominal(measure) || missesNominal(measure, origin);
+    given.setsSystem = system->systemRule != stdlib::SystemRule::Error || !own ||
                        !offsetObstacle(*signature, *measure.setting).empty();
     if (given.setsSystem && system->systemRule == stdlib::SystemRule::Error &&
         !requireNominal(measure, origin))

@@ -148,6 +148,9 @@ void writeHead(State& state) {
       "with the property "
       "dotekCycle. Its point is where the cycle starts, in "
       "the work system of the operation.");
+  if (state.options.helpersApart)
+    script.comment(
+        "The functions dotekShared_.. are in the file of --helpers, pasted once before this part.");
   if (!state.options.macros.needs.empty())
     script.comment("Set before the first call of a macro: " + state.options.macros.needs);
   if (!state.options.fixedByName.empty()) {

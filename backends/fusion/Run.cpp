@@ -45,8 +45,8 @@ std::string textOf(const std::vector<EmittedLine>& lines) {
 
 } // namespace
 
-std::optional<script::Fault> Fragment::load(std::string_view fragment, std::string_view prefix,
-                                            bool numbered) {
+std::optional<script::Fault> Fragment::load(std::string_view fragment, std::string_view prefix, bool numbered,
+                                            std::string_view helpers) {
   prefix_ = prefix;
   whole_ = false;
   // Read by itself, so that a brace too many is found here and lines are the fragment's own. It is no
@@ -56,6 +56,7 @@ std::optional<script::Fault> Fragment::load(std::string_view fragment, std::stri
   if (numbered)
     head += "function writeBlock() {\n  var text = formatWords(arguments);\n"
             "  if (text !== \"\") { writeln(\"N1 \" + text); }\n}\n";
+  head += helpers;
   return runner_.load({{"kernel", kernelText()}, {"post", head}, {kFragment, own}});
 }
 

@@ -48,8 +48,9 @@ public:
   explicit Fragment(script::Runner& runner) : runner_(runner) {}
   // The text, whose names begin with `prefix`. `numbered`: the post's writeBlock puts `N1 ` before each
   // block. A fault where it cannot be read.
-  std::optional<script::Fault> load(std::string_view fragment, std::string_view prefix,
-                                    bool numbered = false);
+  // `helpers`: of sharedHelpers(), read before it.
+  std::optional<script::Fault> load(std::string_view fragment, std::string_view prefix, bool numbered = false,
+                                    std::string_view helpers = "");
   std::optional<script::Fault> loadPost(std::string_view post, std::string_view prefix);
   // PREFIX_dispatch(x, y, z) for each point, of a post its entry functions in their order; the prefix chooses
   // the cycle.

@@ -147,6 +147,7 @@ private:
   void wait(std::vector<Text>& lines);
   // Whether the script can tell that the macro's own correction is the source's setting.
   bool tellsNominal(const ir::Measure& measure);
+  bool missesNominal(const ir::Measure& measure, const ir::Origin& origin);
   // Why the blocks cannot write an offset themselves; "": they can.
   std::string offsetObstacle(const stdlib::MacroSignature& signature, const ir::OffsetSetting& setting) const;
   ir::ExpressionPtr offsetOf(const ir::ExpressionPtr& system, ir::Axis axis) const;

@@ -57,6 +57,8 @@ public:
     std::erase_if(session_.diagnostics().all(),
                   [](const Diagnostic& one) { return one.code == diag::AlarmRenumbered::code; });
     if (parts_.empty()) return;
+    if (options_.helpersApart)
+      context_.result.helpers = fusion::sharedHelpers(*context_.inputs->sourceControl);
     if (!options_.wholePost) {
       for (Part& part : parts_)
         write(part.prefix + ".js", std::move(part.lines));
@@ -106,7 +108,8 @@ private:
                              lowered.fixed,
                              lowered.fixedByName,
                              {},
-                             std::move(defaults)};
+                             std::move(defaults),
+                             options_.helpersApart};
     for (auto& [id, choices] : dialogChoices(folder, lowered.cycle, session_.sources()))
       for (DialogChoice& choice : choices)
         emit.choices[id].push_back({choice.value, std::move(choice.title)});
@@ -123,7 +126,7 @@ private:
   std::vector<Part> parts_;
 };
 
-constexpr TargetFlag kFlags[] = {TargetFlag::ProbeMacros, TargetFlag::WholePost};
+constexpr TargetFlag kFlags[] = {TargetFlag::ProbeMacros, TargetFlag::WholePost, TargetFlag::Helpers};
 
 } // namespace
 

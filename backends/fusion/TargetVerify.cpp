@@ -36,12 +36,15 @@ public:
         runner_({source.session.options().scriptProgram, source.session.limits()}) {}
 
   // Macros that correct an offset by measured less expected take no other nominal.
-  bool needsNominal() const override { return set_ != sourceSet_; }
+  bool needsNominal() const override {
+    return set_ != sourceSet_ &&
+           from_.plan.translation->text.find("do not lead to the nominal") != std::string::npos;
+  }
 
   bool prepare() override {
     const Translation& translation = *from_.plan.translation;
     prefix_ = fusion::prefixOf(from_.folder.name);
-    if (const auto fault = fragment_.load(translation.text, prefix_, true)) {
+    if (const auto fault = fragment_.load(translation.text, prefix_, true, fusion::sharedHelpers(control_))) {
       report(*fault);
       return false;
     }

@@ -25,6 +25,18 @@ constexpr double kSame = 1e-8;            // mm: sums of coordinates that come t
 constexpr double kValueTolerance = 0.005; // of a recorded diameter, mm
 constexpr std::uint32_t kActive = 54;     // the one system
 
+// The middle between walls: of a bore, or of one pair that is touched from one place to both sides.
+bool isMiddle(const Measure& measure) {
+  const std::vector<verify::Touch>& walls = measure.nominal;
+  if (walls.size() == kBoreSides) return true;
+  return walls.size() == 2 && (walls[0].direction + walls[1].direction).length() < kSame;
+}
+
+std::size_t axisOf(const Point3& direction) {
+  const double x = std::abs(direction.x), y = std::abs(direction.y), z = std::abs(direction.z);
+  return x > std::max(y, z) ? 0 : y > z ? 1 : 2;
+}
+
 double& part(Point3& p, std::size_t axis) {
   return axis == 0 ? p.x : axis == 1 ? p.y : p.z;
 }
@@ -52,7 +64,8 @@ public:
   std::vector<verify::Difference> own; // what the common rules do not ask for
 
   void read(Measure& want, Measure& got, const verify::Gathered::Parts& parts, bool stopped) {
-    const bool bore = want.nominal.size() == kBoreSides;
+    const bool bore = isMiddle(want);
+    middle_ = bore;
     nominals(want, got, parts, bore);
     if (stopped) { // only what was looked for is compared
       want.nominal.resize(std::min(want.nominal.size(), got.nominal.size()));
@@ -92,7 +105,7 @@ private:
         // The ball's centre is searched, where the wall is less a radius; the second wall of a pair from the
         // first.
         touch.point = touch.point + touch.direction * facts_.ballRadius;
-        const std::size_t axis = i / 2;
+        const std::size_t axis = axisOf(touch.direction);
         Point3 found = search.end + touch.direction * facts_.ballRadius;
         if (i % 2 == 1 && !facts_.byOperator) part(touch.point, axis) -= beside;
         if (i % 2 == 0) beside = part(found, axis) - part(want.nominal[i].point, axis);
@@ -101,7 +114,7 @@ private:
               (want.contacts[i].centre.x + touch.direction.x * facts_.ballRadius - want.nominal[i].point.x) /
               2;
         // After the first datum of a bore the ball is in the middle along X.
-        if (axis == 1 && !want.datums.empty() && !facts_.byOperator) want.nominal[i].point.x += middle;
+        if (i > 1 && !want.datums.empty() && !facts_.byOperator) want.nominal[i].point.x += middle;
       }
       got.nominal.push_back(touch);
       got.contacts.insert(got.contacts.end(), search.contacts.begin(), search.contacts.end());
@@ -140,19 +153,25 @@ private:
 
   bool enter(const Mark& stop, const verify::Gathered::Parts& parts, std::optional<Point3>& zero,
              std::array<bool, 3>& set) {
-    const bool middle = parts.touches.size() == kBoreSides;
     const auto shown =
-        coordinatesIn(stop.text, middle ? facts_.control.enterCentre : facts_.control.enterShift);
+        coordinatesIn(stop.text, middle_ ? facts_.control.enterCentre : facts_.control.enterShift);
     bool any = false;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       if (!shown[axis]) continue;
       Point3 at = stop.at;
-      if (middle && axis < 2) at = (parts.touches[2 * axis].end + parts.touches[2 * axis + 1].end) * 0.5;
+      if (middle_) at = betweenWalls(parts.touches, axis).value_or(at);
       if (!zero) zero = zero_;
       part(*zero, axis) = part(at, axis) - *shown[axis] / (facts_.control.isDiameter("XYZ"[axis]) ? 2 : 1);
       any = set[axis] = true;
     }
     return any;
+  }
+
+  static std::optional<Point3> betweenWalls(const std::vector<Measure>& touches, std::size_t axis) {
+    for (std::size_t i = 0; i + 1 < touches.size(); i += 2)
+      if (axisOf(*touches[i].aim - touches[i].start) == axis)
+        return (touches[i].end + touches[i + 1].end) * 0.5;
+    return std::nullopt;
   }
 
   // Each contact is kept in a record; of a bore that is set by G92, its size along each axis.
@@ -184,7 +203,8 @@ private:
   }
 
   const MikroprogFacts& facts_;
-  Point3 zero_; // of the active system
+  Point3 zero_;         // of the active system
+  bool middle_ = false; // of the measure that is read
 };
 
 // What follows a search in feed begins with the path back, at the feed that the program was written with.
@@ -241,7 +261,7 @@ std::vector<verify::Difference> compareWithSource(verify::Record source, const v
   for (verify::Piece& piece : source.pieces)
     if (piece.kind == sim::PathKind::Measuring) piece.to = piece.from;
   const bool bores = std::any_of(source.measures.begin(), source.measures.end(),
-                                 [](const Measure& one) { return one.nominal.size() == kBoreSides; });
+                                 [](const Measure& one) { return isMiddle(one); });
   verify::CompareRules rules;
   rules.tolerance = rules.results = bores ? std::max(facts.tolerance, kMiddleTolerance) : facts.tolerance;
   rules.atMeasures = rules.mayRestoreModes = true;

@@ -49,6 +49,36 @@ TEST_CASE("convert -d writes a file for each program, and --map beside them") {
   CHECK(folder.files() == 3);
 }
 
+TEST_CASE("convert --helpers writes what fragments share beside them") {
+  const Folder folder;
+  const std::string into = (folder.path / "js").generic_string();
+  const std::string helpers = (folder.path / "shared.js").generic_string();
+  const std::vector<std::string> command = {"convert",
+                                            example("surface-x"),
+                                            example("surface-y"),
+                                            "--prog",
+                                            example("mill-post.txt"),
+                                            "--to",
+                                            "fusion",
+                                            "-d",
+                                            into,
+                                            "--helpers",
+                                            helpers};
+  const CommandResult result = runDotek(command, root());
+  CHECK_MESSAGE(result.status == 0, result.err);
+  CHECK(readAll(helpers).find("function dotekShared_picture(") != std::string::npos);
+  CHECK(readAll(folder.path / "js" / "surfaceX.js").find("function surfaceX_picture(") == std::string::npos);
+  CHECK(folder.files() == 3);
+  std::vector<std::string> whole = command;
+  whole.push_back("--whole-post");
+  CHECK(runDotek(whole, root()).status == 2);
+  std::vector<std::string> fanuc = command;
+  fanuc[6] = "fanuc";
+  const CommandResult refused = runDotek(fanuc, root());
+  CHECK(refused.status == 2);
+  CHECK(refused.err.find("--helpers") != std::string::npos);
+}
+
 TEST_CASE("convert leaves nothing after it where one program of several is refused") {
   const Folder folder;
   const CommandResult result =

@@ -350,6 +350,40 @@ TEST_CASE("a whole post runs from beginning to end") {
   CHECK(runPost(post, "nothing", input).errors.size() == 2);
 }
 
+TEST_CASE("fragments share their functions: --helpers gives them once, whatever the cycles") {
+  std::string helpers, post;
+  for (const auto& [folder, prefix] : {std::pair("surface-x", "surfaceX"), std::pair("bore", "bore")}) {
+    CAPTURE(folder);
+    driver::ConvertOptions convert = toFusion(example(folder), ownPost());
+    const std::string alone = fragmentOf(convert);
+    convert.helpersApart = true;
+    const driver::Outcome outcome = driver::convert(convert);
+    REQUIRE(outcome.status == 0);
+    REQUIRE_FALSE(outcome.helpers.empty());
+    CHECK((helpers.empty() || helpers == outcome.helpers));
+    helpers = outcome.helpers;
+    const std::string functions = std::string("function ") + prefix + "_";
+    CHECK(outcome.output.find(functions + "write(") != std::string::npos);
+    CHECK(outcome.output.find(functions + "dispatch(") != std::string::npos);
+    CHECK(outcome.output.find(functions + "picture(") == std::string::npos);
+    CHECK(outcome.output.find(functions + "given(") == std::string::npos);
+    CHECK(outcome.output.find("dotekShared_picture(") != std::string::npos);
+    CHECK(outcome.output.find("pasted once before this part") != std::string::npos);
+    post += outcome.output;
+    fusion::RunInput input;
+    input.cycle["clearance"] = 5.1;
+    input.points = {{1.25, -2, 3}};
+    const fusion::RunResult wanted = runFragment(alone, prefix, input);
+    REQUIRE(wanted.ok());
+    CHECK(runFragment(helpers + post, prefix, input).text == wanted.text);
+    // `convert --verify` runs the fragment as it is written, with the functions before it.
+    convert.verify = true;
+    convert.common.scriptProgram = runningProgram();
+    const driver::Outcome verified = driver::convert(convert);
+    CHECK_MESSAGE(verified.status == 0, messagesOf(verified));
+  }
+}
+
 TEST_CASE("jumps of the checks that are no ifs are steps") {
   const std::string side = (root() / "tests" / "golden" / "convert" / "goto-chain").generic_string();
   const std::string fragment = fragmentOf(toFusion(side + "/side", side + "/prog.txt"));

@@ -6,6 +6,7 @@
 #include "tests/GoldenRunner.h"
 #include "tests/policy/Tree.h"
 #include "tests/unit/DataFolder.h"
+#include "tests/unit/FaultJudge.h"
 #include "tests/unit/FaultOperators.h"
 #include "tests/unit/MeasuredRunner.h"
 #include "verify/Compare.h"
@@ -23,7 +24,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr const char* kSets[] = {"easyprobe", "inspection-plus", "dotek"};
 constexpr const char* kOwn = "dotek.nc";
 constexpr std::size_t kNamed = 7; // operators that the acceptance names are first
 
@@ -95,45 +95,6 @@ std::vector<Cycle> allCycles() {
   return out;
 }
 
-// Of one run of verify: what the translation did in each case.
-struct Told {
-  int status = 0;
-  std::map<std::uint64_t, std::size_t> traces; // hashes
-  std::set<std::uint64_t> agreeing;
-  std::string messages;
-};
-
-// What a machine did: without actions that change nothing, which a trace may tell: a move to where it is,
-// the same once more.
-std::size_t deeds(const std::string& trace) {
-  std::string out, last, at;
-  for (const std::string& line : linesOf(trace)) {
-    const bool moves = line.starts_with("rapid ") || line.starts_with("feed ");
-    const std::size_t begin = line.find(" X"), end = line.find(" F");
-    const std::string to = begin == std::string::npos ? "" : line.substr(begin, end - begin);
-    const bool nothing = line == last || (moves && to == at);
-    last = line;
-    if (moves || line.starts_with("system ") || line.starts_with("start "))
-      at = to;
-    else if (line.find(" X") != std::string::npos)
-      at.clear(); // it may have moved
-    if (!nothing) out += line + "\n";
-  }
-  return std::hash<std::string>()(out);
-}
-
-Told verified(driver::VerifyOptions options) {
-  Told out;
-  options.traces = [&](std::uint64_t number, bool agrees, const std::string& trace) {
-    out.traces.emplace(number, deeds(trace));
-    if (agrees) out.agreeing.insert(number);
-  };
-  const driver::Outcome outcome = driver::verify(options);
-  out.status = outcome.status;
-  out.messages = renderText(outcome.diagnostics, outcome.sources, 3);
-  return out;
-}
-
 // A cycle with macros, as it is without a fault.
 struct Subject {
   std::string name;
@@ -151,31 +112,6 @@ struct Target {
   std::vector<const Subject*> judges;
   std::vector<std::vector<Fault>> faults; // by kind
 };
-
-FaultWords wordsOf(const std::string& program) {
-  FaultWords out;
-  out.radius = {"#520"};
-  out.probeOn = {"M31"};
-  for (const char* name : kSets) {
-    const stdlib::MacroSet set = *stdlib::MacroSet::load(stdlib::DataFiles(), name);
-    for (const stdlib::MacroSignature& one : set.signatures) {
-      if (one.intent == stdlib::Intent::ProbeOn)
-        out.probeOn.insert(fmt::format("G65P{}", one.program));
-      else if (one.intent == stdlib::Intent::ProtectedMove)
-        out.travels.insert(one.program);
-      else if (one.intent != stdlib::Intent::ProbeOff)
-        out.measures.insert(one.program);
-    }
-  }
-  out.measures.insert(8801); // one touch, of the others
-  // "(A #1 TOOL_RADIUS ...": the header's list of arguments.
-  for (const std::string& line : linesOf(program)) {
-    const std::size_t sign = line.find('#');
-    if (line.starts_with("(") && sign == 3 && line.find(" TOOL_RADIUS ") != std::string::npos)
-      out.radius.insert(line.substr(sign, line.find(' ', sign) - sign));
-  }
-  return out;
-}
 
 // What a program with a fault came to.
 struct Findings {
@@ -234,7 +170,7 @@ private:
       lines += fmt::format("zero {} {} {:.6f}\n", key.first, key.second, zero);
     for (const auto& [number, value] : record.stores)
       lines += fmt::format("variable {} {:.6f}\n", number, value);
-    hash = deeds(lines);
+    hash = deedsOf(lines);
     return record;
   }
   // Where the text is on the increments of the control and the meaning does not, contacts on a round
@@ -295,7 +231,7 @@ Findings judge(const Target& target, const Fault& fault, const OwnFeatures& feat
     } else {
       options.translation = folder.write("faulty.nc", text);
     }
-    const Told told = verified(options);
+    const Told told = toldBy(options);
     ++runs;
     CAPTURE(fault.text());
     CAPTURE(told.messages);
@@ -325,7 +261,7 @@ TEST_CASE("verify rejects planted faults") {
   const OwnFeatures features(std::max<std::uint64_t>(4, size.cases / 15), size.seed);
   std::vector<Subject> subjects;
   for (const Cycle& cycle : allCycles()) {
-    for (const char* set : kSets) {
+    for (const char* set : kFaultSets) {
       Subject one{cycle.name + ", " + set, cycle.options, "", std::string_view(set) == "dotek", {}};
       one.options.probeMacros = set;
       one.options.cases = size.cases;
@@ -342,7 +278,7 @@ TEST_CASE("verify rejects planted faults") {
         continue; // the set does not have it
       }
       one.program = outcome.output;
-      one.told = verified(one.options);
+      one.told = toldBy(one.options);
       CAPTURE(one.name);
       CAPTURE(one.told.messages);
       CHECK(one.told.status == 0);
@@ -360,7 +296,7 @@ TEST_CASE("verify rejects planted faults") {
   }
   std::map<std::string_view, Counts> counts;
   for (Target& target : targets) {
-    target.words = wordsOf(target.text);
+    target.words = faultWordsOf(target.text);
     for (const std::string_view kind : faultKinds()) {
       target.faults.push_back(faultsOf(kind, target.text, target.words));
       (target.name == kOwn ? counts[kind].placesOwn : counts[kind].placesConverted) +=

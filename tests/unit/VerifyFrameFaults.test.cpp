@@ -2,10 +2,13 @@
 // sees them, whatever the program does (docs/verify-faults.md).
 #include "driver/Driver.h"
 #include "support/Decimal.h"
+#include "support/Worker.h"
 #include "tests/Draws.h"
 #include "tests/GoldenRunner.h"
 #include "tests/TestFolder.h"
 #include "tests/policy/Tree.h"
+#include "tests/unit/FaultJudge.h"
+#include "tests/unit/FragmentFaults.h"
 #include "tests/unit/FrameFaults.h"
 #include "verify/Random.h"
 
@@ -33,10 +36,11 @@ struct Translation {
   std::string name;
   driver::VerifyOptions options;
   std::string text;
+  std::optional<Told> few, many; // of its cases as it is, once they are needed
 };
 
 // What is converted and agrees: with each macro set, or with one in turn for each folder.
-std::vector<Translation> translations(bool eachSet) {
+std::vector<Translation> translations(bool eachSet, const char* to = "fanuc") {
   std::size_t turn = 0;
   std::vector<Translation> out;
   const fs::path shops = root() / "tests" / "shops";
@@ -50,12 +54,13 @@ std::vector<Translation> translations(bool eachSet) {
       for (std::size_t n = 0; n < kSets.size(); ++n) {
         const char* const set = kSets[(first + n) % kSets.size()];
         Translation one;
-        one.name = folder.filename().string() + ", " + set;
+        one.name = folder.filename().string() + ", " + to + ", " + set;
         one.options.inputs = {folder.generic_string()};
         one.options.source.prog = (shops / shop / "post.txt").generic_string();
         one.options.common.data = {(shops / "data").generic_string()};
         one.options.common.limits.simSteps = 20000; // a fault may make a loop endless
-        one.options.to = "fanuc";
+        one.options.to = to;
+        one.options.common.scriptProgram = runningProgram();
         one.options.probeMacros = set;
         one.options.cases = kFewCases;
         one.options.jobs = 1;
@@ -226,4 +231,139 @@ TEST_CASE("verify sees faults in the frame of programs") {
   MESSAGE(fmt::format("{} faults in the frames of {} translations, {} seen\n{}{}", sum.drawn, all.size(),
                       sum.seen, table, survivors));
   CHECK(sum.seen * 100 >= sum.drawn * 99);
+}
+
+namespace {
+
+// A family of operators, with what it is planted into.
+struct Family {
+  const char* name;
+  const char* target;
+};
+constexpr Family kFrame = {"frame", "fanuc"}, kMotion = {"motion", "fanuc"},
+                 kFragment = {"fragment", "fusion"};
+
+struct PlantedKind {
+  const Family* family = nullptr;
+  std::string_view kind;
+  struct Place {
+    Translation* in = nullptr;
+    Fault fault;
+  };
+  std::vector<Place> places;
+  std::size_t all = 0, drawn = 0, notRead = 0, nothing = 0, seen = 0, survived = 0;
+};
+
+std::vector<PlantedKind> plantedKinds(std::vector<Translation>& all) {
+  std::vector<PlantedKind> out;
+  for (const std::string_view kind : frameFaultKinds())
+    out.push_back({&kFrame, kind, {}});
+  for (const std::string_view kind : faultKinds())
+    out.push_back({&kMotion, kind, {}});
+  for (const std::string_view kind : fragmentFaultKinds())
+    out.push_back({&kFragment, kind, {}});
+  for (Translation& one : all) {
+    const FaultWords words = faultWordsOf(one.text);
+    for (PlantedKind& kind : out) {
+      if (one.options.to != kind.family->target) continue;
+      const std::vector<Fault> faults = kind.family == &kFrame    ? frameFaultsOf(kind.kind, one.text)
+                                        : kind.family == &kMotion ? faultsOf(kind.kind, one.text, words)
+                                                                  : fragmentFaultsOf(kind.kind, one.text);
+      for (const Fault& fault : faults)
+        if (kind.family != &kFrame || whyNothing(fault, one.text).empty())
+          kind.places.push_back({&one, fault});
+    }
+  }
+  for (PlantedKind& kind : out)
+    kind.all = kind.places.size();
+  return out;
+}
+
+enum class Came : std::uint8_t { NotRead, Nothing, Seen, Survived };
+
+// Traces of cases that agree without the fault say whether a program does something else.
+bool changes(const Told& right, const Told& told) {
+  return std::any_of(right.agreeing.begin(), right.agreeing.end(), [&](std::uint64_t number) {
+    const auto trace = told.traces.find(number);
+    return trace == told.traces.end() || trace->second != right.traces.at(number);
+  });
+}
+
+Came plant(PlantedKind::Place& place, const Family& family, const TestFolder& folder) {
+  driver::VerifyOptions options = place.in->options;
+  options.translation = folder.write("faulty", withFault(place.in->text, place.fault));
+  bool changed = &family != &kMotion;
+  for (const std::uint64_t cases : {kFewCases, kCases}) { // most of them show in the first cases
+    options.cases = cases;
+    const Told told = toldBy(options);
+    if (told.status == 1) return Came::Seen;
+    if (told.status != 0) return Came::NotRead;
+    if (&family != &kMotion) continue;
+    std::optional<Told>& right = cases == kFewCases ? place.in->few : place.in->many;
+    if (!right) {
+      driver::VerifyOptions without = place.in->options;
+      without.cases = cases;
+      right = toldBy(without);
+    }
+    changed = changed || changes(*right, told);
+  }
+  return changed ? Came::Survived : Came::Nothing;
+}
+
+} // namespace
+
+TEST_CASE("verify sees faults in the motion and the frame of what becomes of the shops' cycles") {
+  // A measurement on demand: how many are seen is in docs/verify-faults.md.
+  const char* const given = std::getenv("DOTEK_SHOP_FAULTS");
+  if (given == nullptr) return;
+  const auto wanted = static_cast<std::size_t>(parseNumber(given).value_or(1000));
+  std::uint64_t seed = 1;
+  if (const char* text = std::getenv("DOTEK_FAULTS_SEED"))
+    seed = static_cast<std::uint64_t>(parseNumber(text).value_or(1));
+  std::vector<Translation> all = translations(true);
+  for (Translation& one : translations(true, "fusion"))
+    all.push_back(std::move(one));
+  REQUIRE(all.size() >= 20);
+  std::vector<PlantedKind> kinds = plantedKinds(all);
+  verify::Random random(seed);
+  const TestFolder folder("dotek-shop-faults");
+  std::string survivors;
+  std::size_t drawn = 0;
+  // The operators in turn, so that each has its share; those whose places are used up are passed over.
+  const auto left = [&] {
+    return std::any_of(kinds.begin(), kinds.end(),
+                       [](const PlantedKind& one) { return !one.places.empty(); });
+  };
+  for (std::size_t turn = 0; drawn < wanted && left(); ++turn) {
+    PlantedKind& kind = kinds[turn % kinds.size()];
+    if (kind.places.empty()) continue;
+    const std::size_t at = random.below(kind.places.size());
+    PlantedKind::Place place = std::move(kind.places[at]);
+    kind.places.erase(kind.places.begin() + static_cast<std::ptrdiff_t>(at));
+    ++drawn;
+    ++kind.drawn;
+    const Came came = plant(place, *kind.family, folder);
+    ++(came == Came::NotRead   ? kind.notRead
+       : came == Came::Nothing ? kind.nothing
+       : came == Came::Seen    ? kind.seen
+                               : kind.survived);
+    if (came == Came::Survived) {
+      survivors += fmt::format("  {}: {}\n", place.in->name, place.fault.text());
+      fmt::print("survived {} {}: {}\n", drawn, place.in->name, place.fault.text());
+    }
+  }
+  std::string table = "| of | operator | places | drawn | not read | without effect | seen | survived |\n"
+                      "|---|---|---|---|---|---|---|---|\n";
+  PlantedKind sum;
+  for (const PlantedKind& one : kinds) {
+    table += fmt::format("| {} | {} | {} | {} | {} | {} | {} | {} |\n", one.family->name, one.kind, one.all,
+                         one.drawn, one.notRead, one.nothing, one.seen, one.survived);
+    sum.all += one.all, sum.drawn += one.drawn, sum.notRead += one.notRead, sum.nothing += one.nothing;
+    sum.seen += one.seen, sum.survived += one.survived;
+  }
+  table += fmt::format("| all | | {} | {} | {} | {} | {} | {} |\n", sum.all, sum.drawn, sum.notRead,
+                       sum.nothing, sum.seen, sum.survived);
+  MESSAGE(fmt::format("{} faults by seed {} in {} translations\n{}{}", sum.drawn, seed, all.size(), table,
+                      survivors));
+  CHECK((sum.survived == 0 || sum.survived * 100 <= sum.seen + sum.survived));
 }

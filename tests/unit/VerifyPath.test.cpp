@@ -93,9 +93,23 @@ TEST_CASE("drawn path: down is a touch, up is none") {
 TEST_CASE("drawn path: what is not taken back is no touch") {
   CHECK(touches(drawn({alongZ(-5), alongX(10), alongZ(40)})).empty());
   CHECK(touches(drawn({alongZ(-5), alongX(10), alongX(20), alongZ(40)})).empty());
-  CHECK(touches(drawn({alongZ(-5), feed(10, 10, -5), feed(0, 0, -5), alongZ(40)})).empty());
+  CHECK(touches(drawn({alongZ(-5), feed(10, 10, -5), feed(1, 1, -5), alongZ(40)})).empty());
+  CHECK(touches(drawn({alongZ(-5), feed(10, 10, -4), feed(0, 0, -5), alongZ(40)})).empty());
   CHECK(touches(drawn({alongZ(-5), alongX(10), alongX(10), alongX(0), alongZ(40)})).empty()); // is between
   CHECK(touches(drawn({alongZ(-5), alongX(10)})).empty());
+}
+
+TEST_CASE("drawn path: a feed at an angle that goes straight back is a touch") {
+  // 3, 4, 5: the contact lies the radius of 2 further along the way of 10.
+  const DrawnPath path =
+      drawn({alongZ(-5), feed(6, 8, -5), feed(0, 0, -5), feed(-8, 6, -5), feed(0, 0, -5), alongZ(40)});
+  REQUIRE(path.touches.size() == 2);
+  CHECK(path.touches[0].move == 2);
+  CHECK((path.touches[0].touch.point - Point3{7.2, 9.6, -3}).length() < 1e-12);
+  CHECK((path.touches[0].touch.direction - Point3{0.6, 0.8, 0}).length() < 1e-12);
+  CHECK(path.touches[1].move == 4);
+  CHECK((path.touches[1].touch.point - Point3{-9.6, 7.2, -3}).length() < 1e-12);
+  CHECK(why(path).empty());
 }
 
 TEST_CASE("drawn path: the path back is no touch, the path on to the other side is one") {

@@ -5,6 +5,7 @@
 #include "tests/TestFolder.h"
 
 #include <doctest/doctest.h>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -137,6 +138,67 @@ TEST_CASE("verify: Mikroprog searches as far as the call says, and sets a corner
         verified({"inspection", cycle, "probeOps", "mikroprog", "", "mikroprog-mill", assume});
     CHECK_MESSAGE(agrees(said), said);
   }
+}
+
+TEST_CASE("verify: a height whose travel goes on beyond the surface, as a fragment for another set") {
+  const Shop height{"easyprobe", "Brandl.Hoehe.Z", "messen", "fusion", "inspection-plus", "fanuc-0i-md"};
+  const std::string good = converted(height);
+  // VORZ + MESSWEG is UEBER below SOLL for all values: no S could say so.
+  CHECK(good.find(" S\"") == std::string::npos);
+  CHECK(good.find("LOCAL SHIFT ACTIVE") != std::string::npos);
+  CHECK(good.find("do not lead to the nominal") == std::string::npos);
+  const std::string said = verified(height);
+  CHECK_MESSAGE(agrees(said), said);
+  // The offset without the nominal.
+  const std::size_t write = good.find("+#137-");
+  REQUIRE(write != std::string::npos);
+  const std::string wrong = verified(height, replaced(good, "+#137-", "+#137+"));
+  CHECK_MESSAGE(wrong.find("\nDIFFERS") != std::string::npos, wrong);
+}
+
+TEST_CASE("verify: three touches at angles, and four round a spigot, are where the path draws them") {
+  for (const Shop& one :
+       {Shop{"toolchange", "MX.Arc.Centre", "measure", "fanuc", "inspection-plus", "fanuc-0i-md"},
+        Shop{"inspection", "JT.Spigot.Cutter", "probeOps", "fanuc", "inspection-plus", "fanuc-31i-b"}}) {
+    CAPTURE(one.cycle);
+    const std::string said = verified(one);
+    CHECK_MESSAGE(agrees(said), said);
+  }
+  const Shop arc{"toolchange", "MX.Arc.Centre", "measure", "fanuc", "inspection-plus", "fanuc-0i-md"};
+  const std::string good = converted(arc);
+  const std::size_t call = good.find("G65 P9823 A");
+  REQUIRE(call != std::string::npos);
+  const std::string wrong = verified(arc, std::string(good).replace(call + 10, 1, "A-"));
+  CHECK_MESSAGE(wrong.find("\nDIFFERS") != std::string::npos, wrong);
+}
+
+TEST_CASE("verify: a branch without a call may store where a set keeps its calibration") {
+  for (const char* set : {"easyprobe", "inspection-plus"}) {
+    CAPTURE(set);
+    const std::string said = verified({"direct", "DP.Rail.Slope", "touch", "fanuc", set, "fanuc-0i-md"});
+    CHECK_MESSAGE(agrees(said), said);
+  }
+}
+
+TEST_CASE("verify: Mikroprog finds the middle of a pocket between two walls") {
+  // The slot of the toolroom without the zone that no control of that kind compares.
+  const TestFolder folder("dotek-verify-pocket");
+  const std::filesystem::path shops = root() / "tests/shops";
+  std::filesystem::copy(shops / "inspection/JT.Slot.Datum", folder / "JT.Slot.Datum");
+  driver::VerifyOptions options;
+  options.source.prog = folder.write(
+      "post.txt", replaced(readAll(shops / "inspection/post.txt"), "' M'OpFieldData#('ZONE') EOL", " EOL"));
+  options.inputs = {(folder / "JT.Slot.Datum").string()};
+  options.source.routine = "probeOps";
+  options.common.data = {(shops / "data").string()};
+  options.to = "mikroprog";
+  options.control = "mikroprog-mill";
+  options.cases = 20;
+  options.jobs = 1;
+  options.datum = "operator";
+  const driver::Outcome outcome = driver::verify(options);
+  const std::string said = renderText(outcome.diagnostics, outcome.sources, 0) + outcome.output;
+  CHECK_MESSAGE(outcome.output.starts_with("AGREES"), said);
 }
 
 } // namespace dotek::tests
