@@ -115,9 +115,7 @@ void dropUnneeded(Cycle& cycle) {
     const auto* branch = std::get_if<Branch>(&body[i].node);
     if (branch == nullptr || labels.at(branch->target) < i) return false;
     for (std::size_t k = i + 1; k < labels.at(branch->target); ++k)
-      if (stays[k] && !std::holds_alternative<Label>(body[k].node) &&
-          !std::holds_alternative<Comment>(body[k].node))
-        return false;
+      if (stays[k] && !std::holds_alternative<Label>(body[k].node)) return false;
     return true;
   };
   std::vector<bool> stays(body.size());

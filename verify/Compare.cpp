@@ -155,8 +155,9 @@ private:
 
   // Where a bend is as small as the tolerance, one side may go straight on and the other end a piece there.
   void splitAlike(const std::vector<Piece>& shorter, std::vector<Piece>& longer, std::size_t i) const {
-    const Piece& one = shorter[i];
-    const Piece& other = longer[i];
+    if (i + 1 >= shorter.size()) return;
+    const Piece &one = shorter[i], &next = shorter[i + 1], &other = longer[i];
+    if (next.kind != one.kind || next.with != one.with || next.feed != one.feed) return;
     if (one.kind != other.kind || one.kind == sim::PathKind::Measuring ||
         !near(one.from, other.from, rules_.tolerance) || near(one.to, other.to, rules_.tolerance) ||
         !between(other.from, one.to, other.to, 2 * rules_.tolerance))
