@@ -28,6 +28,7 @@ constexpr std::uint32_t kAttempts = 2000; // to find values that the cycle takes
 constexpr std::uint32_t kMostAlarms = 2;
 constexpr double kReach = 12;      // how far a search goes beyond a surface, mm
 constexpr double kOvertravel = 10; // of a search where nothing states it: that of vendors' macros, mm
+constexpr double kLeastWay = 0.01; // mm to a touch; macros take less for a stylus that is deflected
 constexpr double kLeftOut = 0.35;  // share of the cases in which a caller leaves an argument out
 
 // Names of the choice, as many as the type has; of a flag both states.
@@ -39,6 +40,18 @@ std::vector<double> choicesOf(const cycle::Type& type) {
   return out;
 }
 
+// A touch finds its surface where it begins.
+bool touchesAtOnce(const verify::Record& record, double ballRadius, SourceRange& at) {
+  for (const verify::Measure& measure : record.measures) {
+    if (measure.contacts.empty()) continue;
+    const sim::Point3 centre = measure.start + sim::Point3{0, 0, ballRadius};
+    if ((measure.contacts.front().centre - centre).length() >= kLeastWay) continue;
+    at = measure.range;
+    return true;
+  }
+  return false;
+}
+
 } // namespace
 
 // `rejected`: an alarm before anything moves.
@@ -48,7 +61,8 @@ struct CycleFileRunner::Played {
   verify::Record record;
   bool rejected = false;
   bool partMade = false;
-  std::string why; // it says nothing of a translation; "": it does
+  bool atOnce = false; // a touch finds its surface where it begins
+  std::string why;     // it says nothing of a translation; "": it does
   SourceRange whyAt;
 };
 
@@ -221,6 +235,8 @@ std::unique_ptr<CycleFileRunner::Played> CycleFileRunner::play(verify::Case draw
   out->why = verify::whyNoEvidence(out->record, out->whyAt);
   // A cycle that touches nothing computes, and sets what it computes.
   if (out->record.ending == verify::Ending::Finished && rehearsal.surfaces.empty()) out->why.clear();
+  out->atOnce = touchesAtOnce(out->record, probe.ballRadius(), out->whyAt);
+  if (out->atOnce) out->why = "the ball touches where a touch begins";
   return out;
 }
 
@@ -252,9 +268,9 @@ std::optional<verify::Case> CycleFileRunner::draw(std::uint64_t index) {
     std::unique_ptr<Played> played = play(std::move(proposal), !options_.partError);
     bool taken = played->why.empty();
     // An alarm of the cycle is an alarm of the program, too: a difference is not drawn away. Where a move
-    // that is to meet nothing grazes the part, the last digit decides.
+    // that is to meet nothing grazes the part, or a touch has no way, the last digit decides.
     if (!taken && played->record.ending == verify::Ending::Alarm && played->record.events.empty() &&
-        played->record.alarmKind.empty()) {
+        played->record.alarmKind.empty() && !played->atOnce) {
       std::uint32_t& count = played->rejected ? checks : alarms;
       if (count < kMostAlarms) {
         ++count;

@@ -19,6 +19,7 @@ using sim::Point3;
 
 constexpr int kShown = 6;                 // decimals
 constexpr double kPrintedHalf = 0.000501; // of the last place of a word, mm
+constexpr double kStopping = 0.01;        // where a move stops that meets the part, mm
 
 std::string_view switchName(Switch state) {
   switch (state) {
@@ -152,6 +153,27 @@ private:
     }
   }
 
+  // Where a bend is as small as the tolerance, one side may go straight on and the other end a piece there.
+  void splitAlike(const std::vector<Piece>& shorter, std::vector<Piece>& longer, std::size_t i) const {
+    if (i + 1 >= shorter.size()) return;
+    const Piece &one = shorter[i], &next = shorter[i + 1], &other = longer[i];
+    if (next.kind != one.kind || next.with != one.with || next.feed != one.feed) return;
+    if (one.kind != other.kind || one.kind == sim::PathKind::Measuring ||
+        !near(one.from, other.from, rules_.tolerance) || near(one.to, other.to, rules_.tolerance) ||
+        !between(other.from, one.to, other.to, 2 * rules_.tolerance))
+      return;
+    Piece rest = other;
+    rest.from = longer[i].to = one.to;
+    longer.insert(longer.begin() + static_cast<std::ptrdiff_t>(i) + 1, std::move(rest));
+  }
+
+  // An edge that is grazed stops a protected move at a height that a last digit beside it changes.
+  double ofLastPiece() const {
+    const bool obstructed = source_.ending == Ending::Alarm &&
+                            source_.alarmKind == stdlib::macroAlarmName(stdlib::MacroAlarm::PathObstructed);
+    return obstructed && stopsInMacros() ? std::max(kStopping, rules_.tolerance) : rules_.tolerance;
+  }
+
   // Those of a side, with what counts of them.
   std::vector<Piece> pieces(const Record& record) const {
     std::vector<Piece> out = record.pieces;
@@ -161,8 +183,8 @@ private:
   }
 
   void path() {
-    const std::vector<Piece> a = straight(pieces(source_), true, rules_.tolerance);
-    const std::vector<Piece> b = straight(pieces(target_), true, rules_.tolerance);
+    std::vector<Piece> a = straight(pieces(source_), true, rules_.tolerance);
+    std::vector<Piece> b = straight(pieces(target_), true, rules_.tolerance);
     for (std::size_t i = 0; i < std::max(a.size(), b.size()); ++i) {
       if (i >= a.size()) {
         add(Aspect::Path,
@@ -176,8 +198,11 @@ private:
             a[i].range, b.empty() ? SourceRange{} : b.back().range);
         return;
       }
+      splitAlike(a, b, i);
+      splitAlike(b, a, i);
+      const bool last = i + 1 == a.size() && i + 1 == b.size();
       const bool same = a[i].kind == b[i].kind && near(a[i].from, b[i].from, rules_.tolerance) &&
-                        near(a[i].to, b[i].to, rules_.tolerance);
+                        near(a[i].to, b[i].to, last ? ofLastPiece() : rules_.tolerance);
       if (!same) {
         add(Aspect::Path,
             fmt::format("a {} move to {} against a {} move to {}", pathKindName(a[i].kind), textOf(a[i].to),
@@ -353,7 +378,10 @@ private:
       return;
     }
     for (std::size_t i = 0; i < a.contacts.size(); ++i) {
-      if (near(a.contacts[i].point, b.contacts[i].point, rules_.results)) continue;
+      // Where the ball's middle is, is measured: on a narrow bore the point of the wall lies farther beside.
+      if (near(a.contacts[i].point, b.contacts[i].point, rules_.results) ||
+          near(a.contacts[i].centre, b.contacts[i].centre, rules_.results))
+        continue;
       add(Aspect::Contact,
           fmt::format("contact at {} against {}", textOf(a.contacts[i].point), textOf(b.contacts[i].point)),
           a.range, b.range);

@@ -56,7 +56,8 @@ public:
       : middle_(middleOf(touches)), beside_(ballRadius + kBeside), behind_(reach + kBehind) {
     std::vector<Touch> rest = distinct(touches);
     std::vector<Pair> pairs = takePairs(rest);
-    takeRounds(pairs);
+    takeRounds(pairs, rest);
+    addBores();
     for (const Pair& pair : pairs)
       addPair(pair);
     for (const Touch& touch : rest)
@@ -100,7 +101,7 @@ private:
   }
 
   // A bore or a boss of all pairs that have one middle and one size, at whatever heights.
-  void takeRounds(std::vector<Pair>& pairs) {
+  void takeRounds(std::vector<Pair>& pairs, std::vector<Touch>& rest) {
     for (std::size_t i = 0; i < pairs.size();) {
       const Pair first = pairs[i];
       const auto belongs = [&](const Pair& p) {
@@ -121,19 +122,44 @@ private:
         low = std::min(low, p.middle.z);
         high = std::max(high, p.middle.z);
       }
-      addRound(first, low - kAbove, high + kAbove);
+      addRound(first, low - kAbove, first.outward ? high + kAbove : takeTop(first, high, rest));
       std::erase_if(pairs, belongs);
     }
+  }
+
+  // Where a boss ends whose sides are touched as high as `high`: at the touch of its top, which is a surface
+  // of its own no more.
+  static double takeTop(const Pair& pair, double high, std::vector<Touch>& rest) {
+    const auto top = std::find_if(rest.begin(), rest.end(), [&](const Touch& touch) {
+      const Point3 beside = touch.point - pair.middle;
+      return touch.direction.z < 0 && touch.point.z > high - kSame &&
+             std::hypot(beside.x, beside.y) < pair.half;
+    });
+    if (top == rest.end()) return high + kAbove;
+    const double out = top->point.z;
+    rest.erase(top);
+    return out;
   }
 
   void addRound(const Pair& pair, double low, double high) {
     const Point3 middle = pair.middle - middle_;
     const Point3 bottom{middle.x, middle.y, low - middle_.z}, top{middle.x, middle.y, high - middle_.z};
-    if (!pair.outward) return builder_.cylinder(bottom, top, pair.half);
-    const double side = pair.half + std::max(kRim, behind_);
+    if (pair.outward)
+      bores_.push_back({bottom, top, pair.half});
+    else
+      builder_.cylinder(bottom, top, pair.half);
+  }
+
+  // One plate for all: the plate of one closes no other.
+  void addBores() {
+    if (bores_.empty()) return;
     builder_.beginGroup(PartBuilder::Action::Add);
-    builder_.box(bottom - Point3{side, side, 0}, top + Point3{side, side, 0});
-    builder_.cylinder(bottom, top, pair.half, PartBuilder::Action::Remove);
+    for (const Bore& bore : bores_) {
+      const double side = bore.radius + std::max(kRim, behind_);
+      builder_.box(bore.bottom - Point3{side, side, 0}, bore.top + Point3{side, side, 0});
+    }
+    for (const Bore& bore : bores_)
+      builder_.cylinder(bore.bottom, bore.top, bore.radius, PartBuilder::Action::Remove);
     builder_.endGroup();
   }
 
@@ -153,6 +179,11 @@ private:
     builder_.block(middle, {0, 0, 1}, direction, {depth / 2, beside_, kAbove}, 0, PartBuilder::Action::Add);
   }
 
+  struct Bore {
+    Point3 bottom, top;
+    double radius = 0;
+  };
+  std::vector<Bore> bores_;
   Point3 middle_; // zero of the part: what it is turned about
   double beside_, behind_;
   PartBuilder builder_;

@@ -13,7 +13,8 @@ namespace {
 
 constexpr int kShown = 6; // decimals
 
-// `b` lies on the path from `a` to `c`.
+} // namespace
+
 bool between(const Point3& a, const Point3& b, const Point3& c, double tolerance) {
   const Point3 way = c - a, part = b - a;
   const double length = way.length();
@@ -21,8 +22,6 @@ bool between(const Point3& a, const Point3& b, const Point3& c, double tolerance
   const double share = part.dot(way) / (length * length);
   return share >= 0 && share <= 1 && (part - way * share).length() <= tolerance;
 }
-
-} // namespace
 
 std::string textOf(const Point3& p) {
   return fmt::format("X{} Y{} Z{}", fixedText(p.x, kShown), fixedText(p.y, kShown), fixedText(p.z, kShown));

@@ -39,6 +39,7 @@ struct EmitOptions {
   bool foreignMacros = false;
   std::map<ir::VariableId, std::string> computed = {}; // fields that are no arguments, with their formulas
   std::map<ir::VariableId, std::vector<Choice>> choices = {}; // of a field that the dialog offers as a list
+  const ir::Cycle* unshared = nullptr; // the cycle before its locals took over arguments: says what those do
   std::vector<std::string> remarks = {}; // further lines of the header, capitals and digits
 };
 

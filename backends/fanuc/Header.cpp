@@ -136,7 +136,8 @@ private:
 
   // Which arguments move the probe, and which only feed checks.
   void effects() {
-    const std::set<ir::VariableId> used = bodyVariables(state_.cycle);
+    const ir::Cycle* const unshared = state_.options.unshared;
+    const std::set<ir::VariableId> used = bodyVariables(unshared != nullptr ? *unshared : state_.cycle);
     std::string moving, checking, late;
     for (const Argument& argument : state_.arguments) {
       const ir::VariableId id = argument.variable;

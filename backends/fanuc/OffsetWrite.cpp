@@ -3,6 +3,7 @@
 #include "backends/fanuc/State.h"
 #include "backends/fanuc/Uses.h"
 #include "ir/Evaluate.h"
+#include "ir/Liveness.h"
 #include "support/messages/Fanuc.h"
 
 #include <algorithm>
@@ -171,6 +172,24 @@ void guardSystem(State& state, const ir::ExpressionPtr& given, const ir::Origin&
     writeSystemAlarm(state, system, origin);
 }
 
+namespace {
+
+// Before the body its own locals hold nothing yet. 0: none is left.
+std::uint32_t helperAtEntry(State& state) {
+  const std::uint32_t taken = state.helper();
+  if (taken != 0 || state.body != nullptr) return taken;
+  ir::Cycle checks = state.cycle;
+  checks.body.clear();
+  const auto inChecks = usedVariables(checks), atEntry = ir::liveAtEntry(state.cycle.body, {});
+  for (const auto& [id, local] : state.locals)
+    if (state.cycle.variable(id).role == ir::Role::Local && !inChecks.contains(id) && !atEntry.contains(id) &&
+        !state.isArgument(id))
+      return local;
+  return 0;
+}
+
+} // namespace
+
 void writeSystemAlarm(State& state, const ir::ExpressionPtr& named, const ir::Origin& given) {
   ir::Origin origin;
   origin.ranges = given.ranges;
@@ -181,7 +200,7 @@ void writeSystemAlarm(State& state, const ir::ExpressionPtr& named, const ir::Or
                        !state.cycle.variable(use->variable).defaultValue;
   ir::ExpressionPtr system = named;
   if (mayMiss) {
-    const std::uint32_t helper = state.helper();
+    const std::uint32_t helper = helperAtEntry(state);
     if (helper == 0) {
       state.refuse<diag::TooManyLocals>(state.cycle.range, "the work system", state.control.locals);
       return;

@@ -118,14 +118,17 @@ private:
                                                             std::vector<fanuc::Argument>& letters) {
     Diagnostics said;
     auto lines = fanuc::emit(cycle, emit, session_.sources(), said, &letters);
-    const bool few = !lines && std::any_of(said.all().begin(), said.all().end(), [](const Diagnostic& one) {
-      return one.code == diag::TooManyLocals::code || one.code == diag::ExpressionDepth::code;
-    });
-    if (few && mayShare) {
+    for (const ir::Sharing sharing : {ir::Sharing::Locals, ir::Sharing::Arguments}) {
+      const bool few = !lines && std::any_of(said.all().begin(), said.all().end(), [](const Diagnostic& one) {
+        return one.code == diag::TooManyLocals::code || one.code == diag::ExpressionDepth::code;
+      });
+      if (!few || !mayShare) break;
       ir::Cycle shared = cycle;
-      ir::shareVariables(shared);
+      ir::shareVariables(shared, sharing);
+      fanuc::EmitOptions options = emit;
+      if (sharing == ir::Sharing::Arguments) options.unshared = &cycle;
       said = Diagnostics();
-      lines = fanuc::emit(shared, emit, session_.sources(), said, &letters);
+      lines = fanuc::emit(shared, options, session_.sources(), said, &letters);
     }
     for (Diagnostic& one : said.all())
       session_.diagnostics().add(std::move(one));

@@ -4,6 +4,8 @@
 #include "support/messages/Verify.h"
 #include "targets/ReadBack.h"
 
+#include <algorithm>
+
 namespace dotek::targets {
 
 bool FanucText::read(const std::string& name, std::string text, const stdlib::Control& control,
@@ -26,7 +28,16 @@ bool FanucText::readTranslation(const Translation& translation, const stdlib::Co
   return read(translation.name, translation.text, control, session);
 }
 
+// A program that calls nothing, which has been read before, needs none: not every control reads the text of
+// our own macros.
 bool FanucText::readMacros(const stdlib::MacroSet& set, const stdlib::Control& control, Session& session) {
+  const auto calls = [](const ir::Program& program) {
+    return std::any_of(program.body.begin(), program.body.end(), [](const ir::ProgramStatement& one) {
+      return std::holds_alternative<ir::Call>(one.node);
+    });
+  };
+  const std::vector<ir::Program>& programs = files_.back().programs;
+  if (std::none_of(programs.begin(), programs.end(), calls)) return true;
   const stdlib::DataFile* text = session.data().find("macrob", set.name);
   return text == nullptr || read(set.name, std::string(text->text), control, session);
 }

@@ -82,6 +82,7 @@ Lowering::Sign Lowering::signOf(const ir::ExpressionPtr& expression) const {
     const ir::Variable& variable = cycle_.variable(use->variable);
     if (variable.role == ir::Role::Host)
       return {variable.name == "tool_radius" || variable.name == "overtravel", false};
+    if (const auto once = lasting_.find(use->variable); once != lasting_.end()) return signOf(once->second);
     const auto found = signs_.find(use->variable);
     return found == signs_.end() ? Sign{} : found->second;
   }
@@ -159,10 +160,19 @@ void Lowering::resolvePlaces() {
   std::vector<ir::CycleStatement> list = std::move(cycle_.body);
   cycle_.body.clear();
   out_ = &cycle_.body;
+  std::map<ir::VariableId, int> assigned;
+  for (const auto* statements : {&cycle_.checks, &list})
+    for (const ir::CycleStatement& statement : *statements)
+      if (const auto* assign = std::get_if<ir::Assign>(&statement.node)) ++assigned[assign->variable];
   for (std::size_t i = 0; i < list.size(); ++i) {
     ir::CycleStatement& statement = list[i];
     const SourceRange range = statement.origin.range();
     if (auto* assign = std::get_if<ir::Assign>(&statement.node)) {
+      if (guards_.contains(assign->variable)) {
+        resolveGuard(list, i, work(known[i][ir::indexOf(ir::Axis::Z)], ir::Axis::Z));
+        i += 3;
+        continue;
+      }
       const auto asked = places_.find(assign->variable);
       if (asked != places_.end()) {
         const ir::AxisPosition& at = known[i][ir::indexOf(asked->second)];
@@ -173,6 +183,9 @@ void Lowering::resolvePlaces() {
         }
         began_[assign->variable] = at;
       }
+      if (assigned[assign->variable] == 1 && cycle_.variable(assign->variable).role == ir::Role::Local &&
+          isOfCaller(assign->value))
+        lasting_[assign->variable] = assign->value;
     }
     const bool marked = std::holds_alternative<ir::Move>(statement.node) && statement.origin.block != 0;
     statement.origin.block = 0;

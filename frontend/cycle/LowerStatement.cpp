@@ -210,15 +210,7 @@ void Lowering::touch(const Touch& touch, SourceRange range) {
     refuse<diag::RotaryAxis>(range, std::string(1, axisLetter(touch.axis)));
     return;
   }
-  if (touch.along.empty() && touch.reach == Reach::By && *linear(touch.axis) == ir::Axis::Z) {
-    const std::size_t before = out_->size();
-    const Sign sign = signOf(value(*touch.value));
-    out_->resize(before);
-    if (sign.above && !sign.below) {
-      refuse<diag::TouchUpward>(range);
-      return;
-    }
-  }
+  if (touch.along.empty() && *linear(touch.axis) == ir::Axis::Z && !leadsDownward(touch, range)) return;
   const bool plain =
       touch.along.empty() && !touch.once && touch.overtravel == nullptr && touch.otherwise == nullptr;
   if (plain) {
@@ -324,6 +316,7 @@ void Lowering::choose(const If& choice, SourceRange range) {
   const ir::LabelId end = label("end_if", range);
   const Probe before = probe_;
   std::optional<Probe> after; // on every path so far
+  ++nested_;
   const auto leave = [&](bool gone) {
     if (!gone) after = !after || *after == probe_ ? probe_ : Probe::Either;
     probe_ = before;
@@ -351,6 +344,7 @@ void Lowering::choose(const If& choice, SourceRange range) {
     leave(ended());
   }
   probe_ = after.value_or(before);
+  --nested_;
   place(end, range);
 }
 
@@ -367,7 +361,9 @@ void Lowering::loopBody(const Block& body) {
     });
   };
   shifts(shifts, body);
+  ++nested_;
   block(body);
+  --nested_;
   if (probe_ != before) probe_ = Probe::Either;
 }
 

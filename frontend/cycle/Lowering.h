@@ -147,6 +147,13 @@ private:
   Sign signOf(const ir::ExpressionPtr& expression) const;
   void dropUnread();
 
+  // ---- LowerDownward.cpp
+  // Of a touch in z: refused where it leads upward, an alarm before it where the values decide.
+  bool leadsDownward(const Touch& touch, SourceRange range);
+  bool isOfCaller(const ir::ExpressionPtr& expression) const;
+  Sign signOfDifference(const ir::ExpressionPtr& a, const ir::ExpressionPtr& b) const;
+  void resolveGuard(std::vector<ir::CycleStatement>& list, std::size_t at, const ir::ExpressionPtr& here);
+
   const File& file_;
   const SourceMap& sources_;
   Diagnostics& diagnostics_;
@@ -164,8 +171,12 @@ private:
   std::map<ir::VariableId, char> letters_;
   Results results_;
   Results known_; // those that have a value on each path to the statement
+  std::set<ir::VariableId> guards_; // of places_: from there a touch in z is to lead downward
+  std::map<ir::VariableId, ir::ExpressionPtr>
+      lasting_; // locals that are assigned once, of what the caller gives
   std::uint32_t startMoves_ = 0;
-  std::size_t depth_ = 0; // of calls
+  std::size_t nested_ = 0; // branches and loops around the statement
+  std::size_t depth_ = 0;  // of calls
   static constexpr std::size_t kMostStatements = 20000, kMostCalls = 50;
 };
 

@@ -337,6 +337,34 @@ z_at = p.at_x + p.error
   CHECK(text.find("p_at_y") == std::string::npos); // nothing reads it
 }
 
+// Upward the ball is hidden by its stem.
+TEST_CASE("cycle lowering: a touch in z leads downward, or an alarm comes first") {
+  const auto cycleOf = [](const std::string& clause, const std::string& touch) {
+    return Lowering("cycle demo \"C\"\nparameter w : length \"W\"" + clause + "\nspindle off\nprobe on\n" +
+                    touch + "\nprobe off\n");
+  };
+  const std::string alarm = "alarm \"touch leads upward\"\n";
+  // What the caller gives is asked for before anything moves.
+  const Lowering by = cycleOf("", "touch z by w -> p");
+  CHECK(by.list("checks") == "if w < {0} goto downward\n" + alarm + "label downward\n");
+  CHECK(by.body().find(alarm) == std::string::npos);
+  CHECK(cycleOf(" require w < 0 mm", "touch z by w -> p").list("checks").find(alarm) == std::string::npos);
+  CHECK(cycleOf(" require w > 0 mm", "touch z by -w -> p").list("checks").find(alarm) == std::string::npos);
+  // A coordinate is compared with where the probe is then.
+  const std::string to = cycleOf("", "move by z -3 mm\ntouch z to w -> p").body();
+  CHECK(to.find("if w < start_z + -3. goto downward\n" + alarm) != std::string::npos);
+  CHECK(cycleOf(" require w > 0 mm", "top = start.z - w\ntouch z to top -> p").body().find(alarm) ==
+        std::string::npos);
+  CHECK(cycleOf(" require w > 0 mm", "move by z -w\ntouch z to start.z - 2 * w -> p").body().find(alarm) ==
+        std::string::npos);
+  // What runs only now and then is asked for there.
+  CHECK(cycleOf("", "if w is not 1 mm then\n  touch z by w -> p\nend").body().find(alarm) !=
+        std::string::npos);
+  CHECK(refusal("cycle demo \"C\"\nprobe on\ntouch z to start.z + 5 mm -> p\nprobe off\n") == "touch-upward");
+  CHECK(refusal("cycle demo \"C\"\nprobe on\nmove to machine z 0 mm\ntouch z to 5 mm -> p\nprobe off\n") ==
+        "place-unknown");
+}
+
 TEST_CASE("cycle lowering: what has no form yet is refused where it is written") {
   const std::string head = "cycle demo \"C\"\n";
   CHECK(refusal(head + "parameter t : text \"T\"\nrequire t is \"a\"\nstop \"b\"\n") == "text-parameter");

@@ -2,6 +2,8 @@
 #include "ir/InferKinds.h"
 #include "ir/Linear.h"
 #include "ir/Positions.h"
+#include "ir/Print.h"
+#include "ir/ShareVariables.h"
 #include "ir/Verify.h"
 #include "tests/unit/IrHelper.h"
 
@@ -260,6 +262,27 @@ TEST_CASE("ir: kinds follow from use") {
   CHECK(kind(6) == Kind::Length); // a sum with it
   CHECK(kind(7) == Kind::Number); // a factor may be anything
   CHECK(kind(8) == Kind::Number);
+}
+
+// a is needed for the first value only; b to the end.
+TEST_CASE("ir: locals share with one another, and with arguments that nothing needs any more") {
+  const auto shared = [](Sharing sharing) {
+    Cycle cycle = abc();
+    const VariableId x = cycle.add(local("x")), y = cycle.add(local("y", Kind::Angle)),
+                     z = cycle.add(local("z"));
+    cycle.body = {statement(Assign{x, plus(kA, constant(1))}), statement(Assign{y, plus(variable(x), kB)}),
+                  statement(Assign{z, kB}), statement(Store{constant(500), plus(variable(y), variable(z))}),
+                  statement(Store{constant(501), kB})};
+    shareVariables(cycle, sharing);
+    std::vector<VariableId> assigned;
+    for (const CycleStatement& one : cycle.body)
+      if (const auto* assign = std::get_if<Assign>(&one.node)) assigned.push_back(assign->variable);
+    return assigned;
+  };
+  // x ends where y, an angle, and z begin.
+  CHECK(shared(Sharing::Locals) == std::vector<VariableId>{3, 4, 3});
+  // x and y take the place of a; z is b all the time. c is no argument, as nothing reads it.
+  CHECK(shared(Sharing::Arguments) == std::vector<VariableId>{0, 0});
 }
 
 TEST_CASE("ir: a declared kind stays, and of two uses the first counts") {

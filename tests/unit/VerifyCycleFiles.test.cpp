@@ -6,6 +6,7 @@
 #include "tests/TestFolder.h"
 
 #include <algorithm>
+#include <array>
 #include <doctest/doctest.h>
 #include <string>
 #include <vector>
@@ -29,7 +30,7 @@ driver::VerifyOptions optionsOf(const std::string& path, const std::string& set,
   out.jobs = 1;
   if (set == "easyprobe" || control == "fanuc-31i-b") {
     out.common.probeCodes.on = "M97"; // no profile says it of these
-    out.common.probeCodes.off = "M98";
+    out.common.probeCodes.off = "M96";
   }
   return out;
 }
@@ -78,6 +79,30 @@ TEST_CASE("verify cycles: the library does on a control what it means") {
       CHECK_MESSAGE(outcome.status == 0, said(outcome));
       CHECK_MESSAGE(outcome.output.starts_with("AGREES"), outcome.output);
     }
+}
+
+// Where the ball begins within a hundredth of the wall, macros take the stylus for deflected.
+TEST_CASE("verify cycles: a touch without a way says nothing") {
+  const TestFolder folder("dotek-no-way");
+  const std::string path = folder.write(
+      "near.cycle", "cycle near \"Near\"\n\nspindle off\nprobe on\ntouch x by 3.001 mm -> wall\nprobe off\n");
+  driver::VerifyOptions options = optionsOf(path, "dotek");
+  options.cases = 5;
+  options.common.host = {{"tool_radius", "3"}};
+  options.partError = std::array<double, 4>{0, 0, 0, 0};
+  const driver::Outcome outcome = driver::verify(options);
+  CHECK_MESSAGE(says(outcome, "no-values-found"), said(outcome));
+  CHECK(said(outcome).find("the ball touches where a touch begins") != std::string::npos);
+}
+
+// The text of our own macros is none of this control's; a program that calls none of them is.
+TEST_CASE("verify cycles: a cycle that computes agrees on a control without our macros") {
+  driver::VerifyOptions options = optionsOf(libraryPath("judge"), "dotek", "fanuc-6m");
+  options.common.probeCodes.on = "M97";
+  options.common.probeCodes.off = "M96";
+  options.cases = 5;
+  const driver::Outcome outcome = driver::verify(options);
+  CHECK_MESSAGE(outcome.output.starts_with("AGREES"), said(outcome));
 }
 
 TEST_CASE("verify cycles: a change of the program is a difference") {

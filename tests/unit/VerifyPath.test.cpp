@@ -206,6 +206,25 @@ TEST_CASE("parts of touches: a bore, a boss, a web, and what is none of them") {
   CHECK(inside(boss, {10, 0, -3}));
   CHECK(std::abs(boss.distance({10 + s, s, -3})) < 1e-9);
 
+  // A boss whose top is touched ends there, and nothing beside it is in the way of its sides.
+  std::vector<Touch> topped = ring;
+  topped.push_back({{10, 0, -1}, {0, 0, -1}});
+  const sim::Part spigot = made(topped);
+  CHECK(std::abs(spigot.distance({10, 0, -1})) < 1e-9);
+  CHECK_FALSE(inside(spigot, {10, 0, -0.9}));
+  CHECK_FALSE(inside(spigot, {31, 0, -3}));
+
+  // Two bores are in one plate: that of one does not close the other.
+  std::vector<Touch> pair;
+  for (const Touch& touch : ring)
+    for (const double away : {0.0, 45.0})
+      pair.push_back({{touch.point.x + away, touch.point.y, touch.point.z}, touch.direction * -1});
+  const sim::Part bores = made(pair);
+  CHECK_FALSE(inside(bores, {10, 0, -3}));
+  CHECK_FALSE(inside(bores, {55, 0, -3}));
+  CHECK_FALSE(inside(bores, {29, 0, -3}));
+  CHECK(inside(bores, {32, 0, -3}));
+
   // A web is solid between its faces, which may be nearer than a search goes.
   const sim::Part web = made({{{1, 0, -3}, {-1, 0, 0}}, {{0, 0, -3}, {1, 0, 0}}});
   CHECK(inside(web, {0.5, 0, -3}));
