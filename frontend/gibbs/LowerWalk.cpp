@@ -8,9 +8,10 @@ namespace dotek::frontend::gibbs {
 namespace {
 
 constexpr std::size_t kMaxSteps = 300'000;
-constexpr std::size_t kStatesAPath = 64;     // states that may be kept for each path that the limit allows
-constexpr std::size_t kMaxLive = 20'000'000; // places times variables
-constexpr std::size_t kWiden = 64;           // states at one place before changing variables count as unknown
+constexpr std::size_t kStatesAPath = 64;    // states that may be kept for each path that the limit allows
+constexpr std::size_t kMaxLive = 1'000'000; // words of 64 places and variables
+constexpr std::size_t kWiden = 64;          // states at one place before changing variables count as unknown
+constexpr std::uint32_t kPart = 1u << 31;   // in keys: a part of all numbers, no number of a value
 
 } // namespace
 
@@ -77,7 +78,19 @@ WalkResult Walk::run() {
     result_.complete = false;
     break;
   }
+  finish();
   return std::move(result_);
+}
+
+void Walk::finish() {
+  cases_.forPassed(flat_, [&](std::size_t step, bool jumps) {
+    result_.reached[step] = true;
+    if (std::holds_alternative<FlatBranch>(flat_.steps[step].step))
+      (jumps ? result_.jumps : result_.falls)[step] = true;
+  });
+  if (!result_.complete) return;
+  ways_.endsBehind(result_.behind);
+  ways_.codesOf(result_.codes);
 }
 
 void Walk::start() {
@@ -96,50 +109,89 @@ void Walk::start() {
     joins_[target] = true;
     if (target <= at) heads_[target] = true;
   }
-  computeLiveness();
-  WalkState first;
-  first.values.resize(cycle_.variables.size());
-  for (ir::VariableId id = 0; id < cycle_.variables.size(); ++id) {
-    if (cycle_.variables[id].role == ir::Role::Local) continue;
-    const auto known = options_.values.find(id);
-    first.values[id] =
-        known != options_.values.end() ? Value(known->second) : sourceValue(Symbol::variable(id));
+  constant_.assign(cycle_.variables.size(), true);
+  for (const FlatStep& each : flat_.steps) {
+    if (const auto* assign = std::get_if<FlatAssign>(&each.step)) constant_[assign->variable] = false;
+    if (const auto* unset = std::get_if<FlatUnset>(&each.step)) constant_[unset->variable] = false;
   }
+  WalkState first;
+  constants_.resize(cycle_.variables.size());
+  slots_.resize(cycle_.variables.size());
+  for (ir::VariableId id = 0; id < cycle_.variables.size(); ++id) {
+    const bool local = cycle_.variables[id].role == ir::Role::Local;
+    constant_[id] = constant_[id] && !local;
+    const auto known = options_.values.find(id);
+    std::optional<Value> value;
+    if (!local)
+      value = known != options_.values.end() ? Value(known->second) : sourceValue(Symbol::variable(id));
+    if (constant_[id]) {
+      constants_[id] = std::move(value);
+      continue;
+    }
+    slots_[id] = changing_.size();
+    changing_.push_back(id);
+    first.values.push_back(std::move(value));
+  }
+  computeLiveness();
+  if (options_.observer == nullptr && options_.forget) findAsked();
   first.track.at = {Value(0.0), Value(0.0), std::nullopt};
+  first.way = ways_.first();
   if (size > 0) waiting_.push_back(std::move(first));
+}
+
+void Walk::findAsked() {
+  const auto questionOf = [&](const ir::Comparison& comparison) -> std::optional<Question> {
+    std::set<ir::VariableId> read;
+    collectVariables(comparison.left, read);
+    collectVariables(comparison.right, read);
+    if (!std::all_of(read.begin(), read.end(), [&](ir::VariableId id) { return constant_[id]; }))
+      return std::nullopt;
+    WalkState none;
+    question_.reset();
+    failed_ = false;
+    decide(none, comparison);
+    return failed_ ? std::nullopt : question_;
+  };
+  asked_.emplace(flat_, constant_, questionOf);
+  cases_ = Cases(flat_, heads_);
 }
 
 void Walk::computeLiveness() {
   const std::size_t size = flat_.steps.size();
-  const std::size_t variables = cycle_.variables.size();
-  if (!options_.forget || size * variables > kMaxLive) return;
-  live_.assign(size, std::vector<bool>(variables, false));
+  liveWords_ = (cycle_.variables.size() + 63) / 64;
+  if (!options_.forget || size * liveWords_ > kMaxLive) return;
+  std::vector<std::set<ir::VariableId>> reads(size);
+  std::vector<ir::VariableId> writes(size, kNoVariable);
+  for (std::size_t at = 0; at < size; ++at) {
+    const auto& step = flat_.steps[at].step;
+    if (const auto* assign = std::get_if<FlatAssign>(&step)) {
+      writes[at] = assign->variable;
+      collectVariables(assign->value, reads[at]);
+    }
+    if (const auto* unset = std::get_if<FlatUnset>(&step)) writes[at] = unset->variable;
+    if (const auto* branch = std::get_if<FlatBranch>(&step)) collectVariables(branch->condition, reads[at]);
+    if (const auto* end = std::get_if<FlatReturn>(&step)) reads[at].insert(end->code);
+    if (const auto* move = std::get_if<FlatMove>(&step)) {
+      for (const ir::ExpressionPtr& axis : move->axes)
+        collectVariables(axis, reads[at]);
+    }
+  }
+  live_.assign(size * liveWords_, 0);
+  std::vector<std::uint64_t> now(liveWords_);
   for (bool changed = true; changed;) {
     changed = false;
     for (std::size_t at = size; at-- > 0;) {
-      std::vector<bool> now(variables, false);
+      std::fill(now.begin(), now.end(), 0);
       for (const std::size_t next : followers(flat_, at)) {
-        if (next >= size) continue;
-        for (std::size_t id = 0; id < variables; ++id)
-          if (live_[next][id]) now[id] = true;
+        for (std::size_t i = 0; next < size && i < liveWords_; ++i)
+          now[i] |= live_[next * liveWords_ + i];
       }
-      std::set<ir::VariableId> read;
-      const auto& step = flat_.steps[at].step;
-      if (const auto* assign = std::get_if<FlatAssign>(&step)) {
-        now[assign->variable] = false;
-        collectVariables(assign->value, read);
-      }
-      if (const auto* unset = std::get_if<FlatUnset>(&step)) now[unset->variable] = false;
-      if (const auto* branch = std::get_if<FlatBranch>(&step)) collectVariables(branch->condition, read);
-      if (const auto* end = std::get_if<FlatReturn>(&step)) read.insert(end->code);
-      if (const auto* move = std::get_if<FlatMove>(&step)) {
-        for (const ir::ExpressionPtr& axis : move->axes)
-          collectVariables(axis, read);
-      }
-      for (const ir::VariableId id : read)
-        now[id] = true;
-      if (now == live_[at]) continue;
-      live_[at] = std::move(now);
+      if (writes[at] != kNoVariable) now[writes[at] / 64] &= ~(std::uint64_t{1} << writes[at] % 64);
+      for (const ir::VariableId id : reads[at])
+        now[id / 64] |= std::uint64_t{1} << id % 64;
+      const auto known = live_.begin() + static_cast<std::ptrdiff_t>(at * liveWords_);
+      if (std::equal(now.begin(), now.end(), known)) continue;
+      std::copy(now.begin(), now.end(), known);
       changed = true;
     }
   }
@@ -152,9 +204,31 @@ void Walk::follow(WalkState state) {
     if (++steps_ > maxSteps_) return;
     if (joins_[state.at] && !state.answered && !isNew(state)) return;
     state.answered = false;
+    if (const auto variable = cases_.variableAt(state.at)) {
+      const std::optional<double> number = knownNumber(state, *variable);
+      const std::size_t next = number ? cases_.next(state.at, *number) : state.at;
+      if (next != state.at) {
+        state.at = next;
+        continue;
+      }
+    }
     result_.reached[state.at] = true;
     if (!step(state)) return;
   }
+}
+
+// The value, or the one that conditions have left of all.
+std::optional<double> Walk::knownNumber(WalkState& state, ir::VariableId variable) {
+  const std::optional<Value>& value = valueOf(state, variable);
+  if (!value) return std::nullopt;
+  if (const double* number = std::get_if<double>(&*value)) return *number;
+  if (!constant_[variable] || unknownIn(*value) == nullptr) return std::nullopt;
+  std::string& quantity = quantities_[variable];
+  if (quantity.empty()) quantity = questionOf(*unknownIn(*value), Relation::Equal, {}).key;
+  const auto fact = state.facts.find(quantity);
+  if (fact == state.facts.end()) return std::nullopt;
+  const Range& range = fact->second.range;
+  return range.low() == range.high() ? range.low() : std::nullopt;
 }
 
 bool Walk::isNew(WalkState& state) {
@@ -165,7 +239,12 @@ bool Walk::isNew(WalkState& state) {
     if (seen_[state.at].size() >= kWiden) widen(state, head);
   }
   forget(state);
-  if (!seen_[state.at].insert(keyOf(state)).second) return false;
+  const auto [known, isNew] = seen_[state.at].try_emplace(keyOf(state), state.way);
+  if (!isNew) {
+    ways_.join(state.way, known->second);
+    return false;
+  }
+  state.way = known->second = ways_.after(state.way);
   ++states_;
   return true;
 }
@@ -180,8 +259,8 @@ void Walk::forget(WalkState& state) const {
     for (const Symbol& symbol : unknown->sources)
       symbols.push_back(&symbol);
   };
-  for (ir::VariableId id = 0; id < state.values.size(); ++id)
-    if (live(state.at, id)) add(state.values[id]);
+  for (std::size_t slot = 0; slot < changing_.size(); ++slot)
+    if (live(state.at, changing_[slot])) add(state.values[slot]);
   for (const auto& axis : state.track.at)
     add(axis);
   for (const auto* leg : {&state.track.before, &state.track.last}) {
@@ -191,11 +270,42 @@ void Walk::forget(WalkState& state) const {
   }
   const auto less = [](const Symbol* a, const Symbol* b) { return *a < *b; };
   std::sort(symbols.begin(), symbols.end(), less);
-  std::erase_if(state.facts, [&](const auto& fact) {
-    return std::any_of(fact.second.symbols.begin(), fact.second.symbols.end(), [&](const Symbol& symbol) {
-      return !std::binary_search(symbols.begin(), symbols.end(), &symbol, less);
-    });
+  const auto held = [&](const Symbol& symbol) {
+    return std::binary_search(symbols.begin(), symbols.end(), &symbol, less);
+  };
+  for (auto fact = state.facts.begin(); fact != state.facts.end();) {
+    bool keeps = true;
+    bool reduces = asked_.has_value();
+    for (const Symbol& symbol : fact->second.symbols) {
+      const auto id = static_cast<ir::VariableId>(symbol.number);
+      const bool isConstant = symbol.kind == Symbol::Kind::Variable && constant_[id];
+      const bool isHeld = held(symbol);
+      keeps = keeps && (isHeld || (isConstant && live(state.at, id)));
+      reduces = reduces && !isHeld && isConstant && !asked_->isReadFrom(id, asked_->from(state.at));
+    }
+    if (keeps && (reduces || fact->second.reduced)) keeps = reduce(fact->first, fact->second, state.at);
+    fact = keeps ? std::next(fact) : state.facts.erase(fact);
+  }
+}
+
+// Keeps of the fact what later conditions can tell; false: that is nothing.
+bool Walk::reduce(const std::string& quantity, Fact& fact, std::size_t at) const {
+  const AskedBounds& bounds = asked_->ofQuantity(quantity);
+  const std::size_t from = asked_->from(at);
+  const std::uint32_t lowest = bounds.lowestOf(fact.range, from);
+  const std::uint32_t highest = bounds.highestOf(fact.range, from);
+  fact.reduced = true;
+  fact.learnt.clear();
+  fact.numbers.clear();
+  fact.parts = {lowest, highest};
+  fact.range.keepExcluded([&](double value) {
+    if (!bounds.isAsked(value, from)) return false;
+    const std::uint32_t part = bounds.partOf(value, from);
+    if (part < lowest || part > highest) return false;
+    fact.parts.push_back(part);
+    return true;
   });
+  return lowest > 0 || highest < bounds.last(from) || fact.parts.size() > 2;
 }
 
 std::uint32_t Walk::numberOf(const std::optional<Value>& value) {
@@ -204,20 +314,28 @@ std::uint32_t Walk::numberOf(const std::optional<Value>& value) {
   return numberOf(bytes_);
 }
 
+std::uint32_t Walk::numberOf(const WalkState& state, std::size_t slot) {
+  const std::optional<Value>& value = state.values[slot];
+  const double* number = value ? std::get_if<double>(&*value) : nullptr;
+  if (!asked_ || number == nullptr) return numberOf(value);
+  const std::size_t from = asked_->from(state.at);
+  const AskedBounds* bounds = asked_->ofVariable(changing_[slot], from);
+  return bounds == nullptr ? numberOf(value) : kPart + bounds->partOf(*number, from);
+}
+
 std::u32string Walk::keyOf(const WalkState& state) {
   std::u32string key;
   const auto add = [&](std::size_t number) { key += static_cast<char32_t>(number); };
-  for (ir::VariableId id = 0; id < state.values.size(); ++id)
-    if (live(state.at, id)) add(numberOf(state.values[id]));
+  for (std::size_t slot = 0; slot < changing_.size(); ++slot)
+    if (live(state.at, changing_[slot])) add(numberOf(state, slot));
   add(state.facts.size());
   for (const auto& [quantity, fact] : state.facts) {
     add(numberOf(quantity));
-    add(fact.numbers.empty() ? 0 : fact.numbers.back());
+    add(fact.parts.size());
+    for (const std::uint32_t part : fact.parts)
+      add(part);
+    if (!fact.reduced) add(fact.numbers.empty() ? 0 : fact.numbers.back());
   }
-  add(state.messages.size());
-  for (const std::size_t message : state.messages)
-    add(message);
-  add(state.codeAt);
   if (options_.observer == nullptr) return key;
   for (const auto& axis : state.track.at)
     add(numberOf(axis));
@@ -277,10 +395,10 @@ void Walk::widen(WalkState& state, const Head& head) {
     return sourceValue(Symbol::widened(state.at, part));
   };
   const std::size_t axes = state.values.size();
-  for (ir::VariableId id = 0; id < state.values.size(); ++id) {
-    if (state.values[id] &&
-        ((head.varies[id] && head.changes.variables.contains(id)) || stale(state.values[id])))
-      state.values[id] = fresh(id);
+  for (std::size_t slot = 0; slot < changing_.size(); ++slot) {
+    if (state.values[slot] && ((head.varies[slot] && head.changes.variables.contains(changing_[slot])) ||
+                               stale(state.values[slot])))
+      state.values[slot] = fresh(slot);
   }
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const bool varies = head.changes.axes[axis] && head.varies[axes + axis];
@@ -328,21 +446,19 @@ bool Walk::step(WalkState&, const FlatRefuse& s) {
 bool Walk::step(WalkState& state, const FlatMessage&) {
   result_.behind[state.at];
   if (options_.alarms.contains(state.at)) return false;
-  state.messages.insert(state.at++);
+  ways_.shows(state.way, state.at++);
   return true;
 }
 
 // What was shown before the dialog does not reject what is typed into it.
 bool Walk::step(WalkState& state, const FlatDialog&) {
-  for (const std::size_t message : state.messages)
-    result_.behind[message].passes = true;
-  state.messages.clear();
+  state.way = ways_.afterDialog(state.way);
   ++state.at;
   return true;
 }
 
 bool Walk::step(WalkState& state, const FlatUnset& s) {
-  state.values[s.variable].reset();
+  valueOf(state, s.variable).reset();
   ++state.at;
   return true;
 }
@@ -350,8 +466,8 @@ bool Walk::step(WalkState& state, const FlatUnset& s) {
 bool Walk::step(WalkState& state, const FlatAssign& s) {
   auto value = evaluate(state, s.value);
   if (!value) return false;
-  if (s.variable == flat_.returnCode) state.codeAt = state.at;
-  state.values[s.variable] = std::move(*value);
+  if (s.variable == flat_.returnCode) ways_.setsCode(state.way, state.at);
+  valueOf(state, s.variable) = std::move(*value);
   ++state.at;
   return true;
 }
@@ -362,6 +478,8 @@ bool Walk::step(WalkState& state, const FlatBranch& s) {
   if (!truth) {
     if (failed_) return false;
     WalkState other = state;
+    other.way = ways_.after(state.way);
+    state.way = ways_.after(state.way);
     learn(other, *question_, opposite(question_->relation));
     learn(state, *question_, question_->relation);
     ++states_;
@@ -393,7 +511,7 @@ bool Walk::step(WalkState& state, const FlatMove& s) {
 }
 
 bool Walk::step(WalkState& state, const FlatReturn& s) {
-  const std::optional<Value> code = state.values[s.code];
+  const std::optional<Value> code = valueOf(state, s.code);
   std::optional<bool> rejects = false;
   if (code) {
     rejects = compare(state, *code, Relation::NotEqual, 0.0);
@@ -403,15 +521,14 @@ bool Walk::step(WalkState& state, const FlatReturn& s) {
   for (const bool way : {false, true}) {
     if (rejects && *rejects != way) continue;
     (way ? result_.ends[state.at].rejects : result_.ends[state.at].passes) = true;
-    if (way) result_.codes[state.at].insert(state.codeAt);
+    if (way) ways_.rejectsByCode(state.way, state.at);
     ended(state, way);
   }
   return false;
 }
 
 void Walk::ended(const WalkState& state, bool rejects) {
-  for (const std::size_t message : state.messages)
-    (rejects ? result_.behind[message].rejects : result_.behind[message].passes) = true;
+  ways_.ends(state.way, rejects);
   if (options_.observer == nullptr) return;
   WalkState last = state;
   options_.observer->end(last);

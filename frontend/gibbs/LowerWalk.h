@@ -2,7 +2,10 @@
 // way knows where a move begins. Everything that is not proved impossible is taken as possible.
 #pragma once
 
+#include "frontend/gibbs/LowerAsked.h"
+#include "frontend/gibbs/LowerCases.h"
 #include "frontend/gibbs/LowerFlat.h"
+#include "frontend/gibbs/LowerWays.h"
 #include "frontend/gibbs/Program.h"
 #include "frontend/gibbs/Value.h"
 #include "ir/Arithmetic.h"
@@ -16,7 +19,6 @@
 #include <set>
 #include <string>
 #include <unordered_map>
-#include <unordered_set>
 #include <utility>
 #include <vector>
 
@@ -28,6 +30,9 @@ struct Fact {
   std::vector<std::pair<Relation, double>> learnt; // ascending
   std::vector<std::uint32_t> numbers;              // of what is learnt up to each of these, in keys
   std::set<Symbol> symbols;
+  // The part of the range that matters to later conditions, where no more is kept (AskedBounds).
+  bool reduced = false;
+  std::vector<std::uint32_t> parts;
 };
 using Facts = std::map<std::string, Fact>;
 
@@ -62,11 +67,10 @@ struct Track {
 
 struct WalkState {
   std::size_t at = 0;
-  std::vector<std::optional<Value>> values; // by variable; nothing: not set
+  std::vector<std::optional<Value>> values; // of variables that steps change; nothing: not set
   Facts facts;
-  std::set<std::size_t> messages; // steps that showed one, not yet past
-  std::size_t codeAt = kNowhere;  // step that set the return code
-  bool answered = false;          // a question of the step at `at` has been answered; it is the same visit
+  Ways::Id way = 0;
+  bool answered = false; // a question of the step at `at` has been answered; it is the same visit
   Track track;
 };
 
@@ -89,10 +93,7 @@ struct WalkOptions {
 };
 
 struct WalkResult {
-  struct Ends {
-    bool passes = false;
-    bool rejects = false;
-  };
+  using Ends = PathEnds;
   bool complete = false; // false: too many paths
   std::vector<bool> reached;
   std::vector<bool> jumps, falls;                     // of branches: both answers are possible
@@ -117,11 +118,13 @@ public:
 private:
   struct Head {
     CycleChanges changes;
-    std::vector<std::uint32_t> first; // values when it was first reached: variables, axes
+    std::vector<std::uint32_t> first; // values when it was first reached: changing variables, axes
     std::vector<bool> varies;         // since then
   };
 
   void start();
+  void findAsked();
+  void finish();
   void follow(WalkState state);
   // false: the path ends here.
   bool step(WalkState& state);
@@ -136,18 +139,27 @@ private:
   bool step(WalkState& state, const FlatDialog&);
   bool step(WalkState& state, const FlatUnset& s);
   void ended(const WalkState& state, bool rejects);
+  std::optional<double> knownNumber(WalkState& state, ir::VariableId variable);
   bool isNew(WalkState& state);
   void forget(WalkState& state) const;
+  bool reduce(const std::string& quantity, Fact& fact, std::size_t at) const;
   // Equal keys are states from which the path goes on in the same way.
   std::u32string keyOf(const WalkState& state);
   std::uint32_t numberOf(const std::optional<Value>& value);
   std::uint32_t numberOf(const std::string& bytes) {
     return numbers_.emplace(bytes, static_cast<std::uint32_t>(numbers_.size())).first->second;
   }
+  // How later conditions tell the value of changing variable `slot` from others.
+  std::uint32_t numberOf(const WalkState& state, std::size_t slot);
   void compareVisit(Head& head, const WalkState& state);
   void widen(WalkState& state, const Head& head);
   void computeLiveness();
-  bool live(std::size_t at, ir::VariableId variable) const { return live_.empty() || live_[at][variable]; }
+  bool live(std::size_t at, ir::VariableId variable) const {
+    return live_.empty() || (live_[at * liveWords_ + variable / 64] >> variable % 64 & 1) != 0;
+  }
+  std::optional<Value>& valueOf(WalkState& state, ir::VariableId variable) {
+    return constant_[variable] ? constants_[variable] : state.values[slots_[variable]];
+  }
 
   std::optional<Value> evaluate(WalkState& state, const ir::ExpressionPtr& e);
   std::optional<Value> evaluate(WalkState& state, const ir::Unary& node);
@@ -166,15 +178,24 @@ private:
   std::size_t maxStates_, maxSteps_;
   std::size_t steps_ = 0;
   WalkResult result_;
+  Ways ways_;
   std::vector<WalkState> waiting_;
-  std::vector<bool> joins_;                              // steps that something jumps to
-  std::vector<bool> heads_;                              // of these, from further down: every circle has one
-  std::vector<std::unordered_set<std::u32string>> seen_; // by place
-  std::unordered_map<std::string, std::uint32_t> numbers_; // of values and quantities, in keys
-  std::string bytes_;                                      // room for what is looked up in `numbers_`
+  std::vector<bool> constant_;                  // variables that have a value and that no step changes
+  std::vector<std::optional<Value>> constants_; // theirs
+  std::vector<ir::VariableId> changing_;        // the others
+  std::vector<std::size_t> slots_;              // of variables in `changing_`
+  std::optional<Asked> asked_;                  // where nothing but the conditions sees a state
+  Cases cases_;
+  std::map<ir::VariableId, std::string> quantities_; // keys of what questions ask of a variable alone
+  std::vector<bool> joins_;                          // steps that something jumps to
+  std::vector<bool> heads_;                          // of these, from further down: every circle has one
+  std::vector<std::unordered_map<std::u32string, Ways::Id>> seen_; // by place
+  std::unordered_map<std::string, std::uint32_t> numbers_;         // of values and quantities, in keys
+  std::string bytes_;                                              // room for what is looked up in `numbers_`
   std::size_t states_ = 0;
   std::map<std::size_t, Head> circles_; // by place
-  std::vector<std::vector<bool>> live_; // by step and variable; empty: all
+  std::vector<std::uint64_t> live_;     // a bit for each step and variable; empty: all
+  std::size_t liveWords_ = 0;           // of a step
   std::map<std::string, std::size_t> interned_;
   std::optional<Question> question_;
   bool failed_ = false; // an evaluation found no value, and question_ does not say why

@@ -68,7 +68,7 @@ Value Walk::opaque(const std::string& text, const std::vector<Value>& from) {
 }
 
 std::optional<Value> Walk::read(WalkState& state, ir::VariableId variable, SourceRange range) {
-  const std::optional<Value>& value = state.values[variable];
+  const std::optional<Value>& value = valueOf(state, variable);
   if (value) return value;
   result_.unset.insert(variable);
   if (options_.unsetZero) return Value(0.0);
@@ -178,6 +178,7 @@ void Walk::learn(WalkState& state, const Question& question, Relation relation) 
   Fact& fact = state.facts[question.key];
   fact.range.restrict(relation, question.bound);
   fact.symbols = question.sources;
+  if (fact.reduced) return;
   const std::pair<Relation, double> added{relation, question.bound};
   std::size_t place = 0;
   if (relation == Relation::Equal) {

@@ -99,6 +99,15 @@ public:
   // Whether the quantity is in `relation` to `bound`; nothing: it may or may not.
   std::optional<bool> answer(Relation relation, double bound) const;
 
+  const std::optional<double>& low() const { return bounds_.low; }
+  const std::optional<double>& high() const { return bounds_.high; }
+  bool isLowOpen() const { return bounds_.lowOpen; }
+  bool isHighOpen() const { return bounds_.highOpen; }
+  // Of the values that are left out, ascending, those that `keep` keeps.
+  template <class Keep> void keepExcluded(const Keep& keep) {
+    std::erase_if(excluded_, [&](double value) { return !keep(value); });
+  }
+
 private:
   // From low to high, where they are known.
   struct Bounds {

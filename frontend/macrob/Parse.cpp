@@ -322,7 +322,8 @@ File parse(FileId file, const SourceMap& sources, const Limits& limits, Diagnost
     const bool whole = line.dropped.begin == line.dropped.end;
     const std::size_t length = line.range.end - line.range.begin;
     if (whole && reader == Reader::Fast)
-      blocks[i] = scanBlock(std::string_view(lines.bytes).substr(line.range.begin, length), line.range);
+      blocks[i] = scanBlock(std::string_view(lines.bytes).substr(line.range.begin, length), line.range,
+                            limits, text == Text::Program);
     if (!blocks[i]) {
       all = false;
       continue;

@@ -3,6 +3,7 @@
 #include "tests/unit/GibbsLowerProject.h"
 
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 
 namespace fs = std::filesystem;
 using namespace dotek;
@@ -203,6 +204,69 @@ TEST_CASE("gibbs lower: many independent checks stay few paths") {
   for (const ir::CycleStatement& each : project.cycle.checks)
     if (std::holds_alternative<ir::Alarm>(each.node)) ++alarms;
   CHECK(alarms == 24);
+}
+
+TEST_CASE("gibbs lower: checks that exclude one another are as many paths as checks") {
+  constexpr int kChecks = 1500;
+  std::string checks = ":ask\ndialog \"d.dlg\"\nbad = 0\n";
+  const auto each = [&](std::string_view format) {
+    for (int i = 1; i <= kChecks; ++i)
+      checks += fmt::format(fmt::runtime(format), i);
+  };
+  SUBCASE("a number for each") {
+    each("if a = {0}.5 then bad = {0}\n");
+  }
+  SUBCASE("bounds that rise") {
+    each("if a > {0} then bad = {0}\n");
+  }
+  SUBCASE("bounds that rise, the other side") {
+    each("if a < -{0} then bad = {0}\n");
+  }
+  SUBCASE("a message at once") {
+    each("if a = {0}.5 then bad = {0}\nif bad = {0} then message \"number {0}\"\n");
+  }
+  SUBCASE("messages after all checks") {
+    each("if a = {0}.5 then bad = {0}\n");
+    each("if bad = {0} then message \"number {0}\"\n");
+  }
+  LowerProject project(kFields, checks + "if bad > 0 then goto ask\n");
+  project.limits.paths = 512; // 64 states for each of them
+  CHECK(project.lowerChecks());
+  CHECK(project.findings() == "");
+}
+
+TEST_CASE("gibbs lower: a check for each of many fields") {
+  std::string fields, checks = ":ask\ndialog \"d.dlg\"\nbad = 0\n";
+  for (int i = 1; i <= 1000; ++i) {
+    fields += fmt::format("f{} = 1\n", i);
+    checks += fmt::format("if f{} < 0 then bad = {}\n", i, i);
+  }
+  LowerProject project(fields, checks + "if bad > 0 then message \"wrong\"\nif bad > 0 then goto ask\n");
+  project.limits.paths = 128;
+  CHECK(project.lowerChecks());
+  CHECK(project.findings() == "");
+}
+
+// States that no later condition tells apart are one: each message still has its own way.
+TEST_CASE("gibbs lower: paths that meet keep what lies behind each message") {
+  // The first message lets its values pass, the second does not.
+  CHECK(lowered(":ask\ndialog \"d.dlg\"\nbad = 0\nif a = 1 then message \"one\"\nif a = 2 then bad = 2\n"
+                "if bad = 2 then message \"two\"\nif bad > 1 then goto ask\n") ==
+        "bad = 0\na<>1 -> L1\ncomment [one]\nL1:\na<>2 -> L2\nbad = 2\nL2:\nbad<>2 -> L3\nalarm [two]\n"
+        "L3:\n");
+  // Both ways are open behind a message whose value may be changed back.
+  CHECK(lowered(":ask\ndialog \"d.dlg\"\nbad = 0\nif a = 1 then bad = 1\nif bad = 1 then message \"one\"\n"
+                "if b = 1 then bad = 0\nif bad > 0 then goto ask\n") == "message-paths@message \"one\"");
+  // A fact that is asked for again much later, and one that a variable hands on.
+  CHECK(compared(":ask\ndialog \"d.dlg\"\nbad = 0\nif a > 5 then bad = 1\nif a < 8 then bad = bad + 2\n"
+                 "if a = 6 then goto done\nif bad = 3 then message \"between\"\nif bad = 3 then goto ask\n"
+                 "if a > 5 then message \"far\"\nif a > 5 then goto ask\n:done\n") == "both paths");
+  CHECK(compared(":ask\ndialog \"d.dlg\"\nif a > 5 then goto far\nd = a\ngoto on\n:far\nd = 20 - a\n:on\n"
+                 "if d > 12 then message \"d\"\nif d > 12 then goto ask\nif a >= 10 then goto ask\n") ==
+        "both paths");
+  CHECK(compared(":ask\ndialog \"d.dlg\"\nkind = 3\nif a < 0 then kind = 1\nif b < 0 then kind = 2\n"
+                 "if kind <> 1 then goto two\nmessage \"a\"\ngoto ask\n:two\nif kind <> 2 then goto three\n"
+                 "message \"b\"\ngoto ask\n:three\nif kind <> 3 then goto ask\n") == "both paths");
 }
 
 TEST_CASE("gibbs lower: a message that lets values pass is a hint or refused") {
