@@ -128,6 +128,7 @@ private:
     });
     unreadable_ = library->unreadable();
     safe_ = sim::safeMoves(library->programs(), *control_);
+    asking_ = sim::askingBlocks(library->programs());
     if (sim::mayWriteOffsets(library->programs(), *control_)) world_->keepOffsets();
     const std::string advice = world_->setup().call.empty()
                                    ? sim::callAdvice(*library->programs().front(), options_.part.has_value())
@@ -173,6 +174,13 @@ private:
       const SourceRange range = run.place();
       return safe_.contains({range.file, range.begin});
     });
+    world_->setRange([&run] { return run.place(); });
+    // Blocks of Mikroprog ask by a code of their own.
+    if (!machine.dialect().firstParameter)
+      world_->setAsks([this, &run] {
+        const SourceRange range = run.place();
+        return asking_.contains({range.file, range.begin});
+      });
     world_->attach(machine);
     run.run();
     machine.setTrace(nullptr);
@@ -244,7 +252,8 @@ private:
   Session& session_;
   std::optional<stdlib::Control> control_;
   std::unique_ptr<sim::SimWorld> world_;
-  std::set<std::pair<FileId, std::uint32_t>> safe_; // skip moves to a position
+  sim::BlockSet safe_;                              // skip moves to a position
+  sim::BlockSet asking_;                            // blocks that ask what a skip move came to
   std::map<std::uint64_t, std::string> unreadable_; // programs that have errors, with their files
 };
 

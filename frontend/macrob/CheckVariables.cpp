@@ -13,10 +13,23 @@ namespace {
 
 constexpr std::uint32_t kLastLocal = 33;
 constexpr std::uint32_t kFirstSystem = 1000;
+constexpr std::uint32_t kFirstLongTable = 10000; // of tool offsets beyond #2001 to #2800
 
 // Bases of tables of tool offsets: they are read by `#[2000+#7]`, and hold nothing themselves.
 bool isTableBase(std::uint32_t number) {
   return number == 2000 || number == 10000 || number == 11000 || number == 12000 || number == 13000;
+}
+
+// The number that a computed number of a variable counts from: 10000 of #[10000+#20].
+std::optional<std::uint32_t> countsFrom(const Expression& number) {
+  const auto* sum = std::get_if<nc::Operation>(&number.node);
+  if (sum == nullptr || sum->op != "+") return std::nullopt;
+  for (const auto& side : {&sum->left, &sum->right})
+    if (const auto* base = std::get_if<nc::Number>(&(*side)->node))
+      return base->value >= 0 && base->value <= 999999
+                 ? std::optional(static_cast<std::uint32_t>(base->value))
+                 : std::nullopt;
+  return countsFrom(*sum->left);
 }
 
 // Zero points of work systems, on any control.
@@ -132,12 +145,26 @@ void systemVariableUnknown(const CheckedProgram& input, Report& report) {
     if (names.empty()) first = range;
     names += fmt::format("{}#{}", names.empty() ? "" : ", ", number);
   };
+  // Tables of tool offsets, of which this control has not even the first.
+  const auto judgeTable = [&](const Expression& number, SourceRange range) {
+    const auto base = countsFrom(number);
+    if (!base || *base < kFirstLongTable || !isTableBase(*base) ||
+        stdlib::namesVariable(*input.control, *base + 1) || !told.insert(*base).second)
+      return;
+    if (names.empty()) first = range;
+    names += fmt::format("{}#[{}+n]", names.empty() ? "" : ", ", *base);
+  };
   for (const Block& block : input.program.blocks) {
     walk(block, [&](const Expression& expression, bool) {
       if (const auto number = variableNumber(expression)) judge(*number, expression.range);
+      if (const auto* variable = std::get_if<nc::VariableRef>(&expression.node))
+        judgeTable(*variable->number, expression.range);
     });
-    if (const nc::Assignment* assignment = assignmentOf(block))
+    if (const nc::Assignment* assignment = assignmentOf(block)) {
       if (const auto written = writtenBy(*assignment)) judge(written->number, written->range);
+      judgeTable(*assignment->variable,
+                 {assignment->range.file, assignment->range.begin, assignment->variable->range.end});
+    }
   }
   if (names.empty()) return;
   report.at(

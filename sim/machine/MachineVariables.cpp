@@ -114,6 +114,9 @@ std::optional<double> Machine::readSystem(std::uint32_t number, const Place& pla
     }
     return of[place.axis];
   };
+  if (watcher_ != nullptr && (place.kind == Kind::Skip || place.kind == Kind::BlockEnd ||
+                              place.kind == Kind::Now || place.kind == Kind::MachinePosition))
+    watcher_->positionRead(place.kind == Kind::Skip);
   switch (place.kind) {
   case Kind::Modal: {
     const std::uint32_t tenths = groups_[place.index];

@@ -44,6 +44,8 @@ public:
   virtual void paused(std::string_view /*text*/) {} // a stop, and what the operator reads
   // A file that the control writes: where the machine is, or a value.
   virtual void recorded(std::string_view /*file*/, std::optional<double> /*value*/) {}
+  // A program reads where the machine is or its last block has ended; `skip`: where the last skip move has.
+  virtual void positionRead(bool /*skip*/) {}
   virtual void toolChanged(std::uint32_t /*number*/) {} // M6; the tool that T has named
   // G43 or G44 puts the length of an offset in force that nobody has set.
   virtual void lengthNotSet(std::uint32_t /*offset*/) {}

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 
 namespace dotek::sim {
 namespace {
@@ -26,6 +27,7 @@ void World::restart(std::uint64_t seed) {
   events_.clear();
   on_ = probe_.on;
   pressed_ = false;
+  lastLine_ = 0;
   seed_ = seed;
   touches_ = 0;
 }
@@ -135,6 +137,7 @@ std::optional<double> World::contact(const SkipMove& move) {
   constexpr MotionKind kKind = MotionKind::Skip;
   ++touches_;
   const Point3 from = centreAt(move.machineFrom), to = centreAt(move.machineTo);
+  const std::uint64_t lineBefore = std::exchange(lastLine_, line_);
   if (!isModelled(move.machineFrom, move.machineTo)) {
     add(Outcome::NotModelled, kKind, 0, from);
     return std::nullopt;
@@ -177,7 +180,10 @@ std::optional<double> World::contact(const SkipMove& move) {
   } else if (!on_) {
     addTouch(Outcome::NotArmed, kKind, *touch, length);
   } else if (touch->atStart) {
-    addTouch(Outcome::EarlyContact, kKind, *touch, length).depth = 0;
+    ProbeEvent& event = addTouch(Outcome::EarlyContact, kKind, *touch, length);
+    event.depth = 0;
+    event.gap = part_.distance(from) - probe_.ballRadius();
+    event.lineBefore = lineBefore;
   } else if (signal > 1) {
     addTouch(Outcome::NoSignal, kKind, *touch, length);
   } else {
@@ -190,7 +196,7 @@ std::optional<double> World::contact(const SkipMove& move) {
 
 void World::moved(const MachineMotion& motion) {
   if (motion.kind == MotionKind::Skip) return;
-  if (motion.line != 0) line_ = motion.line;
+  if (motion.line != 0) lastLine_ = line_ = motion.line;
   const Point3 from = centreAt(motion.from), to = centreAt(motion.to);
   if (!motion.known || !isModelled(motion.from, motion.to)) {
     add(Outcome::NotModelled, motion.kind, 0, from).placeUnknown = !motion.known;
@@ -241,6 +247,20 @@ std::string_view outcomeName(Outcome outcome) {
   return "";
 }
 
+namespace {
+
+// What is known of the move that brought the ball there.
+std::string beforeText(const ProbeEvent& event) {
+  constexpr double kSeen = 0.0005; // mm
+  const std::string where = event.gap < -kSeen  ? fixedText(-event.gap, 3) + " mm inside the part"
+                            : event.gap > kSeen ? fixedText(event.gap, 3) + " mm from the part"
+                                                : "against the part";
+  if (event.lineBefore == 0) return "the program begins with the ball " + where;
+  return "the move before it, in line " + std::to_string(event.lineBefore) + ", ended with the ball " + where;
+}
+
+} // namespace
+
 void reportEvent(const ProbeEvent& event, SourceRange range, Diagnostics& diagnostics) {
   const auto at = [](const Point3& p) {
     return "X" + fixedText(p.x, 3) + " Y" + fixedText(p.y, 3) + " Z" + fixedText(p.z, 3);
@@ -248,7 +268,12 @@ void reportEvent(const ProbeEvent& event, SourceRange range, Diagnostics& diagno
   const std::string centre = at(event.centre), depth = fixedText(event.depth, 3);
   switch (event.outcome) {
   case Outcome::Contact: return;
-  case Outcome::EarlyContact: diagnostics.report<diag::EarlyContact>(range, centre); return;
+  case Outcome::EarlyContact:
+    if (event.kind == MotionKind::Skip)
+      diagnostics.report<diag::ContactAtStart>(range, centre, beforeText(event));
+    else
+      diagnostics.report<diag::EarlyContact>(range, centre);
+    return;
   case Outcome::Miss: diagnostics.report<diag::ProbeMiss>(range, centre); return;
   case Outcome::NotArmed: diagnostics.report<diag::ProbeNotArmed>(range, centre, depth); return;
   case Outcome::NoSignal: diagnostics.report<diag::NoProbeSignal>(range, centre, depth); return;

@@ -40,6 +40,11 @@ struct ProbeEvent {
   std::uint64_t line = 0;    // of the program
   bool placeUnknown = false; // of NotModelled: where the machine is
   bool meant = false;        // of Miss: the move was to meet nothing
+  // Of EarlyContact at the start of a skip move: how far the ball was from the part there, below 0 in it; and
+  // the line of the move before it, 0: there is none.
+  double gap = 0;
+  std::uint64_t lineBefore = 0;
+  bool used = false; // of a miss: its skip position was taken for the surface
   // Of OutsideTravel: the first axis that leaves, where the move would take it, and the end of its travel
   // that it passes, in coordinates of the machine.
   std::size_t axis = 0;
@@ -117,7 +122,8 @@ private:
   Devices devices_;
   std::uint32_t tool_ = 0;
   bool on_;
-  bool pressed_ = false; // the last motion ended in the part, which was reported
+  std::uint64_t lastLine_ = 0; // of the last motion
+  bool pressed_ = false;       // the last motion ended in the part, which was reported
   std::uint64_t line_ = 0;
   std::uint64_t seed_;
   std::uint64_t touches_ = 0;

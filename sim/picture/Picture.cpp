@@ -2,6 +2,8 @@
 
 #include "sim/picture/PictureRegion.h"
 
+#include <fmt/format.h>
+
 namespace dotek::sim {
 
 std::string_view pathKindName(PathKind kind) {
@@ -19,6 +21,14 @@ std::optional<std::size_t> blockOf(const Picture& picture, const PictureError& e
                             : error.move < picture.moves.size() ? picture.moves[error.move].block
                                                                 : picture.blocks.size();
   return block < picture.blocks.size() ? std::optional(block) : std::nullopt;
+}
+
+std::vector<std::string> errorNames(const Picture& picture) {
+  std::vector<std::string> out;
+  std::size_t errors = 0, misses = 0;
+  for (const PictureError& error : picture.errors)
+    out.push_back(isMiss(error) ? fmt::format("M{}", ++misses) : fmt::format("E{}", ++errors));
+  return out;
 }
 
 double reachAt(const Picture& picture, std::size_t move) {

@@ -50,7 +50,14 @@ struct PictureError {
   std::string text; // UTF-8, one line
   std::size_t move = 0;
   std::optional<std::size_t> block = std::nullopt; // place in Picture::blocks; nothing: the block of the move
+  // Of a skip move that was to measure and met nothing; of one whose end the program took for the surface.
+  enum class Kind : std::uint8_t { Error, Miss, UsedMiss };
+  Kind kind = Kind::Error;
 };
+// The kind is that of a mark of its own, with numbers of its own.
+inline bool isMiss(const PictureError& error) {
+  return error.kind != PictureError::Kind::Error;
+}
 
 struct PictureBlock {
   std::string text;         // UTF-8; as the program writes it
@@ -64,7 +71,9 @@ struct PictureMeasured {
   std::vector<OffsetWrite> offsets;
   std::string system; // active work offset: "G54"
   PictureBlock block;
-  std::size_t move = 0; // the last one of it
+  std::size_t move = 0;   // the last one of it
+  bool missed = false;    // a skip move that met nothing, and whose end the program took for the surface
+  bool afterMiss = false; // so did one before these offsets were written
 };
 
 // How a run went: the banner of both pictures.
@@ -97,6 +106,7 @@ struct Picture {
   std::vector<PictureFrame> frames;
   std::vector<PictureMeasured> measured;
   std::optional<PictureResult> result; // nothing: no banner
+  std::string control;                 // that the program ran on, UTF-8; "": none
   std::string date;                    // as the user gives it, UTF-8; "": none
   int decimals = 3;                    // of coordinates, as the control shows them
 };
@@ -104,6 +114,9 @@ struct Picture {
 // From the point of a move up to the gauge line: of the probe's ball, or of the tool that is in the spindle;
 // 0 without either.
 double reachAt(const Picture& picture, std::size_t move);
+
+// By error: "E1", "E2", and "M1", "M2" of misses.
+std::vector<std::string> errorNames(const Picture& picture);
 
 // The place in Picture::blocks at which an error happened; nothing: it is not known.
 std::optional<std::size_t> blockOf(const Picture& picture, const PictureError& error);

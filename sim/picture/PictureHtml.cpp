@@ -50,6 +50,8 @@ public:
       if (mark == "TAB")
         out += xmlText((picture_.result ? picture_.result->word + " - " : "") + picture_.title, 300);
       if (mark == "TITLE") out += xmlText(picture_.title, 300);
+      if (mark == "CONTROL" && !picture_.control.empty())
+        out += fmt::format(" <small>run on {}</small>", xmlText(picture_.control, 100));
       if (mark == "DATE" && !picture_.date.empty())
         out += fmt::format(" <small>{}</small>", xmlText(picture_.date, 100));
       if (mark == "MEASURED") out += measuredHtml(picture_, [&](std::size_t move) { return placeOf(move); });
@@ -119,11 +121,19 @@ private:
           "stroke-width=\"{}\" stroke-dasharray=\"{}\"/></svg>{}</div>\n",
           pathKindName(kind), style.width, *style.dashes == '\0' ? "none" : style.dashes, pathKindName(kind));
     }
-    out += "<div><svg width=\"44\" height=\"10\"><circle cx=\"22\" cy=\"5\" r=\"3.4\" "
-           "style=\"fill:var(--contact)\"/></svg>"
-           "contact</div>\n<div><svg width=\"44\" height=\"12\"><path d=\"M17 1l10 10m0 -10l-10 10\" "
-           "style=\"stroke:var(--error)\" stroke-width=\"2.6\"/></svg>error</div>\n"
-           "<div><svg width=\"44\" height=\"14\"><circle cx=\"13\" cy=\"7\" r=\"6\" fill=\"#f0a614\"/>"
+    const auto misses =
+        static_cast<std::size_t>(std::count_if(picture_.errors.begin(), picture_.errors.end(), isMiss));
+    out += fmt::format(
+        "<div><svg width=\"44\" height=\"10\"><circle cx=\"22\" cy=\"5\" r=\"3.4\" "
+        "style=\"fill:var(--contact)\"/></svg>"
+        "contact ({})</div>\n<div><svg width=\"44\" height=\"12\"><path d=\"M17 1l10 10m0 -10l-10 10\" "
+        "style=\"stroke:var(--error)\" stroke-width=\"2.6\"/></svg>error ({})</div>\n"
+        "<div title=\"full: the program took the end of the move for the surface\"><svg width=\"44\" "
+        "height=\"14\" style=\"stroke:var(--error)\" stroke-width=\"2\"><path d=\"M5 7l6 -6 6 6 -6 6z\" "
+        "style=\"fill:var(--error)\"/><path d=\"M25 7l6 -6 6 6 -6 6z\" style=\"fill:none\"/></svg>miss "
+        "({})</div>\n",
+        picture_.contacts.size(), picture_.errors.size() - misses, misses);
+    out += "<div><svg width=\"44\" height=\"14\"><circle cx=\"13\" cy=\"7\" r=\"6\" fill=\"#f0a614\"/>"
            "<circle cx=\"31\" cy=\"7\" r=\"6\" fill=\"#545c66\"/></svg>probe on, off</div>";
     if (picture_.setter)
       out += "\n<div><svg width=\"44\" height=\"14\"><ellipse cx=\"22\" cy=\"7\" rx=\"12\" ry=\"5\" "
@@ -253,8 +263,9 @@ private:
     for (std::size_t i = 0; i < picture_.errors.size() && i < kMostMarks; ++i) {
       const PictureError& error = picture_.errors[i];
       const std::optional<std::size_t> block = blockOf(picture_, error);
-      out += fmt::format("{}[{},{},{},{}]", i == 0 ? "" : ",\n", numbers(error.at), placeOf(error.move),
-                         jsonText(error.text, 600), block ? std::to_string(*block) : "null");
+      out += fmt::format("{}[{},{},{},{},{}]", i == 0 ? "" : ",\n", numbers(error.at), placeOf(error.move),
+                         jsonText(error.text, 600), block ? std::to_string(*block) : "null",
+                         static_cast<int>(error.kind));
     }
     out += "],\n";
   }

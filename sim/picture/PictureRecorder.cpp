@@ -70,7 +70,7 @@ PathKind PictureRecorder::kindOf(MotionKind kind) const {
 }
 
 // The events of the world from the `from`-th on belong to this move.
-void PictureRecorder::addEvents(std::size_t from, std::size_t move) {
+void PictureRecorder::addEvents(std::size_t from, std::size_t move, bool isProtected) {
   if (world_ == nullptr || full_) return;
   for (std::size_t i = from; i < world_->events().size(); ++i) {
     const ProbeEvent& event = world_->events()[i];
@@ -78,12 +78,21 @@ void PictureRecorder::addEvents(std::size_t from, std::size_t move) {
       picture_.contacts.push_back({event.point, move});
       continue;
     }
-    if (event.outcome == Outcome::Miss || event.outcome == Outcome::SetterMiss) continue;
+    const bool miss = event.outcome == Outcome::Miss || event.outcome == Outcome::SetterMiss;
+    if (miss && (isProtected || event.meant)) continue;
     Diagnostics said;
     reportEvent(event, {}, said);
     for (const Diagnostic& one : said.all())
-      picture_.errors.push_back({event.centre, one.message, move});
+      picture_.errors.push_back({event.centre, one.message, move, std::nullopt,
+                                 miss ? PictureError::Kind::Miss : PictureError::Kind::Error});
   }
+}
+
+void PictureRecorder::missUsed(const std::string& text) {
+  const auto last = std::find_if(picture_.errors.rbegin(), picture_.errors.rend(), isMiss);
+  if (full_ || last == picture_.errors.rend()) return;
+  last->kind = PictureError::Kind::UsedMiss;
+  last->text = text;
 }
 
 // The motion of a skip move is reported after its contact.
@@ -92,7 +101,7 @@ std::optional<double> PictureRecorder::contact(const SkipMove& move) {
   full_ = full_ || picture_.moves.size() == kMostMoves;
   const std::size_t before = world_->events().size();
   const std::optional<double> share = world_->contact(move);
-  addEvents(before, picture_.moves.size());
+  addEvents(before, picture_.moves.size(), kindOf(MotionKind::Skip) == PathKind::Protected);
   return share;
 }
 

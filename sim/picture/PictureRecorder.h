@@ -40,6 +40,8 @@ public:
 
   void setFrame(FrameNow frame) { frame_ = std::move(frame); }              // without it they are not known
   void setSafeMove(std::function<bool()> safe) { safe_ = std::move(safe); } // the skip move that runs is one
+  // The program takes the end of the last miss for the surface; `text` says so.
+  void missUsed(const std::string& text);
   // After the run: what stopped it is an error at the end of the path, and the picture has its banner.
   void finish(const RunFacts& facts, std::vector<PictureMeasured> measured = {});
 
@@ -54,7 +56,7 @@ public:
   const Picture& picture() const { return picture_; }
 
 private:
-  void addEvents(std::size_t from, std::size_t move);
+  void addEvents(std::size_t from, std::size_t move, bool isProtected = false);
   std::size_t placeOf(PictureBlock block); // in Picture::blocks
   std::size_t frameNow();
   std::size_t toolNow(); // in Picture::tools, from 1; 0: the probe

@@ -24,9 +24,9 @@ std::string bannerSvg(const PictureResult& result, double left, double width, do
 std::string bannerHtml(const PictureResult& result);
 
 // The table of what was measured as plain text, a line each, for a terminal; `leftOut`: entries that are not
-// kept.
-// "": nothing was.
-std::string measuredText(const std::vector<PictureMeasured>& measured, std::size_t leftOut, int decimals);
+// kept. "": nothing was. `control`: that the program ran on; "": none.
+std::string measuredText(const std::vector<PictureMeasured>& measured, std::size_t leftOut, int decimals,
+                         const std::string& control);
 // What was measured: feature, nominal, measured, deviation, and the offsets that were written. `at`: the
 // upper edge, then the lower one. "": nothing was.
 std::string measuredSvg(const Picture& picture, double left, double& at);

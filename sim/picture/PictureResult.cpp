@@ -3,6 +3,7 @@
 #include "sim/picture/PictureRegion.h"
 #include "support/Decimal.h"
 
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 
@@ -106,13 +107,25 @@ PictureResult resultOf(const Picture& picture, const RunFacts& facts) {
   const std::uint64_t faults = count(facts, {Outcome::EarlyContact, Outcome::NoSignal});
   const std::uint64_t misses = count(facts, {Outcome::Miss, Outcome::SetterMiss});
   const bool crashed = collisions + travel + faults > 0;
+  const auto named = std::find_if(picture.errors.begin(), picture.errors.end(), [&](const PictureError& e) {
+    return e.kind == (crashed ? PictureError::Kind::Error : PictureError::Kind::UsedMiss);
+  });
+  const bool measuredNothing = !crashed && facts.usedMisses > 0 && out.verdict != Verdict::Fail;
   if (crashed) {
     const std::string then = ended ? "" : fmt::format("; then {}", endingText(facts));
     out.verdict = Verdict::Fail;
     out.word = collisions > 0 ? "COLLISION" : travel > 0 ? "OVER-TRAVEL" : "PROBE FAULT";
     // What happened; the list of errors has the rest of the sentence, what to do.
-    out.text = picture.errors.empty() ? "the picture ends before it" : picture.errors.front().text;
+    out.text = named == picture.errors.end() ? "the picture ends before it" : named->text;
     out.text = out.text.substr(0, out.text.find(';')) + then;
+  } else if (measuredNothing) {
+    const std::string then = ended ? "" : fmt::format("; then {}", endingText(facts));
+    out.verdict = Verdict::Fail;
+    out.word = "FAIL: MEASURED WITHOUT A TOUCH";
+    out.text = fmt::format("{} nothing, and the {} took {} for the surface{}",
+                           facts.usedMisses == 1 ? std::string("a measuring move met")
+                                                 : fmt::format("{} measuring moves met", facts.usedMisses),
+                           facts.subject, facts.usedMisses == 1 ? "its end" : "their ends", then);
   } else if (ended && misses > 0) {
     out.verdict = Verdict::Doubt;
     out.word = "PASS, WITH MISSES";
@@ -121,18 +134,17 @@ PictureResult resultOf(const Picture& picture, const RunFacts& facts) {
                            facts.subject,
                            misses == 1 ? "a skip move met" : fmt::format("{} skip moves met", misses));
   }
-  if (ended && !crashed && !picture.part && picture.contacts.empty())
+  if (ended && !crashed && !measuredNothing && !picture.part && picture.contacts.empty())
     out.text += "; no part was given, so nothing could be touched";
 
-  const bool first = crashed && !picture.errors.empty();
-  if (first) {
-    const PictureError& error = picture.errors.front();
+  if ((crashed || measuredNothing) && named != picture.errors.end()) {
+    const PictureError& error = *named;
     if (const std::optional<std::size_t> block = blockOf(picture, error)) {
       out.place = placeOf(picture.blocks[*block]);
       out.block = picture.blocks[*block].text;
     }
     out.position = positionAt(picture, error.at, error.move);
-  } else if (!ended) {
+  } else if (!ended && !measuredNothing) {
     out.place = facts.callers.empty() || facts.callers == facts.block.program
                     ? placeOf(facts.block)
                     : facts.callers + (facts.block.place.empty() ? "" : "; " + facts.block.place);

@@ -19,6 +19,7 @@ struct RunFacts {
   PictureBlock block;                     // at which the run ended
   std::array<std::uint64_t, 16> events{}; // by Outcome; misses that were meant are none
   std::string_view subject = "program";   // what ran
+  std::uint64_t usedMisses = 0;           // misses whose end was taken for the surface
 };
 
 // The banner of a picture whose moves, errors and frames are complete. A collision comes before the alarm

@@ -112,6 +112,12 @@ struct Sheet {
 
 std::string drawLegend(const Sheet& sheet, double left, double top, double& bottom) {
   const Picture& picture = sheet.picture;
+  const auto count = [&](auto&& holds) {
+    return static_cast<std::size_t>(std::count_if(picture.errors.begin(), picture.errors.end(), holds));
+  };
+  const std::size_t misses = count(isMiss);
+  const std::size_t used =
+      count([](const PictureError& one) { return one.kind == PictureError::Kind::UsedMiss; });
   Legend legend(left, top + 12);
   for (const PathKind kind : {PathKind::Rapid, PathKind::Feed, PathKind::Protected, PathKind::Measuring})
     legend.sample(kind);
@@ -124,7 +130,13 @@ std::string drawLegend(const Sheet& sheet, double left, double top, double& bott
   legend.mark(fmt::format("<path d=\"M-5.5 -5.5l11 11m0 -11l-11 11\" fill=\"none\" stroke=\"{}\" "
                           "stroke-width=\"2.6\"/>",
                           kErrorColour),
-              fmt::format("error ({})", picture.errors.size()));
+              fmt::format("error ({})", picture.errors.size() - misses));
+  legend.mark(fmt::format("<path d=\"M-16.5 0l6.5 -6.5 6.5 6.5 -6.5 6.5z\" fill=\"{0}\" stroke=\"{0}\" "
+                          "stroke-width=\"2\"/><path d=\"M3.5 0l6.5 -6.5 6.5 6.5 -6.5 6.5z\" "
+                          "fill=\"#ffffff\" stroke=\"{0}\" stroke-width=\"2\"/>",
+                          kErrorColour),
+              used == 0 ? fmt::format("miss ({})", misses)
+                        : fmt::format("miss ({}); {} taken for the surface (full)", misses, used));
   if (picture.part) {
     legend.mark("<rect x=\"-22\" y=\"-6\" width=\"44\" height=\"12\" fill=\"url(#cut)\" stroke=\"#39424d\"/>",
                 "material in the section");
@@ -174,6 +186,7 @@ std::string drawLegend(const Sheet& sheet, double left, double top, double& bott
 // Numbered texts below the views.
 std::string drawErrors(const Picture& picture, double width, double& at) {
   if (picture.errors.empty()) return "";
+  const std::vector<std::string> names = errorNames(picture);
   std::string out = fmt::format("<g id=\"errors\" fill=\"{}\">\n", kErrorColour);
   const auto line = [&](const std::string& text, double indent, bool bold) {
     out += fmt::format("<text x=\"{}\" y=\"{}\"{}>{}</text>\n", px(kLeft + indent), px(at),
@@ -185,7 +198,7 @@ std::string drawErrors(const Picture& picture, double width, double& at) {
     std::string text = error.text;
     if (const std::optional<std::size_t> block = blockOf(picture, error))
       text = fmt::format("{}: {}", picture.blocks[*block].place, text);
-    line(fmt::format("E{}", i + 1), 0, true);
+    line(names[i], 0, true);
     at -= kLine;
     for (const std::string& part :
          wrapped(text.substr(0, 900), static_cast<std::size_t>((width - kLeft - 36 - kRight) / 6.6)))
@@ -250,6 +263,9 @@ std::string pictureSvg(const Picture& picture) {
   out += fmt::format(
       "<text x=\"{}\" y=\"{}\" font-size=\"19\" font-weight=\"bold\" fill=\"#20262d\">{}</text>\n", px(kLeft),
       px(banner + 34), xmlText(picture.title, static_cast<std::size_t>((width - 2 * kLeft) / 10)));
+  if (!picture.control.empty())
+    out += fmt::format("<text x=\"{}\" y=\"{}\" text-anchor=\"end\" fill=\"#4a525c\">run on {}</text>\n",
+                       px(width - kRight), px(banner + 52), xmlText(picture.control, 100));
   if (!picture.date.empty())
     out += fmt::format("<text x=\"{}\" y=\"{}\" text-anchor=\"end\" fill=\"#4a525c\">{}</text>\n",
                        px(width - kRight), px(banner + 34), xmlText(picture.date, 60));

@@ -35,13 +35,14 @@ public:
     }
     return out;
   }
-  std::string offset(const OffsetWrite& write) const {
-    return fmt::format("{} set from {} to {} ({})", write.name, number(write.before), number(write.after),
-                       signedNumber(write.after - write.before));
+  std::string offset(const OffsetWrite& write, const PictureMeasured& of) const {
+    return fmt::format("{} set from {} to {} ({}){}", write.name, number(write.before), number(write.after),
+                       signedNumber(write.after - write.before), of.afterMiss ? ", after a miss" : "");
   }
   static std::string title(const PictureMeasured& one) {
     if (one.found.title.empty()) return "offsets written";
     // Where the machine stopped: the surface is a radius farther on.
+    if (one.missed) return one.found.title + ": end of the move, no surface";
     return one.found.title.starts_with("touch ") ? one.found.title + ", skip position" : one.found.title;
   }
   static std::string place(const PictureMeasured& one) {
@@ -57,11 +58,12 @@ private:
 
 } // namespace
 
-std::string measuredText(const std::vector<PictureMeasured>& measured, std::size_t leftOut, int decimals) {
+std::string measuredText(const std::vector<PictureMeasured>& measured, std::size_t leftOut, int decimals,
+                         const std::string& control) {
   if (measured.empty()) return "";
   const Table table(decimals);
-  std::string out =
-      fmt::format("{:<30} {:>12} {:>12} {:>12}\n", "measured, mm", "nominal", "measured", "deviation");
+  std::string out = control.empty() ? "" : "run on " + control + "\n";
+  out += fmt::format("{:<30} {:>12} {:>12} {:>12}\n", "measured, mm", "nominal", "measured", "deviation");
   for (const PictureMeasured& one : measured) {
     out += fmt::format("{} ({})\n", Table::title(one), Table::place(one));
     for (const MeasuredValue& value : one.found.values) {
@@ -70,7 +72,7 @@ std::string measuredText(const std::vector<PictureMeasured>& measured, std::size
           fmt::format("  {:<28} {:>12} {:>12} {:>12}\n", row.name, row.nominal, row.measured, row.deviation);
     }
     for (const OffsetWrite& write : one.offsets)
-      out += "  " + table.offset(write) + "\n";
+      out += "  " + table.offset(write, one) + "\n";
   }
   if (leftOut > 0) out += fmt::format("and {} more\n", leftOut);
   return out;
@@ -105,14 +107,15 @@ std::string measuredSvg(const Picture& picture, double left, double& at) {
   std::size_t rows = 0, shown = 0;
   for (const PictureMeasured& one : picture.measured) {
     if (rows > kMostSvg) break;
-    text(0, fmt::format("{}  ", Table::title(one)), "font-weight=\"bold\"");
-    text(250, Table::place(one), "fill=\"#4a525c\"");
+    text(0, fmt::format("{}  ", Table::title(one)),
+         one.missed ? "font-weight=\"bold\" fill=\"#a80b22\"" : "font-weight=\"bold\"");
+    text(one.missed ? 370 : 250, Table::place(one), "fill=\"#4a525c\"");
     out += '\n';
     at += kRow;
     for (const MeasuredValue& value : one.found.values)
       cells(table.row(value), kNumber);
     for (const OffsetWrite& write : one.offsets) {
-      text(18, table.offset(write), "fill=\"#0a529a\"");
+      text(18, table.offset(write, one), one.afterMiss ? "fill=\"#a80b22\"" : "fill=\"#0a529a\"");
       out += '\n';
       at += kRow;
     }
@@ -137,17 +140,18 @@ std::string measuredHtml(const Picture& picture, const std::function<std::size_t
   for (const PictureMeasured& one : picture.measured) {
     if (shown == kMostHtml) break;
     ++shown;
-    out += fmt::format("<tr class=\"feature\"><th colspan=\"4\"><button data-move=\"{}\">{}</button> "
+    out += fmt::format("<tr class=\"feature{}\"><th colspan=\"4\"><button data-move=\"{}\">{}</button> "
                        "<small>{}</small></th></tr>\n",
-                       place(one.move), xmlText(Table::title(one), 200), xmlText(Table::place(one), 300));
+                       one.missed ? " missed" : "", place(one.move), xmlText(Table::title(one), 200),
+                       xmlText(Table::place(one), 300));
     for (const MeasuredValue& value : one.found.values) {
       const Row row = table.row(value);
       out += fmt::format("<tr><th>{}</th><td>{}</td><td>{}</td><td>{}</td></tr>\n", xmlText(row.name),
                          row.nominal, row.measured, row.deviation);
     }
     for (const OffsetWrite& write : one.offsets)
-      out +=
-          fmt::format("<tr class=\"offset\"><td colspan=\"4\">{}</td></tr>\n", xmlText(table.offset(write)));
+      out += fmt::format("<tr class=\"offset{}\"><td colspan=\"4\">{}</td></tr>\n",
+                         one.afterMiss ? " missed" : "", xmlText(table.offset(write, one)));
   }
   if (shown < picture.measured.size())
     out += fmt::format("<tr><th colspan=\"4\">and {} more</th></tr>\n", picture.measured.size() - shown);

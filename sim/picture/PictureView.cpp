@@ -66,6 +66,7 @@ public:
     arrows();
     ends();
     contacts();
+    misses();
     errors();
     setterName();
     out_ += "</g>\n";
@@ -324,16 +325,18 @@ private:
   struct Mark {
     PlanePoint at;
     std::vector<std::size_t> numbers; // from 1 on
+    bool full = false;
   };
   // Marks that fall on one another are one.
-  static void addMark(std::vector<Mark>& marks, const PlanePoint& at, std::size_t number) {
+  static Mark& addMark(std::vector<Mark>& marks, const PlanePoint& at, std::size_t number) {
     for (Mark& mark : marks) {
       if (std::hypot(mark.at[0] - at[0], mark.at[1] - at[1]) > 2.5) continue;
       if (number != 0) mark.numbers.push_back(number);
-      return;
+      return mark;
     }
     marks.push_back({at, {}});
     if (number != 0) marks.back().numbers.push_back(number);
+    return marks.back();
   }
 
   bool isFree(const Box& box) const {
@@ -375,13 +378,19 @@ private:
     for (std::size_t i = 0; i < picture_.contacts.size() && i < kMostNumbered; ++i) {
       if (isSeen(picture_.contacts[i].point)) addMark(marks, sheet(on(picture_.contacts[i].point)), i + 1);
     }
+    std::size_t errors = 0, misses = 0;
     for (std::size_t i = 0; i < picture_.errors.size() && i < kMostErrors; ++i) {
-      if (isSeen(picture_.errors[i].at)) addMark(errors_, sheet(on(picture_.errors[i].at)), i + 1);
+      const PictureError& error = picture_.errors[i];
+      const std::size_t number = isMiss(error) ? ++misses : ++errors;
+      if (!isSeen(error.at)) continue;
+      Mark& mark = addMark(isMiss(error) ? misses_ : errors_, sheet(on(error.at)), number);
+      mark.full = mark.full || error.kind == PictureError::Kind::UsedMiss;
     }
     for (const Mark& mark : marks)
       taken_.push_back(around(mark.at, 3));
-    for (const Mark& mark : errors_)
-      taken_.push_back(around(mark.at, 7));
+    for (const std::vector<Mark>* list : {&misses_, &errors_})
+      for (const Mark& mark : *list)
+        taken_.push_back(around(mark.at, 7));
     if (marks.empty()) return;
     out_ += "<g font-size=\"12\" font-weight=\"bold\" stroke=\"#ffffff\" stroke-width=\"3\" "
             "paint-order=\"stroke\" "
@@ -391,6 +400,26 @@ private:
                           px(mark.at[0]), px(mark.at[1]), kContactColour);
     for (const Mark& mark : marks)
       label(mark.at, numbersText(mark.numbers), kContactColour);
+    out_ += "</g>\n";
+  }
+
+  // Diamonds: full where the program took the end for the surface.
+  void misses() {
+    if (misses_.empty()) return;
+    for (const Mark& mark : misses_)
+      out_ += fmt::format("<path d=\"M{}l6.5 -6.5 6.5 6.5 -6.5 6.5z\" fill=\"{}\" stroke=\"#ffffff\" "
+                          "stroke-width=\"5\" paint-order=\"stroke\"/><path d=\"M{}l6.5 -6.5 6.5 6.5 -6.5 "
+                          "6.5z\" fill=\"none\" stroke=\"{}\" stroke-width=\"2\"/>\n",
+                          pair({mark.at[0] - 6.5, mark.at[1]}), mark.full ? kErrorColour : "#ffffff",
+                          pair({mark.at[0] - 6.5, mark.at[1]}), kErrorColour);
+    names(misses_, "M");
+  }
+  void names(const std::vector<Mark>& marks, const char* letter) {
+    out_ += "<g font-size=\"12.5\" font-weight=\"bold\" stroke=\"#ffffff\" stroke-width=\"3\" "
+            "paint-order=\"stroke\" "
+            "stroke-linejoin=\"round\">\n";
+    for (const Mark& mark : marks)
+      label(mark.at, letter + numbersText(mark.numbers), kErrorColour);
     out_ += "</g>\n";
   }
 
@@ -404,12 +433,7 @@ private:
                         "stroke-linecap=\"round\"/>\n<path d=\"{0}\" fill=\"none\" stroke=\"{1}\" "
                         "stroke-width=\"2.6\"/>\n",
                         d, kErrorColour);
-    out_ += "<g font-size=\"12.5\" font-weight=\"bold\" stroke=\"#ffffff\" stroke-width=\"3\" "
-            "paint-order=\"stroke\" "
-            "stroke-linejoin=\"round\">\n";
-    for (const Mark& mark : errors_)
-      label(mark.at, "E" + numbersText(mark.numbers), kErrorColour);
-    out_ += "</g>\n";
+    names(errors_, "E");
   }
 
   const Picture& picture_;
@@ -419,7 +443,7 @@ private:
   PlanePoint least_{}, most_{};
   Box box_{};
   std::string out_;
-  std::vector<Mark> errors_;
+  std::vector<Mark> errors_, misses_;
   std::vector<Box> taken_;
 };
 

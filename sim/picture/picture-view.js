@@ -328,9 +328,15 @@ function makeView(canvas, data) {
       const [x, y] = project(...error.at);
       paint.lineWidth = 3; paint.strokeStyle = theme.error;
       paint.beginPath();
-      paint.moveTo(x - 6, y - 6); paint.lineTo(x + 6, y + 6); paint.moveTo(x + 6, y - 6); paint.lineTo(x - 6, y + 6);
+      if (error.miss) {
+        paint.lineWidth = 2;
+        paint.moveTo(x - 6.5, y); paint.lineTo(x, y - 6.5); paint.lineTo(x + 6.5, y); paint.lineTo(x, y + 6.5); paint.closePath();
+        paint.fillStyle = error.used ? theme.error : theme.paper; paint.fill();
+      } else {
+        paint.moveTo(x - 6, y - 6); paint.lineTo(x + 6, y + 6); paint.moveTo(x + 6, y - 6); paint.lineTo(x - 6, y + 6);
+      }
       paint.stroke();
-      if (i < 100) mark(x, y, i + 1, "E", theme.error);
+      if (i < 100) mark(x, y, error.number, error.letter, theme.error);
     });
     for (const { x, y, letter, colour, numbers } of numbered) text(letter + spans(numbers), x, y, colour);
     drawSetter();

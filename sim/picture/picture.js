@@ -23,7 +23,10 @@ window.onerror = (message, source, line) => {
   }
   data.moves = moves;
   data.contacts = data.contacts.map((c) => ({ point: c.slice(0, 3), move: c[3], drawn: isDrawn(c.slice(0, 3)) }));
-  data.errors = data.errors.map((e) => ({ at: e.slice(0, 3), move: e[3], text: e[4], block: e[5], drawn: isDrawn(e.slice(0, 3)) }));
+  data.errors = data.errors.map((e) => ({ at: e.slice(0, 3), move: e[3], text: e[4], block: e[5], miss: e[6] > 0, used: e[6] === 2, drawn: isDrawn(e.slice(0, 3)) }));
+  // As the SVG names them: errors and misses count apart.
+  const many = { E: 0, M: 0 };
+  for (const error of data.errors) error.number = ++many[error.letter = error.miss ? "M" : "E"];
   const frames = data.frames, frameOf = []; // of each move
   for (const [first, count, frame] of data.framed) for (let i = 0; i < count; ++i) frameOf[first + i] = frame;
 
@@ -35,9 +38,9 @@ window.onerror = (message, source, line) => {
   const contactOf = new Map(), errorOf = new Map();
   data.contacts.forEach((c, i) => contactOf.set(c.move, i));
   data.errors.forEach((e, i) => { if (!errorOf.has(e.move)) errorOf.set(e.move, i); });
-  const firstMove = new Array(data.blocks.length).fill(-1), badBlocks = new Set();
+  const firstMove = new Array(data.blocks.length).fill(-1), badBlocks = new Set(), doubtful = new Set();
   moves.forEach((m, i) => { if (firstMove[m.block] === -1) firstMove[m.block] = i; });
-  data.errors.forEach((e) => { if (data.blocks[e.block]) badBlocks.add(e.block); });
+  data.errors.forEach((e) => { if (data.blocks[e.block]) (e.miss && !e.used ? doubtful : badBlocks).add(e.block); });
 
   let current = 0, waiting = false;
   // As the control rounds: half away from zero, no "-0".
@@ -93,7 +96,7 @@ window.onerror = (message, source, line) => {
         continue;
       }
       const line = document.createElement("span");
-      row.className = "row" + (i === here ? " current" : "") + (firstMove[i] === -1 ? " still" : "") + (badBlocks.has(i) ? " bad" : "");
+      row.className = "row" + (i === here ? " current" : "") + (firstMove[i] === -1 ? " still" : "") + (badBlocks.has(i) ? " bad" : doubtful.has(i) ? " doubtful" : "");
       row.dataset.block = i;
       row.title = data.blocks[i][1];
       line.className = "line";
@@ -151,7 +154,7 @@ window.onerror = (message, source, line) => {
     if (error !== undefined) {
       const red = document.createElement("div");
       red.className = "error";
-      red.textContent = "E" + (error + 1) + ": " + data.errors[error].text;
+      red.textContent = data.errors[error].letter + data.errors[error].number + ": " + data.errors[error].text;
       here.append(red);
     }
     showBlock();
@@ -184,14 +187,15 @@ window.onerror = (message, source, line) => {
   if (moves.length === 0) byId("count").textContent = "no moves";
 
   // ---- errors
-  data.errors.forEach((error, i) => {
+  data.errors.forEach((error) => {
     const item = document.createElement("li"), button = document.createElement("button");
-    button.textContent = "E" + (i + 1) + "  " + (data.blocks[error.block] ? data.blocks[error.block][1] + ": " : "") + error.text;
+    button.textContent = error.letter + error.number + "  " + (data.blocks[error.block] ? data.blocks[error.block][1] + ": " : "") + error.text;
     button.addEventListener("click", () => go(error.move));
     item.append(button);
     byId("errors").append(item);
   });
   byId("errors-box").hidden = data.errors.length === 0;
+  byId("errors-name").textContent = [many.E > 0 ? "Errors (" + many.E + ")" : "", many.M > 0 ? "Misses (" + many.M + ")" : ""].filter((s) => s !== "").join(", ");
   for (const button of document.querySelectorAll("#measured button")) button.addEventListener("click", () => go(button.dataset.move));
 
   // ---- the view: one finger or the mouse turns, two fingers zoom and move

@@ -7,7 +7,9 @@
 namespace dotek::sim {
 
 PictureMeasured MeasuredLog::entry(Measurement found, PictureBlock block, std::string system) const {
-  return {std::move(found), {}, std::move(system), std::move(block), now_.move()};
+  PictureMeasured out{std::move(found), {}, std::move(system), std::move(block), now_.move()};
+  out.afterMiss = missedAt_.has_value();
+  return out;
 }
 
 void MeasuredLog::add(PictureMeasured one) {
@@ -19,6 +21,7 @@ void MeasuredLog::add(PictureMeasured one) {
 
 void MeasuredLog::callBegins(std::uint32_t /*program*/, std::span<const double> locals) {
   if (!now_.block) return;
+  if (missedAt_ && calls_.size() < *missedAt_) missedAt_.reset();
   calls_.push_back(
       {{locals.begin(), locals.end()}, now_.block(), now_.system(), entries_.size(), std::nullopt});
 }
@@ -35,8 +38,10 @@ void MeasuredLog::callEnded(std::uint32_t program) {
 void MeasuredLog::close(Call call) {
   if (!call.found) return;
   PictureMeasured one = entry(std::move(*call.found), std::move(call.block), std::move(call.system));
-  for (std::size_t i = call.first; i < entries_.size(); ++i)
+  for (std::size_t i = call.first; i < entries_.size(); ++i) {
+    one.afterMiss = one.afterMiss || entries_[i].afterMiss;
     std::move(entries_[i].offsets.begin(), entries_[i].offsets.end(), std::back_inserter(one.offsets));
+  }
   if (call.first < entries_.size())
     entries_.erase(entries_.begin() + static_cast<std::ptrdiff_t>(call.first), entries_.end());
   add(std::move(one));
@@ -50,23 +55,39 @@ void MeasuredLog::offsetWritten(const OffsetWrite& write) {
   if (!now_.block) return;
   const bool within = !calls_.empty() && calls_.back().first == entries_.size();
   if (entries_.empty() || within) add(entry({0, "", {}}, now_.block(), now_.system()));
-  if (!entries_.empty()) entries_.back().offsets.push_back(write);
+  if (entries_.empty()) return;
+  PictureMeasured& last = entries_.back();
+  last.offsets.push_back(write);
+  last.afterMiss = last.afterMiss || missedAt_;
 }
 
-void MeasuredLog::touched(const Point3& position, const Point3& way) {
-  if (!now_.block) return;
+// "" as its title: it went nowhere.
+Measurement MeasuredLog::measurementOf(const Point3& position, const Point3& way, std::string_view what) {
   Measurement found;
   const double ways[] = {way.x, way.y, way.z}, positions[] = {position.x, position.y, position.z};
   for (std::size_t axis = 0; axis < 3; ++axis) {
     if (std::abs(ways[axis]) < 1e-6) continue;
     const char letter = "XYZ"[axis];
-    found.title += (found.title.empty() ? "touch along " : " ");
+    found.title += (found.title.empty() ? std::string(what) + " along " : " ");
     found.title += letter;
     found.title += ways[axis] > 0 ? '+' : '-';
     found.values.push_back({std::string(1, letter), std::nullopt, positions[axis]});
   }
+  return found;
+}
+
+void MeasuredLog::touched(const Point3& position, const Point3& way) {
+  if (!now_.block) return;
+  Measurement found = measurementOf(position, way, "touch");
   if (found.values.empty()) return;
   add(entry(std::move(found), now_.block(), now_.system()));
+}
+
+void MeasuredLog::missed(PictureMeasured one) {
+  if (!now_.block) return;
+  missedAt_ = calls_.size();
+  one.missed = one.afterMiss = true;
+  add(std::move(one));
 }
 
 void MeasuredLog::finish() {

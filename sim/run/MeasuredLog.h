@@ -9,6 +9,7 @@
 #include <functional>
 #include <optional>
 #include <span>
+#include <string_view>
 #include <vector>
 
 namespace dotek::sim {
@@ -36,6 +37,10 @@ public:
   void offsetWritten(const OffsetWrite& write);
   // A skip move that ended at a contact: where, in work coordinates, and the way of the machine to it.
   void touched(const Point3& position, const Point3& way);
+  // A skip move that met nothing, and whose skip position is used: `one` says where it ended. What is set
+  // until another call begins is set after it.
+  void missed(PictureMeasured one);
+  static Measurement measurementOf(const Point3& position, const Point3& way, std::string_view what);
   void finish(); // calls in which the run ended
 
   const std::vector<PictureMeasured>& entries() const { return entries_; }
@@ -58,6 +63,7 @@ private:
   std::vector<Call> calls_;
   std::vector<PictureMeasured> entries_;
   std::size_t leftOut_ = 0;
+  std::optional<std::size_t> missedAt_; // how many calls were open when the last miss was used
 };
 
 } // namespace dotek::sim

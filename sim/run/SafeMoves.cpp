@@ -3,13 +3,21 @@
 #include "ir/Walk.h"
 
 #include <algorithm>
+#include <bitset>
 #include <cmath>
+#include <functional>
+#include <map>
+#include <optional>
+#include <string_view>
 
 namespace dotek::sim {
 namespace {
 
-constexpr double kFirstSkip = 5061, kLastSkip = 5080; // positions of the last skip signal, an axis each
-constexpr double kFirstOffset = 2000;                 // locals and common variables are below
+// Where the last block ended, the machine and the tool are, and the last skip signal came: an axis each.
+constexpr double kFirstPlace = 5001, kFirstSkip = 5061, kLastSkip = 5080;
+constexpr std::size_t kAxesOfKind = 20;
+constexpr std::uint64_t kFirstCommon = 100;
+constexpr double kFirstOffset = 2000; // locals and common variables are below
 
 bool does(const ir::ProgramStatement& statement, stdlib::Function function, const stdlib::Control& control) {
   const auto* block = std::get_if<ir::NcBlock>(&statement.node);
@@ -22,36 +30,207 @@ bool does(const ir::ProgramStatement& statement, stdlib::Function function, cons
          });
 }
 
-bool readsSkip(const ir::ProgramStatement& statement) {
-  bool out = false;
+enum class Reads : std::uint8_t { Other, Place, Skip };
+
+// What the variable of this number holds of a move that has ended, and of which axis; of a computed number
+// the constant that it counts from decides, and without one it may be any.
+Reads readsWhat(const ir::MachineVariable& variable, std::optional<std::size_t>& axis) {
+  if (const double* number = ir::constantValue(variable.number)) {
+    if (!(*number >= kFirstPlace && *number <= kLastSkip)) return Reads::Other;
+    axis = static_cast<std::size_t>(*number - kFirstPlace) % kAxesOfKind;
+    return *number >= kFirstSkip ? Reads::Skip : Reads::Place;
+  }
+  const std::optional<std::uint32_t> first = ir::firstNumber(variable.number);
+  if (!first) return Reads::Skip;
+  const double least = *first;
+  return least < kFirstPlace - 1 || least > kLastSkip ? Reads::Other
+         : least >= kFirstSkip - 1                    ? Reads::Skip
+                                                      : Reads::Place;
+}
+
+struct Ended {
+  bool skip = false;
+  std::bitset<kAxesOfKind> places; // by axis
+};
+Ended endsRead(const ir::ProgramStatement& statement) {
+  Ended out;
   ir::eachNode(statement, [&](const ir::Expression& node) {
     const auto* variable = std::get_if<ir::MachineVariable>(&node.node);
-    const double* number = variable == nullptr ? nullptr : ir::constantValue(variable->number);
-    // A computed number may be any.
-    out = out ||
-          (variable != nullptr && (number == nullptr || (*number >= kFirstSkip && *number <= kLastSkip)));
+    if (variable == nullptr) return;
+    std::optional<std::size_t> axis;
+    const Reads what = readsWhat(*variable, axis);
+    if (what == Reads::Skip) out.skip = true;
+    if (what == Reads::Place && axis) out.places.set(*axis);
+    if (what == Reads::Place && !axis) out.places.set();
   });
   return out;
 }
 
+constexpr std::string_view kAxisAddresses = "XYZ";
+
+// The axes that a block names, by their place among the variables of positions.
+std::bitset<kAxesOfKind> axesOf(const ir::ProgramStatement& statement) {
+  std::bitset<kAxesOfKind> out;
+  if (const auto* block = std::get_if<ir::NcBlock>(&statement.node))
+    for (const ir::Word& word : block->words)
+      if (const std::size_t axis = kAxisAddresses.find(word.address); axis != std::string_view::npos)
+        out.set(axis);
+  return out;
+}
+
+// Afterwards the machine may be elsewhere.
+bool mayMove(const ir::ProgramStatement& statement) {
+  if (std::holds_alternative<ir::Call>(statement.node)) return true;
+  const auto* block = std::get_if<ir::NcBlock>(&statement.node);
+  return block != nullptr && std::any_of(block->words.begin(), block->words.end(), [](const ir::Word& word) {
+           return std::string_view("ABCUVWXYZ").find(word.address) != std::string_view::npos;
+         });
+}
+
+BlockSet::value_type blockOf(const ir::ProgramStatement& statement) {
+  const SourceRange range = statement.origin.range();
+  return {range.file, range.begin};
+}
+
+// A variable: its number, or the constant that its computed number counts from. nothing: it may be any.
+std::optional<std::uint64_t> keyOf(const ir::ExpressionPtr& number) {
+  constexpr std::uint64_t kComputed = std::uint64_t(1) << 32;
+  if (const double* value = ir::constantValue(number))
+    return *value >= 0 && *value < 1e9 ? std::optional(static_cast<std::uint64_t>(std::lround(*value)))
+                                       : std::nullopt;
+  const std::optional<std::uint32_t> first = ir::firstNumber(number);
+  return first ? std::optional(kComputed + *first) : std::nullopt;
+}
+
+// Follows copies of where skip moves have ended through one program, in the order of the text.
+class Copies {
+public:
+  explicit Copies(const ir::Program& program) : program_(program) {
+    for (std::size_t i = 0; i < program.body.size(); ++i)
+      if (const auto* label = std::get_if<ir::Label>(&program.body[i].node)) labels_[label->label] = i;
+  }
+
+  // `tests`: whether the program of this number has a condition that reads this local.
+  void follow(const std::function<bool(std::uint64_t program, std::uint32_t local)>& tests) {
+    now_.clear();
+    for (std::size_t at = 0; at < program_.body.size(); ++at)
+      step(at, tests);
+  }
+
+  BlockSet asking;
+  std::map<std::uint64_t, BlockSet> held; // blocks whose copies a variable has held at some time
+  std::set<std::uint64_t> tested;         // variables that a condition reads
+  bool sharesLocals = false;              // M98
+
+private:
+  // Blocks whose copies this value comes from; a position that `here` reads is one of its own.
+  template <class Tree> BlockSet sources(const Tree& tree, const BlockSet::value_type& here) const {
+    BlockSet out;
+    ir::eachNode(tree, [&](const ir::Expression& node) {
+      const auto* variable = std::get_if<ir::MachineVariable>(&node.node);
+      if (variable == nullptr) return;
+      std::optional<std::size_t> axis;
+      if (readsWhat(*variable, axis) != Reads::Other) out.insert(here);
+      const std::optional<std::uint64_t> key = keyOf(variable->number);
+      if (const auto found = key ? now_.find(*key) : now_.end(); found != now_.end())
+        out.insert(found->second.begin(), found->second.end());
+    });
+    return out;
+  }
+  void ask(std::size_t at) {
+    const ir::ProgramStatement& statement = program_.body[at];
+    const ir::ConditionPtr* condition = ir::conditionOf(statement);
+    if (condition == nullptr || !*condition) return;
+    asking.merge(sources(*condition, blockOf(statement)));
+  }
+  // Back to a label: conditions of what runs once more see what is held now.
+  void askFrom(ir::LabelId target, std::size_t at) {
+    const auto label = labels_.find(target);
+    if (label == labels_.end()) return;
+    for (std::size_t i = label->second; i < at; ++i)
+      ask(i);
+  }
+  template <class Tests> void step(std::size_t at, const Tests& tests) {
+    const ir::ProgramStatement& statement = program_.body[at];
+    const BlockSet::value_type here = blockOf(statement);
+    if (const ir::ConditionPtr* condition = ir::conditionOf(statement); condition != nullptr && *condition) {
+      ir::eachNode(*condition, [&](const ir::Expression& node) {
+        const auto* variable = std::get_if<ir::MachineVariable>(&node.node);
+        if (const auto key = variable == nullptr ? std::nullopt : keyOf(variable->number))
+          tested.insert(*key);
+      });
+      ask(at);
+    }
+    if (const auto* jump = std::get_if<ir::Jump>(&statement.node)) askFrom(jump->target, at);
+    if (const auto* branch = std::get_if<ir::Branch>(&statement.node)) askFrom(branch->target, at);
+    if (const auto* end = std::get_if<ir::LoopEnd>(&statement.node)) askFrom(end->begin, at);
+    if (const auto* store = std::get_if<ir::Store>(&statement.node)) {
+      const std::optional<std::uint64_t> key = keyOf(store->number);
+      if (!key) return;
+      now_[*key] = sources(store->value, here);
+      held[*key].insert(now_[*key].begin(), now_[*key].end());
+    }
+    if (const auto* call = std::get_if<ir::Call>(&statement.node)) {
+      sharesLocals = sharesLocals || call->kind == ir::CallKind::Subprogram;
+      const double* number = call->program ? ir::constantValue(call->program) : nullptr;
+      for (const ir::CallArgument& argument : call->arguments)
+        if (number != nullptr && *number >= 0 && *number < 1e9 &&
+            tests(static_cast<std::uint64_t>(std::lround(*number)), argument.local))
+          asking.merge(sources(argument.value, here));
+    }
+  }
+
+  const ir::Program& program_;
+  std::map<ir::LabelId, std::size_t> labels_;
+  std::map<std::uint64_t, BlockSet> now_;
+};
+
 } // namespace
 
-std::set<std::pair<FileId, std::uint32_t>> safeMoves(const std::vector<const ir::Program*>& programs,
-                                                     const stdlib::Control& control) {
-  std::set<std::pair<FileId, std::uint32_t>> out;
+BlockSet safeMoves(const std::vector<const ir::Program*>& programs, const stdlib::Control& control) {
+  BlockSet out;
   for (const ir::Program* program : programs) {
     const auto& body = program->body;
     for (std::size_t at = 0; at < body.size(); ++at) {
       if (!does(body[at], stdlib::Function::Skip, control)) continue;
-      bool compared = false, kept = false;
+      const auto axes = axesOf(body[at]);
+      bool compared = false, kept = false, moved = false;
       for (std::size_t i = at + 1; i < body.size() && !kept; ++i) {
         if (does(body[i], stdlib::Function::Skip, control)) break;
-        if (!readsSkip(body[i])) continue;
-        (std::holds_alternative<ir::Branch>(body[i].node) ? compared : kept) = true;
+        const Ended read = endsRead(body[i]);
+        if (read.skip || (!moved && (read.places & axes).any()))
+          (ir::conditionOf(body[i]) != nullptr ? compared : kept) = true;
+        moved = moved || mayMove(body[i]);
       }
-      const SourceRange range = body[at].origin.range();
-      if (compared && !kept) out.emplace(range.file, range.begin);
+      if (compared && !kept) out.insert(blockOf(body[at]));
     }
+  }
+  return out;
+}
+
+BlockSet askingBlocks(const std::vector<const ir::Program*>& programs) {
+  std::map<std::uint64_t, std::set<std::uint64_t>> testedBy; // by O number
+  std::vector<Copies> all;
+  for (const ir::Program* program : programs)
+    all.emplace_back(*program);
+  for (const bool calls : {false, true}) { // conditions of all programs are known the second time
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      all[i].follow([&](std::uint64_t program, std::uint32_t local) {
+        const auto found = testedBy.find(program);
+        return calls && found != testedBy.end() && found->second.contains(local);
+      });
+      if (programs[i]->number != 0) testedBy[programs[i]->number] = all[i].tested;
+    }
+  }
+  const bool locals = std::any_of(all.begin(), all.end(), [](const Copies& one) { return one.sharesLocals; });
+  BlockSet out;
+  for (Copies& one : all) {
+    // What one program keeps in a common variable another one may look at.
+    for (const Copies& other : all)
+      for (const auto& [key, blocks] : one.held)
+        if (&other != &one && (key >= kFirstCommon || locals) && other.tested.contains(key))
+          out.insert(blocks.begin(), blocks.end());
+    out.merge(one.asking);
   }
   return out;
 }

@@ -164,6 +164,7 @@ void SimWorld::begin() {
   Picture picture;
   picture.title = options_.program;
   picture.date = options_.date;
+  picture.control = control_;
   if (world_ && !world_->part().isEmpty()) picture.part = world_->part();
   if (world_) picture.probe = world_->probe();
   if (machine_) picture.setter = machine_->devices.setter;
@@ -194,6 +195,8 @@ bool SimWorld::startsWithinTravel(const Machine& machine) const {
 }
 
 void SimWorld::attach(Machine& machine) {
+  if (const stdlib::Control& control = machine.control(); subject_ == "program")
+    control_ = control.title.empty() ? control.name : fmt::format("{} ({})", control.title, control.name);
   position_ = [&machine] { return machine.position(); };
   if (setup_.at || machine_) machine.startAt(startOf(machine));
   if (!isActive()) {
@@ -258,6 +261,7 @@ void SimWorld::lengthNotSet(std::uint32_t offset) {
 std::optional<double> SimWorld::contact(const SkipMove& move) {
   if (!world_) return std::nullopt;
   checkSystem();
+  settleMiss();
   world_->setLine(line_());
   const std::optional<double> share = recorder_ ? recorder_->contact(move) : world_->contact(move);
   touched_ = share && !move.positions && !isProtected();
@@ -274,6 +278,8 @@ void SimWorld::moved(const MachineMotion& motion) {
     recorder_->moved(motion);
   else if (world_)
     world_->moved(motion);
+  missEnded(motion);
+  if (rangeNow_) last_ = rangeNow_();
   if (motion.kind == MotionKind::Skip && std::exchange(touched_, false))
     log_.touched(work_(), {motion.to[0] - motion.from[0], motion.to[1] - motion.from[1],
                            motion.to[2] - motion.from[2]});
@@ -342,6 +348,7 @@ void SimWorld::take(const ProbeEvent& event, const RunPlace& place) {
   std::vector<Kept>& kept = contact ? contacts_ : events_;
   ++(contact ? contactCount_ : eventCount_);
   if (!isMeantToMiss(event)) ++outcomes_[static_cast<std::size_t>(event.outcome)];
+  const std::size_t index = kept.size();
   if (kept.size() < kMostKept) kept.push_back({event, place});
   // The end of the run says it.
   if (event.outcome == Outcome::NotModelled)
@@ -350,6 +357,9 @@ void SimWorld::take(const ProbeEvent& event, const RunPlace& place) {
                             "diameter in the machine's file says it (the probe is `tool` of [probe])",
                             event.tool)
               : std::string(event.placeUnknown ? kNowhere : kRotary));
+  else if (asks_ && (event.outcome == Outcome::Miss || event.outcome == Outcome::SetterMiss) &&
+           !isMeantToMiss(event))
+    missed_.emplace(Missed{{event, place}, index, {}});
   else if (!contact && isTold(event) && !isMeantToMiss(event))
     tell(event, place);
 }
@@ -367,11 +377,16 @@ bool SimWorld::isTold(const ProbeEvent& event) const {
 }
 
 void SimWorld::tell(const ProbeEvent& event, const RunPlace& place) {
-  Told& told = told_[static_cast<std::size_t>(event.outcome)];
   Diagnostics one;
   reportEvent(event, place.range, one);
   if (one.empty()) return;
-  Diagnostic& diagnostic = one.all().front();
+  const bool atStart = event.outcome == Outcome::EarlyContact && event.kind == MotionKind::Skip;
+  if (atStart && last_.hasPlace()) one.all().front().note(last_, "the move before it");
+  addTold(std::move(one.all().front()), static_cast<std::size_t>(event.outcome), place);
+}
+
+void SimWorld::addTold(Diagnostic diagnostic, std::size_t kind, const RunPlace& place) {
+  Told& told = told_[kind];
   told.code = diagnostic.code;
   told.severity = diagnostic.severity;
   if (++told.number > kMostTold) {
@@ -385,6 +400,7 @@ void SimWorld::tell(const ProbeEvent& event, const RunPlace& place) {
 }
 
 void SimWorld::finishPicture() {
+  settleMiss();
   log_.finish();
   if (!recorder_) return;
   RunFacts facts;
@@ -394,6 +410,7 @@ void SimWorld::finishPicture() {
   facts.callers = callersText(facts.end);
   facts.block = block_ ? block_() : blockNow();
   facts.events = outcomes_;
+  facts.usedMisses = usedMisses_;
   if (facts.end.ending == Ending::Running && session_.diagnostics().hasErrors())
     facts.unread = session_.diagnostics().all().back().message;
   recorder_->finish(facts, log_.entries());
@@ -414,7 +431,7 @@ std::uint64_t SimWorld::collisions() const {
 }
 
 std::string SimWorld::measuredTable() const {
-  return measuredText(log_.entries(), log_.leftOut(), decimals_);
+  return measuredText(log_.entries(), log_.leftOut(), decimals_, control_);
 }
 
 void SimWorld::reportRest() {
@@ -458,6 +475,7 @@ std::string SimWorld::json(const Kept& kept) const {
   const ProbeEvent& event = kept.event;
   const bool contact = event.outcome == Outcome::Contact;
   std::string out = contact ? "{" : fmt::format("{{\"outcome\": \"{}\", ", outcomeName(event.outcome));
+  if (event.used) out += "\"used\": true, ";
   out += placeJson(kept.place.range) + ", \"calls\": [";
   for (auto call = kept.place.calls.rbegin(); call != kept.place.calls.rend(); ++call)
     out += (call == kept.place.calls.rbegin() ? "{" : ", {") + placeJson(*call) + "}";
@@ -484,9 +502,10 @@ std::string SimWorld::measuredJson() const {
                              jsonString(write.name), fixedText(write.before, 6), fixedText(write.after, 6));
     out += fmt::format(
         "{}\n    {{\"feature\": {}, \"program\": {}, \"place\": {}, \"system\": {}, \"values\": [{}], "
-        "\"offsets\": [{}]}}",
+        "\"offsets\": [{}]{}{}}}",
         out.empty() ? "" : ",", jsonString(one.found.title), one.found.program, jsonString(one.block.place),
-        jsonString(one.system), values, offsets);
+        jsonString(one.system), values, offsets, one.missed ? ", \"missed\": true" : "",
+        one.afterMiss ? ", \"afterMiss\": true" : "");
   }
   return out.empty() ? out : out + "\n  ";
 }

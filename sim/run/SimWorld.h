@@ -69,6 +69,11 @@ public:
   void setReader(MeasuredLog::Reader reader) { log_.setReader(std::move(reader)); }
   // Asked at each skip move: whether its block goes to a position and watches for the part on the way there.
   void setSafeMove(std::function<bool()> safe) { safe_ = std::move(safe); }
+  // Asked where the program reads where it has come to: whether the block that runs asks what the last skip
+  // move came to (askingBlocks).
+  // The block that runs, where that is known without work: findings name the one before.
+  void setRange(std::function<SourceRange()> now) { rangeNow_ = std::move(now); }
+  void setAsks(std::function<bool()> asks) { asks_ = std::move(asks); }
   // Offsets that are written are kept also where there is neither part nor machine nor picture.
   void keepOffsets() { keepsOffsets_ = true; }
 
@@ -99,6 +104,7 @@ public:
   void probeSwitched(bool on) override;
   void paused(std::string_view text) override;
   void recorded(std::string_view file, std::optional<double> value) override;
+  void positionRead(bool skip) override;
   void toolChanged(std::uint32_t number) override;
   void lengthNotSet(std::uint32_t offset) override;
   void callBegins(std::uint32_t program, std::span<const double> locals) override;
@@ -125,6 +131,14 @@ private:
     std::uint64_t block = 0; // the last: which block of the run
   };
 
+  // A skip move that was to measure and met nothing, until it is known what the program makes of its end.
+  struct Missed {
+    Kept kept;
+    std::size_t index = 0; // in events_; beyond its end: it is not kept
+    PictureMeasured row;
+    bool ended = false, movedOn = false;
+  };
+
   SimWorld(const SimOptions& options, Session& session) : options_(options), session_(session) {}
   bool takeBall(const Setup& given);
   bool loadFiles(const Setup& given);
@@ -135,6 +149,10 @@ private:
   void takeEvents();
   void tell(const ProbeEvent& event, const RunPlace& place);
   void take(const ProbeEvent& event, const RunPlace& place);
+  void missEnded(const MachineMotion& motion);
+  void useMiss();
+  void settleMiss(); // nothing more is known of the last one
+  void addTold(Diagnostic diagnostic, std::size_t kind, const RunPlace& place);
   bool isTold(const ProbeEvent& event) const;        // false: it is one too many
   bool isProtected() const;                          // of the skip move that runs: it wants no contact
   bool isMeantToMiss(const ProbeEvent& event) const; // within a protected move
@@ -152,12 +170,17 @@ private:
   std::optional<World> world_;
   bool picture_ = false;
   std::string_view subject_ = "program";
+  std::string control_; // that the program runs on; "": none
   std::optional<PictureRecorder> recorder_;
   PlaceNow place_;
   PictureRecorder::BlockNow block_;
   PictureRecorder::CallKind callKind_;
   std::vector<bool> protected_; // of the calls that are open: within a protected move
-  std::function<bool()> safe_;
+  std::function<bool()> safe_, asks_;
+  std::function<SourceRange()> rangeNow_;
+  SourceRange last_; // the block of the last motion
+  std::optional<Missed> missed_;
+  std::uint64_t usedMisses_ = 0;
   bool keepsOffsets_ = false;
   std::function<std::uint64_t()> line_, blocks_;
   std::function<std::optional<std::uint32_t>()> systemNow_; // 0 to 5: the active one, at the machine's zero

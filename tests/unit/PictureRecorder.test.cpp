@@ -115,9 +115,13 @@ TEST_CASE("picture recorder: contacts and errors are at their moves, by the ball
   REQUIRE(picture.contacts.size() == 1);
   CHECK(picture.contacts[0].move == 0);
   CHECK(picture.contacts[0].point.x == doctest::Approx(0));
-  REQUIRE(picture.errors.size() == 1); // a miss is none
-  CHECK(picture.errors[0].move == 3);
-  CHECK(picture.errors[0].text.find("rapid move runs the ball into the part") != std::string::npos);
+  REQUIRE(picture.errors.size() == 2);
+  CHECK(picture.errors[0].move == 2);
+  CHECK(picture.errors[0].kind == PictureError::Kind::Miss);
+  CHECK(picture.errors[1].move == 3);
+  CHECK_FALSE(isMiss(picture.errors[1]));
+  CHECK(errorNames(picture) == std::vector<std::string>{"M1", "E1"});
+  CHECK(picture.errors[1].text.find("rapid move runs the ball into the part") != std::string::npos);
   REQUIRE(picture.blocks.size() == 3); // equal ones once
   CHECK(picture.moves[0].block == 0);
   CHECK(picture.moves[2].block == 0);

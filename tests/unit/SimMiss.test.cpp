@@ -1,0 +1,169 @@
+// A skip move that meets nothing, and what the program makes of its end.
+#include "tests/GoldenRunner.h"
+#include "tests/TestFolder.h"
+
+#include <doctest/doctest.h>
+#include <string>
+#include <string_view>
+
+using namespace dotek::tests;
+
+namespace {
+
+// A block of 50 x 50 x 20, its upper face at Z0; the macro is called beside it, at X-20, with Z-5.
+class Bench {
+public:
+  explicit Bench(const char* name) : folder(name) {
+    folder.write("part.toml",
+                 "schema = 1\n[place]\nshift = [-300.0, -200.0, -400.0]\n[[shape]]\nkind = \"box\"\n"
+                 "min = [0.0, 0.0, -20.0]\nmax = [50.0, 50.0, 0.0]\n");
+    folder.write(
+        "machine.toml",
+        "schema = 1\n[setup]\ntool = 2\nwork_offset = { G54 = \"part\" }\nat = [-20, 20, 15]\n"
+        "[probe]\nball_diameter = 6\nlength = 80\nlength_to = \"tip\"\npre_travel = 0.005\non = true\n");
+  }
+  // What `sim` says of the body of O9002, and the pictures that it writes.
+  CommandResult run(const std::string& body,
+                    const std::string& flags = "--quiet --svg run.svg --html run.html") {
+    folder.write("m.nc", "O9002\nG90\n" + body + "M99\nN91 #3000=1(NONE)\n");
+    CommandResult out = runDotek(
+        splitArguments("sim m.nc --part part.toml --machine machine.toml --call \"Z-5. X-15.\" " + flags),
+        folder.path());
+    svg = out.status <= 1 ? readAll(folder / "run.svg") : "";
+    html = out.status <= 1 ? readAll(folder / "run.html") : "";
+    return out;
+  }
+  bool fails(const std::string& body) {
+    const CommandResult out = run(body);
+    CAPTURE(out.err);
+    CHECK((out.status == 1) == (out.err.find("[miss-measured]") != std::string::npos));
+    CHECK((svg.find(">FAIL: MEASURED WITHOUT A TOUCH<") != std::string::npos) == (out.status == 1));
+    return out.status == 1;
+  }
+
+  TestFolder folder;
+  std::string svg, html;
+};
+
+constexpr const char* kDown = "G31 Z#26 F1000\n"; // beside the part: nothing is there
+constexpr const char* kAway = "G31 X#24 F50\n";   // ends 10 mm before the face
+
+bool holds(const std::string& text, std::string_view part) {
+  return text.find(part) != std::string::npos;
+}
+std::size_t countOf(const std::string& text, std::string_view part) {
+  std::size_t out = 0;
+  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1))
+    ++out;
+  return out;
+}
+
+} // namespace
+
+TEST_CASE("miss: a skip position that is used without a question fails the run, in both pictures") {
+  Bench bench("dotek-miss-used");
+  const std::string down = std::string(kDown) + "IF[#5003 GT [#26+.1]]GOTO91\n";
+  const CommandResult out =
+      bench.run(down + kAway + "#101=#5061+3.\nG0 X-20.\n" + kAway + "#102=#5061\nG0 Z15.\n#5221=#102\n");
+  CAPTURE(out.err);
+  CHECK(out.status == 1);
+  CHECK(countOf(out.err, "[miss-measured]") == 2);
+  CHECK(holds(out.err, "m.nc:5:1: error"));
+  CHECK(holds(out.err, "`#101=#5061+3.` takes that end for the surface"));
+  CHECK_FALSE(holds(out.err, "[probe-miss]")); // the move down is asked about
+  for (const std::string& picture : {bench.svg, bench.html}) {
+    CHECK(holds(picture, "id=\"banner\" class=\"fail\""));
+    CHECK(holds(picture, "<title>FAIL: MEASURED WITHOUT A TOUCH - "));
+    CHECK(holds(picture, "2 measuring moves met nothing, and the program took their ends for the surface"));
+    CHECK(holds(picture, "2 misses"));
+    CHECK(holds(picture, "no touch along X+: end of the move, no surface"));
+    CHECK(holds(picture, "G54 X set from -300.000 to -15.000 (+285.000), after a miss"));
+    CHECK(holds(picture, "run on Fanuc 0i-MD, machining centre (fanuc-0i-md)"));
+  }
+  CHECK(holds(bench.svg, ">error (0)<"));
+  CHECK(holds(bench.svg, ">miss (2); 2 taken for the surface (full)<"));
+  CHECK(holds(bench.svg, ">M1,2<")); // the mark at their end, in the views
+  CHECK(holds(bench.svg, ">M2<"));   // the list
+  CHECK(holds(bench.html, "miss (2)"));
+  CHECK(holds(bench.html, "<tr class=\"feature missed\">"));
+  CHECK(holds(bench.html, "<tr class=\"offset missed\">"));
+
+  const CommandResult json =
+      bench.run(std::string(kAway) + "#5221=#5061\n", "--json --svg run.svg --html run.html");
+  CHECK(holds(json.out, "\"outcome\": \"miss\", \"used\": true"));
+  CHECK(holds(json.out, "\"missed\": true, \"afterMiss\": true"));
+  CHECK(holds(json.out, "\"ending\": \"program-end\""));
+  const CommandResult text = bench.run(std::string(kAway) + "#5221=#5061\n", "--svg run.svg --html run.html");
+  CHECK(holds(text.out, "run on Fanuc 0i-MD, machining centre (fanuc-0i-md)\nmeasured, mm"));
+}
+
+TEST_CASE("miss: what asks whether a skip move has touched") {
+  Bench bench("dotek-miss-asked");
+  const std::string away = kAway;
+  CHECK(bench.fails(away + "#1=#5061\n"));
+  CHECK(bench.fails(away + "#1=#[5060+1]\n"));
+  CHECK(bench.fails(away + "G0 X[#5061-2.]\n"));
+  CHECK(bench.fails(away + "IF[#24 EQ #0]GOTO91\n#1=#5061\n")); // about something else
+  CHECK(bench.fails("IF[#1 GT 0]GOTO91\n" + away + "#1=#5061\n"));
+  // The position itself, a copy, a copy of a copy, later in a common variable.
+  CHECK_FALSE(bench.fails(away + "IF[#5061 GT 0]GOTO91\n#1=#5061\n"));
+  CHECK_FALSE(bench.fails(away + "IF[#5041 GT 0]GOTO91\n#1=#5061\n"));
+  CHECK_FALSE(bench.fails(away + "#1=#5061\nIF[#1 GT 0]GOTO91\n"));
+  CHECK_FALSE(bench.fails(away + "#1=#5061\n#2=[#1+3.]/2\nG0 X-20.\nIF[ABS[#2] GT 90.]GOTO91\n"));
+  CHECK_FALSE(
+      bench.fails("WHILE[#1 LT 0]DO1\n" + away + "#1=#5061\nG0 X-20.\nIF[#2 EQ 1]THEN #1=1\n#2=1\nEND1\n"));
+  CHECK_FALSE(bench.fails(away + "IF[#5061 LT 0]THEN #1=#5061\n"));
+  // Nothing reads it.
+  CHECK_FALSE(bench.fails(away));
+  CHECK(holds(bench.svg, ">PASS, WITH MISSES<"));
+  CHECK(holds(bench.svg, ">miss (1)<"));
+  // After another move #5001 tells of that one.
+  CHECK(bench.fails(away + "G0 X-20.\nIF[#5001 GT 0]GOTO91\n#1=#5061\n"));
+}
+
+TEST_CASE("miss: #5001 and #5041 that an IF looks at after the move make it one to a position") {
+  Bench bench("dotek-miss-meant");
+  const auto passes = [&](const std::string& body) {
+    const CommandResult out = bench.run(body);
+    CAPTURE(out.err);
+    return out.status == 0 && holds(bench.svg, ">PASS<") && !holds(out.err, "probe-miss");
+  };
+  CHECK(passes("G31 Z#26 F1000\nIF[#5003 GT [#26+.1]]GOTO91\n"));
+  CHECK(passes("G31 Z#26 F1000\nIF[ABS[#5043-#5083-#26] GT 0.05]GOTO91\n#1=#5041\n#2=#5042\n"));
+  CHECK_FALSE(passes("G31 Z#26 F1000\nIF[#5043 GT [#26+.1]]GOTO91\n#1=#5043\n")); // kept: it measures
+  CHECK_FALSE(passes("G31 Z#26 F1000\nIF[#5001 GT 100.]GOTO91\n"));               // of another axis
+  CHECK_FALSE(passes("G31 Z#26 F1000\nG0 X-21.\nIF[#5003 GT 100.]GOTO91\n"));     // of another move
+}
+
+TEST_CASE("miss: a program that is called asks for its caller, and a common variable for both") {
+  Bench bench("dotek-miss-calls");
+  const auto fails = [&](const std::string& caller, const std::string& called) {
+    bench.folder.write("m.nc", "O9002\nG90\n" + caller + "M99\nN91 #3000=1(NONE)\nO9003\n" + called +
+                                   "M99\nN91 #3000=1(NONE)\n");
+    const CommandResult out = runDotek(
+        splitArguments("sim m.nc --part part.toml --machine machine.toml --call \"Z-5. X-15.\" --quiet"),
+        bench.folder.path());
+    CAPTURE(out.err);
+    return out.status == 1 && holds(out.err, "[miss-measured]");
+  };
+  CHECK(fails("M98 P9003\n#1=#5061\n", "G31 X-15. F50\n"));
+  CHECK_FALSE(fails("M98 P9003\nIF[#5061 GT 0]GOTO91\n", "G31 X-15. F50\n"));
+  CHECK_FALSE(fails("G31 X-15. F50\n#101=#5061\nM98 P9003\n", "IF[#101 GT 0]GOTO91\n"));
+  CHECK_FALSE(fails("G31 X-15. F50\nG65 P9003 A#5061\n", "IF[#1 GT 0]GOTO91\n"));
+  CHECK(fails("G31 X-15. F50\nG65 P9003 A#5061\n", "#100=#1\n"));
+}
+
+TEST_CASE("miss: a skip move that begins in contact names the move before it") {
+  Bench bench("dotek-miss-start");
+  // The ball's centre comes to X-3 at the face; back by less than the 0.005 to its signal.
+  const CommandResult out = bench.run("G31 Z#26 F1000\nIF[#5003 GT 0]GOTO91\nG31 X5. F1000\nG91 G0 X-0.002\n"
+                                      "G90 G31 X5. F50\n#1=#5061\n");
+  CAPTURE(out.err);
+  CHECK(out.status == 1);
+  CHECK(holds(out.err, "m.nc:7:1: error: the stylus is in contact already where this skip move begins, at "));
+  CHECK(holds(out.err, "the move before it, in line 6, ended with the ball 0.003 mm inside the part"));
+  CHECK(holds(out.err, "m.nc:6:1: note: the move before it"));
+  CHECK(holds(out.err, "[contact-at-start]"));
+  CHECK(holds(bench.svg, ">PROBE FAULT<"));
+  CHECK(holds(bench.svg, "in line 6"));
+}
