@@ -230,9 +230,9 @@ TEST_CASE("fanuc measure: where values may be stored") {
   CHECK(Target("inspection-plus").emit(switching.cycle).codes().contains("store-scratch"));
   // What switches the probe, or skips by itself, reads no calibration.
   switching.add(ir::Store{number(510), number(1)});
-  switching.add(ir::OpaqueBlock{{{'G', number(31)}, {'Z', number(-1)}, {'F', number(100)}}});
+  switching.add(ir::OpaqueBlock{{{'G', number(31), {}}, {'Z', number(-1), {}}, {'F', number(100), {}}}});
   CHECK(Target("inspection-plus").emit(switching.cycle).codes().contains("store-calibration-uncalled"));
-  switching.add(ir::OpaqueBlock{{{'G', number(65)}, {'P', number(9100)}}});
+  switching.add(ir::OpaqueBlock{{{'G', number(65), {}}, {'P', number(9100), {}}}});
   CHECK(Target("inspection-plus").emit(switching.cycle).codes().contains("store-calibration"));
   Maker computed;
   computed.add(ir::Store{use(computed.field("n", 600)), number(1)});
