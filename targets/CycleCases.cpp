@@ -246,7 +246,8 @@ bool CaseRunner::knowsValues() {
 }
 
 // The work system and the tool offset that the posted program selects hold from its beginning: what is drawn
-// is meant in them. Fields that set a work offset get another one than that (`others`).
+// is meant in them. Fields that set a work offset get another one than that (`others`), as far as the checks
+// take one.
 void CaseRunner::takeSelected(verify::Case& drawn, bool others) {
   if (routine_ == nullptr || selects_ == false) return;
   const auto selected = [&](const verify::Case& one) -> std::optional<Selected> {
@@ -264,11 +265,15 @@ void CaseRunner::takeSelected(verify::Case& drawn, bool others) {
   for (const verify::DrawField& field : plan_.fields) {
     if (!others || field.kind != ir::Kind::WorkOffset || field.fixed) continue;
     if (field.systemOf(drawn.values.at(field.name)) != drawn.system) continue;
-    verify::Case other = drawn;
-    const auto beside = static_cast<std::uint32_t>(1 + drawn.stream % (kSystems - 1));
-    other.values[field.name] = field.firstSystem + (drawn.system - kFirst + beside) % kSystems;
-    const std::optional<Selected> again = selected(other);
-    if (again && again->system == drawn.system) drawn = std::move(other);
+    for (std::uint32_t i = 0; i + 1 < kSystems; ++i) {
+      verify::Case other = drawn;
+      const auto beside = static_cast<std::uint32_t>(1 + (drawn.stream + i) % (kSystems - 1));
+      other.values[field.name] = field.firstSystem + (drawn.system - kFirst + beside) % kSystems;
+      const std::optional<Selected> again = selected(other);
+      if (!again || again->system != drawn.system) continue;
+      drawn = std::move(other);
+      break;
+    }
   }
 }
 
@@ -550,6 +555,11 @@ bool CaseRunner::passesUnstated() const {
 
 verify::Record CaseRunner::runPosted(const Values& values, sim::World& world, bool probeOn,
                                      verify::Stand::Way way) const {
+  return runPosted(values, world, entryOf(values, probeOn), way);
+}
+
+verify::Record CaseRunner::runPosted(const Values& values, sim::World& world, const verify::Entry& entry,
+                                     verify::Stand::Way way) const {
   std::optional<sim::VendorMacros> meaning;
   if (sourceSet_ != nullptr) {
     meaning.emplace(*sourceSet_, *inputs_->sourceControl);
@@ -557,7 +567,7 @@ verify::Record CaseRunner::runPosted(const Values& values, sim::World& world, bo
     if (passesUnstated()) meaning->passUnstated();
     if (way == verify::Stand::Way::MovePath) meaning->touchApart();
   }
-  return sourceStand_->run(values.posted->code, world, entryOf(values, probeOn), values.posted->stores,
+  return sourceStand_->run(values.posted->code, world, entry, values.posted->stores,
                            meaning ? &*meaning : nullptr, way);
 }
 

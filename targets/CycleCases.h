@@ -52,7 +52,7 @@ public:
   std::vector<std::pair<std::string, SourceRange>> droppedDigits(const verify::Case& drawn) override;
   std::vector<Rejection> rejections() const override;
   VerifySides sides() const override;
-  std::optional<sim::Picture> picture(const verify::Case& drawn) override;
+  std::optional<CasePictures> pictures(const verify::Case& drawn) override;
 
 private:
   struct Posted; // the posted program of one case
@@ -84,8 +84,11 @@ private:
   verify::Entry entryOf(const Values& values, bool probeOn) const;
   verify::Record runPosted(const Values& values, sim::World& world, bool probeOn,
                            verify::Stand::Way way) const;
+  verify::Record runPosted(const Values& values, sim::World& world, const verify::Entry& entry,
+                           verify::Stand::Way way) const;
   std::string whyNotMeasured(Values& values);
-  TargetRun runTarget(const Values& values, sim::World& world, bool probeOn, const verify::Record* source);
+  TargetRun runTarget(const Values& values, sim::World& world, bool probeOn, const verify::Record* source,
+                      ShownRun* shown = nullptr);
   void addFinding(CaseResult& result, const verify::Difference& difference, const Values& values) const;
   void noteEndless(const verify::Case& drawn);
   void noteStopped(const TargetRun& ran, const verify::Case& drawn);

@@ -38,6 +38,7 @@ public:
   Questions(CaseRunner& runner, const Values& values, sim::World& world, bool probeOn)
       : runner_(runner), values_(values), world_(world), probeOn_(probeOn) {}
   Ran with(const std::string& field, double value) override;
+  Ran from(const verify::Entry& entry) override;
   bool moves(const std::string& field) override;
   bool rejectsSome(const std::string& name) override;
 

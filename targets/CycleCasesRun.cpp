@@ -12,7 +12,7 @@ namespace dotek::targets {
 namespace compost = frontend::compost;
 
 TargetRun CaseRunner::runTarget(const Values& values, sim::World& world, bool probeOn,
-                                const verify::Record* source) {
+                                const verify::Record* source, ShownRun* shown) {
   const verify::Entry entry = entryOf(values, probeOn);
   const std::set<std::uint32_t> none;
   TargetCase now{.drawn = values.drawn,
@@ -22,6 +22,7 @@ TargetRun CaseRunner::runTarget(const Values& values, sim::World& world, bool pr
                  .source = source,
                  .stream = callerStream(values.drawn)};
   if (routine_ == nullptr && values.path) now.path = &*values.path;
+  now.shown = shown;
   now.rejected = values.rejected;
   now.rejection = values.rejection;
   now.inItsDatums = [&] { return runPosted(values, world, probeOn, verify::Stand::Way::MovePath); };
@@ -29,7 +30,11 @@ TargetRun CaseRunner::runTarget(const Values& values, sim::World& world, bool pr
   now.lines = values.lines;
   if (values.posted) now.posted = &values.posted->file.programs.front();
   Questions questions(*this, values, world, probeOn);
-  if (values.drawn.callers) now.questions = &questions;
+  // A replay shows the difference that it was written for: where the path and the post differ already, what
+  // other callers get is none of it.
+  CaseResult known;
+  if (options_.replay) comparePath(known, values);
+  if (values.drawn.callers && known.findings.empty()) now.questions = &questions;
   return target_->run(now);
 }
 
@@ -102,6 +107,9 @@ CaseResult CaseRunner::run(const verify::Case& drawn) {
       return result;
     }
     source = runPosted(*values, world, probeOn, verify::Stand::Way::Run);
+    // Of a case that was drawn before: what it measures is compared with the path again.
+    if (!drawn.edge && values->path && !values->rehearsal && !whyNotMeasured(*values).empty())
+      values->rehearsal.reset();
   }
   SourceRange at;
   result.why = verify::whyNoEvidence(*source, at);
@@ -235,7 +243,7 @@ VerifySides CaseRunner::sides() const {
   return out;
 }
 
-std::optional<sim::Picture> CaseRunner::picture(const verify::Case& drawn) {
+std::optional<CasePictures> CaseRunner::pictures(const verify::Case& drawn) {
   if (routine_ == nullptr) return std::nullopt;
   const std::unique_ptr<Values> values = check(drawn, false);
   if (!values || values->rejected) return std::nullopt;
@@ -249,8 +257,10 @@ std::optional<sim::Picture> CaseRunner::picture(const verify::Case& drawn) {
   const sim::Probe probe = probeFor(plan_, drawn);
   sim::World world(*values->part, probe);
   const bool probeOn = options_.common.assume.contains("probe-on");
-  return pictureOf(runPosted(*values, world, probeOn, verify::Stand::Way::KeepMoves), *values->part, probe,
-                   empty);
+  const verify::Record source = runPosted(*values, world, probeOn, verify::Stand::Way::KeepMoves);
+  ShownRun shown;
+  if (target_ != nullptr) runTarget(*values, world, probeOn, &source, &shown);
+  return picturesOf(source, shown, *values->part, probe, empty);
 }
 
 } // namespace dotek::targets

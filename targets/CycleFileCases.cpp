@@ -300,7 +300,7 @@ verify::Case CycleFileRunner::edge(std::uint64_t index) {
   return drawn_->drawn;
 }
 
-TargetRun CycleFileRunner::runTarget(const Played& played) {
+TargetRun CycleFileRunner::runTarget(const Played& played, ShownRun* shown) {
   sim::World world(*played.part, probeFor(plan_, played.drawn), limits());
   const verify::Entry entry = entryOf(played.drawn);
   TargetCase now{.drawn = played.drawn,
@@ -309,6 +309,7 @@ TargetRun CycleFileRunner::runTarget(const Played& played) {
                  .world = world,
                  .source = played.rejected ? nullptr : &played.record,
                  .stream = callerStream(played.drawn)};
+  now.shown = shown;
   now.rejected = played.rejected;
   now.rejection = played.record.text;
   now.sourceOf = [](SourceRange place) { return place; };
@@ -376,12 +377,15 @@ VerifySides CycleFileRunner::sides() const {
   return out;
 }
 
-std::optional<sim::Picture> CycleFileRunner::picture(const verify::Case& drawn) {
+std::optional<CasePictures> CycleFileRunner::pictures(const verify::Case& drawn) {
   const std::unique_ptr<Played> played = play(drawn, false);
   const sim::Probe probe = probeFor(plan_, drawn);
   sim::World world(*played->part, probe);
   const bool empty = !played->partMade && !plan_.part;
-  return pictureOf(runCycle(drawn, world, true), *played->part, probe, empty);
+  const verify::Record source = runCycle(drawn, world, true);
+  ShownRun shown;
+  runTarget(*played, &shown);
+  return picturesOf(source, shown, *played->part, probe, empty);
 }
 
 } // namespace dotek::targets

@@ -42,7 +42,7 @@ public:
   CaseResult run(const verify::Case& drawn) override;
   std::vector<Rejection> rejections() const override;
   VerifySides sides() const override;
-  std::optional<sim::Picture> picture(const verify::Case& drawn) override;
+  std::optional<CasePictures> pictures(const verify::Case& drawn) override;
 
 private:
   struct Played; // the cycle's own run of a case
@@ -55,7 +55,7 @@ private:
   void settle(verify::Case& drawn) const;
   bool knowsValues();
   verify::Case replayed(verify::Case drawn) const;
-  TargetRun runTarget(const Played& played);
+  TargetRun runTarget(const Played& played, ShownRun* shown = nullptr);
   void takeDifferences(CaseResult& result, const TargetRun& ran) const;
 
   const VerifyOptions& options_;

@@ -106,6 +106,14 @@ bool CaseRunner::Questions::rejectsSome(const std::string& name) {
   return false;
 }
 
+SourceQuestions::Ran CaseRunner::Questions::from(const verify::Entry& entry) {
+  Ran out;
+  if (!values_.posted) return out;
+  out.record = runner_.runPosted(values_, world_, entry, verify::Stand::Way::Run);
+  if (out.record.ending != verify::Ending::Inconclusive) out.answer = Answer::Runs;
+  return out;
+}
+
 bool CaseRunner::Questions::setsActive(const std::string& field, double value) const {
   const auto& fields = runner_.plan_.fields;
   return std::any_of(fields.begin(), fields.end(), [&](const verify::DrawField& one) {
@@ -120,20 +128,23 @@ bool CaseRunner::Questions::moves(const std::string& field) {
   bool& moving = runner_.moving_[field];
   const auto now = values_.drawn.values.find(field);
   if (!values_.posted || now == values_.drawn.values.end()) return moving;
-  const Ran here = play(field, now->second, verify::Stand::Way::Rehearse);
+  // Where the active system is set, the path that follows is another one; and a tolerance that stops the run
+  // moves nothing.
+  const auto finished = [&](double value) -> std::optional<verify::Record> {
+    if (setsActive(field, value)) return std::nullopt;
+    Ran ran = play(field, value, verify::Stand::Way::Rehearse);
+    if (ran.answer != Answer::Runs || ran.record.ending != verify::Ending::Finished) return std::nullopt;
+    return std::move(ran.record);
+  };
+  std::optional<verify::Record> first = finished(now->second);
   constexpr std::uint32_t kOthers = 6; // values that are tried
   for (std::uint32_t n = 0; n < kOthers && !moving; ++n) {
     const verify::Case other = runner_.draws_->propose(values_.drawn.stream + n, 0);
     const auto value = other.values.find(field);
     if (value == other.values.end() || value->second == now->second) continue;
-    // Where the active system is set, the path that follows is another one.
-    if (setsActive(field, value->second)) continue;
-    const Ran there = play(field, value->second, verify::Stand::Way::Rehearse);
-    // A tolerance that stops the run moves nothing.
-    const auto finished = [](const Ran& ran) {
-      return ran.answer == Answer::Runs && ran.record.ending == verify::Ending::Finished;
-    };
-    if (finished(here) && finished(there)) moving = !sameMotion(here.record, there.record);
+    std::optional<verify::Record> record = finished(value->second);
+    if (first && record) moving = !sameMotion(*first, *record);
+    if (!first) first = std::move(record);
   }
   return moving;
 }

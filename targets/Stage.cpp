@@ -1,5 +1,6 @@
 #include "targets/Stage.h"
 
+#include "verify/Compare.h"
 #include "verify/Random.h"
 
 #include <bit>
@@ -105,6 +106,20 @@ sim::Picture pictureOf(const verify::Record& record, const sim::Part& part, cons
       out.contacts.push_back({contact.point, last});
   for (const auto& [event, where] : record.events)
     out.errors.push_back({event.centre, std::string(sim::outcomeName(event.outcome)), last});
+  if (record.ending != verify::Ending::Finished)
+    out.errors.push_back(
+        {record.end + sim::Point3{0, 0, probe.ballDiameter / 2}, verify::endText(record), last});
+  return out;
+}
+
+CasePictures picturesOf(const verify::Record& source, const ShownRun& translation, const sim::Part& part,
+                        const sim::Probe& probe, bool empty) {
+  CasePictures out{pictureOf(source, part, probe, empty), verify::endText(source), std::nullopt, ""};
+  if (!translation.record) return out;
+  out.translation = pictureOf(*translation.record, part, probe, empty);
+  out.translationEnds = (translation.who.empty() ? "" : translation.who + ": ") +
+                        (translation.record->pieces.empty() ? "before anything moves " : "") +
+                        verify::endText(*translation.record);
   return out;
 }
 

@@ -4,6 +4,7 @@
 #include "ir/Program.h"
 #include "stdlib/Control.h"
 #include "targets/Subject.h"
+#include "targets/Verification.h"
 
 namespace dotek::targets {
 
@@ -20,6 +21,9 @@ sim::Part emptyPart(const sim::Point3& middle);
 // A run that was recorded with its moves, in the part that it met. `empty`: there is none to be seen.
 sim::Picture pictureOf(const verify::Record& record, const sim::Part& part, const sim::Probe& probe,
                        bool empty);
+// Both runs of a case, in one part.
+CasePictures picturesOf(const verify::Record& source, const ShownRun& translation, const sim::Part& part,
+                        const sim::Probe& probe, bool empty);
 // "Fanuc 0i-MD, machining centre (fanuc-0i-md)", with where the profile is from unless it is Dotek's own.
 std::string controlText(const stdlib::Control& control);
 // Those of the run of a translated cycle: one that goes round for ever ends soon, unless `--limit sim-steps`

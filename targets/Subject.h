@@ -111,6 +111,14 @@ struct Stopped {
   verify::Case drawn; // with which values
 };
 
+// The runs of a case, and how each went, for people: "it ends".
+struct CasePictures {
+  sim::Picture source;
+  std::string sourceEnds;
+  std::optional<sim::Picture> translation; // nothing: it did not run
+  std::string translationEnds;             // with the caller who sees the difference
+};
+
 // One thread uses a subject.
 class CaseSubject {
 public:
@@ -133,8 +141,8 @@ public:
   // Why the proposals of the last draw() were rejected, the most frequent reason first.
   virtual std::vector<Rejection> rejections() const { return {}; }
   virtual VerifySides sides() const { return {}; }
-  // The source's run of a case. nullopt: there is nothing to see.
-  virtual std::optional<sim::Picture> picture(const verify::Case& /*drawn*/) { return std::nullopt; }
+  // Of a case. nullopt: there is nothing to see.
+  virtual std::optional<CasePictures> pictures(const verify::Case& /*drawn*/) { return std::nullopt; }
 
 protected:
   std::optional<Stopped> stopped_;

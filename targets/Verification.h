@@ -33,10 +33,18 @@ public:
     verify::Record record; // of Runs
   };
   virtual Ran with(const std::string& field, double value) = 0;
+  // The values of the case, called from another state.
+  virtual Ran from(const verify::Entry& entry) = 0;
   // Some value of the field makes the path, or what is measured, another one.
   virtual bool moves(const std::string& field) = 0;
   // With some value of the field or the host input the dialog rejects the others.
   virtual bool rejectsSome(const std::string& name) = 0;
+};
+
+// For a picture: the translation's run with its moves, that of the caller who sees the first difference.
+struct ShownRun {
+  std::optional<verify::Record> record; // nothing: it did not run
+  std::string who;                      // "called under G49"; "": as the source runs
 };
 
 // One case as a translation sees it.
@@ -59,6 +67,7 @@ struct TargetCase {
   SourceQuestions* questions = nullptr;
   const ir::Program* posted = nullptr;                       // nullptr: there is no Prog
   std::span<const frontend::compost::PostedLine> lines = {}; // as the Prog prints them, with its N numbers
+  ShownRun* shown = nullptr;                                 // to be filled; nullptr: nobody looks
   // A number that is the same for the same values, for what the caller has in force.
   std::uint64_t stream = 0;
 };

@@ -76,8 +76,11 @@ struct VerifyDocument {
   std::vector<Difference> differences;
   std::vector<Reason> undecided;
   std::vector<Finding> findings; // besides these, in the order of `about` above
-  std::optional<sim::Picture> picture;
-  std::string caption;
+  struct Shown {
+    sim::Picture picture;
+    std::string caption;
+  };
+  std::vector<Shown> pictures; // of one case: the source's run, and the translation's where they differ
 };
 
 // What was said of the form, or else of the translation, before the cases ran, each once, as findings of the

@@ -223,11 +223,23 @@ private:
   }
 
   void picture() {
-    if (!d_.picture) return;
-    std::string svg = sim::pictureSvg(*d_.picture);
-    if (const std::size_t at = svg.find("<svg"); at != std::string::npos) svg.erase(0, at);
-    out_ +=
-        "<h2>One case</h2>\n<figure>" + svg + "<figcaption>" + text(d_.caption) + "</figcaption></figure>\n";
+    if (!d_.pictures.empty()) out_ += "<h2>One case</h2>\n";
+    for (std::size_t i = 0; i < d_.pictures.size(); ++i) {
+      std::string svg = sim::pictureSvg(d_.pictures[i].picture);
+      if (const std::size_t at = svg.find("<svg"); at != std::string::npos) svg.erase(0, at);
+      if (i > 0) svg = withOwnNames(std::move(svg));
+      out_ += "<figure>" + svg + "<figcaption>" + text(d_.pictures[i].caption) + "</figcaption></figure>\n";
+    }
+  }
+
+  // A page has each name once.
+  static std::string withOwnNames(std::string svg) {
+    for (const std::string_view before : {" id=\"", "url(#"})
+      for (std::size_t at = 0; (at = svg.find(before, at)) != std::string::npos;) {
+        at += before.size();
+        svg.insert(at, "other-");
+      }
+    return svg;
   }
 
   const VerifyDocument& d_;

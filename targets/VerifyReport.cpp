@@ -148,6 +148,14 @@ verify::Case VerifyReport::shrink(const Group& group) {
   verify::Case plain = best;
   plain.error = {};
   if (!options_.partError) attempt(plain);
+  // What sets the system in force moves all that follows it: another difference.
+  const auto setsActive = [&](const verify::Case& one) {
+    return std::any_of(plan_.fields.begin(), plan_.fields.end(), [&](const verify::DrawField& field) {
+      const auto value = one.values.find(field.name);
+      return field.kind == ir::Kind::WorkOffset && value != one.values.end() &&
+             field.systemOf(value->second) == one.system;
+    });
+  };
   const auto simplify = [&](auto member, const std::string& name, std::vector<double> candidates) {
     for (const double value : candidates) {
       const double now = (best.*member).at(name);
@@ -155,6 +163,7 @@ verify::Case VerifyReport::shrink(const Group& group) {
         continue;
       verify::Case simpler = best;
       (simpler.*member)[name] = value;
+      if (setsActive(simpler) && !setsActive(best)) continue;
       if (attempt(simpler)) return;
     }
   };
@@ -250,6 +259,14 @@ void VerifyReport::tellDifference(const Group& group, std::uint64_t of) {
   if (post && plan_.translation && group.alone == group.count)
     finding.note({}, "the translation does the same as the post in these cases; it is the macro and the post "
                      "that disagree");
+  for (const verify::DrawField& field : plan_.fields) {
+    const auto value = smallest.values.find(field.name);
+    if (field.kind != ir::Kind::WorkOffset || value == smallest.values.end() ||
+        field.systemOf(value->second) != smallest.system)
+      continue;
+    finding.note({}, fmt::format("{} = {} sets G{}, the system in force: what follows it is moved by it",
+                                 field.name, numberText(value->second), smallest.system));
+  }
   const std::string command = replay(smallest);
   document_.differences.push_back(
       {std::string(pairName(group.finding.pair)), std::string(aspect), group.finding.text, group.count, of,

@@ -183,20 +183,25 @@ void VerifyReport::addPicture() {
       idle = &at->second;
   if (idle != nullptr) shown = &idle->drawn;
   if (shown == nullptr) return;
-  document_.picture = runner_.picture(*shown);
+  const std::optional<CasePictures> pictures = runner_.pictures(*shown);
+  if (!pictures) return;
   const bool differs =
       std::any_of(groups_.begin(), groups_.end(), [](const auto& one) { return !one.second.edge; });
-  document_.caption = idle != nullptr
-                          ? fmt::format("The source on a case that is undecided ({}): ", idle->why)
-                      : differs ? "The source on a case that differs: "
-                                : "The source on a case in which both sides agree: ";
+  std::string caption =
+      idle != nullptr ? fmt::format("The source on a case that is undecided ({}): ", idle->why)
+      : differs       ? fmt::format("The source on a case that differs; {}: ", pictures->sourceEnds)
+                      : "The source on a case in which both sides agree: ";
   std::string values;
   for (const auto& [name, value] : shown->values)
     values += fmt::format("{}{}{} = {}", values.empty() ? "" : ", ", plan_.programs ? "#" : "", name,
                           numberText(value));
   for (const auto& [name, value] : shown->hosts)
     values += fmt::format("{}{} = {}", values.empty() ? "" : ", ", name, numberText(value));
-  document_.caption += values.empty() ? "no values are drawn." : values + ".";
+  caption += values.empty() ? "no values are drawn." : values + ".";
+  document_.pictures.push_back({pictures->source, std::move(caption)});
+  if (differs && pictures->translation)
+    document_.pictures.push_back({*pictures->translation, fmt::format("The translation on the same case; {}.",
+                                                                      pictures->translationEnds)});
 }
 
 std::string VerifyReport::rendered() const {

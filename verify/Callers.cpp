@@ -3,6 +3,7 @@
 #include "support/Decimal.h"
 #include "verify/Random.h"
 
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 #include <optional>
@@ -119,6 +120,51 @@ std::vector<BrokenCaller> brokenCallers(const Control& control, bool shiftOfZ) {
     caller.blocks = fmt::format("G{}{}3.\n", numberText(shift->tenths / 10.0), axis);
     out.push_back(std::move(caller));
   }
+  return out;
+}
+
+bool hasCode(const ir::Program& program, const Control& control, Function function) {
+  const auto isIt = [&](const ir::Word& word) {
+    const double* code = word.address == 'G' ? ir::constantValue(word.value) : nullptr;
+    const bool known = code != nullptr && *code >= 0 && *code < 1000;
+    const CodeInfo* info =
+        known ? control.find('G', static_cast<std::uint32_t>(std::lround(*code * 10))) : nullptr;
+    return info != nullptr && info->function == function;
+  };
+  return std::any_of(program.body.begin(), program.body.end(), [&](const ir::ProgramStatement& statement) {
+    const auto* block = std::get_if<ir::NcBlock>(&statement.node);
+    return block != nullptr && std::any_of(block->words.begin(), block->words.end(), isIt);
+  });
+}
+
+std::vector<OtherCaller> otherCallers(const ir::Program& posted, const Control& control, const Entry& entry,
+                                      std::uint64_t stream) {
+  constexpr std::uint32_t kFirst = 54;
+  std::vector<OtherCaller> out;
+  const auto systems = static_cast<std::uint32_t>(entry.zeros.size());
+  if (hasCode(posted, control, Function::WorkSystem) ||
+      hasCode(posted, control, Function::ExtendedWorkSystem)) {
+    Random random(stream);
+    OtherCaller& other = out.emplace_back();
+    other.entry = entry;
+    const auto beside = static_cast<std::uint32_t>(1 + random.below(systems - 1));
+    other.entry.system = kFirst + (entry.system - kFirst + beside) % systems;
+    other.entry.start =
+        entry.start + entry.zeros[entry.system - kFirst] - entry.zeros[other.entry.system - kFirst];
+    other.who = fmt::format("under G{}", other.entry.system);
+  }
+  if (!hasCode(posted, control, Function::ToolLengthPlus)) return out;
+  const auto underOffset = [&](std::uint32_t number, std::string who) {
+    OtherCaller& other = out.emplace_back();
+    other.entry = entry;
+    other.entry.otherOffset = number;
+    other.who = std::move(who);
+    other.ofToolLength = true;
+  };
+  if (control.find(Function::ToolLengthOff) != nullptr) underOffset(0, "under G49");
+  const std::uint32_t number = entry.toolOffset == 1 ? 2 : 1;
+  if (control.variables.toolCount >= static_cast<int>(number))
+    underOffset(number, fmt::format("under G43 H{}", number));
   return out;
 }
 

@@ -1,10 +1,12 @@
 // Who calls a program that `convert` writes for a control: callers with all kinds of modes in force, and such
 // that break what the program demands of them. What it owes to each is the contract in docs/convert.md,
-// computed here from the control's profile alone.
+// computed here from the source and the control's profile alone.
 #pragma once
 
+#include "ir/Program.h"
 #include "stdlib/Control.h"
 #include "verify/Record.h"
+#include "verify/Stand.h"
 
 #include <cstdint>
 #include <string>
@@ -28,6 +30,19 @@ struct BrokenCaller {
 };
 // `shiftOfZ`: the program writes an offset along Z by itself, so no shift of Z may be in force either.
 std::vector<BrokenCaller> brokenCallers(const stdlib::Control& control, bool shiftOfZ);
+
+// A caller who has another work system or tool length in force than the program selects for itself, in the
+// same place: the program runs as it does under the one that it selects.
+struct OtherCaller {
+  std::string who; // "under G57"
+  Entry entry;
+  bool ofToolLength = false;
+};
+// `posted`: what the source prints; `entry`: as it runs else. `stream` chooses.
+std::vector<OtherCaller> otherCallers(const ir::Program& posted, const stdlib::Control& control,
+                                      const Entry& entry, std::uint64_t stream);
+// Some block has a G code of this function.
+bool hasCode(const ir::Program& program, const stdlib::Control& control, stdlib::Function function);
 
 // Modal groups that the program has to leave as it found them, and F; "" or what it leaves otherwise.
 // `source`: what the original leaves, which counts for groups that no bare code puts back; nullptr: nothing.

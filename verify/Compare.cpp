@@ -18,6 +18,7 @@ namespace {
 using sim::Point3;
 
 constexpr int kShown = 6;                 // decimals
+constexpr int kLengthShown = 3;           // of a tool
 constexpr double kPrintedHalf = 0.000501; // of the last place of a word, mm
 constexpr double kStopping = 0.01;        // where a move stops that meets the part, mm
 
@@ -56,7 +57,7 @@ public:
 
   std::vector<Difference> run() {
     ending();
-    if (!out_.empty()) return std::move(out_);
+    if (!out_.empty()) return {withCause(std::move(out_.front()))};
     path();
     measures();
     faults();
@@ -124,17 +125,6 @@ private:
            (shown > 0 || source_.text == target_.text);
   }
 
-  static std::string endText(const Record& record) {
-    switch (record.ending) {
-    case Ending::Finished: return "it ends";
-    case Ending::Alarm:
-      return record.alarm == 0 ? fmt::format("an alarm ({})", record.text)
-                               : fmt::format("alarm {} ({})", record.alarm, record.text);
-    case Ending::Inconclusive: return "what it does is not known: " + record.text;
-    }
-    return "";
-  }
-
   void ending() {
     const bool alarms = source_.ending == Ending::Alarm && target_.ending == Ending::Alarm;
     bool same = source_.ending == target_.ending;
@@ -174,6 +164,70 @@ private:
     return obstructed && stopsInMacros() ? std::max(kStopping, rules_.tolerance) : rules_.tolerance;
   }
 
+  // ---- what came before a different ending
+
+  // The first thing that the two did differently before one of them stopped, and then the ending.
+  Difference withCause(Difference ending) {
+    out_.clear();
+    cause();
+    if (out_.empty()) return ending;
+    Difference out = std::move(out_.front());
+    out.text += "; then " + ending.text;
+    return out;
+  }
+
+  void cause() {
+    const std::vector<Piece> a = straight(pieces(source_), true, rules_.tolerance);
+    const std::vector<Piece> b = straight(pieces(target_), true, rules_.tolerance);
+    std::size_t measure = 0;
+    for (std::size_t i = 0; i < std::min(a.size(), b.size()) && out_.empty(); ++i) {
+      // The last piece of a side that stops may be cut short.
+      const bool cut = (i + 1 == a.size() && source_.ending != Ending::Finished) ||
+                       (i + 1 == b.size() && target_.ending != Ending::Finished);
+      const bool same = a[i].kind == b[i].kind && near(a[i].from, b[i].from, rules_.tolerance) &&
+                        (cut || near(a[i].to, b[i].to, rules_.tolerance));
+      if (!same) {
+        addMoves(a[i], b[i]);
+        return;
+      }
+      if (cut && !framesText(a[i], b[i]).empty()) {
+        add(Aspect::Path,
+            framesText(a[i], b[i]) +
+                fmt::format("a {} move from {}", pathKindName(a[i].kind), textOf(a[i].from)),
+            a[i].range, b[i].range);
+        return;
+      }
+      state(a[i].with, b[i].with, fmt::format(" at a {} move", pathKindName(a[i].kind)), a[i].range,
+            b[i].range);
+      if (a[i].kind != sim::PathKind::Measuring) continue;
+      if (measure < source_.measures.size() && measure < target_.measures.size()) {
+        nominal(source_.measures[measure], target_.measures[measure]);
+        if (!rules_.atMeasures) aims(source_.measures[measure], target_.measures[measure]);
+      }
+      ++measure;
+    }
+  }
+
+  // Other coordinates than those of the source; "" where they are the same.
+  std::string framesText(const Piece& a, const Piece& b) const {
+    if (rules_.atMeasures || a.frame.system == 0 || b.frame.system == 0) return "";
+    if (a.frame.system != b.frame.system)
+      return fmt::format("it runs in {}, the source in {}: ", systemName(b.frame.system),
+                         systemName(a.frame.system));
+    if (std::abs(a.frame.toolLength - b.frame.toolLength) > rules_.results)
+      return fmt::format(
+          "it runs with a tool length of {}, the source of {}: ", fixedText(b.frame.toolLength, kLengthShown),
+          fixedText(a.frame.toolLength, kLengthShown));
+    return "";
+  }
+
+  void addMoves(const Piece& a, const Piece& b) {
+    add(Aspect::Path,
+        framesText(a, b) + fmt::format("a {} move to {} against a {} move to {}", pathKindName(a.kind),
+                                       textOf(a.to), pathKindName(b.kind), textOf(b.to)),
+        a.range, b.range);
+  }
+
   // Those of a side, with what counts of them.
   std::vector<Piece> pieces(const Record& record) const {
     std::vector<Piece> out = record.pieces;
@@ -204,10 +258,7 @@ private:
       const bool same = a[i].kind == b[i].kind && near(a[i].from, b[i].from, rules_.tolerance) &&
                         near(a[i].to, b[i].to, last ? ofLastPiece() : rules_.tolerance);
       if (!same) {
-        add(Aspect::Path,
-            fmt::format("a {} move to {} against a {} move to {}", pathKindName(a[i].kind), textOf(a[i].to),
-                        pathKindName(b[i].kind), textOf(b[i].to)),
-            a[i].range, b[i].range);
+        addMoves(a[i], b[i]);
         return;
       }
       state(a[i].with, b[i].with, "", a[i].range, b[i].range);
@@ -569,6 +620,28 @@ std::string_view aspectName(Aspect aspect) {
   case Aspect::Printed: return "printed text";
   }
   return "";
+}
+
+std::string endText(const Record& record) {
+  switch (record.ending) {
+  case Ending::Finished: return "it ends";
+  case Ending::Alarm: {
+    const bool unarmed = !record.measures.empty() && record.measures.back().range == record.endedAt &&
+                         record.endedAt.hasPlace() && record.measures.back().with.probe != Switch::On;
+    return fmt::format("{} ({}){}", record.alarm == 0 ? "an alarm" : "alarm " + std::to_string(record.alarm),
+                       record.text, unarmed ? ", the probe is off at this measuring move" : "");
+  }
+  case Ending::Inconclusive: return "what it does is not known: " + record.text;
+  }
+  return "";
+}
+
+bool runsAlike(const Record& one, const Record& other, const CompareRules& rules) {
+  SourceRange at;
+  if (!whyNoEvidence(one, at).empty() || !whyNoEvidence(other, at).empty()) return false;
+  const std::vector<Difference> found = compare(one, other, rules);
+  return std::all_of(found.begin(), found.end(),
+                     [](const Difference& each) { return each.aspect == Aspect::Modal; });
 }
 
 std::vector<Difference> compare(const Record& source, const Record& target, const CompareRules& rules) {

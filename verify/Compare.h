@@ -55,9 +55,16 @@ struct CompareRules {
                       // does not
 };
 
-// The first difference of each aspect, in the order of the aspects. After a different ending only that is
-// told.
+// The first difference of each aspect, in the order of the aspects. Of a different ending only what the two
+// did differently before it is told, and that they end so, or that alone.
 std::vector<Difference> compare(const Record& source, const Record& target, const CompareRules& rules);
+
+// How it ended, for people: "it ends", "alarm 3093 (PROBE FAIL)".
+std::string endText(const Record& record);
+
+// Two runs of one program, called from different states: it does the same, but for modes that it leaves. Both
+// have to be evidence.
+bool runsAlike(const Record& one, const Record& other, const CompareRules& rules);
 
 // The drawn path beside the program: points without their kinds, nominal contacts, end. `offset`: from the
 // system of the path to the machine.

@@ -30,6 +30,12 @@ struct Surroundings {
   bool operator==(const Surroundings&) const = default;
 };
 
+// What coordinates count from.
+struct WorkFrame {
+  std::uint32_t system = 0; // G number, 5410 + n for G54.1 Pn; 0: not looked at
+  double toolLength = 0;    // in force, mm
+};
+
 // A straight piece of the path. A measuring call is one piece of no length, where it begins.
 struct Piece {
   sim::PathKind kind = sim::PathKind::Feed;
@@ -41,6 +47,7 @@ struct Piece {
   // Codes in force, times ten: of the plane and of the kind of feed; of a call of the distance, too. 0: not
   // looked at.
   std::array<std::uint32_t, 3> modes = {};
+  WorkFrame frame = {}; // where it begins
 };
 
 // Where a surface is expected, or was found. In X and Y the ball's centre is one radius before it, in Z

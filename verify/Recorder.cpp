@@ -63,6 +63,14 @@ std::array<std::uint32_t, 3> Recorder::modes(bool call) const {
   return {code(0), code(1), call ? code(2) : 0};
 }
 
+WorkFrame Recorder::frame() const {
+  constexpr std::uint32_t kFirst = 54, kExtended = 5410;
+  if (machine_.dialect().holdsTool) return {};
+  const sim::Machine::WorkSystem system = machine_.activeSystem();
+  return {system.index + (system.extended ? kExtended : kFirst),
+          machine_.machinePosition()[2] - machine_.position()[2] - machine_.activeZero()[2]};
+}
+
 sim::Point3 Recorder::lowest(const sim::Position& machine) const {
   return {machine[0], machine[1], machine[2] - length_};
 }
@@ -167,7 +175,7 @@ void Recorder::mark(Mark::Kind kind, std::string_view text, double value) {
 
 void Recorder::addPiece(sim::PathKind kind, const sim::Point3& from, const sim::Point3& to,
                         SourceRange range) {
-  Piece piece{kind, from, to, surroundings(), range, std::nullopt, modes(false)};
+  Piece piece{kind, from, to, surroundings(), range, std::nullopt, modes(false), frame()};
   if (kind != sim::PathKind::Rapid) piece.feed = machine_.feed();
   record_.pieces.push_back(std::move(piece));
 }
@@ -258,6 +266,7 @@ void Recorder::callBegins(std::uint32_t program, std::span<const double> locals)
   call_.start = lowest(machine_.machinePosition());
   call_.with = surroundings();
   call_.modes = modes(true);
+  call_.frame = frame();
   const stdlib::MacroSignature* const signature = signatureOf(**set, program, locals);
   const Intent intent = signature == nullptr ? Intent::Surface : signature->intent;
   call_.moves = intent == Intent::ProtectedMove;
@@ -377,10 +386,10 @@ void Recorder::endCall() {
     if (datumsMovePath_ && machine_.running() && call_.moved == 0) movePath(measure);
     measure.end = lowest(machine_.machinePosition());
     record_.pieces.push_back({sim::PathKind::Measuring, call_.start, call_.start, call_.with, call_.range,
-                              std::nullopt, call_.modes});
+                              std::nullopt, call_.modes, call_.frame});
   } else if (call_.moves) {
-    record_.pieces.push_back(
-        {sim::PathKind::Protected, call_.start, end, call_.with, call_.range, call_.feed, call_.modes});
+    record_.pieces.push_back({sim::PathKind::Protected, call_.start, end, call_.with, call_.range, call_.feed,
+                              call_.modes, call_.frame});
   }
   call_ = {};
 }
@@ -397,6 +406,7 @@ void Recorder::beginOwn() {
   call_.start = lowest(machine_.machinePosition());
   call_.with = surroundings();
   call_.modes = modes(true);
+  call_.frame = frame();
 }
 
 void Recorder::endOwn() {

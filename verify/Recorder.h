@@ -71,6 +71,7 @@ private:
   Measure begunMeasure();
   SourceRange place() const;
   std::array<std::uint32_t, 3> modes(bool call) const;
+  WorkFrame frame() const;
   void addPiece(sim::PathKind kind, const sim::Point3& from, const sim::Point3& to, SourceRange range);
   void mark(Mark::Kind kind, std::string_view text = "", double value = 0);
   void movePath(const Measure& measure);
@@ -118,6 +119,7 @@ private:
     std::array<sim::Position, 6> zeros; // of G54 to G59, of one that measures
     std::optional<double> feed;         // an argument
     std::array<std::uint32_t, 3> modes{};
+    WorkFrame frame;
     std::size_t moved = 0;            // touches after which the path was moved (touchedApart)
     std::vector<sim::Point3> signals; // centres of the ball where a measuring move was stopped
   } call_;

@@ -10,6 +10,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <set>
 #include <utility>
 #include <vector>
@@ -29,7 +30,9 @@ std::array<sim::Point3, 6> standZeros();
 struct Entry {
   sim::Point3 start; // of the stylus's lowest point, system `system`
   std::uint32_t system = 54;
-  std::uint32_t toolOffset = 1; // in force: its length is the probe's; 1 where the control has no such number
+  // Its length is the probe's, and it is in force; 1 where the control has no such number.
+  std::uint32_t toolOffset = 1;
+  std::optional<std::uint32_t> otherOffset = {}; // in force in its place; 0: none
   std::array<sim::Point3, 6> zeros = standZeros();
   double feed = 800;        // mm/min
   std::uint8_t spindle = 0; // 1 clockwise, 2 counterclockwise

@@ -133,6 +133,7 @@ public:
 
   TargetRun run(const TargetCase& now) override {
     TargetRun out;
+    differing_.reset();
     const verify::Entry entry = entryOf(now);
     const verify::Record record = runText(now, entry, &out.trace);
     if (record.overLimit)
@@ -146,6 +147,10 @@ public:
     if (now.questions != nullptr && !now.rejected && out.differences.empty() && out.stopped.empty() &&
         record.ending == verify::Ending::Finished)
       callOtherwise(now, entry, record, out);
+    if (now.shown != nullptr)
+      *now.shown = {
+          runText(now, differing_ ? differing_->second : entry, nullptr, verify::Stand::Way::KeepMoves),
+          differing_ ? "called " + differing_->first : ""};
     return out;
   }
 
@@ -171,7 +176,9 @@ private:
   }
 
   // `trace`: nullptr: nobody reads it.
-  verify::Record runText(const TargetCase& now, const verify::Entry& entry, std::string* trace) {
+  verify::Record runText(const TargetCase& now, const verify::Entry& entry, std::string* trace,
+                         verify::Stand::Way way = verify::Stand::Way::Run) {
+    if (now.shown != nullptr) ran_ = entry;
     std::optional<sim::VendorMacros> meaning;
     if (set_ != nullptr) {
       meaning.emplace(*set_, control_);
@@ -186,7 +193,7 @@ private:
     }
     stand_.setTrace(writer ? &*writer : nullptr);
     verify::Record record =
-        stand_.run(text_.code(), now.world, entry, now.stores, meaning ? &*meaning : nullptr);
+        stand_.run(text_.code(), now.world, entry, now.stores, meaning ? &*meaning : nullptr, way);
     if (writer) traceResults(record, *writer);
     // What macros do inside is their own business.
     std::erase_if(record.early, [&](const verify::EarlyUse& use) { return text_.line(use.range) == 0; });
@@ -350,9 +357,15 @@ private:
   }
 
   void differs(const std::string& who, const std::string& wanted, const verify::Record& record,
-               TargetRun& out) const {
+               TargetRun& out) {
     out.differsAt(verify::Aspect::Ending, fmt::format("called {}: {}; {}", who, wanted, didInstead(record)),
                   text_.line(record.endedAt));
+    noteCaller(who);
+  }
+
+  // The first caller who sees a difference, of the last run.
+  void noteCaller(const std::string& who) {
+    if (!differing_ && ran_) differing_ = {who, *ran_};
   }
 
   void callOtherwise(const TargetCase& now, const verify::Entry& entry, const verify::Record& ran,
@@ -374,41 +387,44 @@ private:
         differs(caller.who, fmt::format("`{}` has to stop it before anything moves", caller.alarm), record,
                 out);
     }
-    callInOtherSystem(now, entry, out);
+    callFromOthers(now, entry, out);
     for (const OutputArgument& argument : translation_.arguments)
       callWithout(argument, now, entry, out);
     for (const verify::DrawField& field : from_.plan.fields)
       if (field.kind == ir::Kind::WorkOffset && !field.fixed) callWithSystems(field, now, entry, out);
   }
 
-  // From the same place, with another work system in force: what the source selects is put back.
-  void callInOtherSystem(const TargetCase& now, const verify::Entry& entry, TargetRun& out) {
-    if (now.posted == nullptr || !blockWithG(*now.posted, stdlib::Function::WorkSystem)) return;
-    verify::Entry other = entry;
-    other.system = entry.system == 54 ? 55 : 54;
-    other.start = entry.start + entry.zeros[entry.system - 54] - entry.zeros[other.system - 54];
-    const verify::Record record = runText(now, other, nullptr);
-    if (record.ending != verify::Ending::Finished) return;
-    const std::string why = verify::whyNotPutBack(control_, record, nullptr);
-    if (!why.empty()) out.differs(verify::Aspect::Modal, why);
+  // From the same place, with another work system or tool length in force than the source selects.
+  void callFromOthers(const TargetCase& now, const verify::Entry& entry, TargetRun& out) {
+    if (now.posted == nullptr || now.source == nullptr) return;
+    const stdlib::Control& posts = *from_.inputs.sourceControl;
+    for (verify::OtherCaller& other : verify::otherCallers(*now.posted, posts, now.entry, now.stream)) {
+      const SourceQuestions::Ran meant = now.questions->from(other.entry);
+      if (meant.answer != SourceQuestions::Answer::Runs) continue;
+      verify::CompareRules rules = rulesFor(now, meant.record);
+      rules.samePlace = nullptr;
+      if (!verify::runsAlike(*now.source, meant.record, rules)) continue;
+      other.entry.blocks = entry.blocks;
+      other.entry.variables = entry.variables;
+      const verify::Record record = runText(now, other.entry, nullptr);
+      std::vector<verify::Difference> found = verify::compare(meant.record, record, rules);
+      for (verify::Difference& one : found)
+        one.text = fmt::format("called {}: {}", other.who, one.text);
+      const bool alike = found.empty();
+      if (!alike) noteCaller(other.who);
+      add(std::move(found), out);
+      if (!alike) return;
+      if (record.ending != verify::Ending::Finished) continue;
+      const std::string why = verify::whyNotPutBack(control_, record, &meant.record);
+      if (why.empty()) continue;
+      noteCaller(other.who);
+      out.differs(verify::Aspect::Modal, why);
+    }
   }
 
   bool loadsTool(const TargetCase& now) const {
-    return now.posted != nullptr && blockWithG(*now.posted, stdlib::Function::ToolLengthPlus);
-  }
-
-  bool blockWithG(const ir::Program& program, stdlib::Function function) const {
-    const auto isIt = [&](const ir::Word& word) {
-      const double* code = word.address == 'G' ? ir::constantValue(word.value) : nullptr;
-      const bool known = code != nullptr && *code >= 0 && *code < 1000;
-      const stdlib::CodeInfo* info =
-          known ? control_.find('G', static_cast<std::uint32_t>(std::lround(*code * 10))) : nullptr;
-      return info != nullptr && info->function == function;
-    };
-    return std::any_of(program.body.begin(), program.body.end(), [&](const ir::ProgramStatement& statement) {
-      const auto* block = std::get_if<ir::NcBlock>(&statement.node);
-      return block != nullptr && std::any_of(block->words.begin(), block->words.end(), isIt);
-    });
+    return now.posted != nullptr &&
+           verify::hasCode(*now.posted, *from_.inputs.sourceControl, stdlib::Function::ToolLengthPlus);
   }
 
   const verify::DrawField* fieldOf(const std::string& name) const {
@@ -479,6 +495,7 @@ private:
       one.text =
           value ? fmt::format("called {}, for which {} is the default: {}", who, numberText(*value), one.text)
                 : fmt::format("called {}: {}", who, one.text);
+    if (!found.empty()) noteCaller(who);
     add(std::move(found), out);
     if (value) callAtBounds(argument, *field, *value, now, entry, out);
   }
@@ -563,6 +580,9 @@ private:
   const Limits limits_ = limitsOfRun(from_.session.limits());
   verify::Stand stand_;
   FanucText text_;
+  // For a picture: what ran last, and the caller of the first difference.
+  std::optional<verify::Entry> ran_;
+  std::optional<std::pair<std::string, verify::Entry>> differing_;
   std::set<char> atBounds_; // letters of arguments whose defaults were looked at where checks turn
 };
 

@@ -457,13 +457,16 @@ VerifySides ProgramRunner::sides() const {
   return {controlText(*sourceControl_), controlText(*targetControl_), ""};
 }
 
-std::optional<sim::Picture> ProgramRunner::picture(const verify::Case& drawn) {
+std::optional<CasePictures> ProgramRunner::pictures(const verify::Case& drawn) {
   const std::unique_ptr<Played> played = play(drawn, false);
   const sim::Probe probe = probeFor(plan_, drawn);
   sim::World world(*played->part, probe);
   const Side source{&*sourceControl_, sourceSet_, &sourceCode_, sourceStand_.get()};
   const verify::Record record = runSide(source, drawn, world, verify::Stand::Way::KeepMoves);
-  return pictureOf(record, *played->part, probe, !plan_.part && record.measures.empty());
+  const Side target{&*targetControl_, targetSet_, &translation_.code(), targetStand_.get()};
+  ShownRun shown;
+  shown.record = runSide(target, drawn, world, verify::Stand::Way::KeepMoves);
+  return picturesOf(record, shown, *played->part, probe, !plan_.part && record.measures.empty());
 }
 
 } // namespace dotek::targets

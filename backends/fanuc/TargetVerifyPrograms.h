@@ -39,7 +39,7 @@ public:
   verify::Case edge(std::uint64_t index) override;
   CaseResult run(const verify::Case& drawn) override;
   VerifySides sides() const override;
-  std::optional<sim::Picture> picture(const verify::Case& drawn) override;
+  std::optional<CasePictures> pictures(const verify::Case& drawn) override;
 
 private:
   // One side: what runs, on which control.

@@ -9,6 +9,7 @@
 #include "support/messages/Verify.h"
 #include "targets/ReadBack.h"
 #include "targets/Stage.h"
+#include "verify/Callers.h"
 
 #include <algorithm>
 #include <cmath>
@@ -289,18 +290,49 @@ private:
       for (const ir::Program& program : macros_->programs)
         programs.push_back(&program);
     const sim::Bytecode code = sim::compile(programs, control_, sources_);
+    const verify::Record record = runCode(code, now, now.entry);
+    if (record.overLimit) {
+      out.stopped = record.text;
+      return;
+    }
+    const auto show = [&](const verify::Entry& entry, std::string who) {
+      if (now.shown != nullptr)
+        *now.shown = {runCode(code, now, entry, verify::Stand::Way::KeepMoves), std::move(who)};
+    };
+    show(now.entry, "");
+    const verify::CompareRules rules = rulesFor(now);
+    add(verify::compare(*now.source, record, rules), id, out);
+    if (now.questions == nullptr || now.posted == nullptr || !out.differences.empty()) return;
+    // With another work system or tool length in force than the source selects.
+    for (const verify::OtherCaller& other :
+         verify::otherCallers(*now.posted, control_, now.entry, now.stream)) {
+      const SourceQuestions::Ran meant = now.questions->from(other.entry);
+      if (meant.answer != SourceQuestions::Answer::Runs ||
+          !verify::runsAlike(*now.source, meant.record, rules))
+        continue;
+      std::vector<verify::Difference> differences =
+          verify::compare(meant.record, runCode(code, now, other.entry), rules);
+      if (differences.empty()) continue;
+      for (verify::Difference& one : differences)
+        one.text = fmt::format("printed {}: {}", other.who, one.text);
+      show(other.entry, "printed " + other.who);
+      add(std::move(differences), id, out);
+      return;
+    }
+  }
+
+  verify::Record runCode(const sim::Bytecode& code, const TargetCase& now, const verify::Entry& entry,
+                         verify::Stand::Way way = verify::Stand::Way::Run) const {
     std::optional<sim::VendorMacros> meaning;
     if (set_ != nullptr) {
       meaning.emplace(*set_, control_);
       meaning->setStylusRadius(now.drawn.hosts.at("tool_radius"));
       if (sourceSet_ == set_) meaning->passUnstated();
     }
-    const verify::Record record =
-        stand_.run(code, now.world, now.entry, now.stores, meaning ? &*meaning : nullptr);
-    if (record.overLimit) {
-      out.stopped = record.text;
-      return;
-    }
+    return stand_.run(code, now.world, entry, now.stores, meaning ? &*meaning : nullptr, way);
+  }
+
+  verify::CompareRules rulesFor(const TargetCase& now) const {
     verify::CompareRules rules;
     rules.tolerance = rules.results = from_.options.tolerance;
     if (control_.arithmetic == stdlib::Arithmetic::Decimal8)
@@ -309,7 +341,12 @@ private:
     if (const auto host = now.drawn.hosts.find("overtravel");
         sourceSet_ != set_ && host != now.drawn.hosts.end())
       rules.overtravel = host->second;
-    for (verify::Difference& difference : verify::compare(*now.source, record, rules)) {
+    return rules;
+  }
+
+  // `id`: of the fragment's text.
+  void add(std::vector<verify::Difference> found, FileId id, TargetRun& out) const {
+    for (verify::Difference& difference : found) {
       std::string line;
       if (difference.target.hasPlace() && difference.target.file == id)
         line = sources_.file(id).line(sources_.line(difference.target));

@@ -107,6 +107,10 @@ public:
       return Ran{std::move(ran), height};
     };
     const verify::Record ran = runs({}).record;
+    if (now.shown != nullptr) {
+      now.shown->record = stand.run(code, now.world, entry, {}, nullptr, verify::Stand::Way::KeepMoves, {});
+      takeEnding(*now.shown->record, *control_);
+    }
     const bool byOperator = from_.options.datum == "operator";
     const MikroprogFacts facts{*control_,
                                now.entry.zeros[now.entry.system - 54],
