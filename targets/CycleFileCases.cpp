@@ -123,10 +123,14 @@ std::vector<verify::DrawField> CycleFileRunner::fields() const {
   return fields_;
 }
 
+bool CycleFileRunner::isField(const std::string& name) const {
+  return std::any_of(plan_.fields.begin(), plan_.fields.end(),
+                     [&](const verify::DrawField& one) { return one.name == name; });
+}
+
 bool CycleFileRunner::knowsValues() {
   for (const auto& [name, text] : options_.values) {
-    const bool field = std::any_of(plan_.fields.begin(), plan_.fields.end(),
-                                   [&](const verify::DrawField& one) { return one.name == name; });
+    const bool field = isField(name);
     if (!parseNumber(text))
       session_.diagnostics().report<diag::NotANumber>({}, "--value", name, text);
     else if (!field && !stdlib::isHostInput(name))
@@ -245,8 +249,7 @@ verify::Case CycleFileRunner::replayed(verify::Case drawn) const {
   for (const verify::DrawField& field : plan_.fields)
     if (field.fixed) drawn.values[field.name] = *field.fixed;
   for (const auto& [name, text] : options_.values) {
-    const bool field = std::any_of(plan_.fields.begin(), plan_.fields.end(),
-                                   [&](const verify::DrawField& one) { return one.name == name; });
+    const bool field = isField(name);
     (field ? drawn.values : drawn.hosts)[name] = parseNumber(text).value_or(0);
   }
   return drawn;

@@ -53,6 +53,7 @@ private:
   sim::MachineLimits limits() const;
   void leaveOut(verify::Case& drawn) const;
   void settle(verify::Case& drawn) const;
+  bool isField(const std::string& name) const;
   bool knowsValues();
   verify::Case replayed(verify::Case drawn) const;
   TargetRun runTarget(const Played& played, ShownRun* shown = nullptr);

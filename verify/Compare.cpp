@@ -1,7 +1,7 @@
 #include "verify/Compare.h"
 
-#include "sim/machine/Value.h"
 #include "support/Decimal.h"
+#include "verify/CompareLeft.h"
 #include "verify/JoinedCalls.h"
 #include "verify/PathPieces.h"
 
@@ -62,16 +62,13 @@ public:
     measures();
     faults();
     early();
-    zeros();
-    otherZeros();
-    tools();
-    stores();
+    takeAll(compareValues(source_, target_, rules_));
     if (!stopsInMacros() && !near(source_.end, target_.end, rules_.tolerance))
       add(Aspect::End, fmt::format("it ends at {} against {}", textOf(source_.end), textOf(target_.end)),
           source_.endedAt, target_.endedAt);
     if (source_.ending == Ending::Finished && !rules_.atMeasures) {
       state(source_.after, target_.after, " at the end", source_.endedAt, target_.endedAt);
-      modes();
+      takeAll(compareModes(source_, target_, rules_));
     }
     if (rules_.sameProgram && source_.printed != target_.printed)
       add(Aspect::Printed, fmt::format("`{}` against `{}`", source_.printed, target_.printed), {}, {});
@@ -85,6 +82,11 @@ private:
     const bool there =
         std::any_of(out_.begin(), out_.end(), [&](const Difference& one) { return one.aspect == aspect; });
     if (!there) out_.push_back({aspect, std::move(text), source, target});
+  }
+
+  void takeAll(std::vector<Difference> found) {
+    for (Difference& one : found)
+      add(one.aspect, std::move(one.text), one.source, one.target);
   }
 
   // Where other macros stop with their alarm is their own business; but after a measurement that is out of
@@ -480,121 +482,6 @@ private:
   // What follows the last measure made it.
   SourceRange lastMeasure(const Record& record) const {
     return record.measures.empty() ? SourceRange{} : record.measures.back().range;
-  }
-
-  void zeros() {
-    for (const auto& [key, value] : source_.zeros) {
-      const auto other = target_.zeros.find(key);
-      const double equal = std::max(rules_.results, rules_.relative * std::abs(value));
-      if (other != target_.zeros.end() && std::abs(other->second - value) <= equal) continue;
-      const std::string found = other == target_.zeros.end() ? "nothing" : fixedText(other->second, kShown);
-      const bool shift = key.first == 52 || key.first == 92;
-      add(Aspect::Offset,
-          fmt::format("{} {} along {} {} {}{} against {}", shift ? "what" : "the zero of",
-                      systemName(key.first), "XYZ"[key.second],
-                      shift ? "has shifted all work systems by is" : "lies at", fixedText(value, kShown),
-                      shift ? "" : " of the machine", found),
-          lastMeasure(source_), lastMeasure(target_));
-      return;
-    }
-  }
-
-  static constexpr std::uint32_t kExtended = 5410; // and n: G54.1 Pn
-
-  static std::string systemName(std::uint32_t system) {
-    return system > kExtended ? fmt::format("G54.1 P{}", system - kExtended) : fmt::format("G{}", system);
-  }
-
-  // Of additional systems only those are there that were changed.
-  void otherZeros() {
-    for (const auto& [key, value] : target_.zeros) {
-      if (key.first <= kExtended || source_.zeros.contains(key)) continue;
-      add(Aspect::Offset,
-          fmt::format("nothing against the zero of {} along {}, which is moved to {}", systemName(key.first),
-                      "XYZ"[key.second], fixedText(value, kShown)),
-          lastMeasure(source_), lastMeasure(target_));
-      return;
-    }
-  }
-
-  void tools() {
-    if (rules_.atMeasures) return;
-    using Entry = sim::Machine::ToolOffset;
-    const auto same = [&](double one, double other) {
-      return std::abs(one - other) <= std::max(rules_.results, rules_.relative * std::abs(one));
-    };
-    const auto entry = [](const Record& record, std::uint32_t number) {
-      const auto at = record.tools.find(number);
-      return at == record.tools.end() ? std::optional<Entry>() : at->second;
-    };
-    const auto tell = [&](const std::optional<Entry>& tool) {
-      if (!tool) return std::string("is not written");
-      if (!rules_.toolParts) return "is " + fixedText(tool->geometry + tool->wear, kShown);
-      return fmt::format("is {} with a wear of {}", fixedText(tool->geometry, kShown),
-                         fixedText(tool->wear, kShown));
-    };
-    const auto differs = [&](const std::optional<Entry>& a, const std::optional<Entry>& b) {
-      if (!a || !b) return true;
-      return !(rules_.toolParts ? same(a->wear, b->wear) && same(a->geometry, b->geometry)
-                                : same(a->wear + a->geometry, b->wear + b->geometry));
-    };
-    std::set<std::uint32_t> numbers;
-    for (const Record* record : {&source_, &target_})
-      for (const auto& [number, changed] : record->tools)
-        numbers.insert(number);
-    for (const std::uint32_t number : numbers) {
-      const std::optional<Entry> one = entry(source_, number), other = entry(target_, number);
-      if (!differs(one, other)) continue;
-      add(Aspect::Tool, fmt::format("tool offset {} {} against {}", number, tell(one), tell(other)),
-          lastMeasure(source_), lastMeasure(target_));
-      return;
-    }
-  }
-
-  void stores() {
-    const auto shown = [](const std::map<std::uint32_t, double>& stores, std::uint32_t number) {
-      const auto found = stores.find(number);
-      if (found == stores.end()) return std::string("was not written");
-      if (sim::isUnknown(found->second)) return std::string("is not known");
-      return sim::isNull(found->second) ? std::string("null") : numberText(found->second);
-    };
-    for (const auto& [number, value] : source_.stores) {
-      const auto other = target_.stores.find(number);
-      if (other != target_.stores.end()) {
-        const bool null = sim::isNull(value), otherNull = sim::isNull(other->second);
-        const bool unknown = sim::isUnknown(value) || sim::isUnknown(other->second);
-        if (unknown ? sim::isUnknown(value) && sim::isUnknown(other->second)
-                    : null == otherNull &&
-                          (null || std::abs(value - other->second) <=
-                                       std::max(rules_.results, rules_.relative * std::abs(value))))
-          continue;
-      }
-      add(Aspect::Variable,
-          fmt::format("#{} {} against {}", number, shown(source_.stores, number),
-                      shown(target_.stores, number)),
-          lastMeasure(source_), lastMeasure(target_));
-      return;
-    }
-    if (!rules_.sameProgram) return;
-    for (const auto& [number, value] : target_.stores) {
-      if (source_.stores.contains(number)) continue;
-      add(Aspect::Variable,
-          fmt::format("#{} {} against {}", number, shown(source_.stores, number),
-                      shown(target_.stores, number)),
-          lastMeasure(source_), lastMeasure(target_));
-      return;
-    }
-  }
-
-  void modes() {
-    for (std::size_t group = 1; group < source_.modalAfter.size(); ++group) {
-      const std::uint32_t one = source_.modalAfter[group], other = target_.modalAfter[group];
-      if (one == other || (rules_.mayRestoreModes && other == target_.modalBefore[group])) continue;
-      add(Aspect::Modal,
-          fmt::format("G{} of group {} against G{}", numberText(one / 10.0), group, numberText(other / 10.0)),
-          {}, {});
-      return;
-    }
   }
 
   const Record& source_;

@@ -56,7 +56,7 @@ struct CompareRules {
 };
 
 // The first difference of each aspect, in the order of the aspects. Of a different ending only what the two
-// did differently before it is told, and that they end so, or that alone.
+// did differently before it, and that they end so, or that alone.
 std::vector<Difference> compare(const Record& source, const Record& target, const CompareRules& rules);
 
 // How it ended, for people: "it ends", "alarm 3093 (PROBE FAIL)".

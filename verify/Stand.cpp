@@ -60,7 +60,7 @@ bool Stand::prepare(sim::Machine& machine, const Entry& entry, double ballRadius
   std::string text = fmt::format("G21G17G40G49G80G90G94G{}\nG0X{:.6f}Y{:.6f}\nG43H{}Z{:.6f}\n", entry.system,
                                  entry.start.x, entry.start.y, own, entry.start.z);
   if (entry.otherOffset) {
-    // The same place, as it is told with that length.
+    // The same place, as it counts with that length.
     const std::uint32_t other = *entry.otherOffset;
     const double z = entry.start.z + length - (other == 0 ? 0 : machine.toolLengthOf(other));
     text += other == 0 ? fmt::format("G49Z{:.6f}\n", z) : fmt::format("G43H{}Z{:.6f}\n", other, z);

@@ -1,0 +1,20 @@
+// What two runs leave, compared; private to Compare.cpp.
+#pragma once
+
+#include "verify/Compare.h"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace dotek::verify {
+
+// "G54", "G54.1 P3" of a key of Record::zeros.
+std::string systemName(std::uint32_t system);
+
+// Work offsets, tool offsets and variables: the first difference of each.
+std::vector<Difference> compareValues(const Record& source, const Record& target, const CompareRules& rules);
+// The modal groups in force at the end.
+std::vector<Difference> compareModes(const Record& source, const Record& target, const CompareRules& rules);
+
+} // namespace dotek::verify
