@@ -365,7 +365,7 @@ TEST_CASE("convert refuses a program whose jump leads nowhere") {
   const CommandResult result = runDotek({"convert", "O9162", "--to", "fanuc"}, folder.path);
   CHECK(result.status == 1);
   CHECK(result.out.empty());
-  CHECK(result.err.find("O9162:3:16: error: ") != std::string::npos);
+  CHECK(result.err.find("O9162:3:15: error: ") != std::string::npos);
   CHECK(result.err.find("[goto-target-missing]") != std::string::npos);
   CHECK(result.err.find("[not-structured]") == std::string::npos);
 }

@@ -240,8 +240,10 @@ TEST_CASE("measuring blocks of Inspection Plus") {
         "error: The travel is not longer than the radius of the ball");
   CHECK(measuringBlock({example("surface-y"), post, "surfaceY", {}}, {{"Y", 7}, {"J", 57}, {"G", 54}}) ==
         "G65 P9811 Y57. Q10. S1.");
+  // The travel of this one goes beyond the face by its own default values: the blocks set the offset
+  // themselves.
   CHECK(measuringBlock({example("surface-z"), post, "surfaceZ", {}},
-                       {{"W", -1}, {"D", -4}, {"K", -5}, {"G", 54}}) == "G65 P9811 Z-5. Q10. S1.");
+                       {{"W", -1}, {"D", -4}, {"K", -5}, {"G", 54}}) == "G65 P9811 Z-5. Q10.");
   CHECK(measuringBlock({example("bore"), post, "bore", {}}, {{"D", 40}, {"I", 100}, {"J", 50}, {"G", 54}}) ==
         "G65 P9814 D40. Q10. S1.");
   CHECK(measuringBlock({example("bore"), post, "bore", {}}, {{"D", 40}, {"I", 100}, {"J", 51}, {"G", 54}})

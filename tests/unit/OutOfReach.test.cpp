@@ -252,7 +252,7 @@ TEST_CASE("a copied block goes where its codes mean the same, and beside other m
     const auto fusion = one.convert("fusion", block, set);
     CHECK(fusion.output.find("\"" + std::string(block) + "\"") != std::string::npos);
     // Where the axes are after a tool change is in no table: the control is asked.
-    CHECK((fusion.output.find("#504") != std::string::npos) == (std::string_view(block) == "M6"));
+    CHECK((fusion.output.find("X[#504") != std::string::npos) == (std::string_view(block) == "M6"));
     const auto fanuc = one.convert("fanuc", block, other);
     CHECK(fanuc.output.find(std::string("\n") + block + "\n") != std::string::npos);
   }
