@@ -28,7 +28,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::uint64_t kCases = 300; // every tenth as an edge case: each bound is met, as by default
+constexpr std::uint64_t kCases = 300;   // every tenth as an edge case: each bound is met, as by default
 constexpr std::uint64_t kFewCases = 12; // that show that a translation agrees
 constexpr std::array<const char*, 3> kSets = {"inspection-plus", "dotek", "easyprobe"};
 
