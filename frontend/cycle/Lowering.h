@@ -170,7 +170,7 @@ private:
   std::map<ir::VariableId, ir::AxisPosition> began_; // where the called cycles began
   std::map<ir::VariableId, char> letters_;
   Results results_;
-  Results known_; // those that have a value on each path to the statement
+  Results known_;                   // those that have a value on each path to the statement
   std::set<ir::VariableId> guards_; // of places_: from there a touch in z is to lead downward
   std::map<ir::VariableId, ir::ExpressionPtr>
       lasting_; // locals that are assigned once, of what the caller gives

@@ -116,7 +116,12 @@ void Lifter::enter(ir::LabelId label) {
 bool Lifter::statement() {
   const Statement& statement = *block_.statement;
   LiftFlow& flow = context_.flow;
-  const auto number = [&] { return flow.targets.at(statement.number); };
+  // Who takes the blocks has refused a jump to a number that none of them has.
+  const auto target = flow.targets.find(statement.number);
+  if ((statement.kind == Statement::Kind::GoTo || statement.kind == Statement::Kind::If) &&
+      target == flow.targets.end())
+    return false;
+  const auto number = [&] { return target->second; };
   ir::ConditionPtr condition;
   if (statement.condition) {
     condition = this->condition(*statement.condition);
