@@ -79,14 +79,12 @@ public:
 
 private:
   void add(Aspect aspect, std::string text, SourceRange source, SourceRange target) {
-    const bool there =
-        std::any_of(out_.begin(), out_.end(), [&](const Difference& one) { return one.aspect == aspect; });
-    if (!there) out_.push_back({aspect, std::move(text), source, target});
+    addFirst(out_, {aspect, std::move(text), source, target});
   }
 
   void takeAll(std::vector<Difference> found) {
     for (Difference& one : found)
-      add(one.aspect, std::move(one.text), one.source, one.target);
+      addFirst(out_, std::move(one));
   }
 
   // Where other macros stop with their alarm is their own business; but after a measurement that is out of

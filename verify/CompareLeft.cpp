@@ -36,9 +36,7 @@ public:
 
 private:
   void add(Aspect aspect, std::string text, SourceRange source, SourceRange target) {
-    const bool there =
-        std::any_of(out_.begin(), out_.end(), [&](const Difference& one) { return one.aspect == aspect; });
-    if (!there) out_.push_back({aspect, std::move(text), source, target});
+    addFirst(out_, {aspect, std::move(text), source, target});
   }
 
   // What follows the last measure made it.
@@ -162,6 +160,12 @@ private:
 };
 
 } // namespace
+
+void addFirst(std::vector<Difference>& list, Difference one) {
+  const bool there = std::any_of(list.begin(), list.end(),
+                                 [&](const Difference& other) { return other.aspect == one.aspect; });
+  if (!there) list.push_back(std::move(one));
+}
 
 std::string systemName(std::uint32_t system) {
   return system > kExtended ? fmt::format("G54.1 P{}", system - kExtended) : fmt::format("G{}", system);
