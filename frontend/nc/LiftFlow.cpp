@@ -116,11 +116,10 @@ void Lifter::enter(ir::LabelId label) {
 bool Lifter::statement() {
   const Statement& statement = *block_.statement;
   LiftFlow& flow = context_.flow;
-  // Who takes the blocks has refused a jump to a number that none of them has.
   const auto target = flow.targets.find(statement.number);
-  if ((statement.kind == Statement::Kind::GoTo || statement.kind == Statement::Kind::If) &&
-      target == flow.targets.end())
-    return false;
+  const bool jumps = statement.kind == Statement::Kind::GoTo || statement.kind == Statement::Kind::If;
+  if (jumps && target == flow.targets.end())
+    return refuse<diag::JumpOutOfBranch>(statement.range, statement.number, "no block");
   const auto number = [&] { return target->second; };
   ir::ConditionPtr condition;
   if (statement.condition) {
