@@ -175,32 +175,27 @@ private:
       Do loop;
       loop.condition = bracket().condition;
       if (!loop.condition || takeWord(WordKind::Do).empty()) return false;
-      loop.loop = loopNumber();
-      loop.range = range(begin);
-      const bool good = loop.loop.has_value();
-      block.body = std::move(loop);
-      return good;
+      return numbered(std::move(loop), begin, block);
     }
     case WordKind::Do: {
       takeWord(WordKind::Do);
-      Do loop;
-      loop.loop = loopNumber();
-      loop.range = range(begin);
-      const bool good = loop.loop.has_value();
-      block.body = std::move(loop);
-      return good;
+      return numbered(Do(), begin, block);
     }
     case WordKind::End: {
       takeWord(WordKind::End);
-      End end;
-      end.loop = loopNumber();
-      end.range = range(begin);
-      const bool good = end.loop.has_value();
-      block.body = std::move(end);
-      return good;
+      return numbered(End(), begin, block);
     }
     default: return false;
     }
+  }
+
+  // A DO or an END: its number is what is left.
+  template <class Loop> bool numbered(Loop loop, std::size_t begin, Block& block) {
+    loop.loop = loopNumber();
+    loop.range = range(begin);
+    const bool good = loop.loop.has_value();
+    block.body = std::move(loop);
+    return good;
   }
 
   // A letter and something of a number after it.
@@ -427,23 +422,15 @@ private:
     return word.empty() ? takeWord(second) : word;
   }
 
-  Value sum() {
-    Value out = product();
+  Value sum() { return chain(&Scanner::product, "+-", WordKind::Or, WordKind::Xor); }
+  Value product() { return chain(&Scanner::factor, "*/", WordKind::And, WordKind::Mod); }
+  // Operands with operators of one rank between them, from the left.
+  Value chain(Value (Scanner::*operand)(), std::string_view signs, WordKind first, WordKind second) {
+    Value out = (this->*operand)();
     while (out) {
-      const std::string_view op = takeOperator("+-", WordKind::Or, WordKind::Xor);
+      const std::string_view op = takeOperator(signs, first, second);
       if (op.empty()) break;
-      Value right = product();
-      out = joined(std::move(out), op, std::move(right));
-    }
-    return out;
-  }
-
-  Value product() {
-    Value out = factor();
-    while (out) {
-      const std::string_view op = takeOperator("*/", WordKind::And, WordKind::Mod);
-      if (op.empty()) break;
-      Value right = factor();
+      Value right = (this->*operand)();
       out = joined(std::move(out), op, std::move(right));
     }
     return out;
