@@ -159,7 +159,6 @@ std::vector<OtherCaller> otherCallers(const ir::Program& posted, const Control& 
     other.entry = entry;
     other.entry.otherOffset = number;
     other.who = std::move(who);
-    other.ofToolLength = true;
   };
   if (control.find(Function::ToolLengthOff) != nullptr) underOffset(0, "under G49");
   const std::uint32_t number = entry.toolOffset == 1 ? 2 : 1;

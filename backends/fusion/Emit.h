@@ -15,6 +15,10 @@
 
 namespace dotek::backends::fusion {
 
+// In the error of a fragment whose macro sets the right offset only where start and travel lead to the
+// nominal.
+inline constexpr std::string_view kMissedNominal = "the start and the travel do not lead to the nominal in ";
+
 // A value that a field may have, and what the dialog says of it.
 struct Choice {
   double value = 0;

@@ -392,9 +392,7 @@ bool MacroBlocks::requireNominal(const ir::Measure& measure, const ir::Origin& o
     }
     guardArithmetic(state_, away, origin);
     state_.errorIf("Math.abs(" + valueText(state_, away, origin.range()) + ") > " + std::string(kHalfDigit),
-                   "the start and the travel do not lead to the nominal in " + letter +
-                       "; the macro would set another offset",
-                   origin);
+                   std::string(kMissedNominal) + letter + "; the macro would set another offset", origin);
   }
   return true;
 }

@@ -36,10 +36,10 @@ public:
                limits_),
         runner_({source.session.options().scriptProgram, source.session.limits()}) {}
 
-  // Macros that correct an offset by measured less expected take no other nominal.
+  // Macros that correct an offset by measured less expected take no other nominal, and the fragment says so.
   bool needsNominal() const override {
     return set_ != sourceSet_ &&
-           from_.plan.translation->text.find("do not lead to the nominal") != std::string::npos;
+           from_.plan.translation->text.find(fusion::kMissedNominal) != std::string::npos;
   }
 
   bool prepare() override {
