@@ -1,4 +1,5 @@
 #include "support/LineChunks.h"
+#include "support/Tape.h"
 #include "support/messages/Common.h"
 
 #include <algorithm>
@@ -11,16 +12,19 @@
 namespace dotek {
 namespace {
 
-bool isAroundText(char c) {
-  return c == '\0' || c == '\x1A' || c == ' ' || c == '\t' || c == '\r' || c == '\n';
+// [begin, end) without what a tape leaves after a text.
+const char* textEnd(const char* begin, const char* end) {
+  while (end > begin && kAfterTape.find(end[-1]) != std::string_view::npos)
+    --end;
+  return end;
 }
 
-void blank(char& c) {
-  if (c == '\0' || c == '\x1A') c = ' ';
+bool isNoText(char c) {
+  return c == '\0' || c == '\x1A';
 }
 
 // After the last whole line of [begin, end); `begin` where there is none. A lone CR ends a line too.
-const char* behindLastLine(const char* begin, const char* end) {
+const char* afterLastLine(const char* begin, const char* end) {
   const std::string_view text(begin, static_cast<std::size_t>(end - begin));
   std::size_t at = text.rfind('\n');
   if (at == std::string_view::npos) {
@@ -92,22 +96,30 @@ LineChunks::State LineChunks::next() {
     left += n;
   }
   filled_ = left;
-  if (first_)
-    for (char* at = base; at < base + left && isAroundText(*at); ++at)
-      blank(*at);
-  if (ended_)
-    for (char* at = base + left; at > base && isAroundText(at[-1]); --at)
-      blank(at[-1]);
-  first_ = false;
+  char* const end = base + left;
+  if (leader_) {
+    char* at = base;
+    for (; at < end && kBeforeTape.find(*at) != std::string_view::npos; ++at)
+      if (*at == '\0') *at = ' ';
+    leader_ = at == end;
+  }
+  const char* known = end; // whether what follows is after the text is not known yet
+  if (end > base && kAfterTape.find(end[-1]) != std::string_view::npos) {
+    char* const after = base + (textEnd(base, end) - base);
+    if (ended_)
+      std::replace_if(after, end, isNoText, ' ');
+    else
+      known = std::find_if(after, end, isNoText);
+  }
   begin_ = base;
-  end_ = base + left;
+  end_ = end;
   if (!error_.empty()) return State::Failed;
   if (left == 0) return State::End;
   if (ended_) {
     std::memset(base + left, '\n', kPadding);
     return State::Chunk;
   }
-  const char* const whole = behindLastLine(base, base + left);
+  const char* const whole = afterLastLine(base, known);
   if (whole == base) {
     std::memset(base + left, '\n', kPadding);
     return State::TooLong;
@@ -121,7 +133,7 @@ bool LineChunks::rewind() {
   textAt_ = 0;
   filled_ = 0;
   ended_ = false;
-  first_ = true;
+  leader_ = true;
   error_.clear();
   begin_ = end_ = buffer_.get();
   return true;

@@ -30,7 +30,7 @@ public:
   enum class State : std::uint8_t {
     Chunk,   // [begin, end) holds whole lines; only the last line of the text may lack its end
     End,     // nothing is left
-    TooLong, // the next line is longer than the buffer: [begin, end) is its beginning
+    TooLong, // the next line, or what may follow the text, is longer than the buffer: [begin, end) begins it
     Failed,  // reading failed: error()
   };
   // The chunk before is no longer good. Feed holes before and after the text, and the Ctrl-Z of a DOS file,
@@ -55,7 +55,7 @@ private:
   const char* end_ = nullptr;
   std::size_t filled_ = 0; // bytes in the buffer
   bool ended_ = false;     // the source is empty
-  bool first_ = true;      // nothing has been read
+  bool leader_ = true;     // no byte of the text has been read
   std::string error_;
 };
 

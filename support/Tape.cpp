@@ -7,8 +7,6 @@
 namespace dotek {
 namespace {
 
-constexpr std::string_view kAroundTape("\0\x1A\r\n \t", 6);
-
 // Every second byte is 0 at the beginning: UTF-16 without its mark.
 bool isWide(std::string_view bytes) {
   const std::string_view head = bytes.substr(0, 64);
@@ -44,10 +42,10 @@ std::size_t afterProgram(std::string_view bytes, std::size_t from) {
 void blankTape(std::string& bytes) {
   const std::string_view view = bytes;
   if (view.find_first_of(std::string_view("\0\x1A", 2)) == std::string_view::npos || isWide(view)) return;
-  const std::size_t first = view.find_first_not_of(std::string_view("\0\r\n \t", 5));
+  const std::size_t first = view.find_first_not_of(kBeforeTape);
   if (first == std::string_view::npos) return; // nothing but feed holes
   if (!isProgram(view.substr(first))) return;
-  const std::size_t last = std::min(view.find_last_not_of(kAroundTape) + 1, afterProgram(view, first));
+  const std::size_t last = std::min(view.find_last_not_of(kAfterTape) + 1, afterProgram(view, first));
   const auto blank = [&](std::size_t begin, std::size_t end, bool controlZ) {
     for (std::size_t i = begin; i < end; ++i)
       if (bytes[i] == '\0' || (controlZ && bytes[i] == '\x1A')) bytes[i] = ' ';

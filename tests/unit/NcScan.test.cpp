@@ -194,6 +194,24 @@ TEST_CASE("nc scan: a line longer than the buffer ends the reading") {
   CHECK(scan("(" + std::string(200, 'x') + ")\nG1\n", 256).blocks.size() == 1);
 }
 
+TEST_CASE("nc scan: feed holes around a program are read alike wherever a buffer ends") {
+  const std::string holes(30, '\0');
+  const std::string text = holes + "\n" + holes + "O1\nG1 X1\nM30\n" + holes + "\n\x1A" + holes;
+  const std::string damaged = "O1\nG1 X1\n" + holes + "\n" + holes + "Y1\nM30\n";
+  for (std::size_t buffer = 64; buffer < 160; ++buffer) {
+    CAPTURE(buffer);
+    const Read read = scan(text, buffer);
+    if (read.error.fault == ScanFault::LineTooLong) {
+      CHECK(buffer < 96); // the trailer with its line ends
+      continue;
+    }
+    CHECK(read.error.fault == ScanFault::None);
+    CHECK(read.blocks.size() == 3);
+    CHECK(scan(damaged, buffer).error.fault == ScanFault::BadCharacter);
+  }
+  CHECK(scan("\x1AG1 X1\n").error.fault == ScanFault::BadCharacter);
+}
+
 TEST_CASE("nc scan: a number equals strtod of its text") {
   std::mt19937 random(20261121);
   const auto below = [&](unsigned n) { return static_cast<unsigned>(random() % n); };
