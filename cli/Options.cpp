@@ -193,8 +193,9 @@ void addValues(CLI::App& app, Raw& raw) {
 void addTranslation(CLI::App& app, Raw& raw, const std::string& to) {
   app.add_option("--to", raw.to, to)->type_name("TARGET");
   addTarget(app, raw);
-  app.add_option("--from-control", raw.fromControl,
-                 "profile of the control that programs are written for (that of --control)")
+  app.add_option(
+         "--from-control", raw.fromControl,
+         "profile of the control that programs are written for (that of dotek.toml, else of --control)")
       ->type_name("NAME");
   app.add_option("--probe-macros", raw.probeMacros,
                  "probing macros that the translation calls (see `dotek list macros`)")
@@ -234,7 +235,8 @@ void addForce(CLI::App& app, Raw& raw, const char* also) {
 }
 
 void addTarget(CLI::App& app, Raw& raw) {
-  app.add_option("--control", raw.control, "profile of the control (see `dotek list controls`)")
+  app.add_option("--control", raw.control,
+                 "profile of the control (see `dotek list controls`; without it that of dotek.toml)")
       ->type_name("NAME");
 }
 

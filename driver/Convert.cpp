@@ -1,4 +1,5 @@
 #include "driver/Command.h"
+#include "driver/Controls.h"
 #include "driver/ConvertVerify.h"
 #include "frontend/gibbs/Ast.h"
 #include "project/Compilation.h"
@@ -274,9 +275,13 @@ std::string refusedOf(const ConvertOptions& options, const Outcome& outcome) {
 
 } // namespace
 
-Outcome convert(const ConvertOptions& options) {
-  Outcome outcome =
-      guarded(options.common, [&](Session& session) { return ConvertCommand(options, session).run(); });
+Outcome convert(const ConvertOptions& given) {
+  ConvertOptions options = given;
+  Outcome outcome = guarded(options.common, [&](Session& session) {
+    takeControls(options, session);
+    if (session.diagnostics().hasErrors()) return outcomeOf(session, "");
+    return ConvertCommand(options, session).run();
+  });
   if (options.verify && !outcome.files.empty())
     outcome = caught([&] { return verified(options, std::move(outcome)); });
   if (options.keepGoing && !outcome.inputs.empty()) outcome.summary = refusedOf(options, outcome);

@@ -12,9 +12,9 @@
 #include "sim/machine/Compile.h"
 #include "sim/machine/Machine.h"
 #include "sim/machine/Run.h"
+#include "sim/machine/SafeMoves.h"
 #include "sim/mikroprog/Dialect.h"
 #include "sim/run/Advice.h"
-#include "sim/run/SafeMoves.h"
 #include "sim/run/SetupRun.h"
 #include "sim/run/SimMacros.h"
 #include "sim/run/SimReport.h"
@@ -51,8 +51,10 @@ public:
     if (!options_.common.set.empty()) diagnostics().report<diag::OptionOfCycles>({}, "--set");
     if (!options_.common.host.empty()) diagnostics().report<diag::OptionOfCycles>({}, "--host");
     if (diagnostics().hasErrors()) return outcomeOf(session_, "");
-    control_ =
-        loadControl(options_.control.empty() ? std::string(kFirstControl) : options_.control, session_);
+    std::string control = options_.control;
+    if (control.empty()) control = settingsOf(options_.program, session_).control;
+    if (diagnostics().hasErrors()) return outcomeOf(session_, "");
+    control_ = loadControl(control.empty() ? std::string(kFirstControl) : control, session_);
     if (control_) checkProbeCodes(*control_, session_);
     if (diagnostics().hasErrors()) return outcomeOf(session_, "");
     world_ = sim::SimWorld::load(options_, session_);

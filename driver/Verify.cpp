@@ -1,4 +1,5 @@
 #include "support/messages/Verify.h"
+#include "driver/Controls.h"
 #include "driver/Driver.h"
 #include "driver/VerifyCases.h"
 #include "driver/VerifyCycleFile.h"
@@ -192,8 +193,11 @@ private:
 
 } // namespace
 
-Outcome verify(const VerifyOptions& options) {
-  return guarded(options.common, [&](Session& session) {
+Outcome verify(const VerifyOptions& given) {
+  return guarded(given.common, [&](Session& session) {
+    VerifyOptions options = given;
+    takeControls(options, session);
+    if (session.diagnostics().hasErrors()) return outcomeOf(session, "");
     if (options.inputs.size() == 1 && isCycleFile(options.inputs.front(), session))
       return verifyCycleFile(options, session);
     const bool programs = options.inputs.size() == 1 && isProgramFile(options.inputs.front(), session);

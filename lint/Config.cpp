@@ -48,12 +48,6 @@ std::set<std::string> codesOf(const TomlDocument& document, const TomlValue& val
   return out;
 }
 
-// Of one control or one form: a name, and one that is empty takes back what was said before.
-std::optional<std::string> nameIn(const TomlTable& table, std::string_view key) {
-  const TomlValue value = table.value(key);
-  return value ? std::optional(value.text()) : std::nullopt;
-}
-
 FailOn failOnOf(const TomlValue& value) {
   const std::string level = value.choice({"note", "warning", "error", "never"}, "warning");
   return level == "note"    ? FailOn::Note
@@ -66,7 +60,7 @@ FailOn failOnOf(const TomlValue& value) {
 
 std::shared_ptr<Configs::File> Configs::load(const std::string& path, const std::string& folder) {
   auto file = std::make_shared<File>();
-  file->folder = folder;
+  file->settings.folder = folder;
   Config& config = file->base;
   const std::optional<FileId> id = readText(path, Encoding::Utf8, std::nullopt, session_.limits(),
                                             session_.sources(), session_.diagnostics());
@@ -77,10 +71,8 @@ std::shared_ptr<Configs::File> Configs::load(const std::string& path, const std:
   if (const TomlValue select = lint.value("select")) config.select = codesOf(*document, select, true);
   config.ignore = codesOf(*document, lint.value("ignore"), false);
   if (const TomlValue failOn = lint.value("fail-on")) config.failOn = failOnOf(failOn);
-  config.control = lint.value("control").text();
-  const dotek::project::Settings settings = dotek::project::settingsIn(*document);
-  config.form = settings.form;
-  config.probe = settings.probe;
+  file->settings = dotek::project::settingsIn(*document, folder, session_);
+  config.probe = file->settings.base.probe;
   for (const TomlEntry& entry : lint.value("severity").table().entries()) {
     checkCode(*document, entry.key, entry.keyRange);
     const std::string level = entry.value.choice({"off", "note", "warning", "error"}, "warning");
@@ -108,8 +100,6 @@ std::shared_ptr<Configs::File> Configs::load(const std::string& path, const std:
     }
     if (const TomlValue select = table.value("select")) section.select = codesOf(*document, select, true);
     section.ignore = codesOf(*document, table.value("ignore"), false);
-    section.control = nameIn(table, "control");
-    section.form = nameIn(table, "form");
     if (const TomlValue exclude = table.value("exclude")) section.exclude = exclude.flag();
   }
   document->finish();
@@ -142,8 +132,11 @@ const Config* Configs::of(const std::string& path) {
   const bool isFolder = fs::is_directory(whole, error);
   const std::shared_ptr<File> file = inFolder((isFolder ? whole : whole.parent_path()).generic_string());
   Config config = file->base;
-  const std::string below =
-      file->folder.empty() ? "" : whole.lexically_relative(file->folder).generic_string();
+  const std::string& folder = file->settings.folder;
+  const dotek::project::Settings settings = file->settings.of(whole.generic_string());
+  config.control = settings.control;
+  config.form = settings.form;
+  const std::string below = folder.empty() ? "" : whole.lexically_relative(folder).generic_string();
   for (Section& section : file->sections) {
     bool takes = false;
     for (Pattern& pattern : section.patterns) {
@@ -158,8 +151,6 @@ const Config* Configs::of(const std::string& path) {
         config.ignore.erase(code);
     }
     config.ignore.insert(section.ignore.begin(), section.ignore.end());
-    config.control = section.control.value_or(config.control);
-    config.form = section.form.value_or(config.form);
     config.exclude = section.exclude.value_or(config.exclude);
   }
   return &files_.emplace(path, std::move(config)).first->second;
@@ -175,8 +166,8 @@ void Configs::reportUnused(const std::vector<std::string>& paths) {
   }
   std::set<const File*> told;
   for (const auto& [folder, file] : folders_) {
-    if (file->folder.empty() || !told.insert(file.get()).second) continue;
-    const fs::path own(file->folder);
+    if (file->settings.folder.empty() || !told.insert(file.get()).second) continue;
+    const fs::path own(file->settings.folder);
     const bool whole = std::any_of(walked.begin(), walked.end(), [&](const fs::path& one) {
       return std::mismatch(one.begin(), one.end(), own.begin(), own.end()).first == one.end();
     });

@@ -48,13 +48,12 @@ private:
     std::vector<Pattern> patterns;
     std::optional<std::set<std::string>> select;
     std::set<std::string> ignore;
-    std::optional<std::string> control, form;
     std::optional<bool> exclude;
   };
   struct File {
     Config base;
     std::vector<Section> sections;
-    std::string folder; // absolute; "": there is no dotek.toml
+    dotek::project::SettingsFile settings; // of all commands
   };
   std::shared_ptr<File> load(const std::string& path, const std::string& folder);
   std::shared_ptr<File> inFolder(const std::string& folder);

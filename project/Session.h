@@ -47,7 +47,7 @@ public:
   std::optional<stdlib::Form> form(const std::string& name);
 
   // By folder: kept for settingsOf().
-  std::map<std::string, Settings>& settings() { return settings_; }
+  std::map<std::string, SettingsFile>& settings() { return settings_; }
   // Reads a text file in the language's default encoding, once per path: the second time gives the same id.
   // "-" is standard input.
   std::optional<FileId> read(const std::string& path, Encoding fallback);
@@ -78,7 +78,7 @@ private:
   stdlib::ProbeCodes probeCodes_;
   std::optional<std::vector<stdlib::MacroSet>> macroSets_;
   std::map<std::string, std::optional<FileId>> read_;
-  std::map<std::string, Settings> settings_;
+  std::map<std::string, SettingsFile> settings_;
   std::vector<std::string> inputRoots_;
   std::map<std::string, Recognition> kinds_;
   std::map<std::string, std::string> whole_; // recognised and not yet read as a text

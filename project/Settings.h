@@ -3,7 +3,9 @@
 
 #include "stdlib/ProbeCodes.h"
 
+#include <optional>
 #include <string>
+#include <vector>
 
 namespace dotek::stdlib {
 class TomlDocument;
@@ -14,20 +16,42 @@ namespace dotek::project {
 
 class Session;
 
+// What holds for one file.
 struct Settings {
+  std::string control;      // that programs are written for; "": not said
   std::string form;         // of Progs; "": not said
   stdlib::ProbeCodes probe; // `probe_on`, `probe_off`
   bool listing = false;     // NC programs are as a book prints them, as with --from listing
 };
 
+// A dotek.toml: what it says of all files, and its sections [[lint.path]] that change it, the later ones
+// last.
+struct SettingsFile {
+  struct Section {
+    std::vector<std::string> patterns; // of paths below the folder
+    std::optional<std::string> control, form;
+  };
+  Settings base;
+  std::vector<Section> sections;
+  std::string folder; // absolute; "": there is no dotek.toml
+
+  // `path` is absolute, of a file or a folder.
+  Settings of(const std::string& path) const;
+};
+
 // `probe_on` and `probe_off` of a table, with what is wrong with them.
 stdlib::ProbeCodes probeCodesIn(const stdlib::TomlDocument& document, const stdlib::TomlTable& table);
 
-// `form`, also as a key of `[lint]`, `from`, `probe_on` and `probe_off`. What is wrong with them is reported.
-Settings settingsIn(const stdlib::TomlDocument& document);
+// `control` and `form`, also as keys of `[lint]` and `[[lint.path]]`, `from`, `probe_on` and `probe_off`.
+// What is wrong with them is reported, a control that nobody knows too.
+SettingsFile settingsIn(const stdlib::TomlDocument& document, std::string folder, Session& session);
 
 // Of the dotek.toml in the folder of the file or above it. A defect of that file is reported once; lint
 // reports the keys that nobody knows.
-const Settings& settingsOf(const std::string& path, Session& session);
+Settings settingsOf(const std::string& path, Session& session);
+
+// The control that the dotek.toml of the inputs names for all of them; "": none. Two that differ are an error
+// that names both.
+std::string controlOf(const std::vector<std::string>& inputs, Session& session);
 
 } // namespace dotek::project

@@ -3,6 +3,7 @@
 #include "frontend/mikroprog/Check.h"
 #include "frontend/mikroprog/Lower.h"
 #include "frontend/mikroprog/Parse.h"
+#include "project/Settings.h"
 #include "support/messages/Commands.h"
 #include "support/messages/Mikroprog.h"
 
@@ -45,6 +46,8 @@ std::optional<SufProgram> loadSuf(const std::string& path, const std::string& co
   const mikroprog::Program tree = mikroprog::parse(*id, session.sources(), diagnostics);
   if (diagnostics.hasErrors()) return std::nullopt;
   std::string name = control;
+  if (name.empty()) name = settingsOf(path, session).control;
+  if (diagnostics.hasErrors()) return std::nullopt;
   if (name.empty()) name = mikroprog::profileOf(tree).value_or("");
   if (name.empty()) {
     diagnostics.report<diag::ControlNotChosen>({}, path);

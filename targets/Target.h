@@ -41,7 +41,8 @@ struct Target {
   // Reports what else is missing on the command line of convert; nullptr: nothing is.
   void (*checkConvert)(const ConvertOptions& options, Diagnostics& diagnostics) = nullptr;
 
-  bool ownControls = false; // `--control` names none of controls/, which the source is read under
+  bool ownControls = false;   // `--control` names none of controls/, which the source is read under
+  bool controlOfForm = false; // `--control` may only repeat the control of the form
   // Its programs take no values when they run. Each is written with those that the command line, the job's
   // operation and the defaults give, and verify writes one for each case.
   bool fixesValues = false;

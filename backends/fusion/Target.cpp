@@ -137,6 +137,7 @@ DOTEK_TARGET(fusion) = {
     .flags = kFlags,
     .refuseFlag = refuseFlag,
     .checkConvert = checkFusionConvert,
+    .controlOfForm = true,
     .convert = conversionBy<FusionConversion>,
     .verify = fusionVerification,
 };

@@ -1,4 +1,4 @@
-#include "sim/run/SafeMoves.h"
+#include "sim/machine/SafeMoves.h"
 
 #include "ir/Walk.h"
 

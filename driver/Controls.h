@@ -1,0 +1,13 @@
+// Private to driver: the control of a command that names none.
+#pragma once
+
+#include "project/Session.h"
+#include "targets/Options.h"
+
+namespace dotek::driver {
+
+// What dotek.toml says of the inputs: programs are read by the rules of its control, and what is written is
+// for it, unless the target has controls of its own. A flag comes before it.
+void takeControls(targets::TranslationOptions& options, project::Session& session);
+
+} // namespace dotek::driver
