@@ -1,6 +1,7 @@
 // What two runs did differently.
 #pragma once
 
+#include "stdlib/Control.h"
 #include "verify/DrawnPath.h"
 #include "verify/Record.h"
 
@@ -51,6 +52,10 @@ struct CompareRules {
   bool toolParts = false;           // geometry and wear of a tool offset count each, else their sum
   bool sameAlarmNumbers = false;    // both call the same macros: numbers and texts count, not only their kind
   std::optional<double> overtravel; // that the target's calls may state where the source states none, mm
+  // Where the two run on controls that number their modal groups differently: codes in force at the end are
+  // compared by their meaning on each. Both or none.
+  const stdlib::Control* sourceControl = nullptr;
+  const stdlib::Control* targetControl = nullptr;
   bool waits = false; // the target's control knows a code that waits: it uses nothing early that the source
                       // does not
 };

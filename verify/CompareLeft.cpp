@@ -143,9 +143,41 @@ private:
   }
 
   void modes() {
+    if (rules_.sourceControl != rules_.targetControl) {
+      modesByMeaning();
+      return;
+    }
     for (std::size_t group = 1; group < source_.modalAfter.size(); ++group) {
       const std::uint32_t one = source_.modalAfter[group], other = target_.modalAfter[group];
       if (one == other || (rules_.mayRestoreModes && other == target_.modalBefore[group])) continue;
+      add(Aspect::Modal,
+          fmt::format("G{} of group {} against G{}", numberText(one / 10.0), group, numberText(other / 10.0)),
+          {}, {});
+      return;
+    }
+  }
+
+  // The code of the target's control that means what this one of the source's does; nullptr: it has none.
+  const stdlib::CodeInfo* asTarget(std::uint32_t tenths, std::size_t group) const {
+    const stdlib::CodeInfo* const code = rules_.sourceControl->find('G', tenths);
+    // 0 may be G0, or no code of the group.
+    if (code == nullptr || !code->group || static_cast<std::size_t>(*code->group) != group) return nullptr;
+    const stdlib::CodeInfo* const same = rules_.targetControl->find('G', tenths);
+    if (same != nullptr && same->function == code->function) return same;
+    return code->function == stdlib::Function::Other ? nullptr : rules_.targetControl->find(code->function);
+  }
+
+  // Groups that only one of the controls has say nothing.
+  void modesByMeaning() {
+    for (std::size_t group = 1; group < source_.modalAfter.size(); ++group) {
+      const std::uint32_t one = source_.modalAfter[group];
+      const stdlib::CodeInfo* const meant = asTarget(one, group);
+      const std::size_t theirs =
+          meant != nullptr && meant->group ? static_cast<std::size_t>(*meant->group) : 0;
+      if (theirs == 0 || theirs >= target_.modalAfter.size()) continue;
+      const std::uint32_t other = target_.modalAfter[theirs];
+      if (other == meant->tenths || (rules_.mayRestoreModes && other == target_.modalBefore[theirs]))
+        continue;
       add(Aspect::Modal,
           fmt::format("G{} of group {} against G{}", numberText(one / 10.0), group, numberText(other / 10.0)),
           {}, {});

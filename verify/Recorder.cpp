@@ -106,10 +106,27 @@ void Recorder::begin(std::function<SourceRange()> place, bool keepMoves) {
     record_.modalBefore[group] = machine_.modalCode(group);
 }
 
+double Recorder::rehearsedContact(const sim::SkipMove& move) {
+  constexpr double kSameDirection = 0.999;
+  const sim::Point3 from = lowest(move.machineFrom), path = lowest(move.machineTo) - from;
+  const double length = path.length();
+  if (call_.depth > 0 || !(length > kTouchSlack)) return 1;
+  const sim::Point3 direction = path * (1 / length);
+  for (const Touch& known : rehearsed_) {
+    const double along = (known.point - from).dot(direction);
+    if (known.direction.dot(direction) > kSameDirection && along > kTouchSlack && along <= length)
+      return along / length;
+  }
+  rehearsed_.push_back({from + path * *rehearsal_, direction});
+  return *rehearsal_;
+}
+
 std::optional<double> Recorder::contact(const sim::SkipMove& move) {
-  positions_ = move.positions;
+  const SourceRange here = place();
+  positions_ = move.positions ||
+               (call_.depth == 0 && watching_ != nullptr && watching_->contains({here.file, here.begin}));
   aim_ = lowest(move.machineTo);
-  if (rehearsal_) return call_.moves || positions_ ? std::nullopt : std::optional(1.0);
+  if (rehearsal_) return call_.moves || positions_ ? std::nullopt : std::optional(rehearsedContact(move));
   sim::SkipMove longer = move;
   double length = 0;
   for (std::size_t i = 0; i < 3; ++i)

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "sim/machine/Run.h"
+#include "sim/machine/SafeMoves.h"
 #include "sim/machine/World.h"
 #include "stdlib/MacroSet.h"
 #include "verify/Interference.h"
@@ -50,9 +51,12 @@ public:
   void protectedBegins(std::optional<double> feed) override;
   void protectedEnded() override { endOwn(); }
   void assumeProbe(Switch probe) { probe_ = probe; }
-  // Without a part: each measuring move makes its contact at its end, no other one does. So a run shows all
-  // that the program would measure.
-  void rehearse() { rehearsal_ = true; }
+  // Without a part: each measuring move makes its contact, no other one does. So a run shows all that the
+  // program would measure. A bare skip move makes it at this share of its path, or where it comes to the
+  // plane of an earlier one; what calls do makes it at its end.
+  void rehearse(double share) { rehearsal_ = share; }
+  // Blocks of skip moves that are meant to meet nothing, though no vendor's macro makes them. nullptr: none.
+  void watchOnly(const sim::BlockSet* blocks) { watching_ = blocks; }
 
   // Each datum that a call sets moves the active system as well, by as much as the signal came beside the
   // place of its surface, whether the ball gave it or the stem: the path goes on as that of a control which
@@ -73,6 +77,7 @@ private:
   std::array<std::uint32_t, 3> modes(bool call) const;
   WorkFrame frame() const;
   void addPiece(sim::PathKind kind, const sim::Point3& from, const sim::Point3& to, SourceRange range);
+  double rehearsedContact(const sim::SkipMove& move);
   void mark(Mark::Kind kind, std::string_view text = "", double value = 0);
   void movePath(const Measure& measure);
   void noteDatums(Measure& measure) const;
@@ -97,7 +102,9 @@ private:
   const sim::Run* run_ = nullptr;
   std::function<SourceRange()> place_;
   bool keepMoves_ = false;
-  bool rehearsal_ = false;
+  std::optional<double> rehearsal_; // share of the path of a bare skip move
+  std::vector<Touch> rehearsed_;
+  const sim::BlockSet* watching_ = nullptr;
   bool datumsMovePath_ = false;
   Interference interference_;
   bool positions_ = false;         // the skip move that runs is meant to meet nothing

@@ -52,6 +52,7 @@ PartError drawError(const Record& rehearsal, double ballRadius, Random& random) 
     if (!isBare(measure)) continue;
     bare = true;
     most = std::min(most, (measure.end - measure.start).length() / 3);
+    if (measure.aim && (*measure.aim - measure.end).length() > 2 * kMostShift) continue;
     const std::array<double, 3> way = parts(directionOf(measure));
     for (std::size_t axis = 0; axis < 3; ++axis) {
       up[axis] = up[axis] || way[axis] > 1e-9;

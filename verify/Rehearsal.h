@@ -13,7 +13,7 @@ namespace dotek::verify {
 std::vector<Touch> touchesOf(const Record& rehearsal, double ballRadius);
 
 // Where the part is: off by at most 0.3 mm, a third of the ball's radius and of the shortest path of a
-// bare skip move, towards those moves, as they go no beyond the surface. Turned by at most 0.3 degrees
+// bare skip move, towards those moves that do not go on beyond the surface. Turned by at most 0.3 degrees
 // where no bare skip move is made.
 PartError drawError(const Record& rehearsal, double ballRadius, Random& random);
 

@@ -71,6 +71,9 @@ bool Stand::prepare(sim::Machine& machine, const Entry& entry, double ballRadius
   ir::NcWords words;
   while (scanner.next(words) == frontend::nc::Scanner::Result::Block)
     if (!machine.execute(words)) return false;
+  // One of the two ways of a control does: both sides run under it, and a length that one of them lacks, or
+  // puts in force later, moves its path.
+  if (entry.otherOffset) machine.keepPlaceOnToolLength();
   for (const auto& [group, tenths] : entry.modal)
     machine.presetModal(group, tenths);
   for (const auto& [number, value] : entry.variables) {
@@ -99,9 +102,10 @@ Record Stand::run(const sim::Bytecode& code, sim::World& world, const Entry& ent
   run.expectMotion();
   Recorder recorder(machine, world, sets_, length);
   recorder.assumeProbe(entry.probeOn ? Switch::On : Switch::Off);
-  if (way == Way::Rehearse) recorder.rehearse();
+  if (way == Way::Rehearse) recorder.rehearse(entry.contactShare);
   if (way == Way::MovePath) recorder.datumsMovePath();
   recorder.interfere(interference);
+  recorder.watchOnly(&watching_);
   recorder.begin(run, way == Way::KeepMoves);
   machine.setSkipSignal(&recorder);
   machine.setWatcher(&recorder);

@@ -42,6 +42,7 @@ struct Entry {
   std::string blocks;
   std::vector<std::pair<std::uint32_t, std::uint32_t>> modal;
   bool probeOn = false;
+  double contactShare = 1;                                 // of a rehearsal: Recorder::rehearse
   std::uint64_t noiseSeed = 0;                             // of a probe whose signal is noisy
   std::vector<std::pair<std::uint32_t, double>> variables; // set before: locals, commons
 };
@@ -58,6 +59,8 @@ public:
   Record run(const sim::Bytecode& code, sim::World& world, const Entry& entry,
              const std::set<std::uint32_t>& stores, sim::MacroMeaning* meaning, Way way = Way::Run,
              const Interference& interference = {}) const;
+  // Of the code that is to run: Recorder::watchOnly.
+  void watchOnly(sim::BlockSet blocks) { watching_ = std::move(blocks); }
   // Takes the trace of the runs to come (sim/machine/Trace.h), without the state before the program. nullptr:
   // nobody.
   void setTrace(sim::Trace* trace) { trace_ = trace; }
@@ -68,6 +71,7 @@ private:
   std::vector<const stdlib::MacroSet*> sets_;
   const Limits& limits_;
   sim::Trace* trace_ = nullptr;
+  sim::BlockSet watching_;
   const sim::Machine fresh_; // copied for each run
 };
 

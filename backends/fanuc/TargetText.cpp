@@ -48,6 +48,7 @@ void FanucText::compile(const stdlib::Control& control) {
     for (const ir::Program& program : file.programs)
       programs.push_back(&program);
   code_ = sim::compile(programs, control, sources_);
+  safe_ = sim::safeMoves(programs, control);
 }
 
 } // namespace dotek::targets

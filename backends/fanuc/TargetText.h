@@ -4,6 +4,7 @@
 #include "ir/Program.h"
 #include "project/Session.h"
 #include "sim/machine/Bytecode.h"
+#include "sim/machine/SafeMoves.h"
 #include "stdlib/Control.h"
 #include "stdlib/MacroSet.h"
 #include "targets/Subject.h"
@@ -31,6 +32,7 @@ public:
   void compile(const stdlib::Control& control);
 
   const sim::Bytecode& code() const { return code_; }
+  const sim::BlockSet& safeMoves() const { return safe_; } // of compile()
   // Of the translation, from 1; 0: the place lies elsewhere.
   std::uint32_t line(SourceRange range) const {
     return range.file == translation_ ? sources_.line(range) : 0;
@@ -41,6 +43,7 @@ private:
   std::deque<ir::ProgramFile> files_;
   FileId translation_ = 0;
   sim::Bytecode code_;
+  sim::BlockSet safe_;
 };
 
 } // namespace dotek::targets

@@ -157,7 +157,7 @@ bool ProgramRunner::addCaller() {
   return caller_->source.has_value();
 }
 
-bool ProgramRunner::compileSource(const stdlib::Control& control, sim::Bytecode& out) {
+bool ProgramRunner::compileSource(const stdlib::Control& control, sim::Bytecode& out, verify::Stand& stand) {
   std::vector<const ir::Program*> programs;
   if (caller_) programs.push_back(&caller_->source->programs.front());
   for (const ir::Program& program : programs_->programs)
@@ -175,6 +175,7 @@ bool ProgramRunner::compileSource(const stdlib::Control& control, sim::Bytecode&
     for (const ir::Program& program : macros_->programs)
       programs.push_back(&program);
   out = sim::compile(programs, control, session_.sources());
+  stand.watchOnly(sim::safeMoves(programs, control));
   return true;
 }
 
@@ -183,14 +184,14 @@ bool ProgramRunner::prepare() {
     return set == nullptr ? std::vector<const stdlib::MacroSet*>{}
                           : std::vector<const stdlib::MacroSet*>{set};
   };
-  if (!addCaller() || !compileSource(*sourceControl_, sourceCode_)) return false;
   sourceStand_ = std::make_unique<verify::Stand>(*sourceControl_, listOf(sourceSet_), sourceLimits_);
+  if (!addCaller() || !compileSource(*sourceControl_, sourceCode_, *sourceStand_)) return false;
   if (sourceControl_->arithmetic != targetControl_->arithmetic) {
     sourceAsTarget_ = sourceControl_;
     sourceAsTarget_->arithmetic = targetControl_->arithmetic;
-    if (!compileSource(*sourceAsTarget_, sourceAsTargetCode_)) return false;
     sourceAsTargetStand_ =
         std::make_unique<verify::Stand>(*sourceAsTarget_, listOf(sourceSet_), sourceLimits_);
+    if (!compileSource(*sourceAsTarget_, sourceAsTargetCode_, *sourceAsTargetStand_)) return false;
   }
   targetStand_ = std::make_unique<verify::Stand>(*targetControl_, listOf(targetSet_), targetLimits_);
   if (caller_ && !translation_.read("call", caller_->text, *targetControl_, session_)) return false;
@@ -198,6 +199,7 @@ bool ProgramRunner::prepare() {
   if (caller_) translation_.numberFirst(caller_->callee);
   if (targetSet_ != nullptr && !translation_.readMacros(*targetSet_, *targetControl_, session_)) return false;
   translation_.compile(*targetControl_);
+  targetStand_->watchOnly(translation_.safeMoves());
   return true;
 }
 
@@ -224,7 +226,17 @@ verify::Case ProgramRunner::propose(std::uint64_t index, const Tries& tries) con
   }
   for (const auto& [number, value] : fixed_)
     out.values[std::to_string(number)] = value;
-  // A check that compares two variables mostly wants them near each other.
+  const auto host = [&](const std::string& name, double least, double most) {
+    verify::Random random = randomOf(name);
+    out.hosts[name] = toStep(random.between(least, most));
+  };
+  host("tool_radius", 0.5, 3);
+  host("start_x", -100, 100);
+  host("start_y", -100, 100);
+  host("start_z", 10, 100);
+  for (const auto& [name, value] : hosts_)
+    out.hosts[name] = value;
+  // A check that compares two variables mostly wants them near each other, one with a place near the start.
   constexpr std::uint32_t kInVain = 4;
   for (const verify::ProgramVariable& variable : variables_) {
     const std::uint32_t attempt = triesOf(0) + triesOf(variable.number);
@@ -238,17 +250,11 @@ verify::Case ProgramRunner::propose(std::uint64_t index, const Tries& tries) con
       out.values[std::to_string(variable.number)] =
           whole ? std::round(near->second + beside) : toStep(near->second + beside);
     }
+    if (variable.use != verify::VariableUse::Length || !random.chance(0.3)) continue;
+    const char* const axis[] = {"start_x", "start_y", "start_z"};
+    out.values[std::to_string(variable.number)] =
+        toStep(out.hosts[axis[random.below(3)]] + random.between(-30, 30));
   }
-  const auto host = [&](const std::string& name, double least, double most) {
-    verify::Random random = randomOf(name);
-    out.hosts[name] = toStep(random.between(least, most));
-  };
-  host("tool_radius", 0.5, 3);
-  host("start_x", -100, 100);
-  host("start_y", -100, 100);
-  host("start_z", 10, 100);
-  for (const auto& [name, value] : hosts_)
-    out.hosts[name] = value;
   out.system = 54 + static_cast<std::uint32_t>(randomOf("system").below(6));
   if (options_.activeSystem) out.system = *options_.activeSystem;
   if (options_.partError) {
@@ -325,6 +331,9 @@ verify::Record ProgramRunner::runSide(const Side& side, const verify::Case& draw
   verify::Entry entry = entryFor(plan_, drawn, assumesProbe());
   for (const auto& [name, value] : drawn.values)
     entry.variables.emplace_back(static_cast<std::uint32_t>(std::stoul(name)), value);
+  // Most programs of one's own look for a surface beyond the place where it is expected.
+  entry.contactShare =
+      verify::Random(verify::Random::sub(drawn.stream, verify::Random::hash("contact"))).between(0.5, 0.95);
   std::optional<sim::VendorMacros> meaning;
   if (side.set != nullptr) {
     meaning.emplace(*side.set, *side.control);
@@ -397,6 +406,9 @@ verify::CompareRules ProgramRunner::rules() const {
                          sourceSet_ != targetSet_ ? resultTolerance(*sourceControl_, *targetControl_) : 0);
   out.relative = otherArithmetic ? kEightDigits : 0;
   out.sameProgram = true;
+  out.sourceControl = &*sourceControl_;
+  out.targetControl = &*targetControl_;
+  if (sourceControl_->name == targetControl_->name) out.targetControl = out.sourceControl;
   const stdlib::CodeInfo* const wait = targetControl_->find(stdlib::Function::MachineCoordinates);
   out.waits = wait != nullptr && wait->grade != "assumed";
   out.sameAlarmNumbers = sourceSet_ == targetSet_;

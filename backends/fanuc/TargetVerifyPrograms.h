@@ -59,7 +59,7 @@ private:
   struct Played;
 
   bool addCaller();
-  bool compileSource(const stdlib::Control& control, sim::Bytecode& out);
+  bool compileSource(const stdlib::Control& control, sim::Bytecode& out, verify::Stand& stand);
   // How often what was drawn has been rejected: by the number of a variable, and of everything else (0).
   using Tries = std::map<std::uint32_t, std::uint32_t>;
   verify::Case propose(std::uint64_t index, const Tries& tries) const;

@@ -112,6 +112,9 @@ public:
   void setToolLength(std::uint32_t tool, double length);
   // Wear and geometry of its offset, mm; 0 where there is no such offset.
   double toolLengthOf(std::uint32_t tool) const;
+  // From now on a tool length without a Z moves the coordinates and not the machine. Else what moves is not
+  // known, a parameter of the control says it: Z is lost.
+  void keepPlaceOnToolLength() { lengthKeepsPlace_ = true; }
   void putTool(std::uint32_t tool); // into the spindle, before the program begins
   // Before the program begins: what turns and flows, and a code in force (times ten) that changes nothing but
   // what programs read of its group.
@@ -381,6 +384,7 @@ private:
   Rotation rotation_;
   std::uint32_t afterRotation_ = 0; // axes of which the next word has to be absolute, since G69 turned back
   double toolLength_ = 0;           // added to Z
+  bool lengthKeepsPlace_ = false;
   std::uint32_t toolNumber_ = 0;
   std::vector<ToolOffset> tools_;
   std::vector<double> toolRadii_;        // that cycles have set, by number

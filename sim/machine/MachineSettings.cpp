@@ -202,10 +202,13 @@ bool Machine::changeToolLength(const NcWords& w) {
       watcher_->lengthNotSet(static_cast<std::uint32_t>(h));
     length = (modes_[kLength] == 1 ? 1 : -1) * snap(tool.wear + tool.geometry);
   }
+  const bool changed = length != toolLength_ || modes_[kLength] != block_.before[kLength];
   // Whether the machine or its coordinates move by the difference depends on a parameter; the next absolute Z
   // settles it.
-  const bool changed = length != toolLength_ || modes_[kLength] != block_.before[kLength];
-  if (length != toolLength_) lose(1u << 2, modes_[kLength] != 0 ? "G43" : "G49");
+  if (lengthKeepsPlace_)
+    work_[2] = snap(work_[2] + toolLength_ - length);
+  else if (length != toolLength_)
+    lose(1u << 2, modes_[kLength] != 0 ? "G43" : "G49");
   toolLength_ = length;
   lengthInDoubt_ = false;
   if (trace_ != nullptr && changed) {

@@ -72,6 +72,33 @@ TEST_CASE("verify: a post selects its own work system and tool offset") {
   }
 }
 
+TEST_CASE("verify: a tool length that the translation lacks, or puts in force later, is a difference") {
+  const TestFolder folder("dotek-verify-customer");
+  const std::string prog = folder.write("own.txt", postWith(" SeqC ' G43 H7' EOL\n", kTouch));
+  driver::ConvertOptions convert;
+  convert.inputs = cycle(prog, "fanuc").inputs;
+  convert.source.prog = prog;
+  convert.to = "fanuc";
+  const std::string text = driver::convert(convert).output;
+  const std::string block = "G43 H7\n";
+  const std::size_t at = text.find(block);
+  REQUIRE_MESSAGE(at != std::string::npos, text);
+  const std::string without = text.substr(0, at) + text.substr(at + block.size());
+  const std::size_t next = without.find("\nG65", at); // the first protected move, after the probe is on
+  REQUIRE(next != std::string::npos);
+  const std::size_t after = without.find('\n', next + 1) + 1;
+  const std::string later = without.substr(0, after) + block + without.substr(after);
+  const auto judged = [&](const std::string& translation) {
+    driver::VerifyOptions options = cycle(prog, "fanuc");
+    options.translation = folder.write("edited.nc", translation);
+    const driver::Outcome outcome = driver::verify(options);
+    return outcome.output + told(outcome);
+  };
+  CHECK_MESSAGE(judged(text).starts_with("AGREES"), judged(text));
+  CHECK_MESSAGE(judged(without).starts_with("DIFFERS"), judged(without));
+  CHECK_MESSAGE(judged(later).starts_with("DIFFERS"), judged(later));
+}
+
 TEST_CASE("verify: a tool offset that is mixed up, or written otherwise, is a difference") {
   const TestFolder folder("dotek-verify-customer");
   const std::string text = "%\nO100\nG54G90\nG43H5Z100.\nG0X0Y0\nZ5.\nG31Z-4.F100\n#[2000+9]=#5063\nM30\n%\n";

@@ -328,3 +328,54 @@ TEST_CASE("verify: prints, alarms and stores of a translated program count") {
   target.alarm = 3002;
   CHECK(verify::compare(source, target, rules).size() == 1);
 }
+
+TEST_CASE("verify: codes in force at the end are compared by meaning where controls group them otherwise") {
+  const TestFolder folder("dotek-verify-groups");
+  const std::string text = "%\nO12\nG21G90G55\nG0X5.\nG18\nM30\n%\n";
+  for (const auto& [from, to] : {std::pair("fanuc-6m", "fanuc-0i-md"), std::pair("fanuc-0i-md", "fanuc-6m"),
+                                 std::pair("fanuc-6m", "fanuc-31i-b")}) {
+    CAPTURE(from);
+    CAPTURE(to);
+    driver::VerifyOptions options = optionsFor(folder.write("source.nc", text), 4);
+    options.fromControl = from;
+    options.control = to;
+    const driver::Outcome right = driver::verify(options);
+    CHECK_MESSAGE(right.output.starts_with("AGREES"), (right.output + codesOf(right)));
+    for (const auto& [one, other] : {std::pair("G18\n", "G19\n"), std::pair("G18\n", "")}) {
+      std::string edited = text;
+      edited.replace(edited.find(one), std::string(one).size(), other);
+      options.translation = folder.write("edited.nc", edited);
+      const driver::Outcome wrong = driver::verify(options);
+      CHECK_MESSAGE(wrong.output.starts_with("DIFFERS: 4 of 4"), (wrong.output + codesOf(wrong)));
+      CHECK(codesOf(wrong).find("modal state") != std::string::npos);
+    }
+  }
+}
+
+TEST_CASE(
+    "verify: macros on G31 with protected moves and checks of their own agree, and faults in them show") {
+  const TestFolder folder("dotek-verify-own-macros");
+  for (const auto& [name, one, other] :
+       {std::tuple("bore", "#101=[#1+#2]/2", "#101=[#1+#2]"),
+        std::tuple("bore", "IF[ABS[#5063-#5083-#26] GT 0.01]THEN #28=1", "#28=0"),
+        std::tuple("web", "ABS[#5063-#5083-#26] GT 0.01", "ABS[#5063-#5083-#26] GT 100."),
+        std::tuple("angle", "G31 X[#30+#7] F2000", "G0 X[#30+#7]"),
+        std::tuple("calibrate", "G31 X[#30-#29] F60.", "G31 X[#30-#29+1.] F60."),
+        std::tuple("face-z", "G31 Z[#26-4.] F300.", "G31 Z[#26-3.] F300.")}) {
+    CAPTURE(name);
+    const std::string source = (root() / "examples/macros" / (std::string(name) + ".nc")).string();
+    driver::VerifyOptions options = optionsFor(source, 40);
+    options.common.assume.insert("probe-on");
+    options.minAgreed = 80;
+    const driver::Outcome right = driver::verify(options);
+    CHECK_MESSAGE(right.output.starts_with("AGREES"), (right.output + codesOf(right)));
+    std::ifstream file(source);
+    std::string text((std::istreambuf_iterator<char>(file)), {});
+    const std::size_t at = text.find(one);
+    REQUIRE_MESSAGE(at != std::string::npos, one);
+    text.replace(at, std::string(one).size(), other);
+    options.translation = folder.write("edited.nc", text);
+    const driver::Outcome wrong = driver::verify(options);
+    CHECK_MESSAGE(wrong.output.starts_with("DIFFERS"), (wrong.output + codesOf(wrong)));
+  }
+}
