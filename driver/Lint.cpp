@@ -61,7 +61,9 @@ public:
     for (const std::string& path : options_.paths)
       walk_.visit(path, session_.diagnostics());
     if (checkedFiles_ == 0 && !session_.diagnostics().hasErrors() && !options_.paths.empty())
-      session_.diagnostics().report<diag::NothingRead>({}, quoted(options_.paths));
+      session_.diagnostics().report<diag::NothingRead>(
+          {}, quoted(options_.paths) +
+                  (excluded_ == 0 ? "" : fmt::format(" beside the {} that dotek.toml excludes", excluded_)));
     const std::deque<lint::Project>& projects = projects_.gather(*inputs_, sufReadings_, checked_);
     const auto run = [&](const auto& wanted) {
       for (const lint::Project& project : projects)

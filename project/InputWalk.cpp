@@ -82,7 +82,7 @@ std::string walkSummary(std::size_t checked, std::size_t excluded, const std::ve
                         const std::string& folder, bool all) {
   constexpr std::size_t kNames = 3; // of one reason
   std::string out = fmt::format("{} file{} checked", checked, checked == 1 ? "" : "s");
-  if (excluded > 0) out += fmt::format(", {} excluded", excluded);
+  if (excluded > 0) out += fmt::format(", {} excluded by dotek.toml", excluded);
   if (passedOver.empty()) return out;
   std::vector<std::pair<std::string, std::vector<std::string>>> reasons; // in the order of their first file
   for (const PassedOver& one : passedOver) {

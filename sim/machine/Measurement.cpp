@@ -42,7 +42,8 @@ Measurement measurementOf(const stdlib::MacroSignature& signature, std::span<con
     const std::optional<double> value = get(measured), off = get(error);
     if (!value) return;
     if (!nominal && off) nominal = *value - *off;
-    out.values.push_back({std::move(name), nominal, *value});
+    const bool angle = measured == Output::Angle;
+    out.values.push_back({std::move(name), nominal, *value, angle ? ir::Kind::Angle : ir::Kind::Length});
   };
   add("X", Output::PositionX, Output::ErrorX, argument(ArgumentRole::Nominal, ir::Axis::X));
   add("Y", Output::PositionY, Output::ErrorY, argument(ArgumentRole::Nominal, ir::Axis::Y));

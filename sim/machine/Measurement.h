@@ -1,6 +1,7 @@
 // What a run measured, and which offsets it wrote: the table of its report.
 #pragma once
 
+#include "ir/Kind.h"
 #include "stdlib/MacroSet.h"
 
 #include <cstdint>
@@ -17,6 +18,7 @@ struct MeasuredValue {
   std::string name;              // "X", "diameter", "width", "angle"
   std::optional<double> nominal; // nothing: no source of the call says it
   double measured = 0;
+  ir::Kind kind = ir::Kind::Length;
 };
 
 struct Measurement {

@@ -27,7 +27,8 @@ public:
     return value > 0 && out.find_first_of("123456789") != std::string::npos ? "+" + out : out;
   }
   Row row(const MeasuredValue& value) const {
-    const char* const unit = value.name == "angle" ? "\xC2\xB0" : "";
+    const char* const unit = value.kind == ir::Kind::Angle ? "\xC2\xB0" : "";
+    if (value.kind == ir::Kind::Flag) return {value.name, "-", value.measured == 0 ? "no" : "yes", "-"};
     Row out{value.name, "-", number(value.measured) + unit, "-"};
     if (value.nominal) {
       out.nominal = number(*value.nominal) + unit;

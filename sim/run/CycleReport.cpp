@@ -5,6 +5,7 @@
 #include "support/Printable.h"
 #include "support/messages/Sim.h"
 
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 
@@ -57,8 +58,13 @@ void reportCycle(const CycleRun& run, const Machine& machine, Session& session) 
 
 Measurement resultsOf(const ir::Cycle& cycle, const CycleRun& run) {
   Measurement out{0, "results of " + cycle.name, {}};
+  const auto kindOf = [&](const std::string& name) {
+    const auto found = std::find_if(cycle.variables.begin(), cycle.variables.end(),
+                                    [&](const ir::Variable& one) { return one.name == name; });
+    return found == cycle.variables.end() ? ir::Kind::Number : found->kind;
+  };
   for (const auto& [name, value] : run.left())
-    out.values.push_back({name, std::nullopt, value});
+    out.values.push_back({name, std::nullopt, value, kindOf(name)});
   return out;
 }
 
