@@ -6,6 +6,8 @@
 #include "ir/Linear.h"
 #include "ir/Walk.h"
 
+#include <optional>
+#include <string_view>
 #include <utility>
 
 namespace dotek::ir {
@@ -20,7 +22,8 @@ constexpr double kFirstOfMachine = 1000; // number of a variable
 struct Fact {
   Position position;
   std::array<std::uint32_t, 3> travels{};
-  ExpressionPtr system; // active work system; null pointer: not known
+  std::array<std::optional<VariableId>, 3> copies; // variables that hold the coordinate of the place
+  ExpressionPtr system;                            // active work system; null pointer: not known
 };
 
 void forget(AxisPosition& axis) {
@@ -87,7 +90,33 @@ bool mayBeActive(const ExpressionPtr& set, const Fact& fact) {
   return !a || !b || *a == *b;
 }
 
-Fact behind(const CycleStatement& statement, Fact fact) {
+constexpr std::array<std::string_view, 3> kStartNames = {"start_x", "start_y", "start_z"};
+using Starts = std::array<std::optional<VariableId>, 3>; // host inputs of the start
+
+Starts startsOf(const Cycle& cycle) {
+  Starts out;
+  for (VariableId id = 0; id < cycle.variables.size(); ++id)
+    for (std::size_t i = 0; i < out.size(); ++i)
+      if (cycle.variables[id].role == Role::Host && cycle.variables[id].name == kStartNames[i]) out[i] = id;
+  return out;
+}
+
+// Whether the value is the coordinate of the place.
+bool isPlace(const ExpressionPtr& value, const AxisPosition& axis, const std::optional<VariableId>& start) {
+  if (axis.state == State::Work) return equal(value, axis.value);
+  if (axis.state != State::Start || !start || value == nullptr) return false;
+  const auto isStart = [&](const ExpressionPtr& one) {
+    const auto* use = std::get_if<VariableUse>(&one->node);
+    return use != nullptr && use->variable == *start;
+  };
+  const double* travel = constantValue(axis.value);
+  if (travel != nullptr && *travel == 0) return isStart(value);
+  const auto* both = std::get_if<Binary>(&value->node);
+  return both != nullptr && both->op == BinaryOp::Add && isStart(both->left) && equal(both->right, axis.value);
+}
+
+Fact behind(const CycleStatement& statement, Fact fact, const Starts& starts) {
+  const Position at = fact.position;
   match(
       statement,
       [&](const Move& node) {
@@ -118,10 +147,20 @@ Fact behind(const CycleStatement& statement, Fact fact) {
         fact.system = anyNode(node.system, readsMachine) ? nullptr : node.system;
       },
       [&](const Assign& node) {
+        const Position before = fact.position;
+        for (std::size_t i = 0; i < before.size(); ++i) {
+          if (isPlace(node.value, before[i], starts[i]))
+            fact.copies[i] = node.variable;
+          else if (fact.copies[i] == node.variable)
+            fact.copies[i].reset();
+        }
         forgetValues(fact, [&](const Expression& read) {
           const auto* use = std::get_if<VariableUse>(&read.node);
           return use && use->variable == node.variable;
         });
+        for (std::size_t i = 0; i < before.size(); ++i)
+          if (fact.position[i].state == State::Unknown && before[i].state != State::Unknown && fact.copies[i])
+            fact.position[i] = {State::Work, variable(*fact.copies[i]), before[i].point};
       },
       [&](const Store& node) {
         // A variable of the machine: an offset, perhaps the one in force.
@@ -137,6 +176,9 @@ Fact behind(const CycleStatement& statement, Fact fact) {
       },
       [](const OneOf<Label, Jump, Branch, Return, ProbePower, Spindle, Coolant, Dwell, Stop, Alarm,
                      Comment> auto&) {});
+  if (!std::holds_alternative<Assign>(statement.node))
+    for (std::size_t i = 0; i < at.size(); ++i)
+      if (!sameAxis(at[i], fact.position[i])) fact.copies[i].reset();
   return fact;
 }
 
@@ -145,6 +187,10 @@ bool meet(Fact& into, const Fact& other) {
   for (std::size_t i = 0; i < into.position.size(); ++i) {
     if (into.travels[i] < other.travels[i]) into.travels[i] = other.travels[i];
     AxisPosition& axis = into.position[i];
+    if (into.copies[i] && into.copies[i] != other.copies[i]) {
+      into.copies[i].reset();
+      changed = true;
+    }
     if (axis.state == State::Unknown || sameAxis(axis, other.position[i])) continue;
     forget(axis);
     changed = true;
@@ -159,12 +205,13 @@ bool meet(Fact& into, const Fact& other) {
 } // namespace
 
 std::vector<Position> positions(const Cycle& cycle) {
+  const Starts starts = startsOf(cycle);
   Fact entry;
   for (AxisPosition& axis : entry.position)
     axis = {State::Start, constant(0), ProbePoint::Centre};
   const auto facts = factsBefore(
       cycle.body, std::move(entry),
-      [&](std::size_t at, std::size_t, const Fact& fact) { return behind(cycle.body[at], fact); }, meet);
+      [&](std::size_t at, std::size_t, const Fact& fact) { return behind(cycle.body[at], fact, starts); }, meet);
   std::vector<Position> out;
   out.reserve(facts.size());
   for (const auto& fact : facts) {

@@ -1,6 +1,8 @@
 // Where the probe is: `here`, `start` and `move to start`. What the moves before come to is known when all of
 // them are, so each leaves a mark that is resolved at the end.
+#include "frontend/cycle/Link.h"
 #include "frontend/cycle/Lowering.h"
+#include "frontend/cycle/Walk.h"
 #include "ir/Positions.h"
 #include "ir/Walk.h"
 #include "support/messages/Cycle.h"
@@ -11,6 +13,19 @@ namespace dotek::frontend::cycle {
 namespace {
 
 using State = ir::AxisPosition::State;
+
+// Optional parameters of what is called that the call gives no value.
+std::set<std::string> leftOut(const Call& call) {
+  std::set<std::string> out;
+  for (const Statement* const one : declarations(*call.called))
+    if (const auto* parameter = std::get_if<Parameter>(&one->node); parameter != nullptr && parameter->optional)
+      for (const Name& name : parameter->names)
+        out.insert(name.text);
+  for (const std::vector<Argument>* list : {&call.arguments, &call.handedOn})
+    for (const Argument& argument : *list)
+      out.erase(argument.name.text);
+  return out;
+}
 
 bool isZero(const ir::ExpressionPtr& value) {
   const double* known = ir::constantValue(value);
@@ -34,6 +49,23 @@ ir::ExpressionPtr Lowering::host(std::string_view name, ir::Kind kind) {
   const ir::VariableId id = cycle_.add(std::move(variable));
   hosts_.emplace(name, id);
   return ir::variable(id);
+}
+
+void Lowering::noteShifts(const Block& block, const std::set<std::string>& absent) {
+  std::set<const Statement*> unreached;
+  eachStatement(block, [&](const Statement& one) {
+    if (const auto* choice = std::get_if<If>(&one.node))
+      for (const If::Part& part : choice->parts)
+        if (const auto* given = std::get_if<Given>(&part.condition->node);
+            given != nullptr && absent.contains(given->name.text))
+          eachStatement(part.body, [&](const Statement& inside) { unreached.insert(&inside); });
+    if (unreached.contains(&one)) return;
+    if (const auto* set = std::get_if<SetOffset>(&one.node))
+      for (const Becomes& item : set->items)
+        if (const auto axis = linear(item.axis)) scope_.shifted[ir::indexOf(*axis)] = true;
+    if (const auto* call = std::get_if<Call>(&one.node); call != nullptr && call->called != nullptr)
+      noteShifts(call->called->body, leftOut(*call));
+  });
 }
 
 ir::ExpressionPtr Lowering::here(ir::Axis axis, SourceRange range) {

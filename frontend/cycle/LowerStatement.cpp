@@ -14,17 +14,17 @@ constexpr ir::ResultName kPositions[] = {ir::ResultName::PositionX, ir::ResultNa
                                          ir::ResultName::PositionZ};
 constexpr ir::ResultName kErrors[] = {ir::ResultName::ErrorX, ir::ResultName::ErrorY, ir::ResultName::ErrorZ};
 
-std::optional<ir::Axis> linear(Axis axis) {
-  if (axis > Axis::Z) return std::nullopt;
-  return static_cast<ir::Axis>(axis);
-}
-
 std::string trimmed(const std::string& text) {
   const std::size_t first = text.find_first_not_of(' ');
   return first == std::string::npos ? "" : text.substr(first);
 }
 
 } // namespace
+
+std::optional<ir::Axis> linear(Axis axis) {
+  if (axis > Axis::Z) return std::nullopt;
+  return static_cast<ir::Axis>(axis);
+}
 
 bool Lowering::ended() const {
   const auto last = std::find_if(out_->rbegin(), out_->rend(), [](const ir::CycleStatement& one) {
@@ -351,16 +351,7 @@ void Lowering::choose(const If& choice, SourceRange range) {
 // A `set` in the body is before what the next run reads.
 void Lowering::loopBody(const Block& body) {
   const Probe before = probe_;
-  const auto shifts = [&](const auto& self, const Block& list) -> void {
-    eachStatement(list, [&](const Statement& one) {
-      if (const auto* set = std::get_if<SetOffset>(&one.node))
-        for (const Becomes& item : set->items)
-          if (const auto axis = linear(item.axis)) scope_.shifted[ir::indexOf(*axis)] = true;
-      if (const auto* call = std::get_if<Call>(&one.node))
-        if (call->called != nullptr) self(self, call->called->body);
-    });
-  };
-  shifts(shifts, body);
+  noteShifts(body, {});
   ++nested_;
   block(body);
   --nested_;

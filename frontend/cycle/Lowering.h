@@ -38,6 +38,8 @@ struct Scope {
   std::array<bool, 3> shifted{}; // a `set` since it began may have moved its coordinates
 };
 
+std::optional<ir::Axis> linear(Axis axis); // nothing: a rotary axis
+
 class Lowering {
 public:
   Lowering(const File& file, const SourceMap& sources, Diagnostics& diagnostics);
@@ -124,6 +126,9 @@ private:
   void count(const For& loop, SourceRange range);
   void loop(const While& loop, SourceRange range);
   void loopBody(const Block& body);
+  // Axes whose coordinates a `set` of the block, or of what it calls, may move. `absent`: optional parameters
+  // that the call leaves out.
+  void noteShifts(const Block& block, const std::set<std::string>& absent);
   bool ended() const;
 
   // ---- LowerCall.cpp

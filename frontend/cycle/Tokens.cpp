@@ -155,6 +155,7 @@ std::string explain(const antlr4::Token& offending, const antlr4::Parser& parser
   const std::string_view usage = usageOf(lowerCase(word));
   const std::string write = usage.empty() ? "" : fmt::format("; write {}", usage);
   if (type == Lexer::OPEN_TEXT) return "the text has no closing quote; write `\"` at its end";
+  if (first + 1 >= input.size()) input.LT(2); // it may not have been read yet
   const size_t next = first + 1 < input.size() ? input.get(first + 1)->getType() : antlr4::Token::EOF;
   const bool second = first + 1 == offending.getTokenIndex();
   if (text == ";" || text == "!" || text == "{" || text == "'" || text == "%")

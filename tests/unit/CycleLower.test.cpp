@@ -257,6 +257,23 @@ cycle "results": found = found
   CHECK(alone.find("if abs(edge_surface_error) <= 1. goto") != std::string::npos);
 }
 
+TEST_CASE("cycle lowering: a loop may read the start beside calls that are not asked to set an offset") {
+  const Texts others = {{"edge", R"(cycle edge "Edge"
+parameter system : work_offset optional "System"
+probe on
+touch x by 5 mm -> surface
+probe off
+if given system then
+  set system: surface.at becomes x 0 mm
+end
+)"}};
+  const std::string head = "cycle demo \"C\"\nparameter mine : work_offset optional \"Mine\"\nfor i = 1 to 3\n"
+                           "  move to y start.x\n  call edge";
+  CHECK(Lowering(head + "\nend\n", others).body().find("move rapid y = work start_x") != std::string::npos);
+  CHECK(refusal(head + " system = G55\nend\n", others) == "start-shifted");
+  CHECK(refusal(head + " system = mine\nend\n", others) == "start-shifted");
+}
+
 TEST_CASE("cycle lowering: values that need steps") {
   const auto holds = [](const std::string& condition, double a) {
     return Lowering("cycle demo \"C\"\nparameter p : ratio \"A\"\nparameter q : ratio optional \"B\"\n"

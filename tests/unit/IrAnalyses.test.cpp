@@ -174,6 +174,21 @@ TEST_CASE("ir: what makes a position unknown") {
   CHECK(behind({touchX(nullptr), found, touchX(nullptr)})[1].state == State::Unknown);
 }
 
+TEST_CASE("ir: a variable that holds the place lasts longer than what the place was computed of") {
+  const auto start = to(0, kA, Frame::Work), copy = statement(Assign{1, kA});
+  const auto changed = statement(Assign{0, constant(1)});
+  const AxisPosition held = behind({start, copy, changed})[0];
+  CHECK(held.state == State::Work);
+  CHECK(equal(held.value, kB));
+  CHECK(behind({start, copy, statement(Assign{1, constant(2)}), changed})[0].state == State::Unknown);
+  CHECK(behind({start, copy, to(0, constant(5), Frame::Here), changed})[0].state == State::Unknown);
+  CHECK(behind({copy, start, changed})[0].state == State::Unknown);
+  CHECK(behind({start, copy, statement(SetMode{Mode::WorkSystem, constant(55)}), changed})[0].state ==
+        State::Unknown);
+  const auto branch = statement(Branch{compare(Relation::Less, kA, constant(0)), 0});
+  CHECK(behind({start, branch, copy, statement(Label{0}), changed})[0].state == State::Unknown);
+}
+
 TEST_CASE("ir: positions meet where paths do") {
   const auto branch = statement(Branch{compare(Relation::Less, kA, constant(0)), 0});
   const auto label = statement(Label{0});
