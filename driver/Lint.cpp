@@ -8,6 +8,7 @@
 #include "lint/Config.h"
 #include "lint/Project.h"
 #include "lint/Projects.h"
+#include "lint/Run.h"
 #include "lint/Shared.h"
 #include "lint/Suppressions.h"
 #include "project/Compilation.h"
@@ -26,6 +27,7 @@
 #include <deque>
 #include <filesystem>
 #include <set>
+#include <tuple>
 
 namespace dotek::driver {
 
@@ -138,12 +140,13 @@ private:
 
   void suppress(const std::deque<lint::Project>& projects) {
     std::vector<lint::Suppression> suppressions;
+    std::set<std::tuple<FileId, std::uint32_t, std::uint32_t>> seen;
     std::set<FileId> joined;
     std::set<FileId> lowered;
     for (const lint::Project& project : projects) {
+      // A file of several projects says it once.
       for (lint::Suppression& one : lint::suppressionsOf(project, session_.diagnostics()))
-        if (std::none_of(suppressions.begin(), suppressions.end(),
-                         [&](const lint::Suppression& known) { return known.range == one.range; }))
+        if (seen.emplace(one.range.file, one.range.begin, one.range.end).second)
           suppressions.push_back(std::move(one));
       for (const lint::Joined& one : project.joined) {
         std::set<FileId> files{one.prog->file};

@@ -16,12 +16,12 @@ namespace dotek::ir {
 // after a statement where the path goes on to `to`; of a computed jump it is asked once for all its labels.
 // `meet(into, other)` makes of `into` what holds on both paths and says whether it changed. A fact may change
 // a bounded number of times only.
+// `flow` is that of the list.
 template <class Fact, AnyStatement Statement, class Transfer, class Meet>
-std::vector<std::optional<Fact>> factsBefore(const std::vector<Statement>& list, Fact entry,
-                                             const Transfer& transfer, const Meet& meet) {
+std::vector<std::optional<Fact>> factsBefore(const std::vector<Statement>& list, const ProgramFlow& flow,
+                                             Fact entry, const Transfer& transfer, const Meet& meet) {
   std::vector<std::optional<Fact>> facts(list.size());
   if (list.empty()) return facts;
-  const ProgramFlow flow = flowOf(list);
   // The first in the text first: along jumps forward each is looked at once. The last of all are the labels,
   // with what holds after each of the computed jumps.
   std::priority_queue<std::size_t, std::vector<std::size_t>, std::greater<>> open;
@@ -55,6 +55,12 @@ std::vector<std::optional<Fact>> factsBefore(const std::vector<Statement>& list,
     if (join(computed, transfer(at, flow.labels.front(), *facts[at]))) computedWaits = true;
   }
   return facts;
+}
+
+template <class Fact, AnyStatement Statement, class Transfer, class Meet>
+std::vector<std::optional<Fact>> factsBefore(const std::vector<Statement>& list, Fact entry,
+                                             const Transfer& transfer, const Meet& meet) {
+  return factsBefore(list, flowOf(list), std::move(entry), transfer, meet);
 }
 
 } // namespace dotek::ir

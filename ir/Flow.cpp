@@ -81,8 +81,8 @@ template <AnyStatement Statement> bool layoutOnly(const Statement& statement) {
                      Exit, Raise, Notice, Port, Print, NameVariables> auto&) { return false; });
 }
 
-template <AnyStatement Statement> std::vector<bool> reachableIn(const std::vector<Statement>& list) {
-  const ProgramFlow flow = flowIn(list);
+template <AnyStatement Statement>
+std::vector<bool> reachableIn(const std::vector<Statement>& list, const ProgramFlow& flow) {
   bool computed = false; // a computed jump was reached
   std::vector<bool> seen(list.size());
   std::vector<std::size_t> open;
@@ -159,11 +159,15 @@ bool isLayout(const ProgramStatement& statement) {
 }
 
 std::vector<bool> reachable(const std::vector<CycleStatement>& list) {
-  return reachableIn(list);
+  return reachableIn(list, flowIn(list));
 }
 
 std::vector<bool> reachable(const std::vector<ProgramStatement>& list) {
-  return reachableIn(list);
+  return reachableIn(list, flowIn(list));
+}
+
+std::vector<bool> reachable(const std::vector<ProgramStatement>& list, const ProgramFlow& flow) {
+  return reachableIn(list, flow);
 }
 
 } // namespace dotek::ir

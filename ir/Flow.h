@@ -64,5 +64,7 @@ bool isLayout(const CycleStatement& statement);
 bool isLayout(const ProgramStatement& statement);
 std::vector<bool> reachable(const std::vector<CycleStatement>& list);
 std::vector<bool> reachable(const std::vector<ProgramStatement>& list);
+// `flow` is that of the list.
+std::vector<bool> reachable(const std::vector<ProgramStatement>& list, const ProgramFlow& flow);
 
 } // namespace dotek::ir

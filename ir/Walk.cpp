@@ -75,8 +75,8 @@ template <class Condition, class Statement> Condition* conditionIn(Statement& st
 
 template <class Statement>
 void nodesOf(const Statement& statement, const std::function<void(const Expression&)>& visit) {
-  if (const ConditionPtr* condition = conditionOf(statement)) eachNode(*condition, visit);
-  eachSlot(statement, [&](const ExpressionPtr& slot) { eachNode(slot, visit); });
+  if (const ConditionPtr* condition = conditionIn<const ConditionPtr>(statement)) eachNode(*condition, visit);
+  slots(statement, [&](const ExpressionPtr& slot) { eachNode(slot, visit); });
 }
 
 } // namespace
@@ -123,6 +123,7 @@ void eachNode(const ProgramStatement& statement, const std::function<void(const 
 
 void eachNode(const ExpressionPtr& expression, const std::function<void(const Expression&)>& visit) {
   visit(*expression);
+  if (std::holds_alternative<Constant>(expression->node)) return; // most of them
   match(
       *expression, [&](const MachineVariable& node) { eachNode(node.number, visit); },
       [&](const Unary& node) { eachNode(node.operand, visit); },

@@ -12,6 +12,11 @@ const Probing& Analyses::probing(const Project& project) {
   return *probing_;
 }
 
+const ToolLengths& Analyses::toolLengths(const Project& project) {
+  if (!toolLengths_) toolLengths_.emplace(project);
+  return *toolLengths_;
+}
+
 const std::vector<Siblings>& Analyses::siblings(const Project& project) {
   if (!siblings_) siblings_ = findSiblings(project);
   return *siblings_;
@@ -40,6 +45,10 @@ const std::vector<NameUse>& namesOf(const gibbs::Macro& macro, const Project& pr
 
 const Probing& probingOf(const Project& project) {
   return project.analyses->probing(project);
+}
+
+const ToolLengths& toolLengthsOf(const Project& project) {
+  return project.analyses->toolLengths(project);
 }
 
 const std::vector<Siblings>& siblingsOf(const Project& project) {

@@ -5,6 +5,7 @@
 #include "lint/Probing.h"
 #include "lint/ProgBlocks.h"
 #include "lint/Shared.h"
+#include "lint/ToolLength.h"
 
 #include <map>
 #include <optional>
@@ -17,6 +18,7 @@ class Analyses {
 public:
   const SharedInputs& shared(const Project& project);
   const Probing& probing(const Project& project);
+  const ToolLengths& toolLengths(const Project& project);
   const std::vector<Siblings>& siblings(const Project& project);
   // Of statements of a Prog, known by their address.
   const std::vector<ProgBlock>& blocks(const std::vector<compost::Statement>& statements,
@@ -27,6 +29,7 @@ public:
 private:
   std::optional<SharedInputs> shared_;
   std::optional<Probing> probing_;
+  std::optional<ToolLengths> toolLengths_;
   std::optional<std::vector<Siblings>> siblings_;
   std::map<const std::vector<compost::Statement>*, std::vector<ProgBlock>> blocks_;
   std::map<const gibbs::Macro*, std::vector<NameUse>> names_;

@@ -87,14 +87,4 @@ struct Project {
 // holds both, seen from the cycle or from the Prog.
 void join(Project& project, dotek::project::Compilation& compilation, bool lower);
 
-// Runs the rules for which `wanted` holds.
-template <class Wanted>
-void runRules(const Project& project, Diagnostics& diagnostics, const Wanted& wanted) {
-  for (const NamedRule& named : rules()) {
-    if (!wanted(named)) continue;
-    Report report(named.id, named.rule->severity, diagnostics);
-    named.rule->check(project, report);
-  }
-}
-
 } // namespace dotek::lint

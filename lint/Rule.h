@@ -10,9 +10,14 @@
 #include <string_view>
 #include <utility>
 
+namespace dotek::frontend::macrob {
+class CheckedProgram;
+}
+
 namespace dotek::lint {
 
 struct Project;
+class NcProgram;
 
 // What a rule looks at: characters, one language's tree, the IR, or files beside one another.
 enum class Tier : std::uint8_t { Text, Syntax, Ir, Bundle };
@@ -30,7 +35,12 @@ struct Rule {
   // The check of a front end that other commands run, too (lint/Shared.h). Of such findings and of messages
   // that begin at one place only the most severe are kept.
   bool shared = false;
+  // What looks at all inputs together; nullptr: none.
   void (*check)(const Project& project, Report& report) = nullptr;
+  // What looks at one NC program by itself, lowered or as it was parsed; nullptr: none. All such checks look
+  // at a program before the next one comes: it is in the processor's cache then (lint/Run.h).
+  void (*program)(const NcProgram& program, Report& report) = nullptr;
+  void (*parsed)(const frontend::macrob::CheckedProgram& program, Report& report) = nullptr;
 };
 
 struct NamedRule {

@@ -7,9 +7,6 @@ SharedInputs::SharedInputs(const Project& project) {
     progs.emplace_back(*prog, project.compostKeywords, project.sources);
   for (const gibbs::Cycle* cycle : project.cycles)
     cycles.emplace_back(*cycle, project.sources, project.gibbsKeywords);
-  for (const NcFile& nc : project.programs)
-    for (const macrob::Program& program : nc.file->programs)
-      programs.emplace_back(program, project.control, project.sources);
 }
 
 } // namespace dotek::lint

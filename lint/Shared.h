@@ -10,11 +10,10 @@
 
 namespace dotek::lint {
 
-// Progs, NC programs and cycles that are linted, as the front ends check them.
+// Progs and cycles that are linted, as the front ends check them.
 struct SharedInputs {
   explicit SharedInputs(const Project& project);
   std::vector<compost::CheckedProg> progs;
-  std::vector<macrob::CheckedProgram> programs; // of NC
   std::vector<gibbs::CheckedCycle> cycles;
 };
 
@@ -58,10 +57,9 @@ template <const Check<gibbs::CheckedCycle>& check> constexpr Rule cycleRule() {
 
 // A check of one NC program.
 template <const Check<macrob::CheckedProgram>& check> constexpr Rule programRule() {
-  return sharedRule(check, Tier::Syntax, [](const Project& project, Report& report) {
-    for (const macrob::CheckedProgram& program : sharedOf(project).programs)
-      check.run(program, report);
-  });
+  Rule rule = sharedRule<macrob::CheckedProgram>(check, Tier::Syntax, nullptr);
+  rule.parsed = check.run;
+  return rule;
 }
 
 } // namespace dotek::lint

@@ -54,9 +54,10 @@ std::optional<DistanceMode> statedMode(const ir::ProgramStatement& statement) {
   return out;
 }
 
-std::vector<std::optional<DistanceMode>> distanceModes(const std::vector<ir::ProgramStatement>& body) {
+std::vector<std::optional<DistanceMode>> distanceModes(const std::vector<ir::ProgramStatement>& body,
+                                                       const ir::ProgramFlow& flow) {
   return ir::factsBefore<DistanceMode>(
-      body, DistanceMode::AsBefore,
+      body, flow, DistanceMode::AsBefore,
       [&](std::size_t at, std::size_t, DistanceMode mode) { return statedMode(body[at]).value_or(mode); },
       [](DistanceMode& into, DistanceMode other) {
         if (into == other || into == DistanceMode::Unknown) return false;

@@ -26,7 +26,8 @@ std::optional<AxisSet> contactAxis(std::uint32_t variable);
 enum class DistanceMode : std::uint8_t { AsBefore, Absolute, Incremental, Both, Unknown };
 // The mode that the block states; nothing: none.
 std::optional<DistanceMode> statedMode(const ir::ProgramStatement& statement);
-std::vector<std::optional<DistanceMode>> distanceModes(const std::vector<ir::ProgramStatement>& body);
+std::vector<std::optional<DistanceMode>> distanceModes(const std::vector<ir::ProgramStatement>& body,
+                                                       const ir::ProgramFlow& flow);
 
 // G65 or M98 that is carried out here; nullptr: another statement.
 const ir::Call* callOf(const ir::ProgramStatement& statement);

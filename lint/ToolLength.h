@@ -45,4 +45,7 @@ private:
   std::unique_ptr<const Known> known_;
 };
 
+// Computed once a project.
+const ToolLengths& toolLengthsOf(const Project& project);
+
 } // namespace dotek::lint

@@ -225,9 +225,7 @@ void ProgramLibrary::add(ir::Program program, bool main, Session& session) {
   const bool named = program.nameKind != ir::Program::NameKind::None;
   // The main program may lack a header, and nothing but it.
   if (!named && (!main || !programs_.empty() || program.body.empty())) return;
-  const bool twice = program.number != 0 &&
-                     std::any_of(programs_.begin(), programs_.end(),
-                                 [&](const ir::Program& one) { return one.number == program.number; });
+  const bool twice = program.number != 0 && !numbers_.insert(program.number).second;
   if (twice) session.diagnostics().report<diag::ProgramTwice>(program.range, program.number);
   if (!twice) programs_.push_back(std::move(program));
 }

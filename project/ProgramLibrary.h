@@ -13,6 +13,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <unordered_set>
 #include <utility>
 #include <vector>
 
@@ -64,6 +65,7 @@ private:
   std::vector<Unread> unread_;
   std::vector<LoneProgram> waiting_; // of files that were read; nothing has called them so far
   std::deque<ir::Program> programs_;
+  std::unordered_set<std::uint64_t> numbers_; // of programs_, without 0
   std::map<std::uint64_t, std::string> unreadable_;
 };
 

@@ -47,20 +47,28 @@ bool sameName(const std::string& a, const std::string& b) {
 Bounds::Bounds(const ir::Cycle& cycle) {
   cycle_.variables = cycle.variables;
   cycle_.checks = cycle.checks;
-  for (const ir::CycleStatement& statement : cycle_.checks)
+  for (std::size_t i = 0; i < cycle_.checks.size(); ++i) {
+    const ir::CycleStatement& statement = cycle_.checks[i];
     if (const auto* branch = std::get_if<ir::Branch>(&statement.node))
-      eachComparison(*branch->condition, [&](const ir::Comparison& one) { comparisons_.push_back(&one); });
+      eachComparison(*branch->condition, [&](const ir::Comparison& one) {
+        comparisons_.push_back({&one, i});
+      });
+    if (const auto* label = std::get_if<ir::Label>(&statement.node)) {
+      if (label->label >= places_.size()) places_.resize(label->label + 1, kNone);
+      if (places_[label->label] == kNone) places_[label->label] = i;
+    }
+  }
 }
 
 std::optional<double> Bounds::margin(std::size_t comparison, const Case& drawn) const {
-  return walk(comparisons_[comparison], drawn).margin;
+  return walk(comparison, drawn).margin;
 }
 
 bool Bounds::rejects(const Case& drawn) const {
-  return walk(nullptr, drawn).alarm;
+  return walk(kNone, drawn).alarm;
 }
 
-Bounds::Walk Bounds::walk(const ir::Comparison* wanted, const Case& drawn) const {
+Bounds::Walk Bounds::walk(std::size_t wanted, const Case& drawn) const {
   ir::Environment environment(cycle_.variables.size());
   for (std::size_t id = 0; id < environment.size(); ++id) {
     const ir::Variable& variable = cycle_.variables[id];
@@ -69,9 +77,7 @@ Bounds::Walk Bounds::walk(const ir::Comparison* wanted, const Case& drawn) const
     for (const auto& [name, value] : values)
       if (sameName(name, variable.name)) environment[id] = ir::Scalar::of(value);
   }
-  std::map<ir::LabelId, std::size_t> places;
-  for (std::size_t i = 0; i < cycle_.checks.size(); ++i)
-    if (const auto* label = std::get_if<ir::Label>(&cycle_.checks[i].node)) places.emplace(label->label, i);
+  const std::size_t end = wanted == kNone ? kNone : comparisons_[wanted].statement;
   std::size_t at = 0;
   for (std::uint32_t steps = 0; at < cycle_.checks.size() && steps < kMaxSteps; ++steps) {
     const ir::CycleStatement& statement = cycle_.checks[at++];
@@ -83,11 +89,10 @@ Bounds::Walk Bounds::walk(const ir::Comparison* wanted, const Case& drawn) const
     std::optional<ir::LabelId> target;
     if (const auto* jump = std::get_if<ir::Jump>(&statement.node)) target = jump->target;
     if (const auto* branch = std::get_if<ir::Branch>(&statement.node)) {
-      bool here = false;
-      eachComparison(*branch->condition, [&](const ir::Comparison& one) { here = here || &one == wanted; });
-      if (here) {
-        const ir::Scalar left = ir::evaluate(*wanted->left, environment);
-        const ir::Scalar right = ir::evaluate(*wanted->right, environment);
+      if (at - 1 == end) {
+        const ir::Comparison& comparison = *comparisons_[wanted].comparison;
+        const ir::Scalar left = ir::evaluate(*comparison.left, environment);
+        const ir::Scalar right = ir::evaluate(*comparison.right, environment);
         if (!left.known() || !right.known()) return {};
         return {false, left.value - right.value};
       }
@@ -96,9 +101,8 @@ Bounds::Walk Bounds::walk(const ir::Comparison* wanted, const Case& drawn) const
       if (*holds) target = branch->target;
     }
     if (!target) continue;
-    const auto place = places.find(*target);
-    if (place == places.end()) return {};
-    at = place->second;
+    if (*target >= places_.size() || places_[*target] == kNone) return {};
+    at = places_[*target];
   }
   return {};
 }

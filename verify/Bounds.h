@@ -5,6 +5,7 @@
 #include "verify/Draw.h"
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -38,12 +39,18 @@ private:
     bool alarm = false;
     std::optional<double> margin; // of the comparison that is wanted, where the checks come to it
   };
-  Walk walk(const ir::Comparison* wanted, const Case& drawn) const;
+  static constexpr std::size_t kNone = SIZE_MAX;
+  Walk walk(std::size_t wanted, const Case& drawn) const; // kNone: no comparison
   // Left less right where the checks come to the comparison; nothing: they do not, or it is not known.
   std::optional<double> margin(std::size_t comparison, const Case& drawn) const;
 
   ir::Cycle cycle_;
-  std::vector<const ir::Comparison*> comparisons_;
+  struct Compared {
+    const ir::Comparison* comparison = nullptr;
+    std::size_t statement = 0; // of the branch that holds it
+  };
+  std::vector<Compared> comparisons_;
+  std::vector<std::size_t> places_; // of labels among the checks, by LabelId; kNone: it is not there
 };
 
 } // namespace dotek::verify

@@ -28,9 +28,10 @@ public:
     }
     if (context_.diagnostics.hasErrors()) return std::nullopt;
     out_.push_back({"%", {}, ""});
+    const FileExits exits(file_);
     for (const ir::Program& program : file_.programs) {
       header(program);
-      ProgramNumbers numbers(file_, program, context_);
+      ProgramNumbers numbers(file_, exits, program, context_);
       ProgramBlocks(program, numbers, context_, out_).run();
       if (const ir::Structure structure = ir::structureOf(program); structure.refused)
         context_.diagnostics.report<diag::NotStructured>(structure.refused->range, structure.refused->reason);

@@ -81,9 +81,22 @@ std::map<ir::LabelId, std::uint64_t> renumbered(const ir::Program& program, std:
   return out;
 }
 
-ProgramNumbers::ProgramNumbers(const ir::ProgramFile& file, const ir::Program& program,
-                               const ProgramContext& context)
-    : file_(file), program_(program), context_(context) {
+FileExits::FileExits(const ir::ProgramFile& file) {
+  for (const ir::Program& program : file.programs) {
+    for (const ir::ProgramStatement& statement : program.body) {
+      const auto* exit = std::get_if<ir::Exit>(&statement.node);
+      if (exit == nullptr || !exit->block) continue;
+      if (const auto number = wholeOf(exit->block))
+        numbers.insert(*number);
+      else if (!computed.hasPlace())
+        computed = statement.origin.range();
+    }
+  }
+}
+
+ProgramNumbers::ProgramNumbers(const ir::ProgramFile& file, const FileExits& exits,
+                               const ir::Program& program, const ProgramContext& context)
+    : file_(file), exits_(exits), program_(program), context_(context) {
   for (ir::LabelId id = 0; id < program.labels.size(); ++id)
     if (isNumbered(program.labels[id])) digits_.emplace(id, digitsOf(program.labels[id]));
   if (context.options.renumber) renumber();
@@ -97,16 +110,7 @@ ProgramNumbers::ProgramNumbers(const ir::ProgramFile& file, const ir::Program& p
     else if (!computed_.hasPlace())
       computed_ = statement.origin.range();
   }
-  for (const ir::Program& one : file.programs) {
-    for (const ir::ProgramStatement& statement : one.body) {
-      const auto* exit = std::get_if<ir::Exit>(&statement.node);
-      if (exit == nullptr || !exit->block) continue;
-      if (const auto number = wholeOf(exit->block))
-        used_.insert(*number);
-      else if (!computed_.hasPlace())
-        computed_ = statement.origin.range();
-    }
-  }
+  if (!computed_.hasPlace()) computed_ = exits.computed;
   if (!context.options.renumber) checkJumps();
 }
 
@@ -186,12 +190,15 @@ void ProgramNumbers::add(ir::LabelId label, SourceRange from) {
     return;
   }
   // Numbers above the last one are no targets here.
-  const auto above = used_.upper_bound(last);
-  const std::uint64_t most = above == used_.begin() ? 0 : *std::prev(above);
+  const auto mostOf = [&](const std::set<std::uint64_t>& numbers) {
+    const auto above = numbers.upper_bound(last);
+    return above == numbers.begin() ? 0 : *std::prev(above);
+  };
+  const std::uint64_t most = std::max(mostOf(used_), mostOf(exits_.numbers));
   std::uint64_t number = most / 10 * 10 + 10;
   if (number > last) {
     number = last;
-    while (number > 0 && used_.contains(number))
+    while (number > 0 && (used_.contains(number) || exits_.numbers.contains(number)))
       --number;
   }
   if (number == 0) context_.diagnostics.report<diag::TooManyJumps>(from, context_.to().title, last);

@@ -9,10 +9,20 @@
 
 namespace dotek::backends::fanuc {
 
+// Where M99 P of the programs of a file leads, found once for all of them.
+struct FileExits {
+  explicit FileExits(const ir::ProgramFile& file);
+
+  std::set<std::uint64_t> numbers;
+  SourceRange computed; // of the first whose number is computed; no place: there is none
+};
+
 class ProgramNumbers {
 public:
   // Reports what cannot be renumbered, and jumps whose number would lead elsewhere.
-  ProgramNumbers(const ir::ProgramFile& file, const ir::Program& program, const ProgramContext& context);
+  // `exits` are those of the file. What is passed outlives this.
+  ProgramNumbers(const ir::ProgramFile& file, const FileExits& exits, const ir::Program& program,
+                 const ProgramContext& context);
 
   // Digits after the N of a block; "": the label has no number.
   std::string digits(ir::LabelId label) const;
@@ -37,10 +47,11 @@ private:
   const ir::Program* onlyProgram(std::uint64_t number) const;
 
   const ir::ProgramFile& file_;
+  const FileExits& exits_;
   const ir::Program& program_;
   const ProgramContext& context_;
   std::map<ir::LabelId, std::string> digits_;
-  std::set<std::uint64_t> used_;
+  std::set<std::uint64_t> used_; // by the program itself
   std::optional<Callers> callers_;
   SourceRange computed_; // of a GOTO or M99 P whose number is computed
 };

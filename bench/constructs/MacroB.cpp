@@ -102,7 +102,9 @@ void addMacroB(std::vector<Construct>& out) {
   linted("comments", 4000, [](long n) { return program(times(n, "(NOTE) G4 X1. (NOTE)\n")); });
   linted("comments on one line", 4000, [](long n) { return program(times(n, "(NOTE)") + "\n"); });
   linted("unclosed comments", 4000, [](long n) { return program(times(n, "G0 X1. (NOTE\n")); });
-  linted("unclosed comments on one line", 4000, [](long n) { return program(times(n, "(") + "\n"); });
+  // Up to the limit of a line's length, and above it.
+  linted("unclosed comments on one line", 2000, [](long n) { return program(times(n, "(") + "\n"); });
+  linted("unclosed comments on a line too long", 20000, [](long n) { return program(times(n, "(") + "\n"); });
   linted("comments over lines", 2000, [](long n) { return program(times(n, "(ONE\nTWO)\n")); });
   linted("lines of text", 2000, [](long n) { return program(times(n, "cutter on the left side\n")); });
   linted("misprints", 2000, [](long n) { return program(times(n, "GO X5,5 YO.\n")); });

@@ -62,23 +62,33 @@ const nc::Word* findCode(const Words& words, char letter, double code) {
   return nullptr;
 }
 
+namespace {
+
+// The code of a call that the word is; nullptr: another word.
+const CodeKind* callCode(const nc::Word& word) {
+  if (word.address != 'G' && word.address != 'M') return nullptr;
+  const std::optional<double> value = literal(word);
+  if (!value || *value < 65) return nullptr;
+  const auto found = std::find_if(std::begin(kCodes), std::end(kCodes), [&](const CodeKind& code) {
+    return code.letter == word.address && *value == code.code;
+  });
+  return found == std::end(kCodes) ? nullptr : &*found;
+}
+
+} // namespace
+
 std::optional<Call> callOf(const Words& words) {
-  Call call;
+  // Most blocks have none: nothing is made for them.
+  const CodeKind* kind = nullptr;
   std::size_t at = 0;
-  for (; at < words.words.size() && call.code == nullptr; ++at) {
-    const nc::Word& word = words.words[at];
-    if (word.address != 'G' && word.address != 'M') continue;
-    const std::optional<double> value = literal(word);
-    const auto found = std::find_if(std::begin(kCodes), std::end(kCodes), [&](const CodeKind& code) {
-      return code.letter == word.address && value == code.code;
-    });
-    if (found == std::end(kCodes)) continue;
-    call.kind = found->kind;
-    call.code = &word;
-    for (std::size_t i = 0; i < at; ++i)
-      call.before.push_back(&words.words[i]);
-  }
-  if (call.code == nullptr) return std::nullopt;
+  for (; at < words.words.size() && kind == nullptr; ++at)
+    kind = callCode(words.words[at]);
+  if (kind == nullptr) return std::nullopt;
+  Call call;
+  call.kind = kind->kind;
+  call.code = &words.words[at - 1];
+  for (std::size_t i = 0; i + 1 < at; ++i)
+    call.before.push_back(&words.words[i]);
   const bool macro =
       call.kind == CallKind::Simple || call.kind == CallKind::AfterMoves || call.kind == CallKind::EachBlock;
   Sets sets;

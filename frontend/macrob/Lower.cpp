@@ -307,14 +307,15 @@ void reportMarks(const File& file, const SourceMap& sources, Diagnostics& diagno
 
 std::optional<ir::ProgramFile> lower(const File& file, const stdlib::Control& control,
                                      const SourceMap& sources, Diagnostics& diagnostics, LowerFor use) {
+  std::vector<const Check<CheckedProgram>*> refusals;
+  for (const Check<CheckedProgram>* check : programChecks())
+    if (check->severity == Severity::Error && !isForRunTime(check->code, use)) refusals.push_back(check);
   Diagnostics found;
-  checkFile(file, &control, sources, found);
-  bool fails = file.hasErrors;
-  for (Diagnostic& one : found.all()) {
-    if (one.severity != Severity::Error || isForRunTime(one.code, use)) continue;
-    fails = true;
+  for (const Program& program : file.programs)
+    runChecks<CheckedProgram>(refusals, CheckedProgram(program, &control, sources), found);
+  const bool fails = file.hasErrors || found.hasErrors();
+  for (Diagnostic& one : found.all())
     diagnostics.add(std::move(one));
-  }
   for (const SourceRange& legend : file.legends)
     diagnostics.report<diag::LegendNotRun>(legend);
   if (fails || !file.legends.empty()) return std::nullopt;

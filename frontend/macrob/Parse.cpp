@@ -214,14 +214,15 @@ private:
 
   // Variables that the program of a line names by number.
   const std::set<std::uint32_t>& variablesOf(std::size_t index) {
+    if (index >= used_.first && index < used_.last) return used_.variables;
     std::size_t first = index;
     while (first > 0 && !lines_.lines[first].header)
       --first;
     std::size_t last = index + 1;
     while (last < lines_.lines.size() && !lines_.lines[last].header)
       ++last;
-    if (const auto found = used_.find(first); found != used_.end()) return found->second;
-    std::set<std::uint32_t>& used = used_[first];
+    used_ = {first, last, {}};
+    std::set<std::uint32_t>& used = used_.variables;
     const std::string_view text = source_.substr(
         lines_.lines[first].range.begin, lines_.lines[last - 1].range.end - lines_.lines[first].range.begin);
     for (std::size_t at = text.find('#'); at != std::string_view::npos; at = text.find('#', at + 1)) {
@@ -255,7 +256,11 @@ private:
   ParseSession session_;
   std::size_t next_ = 0;
   std::size_t offending_ = 0;
-  std::map<std::size_t, std::set<std::uint32_t>> used_;
+  struct Used {                      // of the program that was asked for last
+    std::size_t first = 0, last = 0; // its lines, without the last
+    std::set<std::uint32_t> variables;
+  };
+  Used used_;
 };
 
 bool isOffsetSpeltAsLoop(const Block& block, std::uint32_t& loop) {

@@ -1,4 +1,5 @@
 #include "ir/Walk.h"
+#include "lint/NcProgram.h"
 #include "lint/OwnCalls.h"
 
 #include <algorithm>
@@ -40,9 +41,8 @@ void checkProgram(const ir::Program& program, Report& report) {
           number);
 }
 
-void check(const Project& project, Report& report) {
-  eachProgram(project,
-              [&](const ir::Program& program, const macrob::File&) { checkProgram(program, report); });
+void check(const NcProgram& nc, Report& report) {
+  checkProgram(nc.program, report);
 }
 
 } // namespace
@@ -50,7 +50,7 @@ void check(const Project& project, Report& report) {
 DOTEK_LINT_RULE(argument_not_tested){
     .severity = Severity::Note,
     .tier = Tier::Ir,
-    .check = check,
+    .program = check,
 };
 
 } // namespace dotek::lint::rule

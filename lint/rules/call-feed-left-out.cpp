@@ -1,3 +1,4 @@
+#include "lint/NcProgram.h"
 #include "lint/Probing.h"
 
 namespace dotek::lint::rule {
@@ -5,26 +6,25 @@ namespace {
 
 constexpr std::size_t kTimes = 6; // so many times as many have one
 
-void check(const Project& project, Report& report) {
-  const Probing& probing = probingOf(project);
-  eachProgram(project, [&](const ir::Program& program, const macrob::File&) {
-    std::vector<const ir::ProgramStatement*> with, without;
-    for (const ir::ProgramStatement& statement : program.body) {
-      const auto* call = std::get_if<ir::Call>(&statement.node);
-      if (call == nullptr || probing.step(statement).kind != ProbeStep::Kind::Protected) continue;
-      bool feed = false;
-      for (const ir::CallArgument& argument : call->arguments)
-        feed = feed || argument.letter == 'F';
-      (feed ? with : without).push_back(&statement);
-    }
-    if (without.empty() || with.size() < kTimes * without.size()) return;
-    for (const ir::ProgramStatement* statement : without)
-      report
-          .at(statement->origin.range(), "this protected move has no F and goes at the feed of the one "
-                                         "before, on the path down maybe at that "
-                                         "of a travel; the other ones of the program state theirs; write F")
-          .note(with.front()->origin.range(), "as here");
-  });
+void check(const NcProgram& nc, Report& report) {
+  const ir::Program& program = nc.program;
+  const Probing& probing = probingOf(nc.project);
+  std::vector<const ir::ProgramStatement*> with, without;
+  for (const ir::ProgramStatement& statement : program.body) {
+    const auto* call = std::get_if<ir::Call>(&statement.node);
+    if (call == nullptr || probing.step(statement).kind != ProbeStep::Kind::Protected) continue;
+    bool feed = false;
+    for (const ir::CallArgument& argument : call->arguments)
+      feed = feed || argument.letter == 'F';
+    (feed ? with : without).push_back(&statement);
+  }
+  if (without.empty() || with.size() < kTimes * without.size()) return;
+  for (const ir::ProgramStatement* statement : without)
+    report
+        .at(statement->origin.range(), "this protected move has no F and goes at the feed of the one "
+                                       "before, on the path down maybe at that "
+                                       "of a travel; the other ones of the program state theirs; write F")
+        .note(with.front()->origin.range(), "as here");
 }
 
 } // namespace
@@ -33,7 +33,7 @@ DOTEK_LINT_RULE(call_feed_left_out){
     .severity = Severity::Note,
     .byDefault = false,
     .tier = Tier::Ir,
-    .check = check,
+    .program = check,
 };
 
 } // namespace dotek::lint::rule

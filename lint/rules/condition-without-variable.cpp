@@ -1,4 +1,5 @@
 #include "ir/Walk.h"
+#include "lint/NcProgram.h"
 #include "lint/Skips.h"
 
 namespace dotek::lint::rule {
@@ -17,28 +18,27 @@ bool isFixed(const ir::ExpressionPtr& expression) {
   return fixed;
 }
 
-void check(const Project& project, Report& report) {
-  eachProgram(project, [&](const ir::Program& program, const macrob::File&) {
-    for (const ir::ProgramStatement& statement : program.body) {
-      // WHILE [1 EQ 1] is meant.
-      const auto* branch = std::get_if<ir::Branch>(&statement.node);
-      const auto* comparison =
-          branch == nullptr ? nullptr : std::get_if<ir::Comparison>(&branch->condition->node);
-      if (comparison == nullptr) continue;
-      const bool left = isFixed(comparison->left) || isEmpty(comparison->left);
-      const bool right = isFixed(comparison->right) || isEmpty(comparison->right);
-      const bool plain = std::holds_alternative<ir::Constant>(comparison->left->node) &&
-                         std::holds_alternative<ir::Constant>(comparison->right->node);
-      // IF [1 EQ 1] and [1 EQ 0] switch blocks on and off.
-      const bool meant = plain && (comparison->relation == ir::Relation::Equal ||
-                                   comparison->relation == ir::Relation::NotEqual);
-      if (!left || !right || meant) continue;
-      report.at(
-          branch->condition->range.hasPlace() ? branch->condition->range : statement.origin.range(),
-          "this condition looks at no variable, so it comes out the same each time; mostly the `#` of one "
-          "is missing; write it");
-    }
-  });
+void check(const NcProgram& nc, Report& report) {
+  const ir::Program& program = nc.program;
+  for (const ir::ProgramStatement& statement : program.body) {
+    // WHILE [1 EQ 1] is meant.
+    const auto* branch = std::get_if<ir::Branch>(&statement.node);
+    const auto* comparison =
+        branch == nullptr ? nullptr : std::get_if<ir::Comparison>(&branch->condition->node);
+    if (comparison == nullptr) continue;
+    const bool left = isFixed(comparison->left) || isEmpty(comparison->left);
+    const bool right = isFixed(comparison->right) || isEmpty(comparison->right);
+    const bool plain = std::holds_alternative<ir::Constant>(comparison->left->node) &&
+                       std::holds_alternative<ir::Constant>(comparison->right->node);
+    // IF [1 EQ 1] and [1 EQ 0] switch blocks on and off.
+    const bool meant = plain && (comparison->relation == ir::Relation::Equal ||
+                                 comparison->relation == ir::Relation::NotEqual);
+    if (!left || !right || meant) continue;
+    report.at(
+        branch->condition->range.hasPlace() ? branch->condition->range : statement.origin.range(),
+        "this condition looks at no variable, so it comes out the same each time; mostly the `#` of one "
+        "is missing; write it");
+  }
 }
 
 } // namespace
@@ -46,7 +46,7 @@ void check(const Project& project, Report& report) {
 DOTEK_LINT_RULE(condition_without_variable){
     .severity = Severity::Warning,
     .tier = Tier::Ir,
-    .check = check,
+    .program = check,
 };
 
 } // namespace dotek::lint::rule

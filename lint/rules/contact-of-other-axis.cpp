@@ -1,5 +1,6 @@
 #include "ir/Dataflow.h"
 #include "ir/Walk.h"
+#include "lint/NcProgram.h"
 #include "lint/Skips.h"
 
 #include <algorithm>
@@ -53,7 +54,8 @@ AxisSet touchedIn(const std::vector<ir::ProgramStatement>& body, std::size_t loo
   return out;
 }
 
-void checkProgram(const ir::Program& program, Report& report) {
+void check(const NcProgram& nc, Report& report) {
+  const ir::Program& program = nc.program;
   const auto& body = program.body;
   const Reads reads(body);
   const bool skips = std::any_of(body.begin(), body.end(),
@@ -61,7 +63,7 @@ void checkProgram(const ir::Program& program, Report& report) {
   // A macro may evaluate what its caller measured.
   if (!skips && !endsProgram(program)) return;
   const auto moved = ir::factsBefore<AxisSet>(
-      body, kNone,
+      body, nc.flow(), kNone,
       [&](std::size_t at, std::size_t to, AxisSet axes) -> AxisSet {
         // A loop that touches is written to run.
         if (std::holds_alternative<ir::Loop>(body[at].node) && to > at + 1 && (axes & kNone) != 0)
@@ -78,13 +80,13 @@ void checkProgram(const ir::Program& program, Report& report) {
   for (std::size_t i = 0; i < body.size(); ++i) {
     if (!moved[i] || (*moved[i] & kAnyAxis) != 0) continue;
     bool told = false;
-    eachRead(body[i], [&](std::uint32_t number, SourceRange range) {
+    for (const auto& [number, range] : nc.reads(i)) {
       const auto axis = contactAxis(number);
       const bool none = (*moved[i] & kNone) != 0;
-      if (!axis || told || (!none && (*moved[i] & *axis) != 0)) return;
+      if (!axis || told || (!none && (*moved[i] & *axis) != 0)) continue;
       const auto* store = std::get_if<ir::Store>(&body[i].node);
       const auto kept = store == nullptr ? std::nullopt : storedNumber(body[i]);
-      if (!none && kept && reads.onlyAlongAngle(*kept)) return;
+      if (!none && kept && reads.onlyAlongAngle(*kept)) continue;
       told = true;
       const SourceRange place = range.hasPlace() ? range : body[i].origin.range();
       if (none)
@@ -97,13 +99,8 @@ void checkProgram(const ir::Program& program, Report& report) {
                   "#{} is where the last G31 stopped along {}, and that G31 moves along {} alone; the value "
                   "says nothing about the surface; read the variable of the other axis, or move along {}",
                   number, names(*axis), names(*moved[i]), names(*axis));
-    });
+    }
   }
-}
-
-void check(const Project& project, Report& report) {
-  eachProgram(project,
-              [&](const ir::Program& program, const macrob::File&) { checkProgram(program, report); });
 }
 
 } // namespace
@@ -111,7 +108,7 @@ void check(const Project& project, Report& report) {
 DOTEK_LINT_RULE(contact_of_other_axis){
     .severity = Severity::Warning,
     .tier = Tier::Ir,
-    .check = check,
+    .program = check,
 };
 
 } // namespace dotek::lint::rule

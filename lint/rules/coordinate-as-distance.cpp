@@ -1,4 +1,5 @@
 #include "ir/Expression.h"
+#include "lint/NcProgram.h"
 #include "lint/Skips.h"
 
 #include <algorithm>
@@ -33,9 +34,10 @@ bool takesOffset(const ir::ProgramStatement& statement) {
   return false;
 }
 
-void checkProgram(const ir::Program& program, Report& report) {
+void check(const NcProgram& nc, Report& report) {
+  const ir::Program& program = nc.program;
   const auto& body = program.body;
-  const auto modes = distanceModes(body);
+  const auto& modes = nc.modes();
   const auto modeOf = [&](std::size_t i) { return statedMode(body[i]).value_or(*modes[i]); };
   std::set<std::pair<char, double>> absolute;
   bool absoluteSkip = false;
@@ -66,17 +68,12 @@ void checkProgram(const ir::Program& program, Report& report) {
   }
 }
 
-void check(const Project& project, Report& report) {
-  eachProgram(project,
-              [&](const ir::Program& program, const macrob::File&) { checkProgram(program, report); });
-}
-
 } // namespace
 
 DOTEK_LINT_RULE(coordinate_as_distance){
     .severity = Severity::Warning,
     .tier = Tier::Ir,
-    .check = check,
+    .program = check,
 };
 
 } // namespace dotek::lint::rule

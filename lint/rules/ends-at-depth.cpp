@@ -1,4 +1,5 @@
 #include "ir/Dataflow.h"
+#include "lint/NcProgram.h"
 #include "lint/Skips.h"
 
 #include <algorithm>
@@ -12,7 +13,8 @@ struct Height {
   bool operator==(const Height&) const = default;
 };
 
-void checkProgram(const ir::Program& program, const Probing& probing, Report& report) {
+void checkProgram(const NcProgram& nc, const Probing& probing, Report& report) {
+  const ir::Program& program = nc.program;
   const auto& body = program.body;
   if (!endsProgram(program)) return;
   double highest = -1e9;
@@ -24,9 +26,9 @@ void checkProgram(const ir::Program& program, const Probing& probing, Report& re
       if (const auto z = wordValue(*block, 'Z')) highest = std::max(highest, *z);
   }
   if (!touches) return;
-  const auto modes = distanceModes(body);
+  const auto& modes = nc.modes();
   const auto heights = ir::factsBefore<Height>(
-      body, Height{},
+      body, nc.flow(), Height{},
       [&](std::size_t at, std::size_t, Height height) -> Height {
         const auto* block = std::get_if<ir::NcBlock>(&body[at].node);
         if (probing.step(body[at]).kind == ProbeStep::Kind::Protected || callOf(body[at]) != nullptr)
@@ -54,11 +56,8 @@ void checkProgram(const ir::Program& program, const Probing& probing, Report& re
   }
 }
 
-void check(const Project& project, Report& report) {
-  const Probing& probing = probingOf(project);
-  eachProgram(project, [&](const ir::Program& program, const macrob::File&) {
-    checkProgram(program, probing, report);
-  });
+void check(const NcProgram& nc, Report& report) {
+  checkProgram(nc, probingOf(nc.project), report);
 }
 
 } // namespace
@@ -66,7 +65,7 @@ void check(const Project& project, Report& report) {
 DOTEK_LINT_RULE(ends_at_depth){
     .severity = Severity::Warning,
     .tier = Tier::Ir,
-    .check = check,
+    .program = check,
 };
 
 } // namespace dotek::lint::rule

@@ -1,24 +1,24 @@
+#include "lint/NcProgram.h"
 #include "lint/Skips.h"
 
 namespace dotek::lint::rule {
 namespace {
 
-void check(const Project& project, Report& report) {
-  eachProgram(project, [&](const ir::Program& program, const macrob::File&) {
-    const auto modes = distanceModes(program.body);
-    const ir::ProgramStatement* set = nullptr;
-    for (std::size_t i = 0; i < program.body.size(); ++i) {
-      if (statedMode(program.body[i]) == DistanceMode::Incremental) set = &program.body[i];
-      if (!endsProgram(program.body[i]) || !modes[i] || set == nullptr) continue;
-      if (*modes[i] != DistanceMode::Incremental && *modes[i] != DistanceMode::Both) continue;
-      report
-          .at(program.body[i].origin.range(),
-              "the program ends with G91 in force; whether M30 takes it back depends on a parameter, and a "
-              "program "
-              "that states no G90 moves by distances; write G90 before the end")
-          .note(set->origin.range(), "G91 is here");
-    }
-  });
+void check(const NcProgram& nc, Report& report) {
+  const ir::Program& program = nc.program;
+  const auto& modes = nc.modes();
+  const ir::ProgramStatement* set = nullptr;
+  for (std::size_t i = 0; i < program.body.size(); ++i) {
+    if (statedMode(program.body[i]) == DistanceMode::Incremental) set = &program.body[i];
+    if (!endsProgram(program.body[i]) || !modes[i] || set == nullptr) continue;
+    if (*modes[i] != DistanceMode::Incremental && *modes[i] != DistanceMode::Both) continue;
+    report
+        .at(program.body[i].origin.range(),
+            "the program ends with G91 in force; whether M30 takes it back depends on a parameter, and a "
+            "program "
+            "that states no G90 moves by distances; write G90 before the end")
+        .note(set->origin.range(), "G91 is here");
+  }
 }
 
 } // namespace
@@ -27,7 +27,7 @@ DOTEK_LINT_RULE(ends_incremental){
     .severity = Severity::Note,
     .byDefault = false,
     .tier = Tier::Ir,
-    .check = check,
+    .program = check,
 };
 
 } // namespace dotek::lint::rule

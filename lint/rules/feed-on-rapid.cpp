@@ -1,3 +1,4 @@
+#include "lint/NcProgram.h"
 #include "lint/ProgBlocks.h"
 #include "lint/Skips.h"
 
@@ -23,17 +24,18 @@ void check(const Project& project, Report& report) {
                 "for the next G1; leave it out, or write G1");
     }
   });
-  eachProgram(project, [&](const ir::Program& program, const macrob::File&) {
-    for (const ir::ProgramStatement& statement : program.body) {
-      const auto* block = std::get_if<ir::NcBlock>(&statement.node);
-      if (block == nullptr || !isPlainMove(statement) || !hasCode(*block, 'G', 0) || hasCode(*block, 'G', 1))
-        continue;
-      for (const ir::Word& word : block->words)
-        if (word.address == 'F')
-          report.at(word.range, "a feed is in a rapid block; the control moves at its rapid rate and keeps "
-                                "the feed for the next G1; leave it out, or write G1");
-    }
-  });
+}
+
+void checkProgram(const NcProgram& nc, Report& report) {
+  for (const ir::ProgramStatement& statement : nc.program.body) {
+    const auto* block = std::get_if<ir::NcBlock>(&statement.node);
+    if (block == nullptr || !isPlainMove(statement) || !hasCode(*block, 'G', 0) || hasCode(*block, 'G', 1))
+      continue;
+    for (const ir::Word& word : block->words)
+      if (word.address == 'F')
+        report.at(word.range, "a feed is in a rapid block; the control moves at its rapid rate and keeps "
+                              "the feed for the next G1; leave it out, or write G1");
+  }
 }
 
 } // namespace
@@ -43,6 +45,7 @@ DOTEK_LINT_RULE(feed_on_rapid){
     .byDefault = false,
     .tier = Tier::Syntax,
     .check = check,
+    .program = checkProgram,
 };
 
 } // namespace dotek::lint::rule

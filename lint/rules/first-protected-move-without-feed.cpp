@@ -1,3 +1,4 @@
+#include "lint/NcProgram.h"
 #include "lint/Probing.h"
 
 #include <algorithm>
@@ -10,9 +11,10 @@ bool statesFeed(const ir::Call& call) {
                      [](const ir::CallArgument& argument) { return argument.letter == 'F'; });
 }
 
-void checkProgram(const ir::Program& program, const Probing& probing, Report& report) {
+void checkProgram(const NcProgram& nc, const Probing& probing, Report& report) {
+  const ir::Program& program = nc.program;
   const auto feeds = ir::factsBefore<bool>(
-      program.body, false,
+      program.body, nc.flow(), false,
       [&](std::size_t at, std::size_t, bool known) {
         const ir::ProgramStatement& statement = program.body[at];
         const ProbeStep::Kind kind = probing.step(statement).kind;
@@ -41,11 +43,8 @@ void checkProgram(const ir::Program& program, const Probing& probing, Report& re
   }
 }
 
-void check(const Project& project, Report& report) {
-  const Probing& probing = probingOf(project);
-  eachProgram(project, [&](const ir::Program& program, const macrob::File&) {
-    if (endsProgram(program)) checkProgram(program, probing, report);
-  });
+void check(const NcProgram& nc, Report& report) {
+  if (endsProgram(nc.program)) checkProgram(nc, probingOf(nc.project), report);
 }
 
 } // namespace
@@ -54,7 +53,7 @@ DOTEK_LINT_RULE(first_protected_move_without_feed){
     .severity = Severity::Note,
     .byDefault = false,
     .tier = Tier::Ir,
-    .check = check,
+    .program = check,
 };
 
 } // namespace dotek::lint::rule

@@ -1,3 +1,4 @@
+#include "lint/NcProgram.h"
 #include "lint/Probing.h"
 
 #include <algorithm>
@@ -21,9 +22,10 @@ std::optional<Distance> modeOf(const ir::ProgramStatement& statement) {
   return out;
 }
 
-void checkProgram(const ir::Program& program, Report& report) {
+void check(const NcProgram& nc, Report& report) {
+  const ir::Program& program = nc.program;
   const auto before = ir::factsBefore<Distance>(
-      program.body, Distance::AsBefore,
+      program.body, nc.flow(), Distance::AsBefore,
       [&](std::size_t at, std::size_t, Distance distance) {
         return modeOf(program.body[at]).value_or(distance);
       },
@@ -50,17 +52,12 @@ void checkProgram(const ir::Program& program, Report& report) {
   }
 }
 
-void check(const Project& project, Report& report) {
-  eachProgram(project,
-              [&](const ir::Program& program, const macrob::File&) { checkProgram(program, report); });
-}
-
 } // namespace
 
 DOTEK_LINT_RULE(incremental_left_on){
     .severity = Severity::Warning,
     .tier = Tier::Ir,
-    .check = check,
+    .program = check,
 };
 
 } // namespace dotek::lint::rule

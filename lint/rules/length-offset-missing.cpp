@@ -1,3 +1,4 @@
+#include "lint/NcProgram.h"
 #include "lint/Skips.h"
 
 #include <algorithm>
@@ -29,11 +30,8 @@ void checkProgram(const ir::Program& program, const Probing& probing, Report& re
             "nose of the spindle then, and the stylus goes into the part by its length; write G43 H..");
 }
 
-void check(const Project& project, Report& report) {
-  const Probing& probing = probingOf(project);
-  eachProgram(project, [&](const ir::Program& program, const macrob::File&) {
-    checkProgram(program, probing, report);
-  });
+void check(const NcProgram& nc, Report& report) {
+  checkProgram(nc.program, probingOf(nc.project), report);
 }
 
 } // namespace
@@ -41,7 +39,7 @@ void check(const Project& project, Report& report) {
 DOTEK_LINT_RULE(length_offset_missing){
     .severity = Severity::Warning,
     .tier = Tier::Ir,
-    .check = check,
+    .program = check,
 };
 
 } // namespace dotek::lint::rule

@@ -1,4 +1,5 @@
 #include "ir/Walk.h"
+#include "lint/NcProgram.h"
 #include "lint/Skips.h"
 
 #include <map>
@@ -35,9 +36,8 @@ void checkProgram(const ir::Program& program, Report& report) {
           number);
 }
 
-void check(const Project& project, Report& report) {
-  eachProgram(project,
-              [&](const ir::Program& program, const macrob::File&) { checkProgram(program, report); });
+void check(const NcProgram& nc, Report& report) {
+  checkProgram(nc.program, report);
 }
 
 } // namespace
@@ -45,7 +45,7 @@ void check(const Project& project, Report& report) {
 DOTEK_LINT_RULE(local_never_read){
     .severity = Severity::Warning,
     .tier = Tier::Ir,
-    .check = check,
+    .program = check,
 };
 
 } // namespace dotek::lint::rule

@@ -1,5 +1,6 @@
 #include "ir/Evaluate.h"
 #include "ir/Walk.h"
+#include "lint/NcProgram.h"
 #include "lint/Probing.h"
 
 #include <set>
@@ -64,9 +65,8 @@ void checkProgram(const ir::Program& program, Report& report) {
   }
 }
 
-void check(const Project& project, Report& report) {
-  eachProgram(project,
-              [&](const ir::Program& program, const macrob::File&) { checkProgram(program, report); });
+void check(const NcProgram& nc, Report& report) {
+  checkProgram(nc.program, report);
 }
 
 } // namespace
@@ -74,7 +74,7 @@ void check(const Project& project, Report& report) {
 DOTEK_LINT_RULE(loop_never_ends){
     .severity = Severity::Warning,
     .tier = Tier::Ir,
-    .check = check,
+    .program = check,
 };
 
 } // namespace dotek::lint::rule

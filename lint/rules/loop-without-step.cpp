@@ -1,4 +1,5 @@
 #include "ir/Walk.h"
+#include "lint/NcProgram.h"
 #include "lint/Skips.h"
 
 #include <set>
@@ -105,9 +106,8 @@ void checkProgram(const ir::Program& program, Report& report) {
   }
 }
 
-void check(const Project& project, Report& report) {
-  eachProgram(project,
-              [&](const ir::Program& program, const macrob::File&) { checkProgram(program, report); });
+void check(const NcProgram& nc, Report& report) {
+  checkProgram(nc.program, report);
 }
 
 } // namespace
@@ -115,7 +115,7 @@ void check(const Project& project, Report& report) {
 DOTEK_LINT_RULE(loop_without_step){
     .severity = Severity::Warning,
     .tier = Tier::Ir,
-    .check = check,
+    .program = check,
 };
 
 } // namespace dotek::lint::rule

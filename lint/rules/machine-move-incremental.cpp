@@ -1,10 +1,12 @@
+#include "lint/NcProgram.h"
 #include "lint/Skips.h"
 
 namespace dotek::lint::rule {
 namespace {
 
-void checkProgram(const ir::Program& program, Report& report) {
-  const auto modes = distanceModes(program.body);
+void check(const NcProgram& nc, Report& report) {
+  const ir::Program& program = nc.program;
+  const auto& modes = nc.modes();
   for (std::size_t i = 0; i < program.body.size(); ++i) {
     const ir::ProgramStatement& statement = program.body[i];
     const auto* block = std::get_if<ir::NcBlock>(&statement.node);
@@ -18,17 +20,12 @@ void checkProgram(const ir::Program& program, Report& report) {
   }
 }
 
-void check(const Project& project, Report& report) {
-  eachProgram(project,
-              [&](const ir::Program& program, const macrob::File&) { checkProgram(program, report); });
-}
-
 } // namespace
 
 DOTEK_LINT_RULE(machine_move_incremental){
     .severity = Severity::Warning,
     .tier = Tier::Ir,
-    .check = check,
+    .program = check,
 };
 
 } // namespace dotek::lint::rule

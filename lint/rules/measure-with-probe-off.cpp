@@ -1,3 +1,4 @@
+#include "lint/NcProgram.h"
 #include "lint/Probing.h"
 
 namespace dotek::lint::rule {
@@ -21,12 +22,12 @@ void checkBody(const std::vector<Statement>& body, const Probing& probing, Repor
 }
 
 void check(const Project& project, Report& report) {
-  const Probing& probing = probingOf(project);
   for (const Joined& joined : project.joined)
-    if (joined.lowered) checkBody(joined.lowered->body, probing, report);
-  eachProgram(project, [&](const ir::Program& program, const macrob::File&) {
-    checkBody(program.body, probing, report);
-  });
+    if (joined.lowered) checkBody(joined.lowered->body, probingOf(project), report);
+}
+
+void checkProgram(const NcProgram& nc, Report& report) {
+  checkBody(nc.program.body, probingOf(nc.project), report);
 }
 
 } // namespace
@@ -35,6 +36,7 @@ DOTEK_LINT_RULE(measure_with_probe_off){
     .severity = Severity::Error,
     .tier = Tier::Ir,
     .check = check,
+    .program = checkProgram,
 };
 
 } // namespace dotek::lint::rule

@@ -1,4 +1,5 @@
 #include "ir/Flow.h"
+#include "lint/NcProgram.h"
 #include "lint/Skips.h"
 
 #include <algorithm>
@@ -21,33 +22,32 @@ bool endsNormally(const ir::ProgramStatement& statement) {
                                 ir::Notice, ir::Port, ir::Print, ir::NameVariables> auto&) { return false; });
 }
 
-void check(const Project& project, Report& report) {
-  eachProgram(project, [&](const ir::Program& program, const macrob::File& file) {
-    if (program.nameKind == ir::Program::NameKind::None || program.body.empty()) return;
-    const auto& body = program.body;
-    const auto next = ir::flowOf(body).next;
-    const std::vector<bool> reached = ir::reachable(body);
-    bool ends = false;
-    bool alarms = false;
-    const ir::ProgramStatement* past = nullptr;
-    for (std::size_t i = 0; i < body.size(); ++i) {
-      if (!reached[i]) continue;
-      ends = ends || endsNormally(body[i]);
-      alarms = alarms || std::holds_alternative<ir::Raise>(body[i].node);
-      if (!endsNormally(body[i]) && std::find(next[i].begin(), next[i].end(), body.size()) != next[i].end())
-        past = &body[i];
-    }
-    if (past != nullptr && (ends || alarms || file.markLast))
-      report.at(
-          past->origin.range(),
-          "the program goes on past its last block; the control stops with an alarm, or begins again from "
-          "the top; end it with M30, a macro with M99");
-    else if (!ends && alarms)
-      report.at(
-          program.range,
-          "each path through the program ends in an alarm, none in M30 or M99; the end before the alarms is "
-          "missing; write it");
-  });
+void check(const NcProgram& nc, Report& report) {
+  const ir::Program& program = nc.program;
+  if (program.nameKind == ir::Program::NameKind::None || program.body.empty()) return;
+  const auto& body = program.body;
+  const auto& next = nc.flow().next;
+  const std::vector<bool> reached = ir::reachable(body, nc.flow());
+  bool ends = false;
+  bool alarms = false;
+  const ir::ProgramStatement* past = nullptr;
+  for (std::size_t i = 0; i < body.size(); ++i) {
+    if (!reached[i]) continue;
+    ends = ends || endsNormally(body[i]);
+    alarms = alarms || std::holds_alternative<ir::Raise>(body[i].node);
+    if (!endsNormally(body[i]) && std::find(next[i].begin(), next[i].end(), body.size()) != next[i].end())
+      past = &body[i];
+  }
+  if (past != nullptr && (ends || alarms || nc.file.markLast))
+    report.at(
+        past->origin.range(),
+        "the program goes on past its last block; the control stops with an alarm, or begins again from "
+        "the top; end it with M30, a macro with M99");
+  else if (!ends && alarms)
+    report.at(
+        program.range,
+        "each path through the program ends in an alarm, none in M30 or M99; the end before the alarms is "
+        "missing; write it");
 }
 
 } // namespace
@@ -55,7 +55,7 @@ void check(const Project& project, Report& report) {
 DOTEK_LINT_RULE(no_normal_end){
     .severity = Severity::Warning,
     .tier = Tier::Ir,
-    .check = check,
+    .program = check,
 };
 
 } // namespace dotek::lint::rule

@@ -1,5 +1,6 @@
 #include "ir/NumberSet.h"
 #include "ir/Walk.h"
+#include "lint/NcProgram.h"
 #include "lint/Probing.h"
 
 #include <algorithm>
@@ -24,7 +25,8 @@ bool storesAnywhere(const ir::Program& program) {
   });
 }
 
-void checkProgram(const ir::Program& program, Report& report) {
+void check(const NcProgram& nc, Report& report) {
+  const ir::Program& program = nc.program;
   if (storesAnywhere(program)) return;
   const bool main = endsProgram(program) && !returns(program);
   // A macro gets arguments: only the locals that no letter sets are known to be empty. Its argument sets of
@@ -39,7 +41,7 @@ void checkProgram(const ir::Program& program, Report& report) {
            own.contains(number);
   };
   const auto set = ir::factsBefore<ir::NumberSet>(
-      program.body, {},
+      program.body, nc.flow(), {},
       [&](std::size_t at, std::size_t, ir::NumberSet variables) {
         const auto number = storedNumber(program.body[at]);
         if (number && *number <= kLastLocal) variables.insert(*number);
@@ -68,17 +70,12 @@ void checkProgram(const ir::Program& program, Report& report) {
   }
 }
 
-void check(const Project& project, Report& report) {
-  eachProgram(project,
-              [&](const ir::Program& program, const macrob::File&) { checkProgram(program, report); });
-}
-
 } // namespace
 
 DOTEK_LINT_RULE(null_in_arithmetic){
     .severity = Severity::Warning,
     .tier = Tier::Ir,
-    .check = check,
+    .program = check,
 };
 
 } // namespace dotek::lint::rule

@@ -1,5 +1,6 @@
 #include "ir/NumberSet.h"
 #include "ir/SharedMap.h"
+#include "lint/NcProgram.h"
 #include "lint/Probing.h"
 
 #include <algorithm>
@@ -21,17 +22,18 @@ struct State {
   Lost lost;
 };
 
-std::set<std::uint32_t> resultsOf(const Project& project) {
-  std::set<std::uint32_t> out;
+bool isResult(const Project& project, std::uint32_t number) {
   for (const stdlib::MacroSet& set : project.macroSets)
     for (const stdlib::MacroSignature& signature : set.signatures)
       for (const stdlib::MacroResult& result : signature.results)
-        out.insert(result.variable);
-  return out;
+        if (result.variable == number) return true;
+  return false;
 }
 
-void checkProgram(const ir::Program& program, const Project& project, const Probing& probing,
-                  const std::set<std::uint32_t>& results, Report& report) {
+void check(const NcProgram& nc, Report& report) {
+  const ir::Program& program = nc.program;
+  const Project& project = nc.project;
+  const Probing& probing = probingOf(project);
   const auto setOf = [&](std::uint32_t number) -> const stdlib::MacroSet* {
     for (const stdlib::MacroSet& set : project.macroSets)
       if (set.calls(number)) return &set;
@@ -42,11 +44,11 @@ void checkProgram(const ir::Program& program, const Project& project, const Prob
                        [&](const stdlib::MacroSet& set) { return isScratch(set, number); });
   };
   const auto before = ir::factsBefore<State>(
-      program.body, State{},
+      program.body, nc.flow(), State{},
       [&](std::size_t at, std::size_t, State state) {
         if (const auto number = storedNumber(program.body[at])) {
           state.lost.erase(*number);
-          if (!results.contains(*number) && inScratch(*number)) state.own.insert(*number);
+          if (inScratch(*number) && !isResult(project, *number)) state.own.insert(*number);
         }
         const ProbeStep step = probing.step(program.body[at]);
         const stdlib::MacroSet* set = step.program == 0 ? nullptr : setOf(step.program);
@@ -68,25 +70,17 @@ void checkProgram(const ir::Program& program, const Project& project, const Prob
   std::set<std::uint32_t> told;
   for (std::size_t i = 0; i < program.body.size(); ++i) {
     if (!before[i]) continue;
-    eachRead(program.body[i], [&](std::uint32_t number, SourceRange range) {
+    for (const auto& [number, range] : nc.reads(i)) {
       const std::size_t* lost = before[i]->lost.find(number);
-      if (lost == nullptr || !told.insert(number).second) return;
+      if (lost == nullptr || !told.insert(number).second) continue;
       report
           .at(range,
               "#{} belongs to the variables that the probing macros work with, and one was called since the "
               "program set it; what is here is theirs; keep the value in another variable",
               number)
           .note(program.body[*lost].origin.range(), "the call");
-    });
+    }
   }
-}
-
-void check(const Project& project, Report& report) {
-  const Probing& probing = probingOf(project);
-  const std::set<std::uint32_t> results = resultsOf(project);
-  eachProgram(project, [&](const ir::Program& program, const macrob::File&) {
-    checkProgram(program, project, probing, results, report);
-  });
 }
 
 } // namespace
@@ -94,7 +88,7 @@ void check(const Project& project, Report& report) {
 DOTEK_LINT_RULE(overwritten_by_macro){
     .severity = Severity::Warning,
     .tier = Tier::Ir,
-    .check = check,
+    .program = check,
 };
 
 } // namespace dotek::lint::rule

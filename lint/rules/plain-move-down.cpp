@@ -1,4 +1,5 @@
 #include "ir/Dataflow.h"
+#include "lint/NcProgram.h"
 #include "lint/Skips.h"
 
 #include <algorithm>
@@ -19,16 +20,17 @@ Height heightOf(const ir::ProgramStatement& statement) {
   return std::nullopt;
 }
 
-void checkProgram(const ir::Program& program, const Probing& probing, Report& report) {
+void checkProgram(const NcProgram& nc, const Probing& probing, Report& report) {
+  const ir::Program& program = nc.program;
   const auto& body = program.body;
   const bool guarded = std::any_of(body.begin(), body.end(), [&](const ir::ProgramStatement& s) {
     return probing.step(s).kind == ProbeStep::Kind::Protected;
   });
   if (!guarded) return;
   const auto& states = probing.states(body);
-  const auto modes = distanceModes(body);
+  const auto& modes = nc.modes();
   const auto heights = ir::factsBefore<Height>(
-      body, Height{},
+      body, nc.flow(), Height{},
       [&](std::size_t at, std::size_t, Height height) {
         // A measurement returns to where it began.
         if (probing.step(body[at]).kind == ProbeStep::Kind::Measure) return height;
@@ -62,11 +64,8 @@ void checkProgram(const ir::Program& program, const Probing& probing, Report& re
   }
 }
 
-void check(const Project& project, Report& report) {
-  const Probing& probing = probingOf(project);
-  eachProgram(project, [&](const ir::Program& program, const macrob::File&) {
-    checkProgram(program, probing, report);
-  });
+void check(const NcProgram& nc, Report& report) {
+  checkProgram(nc, probingOf(nc.project), report);
 }
 
 } // namespace
@@ -74,7 +73,7 @@ void check(const Project& project, Report& report) {
 DOTEK_LINT_RULE(plain_move_down){
     .severity = Severity::Warning,
     .tier = Tier::Ir,
-    .check = check,
+    .program = check,
 };
 
 } // namespace dotek::lint::rule

@@ -1,4 +1,5 @@
 #include "ir/Dataflow.h"
+#include "lint/NcProgram.h"
 #include "lint/Skips.h"
 
 #include <set>
@@ -11,13 +12,14 @@ bool isPosition(std::uint32_t number) {
   return number > 5000 && number <= 5043 && number % 20 >= 1 && number % 20 <= 3;
 }
 
-void checkProgram(const ir::Program& program, Report& report) {
+void check(const NcProgram& nc, Report& report) {
+  const ir::Program& program = nc.program;
   // In a main program nothing moves before.
   if (endsProgram(program)) return;
   const auto& body = program.body;
   // A dwell, G31, G53 or an M code ends the reading ahead; a move of the program's own is reported elsewhere.
   const auto waited = ir::factsBefore<bool>(
-      body, false,
+      body, nc.flow(), false,
       [&](std::size_t at, std::size_t, bool before) {
         const auto* block = std::get_if<ir::NcBlock>(&body[at].node);
         if (callOf(body[at]) != nullptr) return true;
@@ -33,20 +35,15 @@ void checkProgram(const ir::Program& program, Report& report) {
   std::set<std::uint32_t> told;
   for (std::size_t i = 0; i < body.size(); ++i) {
     if (!waited[i] || *waited[i]) continue;
-    eachRead(body[i], [&](std::uint32_t number, SourceRange range) {
-      if (!isPosition(number) || !told.insert(number).second) return;
+    for (const auto& [number, range] : nc.reads(i)) {
+      if (!isPosition(number) || !told.insert(number).second) continue;
       report.at(range.hasPlace() ? range : body[i].origin.range(),
                 "#{} is read before anything in this macro waits for the axes; the caller's last move may "
                 "still run, "
                 "and the control gives a position on the path; put `G53` or `G4 P0` before",
                 number);
-    });
+    }
   }
-}
-
-void check(const Project& project, Report& report) {
-  eachProgram(project,
-              [&](const ir::Program& program, const macrob::File&) { checkProgram(program, report); });
 }
 
 } // namespace
@@ -54,7 +51,7 @@ void check(const Project& project, Report& report) {
 DOTEK_LINT_RULE(position_read_at_entry){
     .severity = Severity::Note,
     .tier = Tier::Ir,
-    .check = check,
+    .program = check,
 };
 
 } // namespace dotek::lint::rule

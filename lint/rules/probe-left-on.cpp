@@ -1,3 +1,4 @@
+#include "lint/NcProgram.h"
 #include "lint/Probing.h"
 #include "lint/ProgBlocks.h"
 
@@ -32,26 +33,25 @@ void checkBody(const std::vector<ir::ProgramStatement>& body, const Probing& pro
   }
 }
 
-void check(const Project& project, Report& report) {
-  const Probing& probing = probingOf(project);
-  eachProgram(project, [&](const ir::Program& program, const macrob::File&) {
-    checkBody(program.body, probing, report);
-    if (!endsProgram(program)) return;
-    // A main program that switches it on and never off.
-    const ir::ProgramStatement* on = nullptr;
-    bool other = false;
-    for (const ir::ProgramStatement& statement : program.body) {
-      const ProbeStep::Kind kind = probing.step(statement).kind;
-      if (kind == ProbeStep::Kind::On) on = &statement;
-      if (kind == ProbeStep::Kind::Off || kind == ProbeStep::Kind::Call || kind == ProbeStep::Kind::PackCall)
-        other = true;
-    }
-    if (on != nullptr && !other)
-      report.at(on->origin.range(),
-                "the program switches the probe on and never off; its battery runs down, and the "
-                "next tool may turn with the interlock of the probe in force; switch it off at "
-                "the end");
-  });
+void check(const NcProgram& nc, Report& report) {
+  const ir::Program& program = nc.program;
+  const Probing& probing = probingOf(nc.project);
+  checkBody(program.body, probing, report);
+  if (!endsProgram(program)) return;
+  // A main program that switches it on and never off.
+  const ir::ProgramStatement* on = nullptr;
+  bool other = false;
+  for (const ir::ProgramStatement& statement : program.body) {
+    const ProbeStep::Kind kind = probing.step(statement).kind;
+    if (kind == ProbeStep::Kind::On) on = &statement;
+    if (kind == ProbeStep::Kind::Off || kind == ProbeStep::Kind::Call || kind == ProbeStep::Kind::PackCall)
+      other = true;
+  }
+  if (on != nullptr && !other)
+    report.at(on->origin.range(),
+              "the program switches the probe on and never off; its battery runs down, and the "
+              "next tool may turn with the interlock of the probe in force; switch it off at "
+              "the end");
 }
 
 } // namespace
@@ -59,7 +59,7 @@ void check(const Project& project, Report& report) {
 DOTEK_LINT_RULE(probe_left_on){
     .severity = Severity::Warning,
     .tier = Tier::Ir,
-    .check = check,
+    .program = check,
 };
 
 } // namespace dotek::lint::rule

@@ -1,3 +1,4 @@
+#include "lint/NcProgram.h"
 #include "lint/Probing.h"
 #include "lint/ProgBlocks.h"
 
@@ -76,11 +77,11 @@ void checkProgram(const ir::Program& program, const Probing& probing, Report& re
 }
 
 void check(const Project& project, Report& report) {
-  const Probing& probing = probingOf(project);
-  checkCycles(project, probing, report);
-  eachProgram(project, [&](const ir::Program& program, const macrob::File&) {
-    checkProgram(program, probing, report);
-  });
+  checkCycles(project, probingOf(project), report);
+}
+
+void checkOne(const NcProgram& nc, Report& report) {
+  checkProgram(nc.program, probingOf(nc.project), report);
 }
 
 } // namespace
@@ -89,6 +90,7 @@ DOTEK_LINT_RULE(probe_not_switched_on){
     .severity = Severity::Warning,
     .tier = Tier::Ir,
     .check = check,
+    .program = checkOne,
 };
 
 } // namespace dotek::lint::rule

@@ -1,3 +1,4 @@
+#include "lint/NcProgram.h"
 #include "lint/ProgBlocks.h"
 #include "lint/Skips.h"
 
@@ -117,10 +118,10 @@ void check(const Project& project, Report& report) {
   for (const compost::Program* prog : project.progs)
     if (!prog->hasErrorNodes) checkPost(*prog, project, report);
   checkBranches(project, report);
-  const Probing& probing = probingOf(project);
-  eachProgram(project, [&](const ir::Program& program, const macrob::File&) {
-    checkProgram(program, probing, report);
-  });
+}
+
+void checkOne(const NcProgram& nc, Report& report) {
+  checkProgram(nc.program, probingOf(nc.project), report);
 }
 
 } // namespace
@@ -129,6 +130,7 @@ DOTEK_LINT_RULE(probe_switch_unpaired){
     .severity = Severity::Warning,
     .tier = Tier::Bundle,
     .check = check,
+    .program = checkOne,
 };
 
 } // namespace dotek::lint::rule

@@ -1,3 +1,4 @@
+#include "lint/NcProgram.h"
 #include "lint/Probing.h"
 
 #include <map>
@@ -72,11 +73,8 @@ void checkProgram(const ir::Program& program, const Project& project, const Prob
   }
 }
 
-void check(const Project& project, Report& report) {
-  const Probing& probing = probingOf(project);
-  eachProgram(project, [&](const ir::Program& program, const macrob::File&) {
-    checkProgram(program, project, probing, report);
-  });
+void check(const NcProgram& nc, Report& report) {
+  checkProgram(nc.program, nc.project, probingOf(nc.project), report);
 }
 
 } // namespace
@@ -84,7 +82,7 @@ void check(const Project& project, Report& report) {
 DOTEK_LINT_RULE(result_not_saved){
     .severity = Severity::Warning,
     .tier = Tier::Ir,
-    .check = check,
+    .program = check,
 };
 
 } // namespace dotek::lint::rule

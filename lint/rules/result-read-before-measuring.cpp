@@ -1,4 +1,5 @@
 #include "ir/NumberSet.h"
+#include "lint/NcProgram.h"
 #include "lint/Probing.h"
 
 #include <set>
@@ -20,8 +21,8 @@ std::set<std::uint32_t> resultsOf(const Project& project, const ir::Program& pro
   return out;
 }
 
-void checkProgram(const ir::Program& program, const Project& project, const Probing& probing,
-                  Report& report) {
+void checkProgram(const NcProgram& nc, const Project& project, const Probing& probing, Report& report) {
+  const ir::Program& program = nc.program;
   const std::set<std::uint32_t> results = resultsOf(project, program, probing);
   if (results.empty()) return;
   ir::NumberSet all;
@@ -29,7 +30,7 @@ void checkProgram(const ir::Program& program, const Project& project, const Prob
     all.insert(result);
   // Results that some path may have filled.
   const auto filled = ir::factsBefore<ir::NumberSet>(
-      program.body, {},
+      program.body, nc.flow(), {},
       [&](std::size_t at, std::size_t, ir::NumberSet set) {
         const ProbeStep::Kind kind = probing.step(program.body[at]).kind;
         if (kind == ProbeStep::Kind::Measure || kind == ProbeStep::Kind::PackCall ||
@@ -43,22 +44,19 @@ void checkProgram(const ir::Program& program, const Project& project, const Prob
   std::set<std::uint32_t> told;
   for (std::size_t i = 0; i < program.body.size(); ++i) {
     if (!filled[i]) continue;
-    eachRead(program.body[i], [&](std::uint32_t number, SourceRange range) {
-      if (!results.contains(number) || filled[i]->contains(number) || !told.insert(number).second) return;
+    for (const auto& [number, range] : nc.reads(i)) {
+      if (!results.contains(number) || filled[i]->contains(number) || !told.insert(number).second) continue;
       report.at(range,
                 "#{} is read before the first measurement of this program; it holds what the last program "
                 "left, or nothing; an offset that is set from it moves the part's zero anywhere; measure "
                 "first",
                 number);
-    });
+    }
   }
 }
 
-void check(const Project& project, Report& report) {
-  const Probing& probing = probingOf(project);
-  eachProgram(project, [&](const ir::Program& program, const macrob::File&) {
-    checkProgram(program, project, probing, report);
-  });
+void check(const NcProgram& nc, Report& report) {
+  checkProgram(nc, nc.project, probingOf(nc.project), report);
 }
 
 } // namespace
@@ -66,7 +64,7 @@ void check(const Project& project, Report& report) {
 DOTEK_LINT_RULE(result_read_before_measuring){
     .severity = Severity::Warning,
     .tier = Tier::Ir,
-    .check = check,
+    .program = check,
 };
 
 } // namespace dotek::lint::rule

@@ -1,4 +1,5 @@
 #include "ir/Dataflow.h"
+#include "lint/NcProgram.h"
 #include "lint/Skips.h"
 
 namespace dotek::lint::rule {
@@ -85,13 +86,13 @@ void checkBody(const std::vector<Statement>& body, const Probing& probing, Repor
 }
 
 void check(const Project& project, Report& report) {
-  const Probing& probing = probingOf(project);
   for (const Joined& joined : project.joined)
-    if (joined.lowered) checkBody(joined.lowered->body, probing, report);
-  eachProgram(project, [&](const ir::Program& program, const macrob::File&) {
-    // A macro that touches one feature knows its own paths.
-    if (endsProgram(program)) checkBody(program.body, probing, report);
-  });
+    if (joined.lowered) checkBody(joined.lowered->body, probingOf(project), report);
+}
+
+void checkProgram(const NcProgram& nc, Report& report) {
+  // A macro that touches one feature knows its own paths.
+  if (endsProgram(nc.program)) checkBody(nc.program.body, probingOf(nc.project), report);
 }
 
 } // namespace
@@ -100,6 +101,7 @@ DOTEK_LINT_RULE(retract_left_out){
     .severity = Severity::Warning,
     .tier = Tier::Ir,
     .check = check,
+    .program = checkProgram,
 };
 
 } // namespace dotek::lint::rule

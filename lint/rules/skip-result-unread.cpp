@@ -1,3 +1,4 @@
+#include "lint/NcProgram.h"
 #include "lint/Skips.h"
 
 #include <algorithm>
@@ -35,9 +36,8 @@ void checkProgram(const ir::Program& program, Report& report) {
                 "early contact is not noticed; read it, or write G1 if a plain move is meant");
 }
 
-void check(const Project& project, Report& report) {
-  eachProgram(project,
-              [&](const ir::Program& program, const macrob::File&) { checkProgram(program, report); });
+void check(const NcProgram& nc, Report& report) {
+  checkProgram(nc.program, report);
 }
 
 } // namespace
@@ -46,7 +46,7 @@ DOTEK_LINT_RULE(skip_result_unread){
     .severity = Severity::Note,
     .byDefault = false,
     .tier = Tier::Ir,
-    .check = check,
+    .program = check,
 };
 
 } // namespace dotek::lint::rule

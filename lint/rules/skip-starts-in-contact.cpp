@@ -1,4 +1,5 @@
 #include "ir/Dataflow.h"
+#include "lint/NcProgram.h"
 #include "lint/Skips.h"
 
 namespace dotek::lint::rule {
@@ -7,10 +8,11 @@ namespace {
 // What happened since the last move away: nothing, a skip move, and its contact was read.
 enum class Contact : std::uint8_t { Free, Skipped, Used };
 
-void checkProgram(const ir::Program& program, Report& report) {
+void check(const NcProgram& nc, Report& report) {
+  const ir::Program& program = nc.program;
   const auto& body = program.body;
   const auto states = ir::factsBefore<Contact>(
-      body, Contact::Free,
+      body, nc.flow(), Contact::Free,
       [&](std::size_t at, std::size_t, Contact state) {
         if (skipOf(body[at]) != nullptr) return Contact::Skipped;
         if (callOf(body[at]) != nullptr) return Contact::Free;
@@ -39,17 +41,12 @@ void checkProgram(const ir::Program& program, Report& report) {
   }
 }
 
-void check(const Project& project, Report& report) {
-  eachProgram(project,
-              [&](const ir::Program& program, const macrob::File&) { checkProgram(program, report); });
-}
-
 } // namespace
 
 DOTEK_LINT_RULE(skip_starts_in_contact){
     .severity = Severity::Warning,
     .tier = Tier::Ir,
-    .check = check,
+    .program = check,
 };
 
 } // namespace dotek::lint::rule

@@ -1,4 +1,5 @@
 #include "ir/Dataflow.h"
+#include "lint/NcProgram.h"
 #include "lint/Skips.h"
 
 #include <algorithm>
@@ -6,7 +7,8 @@
 namespace dotek::lint::rule {
 namespace {
 
-void checkProgram(const ir::Program& program, Report& report) {
+void check(const NcProgram& nc, Report& report) {
+  const ir::Program& program = nc.program;
   const auto& body = program.body;
   const ir::ProgramStatement* withFeed = nullptr;
   for (const ir::ProgramStatement& statement : body) {
@@ -14,7 +16,7 @@ void checkProgram(const ir::Program& program, Report& report) {
     if (skip != nullptr && hasWord(*skip, 'F') && withFeed == nullptr) withFeed = &statement;
   }
   const auto given = ir::factsBefore<bool>(
-      body, false,
+      body, nc.flow(), false,
       [&](std::size_t at, std::size_t, bool before) {
         const auto* block = std::get_if<ir::NcBlock>(&body[at].node);
         return before || (block != nullptr && hasWord(*block, 'F')) || callOf(body[at]) != nullptr;
@@ -41,17 +43,12 @@ void checkProgram(const ir::Program& program, Report& report) {
   }
 }
 
-void check(const Project& project, Report& report) {
-  eachProgram(project,
-              [&](const ir::Program& program, const macrob::File&) { checkProgram(program, report); });
-}
-
 } // namespace
 
 DOTEK_LINT_RULE(skip_without_feed){
     .severity = Severity::Warning,
     .tier = Tier::Ir,
-    .check = check,
+    .program = check,
 };
 
 } // namespace dotek::lint::rule

@@ -1,4 +1,5 @@
 #include "lint/MacroNames.h"
+#include "lint/NcProgram.h"
 #include "lint/ProgBlocks.h"
 #include "lint/Skips.h"
 
@@ -19,22 +20,21 @@ bool isIdle(const ir::ProgramStatement& statement) {
   });
 }
 
-void checkPrograms(const Project& project, Report& report) {
-  eachProgram(project, [&](const ir::Program& program, const macrob::File&) {
-    const auto& body = program.body;
-    const auto modes = distanceModes(body);
-    for (std::size_t i = 1; i < body.size(); ++i) {
-      if (!isIdle(body[i]) || !isIdle(body[i - 1]) || !modes[i]) continue;
-      const auto& now = std::get<ir::NcBlock>(body[i].node);
-      const bool incremental = *modes[i] != DistanceMode::Absolute && axesOf(now) != 0;
-      if (incremental ||
-          project.sources.text(body[i].origin.range()) != project.sources.text(body[i - 1].origin.range()))
-        continue;
-      report.at(body[i].origin.range(),
-                "this block is the same as the one before and changes nothing; one of "
-                "the two is left over, or was meant to differ");
-    }
-  });
+void checkProgram(const NcProgram& nc, Report& report) {
+  const auto& body = nc.program.body;
+  const SourceMap& sources = nc.project.sources;
+  bool before = false; // the statement before is idle
+  for (std::size_t i = 0; i < body.size(); ++i) {
+    const bool idle = isIdle(body[i]);
+    const bool both = std::exchange(before, idle) && idle;
+    if (!both || !nc.modes()[i]) continue;
+    const auto& now = std::get<ir::NcBlock>(body[i].node);
+    const bool incremental = *nc.modes()[i] != DistanceMode::Absolute && axesOf(now) != 0;
+    if (incremental || sources.text(body[i].origin.range()) != sources.text(body[i - 1].origin.range()))
+      continue;
+    report.at(body[i].origin.range(), "this block is the same as the one before and changes nothing; one of "
+                                      "the two is left over, or was meant to differ");
+  }
 }
 
 void checkPosts(const Project& project, Report& report) {
@@ -59,7 +59,6 @@ void checkPosts(const Project& project, Report& report) {
 }
 
 void check(const Project& project, Report& report) {
-  checkPrograms(project, report);
   checkPosts(project, report);
   for (const gibbs::Macro* macro : project.allMacros()) {
     if (macro->hasErrorNodes) continue;
@@ -88,6 +87,7 @@ DOTEK_LINT_RULE(statement_repeated){
     .severity = Severity::Note,
     .tier = Tier::Syntax,
     .check = check,
+    .program = checkProgram,
 };
 
 } // namespace dotek::lint::rule

@@ -1,3 +1,4 @@
+#include "lint/NcProgram.h"
 #include "lint/ToolLength.h"
 
 #include <algorithm>
@@ -54,11 +55,8 @@ void checkProgram(const ir::Program& program, const Project& project, const Tool
   }
 }
 
-void check(const Project& project, Report& report) {
-  const ToolLengths lengths(project);
-  eachProgram(project, [&](const ir::Program& program, const macrob::File&) {
-    checkProgram(program, project, lengths, report);
-  });
+void check(const NcProgram& nc, Report& report) {
+  checkProgram(nc.program, nc.project, toolLengthsOf(nc.project), report);
 }
 
 } // namespace
@@ -66,7 +64,7 @@ void check(const Project& project, Report& report) {
 DOTEK_LINT_RULE(tool_length_in_target){
     .severity = Severity::Warning,
     .tier = Tier::Ir,
-    .check = check,
+    .program = check,
 };
 
 } // namespace dotek::lint::rule

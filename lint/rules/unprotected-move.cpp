@@ -1,3 +1,4 @@
+#include "lint/NcProgram.h"
 #include "lint/Probing.h"
 
 #include <optional>
@@ -162,13 +163,14 @@ void checkBody(const std::vector<Statement>& body, const Probing& probing, Repor
 }
 
 void check(const Project& project, Report& report) {
-  const Probing& probing = probingOf(project);
   for (const Joined& joined : project.joined)
-    if (joined.lowered) checkBody(joined.lowered->body, probing, report);
-  eachProgram(project, [&](const ir::Program& program, const macrob::File&) {
-    // A macro of a probing pack is what moves the stylus: G31 and its retreats are its business.
-    if (probing.probes(program)) checkBody(program.body, probing, report);
-  });
+    if (joined.lowered) checkBody(joined.lowered->body, probingOf(project), report);
+}
+
+void checkProgram(const NcProgram& nc, Report& report) {
+  const Probing& probing = probingOf(nc.project);
+  // A macro of a probing pack is what moves the stylus: G31 and its retreats are its business.
+  if (probing.probes(nc.program)) checkBody(nc.program.body, probing, report);
 }
 
 } // namespace
@@ -177,6 +179,7 @@ DOTEK_LINT_RULE(unprotected_move){
     .severity = Severity::Warning,
     .tier = Tier::Ir,
     .check = check,
+    .program = checkProgram,
 };
 
 } // namespace dotek::lint::rule

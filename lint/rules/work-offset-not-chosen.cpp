@@ -1,3 +1,4 @@
+#include "lint/NcProgram.h"
 #include "lint/Skips.h"
 
 namespace dotek::lint::rule {
@@ -35,11 +36,8 @@ void checkProgram(const ir::Program& program, const Probing& probing, Report& re
       "left in force; write G54 to G59 before the first move");
 }
 
-void check(const Project& project, Report& report) {
-  const Probing& probing = probingOf(project);
-  eachProgram(project, [&](const ir::Program& program, const macrob::File&) {
-    checkProgram(program, probing, report);
-  });
+void check(const NcProgram& nc, Report& report) {
+  checkProgram(nc.program, probingOf(nc.project), report);
 }
 
 } // namespace
@@ -47,7 +45,7 @@ void check(const Project& project, Report& report) {
 DOTEK_LINT_RULE(work_offset_not_chosen){
     .severity = Severity::Warning,
     .tier = Tier::Ir,
-    .check = check,
+    .program = check,
 };
 
 } // namespace dotek::lint::rule

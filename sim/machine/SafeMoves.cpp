@@ -223,13 +223,19 @@ BlockSet askingBlocks(const std::vector<const ir::Program*>& programs) {
     }
   }
   const bool locals = std::any_of(all.begin(), all.end(), [](const Copies& one) { return one.sharesLocals; });
+  std::map<std::uint64_t, std::size_t> testing; // how many programs test a variable
+  for (const Copies& one : all)
+    for (const std::uint64_t key : one.tested)
+      ++testing[key];
   BlockSet out;
   for (Copies& one : all) {
     // What one program keeps in a common variable another one may look at.
-    for (const Copies& other : all)
-      for (const auto& [key, blocks] : one.held)
-        if (&other != &one && (key >= kFirstCommon || locals) && other.tested.contains(key))
-          out.insert(blocks.begin(), blocks.end());
+    for (const auto& [key, blocks] : one.held) {
+      const auto found = testing.find(key);
+      const std::size_t own = one.tested.contains(key) ? 1 : 0;
+      if ((key >= kFirstCommon || locals) && found != testing.end() && found->second > own)
+        out.insert(blocks.begin(), blocks.end());
+    }
     out.merge(one.asking);
   }
   return out;

@@ -131,3 +131,13 @@ TEST_CASE("macro B lowering: blocks after the end of the file belong to no progr
   CHECK(two.told == "W 5:1 text-after-end");
   CHECK(lower("#1=1(%)\n(%)\nM30\n%\n%\n").told == "");
 }
+
+TEST_CASE(
+    "macro B lowering: what the control meets only as it runs refuses nothing, however often it is there") {
+  std::string text;
+  for (int i = 0; i <= static_cast<int>(Diagnostics::kMostAlike); ++i)
+    text += "IF[#1EQ" + std::to_string(i) + ".]GOTO" + std::to_string(5000 + i) + "\n";
+  const Lowered lowered = lower(text);
+  CHECK(lowered.file.has_value());
+  CHECK(lowered.told.empty());
+}
