@@ -182,8 +182,8 @@ public:
   std::vector<LengthLeftIn> run() {
     if (!readsPosition()) return {};
     Fact entry;
-    // A macro that measures tools runs without an offset.
-    if (setsToolOffset()) entry.offset = Offset::Off;
+    // A macro that measures tools runs without an offset; one that takes the length off does not.
+    if (setsToolOffset() && !readsLength()) entry.offset = Offset::Off;
     const auto& body = program_.body;
     const auto facts = ir::factsBefore<Fact>(
         body, entry,
@@ -198,11 +198,14 @@ public:
   }
 
 private:
-  bool readsPosition() const {
+  bool readsPosition() const { return reads(numbers_.positions); }
+  bool readsLength() const { return reads(numbers_.length); }
+
+  bool reads(const std::set<std::uint32_t>& numbers) const {
     for (const ir::ProgramStatement& statement : program_.body) {
       bool found = false;
       eachRead(statement, [&](std::uint32_t number, SourceRange) {
-        found = found || numbers_.positions.contains(number);
+        found = found || numbers.contains(number);
       });
       if (found) return true;
     }

@@ -250,7 +250,7 @@ verify::Case ProgramRunner::propose(std::uint64_t index, const Tries& tries) con
       out.values[std::to_string(variable.number)] =
           whole ? std::round(near->second + beside) : toStep(near->second + beside);
     }
-    if (variable.use != verify::VariableUse::Length || !random.chance(0.3)) continue;
+    if (attempt < 3 * kInVain || variable.use != verify::VariableUse::Length || !random.chance(0.25)) continue;
     const char* const axis[] = {"start_x", "start_y", "start_z"};
     out.values[std::to_string(variable.number)] =
         toStep(out.hosts[axis[random.below(3)]] + random.between(-30, 30));
@@ -266,9 +266,12 @@ verify::Case ProgramRunner::propose(std::uint64_t index, const Tries& tries) con
 
 // Values that reject the program from what cannot be run here would hide it.
 bool ProgramRunner::otherValuesMayDo(const verify::Record& record) const {
-  if (record.ending == verify::Ending::Inconclusive) return record.overLimit;
+  return record.ending == verify::Ending::Inconclusive ? record.overLimit : !lacksProgram(record);
+}
+
+bool ProgramRunner::lacksProgram(const verify::Record& record) const {
   const stdlib::AlarmInfo* const missing = sourceControl_->find(stdlib::Alarm::NoSuchProgram);
-  return record.ending != verify::Ending::Alarm || missing == nullptr || record.alarm != missing->number;
+  return record.ending == verify::Ending::Alarm && missing != nullptr && record.alarm == missing->number;
 }
 
 // Variables that are drawn and that the check reads which ended the run; empty: no check of the program did.
@@ -387,6 +390,9 @@ std::unique_ptr<ProgramRunner::Played> ProgramRunner::play(verify::Case drawn, b
   const bool measures = !record.measures.empty();
   if (measures || record.ending != verify::Ending::Finished || !record.events.empty())
     out->why = verify::whyNoEvidence(record, out->whyAt);
+  if (lacksProgram(record))
+    out->why += "; it calls a program that the file does not hold, and `verify` runs what one file holds: put a "
+                "copy of that program at its end";
   out->whyAt = record.overLimit ? SourceRange{} : inSource(out->whyAt);
   return out;
 }

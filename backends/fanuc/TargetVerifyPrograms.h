@@ -65,6 +65,7 @@ private:
   verify::Case propose(std::uint64_t index, const Tries& tries) const;
   std::set<std::uint32_t> rejectedBy(const verify::Record& record) const;
   bool otherValuesMayDo(const verify::Record& record) const;
+  bool lacksProgram(const verify::Record& record) const; // it ended at a call of a program that is not there
   std::unique_ptr<Played> play(verify::Case drawn, bool drawError);
   verify::Record runSide(const Side& side, const verify::Case& drawn, sim::World& world,
                          verify::Stand::Way way) const;

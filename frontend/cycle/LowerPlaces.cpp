@@ -243,7 +243,12 @@ void Lowering::resolvePlaces() {
           away = ir::binary(ir::BinaryOp::Subtract, here, to.value);
       }
       same[a] = away != nullptr && isZero(away);
-      if (axis == ir::Axis::Z) height = away;
+      if (axis != ir::Axis::Z) continue;
+      height = away;
+      if (away == nullptr) continue;
+      // Also where it has come back by another path than the travels tell.
+      const Sign sign = signOfDifference(away, ir::constant(0));
+      same[a] = same[a] || (sign.above && sign.below);
     }
     if (height == nullptr && !(same[0] && same[1])) {
       refuse<diag::PlaceUnknown>(range, "z");

@@ -3,6 +3,8 @@
 #include "lint/Skips.h"
 
 #include <algorithm>
+#include <cmath>
+#include <optional>
 #include <set>
 #include <utility>
 
@@ -26,6 +28,28 @@ std::set<std::pair<char, double>> coordinates(const ir::ProgramStatement& statem
   return out;
 }
 
+// The only axis that a block names, with its coordinate; nothing: several, none, or a computed one.
+std::optional<std::pair<char, double>> onlyAxis(const ir::ProgramStatement& statement) {
+  std::optional<std::pair<char, double>> out;
+  for (const ir::Word& word : std::get<ir::NcBlock>(statement.node).words) {
+    if (word.address < 'X' || word.address > 'Z') continue;
+    const double* value = ir::constantValue(word.value);
+    if (out || value == nullptr) return std::nullopt;
+    out = {word.address, *value};
+  }
+  return out;
+}
+
+// A second touch: a little back along one axis, and slowly farther than that towards the surface again.
+bool touchesAgain(const ir::ProgramStatement& back, const ir::ProgramStatement& skip) {
+  constexpr double kMostBack = 10, kMostFarther = 5; // mm; times the way back
+  if (skipOf(skip) == nullptr || skipOf(back) != nullptr) return false;
+  const auto one = onlyAxis(back), other = onlyAxis(skip);
+  if (!one || !other || one->first != other->first || !(one->second * other->second < 0)) return false;
+  const double away = std::abs(one->second), forth = std::abs(other->second);
+  return away <= kMostBack && forth > away && forth <= kMostFarther * away;
+}
+
 bool takesOffset(const ir::ProgramStatement& statement) {
   const auto& block = std::get<ir::NcBlock>(statement.node);
   if (hasCode(block, 'G', 43) || hasCode(block, 'G', 44)) return true;
@@ -46,8 +70,11 @@ void check(const NcProgram& nc, Report& report) {
     absolute.merge(coordinates(body[i]));
     absoluteSkip = absoluteSkip || skipOf(body[i]) != nullptr;
   }
+  const ir::ProgramStatement* before = nullptr;
   for (std::size_t i = 0; i < body.size(); ++i) {
-    if (!modes[i] || !moves(body[i]) || statedMode(body[i])) continue;
+    if (!modes[i] || !moves(body[i])) continue;
+    const ir::ProgramStatement* const last = std::exchange(before, &body[i]);
+    if (statedMode(body[i])) continue;
     if (*modes[i] == DistanceMode::Both) {
       report.at(
           body[i].origin.range(),
@@ -56,6 +83,7 @@ void check(const NcProgram& nc, Report& report) {
       return;
     }
     if (*modes[i] != DistanceMode::Incremental) continue;
+    if (last != nullptr && touchesAgain(*last, body[i])) continue;
     const auto words = coordinates(body[i]);
     const bool same =
         std::any_of(words.begin(), words.end(), [&](const auto& w) { return absolute.contains(w); });

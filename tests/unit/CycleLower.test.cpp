@@ -184,6 +184,10 @@ TEST_CASE("cycle lowering: the way to the start") {
       "move rapid z = here 5.\nmove rapid x = here up\nmove rapid x = start {0}\nmove rapid z = start {0}\n");
   CHECK(way("move by z up\n") == "move rapid z = here up\nmove rapid z = start {0}\n");
   CHECK(way("") == "");
+  // Back at the height of the start, by a coordinate.
+  CHECK(way("move by z up\nmove to z start.z\nmove by x up\n") ==
+        "move rapid z = here up\nmove rapid z = work start_z\nmove rapid x = here up\n"
+        "move rapid x = start {0}\n");
   // The sign is known when it runs.
   CHECK(way("move by x 1 mm, z up\n") == R"(move rapid x = here 1., z = here up
 if up > {0} goto start_is_lower
