@@ -250,7 +250,8 @@ verify::Case ProgramRunner::propose(std::uint64_t index, const Tries& tries) con
       out.values[std::to_string(variable.number)] =
           whole ? std::round(near->second + beside) : toStep(near->second + beside);
     }
-    if (attempt < 3 * kInVain || variable.use != verify::VariableUse::Length || !random.chance(0.25)) continue;
+    if (variable.use != verify::VariableUse::Length || !variable.constants.empty() || !random.chance(0.3))
+      continue;
     const char* const axis[] = {"start_x", "start_y", "start_z"};
     out.values[std::to_string(variable.number)] =
         toStep(out.hosts[axis[random.below(3)]] + random.between(-30, 30));

@@ -186,7 +186,7 @@ TEST_CASE("cycle lowering: the way to the start") {
   CHECK(way("") == "");
   // Back at the height of the start, by a coordinate.
   CHECK(way("move by z up\nmove to z start.z\nmove by x up\n") ==
-        "move rapid z = here up\nmove rapid z = work start_z\nmove rapid x = here up\n"
+        "move rapid z = here up\nmove rapid z = work start_z point lowest\nmove rapid x = here up\n"
         "move rapid x = start {0}\n");
   // The sign is known when it runs.
   CHECK(way("move by x 1 mm, z up\n") == R"(move rapid x = here 1., z = here up
