@@ -76,7 +76,7 @@ SourceQuestions::Ran CaseRunner::Questions::play(const std::string& field, doubl
                                                  verify::Stand::Way way) {
   Ran out;
   verify::Case other = values_.drawn;
-  other.values[field] = value;
+  (other.hosts.contains(field) ? other.hosts : other.values)[field] = value;
   const std::unique_ptr<Values> now = runner_.check(other, false);
   if (!now) return out;
   if (now->rejected) {

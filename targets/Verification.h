@@ -32,7 +32,8 @@ public:
     Answer answer = Answer::None;
     verify::Record record; // of Runs
   };
-  virtual Ran with(const std::string& field, double value) = 0;
+  // `name`: of a field or a host input.
+  virtual Ran with(const std::string& name, double value) = 0;
   // The values of the case, called from another state.
   virtual Ran from(const verify::Entry& entry) = 0;
   // Some value of the field makes the path, or what is measured, another one.

@@ -50,6 +50,16 @@ std::string_view faultName(sim::Outcome outcome) {
   return "";
 }
 
+std::string deedText(const Deed& deed) {
+  switch (deed.kind) {
+  case Deed::Kind::ToolChange: return fmt::format("a change to tool {}", numberText(deed.value));
+  case Deed::Kind::Auxiliary: return "M" + numberText(deed.value);
+  case Deed::Kind::Stop: return deed.text.empty() ? "a stop" : fmt::format("a stop ({})", deed.text);
+  case Deed::Kind::Dwell: return fmt::format("a dwell of {} s", numberText(deed.value));
+  }
+  return "";
+}
+
 class Comparison {
 public:
   Comparison(const Record& source, const Record& target, const CompareRules& rules)
@@ -62,12 +72,19 @@ public:
     measures();
     faults();
     early();
+    if (!rules_.atMeasures) deeds();
     takeAll(compareValues(source_, target_, rules_));
     if (!stopsInMacros() && !near(source_.end, target_.end, rules_.tolerance))
       add(Aspect::End, fmt::format("it ends at {} against {}", textOf(source_.end), textOf(target_.end)),
           source_.endedAt, target_.endedAt);
     if (source_.ending == Ending::Finished && !rules_.atMeasures) {
       state(source_.after, target_.after, " at the end", source_.endedAt, target_.endedAt);
+      const auto named = [](const Record& record) {
+        return record.tool ? "T" + std::to_string(*record.tool) : std::string("no other T");
+      };
+      if (source_.tool != target_.tool)
+        add(Aspect::State, fmt::format("{} at the end against {}", named(source_), named(target_)),
+            source_.endedAt, target_.endedAt);
       takeAll(compareModes(source_, target_, rules_));
     }
     if (rules_.sameProgram && source_.printed != target_.printed)
@@ -301,7 +318,34 @@ private:
     tell("spindle", kSpindle[a.spindle], kSpindle[b.spindle]);
     tell("coolant", kCoolant[static_cast<std::size_t>(a.coolant)],
          kCoolant[static_cast<std::size_t>(b.coolant)]);
+    tell("speed", "S" + numberText(a.speed), "S" + numberText(b.speed));
     add(Aspect::State, text + std::string(when), source, target);
+  }
+
+  // Tools, M codes, stops: which, in which order, where, and with what on.
+  void deeds() {
+    const std::vector<Deed>&a = source_.deeds, &b = target_.deeds;
+    for (std::size_t i = 0; i < std::max(a.size(), b.size()); ++i) {
+      const std::string one = i < a.size() ? deedText(a[i]) : "nothing";
+      const std::string other = i < b.size() ? deedText(b[i]) : "nothing";
+      const SourceRange here = i < a.size() ? a[i].range : SourceRange{};
+      const SourceRange there = i < b.size() ? b[i].range : SourceRange{};
+      if (one != other) {
+        add(Aspect::State, one + " against " + other, here, there);
+        return;
+      }
+      if (a[i].measures != b[i].measures) {
+        add(Aspect::State, fmt::format("{} after {} measures against {}", one, a[i].measures, b[i].measures),
+            here, there);
+        return;
+      }
+      if (!near(a[i].at, b[i].at, rules_.tolerance)) {
+        add(Aspect::State, fmt::format("{} at {} against {}", one, textOf(a[i].at), textOf(b[i].at)), here,
+            there);
+        return;
+      }
+      state(a[i].with, b[i].with, " at " + one, here, there);
+    }
   }
 
   // What the probe meets besides its contacts, also within calls. After a fault of the source the
@@ -444,6 +488,7 @@ private:
   void settled(const Measure& a, const Measure& b) {
     Surroundings one = a.with, other = b.with;
     one.probe = other.probe;
+    one.speed = other.speed;
     const auto flows = [](const Surroundings& with) {
       return with.coolant != sim::Machine::Coolant::NotSwitched && with.coolant != sim::Machine::Coolant::Off;
     };

@@ -407,7 +407,26 @@ Case Draws::edge(std::uint64_t index) const {
   if (edges_.empty()) return out;
   // The second one first: the own one of this case is the one that counts.
   if (index >= edges_.size()) apply(edges_[random.below(edges_.size())], out);
-  apply(edges_[index % edges_.size()], out);
+  const Edge& own = edges_[index % edges_.size()];
+  if (own.means != Edge::Means::Bound) {
+    apply(own, out);
+    return out;
+  }
+  // Around values that no other check rejects, where some are found: there the comparison decides.
+  const auto applied = [&](Case base, int steps) {
+    Edge edge = own;
+    edge.steps = steps;
+    apply(edge, base);
+    return base;
+  };
+  constexpr std::uint32_t kAround = 16;
+  for (std::uint32_t n = 0; n < kAround; ++n) {
+    Case other = n == 0 ? out : propose(Random::sub(stream, n), n % 2 == 0 ? 0 : 1000);
+    other.edge = true;
+    if (bounds_->rejects(applied(other, -1)) != bounds_->rejects(applied(other, 1)))
+      return applied(std::move(other), own.steps);
+  }
+  apply(own, out);
   return out;
 }
 

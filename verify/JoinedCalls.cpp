@@ -24,6 +24,7 @@ public:
       if (target_.pieces[i].kind == sim::PathKind::Measuring) pieces_.push_back(i);
     if (pieces_.size() != target_.measures.size()) return std::nullopt;
     std::vector<Measure> measures;
+    std::vector<std::size_t> before = {0}; // how many are left of the first so many
     std::vector<bool> left(target_.pieces.size(), false);
     bool any = false;
     for (std::size_t next = 0; next < target_.measures.size();) {
@@ -42,10 +43,13 @@ public:
       }
       measures.push_back(std::move(joined));
       next = last + 1;
+      before.resize(next + 1, measures.size());
     }
     if (!any) return std::nullopt;
     std::optional<Record> out(target_);
     out->measures = std::move(measures);
+    for (Deed& deed : out->deeds)
+      deed.measures = before[std::min(deed.measures, before.size() - 1)];
     out->pieces.clear();
     for (std::size_t i = 0; i < target_.pieces.size(); ++i)
       if (!left[i]) out->pieces.push_back(target_.pieces[i]);

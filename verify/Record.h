@@ -27,6 +27,7 @@ struct Surroundings {
   Switch probe = Switch::Off;
   std::uint8_t spindle = 0; // 0 off, 1 clockwise, 2 counterclockwise
   sim::Machine::Coolant coolant = sim::Machine::Coolant::NotSwitched;
+  double speed = 0; // S; 0 while the spindle is off
   bool operator==(const Surroundings&) const = default;
 };
 
@@ -103,6 +104,23 @@ struct Mark {
   SourceRange range;
 };
 
+// What a program does between its moves, outside of calls that count as one thing.
+struct Deed {
+  enum class Kind : std::uint8_t {
+    ToolChange, // M6: `value` is the tool that T has named
+    Auxiliary,  // M `value`: the spindle is oriented (M19), an optional stop
+    Stop,       // the operator reads `text`
+    Dwell,      // seconds
+  };
+  Kind kind = Kind::Auxiliary;
+  double value = 0;
+  std::string text;
+  sim::Point3 at;
+  std::size_t measures = 0; // that had begun before it
+  Surroundings with;
+  SourceRange range;
+};
+
 enum class Ending : std::uint8_t { Finished, Alarm, Inconclusive };
 
 struct Record {
@@ -117,12 +135,14 @@ struct Record {
   std::vector<Piece> pieces;
   std::vector<Measure> measures;
   std::vector<Mark> marks;
+  std::vector<Deed> deeds;
   // What went wrong on the path (no contacts, no misses), and where in the program.
   std::vector<std::pair<sim::ProbeEvent, SourceRange>> events;
   // Work offsets that were written: G number (54 to 59; 54.1 Pn as 5410 + n) and axis (0 to 2), to the
   // machine position of the zero. 52 and 92: by how much these have shifted all of them.
   std::map<std::pair<std::uint32_t, std::uint32_t>, double> zeros;
   std::map<std::uint32_t, sim::Machine::ToolOffset> tools; // entries of the tool table that were changed
+  std::optional<std::uint32_t> tool;                       // that T has named last; nothing: that at entry
   std::map<std::uint32_t, double> stores; // variables that the program itself writes; kNull is a value
   std::string printed;                    // by DPRNT and BPRNT, bytes
   sim::Point3 start, end;

@@ -82,7 +82,8 @@ sim::Point3 Recorder::offset() const {
 }
 
 Surroundings Recorder::surroundings() const {
-  return {probe_, machine_.spindle(), machine_.coolant()};
+  const double speed = machine_.spindle() == 0 ? 0 : machine_.spindleSpeed();
+  return {probe_, machine_.spindle(), machine_.coolant(), speed};
 }
 
 SourceRange Recorder::place() const {
@@ -102,6 +103,7 @@ void Recorder::begin(std::function<SourceRange()> place, bool keepMoves) {
   record_.before = surroundings();
   record_.feedBefore = machine_.feed();
   tools_ = machine_.toolTable();
+  tool_ = machine_.tool();
   for (std::uint32_t group = 0; group < record_.modalBefore.size(); ++group)
     record_.modalBefore[group] = machine_.modalCode(group);
 }
@@ -188,6 +190,13 @@ void Recorder::movePath(const Measure& measure) {
 void Recorder::mark(Mark::Kind kind, std::string_view text, double value) {
   const sim::Point3 at = lowest(machine_.machinePosition());
   record_.marks.push_back({kind, record_.pieces.size(), at, offset(), value, std::string(text), place()});
+}
+
+// What a macro does by itself is its own business.
+void Recorder::note(Deed::Kind kind, double value, std::string_view text) {
+  if (call_.depth > 0) return;
+  record_.deeds.push_back({kind, value, std::string(text), lowest(machine_.machinePosition()),
+                           record_.measures.size(), surroundings(), place()});
 }
 
 void Recorder::addPiece(sim::PathKind kind, const sim::Point3& from, const sim::Point3& to,
@@ -476,6 +485,7 @@ Record Recorder::finish(const std::set<std::uint32_t>& stores) {
   takeEvents();
   record_.end = lowest(machine_.machinePosition());
   record_.after = surroundings();
+  if (machine_.tool() != tool_) record_.tool = machine_.tool();
   for (std::uint32_t group = 0; group < record_.modalAfter.size(); ++group)
     record_.modalAfter[group] = machine_.modalCode(group);
   record_.feedAfter = machine_.feed();

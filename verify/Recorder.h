@@ -36,7 +36,13 @@ public:
   void moved(const sim::MachineMotion& motion) override;
   void probeSwitched(bool on) override { world_.probeSwitched(on), probe_ = on ? Switch::On : Switch::Off; }
   void positionSet() override { mark(Mark::Kind::Datum); }
-  void paused(std::string_view text) override { mark(Mark::Kind::Stop, text); }
+  void paused(std::string_view text) override {
+    mark(Mark::Kind::Stop, text);
+    note(Deed::Kind::Stop, 0, text);
+  }
+  void toolChanged(std::uint32_t number) override { note(Deed::Kind::ToolChange, number); }
+  void auxiliary(std::uint32_t code) override { note(Deed::Kind::Auxiliary, code); }
+  void dwelled(double seconds) override { note(Deed::Kind::Dwell, seconds); }
   void recorded(std::string_view file, std::optional<double> value) override {
     mark(value ? Mark::Kind::Value : Mark::Kind::Position, file, value.value_or(0));
   }
@@ -79,6 +85,7 @@ private:
   void addPiece(sim::PathKind kind, const sim::Point3& from, const sim::Point3& to, SourceRange range);
   double rehearsedContact(const sim::SkipMove& move);
   void mark(Mark::Kind kind, std::string_view text = "", double value = 0);
+  void note(Deed::Kind kind, double value, std::string_view text = "");
   void movePath(const Measure& measure);
   void noteDatums(Measure& measure) const;
   void noteSignal(const sim::ProbeEvent& event);
@@ -113,6 +120,7 @@ private:
   Record record_;
   std::size_t events_ = 0;                      // of the world, that were taken
   std::vector<sim::Machine::ToolOffset> tools_; // at entry
+  std::uint32_t tool_ = 0;                      // that T had named before
   // A call that counts as one thing, with what it calls itself.
   struct OpenCall {
     std::uint32_t depth = 0; // 0: none

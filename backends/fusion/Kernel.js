@@ -473,9 +473,10 @@ function setProperty(name, value) {
 var dotekOutputs = ["xOutput", "yOutput", "zOutput", "feedOutput", "gMotionModal"];
 
 // input: {unit, properties: {name: value}, points: [[x, y, z]], tool, cycle, cycleType, entry: function name,
-// most: characters of text}. With `entry`, that function alone is called for each point; else the entry
-// functions of a post in their order. Gives {text, errors, warnings, afterError}; with `entry` also `taken`,
-// what its last call returned, and `kept`, names of outputs that have not forgotten what was printed before.
+// most: characters of text, strategy}. With `entry`, that function alone is called for each point; else the
+// entry functions of a post in their order. Gives {text, errors, warnings, afterError}; with `entry` also
+// `taken`, what its last call returned, `defined`, values of the properties' definitions, and `kept`, names of
+// outputs that have not forgotten what was printed before.
 function dotekRun(input) {
   var global = (function () {
     return this;
@@ -485,7 +486,13 @@ function dotekRun(input) {
       return global[name].apply(null, list || []);
     }
   }
-  var taken, kept = [];
+  var taken, kept = [], defined = {};
+  for (var name in input.entry === undefined ? {} : properties) {
+    if (typeof properties[name] === "object" && properties[name] !== null &&
+      properties[name].value !== undefined) {
+      defined[name] = properties[name].value;
+    }
+  }
   unit = input.unit === undefined ? MM : input.unit;
   dotekValues = input.properties || {};
   dotekState.most = input.most;
@@ -535,14 +542,15 @@ function dotekRun(input) {
     call("onTerminate");
   }
   return {text: dotekState.before.join("") + dotekState.text, errors: dotekState.errors,
-    warnings: dotekState.warnings, afterError: dotekState.afterError, taken: taken, kept: kept};
+    warnings: dotekState.warnings, afterError: dotekState.afterError, taken: taken, kept: kept,
+    defined: defined};
 }
 
 // ---- what Dotek calls -----------------------------------------------------------------------------------
 
 // A function of the input that gives texts: ["flood"], or the NC text, "late" or "", then each error after an
-// "e", each warning after a "w", each output that was kept after a "k", "t" where the entry function returned
-// true. A post that replaces what the double works with is refused: what it does on
+// "e", each warning after a "w", each output that was kept after a "k", each definition of a property as
+// "dNAME=VALUE", "t" where the entry function returned true. A post that replaces what the double works with is refused: what it does on
 // the double says nothing of the kernel.
 (function () {
   var global = (function () {
@@ -595,6 +603,9 @@ function dotekRun(input) {
     }
     for (i = 0; i < result.kept.length; ++i) {
       out[out.length] = "k" + result.kept[i];
+    }
+    for (name in result.defined) {
+      out[out.length] = "d" + name + "=" + result.defined[name];
     }
     if (result.taken === true) {
       out[out.length] = "t";

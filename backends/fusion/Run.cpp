@@ -10,10 +10,15 @@ namespace dotek::backends::fusion {
 
 namespace {
 
-std::string object(const std::map<std::string, double>& members, const std::string& more = "") {
+// What RunInput::noNumber arrives as.
+constexpr std::string_view kNoNumber = "\"no number\"";
+
+std::string object(const std::map<std::string, double>& members, const RunInput& input,
+                   const std::string& more = "") {
   std::string out = "{";
   for (const auto& [name, value] : members)
-    out += (out.size() > 1 ? ", " : "") + quoted(name) + ": " + numberLiteral(value);
+    out += (out.size() > 1 ? ", " : "") + quoted(name) + ": " +
+           (name == input.noNumber ? std::string(kNoNumber) : numberLiteral(value));
   if (!more.empty()) out += (out.size() > 1 ? ", " : "") + more;
   return out + "}";
 }
@@ -22,18 +27,22 @@ std::string object(const std::map<std::string, double>& members, const std::stri
 std::string inputText(std::string_view prefix, bool whole, const RunInput& input, std::uint32_t most) {
   constexpr int kMillimetre = 0, kInch = 1;
   std::string points;
+  const auto along = [&](const char* axis, double value) {
+    return input.noNumber == axis ? std::string(kNoNumber) : numberLiteral(value);
+  };
   for (const auto& [x, y, z] : input.points)
-    points += fmt::format("{}[{}, {}, {}]", points.empty() ? "" : ", ", numberLiteral(x), numberLiteral(y),
-                          numberLiteral(z));
+    points += fmt::format("{}[{}, {}, {}]", points.empty() ? "" : ", ", along("x", x), along("y", y),
+                          along("z", z));
   return fmt::format(
-      R"({{"unit": {}, "properties": {}, "points": [{}], "tool": {}, "cycle": {}, {}"most": {}}})",
+      R"({{"unit": {}, "properties": {}, "points": [{}], "tool": {}, "cycle": {}, {}{}"most": {}}})",
       input.inch ? kInch : kMillimetre,
-      object(input.properties, "\"dotekCycle\": " + quoted(input.chosen ? prefix : "none")), points,
+      object(input.properties, input, "\"dotekCycle\": " + quoted(input.chosen ? prefix : "none")), points,
       object({{"diameter", input.toolDiameter},
               {"number", input.toolNumber},
-              {"lengthOffset", input.toolLengthOffset}}),
-      object(input.cycle), whole ? "" : "\"entry\": " + quoted(std::string(prefix) + "_dispatch") + ", ",
-      most);
+              {"lengthOffset", input.toolLengthOffset}},
+             input),
+      object(input.cycle, input), input.probing ? "\"strategy\": \"probe\", " : "",
+      whole ? "" : "\"entry\": " + quoted(std::string(prefix) + "_dispatch") + ", ", most);
 }
 
 std::string textOf(const std::vector<EmittedLine>& lines) {
@@ -83,8 +92,11 @@ RunResult Fragment::run(const RunInput& input) const {
   out.wroteAfterError = !texts[1].empty();
   for (std::size_t i = 2; i < texts.size(); ++i) {
     const char kind = texts[i].front();
+    const std::size_t equals = texts[i].find('=');
     if (kind == 't')
       out.taken = true;
+    else if (kind == 'd' && equals != std::string::npos)
+      out.defined[texts[i].substr(1, equals - 1)] = texts[i].substr(equals + 1);
     else
       (kind == 'e' ? out.errors : kind == 'w' ? out.warnings : out.kept).push_back(texts[i].substr(1));
   }

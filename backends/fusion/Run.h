@@ -24,16 +24,21 @@ struct RunInput {
   double toolLengthOffset = 1;
   std::map<std::string, double> cycle; // "clearance", "retract", "probeOvertravel"
   bool chosen = true;                  // the operation names this cycle; else none
+  bool probing = false;                // the operation's strategy is one of probing
+  // What arrives as a text instead of a number: a property, a member of the cycle, "x", "y", "z" of the
+  // points, "diameter", "number" or "lengthOffset" of the tool. "": nothing does.
+  std::string noNumber = {};
 };
 
 struct RunResult {
-  std::string text;                   // NC, line ends LF
-  std::vector<std::string> errors;    // of error(..), in order
-  std::vector<std::string> warnings;  // of warning(..)
-  bool wroteAfterError = false;       // a defect: something was written after an error
-  bool taken = false;                 // of a fragment: its dispatch says that the operation is its own
-  std::vector<std::string> kept;      // of a fragment: outputs of the post that were not reset
-  std::optional<script::Fault> fault; // an exception, a limit: nothing else is known then
+  std::string text;                  // NC, line ends LF
+  std::vector<std::string> errors;   // of error(..), in order
+  std::vector<std::string> warnings; // of warning(..)
+  bool wroteAfterError = false;      // a defect: something was written after an error
+  bool taken = false;                // of a fragment: its dispatch says that the operation is its own
+  std::map<std::string, std::string> defined; // of a fragment: `value` of each property that has one
+  std::vector<std::string> kept;              // of a fragment: outputs of the post that were not reset
+  std::optional<script::Fault> fault;         // an exception, a limit: nothing else is known then
   bool ok() const { return !fault && errors.empty(); }
 };
 

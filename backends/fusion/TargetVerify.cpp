@@ -22,6 +22,7 @@ namespace fusion = backends::fusion;
 
 namespace {
 
+constexpr double kTooLong = 1e15;
 constexpr double kEightDigits = 5e-5; // left of a result beside another way to compute it
 
 class FusionVerification final : public Verification {
@@ -79,6 +80,10 @@ public:
       if (result.wroteAfterError || !result.text.empty())
         out.differs(verify::Aspect::Ending,
                     "the fragment writes blocks beside its error: " + result.errors.front());
+      if (now.source != nullptr && !isOfFragment(result.errors.front()))
+        out.differs(verify::Aspect::Ending,
+                    fmt::format("the dialog takes the values, and the fragment stops with its message `{}`",
+                                result.errors.front()));
       out.refused = out.differences.empty();
       out.why = "the post stops with an error: " + result.errors.front();
       return out;
@@ -104,6 +109,9 @@ private:
   static std::uint32_t lineOf(const script::Fault& fault) {
     return fault.source == fusion::kFragment ? fault.line : 0;
   }
+
+  // Not a check of the source: what the fragment looks at besides begins with the name of the cycle.
+  bool isOfFragment(const std::string& error) const { return error.starts_with(from_.folder.name + ": "); }
 
   // What keeps the translation from being read, at its line where that is known.
   void report(const script::Fault& fault) {
@@ -242,11 +250,150 @@ private:
     result = fragment_.run(input);
     if (result.fault || result.errors.empty() || !result.text.empty())
       out.differs(verify::Aspect::Ending, "a document in inches has to be an error; " + didInstead(result));
+    input = inputOf(now.drawn);
+    input.probing = true;
+    result = fragment_.run(input);
+    if (result.fault || result.errors.empty() || !result.text.empty() || !result.taken)
+      out.differs(verify::Aspect::Ending,
+                  "a probing operation has to be an error, and the post has to print nothing else for it; " +
+                      (result.errors.empty() || result.taken ? didInstead(result)
+                                                             : "its dispatch does not return true"));
+    runWithoutSense(now, out);
     for (const verify::DrawField& field : from_.plan.fields) {
       input = inputOf(now.drawn);
       if (field.fixed || input.properties.erase(fusion::propertyOf(prefix_, field.name)) == 0) continue;
       runWithout(field, now, fragment_.run(input), out);
     }
+    for (const verify::DrawField& field : from_.plan.fields)
+      compareDefinition(field, result, out);
+  }
+
+  // What the dialog of the operation begins with.
+  void compareDefinition(const verify::DrawField& field, const fusion::RunResult& result,
+                         TargetRun& out) const {
+    const auto defined = result.defined.find(fusion::propertyOf(prefix_, field.name));
+    const auto& given = from_.options.defaults;
+    const bool own =
+        std::any_of(given.begin(), given.end(), [&](const auto& one) { return one.first == field.name; });
+    if (!out.differences.empty() || own || !field.initial || defined == result.defined.end()) return;
+    const std::optional<double> value = parseNumber(defined->second);
+    if (value && std::abs(*value - *field.initial) <= from_.options.tolerance) return;
+    out.differs(verify::Aspect::Variable,
+                fmt::format("the property of `{}` is defined as {} against {}, the first value of the field",
+                            field.name, defined->second, numberText(*field.initial)));
+  }
+
+  // ---- values that no operation should give
+
+  // The fragment has to stop with an error, where it uses what the name stands for: with one that ends so.
+  void demandError(const TargetCase& now, const std::string& name, const fusion::RunInput& input,
+                   const std::string& why, TargetRun& out, std::string_view says = "") {
+    if (!out.differences.empty()) return;
+    const fusion::RunResult result = fragment_.run(input);
+    const bool stops = !result.fault && !result.errors.empty() && result.text.empty();
+    if (stops && result.errors.front().ends_with(says)) return;
+    if (!result.fault && result.text == right_ && result.errors.empty() && !uses(now, name)) return;
+    out.differs(verify::Aspect::Ending,
+                why + (stops ? fmt::format(" has to be an error, `..{}`; ", says) : " has to be an error; ") +
+                    didInstead(result));
+  }
+
+  // A number that fits no picture and no word of a control is printed by nobody.
+  void demandText(const fusion::RunInput& input, const std::string& what, TargetRun& out) {
+    if (!out.differences.empty()) return;
+    const fusion::RunResult result = fragment_.run(input);
+    if (result.fault)
+      out.differs(verify::Aspect::Ending,
+                  fmt::format("{} as {}: it fails: {}", numberText(kTooLong), what, result.fault->text));
+    if (result.text.find("null") == std::string::npos || right_.find("null") != std::string::npos) return;
+    out.differs(verify::Aspect::Ending,
+                fmt::format("{} as `{}` does not fit and has to be an error; it writes `null`",
+                            numberText(kTooLong), what));
+  }
+
+  bool uses(const TargetCase& now, const std::string& name) {
+    const auto known = uses_.find(name);
+    if (known != uses_.end() && known->second) return true;
+    return uses_[name] = now.questions->moves(name) || now.questions->rejectsSome(name);
+  }
+
+  // Texts for numbers, halves of what chooses something, a ball without a radius, a negative overtravel.
+  void runWithoutSense(const TargetCase& now, TargetRun& out) {
+    const auto& hosts = now.drawn.hosts;
+    right_ = fragment_.run(inputOf(now.drawn)).text;
+    const auto isWhole = [](ir::Kind kind) {
+      return kind == ir::Kind::WorkOffset || kind == ir::Kind::ToolOffset || kind == ir::Kind::Count;
+    };
+    for (const verify::DrawField& field : from_.plan.fields) {
+      fusion::RunInput input = inputOf(now.drawn);
+      const auto property = input.properties.find(fusion::propertyOf(prefix_, field.name));
+      if (field.fixed || property == input.properties.end()) continue;
+      input.noNumber = property->first;
+      demandError(now, field.name, input, fmt::format("a text as `{}`", field.name), out, " is no number");
+      input.noNumber.clear();
+      if (isWhole(field.kind)) {
+        property->second += 0.5;
+        demandError(now, field.name, input, fmt::format("a half as `{}`", field.name), out,
+                    " is no whole number");
+      }
+      if (field.kind == ir::Kind::WorkOffset && sourceSet_ != set_)
+        for (const double system : {field.firstSystem - 1, field.firstSystem + 6}) {
+          property->second = system;
+          demandError(now, field.name, input, fmt::format("{} as `{}`", numberText(system), field.name), out);
+        }
+      for (const double value : {kTooLong, -kTooLong}) {
+        property->second = value;
+        demandText(input, field.name, out);
+      }
+    }
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      fusion::RunInput input = inputOf(now.drawn);
+      input.points.front()[axis] = kTooLong;
+      demandText(input, std::string(1, "xyz"[axis]) + " of the point", out);
+    }
+    struct Input {
+      const char *host, *name;
+    };
+    static constexpr Input kInputs[] = {{"start_x", "x"},
+                                        {"start_y", "y"},
+                                        {"start_z", "z"},
+                                        {"tool_radius", "diameter"},
+                                        {"tool_number", "number"},
+                                        {"tool_offset", "lengthOffset"},
+                                        {"clearance", "clearance"},
+                                        {"retract", "retract"},
+                                        {"overtravel", "probeOvertravel"}};
+    for (const Input& one : kInputs) {
+      if (from_.plan.fixedHosts.contains(one.host) || !hosts.contains(one.host)) continue;
+      fusion::RunInput input = inputOf(now.drawn);
+      input.noNumber = one.name;
+      demandError(now, one.host, input, fmt::format("a text as {}", one.host), out, " is no number");
+    }
+    for (const auto& [host, member] : {std::pair("tool_number", &fusion::RunInput::toolNumber),
+                                       std::pair("tool_offset", &fusion::RunInput::toolLengthOffset)}) {
+      if (from_.plan.fixedHosts.contains(host) || !hosts.contains(host)) continue;
+      fusion::RunInput input = inputOf(now.drawn);
+      input.*member += 0.5;
+      demandError(now, host, input, fmt::format("a half as {}", host), out);
+    }
+    runWithoutBall(now, out);
+  }
+
+  void runWithoutBall(const TargetCase& now, TargetRun& out) {
+    const auto& hosts = now.drawn.hosts;
+    if (hosts.contains("tool_radius") && !from_.plan.fixedHosts.contains("tool_radius")) {
+      fusion::RunInput input = inputOf(now.drawn);
+      input.toolDiameter = 0;
+      demandError(now, "tool_radius", input, "a ball without a radius", out, " is not above 0");
+    }
+    if (!hosts.contains("overtravel") || from_.plan.fixedHosts.contains("overtravel")) return;
+    fusion::RunInput input = inputOf(now.drawn);
+    input.cycle["probeOvertravel"] = -1;
+    demandError(now, "overtravel", input, "an overtravel of -1", out, " is negative");
+    input.cycle["probeOvertravel"] = 0;
+    const fusion::RunResult none = fragment_.run(input);
+    if (!none.ok() && now.questions->with("overtravel", 0).answer == SourceQuestions::Answer::Runs)
+      out.differs(verify::Aspect::Ending, "with an overtravel of 0 the source runs; " + didInstead(none));
   }
 
   // As with the first value of DefineData; without one an error where the field moves something.
@@ -364,6 +511,8 @@ private:
   fusion::Fragment fragment_{runner_};
   std::optional<ir::ProgramFile> macros_; // of the target's set, where it has a text
   SourceMap sources_;
+  std::string right_;                // what it writes for the case at hand
+  std::map<std::string, bool> uses_; // whether fields and host inputs are used; false may become true
 };
 
 } // namespace

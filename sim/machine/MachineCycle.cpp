@@ -101,6 +101,7 @@ void Machine::switchCoolant(Coolant coolant) {
 
 void Machine::dwellFor(double seconds) {
   advance(seconds);
+  if (watcher_ != nullptr) watcher_->dwelled(seconds);
   if (trace_ != nullptr) trace_->begin("dwell").word("", seconds).end();
 }
 

@@ -111,6 +111,7 @@ bool Machine::miscellaneous(const NcWords& w) {
       break;
     case Function::Auxiliary:
       if (trace_ != nullptr) trace_->begin("auxiliary").text(fmt::format("M{}", w.m[i])).end();
+      if (watcher_ != nullptr) watcher_->auxiliary(w.m[i]);
       break;
     default: break;
     }
@@ -132,6 +133,7 @@ bool Machine::stops(const NcWords& w) {
     case Function::Stop: pause(""); break;
     case Function::OptionalStop:
       if (trace_ != nullptr) trace_->begin("optional-stop").end();
+      if (watcher_ != nullptr) watcher_->auxiliary(w.m[i]);
       break;
     case Function::ProgramEnd:
     case Function::Return:
@@ -238,6 +240,7 @@ bool Machine::dwell(const NcWords& w) {
     if (!(seconds >= 0)) return inconclusive("a dwell is not below 0", letter);
   }
   seconds_ += seconds;
+  if (watcher_ != nullptr) watcher_->dwelled(seconds);
   if (trace_ != nullptr) trace_->begin("dwell").word("", seconds).end();
   return true;
 }

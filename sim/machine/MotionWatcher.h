@@ -47,6 +47,9 @@ public:
   // A program reads where the machine is or its last block has ended; `skip`: where the last skip move has.
   virtual void positionRead(bool /*skip*/) {}
   virtual void toolChanged(std::uint32_t /*number*/) {} // M6; the tool that T has named
+  // An M code that moves no axis and changes nothing that the machine keeps: M19; an optional stop.
+  virtual void auxiliary(std::uint32_t /*code*/) {}
+  virtual void dwelled(double /*seconds*/) {}
   // G43 or G44 puts the length of an offset in force that nobody has set.
   virtual void lengthNotSet(std::uint32_t /*offset*/) {}
   // A call with arguments (G65 and its like), by text or by meaning: `locals` by number from #0 (unused) on,

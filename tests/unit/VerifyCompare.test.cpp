@@ -107,6 +107,28 @@ TEST_CASE("verify: each aspect has its difference") {
   CHECK(differing("G90\n", "G91\n", true) == Aspects{Aspect::Modal});
 }
 
+TEST_CASE("verify: tools, M codes, stops and dwells count, where and in which order they come") {
+  const Aspects state{Aspect::State};
+  CHECK(differing("T20M6\nG0X1.\n", "T20M6\nG0X1.\n").empty());
+  CHECK(differing("T20\nM6\nG0X1.\n", "T20M6\nG0X1.\n").empty());
+  CHECK(differing("T20M6\nG0X1.\n", "T20\nG0X1.\n") == state);
+  CHECK(differing("T20M6\nG0X1.\n", "T21M6\nG0X1.\n") == state);
+  CHECK(differing("T20M6\nT1\n", "T20M6\n") == state); // the next tool is looked for
+  CHECK(differing("T20M6\nG0X1.\n", "G0X1.\nT20M6\n") == state);
+  CHECK(differing("M19\n", "\n") == state);
+  CHECK(differing("\n", "M19\n") == state);
+  CHECK(differing("M19\nG0X1.\n", "G0X1.\nM19\n") == state);
+  CHECK(differing("T20M6\nM19\n", "M19\nT20M6\n") == state);
+  CHECK(differing("M3S100\nM19\nM5\n", "M3S100\nM5\nM19\n") == state); // it turns
+  CHECK(differing(kTouch + "M19\n", "M19\n" + kTouch) == state);
+  CHECK(differing("M0\n", "\n") == state);
+  CHECK(differing("M1\n", "M0\n") == state);
+  CHECK(differing("G4P500\n", "\n") == state);
+  CHECK(differing("G4P500\n", "G4P600\n") == state);
+  CHECK(differing("M3S100\nG0X1.\nM5\n", "M3S200\nG0X1.\nM5\n") == state);
+  CHECK(differing("S100\nG0X1.\n", "S200\nG0X1.\n").empty()); // nothing turns
+}
+
 TEST_CASE("verify: what the translation meets and the source does not") {
   // The same way; the part is where only the second runs.
   const OneRun source(kOn + "G1X20.F500.\nG0X0\n"), target(kOn + "G1X40.F500.\nG0X0\n");

@@ -175,6 +175,12 @@ TEST_CASE("verify sees what a fragment owes its post") {
       {"unit !== MM", "unit !== MM", "false", "a document in inches has to be an error"},
       {"writeBlock(\"M5\")", "writeBlock", "writeln", "written without its number"},
       {"value: 55", "55", "57", "as its property is defined"},
+      {"value: 12", "12", "13", "as its property is defined"},
+      {"_isNumber(X)", "!surfaceX_isNumber(X)", "false", "a text as `X` has to be an error"},
+      {"return true;", "true", "false", "a probing operation has to be an error"},
+      {"toolRadius <= 0", "<=", "<", "a ball without a radius has to be an error"},
+      {"G % 1 !== 0", "G % 1 !== 0", "false", "a half as `G` has to be an error"},
+      {"XText === null", "XText === null", "false", "does not fit and has to be an error"},
   };
   for (const Damage& damage : damages) {
     CAPTURE(damage.part);

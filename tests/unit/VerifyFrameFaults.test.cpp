@@ -115,7 +115,8 @@ bool isMotionModeOfMacros(const Fault& fault, const std::string& program) {
   std::smatch kept;
   if (!std::regex_search(program, kept, std::regex("#(\\d+)=#4001\\b"))) return false;
   const std::string back = "G#" + kept[1].str() + " ";
-  if (!fault.before.starts_with(back) || fault.after.starts_with(back)) return false;
+  const bool unkept = fault.before == kept[0].str() && fault.after.empty(); // G of a null local is no word
+  if (!unkept && (!fault.before.starts_with(back) || fault.after.starts_with(back))) return false;
   for (const std::string& line : linesOf(program)) {
     if (line.starts_with("(")) continue;
     if (std::regex_search(line, std::regex("(^|[^0-9A-Z#])G0?[0-3](?![0-9])"))) return false;
@@ -141,6 +142,8 @@ bool isSetAgain(const Fault& fault, const std::string& program) {
   for (std::size_t i = fault.line + 1; i < lines.size() && !lost.empty(); ++i) {
     const std::string& line = lines[i];
     if (line.starts_with("(")) continue;
+    // What switches the probe moves nothing.
+    if (std::regex_match(line, std::regex("G65 P98(32|33)"))) continue;
     if (std::regex_search(line, std::regex("[XYZ][-#0-9.\\[]|G65|G31|IF|GOTO|^N"))) return false;
     for (const std::string& word : modeWords(line))
       lost.erase(word);
@@ -165,7 +168,8 @@ std::string_view whyNothing(const Fault& fault, const std::string& program) {
   if (fault.kind == "do not set a mode" && isSetAgain(fault, program))
     return "blocks of the source set it again before anything moves";
   if (fault.kind == "do not wait for the axes") return whyNoWait(program, fault.line);
-  if (fault.kind == "do not put a mode back" && isMotionModeOfMacros(fault, program))
+  if ((fault.kind == "do not put a mode back" || fault.kind == "do not keep a mode") &&
+      isMotionModeOfMacros(fault, program))
     return "the macros put the motion mode back, and nothing else sets it";
   return "";
 }
