@@ -2,6 +2,10 @@
 
 #include <algorithm>
 #include <charconv>
+#include <iterator>
+#include <map>
+#include <set>
+#include <utility>
 
 namespace dotek::lint {
 namespace {
@@ -20,11 +24,37 @@ bool calls(const compost::Statement& statement, const std::string& routine) {
   return word != nullptr && word->kind == compost::WordKind::Command && word->name == routine;
 }
 
+// Statements of a list by the cycles that they run for. Of a Prog with a thousand branches each branch sees
+// its own IFs and not those of all others.
+struct Plan {
+  std::vector<std::size_t> always;                      // for any cycle, as far as the list shows it
+  std::map<std::string, std::vector<std::size_t>> ofId; // IFs without ELSE that test for cycles
+  std::map<const compost::If*, std::size_t> ifs;
+};
+// By the address of the list.
+using Plans = std::map<const std::vector<compost::Statement>*, Plan>;
+
+const Plan& planOf(const std::vector<compost::Statement>& statements, Plans& plans) {
+  const auto [at, isNew] = plans.try_emplace(&statements);
+  if (!isNew) return at->second;
+  for (std::size_t i = 0; i < statements.size(); ++i) {
+    const auto* branch = std::get_if<std::unique_ptr<compost::If>>(&statements[i]);
+    const auto ids = branch == nullptr || !(*branch)->elseBody.empty()
+                         ? std::nullopt
+                         : compost::cyclesOf((*branch)->condition);
+    if (branch != nullptr) at->second.ifs.emplace(branch->get(), i);
+    if (!ids) at->second.always.push_back(i);
+    for (const std::string& id : ids.value_or(std::set<std::string>()))
+      at->second.ofId[id].push_back(i);
+  }
+  return at->second;
+}
+
 // Blocks that a routine prints for one cycle before and after a place.
 class Around {
 public:
-  Around(const Project& project, const compost::Program& prog, BranchSteps& into)
-      : project_(project), prog_(prog), into_(into) {}
+  Around(const Project& project, const compost::Program& prog, Plans& plans, BranchSteps& into)
+      : project_(project), prog_(prog), plans_(plans), into_(into) {}
 
   // `at`: the place is this IF, or a call of a routine of this name.
   void look(const compost::Routine& routine, const compost::If* at, const std::string& callee) {
@@ -43,7 +73,22 @@ private:
   }
 
   void walk(const std::vector<compost::Statement>& statements) {
-    for (const compost::Statement& statement : statements) {
+    const Plan& plan = planOf(statements, plans_);
+    std::vector<std::size_t> shown = plan.always;
+    if (const auto own = plan.ofId.find(into_.id); own != plan.ofId.end()) {
+      shown.clear();
+      std::merge(plan.always.begin(), plan.always.end(), own->second.begin(), own->second.end(),
+                 std::back_inserter(shown));
+    }
+    // The place itself, whatever else it tests for.
+    if (const auto place = plan.ifs.find(at_); place != plan.ifs.end())
+      if (const auto at = std::lower_bound(shown.begin(), shown.end(), place->second);
+          at == shown.end() || *at != place->second)
+        shown.insert(at, place->second);
+    std::size_t next = 0;
+    for (const std::size_t i : shown) {
+      if (i != std::exchange(next, i + 1)) flush(); // an IF of another cycle is between
+      const compost::Statement& statement = statements[i];
       if (isPlace(statement)) {
         flush();
         found_ = true;
@@ -58,6 +103,7 @@ private:
         one(statement);
       }
     }
+    if (next != statements.size()) flush();
   }
 
   void one(const compost::Statement& statement) {
@@ -91,6 +137,7 @@ private:
 
   const Project& project_;
   const compost::Program& prog_;
+  Plans& plans_;
   BranchSteps& into_;
   const compost::If* at_ = nullptr;
   const std::string* callee_ = nullptr;
@@ -99,8 +146,8 @@ private:
 };
 
 void lookAround(const Project& project, const compost::Program& prog, const compost::Routine& routine,
-                const compost::If* at, BranchSteps& into) {
-  Around around(project, prog, into);
+                const compost::If* at, Plans& plans, BranchSteps& into) {
+  Around around(project, prog, plans, into);
   around.look(routine, at, routine.name);
   std::vector<const compost::Routine*> seen = {&routine};
   for (std::size_t i = 0; i < seen.size() && seen.size() <= kCallers; ++i) {
@@ -160,13 +207,14 @@ BlockDeeds deedsOf(const ProgBlock& block, const Project& project) {
 
 std::vector<BranchSteps> branchSteps(const Project& project) {
   std::vector<BranchSteps> out;
+  Plans plans;
   for (const Siblings& siblings : siblingsOf(project)) {
     if (siblings.prog->hasErrorNodes || !siblings.routine->returnRange) continue;
     for (const CycleBranch& branch : siblings.branches) {
       BranchSteps one{siblings.prog, branch.id, branch.ref.branch->ifRange, {}, {}, {}};
       for (const ProgBlock& block : branch.blocks)
         one.steps.push_back({deedsOf(block, project), block.range, block.conditional});
-      lookAround(project, *siblings.prog, *siblings.routine, branch.ref.branch, one);
+      lookAround(project, *siblings.prog, *siblings.routine, branch.ref.branch, plans, one);
       out.push_back(std::move(one));
     }
   }

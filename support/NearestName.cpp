@@ -68,14 +68,10 @@ bool NearestName::mayBeNear(std::string_view other) const {
   if (gap > limit_) return false;
   if (name_.size() > UINT8_MAX || other.size() > UINT8_MAX) return true;
   const LetterCounts its = countLetters(other);
-  std::size_t lost = 0, added = 0;
-  for (std::size_t i = 0; i < its.size(); ++i) {
-    if (letters_[i] > its[i])
-      lost += letters_[i] - its[i];
-    else
-      added += its[i] - letters_[i];
-  }
-  return std::max(lost, added) <= limit_;
+  std::size_t lost = 0; // what is added is as much, but for the lengths
+  for (std::size_t i = 0; i < its.size(); ++i)
+    lost += static_cast<std::size_t>(std::max(letters_[i], its[i]) - its[i]);
+  return std::max(lost, lost + other.size() - name_.size()) <= limit_;
 }
 
 void NearestName::offer(std::string_view candidate) {

@@ -25,7 +25,7 @@ LetterCounts countLetters(std::string_view name);
 // first kMostOffers are not looked at: a hint is not worth seconds in a huge file.
 class NearestName {
 public:
-  static constexpr std::size_t kMostOffers = 4000;
+  static constexpr std::size_t kMostOffers = 1000;
 
   explicit NearestName(std::string_view name)
       : name_(name), letters_(countLetters(name)),

@@ -60,6 +60,20 @@ std::string_view foreignFlow(std::string_view word) {
   return "";
 }
 
+// In a Prog of more routines than a hint looks at, those that are nearest by the alphabet: mostly the
+// beginning of a name is right.
+void offerRoutines(const std::map<std::string, SourceRange, std::less<>>& routines, NearestName& nearest,
+                   std::string_view name) {
+  auto routine = routines.begin();
+  if (routines.size() > NearestName::kMostOffers) {
+    routine = routines.lower_bound(name);
+    for (std::size_t i = 0; i < NearestName::kMostOffers / 2 && routine != routines.begin(); ++i)
+      --routine;
+  }
+  for (; routine != routines.end() && !nearest.full(); ++routine)
+    nearest.offer(routine->first);
+}
+
 } // namespace
 
 std::string CheckedProg::slipOf(const Spelling& spelt) const {
@@ -70,13 +84,13 @@ std::string CheckedProg::slipOf(const Spelling& spelt) const {
       return near + std::string(suffixOf(spelt.kind));
   if (spelt.kind != WordKind::Command) return "";
   NearestName nearest(spelt.name);
-  for (auto routine = routines.begin(); routine != routines.end() && !nearest.full(); ++routine)
-    nearest.offer(routine->first);
+  offerRoutines(routines, nearest, spelt.name);
   return isSlip(spelt.name, nearest.result()) ? nearest.result() : "";
 }
 
 void keywordMisspelt(const CheckedProg& input, Report& report) {
   for (const CheckedProg::Spelling& spelt : input.spellings) {
+    if (report.full(spelt.range.file)) continue;
     const std::string meant = input.slipOf(spelt);
     if (!meant.empty())
       report.at(spelt.range,
@@ -94,10 +108,7 @@ void unknownKeyword(const CheckedProg& input, Report& report) {
     if (remedy.empty()) {
       NearestName nearest(spelt.name);
       nearest.offer(input.keywords.nearest(spelt.name));
-      if (command)
-        for (auto routine = input.routines.begin(); routine != input.routines.end() && !nearest.full();
-             ++routine)
-          nearest.offer(routine->first);
+      if (command) offerRoutines(input.routines, nearest, spelt.name);
       std::string hint = nearest.result();
       if (const ComPostKeyword* other = input.keywords.find(hint)) hint += suffixOf(wordKindOf(*other));
       if (!hint.empty()) remedy = fmt::format("; the nearest known name is `{}`", hint);

@@ -187,9 +187,10 @@ private:
         ++i;
         continue;
       }
+      const std::vector<std::size_t> starts = startsOf(table);
       for (std::size_t row = 0; row < table.size(); ++row) {
         lead(all[i + row], fresh);
-        line(aligned(table, row), all[i + row].after);
+        line(aligned(table[row], starts), all[i + row].after);
       }
       i = end;
     }
@@ -200,18 +201,25 @@ private:
     if (statement.blankBefore && !fresh) out_ += '\n';
     fresh = false;
   }
-  static std::string aligned(const std::vector<Columns>& table, std::size_t row) {
-    std::string out;
+  // Where each column begins, so that the widest of its texts fits.
+  static std::vector<std::size_t> startsOf(const std::vector<Columns>& table) {
+    std::vector<std::size_t> out;
     std::size_t at = 0;
-    for (std::size_t column = 0; column < table[row].size(); ++column) {
-      if (!table[row][column].empty()) {
-        if (column > 0) out.append(std::max(at, width(out) + 1) - width(out), ' ');
-        out += table[row][column];
-      }
+    for (std::size_t column = 0; column < table.front().size(); ++column) {
+      out.push_back(at);
       std::size_t most = 0;
-      for (const Columns& other : table)
-        most = std::max(most, width(other[column]));
+      for (const Columns& row : table)
+        most = std::max(most, width(row[column]));
       at += most == 0 ? 0 : most + 1;
+    }
+    return out;
+  }
+  static std::string aligned(const Columns& row, const std::vector<std::size_t>& starts) {
+    std::string out;
+    for (std::size_t column = 0; column < row.size(); ++column) {
+      if (row[column].empty()) continue;
+      if (column > 0) out.append(std::max(starts[column], width(out) + 1) - width(out), ' ');
+      out += row[column];
     }
     return out;
   }

@@ -36,11 +36,13 @@ std::vector<Field> declaredFields(const Cycle& cycle) {
   std::map<std::string, std::size_t> index;
   const std::vector<InputLabel> labels =
       cycle.dialog ? inputLabels(*cycle.dialog) : std::vector<InputLabel>{};
+  std::map<std::string, const InputLabel*> labelled; // the first of each variable
+  for (const InputLabel& label : labels)
+    labelled.try_emplace(foldCase(label.variable.text), &label);
   const auto add = [&](Field field) {
     const std::string key = foldCase(field.name.text);
     if (!index.try_emplace(key, fields.size()).second) return;
-    for (const InputLabel& label : labels)
-      if (!field.label && foldCase(label.variable.text) == key) field.label = label;
+    if (const auto label = labelled.find(key); label != labelled.end()) field.label = *label->second;
     fields.push_back(std::move(field));
   };
   if (cycle.defineData)

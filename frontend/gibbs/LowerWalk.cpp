@@ -25,32 +25,53 @@ std::vector<std::size_t> followers(const Flat& flat, std::size_t at) {
   return {at + 1};
 }
 
-CycleChanges changesAround(const Flat& flat, std::size_t head) {
+Circles::Circles(const Flat& flat) : of_(flat.steps.size(), kNone) {
+  // Tarjan's strongly connected components, without recursion: a step and all that it can come back from.
   const std::size_t size = flat.steps.size();
-  std::vector<std::vector<std::size_t>> back(size);
-  for (std::size_t at = 0; at < size; ++at) {
-    for (const std::size_t next : followers(flat, at))
-      if (next < size) back[next].push_back(at);
-  }
-  const auto spread = [&](const auto& neighbours) {
-    std::vector<bool> found(size, false);
-    std::vector<std::size_t> open = {head};
-    while (!open.empty()) {
-      const std::size_t at = open.back();
-      open.pop_back();
-      for (const std::size_t next : neighbours(at)) {
-        if (next >= size || found[next]) continue;
-        found[next] = true;
-        open.push_back(next);
-      }
-    }
-    return found;
+  std::vector<std::size_t> order(size, kNone), low(size);
+  std::vector<std::size_t> found; // not yet of a circle
+  struct Frame {
+    std::size_t at;
+    std::vector<std::size_t> next;
   };
-  const auto ahead = spread([&](std::size_t at) { return followers(flat, at); });
-  const auto behind = spread([&](std::size_t at) { return back[at]; });
+  std::vector<Frame> open;
+  std::size_t count = 0;
+  const auto enter = [&](std::size_t at) {
+    order[at] = low[at] = count++;
+    found.push_back(at);
+    open.push_back({at, followers(flat, at)});
+  };
+  for (std::size_t root = 0; root < size; ++root) {
+    if (order[root] != kNone) continue;
+    for (enter(root); !open.empty();) {
+      Frame& frame = open.back();
+      const std::size_t at = frame.at;
+      if (!frame.next.empty()) {
+        const std::size_t next = frame.next.back();
+        frame.next.pop_back();
+        if (next >= size) continue;
+        if (order[next] == kNone)
+          enter(next);
+        else if (of_[next] == kNone)
+          low[at] = std::min(low[at], order[next]);
+        continue;
+      }
+      open.pop_back();
+      if (!open.empty()) low[open.back().at] = std::min(low[open.back().at], low[at]);
+      if (low[at] == order[at]) close(flat, at, found);
+    }
+  }
+}
+
+// Takes the steps of one circle off `found`, down to `head`.
+void Circles::close(const Flat& flat, std::size_t head, std::vector<std::size_t>& found) {
   CycleChanges changes;
-  for (std::size_t at = 0; at < size; ++at) {
-    if (!ahead[at] || !behind[at]) continue;
+  const bool alone = found.back() == head; // no step that changes anything leads to itself
+  for (std::size_t at = kNone; at != head;) {
+    at = found.back();
+    found.pop_back();
+    of_[at] = changes_.size();
+    if (alone) continue;
     if (const auto* assign = std::get_if<FlatAssign>(&flat.steps[at].step))
       changes.variables.insert(assign->variable);
     if (const auto* unset = std::get_if<FlatUnset>(&flat.steps[at].step))
@@ -59,7 +80,7 @@ CycleChanges changesAround(const Flat& flat, std::size_t head) {
     for (std::size_t axis = 0; move != nullptr && axis < 3; ++axis)
       changes.axes[axis] = changes.axes[axis] || move->axes[axis] != nullptr;
   }
-  return changes;
+  changes_.push_back(std::move(changes));
 }
 
 Walk::Walk(const Flat& flat, const ir::Cycle& cycle, const Limits& limits, WalkOptions options)
@@ -234,7 +255,8 @@ std::optional<double> Walk::knownNumber(WalkState& state, ir::VariableId variabl
 bool Walk::isNew(WalkState& state) {
   if (heads_[state.at]) {
     Head& head = circles_[state.at];
-    if (head.first.empty()) head.changes = changesAround(flat_, state.at);
+    if (!circlesOf_) circlesOf_.emplace(flat_);
+    if (head.first.empty()) head.changes = circlesOf_->around(state.at);
     compareVisit(head, state);
     if (seen_[state.at].size() >= kWiden) widen(state, head);
   }

@@ -13,6 +13,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <memory>
 #include <optional>
@@ -110,6 +111,22 @@ struct CycleChanges {
   std::array<bool, 3> axes{};
 };
 
+// All circles of the code, found at once.
+class Circles {
+public:
+  explicit Circles(const Flat& flat);
+
+  // Nothing where the step is on no circle.
+  const CycleChanges& around(std::size_t head) const { return changes_[of_[head]]; }
+
+private:
+  static constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
+  void close(const Flat& flat, std::size_t head, std::vector<std::size_t>& found);
+
+  std::vector<std::size_t> of_; // by step, an index of changes_
+  std::vector<CycleChanges> changes_;
+};
+
 class Walk {
 public:
   Walk(const Flat& flat, const ir::Cycle& cycle, const Limits& limits, WalkOptions options);
@@ -194,6 +211,7 @@ private:
   std::string bytes_;                                              // room for what is looked up in `numbers_`
   std::size_t states_ = 0;
   std::map<std::size_t, Head> circles_; // by place
+  std::optional<Circles> circlesOf_;    // of flat_, once a head is met
   std::vector<std::uint64_t> live_;     // a bit for each step and variable; empty: all
   std::size_t liveWords_ = 0;           // of a step
   std::map<std::string, std::size_t> interned_;
@@ -203,7 +221,6 @@ private:
 
 // Successors by place; Ends and Refuses have none.
 std::vector<std::size_t> followers(const Flat& flat, std::size_t at);
-CycleChanges changesAround(const Flat& flat, std::size_t head);
 
 bool provenAbove(const Facts& facts, const Value& value); // value > 0
 bool provenBelow(const Facts& facts, const Value& value);
