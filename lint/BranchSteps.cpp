@@ -10,6 +10,9 @@
 namespace dotek::lint {
 namespace {
 
+// Each branch sees what the others of its cycle print: of more branches for one cycle the rest is not looked
+// at.
+constexpr std::size_t kMostOfOneCycle = 100;
 constexpr std::size_t kCallers = 4; // routines that call one another, from the branch outward
 
 std::optional<double> codeOf(const ProgWord& word) {
@@ -210,7 +213,9 @@ std::vector<BranchSteps> branchSteps(const Project& project) {
   Plans plans;
   for (const Siblings& siblings : siblingsOf(project)) {
     if (siblings.prog->hasErrorNodes || !siblings.routine->returnRange) continue;
+    std::map<std::string, std::size_t> seen; // branches by their cycle
     for (const CycleBranch& branch : siblings.branches) {
+      if (++seen[branch.id] > kMostOfOneCycle) continue;
       BranchSteps one{siblings.prog, branch.id, branch.ref.branch->ifRange, {}, {}, {}};
       for (const ProgBlock& block : branch.blocks)
         one.steps.push_back({deedsOf(block, project), block.range, block.conditional});

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <set>
 
 namespace dotek::frontend::compost {
 
@@ -83,12 +84,13 @@ const Routine* findRoutine(const Program& program, std::string_view name) {
 
 std::vector<std::string> cycleIds(const Program& program) {
   std::vector<std::string> ids;
+  std::set<std::string> known;
   for (const Item& item : program.items) {
     const auto* routine = std::get_if<Routine>(&item);
     if (routine == nullptr) continue;
     eachIf(routine->body, [&](const If& branch) {
       eachCycleTest(branch.condition, false, [&](const std::string& id, bool) {
-        if (std::find(ids.begin(), ids.end(), id) == ids.end()) ids.push_back(id);
+        if (known.insert(id).second) ids.push_back(id);
       });
     });
   }

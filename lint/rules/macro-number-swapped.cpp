@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 
 namespace dotek::lint::rule {
@@ -30,12 +31,17 @@ void compare(const std::vector<Called>& calls, const std::set<std::uint32_t>& de
   const auto known = [&](std::uint32_t number) {
     return defined.contains(number) || meaningOf(project, number).set != nullptr;
   };
+  std::map<std::uint32_t, std::vector<Called>::const_iterator> first; // by number
+  for (auto call = calls.begin(); call != calls.end(); ++call)
+    first.try_emplace(call->number, call);
   for (const Called& call : calls) {
     if (known(call.number)) continue;
     const std::set<std::uint32_t> others = swaps(call.number);
-    const auto meant = std::find_if(calls.begin(), calls.end(), [&](const Called& other) {
-      return others.contains(other.number) && known(other.number);
-    });
+    auto meant = calls.end(); // the first call that may be
+    for (const std::uint32_t other : others) {
+      const auto place = first.find(other);
+      if (place != first.end() && place->second < meant && known(other)) meant = place->second;
+    }
     const auto there = std::find_if(others.begin(), others.end(),
                                     [&](std::uint32_t other) { return defined.contains(other); });
     if (meant == calls.end() && there == others.end()) continue;

@@ -3,6 +3,7 @@
 
     campaign.py --dotek PROGRAM [--seed N] [--count N] [--limit SECONDS] [inputs|hostile|probes|scripts]...
 
+hostile, probes and scripts run what is listed in their files, then 100 files, 150 probes and 30 scripts that the seed draws.
 Each finding is a line: what is wrong, the arguments, the folder with its inputs. Exit status 1 where there is one.
 """
 
@@ -27,9 +28,9 @@ def inputs(judge, options, folder):
 
 PARTS = {
     "inputs": inputs,
-    "hostile": lambda judge, options, folder: hostile.run(judge, folder),
-    "probes": lambda judge, options, folder: probes.run(judge, folder),
-    "scripts": lambda judge, options, folder: scripts.run(judge, folder),
+    "hostile": lambda judge, options, folder: hostile.run(judge, folder, random.Random(options.seed)),
+    "probes": lambda judge, options, folder: probes.run(judge, folder, random.Random(options.seed)),
+    "scripts": lambda judge, options, folder: scripts.run(judge, folder, random.Random(options.seed)),
 }
 
 

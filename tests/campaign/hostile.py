@@ -60,9 +60,31 @@ KINDS = [
     (STL, "a.stl", [["sim", "--json", "--part", "part.toml", "--machine", "machine.toml", "b.nc"]]),
 ]
 SIZES = (20_000, 400_000)  # bytes
+DRAWN = 100  # files
 
 
-def run(judge, folder):
+def drawn(random, texts):
+    """A text of several pieces of a kind: in turn, one within the other, or one after the other at a length of its own."""
+    begin, _, end = random.choice(texts)
+    pieces = [piece for _, piece, _ in random.sample(texts, random.choice([2, 2, 3]))]
+    pieces.append(random.choice(["\n", "", " ", "1", "(", "X" * random.randrange(1, 90)]))
+    random.shuffle(pieces)
+    way = random.choice(["turn", "nest", "runs"])
+
+    def text(size):
+        if way == "turn":
+            one = "".join(pieces) or "x"
+            return begin + one * (size // len(one)) + end
+        if way == "nest":
+            half = size // 2
+            return begin + (pieces[0] or "x") * (half // len(pieces[0] or "x")) + (pieces[1] or "x") * (half // len(pieces[1] or "x")) + end
+        share = size // len(pieces)
+        return begin + "".join((piece or "x") * (share // len(piece or "x")) for piece in pieces) + end
+
+    return text, f"{way}: {begin!r} {pieces!r}"
+
+
+def run(judge, folder, random):
     folder = pathlib.Path(folder)
     (folder / "b.nc").write_text("%\nO1\nG90 G54 G0 X0 Y0\nG31 Z-5. F100.\nM30\n%\n")
     (folder / "part.toml").write_text('[[add]]\nshape = "mesh"\nfile = "a.stl"\nunit = "mm"\n')
@@ -76,4 +98,13 @@ def run(judge, folder):
                     prints = "sim" if "--json" in command else None
                     fault = judge.run(command, folder, prints=prints)
                     yield fault and f"{fault} ({begin!r} {piece!r} to {size} bytes)", command, folder
+        (folder / name).unlink()
+    for _ in range(DRAWN):
+        texts, name, commands = random.choice(KINDS)
+        text, what = drawn(random, texts)
+        command = random.choice(commands)
+        for size in SIZES:
+            (folder / name).write_bytes(text(size).encode("latin1"))
+            fault = judge.run(command, folder, prints="sim" if "--json" in command else None)
+            yield fault and f"{fault} ({what} to {size} bytes)", command, folder
         (folder / name).unlink()

@@ -97,7 +97,37 @@ def quiet_names(done):
     return f"prints {bad[0]!r} of a name" if bad else None
 
 
-def run(judge, folder):
+DRAWN = 150
+
+
+def drawn(probe, random):
+    """A command below limits, with streams and signals as they come; a file that it writes is old or complete."""
+    if random.random() < 0.5:
+        limits = random.sample([f"ulimit -v {random.randrange(20_000, 250_000)}", f"ulimit -n {random.randrange(3, 12)}",
+                                f"ulimit -s {random.choice([64, 100, 300, 1000, 8000])}", f"ulimit -f {random.randrange(0, 40)}",
+                                f"ulimit -t {random.randrange(1, 3)}", f"ulimit -u {random.randrange(1, 4)}"], random.choice([1, 1, 2, 3]))
+        command = random.choice(list(COMMANDS.values()))
+        stream = random.choice(["> out", "> /dev/null", "> /dev/full", ">&-", "2> /dev/full", "<&-", "| head -c 100 > /dev/null"])
+        probe.fresh()
+        script = f"({'; '.join(limits)}; dotek {command}) {stream}"  # the shell itself opens pipes
+        # The limits may end the loader (127; below the size of the program the system, with SIGSEGV), and the system may end the process by SIGXCPU or SIGXFSZ; `head` may go first.
+        return script, (0, 1, 2, 127, 141, 152, 153), lambda done: None
+    flag = random.choice(list(WRITERS))
+    new = whole(probe, WRITERS[flag])
+    probe.fresh()
+    (probe.here / "OUT").write_text(OLD)
+    if random.random() < 0.4:
+        script = f"ulimit -f {random.randrange(0, 8)}; ulimit -v {random.randrange(30_000, 250_000)}; dotek {WRITERS[flag]} --force"
+        return script, (0, 1, 2, 127), kept(probe, new)
+    signal = random.choice(["INT", "TERM", "HUP", "QUIT", "PIPE", "KILL", "XCPU", "USR1", "ALRM"])
+    # What cannot be caught, or is not, may leave the unfinished file behind.
+    left = "; rm -f .dotek*" if signal not in ("INT", "TERM", "HUP") else ""
+    script = (f"set -m; '{probe.judge.dotek}' {WRITERS[flag]} --force > /dev/null 2>&1 & sleep {random.random() * 0.08:.4f}; "
+              f"kill -{signal} $! 2> /dev/null; wait $!; s=$?; [ $s -le 2 ] || [ $s -gt 128 ] || exit 99{left}; exit 0")
+    return script, (0,), lambda done: kept(probe, new)(subprocess.CompletedProcess([], 1))
+
+
+def run(judge, folder, random):
     probe = Probe(judge, pathlib.Path(folder))
 
     def told(script, statuses, more=lambda done: None):
@@ -155,3 +185,6 @@ def run(judge, folder):
     for script in others:
         probe.fresh()
         yield told(script, (0, 1, 2))
+    for _ in range(DRAWN):
+        script, statuses, more = drawn(probe, random)
+        yield told(script, statuses, more)

@@ -1,6 +1,7 @@
 """Fusion fragments that were edited by hand, badly: verify says so, soon, and never that they agree."""
 
 import pathlib
+import re
 
 from judge import ROOT
 
@@ -33,7 +34,35 @@ HARMLESS = {
 }
 
 
-def run(judge, folder):
+DRAWN = 30
+
+
+def drawn(random, base):
+    """The fragment with lines of its own moved, lost, doubled or damaged, and code of the lists in any place."""
+    lines = base.split("\n")
+    what = []
+    for _ in range(random.choice([1, 2, 4])):
+        at = random.randrange(len(lines))
+        kind = random.choice(["swap", "lose", "double", "cut", "code", "number"])
+        what.append(f"{kind} {at + 1}")
+        if kind == "swap":
+            other = random.randrange(len(lines))
+            lines[at], lines[other] = lines[other], lines[at]
+        elif kind == "lose":
+            del lines[at]
+        elif kind == "double":
+            lines.insert(at, lines[at])
+        elif kind == "cut":
+            lines[at] = lines[at][: random.randrange(len(lines[at]) + 1)]
+        elif kind == "code":
+            lines.insert(at, random.choice(WITHIN + AFTER))
+        else:
+            lines[at] = re.sub(r"\d+", lambda found: random.choice([found[0], "0", "1e9", "-1", "NaN"]), lines[at])
+        lines = lines or [""]
+    return "\n".join(lines), ", ".join(what)
+
+
+def run(judge, folder, random):
     folder = pathlib.Path(folder)
     made = [*CALL[1:6], "--to", "fusion", "--assume", "probe-on", "-o", "base.js"]
     fault = judge.run(["convert", *made], folder)
@@ -50,3 +79,9 @@ def run(judge, folder):
         if fault is None and not harmless and judge.exits.get(0, 0) > before:
             fault = "agrees"
         yield fault and f"{fault} ({code})", CALL, folder
+    # Whether a drawn one still writes the same is not known here: it ends, and well.
+    for _ in range(DRAWN):
+        text, what = drawn(random, base)
+        (folder / "edited.js").write_text(text, encoding="utf-8")
+        fault = judge.run(CALL, folder)
+        yield fault and f"{fault} ({what})", CALL, folder
