@@ -59,12 +59,19 @@ struct CommandFlags {
   void (*add)(CLI::App& app, Raw& raw);
 };
 constexpr CommandFlags kCommands[] = {
-    {"post", Command::Post, addPost}, {"convert", Command::Convert, addConvert},
-    {"lint", Command::Lint, addLint}, {"dump", Command::Dump, addDump},
-    {"sim", Command::Sim, addSim},    {"verify", Command::Verify, addVerify},
-    {"new", Command::New, addNew},    {"explain", Command::Explain, addExplain},
-    {"list", Command::List, addList}, {"check", Command::Check, addCheck},
-    {"fmt", Command::Fmt, addFmt},    {"doc", Command::Doc, addDoc},
+    {"post", Command::Post, addPost},
+    {"convert", Command::Convert, addConvert},
+    {"lint", Command::Lint, addLint},
+    {"dump", Command::Dump, addDump},
+    {"sim", Command::Sim, addSim},
+    {"verify", Command::Verify, addVerify},
+    {"new", Command::New, addNew},
+    {"explain", Command::Explain, addExplain},
+    {"list", Command::List, addList},
+    {"check", Command::Check, addCheck},
+    {"fmt", Command::Fmt, addFmt},
+    {"doc", Command::Doc, addDoc},
+    {"preview", Command::Preview, addPreview},
 };
 
 // A command that is named first is the only one that is declared: declaring all flags takes longer than many

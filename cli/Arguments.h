@@ -23,6 +23,7 @@ enum class Command : unsigned char {
   Check,
   Fmt,
   Doc,
+  Preview,
   Sim,
   Verify
 };

@@ -3,6 +3,7 @@
 #include "cli/Arguments.h"
 #include "cli/Files.h"
 #include "driver/Driver.h"
+#include "driver/Preview.h"
 #include "sim/run/SimReport.h"
 #include "support/Output.h"
 #include "support/OutputCheck.h"
@@ -243,6 +244,8 @@ int runCommand(Arguments& arguments, std::ostream& out, std::ostream& err) {
   case Command::Fmt: return printer.layout(driver::layOut({arguments.inputs, arguments.common}), arguments);
   case Command::Doc:
     return printer.catalogue(driver::catalogue({arguments.inputs, arguments.common}), arguments);
+  case Command::Preview:
+    return printer.result(driver::preview({arguments.inputs, arguments.common}), arguments);
   case Command::List:
     return printer.result(driver::list(arguments.inputs.front(), arguments.common), arguments);
   }

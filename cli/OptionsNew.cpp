@@ -1,4 +1,5 @@
-// Flags of `dotek new`, `dotek check`, `dotek fmt`, `dotek doc`, `dotek explain` and `dotek list`.
+// Flags of `dotek new`, `dotek check`, `dotek fmt`, `dotek doc`, `dotek preview`, `dotek explain` and `dotek
+// list`.
 #include "cli/Options.h"
 
 namespace dotek::cli {
@@ -59,6 +60,16 @@ void addDoc(CLI::App& app, Raw& raw) {
       ->type_name("SITE");
   addForce(*doc, raw);
   addCommon(*doc, raw);
+}
+
+void addPreview(CLI::App& app, Raw& raw) {
+  CLI::App* preview = app.add_subcommand("preview", "the dialog of a cycle's folder as a page (HTML)");
+  preview->add_option("FOLDER", raw.inputs, "the folder of a GibbsCAM cycle");
+  preview->add_option("-o", raw.output, "write the page to a file")->type_name("OUT");
+  addForce(*preview, raw);
+  addValues(*preview, raw);
+  addIncludes(*preview, raw);
+  addCommon(*preview, raw);
 }
 
 void addExplain(CLI::App& app, Raw& raw) {
