@@ -219,7 +219,8 @@ std::string checked(const gibbs::Macro& macro, gibbs::RunContext context, Diagno
   for (const auto& [name, value] : result.changed)
     changed += fmt::format("{}{} = {}", changed.empty() ? "" : ", ", name, shortNumber(value, 6));
   if (!changed.empty())
-    out += note("The macro changes values after the dialog, which the page shows as they were: " + xmlText(changed));
+    out += note("The macro changes values after the dialog, which the page shows as they were: " +
+                xmlText(changed));
   using Verdict = gibbs::ChecksResult::Verdict;
   if (result.verdict == Verdict::Passes) return out + "<p>The values pass.</p>\n";
   if (result.verdict == Verdict::Rejected) return out + note("The values are rejected.", "bad");
@@ -268,8 +269,8 @@ std::string page(const CycleFolder& folder, const FieldTable& fields, Session& s
   if (!path)
     out += note("The path is not drawn: " + reasons(ofPath));
   else
-    out += "<div id=\"paths\">\n" + view(*path, false) + view(*path, true) + "</div>\n<pre>" + lines(gibbs::pathText(*path)) +
-           "</pre>\n";
+    out += "<div id=\"paths\">\n" + view(*path, false) + view(*path, true) + "</div>\n<pre>" +
+           lines(gibbs::pathText(*path)) + "</pre>\n";
   return out + "</body>\n</html>\n";
 }
 

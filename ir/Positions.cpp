@@ -112,7 +112,8 @@ bool isPlace(const ExpressionPtr& value, const AxisPosition& axis, const std::op
   const double* travel = constantValue(axis.value);
   if (travel != nullptr && *travel == 0) return isStart(value);
   const auto* both = std::get_if<Binary>(&value->node);
-  return both != nullptr && both->op == BinaryOp::Add && isStart(both->left) && equal(both->right, axis.value);
+  return both != nullptr && both->op == BinaryOp::Add && isStart(both->left) &&
+         equal(both->right, axis.value);
 }
 
 Fact behind(const CycleStatement& statement, Fact fact, const Starts& starts) {
@@ -211,7 +212,8 @@ std::vector<Position> positions(const Cycle& cycle) {
     axis = {State::Start, constant(0), ProbePoint::Centre};
   const auto facts = factsBefore(
       cycle.body, std::move(entry),
-      [&](std::size_t at, std::size_t, const Fact& fact) { return behind(cycle.body[at], fact, starts); }, meet);
+      [&](std::size_t at, std::size_t, const Fact& fact) { return behind(cycle.body[at], fact, starts); },
+      meet);
   std::vector<Position> out;
   out.reserve(facts.size());
   for (const auto& fact : facts) {

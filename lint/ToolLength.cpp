@@ -204,9 +204,8 @@ private:
   bool reads(const std::set<std::uint32_t>& numbers) const {
     for (const ir::ProgramStatement& statement : program_.body) {
       bool found = false;
-      eachRead(statement, [&](std::uint32_t number, SourceRange) {
-        found = found || numbers.contains(number);
-      });
+      eachRead(statement,
+               [&](std::uint32_t number, SourceRange) { found = found || numbers.contains(number); });
       if (found) return true;
     }
     return false;

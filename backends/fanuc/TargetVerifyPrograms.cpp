@@ -392,8 +392,9 @@ std::unique_ptr<ProgramRunner::Played> ProgramRunner::play(verify::Case drawn, b
   if (measures || record.ending != verify::Ending::Finished || !record.events.empty())
     out->why = verify::whyNoEvidence(record, out->whyAt);
   if (lacksProgram(record))
-    out->why += "; it calls a program that the file does not hold, and `verify` runs what one file holds: put a "
-                "copy of that program at its end";
+    out->why +=
+        "; it calls a program that the file does not hold, and `verify` runs what one file holds: put a "
+        "copy of that program at its end";
   out->whyAt = record.overLimit ? SourceRange{} : inSource(out->whyAt);
   return out;
 }

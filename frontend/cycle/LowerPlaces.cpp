@@ -18,7 +18,8 @@ using State = ir::AxisPosition::State;
 std::set<std::string> leftOut(const Call& call) {
   std::set<std::string> out;
   for (const Statement* const one : declarations(*call.called))
-    if (const auto* parameter = std::get_if<Parameter>(&one->node); parameter != nullptr && parameter->optional)
+    if (const auto* parameter = std::get_if<Parameter>(&one->node);
+        parameter != nullptr && parameter->optional)
       for (const Name& name : parameter->names)
         out.insert(name.text);
   for (const std::vector<Argument>* list : {&call.arguments, &call.handedOn})

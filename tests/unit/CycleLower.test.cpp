@@ -271,8 +271,9 @@ if given system then
   set system: surface.at becomes x 0 mm
 end
 )"}};
-  const std::string head = "cycle demo \"C\"\nparameter mine : work_offset optional \"Mine\"\nfor i = 1 to 3\n"
-                           "  move to y start.x\n  call edge";
+  const std::string head =
+      "cycle demo \"C\"\nparameter mine : work_offset optional \"Mine\"\nfor i = 1 to 3\n"
+      "  move to y start.x\n  call edge";
   CHECK(Lowering(head + "\nend\n", others).body().find("move rapid y = work start_x") != std::string::npos);
   CHECK(refusal(head + " system = G55\nend\n", others) == "start-shifted");
   CHECK(refusal(head + " system = mine\nend\n", others) == "start-shifted");
