@@ -88,25 +88,31 @@ private:
     return free;
   }
 
+  // The first place that touches, between one that is free and one that touches. Where the ball slides along
+  // a face many do, so that one which does is not enough.
   double refine(double low, double lowClear, double high, double highClear) const {
+    double lowAir = lowClear - kTouch, highAir = highClear - kTouch;
     int last = 0;
     for (int n = 0; n < 100 && high - low > kExact; ++n) {
       // Illinois; every third step halves, which bounds their number.
-      double at =
-          n % 3 == 2 ? (low + high) / 2 : (low * highClear - high * lowClear) / (highClear - lowClear);
+      double at = n % 3 == 2 ? (low + high) / 2 : (low * highAir - high * lowAir) / (highAir - lowAir);
       if (!(at > low && at < high)) at = (low + high) / 2;
-      const double clear = clearance(at);
-      if (clear > kTouch) {
-        low = at;
-        lowClear = clear;
-        if (last > 0) highClear /= 2;
+      const double air = clearance(at) - kTouch;
+      const double beside = air > 0 ? at + kExact : at - kExact;
+      const bool close = std::abs(air) < kExact && beside > low && beside < high;
+      const double airBeside = close ? clearance(beside) - kTouch : 0;
+      if (air > 0) {
+        if (close && airBeside <= 0) return beside;
+        low = close ? beside : at;
+        lowAir = close ? airBeside : air;
+        if (last > 0) highAir /= 2;
         last = 1;
       } else {
-        high = at;
-        highClear = clear;
-        if (last < 0) lowClear /= 2;
+        if (close && airBeside > 0) return at;
+        high = close ? beside : at;
+        highAir = close ? airBeside : air;
+        if (last < 0) lowAir /= 2;
         last = -1;
-        if (clear > -kTouch) break;
       }
     }
     return high;

@@ -189,6 +189,25 @@ TEST_CASE("part: a graze is reported from a miss") {
       isNear(way(*ball, 2, {-50, 11.999, 0}, {50, 11.999, 0}), 50 - std::sqrt(144 - 11.999 * 11.999), 1e-6));
 }
 
+TEST_CASE("part: where a path begins to slide along a face does not depend on its start") {
+  constexpr double kRadius = 1.196;
+  PartBuilder builder;
+  builder.box({10, 0, -20}, {50, 100, 0});
+  const auto part = finish(builder);
+  const double beside = 10 - kRadius;
+  const auto meets = [&](double from, double to) {
+    const auto touch = firstContact(*part, kRadius, {beside, from, -5}, {beside, to, -5});
+    REQUIRE(touch);
+    return touch->centre.y;
+  };
+  // The ball comes nearer by the square of the way: 1e-10 mm of air are some 15 nm of it.
+  const double place = meets(-50, 8.8);
+  CHECK(isNear(place, 0, 3e-5));
+  for (const double from : {-0.5, -0.486493, -1.234567, -3.0, -7.77, -20.0001, -49.97})
+    for (const double to : {0.5, 1.0, 9.999, 60.0})
+      CHECK(isNear(meets(from, to), place, 2e-7));
+}
+
 TEST_CASE("part: a start in contact") {
   const auto part = plate();
   const auto touch = firstContact(*part, 3, {-2.9, 30, -5}, {5, 30, -5});
