@@ -15,7 +15,6 @@ namespace dotek::verify {
 namespace {
 
 constexpr int kShown = 6;                 // decimals
-constexpr std::uint32_t kExtended = 5410; // and n: G54.1 Pn
 
 class LeftComparison {
 public:
@@ -64,7 +63,7 @@ private:
   // Of additional systems only those are there that were changed.
   void otherZeros() {
     for (const auto& [key, value] : target_.zeros) {
-      if (key.first <= kExtended || source_.zeros.contains(key)) continue;
+      if (key.first <= kExtendedSystem || source_.zeros.contains(key)) continue;
       add(Aspect::Offset,
           fmt::format("nothing against the zero of {} along {}, which is moved to {}", systemName(key.first),
                       "XYZ"[key.second], fixedText(value, kShown)),
@@ -200,7 +199,7 @@ void addFirst(std::vector<Difference>& list, Difference one) {
 }
 
 std::string systemName(std::uint32_t system) {
-  return system > kExtended ? fmt::format("G54.1 P{}", system - kExtended) : fmt::format("G{}", system);
+  return system > kExtendedSystem ? fmt::format("G54.1 P{}", system - kExtendedSystem) : fmt::format("G{}", system);
 }
 
 std::vector<Difference> compareValues(const Record& source, const Record& target, const CompareRules& rules) {

@@ -31,9 +31,11 @@ struct Surroundings {
   bool operator==(const Surroundings&) const = default;
 };
 
+constexpr std::uint32_t kExtendedSystem = 5410; // and n: G54.1 Pn, where G numbers name work systems
+
 // What coordinates count from.
 struct WorkFrame {
-  std::uint32_t system = 0; // G number, 5410 + n for G54.1 Pn; 0: not looked at
+  std::uint32_t system = 0; // G number, kExtendedSystem + n for G54.1 Pn; 0: not looked at
   double toolLength = 0;    // in force, mm
 };
 
@@ -138,7 +140,7 @@ struct Record {
   std::vector<Deed> deeds;
   // What went wrong on the path (no contacts, no misses), and where in the program.
   std::vector<std::pair<sim::ProbeEvent, SourceRange>> events;
-  // Work offsets that were written: G number (54 to 59; 54.1 Pn as 5410 + n) and axis (0 to 2), to the
+  // Work offsets that were written: G number (54 to 59; 54.1 Pn as kExtendedSystem + n) and axis (0 to 2), to the
   // machine position of the zero. 52 and 92: by how much these have shifted all of them.
   std::map<std::pair<std::uint32_t, std::uint32_t>, double> zeros;
   std::map<std::uint32_t, sim::Machine::ToolOffset> tools; // entries of the tool table that were changed

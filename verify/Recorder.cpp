@@ -32,20 +32,6 @@ bool same(const sim::ProbeEvent& a, const sim::ProbeEvent& b) {
   return (a.point - b.point).length() < kSameSignal;
 }
 
-// Zeros of G54.1 Pn that programs can read: key of Record::zeros to the value.
-std::map<std::pair<std::uint32_t, std::uint32_t>, double> extendedZeros(sim::Machine& machine) {
-  constexpr std::uint32_t kExtended = 5410;
-  const stdlib::SystemVariables& v = machine.control().variables;
-  std::map<std::pair<std::uint32_t, std::uint32_t>, double> out;
-  if (!v.extendedX) return out;
-  for (int n = 0; n < v.extendedCount; ++n)
-    for (std::uint32_t axis = 0; axis < 3; ++axis)
-      if (const auto zero = machine.read(static_cast<std::uint32_t>(*v.extendedX + n * v.extendedStep +
-                                                                    static_cast<int>(axis) * v.axisStep)))
-        out[{kExtended + static_cast<std::uint32_t>(n) + 1, axis}] = *zero;
-  return out;
-}
-
 } // namespace
 
 Recorder::Recorder(sim::Machine& machine, sim::World& world, std::vector<const stdlib::MacroSet*> sets,
@@ -64,10 +50,10 @@ std::array<std::uint32_t, 3> Recorder::modes(bool call) const {
 }
 
 WorkFrame Recorder::frame() const {
-  constexpr std::uint32_t kFirst = 54, kExtended = 5410;
+  constexpr std::uint32_t kFirst = 54;
   if (machine_.dialect().holdsTool) return {};
   const sim::Machine::WorkSystem system = machine_.activeSystem();
-  return {system.index + (system.extended ? kExtended : kFirst),
+  return {system.index + (system.extended ? kExtendedSystem : kFirst),
           machine_.machinePosition()[2] - machine_.position()[2] - machine_.activeZero()[2]};
 }
 
@@ -98,7 +84,7 @@ void Recorder::begin(const sim::Run& run, bool keepMoves) {
 void Recorder::begin(std::function<SourceRange()> place, bool keepMoves) {
   place_ = std::move(place);
   keepMoves_ = keepMoves;
-  record_.zeros = extendedZeros(machine_);
+  extended_ = machine_.extendedZeros();
   record_.start = lowest(machine_.machinePosition());
   record_.before = surroundings();
   record_.feedBefore = machine_.feed();
@@ -494,12 +480,11 @@ Record Recorder::finish(const std::set<std::uint32_t>& stores) {
   record_.lastBlock = place();
   noteEarlyUses();
   // Of the additional systems those that were changed: not every control has as many.
-  std::map<std::pair<std::uint32_t, std::uint32_t>, double> extended = extendedZeros(machine_);
-  std::erase_if(extended, [&](const auto& one) {
-    const auto before = record_.zeros.find(one.first);
-    return before != record_.zeros.end() && before->second == one.second;
-  });
-  record_.zeros = std::move(extended);
+  const std::vector<sim::Position>& extended = machine_.extendedZeros();
+  for (std::uint32_t number = 1; number < extended.size(); ++number)
+    for (std::uint32_t axis = 0; axis < 3; ++axis)
+      if (extended[number][axis] != extended_[number][axis])
+        record_.zeros[{kExtendedSystem + number, axis}] = extended[number][axis];
   for (std::uint32_t system = 0; system < 6; ++system) {
     const sim::Position zero = machine_.zeroOf(system);
     for (std::uint32_t axis = 0; axis < 3; ++axis)

@@ -120,6 +120,7 @@ private:
   Record record_;
   std::size_t events_ = 0;                      // of the world, that were taken
   std::vector<sim::Machine::ToolOffset> tools_; // at entry
+  std::vector<sim::Position> extended_;         // zeros of G54.1 Pn at entry
   std::uint32_t tool_ = 0;                      // that T had named before
   // A call that counts as one thing, with what it calls itself.
   struct OpenCall {

@@ -12,7 +12,7 @@ constexpr double kFloor = 5e-4;  // mm: the least step of a ball
 constexpr double kFarAway = 0.2; // mm
 constexpr double kTouch = 1e-10; // mm: closer is touching
 constexpr double kExact = 1e-10; // mm: of the place of contact on the path
-constexpr double kSafe = 1e-3;   // mm: of a capsule
+constexpr double kSafe = kCollisionMargin;
 constexpr int kMostCells = 100'000;
 
 Vec vec(const Point3& p) {

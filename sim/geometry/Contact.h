@@ -26,8 +26,10 @@ struct Capsule {
   Point3 a, b; // ends of its axis, at the start of the path
   double radius = 0;
 };
-// The first share of the path, which leads by `way`, at which the capsule touches. On the safe side by 1 um:
-// it may touch a gap smaller than that.
+// How far before its true place `firstCollision` may find a collision, mm.
+constexpr double kCollisionMargin = 1e-3;
+// The first share of the path, which leads by `way`, at which the capsule touches. On the safe side by
+// kCollisionMargin: it may touch a gap smaller than that.
 std::optional<double> firstCollision(const Part& part, const Capsule& capsule, const Point3& way);
 
 } // namespace dotek::sim

@@ -144,6 +144,26 @@ TEST_CASE("verify: what the translation meets and the source does not") {
   CHECK(verify::compare(met, met, {}).empty());
 }
 
+TEST_CASE("verify: where a stem stops the source, results count as exactly as that place is known") {
+  OneRun source(kOn + "G31X40.F100.\n"), target(kOn + "G31X40.F100.\n");
+  const auto moved = [&](double by) {
+    verify::Record other = target.record;
+    other.zeros.at({55, 0}) += by;
+    return !verify::compare(source.record, other, {}).empty();
+  };
+  CHECK(moved(0.0001));
+  sim::ProbeEvent met;
+  met.outcome = sim::Outcome::Miss;
+  source.record.events = target.record.events = {{met, {}}};
+  CHECK(moved(0.0001));
+  for (const sim::Outcome outcome : {sim::Outcome::StemCollision, sim::Outcome::BodyCollision}) {
+    met.outcome = outcome;
+    source.record.events = target.record.events = {{met, {}}};
+    CHECK_FALSE(moved(0.0009));
+    CHECK(moved(0.0021));
+  }
+}
+
 TEST_CASE("verify: endings") {
   CHECK(differing("#3000=5(STOP)\n", "G0X1.\n") == Aspects{Aspect::Ending});
   CHECK(differing("#3000=5(STOP)\n", "#3000=5(STOP)\n").empty());
