@@ -193,6 +193,8 @@ public:
         },
         [](Fact& into, const Fact& other) { return merge(into, other); });
     for (std::size_t i = 0; i < body.size(); ++i)
+      if (facts[i]) noteHeights(body[i], *facts[i]);
+    for (std::size_t i = 0; i < body.size(); ++i)
       if (facts[i]) judge(body[i], *facts[i]);
     return std::move(found_);
   }
@@ -343,8 +345,72 @@ private:
     found_.push_back({place, range, value->range, one.lengths, one.read->number, one.read->range, length});
   }
 
+  // Variables of which a Z is computed that holds no length: an argument, or what the program has taken it
+  // off.
+  void noteHeights(const ir::ProgramStatement& statement, const Fact& fact) {
+    const auto* block = std::get_if<ir::NcBlock>(&statement.node);
+    if (block == nullptr || hasCode(*block, 'G', 91) ||
+        (!isPlainMove(*block) && skipOf(statement) == nullptr))
+      return;
+    for (const ir::Word& word : block->words) {
+      if (word.address != 'Z' || word.value == nullptr) continue;
+      if (const Held z = held(word.value, fact); !z.none() || z.free()) continue;
+      ir::eachNode(word.value, [&](const ir::Expression& one) {
+        if (!std::holds_alternative<ir::MachineVariable>(one.node)) return;
+        if (const auto number = variableNumber(one)) heights_.insert(*number);
+      });
+    }
+  }
+
+  bool isHeight(const ir::ExpressionPtr& value, const Fact& fact) const {
+    if (const Held one = held(value, fact); !one.none() || one.free()) return false;
+    bool out = false;
+    ir::eachNode(value, [&](const ir::Expression& one) {
+      if (!std::holds_alternative<ir::MachineVariable>(one.node)) return;
+      const auto number = variableNumber(one);
+      out = out || (number && heights_.contains(*number));
+    });
+    return out;
+  }
+
+  void judgePair(const ir::ExpressionPtr& left, const ir::ExpressionPtr& right, const Fact& fact) {
+    for (const auto& [position, height] : {std::pair{left, right}, std::pair{right, left}}) {
+      if (!isHeight(height, fact)) continue;
+      report(LengthLeftIn::Place::Difference, spanning(left->range, right->range), position, fact);
+      return;
+    }
+  }
+
+  void judgeCondition(const ir::ConditionPtr& condition, const Fact& fact) {
+    ir::match(
+        *condition,
+        [&](const ir::Comparison& one) {
+          if (one.relation != ir::Relation::Same && one.relation != ir::Relation::Different)
+            judgePair(one.left, one.right, fact);
+        },
+        [&](const ir::Not& one) { judgeCondition(one.inner, fact); },
+        [&](const ir::Junction& one) {
+          judgeCondition(one.left, fact);
+          judgeCondition(one.right, fact);
+        },
+        [](const ir::OneOf<ir::IsNull, ir::Truth> auto&) {});
+  }
+
+  // Under an offset that nothing of the program takes back, a height is where the tool's end is.
+  void judgeDifferences(const ir::ProgramStatement& statement, const Fact& fact) {
+    if (heights_.empty()) return;
+    ir::eachNode(statement, [&](const ir::Expression& one) {
+      const auto* binary = std::get_if<ir::Binary>(&one.node);
+      if (binary != nullptr && binary->op == ir::BinaryOp::Subtract)
+        judgePair(binary->left, binary->right, fact);
+    });
+    if (const ir::ConditionPtr* condition = ir::conditionOf(statement); condition != nullptr && *condition)
+      judgeCondition(*condition, fact);
+  }
+
   void judge(const ir::ProgramStatement& statement, Fact fact) {
     if (const auto stated = statedOffset(statement)) fact.offset = *stated;
+    judgeDifferences(statement, fact);
     ir::match(
         statement, [&](const ir::NcBlock& block) { judgeBlock(statement, block, fact); },
         [&](const ir::Call&) {
@@ -405,6 +471,7 @@ private:
   const Project& project_;
   const Numbers& numbers_;
   const std::set<std::uint32_t>& switching_;
+  std::set<std::uint32_t> heights_; // variables of which absolute Z words are computed
   std::vector<LengthLeftIn> found_;
 };
 

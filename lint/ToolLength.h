@@ -13,13 +13,15 @@
 
 namespace dotek::lint {
 
-// A coordinate that is computed from a position without its length taken off.
+// A coordinate that is computed from a position without its length taken off, or a position that is held
+// against one.
 struct LengthLeftIn {
-  enum class Place : std::uint8_t { Move, Argument, WorkOffset };
+  // Difference: the position beside a height that the program moves to, subtracted or compared.
+  enum class Place : std::uint8_t { Move, Argument, WorkOffset, Difference };
   Place place = Place::Move;
-  SourceRange range;         // of the word, or of the statement that writes the offset
-  SourceRange value;         // of the coordinate; no place where it is not to be had
-  double lengths = 1;        // how often it holds the length: 1, or -1 where the position is subtracted
+  SourceRange range;  // of the word, of the statement that writes the offset, of the difference
+  SourceRange value;  // of the coordinate, of a Difference the position's side; no place: not to be had
+  double lengths = 1; // how often it holds the length: 1, or -1 where the position is subtracted
   std::uint32_t read = 5063; // the position
   SourceRange readAt;
   std::uint32_t length = 5083; // the variable of the length

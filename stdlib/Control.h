@@ -167,6 +167,8 @@ struct SystemVariables {
   std::optional<int>
       toolWear; // of offset 0: offset n is at toolWear + n; the whole length where there is no geometry
   std::optional<int> toolGeometry;
+  std::optional<int> toolWearToo; // second numbers of the same offsets, as toolWear and toolGeometry
+  std::optional<int> toolGeometryToo;
   int toolCount = 0;                 // greatest offset number
   std::optional<int> modalWords;     // words in force: + 2 B, 7 D, 9 F, 11 H, 13 M, 14 N, 15 O, 19 S, 20 T
   std::optional<int> toolLength;     // X of the tool offset in force

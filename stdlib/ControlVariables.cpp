@@ -30,6 +30,8 @@ void ControlReader::variables() {
   v.extendedCount = static_cast<int>(table.value("extended_count").integer(0, 1, 300));
   v.toolWear = number("tool_wear");
   v.toolGeometry = number("tool_geometry");
+  v.toolWearToo = number("tool_wear_too");
+  v.toolGeometryToo = number("tool_geometry_too");
   v.toolCount = static_cast<int>(table.value("tool_count").integer(0, 1, 999));
   v.modalWords = number("modal_words");
   v.toolLength = number("tool_length");
@@ -48,6 +50,11 @@ void ControlReader::variables() {
   if (v.extendedX && (v.extendedStep == 0 || v.extendedCount == 0))
     document_.fail(table.value("extended_x").range(),
                    "`extended_x` is without `extended_step` and `extended_count`");
+  if (v.toolWearToo && !v.toolWear)
+    document_.fail(table.value("tool_wear_too").range(), "`tool_wear_too` is without `tool_wear`");
+  if (v.toolGeometryToo && !v.toolGeometry)
+    document_.fail(table.value("tool_geometry_too").range(),
+                   "`tool_geometry_too` is without `tool_geometry`");
   if ((v.toolWear || v.toolGeometry) && v.toolCount == 0)
     document_.fail(table.value(v.toolWear ? "tool_wear" : "tool_geometry").range(),
                    "tool offsets are without `tool_count`");
@@ -66,8 +73,10 @@ void ControlReader::variables() {
     add("work_offset_x", *v.workOffsetX + system * v.systemStep, 3, v.axisStep);
   for (int system = 0; v.extendedX && system < v.extendedCount; ++system)
     add("extended_x", *v.extendedX + system * v.extendedStep, 3, v.axisStep);
-  add("tool_wear", v.toolWear ? std::optional<int>(*v.toolWear + 1) : std::nullopt, v.toolCount);
-  add("tool_geometry", v.toolGeometry ? std::optional<int>(*v.toolGeometry + 1) : std::nullopt, v.toolCount);
+  for (const auto& [key, first] :
+       {std::pair("tool_wear", v.toolWear), std::pair("tool_geometry", v.toolGeometry),
+        std::pair("tool_wear_too", v.toolWearToo), std::pair("tool_geometry_too", v.toolGeometryToo)})
+    add(key, first ? std::optional<int>(*first + 1) : std::nullopt, v.toolCount);
   add("tool_length", v.toolLength, 3);
   add("alarm", v.alarm, 1);
   add("timer", v.timer, 1);

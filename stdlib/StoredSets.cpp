@@ -52,11 +52,11 @@ template <class Archive> void fields(Archive& archive, CodeInfo& it) {
 }
 template <class Archive> void fields(Archive& archive, SystemVariables& it) {
   auto& [modalFirst, modalFeed, blockEnd, machine, position, skip, externalX, workOffsetX, extendedX,
-         extendedStep, extendedCount, toolWear, toolGeometry, toolCount, modalWords, toolLength, alarm, timer,
-         hours, message, extendedNumber, systemStep, axisStep] = it;
+         extendedStep, extendedCount, toolWear, toolGeometry, toolWearToo, toolGeometryToo, toolCount,
+         modalWords, toolLength, alarm, timer, hours, message, extendedNumber, systemStep, axisStep] = it;
   archive(modalFirst, modalFeed, blockEnd, machine, position, skip, externalX, workOffsetX, extendedX,
-          extendedStep, extendedCount, toolWear, toolGeometry, toolCount, modalWords, toolLength, alarm,
-          timer, hours, message, extendedNumber, systemStep, axisStep);
+          extendedStep, extendedCount, toolWear, toolGeometry, toolWearToo, toolGeometryToo, toolCount,
+          modalWords, toolLength, alarm, timer, hours, message, extendedNumber, systemStep, axisStep);
 }
 template <class Archive> void fields(Archive& archive, LengthInPositions& it) {
   auto& [position, skip, grade, source] = it;

@@ -41,6 +41,8 @@ bool namesVariable(const Control& control, std::uint32_t variable) {
     return true;
   return within(v.modalFirst, number, kGroups) || within(v.modalWords, number, kWords) ||
          within(v.toolWear, number, v.toolCount + 1) || within(v.toolGeometry, number, v.toolCount + 1) ||
+         within(v.toolWearToo, number, v.toolCount + 1) ||
+         within(v.toolGeometryToo, number, v.toolCount + 1) ||
          isOffset(v.externalX, number, v.axisStep, 0, 1) ||
          isOffset(v.workOffsetX, number, v.axisStep, v.systemStep, 6) ||
          isOffset(v.extendedX, number, v.axisStep, v.extendedStep, v.extendedCount) ||
@@ -50,7 +52,9 @@ bool namesVariable(const Control& control, std::uint32_t variable) {
 bool isReadAlone(const Control& control, std::uint32_t variable) {
   if (control.isReadOnly(variable)) return true;
   const auto number = static_cast<long>(variable);
-  if (within(control.variables.toolWear, number, 1) || within(control.variables.toolGeometry, number, 1))
+  const SystemVariables& v = control.variables;
+  if (within(v.toolWear, number, 1) || within(v.toolGeometry, number, 1) ||
+      within(v.toolWearToo, number, 1) || within(v.toolGeometryToo, number, 1))
     return true;
   return std::any_of(control.state.begin(), control.state.end(), [&](const StateRange& range) {
     return range.access == StateRange::Access::ReadOnly && variable >= range.first && variable <= range.last;

@@ -577,8 +577,8 @@ bool runsAlike(const Record& one, const Record& other, const CompareRules& rules
 
 namespace {
 
-// A move that the stem or the body of the probe stops ends at a place that is known to the safe side alone, and
-// with it what the source takes for measured.
+// A move that the stem or the body of the probe stops ends at a place that is known to the safe side alone,
+// and with it what the source takes for measured.
 CompareRules asExactAs(const Record& source, CompareRules rules) {
   const bool stopped = std::any_of(source.events.begin(), source.events.end(), [](const auto& event) {
     return event.first.outcome == sim::Outcome::StemCollision ||

@@ -14,7 +14,7 @@ namespace dotek::verify {
 
 namespace {
 
-constexpr int kShown = 6;                 // decimals
+constexpr int kShown = 6; // decimals
 
 class LeftComparison {
 public:
@@ -199,7 +199,8 @@ void addFirst(std::vector<Difference>& list, Difference one) {
 }
 
 std::string systemName(std::uint32_t system) {
-  return system > kExtendedSystem ? fmt::format("G54.1 P{}", system - kExtendedSystem) : fmt::format("G{}", system);
+  return system > kExtendedSystem ? fmt::format("G54.1 P{}", system - kExtendedSystem)
+                                  : fmt::format("G{}", system);
 }
 
 std::vector<Difference> compareValues(const Record& source, const Record& target, const CompareRules& rules) {

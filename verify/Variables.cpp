@@ -153,7 +153,8 @@ private:
     };
     VariableUse out = VariableUse::Whole;
     for (const double one : constants) {
-      if (within(one, v.toolWear, v.toolCount) || within(one, v.toolGeometry, v.toolCount))
+      if (within(one, v.toolWear, v.toolCount) || within(one, v.toolGeometry, v.toolCount) ||
+          within(one, v.toolWearToo, v.toolCount) || within(one, v.toolGeometryToo, v.toolCount))
         out = std::max(out, VariableUse::ToolOffset);
       if (v.extendedStep > 0 && within(one, v.extendedX, v.extendedStep))
         out = std::max(out, VariableUse::Extended);

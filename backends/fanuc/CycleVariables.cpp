@@ -164,7 +164,8 @@ bool isSettable(const stdlib::Control& control, std::uint32_t number) {
   };
   return offsets(v.externalX, 1, 0) || offsets(v.workOffsetX, 6, v.systemStep) ||
          offsets(v.extendedX, v.extendedCount, v.extendedStep) || tools(v.toolWear) ||
-         tools(v.toolGeometry) || (v.timer && static_cast<int>(number) == *v.timer) ||
+         tools(v.toolGeometry) || tools(v.toolWearToo) || tools(v.toolGeometryToo) ||
+         (v.timer && static_cast<int>(number) == *v.timer) ||
          (v.hours && static_cast<int>(number) == *v.hours);
 }
 

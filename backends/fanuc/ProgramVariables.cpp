@@ -86,8 +86,9 @@ template <class Visit> bool eachMeaning(const Control& control, const Visit& vis
         return true;
   }
   for (int n = 1; n <= v.toolCount; ++n) {
-    if (at(v.toolWear, {v.toolGeometry ? Kind::ToolWear : Kind::ToolWhole, n, 0}, n) ||
-        at(v.toolGeometry, {Kind::ToolGeometry, n, 0}, n))
+    const Kind wear = v.toolGeometry ? Kind::ToolWear : Kind::ToolWhole;
+    if (at(v.toolWear, {wear, n, 0}, n) || at(v.toolGeometry, {Kind::ToolGeometry, n, 0}, n) ||
+        at(v.toolWearToo, {wear, n, 0}, n) || at(v.toolGeometryToo, {Kind::ToolGeometry, n, 0}, n))
       return true;
   }
   return at(v.alarm, {Kind::Alarm, 0, 0}, 0) || at(v.timer, {Kind::Timer, 0, 0}, 0) ||

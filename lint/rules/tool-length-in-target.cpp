@@ -20,6 +20,14 @@ std::optional<Edit> repair(const LengthLeftIn& one, const SourceMap& sources) {
   return Edit{one.value, one.place == Place::WorkOffset ? taken : "[" + taken + "]"};
 }
 
+Diagnostic& reportDifference(const LengthLeftIn& one, Report& report) {
+  return report.at(
+      one.range,
+      "#{} holds the length of the tool too, and the height that it is compared with does not; under G43 the "
+      "difference is wrong by that length; take #{} off",
+      one.read, one.length);
+}
+
 void checkProgram(const ir::Program& program, const Project& project, const ToolLengths& lengths,
                   Report& report) {
   // One position that is read leads to one finding, at its first coordinate.
@@ -33,7 +41,10 @@ void checkProgram(const ir::Program& program, const Project& project, const Tool
   for (const std::vector<LengthLeftIn>& all : read) {
     const LengthLeftIn& first = all.front();
     Diagnostic& found =
-        report.at(first.range,
+        first.place == Place::Difference
+            ? reportDifference(first, report)
+            : report.at(
+                  first.range,
                   "{0} computed from #{1}, which holds the length of the tool too, and nothing takes it off; "
                   "under G43 {2} "
                   "{3} by that length; take #{4} off",

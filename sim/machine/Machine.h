@@ -132,7 +132,7 @@ public:
   const std::vector<ToolOffset>& toolTable() const { return tools_; } // by number; 0 is none
   // Zeros of G54.1 Pn, mm of the machine; the first one is of no system.
   const std::vector<Position>& extendedZeros() const { return extended_; }
-  std::uint32_t tool() const { return toolNumber_; }                  // that T has named last; 0: none
+  std::uint32_t tool() const { return toolNumber_; } // that T has named last; 0: none
   // The active work system, with all that shifts it, is the machine's own.
   bool isAtMachineZero() const { return offset_ == Position{}; }
   const Position& skipPosition() const { return skipped_; }

@@ -68,7 +68,8 @@ bool Machine::find(std::uint32_t number, Place& place) const {
          axisOf(v.toolLength, Kind::ToolLength) || offset(v.externalX, 0, 1, Kind::External) ||
          offset(v.workOffsetX, v.systemStep, 6, Kind::System) ||
          offset(v.extendedX, v.extendedStep, v.extendedCount, Kind::Extended) ||
-         tool(v.toolWear, Kind::Wear) || tool(v.toolGeometry, Kind::Geometry);
+         tool(v.toolWear, Kind::Wear) || tool(v.toolGeometry, Kind::Geometry) ||
+         tool(v.toolWearToo, Kind::Wear) || tool(v.toolGeometryToo, Kind::Geometry);
 }
 
 std::optional<double> Machine::read(std::uint32_t number) {

@@ -180,6 +180,12 @@ TEST_CASE("sim: tool length (groups 8; #2001 and #2201)") {
   s.run("G10 L10 P5 R100.\nG10 L11 P5 R0.5");
   CHECK(s.machine->read(2205) == 100);
   CHECK(s.machine->read(2005) == 0.5);
+  // The same offsets have numbers above 10000, too.
+  CHECK(s.machine->read(11005) == 100);
+  CHECK(s.machine->read(10005) == 0.5);
+  s.run("#11006=80.\n#10006=0.2\n");
+  CHECK(s.machine->read(2206) == 80);
+  CHECK(s.machine->read(2006) == 0.2);
   s.run("G0 Z50. G43 H5");
   CHECK(s.at() == "0 0 50");
   CHECK(s.machineAt() == "0 0 150.5");
