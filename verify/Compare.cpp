@@ -553,20 +553,6 @@ std::string_view aspectName(Aspect aspect) {
   return "";
 }
 
-std::string endText(const Record& record) {
-  switch (record.ending) {
-  case Ending::Finished: return "it ends";
-  case Ending::Alarm: {
-    const bool unarmed = !record.measures.empty() && record.measures.back().range == record.endedAt &&
-                         record.endedAt.hasPlace() && record.measures.back().with.probe != Switch::On;
-    return fmt::format("{} ({}){}", record.alarm == 0 ? "an alarm" : "alarm " + std::to_string(record.alarm),
-                       record.text, unarmed ? ", the probe is off at this measuring move" : "");
-  }
-  case Ending::Inconclusive: return "what it does is not known: " + record.text;
-  }
-  return "";
-}
-
 bool runsAlike(const Record& one, const Record& other, const CompareRules& rules) {
   SourceRange at;
   if (!whyNoEvidence(one, at).empty() || !whyNoEvidence(other, at).empty()) return false;

@@ -1,7 +1,23 @@
 // What a run of the source says of its translation.
 #include "verify/Compare.h"
 
+#include <fmt/format.h>
+
 namespace dotek::verify {
+
+std::string endText(const Record& record) {
+  switch (record.ending) {
+  case Ending::Finished: return "it ends";
+  case Ending::Alarm: {
+    const bool unarmed = !record.measures.empty() && record.measures.back().range == record.endedAt &&
+                         record.endedAt.hasPlace() && record.measures.back().with.probe != Switch::On;
+    return fmt::format("{} ({}){}", record.alarm == 0 ? "an alarm" : "alarm " + std::to_string(record.alarm),
+                       record.text, unarmed ? ", the probe is off at this measuring move" : "");
+  }
+  case Ending::Inconclusive: return "what it does is not known: " + record.text;
+  }
+  return "";
+}
 
 ProbeOff probeOffIn(const Record& record) {
   ProbeOff out;

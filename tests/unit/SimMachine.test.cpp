@@ -183,7 +183,8 @@ TEST_CASE("sim: tool length (groups 8; #2001 and #2201)") {
   // The same offsets have numbers above 10000, too.
   CHECK(s.machine->read(11005) == 100);
   CHECK(s.machine->read(10005) == 0.5);
-  s.run("#11006=80.\n#10006=0.2\n");
+  s.machine->write(11006, 80);
+  s.machine->write(10006, 0.2);
   CHECK(s.machine->read(2206) == 80);
   CHECK(s.machine->read(2006) == 0.2);
   s.run("G0 Z50. G43 H5");
