@@ -183,7 +183,7 @@ public:
     if (!readsPosition()) return {};
     Fact entry;
     // A macro that measures tools runs without an offset; one that takes the length off does not.
-    if (setsToolOffset() && !readsLength()) entry.offset = Offset::Off;
+    if (measuresTool() && !readsLength()) entry.offset = Offset::Off;
     const auto& body = program_.body;
     const auto facts = ir::factsBefore<Fact>(
         body, entry,
@@ -213,19 +213,47 @@ private:
     return false;
   }
 
-  bool setsToolOffset() const {
-    return std::any_of(program_.body.begin(), program_.body.end(),
-                       [this](const ir::ProgramStatement& statement) {
-                         if (const auto* block = std::get_if<ir::NcBlock>(&statement.node))
-                           if (const auto l = wordValue(*block, 'L'); l && hasCode(*block, 'G', 10))
-                             return *l >= 10 && *l <= 13;
-                         const auto* store = std::get_if<ir::Store>(&statement.node);
-                         if (store == nullptr) return false;
-                         const auto number = storedNumber(statement);
-                         if (number) return numbers_.isToolOffset(*number);
-                         const auto first = ir::firstNumber(store->number);
-                         return first && numbers_.isToolOffset(*first + 1);
-                       });
+  bool isToolOffset(const std::optional<std::uint32_t>& number, const ir::ExpressionPtr& computed) const {
+    if (number) return numbers_.isToolOffset(*number);
+    const auto first = ir::firstNumber(computed);
+    return first && numbers_.isToolOffset(*first + 1);
+  }
+
+  // It reads an entry of the table of tools, or a variable that one was kept in.
+  bool readsToolOffset(const ir::ExpressionPtr& value, const std::set<std::uint32_t>& kept) const {
+    bool out = false;
+    ir::eachNode(value, [&](const ir::Expression& one) {
+      const auto* variable = std::get_if<ir::MachineVariable>(&one.node);
+      if (variable == nullptr) return;
+      const auto number = variableNumber(one);
+      out = out || isToolOffset(number, variable->number) || (number && kept.contains(*number));
+    });
+    return out;
+  }
+
+  // An entry of the table of tools gets a new value: the length of a tool that has none in force. What is
+  // added to the old one corrects it, by a contact under an offset as any other.
+  bool measuresTool() const {
+    std::set<std::uint32_t> kept;
+    for (const ir::ProgramStatement& statement : program_.body) {
+      if (const auto* store = std::get_if<ir::Store>(&statement.node)) {
+        const auto number = storedNumber(statement);
+        const bool old = readsToolOffset(store->value, kept);
+        if (isToolOffset(number, store->number)) {
+          if (!old) return true;
+        } else if (number && old)
+          kept.insert(*number);
+      }
+      const auto* block = std::get_if<ir::NcBlock>(&statement.node);
+      if (block == nullptr || !hasCode(*block, 'G', 10)) continue;
+      const auto l = wordValue(*block, 'L');
+      if (!l || *l < 10 || *l > 13 || hasCode(*block, 'G', 91)) continue;
+      const bool adds = std::any_of(block->words.begin(), block->words.end(), [&](const ir::Word& word) {
+        return word.address == 'R' && word.value != nullptr && readsToolOffset(word.value, kept);
+      });
+      if (!adds) return true;
+    }
+    return false;
   }
 
   Held variable(const ir::Expression& expression, const Fact& fact) const {
