@@ -4,6 +4,7 @@
 #include "cli/Files.h"
 #include "driver/Driver.h"
 #include "driver/Preview.h"
+#include "project/Settings.h"
 #include "sim/run/SimReport.h"
 #include "support/Output.h"
 #include "support/OutputCheck.h"
@@ -194,7 +195,17 @@ private:
   std::uint32_t maxErrors_;
 };
 
+// Data files of the project come before those of the command line, which replace them.
+void takeDataOfProject(Arguments& arguments) {
+  std::vector<std::string> inputs = inputsOf(arguments);
+  if (inputs.empty()) inputs = {"."}; // `list forms`
+  std::vector<std::string> all = project::dataFoldersOf(inputs);
+  all.insert(all.end(), arguments.common.data.begin(), arguments.common.data.end());
+  arguments.common.data = std::move(all);
+}
+
 int runCommand(Arguments& arguments, std::ostream& out, std::ostream& err) {
+  takeDataOfProject(arguments);
   Printer printer(out, err, arguments.maxErrors);
   if (!printer.canWrite(arguments)) return kUsage;
   switch (arguments.command) {

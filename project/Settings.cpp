@@ -2,12 +2,14 @@
 
 #include "project/Session.h"
 #include "stdlib/Toml.h"
+#include "support/Files.h"
 #include "support/Glob.h"
 #include "support/NearestName.h"
 #include "support/messages/Commands.h"
 
 #include <algorithm>
 #include <filesystem>
+#include <set>
 
 namespace dotek::project {
 
@@ -19,20 +21,49 @@ using stdlib::TomlDocument;
 using stdlib::TomlTable;
 using stdlib::TomlValue;
 
-SettingsFile load(fs::path folder, Session& session) {
+// The dotek.toml in the folder or above it; empty: there is none.
+fs::path settingsFileAbove(fs::path folder) {
   std::error_code error;
   for (; !folder.empty(); folder = folder.parent_path()) {
-    const fs::path file = folder / "dotek.toml";
-    if (fs::is_regular_file(file, error)) {
-      const fs::path near = file.lexically_proximate(fs::current_path(error));
-      const auto id = session.read((near.empty() ? file : near).generic_string(), Encoding::Utf8);
-      if (!id) return {};
-      const auto document = TomlDocument::parse(*id, session.sources(), session.diagnostics());
-      return document ? settingsIn(*document, folder.generic_string(), session) : SettingsFile();
-    }
+    if (fs::is_regular_file(folder / "dotek.toml", error)) return folder / "dotek.toml";
     if (folder == folder.root_path()) break;
   }
   return {};
+}
+
+// The folder in which the settings of a file or a folder are looked for first.
+fs::path folderOf(const fs::path& whole) {
+  std::error_code error;
+  return fs::is_directory(whole, error) ? whole : whole.parent_path();
+}
+
+fs::path wholePath(const std::string& path) {
+  std::error_code error;
+  fs::path whole = fs::absolute(path, error).lexically_normal();
+  return !whole.has_filename() && whole.has_relative_path() ? whole.parent_path() : whole;
+}
+
+std::string nearPath(const fs::path& path) {
+  std::error_code error;
+  const fs::path near = path.lexically_proximate(fs::current_path(error));
+  return (near.empty() ? path : near).generic_string();
+}
+
+SettingsFile load(const fs::path& folder, Session& session) {
+  const fs::path file = settingsFileAbove(folder);
+  if (file.empty()) return {};
+  const auto id = session.read(nearPath(file), Encoding::Utf8);
+  if (!id) return {};
+  const auto document = TomlDocument::parse(*id, session.sources(), session.diagnostics());
+  if (!document) return {};
+  SettingsFile out = settingsIn(*document, file.parent_path().generic_string(), session);
+  const TomlTable lint = document->root().value("lint").table(); // lint says what it does not know of it
+  static_cast<void>(lint.value("severity").table().entries());
+  for (const TomlTable& section : lint.value("path").tables())
+    static_cast<void>(section.entries());
+  static_cast<void>(lint.entries());
+  document->finish();
+  return out;
 }
 
 // Nothing: not said. An empty name takes back what was said before.
@@ -97,6 +128,7 @@ SettingsFile settingsIn(const TomlDocument& document, std::string folder, Sessio
   base.control = control && !control->empty() ? *control : ofLint.value_or("");
   base.form = form && !form->empty() ? *form : lintForm.value_or("");
   base.probe = probeCodesIn(document, root);
+  static_cast<void>(root.value("data").texts()); // taken before anything is read: dataFoldersOf()
   if (const TomlValue from = root.value("from"))
     base.listing = from.choice({"nc", "listing"}, "nc") == "listing";
   for (const TomlTable& table : lint.value("path").tables())
@@ -120,13 +152,29 @@ Settings SettingsFile::of(const std::string& path) const {
 }
 
 Settings settingsOf(const std::string& path, Session& session) {
-  std::error_code error;
-  fs::path whole = fs::absolute(path, error).lexically_normal();
-  if (!whole.has_filename() && whole.has_relative_path()) whole = whole.parent_path();
-  const fs::path folder = fs::is_directory(whole, error) ? whole : whole.parent_path();
+  const fs::path whole = wholePath(path), folder = folderOf(whole);
   const auto [at, isNew] = session.settings().try_emplace(folder.generic_string());
   if (isNew) at->second = load(folder, session);
   return at->second.of(whole.generic_string());
+}
+
+std::vector<std::string> dataFoldersOf(const std::vector<std::string>& inputs) {
+  std::vector<std::string> out;
+  std::set<fs::path> known;
+  for (const std::string& input : inputs) {
+    const fs::path file = settingsFileAbove(folderOf(wholePath(input)));
+    if (file.empty() || !known.insert(file).second) continue;
+    SourceMap sources;
+    Diagnostics unheard;
+    const auto id = readText(file.string(), Encoding::Utf8, std::nullopt, Limits(), sources, unheard);
+    const auto document = id ? TomlDocument::parse(*id, sources, unheard) : std::nullopt;
+    if (!document) continue;
+    for (const std::string& folder : document->root().value("data").texts())
+      if (std::string path = nearPath((file.parent_path() / folder).lexically_normal());
+          std::find(out.begin(), out.end(), path) == out.end())
+        out.push_back(std::move(path));
+  }
+  return out;
 }
 
 std::string controlOf(const std::vector<std::string>& inputs, Session& session) {

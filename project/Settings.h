@@ -42,13 +42,17 @@ struct SettingsFile {
 // `probe_on` and `probe_off` of a table, with what is wrong with them.
 stdlib::ProbeCodes probeCodesIn(const stdlib::TomlDocument& document, const stdlib::TomlTable& table);
 
-// `control` and `form`, also as keys of `[lint]` and `[[lint.path]]`, `from`, `probe_on` and `probe_off`.
-// What is wrong with them is reported, a control that nobody knows too.
+// `control` and `form`, also as keys of `[lint]` and `[[lint.path]]`, `from`, `data`, `probe_on` and
+// `probe_off`. What is wrong with them is reported, a control that nobody knows too.
 SettingsFile settingsIn(const stdlib::TomlDocument& document, std::string folder, Session& session);
 
-// Of the dotek.toml in the folder of the file or above it. A defect of that file is reported once; lint
-// reports the keys that nobody knows.
+// Of the dotek.toml in the folder of the file or above it. A defect of that file is reported once. What its
+// table [lint] has besides is for lint to judge.
 Settings settingsOf(const std::string& path, Session& session);
+
+// Folders of data files that `data` of the dotek.toml of these inputs and above them names, as paths, each
+// once. Nothing is reported: whoever takes the settings does.
+std::vector<std::string> dataFoldersOf(const std::vector<std::string>& inputs);
 
 // The control that the dotek.toml of the inputs names for all of them; "": none. Two that differ are an error
 // that names both.
