@@ -22,6 +22,7 @@
 #include <filesystem>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <set>
 
 namespace dotek::driver {
 namespace {
@@ -165,6 +166,7 @@ private:
     for (const sim::ExpectedSurface& one : rehearsal.expected())
       touches.push_back({one.point, one.direction});
     if (touches.empty()) return true;
+    reportShortTouches(rehearsal.expected());
     const auto part = verify::partOf(touches, cycleInputs_.ballRadius, cycleInputs_.overtravel, {});
     if (!part) {
       diagnostics().report<diag::NoNominalPart>(rehearsal.place());
@@ -172,6 +174,15 @@ private:
     }
     world_->setPart(*part);
     return madePart_ = true;
+  }
+
+  // A distance that was counted from the ball instead of from its centre: the part then lies within the ball.
+  void reportShortTouches(const std::vector<sim::ExpectedSurface>& expected) {
+    std::set<std::uint32_t> said;
+    for (const sim::ExpectedSurface& one : expected)
+      if (one.ball > 0 && one.distance <= one.ball && said.insert(one.range.begin).second)
+        diagnostics().report<diag::TouchWithinBall>(one.range, numberText(one.distance),
+                                                    numberText(one.ball));
   }
 
   Outcome runIn(sim::Machine& machine) {
@@ -188,7 +199,9 @@ private:
     trace.reset();
     if (!run.left().empty()) world_->addFound(sim::resultsOf(*cycle_, run));
     sim::reportCycle(run, machine, session_);
-    if (madePart_ && world_->collisions() > 0) diagnostics().report<diag::MadePartInTheWay>({});
+    const bool stopped = run.alarmKind() == stdlib::MacroAlarm::PathObstructed ||
+                         run.alarmKind() == stdlib::MacroAlarm::ProbeOpen;
+    if (madePart_ && (stopped || world_->collisions() > 0)) diagnostics().report<diag::MadePartInTheWay>({});
     world_->reportRest();
     Outcome out = outcomeOf(session_,
                             options_.json    ? sim::cycleSummary(*cycle_, run, machine, *world_, session_)

@@ -44,6 +44,10 @@ struct CycleInputs {
 struct ExpectedSurface {
   Point3 point;
   Point3 direction; // length 1
+  SourceRange range;
+  double distance =
+      0;           // to the surface from where the touch begins: the ball's centre, downward its lowest point
+  double ball = 0; // from there to what of the ball touches, mm; not less than `distance`: in contact at once
 };
 
 class CycleRun final : private ir::Readings {

@@ -83,7 +83,7 @@ bool CycleRun::touch(const PlannedTouch& planned, const Search& how, Touched& to
     const double low = at[kZ] - inputs_.tipLength;
     const Point3 way{planned.direction[0], planned.direction[1], planned.direction[kZ]};
     const Point3 from{at[0], at[1], planned.isDown() ? low : low + inputs_.ballRadius};
-    expected_.push_back({from + way * planned.distance, way});
+    expected_.push_back({from + way * planned.distance, way, place(), planned.distance, ball});
   }
   if (nominal_) {
     touched = {along(machine_.position(), planned.direction, planned.distance - ball), true};
