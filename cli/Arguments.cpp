@@ -105,7 +105,9 @@ void refuseEmptyValues(const CLI::App& app) {
     for (const CLI::Option* option : command->get_options()) {
       const auto& values = option->results();
       if (!option->get_positional() && std::find(values.begin(), values.end(), "") != values.end())
-        throw UsageError(option->get_name() + " needs a value, and its value is empty");
+        throw UsageError(
+            option->get_name() + " needs a value, and its value is empty" +
+            (option->get_name() == "--call" ? "; `--call \" \"` calls a macro without arguments" : ""));
     }
     refuseEmptyValues(*command);
   }

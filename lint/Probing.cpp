@@ -1,5 +1,7 @@
 #include "lint/Probing.h"
 
+#include "lint/Skips.h"
+
 #include "ir/Walk.h"
 
 #include <algorithm>
@@ -77,6 +79,7 @@ void Probing::readOwn() {
     std::uint32_t number = 0;
     bool open = false; // switches the probe, or calls what is not known
     bool skips = false;
+    bool lifts = false; // along Z, after the last measurement
   };
   std::map<std::uint32_t, Own> all;
   eachProgram(project_, [&](const ir::Program& program, const macrob::File&) {
@@ -84,7 +87,12 @@ void Probing::readOwn() {
     own.number = static_cast<std::uint32_t>(program.number);
     for (const ir::ProgramStatement& statement : program.body) {
       const auto* block = std::get_if<ir::NcBlock>(&statement.node);
-      own.skips = own.skips || (block != nullptr && hasCode(*block, 'G', 31));
+      const bool skip = block != nullptr && hasCode(*block, 'G', 31);
+      own.skips = own.skips || skip;
+      if (skip) own.lifts = false;
+      if (!skip && block != nullptr && isPlainMove(*block) && hasWord(*block, 'Z') && !hasWord(*block, 'X') &&
+          !hasWord(*block, 'Y'))
+        own.lifts = true;
       if (block != nullptr)
         for (const ir::Word& word : block->words) {
           const double* code = word.address == 'M' ? ir::constantValue(word.value) : nullptr;
@@ -92,6 +100,7 @@ void Probing::readOwn() {
           own.open = own.open || (word.address == 'M' && (code == nullptr || (*code > 9 && *code != 30)));
         }
       const ProbeStep one = step(statement);
+      if (one.kind == ProbeStep::Kind::Measure || one.kind == ProbeStep::Kind::Call) own.lifts = false;
       if (one.kind == ProbeStep::Kind::Call && one.program != 0)
         own.calls.insert(one.program);
       else if (one.kind != ProbeStep::Kind::None)
@@ -123,6 +132,7 @@ void Probing::readOwn() {
   for (const auto& [number, own] : all) {
     if (!own.open && number != 0) quiet_.insert(number);
     if (own.skips && number != 0) skipping_.insert(number);
+    if (own.lifts && number != 0) lifting_.insert(number);
   }
 }
 

@@ -247,7 +247,8 @@ private:
       const auto* block = std::get_if<ir::NcBlock>(&statement.node);
       if (block == nullptr || !hasCode(*block, 'G', 10)) continue;
       const auto l = wordValue(*block, 'L');
-      if (!l || *l < 10 || *l > 13 || hasCode(*block, 'G', 91)) continue;
+      const bool geometry = l && (*l == 10 || *l == 12); // G10 L11, L13: the wear, which a part shows
+      if (!geometry || hasCode(*block, 'G', 91)) continue;
       const bool adds = std::any_of(block->words.begin(), block->words.end(), [&](const ir::Word& word) {
         return word.address == 'R' && word.value != nullptr && readsToolOffset(word.value, kept);
       });

@@ -1,4 +1,5 @@
 #include "ir/Expression.h"
+#include "ir/Match.h"
 #include "lint/NcProgram.h"
 #include "lint/Skips.h"
 
@@ -58,7 +59,58 @@ bool takesOffset(const ir::ProgramStatement& statement) {
   return false;
 }
 
+// The block before, labels, comments and stores aside, is a G91 without a move: these are meant as distances.
+bool isAnnounced(const std::vector<ir::ProgramStatement>& body, std::size_t at) {
+  enum class Step : std::uint8_t { GoOn, Yes, No };
+  while (at-- > 0) {
+    const Step step = ir::match(
+        body[at],
+        [](const ir::NcBlock& block) {
+          return hasCode(block, 'G', 91) && axesOf(block) == 0 ? Step::Yes : Step::No;
+        },
+        [](const ir::OneOf<ir::Label, ir::Comment, ir::Store> auto&) { return Step::GoOn; },
+        [](const ir::OneOf<ir::Jump, ir::Branch, ir::Move, ir::Measure, ir::ProbePower, ir::Call, ir::JumpTo,
+                           ir::Loop, ir::LoopEnd, ir::Exit, ir::Raise, ir::Notice, ir::Port, ir::Print,
+                           ir::NameVariables> auto&) { return Step::No; });
+    if (step != Step::GoOn) return step == Step::Yes;
+  }
+  return false;
+}
+
+// The skip moves look to both sides by the same distance, and one of them has lost its G91.
+void checkPairs(const NcProgram& nc, Report& report) {
+  const auto& body = nc.program.body;
+  const auto& modes = nc.modes();
+  struct Skip {
+    std::size_t at = 0;
+    std::pair<char, double> word;
+    bool distance = false;
+  };
+  std::vector<Skip> all;
+  for (std::size_t i = 0; i < body.size(); ++i) {
+    if (!modes[i] || skipOf(body[i]) == nullptr) continue;
+    const auto mode = statedMode(body[i]).value_or(*modes[i]);
+    const auto word = onlyAxis(body[i]);
+    if (word && word->second != 0 && (mode == DistanceMode::Absolute || mode == DistanceMode::Incremental))
+      all.push_back({i, *word, mode == DistanceMode::Incremental});
+  }
+  for (const Skip& one : all) {
+    if (one.distance || statedMode(body[one.at])) continue;
+    const auto partner = std::find_if(all.begin(), all.end(), [&](const Skip& other) {
+      return other.distance && other.word.first == one.word.first && other.word.second == -one.word.second;
+    });
+    if (partner == all.end()) continue;
+    report
+        .at(body[one.at].origin.range(), "G90 is in force at this skip move, and the one to the other side, "
+                                         "by the same distance, is under G91; "
+                                         "this one goes to the coordinate; write G91 before")
+        .note(body[partner->at].origin.range(), "to the other side");
+    return;
+  }
+}
+
 void check(const NcProgram& nc, Report& report) {
+  checkPairs(nc, report);
   const ir::Program& program = nc.program;
   const auto& body = program.body;
   const auto& modes = nc.modes();
@@ -84,6 +136,7 @@ void check(const NcProgram& nc, Report& report) {
     }
     if (*modes[i] != DistanceMode::Incremental) continue;
     if (last != nullptr && touchesAgain(*last, body[i])) continue;
+    if (isAnnounced(body, i)) continue;
     const auto words = coordinates(body[i]);
     const bool same =
         std::any_of(words.begin(), words.end(), [&](const auto& w) { return absolute.contains(w); });

@@ -56,7 +56,7 @@ std::vector<Travel> travels(const std::vector<Statement>& body, const Probing& p
     if (step.kind == ProbeStep::Kind::Measure ||
         (step.kind == ProbeStep::Kind::OwnCall && probing.skips(step.program))) {
       measured = true;
-      lifted = false;
+      lifted = step.kind == ProbeStep::Kind::OwnCall && probing.liftsAfter(step.program);
       continue;
     }
     const AxisSet axes = movedBy(body[i], probing);

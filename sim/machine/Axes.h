@@ -10,6 +10,7 @@
 
 namespace dotek::sim {
 
+inline constexpr double kInch = 25.4; // mm
 inline constexpr std::uint32_t kAxisBits = ir::addressBits("XYZABCUVW");
 inline constexpr std::uint32_t kRotaryBits = ir::addressBits("ABC");
 

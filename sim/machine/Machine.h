@@ -343,7 +343,8 @@ private:
 
   struct Place; // what a system variable stands for
   bool find(std::uint32_t number, Place& place) const;
-  std::optional<double> readSystem(std::uint32_t number, const Place& place);
+  std::optional<double> readSystem(std::uint32_t number, const Place& place); // lengths in mm
+  bool inInches(const Place& place) const; // the program reads and writes it in inches now
   bool findState(std::uint32_t number, Place& place) const;
   std::optional<double> readState(std::uint32_t number, const Place& place);
   bool writeState(std::uint32_t number, const Place& place, double value, bool preset);

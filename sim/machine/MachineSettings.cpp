@@ -47,7 +47,7 @@ double Machine::lengthOf(const NcWords& w, char letter) const {
     out = value / increments;
   }
   if (bare || w.mostPlaces > static_cast<std::uint32_t>(places)) out = rounded(out, places);
-  return inch ? snap(out * 25.4) : out;
+  return inch ? snap(out * kInch) : out;
 }
 
 bool Machine::settings(const NcWords& w) {
@@ -60,7 +60,7 @@ bool Machine::settings(const NcWords& w) {
     if (bare && (modes_[kFeedMode] != 0 || modes_[kUnits] != 0))
       return inconclusive("what it counts without a point is not known", 'F');
     if (!(w.of('F') >= 0)) return inconclusive("a feed is not below 0", 'F');
-    feed_ = modes_[kUnits] != 0 ? snap(w.of('F') * 25.4) : w.of('F');
+    feed_ = modes_[kUnits] != 0 ? snap(w.of('F') * kInch) : w.of('F');
     feedForgotten_ = false;
   }
   if (w.has('S')) {

@@ -80,7 +80,10 @@ std::optional<double> Machine::read(std::uint32_t number) {
     return std::nullopt;
   }
   Place place;
-  if (number >= 1000 && find(number, place)) return readSystem(number, place);
+  if (number >= 1000 && find(number, place)) {
+    const std::optional<double> value = readSystem(number, place);
+    return value && !isNull(*value) && inInches(place) ? *value / kInch : value;
+  }
   if (number < 1000 || number == UINT32_MAX)
     raise(Alarm::NoSuchVariable);
   else
@@ -104,13 +107,47 @@ bool Machine::movesPositions(std::uint32_t number) const {
           place.kind == Kind::Wear || place.kind == Kind::Geometry);
 }
 
+// Under G20 lengths and the feed are those of the input: B-63944EN, 8.2, says it of work offsets and tool
+// offsets; positions are taken to be no other.
+bool Machine::inInches(const Place& place) const {
+  using Kind = Place::Kind;
+  if (modes_[kUnits] == 0) return false;
+  switch (place.kind) {
+  case Kind::BlockEnd:
+  case Kind::MachinePosition:
+  case Kind::Now:
+  case Kind::Skip:
+  case Kind::External:
+  case Kind::System:
+  case Kind::Extended: return place.axis < 3;
+  case Kind::ToolLength:
+  case Kind::Wear:
+  case Kind::Geometry: return true;
+  case Kind::Word: return place.index == slotOf('F');
+  case Kind::Modal:
+  case Kind::Timer:
+  case Kind::Hours:
+  case Kind::ExtendedNumber:
+  case Kind::State:
+  case Kind::StateWord:
+  case Kind::WindowAddress:
+  case Kind::Window:
+  case Kind::Write:
+  case Kind::None: break;
+  }
+  return false;
+}
+
 std::optional<double> Machine::readSystem(std::uint32_t number, const Place& place) {
   using Kind = Place::Kind;
   const auto position = [&](const Position& of, bool exact) -> std::optional<double> {
     // Under cutter compensation the tool's centre does not appear where the program says.
     if ((uncertain_ >> place.axis & 1) != 0 || (exact && modes_[kComp] != 0)) {
-      inconclusive(
-          fmt::format("#{} is read while the position of {} is not known", number, kAxisLetters[place.axis]));
+      inconclusive(fmt::format(
+          "#{} is read while the position of {} is not known{}", number, kAxisLetters[place.axis],
+          (uncertain_ >> place.axis & 1) != 0
+              ? lostText(1u << place.axis)
+              : ": cutter compensation is on, and the tool's centre is not where the program says"));
       return std::nullopt;
     }
     return of[place.axis];
@@ -219,7 +256,7 @@ bool Machine::store(std::uint32_t number, double value, bool preset) {
   if (!find(number, place)) return inconclusive(fmt::format("what #{} sets is not known to Dotek", number));
   // A system variable holds numbers: null counts as 0 there.
   const double given = isNull(value) ? 0 : value;
-  const double length = snap(given);
+  const double length = snap(inInches(place) ? given * kInch : given);
   const auto set = [&](double& offset, const auto& name) {
     if (watcher_ != nullptr && !preset) watcher_->offsetWritten({name(), offset, length});
     offset = length;

@@ -150,7 +150,10 @@ bool VendorRun::begin() {
     if (given && isUnknown(locals_[local])) return notKnown("the value is not known", one.letter);
   }
   if (machine_.mode(kDistance) != 0) return notKnown("what it does under G91 is in no source");
-  if (machine_.mode(kUnits) != 0) return notKnown("Dotek runs it under G21 alone");
+  if (machine_.mode(kUnits) != 0)
+    return notKnown(
+        "its work is stated in millimetres, and Dotek does it under G21 alone: run the program in "
+        "millimetres, or the macro's own text (`--programs DIR`)");
   if (machine_.mode(kComp) != 0 || machine_.mode(kCanned) != 0)
     return notKnown("what it does under cutter compensation or in a canned cycle is in no source");
   if (machine_.mode(kPlane) != 0) return notKnown("what it does outside of G17 is in no source");

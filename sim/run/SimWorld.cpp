@@ -389,6 +389,10 @@ void SimWorld::addTold(Diagnostic diagnostic, std::size_t kind, const RunPlace& 
   Told& told = told_[kind];
   told.code = diagnostic.code;
   told.severity = diagnostic.severity;
+  const std::uint32_t here = ++toldAt_[{kind, place.range.file, place.range.begin}];
+  if (here == kMostToldAt + 1)
+    session_.diagnostics().report<diag::RunRepeats>(place.range, std::string(told.code), kMostToldAt);
+  if (here > kMostToldAt) return;
   if (++told.number > kMostTold) {
     told.next = place.range;
     return;

@@ -14,11 +14,13 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <set>
 #include <span>
 #include <string>
+#include <tuple>
 #include <vector>
 
 namespace dotek::sim {
@@ -117,6 +119,7 @@ public:
 
 private:
   static constexpr std::size_t kMostKept = 10'000; // of contacts and of events, in the summary
+  static constexpr std::uint32_t kMostToldAt = 3;  // of each outcome at one block
   static constexpr std::uint32_t kMostTold = Diagnostics::kMostAlike; // of each outcome
 
   struct Kept {
@@ -205,6 +208,8 @@ private:
   std::uint64_t contactCount_ = 0, eventCount_ = 0;
   std::array<std::uint64_t, 16> outcomes_{}; // without misses that were meant
   std::array<Told, 16> told_{};              // by outcome
+  // By outcome and place: a loop meets the same at the same block each time.
+  std::map<std::tuple<std::size_t, FileId, std::uint32_t>, std::uint32_t> toldAt_;
 };
 
 } // namespace dotek::sim

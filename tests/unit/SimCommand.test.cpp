@@ -95,3 +95,29 @@ TEST_CASE("sim command: an empty program and binary data") {
   CHECK(result.status == 1);
   CHECK(result.err.find("binary.nc:2:1: error: the file holds a byte 0") != std::string::npos);
 }
+
+TEST_CASE("sim command: a loop reports what each round meets no more than three times") {
+  const DataFolder folder;
+  folder.write(
+      "wall.toml",
+      "schema = 1\n[[shape]]\nkind = \"box\"\nmin = [500.0, -20.0, -20.0]\nmax = [560.0, 20.0, 0.0]\n");
+  folder.write("corner.nc", "O9031\nG91 G31 X-20. F100\nG53\n#101=#5061\nM99\n");
+  const std::vector<std::string> run = {"sim",     "corner.nc", "--part",        "wall.toml",  "--tool",
+                                        "1",       "--length",  "100",           "--diameter", "6",
+                                        "--quiet", "--limit",   "sim-steps=2000"};
+  const CommandResult result = runDotek(run, folder.path());
+  std::size_t missed = 0;
+  for (std::size_t at = result.err.find("[miss-measured]"); at != std::string::npos;
+       at = result.err.find("[miss-measured]", at + 1))
+    ++missed;
+  CHECK(missed == 3);
+  CHECK(result.err.find("no more than 3 are reported [run-repeats]") != std::string::npos);
+  CHECK(result.err.find("`--call \" \"` calls it once") != std::string::npos);
+  CHECK(
+      runDotek({"sim", "corner.nc", "--call", ""}, folder.path()).err.find("`--call \" \"` calls a macro") !=
+      std::string::npos);
+  // A position that is not known: since when, and what settles it.
+  folder.write("length.nc", "G21 G90 G54\nG43 H1\n#3=#5043\nM30\n");
+  const CommandResult lost = runDotek({"sim", "length.nc", "--tool", "1", "--length", "100"}, folder.path());
+  CHECK_MESSAGE(lost.err.find("Z is lost since `G43` in line 2") != std::string::npos, lost.err);
+}

@@ -88,6 +88,18 @@ TEST_CASE("sim: inch and metric (group 6)") {
   Simulation s;
   s.run("G20 G1 X1. F10.");
   CHECK(s.machine->feed() == 254);
+  // Positions, offsets and the feed are read and written in the unit of the input.
+  CHECK(s.machine->read(5041) == doctest::Approx(1));
+  CHECK(s.machine->read(5021) == doctest::Approx(1));
+  CHECK(s.machine->read(4109) == doctest::Approx(10));
+  CHECK(s.machine->write(5221, 2));
+  CHECK(s.machine->zeroOf(0)[0] == doctest::Approx(50.8));
+  CHECK(s.machine->read(5041) == doctest::Approx(-1));
+  CHECK(s.machine->write(2005, 0.1));
+  s.run("G21");
+  CHECK(s.machine->read(5221) == doctest::Approx(50.8));
+  CHECK(s.machine->read(2005) == doctest::Approx(2.54));
+  CHECK(s.machine->read(4006) == 21);
 }
 
 TEST_CASE("sim: alarms carry number, program and block") {
