@@ -6,6 +6,7 @@
 #include "driver/Preview.h"
 #include "project/Settings.h"
 #include "sim/run/SimReport.h"
+#include "support/FileIdentity.h"
 #include "support/Output.h"
 #include "support/OutputCheck.h"
 #include "support/Printable.h"
@@ -199,9 +200,13 @@ private:
 void takeDataOfProject(Arguments& arguments) {
   std::vector<std::string> inputs = inputsOf(arguments);
   if (inputs.empty()) inputs = {"."}; // `list forms`
+  std::vector<std::string>& given = arguments.common.data;
   std::vector<std::string> all = project::dataFoldersOf(inputs);
-  all.insert(all.end(), arguments.common.data.begin(), arguments.common.data.end());
-  arguments.common.data = std::move(all);
+  std::erase_if(all, [&](const std::string& one) {
+    return std::any_of(given.begin(), given.end(),
+                       [&](const std::string& flag) { return identify(flag) == identify(one); });
+  });
+  given.insert(given.begin(), all.begin(), all.end());
 }
 
 int runCommand(Arguments& arguments, std::ostream& out, std::ostream& err) {

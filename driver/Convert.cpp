@@ -50,12 +50,13 @@ private:
     bool refused = false;     // with --keep-going
     std::size_t place = 0;    // among the inputs
     std::size_t index = 0;    // in the inputs of a program, in the folders of a cycle
+    std::vector<Diagnostic> found;
   };
 
   // With --keep-going an error of this input refuses it alone, and what it has added is taken away.
   template <class Step> void byItself(Input& input, const Step& step) {
     if (input.refused) return;
-    if (!options_.keepGoing) return step();
+    if (!options_.keepGoing) return together(input, step);
     ConversionResult& result = context_.result;
     const std::array sizes = {result.files.size(), result.maps.size(), result.arguments.size(),
                               result.macrosByCycle.size(), result.numbers.size()};
@@ -63,14 +64,28 @@ private:
     step();
     input.refused = session_.diagnostics().hasErrors();
     std::swap(others, session_.diagnostics());
-    for (Diagnostic& one : others.all())
+    for (Diagnostic& one : others.all()) {
+      input.found.push_back(one);
       said_.push_back(std::move(one));
+    }
     if (!input.refused) return;
     result.files.resize(sizes[0]);
     result.maps.resize(sizes[1]);
     result.arguments.resize(sizes[2]);
     result.macrosByCycle.resize(sizes[3]);
     result.numbers.resize(sizes[4]);
+  }
+
+  // An error of one input refuses all; what follows it is not told apart any more.
+  template <class Step> void together(Input& input, const Step& step) {
+    if (session_.diagnostics().hasErrors()) return step();
+    Diagnostics others = std::exchange(session_.diagnostics(), Diagnostics());
+    step();
+    std::swap(others, session_.diagnostics());
+    for (Diagnostic& one : others.all()) {
+      input.found.push_back(one);
+      session_.diagnostics().add(std::move(one));
+    }
   }
 
   // What was found in inputs by themselves.
@@ -100,8 +115,11 @@ private:
     Outcome outcome = outcomeOf(session_, std::move(text));
     if (outcome.status != 0 && !options_.keepGoing) return outcome;
     if (outcome.status == 2) outcome.status = 1; // some inputs are refused, and the others are written
-    for (const Input& input : order_)
-      if (!input.refused) outcome.inputs.push_back(options_.inputs[input.place]);
+    for (Input& input : order_) {
+      if (input.refused) continue;
+      outcome.inputs.push_back(options_.inputs[input.place]);
+      outcome.foundIn.push_back(std::move(input.found));
+    }
     outcome.files = std::move(result.files);
     outcome.map = std::move(map);
     outcome.helpers = std::move(result.helpers);

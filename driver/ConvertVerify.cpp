@@ -7,6 +7,8 @@
 #include "support/messages/Verify.h"
 
 #include <algorithm>
+#include <fmt/format.h>
+#include <set>
 
 namespace dotek::driver {
 
@@ -42,19 +44,19 @@ std::string lastLine(std::string text) {
 }
 
 // The result of one input by itself; `cycle`: its place among the cycles.
+std::string keyOf(const Diagnostic& one) {
+  return fmt::format("{} {} {} {} {}", one.code, one.range.file, one.range.begin, one.range.end, one.message);
+}
+
 std::shared_ptr<const ConvertedInput> resultOf(const Outcome& all, std::size_t file, std::size_t cycle,
                                                const Diagnostics& said) {
   auto out = std::make_shared<ConvertedInput>();
-  // A Prog and what has no place are of every input.
-  const auto ofOther = [&](const Diagnostic& one) {
-    if (!one.range.hasPlace()) return false;
-    const std::string& name = all.sources.file(one.range.file).name();
-    return std::any_of(all.inputs.begin(), all.inputs.end(), [&](const std::string& input) {
-      return input != all.inputs[file] && (name == input || name.starts_with(input + "/"));
-    });
-  };
+  std::set<std::string> own, ofOthers;
+  for (std::size_t i = 0; i < all.foundIn.size(); ++i)
+    for (const Diagnostic& one : all.foundIn[i])
+      (i == file ? own : ofOthers).insert(keyOf(one));
   for (const Diagnostic& one : said.all())
-    if (!ofOther(one)) out->said.add(one);
+    if (const std::string key = keyOf(one); own.contains(key) || !ofOthers.contains(key)) out->said.add(one);
   out->file = all.files[file];
   out->map = all.maps[file];
   if (cycle < all.arguments.size()) {

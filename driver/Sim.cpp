@@ -4,6 +4,7 @@
 #include "driver/SimCycle.h"
 #include "frontend/nc/Scan.h"
 #include "project/Inputs.h"
+#include "project/Job.h"
 #include "project/Lowering.h"
 #include "project/ProgramLibrary.h"
 #include "project/SufProgram.h"
@@ -52,7 +53,11 @@ public:
     if (!options_.common.host.empty()) diagnostics().report<diag::OptionOfCycles>({}, "--host");
     if (diagnostics().hasErrors()) return outcomeOf(session_, "");
     std::string control = options_.control;
-    if (control.empty()) control = settingsOf(options_.program, session_).control;
+    const Settings settings = settingsOf(options_.program, session_);
+    if (control.empty()) control = settings.control;
+    if (options_.common.job)
+      static_cast<void>(project::loadJob(*options_.common.job, session_)); // its probe codes
+    session_.takeProbeCodes(settings.probe);
     if (diagnostics().hasErrors()) return outcomeOf(session_, "");
     control_ = loadControl(control.empty() ? std::string(kFirstControl) : control, session_);
     if (control_) checkProbeCodes(*control_, session_);

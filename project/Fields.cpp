@@ -43,7 +43,8 @@ bool FieldTable::set(const std::string& name, double value, SourceRange where) {
 }
 
 bool FieldTable::knows(const std::string& postField, const std::string& variable) const {
-  return std::find(printed_.begin(), printed_.end(), postField) != printed_.end() && declares(variable);
+  return std::find(printed_.begin(), printed_.end(), postField) != printed_.end() && declares(variable) &&
+         !declares(postField);
 }
 
 bool FieldTable::map(const std::string& postField, const std::string& variable) {
@@ -65,6 +66,8 @@ bool FieldTable::map(const std::string& postField, const std::string& variable) 
                                                      near.empty() ? "" : "; did you mean `" + near + "`?");
     return false;
   }
+  if (const Entry* own = declared(postField); own != nullptr && own != entry)
+    session_.diagnostics().report<diag::FieldPassedOver>({}, postField, entry->name, folder_.name);
   const auto& sets = session_.options().set;
   if (postOnly_.contains(postField) &&
       std::any_of(sets.begin(), sets.end(), [&](const auto& given) { return given.first == postField; })) {

@@ -28,7 +28,8 @@ public:
   bool set(const std::string& name, double value, SourceRange where);
   // Takes --field POSTFIELD=VARIABLE. Reports and returns false where one of the names is not known.
   bool map(const std::string& postField, const std::string& variable);
-  // Whether the branch prints the one and the macro declares the other.
+  // Whether the branch prints the one and the macro declares the other, and no field of the first name: what
+  // is given for several cycles is meant for those that lack it.
   bool knows(const std::string& postField, const std::string& variable) const;
   // Whether the macro declares the name, in whatever case.
   bool declares(const std::string& name) const { return declared(name) != nullptr; }

@@ -125,7 +125,10 @@ bool VendorRun::setSystem() {
   const bool extended = number && chosen->extendedFirst != 0 && *number >= chosen->extendedFirst &&
                         *number <= chosen->extendedLast;
   if (!number || (!extended && (*number < first || *number >= first + kSystems)))
-    return meaningless("which work offset this number names is in no source", chosen->letter);
+    return meaningless(
+        fmt::format("which work offset this number names is in no source; {} to {} are G54 to G59", first,
+                    first + kSystems - 1),
+        chosen->letter);
   const std::uint32_t system = extended ? *number - chosen->extendedFirst + 1 : *number - first;
   const bool activeExtended = machine_.mode(kSystem) == kExtended;
   const auto active = activeExtended ? static_cast<std::uint32_t>(machine_.extendedSystem())

@@ -97,6 +97,7 @@ struct Picture {
   // Its ball, stem and body. One without a length down to its tip is none: then the points of the path are
   // those of the spindle's gauge line.
   Probe probe;
+  bool probeStated = false;         // also where its length is 0, as of a control that counts at the tip
   std::optional<ToolSetter> setter; // of the machine
   std::vector<CuttingTool> tools;   // that were in the spindle, the probe aside
   std::vector<PictureMove> moves;   // in the order of the run

@@ -187,7 +187,7 @@ bool isDrawn(const PictureMove& move) {
 }
 
 bool hasProbe(const Picture& picture) {
-  return picture.probe.length > 0 || !picture.probe.lengthToTip;
+  return picture.probeStated || picture.probe.length > 0 || !picture.probe.lengthToTip;
 }
 
 Region reachOf(const Part& part) {

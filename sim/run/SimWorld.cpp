@@ -167,6 +167,7 @@ void SimWorld::begin() {
   picture.control = control_;
   if (world_ && !world_->part().isEmpty()) picture.part = world_->part();
   if (world_) picture.probe = world_->probe();
+  picture.probeStated = world_.has_value() && machine_.has_value();
   if (machine_) picture.setter = machine_->devices.setter;
   picture.decimals = decimals_;
   recorder_.emplace(
