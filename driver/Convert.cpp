@@ -120,6 +120,8 @@ private:
       outcome.inputs.push_back(options_.inputs[input.place]);
       outcome.foundIn.push_back(std::move(input.found));
     }
+    for (Input& input : order_)
+      if (input.refused) outcome.foundIn.push_back(std::move(input.found));
     outcome.files = std::move(result.files);
     outcome.map = std::move(map);
     outcome.helpers = std::move(result.helpers);

@@ -81,7 +81,7 @@ struct Outcome {
   // Of convert: those whose results are given, in their order; with --keep-going not all. Of layOut: those
   // whose layout is another than that of `files`.
   std::vector<std::string> inputs;
-  // Of convert, beside `inputs`: what was found in each by itself. What is in none concerns all of them.
+  // Of convert: what was found in each input by itself, `inputs` first, then the refused; else it is of all.
   std::vector<std::vector<Diagnostic>> foundIn;
   std::string
       summary; // of lint of folders: what was read and what was not; of --keep-going: what is refused; a line
