@@ -44,7 +44,7 @@ bool FieldTable::set(const std::string& name, double value, SourceRange where) {
 
 bool FieldTable::knows(const std::string& postField, const std::string& variable) const {
   return std::find(printed_.begin(), printed_.end(), postField) != printed_.end() && declares(variable) &&
-         !declares(postField);
+         (!declares(postField) || declared(postField) == declared(variable));
 }
 
 bool FieldTable::map(const std::string& postField, const std::string& variable) {

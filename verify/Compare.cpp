@@ -175,6 +175,16 @@ private:
     longer.insert(longer.begin() + static_cast<std::ptrdiff_t>(i) + 1, std::move(rest));
   }
 
+  // A move that is not much longer than the tolerance may come to nothing where both its ends are rounded.
+  void dropVanished(std::vector<Piece>& longer, const std::vector<Piece>& other, std::size_t i) const {
+    if (i + 1 >= longer.size() || i >= other.size()) return;
+    const Piece &one = longer[i], &next = longer[i + 1], &there = other[i];
+    if (one.kind == sim::PathKind::Measuring || !near(one.from, one.to, 2 * rules_.tolerance)) return;
+    const bool goesOn = next.kind == there.kind && near(next.from, there.from, 2 * rules_.tolerance) &&
+                        near(next.to, there.to, rules_.tolerance);
+    if (goesOn) longer.erase(longer.begin() + static_cast<std::ptrdiff_t>(i));
+  }
+
   // An edge that is grazed stops a protected move at a height that a last digit beside it changes.
   double ofLastPiece() const {
     const bool obstructed = source_.ending == Ending::Alarm &&
@@ -272,6 +282,8 @@ private:
       }
       splitAlike(a, b, i);
       splitAlike(b, a, i);
+      dropVanished(a, b, i);
+      dropVanished(b, a, i);
       const bool last = i + 1 == a.size() && i + 1 == b.size();
       const bool same = a[i].kind == b[i].kind && near(a[i].from, b[i].from, rules_.tolerance) &&
                         near(a[i].to, b[i].to, last ? ofLastPiece() : rules_.tolerance);

@@ -76,6 +76,9 @@ bool runsAlike(const Record& one, const Record& other, const CompareRules& rules
 std::vector<Difference> compare(const DrawnPath& path, const sim::Point3& offset, const Record& program,
                                 double tolerance);
 
+// It ends, and each of its measures has met a surface.
+bool findsAll(const Record& record);
+
 // Where the first measuring move, and the first protected one, ran with the probe off; calls, too.
 struct ProbeOff {
   std::optional<SourceRange> measuring, protectedMove;

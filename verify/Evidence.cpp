@@ -1,6 +1,7 @@
 // What a run of the source says of its translation.
 #include "verify/Compare.h"
 
+#include <algorithm>
 #include <fmt/format.h>
 
 namespace dotek::verify {
@@ -17,6 +18,12 @@ std::string endText(const Record& record) {
   case Ending::Inconclusive: return "what it does is not known: " + record.text;
   }
   return "";
+}
+
+bool findsAll(const Record& record) {
+  return record.ending == Ending::Finished &&
+         std::none_of(record.measures.begin(), record.measures.end(),
+                      [](const Measure& one) { return one.contacts.empty(); });
 }
 
 ProbeOff probeOffIn(const Record& record) {

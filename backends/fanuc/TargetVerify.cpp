@@ -284,13 +284,6 @@ private:
     return rules;
   }
 
-  // It ends, and each of its measures has met a surface.
-  static bool findsAll(const verify::Record& record) {
-    return record.ending == verify::Ending::Finished &&
-           std::none_of(record.measures.begin(), record.measures.end(),
-                        [](const verify::Measure& one) { return one.contacts.empty(); });
-  }
-
   void compareRecords(const TargetCase& now, const verify::Record& record, TargetRun& out) const {
     const verify::Record& source = *now.source;
     const verify::CompareRules rules = rulesFor(now, source);
@@ -316,7 +309,7 @@ private:
       out.undecided = true;
       out.why = "the ball touches where a measure begins: " + record.text;
     } else if (sourceSet_ != set_ && searches &&
-               (findsAll(record) || !rules.samePlace(source.endedAt, record.endedAt)))
+               (verify::findsAll(record) || !rules.samePlace(source.endedAt, record.endedAt)))
       out.undecided = true;
     else
       add(verify::compare(source, record, rules), out);

@@ -164,6 +164,28 @@ TEST_CASE("verify: where a stem stops the source, results count as exactly as th
   }
 }
 
+TEST_CASE("verify: a move that vanishes where both its ends are rounded") {
+  const OneRun run(kOn + "G1Y5.F500.\nG0Z9.\n");
+  const auto same = [&](double length, double tolerance, bool turned = false) {
+    verify::Record source = run.record;
+    verify::Piece& first = source.pieces.front();
+    verify::Piece tiny = first;
+    tiny.from.x -= length / 2;
+    first.from.x += length / 2;
+    tiny.to = first.from;
+    source.pieces.insert(source.pieces.begin(), tiny);
+    verify::CompareRules rules;
+    rules.tolerance = tolerance;
+    return (turned ? verify::compare(run.record, source, rules) : verify::compare(source, run.record, rules))
+        .empty();
+  };
+  CHECK(same(0.001, 0.0006));
+  CHECK(same(0.001, 0.0006, true));
+  CHECK_FALSE(same(0.001, 0.0004));
+  CHECK_FALSE(same(0.0021, 0.0006));
+  CHECK_FALSE(same(0.0021, 0.0006, true));
+}
+
 TEST_CASE("verify: endings") {
   CHECK(differing("#3000=5(STOP)\n", "G0X1.\n") == Aspects{Aspect::Ending});
   CHECK(differing("#3000=5(STOP)\n", "#3000=5(STOP)\n").empty());
