@@ -61,8 +61,12 @@ ir::VariableId Lowering::local(std::string_view name, ir::Kind kind, SourceRange
   ir::Variable variable;
   const std::string whole = scope_.prefix + std::string(name);
   variable.name = whole;
-  for (int n = 2; !taken_.insert(variable.name).second; ++n)
-    variable.name = whole + "_" + std::to_string(n);
+  if (!taken_.insert(whole).second) {
+    int& number = numbers_.try_emplace(whole, 2).first->second;
+    do
+      variable.name = whole + "_" + std::to_string(number++);
+    while (!taken_.insert(variable.name).second);
+  }
   variable.kind = kind;
   variable.range = range;
   return cycle_.add(std::move(variable));

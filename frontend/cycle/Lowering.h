@@ -168,6 +168,7 @@ private:
   Probe probe_ = Probe::Off;
   bool failed_ = false;
   std::set<std::string, std::less<>> taken_;  // names of variables
+  std::map<std::string, int> numbers_;        // the next `_N` of a name that is taken
   std::set<ir::VariableId> touched_;          // of touches: dropped where nothing reads them
   std::map<ir::VariableId, ir::Axis> places_; // variables that get the place of the probe
   std::map<ir::VariableId, Sign> signs_;      // of parameters, by their checks

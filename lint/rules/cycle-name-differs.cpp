@@ -49,6 +49,7 @@ void check(const Project& project, Report& report) {
     };
     std::vector<Test> tests;
     std::map<const compost::Routine*, std::set<std::string>> testedIn;
+    std::map<std::string, std::set<const compost::Routine*>> testing; // by the name that they test
     for (const compost::Item& item : prog->items) {
       const auto* routine = std::get_if<compost::Routine>(&item);
       if (routine == nullptr) continue;
@@ -59,6 +60,7 @@ void check(const Project& project, Report& report) {
           for (const compost::Word* word : words) {
             tests.push_back({word, routine});
             testedIn[routine].insert(word->arguments.front().text);
+            testing[word->arguments.front().text].insert(routine);
           }
         }
       });
@@ -67,9 +69,7 @@ void check(const Project& project, Report& report) {
       const compost::Literal& id = test.word->arguments.front();
       const std::set<std::string>& beside = testedIn[test.routine];
       // A name that several routines test is the name of a cycle, wherever its folder is.
-      const bool elsewhere = std::any_of(testedIn.begin(), testedIn.end(), [&](const auto& one) {
-        return one.first != test.routine && one.second.contains(id.text);
-      });
+      const bool elsewhere = testing.at(id.text).size() > 1;
       if (folders.contains(id.text)) continue;
       for (const std::string& folder : folders) {
         // A folder that the Prog prints for already is not the one that is meant.
