@@ -195,9 +195,11 @@ void writeProtectedMove(State& state, const ir::Move& move, const ir::Origin& or
                                        std::string("a protected move along ") + ir::letterOf(*axis));
   const MacroCall call = macroCall(*signature, move, valuesFor(state, origin));
   if (state.failed) return;
-  if (move.feed == nullptr && state.reported.insert("feed").second)
+  if (move.feed == nullptr && state.reported.insert("feed").second) {
+    state.diagnostics.report<diag::ProtectedMoveFeed>(origin.range(), signature->program);
     state.remarks.push_back("A PROTECTED MOVE STATES NO FEED: P" + std::to_string(signature->program) +
                             " TAKES ITS OWN OR THE LAST ONE");
+  }
   writeCall(state, call, origin);
 }
 
