@@ -4,6 +4,7 @@
 #include "cli/Files.h"
 #include "driver/Driver.h"
 #include "driver/Preview.h"
+#include "project/CycleFolder.h"
 #include "project/Settings.h"
 #include "sim/run/SimReport.h"
 #include "support/FileIdentity.h"
@@ -196,21 +197,28 @@ private:
   std::uint32_t maxErrors_;
 };
 
-// Data files of the project come before those of the command line, which replace them.
-void takeDataOfProject(Arguments& arguments) {
+// Data files of the project come before those of the command line, which replace them; so does what a flag
+// says of the Prog or of a field.
+void takeDefaultsOfProject(Arguments& arguments) {
   std::vector<std::string> inputs = inputsOf(arguments);
   if (inputs.empty()) inputs = {"."}; // `list forms`
+  project::FlagDefaults defaults = project::flagDefaultsOf(inputs);
   std::vector<std::string>& given = arguments.common.data;
-  std::vector<std::string> all = project::dataFoldersOf(inputs);
-  std::erase_if(all, [&](const std::string& one) {
+  std::erase_if(defaults.data, [&](const std::string& one) {
     return std::any_of(given.begin(), given.end(),
                        [&](const std::string& flag) { return identify(flag) == identify(one); });
   });
-  given.insert(given.begin(), all.begin(), all.end());
+  given.insert(given.begin(), defaults.data.begin(), defaults.data.end());
+  arguments.common.projectField = std::move(defaults.field);
+  const bool posts = arguments.command == Command::Post || arguments.command == Command::Convert ||
+                     arguments.command == Command::Verify || arguments.command == Command::Dump;
+  const bool cycles = std::any_of(arguments.inputs.begin(), arguments.inputs.end(), &project::isCycleFolder);
+  if (posts && cycles && !arguments.source.prog)
+    arguments.source.prog = project::flagDefaultsOf(arguments.inputs).prog;
 }
 
 int runCommand(Arguments& arguments, std::ostream& out, std::ostream& err) {
-  takeDataOfProject(arguments);
+  takeDefaultsOfProject(arguments);
   Printer printer(out, err, arguments.maxErrors);
   if (!printer.canWrite(arguments)) return kUsage;
   switch (arguments.command) {

@@ -76,9 +76,13 @@ bool PostCommand::load() {
   Diagnostics& diagnostics = session_.diagnostics();
   if (options_.folders.empty())
     diagnostics.report<diag::MissingOption>({}, "post", "FOLDER", "the folder of a cycle");
-  if (!options_.source.prog)
-    diagnostics.report<diag::MissingOption>({}, "post", "--prog PROG.txt",
-                                            "the Prog whose routine prints the cycle");
+  if (!options_.source.prog) {
+    for (const std::string& folder : options_.folders)
+      static_cast<void>(settingsOf(folder, session_)); // what is wrong with a `prog` there
+    if (!diagnostics.hasErrors())
+      diagnostics.report<diag::MissingOption>({}, "post", "--prog PROG.txt or `prog` in dotek.toml",
+                                              "the Prog whose routine prints the cycle");
+  }
   const NamedTexts& sets = options_.common.set;
   for (const auto& [postField, variable] : options_.common.field) {
     const bool alsoSet = std::any_of(sets.begin(), sets.end(),
@@ -181,13 +185,7 @@ void PostCommand::prepare(const JobOperation& operation) {
     printed.push_back(field.name);
   FieldTable fields(*folder, std::move(printed), session_);
   applySets(operation, fields, *folder);
-  bool mapped = true;
-  const bool several = compilation_.folders().size() > 1;
-  for (const auto& [postField, variable] : options_.common.field) {
-    if (several && !fields.knows(postField, variable)) continue;
-    compilation_.usedSets().insert(postField + "=" + variable);
-    mapped = fields.map(postField, variable) && mapped;
-  }
+  const bool mapped = fields.mapGiven(compilation_.folders().size() > 1, compilation_.usedSets());
   if (mapped && fields.certain())
     prepared_.push_back({&operation, folder, routine, std::move(hosts), std::move(fields)});
 }

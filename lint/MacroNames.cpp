@@ -122,6 +122,13 @@ std::set<std::string> fieldsOf(const gibbs::Cycle& cycle) {
   return out;
 }
 
+std::string printedFor(const Project& project, const std::set<std::string>& declared,
+                       const std::string& field) {
+  for (const auto& [postField, variable] : project.fields)
+    if (std::string key = gibbs::foldCase(variable); postField == field && declared.contains(key)) return key;
+  return gibbs::foldCase(field);
+}
+
 std::set<std::string> radiusNames(const gibbs::Macro& macro, const Project& project) {
   std::set<std::string> out;
   eachStatement(macro, [&](const gibbs::Statement& statement) {

@@ -33,6 +33,10 @@ std::string squeezed(const gibbs::Expression& expression, const Project& project
 std::vector<const gibbs::Macro*> macrosOf(const gibbs::Cycle& cycle);
 // Folded names of DefineData.txt and of inputs.
 std::set<std::string> fieldsOf(const gibbs::Cycle& cycle);
+// Folded name of what the post prints for `field`: the first variable that --field or dotek.toml names for it
+// and that is among `declared`, else the field.
+std::string printedFor(const Project& project, const std::set<std::string>& declared,
+                       const std::string& field);
 // Variables of the macro that hold the radius of the tool, folded.
 std::set<std::string> radiusNames(const gibbs::Macro& macro, const Project& project);
 // Folded name of the command after a THEN, or of a statement of its own; "" for another statement.

@@ -9,6 +9,7 @@
 #include "ir/Cycle.h"
 #include "ir/Program.h"
 #include "lint/Rule.h"
+#include "project/Options.h"
 #include "stdlib/ComPostKeywords.h"
 #include "stdlib/Control.h"
 #include "stdlib/Form.h"
@@ -17,6 +18,7 @@
 #include "support/Limits.h"
 
 #include <memory>
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
@@ -76,6 +78,9 @@ struct Project {
   // The macros, dialogs and DefineData.txt as shared checks look at them.
   std::vector<const gibbs::CheckedFile*> checked = {};
   std::shared_ptr<Analyses> analyses = nullptr; // of this project
+  // Of --field and dotek.toml: a field of the post and the variable that it prints, where a cycle has it.
+  dotek::project::NamedTexts fields = {};
+  std::set<std::string> sets = {}; // names of --set
 
   // Those of cycle folders too, in the order of reading.
   std::vector<const gibbs::Macro*> allMacros() const;

@@ -119,6 +119,11 @@ Project& Projects::begin(const Settings& settings) {
   }
   project.control = control;
   project.analyses = std::make_shared<Analyses>();
+  const dotek::project::CommonOptions& options = session.options();
+  project.fields = options.field;
+  project.fields.insert(project.fields.end(), options.projectField.begin(), options.projectField.end());
+  for (const auto& [name, value] : options.set)
+    project.sets.insert(name);
   if (control == nullptr && blocks) project.controls = compilation_.controls(settings.probe);
   return project;
 }

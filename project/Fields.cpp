@@ -81,6 +81,20 @@ bool FieldTable::map(const std::string& postField, const std::string& variable) 
   return true;
 }
 
+bool FieldTable::mapGiven(bool several, std::set<std::string>& used) {
+  bool good = true;
+  const CommonOptions& options = session_.options();
+  for (const auto& [postField, variable] : options.field) {
+    if (several && !knows(postField, variable)) continue;
+    used.insert(postField + "=" + variable);
+    good = map(postField, variable) && good;
+  }
+  for (const auto& [postField, variable] : options.projectField)
+    if (knows(postField, variable) && !mapped_.contains(postField) && !postOnly_.contains(postField))
+      mapped_.emplace(postField, declared(variable)->name);
+  return good;
+}
+
 bool FieldTable::certain() const {
   bool all = true;
   for (const Entry& entry : entries_) {
@@ -166,7 +180,10 @@ std::optional<FieldOrigin> FieldTable::origin(const std::string& name, SourceRan
   }
   Diagnostic& missing = diagnostics.report<diag::MissingField>(
       where, name, session_.sources().file(where.file).name(), defineData, proposal(name));
-  if (folder_.cycle->defineData && missing.notes.empty()) {
+  for (const auto& [postField, variable] : session_.options().projectField)
+    if (postField == name)
+      missing.note({}, "dotek.toml names `" + variable + "` for it, which the macro does not declare");
+  if (folder_.cycle->defineData) {
     std::string names;
     for (const Entry& entry : entries_)
       names += (names.empty() ? "`" : ", `") + entry.name + "`";

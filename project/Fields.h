@@ -31,6 +31,9 @@ public:
   // Whether the branch prints the one and the macro declares the other, and no field of the first name: what
   // is given for several cycles is meant for those that lack it.
   bool knows(const std::string& postField, const std::string& variable) const;
+  // All pairs of --field, each only where it is known if the cycle is one of `several`, then those of
+  // dotek.toml that are known. The former are added to `used`. false: reported.
+  bool mapGiven(bool several, std::set<std::string>& used);
   // Whether the macro declares the name, in whatever case.
   bool declares(const std::string& name) const { return declared(name) != nullptr; }
   // Reports the fields whose first value nobody overrides and no source lets us read. false: there are some.

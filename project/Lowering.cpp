@@ -356,12 +356,7 @@ std::optional<LoweredCycle> Lowering::run(std::set<std::string>& usedSets) {
   }
   FieldTable fields(folder_, std::move(printed), session_);
   applySets(fields, usedSets);
-  bool good = true;
-  for (const auto& [postField, variable] : session_.options().field) {
-    if (inputs_.oneOfSeveral && !fields.knows(postField, variable)) continue;
-    usedSets.insert(postField + "=" + variable);
-    good = fields.map(postField, variable) && good;
-  }
+  bool good = fields.mapGiven(inputs_.oneOfSeveral, usedSets);
   if (!good && !lenient_) return std::nullopt;
   good = checks();
   // What the dialog rejects is reported before what its blocks would come to.

@@ -24,6 +24,8 @@ struct CommonOptions {
   std::optional<std::string> job;
   NamedTexts set;   // a field's value, mm and degrees
   NamedTexts field; // the post's field = the macro's variable
+  NamedTexts
+      projectField; // the same of dotek.toml: for cycles that have both, and where `field` says nothing
   NamedTexts host;  // host inputs, mm and mm/min
   std::set<std::string> assume;
   bool recover = false;

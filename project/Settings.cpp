@@ -18,6 +18,7 @@ namespace fs = std::filesystem;
 namespace {
 
 using stdlib::TomlDocument;
+using stdlib::TomlEntry;
 using stdlib::TomlTable;
 using stdlib::TomlValue;
 
@@ -128,7 +129,11 @@ SettingsFile settingsIn(const TomlDocument& document, std::string folder, Sessio
   base.control = control && !control->empty() ? *control : ofLint.value_or("");
   base.form = form && !form->empty() ? *form : lintForm.value_or("");
   base.probe = probeCodesIn(document, root);
-  static_cast<void>(root.value("data").texts()); // taken before anything is read: dataFoldersOf()
+  // Taken before anything is read: flagDefaultsOf().
+  static_cast<void>(root.value("data").texts());
+  static_cast<void>(root.value("prog").text());
+  for (const TomlEntry& entry : root.value("field").table().entries())
+    static_cast<void>(entry.value.text());
   if (const TomlValue from = root.value("from"))
     base.listing = from.choice({"nc", "listing"}, "nc") == "listing";
   for (const TomlTable& table : lint.value("path").tables())
@@ -158,22 +163,34 @@ Settings settingsOf(const std::string& path, Session& session) {
   return at->second.of(whole.generic_string());
 }
 
-std::vector<std::string> dataFoldersOf(const std::vector<std::string>& inputs) {
-  std::vector<std::string> out;
+FlagDefaults flagDefaultsOf(const std::vector<std::string>& inputs) {
+  FlagDefaults out;
   std::set<fs::path> known;
+  std::set<std::string> progs; // "": of an input without one
   for (const std::string& input : inputs) {
     const fs::path file = settingsFileAbove(folderOf(wholePath(input)));
-    if (file.empty() || !known.insert(file).second) continue;
+    if (!known.insert(file).second) continue;
     SourceMap sources;
     Diagnostics unheard;
-    const auto id = readText(file.string(), Encoding::Utf8, std::nullopt, Limits(), sources, unheard);
+    const auto id = file.empty()
+                        ? std::nullopt
+                        : readText(file.string(), Encoding::Utf8, std::nullopt, Limits(), sources, unheard);
     const auto document = id ? TomlDocument::parse(*id, sources, unheard) : std::nullopt;
+    const auto seen = [&](const std::string& path) {
+      return nearPath((file.parent_path() / path).lexically_normal());
+    };
+    const TomlValue prog = document ? document->root().value("prog") : TomlValue();
+    progs.insert(prog && !prog.text().empty() ? seen(prog.text()) : "");
     if (!document) continue;
     for (const std::string& folder : document->root().value("data").texts())
-      if (std::string path = nearPath((file.parent_path() / folder).lexically_normal());
-          std::find(out.begin(), out.end(), path) == out.end())
-        out.push_back(std::move(path));
+      if (std::string path = seen(folder);
+          std::find(out.data.begin(), out.data.end(), path) == out.data.end())
+        out.data.push_back(std::move(path));
+    for (const TomlEntry& entry : document->root().value("field").table().entries())
+      if (std::string variable = entry.value.text(); !variable.empty())
+        out.field.emplace_back(entry.key, std::move(variable));
   }
+  if (progs.size() == 1 && !progs.begin()->empty()) out.prog = *progs.begin();
   return out;
 }
 

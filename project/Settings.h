@@ -1,6 +1,7 @@
 // What a dotek.toml says for all commands.
 #pragma once
 
+#include "project/Options.h"
 #include "stdlib/ProbeCodes.h"
 
 #include <optional>
@@ -42,17 +43,25 @@ struct SettingsFile {
 // `probe_on` and `probe_off` of a table, with what is wrong with them.
 stdlib::ProbeCodes probeCodesIn(const stdlib::TomlDocument& document, const stdlib::TomlTable& table);
 
-// `control` and `form`, also as keys of `[lint]` and `[[lint.path]]`, `from`, `data`, `probe_on` and
-// `probe_off`. What is wrong with them is reported, a control that nobody knows too.
+// `control` and `form`, also as keys of `[lint]` and `[[lint.path]]`, `from`, `data`, `prog`,
+// `[field]`, `probe_on` and `probe_off`. What is wrong with them is reported, a control that nobody knows
+// too.
 SettingsFile settingsIn(const stdlib::TomlDocument& document, std::string folder, Session& session);
 
 // Of the dotek.toml in the folder of the file or above it. A defect of that file is reported once. What its
 // table [lint] has besides is for lint to judge.
 Settings settingsOf(const std::string& path, Session& session);
 
-// Folders of data files that `data` of the dotek.toml of these inputs and above them names, as paths, each
-// once. Nothing is reported: whoever takes the settings does.
-std::vector<std::string> dataFoldersOf(const std::vector<std::string>& inputs);
+// What stands for flags that nobody gives.
+struct FlagDefaults {
+  std::vector<std::string> data;   // folders of data files, each once
+  std::optional<std::string> prog; // where all inputs have the same
+  NamedTexts field;                // the post's field = the macro's variable
+};
+
+// `data`, `prog` and `[field]` of the dotek.toml of these inputs and above them, paths seen from here.
+// Nothing is reported: whoever takes the settings does.
+FlagDefaults flagDefaultsOf(const std::vector<std::string>& inputs);
 
 // The control that the dotek.toml of the inputs names for all of them; "": none. Two that differ are an error
 // that names both.

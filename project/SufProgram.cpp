@@ -46,7 +46,9 @@ std::optional<SufProgram> loadSuf(const std::string& path, const std::string& co
   const mikroprog::Program tree = mikroprog::parse(*id, session.sources(), diagnostics);
   if (diagnostics.hasErrors()) return std::nullopt;
   std::string name = control;
+  // dotek.toml may name the control of the other programs of the folder.
   if (name.empty()) name = settingsOf(path, session).control;
+  if (control.empty() && session.data().find("mikroprog", name) == nullptr) name.clear();
   if (diagnostics.hasErrors()) return std::nullopt;
   if (name.empty()) name = mikroprog::profileOf(tree).value_or("");
   if (name.empty()) {

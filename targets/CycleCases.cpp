@@ -132,8 +132,8 @@ bool CaseRunner::prepare() {
       session_.diagnostics().report<diag::NoSuchField>(SourceRange{}, name, folder_->name,
                                                        fields_->hint(name));
   if (session_.diagnostics().hasErrors()) return false;
-  for (const auto& [postField, variable] : options_.common.field)
-    if (!fields_->map(postField, variable)) return false;
+  std::set<std::string> used;
+  if (!fields_->mapGiven(inputs_->oneOfSeveral, used)) return false;
   std::vector<std::string> hosts;
   for (const stdlib::HostInput& host : stdlib::kHostInputs)
     if (!host.ofCyclesAlone) hosts.emplace_back(host.name);

@@ -71,6 +71,7 @@ Uses usesOf(const gibbs::Cycle& cycle) {
 void check(const Project& project, Report& report) {
   for (const gibbs::Cycle* cycle : project.cycles) {
     if (!cycle->defineData || cycle->defineData->hasErrorNodes) continue;
+    const std::set<std::string> fields = fieldsOf(*cycle);
     std::set<std::string> printed;
     const compost::BranchRef* shown = nullptr;
     std::vector<compost::BranchRef> branches;
@@ -84,7 +85,7 @@ void check(const Project& project, Report& report) {
         const auto* routine = std::get_if<compost::Routine>(&item);
         if (routine == nullptr) continue;
         for (const compost::FieldRef& field : compost::fieldsPrinted(*joined.prog, *routine, cycle->name))
-          printed.insert(gibbs::foldCase(field.name));
+          printed.insert(printedFor(project, fields, field.name));
       }
     }
     // A post that prints no field at all is no post of this cycle.

@@ -23,8 +23,8 @@ void check(const Project& project, Report& report) {
     std::set<std::string> told;
     for (const compost::BranchRef& branch : compost::branchesOf(*joined.prog, cycle.name)) {
       for (const compost::FieldRef& field : compost::fieldsPrinted(*joined.prog, branch, cycle.name)) {
-        const std::string key = gibbs::foldCase(field.name);
-        if (fields.contains(key) || !told.insert(key).second) continue;
+        const std::string key = printedFor(project, fields, field.name);
+        if (fields.contains(key) || project.sets.contains(field.name) || !told.insert(key).second) continue;
         NearestName nearest(field.name);
         for (const gibbs::Definition& definition : cycle.defineData->definitions)
           nearest.offer(definition.name.text);

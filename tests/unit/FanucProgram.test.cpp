@@ -40,7 +40,7 @@ TEST_CASE("fanuc: a surface for the macro set of the source") {
                                                "G65 P9770 Z#26 F200.", "G65 P9023 S#19 X#24 I#4", "#550=#138",
                                                "G0 Z#1 F5000.", "M32"});
   CHECK(out.texts()[1] == "O8000(ONE SURFACE)");
-  CHECK(out.codes() == std::set<std::string>{"letter-of-other-field", "message-cut"});
+  CHECK(out.codes() == std::set<std::string>{"letter-of-other-field", "message-cut", "protected-move-feed"});
 }
 
 TEST_CASE("fanuc: folded with all values it gives the posted blocks") {
@@ -251,7 +251,7 @@ TEST_CASE("fanuc: a path without a measurement says so") {
     CHECK(out.holds("(THE SOURCE STATES A PATH ONLY"));
     CHECK(out.body() == std::vector<std::string>{"G65 P9810 Z[#2+#1]", "G65 P9810 X[#28+4.]"});
     CHECK(out.has("#28=#5001"));
-    CHECK(out.codes() == std::set<std::string>{"probe-not-switched"});
+    CHECK(out.codes() == std::set<std::string>{"probe-not-switched", "protected-move-feed"});
   }
   SUBCASE("or both are fixed, and the start is checked") {
     target.options.fixed = {{"retract", 20}, {"start_x", -10}};
