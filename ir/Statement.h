@@ -237,17 +237,20 @@ struct NameVariables {
   std::vector<std::string> names;
 };
 
-// Where a statement comes from.
-struct Origin {
+// Where a statement of a program comes from.
+struct BlockOrigin {
   std::vector<SourceRange> ranges; // first: what messages point at
   std::string reason;              // "" or what made it: "argument omitted", "mode restored"
   std::uint32_t block = 0;         // statements lifted from one NC block share a number; 0: from none
-  std::string addresses;           // letters of that block in the order written: layout only
   std::uint32_t place = 0; // of a Comment of a program: words of its block that precede it, layout only
-  // Letters of a macro call that a variable fills directly: they name the arguments of the result.
-  std::vector<std::pair<char, VariableId>> arguments;
 
   SourceRange range() const { return ranges.empty() ? SourceRange{} : ranges.front(); }
+};
+// Where a statement of a cycle comes from, and what keeps the look of the source.
+struct Origin : BlockOrigin {
+  std::string addresses; // letters of its NC block in the order written
+  // Letters of a macro call that a variable fills directly: they name the arguments of the result.
+  std::vector<std::pair<char, VariableId>> arguments;
 };
 
 // The variant of what follows a first type, which lets each line of Nodes.def begin with its comma.
@@ -269,7 +272,7 @@ struct ProgramStatement {
 #include "ir/Nodes.def"
 #undef DOTEK_PROGRAM_STATEMENT
           >::Variant node;
-  Origin origin;
+  BlockOrigin origin;
   // 0: always carried out; 1 to 9: passed over where this switch of block delete is on.
   std::uint8_t blockDelete = 0;
 };

@@ -67,9 +67,10 @@ std::set<std::uint32_t> requiredLocals(const ir::Program& program) {
           return true;
         },
         [](const ir::OneOf<ir::Comment, ir::Store, ir::NcBlock> auto&) { return true; },
-        [](const ir::OneOf<ir::Label, ir::Jump, ir::Move, ir::Measure, ir::ProbePower, ir::JumpTo, ir::Loop,
-                           ir::LoopEnd, ir::Call, ir::Exit, ir::Raise, ir::Notice, ir::Port, ir::Print,
-                           ir::NameVariables> auto&) { return false; });
+        [](const ir::OneOf<ir::Label, ir::Jump, ir::JumpTo, ir::Loop, ir::LoopEnd, ir::Call, ir::Exit,
+                           ir::Raise, ir::Notice, ir::Port, ir::Print, ir::NameVariables> auto&) {
+          return false;
+        });
     if (!open) break;
   }
   return out;

@@ -448,9 +448,9 @@ private:
         [&](const ir::Store& store) {
           if (fact.offset == Offset::On) judgeStore(statement, store, fact);
         },
-        [](const ir::OneOf<ir::Label, ir::Jump, ir::Branch, ir::Move, ir::Measure, ir::ProbePower,
-                           ir::Comment, ir::JumpTo, ir::Loop, ir::LoopEnd, ir::Exit, ir::Raise, ir::Notice,
-                           ir::Port, ir::Print, ir::NameVariables> auto&) {});
+        [](const ir::OneOf<ir::Label, ir::Jump, ir::Branch, ir::Comment, ir::JumpTo, ir::Loop, ir::LoopEnd,
+                           ir::Exit, ir::Raise, ir::Notice, ir::Port, ir::Print, ir::NameVariables> auto&) {
+        });
   }
 
   void judgeBlock(const ir::ProgramStatement& statement, const ir::NcBlock& block, const Fact& fact) {

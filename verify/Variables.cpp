@@ -187,9 +187,8 @@ private:
         [&](const ir::Loop& node) {
           if (node.condition) compared(node.condition);
         },
-        [](const ir::OneOf<ir::Label, ir::Jump, ir::Move, ir::Measure, ir::ProbePower, ir::Comment,
-                           ir::LoopEnd, ir::Exit, ir::Raise, ir::Notice, ir::Port, ir::Print,
-                           ir::NameVariables> auto&) {});
+        [](const ir::OneOf<ir::Label, ir::Jump, ir::Comment, ir::LoopEnd, ir::Exit, ir::Raise, ir::Notice,
+                           ir::Port, ir::Print, ir::NameVariables> auto&) {});
   }
 
   void words(const ir::NcBlock& block) {

@@ -184,7 +184,7 @@ void ProgramBlocks::statements(std::size_t begin, std::size_t end) {
         [&](const ir::Loop& node) { loop(node); },
         [&](const ir::LoopEnd& node) { line(fmt::format("END{}", node.number)); }, [](const ir::Comment&) {},
         [&](const ir::OneOf<ir::Store, ir::Jump, ir::JumpTo, ir::Raise, ir::Notice, ir::Port, ir::Print,
-                            ir::NameVariables, ir::Move, ir::Measure, ir::ProbePower> auto&) {
+                            ir::NameVariables> auto&) {
           const std::string text = macro(body[i]);
           if (text.empty())
             refuse("this statement");
@@ -265,8 +265,8 @@ std::size_t ProgramBlocks::branch(std::size_t at) {
         jumpWhere(condition, bounded(text_.target(jump.number), context_.to().bracketDepth));
       },
       [&](const ir::OneOf<ir::Store, ir::Raise, ir::Notice, ir::Port, ir::Print, ir::NameVariables, ir::Label,
-                          ir::Branch, ir::Move, ir::Measure, ir::ProbePower, ir::Comment, ir::NcBlock,
-                          ir::Loop, ir::LoopEnd, ir::Call, ir::Exit> auto&) {
+                          ir::Branch, ir::Comment, ir::NcBlock, ir::Loop, ir::LoopEnd, ir::Call,
+                          ir::Exit> auto&) {
         const std::string text = macro(inner);
         if (text.empty())
           refuse("what follows THEN");
@@ -391,10 +391,8 @@ std::string ProgramBlocks::macro(const ir::ProgramStatement& statement) {
         return fmt::format("SETVN {}[{}]", node.first, fmt::join(node.names, ","));
       },
       // What is no macro statement, and what raising has not lowered.
-      [](const ir::OneOf<ir::Label, ir::Branch, ir::Move, ir::Measure, ir::ProbePower, ir::Comment,
-                         ir::NcBlock, ir::Loop, ir::LoopEnd, ir::Call, ir::Exit> auto&) {
-        return std::string();
-      });
+      [](const ir::OneOf<ir::Label, ir::Branch, ir::Comment, ir::NcBlock, ir::Loop, ir::LoopEnd, ir::Call,
+                         ir::Exit> auto&) { return std::string(); });
 }
 
 } // namespace dotek::backends::fanuc

@@ -60,9 +60,9 @@ public:
               there(node.first + i, statement.origin.range());
           },
           // Their variables are in expressions.
-          [](const ir::OneOf<ir::Label, ir::Jump, ir::Branch, ir::Store, ir::Move, ir::Measure,
-                             ir::ProbePower, ir::Comment, ir::NcBlock, ir::JumpTo, ir::Loop, ir::LoopEnd,
-                             ir::Call, ir::Exit, ir::Raise, ir::Notice, ir::Port> auto&) {});
+          [](const ir::OneOf<ir::Label, ir::Jump, ir::Branch, ir::Store, ir::Comment, ir::NcBlock, ir::JumpTo,
+                             ir::Loop, ir::LoopEnd, ir::Call, ir::Exit, ir::Raise, ir::Notice,
+                             ir::Port> auto&) {});
     }
   }
 
@@ -146,9 +146,8 @@ public:
                   statement.origin.range(), 3006,
                   "waits for the operator, which " + context_.to().title + " has no variable for");
           },
-          [](const ir::OneOf<ir::Label, ir::Jump, ir::Branch, ir::Store, ir::Move, ir::Measure,
-                             ir::ProbePower, ir::Comment, ir::NcBlock, ir::JumpTo, ir::Loop, ir::LoopEnd,
-                             ir::Exit> auto&) {});
+          [](const ir::OneOf<ir::Label, ir::Jump, ir::Branch, ir::Store, ir::Comment, ir::NcBlock, ir::JumpTo,
+                             ir::Loop, ir::LoopEnd, ir::Exit> auto&) {});
     }
     if (!context_.same()) levels();
   }

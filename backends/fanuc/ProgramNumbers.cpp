@@ -58,9 +58,9 @@ Called calledBy(const ir::ProgramStatement& statement, const stdlib::Control& co
         for (const ir::Word& word : block.words)
           callsOf(word, control, out);
       },
-      [](const ir::OneOf<ir::Label, ir::Jump, ir::Branch, ir::Store, ir::Move, ir::Measure, ir::ProbePower,
-                         ir::Comment, ir::JumpTo, ir::Loop, ir::LoopEnd, ir::Exit, ir::Raise, ir::Notice,
-                         ir::Port, ir::Print, ir::NameVariables> auto&) {});
+      [](const ir::OneOf<ir::Label, ir::Jump, ir::Branch, ir::Store, ir::Comment, ir::JumpTo, ir::Loop,
+                         ir::LoopEnd, ir::Exit, ir::Raise, ir::Notice, ir::Port, ir::Print,
+                         ir::NameVariables> auto&) {});
   return out;
 }
 

@@ -154,7 +154,6 @@ private:
                     return stored && !concerns(*stored);
                   },
                   [&](const ir::Call& node) { return node.kind == ir::CallKind::Off || keeps(node); },
-                  [](const ir::OneOf<ir::Move, ir::Measure, ir::ProbePower> auto&) { return false; },
                   [](const ir::OneOf<ir::Label, ir::Jump, ir::Branch, ir::Comment, ir::NcBlock, ir::JumpTo,
                                      ir::Loop, ir::LoopEnd, ir::Exit, ir::Raise, ir::Notice, ir::Port,
                                      ir::Print, ir::NameVariables> auto&) { return true; });
@@ -194,11 +193,6 @@ private:
         [&](const ir::Label&) {
           for (std::size_t i = 0; i < fact.size() && returnsElsewhere_; ++i)
             set(i, kOutside, false);
-        },
-        // What touches without a call of the source's set.
-        [&](const ir::OneOf<ir::Move, ir::Measure, ir::ProbePower> auto&) {
-          for (std::size_t i = 0; i < fact.size(); ++i)
-            set(i, kOutside, true);
         },
         [](const ir::OneOf<ir::Jump, ir::Branch, ir::Comment, ir::JumpTo, ir::Loop, ir::LoopEnd, ir::Exit,
                            ir::Raise, ir::Notice, ir::Port, ir::Print, ir::NameVariables> auto&) {});

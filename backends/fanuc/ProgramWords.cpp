@@ -63,9 +63,9 @@ public:
           statement, [&](ir::OneOf<ir::NcBlock> auto& node) { words(node, saved, i); },
           [&](ir::OneOf<ir::Call> auto& node) { arguments(node); },
           [&](const ir::OneOf<ir::Exit> auto&) { code('M', 990, range_, true); },
-          [](const ir::OneOf<ir::Label, ir::Jump, ir::Branch, ir::Store, ir::Move, ir::Measure,
-                             ir::ProbePower, ir::Comment, ir::JumpTo, ir::Loop, ir::LoopEnd, ir::Raise,
-                             ir::Notice, ir::Port, ir::Print, ir::NameVariables> auto&) {});
+          [](const ir::OneOf<ir::Label, ir::Jump, ir::Branch, ir::Store, ir::Comment, ir::JumpTo, ir::Loop,
+                             ir::LoopEnd, ir::Raise, ir::Notice, ir::Port, ir::Print,
+                             ir::NameVariables> auto&) {});
     }
   }
 
@@ -84,9 +84,9 @@ private:
         statement,
         [&](const ir::Call& node) { eachBlock_ = eachBlock_ || node.kind == ir::CallKind::EachBlock; },
         [&](const ir::NcBlock& node) { seen(node, saved, at); },
-        [](const ir::OneOf<ir::Label, ir::Jump, ir::Branch, ir::Store, ir::Move, ir::Measure, ir::ProbePower,
-                           ir::Comment, ir::JumpTo, ir::Loop, ir::LoopEnd, ir::Exit, ir::Raise, ir::Notice,
-                           ir::Port, ir::Print, ir::NameVariables> auto&) {});
+        [](const ir::OneOf<ir::Label, ir::Jump, ir::Branch, ir::Store, ir::Comment, ir::JumpTo, ir::Loop,
+                           ir::LoopEnd, ir::Exit, ir::Raise, ir::Notice, ir::Port, ir::Print,
+                           ir::NameVariables> auto&) {});
   }
 
   void seen(const ir::NcBlock& block, const SavedModes& saved, std::size_t at) {

@@ -69,9 +69,10 @@ bool isAnnounced(const std::vector<ir::ProgramStatement>& body, std::size_t at) 
           return hasCode(block, 'G', 91) && axesOf(block) == 0 ? Step::Yes : Step::No;
         },
         [](const ir::OneOf<ir::Label, ir::Comment, ir::Store> auto&) { return Step::GoOn; },
-        [](const ir::OneOf<ir::Jump, ir::Branch, ir::Move, ir::Measure, ir::ProbePower, ir::Call, ir::JumpTo,
-                           ir::Loop, ir::LoopEnd, ir::Exit, ir::Raise, ir::Notice, ir::Port, ir::Print,
-                           ir::NameVariables> auto&) { return Step::No; });
+        [](const ir::OneOf<ir::Jump, ir::Branch, ir::Call, ir::JumpTo, ir::Loop, ir::LoopEnd, ir::Exit,
+                           ir::Raise, ir::Notice, ir::Port, ir::Print, ir::NameVariables> auto&) {
+          return Step::No;
+        });
     if (step != Step::GoOn) return step == Step::Yes;
   }
   return false;

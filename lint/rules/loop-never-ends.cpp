@@ -46,10 +46,8 @@ void checkProgram(const ir::Program& program, Report& report) {
               [&](const ir::Branch& branch) { return program.labels[branch.target].number != 0; },
               // A code of the builder may call a macro.
               [](const ir::NcBlock& block) { return hasWord(block, 'M'); },
-              [](const ir::OneOf<ir::Label, ir::Move, ir::Measure, ir::ProbePower, ir::Comment, ir::Loop,
-                                 ir::LoopEnd, ir::Notice, ir::Port, ir::Print, ir::NameVariables> auto&) {
-                return false;
-              });
+              [](const ir::OneOf<ir::Label, ir::Comment, ir::Loop, ir::LoopEnd, ir::Notice, ir::Port,
+                                 ir::Print, ir::NameVariables> auto&) { return false; });
     }
     if (may) continue;
     if (read.empty()) {

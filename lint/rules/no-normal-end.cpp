@@ -17,9 +17,9 @@ bool endsNormally(const ir::ProgramStatement& statement) {
                  return word.address == 'M' && ir::constantValue(word.value) == nullptr;
                });
              },
-             [](const ir::OneOf<ir::Label, ir::Jump, ir::Branch, ir::Store, ir::Move, ir::Measure,
-                                ir::ProbePower, ir::Comment, ir::Loop, ir::LoopEnd, ir::Call, ir::Raise,
-                                ir::Notice, ir::Port, ir::Print, ir::NameVariables> auto&) { return false; });
+             [](const ir::OneOf<ir::Label, ir::Jump, ir::Branch, ir::Store, ir::Comment, ir::Loop,
+                                ir::LoopEnd, ir::Call, ir::Raise, ir::Notice, ir::Port, ir::Print,
+                                ir::NameVariables> auto&) { return false; });
 }
 
 void check(const NcProgram& nc, Report& report) {

@@ -34,13 +34,15 @@ void checkProgram(const ir::Program& program, const Project& project, const Prob
     std::optional<SourceRange> between;
     bool flow = false;
     for (std::size_t i = measures[m] + 1; i < measures[m + 1]; ++i) {
-      flow = flow ||
-             match(
-                 body[i],
-                 [](const ir::OneOf<ir::NcBlock, ir::Store, ir::Comment, ir::Call> auto&) { return false; },
-                 [](const ir::OneOf<ir::Label, ir::Jump, ir::Branch, ir::Move, ir::Measure, ir::ProbePower,
-                                    ir::JumpTo, ir::Loop, ir::LoopEnd, ir::Exit, ir::Raise, ir::Notice,
-                                    ir::Port, ir::Print, ir::NameVariables> auto&) { return true; });
+      flow =
+          flow ||
+          match(
+              body[i],
+              [](const ir::OneOf<ir::NcBlock, ir::Store, ir::Comment, ir::Call> auto&) { return false; },
+              [](const ir::OneOf<ir::Label, ir::Jump, ir::Branch, ir::JumpTo, ir::Loop, ir::LoopEnd, ir::Exit,
+                                 ir::Raise, ir::Notice, ir::Port, ir::Print, ir::NameVariables> auto&) {
+                return true;
+              });
       eachRead(body[i], [&](std::uint32_t number, SourceRange range) {
         for (const std::uint32_t result : results)
           if (number == result) between = range;

@@ -89,9 +89,9 @@ void Compiler::findLoops() {
         [&](const ir::Label& node) {
           if (node.label < labelLoops_.size()) labelLoops_[node.label] = open.back();
         },
-        [](const ir::OneOf<ir::Jump, ir::Branch, ir::Store, ir::Move, ir::Measure, ir::ProbePower,
-                           ir::Comment, ir::NcBlock, ir::JumpTo, ir::Call, ir::Exit, ir::Raise, ir::Notice,
-                           ir::Port, ir::Print, ir::NameVariables> auto&) {});
+        [](const ir::OneOf<ir::Jump, ir::Branch, ir::Store, ir::Comment, ir::NcBlock, ir::JumpTo, ir::Call,
+                           ir::Exit, ir::Raise, ir::Notice, ir::Port, ir::Print, ir::NameVariables> auto&) {
+        });
   }
 }
 

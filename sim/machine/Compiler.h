@@ -38,9 +38,6 @@ public:
   void operator()(const ir::Port& port);
   void operator()(const ir::Print& print);
   void operator()(const ir::NameVariables& names);
-  void operator()(const ir::OneOf<ir::Move, ir::Measure, ir::ProbePower> auto&) {
-    refuse("a statement of a cycle, which no control has");
-  }
 
 protected:
   // ---- statements (Compile.cpp)

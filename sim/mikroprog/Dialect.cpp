@@ -80,9 +80,10 @@ public:
             at = *to;
             return true;
           },
-          [](const ir::OneOf<ir::Jump, ir::Branch, ir::Store, ir::Move, ir::Measure, ir::ProbePower,
-                             ir::JumpTo, ir::Loop, ir::LoopEnd, ir::Call, ir::Exit, ir::Raise, ir::Notice,
-                             ir::Port, ir::Print, ir::NameVariables> auto&) { return false; });
+          [](const ir::OneOf<ir::Jump, ir::Branch, ir::Store, ir::JumpTo, ir::Loop, ir::LoopEnd, ir::Call,
+                             ir::Exit, ir::Raise, ir::Notice, ir::Port, ir::Print, ir::NameVariables> auto&) {
+            return false;
+          });
       if (!goesOn) return stopped;
     }
     return false;
