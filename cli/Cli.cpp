@@ -76,7 +76,11 @@ public:
         texts.push_back({arguments.outputFolder + "/" + file.name, &file.text});
     if (arguments.outputFolder.empty())
       texts.push_back({orStandardOutput(arguments.output), &outcome.output});
-    if (!arguments.mapFile.empty()) texts.push_back({arguments.mapFile, &outcome.map});
+    std::string map;
+    if (!arguments.mapFile.empty()) {
+      map = renderLineMap(outcome.maps, outcome.sources);
+      texts.push_back({arguments.mapFile, &map});
+    }
     if (!arguments.helpersFile.empty()) texts.push_back({arguments.helpersFile, &outcome.helpers});
     if (!write(texts, outcome, arguments)) return kUsage;
     return held.empty() ? outcome.status : kInputError;

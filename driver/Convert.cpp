@@ -111,7 +111,6 @@ private:
     std::string text;
     for (const OutputFile& file : result.files)
       text += file.text;
-    std::string map = renderLineMap(result.maps, session_.sources());
     Outcome outcome = outcomeOf(session_, std::move(text));
     if (outcome.status != 0 && !options_.keepGoing) return outcome;
     if (outcome.status == 2) outcome.status = 1; // some inputs are refused, and the others are written
@@ -123,7 +122,6 @@ private:
     for (Input& input : order_)
       if (input.refused) outcome.foundIn.push_back(std::move(input.found));
     outcome.files = std::move(result.files);
-    outcome.map = std::move(map);
     outcome.helpers = std::move(result.helpers);
     outcome.maps = std::move(result.maps);
     outcome.arguments = std::move(result.arguments);

@@ -115,7 +115,6 @@ void leaveOut(const std::vector<std::size_t>& inputs, Outcome& outcome) {
   outcome.output.clear();
   for (const OutputFile& file : outcome.files)
     outcome.output += file.text;
-  outcome.map = renderLineMap(outcome.maps, outcome.sources);
 }
 
 } // namespace

@@ -72,9 +72,8 @@ struct Outcome {
   std::string output;
   std::vector<OutputFile> files;   // of convert, and pictures of sim
   std::vector<OutputFile> reports; // of convert --verify --report: named like the inputs; of any status
-  std::string map;                 // of convert: what --map writes
   std::string helpers;             // of convert: what --helpers writes
-  std::vector<MappedResult> maps;  // the same, file by file; places are of `sources`
+  std::vector<MappedResult> maps;  // of convert: what --map writes, file by file; places are of `sources`
   std::string macros;              // of convert: the set that the last result calls; "": none
   std::vector<std::vector<OutputArgument>> arguments; // of convert to fanuc, cycle by cycle
   std::vector<std::string> macrosByCycle;             // the sets that these call

@@ -59,7 +59,7 @@ std::vector<std::string> postedBlocks(const std::string& text) {
 // The lines of the converted program that the map traces to the Prog.
 std::vector<std::string> convertedBlocks(const driver::Outcome& outcome, const std::string& prog) {
   const auto lines = linesOf(outcome.output);
-  const auto map = nlohmann::json::parse(outcome.map);
+  const auto map = nlohmann::json::parse(renderLineMap(outcome.maps, outcome.sources));
   std::vector<std::string> out;
   for (const auto& row : map.at(0).at("lines")) {
     const bool fromProg = !row.at("sources").empty() && row.at("sources").at(0).at("file") == prog;

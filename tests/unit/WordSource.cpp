@@ -189,7 +189,7 @@ std::vector<ResultLine> resultLines(const driver::Outcome& outcome, WordTarget t
     }
     out.push_back(std::move(one));
   }
-  const nlohmann::json map = nlohmann::json::parse(outcome.map);
+  const nlohmann::json map = nlohmann::json::parse(renderLineMap(outcome.maps, outcome.sources));
   for (const auto& line : map.at(0).at("lines")) {
     ResultLine& one = out.at(line.at("line").get<std::size_t>() - 1);
     one.reason = line.at("reason").get<std::string>();
