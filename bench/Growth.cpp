@@ -21,6 +21,8 @@ using namespace bench;
 namespace {
 
 constexpr double kMost = 1.3;     // exponent
+constexpr double kEnded = 0.8;    // of the work of half the size
+constexpr int kAgain = 2;         // times that memory is measured anew where it seems steep
 constexpr int kSecondsOfRun = 60; // of processor time
 // By processor time, which varies: below this nothing above kMost hides. Work at n that has grown by 1.3
 // would have to be measured as 1.4 times of what it is, in the fastest of three runs, and work at 8n not.
@@ -111,11 +113,15 @@ double above(double amount, double base) {
   return std::max(amount - base, base / 20);
 }
 
-// Of all of the growth or of the last doubling, whichever is steeper.
+// Of all of the growth or of the last doubling, whichever is steeper. A run that does less than a smaller one
+// came to a limit: the growth ends before it.
 double exponentOfWork(const std::array<Work, 4>& work, double base) {
-  const double last = above(work[3].amount, base);
-  return std::max(std::log2(last / above(work[0].amount, base)) / 3,
-                  std::log2(last / above(work[2].amount, base)));
+  std::size_t last = 1;
+  while (last + 1 < work.size() && work[last + 1].amount >= kEnded * work[last].amount)
+    ++last;
+  const double most = above(work[last].amount, base);
+  return std::max(std::log2(most / above(work[0].amount, base)) / static_cast<double>(last),
+                  std::log2(most / above(work[last - 1].amount, base)));
 }
 
 // Memory comes in steps, and what a run has freed is used first: steep is what is steep over all of the
@@ -139,6 +145,13 @@ Growth grow(const Construct& construct, double scale, const std::string& dotek, 
   }
   out.exponent = exponentOfWork(out.work, base.amount);
   out.memory = exponentOfMemory(out.work, base.megabytes);
+  // How many pages a process holds at once varies with what the machine does besides: the least counts.
+  for (int again = 0; again < kAgain && out.memory > kMost; ++again) {
+    for (std::size_t i = 0; i < out.work.size(); ++i)
+      out.work[i].megabytes = std::min(
+          out.work[i].megabytes, measure(construct, size << i, dotek, scratch, Counter::Time).megabytes);
+    out.memory = exponentOfMemory(out.work, base.megabytes);
+  }
   return out;
 }
 

@@ -53,6 +53,24 @@ const Plan& planOf(const std::vector<compost::Statement>& statements, Plans& pla
   return at->second;
 }
 
+// The routines of a Prog that hold a command, by its name, in the order of the text.
+using Callers = std::map<std::string, std::vector<const compost::Routine*>>;
+
+Callers callersIn(const compost::Program& prog) {
+  Callers out;
+  for (const compost::Item& item : prog.items) {
+    const auto* routine = std::get_if<compost::Routine>(&item);
+    if (routine == nullptr) continue;
+    eachStatement(routine->body, [&](const compost::Statement& statement) {
+      const auto* word = std::get_if<compost::Word>(&statement);
+      if (word == nullptr || word->kind != compost::WordKind::Command) return;
+      std::vector<const compost::Routine*>& callers = out[word->name];
+      if (callers.empty() || callers.back() != routine) callers.push_back(routine);
+    });
+  }
+  return out;
+}
+
 // Blocks that a routine prints for one cycle before and after a place.
 class Around {
 public:
@@ -148,20 +166,16 @@ private:
   ProgBlock line_;
 };
 
-void lookAround(const Project& project, const compost::Program& prog, const compost::Routine& routine,
-                const compost::If* at, Plans& plans, BranchSteps& into) {
+void lookAround(const Project& project, const compost::Program& prog, const Callers& callers,
+                const compost::Routine& routine, const compost::If* at, Plans& plans, BranchSteps& into) {
   Around around(project, prog, plans, into);
   around.look(routine, at, routine.name);
   std::vector<const compost::Routine*> seen = {&routine};
   for (std::size_t i = 0; i < seen.size() && seen.size() <= kCallers; ++i) {
-    for (const compost::Item& item : prog.items) {
-      const auto* other = std::get_if<compost::Routine>(&item);
-      if (other == nullptr || std::find(seen.begin(), seen.end(), other) != seen.end()) continue;
-      bool called = false;
-      eachStatement(other->body, [&](const compost::Statement& statement) {
-        called = called || calls(statement, seen[i]->name);
-      });
-      if (!called) continue;
+    const auto callsIt = callers.find(seen[i]->name);
+    if (callsIt == callers.end()) continue;
+    for (const compost::Routine* other : callsIt->second) {
+      if (std::find(seen.begin(), seen.end(), other) != seen.end()) continue;
       around.look(*other, nullptr, seen[i]->name);
       seen.push_back(other);
     }
@@ -211,15 +225,18 @@ BlockDeeds deedsOf(const ProgBlock& block, const Project& project) {
 std::vector<BranchSteps> branchSteps(const Project& project) {
   std::vector<BranchSteps> out;
   Plans plans;
+  std::map<const compost::Program*, Callers> callers;
   for (const Siblings& siblings : siblingsOf(project)) {
     if (siblings.prog->hasErrorNodes || !siblings.routine->returnRange) continue;
+    const auto [of, isNew] = callers.try_emplace(siblings.prog);
+    if (isNew) of->second = callersIn(*siblings.prog);
     std::map<std::string, std::size_t> seen; // branches by their cycle
     for (const CycleBranch& branch : siblings.branches) {
       if (++seen[branch.id] > kMostOfOneCycle) continue;
       BranchSteps one{siblings.prog, branch.id, branch.ref.branch->ifRange, {}, {}, {}};
       for (const ProgBlock& block : branch.blocks)
         one.steps.push_back({deedsOf(block, project), block.range, block.conditional});
-      lookAround(project, *siblings.prog, *siblings.routine, branch.ref.branch, plans, one);
+      lookAround(project, *siblings.prog, of->second, *siblings.routine, branch.ref.branch, plans, one);
       out.push_back(std::move(one));
     }
   }

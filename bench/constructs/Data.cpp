@@ -206,7 +206,7 @@ void addData(std::vector<Construct>& out) {
     std::vector<Triangle> (*make)(long);
     long size;
   };
-  for (const Stl& stl : {Stl{"fan", fan, 300}, Stl{"field", field, 2000}}) {
+  for (const Stl& stl : {Stl{"fan", fan, 300}, Stl{"field", field, 1500}}) {
     for (const bool binary : {true, false}) {
       for (const bool page : {false, true}) {
         if (page && !binary) continue;
