@@ -160,6 +160,9 @@ private:
       for (const lint::NcFile& nc : project.programs)
         if (nc.lowered) lowered.insert(nc.file->file);
     }
+    for (lint::Suppression& one :
+         lint::suppressionsOf(cycleFiles_, session_.sources(), session_.diagnostics()))
+      suppressions.push_back(std::move(one));
     if (suppressions.empty()) return;
     lint::applySuppressions(suppressions, session_.sources(), session_.diagnostics(),
                             [&](std::string_view code, FileId file) {
@@ -252,7 +255,7 @@ private:
       return;
     }
     if (kind == InputKind::Cycle) {
-      checkCycleFile(path, cycles_, session_);
+      if (const auto file = checkCycleFile(path, cycles_, session_)) cycleFiles_.push_back(*file);
       return;
     }
     const std::optional<FileId> id =
@@ -345,6 +348,7 @@ private:
   lint::Configs configs_;
   Compilation compilation_;
   CycleFiles cycles_;
+  std::vector<FileId> cycleFiles_; // of the cycle language
   lint::Projects projects_;
   InputWalk walk_;
   std::size_t checkedFiles_ = 0, excluded_ = 0;

@@ -124,9 +124,11 @@ std::set<std::string> fieldsOf(const gibbs::Cycle& cycle) {
 
 std::string printedFor(const Project& project, const std::set<std::string>& declared,
                        const std::string& field) {
+  std::string own = gibbs::foldCase(field);
+  if (declared.contains(own)) return own;
   for (const auto& [postField, variable] : project.fields)
     if (std::string key = gibbs::foldCase(variable); postField == field && declared.contains(key)) return key;
-  return gibbs::foldCase(field);
+  return own;
 }
 
 std::set<std::string> radiusNames(const gibbs::Macro& macro, const Project& project) {

@@ -56,12 +56,32 @@ std::optional<std::uint32_t> nullTested(const ir::ConditionPtr& condition) {
   return empty ? nullCompared(condition) : std::nullopt;
 }
 
+namespace {
+
+// IF [..] THEN #3000=..: the branch at `at` jumps over one alarm.
+bool passesAlarm(const std::vector<ir::ProgramStatement>& body, std::size_t at) {
+  const auto* branch = std::get_if<ir::Branch>(&body[at].node);
+  if (branch == nullptr || at + 2 >= body.size() || !std::holds_alternative<ir::Raise>(body[at + 1].node))
+    return false;
+  const auto* label = std::get_if<ir::Label>(&body[at + 2].node);
+  return label != nullptr && label->label == branch->target;
+}
+
+} // namespace
+
 std::set<std::uint32_t> requiredLocals(const ir::Program& program) {
   std::set<std::uint32_t> out;
-  for (const ir::ProgramStatement& statement : program.body) {
+  for (std::size_t i = 0; i < program.body.size(); ++i) {
+    const ir::ProgramStatement& statement = program.body[i];
     const bool open = match(
         statement,
         [&](const ir::Branch& node) {
+          if (passesAlarm(program.body, i)) {
+            if (!nullTested(node.condition))
+              if (const auto number = nullCompared(node.condition)) out.insert(*number);
+            i += 2;
+            return true;
+          }
           if (!raisesAt(program.body, node.target)) return false;
           if (const auto number = nullTested(node.condition)) out.insert(*number);
           return true;

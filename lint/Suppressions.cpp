@@ -64,7 +64,7 @@ struct DirectiveWord {
 // The words after `dotek:`; empty: the comment is none of ours.
 std::vector<DirectiveWord> wordsOf(const Remark& remark) {
   const std::string lower = lowerCase(std::string_view(remark.text));
-  std::size_t at = lower.find_first_not_of("{!(; \t");
+  std::size_t at = lower.find_first_not_of("{!(;/ \t");
   if (at == std::string::npos || lower.compare(at, 5, "dotek") != 0) return {};
   at = lower.find_first_not_of(" \t", at + 5);
   if (at == std::string::npos || lower[at] != ':') return {};
@@ -224,6 +224,26 @@ std::vector<Suppression> suppressionsOf(const Project& project, Diagnostics& dia
   Reader reader(project.sources, diagnostics);
   for (const Remark& remark : remarksOf(project))
     reader.read(remark);
+  return reader.finish();
+}
+
+std::vector<Suppression> suppressionsOf(const std::vector<FileId>& cycleFiles, const SourceMap& sources,
+                                        Diagnostics& diagnostics) {
+  Reader reader(sources, diagnostics);
+  for (const FileId id : cycleFiles) {
+    const SourceFile& file = sources.file(id);
+    for (std::uint32_t line = 1; line <= file.lineCount(); ++line) {
+      const std::string_view text = file.line(line);
+      bool quoted = false;
+      std::size_t at = 0;
+      while (at < text.size() && (quoted || !text.substr(at).starts_with("//")))
+        quoted = quoted != (text[at++] == '"');
+      if (at == text.size()) continue;
+      const std::uint32_t begin = file.lineStart(line) + static_cast<std::uint32_t>(at);
+      const auto end = static_cast<std::uint32_t>(file.lineStart(line) + text.size());
+      reader.read({{id, begin, end}, text.substr(at)});
+    }
+  }
   return reader.finish();
 }
 

@@ -1,5 +1,6 @@
 // Comments that suppress findings, in the comment syntax of each language:
 //   { dotek: ignore CODE, CODE }   ! dotek: ignore CODE   (DOTEK: IGNORE CODE)   ;dotek: ignore CODE
+//   // dotek: ignore CODE
 #pragma once
 
 #include "lint/Project.h"
@@ -20,6 +21,9 @@ struct Suppression {
 
 // The directives of all comments. Unknown codes, and regions that nothing ends, are reported.
 std::vector<Suppression> suppressionsOf(const Project& project, Diagnostics& diagnostics);
+// Those of files of the cycle language, which no project holds.
+std::vector<Suppression> suppressionsOf(const std::vector<FileId>& cycleFiles, const SourceMap& sources,
+                                        Diagnostics& diagnostics);
 
 // Takes out what is suppressed, and reports the suppressions that met nothing. `judged(code, file)`: the
 // finding could have been reported there.

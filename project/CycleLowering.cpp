@@ -58,7 +58,7 @@ std::optional<cycle::Lowered> lowerCycleFile(const std::string& path, Session& s
   return lowered(*file, session);
 }
 
-void checkCycleFile(const std::string& path, CycleFiles& files, Session& session) {
+std::optional<FileId> checkCycleFile(const std::string& path, CycleFiles& files, Session& session) {
   Diagnostics before = std::exchange(session.diagnostics(), Diagnostics());
   const cycle::File* file = files.check(path);
   const bool sound = file != nullptr && !file->hasErrorNodes && !session.diagnostics().hasErrors();
@@ -66,6 +66,7 @@ void checkCycleFile(const std::string& path, CycleFiles& files, Session& session
   for (Diagnostic& one : session.diagnostics().all())
     before.add(std::move(one));
   session.diagnostics() = std::move(before);
+  return file == nullptr ? std::nullopt : std::optional(file->file);
 }
 
 } // namespace dotek::project

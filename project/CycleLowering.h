@@ -17,7 +17,7 @@ bool isCycleFile(const std::string& path, Session& session);
 std::optional<frontend::cycle::Lowered> lowerCycleFile(const std::string& path, Session& session);
 
 // Reports all that is wrong with a cycle, whatever its values are: its mistakes and, where it has none, what
-// no command can run or write.
-void checkCycleFile(const std::string& path, CycleFiles& files, Session& session);
+// no command can run or write. The file; nothing where it cannot be read.
+std::optional<FileId> checkCycleFile(const std::string& path, CycleFiles& files, Session& session);
 
 } // namespace dotek::project

@@ -11,6 +11,14 @@ namespace {
 
 constexpr std::uint32_t kLastArgument = 26;
 
+// `#[2+#27]=..` may set any argument; `#[5221+#1]=..` sets none.
+bool storesAnyLocal(const ir::ProgramStatement& statement) {
+  const auto* store = std::get_if<ir::Store>(&statement.node);
+  if (store == nullptr || ir::constantValue(store->number) != nullptr) return false;
+  const auto base = ir::firstNumber(store->number);
+  return !base || *base <= kLastArgument;
+}
+
 void checkProgram(const ir::Program& program, Report& report) {
   if (endsProgram(program)) return;
   const auto& body = program.body;
@@ -19,7 +27,10 @@ void checkProgram(const ir::Program& program, Report& report) {
   std::set<std::uint32_t> stored;
   std::map<std::uint32_t, SourceRange> read;
   for (const ir::ProgramStatement& statement : body) {
-    if (const auto number = storedNumber(statement)) stored.insert(*number);
+    if (const auto number = storedNumber(statement))
+      stored.insert(*number);
+    else if (storesAnyLocal(statement))
+      return;
     if (const auto* branch = std::get_if<ir::Branch>(&statement.node)) {
       ir::eachNode(branch->condition, [&](const ir::Expression& node) {
         if (const auto number = variableNumber(node)) compared.insert(*number);
