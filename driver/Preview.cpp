@@ -282,8 +282,10 @@ Outcome preview(const PreviewOptions& options) {
     if (folderName.empty())
       session.diagnostics().report<diag::MissingOption>({}, "preview", "FOLDER", "the folder of one cycle");
     else if (!isCycleFolder(folderName))
-      session.diagnostics().report<diag::FileNotReadable>({}, folderName,
-                                                          "it is no folder of a GibbsCAM cycle");
+      session.diagnostics().report<diag::FileNotReadable>(
+          {}, folderName,
+          "it is no folder of a GibbsCAM cycle; `dotek doc` writes the "
+          "page of a file of the cycle language");
     if (session.diagnostics().hasErrors()) return outcomeOf(session, "");
     Compilation compilation(session);
     const CycleFolder& folder = compilation.addFolder(folderName);

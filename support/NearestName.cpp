@@ -7,6 +7,11 @@
 
 namespace dotek {
 
+namespace {
+// So many letters of a name and nothing wrong with them: the rest is left out.
+constexpr std::size_t kBeginning = 5;
+} // namespace
+
 std::size_t nameDistance(std::string_view a, std::string_view b, std::size_t limit) {
   const std::size_t gap = a.size() > b.size() ? a.size() - b.size() : b.size() - a.size();
   if (gap > limit) return limit + 1;
@@ -75,8 +80,12 @@ bool NearestName::mayBeNear(std::string_view other) const {
 }
 
 void NearestName::offer(std::string_view candidate) {
-  if (++offers_ > kMostOffers || !mayBeNear(candidate)) return;
-  const std::size_t distance = nameDistance(name_, candidate, limit_);
+  if (++offers_ > kMostOffers) return;
+  const bool begun = name_.size() >= kBeginning && candidate.size() > name_.size() &&
+                     nameDistance(name_, candidate.substr(0, name_.size()), 0) == 0;
+  if (!begun && !mayBeNear(candidate)) return;
+  const std::size_t distance =
+      begun ? std::min<std::size_t>(1, limit_) : nameDistance(name_, candidate, limit_);
   if (distance > limit_) return;
   // From the first hit on, limit_ is the distance of best_.
   const bool nearer = best_.empty() || distance < limit_;

@@ -79,7 +79,10 @@ private:
 
   std::string meaning() const {
     if (d_.verdict == "AGREES")
-      return "In every drawn case that could be decided, both sides did the same: " + d_.pair + ".";
+      return "In every drawn case that could be decided, both sides did the same: " + d_.pair + "." +
+             (d_.translation && d_.pair.find("drawn path") != std::string::npos
+                  ? " Moves of the drawn path are compared by `dotek verify` without `--to`."
+                  : "");
     if (d_.verdict == "DIFFERS")
       return "The two sides do not do the same: " + d_.pair +
              ". Each difference is below, with the lines that make it.";

@@ -76,8 +76,9 @@ std::string VerifyReport::pairText() const {
   if (plan_.programs) return "source program against its translation";
   if (plan_.cycleFile) return "the cycle by its own meaning against its translation";
   if (!plan_.translation) return "drawn path against post";
-  return options_.source.prog ? "posted program against translation, and drawn path against post"
-                              : "drawn path against translation";
+  return options_.source.prog
+             ? "posted program against translation, and contacts of the drawn path against the post"
+             : "drawn path against translation";
 }
 
 void VerifyReport::describeInputs() {
@@ -162,15 +163,20 @@ const verify::Case* VerifyReport::shown() const {
   return agreeing_ ? &agreeing_->second : nullptr;
 }
 
-// A translation that is written for each case: what is said of the one that is shown.
+// A translation that is written for each case: what is said of the one that is shown, or of the one that
+// convert has written.
 void VerifyReport::addNotes() {
   const Target* const target = findTarget(options_.to);
   if (target == nullptr || !target->fixesValues || options_.translation || shown() == nullptr) return;
-  Session& session = runner_.session();
-  session.diagnostics() = Diagnostics();
-  runner_.run(*shown());
   std::vector<VerifyDocument::Finding> said = std::move(document_.findings);
-  addFindings(session.diagnostics(), session.sources(), said);
+  if (const ConvertedInput* written = options_.converted.get()) {
+    addFindings(written->said, written->sources, said);
+  } else {
+    Session& session = runner_.session();
+    session.diagnostics() = Diagnostics();
+    runner_.run(*shown());
+    addFindings(session.diagnostics(), session.sources(), said);
+  }
   addSaid(std::move(said), document_.edited);
 }
 

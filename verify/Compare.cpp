@@ -13,7 +13,6 @@
 #include <set>
 
 namespace dotek::verify {
-
 namespace {
 
 using sim::Point3;
@@ -79,7 +78,9 @@ public:
       add(Aspect::End, fmt::format("it ends at {} against {}", textOf(source_.end), textOf(target_.end)),
           source_.endedAt, target_.endedAt);
     if (source_.ending == Ending::Finished && !rules_.atMeasures) {
-      state(source_.after, target_.after, " at the end", source_.endedAt, target_.endedAt);
+      Surroundings left = source_.after;
+      if (rules_.switchesProbe) left.probe = Switch::Off;
+      state(left, target_.after, " at the end", source_.endedAt, target_.endedAt);
       const auto named = [](const Record& record) {
         return record.tool ? "T" + std::to_string(*record.tool) : std::string("no other T");
       };

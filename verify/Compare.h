@@ -49,8 +49,9 @@ struct CompareRules {
   // alone, coolant only where the source has switched it. Each measure sets the same axes, of whatever
   // system.
   bool atMeasures = false;
-  bool toolParts = false;           // geometry and wear of a tool offset count each, else their sum
-  bool sameAlarmNumbers = false;    // both call the same macros: numbers and texts count, not only their kind
+  bool switchesProbe = false;    // the target switches the probe off at its end, whatever the source leaves
+  bool toolParts = false;        // geometry and wear of a tool offset count each, else their sum
+  bool sameAlarmNumbers = false; // both call the same macros: numbers and texts count, not only their kind
   std::optional<double> overtravel; // that the target's calls may state where the source states none, mm
   // Where the two run on controls that number their modal groups differently: codes in force at the end are
   // compared by their meaning on each. Both or none.

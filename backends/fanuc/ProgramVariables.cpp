@@ -218,11 +218,27 @@ bool sameVariables(const Control& from, const Control& to) {
   });
 }
 
+namespace {
+
+using stdlib::StateRange;
+
+const StateRange* stateOf(const Control& control, std::uint32_t number) {
+  for (const StateRange& range : control.state)
+    if (number >= range.first && number <= range.last) return &range;
+  return nullptr;
+}
+
+} // namespace
+
 VariableThere variableThere(std::uint32_t number, const Control& from, const Control& to) {
   if (number == 0 || (from.name == to.name && from.origin == to.origin)) return {number, "", ""};
   if (number < kFirstSystem) return plainVariable(number, from, to);
   if (keptOf(from, number) || keptOf(to, number)) return plainVariable(number, from, to);
   const std::optional<Meaning> meaning = meaningOf(from, number);
+  if (const StateRange* state = meaning ? nullptr : stateOf(from, number))
+    for (const StateRange& other : to.state)
+      if (other.title == state->title && other.last - other.first == state->last - state->first)
+        return {other.first + (number - state->first), state->title, ""};
   if (!meaning) return refused(fmt::format("has no meaning in the profile of {}", from.title));
   const std::string what = describe(*meaning);
   if (meaning->kind == Kind::Modal && !sameGroup(meaning->index, from, to))

@@ -40,21 +40,51 @@ std::optional<std::uint32_t> common(const stdlib::MacroSet& macros, ir::ResultNa
   return out;
 }
 
-// Whether a call of a macro may appear between the measurement and the use.
-bool overwritten(const State& state, std::size_t measure, std::size_t use) {
-  if (state.cycle.body.size() > kMostStatements) return true;
-  auto next = ir::successors(state.cycle.body);
-  const auto first = next[measure];
-  next[measure].clear(); // through it the result is another one
-  std::vector<std::vector<std::size_t>> from = next;
-  from[measure] = first;
-  const auto behind = reachableFrom(from, measure);
-  for (std::size_t i = 0; i < state.cycle.body.size(); ++i) {
-    if (i == measure || i == use || !behind[i] || !callsMacro(state, state.cycle.body[i])) continue;
-    if (reachableFrom(next, i)[use]) return true;
+// Between which statements of a cycle macros are called.
+class Between {
+public:
+  explicit Between(const State& state) : state_(state), next_(ir::successors(state.cycle.body)) {
+    next_.emplace_back(); // of the end
+    before_.resize(next_.size());
+    for (std::size_t i = 0; i < next_.size(); ++i)
+      for (const std::size_t to : next_[i])
+        before_[to].push_back(i);
   }
-  return false;
-}
+
+  // Whether a macro may be called after the measurement and before the use. Through the measurement itself
+  // the result is another one.
+  bool overwritten(std::size_t measure, std::size_t use) const {
+    const std::size_t size = state_.cycle.body.size();
+    if (size > kMostStatements) return true;
+    const std::vector<bool> after = around(next_, measure, measure), until = around(before_, use, measure);
+    for (std::size_t i = 0; i < size; ++i)
+      if (i != measure && i != use && after[i] && until[i] && callsMacro(state_, state_.cycle.body[i]))
+        return true;
+    return false;
+  }
+
+private:
+  using Ways = std::vector<std::vector<std::size_t>>;
+
+  // What is reached from a statement, on no way through `without`.
+  static std::vector<bool> around(const Ways& ways, std::size_t from, std::size_t without) {
+    std::vector<bool> out(ways.size());
+    std::vector<std::size_t> open = {from};
+    while (!open.empty()) {
+      const std::size_t at = open.back();
+      open.pop_back();
+      for (const std::size_t to : ways[at]) {
+        if (to == without || out[to]) continue;
+        out[to] = true;
+        open.push_back(to);
+      }
+    }
+    return out;
+  }
+
+  const State& state_;
+  Ways next_, before_;
+};
 
 // What an error is the error of, where it has an axis that one.
 struct ErrorOf {
@@ -103,6 +133,7 @@ ir::ExpressionPtr expectedOf(State& state, const ir::CycleStatement& measured, s
 
 void planResults(State& state, Body& body) {
   const auto& list = state.cycle.body;
+  const Between between(state);
   for (std::size_t i = 0; i < list.size(); ++i) {
     const ir::CycleStatement* last = body.last[i];
     if (last == nullptr) continue;
@@ -111,7 +142,7 @@ void planResults(State& state, Body& body) {
       if (const auto* result = std::get_if<ir::MeasuredResult>(&node.node)) names.insert(result->name);
     });
     if (names.empty()) continue;
-    const bool lost = overwritten(state, static_cast<std::size_t>(last - list.data()), i);
+    const bool lost = between.overwritten(static_cast<std::size_t>(last - list.data()), i);
     for (const ir::ResultName name : names) {
       if (!lost && !isComputed(state, *last, name)) continue;
       if (body.kept.contains({last, name})) continue;

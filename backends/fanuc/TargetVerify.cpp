@@ -14,7 +14,6 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
-#include <cstdlib>
 #include <fmt/format.h>
 #include <optional>
 #include <set>
@@ -275,6 +274,7 @@ private:
     // Of eight digits the last one is a ten millionth at most; two of them.
     rules.relative = rules.results > from_.options.tolerance ? 2e-7 : 0;
     rules.mayRestoreModes = true;
+    rules.switchesProbe = from_.options.switchProbe;
     rules.sameAlarmNumbers = sourceSet_ == set_;
     const stdlib::CodeInfo* const wait = control_.find(stdlib::Function::MachineCoordinates);
     rules.waits = wait != nullptr && wait->grade != "assumed";

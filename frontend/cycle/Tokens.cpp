@@ -162,6 +162,8 @@ std::string explain(const antlr4::Token& offending, const antlr4::Parser& parser
     return fmt::format("`{}` has no meaning; a comment begins with `//`, a text is in `\"`", text);
   if (type == Lexer::MINUS && (word == "parameter" || word == "result" || word == "cycle" || word == "call"))
     return "a name has `_` between its words, no `-`";
+  if (type == Lexer::ODD_NAME && unitOf(lowerCase(text)))
+    return fmt::format("units are written small: `{}`", lowerCase(text));
   if (second && type == Lexer::EQUALS && isReserved(word))
     return fmt::format("`{0}` is a word of the language, so nothing can be called that; write `{1}`", word,
                        proposeName(word));

@@ -200,6 +200,8 @@ private:
   }
 
   Diagnostic equals(std::size_t begin) const {
+    if (type(begin) == Lexer::KW_IF || type(begin) == Lexer::KW_WHILE)
+      if (bracketDepth(at_) > 0) return syntax(here(), "a condition compares with a word; write `EQ`");
     if (find(Lexer::EQUALS) < at_) return makeDiagnostic<diag::SecondEquals>(here());
     if (type(begin) == Lexer::ADDRESS) {
       const SourceRange target = spanning(rangeOf(tokens_[begin]), rangeOf(tokens_[at_ - 1]));

@@ -31,14 +31,16 @@ std::string Machine::lostText(std::uint32_t axes) const {
   for (std::size_t i = 0; i < kAxes; ++i)
     if ((axes & uncertain_ & 1u << i) != 0)
       letters += fmt::format("{}{}", letters.empty() ? "" : ", ", kAxisLetters[i]);
-  return fmt::format(
-      ": {} is lost since `{}`{}: {}; an absolute {} under `G90` before this block settles it{}", letters,
-      lostBy_, lostLine_ == 0 ? "" : fmt::format(" in line {}", lostLine_),
-      lostBy_ == "G30" ? "the second reference point is not known"
-      : lostBy_.starts_with("G4")
-          ? "whether the axis moves by the tool's length at once depends on a parameter"
-          : "whether the tool's length stays in force there depends on a parameter",
-      letters, lostBy_ == "G53" || lostBy_ == "G28" ? ", or `G49` before that one" : "");
+  return fmt::format(": {} is lost since `{}`{}: {}; an absolute {} under `G90` {} settles it{}", letters,
+                     lostBy_, lostLine_ == 0 ? "" : fmt::format(" in line {}", lostLine_),
+                     lostBy_ == "G30" ? "the second reference point is not known"
+                     : lostBy_.starts_with("G4")
+                         ? "whether the axis moves by the tool's length at once depends on a parameter"
+                         : "whether the tool's length stays in force there depends on a parameter",
+                     letters,
+                     lostLine_ != 0 && lostLine_ == stack_.back().line ? "in this block itself"
+                                                                       : "before this block",
+                     lostBy_ == "G53" || lostBy_ == "G28" ? ", or `G49` before that one" : "");
 }
 
 bool Machine::target(const NcWords& w, Position& end) {

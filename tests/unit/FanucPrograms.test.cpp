@@ -118,6 +118,7 @@ TEST_CASE("macro B programs: variables under their numbers on the other control"
   CHECK(blocks("#5242=#5242+1.\n", "fanuc-0i-md", "fanuc-6m") == "#2602=#2602+1.\n");
   CHECK(blocks("#1=#2503\n", "fanuc-6m", "fanuc-0i-md") == "#1=#5261\n");
   CHECK(blocks("#1=#4001\n", "fanuc-0i-md", "fanuc-6m") == "#1=#4001\n");
+  CHECK(blocks("#3003=1\n#1=#3004\n", "fanuc-0i-md", "fanuc-31i-b") == "#3003=1\n#1=#3004\n");
   CHECK(blocks("#1=#4014\n", "fanuc-0i-md", "fanuc-6m") == "variable-elsewhere");
   CHECK(blocks("#1=#2001\n", "fanuc-6m", "fanuc-0i-md") == "variable-elsewhere");
   CHECK(blocks("#1=#3962\n", "fanuc-31i-b", "fanuc-0i-md") == "variable-elsewhere");
