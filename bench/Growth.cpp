@@ -22,7 +22,7 @@ namespace {
 
 constexpr double kMost = 1.3;     // exponent
 constexpr double kEnded = 0.8;    // of the work of half the size
-constexpr int kAgain = 2;         // times that memory is measured anew where it seems steep
+constexpr double kBetween = 1.37; // as many times the sizes, where memory seems steep
 constexpr int kSecondsOfRun = 60; // of processor time
 // By processor time, which varies: below this nothing above kMost hides. Work at n that has grown by 1.3
 // would have to be measured as 1.4 times of what it is, in the fastest of three runs, and work at 8n not.
@@ -86,8 +86,8 @@ std::vector<Construct> allConstructs() {
   return out;
 }
 
-Work measure(const Construct& construct, long size, const std::string& dotek, const fs::path& scratch,
-             Counter counter) {
+// Writes what the construct needs at `size`, and says what to run.
+Command prepare(const Construct& construct, long size, const std::string& dotek, const fs::path& scratch) {
   fs::remove_all(scratch);
   fs::create_directories(scratch);
   const Input input = construct.make(size);
@@ -98,13 +98,23 @@ Work measure(const Construct& construct, long size, const std::string& dotek, co
   }
   Command command = {dotek};
   command.insert(command.end(), input.arguments.begin(), input.arguments.end());
-  return workOf(command, scratch.string(), counter, kSecondsOfRun);
+  return command;
 }
+
+Work measure(const Construct& construct, long size, const std::string& dotek, const fs::path& scratch,
+             Counter counter) {
+  const Command command = prepare(construct, size, dotek, scratch);
+  Work out = workOf(command, scratch.string(), counter, kSecondsOfRun);
+  if (out.status >= 0) out.heap = heapOf(command, scratch.string(), kSecondsOfRun);
+  return out;
+}
+
+using Amounts = std::array<double, 4>; // at n, 2n, 4n, 8n
 
 struct Growth {
   std::array<Work, 4> work;
   double exponent = 0; // of the whole range or of the last doubling, whichever is larger
-  double memory = 0;   // as `exponent`, of the resident set; 0 where it hardly grows
+  double memory = 0;   // as `exponent`, of the heap; 0 where it hardly grows
   bool failed = false;
 };
 
@@ -115,42 +125,45 @@ double above(double amount, double base) {
 
 // Of all of the growth or of the last doubling, whichever is steeper. A run that does less than a smaller one
 // came to a limit: the growth ends before it.
-double exponentOfWork(const std::array<Work, 4>& work, double base) {
+double exponentOf(const Amounts& amounts, double base) {
   std::size_t last = 1;
-  while (last + 1 < work.size() && work[last + 1].amount >= kEnded * work[last].amount)
+  while (last + 1 < amounts.size() && amounts[last + 1] >= kEnded * amounts[last])
     ++last;
-  const double most = above(work[last].amount, base);
-  return std::max(std::log2(most / above(work[0].amount, base)) / static_cast<double>(last),
-                  std::log2(most / above(work[last - 1].amount, base)));
+  const double most = above(amounts[last], base);
+  return std::max(std::log2(most / above(amounts[0], base)) / static_cast<double>(last),
+                  std::log2(most / above(amounts[last - 1], base)));
 }
 
-// Memory comes in steps, and what a run has freed is used first: steep is what is steep over all of the
-// growth and in the last doubling, and only where it exceeds the size of a run without input.
-double exponentOfMemory(const std::array<Work, 4>& work, double base) {
-  if (work[3].megabytes < 2 * base) return 0;
-  const double last = above(work[3].megabytes, base);
-  return std::min(std::log2(last / above(work[0].megabytes, base)) / 3,
-                  std::log2(last / above(work[2].megabytes, base)));
+// Only where it exceeds what a run without input takes.
+double exponentOfHeap(const Amounts& heap, double base) {
+  return heap[3] < 2 * base ? 0 : exponentOf(heap, base);
 }
 
 Growth grow(const Construct& construct, double scale, const std::string& dotek, const fs::path& scratch,
             Counter counter) {
   Growth out;
-  const long size = std::max(1L, std::lround(static_cast<double>(construct.size) * scale));
+  const double size = static_cast<double>(construct.size) * scale;
+  const auto sizeAt = [size](std::size_t i, double times) {
+    return std::max(1L, std::lround(size * times)) << i;
+  };
   const Work base = measure(construct, 1, dotek, scratch, counter);
+  Amounts work{};
+  Amounts heap{};
   for (std::size_t i = 0; i < out.work.size(); ++i) {
-    out.work[i] = measure(construct, size << i, dotek, scratch, counter);
+    out.work[i] = measure(construct, sizeAt(i, 1), dotek, scratch, counter);
     out.failed = out.failed || out.work[i].status < 0 || out.work[i].status > 2;
     if (out.work[i].status < 0) return out; // the larger ones would not end either
+    work[i] = out.work[i].amount;
+    heap[i] = out.work[i].heap;
   }
-  out.exponent = exponentOfWork(out.work, base.amount);
-  out.memory = exponentOfMemory(out.work, base.megabytes);
-  // How many pages a process holds at once varies with what the machine does besides: the least counts.
-  for (int again = 0; again < kAgain && out.memory > kMost; ++again) {
-    for (std::size_t i = 0; i < out.work.size(); ++i)
-      out.work[i].megabytes = std::min(
-          out.work[i].megabytes, measure(construct, size << i, dotek, scratch, Counter::Time).megabytes);
-    out.memory = exponentOfMemory(out.work, base.megabytes);
+  out.exponent = exponentOf(work, base.amount);
+  out.memory = exponentOfHeap(heap, base.heap);
+  // An array doubles when it is full: that is a step at one size. What grows too fast does so at all sizes.
+  if (out.memory > kMost) {
+    for (std::size_t i = 0; i < heap.size(); ++i)
+      heap[i] =
+          heapOf(prepare(construct, sizeAt(i, kBetween), dotek, scratch), scratch.string(), kSecondsOfRun);
+    out.memory = std::min(out.memory, exponentOfHeap(heap, base.heap));
   }
   return out;
 }
@@ -180,8 +193,9 @@ int main(int argc, char** argv) {
   if (!arguments->list) {
     fmt::print("work is {}{}\n\n", name(counter),
                arguments->screen ? "; `counted`: instructions (valgrind), in millions" : "");
-    fmt::print("| construct | n | work at n, 2n, 4n, 8n (millions) | exponent | MB at 8n | exponent "
-               "|\n|---|---|---|---|---|---|\n");
+    fmt::print(
+        "| construct | n | work at n, 2n, 4n, 8n (millions) | exponent | MB at 8n | exponent of the heap "
+        "|\n|---|---|---|---|---|---|\n");
   }
   for (const Construct& construct : allConstructs()) {
     if (construct.name.find(arguments->only) == std::string::npos) continue;

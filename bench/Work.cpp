@@ -110,6 +110,14 @@ Work underValgrind(const Command& command, const std::string& folder, int second
   return work;
 }
 
+// Where bench_growth is, its library is.
+std::string heapLibrary() {
+  std::error_code none;
+  const std::filesystem::path self = std::filesystem::read_symlink("/proc/self/exe", none);
+  const std::filesystem::path library = self.parent_path() / "libbench_heap.so";
+  return std::filesystem::exists(library, none) ? library.string() : std::string();
+}
+
 } // namespace
 
 Counter bestCounter() {
@@ -142,6 +150,20 @@ Work workOf(const Command& command, const std::string& folder, Counter counter, 
   for (int again = 0; again < 2 && work.status >= 0 && work.amount < 1e6; ++again)
     work.amount = std::min(work.amount, run(command, folder, seconds, false, instructions).amount);
   return work;
+}
+
+double heapOf(const Command& command, const std::string& folder, int seconds) {
+  const std::string library = heapLibrary();
+  if (library.empty()) return 0;
+  const std::string file = folder + ".heap"; // beside the folder: a run may read all that is in it
+  Command whole = {"env", "LD_PRELOAD=" + library, "DOTEK_BENCH_HEAP=" + file};
+  whole.insert(whole.end(), command.begin(), command.end());
+  double unused = 0;
+  run(whole, folder, seconds, false, unused);
+  std::int64_t most = 0;
+  std::ifstream(file, std::ios::binary).read(reinterpret_cast<char*>(&most), sizeof most);
+  std::filesystem::remove(file);
+  return static_cast<double>(most);
 }
 
 } // namespace bench

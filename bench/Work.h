@@ -23,10 +23,13 @@ std::string name(Counter counter);
 struct Work {
   double amount = 0;    // instructions, or microseconds of processor time
   double megabytes = 0; // largest resident set
+  double heap = 0;      // the most bytes of the heap that were in use at once; 0 where they were not counted
   int status = 0;       // as Run
 };
 
 // One run in `folder`; a run of more than `seconds` of processor time is killed: status -1.
 Work workOf(const Command& command, const std::string& folder, Counter counter, int seconds);
+// A run more that counts the heap (bench/Heap.cpp), in bytes; 0 where it cannot be counted.
+double heapOf(const Command& command, const std::string& folder, int seconds);
 
 } // namespace bench
