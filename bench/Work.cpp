@@ -97,7 +97,7 @@ Work underValgrind(const Command& command, const std::string& folder, int second
   double unused = 0;
   Work work = run(command, folder, seconds, false, unused); // valgrind's own memory says nothing
   if (work.status < 0 || run(whole, folder, seconds * 40, false, unused).status != work.status)
-    return {0, 0, -1};
+    return {.status = -1};
   work.amount = 0;
   std::ifstream file(out);
   constexpr std::string_view kSummary = "summary: ";

@@ -2,6 +2,7 @@
 
 #include "frontend/compost/Check.h"
 #include "frontend/gibbs/Check.h"
+#include "project/Settings.h"
 #include "support/messages/ComPost.h"
 #include "support/messages/Common.h"
 #include "support/messages/Fanuc.h"
@@ -100,6 +101,12 @@ Outcome outcomeOf(Session& session, std::string output, bool keepOutput) {
   keepFirstOfCause(outcome.diagnostics);
   joinAlike(outcome.diagnostics, outcome.sources);
   return outcome;
+}
+
+void checkSettings(const std::vector<std::string>& inputs, Session& session) {
+  if (inputs.empty()) static_cast<void>(project::settingsOf(".", session));
+  for (const std::string& input : inputs)
+    static_cast<void>(project::settingsOf(input, session));
 }
 
 Outcome refusalOf(Session& session) {

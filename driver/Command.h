@@ -10,6 +10,7 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 namespace dotek::driver {
 
@@ -37,6 +38,10 @@ void keepStrongest(Diagnostics& diagnostics);
 void reportUnknownPairs(const CommonOptions& options, const std::set<std::string>& used,
                         const std::string& cycles, Diagnostics& diagnostics);
 
+// Reports what is wrong with the dotek.toml of these inputs, or of the folder where the command runs where
+// there are none.
+void checkSettings(const std::vector<std::string>& inputs, Session& session);
+
 // What a command gives that threw: a defect of the data files, what the system refused, a lack of memory, or
 // a defect of Dotek (status 3).
 Outcome outcomeOf(const std::exception_ptr& thrown);
@@ -54,6 +59,17 @@ template <class Call> Outcome caught(const Call& call) {
 template <class Command> Outcome guarded(const CommonOptions& options, const Command& command) {
   return caught([&] {
     Session session(options);
+    return session.diagnostics().hasErrors() ? outcomeOf(session, "") : command(session);
+  });
+}
+
+// The same; where the dotek.toml of an input is wrong, the command does not begin: it would go on without
+// what the file says.
+template <class Command>
+Outcome guarded(const CommonOptions& options, const std::vector<std::string>& inputs,
+                const Command& command) {
+  return guarded(options, [&](Session& session) {
+    checkSettings(inputs, session);
     return session.diagnostics().hasErrors() ? outcomeOf(session, "") : command(session);
   });
 }

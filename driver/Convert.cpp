@@ -295,7 +295,7 @@ std::string refusedOf(const ConvertOptions& options, const Outcome& outcome) {
 
 Outcome convert(const ConvertOptions& given) {
   ConvertOptions options = given;
-  Outcome outcome = guarded(options.common, [&](Session& session) {
+  Outcome outcome = guarded(options.common, options.inputs, [&](Session& session) {
     takeControls(options, session);
     if (session.diagnostics().hasErrors()) return outcomeOf(session, "");
     return ConvertCommand(options, session).run();

@@ -6,6 +6,7 @@
 #include "project/CycleFiles.h"
 #include "project/CycleLowering.h"
 #include "project/Inputs.h"
+#include "support/Files.h"
 #include "support/messages/Common.h"
 
 #include <algorithm>
@@ -37,8 +38,14 @@ std::vector<std::string> cyclePaths(const std::vector<std::string>& inputs, Sess
     }
     const std::size_t first = out.size();
     std::filesystem::directory_iterator entries(input, error);
-    for (; !error && entries != std::filesystem::directory_iterator(); entries.increment(error))
-      if (entries->path().extension() == ".cycle") out.push_back(entries->path().generic_string());
+    for (; !error && entries != std::filesystem::directory_iterator(); entries.increment(error)) {
+      const std::string path = entries->path().generic_string();
+      if (entries->path().extension() != ".cycle") continue;
+      if (isStream(path)) // nobody named it, and it may never end
+        session.diagnostics().report<diag::FileNotReadable>({}, path, "it is no regular file");
+      else
+        out.push_back(path);
+    }
     if (error) session.diagnostics().report<diag::FileNotReadable>({}, input, error.message());
     if (!error && out.size() == first)
       session.diagnostics().report<diag::FileNotReadable>({}, input, "it holds no cycle");
@@ -57,6 +64,7 @@ std::string cycleName(std::string stem) {
 
 Outcome check(const CycleOptions& options) {
   return guarded(options.common, [&](Session& session) {
+    checkSettings(options.inputs, session); // a finding beside the others
     CycleFiles cycles(session);
     if (hasInputs(options, "check", session))
       for (const std::string& path : options.inputs)
@@ -66,7 +74,7 @@ Outcome check(const CycleOptions& options) {
 }
 
 Outcome layOut(const CycleOptions& options) {
-  return guarded(options.common, [&](Session& session) {
+  return guarded(options.common, options.inputs, [&](Session& session) {
     CycleFiles cycles(session);
     std::vector<OutputFile> files;
     std::vector<std::string> inputs;
@@ -86,7 +94,7 @@ Outcome layOut(const CycleOptions& options) {
 }
 
 Outcome catalogue(const CycleOptions& options) {
-  return guarded(options.common, [&](Session& session) {
+  return guarded(options.common, options.inputs, [&](Session& session) {
     CycleFiles cycles(session);
     std::vector<CyclePage> pages;
     const auto add = [&](const cycle::File* file) {

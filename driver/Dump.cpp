@@ -260,7 +260,8 @@ private:
 } // namespace
 
 Outcome dump(const DumpOptions& options) {
-  return guarded(options.common, [&](Session& session) { return DumpCommand(options, session).run(); });
+  return guarded(options.common, options.inputs,
+                 [&](Session& session) { return DumpCommand(options, session).run(); });
 }
 
 } // namespace dotek::driver

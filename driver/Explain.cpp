@@ -108,6 +108,9 @@ Outcome explain(const std::string& code) {
 
 Outcome list(const std::string& what, const CommonOptions& options) {
   return guarded(options, [&](Session& session) {
+    // Its folders of data files; who mends a dotek.toml may look into the other tables.
+    if (what == "forms" || what == "controls" || what == "macros" || what == "cycles")
+      checkSettings({}, session);
     std::vector<std::pair<std::string, std::string>> rows;
     if (what == "limits") {
       for (const LimitInfo& limit : limitTable())

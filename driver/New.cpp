@@ -20,7 +20,9 @@ bool isPlain(const std::string& name) {
 } // namespace
 
 Outcome newForm(const NewFormOptions& options) {
-  return guarded(options.common, [&](Session& session) {
+  const std::vector<std::string> inputs =
+      options.prog ? std::vector{*options.prog} : std::vector<std::string>();
+  return guarded(options.common, inputs, [&](Session& session) {
     if (!isPlain(options.name)) session.diagnostics().report<diag::FormName>({}, options.name);
     if (!options.prog)
       session.diagnostics().report<diag::MissingOption>({}, "new form", "--prog PROG.txt",
@@ -38,7 +40,7 @@ Outcome newForm(const NewFormOptions& options) {
 }
 
 Outcome newControl(const NewControlOptions& options) {
-  return guarded(options.common, [&](Session& session) {
+  return guarded(options.common, {}, [&](Session& session) {
     if (!isPlain(options.name)) session.diagnostics().report<diag::ControlName>({}, options.name);
     const auto base = loadControl(options.base, session);
     if (base) checkProbeCodes(*base, session);

@@ -294,7 +294,8 @@ Outcome PostCommand::run() {
 } // namespace
 
 Outcome post(const PostOptions& options) {
-  return guarded(options.common, [&](Session& session) { return PostCommand(options, session).run(); });
+  return guarded(options.common, options.folders,
+                 [&](Session& session) { return PostCommand(options, session).run(); });
 }
 
 } // namespace dotek::driver

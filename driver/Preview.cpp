@@ -277,7 +277,7 @@ std::string page(const CycleFolder& folder, const FieldTable& fields, Session& s
 } // namespace
 
 Outcome preview(const PreviewOptions& options) {
-  return guarded(options.common, [&](Session& session) {
+  return guarded(options.common, options.folders, [&](Session& session) {
     const std::string folderName = options.folders.size() == 1 ? options.folders.front() : "";
     if (folderName.empty())
       session.diagnostics().report<diag::MissingOption>({}, "preview", "FOLDER", "the folder of one cycle");

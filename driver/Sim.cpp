@@ -267,7 +267,8 @@ private:
 } // namespace
 
 Outcome sim(const SimOptions& options) {
-  Outcome out = guarded(options.common, [&](Session& session) { return SimCommand(options, session).run(); });
+  Outcome out = guarded(options.common, {options.program},
+                        [&](Session& session) { return SimCommand(options, session).run(); });
   if (options.json && out.output.empty()) out.output = sim::notRunSummary(out.diagnostics, out.sources);
   if ((options.svg || options.html) && out.files.empty()) out.diagnostics.report<diag::PictureNotWritten>({});
   return out;

@@ -194,7 +194,7 @@ private:
 } // namespace
 
 Outcome verify(const VerifyOptions& given) {
-  return guarded(given.common, [&](Session& session) {
+  return guarded(given.common, given.inputs, [&](Session& session) {
     VerifyOptions options = given;
     takeControls(options, session);
     if (session.diagnostics().hasErrors()) return outcomeOf(session, "");

@@ -2,8 +2,8 @@
 
 #include "lint/Rule.h"
 #include "project/Settings.h"
+#include "project/SettingsPlace.h"
 #include "stdlib/Toml.h"
-#include "support/Files.h"
 #include "support/Glob.h"
 #include "support/NearestName.h"
 #include "support/messages/Lint.h"
@@ -62,8 +62,8 @@ std::shared_ptr<Configs::File> Configs::load(const std::string& path, const std:
   auto file = std::make_shared<File>();
   file->settings.folder = folder;
   Config& config = file->base;
-  const std::optional<FileId> id = readText(path, Encoding::Utf8, std::nullopt, session_.limits(),
-                                            session_.sources(), session_.diagnostics());
+  const std::optional<FileId> id =
+      dotek::project::readSettings(path, session_.limits(), session_.sources(), session_.diagnostics());
   if (!id) return file;
   const auto document = TomlDocument::parse(*id, session_.sources(), session_.diagnostics());
   if (!document) return file;
@@ -110,9 +110,9 @@ std::shared_ptr<Configs::File> Configs::inFolder(const std::string& folder) {
   if (const auto known = folders_.find(folder); known != folders_.end()) return known->second;
   const fs::path here(folder);
   std::error_code error;
-  const fs::path file = here / "dotek.toml";
+  const fs::path file = dotek::project::settingsFileIn(here);
   std::shared_ptr<File> config;
-  if (fs::is_regular_file(file, error)) {
+  if (!file.empty()) {
     const fs::path near = file.lexically_proximate(fs::current_path(error));
     config = load(near.empty() ? file.generic_string() : near.generic_string(), folder);
   } else if (here.has_parent_path() && here.parent_path() != here) {

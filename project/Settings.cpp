@@ -1,8 +1,8 @@
 #include "project/Settings.h"
 
 #include "project/Session.h"
+#include "project/SettingsPlace.h"
 #include "stdlib/Toml.h"
-#include "support/Files.h"
 #include "support/Glob.h"
 #include "support/NearestName.h"
 #include "support/messages/Commands.h"
@@ -24,9 +24,8 @@ using stdlib::TomlValue;
 
 // The dotek.toml in the folder or above it; empty: there is none.
 fs::path settingsFileAbove(fs::path folder) {
-  std::error_code error;
   for (; !folder.empty(); folder = folder.parent_path()) {
-    if (fs::is_regular_file(folder / "dotek.toml", error)) return folder / "dotek.toml";
+    if (fs::path file = settingsFileIn(folder); !file.empty()) return file;
     if (folder == folder.root_path()) break;
   }
   return {};
@@ -53,7 +52,7 @@ std::string nearPath(const fs::path& path) {
 SettingsFile load(const fs::path& folder, Session& session) {
   const fs::path file = settingsFileAbove(folder);
   if (file.empty()) return {};
-  const auto id = session.read(nearPath(file), Encoding::Utf8);
+  const auto id = readSettings(nearPath(file), session.limits(), session.sources(), session.diagnostics());
   if (!id) return {};
   const auto document = TomlDocument::parse(*id, session.sources(), session.diagnostics());
   if (!document) return {};
@@ -172,9 +171,7 @@ FlagDefaults flagDefaultsOf(const std::vector<std::string>& inputs) {
     if (!known.insert(file).second) continue;
     SourceMap sources;
     Diagnostics unheard;
-    const auto id = file.empty()
-                        ? std::nullopt
-                        : readText(file.string(), Encoding::Utf8, std::nullopt, Limits(), sources, unheard);
+    const auto id = file.empty() ? std::nullopt : readSettings(file, Limits(), sources, unheard);
     const auto document = id ? TomlDocument::parse(*id, sources, unheard) : std::nullopt;
     const auto seen = [&](const std::string& path) {
       return nearPath((file.parent_path() / path).lexically_normal());

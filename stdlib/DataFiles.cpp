@@ -97,7 +97,11 @@ bool DataFiles::addFolder(const std::string& path, const Limits& limits, Diagnos
         diagnostics.report<diag::DataFolderUnused>({}, file.string(), kReads);
         continue;
       }
-      std::optional<std::string> bytes = readBytes(file.string(), limits, diagnostics);
+      // Nobody named a pipe in the folder, and it may never end.
+      const bool stream = isStream(file.string());
+      if (stream) diagnostics.report<diag::FileNotReadable>({}, file.string(), "it is no regular file");
+      std::optional<std::string> bytes =
+          stream ? std::nullopt : readBytes(file.string(), limits, diagnostics);
       if (!bytes) {
         ok = false;
         continue;

@@ -10,6 +10,7 @@
 #include <cstring>
 #include <fcntl.h>
 #include <filesystem>
+#include <map>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -54,6 +55,22 @@ int look(const std::string& path, Target& target) {
 bool refuses(const std::string& path, const Target& target, bool force, Diagnostics& diagnostics) {
   if (force || !target.exists || target.isStream || !isProtected(path, target.status.st_mode)) return false;
   diagnostics.report<diag::OutputProtected>({}, path);
+  return true;
+}
+
+// What results are called is known only now, so they can meet one another or what a flag names.
+bool areApart(const std::vector<NamedText>& texts, Diagnostics& diagnostics) {
+  std::map<FileIdentity, const std::string*> taken;
+  for (const NamedText& one : texts) {
+    const auto file = descriptorOf(one.path) < 0 ? identify(one.path) : std::nullopt;
+    if (!file) continue;
+    const auto [before, isNew] = taken.emplace(*file, &one.path);
+    if (isNew) continue;
+    diagnostics.report<diag::OutputGivenTwice>(
+        {}, *before->second == one.path ? "another result" : "`" + *before->second + "`",
+        "`" + one.path + "`");
+    return false;
+  }
   return true;
 }
 
@@ -173,6 +190,7 @@ bool writeAll(const std::vector<NamedText>& texts, const std::string& folder, co
     diagnostics.report<diag::FileNotWritable>({}, folder, error.message());
     return false;
   }
+  if (!areApart(texts, diagnostics)) return false;
   std::vector<const NamedText*> order;
   for (const NamedText& one : texts)
     order.push_back(&one);

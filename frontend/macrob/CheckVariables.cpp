@@ -43,6 +43,12 @@ std::string printWithoutBrackets(const Expression& expression) {
   return text.substr(expression.brackets, text.size() - 2 * expression.brackets);
 }
 
+// Texts of all parts of one long sum take the square of its length; nobody misses a `#` in one of those.
+bool isShort(const SourceRange& range) {
+  constexpr std::uint32_t kMost = 200; // bytes
+  return range.end - range.begin <= kMost;
+}
+
 template <class Visit> void eachAssignment(const CheckedProgram& input, const Visit& visit) {
   for (const Block& block : input.program.blocks)
     if (const nc::Assignment* assignment = assignmentOf(block)) visit(*assignment);
@@ -237,7 +243,7 @@ public:
   explicit Hashes(const CheckedProgram& input) {
     for (const CheckedProgram::Part& part : input.parts) {
       if (const auto number = variableNumber(*part.expression)) used_.insert(*number);
-      if (std::holds_alternative<nc::Operation>(part.expression->node))
+      if (std::holds_alternative<nc::Operation>(part.expression->node) && isShort(part.expression->range))
         operations_.insert(printWithoutBrackets(*part.expression));
     }
     eachWord(input, [&](const nc::Word& word) {
@@ -258,6 +264,7 @@ public:
     const auto* number = std::get_if<nc::Number>(&side.node);
     if (number == nullptr || number->point || side.brackets > 0) return;
     if (!(number->value < 1e6) || !used_.contains(static_cast<std::uint32_t>(number->value))) return;
+    if (!isShort({side.range.file, operation.left->range.begin, operation.right->range.end})) return;
     const std::string variable = "#" + number->digits;
     const std::string op = operation.op.size() == 1 ? operation.op : " " + operation.op + " ";
     const std::string text =

@@ -50,6 +50,30 @@ TEST_CASE("two results of one command are two files") {
   CHECK(together.out == "0\n0\n0\n0\n");
 }
 
+TEST_CASE("a result whose name only the command knows is another file than its other results") {
+  const ProcessFolder folder;
+  const std::string root = "'" + dotek::tests::root().string() + "/examples/";
+  folder.run("cp -r " + root + "surface-x' .; cp " + root + "post.txt' .; mkdir out; ln -s out o2");
+  folder.write("index.cycle", "cycle index \"Index\"\nspindle off\n");
+  folder.write("a/twin.cycle", "cycle twin \"One\"\nspindle off\n");
+  folder.write("b/twin.cycle", "cycle twin \"Other\"\nspindle off\n");
+  const std::string convert = "convert surface-x --prog post.txt --form thesis-a -d out ";
+  for (const std::string& command :
+       {convert + "--to fanuc --map out/O8000.nc", convert + "--to fanuc --map o2/./O8000.nc",
+        convert + "--to fanuc --assume probe-on --verify --report out/O8000.nc",
+        convert + "--to fusion --helpers out/surfaceX.js", std::string("doc index.cycle -o out"),
+        std::string("doc a/twin.cycle b/twin.cycle -o out")}) {
+    const ShellResult result = folder.run("dotek " + command);
+    CHECK_MESSAGE(result.status == 2, command << "\n" << result.err);
+    CHECK_MESSAGE(result.err.find("would write the same file; name another one [output-given-twice]") !=
+                      std::string::npos,
+                  command << "\n"
+                          << result.err);
+    CHECK_MESSAGE(folder.run("ls -A out; rm -f out/*").out.empty(), command);
+  }
+  CHECK(folder.run("dotek doc a/twin.cycle b/../a/twin.cycle -o out").status == 0);
+}
+
 TEST_CASE("no result is written over an input, whatever its name") {
   const ProcessFolder folder;
   folder.write("p.nc", kProgram);
