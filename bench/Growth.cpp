@@ -159,12 +159,12 @@ Growth grow(const Construct& construct, double scale, const std::string& dotek, 
   out.exponent = exponentOf(work, base.amount);
   out.memory = exponentOfHeap(heap, base.heap);
   // An array doubles when it is full, and what a table took while it was read is used first: steps at one
-  // size. What grows too fast does so farther on as well.
+  // size. What grows too fast does so farther on as well, in the last doubling.
   if (out.memory > kMost) {
-    for (std::size_t i = 0; i < heap.size(); ++i)
-      heap[i] =
-          heapOf(prepare(construct, sizeAt(i, kFarther), dotek, scratch), scratch.string(), kSecondsOfRun);
-    out.memory = std::min(out.memory, exponentOfHeap(heap, base.heap));
+    for (std::size_t i = 0; i < 2; ++i)
+      heap[i] = heapOf(prepare(construct, sizeAt(i + 2, kFarther), dotek, scratch), scratch.string(),
+                       kSecondsOfRun);
+    out.memory = std::min(out.memory, std::log2(above(heap[1], base.heap) / above(heap[0], base.heap)));
   }
   return out;
 }
