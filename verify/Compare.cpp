@@ -1,8 +1,8 @@
 #include "verify/Compare.h"
 
-#include "sim/geometry/Contact.h"
 #include "support/Decimal.h"
 #include "verify/CompareLeft.h"
+#include "verify/Exactness.h"
 #include "verify/JoinedCalls.h"
 #include "verify/PathPieces.h"
 
@@ -486,10 +486,12 @@ private:
           a.range, b.range);
       return;
     }
+    const double equal =
+        isOblique(a) && !rules_.sameAlarmNumbers ? std::max(rules_.results, kObliqueWord) : rules_.results;
     for (std::size_t i = 0; i < a.contacts.size(); ++i) {
       // Where the ball's middle is, is measured: on a narrow bore the point of the wall lies farther beside.
-      if (near(a.contacts[i].point, b.contacts[i].point, rules_.results) ||
-          near(a.contacts[i].centre, b.contacts[i].centre, rules_.results))
+      if (near(a.contacts[i].point, b.contacts[i].point, equal) ||
+          near(a.contacts[i].centre, b.contacts[i].centre, equal))
         continue;
       add(Aspect::Contact,
           fmt::format("contact at {} against {}", textOf(a.contacts[i].point), textOf(b.contacts[i].point)),
@@ -573,21 +575,6 @@ bool runsAlike(const Record& one, const Record& other, const CompareRules& rules
   return std::all_of(found.begin(), found.end(),
                      [](const Difference& each) { return each.aspect == Aspect::Modal; });
 }
-
-namespace {
-
-// A move that the stem or the body of the probe stops ends at a place that is known to the safe side alone,
-// and with it what the source takes for measured.
-CompareRules asExactAs(const Record& source, CompareRules rules) {
-  const bool stopped = std::any_of(source.events.begin(), source.events.end(), [](const auto& event) {
-    return event.first.outcome == sim::Outcome::StemCollision ||
-           event.first.outcome == sim::Outcome::BodyCollision;
-  });
-  if (stopped) rules.results = std::max(rules.results, sim::kCollisionMargin);
-  return rules;
-}
-
-} // namespace
 
 std::vector<Difference> compare(const Record& source, const Record& target, const CompareRules& wanted) {
   const CompareRules rules = asExactAs(source, wanted);

@@ -44,7 +44,8 @@ struct PartError {
 };
 
 // A part that has the surfaces which these touches expect: opposite touches that look outward from one
-// middle, two pairs of one size, are a bore (looking inward: a boss; one pair looking inward: a web); other
+// middle, two pairs of one size, are a bore (looking inward: a boss; one pair looking inward: a web), as are
+// three at angles to the axes that look from one middle over one distance; other
 // touches get a block each, as small as the ball, the error and a search beyond the surface need (`reach`,
 // mm). nullopt: there are no touches, or more than a part can have.
 std::optional<sim::Part> partOf(const std::vector<Touch>& touches, double ballRadius, double reach,

@@ -12,11 +12,12 @@ using sim::Part;
 using sim::PartBuilder;
 using sim::Point3;
 
-constexpr double kSame = 1e-6;  // mm: places that are meant to be one
-constexpr double kBeside = 2.5; // mm of a face beside the ball: more than an error moves the contact
-constexpr double kBehind = 2;   // mm of material after a search that finds nothing
-constexpr double kAbove = 3;    // mm of a face above and below the ball's centre
-constexpr double kRim = 10;     // mm of a plate around its bore
+constexpr double kSame = 1e-6;   // mm: places that are meant to be one
+constexpr double kMiddle = 1e-5; // mm: where lines meet that are known as exactly as that
+constexpr double kBeside = 2.5;  // mm of a face beside the ball: more than an error moves the contact
+constexpr double kBehind = 2;    // mm of material after a search that finds nothing
+constexpr double kAbove = 3;     // mm of a face above and below the ball's centre
+constexpr double kRim = 10;      // mm of a plate around its bore
 
 bool isSame(const Point3& a, const Point3& b) {
   return (a - b).length() <= kSame;
@@ -55,6 +56,7 @@ public:
   Shapes(const std::vector<Touch>& touches, double ballRadius, double reach)
       : middle_(middleOf(touches)), beside_(ballRadius + kBeside), behind_(reach + kBehind) {
     std::vector<Touch> rest = distinct(touches);
+    takeCircles(rest);
     std::vector<Pair> pairs = takePairs(rest);
     takeRounds(pairs, rest);
     addBores();
@@ -72,6 +74,50 @@ public:
   }
 
 private:
+  // A bore or a boss of three or more touches that look from or to one middle, one of them at an angle to the
+  // axes.
+  void takeCircles(std::vector<Touch>& rest) {
+    for (std::size_t i = 0; i < rest.size(); ++i)
+      for (std::size_t k = i + 1; k < rest.size(); ++k) {
+        const std::optional<Pair> circle = circleOf(rest[i], rest[k]);
+        if (!circle) continue;
+        const auto belongs = [&](const Touch& touch) { return liesOn(*circle, touch); };
+        if (std::count_if(rest.begin(), rest.end(), belongs) < 3 ||
+            std::none_of(rest.begin(), rest.end(),
+                         [&](const Touch& touch) { return belongs(touch) && isOblique(touch); }))
+          continue;
+        double low = rest[i].point.z, high = low;
+        for (const Touch& touch : rest) {
+          if (!belongs(touch)) continue;
+          low = std::min(low, touch.point.z);
+          high = std::max(high, touch.point.z);
+        }
+        std::erase_if(rest, belongs);
+        addRound(*circle, low - kAbove, circle->outward ? high + kAbove : takeTop(*circle, high, rest));
+        return takeCircles(rest);
+      }
+  }
+  static bool isOblique(const Touch& touch) {
+    return std::abs(touch.direction.x) > kSame && std::abs(touch.direction.y) > kSame;
+  }
+  // Where the lines of two touches meet, if that is as far from the one as from the other.
+  static std::optional<Pair> circleOf(const Touch& a, const Touch& b) {
+    constexpr double kParallel = 0.01;
+    if (a.direction.z != 0 || b.direction.z != 0) return std::nullopt;
+    const double cross = a.direction.x * b.direction.y - a.direction.y * b.direction.x;
+    if (std::abs(cross) < kParallel) return std::nullopt;
+    const Point3 between = b.point - a.point;
+    const double way = (between.x * b.direction.y - between.y * b.direction.x) / cross;
+    Pair out{a.point + a.direction * way, a.direction, std::abs(way), way < 0};
+    if (out.half <= kSame || !liesOn(out, a) || !liesOn(out, b)) return std::nullopt;
+    return out;
+  }
+  static bool liesOn(const Pair& circle, const Touch& touch) {
+    if (touch.direction.z != 0) return false;
+    const Point3 wall = circle.middle + touch.direction * (circle.outward ? circle.half : -circle.half);
+    return std::hypot(wall.x - touch.point.x, wall.y - touch.point.y) <= kMiddle;
+  }
+
   static std::vector<Pair> takePairs(std::vector<Touch>& rest) {
     std::vector<Pair> out;
     for (std::size_t i = 0; i < rest.size();) {

@@ -82,6 +82,11 @@ struct Measure {
   std::map<std::uint32_t, double> locals = {};
 };
 
+// It touches at an angle in the plane XY. Words lead there that are rounded to the control's step: such a
+// path may lie so far (mm) beside the one that another macro takes.
+bool isOblique(const Measure& measure);
+inline constexpr double kObliqueWord = 0.0015;
+
 // Something that motion changes, or that changes motion, was used while motion before it may not have ended.
 struct EarlyUse {
   SourceRange range; // of the block

@@ -27,12 +27,19 @@ bool isUnknown(const sim::ProbeEvent& event) {
   return event.outcome == sim::Outcome::NotModelled && event.placeUnknown;
 }
 
-// Touches of one place, a fast one and a slow one, are one contact.
-bool same(const sim::ProbeEvent& a, const sim::ProbeEvent& b) {
-  return (a.point - b.point).length() < kSameSignal;
+// Touches of one place, a fast one and a slow one, are one contact. The ball's middle, since on a narrow bore
+// the point lies farther beside.
+bool same(const sim::ProbeEvent& a, const sim::ProbeEvent& b, bool oblique) {
+  return (a.point - b.point).length() < kSameSignal ||
+         (oblique && (a.centre - b.centre).length() < kObliqueWord);
 }
 
 } // namespace
+
+bool isOblique(const Measure& measure) {
+  return std::any_of(measure.nominal.begin(), measure.nominal.end(),
+                     [](const Touch& touch) { return touch.direction.x != 0 && touch.direction.y != 0; });
+}
 
 Recorder::Recorder(sim::Machine& machine, sim::World& world, std::vector<const stdlib::MacroSet*> sets,
                    double toolLength)
@@ -196,7 +203,8 @@ void Recorder::addPiece(sim::PathKind kind, const sim::Point3& from, const sim::
 void Recorder::noteSignal(const sim::ProbeEvent& event) {
   const bool stem = event.outcome == sim::Outcome::StemCollision && event.kind == sim::MotionKind::Skip;
   if (!call_.measures || !world_.on() || !(stem || event.outcome == sim::Outcome::Contact)) return;
-  if (call_.signals.empty() || (call_.signals.back() - event.centre).length() > kSameSignal)
+  const double same = isOblique(record_.measures.back()) ? kObliqueWord : kSameSignal;
+  if (call_.signals.empty() || (call_.signals.back() - event.centre).length() > same)
     call_.signals.push_back(event.centre);
 }
 
@@ -211,8 +219,10 @@ void Recorder::takeEvents() {
       record_.events.emplace_back(event, range);
     } else if (event.outcome == sim::Outcome::Contact && !record_.measures.empty()) {
       const bool measuring = call_.depth == 0 ? !positions_ : call_.measures;
-      auto& contacts = record_.measures.back().contacts;
-      if (measuring && (contacts.empty() || !same(contacts.back(), event))) contacts.push_back(event);
+      Measure& measure = record_.measures.back();
+      const bool again = !measure.contacts.empty() &&
+                         same(measure.contacts.back(), event, call_.depth > 0 && isOblique(measure));
+      if (measuring && !again) measure.contacts.push_back(event);
     }
   }
 }

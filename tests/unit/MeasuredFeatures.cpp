@@ -228,7 +228,9 @@ private:
     const double distance = (middle_ + off_ - out_.start).dot(along);
     find(0, out_.start.x + along.x * distance, out_.start.x + along.x * way);
     find(1, out_.start.y + along.y * distance, out_.start.y + along.y * way);
-    out_.calls["inspection-plus"] = fmt::format("G65P9821A{}D{}S2", text(direction), text(way));
+    const std::string call = fmt::format("A{}D{}S2", text(direction), text(way)) + beyond();
+    out_.calls["inspection-plus"] = "G65P9821" + call;
+    out_.calls["dotek"] = "G65P8821" + call;
     out_.results = {{135, out_.found[0], 1}, {136, out_.found[1], 1}};
   }
 
@@ -244,8 +246,11 @@ private:
     const double off = off_.x * along.x + off_.y * along.y;
     find(0, middle_.x + along.x * off, middle_.x);
     find(1, middle_.y + along.y * off, middle_.y);
-    out_.calls["inspection-plus"] = fmt::format("G65P9822A{}D{}{}", text(direction), text(width),
-                                                web ? downBeside(clearance()) : std::string());
+    const std::string call =
+        fmt::format("A{}D{}{}", text(direction), text(width), web ? downBeside(clearance()) : std::string()) +
+        beyond();
+    out_.calls["inspection-plus"] = "G65P9822" + call;
+    out_.calls["dotek"] = "G65P8822" + call;
     out_.results = {{135, out_.found[0], 1}, {136, out_.found[1], 1}, {138, size, 2}};
   }
 
@@ -255,8 +260,10 @@ private:
                  third = thousandths(-140, -100);
     const std::string call = out_.calls["inspection-plus"];
     out_.calls.clear();
-    out_.calls["inspection-plus"] = fmt::format("G65P9823A{}B{}C{}{}", text(first), text(second), text(third),
-                                                call.substr(call.find('D')));
+    const std::string letters =
+        fmt::format("A{}B{}C{}{}", text(first), text(second), text(third), call.substr(call.find('D')));
+    out_.calls["inspection-plus"] = "G65P9823" + letters;
+    out_.calls["dotek"] = "G65P8823" + letters;
     // Three touches spread over the circle tell the middle and the size less well than opposite ones.
     out_.results[0].touches = out_.results[1].touches = 2;
     out_.results[2].touches = 4;

@@ -35,7 +35,7 @@ struct MeasuredFeature {
 inline constexpr std::string_view kMeasuredFeatures[] = {
     "surface x", "surface y", "surface z",    "bore",         "boss",    "pocket x", "pocket y",
     "web x",     "web y",     "inner corner", "outer corner", "angle x", "angle y"};
-// Only one of the sets has them.
+// At an angle to the axes. EasyProbe has none of them.
 inline constexpr std::string_view kAngledFeatures[] = {"angled surface", "angled pocket", "angled web",
                                                        "three-point bore", "three-point boss"};
 

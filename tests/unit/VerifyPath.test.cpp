@@ -225,6 +225,27 @@ TEST_CASE("parts of touches: a bore, a boss, a web, and what is none of them") {
   CHECK_FALSE(inside(bores, {29, 0, -3}));
   CHECK(inside(bores, {32, 0, -3}));
 
+  // Three touches at angles look from one middle: a bore, a boss where they look to it. Over other distances
+  // each has its own face, and so have three along the axes.
+  const auto around = [](double first, double second, double third, double length, double sign) {
+    std::vector<Touch> out;
+    for (const double degrees : {first, second, third}) {
+      const double angle = degrees * 3.14159265358979323846 / 180, way = out.size() == 2 ? length : 20;
+      const Point3 to{std::cos(angle), std::sin(angle), 0};
+      out.push_back({Point3{5, 7, -3} + to * way, to * sign});
+    }
+    return out;
+  };
+  const sim::Part arc = made(around(30, 75, 160, 20, 1));
+  CHECK(std::abs(arc.distance({5, 7 - 20, -3})) < 1e-6);
+  CHECK_FALSE(inside(arc, {5, 7, -3}));
+  CHECK(inside(arc, {5, 7 - 20.5, -3}));
+  const sim::Part stud = made(around(-10, 130, 250, 20, -1));
+  CHECK(std::abs(stud.distance({5 + 20, 7, -3})) < 1e-6);
+  CHECK(inside(stud, {5, 7, -3}));
+  CHECK_FALSE(inside(made(around(30, 75, 160, 21, 1)), {5, 7 - 20.5, -3}));
+  CHECK_FALSE(inside(made(around(0, 90, 180, 20, 1)), {5, 7 - 20.5, -3}));
+
   // A web is solid between its faces, which may be nearer than a search goes.
   const sim::Part web = made({{{1, 0, -3}, {-1, 0, 0}}, {{0, 0, -3}, {1, 0, 0}}});
   CHECK(inside(web, {0.5, 0, -3}));

@@ -94,6 +94,23 @@ TEST_CASE("verify: an angle's touches lie on steps of the control") {
   CHECK_MESSAGE(agrees(said), said);
 }
 
+TEST_CASE("verify: a bore by three touches at angles, with our own macro") {
+  for (const char* control : {"fanuc-0i-md", "fanuc-31i-b"}) {
+    const Shop arc{"toolchange", "MX.Arc.Centre", "measure", "fanuc", "dotek", control};
+    const std::string said = verified(arc);
+    CHECK_MESSAGE(agrees(said), said);
+    const std::string good = converted(arc);
+    const std::size_t at = good.find("G65 P8823");
+    REQUIRE(at != std::string::npos);
+    const std::string line = good.substr(at, good.find('\n', at) - at);
+    for (const auto& [from, to] : std::vector<std::pair<std::string, std::string>>{
+             {"A#", "A-#"}, {" S#", " S1+#"}, {"P8823", "P8814"}, {line, "(" + line + ")"}}) {
+      const std::string wrong = replaced(line, from, to);
+      CHECK_MESSAGE(!agrees(verified(arc, replaced(good, line, wrong))), wrong);
+    }
+  }
+}
+
 TEST_CASE("verify: a corner as two calls of single surfaces") {
   const Shop corner{"inspection", "JT.Vice.Corner", "probeOps", "fanuc", "easyprobe", "fanuc-31i-b"};
   const std::string said = verified(corner);

@@ -1,0 +1,54 @@
+#include "verify/Exactness.h"
+
+#include "sim/geometry/Contact.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace dotek::verify {
+namespace {
+
+// By how much what is computed from three touches that look from one middle is off, for an error of 1 of
+// each: the circle's middle and radius x, y, r solve d.x * x + d.y * y + r = e. 1: no such touches.
+double spreadOf(const Measure& measure) {
+  if (measure.nominal.size() != 3 || !isOblique(measure)) return 1;
+  constexpr double kOnOneLine = 1e-3, kMost = 100;
+  std::array<double, 3> x{}, y{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    x[i] = measure.nominal[i].direction.x;
+    y[i] = measure.nominal[i].direction.y;
+  }
+  const double determinant = (x[1] - x[0]) * (y[2] - y[0]) - (x[2] - x[0]) * (y[1] - y[0]);
+  if (std::abs(determinant) < kOnOneLine) return kMost;
+  double ofX = 0, ofY = 0, ofR = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::size_t k = (i + 1) % 3, l = (i + 2) % 3;
+    ofX += std::abs(y[k] - y[l]);
+    ofY += std::abs(x[l] - x[k]);
+    ofR += std::abs(x[k] * y[l] - x[l] * y[k]);
+  }
+  return std::clamp(std::max({ofX, ofY, 2 * ofR}) / std::abs(determinant), 1.0, kMost);
+}
+
+} // namespace
+
+// A move that the stem or the body of the probe stops ends at a place that is known to the safe side alone,
+// and with it what the source takes for measured.
+CompareRules asExactAs(const Record& source, CompareRules rules) {
+  const bool stopped = std::any_of(source.events.begin(), source.events.end(), [](const auto& event) {
+    return event.first.outcome == sim::Outcome::StemCollision ||
+           event.first.outcome == sim::Outcome::BodyCollision;
+  });
+  if (stopped) rules.results = std::max(rules.results, sim::kCollisionMargin);
+  // Another macro computes a circle from other places of the same control's grid.
+  if (!rules.sameAlarmNumbers) {
+    double spread = 1;
+    for (const Measure& measure : source.measures)
+      spread = std::max(spread, spreadOf(measure));
+    rules.results *= spread;
+  }
+  return rules;
+}
+
+} // namespace dotek::verify
