@@ -3,6 +3,8 @@
 #include "ir/Match.h"
 #include "ir/SharedMap.h"
 #include "ir/Walk.h"
+#include "lint/LengthNumbers.h"
+#include "lint/OffsetStates.h"
 #include "lint/Skips.h"
 
 #include <algorithm>
@@ -12,61 +14,8 @@
 namespace dotek::lint {
 namespace {
 
-constexpr std::uint32_t kZ = 2; // axes after X
 constexpr std::uint32_t kLastLocal = 33;
 constexpr std::uint32_t kFirstSystem = 1000;
-
-// Numbers of variables that matter, of the profiles that a program may be for.
-struct Numbers {
-  std::set<std::uint32_t> positions; // that hold the length
-  std::set<std::uint32_t> machine, length;
-  std::set<std::uint32_t> zeroes; // Z of work systems
-  std::vector<stdlib::VariableRange> toolOffsets;
-
-  explicit Numbers(const Project& project) {
-    if (project.control != nullptr) add(*project.control);
-    for (const stdlib::Control& control : project.controls)
-      add(control);
-    for (const stdlib::Control& control : project.controls)
-      drop(control);
-  }
-
-  bool isToolOffset(std::uint32_t number) const {
-    return std::any_of(toolOffsets.begin(), toolOffsets.end(), [&](const stdlib::VariableRange& range) {
-      return number >= range.first && number <= range.last;
-    });
-  }
-
-private:
-  static void put(std::set<std::uint32_t>& into, std::optional<int> first) {
-    if (first) into.insert(static_cast<std::uint32_t>(*first) + kZ);
-  }
-  void add(const stdlib::Control& control) {
-    const stdlib::SystemVariables& v = control.variables;
-    if (control.withToolLength && control.withToolLength->position) put(positions, v.position);
-    if (control.withToolLength && control.withToolLength->skip) put(positions, v.skip);
-    put(machine, v.machine);
-    put(length, v.toolLength);
-    toolOffsets.insert(toolOffsets.end(), control.toolOffsets.begin(), control.toolOffsets.end());
-    const auto zero = [&](std::optional<int> first, int system) {
-      if (first) zeroes.insert(static_cast<std::uint32_t>(*first + system + 2 * v.axisStep));
-    };
-    zero(v.externalX, 0);
-    for (int system = 0; system < 6; ++system)
-      zero(v.workOffsetX, system * v.systemStep);
-    for (int system = 0; system < v.extendedCount; ++system)
-      zero(v.extendedX, system * v.extendedStep);
-  }
-  // Where nobody names the control, what holds on all of them counts.
-  void drop(const stdlib::Control& control) {
-    const stdlib::SystemVariables& v = control.variables;
-    const auto erase = [&](std::optional<int> first, bool held) {
-      if (first && !held) positions.erase(static_cast<std::uint32_t>(*first) + kZ);
-    };
-    erase(v.position, control.withToolLength && control.withToolLength->position);
-    erase(v.skip, control.withToolLength && control.withToolLength->skip);
-  }
-};
 
 struct Read {
   std::uint32_t number = 0;
@@ -79,12 +28,13 @@ struct Held {
   bool unknown = false;
   bool maybeAdded = false, maybeTaken = false; // a value that may be the length is a term, with + or with -
   std::optional<Read> read;                    // where the length comes from
+  const LengthNumbers::Wear* wear = nullptr;   // the wear of a tool is a term
 
   bool none() const { return lengths == 0 && !unknown; }
   bool free() const { return maybeAdded || maybeTaken; }
   bool operator==(const Held& other) const {
     return lengths == other.lengths && unknown == other.unknown && maybeAdded == other.maybeAdded &&
-           maybeTaken == other.maybeTaken && read.has_value() == other.read.has_value();
+           maybeTaken == other.maybeTaken && wear == other.wear && read.has_value() == other.read.has_value();
   }
 };
 
@@ -101,6 +51,7 @@ Held sum(const Held& a, const Held& b, bool subtract) {
   out.maybeAdded = a.maybeAdded || (subtract ? b.maybeTaken : b.maybeAdded);
   out.maybeTaken = a.maybeTaken || (subtract ? b.maybeAdded : b.maybeTaken);
   out.read = a.read ? a.read : b.read;
+  out.wear = a.wear != nullptr ? a.wear : b.wear;
   return out;
 }
 
@@ -116,10 +67,9 @@ Held mixed(const Held& a, const Held& b) {
   if (!a.none() || !b.none()) return unknownHeld();
   Held out;
   out.maybeAdded = a.free() || b.free();
+  out.wear = a.wear != nullptr ? a.wear : b.wear;
   return out;
 }
-
-enum class Offset : std::uint8_t { AsBefore, On, Off, Either };
 
 struct Fact {
   ir::SharedMap<Held> values; // of variables that the program has set
@@ -141,6 +91,7 @@ Held merged(Held into, const Held& other) {
   into.maybeAdded = into.maybeAdded || other.maybeAdded;
   into.maybeTaken = into.maybeTaken || other.maybeTaken;
   if (!into.read) into.read = other.read;
+  if (into.wear == nullptr) into.wear = other.wear;
   return into;
 }
 
@@ -157,31 +108,17 @@ bool merge(Fact& into, const Fact& other) {
   return changed;
 }
 
-// G43, G44 and their forms with a point, G49; nothing: none of them. H0 is as good as G49.
-std::optional<Offset> statedOffset(const ir::ProgramStatement& statement) {
-  const auto* block = std::get_if<ir::NcBlock>(&statement.node);
-  if (block == nullptr) return std::nullopt;
-  std::optional<Offset> out;
-  for (const ir::Word& word : block->words) {
-    if (word.address != 'G') continue;
-    const double* code = ir::constantValue(word.value);
-    if (code == nullptr) out = Offset::Either;
-    if (code != nullptr && *code >= 43 && *code < 45)
-      out = wordValue(*block, 'H') == 0.0 ? Offset::Off : Offset::On;
-    if (code != nullptr && *code == 49) out = Offset::Off;
-  }
-  return out;
-}
-
 class Search {
 public:
-  Search(const ir::Program& program, const Project& project, const Numbers& numbers,
-         const std::set<std::uint32_t>& switching)
-      : program_(program), project_(project), numbers_(numbers), switching_(switching) {}
+  Search(const ir::Program& program, const Project& project, const LengthNumbers& numbers,
+         const std::set<std::uint32_t>& switching, std::optional<CalledUnder> called)
+      : program_(program), project_(project), numbers_(numbers), switching_(switching), called_(called),
+        macro_(!endsProgram(program)) {}
 
   std::vector<LengthLeftIn> run() {
     if (!readsPosition()) return {};
     Fact entry;
+    if (called_) entry.offset = called_->offset;
     // A macro that measures tools runs without an offset; one that takes the length off does not.
     if (measuresTool() && !readsLength()) entry.offset = Offset::Off;
     const auto& body = program_.body;
@@ -263,7 +200,9 @@ private:
     if (!number) {
       const auto first = ir::firstNumber(computed);
       Held out; // a zero point of a work system holds none
-      out.maybeAdded = !first || !zeroTable(*first);
+      // #[2000+n]: n is the number of an offset.
+      out.wear = first ? numbers_.wearOf(*first + 1) : nullptr;
+      out.maybeAdded = out.wear == nullptr && (!first || !zeroTable(*first));
       return out;
     }
     const bool off = fact.offset == Offset::Off;
@@ -277,13 +216,14 @@ private:
     }
     if (const Held* held = fact.values.find(*number)) return *held;
     if (*number < kFirstSystem) return fact.lost ? unknownHeld() : entryValue(*number);
-    out.maybeAdded = numbers_.isToolOffset(*number);
+    out.wear = numbers_.wearOf(*number);
+    out.maybeAdded = out.wear == nullptr && numbers_.isToolOffset(*number);
     return out;
   }
 
   // The first variable of a table of zero points: #[5203+..].
   bool zeroTable(std::uint32_t first) const {
-    return numbers_.zeroes.contains(first) || numbers_.zeroes.contains(first + kZ) ||
+    return numbers_.zeroes.contains(first) || numbers_.zeroes.contains(first + LengthNumbers::kZ) ||
            numbers_.zeroes.contains(first + 20);
   }
 
@@ -371,7 +311,10 @@ private:
     if (!one.read || one.unknown || one.lengths == 0 || fact.offset == Offset::Off) return;
     if (one.lengths > 0 ? one.maybeTaken : one.maybeAdded) return;
     const std::uint32_t length = numbers_.length.empty() ? 0 : *numbers_.length.begin();
-    found_.push_back({place, range, value->range, one.lengths, one.read->number, one.read->range, length});
+    LengthLeftIn found{place, range, value->range, one.lengths, one.read->number, one.read->range, length};
+    if (one.wear != nullptr) found.wear = {one.wear->wear.first - 1, one.wear->geometry};
+    if (fact.offset == Offset::On && called_ && called_->offset == Offset::On) found.call = called_->call;
+    found_.push_back(std::move(found));
   }
 
   // Variables of which a Z is computed that holds no length: an argument, or what the program has taken it
@@ -383,7 +326,7 @@ private:
       return;
     for (const ir::Word& word : block->words) {
       if (word.address != 'Z' || word.value == nullptr) continue;
-      if (const Held z = held(word.value, fact); !z.none() || z.free()) continue;
+      if (const Held z = held(word.value, fact); !z.none() || z.free() || z.wear != nullptr) continue;
       ir::eachNode(word.value, [&](const ir::Expression& one) {
         if (!std::holds_alternative<ir::MachineVariable>(one.node)) return;
         if (const auto number = variableNumber(one)) heights_.insert(*number);
@@ -392,7 +335,7 @@ private:
   }
 
   bool isHeight(const ir::ExpressionPtr& value, const Fact& fact) const {
-    if (const Held one = held(value, fact); !one.none() || one.free()) return false;
+    if (const Held one = held(value, fact); !one.none() || one.free() || one.wear != nullptr) return false;
     bool out = false;
     ir::eachNode(value, [&](const ir::Expression& one) {
       if (!std::holds_alternative<ir::MachineVariable>(one.node)) return;
@@ -439,22 +382,33 @@ private:
 
   void judge(const ir::ProgramStatement& statement, Fact fact) {
     if (const auto stated = statedOffset(statement)) fact.offset = *stated;
-    judgeDifferences(statement, fact);
     ir::match(
         statement, [&](const ir::NcBlock& block) { judgeBlock(statement, block, fact); },
         [&](const ir::Call&) {
           if (const ir::Call* call = callOf(statement)) judgeCall(*call, fact);
         },
         [&](const ir::Store& store) {
-          if (fact.offset == Offset::On) judgeStore(statement, store, fact);
+          if (maySetZero(fact)) judgeStore(statement, store, fact);
         },
         [](const ir::OneOf<ir::Label, ir::Jump, ir::Branch, ir::Comment, ir::JumpTo, ir::Loop, ir::LoopEnd,
                            ir::Exit, ir::Raise, ir::Notice, ir::Port, ir::Print, ir::NameVariables> auto&) {
         });
+    judgeDifferences(statement, fact); // of a coordinate the move or the offset says more
+  }
+
+  // A macro is called under G43, or its own `#5083` is 0; a program that says nothing of lengths has none.
+  bool maySetZero(const Fact& fact) const {
+    return fact.offset == Offset::On || (macro_ && fact.offset == Offset::AsBefore);
+  }
+
+  // G10 L2, L20: the zero of a work system.
+  static bool isZeroInput(const ir::NcBlock& block) {
+    const auto l = wordValue(block, 'L');
+    return l == 2.0 || l == 20.0;
   }
 
   void judgeBlock(const ir::ProgramStatement& statement, const ir::NcBlock& block, const Fact& fact) {
-    const bool offset = hasCode(block, 'G', 10) && wordValue(block, 'L') == 2.0 && fact.offset == Offset::On;
+    const bool offset = hasCode(block, 'G', 10) && isZeroInput(block) && maySetZero(fact);
     if (!offset && !isPlainMove(block) && (skipOf(statement) == nullptr || hasCode(block, 'G', 53))) return;
     for (const ir::Word& word : block.words)
       if (word.address == 'Z')
@@ -498,39 +452,35 @@ private:
 
   const ir::Program& program_;
   const Project& project_;
-  const Numbers& numbers_;
+  const LengthNumbers& numbers_;
   const std::set<std::uint32_t>& switching_;
-  std::set<std::uint32_t> heights_; // variables of which absolute Z words are computed
+  std::optional<CalledUnder> called_; // by programs of the files
+  bool macro_;                        // it returns: what is in force is its caller's
+  std::set<std::uint32_t> heights_;   // variables of which absolute Z words are computed
   std::vector<LengthLeftIn> found_;
 };
-
-// Programs of the files that turn the offset on or off.
-std::set<std::uint32_t> switchingPrograms(const Project& project) {
-  std::set<std::uint32_t> out;
-  for (const NcFile& nc : project.programs)
-    if (nc.lowered)
-      for (const ir::Program& program : nc.lowered->programs)
-        if (std::any_of(program.body.begin(), program.body.end(),
-                        [](const ir::ProgramStatement& one) { return statedOffset(one).has_value(); }))
-          out.insert(static_cast<std::uint32_t>(program.number));
-  return out;
-}
 
 } // namespace
 
 struct ToolLengths::Known {
-  Numbers numbers;
+  explicit Known(const Project& project)
+      : numbers(project), switching(switchingPrograms(project)), called(calledUnder(project, switching)) {}
+
+  LengthNumbers numbers;
   std::set<std::uint32_t> switching;
+  std::map<std::uint32_t, CalledUnder> called;
 };
 
 ToolLengths::ToolLengths(const Project& project)
-    : project_(project),
-      known_(std::make_unique<const Known>(Known{Numbers(project), switchingPrograms(project)})) {}
+    : project_(project), known_(std::make_unique<const Known>(project)) {}
 
 ToolLengths::~ToolLengths() = default;
 
 std::vector<LengthLeftIn> ToolLengths::leftIn(const ir::Program& program) const {
-  return Search(program, project_, known_->numbers, known_->switching).run();
+  const auto called = known_->called.find(static_cast<std::uint32_t>(program.number));
+  return Search(program, project_, known_->numbers, known_->switching,
+                called == known_->called.end() ? std::nullopt : std::optional(called->second))
+      .run();
 }
 
 } // namespace dotek::lint

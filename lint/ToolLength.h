@@ -25,6 +25,13 @@ struct LengthLeftIn {
   std::uint32_t read = 5063; // the position
   SourceRange readAt;
   std::uint32_t length = 5083; // the variable of the length
+  // The wear of a tool is a term of it, from variables where the geometry has numbers of its own: the first
+  // numbers of both tables, those of offset 0.
+  struct Wear {
+    std::uint32_t wear = 2000, geometry = 2200;
+  };
+  std::optional<Wear> wear = std::nullopt;
+  SourceRange call = {}; // by which the program is called under G43; no place: nothing says so
 };
 
 // What profiles and files say of lengths, gathered once for all programs of a project, which outlives it.

@@ -11,7 +11,8 @@ using Place = LengthLeftIn::Place;
 
 // `Z#101` becomes `Z[#101-#5083]`; nothing where the length is in it otherwise than once.
 std::optional<Edit> repair(const LengthLeftIn& one, const SourceMap& sources) {
-  if (!one.value.hasPlace() || one.length == 0 || (one.lengths != 1 && one.lengths != -1))
+  // Where the wear is taken off, the length has to come in its place.
+  if (one.wear || !one.value.hasPlace() || one.length == 0 || (one.lengths != 1 && one.lengths != -1))
     return std::nullopt;
   std::string text(sources.text(one.value));
   const bool bracketed = text.starts_with('[') && text.ends_with(']') && text.find(']') == text.size() - 1;
@@ -20,7 +21,23 @@ std::optional<Edit> repair(const LengthLeftIn& one, const SourceMap& sources) {
   return Edit{one.value, one.place == Place::WorkOffset ? taken : "[" + taken + "]"};
 }
 
+std::string wearText(const LengthLeftIn::Wear& wear) {
+  return fmt::format("`#[{}+n]`, which is taken off, is the wear of a tool and not its length on a Fanuc "
+                     "with both (on a Haas it is the length)",
+                     wear.wear);
+}
+
+std::string wearCure(const LengthLeftIn& one) {
+  return fmt::format("take #{} off, or `#[{}+n]+#[{}+n]`", one.length, one.wear->geometry, one.wear->wear);
+}
+
 Diagnostic& reportDifference(const LengthLeftIn& one, Report& report) {
+  if (one.wear)
+    return report.at(
+        one.range,
+        "#{} holds the length of the tool too, and {}; under G43 the difference is wrong by that "
+        "length; {}",
+        one.read, wearText(*one.wear), wearCure(one));
   return report.at(
       one.range,
       "#{} holds the length of the tool too, and the height that it is compared with does not; under G43 the "
@@ -43,14 +60,16 @@ void checkProgram(const ir::Program& program, const Project& project, const Tool
     Diagnostic& found =
         first.place == Place::Difference
             ? reportDifference(first, report)
-            : report.at(
-                  first.range,
-                  "{0} computed from #{1}, which holds the length of the tool too, and nothing takes it off; "
-                  "under G43 {2} "
-                  "{3} by that length; take #{4} off",
-                  first.place == Place::WorkOffset ? "this work offset is" : "this Z is", first.read,
-                  first.place == Place::WorkOffset ? "the zero lies" : "the tool goes",
-                  first.lengths > 0 ? "too high" : "too low, into the part,", first.length);
+            : report.at(first.range,
+                        "{0} computed from #{1}, which holds the length of the tool too, and {5}; "
+                        "under G43 {2} "
+                        "{3} by that length; {4}",
+                        first.place == Place::WorkOffset ? "this work offset is" : "this Z is", first.read,
+                        first.place == Place::WorkOffset ? "the zero lies" : "the tool goes",
+                        first.lengths > 0 ? "too high" : "too low, into the part,",
+                        first.wear ? wearCure(first) : fmt::format("take #{} off", first.length),
+                        first.wear ? wearText(*first.wear) : std::string("nothing takes it off"));
+    if (first.call.hasPlace()) found.note(first.call, "the program is called here, under G43");
     if (first.readAt.hasPlace() &&
         (first.readAt.end <= first.range.begin || first.readAt.begin >= first.range.end))
       found.note(first.readAt, "the position is read here");

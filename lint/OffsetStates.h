@@ -1,0 +1,38 @@
+// Whether the length of a tool is in force: G43 and G49 before statements of programs, and before those that
+// other programs of the files call.
+#pragma once
+
+#include "lint/Probing.h"
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <set>
+#include <vector>
+
+namespace dotek::lint {
+
+// AsBefore: nothing of the program says it. Either: paths disagree, or a code that is computed, or a program
+// that is called, may have changed it.
+enum class Offset : std::uint8_t { AsBefore, On, Off, Either };
+
+// G43, G44 and their forms with a point, G49; nothing: none of them. H0 is as good as G49.
+std::optional<Offset> statedOffset(const ir::ProgramStatement& statement);
+
+// Programs of the files that turn the offset on or off.
+std::set<std::uint32_t> switchingPrograms(const Project& project);
+
+// The offset before each statement; nothing where no path leads.
+std::vector<std::optional<Offset>> offsetStates(const ir::Program& program, Offset entry,
+                                                const std::set<std::uint32_t>& switching);
+
+// How programs of the files are called.
+struct CalledUnder {
+  Offset offset = Offset::AsBefore; // On where one caller of several has it on
+  SourceRange call;                 // the first call under it
+};
+// By their number; those that nothing calls are not in it.
+std::map<std::uint32_t, CalledUnder> calledUnder(const Project& project,
+                                                 const std::set<std::uint32_t>& switching);
+
+} // namespace dotek::lint
