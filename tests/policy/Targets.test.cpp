@@ -69,8 +69,13 @@ TEST_CASE("policy: nothing compares the name of a target") {
   CHECK(comparisons("list(\"fanuc\")", "fanuc").empty());
   for (const TreeFile& file : tree()) {
     if (!file.isSource() || file.below("tests") || file.below("stdlib")) continue;
-    for (const std::string& name : targetFolders())
+    for (const std::string& name : targetFolders()) {
+      // A word of languages, too, and what runs on the simulator.
+      const bool word =
+          name == "cycle" && !file.below("targets") && !file.below("driver") && !file.below("cli");
+      if (word) continue;
       for (const std::string& line : comparisons(file.text, name))
         CHECK_MESSAGE(false, file.path << ": " << line);
+    }
   }
 }
