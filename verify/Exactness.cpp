@@ -9,10 +9,14 @@
 namespace dotek::verify {
 namespace {
 
+constexpr double kTurned =
+    0.006; // a flat face leans at most so much from the touch that expects it: 0.3 degrees
+
 // By how much what is computed from three touches that look from one middle is off, for an error of 1 of
-// each: the circle's middle and radius x, y, r solve d.x * x + d.y * y + r = e. 1: no such touches.
+// each: the circle's middle and radius x, y, r solve d.x * x + d.y * y + r = e. 1: of touches along the axes.
 double spreadOf(const Measure& measure) {
-  if (measure.nominal.size() != 3 || !isOblique(measure)) return 1;
+  if (!isOblique(measure)) return 1;
+  if (measure.nominal.size() != 3) return 2; // both coordinates of each contact count
   constexpr double kOnOneLine = 1e-3, kMost = 100;
   std::array<double, 3> x{}, y{};
   for (std::size_t i = 0; i < 3; ++i) {
@@ -44,8 +48,11 @@ CompareRules asExactAs(const Record& source, CompareRules rules) {
   // Another macro computes a circle from other places of the same control's grid.
   if (!rules.sameAlarmNumbers) {
     double spread = 1;
-    for (const Measure& measure : source.measures)
+    for (const Measure& measure : source.measures) {
       spread = std::max(spread, spreadOf(measure));
+      if (isOblique(measure) && measure.nominal.size() != 3)
+        rules.results = std::max(rules.results, kObliqueWord * kTurned);
+    }
     rules.results *= spread;
   }
   return rules;

@@ -9,6 +9,8 @@ namespace {
 using sim::PathKind;
 using sim::Point3;
 
+constexpr double kOpposite = 1e-8;
+
 bool near(const Point3& a, const Point3& b, double tolerance) {
   return (a - b).length() <= tolerance;
 }
@@ -81,9 +83,36 @@ private:
       out_.parts.back().marks.push_back(*now()->mark);
   }
 
+  // Opposite walls that are touched from outside: the probe goes over them and down beside them.
+  static bool isOutside(const Measure& like) {
+    if (like.nominal.size() < 2) return false;
+    const Touch &a = like.nominal[0], &b = like.nominal[1];
+    return (a.direction + b.direction).length() < kOpposite && (a.point - b.point).dot(a.direction) < 0;
+  }
+
+  // The moves since the probe was where `like` begins are part of the measure.
+  void takeWayDown(const Measure& like) {
+    std::vector<Piece>& pieces = out_.record.pieces;
+    for (std::size_t i = pieces.size(); i-- > 0 && pieces[i].kind == PathKind::Protected;) {
+      if (!near(pieces[i].from, like.start, middle_)) continue;
+      begin();
+      const Piece measuring{PathKind::Measuring, pieces[i].from,      pieces[i].from,
+                            pieces.back().with,  pieces.back().range, {}};
+      pieces.resize(i);
+      pieces.push_back(measuring);
+      out_.record.measures.back().start = measuring.from;
+      return;
+    }
+    begin();
+  }
+
   void gather(const Measure& like) {
     if (!moves()) return;
-    begin();
+    outside_ = isOutside(like);
+    if (outside_)
+      takeWayDown(like);
+    else
+      begin();
     const std::size_t sides = std::max<std::size_t>(1, like.nominal.size());
     Gathered::Parts& parts = out_.parts.back();
     // Between them the probe comes off the walls in feed.
@@ -92,7 +121,7 @@ private:
         takeTouch();
       else if (now()->mark != nullptr)
         takeMarks();
-      else if (now()->piece->kind == PathKind::Feed)
+      else if (comesOff(*now()->piece))
         ++next_;
       else
         break;
@@ -112,7 +141,8 @@ private:
       const Piece& piece = *now()->piece;
       const bool there =
           left && near(at, end, sides > 1 ? middle_ : tolerance_) && !(sides > 1 && setsLater());
-      if (there || piece.kind == PathKind::Measuring || piece.kind == PathKind::Protected) break;
+      if (there || piece.kind == PathKind::Measuring || (piece.kind == PathKind::Protected && !outside_))
+        break;
       if (sides == 1 && passes(at, piece.to, end)) {
         if (!near(end, piece.to, tolerance_)) {
           out_.record.pieces.push_back(piece);
@@ -122,7 +152,7 @@ private:
         takeMarks();
         return end;
       }
-      if (piece.kind != PathKind::Feed || sides == 1) break;
+      if (!comesOff(piece) || sides == 1) break;
       at = piece.to;
       left = true;
     }
@@ -137,13 +167,18 @@ private:
     return share >= 0 && share <= 1 + tolerance_ / length && near(from + way * share, point, tolerance_);
   }
 
-  // A position is set before the program does something else: it has not come to its place yet.
+  // A position is set before the program does something else: it has not come to its place yet. A record
+  // before that is none.
   bool setsLater() const {
     for (std::size_t i = next_; i < steps_.size(); ++i) {
       if (steps_[i].mark != nullptr && steps_[i].mark->kind == Mark::Kind::Datum) return true;
-      if (steps_[i].mark != nullptr || steps_[i].piece->kind != PathKind::Feed) return false;
+      if (steps_[i].mark != nullptr && steps_[i].mark->kind == Mark::Kind::Stop) return false;
+      if (steps_[i].piece != nullptr && !comesOff(*steps_[i].piece)) return false;
     }
     return false;
+  }
+  bool comesOff(const Piece& piece) const {
+    return piece.kind == PathKind::Feed || (outside_ && piece.kind == PathKind::Protected);
   }
 
   const Record &like_, &ran_;
@@ -151,6 +186,7 @@ private:
   std::vector<Step> steps_;
   std::size_t next_ = 0;  // of the steps
   std::size_t touch_ = 0; // of the measures that ran
+  bool outside_ = false;  // the measure that is being gathered
   Gathered out_;
 };
 

@@ -9,6 +9,7 @@
 #include "targets/Stage.h"
 #include "verify/Bounds.h"
 #include "verify/Callers.h"
+#include "verify/Exactness.h"
 
 #include <algorithm>
 #include <cctype>
@@ -24,7 +25,6 @@ namespace gibbs = frontend::gibbs;
 
 namespace {
 
-constexpr double kGridSteps = 2.5e-6;      // mm: two steps, and what a subtraction leaves
 constexpr std::uint32_t kOwnAlarms = 3000; // of programs
 // Of a position whose word is rounded, and of what is met from there: in steps of the control's words.
 constexpr double kRoundedWord = 0.6;
@@ -260,8 +260,7 @@ private:
   verify::CompareRules rulesFor(const TargetCase& now, const verify::Record& source) const {
     verify::CompareRules rules;
     rules.results = std::max(from_.options.tolerance, resultTolerance(control_, *from_.inputs.sourceControl));
-    // Another macro set computes a result from other contacts, each on the grid of a nanometre.
-    if (sourceSet_ != set_) rules.results = std::max(rules.results, kGridSteps);
+    if (sourceSet_ != set_) rules.results = std::max(rules.results, verify::kGridSteps);
     // After a write of the system that is active, what follows is as exactly as the control computes.
     rules.tolerance = writesActive(source, now.entry) ? rules.results : from_.options.tolerance;
     // Positions that the cycle computes go to the control rounded to its least increment, and contacts on

@@ -29,6 +29,29 @@ bool isStraight(const ir::Cycle& cycle) {
   });
 }
 
+// What the branch keeps where macros of the target's set work, or keep their calibration.
+void checkStores(State& state) {
+  const auto& body = state.cycle.body;
+  if (std::none_of(body.begin(), body.end(), [](const auto& one) { return ir::probes(one); })) return;
+  for (const ir::CycleStatement& one : body) {
+    const auto* store = std::get_if<ir::Store>(&one.node);
+    const double* number = store == nullptr ? nullptr : ir::constantValue(store->number);
+    if (number == nullptr) continue;
+    const auto within = [&](const auto& range) { return range.first <= *number && *number <= range.second; };
+    const auto& scratch = state.options.macros.scratch;
+    if (std::none_of(scratch.begin(), scratch.end(), within)) continue;
+    const auto& common = state.options.control.common;
+    const bool kept = std::any_of(common.begin(), common.end(), [&](const stdlib::VariableRange& range) {
+      return range.kept && range.first <= *number && *number <= range.last;
+    });
+    const auto variable = static_cast<std::uint32_t>(*number);
+    if (kept)
+      state.refuse<diag::StoreCalibration>(one.origin.range(), variable, state.options.macros.title);
+    else
+      state.diagnostics.report<diag::StoreScratch>(one.origin.range(), variable, state.options.macros.title);
+  }
+}
+
 // Names of parameters before those of hosts and locals, whoever is used first.
 void nameFields(State& state) {
   for (ir::VariableId id = 0; id < state.cycle.variables.size(); ++id) {
@@ -56,6 +79,7 @@ std::optional<std::vector<EmittedLine>> emit(const ir::Cycle& cycle, const EmitO
     return std::nullopt;
   }
   nameFields(state);
+  checkStores(state);
 
   // The body first: it says what is read and which helpers are needed.
   Script rest;

@@ -10,6 +10,7 @@
 #include "targets/ReadBack.h"
 #include "targets/Stage.h"
 #include "verify/Callers.h"
+#include "verify/Exactness.h"
 
 #include <algorithm>
 #include <cmath>
@@ -487,6 +488,7 @@ private:
     rules.tolerance = rules.results = from_.options.tolerance;
     if (control_.arithmetic == stdlib::Arithmetic::Decimal8)
       rules.results = std::max(rules.tolerance, kEightDigits);
+    if (sourceSet_ != set_) rules.results = std::max(rules.results, verify::kGridSteps);
     rules.sameAlarmNumbers = sourceSet_ == set_;
     if (const auto host = now.drawn.hosts.find("overtravel");
         sourceSet_ != set_ && host != now.drawn.hosts.end())

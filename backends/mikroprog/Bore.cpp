@@ -1,4 +1,4 @@
-// The centre of a bore: two contacts along each axis and the middle between them.
+// The middle of a bore, a pocket, a boss or a web: two contacts along each axis and the middle between them.
 #include "backends/mikroprog/State.h"
 #include "ir/Linear.h"
 #include "support/Decimal.h"
@@ -21,6 +21,10 @@ struct Plan {
   double half = 0;   // from the middle to a contact of the ball's centre, as expected
   double widest = 0; // from contact to contact, at most
   double first = 0;  // step that the walk begins with: all steps together pass `widest`
+  // Of what is touched from outside: how far beside the contact the ball goes down and comes up, and where it
+  // is before and after, and at the touches (Z, in the coordinates of the source). 0: from within.
+  double beside = 0, above = 0, depth = 0;
+  bool outside() const { return beside > 0; }
 };
 
 std::string record(const State& state, std::string_view function) {
@@ -54,6 +58,78 @@ void writeWalk(State& state, ir::Axis axis, const Plan& plan, Mark entry, const 
   }
   sheet.add(state.code("absolute"), origin);
   sheet.add(state.code("return"), origin);
+}
+
+void protectedTo(State& state, ir::Axis axis, double place, std::string reason, const ir::Origin& origin) {
+  ir::Move move;
+  move.motion = ir::Motion::Protected;
+  move.axes[ir::indexOf(axis)] = ir::Coordinate{ir::constant(place), ir::Frame::Work, nullptr};
+  protectedMove(state, move, made(std::move(reason), origin));
+}
+
+// Over one side and down beside it; `out`: in the coordinates of the source.
+void downBeside(State& state, ir::Axis axis, const Plan& plan, double out, const ir::Origin& origin) {
+  protectedTo(state, axis, out, "beside the feature", origin);
+  protectedTo(state, ir::Axis::Z, plan.depth, "down beside the feature", origin);
+}
+
+// One axis from outside, by comparing. The first contact becomes minus the way off the wall, so that the
+// place above the other side, as far off its wall, is at minus twice the way from there to the middle.
+void compareOutside(State& state, ir::Axis axis, const Plan& plan, double centre, double nominal,
+                    const ir::Origin& origin) {
+  const SourceRange range = origin.range();
+  AxisState& now = state.axes[ir::indexOf(axis)];
+  const double over = state.overtravel();
+  const auto word = [&](double value) { return axisWord(state, axis, value, range); };
+  const std::string feed = " F" + numberWord(state, state.host("return_feed"), range);
+  const ir::Origin way = made("middle by comparing", origin);
+  state.sheet.comment(fmt::format("MIDDLE ALONG {}", ir::letterOf(axis)), way);
+  downBeside(state, axis, plan, sum(centre, sum(plan.half, plan.beside)), origin);
+  ++state.probeMoves;
+  search(state, axis, sum(sum(sum(centre, now.shift), plan.half), -over), origin, "WALL ON THE PLUS SIDE");
+  state.sheet.add(state.code("set-position") + " " + word(-plan.beside), way, "FOR THE COMPARISON");
+  now.shift = sum(-plan.beside, -sum(centre, plan.half));
+  state.sheet.add(fmt::format("{} {}{}", state.code("feed"), word(0), feed), made("off the wall", origin));
+  protectedTo(state, ir::Axis::Z, plan.above, "up beside the feature", origin);
+  downBeside(state, axis, plan, sum(centre, -sum(plan.half, plan.beside)), origin);
+  ++state.probeMoves;
+  search(state, axis, sum(sum(sum(centre, now.shift), -plan.half), over), origin, "WALL ON THE MINUS SIDE");
+  state.sheet.add(state.code("incremental"), way);
+  state.sheet.add(fmt::format("{} {}{}", state.code("feed"), word(-plan.beside), feed),
+                  made("off the wall", origin));
+  state.sheet.add(state.code("absolute"), way);
+  protectedTo(state, ir::Axis::Z, plan.above, "up beside the feature", origin);
+  state.sheet.add("P90=" + numberWord(state, -2 * plan.first, range), way);
+  const Mark entry = state.mark();
+  state.sheet.jump(state.code("call"), entry, "", way, "TO THE MIDDLE");
+  state.sheet.add("P90=P90+" + numberWord(state, plan.beside, range), way);
+  state.sheet.add(record(state, "record-value"), made("record of the size", origin),
+                  fmt::format("SIZE = -2*P90 - {}", numberText(2 * state.host("tool_radius"))));
+  state.sheet.add(state.code("set-position") + " " + word(nominal), origin);
+  writeWalk(state, axis, plan, entry, origin);
+  now.shift = sum(nominal, -centre);
+  now.at = centre;
+  now.datum = true;
+}
+
+// The same by documented functions alone: a record of each contact, and back over the middle.
+void recordOutside(State& state, ir::Axis axis, const Plan& plan, double centre, const ir::Origin& origin) {
+  const AxisState& now = state.axes[ir::indexOf(axis)];
+  const double over = state.overtravel();
+  for (const double side : {1.0, -1.0}) {
+    const double out = sum(centre, side * sum(plan.half, plan.beside));
+    downBeside(state, axis, plan, out, origin);
+    ++state.probeMoves;
+    search(state, axis, sum(sum(centre, now.shift), side * sum(plan.half, -over)), origin,
+           side > 0 ? "WALL ON THE PLUS SIDE" : "WALL ON THE MINUS SIDE");
+    mikroprog::record(state, origin);
+    state.sheet.add(fmt::format("{} {} F{}", state.code("feed"),
+                                axisWord(state, axis, sum(out, now.shift), origin.range()),
+                                numberWord(state, state.host("return_feed"), origin.range())),
+                    made("off the wall", origin));
+    protectedTo(state, ir::Axis::Z, plan.above, "up beside the feature", origin);
+  }
+  protectedTo(state, axis, centre, "back over the middle", origin);
 }
 
 // One axis, by comparing: the first contact becomes 0, so the second is at minus their distance.
@@ -103,8 +179,9 @@ void recordAxis(State& state, ir::Axis axis, const Plan& plan, double centre, co
 
 } // namespace
 
-void middle(State& state, const std::vector<ir::Axis>& axes, Hollow hollow, const ir::ExpressionPtr& size,
-            const std::optional<ir::OffsetSetting>& setting, const ir::Origin& origin) {
+void middle(State& state, const std::vector<ir::Axis>& axes, const Feature& feature,
+            const ir::ExpressionPtr& size, const std::optional<ir::OffsetSetting>& setting,
+            const ir::Origin& origin) {
   const SourceRange range = origin.range();
   std::array<double, 2> centre{}, nominal{};
   for (const ir::Axis axis : axes) {
@@ -113,18 +190,25 @@ void middle(State& state, const std::vector<ir::Axis>& axes, Hollow hollow, cons
     if (!here) return;
     centre[ir::indexOf(axis)] = *here;
   }
-  const std::optional<double> diameter = rangedValueOf(state, 'D', size, hollow.size, false, range);
+  const std::optional<double> diameter = rangedValueOf(state, 'D', size, feature.size, false, range);
   if (!diameter) return;
   const double radius = state.host("tool_radius");
   Plan plan;
-  plan.half = sum(*diameter / 2, -radius);
-  plan.widest = sum(2 * plan.half, state.overtravel());
+  if (feature.outside) {
+    const std::optional<double> above = hereOf(state, ir::Axis::Z, range);
+    if (!above || !checkAxis(state, ir::Axis::Z, range)) return;
+    plan.above = *above;
+    plan.depth = feature.outside->depth;
+    plan.beside = feature.outside->clearance;
+  }
+  plan.half = sum(*diameter / 2, plan.outside() ? radius : -radius);
+  plan.widest = plan.outside() ? sum(2 * plan.half, 4 * plan.beside) : sum(2 * plan.half, state.overtravel());
   if (plan.half <= 0) {
     state.refuse<diag::MikroprogCannot>(
         range,
-        fmt::format("the ball of radius {} does not fit into the {} of {}", numberText(radius), hollow.name,
+        fmt::format("the ball of radius {} does not fit into the {} of {}", numberText(radius), feature.name,
                     numberText(*diameter)),
-        fmt::format("give the size of the {}, or another radius", hollow.name));
+        fmt::format("give the size of the {}, or another radius", feature.name));
     return;
   }
   for (plan.first = kFirstStep; 2 * plan.first <= plan.widest; plan.first *= 2) {
@@ -142,20 +226,26 @@ void middle(State& state, const std::vector<ir::Axis>& axes, Hollow hollow, cons
     }
   }
   const bool compares = setting && state.options.datum == Datum::SetPosition;
-  if (compares && !relyOn(state, {10, 13, 7}, fmt::format("the middle of a {}", hollow.name), range)) return;
+  if (compares && !relyOn(state, {10, 13, 7}, fmt::format("the middle of a {}", feature.name), range)) return;
   if (compares && !relyOn(state, {12, 23}, "a datum and its record", range)) return;
   if (!relyOn(state, {20, 22}, "a search along one axis", range)) return;
-  guard(state, origin);
-  --state.probeMoves; // counted below
+  if (!plan.outside()) {
+    guard(state, origin);
+    --state.probeMoves; // counted below
+  }
   for (const ir::Axis axis : axes) {
     const std::size_t i = ir::indexOf(axis);
-    if (compares)
+    if (plan.outside() && compares)
+      compareOutside(state, axis, plan, centre[i], nominal[i], origin);
+    else if (plan.outside())
+      recordOutside(state, axis, plan, centre[i], origin);
+    else if (compares)
       compareAxis(state, axis, plan, centre[i], nominal[i], origin);
     else
       recordAxis(state, axis, plan, centre[i], origin);
   }
   state.feed.reset();
-  if (!setting) return;
+  if (!setting || state.failed) return;
   if (compares) {
     state.diagnostics.report<diag::OffsetNumberDropped>(
         range, system, state.code("set-position") + " sets the active system itself",

@@ -2,6 +2,7 @@
 #include "backends/common/CycleTouches.h"
 #include "backends/mikroprog/State.h"
 #include "stdlib/MacroCycle.h"
+#include "support/Decimal.h"
 #include "support/messages/Fanuc.h"
 #include "support/messages/Mikroprog.h"
 
@@ -49,6 +50,28 @@ std::optional<ir::OffsetSetting> settingOf(State& state, const ir::CallCycle& cy
   return out;
 }
 
+// How a web or a boss is touched from outside; nothing: refused.
+std::optional<Outside> outsideOf(State& state, const ir::CycleArgument* depth,
+                                 const ir::CycleArgument* clearance, SourceRange range) {
+  if (depth == nullptr || clearance == nullptr) {
+    state.refuse<diag::MikroprogCannot>(
+        range, fmt::format("the {} of the call is not given", depth == nullptr ? "depth" : "clearance"),
+        "how far the probe keeps away from the feature on the way down is not known; print it");
+    return std::nullopt;
+  }
+  const ir::Coordinate place{depth->value, depth->frame.value_or(ir::Frame::Work), nullptr};
+  const std::optional<double> to = placeOf(state, place, ir::Axis::Z, range);
+  const std::optional<double> away = to ? valueOf(state, clearance->value, range) : std::nullopt;
+  if (!away) return std::nullopt;
+  if (!(*away > 0)) {
+    state.refuse<diag::MikroprogCannot>(range,
+                                        fmt::format("a clearance of {} from within", numberText(*away)),
+                                        "Dotek writes features that are touched from outside for it");
+    return std::nullopt;
+  }
+  return Outside{*away, *to};
+}
+
 } // namespace
 
 void cycle(State& state, const ir::CallCycle& cycle, std::size_t index) {
@@ -63,22 +86,30 @@ void cycle(State& state, const ir::CallCycle& cycle, std::size_t index) {
   }
   const bool surface = cycle.cycle == stdlib::intentName(stdlib::Intent::Surface);
   const bool pocket = cycle.cycle == stdlib::intentName(stdlib::Intent::Pocket);
+  const bool web = cycle.cycle == stdlib::intentName(stdlib::Intent::Web);
   const bool bore = cycle.cycle == stdlib::intentName(stdlib::Intent::Bore);
-  if (!surface && !pocket && !bore) {
+  const bool boss = cycle.cycle == stdlib::intentName(stdlib::Intent::Boss);
+  const bool outside = web || boss;
+  if (!surface && !pocket && !bore && !outside) {
     std::string what = cycle.cycle;
     std::replace(what.begin(), what.end(), '-', ' ');
-    state.refuse<diag::MikroprogCannot>(range, "the measurement `" + what + "`",
-                                        "Dotek writes surfaces, pockets, bores and inner corners for it; "
-                                        "print touches of single surfaces instead");
+    state.refuse<diag::MikroprogCannot>(
+        range, "the measurement `" + what + "`",
+        "Dotek writes surfaces, pockets, webs, bores, bosses and inner corners "
+        "for it; print touches of single surfaces instead");
     return;
   }
   const std::string overtravel(stdlib::roleName(stdlib::ArgumentRole::Overtravel));
   const std::string letter = cycle.axis ? std::string(1, "xyz"[ir::indexOf(*cycle.axis)]) : "";
   const std::string size =
-      surface  ? std::string(stdlib::roleName(stdlib::ArgumentRole::Target)) + " " + letter
-      : pocket ? std::string(stdlib::roleName(stdlib::ArgumentRole::Width)) + " " + letter
-               : std::string(stdlib::roleName(stdlib::ArgumentRole::Diameter));
-  if (!takes(state, cycle, {overtravel, size}, range)) return;
+      surface         ? std::string(stdlib::roleName(stdlib::ArgumentRole::Target)) + " " + letter
+      : pocket || web ? std::string(stdlib::roleName(stdlib::ArgumentRole::Width)) + " " + letter
+                      : std::string(stdlib::roleName(stdlib::ArgumentRole::Diameter));
+  const std::string depth(stdlib::roleName(stdlib::ArgumentRole::Depth)),
+      clearance(stdlib::roleName(stdlib::ArgumentRole::Clearance));
+  std::vector<std::string> taken = {overtravel, size};
+  if (outside) taken.insert(taken.end(), {depth, clearance});
+  if (!takes(state, cycle, taken, range)) return;
   const ir::CycleArgument* given = find(cycle, size);
   if (given == nullptr) {
     state.refuse<diag::MikroprogCannot>(range, "the " + size + " is not given", "the call has to state it");
@@ -91,6 +122,11 @@ void cycle(State& state, const ir::CallCycle& cycle, std::size_t index) {
     setting = settingOf(state, cycle, target, range);
     if (!setting) return;
   }
+  std::optional<Outside> beside;
+  if (outside) {
+    beside = outsideOf(state, find(cycle, depth), find(cycle, clearance), range);
+    if (!beside) return;
+  }
   if (const ir::CycleArgument* over = find(cycle, overtravel)) {
     state.overtravelGiven = rangedValueOf(state, 'Q', over->value, "the overtravel", true, range);
     if (!state.overtravelGiven) return;
@@ -101,10 +137,11 @@ void cycle(State& state, const ir::CallCycle& cycle, std::size_t index) {
     measure.target = std::move(target);
     measure.setting = std::move(setting);
     mikroprog::measure(state, measure, index);
-  } else if (pocket) {
-    middle(state, {*cycle.axis}, {"pocket", "a width"}, given->value, setting, origin);
+  } else if (pocket || web) {
+    middle(state, {*cycle.axis}, {web ? "web" : "pocket", "a width", beside}, given->value, setting, origin);
   } else {
-    middle(state, {ir::Axis::X, ir::Axis::Y}, {"bore", "a diameter"}, given->value, setting, origin);
+    middle(state, {ir::Axis::X, ir::Axis::Y}, {boss ? "boss" : "bore", "a diameter", beside}, given->value,
+           setting, origin);
   }
   state.overtravelGiven.reset();
 }

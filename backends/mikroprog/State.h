@@ -114,13 +114,20 @@ void measure(State& state, const ir::Measure& measure, std::size_t index);
 
 // ---- Bore.cpp ----
 
+// What is touched from outside, from above its middle: how far beside the ball its walls are on the way down,
+// and how deep the touches are (Z, in the coordinates of the source); mm.
+struct Outside {
+  double clearance = 0, depth = 0;
+};
 // What has a middle: "bore", and what its size is called: "a diameter".
-struct Hollow {
+struct Feature {
   std::string_view name, size;
+  std::optional<Outside> outside = {};
 };
 // The middle between walls along each of `axes`, X and Y or one of them, from about where the probe is.
-void middle(State& state, const std::vector<ir::Axis>& axes, Hollow hollow, const ir::ExpressionPtr& size,
-            const std::optional<ir::OffsetSetting>& setting, const ir::Origin& origin);
+void middle(State& state, const std::vector<ir::Axis>& axes, const Feature& feature,
+            const ir::ExpressionPtr& size, const std::optional<ir::OffsetSetting>& setting,
+            const ir::Origin& origin);
 
 // ---- Cycles.cpp ----
 

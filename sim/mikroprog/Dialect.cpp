@@ -63,10 +63,16 @@ public:
     return found == numbers_.end() ? std::nullopt : std::optional(found->second);
   }
 
-  // From this statement on nothing happens but jumps, up to a stop.
-  bool stops(std::size_t at) const {
+  // From this statement on nothing happens but jumps, up to a stop: its place.
+  std::optional<std::size_t> stop(std::size_t at) const { return reach(at, "stop", false); }
+  // After this stop the program ends; before that it may go up.
+  bool ends(std::size_t stop) const { return reach(stop + 1, "end", true).has_value(); }
+
+private:
+  // The block of this function that `at` leads to by jumps alone; `moves`: and by at most one move in feed.
+  std::optional<std::size_t> reach(std::size_t at, std::string_view function, bool moves) const {
     for (std::size_t steps = 0; at < program_.body.size() && steps < program_.body.size(); ++steps) {
-      bool stopped = false;
+      bool there = false;
       const bool goesOn = ir::match(
           program_.body[at],
           [&](const ir::OneOf<ir::Label, ir::Comment> auto&) {
@@ -74,9 +80,15 @@ public:
             return true;
           },
           [&](const ir::NcBlock& block) {
-            stopped = does(block, "stop");
+            there = does(block, function);
+            if (there) return false;
+            if (moves && does(block, "feed")) {
+              moves = false;
+              ++at;
+              return true;
+            }
             const auto to = target(block);
-            if (stopped || !does(block, "jump") || !to) return false;
+            if (!does(block, "jump") || !to) return false;
             at = *to;
             return true;
           },
@@ -84,12 +96,11 @@ public:
                              ir::Exit, ir::Raise, ir::Notice, ir::Port, ir::Print, ir::NameVariables> auto&) {
             return false;
           });
-      if (!goesOn) return stopped;
+      if (!goesOn) return there ? std::optional(at) : std::nullopt;
     }
-    return false;
+    return std::nullopt;
   }
 
-private:
   const ir::Program& program_;
   const stdlib::MikroprogControl& control_;
   std::map<std::uint64_t, std::size_t> numbers_; // N to the first block that has it
@@ -148,8 +159,12 @@ std::vector<SkipMoveUse> skipMoves(const ir::Program& program, const stdlib::Mik
     if (const auto to = blocks.target(*block); !to) {
       one.use = SkipUse::Blind;
     } else {
-      const bool contact = blocks.stops(i + 1), missed = blocks.stops(*to);
-      if (contact != missed) one.use = contact ? SkipUse::Protected : SkipUse::Search;
+      const auto contact = blocks.stop(i + 1), missed = blocks.stop(*to);
+      // Where the next block stops anyway, as for what the operator enters, the tail is the one that ends.
+      const bool both = contact && missed;
+      const bool ends = both ? blocks.ends(*contact) : contact.has_value(),
+                 misses = both ? blocks.ends(*missed) : missed.has_value();
+      if (ends != misses) one.use = ends ? SkipUse::Protected : SkipUse::Search;
     }
     out.push_back(one);
   }

@@ -21,6 +21,8 @@ struct Shop {
   const char* macros; // "": none
   const char* control;
   std::vector<std::string> assume = {};
+  std::string datum = {};
+  project::NamedTexts host = {}, set = {};
 };
 
 void take(const Shop& of, targets::TranslationOptions& out) {
@@ -36,6 +38,9 @@ void take(const Shop& of, targets::TranslationOptions& out) {
   out.common.scriptProgram = runningProgram();
   for (const std::string& one : of.assume)
     out.common.assume.insert(one);
+  if (!of.datum.empty()) out.datum = of.datum;
+  out.common.host = of.host;
+  out.common.set = of.set;
 }
 
 std::string converted(const Shop& of) {
@@ -59,7 +64,7 @@ std::string verified(const Shop& of, const std::string& text = "") {
 }
 
 bool agrees(const std::string& said) {
-  return said.find("\nAGREES: 20 of 20 drawn cases") != std::string::npos;
+  return ("\n" + said).find("\nAGREES: 20 of 20 drawn cases") != std::string::npos;
 }
 
 std::string replaced(std::string text, const std::string& from, const std::string& to) {
@@ -193,6 +198,62 @@ TEST_CASE("verify: a branch without a call may store where a set keeps its calib
   for (const char* set : {"easyprobe", "inspection-plus"}) {
     CAPTURE(set);
     const std::string said = verified({"direct", "DP.Rail.Slope", "touch", "fanuc", set, "fanuc-0i-md"});
+    CHECK_MESSAGE(agrees(said), said);
+  }
+}
+
+TEST_CASE("verify: Mikroprog finds the middle of a web and a boss from outside") {
+  for (const char* cycle : {"NK.Zebro.Y", "NK.Czop.Srodek", "NK.Rowek.X"})
+    for (const bool byOperator : {false, true}) {
+      Shop one{"flags", cycle, "pomiar", "mikroprog", "", "mikroprog-mill", {}};
+      if (byOperator)
+        one.datum = "operator";
+      else
+        one.assume = {"Q7", "Q10", "Q13"};
+      const std::string said = verified(one);
+      CHECK_MESSAGE(agrees(said), said);
+    }
+}
+
+TEST_CASE("verify: each damage to the way round a web is seen") {
+  Shop web{"flags", "NK.Zebro.Y", "pomiar", "mikroprog", "", "mikroprog-mill", {"Q7", "Q10", "Q13"}};
+  web.host = {{"clearance", "20"}, {"tool_radius", "3"}, {"overtravel", "5"}, {"return_feed", "1000"},
+              {"start_x", "-15"},  {"start_y", "10"},    {"start_z", "60"}};
+  web.set = {{"PX", "0"},  {"PY", "20"}, {"PZ", "4"}, {"SZER", "25"},
+             {"GZ", "-5"}, {"LUZ", "5"}, {"UKL", "3"}};
+  const std::string good = converted(web);
+  CHECK_MESSAGE(agrees(verified(web, good)), verified(web, good));
+  for (const auto& [from, to] : std::vector<std::pair<std::string, std::string>>{
+           {"G92 Y-5 ", "G92 Y0 "},            // another share of the way off the wall
+           {"G1 Y-5 F1000", "G1 Y-4 F1000"},   // the two ways off the walls are not alike
+           {"P90=P90+5\r\n", "P90=P90+6\r\n"}, // the record
+           {"G31 Z4 L", "G31 Z-4 L"},          // does not come up
+           {"G31 Z-5 L", "G31 Z-4 L"},         // touches higher
+           {"G92 Y20\r\n", "G92 Y21\r\n"}})
+    CHECK_MESSAGE(!agrees(verified(web, replaced(good, from, to))), from << " to " << to);
+}
+
+TEST_CASE(
+    "convert to Fusion refuses what the branch keeps where the target's macros keep their calibration") {
+  const TestFolder folder("dotek-fusion-calibration");
+  const std::filesystem::path shops = root() / "tests/shops";
+  driver::ConvertOptions options;
+  take({"flags", "NK.Skos.Zebro", "pomiar", "fusion", "dotek", "fanuc-31i-b"}, options);
+  options.source.prog =
+      folder.write("post.txt", replaced(readAll(shops / "flags/post.txt"), "' #542=#138'", "' #523=#138'"));
+  folder.write("dotek.toml", "schema = 1\nform = \"nk-31i\"\n");
+  const auto said = [&] {
+    const driver::Outcome outcome = driver::convert(options);
+    return std::to_string(outcome.status) + renderText(outcome.diagnostics, outcome.sources, 0);
+  };
+  CHECK(said().find("[store-calibration]") != std::string::npos);
+  options.probeMacros = "inspection-plus";
+  CHECK_MESSAGE(said().starts_with("0"), said());
+}
+
+TEST_CASE("verify: another set's results in a fragment count within the grid of contacts") {
+  for (const char* cycle : {"NK.Rowek.X", "NK.Skos.Sciana", "NK.Skos.Zebro", "NK.Czop.Trzy"}) {
+    const std::string said = verified({"flags", cycle, "pomiar", "fusion", "dotek", "fanuc-31i-b"});
     CHECK_MESSAGE(agrees(said), said);
   }
 }
