@@ -29,7 +29,13 @@ public:
     plan_.bounds = std::make_shared<verify::Bounds>(main_.cycle());
     if (!loadWorld(options_, plan_, own)) return outcomeOf(own, "");
     own.diagnostics() = Diagnostics();
-    std::optional<Translated> written = translated(options_, main_.compilation(), &main_.inputs());
+    const Target* const target = findTarget(options_.to);
+    // A program without arguments is written for each case.
+    std::optional<Translated> written;
+    if (target->fixesValues)
+      written.emplace().translation.name = main_.cycle().name;
+    else
+      written = translated(options_, main_.compilation(), &main_.inputs());
     if (!written) return refusalOf(own);
     const std::string text = written->translation.text;
     if (options_.translation && !takeEdited(*options_.translation, written->translation, own))

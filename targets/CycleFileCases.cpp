@@ -144,6 +144,8 @@ bool CycleFileRunner::prepare() {
   std::vector<std::string> hosts = {"tool_radius", "start_x", "start_y", "start_z"};
   for (const ir::Variable& variable : cycle().variables)
     if (variable.role == ir::Role::Host) hosts.push_back(variable.name);
+  for (const std::string_view host : findTarget(options_.to)->hosts)
+    if (std::find(hosts.begin(), hosts.end(), host) == hosts.end()) hosts.emplace_back(host);
   draws_.emplace(plan_.fields, std::move(hosts), plan_.fixedHosts, options_.seed, plan_.bounds);
   stand_.emplace(limitsOfCycle_);
   target_ = findTarget(options_.to)->verify({options_, plan_, session_, *inputs_, *folder_});
@@ -270,6 +272,12 @@ std::optional<verify::Case> CycleFileRunner::draw(std::uint64_t index) {
     settle(proposal);
     std::unique_ptr<Played> played = play(std::move(proposal), !options_.partError);
     bool taken = played->why.empty();
+    // Written for each case: values for which there is no program tell nothing.
+    if (taken && findTarget(options_.to)->fixesValues) {
+      const TargetRun ran = runTarget(*played);
+      taken = !ran.refused;
+      if (ran.refused) played->why = ran.why;
+    }
     // An alarm of the cycle is an alarm of the program, too: a difference is not drawn away. Where a move
     // that is to meet nothing grazes the part, or a touch has no way, the last digit decides.
     if (!taken && played->record.ending == verify::Ending::Alarm && played->record.events.empty() &&

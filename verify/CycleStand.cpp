@@ -33,7 +33,7 @@ sim::Machine machineAt(const Entry& entry, double length) {
 } // namespace
 
 Record CycleStand::run(const ir::Cycle& cycle, sim::CycleInputs inputs, sim::World& world, const Entry& entry,
-                       const std::set<std::uint32_t>& stores, bool keepMoves) const {
+                       const std::set<std::uint32_t>& stores, bool keepMoves, bool movePath) const {
   inputs.take(world.probe());
   const double length = inputs.tipLength;
   sim::Machine machine = machineAt(entry, length);
@@ -42,6 +42,7 @@ Record CycleStand::run(const ir::Cycle& cycle, sim::CycleInputs inputs, sim::Wor
   sim::CycleRun run(machine, cycle, std::move(inputs), limits_);
   Recorder recorder(machine, world, {}, length);
   recorder.assumeProbe(entry.probeOn ? Switch::On : Switch::Off);
+  if (movePath) recorder.datumsMovePath();
   recorder.begin([&run] { return run.place(); }, keepMoves);
   machine.setSkipSignal(&recorder);
   machine.setWatcher(&recorder);

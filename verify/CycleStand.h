@@ -16,9 +16,9 @@ public:
 
   // `inputs` without what the world's probe says: radii and length are taken from it. Of `entry` blocks and
   // modal codes do not matter, as no control executes anything. `stores`: common variables whose end values
-  // count.
+  // count. `movePath`: Stand::Way::MovePath.
   Record run(const ir::Cycle& cycle, sim::CycleInputs inputs, sim::World& world, const Entry& entry,
-             const std::set<std::uint32_t>& stores, bool keepMoves = false) const;
+             const std::set<std::uint32_t>& stores, bool keepMoves = false, bool movePath = false) const;
   // The surfaces that its touches expect, in the order of the run, where each is found at its place; of a run
   // that does not come to its end those before it, and `ending` says so.
   struct Rehearsal {

@@ -2,6 +2,7 @@
 #include "backends/mikroprog/TargetProgram.h"
 
 #include "backends/mikroprog/Emit.h"
+#include "backends/mikroprog/TargetCycle.h"
 #include "frontend/gibbs/Ast.h"
 #include "ir/Fold.h"
 #include "ir/Walk.h"
@@ -68,6 +69,7 @@ std::optional<MikroprogProgram> writeMikroprog(const CycleFolder& folder, Lowere
                                                const MikroprogWriting& writing, Session& session) {
   Diagnostics& diagnostics = session.diagnostics();
   ir::Cycle& cycle = lowered.cycle;
+  if (writing.cycleFile) prepareCycle(lowered, diagnostics);
   for (const std::string& host : mikroprog::missingHosts(cycle, writing.control, writing.hosts)) {
     const auto info = std::find_if(std::begin(stdlib::kHostInputs), std::end(stdlib::kHostInputs),
                                    [&](const stdlib::HostInput& one) { return one.name == host; });
@@ -94,6 +96,9 @@ std::optional<MikroprogProgram> writeMikroprog(const CycleFolder& folder, Lowere
     diagnostics.report<diag::ChecksUndecided>(cycle.checks.front().origin.range(), folder.name);
     return std::nullopt;
   }
+  if (writing.cycleFile) joinSettings(cycle, diagnostics);
+  if (diagnostics.hasErrors()) return std::nullopt;
+  if (writing.folded != nullptr) *writing.folded = cycle;
   // The back end says what becomes of an alarm.
   std::erase_if(diagnostics.all(),
                 [](const Diagnostic& one) { return one.code == diag::AlarmRenumbered::code; });
@@ -138,11 +143,12 @@ private:
   }
 
   // A value for each parameter: given, or its default.
-  bool fixParameters(LoweredCycle& lowered) {
+  bool fixParameters(LoweredCycle& lowered, bool cycleFile) {
     bool good = true;
     for (ir::VariableId id = 0; id < lowered.cycle.variables.size(); ++id) {
       const ir::Variable& variable = lowered.cycle.variable(id);
       if (variable.role != ir::Role::Parameter || lowered.fixed.contains(id)) continue;
+      if (cycleFile && variable.optional && !variable.defaultValue) continue; // left out
       if (variable.defaultValue) {
         lowered.fixed.emplace(id, *variable.defaultValue);
       } else if (ir::uses(lowered.cycle, id)) {
@@ -173,13 +179,15 @@ private:
     if (!name || diagnostics.hasErrors()) return std::nullopt;
     const auto control = loadMikroprogControl(*name, session_);
     if (!control) return std::nullopt;
-    const bool fixed = fixParameters(lowered);
+    const bool fixed = fixParameters(lowered, context_.compilation.fileOf(folder) != nullptr);
     const MikroprogWriting writing{*control,
                                    options_.datum,
                                    options_.common.assume,
                                    inputs.job && inputs.job->lengthToCentre,
                                    inputs.hosts,
-                                   [&](const std::string& parameter) { return fromWhere(parameter); }};
+                                   [&](const std::string& parameter) { return fromWhere(parameter); },
+                                   context_.compilation.fileOf(folder) != nullptr,
+                                   nullptr};
     std::optional<MikroprogProgram> out = writeMikroprog(folder, std::move(lowered), writing, session_);
     if (!fixed || !out) return std::nullopt;
     const auto [other, added] = written_.emplace(out->name, folder.name);
@@ -211,6 +219,7 @@ DOTEK_TARGET(mikroprog) = {
     .checkDatum = checkDatum,
     .ownControls = true,
     .fixesValues = true,
+    .takesCycleFiles = true,
     .hosts = kHosts,
     .convert = conversionBy<MikroprogConversion>,
     .verify = mikroprogVerification,

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "backends/mikroprog/Emit.h"
+#include "project/Compilation.h"
 #include "project/SufProgram.h"
 #include "project/Values.h"
 #include "stdlib/MikroprogControl.h"
@@ -34,6 +35,8 @@ struct MikroprogWriting {
   bool lengthToCentre = false;
   std::map<std::string, double> hosts;
   std::function<std::string(const std::string&)> fromWhere; // where the value of a parameter comes from
+  bool cycleFile = false;      // of the cycle language: optional parameters that are not fixed are left out
+  ir::Cycle* folded = nullptr; // where to put what the program is written from; nullptr: nobody asks
 };
 
 // The program of a cycle; a value is fixed for each of its parameters. nullopt where something is missing,

@@ -6,9 +6,11 @@
 #include "stdlib/MacroSet.h"
 #include "support/messages/Verify.h"
 #include "targets/ReadBack.h"
+#include "verify/CycleStand.h"
 #include "verify/Interference.h"
 
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 #include <functional>
 
@@ -25,7 +27,8 @@ struct Ran {
 };
 using Runs = std::function<Ran(const verify::Interference&)>;
 
-constexpr double kDatum = 0.5; // by how much a datum may move what follows, mm
+constexpr double kRoundedWord = 0.6; // of a position whose word is rounded, in steps of its last decimal
+constexpr double kDatum = 0.5;       // by how much a datum may move what follows, mm
 
 class MikroprogVerification final : public Verification {
 public:
@@ -38,8 +41,12 @@ public:
       from_.session.diagnostics().report<diag::LengthOfProbe>({});
       return false;
     }
-    std::set<std::string> used;
-    lowered_ = lowerCycle(from_.folder, from_.inputs, used, from_.session);
+    if (from_.plan.cycleFile) {
+      lowered_ = own_.lowerFile(from_.options.inputs.front(), from_.options.source);
+    } else {
+      std::set<std::string> used;
+      lowered_ = lowerCycle(from_.folder, from_.inputs, used, from_.session);
+    }
     if (!lowered_) return false;
     lowered_->cycle.name = from_.folder.name;
     const auto name = mikroprogControlFor(from_.options.control, from_.folder, *lowered_, from_.session);
@@ -58,8 +65,18 @@ public:
       return out;
     }
     if (now.source == nullptr) return out;
-    const bool setsItsOwn = std::any_of(
-        now.source->measures.begin(), now.source->measures.end(), [&](const verify::Measure& measure) {
+    // Of a cycle: with each `set` as part of its touch, which is shown to do the same.
+    std::optional<verify::Record> joined;
+    if (from_.plan.cycleFile && from_.plan.translation->text.empty()) {
+      joined = runFolded(now, false);
+      for (verify::Difference& one :
+           verify::compare(withoutFeeds(*now.source), withoutFeeds(*joined), joinedRules()))
+        out.differences.push_back({std::move(one), 0, ""});
+      if (!out.differences.empty()) return out;
+    }
+    const verify::Record& meant = joined ? *joined : *now.source;
+    const bool setsItsOwn =
+        std::any_of(meant.measures.begin(), meant.measures.end(), [&](const verify::Measure& measure) {
           return std::any_of(measure.datums.begin(), measure.datums.end(),
                              [&](const auto& datum) { return datum.first.first == now.entry.system; });
         });
@@ -118,10 +135,12 @@ public:
                                now.world.probe().ballRadius(),
                                now.drawn.hosts.at("return_feed"),
                                byOperator,
-                               from_.options.tolerance};
-    const bool sets = std::any_of(now.source->measures.begin(), now.source->measures.end(),
+                               tolerance()};
+    const bool sets = std::any_of(meant.measures.begin(), meant.measures.end(),
                                   [](const verify::Measure& measure) { return !measure.datums.empty(); });
-    const verify::Record source = sets && !byOperator ? now.inItsDatums() : *now.source;
+    const verify::Record source = !sets || byOperator ? meant
+                                  : joined            ? runFolded(now, true)
+                                                      : now.inItsDatums();
     std::vector<verify::Difference> differences = compareWithSource(source, ran, facts);
     if (SourceRange at; !differences.empty() && source.pathMoved && !whyNoEvidence(source, at).empty()) {
       out.undecided = true;
@@ -132,12 +151,49 @@ public:
       std::string line = lineOf(difference.target);
       out.differences.push_back({std::move(difference), 0, std::move(line)});
     }
-    if (out.differences.empty() && now.source->ending == verify::Ending::Finished)
+    if (out.differences.empty() && meant.ending == verify::Ending::Finished)
       interfere(runs, ran, lineOf, safeHeight(now), out);
     return out;
   }
 
 private:
+  // The cycle that the program of this case was written from, by its own meaning.
+  verify::Record runFolded(const TargetCase& now, bool movePath) const {
+    sim::CycleInputs inputs;
+    inputs.overtravel = now.drawn.hosts.at("overtravel");
+    inputs.values.resize(folded_.variables.size());
+    for (ir::VariableId id = 0; id < folded_.variables.size(); ++id)
+      if (const auto host = now.drawn.hosts.find(folded_.variable(id).name);
+          folded_.variable(id).role == ir::Role::Host && host != now.drawn.hosts.end())
+        inputs.values[id] = ir::Scalar::of(host->second);
+    if (const auto feed = now.drawn.hosts.find("approach_feed"); feed != now.drawn.hosts.end())
+      inputs.approachFeed = feed->second;
+    if (const auto retract = now.drawn.hosts.find("retract"); retract != now.drawn.hosts.end())
+      inputs.retract = retract->second;
+    return verify::CycleStand(from_.session.limits())
+        .run(folded_, inputs, now.world, now.entry, now.stores, false, movePath);
+  }
+
+  // What a cycle computes goes into words of so many decimals.
+  double tolerance() const {
+    const double rounded = from_.plan.cycleFile ? kRoundedWord * std::pow(10, -control_->decimals) : 0;
+    return std::max(from_.options.tolerance, rounded);
+  }
+
+  static verify::Record withoutFeeds(verify::Record record) {
+    for (verify::Piece& piece : record.pieces)
+      if (piece.kind == sim::PathKind::Protected) piece.feed.reset();
+    return record;
+  }
+
+  // Offsets, contacts, path and end; the feed of a protected move is that of the machine in both.
+  verify::CompareRules joinedRules() const {
+    verify::CompareRules rules;
+    rules.tolerance = rules.results = std::max(from_.options.tolerance, 1e-6);
+    rules.mayRestoreModes = true;
+    return rules;
+  }
+
   // Where the tails go up to, in coordinates of the machine: the program knows at which Z it begins. nullopt:
   // it does not, as one that is edited and was written without it.
   std::optional<double> safeHeight(const TargetCase& now) const {
@@ -171,11 +227,17 @@ private:
         for (const auto& [name, value] : drawn.values)
           if (frontend::gibbs::foldCase(name) == frontend::gibbs::foldCase(variable.name))
             lowered.fixed.emplace(id, value);
+        if (from_.plan.cycleFile && variable.defaultValue) lowered.fixed.emplace(id, *variable.defaultValue);
       }
     }
-    const MikroprogWriting writing{
-        *control_, from_.options.datum, from_.options.common.assume,
-        false,     drawn.hosts,         [](const std::string&) { return std::string("--set"); }};
+    const MikroprogWriting writing{*control_,
+                                   from_.options.datum,
+                                   from_.options.common.assume,
+                                   false,
+                                   drawn.hosts,
+                                   [](const std::string&) { return std::string("--set"); },
+                                   from_.plan.cycleFile,
+                                   &folded_};
     auto program = writeMikroprog(from_.folder, std::move(lowered), writing, from_.session);
     if (!program) return std::nullopt;
     std::string out;
@@ -211,6 +273,8 @@ private:
   }
 
   const VerificationSource from_;
+  project::Compilation own_{from_.session};
+  ir::Cycle folded_; // of the case at hand
   std::optional<LoweredCycle> lowered_;
   std::optional<stdlib::MikroprogControl> control_;
 };

@@ -46,7 +46,10 @@ bool isBareNumber(const Expression& expression) {
 void Checker::unknownName(SourceRange range, const std::string& name) {
   // Past the first ones no hint is read, and each costs as much as there are names.
   constexpr int kMostHints = 200;
-  const std::string near = nameHints_++ < kMostHints ? nearestName(name, symbols_) : "";
+  const std::string near = name == "true"              ? "yes"
+                           : name == "false"           ? "no"
+                           : nameHints_++ < kMostHints ? nearestName(name, symbols_)
+                                                       : "";
   diagnostics_.report<diag::UnknownValueName>(range, name,
                                               near.empty() ? "" : "; did you mean `" + near + "`?");
 }

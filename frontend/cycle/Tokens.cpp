@@ -137,8 +137,17 @@ std::string misspelt(const std::string& word) {
     return "there are no jumps; write what is to happen inside `if CONDITION then` .. `end`";
   if (word == "let" || word == "var" || word == "int" || word == "float")
     return "a value needs no declaration; write `name = value`";
+  if (word == "print" || word == "log" || word == "write" || word == "echo")
+    return "a line of the protocol is `report \"Diameter\" measured size`";
   const std::string near = nearestName(word, statementWords());
   return near.empty() ? "" : fmt::format("did you mean `{}`?", near);
+}
+
+bool isForeignUnit(std::string_view word) {
+  constexpr std::array<std::string_view, 16> kUnits = {"cm",      "dm",  "m",    "um",   "inch", "inches",
+                                                       "zoll",    "mil", "thou", "grad", "rad",  "degree",
+                                                       "degrees", "sec", "ms",   "min"};
+  return std::find(kUnits.begin(), kUnits.end(), word) != kUnits.end();
 }
 
 // What is wrong with a line that the grammar does not take, at its first token that does not fit.
@@ -171,6 +180,8 @@ std::string explain(const antlr4::Token& offending, const antlr4::Parser& parser
     if (isReserved(word) && next == Lexer::EQUALS)
       return fmt::format("`{0}` is a word of the language, so nothing can be called that; write `{1}`", word,
                          proposeName(word));
+    if (next == Lexer::FOREIGN_EQUAL && head.getType() == Lexer::NAME)
+      return fmt::format("a value is given with `=` alone: `{} = value`", word);
     if (head.getType() == Lexer::NAME) {
       const std::string hint = misspelt(word);
       return fmt::format("no statement begins with `{}`; {}", word,
@@ -193,6 +204,18 @@ std::string explain(const antlr4::Token& offending, const antlr4::Parser& parser
     return fmt::format("a text is in `\"`{}", write);
   if (type == Lexer::ODD_NAME)
     return fmt::format("names are written small, with `_` between words: `{}`", proposeName(text));
+  // `12 cm`: what follows a number is its unit.
+  const size_t at = offending.getTokenIndex();
+  size_t before = at;
+  while (before > first && input.get(before - 1)->getChannel() != antlr4::Token::DEFAULT_CHANNEL)
+    --before;
+  if (isForeignUnit(text) && before > first && input.get(before - 1)->getType() == Lexer::NUMBER)
+    return fmt::format("`{}` is no unit of the language; those are mm, in, deg, mm/min, in/min and s", text);
+  // A value that has been called like one: `s.error`.
+  if (at + 1 >= input.size()) input.LT(2);
+  if (type != Lexer::NAME && isReserved(text) && at + 1 < input.size() && input.get(at + 1)->getText() == ".")
+    return fmt::format("`{0}` is a word of the language, so nothing can be called that; write `{1}`", text,
+                       proposeName(text));
   return fmt::format("`{}` does not fit here{}", text, write);
 }
 

@@ -110,9 +110,10 @@ bool CycleRun::callSurface(const ir::CallCycle& node) {
   results_.clear();
   const Search how{overtravel.value_or(inputs_.overtravel), overtravel.has_value(), once.value_or(0) != 0,
                    miss.value_or(0) != 0};
-  std::optional<double> measured;
-  if (!touchAxis(i, *expected, how, measured)) return false;
-  results_[ir::ResultName::ProbeError] = measured ? 0 : 1;
+  std::array<std::optional<double>, 3> found;
+  if (!touchAxis(i, *expected, how, found[i])) return false;
+  results_[ir::ResultName::ProbeError] = found[i] ? 0 : 1;
+  if (node.setting && found[i] && !set({node.setting->system, node.setting->nominal}, found)) return false;
   end();
   return true;
 }
