@@ -208,10 +208,12 @@ int main(int argc, char** argv) {
     const bool clear = !growth.failed && growth.exponent <= kClear;
     bool counted = arguments->screen && !clear && !growth.failed;
     if (counted) {
-      // What runs a script does not run under valgrind; its time stays what counts.
+      // What runs a script does not run under valgrind; its time counts, where there is enough of it.
       Growth exact = grow(construct, arguments->scale, dotek, scratch, Counter::Valgrind);
       counted = !exact.failed;
       if (counted) growth = exact;
+      if (!counted && growth.exponent > kMost)
+        growth = grow(construct, arguments->scale * kFarther, dotek, scratch, Counter::Time);
     }
     std::string work;
     for (const Work& one : growth.work)

@@ -109,8 +109,7 @@ class Campaign:
         for flag, name in (("json", "findings"), ("sarif", "sarif"), ("--json", "sim")):
             if flag in command:
                 extra["prints"] = name
-        if "--map" in command:
-            extra["files"] = [("m.json", "map")]
+        extra["files"] = [("m.json", "map"), ("r.json", "verify")]
         return command, extra
 
     def program(self):
@@ -145,6 +144,10 @@ class Campaign:
             ["sim", "a.nc", "--json", "--machine", "dotek.toml"],
             ["sim", "--job", "dotek.toml", "--json", "a.nc"],
             ["post", cycle, "--prog", self.progs[0], "--form", "thesis-a", "--job", "dotek.toml"],
+            ["check", self.cycle_files[0], "--format", "json"],
+            ["list", "forms"],
+            ["doc", "-o", "site"],
+            ["new", "control", "shop", "--from", "fanuc-31i-b"],
             ["convert", cycle, "--prog", self.progs[0], "--form", "thesis-a", "--job", "dotek.toml", "--to", "mikroprog"],
         )
 
@@ -183,6 +186,9 @@ class Campaign:
             ["verify", *base, "--to", "mikroprog", "--control", "mikroprog-mill", "--cases", "3"],
             ["verify", *base, "--cases", "5"],
             ["dump", "c", "--stage", "path"],
+            ["preview", "c", "-o", "form.html"],
+            ["preview", "c", *HOSTS],
+            ["verify", *base, "--to", "fanuc", "--cases", "5", "-o", "r.json"],
         )
 
     def cycle_file(self):
@@ -200,6 +206,8 @@ class Campaign:
             ["check", "--format", self.random.choice(["json", "sarif"]), name],
             ["lint", "--select", "all", "--format", "json", name],
             ["fmt", name],
+            ["fmt", "--write", name],
+            ["verify", name, "--to", "fanuc", "--cases", "4", "-o", "r.json"],
             ["dump", name, "--stage", self.random.choice(["tokens", "ast", "ir"])],
             ["doc", name, "-o", "site"],
             ["sim", name, *sets, "--json"],

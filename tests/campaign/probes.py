@@ -12,7 +12,9 @@ COMMANDS = {
     "lint": "lint p.nc", "sarif": "lint p.nc --format sarif", "sim": "sim p.nc", "json": "sim --json p.nc", "dump": "dump p.nc",
     "post": f"post {CYCLE} --clearance 5", "convert": f"convert {CYCLE} --to fanuc", "fusion": f"convert {CYCLE} --to fusion",
     "verify": f"verify {CYCLE} --to fusion --assume probe-on --cases 5", "new": f"new form shop --prog {ROOT}/examples/post.txt",
-    "fanuc": f"verify {CYCLE} --to fanuc --assume probe-on --cases 100",
+    "fanuc": f"verify {CYCLE} --to fanuc --assume probe-on --cases 100", "check": f"check {ROOT}/examples/cycles/bore.cycle --format json",
+    "fmt": f"fmt {ROOT}/examples/cycles/bore.cycle", "doc": "doc", "preview": f"preview {ROOT}/examples/surface-x", "new cycle": "new cycle spare",
+    "new control": "new control shop --from fanuc-31i-b", "cycles": "list cycles", "cycle": f"convert {ROOT}/examples/cycles/bore.cycle --to fanuc",
 }
 # Put before the command: a limit that may or may not be enough.
 LIMITS = [
@@ -24,7 +26,8 @@ STREAMS = {"> /dev/full": 2, ">&-": 2, "<&-": None, "2>&-": None, "2> /dev/full"
 WRITERS = {
     "-o": f"convert {CYCLE} --to fanuc -o OUT", "--map": f"convert {CYCLE} --to fanuc -o o.nc --map OUT", "--trace": "sim big.nc --trace OUT",
     "--svg": "sim p.nc --quiet --svg OUT", "--html": "sim p.nc --quiet --html OUT", "new": f"new form shop --prog {ROOT}/examples/post.txt -o OUT --force",
-    "--fix": "lint OUT --fix",
+    "--fix": "lint OUT --fix", "preview": f"preview {ROOT}/examples/surface-x -o OUT", "fmt": f"fmt {ROOT}/examples/cycles/bore.cycle -o OUT",
+    "report": f"verify {CYCLE} --to fanuc --assume probe-on --cases 20 -o OUT", "new control": "new control shop --from fanuc-31i-b -o OUT",
 }
 NAMES = ["a\x1b[2Jb.nc", "a\nb.nc", "a\u202eb.nc", "a\u009bb.nc", "-a.nc", " .nc", "a'b.nc", "a\"b.nc", "a%sb.nc", "\u00e9.nc", "a\x7f.nc", "x" * 250 + ".nc"]
 OLD = "%\nO1\nN1 GO X1.\nM30\n%\n"
@@ -142,7 +145,7 @@ def run(judge, folder, random):
                 if (probe.here / "plain").stat().st_size == 0:
                     right = (0, 1, 2)
             yield told(f"set -o pipefail; dotek {command} {stream}", right + ((141,) if "|" in stream else ()))
-    for name in ("lint", "json", "post", "fusion", "verify", "fanuc"):
+    for name in ("lint", "json", "post", "fusion", "verify", "fanuc", "check", "fmt", "doc", "preview", "cycle"):
         for limit in LIMITS:
             probe.fresh()
             # The loader may be refused the memory for a library: 127, before Dotek runs.
@@ -174,12 +177,13 @@ def run(judge, folder, random):
             script = f"dotek {command} -- \"$(cat name)\""
             (probe.here / "name").write_text(name + "\n")
             yield told(script.replace('"$(cat name)"', "'" + name.replace("'", "'\\''") + "'"), (0, 1, 2), quiet_names)
-    pairs = ["lint p.nc p.nc", "lint p.nc ./p.nc", f"convert {CYCLE} --to fanuc -o F --map F", "sim p.nc --svg F --html F", "sim p.nc --trace F --html F",
+    pairs = [f"convert {CYCLE} --to fanuc -d . --map O8000.nc", "lint p.nc p.nc", "lint p.nc ./p.nc", f"convert {CYCLE} --to fanuc -o F --map F", "sim p.nc --svg F --html F", "sim p.nc --trace F --html F",
              "sim p.nc --trace p.nc", "sim p.nc --svg p.nc", "convert p.nc --to fanuc --control fanuc-31i-b -o p.nc", "convert p.nc --to fanuc --control fanuc-31i-b -o -"]
     for command in pairs:
         probe.fresh()
         yield told("dotek " + command, (0, 1, 2), lambda done: None if (probe.here / "p.nc").read_text() == OLD else "writes over its input")
-    others = ["mkfifo f.nc; dotek lint .", "mkfifo f.nc; (printf '%s' 'O1' > f.nc &) ; dotek lint f.nc", "ln -s . d; ln -s .. e; dotek lint .", "dotek lint /dev/null",
+    others = ["mkfifo f.cycle; dotek doc .", "mkdir -p data/forms; mkfifo data/forms/x.toml; dotek list forms --data data", "mkfifo dotek.toml; dotek lint p.nc",
+              "mkfifo dotek.toml; dotek list forms", "ln -s dotek.toml dotek.toml; dotek sim p.nc", "mkfifo f.nc; dotek lint .", "mkfifo f.nc; (printf '%s' 'O1' > f.nc &) ; dotek lint f.nc", "ln -s . d; ln -s .. e; dotek lint .", "dotek lint /dev/null",
               "dotek lint /dev/stdin < p.nc", "mkdir x.nc; dotek lint x.nc", "dotek lint nowhere", "dotek sim -", "dotek lint ''", "dotek lint /proc/self/mem",
               "ln -s x.nc x.nc; dotek lint x.nc", "chmod 0 p.nc; dotek lint p.nc", "dotek lint p.nc/x", "rm -f p.nc; mkdir gone; cd gone; rmdir ../gone; dotek lint ."]
     for script in others:

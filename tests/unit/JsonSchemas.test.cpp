@@ -4,6 +4,7 @@
 #include "tests/Process.h"
 #include "tests/Skips.h"
 
+#include <algorithm>
 #include <doctest/doctest.h>
 #include <filesystem>
 #include <fmt/format.h>
@@ -22,7 +23,8 @@ faults = 0
 def strict(name): raise ValueError('no JSON number: ' + name)
 for path in sorted(glob.glob('*.json')):
     kind = path.split('.')[1]
-    schema = json.load(open(sys.argv[1] + '/' + kind + '.schema.json'))
+    name = '/../../tests/third_party/sarif-2.1.0.json' if kind == 'sarif' else '/' + kind + '.schema.json'
+    schema = json.load(open(sys.argv[1] + name))
     try:
         jsonschema.validate(json.load(open(path, encoding='utf-8'), parse_constant=strict), schema)
     except Exception as error:
@@ -51,13 +53,26 @@ TEST_CASE("JSON of the goldens keeps to its schema") {
   for (const auto& entry : fs::recursive_directory_iterator(root() / "tests" / "golden")) {
     if (entry.path().filename() != "cmd") continue;
     std::istringstream lines(readAll(entry.path()));
+    int written = 0; // what begins as a document, whatever flag asked for it
     for (std::string line; std::getline(lines, line);) {
-      const bool sim = line.starts_with("sim ") && line.find("--json") != std::string::npos;
-      const bool lint = line.starts_with("lint ") && line.find("--format json") != std::string::npos;
-      if (!sim && !lint) continue;
-      const CommandResult result = runDotek(splitArguments(line), entry.path().parent_path());
-      folder.write(fmt::format("{}.{}.json", ++count, sim ? "sim" : "findings"), result.out);
+      const std::vector<std::string> arguments = splitArguments(line);
+      const auto has = [&](std::string_view what) {
+        return std::any_of(arguments.begin(), arguments.end(), [&](const std::string& one) {
+          return one == what || one.ends_with("=" + std::string(what));
+        });
+      };
+      const bool sarif = has("sarif"), json = has("json") || has("--json");
+      if (!sarif && !json) continue;
+      const CommandResult result = runDotek(arguments, entry.path().parent_path());
+      ++written;
+      const char* const kind = sarif ? "sarif" : arguments.front() == "sim" ? "sim" : "findings";
+      folder.write(fmt::format("{}.{}.json", ++count, kind), result.out);
     }
+    int documents = 0;
+    std::istringstream printed(readAll(entry.path().parent_path() / "stdout"));
+    for (std::string line; std::getline(printed, line);)
+      documents += line == "{" || line == "[" || line == "[]" ? 1 : 0;
+    CHECK_MESSAGE(documents <= written, entry.path().string() << " prints JSON that is not checked here");
   }
   CHECK(count > 10);
   const CommandResult map =
@@ -72,6 +87,40 @@ TEST_CASE("JSON of the goldens keeps to its schema") {
   CHECK(check(folder).status == 1);
   folder.write("x.sim.json", "{\"ending\": \"not-run\", \"control\": null, \"blocks\": NaN}");
   CHECK(check(folder).status == 1);
+}
+
+TEST_CASE("the report of verify as JSON keeps to its schema, whatever came out") {
+  const ProcessFolder folder;
+  if (!haveSchemas(folder)) return;
+  const std::string root = "'" + dotek::tests::root().string() + "/examples/";
+  folder.run("cp -r " + root + "surface-x' .; cp " + root + "post.txt' .; cp " + root +
+             "cycles/bore.cycle' .");
+  folder.write("p.nc", "%\nO1\nG90 G0 X1.\n#100=1.\nM30\n%\n");
+  folder.write("other.nc", "%\nO8000\nG90 G0 X1.\nM99\n%\n");
+  const std::string cycle = "surface-x --prog post.txt --form thesis-a --assume probe-on --cases 10 ";
+  int count = 0;
+  for (const std::string& command :
+       {"verify " + cycle, "verify " + cycle + "--to fanuc", "verify " + cycle + "--to fusion",
+        "verify " + cycle + "--to fanuc --translation other.nc",
+        "verify " + cycle + "--to fanuc --set X=12 --seed 18446744073709551615",
+        "verify " + cycle + "--to fanuc --date $'\\x9b\\xff' --remark $'\\x1b[2J'",
+        "verify " + cycle +
+            "--to mikroprog --control mikroprog-mill --clearance 5 --host tool_radius=3 --host "
+            "overtravel=5 --host return_feed=500",
+        std::string("verify surface-x --prog post.txt --form thesis-a --to fanuc --cases 10"),
+        std::string("verify p.nc --to fanuc --cases 10"),
+        std::string("verify bore.cycle --to fanuc --cases 10")}) {
+    const std::string report = fmt::format("{}.verify.json", ++count);
+    const ShellResult result = folder.run(fmt::format("dotek {} -o {}", command, report));
+    CHECK_MESSAGE(result.status < 2, command << "\n" << result.err);
+    CHECK_MESSAGE(!folder.read(report).empty(), command);
+  }
+  const ShellResult converted =
+      folder.run("dotek convert surface-x --prog post.txt --form thesis-a --assume probe-on "
+                 "--to fanuc --verify --report last.verify.json -o o.nc");
+  CHECK_MESSAGE(converted.status == 0, converted.err);
+  const ShellResult checked = check(folder);
+  CHECK_MESSAGE(checked.status == 0, checked.out << checked.err);
 }
 
 TEST_CASE("sim --json prints one object, whatever happens") {
