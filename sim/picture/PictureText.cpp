@@ -1,6 +1,7 @@
 #include "sim/picture/PictureText.h"
 
 #include "support/Decimal.h"
+#include "support/Printable.h"
 
 #include <cstdint>
 #include <fmt/format.h>
@@ -47,6 +48,12 @@ template <class Escape> std::string escaped(std::string_view text, std::size_t m
   return out;
 }
 
+// What turns the order of letters or steers a terminal is `?`, as in messages: a page is read beside its
+// source.
+std::string shown(std::string_view character) {
+  return character.size() == 1 ? std::string(character) : printable(character);
+}
+
 } // namespace
 
 std::string xmlText(std::string_view text, std::size_t most) {
@@ -61,7 +68,7 @@ std::string xmlText(std::string_view text, std::size_t most) {
     }
     const bool unknown = static_cast<std::uint8_t>(character[0]) < 0x20 || character == "\x7F" ||
                          character == "\xEF\xBF\xBE" || character == "\xEF\xBF\xBF";
-    out += unknown ? " " : character;
+    out += unknown ? " " : shown(character);
   });
 }
 
@@ -78,7 +85,7 @@ std::string jsonText(std::string_view text, std::size_t most) {
     else if (static_cast<std::uint8_t>(character[0]) < 0x20 || character == "\x7F" || isLineEnd)
       out += ' ';
     else
-      out += character;
+      out += shown(character);
   };
   return '"' + escaped(text, most, escape) + '"';
 }

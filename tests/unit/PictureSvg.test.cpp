@@ -101,6 +101,12 @@ TEST_CASE("picture texts: what XML and scripts may hold") {
   CHECK(xmlText("\xC5\x99\xE8x\xED\xA0\x80\xC0\xAF") ==
         "\xC5\x99\xEF\xBF\xBDx\xEF\xBF\xBD\xEF\xBF\xBD\xEF\xBF\xBD\xEF\xBF\xBD\xEF\xBF\xBD");
   CHECK(xmlText("\xF0\x9F\x98\x80!") == "\xF0\x9F\x98\x80!");
+  // A name that turns the order of letters, or steers a terminal, is shown as in messages.
+  CHECK(xmlText("a\xE2\x80\xAE"
+                "b\xC2\x9B"
+                "c\xE2\x81\xA6") == "a?b?c?");
+  CHECK(jsonText("a\xE2\x80\xAE"
+                 "b\xC2\x9B") == "\"a?b?\"");
   CHECK(xmlText("abcdef", 3) == "abc\xE2\x80\xA6");
   CHECK(jsonText("</script>\"\\\n") == "\"\\u003c/script\\u003e\\\"\\\\ \"");
   CHECK(shortNumber(12.500, 2) == "12.5");
