@@ -91,6 +91,10 @@ verify::Record joinedMeasures(const verify::Record& source, const verify::Record
       }
       ++piece;
     }
+    // The way back from a middle that is all but the place where it began.
+    while (piece < ran.pieces.size() && ran.pieces[piece].kind == sim::PathKind::Protected &&
+           near(ran.pieces[piece].from, joined.start) && near(ran.pieces[piece].to, joined.start))
+      at = ran.pieces[piece++].to;
     joined.end = at;
     takeExpected(call, joined);
     out.pieces.push_back(whole);

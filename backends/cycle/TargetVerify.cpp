@@ -20,6 +20,7 @@ namespace {
 constexpr double kOvertravel = 10;    // of a search where nothing states it: that of vendors' macros, mm
 constexpr double kGridSteps = 2.5e-6; // mm: two steps, and what a subtraction leaves
 constexpr double kSamePlace = 1e-3;   // mm
+constexpr std::string_view kUpward = "touch leads upward"; // alarm of the language
 constexpr double kFirst = 54, kLast = 59;
 
 class CycleVerification final : public Verification {
@@ -147,12 +148,33 @@ private:
     rules.tolerance = std::max(rules.tolerance, kGridSteps);
     rules.relative = rules.results > from_.options.tolerance ? 2e-7 : 0;
     rules.mayRestoreModes = true;
-    rules.switchesProbe = true;
+    // Where its caller switches the probe, both leave it as it was.
+    rules.switchesProbe =
+        std::any_of(cycle_.body.begin(), cycle_.body.end(), [](const ir::CycleStatement& one) {
+          return std::holds_alternative<ir::ProbePower>(one.node);
+        });
     // How far another search goes is its own business.
     const bool searches = now.source->ending == verify::Ending::Alarm &&
                           now.source->alarmKind == stdlib::macroAlarmName(stdlib::MacroAlarm::ProbeFail);
     if (searches && verify::findsAll(record)) {
       out.undecided = true;
+      return;
+    }
+    using stdlib::MacroAlarm;
+    if (record.ending == verify::Ending::Alarm && record.pieces.empty() && record.text == kUpward) {
+      out.refused = true;
+      out.why = "a touch of the cycle leads upward, which the language refuses";
+      return;
+    }
+    // What is in the way stops the cycle, and the source does not feel it.
+    const bool blind =
+        std::any_of(now.source->pieces.begin(), now.source->pieces.end(), [](const verify::Piece& one) {
+          return one.kind == sim::PathKind::Protected && one.with.probe != verify::Switch::On;
+        });
+    if (blind && record.alarmKind == stdlib::macroAlarmName(MacroAlarm::PathObstructed) &&
+        now.source->alarmKind != record.alarmKind) {
+      out.undecided = true;
+      out.why = "the source moves with the probe off where the cycle meets something and stops";
       return;
     }
     verify::Record own = joinedMeasures(*now.source, record);
@@ -164,7 +186,6 @@ private:
     if (shows)
       std::erase_if(own.deeds, [](const verify::Deed& one) { return one.kind == verify::Deed::Kind::Stop; });
     // A limit that the macros look at by themselves is an `alarm` of the cycle.
-    using stdlib::MacroAlarm;
     for (const MacroAlarm kind :
          {MacroAlarm::UpperLimit, MacroAlarm::OutOfTolerance, MacroAlarm::OutOfPosition})
       if (now.source->alarmKind == stdlib::macroAlarmName(kind) && own.ending == verify::Ending::Alarm &&
