@@ -47,6 +47,10 @@ void fill(const Raw& raw, Arguments& parsed) {
   parsed.svgFile = raw.svgFile;
   parsed.htmlFile = raw.htmlFile;
   parsed.sarif = raw.format == "sarif";
+  parsed.github = raw.format == "github";
+  parsed.gitlab = raw.format == "gitlab";
+  parsed.statistics = raw.statistics;
+  parsed.baselineFile = raw.writeBaseline;
   parsed.stage = raw.stage == "tokens" ? driver::Stage::Tokens
                  : raw.stage == "path" ? driver::Stage::Path
                  : raw.stage == "ir"   ? driver::Stage::Ir

@@ -36,7 +36,9 @@ struct Arguments {
   std::optional<std::pair<std::uint64_t, std::uint64_t>> sequence;
   std::string output; // -o
   bool json = false;
-  bool sarif = false;
+  bool sarif = false, github = false, gitlab = false;
+  bool statistics = false;  // of lint: --statistics
+  std::string baselineFile; // of lint: --write-baseline
   driver::LintOptions lint;       // paths, common and source aside
   driver::ConvertOptions convert; // inputs, common and source aside
   std::string outputFolder;       // -d

@@ -2,11 +2,13 @@
 
 #include "cli/Arguments.h"
 #include "cli/Files.h"
+#include "cli/Findings.h"
 #include "driver/Driver.h"
 #include "driver/Preview.h"
 #include "project/CycleFolder.h"
 #include "project/Settings.h"
 #include "sim/run/SimReport.h"
+#include "support/CodeHosts.h"
 #include "support/FileIdentity.h"
 #include "support/Output.h"
 #include "support/OutputCheck.h"
@@ -144,11 +146,21 @@ public:
 
   // Findings are the result.
   int findings(const driver::Outcome& outcome, const Arguments& arguments) {
-    out_ << (arguments.sarif  ? driver::sarif(outcome)
-             : arguments.json ? renderJson(outcome.diagnostics, outcome.sources)
-                              : renderText(outcome.diagnostics, outcome.sources, maxErrors_));
+    out_ << (arguments.statistics ? statisticsOf(outcome.diagnostics)
+             : arguments.sarif    ? driver::sarif(outcome)
+             : arguments.json     ? renderJson(outcome.diagnostics, outcome.sources)
+             : arguments.github   ? renderGithub(outcome.diagnostics, outcome.sources)
+             : arguments.gitlab   ? renderGitlab(outcome.diagnostics, outcome.sources)
+                                  : renderText(outcome.diagnostics, outcome.sources, maxErrors_));
     if (!outcome.summary.empty()) err_ << outcome.summary << "\n";
-    return outcome.status;
+    if (const std::string line = closingLine(outcome.diagnostics);
+        !line.empty() && isatty(STDERR_FILENO) == 1)
+      err_ << line << "\n";
+    if (outcome.status == kUsage || arguments.baselineFile.empty()) return outcome.status;
+    std::vector<NamedText> texts;
+    for (const driver::OutputFile& file : outcome.files)
+      texts.push_back({arguments.baselineFile, &file.text});
+    return write(texts, outcome, arguments) ? outcome.status : kUsage;
   }
 
   // One text to standard output, or those that change in place, or the names of these.

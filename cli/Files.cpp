@@ -33,6 +33,7 @@ std::vector<OutputName> outputsOf(const Arguments& arguments) {
       sim ? traces || arguments.json : arguments.output.empty() && arguments.outputFolder.empty();
   if (prints) out.push_back({"standard output", "-"});
   add("-o", arguments.output);
+  add("--write-baseline", arguments.baselineFile);
   add("--map", arguments.mapFile);
   add("--helpers", arguments.helpersFile);
   if (!arguments.reportFile.empty())
@@ -51,7 +52,7 @@ std::vector<std::string> inputsOf(const Arguments& arguments) {
       arguments.command != Command::Explain && arguments.command != Command::List)
     out = arguments.inputs;
   for (const auto& one :
-       {arguments.source.prog, arguments.common.job, arguments.sim.part, arguments.sim.machine,
+       {arguments.lint.baseline, arguments.source.prog, arguments.common.job, arguments.sim.part, arguments.sim.machine,
         arguments.verify.part, arguments.verify.machine, arguments.verify.translation})
     if (one) out.push_back(*one);
   std::error_code error;

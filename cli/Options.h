@@ -30,7 +30,8 @@ struct Raw {
   std::string format = "text";
   std::vector<std::string> select, ignore;
   std::string failOn;
-  bool fix = false, followLinks = false, listSkipped = false;
+  bool fix = false, followLinks = false, listSkipped = false, statistics = false;
+  std::string baseline, writeBaseline;
   bool write = false, check = false; // of fmt
   std::string stage = "ast";
   std::vector<std::string> letters, defaults;

@@ -32,10 +32,15 @@ std::set<std::string> codes(const std::vector<std::string>& given, bool all) {
 void addLint(CLI::App& app, Raw& raw) {
   CLI::App* lint = app.add_subcommand("lint", "check macros, dialogs, cycle folders and posts");
   lint->add_option("PATH", raw.inputs, "files and folders");
-  lint->add_option("--format", raw.format, "text, json or sarif")
-      ->check(CLI::IsMember({"text", "json", "sarif"}));
+  lint->add_option("--format", raw.format, "text, json, sarif, github or gitlab")
+      ->check(CLI::IsMember({"text", "json", "sarif", "github", "gitlab"}));
   lint->add_flag("--follow-links", raw.followLinks, "of folders: also links that lead out of them");
   lint->add_flag("--list-skipped", raw.listSkipped, "of folders: name each file that is skipped");
+  lint->add_flag("--statistics", raw.statistics, "how often each code is found, instead of the findings");
+  lint->add_option("--baseline", raw.baseline, "pass over the findings that this file lists")
+      ->type_name("FILE");
+  lint->add_option("--write-baseline", raw.writeBaseline, "list the findings of now in a file for --baseline")
+      ->type_name("FILE");
   lint->add_flag("--fix", raw.fix, "make the repairs that change no motion, coordinate or meaning");
   lint->add_option("--form", raw.form, "what the Form of the post decides (see `dotek list forms`)")
       ->type_name("NAME");
@@ -58,6 +63,8 @@ driver::LintOptions lintOf(const Raw& raw) {
   out.ignore = codes(raw.ignore, false);
   out.control = raw.control;
   out.fix = raw.fix;
+  if (!raw.baseline.empty()) out.baseline = raw.baseline;
+  out.writeBaseline = !raw.writeBaseline.empty();
   out.listSkipped = raw.listSkipped;
   out.force = raw.force;
   out.followLinks = raw.followLinks;

@@ -7,6 +7,7 @@
 #include "support/messages/Common.h"
 #include "support/messages/Fanuc.h"
 #include "support/messages/Gibbs.h"
+#include "support/messages/Lint.h"
 #include "support/messages/MacroB.h"
 #include "support/messages/Mikroprog.h"
 #include "support/messages/Nc.h"
@@ -179,6 +180,7 @@ bool isUsageCode(std::string_view code) {
       diag::LetterTwice::code,      diag::VariableFlag::code,    diag::FlagOfOtherTarget::code,
       diag::UnknownDatum::code,     diag::OptionOfCycles::code,  diag::OptionOfPrograms::code,
       diag::ProgramTarget::code,    diag::OptionOfMacroB::code,  diag::ScriptNotRun::code,
+      diag::BaselineUnreadable::code,
   };
   return std::find(kCodes.begin(), kCodes.end(), code) != kCodes.end();
 }

@@ -5,6 +5,7 @@
 #include "frontend/compost/Summary.h"
 #include "frontend/macrob/Check.h"
 #include "frontend/mikroprog/Parse.h"
+#include "lint/Baseline.h"
 #include "lint/Config.h"
 #include "lint/Project.h"
 #include "lint/Projects.h"
@@ -81,9 +82,14 @@ public:
     suppress(projects);
     lint::keepOneOfEach(session_.diagnostics());
     select();
-    const bool fails = failsNow();
+    session_.diagnostics().sort();
+    if (!passOverBaseline()) return failed();
+    const std::string baseline =
+        options_.writeBaseline ? lint::Baseline::render(session_.diagnostics(), session_.sources()) : "";
+    const bool fails = !options_.writeBaseline && failsNow();
     Outcome outcome = outcomeOf(session_, "", true);
     outcome.summary = summary();
+    if (options_.writeBaseline) outcome.files.push_back({"baseline", baseline});
     // Findings are the result of lint, not its failure.
     if (outcome.status == 1) outcome.status = 0;
     if (outcome.status == 0 && fails) outcome.status = 1;
@@ -91,6 +97,24 @@ public:
   }
 
 private:
+  // false: it cannot be read; reported.
+  bool passOverBaseline() {
+    if (!options_.baseline) return true;
+    const auto text = session_.bytes(*options_.baseline, session_.diagnostics());
+    if (!text) return false;
+    std::string reason;
+    std::optional<lint::Baseline> baseline = lint::Baseline::read(*text, reason);
+    if (!baseline) {
+      session_.diagnostics().report<diag::BaselineUnreadable>({}, *options_.baseline, reason);
+      return false;
+    }
+    baseline->passOver(session_.diagnostics(), session_.sources());
+    passedOver_ = fmt::format("{} of the baseline passed over", baseline->passedOver());
+    if (const std::size_t gone = baseline->gone(); gone > 0)
+      passedOver_ += fmt::format(", {} of it gone: write it anew", gone);
+    return true;
+  }
+
   Outcome failed() {
     Outcome outcome = outcomeOf(session_, "", true);
     outcome.status = 2;
@@ -102,9 +126,12 @@ private:
     std::error_code error;
     const bool folders = std::any_of(options_.paths.begin(), options_.paths.end(),
                                      [&](const std::string& path) { return fs::is_directory(path, error); });
-    if (!folders) return "";
-    return walkSummary(checkedFiles_, excluded_, walk_.passedOver(),
-                       options_.paths.size() == 1 ? options_.paths.front() : "", options_.listSkipped);
+    std::string out =
+        folders ? walkSummary(checkedFiles_, excluded_, walk_.passedOver(),
+                              options_.paths.size() == 1 ? options_.paths.front() : "", options_.listSkipped)
+                : "";
+    if (!passedOver_.empty()) out += (out.empty() ? "" : "\n") + passedOver_;
+    return out;
   }
 
   static std::string quoted(const std::vector<std::string>& paths) {
@@ -352,6 +379,7 @@ private:
   lint::Projects projects_;
   InputWalk walk_;
   std::size_t checkedFiles_ = 0, excluded_ = 0;
+  std::string passedOver_; // of the baseline, for the summary
   LoweringInputs* inputs_ = nullptr;
   std::map<std::string, std::unique_ptr<MacroLoader>> loaders_; // by folder
   std::set<std::string> entryPoints_;      // routines that run without a call in the Prog

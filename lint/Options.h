@@ -27,6 +27,9 @@ struct LintOptions {
   bool listSkipped = false;     // the summary names each file that was skipped
   bool fix = false;             // makes the safe repairs, then says what is left
   bool force = false;           // repairs files that are write-protected, too
+  // --baseline: path of a list of findings that are passed over; nothing: none.
+  std::optional<std::string> baseline;
+  bool writeBaseline = false; // the result has such a list of what is found, and lint does not fail
 };
 
 } // namespace dotek::lint

@@ -1,0 +1,35 @@
+// Findings that a folder has already: written once, and passed over from then on.
+#pragma once
+
+#include "support/Diagnostics.h"
+
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <tuple>
+
+namespace dotek::lint {
+
+class Baseline {
+public:
+  // The text of a file that render() made; nullopt with the reason where it is none.
+  static std::optional<Baseline> read(std::string_view text, std::string& reason);
+  // JSON: `schema` and `findings`, each with `file`, `code` and `fingerprint`. The findings are sorted.
+  static std::string render(const Diagnostics& findings, const SourceMap& sources);
+
+  // Takes out the findings that it holds; the findings are sorted. What remains of it is gone from the
+  // inputs.
+  void passOver(Diagnostics& findings, const SourceMap& sources);
+
+  std::size_t passedOver() const { return passedOver_; }
+  std::size_t gone() const; // of what passOver() left
+
+private:
+  // File, code and fingerprint; how many there are.
+  std::map<std::tuple<std::string, std::string, std::string>, std::size_t> held_;
+  std::size_t passedOver_ = 0;
+};
+
+} // namespace dotek::lint

@@ -1,0 +1,79 @@
+// lint --baseline, --statistics and the forms of code hosts, by the program.
+#include "support/CodeHosts.h"
+#include "tests/Process.h"
+
+#include <doctest/doctest.h>
+#include <nlohmann/json.hpp>
+
+using namespace dotek;
+using namespace dotek::tests;
+using Json = nlohmann::json;
+
+namespace {
+
+const std::string kOld = "O7411\nG0Z5.\nGOTO40\nN30M99\n";
+
+} // namespace
+
+TEST_CASE("baseline: what is known is passed over, what is new fails, what is gone is counted") {
+  const ProcessFolder folder;
+  folder.write("O7411.nc", kOld);
+  CHECK(folder.run("dotek lint O7411.nc").status == 1);
+  CHECK(folder.run("dotek lint O7411.nc --write-baseline known.json").status == 0);
+  CHECK(Json::parse(folder.read("known.json"))["schema"] == 1);
+  const ShellResult known = folder.run("dotek lint O7411.nc --baseline known.json");
+  CHECK(known.status == 0);
+  CHECK(known.out.empty());
+  CHECK(known.err.find("1 of the baseline passed over") != std::string::npos);
+
+  // Lines before it change nothing; the same mistake once more is new.
+  folder.write("O7411.nc", "O7411\n(NEW LINE)\nG0Z5.\nGOTO40\nGOTO50\nN30M99\n");
+  const ShellResult more =
+      folder.run("dotek lint O7411.nc --select goto-target-missing --baseline known.json");
+  CHECK(more.status == 1);
+  CHECK(more.out.find("N50") != std::string::npos);
+  CHECK(more.out.find("N40") == std::string::npos);
+
+  folder.write("O7411.nc", "O7411\nG0Z5.\nGOTO30\nN30M99\n");
+  const ShellResult gone =
+      folder.run("dotek lint O7411.nc --select goto-target-missing --baseline known.json");
+  CHECK(gone.status == 0);
+  CHECK(gone.err.find("1 of it gone") != std::string::npos);
+}
+
+TEST_CASE("baseline: what is no baseline lets nothing pass") {
+  const ProcessFolder folder;
+  folder.write("O7411.nc", kOld);
+  for (const char* text :
+       {"", "[]", "{\"schema\":2,\"findings\":[]}", "{\"schema\":1,\"findings\":[{\"file\":1}]}", "O7411"}) {
+    folder.write("known.json", text);
+    const ShellResult result = folder.run("dotek lint O7411.nc --baseline known.json");
+    CHECK(result.status == 2);
+    CHECK_MESSAGE(result.out.find("baseline-unreadable") != std::string::npos, result.out << result.err);
+  }
+  CHECK(folder.run("dotek lint O7411.nc --baseline missing.json").status == 2);
+  CHECK(folder.run("dotek lint O7411.nc --write-baseline O7411.nc").status == 2); // an input
+  CHECK(folder.read("O7411.nc") == kOld);
+}
+
+TEST_CASE("lint for GitHub and GitLab, and how often each code is found") {
+  const ProcessFolder folder;
+  folder.write("a,b.nc", kOld);
+  const ShellResult github = folder.run("dotek lint a,b.nc --format github");
+  CHECK(github.out.find(
+            "::error file=a%2Cb.nc,line=3,endLine=3,col=5,endColumn=7,title=goto-target-missing::") == 0);
+  const Json gitlab = Json::parse(folder.run("dotek lint a,b.nc --format gitlab").out);
+  REQUIRE(!gitlab.empty());
+  CHECK(gitlab[0]["check_name"] == "goto-target-missing");
+  CHECK(gitlab[0]["location"]["path"] == "a,b.nc");
+  CHECK(gitlab[0]["location"]["lines"]["begin"] == 3);
+  CHECK(gitlab[0]["severity"] == "major");
+  CHECK(gitlab[0]["fingerprint"].get<std::string>().size() == 64);
+  CHECK(folder.run("dotek lint a,b.nc --statistics").out.find("1  error    goto-target-missing") !=
+        std::string::npos);
+
+  SourceMap sources;
+  Diagnostics found;
+  found.add({"some-code", Severity::Note, {}, "100%\nsure", {}, std::nullopt});
+  CHECK(renderGithub(found, sources) == "::notice title=some-code::100%25%0Asure\n");
+}
