@@ -76,6 +76,7 @@ constexpr CommandFlags kCommands[] = {
     {"fmt", Command::Fmt, addFmt},
     {"doc", Command::Doc, addDoc},
     {"preview", Command::Preview, addPreview},
+    {"lsp", Command::Lsp, addLsp},
 };
 
 // A command that is named first is the only one that is declared: declaring all flags takes longer than many

@@ -25,7 +25,8 @@ enum class Command : unsigned char {
   Doc,
   Preview,
   Sim,
-  Verify
+  Verify,
+  Lsp
 };
 
 struct Arguments {

@@ -5,6 +5,7 @@
 #include "cli/Findings.h"
 #include "driver/Driver.h"
 #include "driver/Preview.h"
+#include "lsp/Serve.h"
 #include "project/CycleFolder.h"
 #include "project/Settings.h"
 #include "sim/run/SimReport.h"
@@ -14,6 +15,7 @@
 #include "support/OutputCheck.h"
 #include "support/Printable.h"
 #include "support/Stream.h"
+#include "support/Worker.h"
 #include "support/messages/Output.h"
 
 #include <CLI/CLI.hpp>
@@ -286,6 +288,7 @@ int runCommand(Arguments& arguments, std::ostream& out, std::ostream& err) {
     return printer.catalogue(driver::catalogue({arguments.inputs, arguments.common}), arguments);
   case Command::Preview:
     return printer.result(driver::preview({arguments.inputs, arguments.common}), arguments);
+  case Command::Lsp: return lsp::serve(STDIN_FILENO, STDOUT_FILENO, runningProgram());
   case Command::List:
     return printer.result(driver::list(arguments.inputs.front(), arguments.common), arguments);
   }

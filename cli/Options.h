@@ -119,6 +119,7 @@ void addCheck(CLI::App& app, Raw& raw);
 void addFmt(CLI::App& app, Raw& raw);
 void addDoc(CLI::App& app, Raw& raw);
 void addPreview(CLI::App& app, Raw& raw);
+void addLsp(CLI::App& app, Raw& raw);
 void addExplain(CLI::App& app, Raw& raw);
 void addList(CLI::App& app, Raw& raw);
 

@@ -62,6 +62,11 @@ void addDoc(CLI::App& app, Raw& raw) {
   addCommon(*doc, raw);
 }
 
+void addLsp(CLI::App& app, Raw&) {
+  CLI::App* lsp = app.add_subcommand("lsp", "language server for editors, on standard input and output");
+  lsp->add_flag("--stdio")->description("what editors pass; there is no other way");
+}
+
 void addPreview(CLI::App& app, Raw& raw) {
   CLI::App* preview = app.add_subcommand("preview", "the dialog of a cycle's folder as a page (HTML)");
   preview->add_option("FOLDER", raw.inputs, "the folder of a GibbsCAM cycle");

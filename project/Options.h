@@ -6,6 +6,7 @@
 #include "support/Limits.h"
 #include "support/Source.h"
 
+#include <map>
 #include <memory>
 #include <optional>
 #include <set>
@@ -38,6 +39,9 @@ struct CommonOptions {
   std::optional<std::string> includeRoot; // inputs name files below it, instead of those of their own folder
   // Path of the program that runs scripts in a process of its own: `dotek`. "": scripts are refused.
   std::string scriptProgram;
+  // Texts that an editor holds instead of what is in the file, UTF-8, by absolute path without dots; nullptr:
+  // none. Inputs are read from here first.
+  std::shared_ptr<const std::map<std::string, std::string>> buffers;
   // What was read from pipes; copies of the options share it.
   std::shared_ptr<StreamInputs> streams = std::make_shared<StreamInputs>();
 };

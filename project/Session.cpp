@@ -6,6 +6,7 @@
 #include "support/messages/Commands.h"
 
 #include <algorithm>
+#include <filesystem>
 
 namespace dotek::project {
 
@@ -105,9 +106,21 @@ ReadBounds Session::bounds(const std::string& folder) const {
   return out;
 }
 
+const std::string* Session::buffer(const std::string& path) const {
+  if (options_.buffers == nullptr) return nullptr;
+  std::error_code error;
+  const auto absolute = std::filesystem::absolute(path, error).lexically_normal();
+  const auto found = options_.buffers->find(absolute.generic_string());
+  return found == options_.buffers->end() ? nullptr : &found->second;
+}
+
 std::optional<std::string> Session::bytes(const std::string& path, Diagnostics& diagnostics) {
-  std::optional<std::string> out = isStream(path) ? options_.streams->read(path, options_.limits, diagnostics)
-                                                  : readBytes(path, options_.limits, diagnostics);
+  std::optional<std::string> out;
+  if (const std::string* const held = buffer(path))
+    out = *held;
+  else
+    out = isStream(path) ? options_.streams->read(path, options_.limits, diagnostics)
+                         : readBytes(path, options_.limits, diagnostics);
   if (out) blankTape(*out);
   return out;
 }
@@ -118,13 +131,14 @@ const Recognition* Session::kindOf(const std::string& path, Diagnostics& diagnos
   if (options_.from)
     return &kinds_.emplace(path, Recognition{kindByName(*options_.from), "--from"}).first->second;
   const bool stream = isStream(path);
+  const bool whole = stream || buffer(path) != nullptr;
   std::optional<std::string> text =
-      stream ? bytes(path, diagnostics) : readBeginning(path, kRecognisedBytes, diagnostics);
+      whole ? bytes(path, diagnostics) : readBeginning(path, kRecognisedBytes, diagnostics);
   if (!text) return nullptr;
   blankTape(*text);
   Recognition found = recognise(stream ? "" : path, *text, expected);
   // Of a longer file only the beginning was read.
-  if (found.kind && !stream && text->size() < kRecognisedBytes && text->size() <= options_.limits.inputBytes)
+  if (found.kind && !whole && text->size() < kRecognisedBytes && text->size() <= options_.limits.inputBytes)
     whole_.emplace(path, std::move(*text));
   return &kinds_.emplace(path, std::move(found)).first->second;
 }

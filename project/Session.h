@@ -68,6 +68,9 @@ public:
   ReadBounds bounds(const std::string& folder) const;
 
 private:
+  // What an editor holds of the file; nullptr: nothing.
+  const std::string* buffer(const std::string& path) const;
+
   const CommonOptions& options_;
   SourceMap sources_;
   Diagnostics diagnostics_;

@@ -38,7 +38,7 @@ std::vector<Include> includesOf(const TreeFile& file) {
 std::vector<const TreeFile*> productSources() {
   static constexpr const char* kFolders[] = {"support",  "ir",     "script",  "stdlib", "frontend",
                                              "backends", "sim",    "project", "lint",   "verify",
-                                             "targets",  "driver", "cli"};
+                                             "targets",  "driver", "lsp",     "cli"};
   std::vector<const TreeFile*> out;
   for (const TreeFile& file : tree()) {
     const bool ours = std::any_of(std::begin(kFolders), std::end(kFolders),
@@ -72,7 +72,7 @@ bool isAntlr(const std::string& name) {
 bool mayInclude(const std::string& from, const std::string& to) {
   static const std::map<std::string, int> kLayer = {
       {"support", 1}, {"ir", 2},      {"script", 2},  {"stdlib", 3}, {"project", 5}, {"lint", 6},
-      {"verify", 6},  {"sim/run", 6}, {"targets", 7}, {"driver", 8}, {"cli", 9}};
+      {"verify", 6},  {"sim/run", 6}, {"targets", 7}, {"driver", 8}, {"lsp", 9},     {"cli", 10}};
   // Rooms of the simulator, lowest first.
   static const std::map<std::string, int> kRoom = {
       {"sim/geometry", 1}, {"sim/machine", 2}, {"sim/mikroprog", 3}, {"sim/cycle", 3}, {"sim/picture", 3}};
@@ -178,6 +178,9 @@ TEST_CASE("policy: the layer rule itself") {
   CHECK_FALSE(mayInclude("support", "tests"));
   CHECK(mayInclude("verify", "sim/machine"));
   CHECK(mayInclude("cli", "driver"));
+  CHECK(mayInclude("cli", "lsp"));
+  CHECK(mayInclude("lsp", "driver"));
+  CHECK_FALSE(mayInclude("driver", "lsp"));
 }
 
 TEST_CASE("policy: a folder includes lower layers only") {
@@ -235,7 +238,7 @@ TEST_CASE("policy: libraries do not leak") {
       {"ANTLR", isAntlr, {"frontend"}, "frontend"},
       {"JSON",
        [](const std::string& n) { return n.starts_with("nlohmann/"); },
-       {"support", "driver", "cli", "lint", "sim/picture", "sim/run", "targets", "verify"},
+       {"support", "driver", "lsp", "cli", "lint", "sim/picture", "sim/run", "targets", "verify"},
        ""},
       {"toml++", [](const std::string& n) { return n.starts_with("toml++/"); }, {"stdlib", "driver"}, ""},
       {"Duktape", [](const std::string& n) { return n == "duktape.h"; }, {"script"}, ""},

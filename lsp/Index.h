@@ -1,0 +1,96 @@
+// What a text names: where each name is declared, written and read; its symbols; what hovering shows; hints.
+#pragma once
+
+#include "project/InputKind.h"
+#include "project/Options.h"
+#include "support/Source.h"
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace dotek::project {
+class Session;
+}
+
+namespace dotek::lsp {
+
+struct Occurrence {
+  enum class Role : std::uint8_t { Definition, Write, Read };
+  // What is named, unique in its scope: "N 0 100" for block 100 of the first program, "O 9810", "# 500",
+  // "field DIAMETER".
+  std::string key;
+  Role role = Role::Read;
+  SourceRange range;
+};
+
+// Kinds of symbols by the numbers of the protocol.
+enum class SymbolKind : std::uint8_t {
+  Module = 2,
+  Method = 6,
+  Field = 8,
+  Function = 12,
+  Variable = 13,
+  Key = 20
+};
+
+struct Symbol {
+  std::string name, detail;
+  SymbolKind kind = SymbolKind::Variable;
+  SourceRange range, nameRange;
+  std::vector<Symbol> children;
+};
+
+// Markdown that hovering over a place shows.
+struct Fact {
+  SourceRange range;
+  std::string text;
+};
+
+// Text that an editor shows before a place: the name of an argument.
+struct Hint {
+  std::uint32_t offset = 0;
+  std::string label;
+};
+
+// A word that may be written at a place.
+struct Proposal {
+  std::string label, detail, documentation;
+  int kind = 14; // CompletionItemKind: 14 keyword, 5 field, 6 variable, 3 function, 12 value
+};
+
+struct Index {
+  std::optional<project::InputKind> kind;
+  SourceMap sources;
+  FileId file = kNoFile; // kNoFile: it cannot be read
+  std::vector<Occurrence> occurrences;
+  std::vector<Symbol> symbols;
+  std::vector<Fact> facts;
+  std::vector<Hint> hints;
+  // Names with this beginning keep their meaning where all occurrences of this index are renamed; what is not
+  // listed is known elsewhere, too.
+  std::vector<std::string> renamable;
+  bool computedJumps = false; // a GOTO whose number is computed
+
+  const SourceFile& text() const { return sources.file(file); }
+  const Occurrence* at(std::uint32_t offset) const; // nullptr: no name is there
+};
+
+// Reads the file, or what the editor holds of it. Never fails: of what cannot be read nothing is listed.
+Index makeIndex(const std::string& path, const project::CommonOptions& options);
+
+// Words that may follow `before`, the text of the line up to the cursor, in this place of the text.
+std::vector<Proposal> proposals(const Index& index, const std::string& path, std::uint32_t offset,
+                                const project::CommonOptions& options);
+
+// Private to the index: one language each.
+void indexMacroB(Index& index, project::Session& session, const std::string& path);
+void indexGibbs(Index& index, project::Session& session);
+void indexComPost(Index& index, project::Session& session);
+void indexCycle(Index& index, project::Session& session, const std::string& path);
+void indexMikroprog(Index& index, project::Session& session, const std::string& path);
+
+} // namespace dotek::lsp

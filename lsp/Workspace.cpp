@@ -1,0 +1,242 @@
+#include "lsp/Workspace.h"
+
+#include "project/CycleFolder.h"
+#include "project/Settings.h"
+#include "support/Printable.h"
+
+#include <algorithm>
+#include <filesystem>
+
+namespace dotek::lsp {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+int severityOf(Severity severity) {
+  switch (severity) {
+  case Severity::Error: return 1;
+  case Severity::Warning: return 2;
+  case Severity::Note: return 3;
+  }
+  return 3;
+}
+
+bool isFolder(const std::string& path) {
+  std::error_code error;
+  return fs::is_directory(path, error);
+}
+
+Found foundOf(const Diagnostic& one, const SourceMap& sources, Units units) {
+  Found out;
+  const SourceFile& file = sources.file(one.range.file);
+  out.code = std::string(one.code);
+  out.range = one.range;
+  const Json range = rangeOf(file, one.range, units);
+  out.line = range["start"]["line"];
+  std::string message = one.message;
+  Json related = Json::array();
+  for (const DiagnosticNote& note : one.notes) {
+    if (!note.range.hasPlace()) {
+      message += "\nnote: " + note.message;
+      continue;
+    }
+    const SourceFile& where = sources.file(note.range.file);
+    related.push_back(
+        {{"location", {{"uri", uriOf(where.name())}, {"range", rangeOf(where, note.range, units)}}},
+         {"message", asUtf8(note.message)}});
+  }
+  out.diagnostic = {{"range", range},
+                    {"severity", severityOf(one.severity)},
+                    {"code", out.code},
+                    {"source", "dotek"},
+                    {"message", asUtf8(message)}};
+  if (!related.empty()) out.diagnostic["relatedInformation"] = related;
+  if (one.fix) {
+    out.title = asUtf8(one.fix->title);
+    out.safe = one.fix->applicability == Fix::Applicability::Safe;
+    for (const Edit& edit : one.fix->edits) {
+      const SourceFile& where = sources.file(edit.range.file);
+      out.edits[where.name()].push_back(
+          {{"range", rangeOf(where, edit.range, units)}, {"newText", toUtf8(edit.text, where.encoding())}});
+    }
+  }
+  return out;
+}
+
+} // namespace
+
+Workspace::Workspace(std::string scriptProgram)
+    : scriptProgram_(std::move(scriptProgram)),
+      buffers_(std::make_shared<std::map<std::string, std::string>>()) {}
+
+std::string Workspace::unitOf(const std::string& path) {
+  const fs::path folder = fs::path(path).parent_path();
+  return project::isCycleFolder(folder) ? folder.generic_string() : path;
+}
+
+void Workspace::changed(const std::string& path) {
+  changed_.insert(unitOf(path));
+  indices_.clear(); // names of one file are read in another
+}
+
+std::string& Workspace::writable(const std::string& path) {
+  if (buffers_.use_count() > 1) buffers_ = std::make_shared<std::map<std::string, std::string>>(*buffers_);
+  return (*buffers_)[path];
+}
+
+bool Workspace::open(const std::string& uri, const std::string& language, std::int64_t version,
+                     std::string text) {
+  const std::optional<std::string> path = pathOf(uri);
+  if (!path) return false;
+  documents_[uri] = {*path, uri, language, version};
+  writable(*path) = std::move(text);
+  changed(*path);
+  return true;
+}
+
+bool Workspace::change(const std::string& uri, std::int64_t version, const Json& changes) {
+  const auto at = documents_.find(uri);
+  if (at == documents_.end() || !changes.is_array()) return false;
+  std::string text = buffers_->at(at->second.path);
+  for (const Json& one : changes) {
+    if (!one.is_object() || !one.contains("text") || !one["text"].is_string()) return false;
+    if (!one.contains("range")) {
+      text = one["text"].get<std::string>();
+      continue;
+    }
+    const Json& range = one["range"];
+    if (!range.is_object() || !range.contains("start") || !range.contains("end")) return false;
+    const auto begin = offsetOf(text, range["start"], units), end = offsetOf(text, range["end"], units);
+    if (!begin || !end || *begin > *end) return false;
+    text.replace(*begin, *end - *begin, one["text"].get<std::string>());
+  }
+  at->second.version = version;
+  writable(at->second.path) = std::move(text);
+  changed(at->second.path);
+  return true;
+}
+
+void Workspace::close(const std::string& uri) {
+  const auto at = documents_.find(uri);
+  if (at == documents_.end()) return;
+  const std::string path = at->second.path;
+  documents_.erase(at);
+  writable(path);
+  buffers_->erase(path);
+  changed(path);
+}
+
+void Workspace::touchAll() {
+  for (const auto& [uri, document] : documents_)
+    changed(document.path);
+}
+
+const Document* Workspace::find(const std::string& uri) const {
+  const auto at = documents_.find(uri);
+  return at == documents_.end() ? nullptr : &at->second;
+}
+
+driver::CommonOptions Workspace::options(const std::vector<std::string>& inputs) const {
+  driver::CommonOptions out;
+  out.buffers = buffers_;
+  out.scriptProgram = scriptProgram_;
+  project::FlagDefaults defaults = project::flagDefaultsOf(inputs);
+  out.data = std::move(defaults.data);
+  out.projectField = std::move(defaults.field);
+  return out;
+}
+
+void Workspace::keep(const driver::Outcome& outcome, const std::string& folder, const std::string& otherwise,
+                     std::map<std::string, std::vector<Found>>& byPath) const {
+  for (const Diagnostic& one : outcome.diagnostics.all()) {
+    std::string path = one.range.hasPlace() ? outcome.sources.file(one.range.file).name() : "";
+    // What is found in no text, such as a file that is missing from the folder, is shown at the beginning of
+    // one.
+    if (path.empty() || path == folder) {
+      Found found;
+      found.code = std::string(one.code);
+      const Json start = {{"line", 0}, {"character", 0}};
+      found.diagnostic = {{"range", {{"start", start}, {"end", start}}},
+                          {"severity", severityOf(one.severity)},
+                          {"code", found.code},
+                          {"source", "dotek"},
+                          {"message", asUtf8(one.message)}};
+      byPath[otherwise].push_back(std::move(found));
+      continue;
+    }
+    byPath[path].push_back(foundOf(one, outcome.sources, units));
+  }
+}
+
+Json Workspace::publish(const std::string& path, const std::vector<Found>& found) const {
+  Json diagnostics = Json::array();
+  for (const Found& one : found)
+    diagnostics.push_back(one.diagnostic);
+  Json params = {{"uri", uriOf(path)}, {"diagnostics", diagnostics}};
+  for (const auto& [uri, document] : documents_)
+    if (document.path == path) {
+      params["uri"] = uri;
+      params["version"] = document.version;
+    }
+  return {{"jsonrpc", "2.0"}, {"method", "textDocument/publishDiagnostics"}, {"params", params}};
+}
+
+std::vector<Json> Workspace::check() {
+  std::vector<Json> out;
+  for (const std::string& unit : std::exchange(changed_, {})) {
+    std::set<std::string> open; // documents of the unit
+    for (const auto& [uri, document] : documents_)
+      if (document.path == unit || unitOf(document.path) == unit) open.insert(document.path);
+    std::map<std::string, std::vector<Found>> byPath;
+    for (const std::string& path : open)
+      byPath[path];
+    if (!open.empty()) {
+      driver::LintOptions lint;
+      lint.paths = {unit};
+      lint.common = options(lint.paths);
+      keep(driver::lint(lint), isFolder(unit) ? unit : "", *open.begin(), byPath);
+    }
+    // What had findings and has none any more is told so.
+    for (const std::string& path : std::exchange(told_[unit], {}))
+      byPath[path];
+    for (auto& [path, found] : byPath) {
+      out.push_back(publish(path, found));
+      if (!found.empty()) told_[unit].insert(path);
+      found_[path] = std::move(found);
+    }
+    if (open.empty()) told_.erase(unit);
+  }
+  return out;
+}
+
+const std::vector<Found>& Workspace::found(const std::string& path) const {
+  static const std::vector<Found> kNone;
+  const auto at = found_.find(path);
+  return at == found_.end() ? kNone : at->second;
+}
+
+const Index& Workspace::index(const Document& document) {
+  return indexOf(document.path);
+}
+
+const Index& Workspace::indexOf(const std::string& path) {
+  std::unique_ptr<Index>& index = indices_[path];
+  if (index == nullptr) index = std::make_unique<Index>(makeIndex(path, options({unitOf(path)})));
+  return *index;
+}
+
+std::vector<std::string> Workspace::companions(const Document& document) const {
+  std::vector<std::string> out;
+  const std::string unit = unitOf(document.path);
+  if (unit == document.path) return out;
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(unit, error))
+    if (const std::string path = entry.path().generic_string();
+        path != document.path && entry.is_regular_file(error))
+      out.push_back(path);
+  std::sort(out.begin(), out.end());
+  return out;
+}
+
+} // namespace dotek::lsp
