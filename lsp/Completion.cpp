@@ -160,13 +160,14 @@ std::vector<Proposal> cycle(const Index& index, std::string_view before, project
     return out;
   }
   out = named(index, "name ", kVariable);
-  keywords(out, {"parameter",   "result",      "require", "needs probe",    "probe on",    "probe off",
-                 "spindle off", "coolant off", "move",    "move protected", "touch",       "overtravel",
-                 "set",         "becomes",     "alarm",   "stop",           "report",      "if",
-                 "else",        "end",         "for",     "while",          "at most",     "repeat",
-                 "times",       "call",        "given",   "length",         "angle",       "feed",
-                 "count",       "ratio",       "flag",    "choice",         "work-offset", "tool-offset",
-                 "optional",    "range",       "group"});
+  keywords(
+      out,
+      {"parameter",   "result",     "require",     "needs probe",    "probe on", "probe off",  "spindle off",
+       "coolant off", "rapid move", "feed move",   "protected move", "touch",    "overtravel", "set",
+       "becomes",     "alarm",      "stop",        "report",         "if",       "then",       "else",
+       "end",         "for",        "while",       "at most",        "repeat",   "times",      "call",
+       "use",         "given",      "length",      "angle",          "feed",     "count",      "ratio",
+       "flag",        "choice",     "work_offset", "tool_offset",    "optional", "range",      "group"});
   return out;
 }
 

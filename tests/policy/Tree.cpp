@@ -20,7 +20,7 @@ std::vector<TreeFile> readTree() {
   std::vector<TreeFile> out;
   for (auto it = fs::recursive_directory_iterator(root()); it != fs::recursive_directory_iterator(); ++it) {
     const std::string name = it->path().filename().string();
-    if (name == "build" || name == ".git" || name == ".cache") {
+    if (name == "build" || name == ".git" || name == ".cache" || name == "node_modules") {
       if (it->is_directory()) it.disable_recursion_pending();
       continue;
     }
