@@ -73,6 +73,7 @@ public:
     faults();
     early();
     if (!rules_.atMeasures) deeds();
+    if (rules_.sameAlarmNumbers) switches();
     takeAll(compareValues(source_, target_, rules_));
     if (!stopsInMacros() && !near(source_.end, target_.end, rules_.tolerance))
       add(Aspect::End, fmt::format("it ends at {} against {}", textOf(source_.end), textOf(target_.end)),
@@ -298,6 +299,18 @@ private:
     }
   }
 
+  // What a macro that switches the probe does on its way is in no source: it is called under the same modes.
+  void switches() {
+    const std::vector<SwitchCall>&a = source_.switches, &b = target_.switches;
+    for (std::size_t i = 0; i < std::min(a.size(), b.size()) && a[i].program == b[i].program; ++i)
+      for (std::size_t k = 0; k < a[i].modes.size(); ++k)
+        if (a[i].modes[k] != b[i].modes[k] && a[i].modes[k] != 0 && b[i].modes[k] != 0)
+          return add(Aspect::Modal,
+                     fmt::format("P{} called under G{} against G{}", a[i].program,
+                                 numberText(a[i].modes[k] / 10.0), numberText(b[i].modes[k] / 10.0)),
+                     a[i].range, b[i].range);
+  }
+
   // A macro of the vendor counts on them, and a feed means another speed.
   void underModes(const Piece& a, const Piece& b) {
     for (std::size_t i = 0; i < a.modes.size(); ++i) {
@@ -438,7 +451,8 @@ private:
         a.range, b.range);
   }
 
-  // How a measure is made; of another vendor's macro how far it searches, where the source says so.
+  // How a measure is made; of another vendor's macro how far it searches, where the source says so, and how
+  // far it keeps beside a feature, where both say so.
   void options(const Measure& a, const Measure& b) {
     const auto shown = [](const Measure& measure, stdlib::ArgumentRole role) {
       const auto found = measure.options.find(role);
@@ -447,7 +461,9 @@ private:
     std::set<stdlib::ArgumentRole> roles;
     for (const Measure* one : {&a, &b})
       for (const auto& [role, value] : one->options)
-        if (rules_.sameAlarmNumbers || role == stdlib::ArgumentRole::Overtravel) roles.insert(role);
+        if (rules_.sameAlarmNumbers || role == stdlib::ArgumentRole::Overtravel ||
+            (role == stdlib::ArgumentRole::Clearance && a.options.contains(role) && b.options.contains(role)))
+          roles.insert(role);
     for (const stdlib::ArgumentRole role : roles) {
       const auto one = a.options.find(role), other = b.options.find(role);
       if (one != a.options.end() && other != b.options.end() &&

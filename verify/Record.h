@@ -128,6 +128,13 @@ struct Deed {
   SourceRange range;
 };
 
+// A call of a macro that switches the probe: what is in force where it is called, as of Piece.
+struct SwitchCall {
+  std::uint32_t program = 0;
+  std::array<std::uint32_t, 3> modes = {};
+  SourceRange range;
+};
+
 enum class Ending : std::uint8_t { Finished, Alarm, Inconclusive };
 
 struct Record {
@@ -143,6 +150,7 @@ struct Record {
   std::vector<Measure> measures;
   std::vector<Mark> marks;
   std::vector<Deed> deeds;
+  std::vector<SwitchCall> switches;
   // What went wrong on the path (no contacts, no misses), and where in the program.
   std::vector<std::pair<sim::ProbeEvent, SourceRange>> events;
   // Work offsets that were written: G number (54 to 59; 54.1 Pn as kExtendedSystem + n) and axis (0 to 2), to

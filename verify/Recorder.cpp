@@ -297,7 +297,9 @@ void Recorder::callBegins(std::uint32_t program, std::span<const double> locals)
     const double given = locals[stdlib::localOf(feed->letter)];
     if (!sim::isNull(given) && !sim::isUnknown(given)) call_.feed = given;
   }
-  call_.measures = !call_.moves && intent != Intent::ProbeOn && intent != Intent::ProbeOff;
+  const bool switches = intent == Intent::ProbeOn || intent == Intent::ProbeOff;
+  if (switches) record_.switches.push_back({program, call_.modes, call_.range});
+  call_.measures = !call_.moves && !switches;
   if (!call_.measures) return;
   Measure measure = begunMeasure();
   if (signature != nullptr) {
@@ -352,6 +354,7 @@ void Recorder::noteOptions(const stdlib::MacroSignature& signature, std::span<co
     switch (argument.role) {
     case ArgumentRole::Feed:
     case ArgumentRole::Overtravel:
+    case ArgumentRole::Clearance:
     case ArgumentRole::FlagOnly:
     case ArgumentRole::Tool:
     case ArgumentRole::SpareTool:

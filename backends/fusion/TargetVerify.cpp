@@ -87,6 +87,10 @@ public:
         out.differs(verify::Aspect::Ending,
                     fmt::format("the dialog takes the values, and the fragment stops with its message `{}`",
                                 result.errors.front()));
+      else if (now.rejected && !says(result.errors.front(), now.rejection))
+        out.differs(verify::Aspect::Ending,
+                    fmt::format("the dialog rejects the values, `{}`, and the fragment stops with `{}`",
+                                now.rejection, result.errors.front()));
       out.refused = out.differences.empty();
       out.why = "the post stops with an error: " + result.errors.front();
       return out;
@@ -111,6 +115,13 @@ private:
   // 0 where it is not in the fragment.
   static std::uint32_t lineOf(const script::Fault& fault) {
     return fault.source == fusion::kFragment ? fault.line : 0;
+  }
+
+  // Its own errors aside. What a message has beside ASCII is written in several ways.
+  bool says(const std::string& error, std::string_view message) const {
+    const bool ascii = std::all_of(message.begin(), message.end(),
+                                   [](char c) { return static_cast<unsigned char>(c) < 0x80; });
+    return !ascii || isOfFragment(error) || message.find(error) != std::string::npos;
   }
 
   // Not a check of the source: what the fragment looks at besides begins with the name of the cycle.

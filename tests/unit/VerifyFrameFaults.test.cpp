@@ -44,7 +44,7 @@ std::vector<Translation> translations(bool eachSet, const char* to = "fanuc") {
   std::size_t turn = 0;
   std::vector<Translation> out;
   const fs::path shops = root() / "tests" / "shops";
-  for (const char* shop : {"direct", "easyprobe", "inspection", "toolchange"}) {
+  for (const char* shop : {"direct", "easyprobe", "flags", "inspection", "toolchange"}) {
     std::vector<fs::path> folders;
     for (const auto& entry : fs::directory_iterator(shops / shop))
       if (entry.is_directory()) folders.push_back(entry.path());
@@ -142,8 +142,6 @@ bool isSetAgain(const Fault& fault, const std::string& program) {
   for (std::size_t i = fault.line + 1; i < lines.size() && !lost.empty(); ++i) {
     const std::string& line = lines[i];
     if (line.starts_with("(")) continue;
-    // What switches the probe moves nothing.
-    if (std::regex_match(line, std::regex("G65 P98(32|33)"))) continue;
     if (std::regex_search(line, std::regex("[XYZ][-#0-9.\\[]|G65|G31|IF|GOTO|^N"))) return false;
     for (const std::string& word : modeWords(line))
       lost.erase(word);

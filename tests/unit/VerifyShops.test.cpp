@@ -23,6 +23,7 @@ struct Shop {
   std::vector<std::string> assume = {};
   std::string datum = {};
   project::NamedTexts host = {}, set = {};
+  std::uint64_t cases = 20;
 };
 
 void take(const Shop& of, targets::TranslationOptions& out) {
@@ -32,7 +33,7 @@ void take(const Shop& of, targets::TranslationOptions& out) {
   out.source.routine = of.routine;
   out.common.data = {shops + "data"};
   out.to = of.to;
-  out.control = of.control;
+  if (*of.control != 0) out.control = of.control;
   if (*of.macros != 0) out.probeMacros = of.macros;
   out.common.probeCodes = {"M31", "M32"};
   out.common.scriptProgram = runningProgram();
@@ -56,7 +57,7 @@ std::string verified(const Shop& of, const std::string& text = "") {
   const TestFolder scratch("dotek-verify-shops");
   driver::VerifyOptions options;
   take(of, options);
-  options.cases = 20;
+  options.cases = of.cases;
   options.jobs = 1;
   if (!text.empty()) options.translation = scratch.write("edited", text);
   const driver::Outcome outcome = driver::verify(options);
@@ -249,6 +250,32 @@ TEST_CASE(
   CHECK(said().find("[store-calibration]") != std::string::npos);
   options.probeMacros = "inspection-plus";
   CHECK_MESSAGE(said().starts_with("0"), said());
+}
+
+TEST_CASE("verify: how far beside a feature the probe goes down") {
+  for (const char* set : {"inspection-plus", "dotek"}) {
+    const Shop boss{"flags", "NK.Czop.Srodek", "pomiar", "fanuc", set, "fanuc-31i-b"};
+    const std::string good = converted(boss);
+    CHECK(agrees(verified(boss, good)));
+    CHECK(verified(boss, replaced(good, " R#18", " R[#18+1.]")).find("clearance") != std::string::npos);
+  }
+}
+
+TEST_CASE("verify: what switches the probe is called under the modes of the source") {
+  const Shop face{"inspection", "JT.Face.Datum", "probeOps", "fanuc", "inspection-plus", "fanuc-31i-b"};
+  const std::string good = converted(face);
+  CHECK(agrees(verified(face, good)));
+  const std::string said = verified(face, replaced(good, "\nG90 G94", "\nG94"));
+  CHECK_MESSAGE(said.find("P9832 called under G90 against G91") != std::string::npos, said);
+}
+
+TEST_CASE("verify: a fragment shows the message of the dialog for values that it rejects") {
+  Shop boss{"flags", "NK.Czop.Srodek", "pomiar", "fusion", "inspection-plus", ""};
+  const std::string good = converted(boss);
+  boss.cases = 300;
+  CHECK(verified(boss, good).find("AGREES") != std::string::npos);
+  const std::string said = verified(boss, replaced(good, "\"Czop za maly\"", "\"Czop za duzy\""));
+  CHECK_MESSAGE(said.find("the dialog rejects the values, `Czop za maly`") != std::string::npos, said);
 }
 
 TEST_CASE("verify: another set's results in a fragment count within the grid of contacts") {
