@@ -12,6 +12,7 @@
 #include "project/CycleLowering.h"
 #include "project/Fields.h"
 #include "project/Hosts.h"
+#include "project/Inputs.h"
 #include "project/Prog.h"
 #include "project/Programs.h"
 #include "support/Decimal.h"
@@ -75,7 +76,7 @@ private:
     if (found == nullptr) return;
     const std::optional<InputKind> kind = found->kind;
     if (!kind) {
-      session_.diagnostics().report<diag::UnknownKind>({}, inputName(input), otherwise(*found));
+      reportNoInput(input, *found, session_);
       return;
     }
     const std::optional<FileId> id =

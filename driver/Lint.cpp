@@ -17,6 +17,7 @@
 #include "project/CycleFolder.h"
 #include "project/CycleLowering.h"
 #include "project/InputWalk.h"
+#include "project/Inputs.h"
 #include "project/Job.h"
 #include "support/Files.h"
 #include "support/messages/ComPost.h"
@@ -270,7 +271,7 @@ private:
     if (empty)
       session_.diagnostics().report<diag::EmptyFile>({*empty, 0, 0}, inputName(path));
     else
-      session_.diagnostics().report<diag::UnknownKind>({}, inputName(path), otherwise(found));
+      reportNoInput(path, found, session_);
   }
 
   void read(const std::string& path, InputKind kind) {

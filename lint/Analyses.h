@@ -16,6 +16,10 @@ namespace dotek::lint {
 // Belongs to one project; one thread uses it.
 class Analyses {
 public:
+  // A folder was named: programs that others call are looked for among those of the project, and nowhere
+  // else.
+  bool wholeFolder = false;
+
   const SharedInputs& shared(const Project& project);
   const Probing& probing(const Project& project);
   const ToolLengths& toolLengths(const Project& project);

@@ -12,6 +12,11 @@ const std::vector<std::optional<DistanceMode>>& NcProgram::modes() const {
   return *modes_;
 }
 
+const std::vector<std::optional<Machining>>& NcProgram::machining() const {
+  if (!machining_) machining_ = machiningBefore(program, flow());
+  return *machining_;
+}
+
 std::span<const VariableRead> NcProgram::reads(std::size_t statement) const {
   if (!reads_) {
     Reads& reads = reads_.emplace();

@@ -1,6 +1,7 @@
 // One program of an NC file as rules look at it, with what several of them ask of it.
 #pragma once
 
+#include "lint/Machining.h"
 #include "lint/Skips.h"
 
 #include <optional>
@@ -27,6 +28,8 @@ public:
   const ir::ProgramFlow& flow() const;
   // As distanceModes() says.
   const std::vector<std::optional<DistanceMode>>& modes() const;
+  // As machiningBefore() says.
+  const std::vector<std::optional<Machining>>& machining() const;
   // As eachRead() says, of the statement with this index.
   std::span<const VariableRead> reads(std::size_t statement) const;
 
@@ -37,6 +40,7 @@ private:
   };
   mutable std::optional<ir::ProgramFlow> flow_;
   mutable std::optional<std::vector<std::optional<DistanceMode>>> modes_;
+  mutable std::optional<std::vector<std::optional<Machining>>> machining_;
   mutable std::optional<Reads> reads_;
 };
 

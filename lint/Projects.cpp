@@ -4,6 +4,7 @@
 #include "project/FormChoice.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <tuple>
 
 namespace dotek::lint {
@@ -124,6 +125,10 @@ Project& Projects::begin(const Settings& settings) {
   project.fields.insert(project.fields.end(), options.projectField.begin(), options.projectField.end());
   for (const auto& [name, value] : options.set)
     project.sets.insert(name);
+  std::error_code error;
+  project.analyses->wholeFolder =
+      std::any_of(options_.paths.begin(), options_.paths.end(),
+                  [&](const std::string& path) { return std::filesystem::is_directory(path, error); });
   if (control == nullptr && blocks) project.controls = compilation_.controls(settings.probe);
   return project;
 }

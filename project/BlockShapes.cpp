@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <string>
+#include <utility>
 
 namespace dotek::project {
 namespace {
@@ -173,17 +174,20 @@ BlockShape blockShape(View line) {
   const std::string text = blockText(line);
   BlockShape all;
   all.blank = true;
-  View rest = text;
+  View rest = View(text).substr(0, text.find("//"));
+  bool first = true;
   while (!rest.empty() && all.weight < 5) { // `;` ends a block in print
     const std::size_t end = std::min(rest.find(';'), rest.size());
     const View block = rest.substr(0, end);
     rest.remove_prefix(std::min(end + 1, rest.size()));
+    const bool behind = !std::exchange(first, false);
     if (block.empty()) continue;
     if (block == "%") {
       all = {{false, true, 0}, 1, true};
       return all;
     }
     const BlockShape one = BlockReader(block).read();
+    if (!one.fits && behind) break; // a comment, on many controls
     if (!one.fits) return one;
     all.blank = false;
     all.fits = true;

@@ -1,37 +1,49 @@
 // Private to InputKind.cpp: texts that look like an input of Dotek and are none.
 #pragma once
 
+#include "project/DialectMarks.h"
+#include "project/Foreign.h"
+
 #include <array>
 #include <cstddef>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace dotek::project {
 
-// Signs of the languages of other controls, line by line.
+// Marks of the languages of other controls, line by line. Comments after `;` or `//` are none: controls of
+// many kinds take them.
 class Dialects {
 public:
+  // Of each line in its order, blank ones too.
   void look(std::string_view line);
 
-  // The weight of the language that most lines speak for; `lines`: of the text. A few remarks after `;` are a
-  // mistake in a program, not another language.
-  int weight(int lines) const;
-  // One of its signs is in no other text.
+  // Of the language that most marks speak for; 0: of none enough.
+  int weight() const;
+  // One of its marks is in no other text.
   bool certain() const { return certain_; }
-  // "Sinumerik (`GOTOF`)": its name and its first sign.
-  std::string name(int lines) const;
+  // Two lines of it are no block of Macro B, whatever the others are.
+  bool marked() const;
+  std::string name() const;
+  // Where it is a control's language.
+  std::optional<Foreign> foreign() const;
 
 private:
-  static constexpr std::size_t kCount = 10;
-  struct Seen {
-    int weight = 0;
-    std::string sign;
+  struct Shown {
+    int line = 0, weight = 0;
+    std::string text;
   };
-  void see(std::size_t dialect, int weight, std::string_view sign);
-  std::size_t best(int lines) const;
+  struct Seen {
+    int weight = 0, lines = 0, strong = 0, lastLine = 0;
+    std::vector<Shown> shown; // the lines to name
+  };
+  void see(const Mark& mark, std::string_view line);
+  std::size_t best() const;
 
-  std::array<Seen, kCount> seen_;
+  std::array<Seen, kTongues> seen_;
+  int line_ = 0;
   bool certain_ = false;
 };
 

@@ -89,16 +89,23 @@ struct Evidence {
   }
 };
 
+// Calls `visit` with each of the first lines; CR LF is one end.
+template <class Visit> void eachLine(View text, Visit&& visit) {
+  int lines = 0;
+  for (std::size_t at = 0; at < text.size() && lines < kMostLines; ++lines) {
+    const std::size_t end = std::min(text.find_first_of("\r\n", at), text.size());
+    visit(text.substr(at, std::min(end - at, kMostOfLine)));
+    at = end + (end + 1 < text.size() && text[end] == '\r' && text[end + 1] == '\n' ? 2 : 1);
+  }
+}
+
 Evidence look(View text) {
   Evidence out;
   bool inComment = false;
-  int lines = 0;
   Tally closed; // of the Prog, as if each comment ended on its line
-  for (std::size_t at = 0; at < text.size() && lines < kMostLines; ++lines) {
-    const std::size_t end = std::min(text.find_first_of("\r\n", at), text.size());
-    const View line = text.substr(at, std::min(end - at, kMostOfLine));
-    at = end + 1;
-    if (line.find_first_not_of(" \t\v\f") == View::npos) continue;
+  eachLine(text, [&](View line) {
+    out.dialects.look(line);
+    if (line.find_first_not_of(" \t\v\f") == View::npos) return;
     out.prog.add(progShape(line, inComment));
     bool here = false;
     closed.add(progShape(line, here));
@@ -111,8 +118,7 @@ Evidence look(View text) {
     out.cycle.add(cycleShape(line));
     out.schema = out.schema || line.starts_with("schema =");
     out.definitions += isDefinition(line) ? 1 : 0;
-    out.dialects.look(line);
-  }
+  });
   if (inComment && out.prog.lines == 0) out.prog = closed;
   return out;
 }
@@ -168,7 +174,7 @@ Recognition recogniseText(View text, std::optional<InputKind> named, bool byName
   const bool suf = named == InputKind::Suf
                        ? seen.suf.share() >= 0.3 || (nc.fits + nc.begins) * 3 >= nc.lines
                        : seen.suf.share() >= 0.6 && seen.suf.weight >= 4 && seen.nc.macroB < 3;
-  const int foreign = seen.dialects.weight(nc.lines);
+  const int foreign = seen.dialects.weight();
   const int own = seen.nc.macroB + std::max({seen.macro.share() > 0.5 ? seen.macro.weight : 0,
                                              seen.dialog.share() > 0.5 ? seen.dialog.weight : 0,
                                              seen.prog.share() > 0.5 ? seen.prog.weight : 0});
@@ -178,8 +184,8 @@ Recognition recogniseText(View text, std::optional<InputKind> named, bool byName
   if (lines > 0 && seen.definitions == lines && !seen.schema && foreign <= lines)
     return {named == InputKind::Macro ? InputKind::Macro : InputKind::DefineData,
             fmt::format("each of {} lines gives a name a number", lines)};
-  if (seen.dialects.certain() || (!suf && !ours && foreign >= 2 && foreign > own))
-    return {std::nullopt, seen.dialects.name(nc.lines)};
+  if (seen.dialects.certain() || (!suf && !ours && foreign > 0 && (foreign > own || seen.dialects.marked())))
+    return {std::nullopt, seen.dialects.name()};
   if (suf) return {InputKind::Suf, share(seen.suf, linesOf(InputKind::Suf))};
   if (seen.cycle.weight >= 4 && seen.cycle.share() >= 0.5)
     return {InputKind::Cycle, share(seen.cycle, linesOf(InputKind::Cycle))};
@@ -255,6 +261,15 @@ std::optional<InputKind> kindByName(View name) {
 
 std::string otherwise(const Recognition& recognition) {
   return recognition.reason.empty() || recognition.reason == kUnknown ? "" : " (" + recognition.reason + ")";
+}
+
+std::optional<Foreign> foreignLanguage(View bytes) {
+  View text = bytes.substr(0, kRecognisedBytes);
+  if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
+  if (text.find('\0') != View::npos || otherFormat(text)) return std::nullopt;
+  Dialects dialects;
+  eachLine(text, [&](View line) { dialects.look(line); });
+  return dialects.weight() > 0 || dialects.certain() ? dialects.foreign() : std::nullopt;
 }
 
 Recognition recognise(View fileName, View bytes, std::optional<InputKind> expected) {

@@ -1,5 +1,8 @@
 #include "project/Inputs.h"
 
+#include "project/Foreign.h"
+#include "support/Files.h"
+#include "support/messages/Commands.h"
 #include "support/messages/Common.h"
 #include "support/messages/Cycle.h"
 
@@ -7,12 +10,24 @@
 
 namespace dotek::project {
 
+void reportNoInput(const std::string& path, const Recognition& found, Session& session) {
+  Diagnostics ignored;
+  const std::optional<std::string> text =
+      isStream(path) ? std::nullopt : readBeginning(path, kRecognisedBytes, ignored);
+  const std::optional<Foreign> foreign = text ? foreignLanguage(*text) : std::nullopt;
+  if (!foreign)
+    session.diagnostics().report<diag::UnknownKind>({}, inputName(path), otherwise(found));
+  else
+    session.diagnostics().report<diag::OtherDialect>({}, inputName(path), foreign->name, foreign->lines,
+                                                     foreign->remedy.empty() ? "" : ": " + foreign->remedy);
+}
+
 std::optional<InputKind> kindAmong(const std::string& path, std::initializer_list<InputKind> kinds,
                                    std::string_view expected, Session& session) {
   const Recognition* const found = session.kindOf(path, session.diagnostics(), *kinds.begin());
   if (found == nullptr) return std::nullopt;
   if (!found->kind)
-    session.diagnostics().report<diag::UnknownKind>({}, inputName(path), otherwise(*found));
+    reportNoInput(path, *found, session);
   else if (std::find(kinds.begin(), kinds.end(), *found->kind) != kinds.end())
     return found->kind;
   else if (found->kind == InputKind::Cycle)

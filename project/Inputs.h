@@ -16,4 +16,7 @@ namespace dotek::project {
 std::optional<InputKind> kindAmong(const std::string& path, std::initializer_list<InputKind> kinds,
                                    std::string_view expected, Session& session);
 
+// Of an input that is none: the one message that says what it is instead.
+void reportNoInput(const std::string& path, const Recognition& found, Session& session);
+
 } // namespace dotek::project

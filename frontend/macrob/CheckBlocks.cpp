@@ -304,6 +304,58 @@ void cycleBesideMotion(const Words& words, Report& report) {
 
 } // namespace
 
+namespace {
+
+// Codes of which one at a time is in force. Those of canned cycles are looked at elsewhere.
+struct Group {
+  char letter;
+  std::array<double, 8> codes;
+  std::size_t count;
+};
+constexpr std::array kGroups = {
+    Group{'G', {0, 1, 2, 3, 33}, 5},
+    Group{'G', {17, 18, 19}, 3},
+    Group{'G', {90, 91}, 2},
+    Group{'G', {20, 21}, 2},
+    Group{'G', {40, 41, 42}, 3},
+    Group{'G', {43, 44, 49}, 3},
+    Group{'G', {98, 99}, 2},
+    Group{'G', {94, 95}, 2},
+    Group{'G', {96, 97}, 2},
+    Group{'G', {68, 69}, 2},
+    Group{'G', {50, 51}, 2},
+    Group{'G', {15, 16}, 2},
+    Group{'G', {54, 55, 56, 57, 58, 59}, 6},
+    Group{'M', {3, 4, 5}, 3},
+    Group{'M', {7, 9}, 2},
+    Group{'M', {8, 9}, 2},
+    Group{'M', {0, 1, 2, 30, 98, 99}, 6},
+};
+
+void codesOfOneGroup(const Words& words, Report& report) {
+  for (const Group& group : kGroups) {
+    const nc::Word* first = nullptr;
+    for (const nc::Word& word : words.words) {
+      const auto code = word.address == group.letter ? literal(word) : std::nullopt;
+      const auto end = group.codes.begin() + static_cast<std::ptrdiff_t>(group.count);
+      if (!code || std::find(group.codes.begin(), end, *code) == end) continue;
+      if (first != nullptr && literal(*first) != code) {
+        report
+            .at(word.range,
+                "`{}` and `{}` are of one group, and one at a time is in force; the control takes the last "
+                "one or stops "
+                "with an alarm; leave out the one that is not meant, or give each a block of its own",
+                wordText(*first), wordText(word))
+            .note(first->range, "the first one");
+        return;
+      }
+      if (first == nullptr) first = &word;
+    }
+  }
+}
+
+} // namespace
+
 void codesExclude(const CheckedProgram& input, Report& report) {
   for (const Words* words : input.plain) {
     const nc::Word* first = nullptr;
@@ -323,6 +375,7 @@ void codesExclude(const CheckedProgram& input, Report& report) {
       if (first == nullptr) first = &word;
     }
     cycleBesideMotion(*words, report);
+    codesOfOneGroup(*words, report);
   }
 }
 

@@ -49,7 +49,13 @@ bool isApproximate(const Expression& expression, bool literals) {
     return isApproximate(*negated->operand, literals);
   const auto* operation = std::get_if<nc::Operation>(&expression.node);
   if (operation == nullptr) return false;
-  if (operation->op == "/") return true;
+  if (operation->op == "/") {
+    // Halves, quarters and eighths of an exact value are exact.
+    const auto divisor = constantOf(*operation->right);
+    if (divisor && (*divisor == 2 || *divisor == 4 || *divisor == 8))
+      return isApproximate(*operation->left, literals);
+    return true;
+  }
   if (operation->op.size() > 1) return false; // AND, OR, XOR, MOD take whole numbers
   const auto fraction = [](const Expression& side) {
     const auto* number = std::get_if<nc::Number>(&side.node);
@@ -60,11 +66,15 @@ bool isApproximate(const Expression& expression, bool literals) {
 }
 
 // FIX[#1/2] tells even from odd: halves are exact.
+// Clocks and other states of the control are whole numbers, whose whole quotients come out so.
 bool isHalved(const Expression& expression) {
   const auto* operation = std::get_if<nc::Operation>(&expression.node);
   if (operation == nullptr || operation->op != "/") return false;
   const auto divisor = constantOf(*operation->right);
-  return divisor && (*divisor == 2 || *divisor == 4 || *divisor == 8) && variableNumber(*operation->left);
+  if (!divisor || isApproximate(*operation->left, true)) return false;
+  constexpr std::uint32_t kFirstState = 1000;
+  const bool state = variableNumber(*operation->left).value_or(0) >= kFirstState;
+  return *divisor == 2 || *divisor == 4 || *divisor == 8 || (state && isWhole(*divisor));
 }
 
 bool isInexact(const Expression& side) {

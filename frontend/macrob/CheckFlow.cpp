@@ -138,7 +138,8 @@ private:
 
   void loops() {
     // What could not be read may hold the other half.
-    const bool doubtful = unreadHolds(program_, "DO") || unreadHolds(program_, "END");
+    const bool doubtful =
+        unreadHolds(program_, "DO") || unreadHolds(program_, "END") || unreadHolds(program_, "WHILE");
     LoopPairs::Defects report;
     report.noNumber = [&](std::size_t, const Do& loop, std::optional<std::uint32_t> number) {
       found_.dosWithoutNumber.emplace_back(&loop, number);
@@ -370,7 +371,33 @@ void loopsCross(const CheckedProgram& input, Report& report) {
         .note(open->range, "this loop is still open");
 }
 
+namespace {
+
+// One loop is open and one END has another number: both are halves of one slip.
+bool isOtherNumber(const FlowFindings& flow) {
+  if (flow.dosWithoutEnd.size() != 1 || flow.endsWithoutDo.size() != 1) return false;
+  const Do& loop = *flow.dosWithoutEnd.front();
+  const End& end = *flow.endsWithoutDo.front();
+  return loop.loop && end.loop && end.range.begin > loop.range.begin;
+}
+
+} // namespace
+
 void endWithoutDo(const CheckedProgram& input, Report& report) {
+  if (isOtherNumber(input.flow)) {
+    const Do& loop = *input.flow.dosWithoutEnd.front();
+    const End& end = *input.flow.endsWithoutDo.front();
+    Diagnostic& found =
+        report.at(end.range,
+                  "END {} closes no loop, and DO {} is open here; the control stops with alarm 126 or "
+                  "124; write one number in both",
+                  end.loop->value, loop.loop->value);
+    found.note(loop.range, "the loop");
+    found.fix = Fix{Fix::Applicability::Display,
+                    fmt::format("write `END{}`", loop.loop->value),
+                    {{end.loop->range, std::to_string(loop.loop->value)}}};
+    return;
+  }
   for (const End* end : input.flow.endsWithoutDo)
     report.at(
         end->range,
@@ -378,6 +405,7 @@ void endWithoutDo(const CheckedProgram& input, Report& report) {
 }
 
 void doWithoutEnd(const CheckedProgram& input, Report& report) {
+  if (isOtherNumber(input.flow)) return;
   for (const Do* loop : input.flow.dosWithoutEnd)
     report.at(loop->range,
               "the loop has no END of its number; the control stops with alarm 124; write it where the "

@@ -24,6 +24,13 @@ bool isDifference(const Expression& expression) {
   return operation != nullptr && operation->op == "-";
 }
 
+// `ABS[..]-#29`: a magnitude less its tolerance.
+bool hasMagnitude(const Expression& difference) {
+  const auto* operation = std::get_if<nc::Operation>(&difference.node);
+  const auto* call = operation == nullptr ? nullptr : std::get_if<nc::FunctionCall>(&operation->left->node);
+  return call != nullptr && call->name == "ABS";
+}
+
 bool isAbsoluteDifference(const Expression& expression) {
   const auto* call = std::get_if<nc::FunctionCall>(&expression.node);
   return call != nullptr && call->name == "ABS" && call->arguments.size() == 1 &&
@@ -56,7 +63,7 @@ void absMissing(const CheckedProgram& input, Report& report) {
   if (withAbs.empty()) return;
   for (const Condition* condition : input.conditions)
     eachComparison(*condition, [&](const Comparison& comparison, SourceRange) {
-      if (!isDifference(*comparison.left)) return;
+      if (!isDifference(*comparison.left) || hasMagnitude(*comparison.left)) return;
       const auto other = withAbs.find(kindOf(comparison));
       if (other == withAbs.end()) return;
       const SourceRange range = comparison.left->range;

@@ -111,6 +111,22 @@ void variableOutOfRange(const CheckedProgram& input, Report& report) {
           judge(variable->variable, print->range);
   }
   if (found.empty()) return;
+  // #200 to #499 are an option of some controls; only a profile says that this one has none.
+  const bool option = control == nullptr && std::all_of(found.begin(), found.end(), [](const auto& one) {
+                        return one.first >= 200 && one.first <= 499;
+                      });
+  if (option) {
+    Diagnostic& told = report.at(found.front().second,
+                                 "#{} is of the range #200 to #499, which Fanuc controls have as an option "
+                                 "alone; without it the control "
+                                 "stops with alarm 115; name the machine with `--control`, or take a "
+                                 "variable of #100 to #199 or #500 to #999",
+                                 found.front().first);
+    told.severity = Severity::Warning;
+    for (std::size_t i = 1; i < found.size(); ++i)
+      told.note(found[i].second, fmt::format("#{} first appears here", found[i].first));
+    return;
+  }
   Diagnostic& told = report.at(
       found.front().second,
       "{} has no variable #{}{}; the control stops with alarm 115; take one of the ranges that `dotek list "
@@ -237,6 +253,8 @@ void tableBaseRead(const CheckedProgram& input, Report& report) {
 
 namespace {
 
+constexpr std::uint32_t kFirstCommonNumber = 100;
+
 // What a program writes with `#`, to find the place where it is lost.
 class Hashes {
 public:
@@ -265,6 +283,11 @@ public:
     if (number == nullptr || number->point || side.brackets > 0) return;
     if (!(number->value < 1e6) || !used_.contains(static_cast<std::uint32_t>(number->value))) return;
     if (!isShort({side.range.file, operation.left->range.begin, operation.right->range.end})) return;
+    // A number of units, `5*#129`: the other side is a factor that holds for the whole pack.
+    const Expression& other = onLeft ? *operation.right : *operation.left;
+    if (operation.op == "*" && number->value < kFirstCommonNumber &&
+        variableNumber(other).value_or(0) >= kFirstCommonNumber)
+      return;
     const std::string variable = "#" + number->digits;
     const std::string op = operation.op.size() == 1 ? operation.op : " " + operation.op + " ";
     const std::string text =

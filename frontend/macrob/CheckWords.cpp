@@ -203,9 +203,10 @@ void argumentWithoutPoint(const CheckedProgram& input, Report& report) {
 
 namespace {
 
-// A position of a moving axis: machine, work, skip.
+// A position of a moving axis: machine, work. That of a skip is latched when the signal comes, and ends of
+// blocks are known when the block is read.
 bool isPosition(std::uint32_t number, const stdlib::SystemVariables& variables) {
-  for (const std::optional<int>& first : {variables.machine, variables.position, variables.skip})
+  for (const std::optional<int>& first : {variables.machine, variables.position})
     if (first && number >= static_cast<std::uint32_t>(*first) &&
         number < static_cast<std::uint32_t>(*first) + 6)
       return true;

@@ -1,12 +1,14 @@
 #include "frontend/macrob/Lines.h"
 
 #include "frontend/macrob/Legend.h"
+#include "frontend/macrob/Remarks.h"
 #include "support/Ascii.h"
 #include "support/messages/Common.h"
 #include "support/messages/MacroB.h"
 
 #include <algorithm>
 #include <cctype>
+#include <fmt/format.h>
 #include <utility>
 
 namespace dotek::frontend::macrob {
@@ -35,6 +37,7 @@ public:
     while (at_ < out_.bytes.size())
       line();
     marks();
+    reportRemarks();
     return std::move(out_);
   }
 
@@ -105,8 +108,13 @@ private:
     while (true) {
       int open = 0;
       std::size_t last = std::string::npos; // last byte that is neither blank nor comment
-      for (; at < bytes().size() && !isEnd(bytes()[at]) && bytes()[at] != ';'; ++at) {
+      for (; at < bytes().size() && !isEnd(bytes()[at]); ++at) {
         const char c = bytes()[at];
+        if ((c == ';' || c == '/') && remark(at)) {
+          at = endOfLine(at);
+          break;
+        }
+        if (c == ';') break;
         if (c == '(') {
           at = comment(line, at);
           continue;
@@ -124,6 +132,25 @@ private:
           !joins(line, last, static_cast<std::size_t>(open)))
         return at;
     }
+  }
+
+  // Takes a comment as other controls write it out of the text.
+  bool remark(std::size_t at) {
+    const std::size_t end = endOfLine(at);
+    const std::size_t signs = remarkAt(std::string_view(bytes()).substr(0, end), at);
+    if (signs == 0) return false;
+    if (remarks_++ == 0) {
+      firstRemark_ = range(at, at + signs);
+      remarkSign_ = bytes().substr(at, signs);
+    }
+    blank(at, end);
+    return true;
+  }
+
+  void reportRemarks() {
+    if (remarks_ == 0) return;
+    const std::string more = remarks_ == 1 ? "" : fmt::format(", and on {} more lines", remarks_ - 1);
+    diagnostics_.report<diag::CommentSign>(firstRemark_, remarkSign_, more);
   }
 
   // Gives the place of the closing bracket (or of the last byte that belongs to the comment).
@@ -311,6 +338,9 @@ private:
   std::size_t at_ = 0;
   bool legendBefore_ = false;
   bool told_ = false;
+  std::size_t remarks_ = 0;
+  SourceRange firstRemark_;
+  std::string remarkSign_;
   std::vector<SourceRange> percents_;
   std::vector<std::size_t> headers_; // lines with one
 };

@@ -28,6 +28,7 @@ public:
     }
     bracketedAssignment();
     conditionBracket();
+    missingThen();
     for (std::size_t i = 0; i < tokens_.size(); ++i)
       wordBrackets(i);
     const auto before = [](const Diagnostic& a, const Diagnostic& b) {
@@ -266,6 +267,26 @@ private:
       report<diag::ConditionBracketMissing>(rangeOf(tokens_[i]), "open the condition", {{at(place), "["}},
                                             tokens_[i].text);
       insert(i + 1, Lexer::LBRACKET, place);
+      return;
+    }
+  }
+
+  // `IF[..]#26=5.`
+  void missingThen() {
+    for (std::size_t i = 0; i + 1 < tokens_.size(); ++i) {
+      if (type(i) != Lexer::KW_IF || type(i + 1) != Lexer::LBRACKET) continue;
+      const std::size_t close = matching(i + 1);
+      if (close >= tokens_.size() || type(close + 1) != Lexer::HASH) return;
+      const auto equals = std::any_of(tokens_.begin() + static_cast<std::ptrdiff_t>(close), tokens_.end(),
+                                      [](const Tok& tok) { return tok.type == Lexer::EQUALS; });
+      if (!equals) return;
+      const std::uint32_t place = tokens_[close + 1].begin;
+      Diagnostic remark = makeDiagnostic<diag::ThenMissing>(
+          SourceRange{file_, tokens_[close].end - 1, tokens_[close + 1].end});
+      remark.fix = Fix{Fix::Applicability::Display, "write `THEN`", {{at(place), "THEN"}}};
+      out_.remarks.push_back(std::move(remark));
+      tokens_.insert(tokens_.begin() + static_cast<std::ptrdiff_t>(close + 1),
+                     Tok{Lexer::KW_THEN, place, place, "THEN"});
       return;
     }
   }

@@ -5,6 +5,7 @@
 #include "frontend/macrob/Listing.h"
 #include "frontend/macrob/Misprints.h"
 #include "frontend/macrob/Scan.h"
+#include "frontend/macrob/Slips.h"
 #include "support/messages/Common.h"
 #include "support/messages/MacroB.h"
 
@@ -94,6 +95,13 @@ public:
     const std::vector<Tok> written = tokens;
     Misprints misprints = repair(tokens, index, text_);
     std::optional<Diagnostic> error = parse(tokens, block, line.range.end);
+    if (error && !line.reported) {
+      if (auto slip = findSlip(written, file_, source_, line.range.end, index == 0)) {
+        // What was repaired beside it is part of the same slip.
+        error = std::move(slip);
+        misprints.found.clear();
+      }
+    }
     if (error) {
       if (text_ == Text::Program) hintAtListing(*error, written, index);
       unread(block, line, tokens);

@@ -47,6 +47,11 @@ void checkFile(const macrob::File& file, const Project& project, Report& report)
       calls.push_back({std::move(*call), static_cast<std::uint32_t>(*number), letters});
     }
   }
+  std::set<std::uint64_t> own; // the text of what is among the files says what it takes
+  for (const NcFile& nc : project.programs)
+    for (const macrob::Program& program : nc.file->programs)
+      if (program.name) own.insert(program.name->number);
+  std::erase_if(calls, [&](const Call& call) { return own.contains(call.program); });
   for (const stdlib::MacroSet& set : project.macroSets) {
     // The file is one for this pack: another call fits.
     const auto fits = [&](const Call& call) {

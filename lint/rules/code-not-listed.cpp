@@ -26,6 +26,16 @@ std::string text(const Code& code) {
          (code.second % 10 != 0 ? fmt::format(".{}", code.second % 10) : "");
 }
 
+// M23 where a profile lists M32.
+bool isListedSwapped(const Code& code, const Project& project) {
+  const std::uint32_t number = code.second / 10;
+  if (code.second % 10 != 0 || number < 10 || number > 99 || number % 10 == number / 10) return false;
+  const Code swapped{code.first, (number % 10 * 10 + number / 10) * 10};
+  return std::any_of(project.controls.begin(), project.controls.end(), [&](const stdlib::Control& control) {
+    return number % 10 != 0 && lists(control, swapped);
+  });
+}
+
 // Of one file: what another one has, or suppresses, changes nothing.
 void checkFile(const macrob::File& file, const Project& project, Report& report) {
   std::vector<std::pair<Code, SourceRange>> unlisted; // in the order of the text, each code once
@@ -43,6 +53,9 @@ void checkFile(const macrob::File& file, const Project& project, Report& report)
                 ? listed(*project.control)
                 : std::any_of(project.controls.begin(), project.controls.end(), listed))
           continue;
+        // M codes are the builder's: without a machine's profile nobody can list them, and only what looks
+        // like another one is reported.
+        if (word.address == 'M' && project.control == nullptr && !isListedSwapped(code, project)) continue;
         if (std::none_of(unlisted.begin(), unlisted.end(),
                          [&](const auto& one) { return one.first == code; }))
           unlisted.emplace_back(code, word.range);

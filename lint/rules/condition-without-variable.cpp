@@ -18,13 +18,30 @@ bool isFixed(const ir::ExpressionPtr& expression) {
   return fixed;
 }
 
+bool neverHolds(const ir::Comparison& comparison) {
+  const double* left = ir::constantValue(comparison.left);
+  const double* right = ir::constantValue(comparison.right);
+  if (left == nullptr || right == nullptr) return false;
+  switch (comparison.relation) {
+  case ir::Relation::Less: return *left >= *right;
+  case ir::Relation::LessEqual: return *left > *right;
+  case ir::Relation::Greater: return *left <= *right;
+  case ir::Relation::GreaterEqual: return *left < *right;
+  default: return false;
+  }
+}
+
 void check(const NcProgram& nc, Report& report) {
   const ir::Program& program = nc.program;
   for (const ir::ProgramStatement& statement : program.body) {
     // WHILE [1 EQ 1] is meant.
     const auto* branch = std::get_if<ir::Branch>(&statement.node);
+    const auto* loop = std::get_if<ir::Loop>(&statement.node);
+    const ir::ConditionPtr* condition = branch != nullptr                    ? &branch->condition
+                                        : loop != nullptr && loop->condition ? &loop->condition
+                                                                             : nullptr;
     const auto* comparison =
-        branch == nullptr ? nullptr : std::get_if<ir::Comparison>(&branch->condition->node);
+        condition == nullptr ? nullptr : std::get_if<ir::Comparison>(&(*condition)->node);
     if (comparison == nullptr) continue;
     const bool left = isFixed(comparison->left) || isEmpty(comparison->left);
     const bool right = isFixed(comparison->right) || isEmpty(comparison->right);
@@ -34,8 +51,10 @@ void check(const NcProgram& nc, Report& report) {
     const bool meant = plain && (comparison->relation == ir::Relation::Equal ||
                                  comparison->relation == ir::Relation::NotEqual);
     if (!left || !right || meant) continue;
+    // WHILE [1 GT 0] goes on for ever and is meant; one that never holds is not.
+    if (loop != nullptr && (!plain || !neverHolds(*comparison))) continue;
     report.at(
-        branch->condition->range.hasPlace() ? branch->condition->range : statement.origin.range(),
+        (*condition)->range.hasPlace() ? (*condition)->range : statement.origin.range(),
         "this condition looks at no variable, so it comes out the same each time; mostly the `#` of one "
         "is missing; write it");
   }

@@ -36,6 +36,10 @@ void compare(const std::vector<Called>& calls, const std::set<std::uint32_t>& de
     first.try_emplace(call->number, call);
   for (const Called& call : calls) {
     if (known(call.number)) continue;
+    // A misprint is made once; what is called again and again has that number.
+    if (std::count_if(calls.begin(), calls.end(),
+                      [&](const Called& one) { return one.number == call.number; }) > 1)
+      continue;
     const std::set<std::uint32_t> others = swaps(call.number);
     auto meant = calls.end(); // the first call that may be
     for (const std::uint32_t other : others) {

@@ -52,17 +52,22 @@ void check(const Project& project, Report& report) {
                           constant->digits.find('.') == std::string::npos && !indices.contains(&node));
         });
       const auto* sum = store == nullptr ? nullptr : std::get_if<ir::Binary>(&store->number->node);
-      lost = lost || (sum != nullptr && ir::constantValue(sum->left) != nullptr &&
-                      ir::constantValue(sum->right) != nullptr);
+      // `#[158+1]` counts on from a base.
+      const double* base = sum == nullptr ? nullptr : ir::constantValue(sum->left);
+      const double* step = sum == nullptr ? nullptr : ir::constantValue(sum->right);
+      lost = lost || (base != nullptr && step != nullptr && *base >= kFirstCommon && *step >= kFirstCommon);
       if (lost)
         report.at(statement.origin.range(),
                   "a number is here where its variable belongs; the control calculates "
                   "with the number; write the `#` before it");
       if (words) continue;
+      std::set<const ir::Expression*> inNumber; // of the number of the variable that is set
+      if (store != nullptr)
+        ir::eachNode(store->number, [&](const ir::Expression& node) { inNumber.insert(&node); });
       ir::eachNode(statement, [&](const ir::Expression& node) {
         const auto* constant = std::get_if<ir::Constant>(&node.node);
         if (constant == nullptr || indices.contains(&node)) return;
-        if (store != nullptr && store->number.get() == &node) return;
+        if (store != nullptr && inNumber.contains(&node)) return;
         if (constant->value < kFirstCommon || constant->value > kLastCommon ||
             constant->digits.find('.') != std::string::npos || constant->value != std::floor(constant->value))
           return;

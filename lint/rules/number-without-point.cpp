@@ -1,5 +1,6 @@
 #include "lint/Skips.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace dotek::lint::rule {
@@ -31,8 +32,12 @@ void collect(const ir::ProgramStatement& statement, std::vector<Number>& with, s
     for (const ir::Word& word : block->words)
       if (word.address != 'K' || arc) take(word.address, word.value, word.range);
   } else if (const ir::Call* call = callOf(statement)) {
+    // Several sets of I, J, K hand a list over, which may hold numbers of anything.
+    const auto sets = std::count_if(call->arguments.begin(), call->arguments.end(),
+                                    [](const ir::CallArgument& argument) { return argument.letter == 'I'; });
     for (const ir::CallArgument& argument : call->arguments)
-      take(argument.letter, argument.value, argument.range);
+      if (sets < 2 || argument.letter < 'I' || argument.letter > 'K')
+        take(argument.letter, argument.value, argument.range);
   }
 }
 

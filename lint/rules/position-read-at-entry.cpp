@@ -7,9 +7,10 @@
 namespace dotek::lint::rule {
 namespace {
 
-// Where the machine is: #5001 to #5003, #5021 to #5023, #5041 to #5043.
+// Where the axes are: #5021 to #5023, #5041 to #5043. #5001 and following hold the end of the block before,
+// which is known when it is read.
 bool isPosition(std::uint32_t number) {
-  return number > 5000 && number <= 5043 && number % 20 >= 1 && number % 20 <= 3;
+  return number > 5020 && number <= 5043 && number % 20 >= 1 && number % 20 <= 3;
 }
 
 void check(const NcProgram& nc, Report& report) {
@@ -25,6 +26,7 @@ void check(const NcProgram& nc, Report& report) {
         if (callOf(body[at]) != nullptr) return true;
         return before || (block != nullptr &&
                           (hasCode(*block, 'G', 4) || hasCode(*block, 'G', 31) || hasCode(*block, 'G', 53) ||
+                           hasCode(*block, 'G', 103) || // Haas: limits the reading ahead
                            hasWord(*block, 'M') || axesOf(*block) != 0));
       },
       [](bool& into, bool other) {

@@ -62,7 +62,10 @@ void checkProgram(const ir::Program& program, const std::map<std::uint32_t, std:
   });
   for (const auto& [called, list] : uses) {
     const auto read = std::count_if(list.begin(), list.end(), [](const Use& use) { return use.read; });
-    if (read == 0 || loops) continue;
+    // A call that is mostly made for what it does, not for a result.
+    const auto unread =
+        std::count_if(list.begin(), list.end(), [](const Use& use) { return !use.read && !use.again; });
+    if (read == 0 || loops || unread > read) continue;
     for (const Use& use : list)
       if (!use.read && !use.again)
         report.at(use.call->origin.range(),

@@ -1,16 +1,60 @@
-#include "lint/NcProgram.h"
+#include "ir/Dataflow.h"
 #include "lint/Skips.h"
+
+#include <cmath>
+#include <set>
 
 namespace dotek::lint::rule {
 namespace {
 
-void check(const NcProgram& nc, Report& report) {
-  const ir::Program& program = nc.program;
-  const auto& modes = nc.modes();
+std::uint32_t calledBy(const ir::ProgramStatement& statement) {
+  const ir::Call* call = callOf(statement);
+  const double* number = call == nullptr || !call->program ? nullptr : ir::constantValue(call->program);
+  return number != nullptr && *number >= 1 && *number < 1e8 ? static_cast<std::uint32_t>(std::lround(*number))
+                                                            : 0;
+}
+
+// What the programs of the files say of one another.
+struct Others {
+  std::set<std::uint32_t> called; // by one of them
+  std::set<std::uint32_t> quiet;  // state no mode and call nothing
+};
+
+Others othersOf(const Project& project) {
+  Others out;
+  eachProgram(project, [&](const ir::Program& program, const macrob::File&) {
+    bool quiet = true;
+    for (const ir::ProgramStatement& statement : program.body) {
+      if (const std::uint32_t number = calledBy(statement); number != 0 && number != program.number)
+        out.called.insert(number);
+      quiet = quiet && callOf(statement) == nullptr && !statedMode(statement);
+    }
+    if (quiet) out.quiet.insert(static_cast<std::uint32_t>(program.number));
+  });
+  return out;
+}
+
+void checkProgram(const ir::Program& program, const Others& others, Report& report) {
+  // Its callers are read, and state the mode that it goes by.
+  if (others.called.contains(static_cast<std::uint32_t>(program.number))) return;
+  const auto stated = ir::factsBefore<DistanceMode>(
+      program.body, ir::flowOf(program.body), DistanceMode::AsBefore,
+      [&](std::size_t at, std::size_t, DistanceMode mode) {
+        const ir::ProgramStatement& statement = program.body[at];
+        // A subprogram may be there to set modes.
+        if (callOf(statement) != nullptr)
+          return others.quiet.contains(calledBy(statement)) ? mode : DistanceMode::Unknown;
+        return statedMode(statement).value_or(mode);
+      },
+      [](DistanceMode& into, DistanceMode other) {
+        if (into == other || into == DistanceMode::Unknown) return false;
+        into = DistanceMode::Unknown;
+        return true;
+      });
   Diagnostic* first = nullptr; // the mode that is missing is one cause for all of them
   for (std::size_t i = 0; i < program.body.size(); ++i) {
     const ir::NcBlock* skip = skipOf(program.body[i]);
-    if (skip == nullptr || axesOf(*skip) == 0 || !modes[i] || *modes[i] != DistanceMode::AsBefore) continue;
+    if (skip == nullptr || axesOf(*skip) == 0 || !stated[i] || *stated[i] != DistanceMode::AsBefore) continue;
     if (statedMode(program.body[i])) continue;
     if (first != nullptr)
       first->note(program.body[i].origin.range(), "and this one");
@@ -22,12 +66,19 @@ void check(const NcProgram& nc, Report& report) {
   }
 }
 
+void check(const Project& project, Report& report) {
+  const Others others = othersOf(project);
+  eachProgram(project, [&](const ir::Program& program, const macrob::File&) {
+    checkProgram(program, others, report);
+  });
+}
+
 } // namespace
 
 DOTEK_LINT_RULE(skip_in_callers_mode){
     .severity = Severity::Warning,
     .tier = Tier::Ir,
-    .program = check,
+    .check = check,
 };
 
 } // namespace dotek::lint::rule

@@ -1,3 +1,4 @@
+#include "frontend/macrob/Calls.h"
 #include "lint/Probing.h"
 
 #include <algorithm>
@@ -25,16 +26,44 @@ bool areSwapped(std::uint32_t a, std::uint32_t b) {
 void check(const Project& project, Report& report) {
   // A common variable may be set in one file and read in another, but a misprint is made in one.
   std::map<std::uint32_t, SourceRange> stored, read;
+  std::map<std::uint32_t, int> times; // each number is read or set
   eachProgram(project, [&](const ir::Program& program, const macrob::File&) {
     for (const ir::ProgramStatement& statement : program.body) {
-      if (const auto number = storedNumber(statement)) stored.emplace(*number, statement.origin.range());
+      if (const auto number = storedNumber(statement)) {
+        stored.emplace(*number, statement.origin.range());
+        ++times[*number];
+      }
       eachRead(statement, [&](std::uint32_t number, SourceRange range) {
         read.emplace(number, range.hasPlace() ? range : statement.origin.range());
+        ++times[number];
       });
     }
   });
+  // Results and tables of probing macros are set by the vendor's text.
+  const auto ofVendor = [&](std::uint32_t number) {
+    return std::any_of(project.macroSets.begin(), project.macroSets.end(), [&](const stdlib::MacroSet& set) {
+      return std::any_of(set.scratch.begin(), set.scratch.end(),
+                         [&](const auto& one) { return number >= one.first && number <= one.second; }) ||
+             std::any_of(set.signatures.begin(), set.signatures.end(), [&](const auto& signature) {
+               return std::any_of(signature.results.begin(), signature.results.end(),
+                                  [&](const auto& result) { return result.variable == number; });
+             });
+    });
+  };
+  const bool probes = std::any_of(project.programs.begin(), project.programs.end(), [](const NcFile& nc) {
+    return std::any_of(
+        nc.file->programs.begin(), nc.file->programs.end(), [](const macrob::Program& program) {
+          return std::any_of(program.blocks.begin(), program.blocks.end(), [](const macrob::Block& block) {
+            const auto* words = std::get_if<macrob::Words>(&block.body);
+            return words != nullptr && macrob::callOf(*words).has_value() &&
+                   macrob::callOf(*words)->kind == macrob::CallKind::Simple;
+          });
+        });
+  });
   for (const auto& [number, range] : read) {
     if (number < kFirstCommon || number > kLastCommon || stored.contains(number)) continue;
+    // A misprint is made once.
+    if (times[number] > 1 || (probes && ofVendor(number))) continue;
     const auto other =
         std::find_if(stored.begin(), stored.end(), [&, to = number, at = range](const auto& one) {
           return one.second.file == at.file && !read.contains(one.first) && areSwapped(one.first, to);

@@ -1,6 +1,7 @@
 // What a text is, whatever its name: texts as they come from controls, CAMs and editors, and texts that look
 // like them.
 #include "project/InputKind.h"
+#include "project/Foreign.h"
 
 #include <doctest/doctest.h>
 #include <string>
@@ -94,12 +95,27 @@ TEST_CASE("input kind: other controls' languages are none, whatever their file i
       {"O100 SUB\nG0 X1\nO101 IF [#1 GT 0]\nG0 X0\nO101 ENDIF\nO100 ENDSUB\n", "LinuxCNC"},
       {"%WEB,MX,\n(P1=10)\n(IF P1 EQ 0 GOTO N10)\nG1 X P1 F100\nN10 M30\n", "Fagor"},
       {";LAYER_COUNT:3\nM104 S200\nG28 ;home\nG1 X10 Y10 E0.5\nG1 X20 Y10 E1.0\n", "3D printer"},
-      {"G91 ; relative\nG21 ; mm\nG38.2 X-50 F100 ; probe\nG90\nM30 ; end\n", "comments after `;`"}};
+      {"G91 ; relative\nG21 ; mm\nG38.2 X-50 F100 ; probe\nG90\nM30 ; end\n", "LinuxCNC"},
+      {"$H\n$X\nG21 G90\nG0 X5\nG1 X10 F100\nM30\n", "Grbl"},
+      {"if { move.axes[0].homed }\n  G0 X10\nvar w = 5\nG1 X{var.w} F100\n", "RepRapFirmware"},
+      {"(test)\n#1 = 5\n#2 = 6\n  o100 if [#1 GT 2]\n#3 = 7\n  o100 else\n#3 = 8\n  o100 endif\nM2\n",
+       "LinuxCNC"}};
   for (const auto& [text, name] : dialects)
     for (const char* file : {"", "O7310", "WEB.NC", "WEB.MPF"}) {
       const std::string found = kindOf(text, file);
       CHECK_MESSAGE((found.starts_with("none: ") && found.find(name) != std::string::npos), text << found);
     }
+  // Comments are no language.
+  CHECK(kindOf("G21 ; millimetres\nG90 G54 ; absolute\nG0 X10. ; start\nG1 X20. F100 ; cut\nM30 ; end\n") ==
+        "nc");
+  CHECK(kindOf("// face\nG21 G90\nG0 X10.\nG1 X20. F100\nM30\n") == "nc");
+  CHECK(kindOf(kMacro + "(IF J = 0 GOTO N98)\n(P1=FIRST TOOL)\n(CALL 9810)\n") == "nc");
+  // What shows it is named with its lines.
+  const auto lathe =
+      dotek::project::foreignLanguage("O1\nVC1=5\nG0 X=VC1\nIF [VC1 EQ 5] NEND\nCALL O20\nNEND M2\n");
+  REQUIRE(lathe);
+  CHECK(lathe->name == "Okuma OSP");
+  CHECK(lathe->lines == "line 2 `VC1=5`, line 4 `IF [VC1 EQ 5] NEND`, line 5 `CALL O20`");
   // A slip in a program of Macro B does not make it one of them.
   CHECK(kindOf(replaced(kMacro, "G0Z50.", "G0 Z=50.")) == "nc");
   CHECK(kindOf(replaced(kMacro, "G90\n", "G90 ;absolute\n")) == "nc");
@@ -176,7 +192,7 @@ TEST_CASE("input kind: bytes that are no text, and no bytes at all") {
 
 TEST_CASE("input kind: the reason says what was counted") {
   CHECK(recognise("", "N10 G0 X1.\nG0 X1,5\nM30\n").reason == "2 of 3 lines are blocks of NC");
-  CHECK(recognise("", "GOTOF END\nG1 X=R1\n").reason == "Sinumerik (`GOTOF`)");
+  CHECK(recognise("", "GOTOF END\nG1 X=R1\n").reason == "Sinumerik (Siemens)");
 }
 
 TEST_CASE("input kind: what explain prints of a macro is no macro") {

@@ -76,7 +76,7 @@ TEST_CASE("macrob check: blocks that never run") {
 TEST_CASE("macrob check: numbers of variables (1.3, 1.11)") {
   CHECK(program("#33=#100+#199+#500+#999+#5041") == "");
   CHECK(program("#34=1\n#1=#34") == "E 2:1 variable-out-of-range");
-  CHECK(program("#1=#200") == "E 2:4 variable-out-of-range");
+  CHECK(program("#1=#200") == "W 2:4 variable-out-of-range");
   CHECK(program("#1=#150", k31) == "");
   CHECK(program("#1=#150", k6m) == "E 2:4 variable-out-of-range");
   CHECK(program("X#560", k6m) == "E 2:2 variable-out-of-range");
@@ -173,6 +173,11 @@ TEST_CASE("macrob check: exact comparison of computed values (1.6)") {
   CHECK(program("#1=FIX[#2*0.1]") == "N 2:4 fix-of-computed");
   CHECK(program("#1=FIX[#2/3]") == "N 2:4 fix-of-computed");
   CHECK(program("#1=FIX[#2]") == "");
+  // Halves, quarters, and what divides the clock.
+  CHECK(program("IF[[#7/2]EQ#8]GOTO5\nN5") == "");
+  CHECK(program("#1=FIX[[#7-1]/4]") == "");
+  CHECK(program("#1=FIX[#3012/10000]") == "");
+  CHECK(program("#1=FIX[#3012/0.3]") == "N 2:4 fix-of-computed");
 }
 
 TEST_CASE("macrob check: codes are whole numbers (1.6)") {
@@ -215,7 +220,7 @@ TEST_CASE("macrob check: calls (1.8)") {
 
 TEST_CASE("macrob check: positions that are read too early (1.2)") {
   CHECK(program("G1 X5. F100\n#1=#5041", k31) == "W 3:4 position-read-early");
-  CHECK(program("G1 X5. F100\n#2=1\nIF[#5061GT#3]GOTO5\nN5", k31) == "W 4:4 position-read-early");
+  CHECK(program("G1 X5. F100\n#2=1\nIF[#5061GT#3]GOTO5\nN5", k31) == ""); // latched
   CHECK(program("G1 X5. F100\n#1=#5041") == "");
   CHECK(program("G31 X5. F100\n#1=#5061", k31) == "");
   CHECK(program("G31 X5. F100\nG53\n#1=#5041", k31) == "");

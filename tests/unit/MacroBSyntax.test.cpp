@@ -206,9 +206,9 @@ TEST_CASE("macrob: a bad block is one error, and the next one is read") {
   CHECK(one("#1=#2=#3") == "E 1:6 second-equals");
   CHECK(one("R[#1]=5.") == "E 1:1 assignment-target");
   CHECK(one("##1=5") == "E 1:2 syntax-error");
-  CHECK(one("IF[#1=#2]GOTO9") == "E 1:6 syntax-error");
+  CHECK(one("IF[#1=#2]GOTO9") == "E 1:6 sign-unknown");
   CHECK(MacroFile("WHILE[#1=2]DO1\n").diagnostics.all().front().message ==
-        "a condition compares with a word; write `EQ`");
+        "`=` is no sign of Macro B here; the control stops with an alarm; write `EQ`");
   CHECK(one("#1=2 3X") == "E 1:7 syntax-error");
   CHECK(one("#1=5.SIN[#2]") == "E 1:6 missing-operator");
   CHECK(one("#1=5.#2") == "E 1:6 missing-operator");

@@ -1,0 +1,44 @@
+#include "lint/NcProgram.h"
+
+namespace dotek::lint::rule {
+namespace {
+
+void check(const NcProgram& nc, Report& report) {
+  const auto& facts = nc.machining();
+  for (std::size_t i = 0; i < facts.size(); ++i) {
+    const auto* block = std::get_if<ir::NcBlock>(&nc.program.body[i].node);
+    if (block == nullptr || !facts[i]) continue;
+    const ir::Word* code = codeWord(*block, 'G', 41);
+    if (code == nullptr) code = codeWord(*block, 'G', 42);
+    if (code == nullptr) continue;
+    const ir::Word* offset = firstWord(*block, "D");
+    const double* number = offset == nullptr ? nullptr : ir::constantValue(offset->value);
+    const Machining now = within(*block, i, *facts[i]);
+    const char* name = codeWord(*block, 'G', 41) != nullptr ? "G41" : "G42";
+    if (offset == nullptr && firstWord(*block, "H") == nullptr && facts[i]->offset == Certain::No)
+      report.at(code->range,
+                "{} has no D, and none was before; the radius is 0 or that of the program before, and the "
+                "contour is cut "
+                "by the centre of the tool; write D with the number of the offset",
+                name);
+    else if (number != nullptr && *number == 0)
+      report.at(offset->range, "D0 is a radius of 0; the contour is cut by the centre of the tool; write the "
+                               "number of the offset, or "
+                               "G40 where none is meant");
+    else if (now.motion >= 2 && facts[i]->mode(Mode::Compensation).on == Certain::No && axesOf(*block) != 0)
+      report.at(code->range,
+                "{} begins in the block of an arc; the control stops with alarm 34; begin it in a straight "
+                "move before",
+                name);
+  }
+}
+
+} // namespace
+
+DOTEK_LINT_RULE(compensation_start){
+    .severity = Severity::Warning,
+    .tier = Tier::Ir,
+    .program = check,
+};
+
+} // namespace dotek::lint::rule
