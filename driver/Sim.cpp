@@ -14,6 +14,7 @@
 #include "sim/machine/Machine.h"
 #include "sim/machine/Run.h"
 #include "sim/machine/SafeMoves.h"
+#include "sim/machine/Value.h"
 #include "sim/mikroprog/Dialect.h"
 #include "sim/run/Advice.h"
 #include "sim/run/SetupRun.h"
@@ -136,6 +137,7 @@ private:
     unreadable_ = library->unreadable();
     safe_ = sim::safeMoves(library->programs(), *control_);
     asking_ = sim::askingBlocks(library->programs());
+    unset_ = sim::neverSet(library->programs());
     if (sim::mayWriteOffsets(library->programs(), *control_)) world_->keepOffsets();
     const std::string advice = world_->setup().call.empty()
                                    ? sim::callAdvice(*library->programs().front(), options_.part.has_value())
@@ -189,11 +191,16 @@ private:
         return asking_.contains({range.file, range.begin});
       });
     world_->attach(machine);
+    for (auto number = unset_.begin(); number != unset_.end();)
+      number = sim::isFresh(machine.common(*number)) ? std::next(number) : unset_.erase(number);
+    run.watchUnset(unset_);
     run.run();
     machine.setTrace(nullptr);
     if (trace) sim::traceVariables(machine, *trace);
     trace.reset();
     sim::reportRun(run, machine, advice, options_.programs, session_);
+    for (const sim::UnsetRead& one : run.unsetReads())
+      world_->unsetRead(one.number, one.range);
     // A datum by G92 is what a program of Mikroprog is for.
     if (!machine.dialect().firstParameter) sim::reportShifts(machine, run.place(), session_);
     return finish(machine, &run);
@@ -260,6 +267,7 @@ private:
   std::optional<stdlib::Control> control_;
   std::unique_ptr<sim::SimWorld> world_;
   sim::BlockSet safe_;                              // skip moves to a position
+  std::set<std::uint32_t> unset_;                   // common variables that no program sets
   sim::BlockSet asking_;                            // blocks that ask what a skip move came to
   std::map<std::uint64_t, std::string> unreadable_; // programs that have errors, with their files
 };

@@ -10,13 +10,6 @@ namespace {
 
 constexpr double kLastProgram = 1e8;
 
-std::optional<std::uint32_t> calledProgram(const ir::ProgramStatement& statement) {
-  const ir::Call* call = callOf(statement);
-  const double* number = call == nullptr || !call->program ? nullptr : ir::constantValue(call->program);
-  if (number == nullptr || *number < 1 || *number > kLastProgram) return std::nullopt;
-  return static_cast<std::uint32_t>(std::lround(*number));
-}
-
 struct CallSite {
   std::uint32_t caller = 0, callee = 0;
   Offset offset = Offset::AsBefore;
@@ -30,6 +23,13 @@ Offset joined(Offset a, Offset b) {
 }
 
 } // namespace
+
+std::optional<std::uint32_t> calledProgram(const ir::ProgramStatement& statement) {
+  const ir::Call* call = callOf(statement);
+  const double* number = call == nullptr || !call->program ? nullptr : ir::constantValue(call->program);
+  if (number == nullptr || *number < 1 || *number > kLastProgram) return std::nullopt;
+  return static_cast<std::uint32_t>(std::lround(*number));
+}
 
 std::optional<Offset> statedOffset(const ir::ProgramStatement& statement) {
   const auto* block = std::get_if<ir::NcBlock>(&statement.node);

@@ -19,6 +19,9 @@ enum class Offset : std::uint8_t { AsBefore, On, Off, Either };
 // G43, G44 and their forms with a point, G49; nothing: none of them. H0 is as good as G49.
 std::optional<Offset> statedOffset(const ir::ProgramStatement& statement);
 
+// The program that a G65 or M98 with a number that is written out calls; nothing: another statement.
+std::optional<std::uint32_t> calledProgram(const ir::ProgramStatement& statement);
+
 // Programs of the files that turn the offset on or off.
 std::set<std::uint32_t> switchingPrograms(const Project& project);
 

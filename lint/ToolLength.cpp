@@ -136,6 +136,32 @@ public:
     return std::move(found_);
   }
 
+  // An entry of the table of tools gets a new value: the length of a tool that has none in force. What is
+  // added to the old one corrects it, by a contact under an offset as any other.
+  bool measuresTool() const {
+    std::set<std::uint32_t> kept;
+    for (const ir::ProgramStatement& statement : program_.body) {
+      if (const auto* store = std::get_if<ir::Store>(&statement.node)) {
+        const auto number = storedNumber(statement);
+        const bool old = readsToolOffset(store->value, kept);
+        if (isToolOffset(number, store->number)) {
+          if (!old) return true;
+        } else if (number && old)
+          kept.insert(*number);
+      }
+      const auto* block = std::get_if<ir::NcBlock>(&statement.node);
+      if (block == nullptr || !hasCode(*block, 'G', 10)) continue;
+      const auto l = wordValue(*block, 'L');
+      const bool geometry = l && (*l == 10 || *l == 12); // G10 L11, L13: the wear, which a part shows
+      if (!geometry || hasCode(*block, 'G', 91)) continue;
+      const bool adds = std::any_of(block->words.begin(), block->words.end(), [&](const ir::Word& word) {
+        return word.address == 'R' && word.value != nullptr && readsToolOffset(word.value, kept);
+      });
+      if (!adds) return true;
+    }
+    return false;
+  }
+
 private:
   bool readsPosition() const { return reads(numbers_.positions); }
   bool readsLength() const { return reads(numbers_.length); }
@@ -166,32 +192,6 @@ private:
       out = out || isToolOffset(number, variable->number) || (number && kept.contains(*number));
     });
     return out;
-  }
-
-  // An entry of the table of tools gets a new value: the length of a tool that has none in force. What is
-  // added to the old one corrects it, by a contact under an offset as any other.
-  bool measuresTool() const {
-    std::set<std::uint32_t> kept;
-    for (const ir::ProgramStatement& statement : program_.body) {
-      if (const auto* store = std::get_if<ir::Store>(&statement.node)) {
-        const auto number = storedNumber(statement);
-        const bool old = readsToolOffset(store->value, kept);
-        if (isToolOffset(number, store->number)) {
-          if (!old) return true;
-        } else if (number && old)
-          kept.insert(*number);
-      }
-      const auto* block = std::get_if<ir::NcBlock>(&statement.node);
-      if (block == nullptr || !hasCode(*block, 'G', 10)) continue;
-      const auto l = wordValue(*block, 'L');
-      const bool geometry = l && (*l == 10 || *l == 12); // G10 L11, L13: the wear, which a part shows
-      if (!geometry || hasCode(*block, 'G', 91)) continue;
-      const bool adds = std::any_of(block->words.begin(), block->words.end(), [&](const ir::Word& word) {
-        return word.address == 'R' && word.value != nullptr && readsToolOffset(word.value, kept);
-      });
-      if (!adds) return true;
-    }
-    return false;
   }
 
   Held variable(const ir::Expression& expression, const Fact& fact) const {
@@ -481,6 +481,18 @@ std::vector<LengthLeftIn> ToolLengths::leftIn(const ir::Program& program) const 
   return Search(program, project_, known_->numbers, known_->switching,
                 called == known_->called.end() ? std::nullopt : std::optional(called->second))
       .run();
+}
+
+bool ToolLengths::measuresTool(const ir::Program& program) const {
+  return Search(program, project_, known_->numbers, known_->switching, std::nullopt).measuresTool();
+}
+
+const std::set<std::uint32_t>& ToolLengths::switching() const {
+  return known_->switching;
+}
+
+const std::map<std::uint32_t, CalledUnder>& ToolLengths::called() const {
+  return known_->called;
 }
 
 } // namespace dotek::lint

@@ -3,6 +3,7 @@
 // to does not.
 #pragma once
 
+#include "lint/OffsetStates.h"
 #include "lint/Probing.h"
 
 #include <cstdint>
@@ -46,6 +47,12 @@ public:
   // length in its positions, under G49, and where something else that may be the length is taken off: a
   // common variable that the program does not set, a tool offset.
   std::vector<LengthLeftIn> leftIn(const ir::Program& program) const;
+
+  // It gives an entry of the table of tools a new value: it runs with a tool that has none in force.
+  bool measuresTool(const ir::Program& program) const;
+  // Whether programs of the files turn the offset on or off, and how they are called (OffsetStates.h).
+  const std::set<std::uint32_t>& switching() const;
+  const std::map<std::uint32_t, CalledUnder>& called() const;
 
   struct Known;
 

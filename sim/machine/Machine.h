@@ -142,6 +142,13 @@ public:
   double feed() const { return feed_; } // mm/min or mm per revolution
   double spindleSpeed() const { return speed_; }
   std::uint8_t spindle() const { return spindle_; } // 0 off, 1 clockwise, 2 counterclockwise
+  double toolLength() const { return toolLength_; } // in force, added to Z
+  // The block that runs goes to a place of the machine: G28, G30, G53.
+  bool goesToMachine() const;
+  // Why the watcher does not know where the machine is, and what settles it.
+  std::string lostWhy() const;
+  // All that a program can see or set of the machine: two that are the same run the same.
+  std::vector<double> snapshot() const;
   enum class Coolant : std::uint8_t { NotSwitched, Off, Flood, Mist };
   Coolant coolant() const { return coolant_; }               // what the program switched last
   void startCoolant(Coolant coolant) { coolant_ = coolant; } // before the program begins

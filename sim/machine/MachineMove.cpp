@@ -25,6 +25,25 @@ void Machine::lose(std::uint32_t axes, std::string_view code) {
   lostLine_ = stack_.back().line;
 }
 
+bool Machine::goesToMachine() const {
+  return block_.hasOneShot &&
+         (block_.oneShot == Function::ReferenceReturn || block_.oneShot == Function::SecondReferenceReturn ||
+          block_.oneShot == Function::MachineCoordinates);
+}
+
+std::string Machine::lostWhy() const {
+  if (lostBy_.empty()) return "since no source says where the cycle before it ends";
+  const std::string since =
+      fmt::format("since `{}`{}", lostBy_, lostLine_ == 0 ? "" : fmt::format(" in line {}", lostLine_));
+  if (lostBy_ == "G30")
+    return since + ": the second reference point is not known; go to a place by G53 after it";
+  if (lostBy_.starts_with("G4"))
+    return since + ": whether the axis moves by the tool's length at once depends on a parameter; write a Z "
+                   "word in that block";
+  return since + ", under G43: whether the tool's length stays in force there depends on a parameter; write "
+                 "G43 H and Z again after it, or G49 before it";
+}
+
 std::string Machine::lostText(std::uint32_t axes) const {
   if (lostBy_.empty()) return "";
   std::string letters;

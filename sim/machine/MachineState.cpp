@@ -39,6 +39,30 @@ bool Machine::findState(std::uint32_t number, Place& place) const {
   return true;
 }
 
+std::vector<double> Machine::snapshot() const {
+  std::vector<double> out(cells_.begin(), cells_.begin() + layout_.size());
+  const auto add = [&](const Position& position) { out.insert(out.end(), position.begin(), position.end()); };
+  for (const Position* one : {&work_, &offset_, &external_, &local_, &shift_, &skipped_, &skippedTurned_})
+    add(*one);
+  for (const Position& one : systems_)
+    add(one);
+  for (const Position& one : extended_)
+    add(one);
+  for (const ToolOffset& tool : tools_)
+    out.insert(out.end(), {tool.wear, tool.geometry});
+  out.insert(out.end(), toolRadii_.begin(), toolRadii_.end());
+  out.insert(out.end(), state_.begin(), state_.end());
+  out.insert(out.end(), pmc_.begin(), pmc_.end());
+  out.insert(out.end(), modes_.begin(), modes_.end());
+  out.insert(out.end(), groups_.begin(), groups_.end());
+  out.insert(out.end(), modalWords_.begin(), modalWords_.end());
+  out.insert(out.end(), {feed_, speed_, static_cast<double>(spindle_), static_cast<double>(coolant_),
+                         toolLength_, static_cast<double>(toolNumber_), static_cast<double>(probe_),
+                         static_cast<double>(uncertain_), rotation_.degrees(), initialLevel_, cycleR_,
+                         cycleDepth_, seconds_, static_cast<double>(lastSkip_)});
+  return out;
+}
+
 // How many bytes the variable spans; 0: they do not lie in the memory.
 std::uint32_t Machine::windowBytes(const Place& place) const {
   const auto count = static_cast<std::uint32_t>(place.index);

@@ -122,6 +122,25 @@ unsigned operandsOf(Op op) {
   return 0;
 }
 
+// Null is read as 0 there, or leaves a word of a block out: not a question about null, not what keeps it.
+bool countsNull(const Instruction& instruction) {
+  switch (instruction.op) {
+  case Op::JumpSame:
+  case Op::JumpDifferent:
+  case Op::Given:
+  case Op::Write:
+  case Op::JumpTrue:
+  case Op::JumpFalse:
+  case Op::Exit:
+  case Op::Record: return false;
+  case Op::Test:
+    return instruction.detail != kIsNull &&
+           static_cast<ir::Relation>(instruction.detail) != ir::Relation::Same &&
+           static_cast<ir::Relation>(instruction.detail) != ir::Relation::Different;
+  default: return true;
+  }
+}
+
 } // namespace
 
 Run::Run(Machine& machine, const Bytecode& code, const Limits& limits, MacroMeaning* meaning)
@@ -149,7 +168,7 @@ void Run::run() {
     machine_.beginProgram(static_cast<std::uint32_t>(main.routine->number));
   const bool decimal = control_.arithmetic == stdlib::Arithmetic::Decimal8;
   for (bool goesOn = true; goesOn;) {
-    if (machine_.hasUnknown())
+    if (machine_.hasUnknown() || !unset_.empty())
       goesOn = decimal ? execute<true, true>() : execute<false, true>();
     else
       goesOn = decimal ? execute<true, false>() : execute<false, false>();
@@ -160,6 +179,16 @@ bool Run::knows(std::uint32_t cell) {
   if (cell >= machine_.layout().size() || !isUnknown(cells_[cell])) return true;
   return refuse(
       fmt::format("#{} is read, and what a macro left there is not known", machine_.layout().numberOf(cell)));
+}
+
+void Run::noteUnset(std::uint32_t number) {
+  if (unset_.erase(number) != 0) unsetReads_.push_back({code_.statementOf(place_).origin.range(), number});
+}
+
+void Run::noteUnsetCell(std::uint32_t cell) {
+  const CellLayout& layout = machine_.layout();
+  if (cell <= layout.locals() || cell >= layout.size() || !isFresh(cells_[cell])) return;
+  noteUnset(layout.numberOf(cell));
 }
 
 bool Run::spend(std::uint32_t steps) {
@@ -208,6 +237,7 @@ bool Run::readAt(double number, double& value) {
   const auto n = static_cast<std::uint32_t>(whole);
   if (ahead_) noteRead(n);
   const std::optional<double> read = machine_.read(n);
+  if (read && !unset_.empty() && n > control_.locals && isFresh(*read)) noteUnset(n);
   if (read) value = *read;
   return read.has_value();
 }
@@ -257,6 +287,10 @@ template <bool kDecimal8, bool kWatched> bool Run::execute() {
       const unsigned operands = operandsOf(at->op);
       leave();
       if (((operands & 1) != 0 && !knows(at->a)) || ((operands & 2) != 0 && !knows(at->b))) return false;
+      if (!unset_.empty() && countsNull(*at)) {
+        if ((operands & 1) != 0) noteUnsetCell(at->a);
+        if ((operands & 2) != 0) noteUnsetCell(at->b);
+      }
     }
     switch (at->op) {
     case Op::Copy: {

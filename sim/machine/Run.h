@@ -11,6 +11,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,12 @@ namespace dotek::sim {
 // A variable that motion changes was read, or an offset written, while blocks of motion may still have been
 // waiting.
 struct EarlyRead {
+  SourceRange range; // of the block
+  std::uint32_t number = 0;
+};
+
+// A common variable that nobody had set when the program computed with it.
+struct UnsetRead {
   SourceRange range; // of the block
   std::uint32_t number = 0;
 };
@@ -38,6 +45,12 @@ public:
   // too. Offsets that are written then are noted as well.
   void expectMotion() { ahead_ = expectsMotion_ = true; }
   const std::vector<EarlyRead>& earlyWrites() const { return earlyWrites_; }
+  // Before the run: notes where one of these common variables counts as 0, since nobody has set it. A run
+  // that watches takes longer.
+  void watchUnset(std::set<std::uint32_t> numbers) { unset_ = std::move(numbers); }
+  const std::vector<UnsetRead>& unsetReads() const { return unsetReads_; } // each number once
+  // How often M99 has begun the main program anew.
+  std::uint64_t passes() const { return passes_; }
   // The block, or the word of it, at which the run ended.
   SourceRange place() const;
   // The number of the program that holds it; 0: none.
@@ -75,6 +88,9 @@ private:
   // Watched: a cell may hold what a macro left and nobody knows; who reads it ends the run.
   template <bool kDecimal8, bool kWatched> bool execute();
   bool knows(std::uint32_t cell); // false: it does not, and the run has ended
+  void noteUnset(std::uint32_t number);
+  void noteUnsetCell(std::uint32_t cell);
+  bool beginAnew(); // M99 of the main program; false: the run has ended
   bool spend(std::uint32_t steps);
   bool fail(ir::ArithmeticError error, bool tangent, bool bits);
 
@@ -133,6 +149,10 @@ private:
   bool portOpen_ = false;
   std::string output_;
   std::vector<EarlyRead> early_, earlyWrites_;
+  std::set<std::uint32_t> unset_;
+  std::vector<UnsetRead> unsetReads_;
+  std::uint64_t passes_ = 0;
+  std::vector<double> lastPass_; // the machine as the last pass began
   std::map<std::uint64_t, std::string> unreadable_;
   std::vector<bool> readEarly_; // by instruction
 };

@@ -88,6 +88,8 @@ bool Run::fill(const BlockSlots& slots, std::uint32_t without) {
 bool Run::block(const BlockSlots& slots) {
   for (std::uint32_t i = 0; machine_.hasUnknown() && i < slots.words; ++i)
     if (!knows(code_.words[slots.firstWord + i].cell)) return false;
+  for (std::uint32_t i = 0; !unset_.empty() && i < slots.words; ++i)
+    noteUnsetCell(code_.words[slots.firstWord + i].cell);
   const Level& level = levels_.back();
   if (slots.mayCall && !level.byCode) {
     const stdlib::CallCode* found = nullptr;

@@ -1,9 +1,12 @@
 // Calls, returns and jumps by number.
+#include "ir/Walk.h"
 #include "sim/machine/Compile.h"
 #include "sim/machine/Run.h"
 #include "sim/machine/Value.h"
 
+#include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <fmt/format.h>
 #include <span>
 
@@ -129,6 +132,7 @@ bool Run::exit(std::uint32_t at) {
   const double block = at == kNoCell ? kNull : cell(at);
   if (levels_.size() == 1) {
     if (!isNull(block)) return jumpTo(*levels_.back().routine, place_, block);
+    if (!beginAnew()) return false;
     place_ = levels_.back().routine->begin;
     return true;
   }
@@ -158,6 +162,42 @@ bool Run::exit(std::uint32_t at) {
   leaveLevel(level);
   levels_.pop_back();
   return true;
+}
+
+namespace {
+
+// M2 or M30 is written, or a code that is computed may be one.
+bool mayEnd(const Routine& routine) {
+  for (const ir::ProgramStatement& statement : routine.program->body) {
+    const auto* block = std::get_if<ir::NcBlock>(&statement.node);
+    if (block == nullptr) continue;
+    for (const ir::Word& word : block->words) {
+      if (word.address != 'M') continue;
+      const double* code = ir::constantValue(word.value);
+      if (code == nullptr || *code == 2 || *code == 30) return true;
+    }
+  }
+  return false;
+}
+
+} // namespace
+
+bool Run::beginAnew() {
+  constexpr std::uint64_t kMostPasses = 1000; // of programs that hold no end, and of those that are compared
+  if (++passes_ > kMostPasses) return true;
+  std::vector<double> now = machine_.snapshot();
+  // Bit patterns: null is one.
+  if (now.size() == lastPass_.size() &&
+      std::memcmp(now.data(), lastPass_.data(), now.size() * sizeof(double)) == 0)
+    return machine_.overLimit(
+        "M99 at the end of a main program begins it anew, and the last pass has changed "
+        "nothing: it would run for ever");
+  lastPass_ = std::move(now);
+  if (passes_ < kMostPasses || std::any_of(code_.routines.begin(), code_.routines.end(), mayEnd)) return true;
+  return machine_.overLimit(
+      fmt::format("M99 at the end of a main program begins it anew, {} times by now, and "
+                  "nothing in it ends the program",
+                  passes_));
 }
 
 void Run::leaveLevel(const Level& level) {

@@ -241,6 +241,26 @@ BlockSet askingBlocks(const std::vector<const ir::Program*>& programs) {
   return out;
 }
 
+std::set<std::uint32_t> neverSet(const std::vector<const ir::Program*>& programs) {
+  constexpr double kFirstCommon = 34, kLastCommon = 999;
+  std::set<std::uint32_t> out, set;
+  const auto put = [&](std::set<std::uint32_t>& into, const ir::ExpressionPtr& number) {
+    const double* value = number ? ir::constantValue(number) : nullptr;
+    if (value != nullptr && *value >= kFirstCommon && *value <= kLastCommon)
+      into.insert(static_cast<std::uint32_t>(std::lround(*value)));
+  };
+  for (const ir::Program* program : programs)
+    for (const ir::ProgramStatement& statement : program->body) {
+      ir::eachNode(statement, [&](const ir::Expression& node) {
+        if (const auto* variable = std::get_if<ir::MachineVariable>(&node.node)) put(out, variable->number);
+      });
+      if (const auto* store = std::get_if<ir::Store>(&statement.node)) put(set, store->number);
+    }
+  for (const std::uint32_t number : set)
+    out.erase(number);
+  return out;
+}
+
 bool mayWriteOffsets(const std::vector<const ir::Program*>& programs, const stdlib::Control& control) {
   return std::any_of(programs.begin(), programs.end(), [&](const ir::Program* program) {
     return std::any_of(program->body.begin(), program->body.end(), [&](const ir::ProgramStatement& one) {

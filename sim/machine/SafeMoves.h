@@ -25,6 +25,9 @@ BlockSet safeMoves(const std::vector<const ir::Program*>& programs, const stdlib
 // looks at later, and copies that are handed to a program that does.
 BlockSet askingBlocks(const std::vector<const ir::Program*>& programs);
 
+// Common variables that the programs read, and that none of them sets by a number that is written out.
+std::set<std::uint32_t> neverSet(const std::vector<const ir::Program*>& programs);
+
 // Whether the programs may write a work offset or a tool offset.
 bool mayWriteOffsets(const std::vector<const ir::Program*>& programs, const stdlib::Control& control);
 

@@ -53,6 +53,7 @@ struct PictureError {
   // Of a skip move that was to measure and met nothing; of one whose end the program took for the surface.
   enum class Kind : std::uint8_t { Error, Miss, UsedMiss };
   Kind kind = Kind::Error;
+  bool fault = false; // what the banner says of a run in which nothing crashed (RunFault)
 };
 // The kind is that of a mark of its own, with numbers of its own.
 inline bool isMiss(const PictureError& error) {

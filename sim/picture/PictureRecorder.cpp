@@ -95,6 +95,23 @@ void PictureRecorder::missUsed(const std::string& text) {
   last->text = text;
 }
 
+void PictureRecorder::faultHere(const std::string& text) {
+  if (full_) return;
+  const double nan = std::nan("");
+  const bool moved = !picture_.moves.empty();
+  PictureError error{moved ? picture_.moves.back().to : Point3{nan, nan, nan}, text,
+                     moved ? picture_.moves.size() - 1 : 0, placeOf(block_())};
+  error.fault = true;
+  picture_.errors.push_back(std::move(error));
+}
+
+void PictureRecorder::missWasApproach() {
+  const auto last = std::find_if(picture_.errors.rbegin(), picture_.errors.rend(), isMiss);
+  if (full_ || last == picture_.errors.rend()) return;
+  if (last->move < picture_.moves.size()) picture_.moves[last->move].kind = PathKind::Protected;
+  picture_.errors.erase(std::next(last).base());
+}
+
 // The motion of a skip move is reported after its contact.
 std::optional<double> PictureRecorder::contact(const SkipMove& move) {
   if (world_ == nullptr) return std::nullopt;

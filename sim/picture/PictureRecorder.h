@@ -42,6 +42,10 @@ public:
   void setSafeMove(std::function<bool()> safe) { safe_ = std::move(safe); } // the skip move that runs is one
   // The program takes the end of the last miss for the surface; `text` says so.
   void missUsed(const std::string& text);
+  // A finding of the run at the block that runs; where the machine is, or where its last motion ended.
+  void faultHere(const std::string& text);
+  // The last miss was an approach: it is no error.
+  void missWasApproach();
   // After the run: what stopped it is an error at the end of the path, and the picture has its banner.
   void finish(const RunFacts& facts, std::vector<PictureMeasured> measured = {});
 

@@ -108,9 +108,15 @@ PictureResult resultOf(const Picture& picture, const RunFacts& facts) {
   const std::uint64_t misses = count(facts, {Outcome::Miss, Outcome::SetterMiss});
   const bool crashed = collisions + travel + faults > 0;
   const auto named = std::find_if(picture.errors.begin(), picture.errors.end(), [&](const PictureError& e) {
-    return e.kind == (crashed ? PictureError::Kind::Error : PictureError::Kind::UsedMiss);
+    return !e.fault && e.kind == (crashed ? PictureError::Kind::Error : PictureError::Kind::UsedMiss);
   });
   const bool measuredNothing = !crashed && facts.usedMisses > 0 && out.verdict != Verdict::Fail;
+  // One that fails the run before one that leaves a doubt.
+  const RunFault* fault = nullptr;
+  for (const RunFault& one : facts.faults)
+    if (fault == nullptr || (fault->verdict != Verdict::Fail && one.verdict == Verdict::Fail)) fault = &one;
+  if (fault != nullptr && (out.verdict == Verdict::Fail || (!ended && fault->verdict != Verdict::Fail)))
+    fault = nullptr;
   if (crashed) {
     const std::string then = ended ? "" : fmt::format("; then {}", endingText(facts));
     out.verdict = Verdict::Fail;
@@ -126,6 +132,10 @@ PictureResult resultOf(const Picture& picture, const RunFacts& facts) {
                            facts.usedMisses == 1 ? std::string("a measuring move met")
                                                  : fmt::format("{} measuring moves met", facts.usedMisses),
                            facts.subject, facts.usedMisses == 1 ? "its end" : "their ends", then);
+  } else if (fault != nullptr) {
+    out.verdict = fault->verdict;
+    out.word = fault->word;
+    out.text = fault->text + (ended ? "" : fmt::format("; then {}", endingText(facts)));
   } else if (ended && misses > 0) {
     out.verdict = Verdict::Doubt;
     out.word = "PASS, WITH MISSES";
@@ -137,14 +147,18 @@ PictureResult resultOf(const Picture& picture, const RunFacts& facts) {
   if (ended && !crashed && !measuredNothing && !picture.part && picture.contacts.empty())
     out.text += "; no part was given, so nothing could be touched";
 
-  if ((crashed || measuredNothing) && named != picture.errors.end()) {
-    const PictureError& error = *named;
+  const bool faulty = !crashed && !measuredNothing && fault != nullptr;
+  const auto shown = faulty ? std::find_if(picture.errors.begin(), picture.errors.end(),
+                                           [&](const PictureError& e) { return e.fault; })
+                            : named;
+  if ((crashed || measuredNothing || faulty) && shown != picture.errors.end()) {
+    const PictureError& error = *shown;
     if (const std::optional<std::size_t> block = blockOf(picture, error)) {
       out.place = placeOf(picture.blocks[*block]);
       out.block = picture.blocks[*block].text;
     }
     out.position = positionAt(picture, error.at, error.move);
-  } else if (!ended && !measuredNothing) {
+  } else if (!ended && !measuredNothing && !faulty) {
     out.place = facts.callers.empty() || facts.callers == facts.block.program
                     ? placeOf(facts.block)
                     : facts.callers + (facts.block.place.empty() ? "" : "; " + facts.block.place);

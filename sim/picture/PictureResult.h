@@ -9,8 +9,15 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace dotek::sim {
+
+// What makes a run wrong, or doubtful, though it came to its end and nothing crashed.
+struct RunFault {
+  Verdict verdict = Verdict::Fail;
+  std::string word, text; // of the banner
+};
 
 struct RunFacts {
   RunEnd end;                             // still running: the program could not be read to its end
@@ -20,6 +27,7 @@ struct RunFacts {
   std::array<std::uint64_t, 16> events{}; // by Outcome; misses that were meant are none
   std::string_view subject = "program";   // what ran
   std::uint64_t usedMisses = 0;           // misses whose end was taken for the surface
+  std::vector<RunFault> faults = {};      // in the order of the run
 };
 
 // The banner of a picture whose moves, errors and frames are complete. A collision comes before the alarm

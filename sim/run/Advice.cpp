@@ -41,18 +41,19 @@ std::string argumentsOf(const ir::Program& program) {
 
 std::string callAdvice(const ir::Program& program, bool part) {
   const std::string letters = argumentsOf(program);
-  bool returns = false, probes = false;
+  bool returns = false, probes = false, ends = false;
   for (const ir::ProgramStatement& one : program.body) {
     returns = returns || std::holds_alternative<ir::Exit>(one.node);
     const auto* block = std::get_if<ir::NcBlock>(&one.node);
     for (std::size_t i = 0; block != nullptr && i < block->words.size(); ++i) {
-      const double* code =
-          block->words[i].address == 'G' ? ir::constantValue(block->words[i].value) : nullptr;
-      probes = probes || (code != nullptr && *code == 31);
+      const double* code = ir::constantValue(block->words[i].value);
+      if (code == nullptr) continue;
+      probes = probes || (block->words[i].address == 'G' && *code == 31);
+      ends = ends || (block->words[i].address == 'M' && (*code == 2 || *code == 30));
     }
   }
   // A macro returns; what ends with M30 reads its locals for other reasons.
-  if (!returns || (letters.empty() && !probes)) return "";
+  if (!returns || (letters.empty() && !probes && ends)) return "";
   const std::string rest =
       probes && !part
           ? "; it probes: `--part PART.toml --machine MACHINE.toml` say what it touches with what, `--at "

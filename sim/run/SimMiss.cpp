@@ -23,6 +23,7 @@ void SimWorld::missEnded(const MachineMotion& motion) {
   if (missed_->movedOn || std::exchange(missed_->ended, true)) return;
   const Point3 way{motion.to[0] - motion.from[0], motion.to[1] - motion.from[1],
                    motion.to[2] - motion.from[2]};
+  missed_->way = way;
   PictureMeasured& row = missed_->row;
   row.found = MeasuredLog::measurementOf(work_(), way, "no touch");
   row.system = frame_().name;
@@ -56,9 +57,33 @@ void SimWorld::useMiss() {
 
 void SimWorld::settleMiss() {
   if (!missed_) return;
-  const Kept kept = std::move(missed_->kept);
+  const Missed missed = std::move(*missed_);
   missed_.reset();
-  if (isTold(kept.event)) tell(kept.event, kept.place);
+  tellMiss(missed);
+}
+
+void SimWorld::tellMiss(const Missed& miss) {
+  if (isTold(miss.kept.event)) tell(miss.kept.event, miss.kept.place);
+}
+
+// Nothing has moved or asked since, and the new move goes the same way: fast to the face, then slowly on it.
+bool SimWorld::goesOn(const SkipMove& move) const {
+  if (!missed_ || !missed_->ended || missed_->movedOn || move.positions || isProtected()) return false;
+  const Point3 way{move.machineTo[0] - move.machineFrom[0], move.machineTo[1] - move.machineFrom[1],
+                   move.machineTo[2] - move.machineFrom[2]};
+  const Point3& before = missed_->way;
+  const double lengths = way.length() * before.length();
+  constexpr double kSameWay = 0.9999; // of the cosine
+  return lengths > 0 && way.dot(before) > kSameWay * lengths;
+}
+
+void SimWorld::takeBackMiss(const Missed& miss) {
+  --outcomes_[static_cast<std::size_t>(miss.kept.event.outcome)];
+  if (miss.index + 1 == events_.size()) {
+    events_.pop_back();
+    --eventCount_;
+  }
+  if (recorder_) recorder_->missWasApproach();
 }
 
 } // namespace dotek::sim

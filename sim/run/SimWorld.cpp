@@ -25,9 +25,8 @@ namespace {
 
 constexpr std::string_view kRotary =
     "an axis besides X, Y and Z is off zero; where the part is then is not known";
-constexpr std::string_view kNowhere = "where the machine is in this move is not known, so what it meets "
-                                      "is not; write a Z word after G43 or G49, "
-                                      "and keep G30 out of the run";
+constexpr std::string_view kNowhere = "where the machine is in this move is not known, so what it meets is "
+                                      "not";
 
 std::string pointJson(const Point3& p) {
   return fmt::format("{{\"X\": {}, \"Y\": {}, \"Z\": {}}}", jsonNumber(p.x, 6), jsonNumber(p.y, 6),
@@ -142,6 +141,8 @@ bool SimWorld::loadFiles(const Setup& given) {
   // A machine's file serves runs without a part, too.
   if (!part) std::erase_if(setup_.zeros, [](const Setup::Zero& zero) { return zero.ofPart; });
   setup_.override(given);
+  // A macro that is called has its tool in the spindle, and [probe] says which that is.
+  if (!setup_.call.empty() && !setup_.tool) setup_.tool = machine_->devices.probeTool;
   // The probe is the tool, unless it is said to be longer or shorter in the table.
   if (setup_.tool && !setup_.length) {
     const CuttingTool* const tool = machine_->devices.find(*setup_.tool);
@@ -180,6 +181,12 @@ void SimWorld::begin() {
 }
 
 bool SimWorld::prepare(Machine& machine) const {
+  // The offset of the probe is its length, unless something else says it.
+  if (machine_ && machine_->devices.probeTool) {
+    const std::uint32_t tool = *machine_->devices.probeTool;
+    const auto most = static_cast<std::uint32_t>(machine.control().variables.toolCount);
+    if (tool <= most && machine.toolLengthOf(tool) == 0) machine.setToolLength(tool, machine_->probe.length);
+  }
   return sim::prepare(setup_, partZero_, machine, session_.diagnostics());
 }
 
@@ -196,6 +203,7 @@ bool SimWorld::startsWithinTravel(const Machine& machine) const {
 }
 
 void SimWorld::attach(Machine& machine) {
+  machineNow_ = &machine;
   if (const stdlib::Control& control = machine.control(); subject_ == "program")
     control_ = control.title.empty() ? control.name : fmt::format("{} ({})", control.title, control.name);
   position_ = [&machine] { return machine.position(); };
@@ -249,6 +257,7 @@ void SimWorld::checkSystem() {
 }
 
 void SimWorld::toolChanged(std::uint32_t number) {
+  stopSpindle();
   if (world_) world_->toolChanged(number);
 }
 
@@ -262,9 +271,16 @@ void SimWorld::lengthNotSet(std::uint32_t offset) {
 std::optional<double> SimWorld::contact(const SkipMove& move) {
   if (!world_) return std::nullopt;
   checkSystem();
+  checkSpindle();
+  std::optional<Missed> approach;
+  if (goesOn(move)) approach = std::exchange(missed_, std::nullopt);
   settleMiss();
   world_->setLine(line_());
   const std::optional<double> share = recorder_ ? recorder_->contact(move) : world_->contact(move);
+  if (approach && share)
+    takeBackMiss(*approach);
+  else if (approach)
+    tellMiss(*approach);
   touched_ = share && !move.positions && !isProtected();
   takeEvents();
   return share;
@@ -280,6 +296,7 @@ void SimWorld::moved(const MachineMotion& motion) {
   else if (world_)
     world_->moved(motion);
   missEnded(motion);
+  checkLength(motion);
   if (rangeNow_) last_ = rangeNow_();
   if (motion.kind == MotionKind::Skip && std::exchange(touched_, false))
     log_.touched(work_(), {motion.to[0] - motion.from[0], motion.to[1] - motion.from[1],
@@ -307,9 +324,15 @@ void SimWorld::callBegins(std::uint32_t program, std::span<const double> locals)
                        (callKind_ && callKind_(program, locals) == PathKind::Protected));
   log_.callBegins(program, locals);
   if (recorder_) recorder_->callBegins(program, locals);
+  lengths_.push_back(machineNow_ == nullptr ? 0 : machineNow_->toolLength());
 }
 
 void SimWorld::callEnded(std::uint32_t program) {
+  if (!lengths_.empty()) {
+    if (lengths_.back() != 0 && machineNow_ != nullptr && machineNow_->toolLength() == 0 && !lostLength_)
+      lostLength_ = {program, lengths_.back()};
+    lengths_.pop_back();
+  }
   if (!protected_.empty()) protected_.pop_back();
   log_.callEnded(program);
   if (recorder_) recorder_->callEnded(program);
@@ -357,7 +380,8 @@ void SimWorld::take(const ProbeEvent& event, const RunPlace& place) {
               ? fmt::format("what tool {} is like is not known; a table [[tool]] with its number, length and "
                             "diameter in the machine's file says it (the probe is `tool` of [probe])",
                             event.tool)
-              : std::string(event.placeUnknown ? kNowhere : kRotary));
+          : event.placeUnknown ? fmt::format("{}, {}", kNowhere, machineNow_->lostWhy())
+                               : std::string(kRotary));
   else if (asks_ && (event.outcome == Outcome::Miss || event.outcome == Outcome::SetterMiss) &&
            !isMeantToMiss(event))
     missed_.emplace(Missed{{event, place}, index, {}});
@@ -416,6 +440,7 @@ void SimWorld::finishPicture() {
   facts.block = block_ ? block_() : blockNow();
   facts.events = outcomes_;
   facts.usedMisses = usedMisses_;
+  facts.faults = faults_;
   if (facts.end.ending == Ending::Running && session_.diagnostics().hasErrors())
     facts.unread = session_.diagnostics().all().back().message;
   recorder_->finish(facts, log_.entries());

@@ -83,6 +83,8 @@ public:
   // The radius that the calibration of the stylus would have found; nothing: no machine was given.
   std::optional<double> calibratedRadius() const;
 
+  // A common variable counted as 0 at `range`, since nobody has set it.
+  void unsetRead(std::uint32_t number, SourceRange range);
   // What a run came to as a whole, beside what it touched: `found` is a row of the table.
   void addFound(const Measurement& found);
   // Collisions of the run, and touches that nothing asked for.
@@ -108,6 +110,7 @@ public:
   void recorded(std::string_view file, std::optional<double> value) override;
   void positionRead(bool skip) override;
   void toolChanged(std::uint32_t number) override;
+  void auxiliary(std::uint32_t code) override;
   void lengthNotSet(std::uint32_t offset) override;
   void callBegins(std::uint32_t program, std::span<const double> locals) override;
   void callEnded(std::uint32_t program) override;
@@ -115,7 +118,7 @@ public:
   void touchEnded() override;
   void reported(const Measurement& line) override { addFound(line); }
   void measured(const Measurement& found) override { log_.measured(found); }
-  void offsetWritten(const OffsetWrite& write) override { log_.offsetWritten(write); }
+  void offsetWritten(const OffsetWrite& write) override;
 
 private:
   static constexpr std::size_t kMostKept = 10'000; // of contacts and of events, in the summary
@@ -140,6 +143,7 @@ private:
     std::size_t index = 0; // in events_; beyond its end: it is not kept
     PictureMeasured row;
     bool ended = false, movedOn = false;
+    Point3 way{}; // of the motion
   };
 
   SimWorld(const SimOptions& options, Session& session) : options_(options), session_(session) {}
@@ -155,6 +159,15 @@ private:
   void missEnded(const MachineMotion& motion);
   void useMiss();
   void settleMiss(); // nothing more is known of the last one
+  // The skip move that begins goes on where the last one met nothing: that was an approach.
+  bool goesOn(const SkipMove& move) const;
+  void takeBackMiss(const Missed& miss);
+  void tellMiss(const Missed& miss);
+  // SimFaults.cpp: what is wrong though nothing touches.
+  void addFault(Diagnostic diagnostic, Verdict verdict, std::string_view word, const RunPlace& place);
+  void checkSpindle();
+  void stopSpindle();
+  void checkLength(const MachineMotion& motion);
   void addTold(Diagnostic diagnostic, std::size_t kind, const RunPlace& place);
   bool isTold(const ProbeEvent& event) const;        // false: it is one too many
   bool isProtected() const;                          // of the skip move that runs: it wants no contact
@@ -181,7 +194,18 @@ private:
   std::vector<bool> protected_; // of the calls that are open: within a protected move
   std::function<bool()> safe_, asks_;
   std::function<SourceRange()> rangeNow_;
-  SourceRange last_; // the block of the last motion
+  const Machine* machineNow_ = nullptr;
+  bool spindleStopped_ = false; // by a change of tools or an orientation, whatever M3 said before
+  std::pair<std::uint8_t, double> spindleSeen_{0, 0}; // direction and speed, as last looked at
+  std::vector<double> lengths_;                       // of the tool, as the calls that are open began
+  struct LostLength {
+    std::uint32_t program = 0; // that has taken it off
+    double length = 0;
+  };
+  std::optional<LostLength> lostLength_;
+  std::vector<RunFault> faults_;
+  std::set<std::pair<std::string_view, std::uint32_t>> faultsTold_; // code, where its block begins
+  SourceRange last_;                                                // the block of the last motion
   std::optional<Missed> missed_;
   std::uint64_t usedMisses_ = 0;
   bool keepsOffsets_ = false;

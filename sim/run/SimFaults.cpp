@@ -1,0 +1,112 @@
+// What is wrong with a run though nothing touches: a spindle that turns while the probe measures, lengths of
+// tools in offsets, a length that a called program takes off, variables that nobody has set.
+#include "sim/run/SimWorld.h"
+#include "support/Decimal.h"
+#include "support/messages/Part.h"
+#include "support/messages/Sim.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <utility>
+
+namespace dotek::sim {
+namespace {
+
+constexpr std::size_t kMostFaults = 20; // that are reported
+constexpr std::uint32_t kOrient = 19;   // M19
+
+// A part is near where its offset says; lengths of tools that are no longer than that prove nothing.
+constexpr double kLeastLength = 10;
+bool isLength(double moved, double length) {
+  return length >= kLeastLength && std::abs(std::abs(moved) - length) <= std::min(5.0, length / 20);
+}
+
+std::string signedText(double value, int decimals) {
+  return (value > 0 ? "+" : "") + fixedText(value, decimals);
+}
+
+} // namespace
+
+void SimWorld::addFault(Diagnostic diagnostic, Verdict verdict, std::string_view word,
+                        const RunPlace& place) {
+  faults_.push_back({verdict, std::string(word), diagnostic.message.substr(0, diagnostic.message.find(';'))});
+  if (!faultsTold_.insert({diagnostic.code, place.range.begin}).second || faultsTold_.size() > kMostFaults)
+    return;
+  if (recorder_) recorder_->faultHere(diagnostic.message);
+  constexpr std::size_t kMostCalls = 8;
+  for (std::size_t i = 0; i < place.calls.size() && i < kMostCalls; ++i)
+    diagnostic.note(place.calls[place.calls.size() - 1 - i], "called here");
+  session_.diagnostics().add(std::move(diagnostic));
+}
+
+void SimWorld::auxiliary(std::uint32_t code) {
+  if (code == kOrient) stopSpindle();
+}
+
+void SimWorld::stopSpindle() {
+  spindleStopped_ = true;
+  if (machineNow_ != nullptr) spindleSeen_ = {machineNow_->spindle(), machineNow_->spindleSpeed()};
+}
+
+// Some probes are switched on by turning the spindle: what counts is that it turns in a skip move.
+void SimWorld::checkSpindle() {
+  if (machineNow_ == nullptr) return;
+  const std::uint8_t turns = machineNow_->spindle();
+  const std::pair now{turns, machineNow_->spindleSpeed()};
+  if (std::exchange(spindleSeen_, now) != now) spindleStopped_ = false;
+  if (turns == 0 || spindleStopped_ || world_->cuttingTool() != nullptr) return;
+  constexpr std::string_view kWord = "FAIL: SPINDLE ON"; // reported once a run
+  if (std::any_of(faults_.begin(), faults_.end(), [&](const RunFault& one) { return one.word == kWord; }))
+    return;
+  const RunPlace place = place_();
+  addFault(makeDiagnostic<diag::SpindleTurnsProbe>(place.range, turns == 1 ? "M3" : "M4"), Verdict::Fail,
+           kWord, place);
+}
+
+void SimWorld::offsetWritten(const OffsetWrite& write) {
+  log_.offsetWritten(write);
+  if (machineNow_ == nullptr) return;
+  const double inForce = std::abs(machineNow_->toolLength());
+  const double moved = write.after - write.before;
+  const bool zero = write.name.ends_with(" Z");
+  if (!zero && !write.name.starts_with("tool ")) return;
+  // Of a system that nobody had set the part says where its zero is.
+  const bool beside = zero && partZero_ && isLength(write.after - (*partZero_)[2], inForce);
+  if (moved == 0 || (!isLength(moved, inForce) && !beside)) return;
+  const RunPlace place = place_();
+  addFault(makeDiagnostic<diag::OffsetHoldsLength>(
+               place.range, write.name, fixedText(write.before, decimals_), fixedText(write.after, decimals_),
+               signedText(isLength(moved, inForce) ? moved : write.after - (*partZero_)[2], decimals_),
+               isLength(moved, inForce) ? "its last value" : "where the part is meant to be",
+               fixedText(inForce, decimals_)),
+           Verdict::Fail, "FAIL: TOOL LENGTH IN AN OFFSET", place);
+}
+
+// The caller goes on in coordinates that are those of the spindle now.
+void SimWorld::checkLength(const MachineMotion& motion) {
+  if (!lostLength_ || machineNow_ == nullptr) return;
+  if (machineNow_->toolLength() != 0) {
+    lostLength_.reset();
+    return;
+  }
+  if (motion.from[2] == motion.to[2] || machineNow_->goesToMachine()) return;
+  const LostLength lost = *std::exchange(lostLength_, std::nullopt);
+  const RunPlace place = place_();
+  const double z = machineNow_->position()[2];
+  addFault(makeDiagnostic<diag::LengthTakenOff>(place.range, fmt::format("O{:04}", lost.program),
+                                                fixedText(lost.length, decimals_), fixedText(z, decimals_),
+                                                fixedText(z - lost.length, decimals_)),
+           Verdict::Fail, "FAIL: TOOL LENGTH OFF", place);
+}
+
+// The run is over: no call is open, and no block holds two of the same number.
+void SimWorld::unsetRead(std::uint32_t number, SourceRange range) {
+  const SourceFile& file = session_.sources().file(range.file);
+  faults_.push_back({Verdict::Doubt, "PASS, WITH VALUES MISSING",
+                     fmt::format("nobody has set #{}, and it counts as 0 ({}:{})", number, file.name(),
+                                 file.place(range.begin).line)});
+  session_.diagnostics().report<diag::VariableNotSet>(range, number, number);
+}
+
+} // namespace dotek::sim

@@ -1,0 +1,211 @@
+// What `sim` finds wrong with a run in which nothing crashes: no green PASS over it.
+#include "tests/GoldenRunner.h"
+#include "tests/TestFolder.h"
+
+#include <doctest/doctest.h>
+#include <string>
+#include <string_view>
+
+using namespace dotek::tests;
+
+namespace {
+
+// A block of 60 x 40 x 20 with its upper face at Z0 of the part, 0.2 mm lower than it is meant to be.
+class Bench {
+public:
+  explicit Bench(const char* name) : folder(name) {
+    folder.write("part.toml",
+                 "schema = 1\n[place]\nshift = [-310.0, -190.0, -420.0]\n[error]\nshift = [0.0, 0.0, -0.2]\n"
+                 "[[shape]]\nkind = \"box\"\nmin = [0.0, 0.0, -20.0]\nmax = [60.0, 40.0, 0.0]\n");
+    folder.write(
+        "machine.toml",
+        "schema = 1\n[setup]\nwork_offset = { G54 = \"part\" }\n[probe]\ntool = 9\nball_diameter = 4\n"
+        "length = 131.4\nlength_to = \"tip\"\non = true\novertravel = 4\n");
+  }
+  CommandResult run(const std::string& flags, const std::string& program = "m.nc") {
+    CommandResult out = runDotek(splitArguments("sim " + program +
+                                                " --part part.toml --machine machine.toml --quiet "
+                                                "--svg run.svg --html run.html " +
+                                                flags),
+                                 folder.path());
+    svg = out.status <= 1 ? readAll(folder / "run.svg") : "";
+    html = out.status <= 1 ? readAll(folder / "run.html") : "";
+    return out;
+  }
+
+  TestFolder folder;
+  std::string svg, html;
+};
+
+bool holds(const std::string& text, std::string_view part) {
+  return text.find(part) != std::string::npos;
+}
+
+const std::string kBegin = "O0031\nG17 G21 G40 G49 G80 G90\nT9 M6\nG54 G0 X30. Y20.\n";
+
+} // namespace
+
+TEST_CASE("faults: an offset that moves by the length of the tool fails the run, wherever it is written") {
+  Bench bench("dotek-faults-length");
+  bench.folder.write("O9401.nc", "O9401\nG53\n#3=#5003\nG90 G31 Z-12. F200\nIF[#5063-#5083 LT -11.9] GOTO 6\n"
+                                 "#5=#5223+#5063\nG0 Z#3\nG90 G10 L2 P1 Z#5\nM99\nN6 #3000=6(NO TOUCH)\n");
+  bench.folder.write("m.nc", kBegin + "G43 H9 Z8.\nG65 P9401\nG91 G28 Z0\nM30\n");
+  const CommandResult wrong = bench.run("--programs .");
+  CAPTURE(wrong.err);
+  CHECK(wrong.status == 1);
+  CHECK(holds(wrong.err, "O9401.nc:8:1: error: G54 Z is set from -420.000 to -288.800"));
+  CHECK(holds(wrong.err, "131.400 is the length of the tool"));
+  CHECK(holds(wrong.err, "[offset-holds-length]"));
+  for (const std::string& picture : {bench.svg, bench.html}) {
+    CHECK(holds(picture, "id=\"banner\" class=\"fail\""));
+    CHECK(holds(picture, "FAIL: TOOL LENGTH IN AN OFFSET"));
+  }
+  // The right one moves by what the part is off.
+  bench.folder.write("O9401.nc", "O9401\nG53\n#3=#5003\nG90 G31 Z-12. F200\nIF[#5063-#5083 LT -11.9] GOTO 6\n"
+                                 "#5=#5223+#5063-#5083\nG0 Z#3\nG90 G10 L2 P1 Z#5\nM99\nN6 #3000=6(NO)\n");
+  const CommandResult right = bench.run("--programs .");
+  CAPTURE(right.err);
+  CHECK(right.status == 0);
+  CHECK(holds(bench.svg, ">PASS<"));
+  CHECK(holds(bench.svg, "G54 Z set from -420.000 to -420.200"));
+  // In the main program, of a system that nobody has set: the part says where its zero is.
+  bench.folder.write("m.nc", kBegin + "G43 H9 Z8.\nG31 Z-12. F200\nIF[#5063-#5083 LT -11.9] GOTO 6\n"
+                                      "#5263=#5223+#5063\nG91 G28 Z0\nM30\nN6 #3000=6(NO TOUCH)\n");
+  CHECK(holds(bench.run("").err, "[offset-holds-length]"));
+}
+
+TEST_CASE("faults: a spindle that turns while the probe measures") {
+  Bench bench("dotek-faults-spindle");
+  const std::string touch = "G43 H9 Z8.\nG31 Z-12. F200\nIF[#5063-#5083 LT -11.9] GOTO 6\nG0 Z8.\nG91 G28 "
+                            "Z0\nM30\nN6 #3000=6(NO)\n";
+  for (const char* on : {"M3 S500\n", "S250 M4\n"}) {
+    bench.folder.write("m.nc", kBegin + on + touch);
+    const CommandResult out = bench.run("");
+    CAPTURE(out.err);
+    CHECK(out.status == 1);
+    CHECK(holds(out.err, "m.nc:7:1: error: the spindle turns (M"));
+    CHECK(holds(out.err, "[spindle-turns-probe]"));
+    CHECK(holds(bench.html, "FAIL: SPINDLE ON"));
+  }
+  // Stopped by M5 or M19; turned only to switch the probe on.
+  for (const char* on : {"M3 S500\nM5\n", "M3 S500\nM19\n", ""}) {
+    bench.folder.write("m.nc", kBegin + on + touch);
+    const CommandResult out = bench.run("");
+    CAPTURE(out.err);
+    CHECK(out.status == 0);
+    CHECK(holds(bench.svg, ">PASS<"));
+  }
+  // A change of tools stops it.
+  bench.folder.write("m.nc", "O0032\nM3 S900\n" + kBegin.substr(6) + touch);
+  CHECK(bench.run("").status == 0);
+}
+
+TEST_CASE("faults: a macro that leaves G49 on, and a caller that goes on with Z") {
+  Bench bench("dotek-faults-g49");
+  const std::string macro = "O9402\nG49\nG91 G28 Z0\nG90\nM99\n";
+  bench.folder.write("m.nc", kBegin + "G43 H9 Z150.\nG65 P9402\nG0 X70. Y20. Z160.\nM30\n" + macro);
+  const CommandResult out = bench.run("");
+  CAPTURE(out.err);
+  CHECK(out.status == 1);
+  CHECK(holds(out.err, "m.nc:7:1: error: O9402 has taken the tool length 131.400 off"));
+  CHECK(holds(out.err, "[length-taken-off]"));
+  CHECK(holds(out.err, "at Z160.000 of the spindle the tool's end is at Z28.600"));
+  CHECK(holds(bench.svg, "FAIL: TOOL LENGTH OFF"));
+  bench.folder.write("m.nc",
+                     kBegin + "G43 H9 Z150.\nG65 P9402\nG43 H9 Z60.\nG0 X70. Y20. Z50.\nM30\n" + macro);
+  CHECK(bench.run("").status == 0);
+  bench.folder.write("m.nc", kBegin + "G43 H9 Z150.\nG65 P9402\nG91 G28 Z0\nM30\n" + macro);
+  CHECK(bench.run("").status == 0);
+}
+
+TEST_CASE("faults: a variable that nobody has set counts as 0, and the run says so") {
+  Bench bench("dotek-faults-unset");
+  const std::string touch = "G53\n#3=#5003\nG31 X#24 F200\nIF[#5061 GT [#24-.01]] GOTO 6\n";
+  bench.folder.write("m.nc", "O9403\n" + touch + "#110=#5061+#640\nG0 X-20.\nM99\nN6 #3000=6(NO)\n");
+  const std::string call = "--at -20,20,-5 --call \"X20.\" ";
+  const CommandResult out = bench.run(call);
+  CAPTURE(out.err);
+  CHECK(out.status == 0);
+  CHECK(holds(out.err, "m.nc:6:1: warning: #640 is read here and has no value"));
+  CHECK(holds(out.err, "`--var 640=VALUE`"));
+  CHECK_FALSE(holds(bench.svg, ">PASS<"));
+  CHECK(holds(bench.svg, "PASS, WITH VALUES MISSING"));
+  const CommandResult given = bench.run(call + "--var 640=1.98");
+  CHECK_FALSE(holds(given.err, "[variable-not-set]"));
+  CHECK(holds(bench.svg, ">PASS<"));
+  // Asked about, counted up from nothing, or by a computed number.
+  bench.folder.write("m.nc", "O9403\n" + touch +
+                                 "IF[#641 EQ #0] GOTO 7\nN7\n#642=#642+1\n#110=#5061\nG0 X-20.\nM99\n"
+                                 "N6 #3000=6(NO)\n");
+  CHECK_FALSE(holds(bench.run(call).err, "[variable-not-set]"));
+  bench.folder.write("m.nc",
+                     "O9403\n" + touch + "#110=#5061+#[640+#2]+#648\nG0 X-20.\nM99\nN6 #3000=6(NO)\n");
+  CHECK(holds(bench.run(call).err, "#648 is read here"));
+}
+
+TEST_CASE("faults: a macro that is called has the probe of the machine's file as its tool") {
+  Bench bench("dotek-faults-tool");
+  bench.folder.write("m.nc", "O9404\nG53\n#3=#5003\nG31 Z#26 F200\nIF[#5063-#5083 LT [#26+.01]] GOTO 6\n"
+                             "#111=#5063-#5083\nG0 Z#3\nM99\nN6 #3000=6(NO)\n");
+  const CommandResult out = bench.run("--at 30,20,8 --call \"Z-9.\" --json");
+  CAPTURE(out.err);
+  CHECK(out.status == 0);
+  CHECK(holds(out.out, "\"111\": -0.2"));
+  // And its length is the one of its offset.
+  bench.folder.write("m.nc", kBegin + "G43 H9 Z8.\nG53\n#112=#5083\nM30\n");
+  const CommandResult length = bench.run("--json");
+  CHECK(holds(length.out, "\"112\": 131.4"));
+  CHECK_FALSE(holds(length.err, "[tool-length-not-set]"));
+}
+
+TEST_CASE("faults: the code that takes a position away is named") {
+  Bench bench("dotek-faults-lost");
+  bench.folder.write("m.nc",
+                     kBegin + "G43 H9 Z8.\nG91 G28 Z0\nG90\nG0 X-30. Y20.\nG0 Z-5.\nG31 X10. F100\nM30\n");
+  const CommandResult out = bench.run("");
+  CAPTURE(out.err);
+  CHECK(out.status == 1);
+  CHECK(holds(out.err, "since `G28` in line 6"));
+  CHECK(holds(out.err, "write G43 H and Z again after it"));
+  CHECK_FALSE(holds(out.err, "G30"));
+}
+
+TEST_CASE("faults: a fast skip move that ends before the face is the approach of the next one") {
+  Bench bench("dotek-faults-approach");
+  const std::string begin = "O9405\nG53\n#3=#5001\nG90\n";
+  const std::string rest = "IF[#5061 GT [#24-.01]] GOTO 6\n#110=#5061\nG0 X#3\nM99\nN6 #3000=6(NO)\n";
+  const std::string call = "--at -20,20,-5 --call \"X4.\" ";
+  bench.folder.write("m.nc", begin + "G31 X-6. F1500\nG31 X#24 F90\n" + rest);
+  const CommandResult right = bench.run(call);
+  CAPTURE(right.err);
+  CHECK(right.status == 0);
+  CHECK_FALSE(holds(right.err, "[probe-miss]"));
+  CHECK(holds(bench.svg, ">PASS<"));
+  CHECK(holds(bench.svg, "0 misses"));
+  // Another way, or a second miss: as before.
+  bench.folder.write("m.nc", begin + "G31 Y22. F1500\nG31 X#24 F90\n" + rest);
+  CHECK(holds(bench.run(call).err, "[probe-miss]"));
+  bench.folder.write("m.nc", begin + "G31 X-9. F1500\nG31 X-6. F90\n" + rest);
+  CHECK(holds(bench.run(call).err, "[probe-miss]"));
+  CHECK(holds(bench.svg, "2 misses"));
+}
+
+TEST_CASE("faults: M99 at the end of a main program ends a run in which nothing changes any more") {
+  const TestFolder folder("dotek-faults-anew");
+  const auto sim = [&](const std::string& flags) {
+    return runDotek(splitArguments("sim m.nc " + flags), folder.path());
+  };
+  folder.write("m.nc", "O9171\nPOPEN\nDPRNT[BORE*#620[34]]\nPCLOS\nM99\n");
+  const CommandResult printed = sim("--var 620=12.5 --json");
+  CAPTURE(printed.err);
+  CHECK(printed.status == 1);
+  CHECK(printed.out.size() < 10'000);
+  CHECK(holds(printed.err, "begins it anew, and the last pass has changed nothing"));
+  CHECK(holds(printed.err, "`--call \" \"` calls it once"));
+  // One that counts, and never ends.
+  folder.write("m.nc", "O9172\n#621=#621+1\nM99\n");
+  CHECK(holds(sim("--quiet").err, "1000 times by now"));
+  // One that counts and ends runs to its end.
+  folder.write("m.nc", "O9173\n#621=#621+1\nIF[#621 LT 2500] GOTO 5\nM30\nN5 M99\n");
+  CHECK(sim("--quiet").status == 0);
+}
