@@ -25,7 +25,16 @@ std::string canonical(const std::string& path) {
 } // namespace
 
 bool InputWalk::isNew(const std::string& path) {
-  return visited_.insert(canonical(path)).second;
+  return visited_.insert(real(path)).second;
+}
+
+std::string InputWalk::real(const std::string& path) {
+  const fs::path whole(path);
+  std::error_code error;
+  const auto folder = folders_.find(whole.parent_path().generic_string());
+  if (folder == folders_.end() || !whole.has_filename() || fs::is_symlink(fs::symlink_status(path, error)))
+    return canonical(path);
+  return (fs::path(folder->second) / whole.filename()).generic_string();
 }
 
 void InputWalk::visit(const std::string& path, Diagnostics& diagnostics) {
@@ -48,6 +57,7 @@ void InputWalk::visit(const std::string& path, Diagnostics& diagnostics) {
 
 void InputWalk::folder(const std::string& path, bool named, Diagnostics& diagnostics) {
   if (!isNew(path)) return;
+  folders_.emplace(path, real(path));
   folder_(path, named);
   std::error_code error;
   std::vector<fs::path> entries;

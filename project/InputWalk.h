@@ -4,6 +4,7 @@
 #include "support/Diagnostics.h"
 
 #include <functional>
+#include <map>
 #include <set>
 #include <string>
 #include <vector>
@@ -39,11 +40,15 @@ private:
   void folder(const std::string& path, bool named, Diagnostics& diagnostics);
   void entry(const std::string& path, Diagnostics& diagnostics);
   bool isNew(const std::string& path);
+  // Without links. Of what is in a folder of the walk from the folder's: the whole path is long where folders
+  // are deep.
+  std::string real(const std::string& path);
 
   bool followLinks_;
   Visit folder_, file_;
-  std::string root_;               // of the walk, without links
-  std::set<std::string> visited_;  // without links
+  std::string root_;                           // of the walk, without links
+  std::set<std::string> visited_;              // without links
+  std::map<std::string, std::string> folders_; // of the walk, without links
   std::vector<std::string> links_; // to what is in the folder: taken where the walk has not met it
   std::vector<PassedOver> passedOver_;
 };
