@@ -31,6 +31,7 @@ void fill(const Raw& raw, Arguments& parsed) {
   parsed.verify = verifyOf(raw);
   parsed.lint = lintOf(raw);
   parsed.sim = simOf(raw);
+  parsed.renumber = renumberOf(raw);
   parsed.outputFolder = raw.outputFolder;
   parsed.mapFile = raw.mapFile;
   parsed.helpersFile = raw.helpersFile;
@@ -77,6 +78,8 @@ constexpr CommandFlags kCommands[] = {
     {"doc", Command::Doc, addDoc},
     {"preview", Command::Preview, addPreview},
     {"lsp", Command::Lsp, addLsp},
+    {"outline", Command::Outline, addOutline},
+    {"renumber", Command::Renumber, addRenumber},
 };
 
 // A command that is named first is the only one that is declared: declaring all flags takes longer than many

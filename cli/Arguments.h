@@ -2,6 +2,7 @@
 #pragma once
 
 #include "driver/Driver.h"
+#include "driver/ProgramTools.h"
 
 #include <iosfwd>
 #include <optional>
@@ -26,7 +27,9 @@ enum class Command : unsigned char {
   Preview,
   Sim,
   Verify,
-  Lsp
+  Lsp,
+  Outline,
+  Renumber
 };
 
 struct Arguments {
@@ -38,8 +41,8 @@ struct Arguments {
   std::string output; // -o
   bool json = false;
   bool sarif = false, github = false, gitlab = false;
-  bool statistics = false;  // of lint: --statistics
-  std::string baselineFile; // of lint: --write-baseline
+  bool statistics = false;        // of lint: --statistics
+  std::string baselineFile;       // of lint: --write-baseline
   driver::LintOptions lint;       // paths, common and source aside
   driver::ConvertOptions convert; // inputs, common and source aside
   std::string outputFolder;       // -d
@@ -53,7 +56,8 @@ struct Arguments {
   bool quiet = false;
   bool force = false; // of --force: outputs that are write-protected are replaced
   driver::Stage stage = driver::Stage::Ast;
-  bool write = false, check = false; // of fmt: --write, --check
+  bool write = false, check = false;       // of fmt: --write, --check
+  driver::RenumberCommandOptions renumber; // inputs and common aside
   std::uint32_t maxErrors = 50;
 };
 

@@ -4,7 +4,9 @@
 #include "cli/Files.h"
 #include "cli/Findings.h"
 #include "driver/Driver.h"
+#include "driver/Facts.h"
 #include "driver/Preview.h"
+#include "driver/ProgramTools.h"
 #include "lsp/Serve.h"
 #include "project/CycleFolder.h"
 #include "project/Settings.h"
@@ -290,7 +292,16 @@ int runCommand(Arguments& arguments, std::ostream& out, std::ostream& err) {
     return printer.result(driver::preview({arguments.inputs, arguments.common}), arguments);
   case Command::Lsp: return lsp::serve(STDIN_FILENO, STDOUT_FILENO, runningProgram());
   case Command::List:
+    if (arguments.inputs.size() > 1)
+      return printer.result(driver::listFacts(arguments.inputs[1], arguments.common), arguments);
     return printer.result(driver::list(arguments.inputs.front(), arguments.common), arguments);
+  case Command::Outline:
+    return printer.result(driver::outline({arguments.inputs, arguments.common, arguments.json}), arguments);
+  case Command::Renumber:
+    arguments.renumber.inputs = arguments.inputs;
+    arguments.renumber.common = arguments.common;
+    arguments.write = arguments.output.empty();
+    return printer.layout(driver::renumber(arguments.renumber), arguments);
   }
   return kDefect;
 }

@@ -1,6 +1,8 @@
 #include "cli/Options.h"
 #include "project/Assumptions.h"
 #include "project/InputKind.h"
+#include "stdlib/CodeSpan.h"
+#include "stdlib/ControlFiles.h"
 #include "support/Decimal.h"
 #include "support/Worker.h"
 
@@ -146,7 +148,15 @@ driver::CommonOptions commonOf(const Raw& raw) {
   for (const auto& [name, value] : pairsOf("--limit", raw.limit))
     applyLimit(name, value, out.limits);
   out.probeCodes = {probeCode("--probe-on", raw.probeOn), probeCode("--probe-off", raw.probeOff)};
+  for (const std::string& code : listOf(raw.auxiliary))
+    if (!stdlib::codeSpan(code))
+      throw UsageError("--auxiliary takes codes such as M41, G103 or M100-M199, not `" + code + "`");
+    else
+      out.assume.insert("auxiliary=" + code);
   out.data = raw.data;
+  for (const std::string& control : {raw.control, raw.fromControl})
+    if (stdlib::isDataPath(control) && std::find(out.data.begin(), out.data.end(), control) == out.data.end())
+      out.data.push_back(control);
   for (const std::string& folder : raw.include)
     out.include.push_back(folderOf("--include", folder));
   if (!raw.includeRoot.empty()) out.includeRoot = folderOf("--include-root", raw.includeRoot);
@@ -164,6 +174,8 @@ void addProbeCodes(CLI::App& app, Raw& raw) {
   app.add_option("--probe-on", raw.probeOn, "code that switches the probe on, where the profile has none")
       ->type_name("CODE");
   app.add_option("--probe-off", raw.probeOff, "code that switches it off")->type_name("CODE");
+  addSeveral(app, "--auxiliary", raw.auxiliary,
+             "code that runs, changes nothing and is printed: M41, G103, M100-M199", "CODE");
 }
 
 void addCommon(CLI::App& app, Raw& raw) {

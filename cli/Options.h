@@ -4,6 +4,7 @@
 
 #include "cli/Arguments.h"
 #include "driver/Driver.h"
+#include "driver/ProgramTools.h"
 
 #include <CLI/CLI.hpp>
 #include <cstdint>
@@ -43,6 +44,10 @@ struct Raw {
   std::vector<std::string> results;
   std::vector<std::string> variables;
   std::vector<std::string> programs;
+  std::vector<std::string> auxiliary; // --auxiliary
+  std::string start, step, range;     // of renumber
+  bool all = false;                   // of renumber
+  bool diff = false;                  // of fmt
   std::string traceFile, svgFile, htmlFile;
   std::string part, machine, partError, translation;
   std::vector<std::string> values; // --value
@@ -121,11 +126,14 @@ void addDoc(CLI::App& app, Raw& raw);
 void addPreview(CLI::App& app, Raw& raw);
 void addLsp(CLI::App& app, Raw& raw);
 void addExplain(CLI::App& app, Raw& raw);
+void addOutline(CLI::App& app, Raw& raw);
+void addRenumber(CLI::App& app, Raw& raw);
 void addList(CLI::App& app, Raw& raw);
 
 driver::ConvertOptions convertOf(const Raw& raw);
 driver::LintOptions lintOf(const Raw& raw);
 driver::SimOptions simOf(const Raw& raw);
 driver::VerifyOptions verifyOf(const Raw& raw);
+driver::RenumberCommandOptions renumberOf(const Raw& raw);
 
 } // namespace dotek::cli

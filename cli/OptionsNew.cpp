@@ -85,9 +85,10 @@ void addExplain(CLI::App& app, Raw& raw) {
 void addList(CLI::App& app, Raw& raw) {
   CLI::App* list = app.add_subcommand("list", "print a table");
   list->add_option("WHAT", raw.inputs,
-                   "cycles, controls, macros, forms, rules, messages, targets, hosts, limits or assumptions")
+                   "cycles, controls, macros, forms, rules, messages, targets, hosts, limits or assumptions; "
+                   "`controls NAME`: the facts of one control, with the files that state them")
       ->required()
-      ->expected(1);
+      ->expected(1, 2);
   addCommon(*list, raw);
 }
 

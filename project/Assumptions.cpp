@@ -1,6 +1,7 @@
 #include "project/Assumptions.h"
 
 #include "frontend/gibbs/Assumptions.h"
+#include "stdlib/CodeSpan.h"
 #include "support/NearestName.h"
 #include "support/messages/Commands.h"
 
@@ -35,6 +36,9 @@ std::vector<std::pair<std::string, std::string>> assumptionTable() {
       {"touch=FILE:LINE", "a move of ToolPath.mac that could be a touch and does not show it: it is one"},
       {"probe-on", "verify: another routine has switched the probe on before the cycle"},
       {"plain-messages", "a message that the control cannot show: accents and odd characters are dropped"},
+      {"auxiliary=CODE",
+       "a code that the control does not list, M41 or M100-M199: it moves no axis and changes no "
+       "mode; the same as --auxiliary CODE"},
       {"and-before-or", "AND beside OR in a Prog: AND binds tighter"},
       {"left-to-right", "AND beside OR in a Prog: read from left to right"},
       {"Word?=yes", "a condition of a Prog that only the CAM can answer: it holds"},
@@ -51,7 +55,7 @@ std::vector<std::pair<std::string, std::string>> assumptionTable() {
 }
 
 bool isAssumption(const std::string& name) {
-  if (answersCondition(name) || namesTouch(name)) return true;
+  if (answersCondition(name) || namesTouch(name) || !stdlib::auxiliaryCodes({name}).empty()) return true;
   const auto table = assumptionTable();
   return std::any_of(table.begin(), table.end(), [&](const auto& row) { return row.first == name; });
 }

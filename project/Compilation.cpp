@@ -30,8 +30,10 @@ gibbs::ParseContext contextOf(Session& session) {
 
 const std::vector<stdlib::Control>& Compilation::controls(const stdlib::ProbeCodes& probe) {
   const auto [at, isNew] = controls_.try_emplace(probe);
-  if (!isNew) return at->second;
-  for (const stdlib::DataFile* file : session_.data().list("controls"))
+  const std::vector<const stdlib::DataFile*> files = session_.data().list("controls");
+  if (at->second.size() == files.size()) return at->second;
+  at->second.clear(); // a dotek.toml has named a file since
+  for (const stdlib::DataFile* file : files)
     if (const stdlib::Control* control = session_.control(file->name, probe)) at->second.push_back(*control);
   return at->second;
 }

@@ -20,9 +20,11 @@ std::string draftControl(const std::string& name, const stdlib::Control& base,
                          const stdlib::ProbeCodes& probe) {
   std::string out =
       fmt::format("# {}: what differs from the control `{}`, whose file states the rest.\n"
-                  "# What the sections mean: docs/data-files.md. A section that is here takes the place "
-                  "of the one there;\n"
-                  "# codes are taken one by one.\n\n"
+                  "# What the sections mean: docs/data-files.md. Tables merge key by key; a "
+                  "range of variables\n"
+                  "# replaces each one there that it overlaps; codes, calls and alarms are taken one by one. "
+                  "What the machine lacks:\n"
+                  "# remove = {{ codes = [\"G33\"], variables = [\"2500-2899\"] }}\n\n"
                   "schema = 1\n"
                   "title = \"{}\"\n"
                   "extends = \"{}\"\n\n",

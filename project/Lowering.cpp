@@ -16,10 +16,12 @@
 #include "project/Hosts.h"
 #include "project/Prog.h"
 #include "project/Values.h"
+#include "stdlib/CodeSpan.h"
 #include "stdlib/HostInputs.h"
 #include "support/Decimal.h"
 #include "support/messages/Commands.h"
 #include "support/messages/Nc.h"
+#include "support/messages/Output.h"
 
 #include <algorithm>
 #include <utility>
@@ -46,6 +48,10 @@ void checkProbeCodes(const stdlib::Control& control, Session& session) {
       session.diagnostics().report<diag::ProbeCodeTaken>({}, code, control.title, meaning,
                                                          on ? "--probe-on" : "--probe-off");
   }
+  if (const std::string taken =
+          stdlib::takenAuxiliary(control, stdlib::auxiliaryCodes(session.options().assume));
+      !taken.empty())
+    session.diagnostics().report<diag::AuxiliaryTaken>({}, control.title, taken);
 }
 
 namespace {

@@ -1,6 +1,7 @@
 #include "project/Session.h"
 
 #include "project/Assumptions.h"
+#include "stdlib/CodeSpan.h"
 #include "support/Files.h"
 #include "support/Tape.h"
 #include "support/messages/Commands.h"
@@ -34,6 +35,7 @@ const stdlib::Control* Session::control(const std::string& name, const stdlib::P
   const auto [at, isNew] = controls_.try_emplace({name, codes});
   if (isNew) at->second = stdlib::Control::load(data_, name);
   if (isNew && at->second) stdlib::addProbeCodes(*at->second, codes);
+  if (isNew && at->second) stdlib::addAuxiliary(*at->second, stdlib::auxiliaryCodes(options_.assume));
   return at->second ? &*at->second : nullptr;
 }
 

@@ -2,6 +2,7 @@
 
 #include "project/Session.h"
 #include "project/SettingsPlace.h"
+#include "stdlib/ControlFiles.h"
 #include "stdlib/Toml.h"
 #include "support/Glob.h"
 #include "support/NearestName.h"
@@ -67,10 +68,18 @@ SettingsFile load(const fs::path& folder, Session& session) {
 }
 
 // Nothing: not said. An empty name takes back what was said before.
-std::optional<std::string> controlIn(const TomlDocument& document, const TomlTable& table, Session& session) {
+std::optional<std::string> controlIn(const TomlDocument& document, const TomlTable& table,
+                                     const std::string& folder, Session& session) {
   const TomlValue value = table.value("control");
   if (!value) return std::nullopt;
   std::string name = value.text();
+  if (stdlib::isDataPath(name)) {
+    name = nearPath((fs::path(folder) / name).lexically_normal());
+    // What flagDefaultsOf() names is read before all settings.
+    if (session.data().find("controls", name) != nullptr) return name;
+    document.fail(value.range(), "no control file `" + name + "`");
+    return "";
+  }
   const stdlib::DataFiles& data = session.data();
   if (name.empty() || data.find("controls", name) != nullptr || data.find("mikroprog", name) != nullptr)
     return name;
@@ -122,9 +131,9 @@ SettingsFile settingsIn(const TomlDocument& document, std::string folder, Sessio
   out.folder = std::move(folder);
   const TomlTable root = document.root(), lint = root.value("lint").table();
   Settings& base = out.base;
-  const std::optional<std::string> control = controlIn(document, root, session),
-                                   ofLint = controlIn(document, lint, session), form = formIn(root),
-                                   lintForm = formIn(lint);
+  const std::optional<std::string> control = controlIn(document, root, out.folder, session),
+                                   ofLint = controlIn(document, lint, out.folder, session),
+                                   form = formIn(root), lintForm = formIn(lint);
   base.control = control && !control->empty() ? *control : ofLint.value_or("");
   base.form = form && !form->empty() ? *form : lintForm.value_or("");
   base.probe = probeCodesIn(document, root);
@@ -137,7 +146,7 @@ SettingsFile settingsIn(const TomlDocument& document, std::string folder, Sessio
     base.listing = from.choice({"nc", "listing"}, "nc") == "listing";
   for (const TomlTable& table : lint.value("path").tables())
     out.sections.push_back(
-        {patternsIn(table.value("path")), controlIn(document, table, session), formIn(table)});
+        {patternsIn(table.value("path")), controlIn(document, table, out.folder, session), formIn(table)});
   return out;
 }
 
@@ -183,6 +192,17 @@ FlagDefaults flagDefaultsOf(const std::vector<std::string>& inputs) {
       if (std::string path = seen(folder);
           std::find(out.data.begin(), out.data.end(), path) == out.data.end())
         out.data.push_back(std::move(path));
+    const TomlTable root = document->root(), lint = root.value("lint").table();
+    std::vector<std::string> controls = {root.value("control").text(), lint.value("control").text()};
+    for (const TomlTable& table : lint.value("path").tables())
+      controls.push_back(table.value("control").text());
+    for (const std::string& control : controls) {
+      std::error_code error;
+      if (!stdlib::isDataPath(control) || !fs::is_regular_file(seen(control), error)) continue;
+      if (std::string path = seen(control);
+          std::find(out.data.begin(), out.data.end(), path) == out.data.end())
+        out.data.push_back(std::move(path));
+    }
     for (const TomlEntry& entry : document->root().value("field").table().entries())
       if (std::string variable = entry.value.text(); !variable.empty())
         out.field.emplace_back(entry.key, std::move(variable));

@@ -1,5 +1,6 @@
 #include "stdlib/Control.h"
 
+#include "stdlib/ControlFiles.h"
 #include "stdlib/ControlReader.h"
 #include "stdlib/DataFiles.h"
 #include "stdlib/StoredTables.h"
@@ -8,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <span>
 
 namespace dotek::stdlib {
 namespace {
@@ -20,7 +22,11 @@ constexpr std::string_view kMacroFunctions[] = {
 } // namespace
 
 Control ControlReader::read() {
-  control_.title = require("title", "what lists print").text();
+  removals();
+  TomlValue title;
+  for (std::size_t i = 0; i < roots_.size() && !title; ++i)
+    title = roots_[i].value("title");
+  control_.title = (title ? title : roots_.front().require("title", "what lists print")).text();
   decimal();
   lengths();
   words();
@@ -30,22 +36,20 @@ Control ControlReader::read() {
   control_.toolOffsets = systemRanges("tool_offsets");
   alarm();
   programs();
-  // Codes are taken one by one, other sections as a whole.
-  const TomlValue own =
-      base_ == nullptr ? require("codes", "tables of G and M codes") : roots_.front().value("codes");
-  for (const TomlTable& table : own.tables())
+  const std::vector<TomlTable> stated = own("codes", "tables of G and M codes");
+  for (const TomlTable& table : stated)
     codes(table);
-  if (base_ != nullptr)
-    for (const CodeInfo& code : base_->codes)
-      if (control_.find(code.letter, code.tenths) == nullptr) control_.codes.push_back(code);
+  calls();
+  if (base_ != nullptr) inheritCodes();
+  for (const TomlTable& table : stated)
+    codeRanges(table);
   motion();
   rotation();
-  calls();
   readAhead();
   output();
   alarms();
   variables();
-  return std::move(control_);
+  return control_;
 }
 
 ControlReader::Origin ControlReader::origin(const TomlTable& table) {
@@ -56,13 +60,8 @@ ControlReader::Origin ControlReader::origin(const TomlTable& table) {
   return out;
 }
 
-std::uint32_t ControlReader::whole(const TomlTable& table, std::string_view key, std::string_view what,
-                                   std::int64_t least, std::int64_t most) {
-  return static_cast<std::uint32_t>(table.require(key, what).integer(least, least, most));
-}
-
 void ControlReader::decimal() {
-  const TomlTable table = section("decimal", "how a number without a point is read");
+  const ControlSection table = section("decimal", "how a number without a point is read");
   const std::string mode =
       table.require("mode", "increment or calculator").choice({"increment", "calculator"}, "calculator");
   control_.decimal = mode == "increment" ? DecimalMode::Increment : DecimalMode::Calculator;
@@ -70,26 +69,27 @@ void ControlReader::decimal() {
 }
 
 void ControlReader::lengths() {
-  const TomlValue value = find("lengths");
-  if (!value) return;
-  const TomlTable table = value.table();
+  const ControlSection table = optional("lengths");
+  if (!table) return;
   origin(table);
   const TomlValue letters = table.require("addresses", "the letters that count lengths, as XYZIJK");
   control_.lengths = 0;
   for (const char letter : letters.text()) {
     if (letter < 'A' || letter > 'Z')
-      document_.fail(letters.range(), fmt::format("`{}` is no address; capital letters are", letter));
+      document_.fail(table.range("addresses"),
+                     fmt::format("`{}` is no address; capital letters are", letter));
     else if (ir::isAddressIn(ir::kWholeAddresses, letter))
-      document_.fail(letters.range(), fmt::format("`{}` counts whole units on every control", letter));
+      document_.fail(table.range("addresses"),
+                     fmt::format("`{}` counts whole units on every control", letter));
     else if (control_.isLength(letter))
-      document_.fail(letters.range(), fmt::format("`{}` is given twice", letter));
+      document_.fail(table.range("addresses"), fmt::format("`{}` is given twice", letter));
     else
       control_.lengths |= ir::addressBit(letter);
   }
 }
 
 void ControlReader::words() {
-  const TomlTable table = section("words", "how many digits a word takes");
+  const ControlSection table = section("words", "how many digits a word takes");
   origin(table);
   const TomlValue increment = table.require("increment", "the least input increment in mm");
   control_.increment = increment.number();
@@ -99,12 +99,12 @@ void ControlReader::words() {
   if (const TomlValue digits = table.value("digits"))
     control_.digits = static_cast<std::uint32_t>(digits.integer(8, 1, 99));
   if (std::abs(control_.increment * std::pow(10.0, control_.decimals) - 1) > 1e-9)
-    document_.fail(increment.range(), fmt::format("an increment of {} is not one unit of decimal {}",
-                                                  control_.increment, control_.decimals));
+    document_.fail(table.range("increment"), fmt::format("an increment of {} is not one unit of decimal {}",
+                                                         control_.increment, control_.decimals));
 }
 
 void ControlReader::language() {
-  const TomlTable table = section("language", "what macro statements can say");
+  const ControlSection table = section("language", "what macro statements can say");
   origin(table);
   control_.ifThen = table.require("if_then", "true or false").flag();
   control_.joinedConditions = table.require("joined_conditions", "true or false").flag();
@@ -129,13 +129,13 @@ void ControlReader::language() {
   }
   for (const std::string& name : control_.functions) {
     if (name.starts_with("ATAN[") && !control_.functions.contains("ATAN"))
-      document_.fail(table.value("functions").range(),
+      document_.fail(table.range("functions"),
                      fmt::format("`{}` is a form of `ATAN`, which is missing", name));
   }
 }
 
 void ControlReader::common() {
-  for (const TomlTable& table : require("common", "tables of common variables").tables()) {
+  for (const TomlTable& table : own("common", "tables of common variables")) {
     origin(table);
     if (control_.common.size() == kMostRanges)
       document_.fail(table.range(), fmt::format("more than {} ranges", kMostRanges));
@@ -154,11 +154,16 @@ void ControlReader::common() {
     }
     control_.common.push_back(range);
   }
+  if (base_ == nullptr) return;
+  inherit(control_.common, base_->common);
+  for (const VariableRange& range : control_.common)
+    if (range.first <= control_.locals)
+      document_.fail(roots_.front().range(), fmt::format("#{} is a local variable", range.first));
 }
 
 std::vector<VariableRange> ControlReader::systemRanges(std::string_view key) {
   std::vector<VariableRange> out;
-  for (const TomlTable& table : find(key).tables()) {
+  for (const TomlTable& table : own(key)) {
     origin(table);
     if (out.size() == kMostRanges)
       document_.fail(table.range(), fmt::format("more than {} ranges", kMostRanges));
@@ -169,11 +174,12 @@ std::vector<VariableRange> ControlReader::systemRanges(std::string_view key) {
       document_.fail(table.range(), fmt::format("#{} to #{} is no range", range.first, range.last));
     out.push_back(range);
   }
+  if (base_ != nullptr) inherit(out, key == "read_only" ? base_->readOnly : base_->toolOffsets);
   return out;
 }
 
 void ControlReader::alarm() {
-  const TomlTable table = section("alarm", "what #3000 takes");
+  const ControlSection table = section("alarm", "what #3000 takes");
   origin(table);
   control_.alarmFirst = whole(table, "first", "the least number", 0, 9999);
   control_.alarmLast = whole(table, "last", "the greatest number", 0, 9999);
@@ -184,34 +190,36 @@ void ControlReader::alarm() {
 }
 
 void ControlReader::programs() {
-  const TomlTable table = section("programs", "numbers of programs and blocks");
+  const ControlSection table = section("programs", "numbers of programs and blocks");
   origin(table);
   control_.programLast = whole(table, "last", "the greatest O number", 1, 99999999);
   control_.repeatInProgram = table.value("repeat_in_program").flag();
   if (control_.repeatInProgram && control_.programLast > 9999)
-    document_.fail(table.value("repeat_in_program").range(),
-                   "the number of the program takes the last four digits; `last` goes beyond them");
+    document_.fail(
+        table.range(table.owns("last") ? "last" : "repeat_in_program"),
+        "under `repeat_in_program` the number of the program takes the last four digits, and `last` "
+        "goes beyond them; `repeat_in_program = false` takes it back");
   control_.sequenceLast = whole(table, "last_sequence", "the greatest N number of a GOTO", 1, 99999999);
   control_.colonNames = table.value("colon").flag();
   control_.programNames = table.value("names").flag();
 }
 
 void ControlReader::motion() {
-  const TomlValue value = find("motion");
-  if (!value) return;
-  const TomlTable table = value.table();
+  const ControlSection table = optional("motion");
+  if (!table) return;
   origin(table);
   if (const TomlValue tolerance = table.value("arc_tolerance")) {
     control_.arcTolerance = tolerance.number();
-    if (*control_.arcTolerance <= 0) document_.fail(tolerance.range(), "`arc_tolerance` is a length in mm");
+    if (*control_.arcTolerance <= 0)
+      document_.fail(table.range("arc_tolerance"), "`arc_tolerance` is a length in mm");
   }
   if (const TomlValue letter = table.value("repeat"))
     control_.repeatLetter = letter.choice({"K", "L"}, "K").front();
 }
 
 void ControlReader::rotation() {
-  if (!find("rotation")) return;
-  const TomlTable table = optional("rotation");
+  const ControlSection table = optional("rotation");
+  if (!table) return;
   origin(table);
   if (const TomlValue frame = table.value("positions"))
     control_.rotation.positions = frame.choice({"work", "program"}, "work") == "work"
@@ -256,33 +264,67 @@ bool isIn(const std::vector<VariableRange>& ranges, std::uint32_t number) {
   });
 }
 
-// More is a loop.
-constexpr std::size_t kMostExtended = 8;
+// The control and those that it extends, one after the other.
+constexpr std::size_t kMostExtended = 4;
 
-Control loadFrom(const DataFiles& files, const DataFile& file, std::size_t depth) {
-  std::vector<TomlDocument> documents = {TomlDocument::parse(file)};
-  const TomlDocument own = documents.front(); // a handle
-  std::optional<Control> base;
-  for (std::size_t i = 0; i < documents.size(); ++i) {
-    const TomlValue extends = documents[i].root().value("extends");
-    if (!extends) break;
-    const DataFile* other = files.find("controls", extends.text());
-    if (other == nullptr) own.fail(extends.range(), fmt::format("there is no control `{}`", extends.text()));
-    if (depth + i >= kMostExtended) own.fail(extends.range(), "the controls extend one another");
-    if (i == 0) base = loadFrom(files, *other, depth + 1);
-    documents.push_back(TomlDocument::parse(*other));
+// What `extends` names: a control, or a file seen from the folder of the one that says so.
+const DataFile* extended(const DataFiles& files, const DataFile& from, const std::string& name) {
+  const DataFile* const found = files.find("controls", name);
+  return found != nullptr || !isDataPath(name) ? found
+                                               : files.find("controls", besideFile(from.origin, name));
+}
+
+// The files of a control, the nearest first.
+std::vector<const DataFile*> chainOf(const DataFiles& files, const DataFile& file) {
+  std::vector<const DataFile*> out = {&file};
+  while (true) {
+    const TomlDocument document = TomlDocument::parse(*out.back());
+    const TomlValue extends = document.root().value("extends");
+    if (!extends) return out;
+    const std::string name = extends.text();
+    const DataFile* const next = extended(files, *out.back(), name);
+    if (next == nullptr) document.fail(extends.range(), fmt::format("there is no control `{}`", name));
+    if (std::find(out.begin(), out.end(), next) != out.end())
+      document.fail(extends.range(),
+                    fmt::format("`{}` is extended by itself: the controls extend one another", name));
+    if (out.size() == kMostExtended)
+      document.fail(extends.range(),
+                    fmt::format("a chain of more than {} controls; `extends` a control nearer to the "
+                                "beginning of the chain",
+                                kMostExtended));
+    out.push_back(next);
   }
-  Control control = ControlReader(documents, base ? &*base : nullptr).read();
+}
+
+Control loadFrom(std::span<const DataFile* const> chain, std::vector<ControlFact>* facts) {
+  std::vector<TomlDocument> documents;
+  for (const DataFile* file : chain)
+    documents.push_back(TomlDocument::parse(*file));
+  std::optional<Control> base;
+  std::vector<ControlFact> inherited;
+  if (chain.size() > 1) base = loadFrom(chain.subspan(1), facts == nullptr ? nullptr : &inherited);
+  static_cast<void>(documents.front().root().value("extends"));
+  ControlReader reader(documents, base ? &*base : nullptr);
+  Control control = reader.read();
   documents.front().finish();
+  const DataFile& file = *chain.front();
   control.name = file.name;
   control.origin = file.origin;
+  if (facts != nullptr)
+    *facts = reader.facts(std::move(inherited), file.builtIn() ? "built in: " + file.name : file.origin);
   return control;
 }
 
 } // namespace
 
 Control TableStore::readControl(const DataFiles& files, const DataFile& file) {
-  return loadFrom(files, file, 0);
+  return loadFrom(chainOf(files, file), nullptr);
+}
+
+std::vector<ControlFact> controlFacts(const DataFiles& files, std::string_view name) {
+  std::vector<ControlFact> out;
+  if (const DataFile* file = files.find("controls", name)) loadFrom(chainOf(files, *file), &out);
+  return out;
 }
 
 bool Control::isReadOnly(std::uint32_t number) const {

@@ -27,11 +27,11 @@ std::optional<std::pair<char, std::uint32_t>> ControlReader::parseName(const Tom
 }
 
 void ControlReader::calls() {
-  if (const TomlTable table = optional("nesting"); find("nesting")) {
+  if (const ControlSection table = optional("nesting")) {
     origin(table);
     control_.callDepth = whole(table, "calls", "how deep calls of all kinds nest", 1, 99);
   }
-  for (const TomlTable& table : find("calls").tables()) {
+  for (const TomlTable& table : own("calls")) {
     const Origin origin = ControlReader::origin(table);
     CallCode call;
     const TomlValue code = table.require("code", "G5101, M50, or T");
@@ -72,11 +72,12 @@ void ControlReader::calls() {
     }
     control_.callCodes.push_back(std::move(call));
   }
+  if (base_ != nullptr) inheritCalls();
 }
 
 void ControlReader::readAhead() {
-  if (!find("read_ahead")) return;
-  const TomlTable table = optional("read_ahead");
+  const ControlSection table = optional("read_ahead");
+  if (!table) return;
   origin(table);
   for (const TomlValue& item : table.require("stops", "codes that wait for motion to end").items())
     if (const auto name = parseName(item)) control_.readAheadStops.push_back(*name);
@@ -84,8 +85,8 @@ void ControlReader::readAhead() {
 }
 
 void ControlReader::output() {
-  if (!find("output")) return;
-  const TomlTable table = optional("output");
+  const ControlSection table = optional("output");
+  if (!table) return;
   origin(table);
   control_.printPadding =
       table.require("padding", "blanks or none").choice({"blanks", "none"}, "none") == "blanks";

@@ -1,4 +1,5 @@
 // Codes and alarms of a control.
+#include "stdlib/CodeSpan.h"
 #include "stdlib/ControlReader.h"
 #include "support/NearestName.h"
 
@@ -85,9 +86,16 @@ Family familyOf(Function function) {
   }
 }
 
+// "M100-M199 ..", not "G90 ..".
+bool isCodeRange(std::string_view text) {
+  const std::string_view name = text.substr(0, std::min(text.find(' '), text.find(':')));
+  return name.find('-') != std::string_view::npos;
+}
+
 // The letter of codes with this meaning; 0: either.
 char letterOf(Function function) {
-  if (function == Function::Other || function == Function::ProbeOn || function == Function::ProbeOff)
+  if (function == Function::Other || function == Function::ProbeOn || function == Function::ProbeOff ||
+      function == Function::Auxiliary)
     return 0;
   return function >= Function::Stop ? 'M' : 'G';
 }
@@ -114,6 +122,7 @@ void ControlReader::codes(const TomlTable& table) {
   for (const TomlValue& item : table.require("list", "a list of codes").items()) {
     if (control_.codes.size() == kMostCodes)
       document_.fail(item.range(), fmt::format("more than {} codes", kMostCodes));
+    if (isCodeRange(item.text())) continue; // after all others
     std::optional<CodeInfo> code = parseCode(item);
     if (!code) continue;
     code->group = group;
@@ -121,6 +130,44 @@ void ControlReader::codes(const TomlTable& table) {
     code->source = origin.source;
     check(*code, item);
     control_.codes.push_back(std::move(*code));
+  }
+}
+
+// "M100-M199 auxiliary: of the builder": those codes of the range that nothing else lists.
+void ControlReader::codeRanges(const TomlTable& table) {
+  const Origin origin = ControlReader::origin(table);
+  for (const TomlValue& item : table.require("list", "a list of codes").items()) {
+    const std::string text = item.text();
+    if (!isCodeRange(text)) continue;
+    const std::size_t blank = text.find(' '), colon = text.find(": ");
+    const auto span = codeSpan(text.substr(0, std::min(blank, colon)));
+    const bool formed = span && blank < colon && colon + 2 < text.size();
+    if (!formed || text.substr(blank + 1, colon - blank - 1) != functionName(Function::Auxiliary)) {
+      document_.fail(item.range(),
+                     fmt::format("`{}` is no range of codes; `M100-M199 auxiliary: of the builder` is the "
+                                 "form, and other meanings are stated code by code",
+                                 text));
+      continue;
+    }
+    const auto [letter, first, last] = *span;
+    for (std::uint32_t tenths = first; tenths <= last; tenths += 10) {
+      const bool calls = std::any_of(control_.callCodes.begin(), control_.callCodes.end(),
+                                     [&, letter = letter](const CallCode& call) {
+                                       return call.letter == letter && tenths / 10 >= call.first &&
+                                              tenths / 10 < call.first + call.count;
+                                     });
+      if (calls || control_.find(letter, tenths) != nullptr) continue;
+      if (control_.codes.size() == kMostCodes)
+        document_.fail(item.range(), fmt::format("more than {} codes", kMostCodes));
+      CodeInfo code;
+      code.letter = letter;
+      code.tenths = tenths;
+      code.function = Function::Auxiliary;
+      code.title = text.substr(colon + 2);
+      code.grade = origin.grade;
+      code.source = origin.source;
+      control_.codes.push_back(std::move(code));
+    }
   }
 }
 
@@ -197,7 +244,7 @@ void ControlReader::check(const CodeInfo& code, const TomlValue& item) {
 
 // "no-feed 11: NO FEEDRATE COMMANDED"
 void ControlReader::alarms() {
-  for (const TomlTable& table : find("alarms").tables()) {
+  for (const TomlTable& table : own("alarms")) {
     const Origin origin = ControlReader::origin(table);
     for (const TomlValue& item : table.require("list", "a list of alarms").items()) {
       const std::string text = item.text();
@@ -230,6 +277,13 @@ void ControlReader::alarms() {
         control_.alarms.push_back({alarm, number, text.substr(colon + 2), origin.grade, origin.source});
     }
   }
+  if (base_ == nullptr) return;
+  const auto removed = [&](Alarm alarm) {
+    return std::any_of(removedAlarms_.begin(), removedAlarms_.end(),
+                       [&](const std::string& one) { return one == "all" || one == alarmName(alarm); });
+  };
+  for (const AlarmInfo& alarm : base_->alarms)
+    if (control_.find(alarm.alarm) == nullptr && !removed(alarm.alarm)) control_.alarms.push_back(alarm);
 }
 
 } // namespace dotek::stdlib

@@ -7,9 +7,16 @@
 #include <numbers>
 
 namespace dotek::stdlib {
+namespace {
+
+std::string_view remedy(const Control* base) {
+  return base == nullptr ? "" : "; `remove = { variables = [..] }` takes an inherited one away";
+}
+
+} // namespace
 
 void ControlReader::variables() {
-  const TomlTable table = section("variables", "system variables");
+  const ControlSection table = section("variables", "system variables");
   origin(table);
   SystemVariables& v = control_.variables;
   const auto number = [&](std::string_view key) -> std::optional<int> {
@@ -43,20 +50,18 @@ void ControlReader::variables() {
   v.systemStep = static_cast<int>(table.value("system_step").integer(0, 1, 9999));
   v.axisStep = static_cast<int>(table.value("axis_step").integer(0, 1, 9999));
   if (v.workOffsetX && v.systemStep == 0)
-    document_.fail(table.value("work_offset_x").range(), "`work_offset_x` is without `system_step`");
+    document_.fail(table.range("work_offset_x"), "`work_offset_x` is without `system_step`");
   if ((v.workOffsetX || v.externalX) && v.axisStep == 0)
-    document_.fail(table.value(v.workOffsetX ? "work_offset_x" : "external_x").range(),
+    document_.fail(table.range(v.workOffsetX ? "work_offset_x" : "external_x"),
                    "an offset of X is without `axis_step`");
   if (v.extendedX && (v.extendedStep == 0 || v.extendedCount == 0))
-    document_.fail(table.value("extended_x").range(),
-                   "`extended_x` is without `extended_step` and `extended_count`");
+    document_.fail(table.range("extended_x"), "`extended_x` is without `extended_step` and `extended_count`");
   if (v.toolWearToo && !v.toolWear)
-    document_.fail(table.value("tool_wear_too").range(), "`tool_wear_too` is without `tool_wear`");
+    document_.fail(table.range("tool_wear_too"), "`tool_wear_too` is without `tool_wear`");
   if (v.toolGeometryToo && !v.toolGeometry)
-    document_.fail(table.value("tool_geometry_too").range(),
-                   "`tool_geometry_too` is without `tool_geometry`");
+    document_.fail(table.range("tool_geometry_too"), "`tool_geometry_too` is without `tool_geometry`");
   if ((v.toolWear || v.toolGeometry) && v.toolCount == 0)
-    document_.fail(table.value(v.toolWear ? "tool_wear" : "tool_geometry").range(),
+    document_.fail(table.range(v.toolWear ? "tool_wear" : "tool_geometry"),
                    "tool offsets are without `tool_count`");
   Taken blocks;
   const auto add = [&](std::string_view key, std::optional<int> first, int count, int step = 1) {
@@ -87,47 +92,85 @@ void ControlReader::variables() {
     for (const CodeInfo& code : control_.codes)
       if (code.group) blocks.emplace_back("modal_first", *v.modalFirst + *code.group);
   }
+  for (const auto& [key, member] :
+       {std::pair("modal_first", &v.modalFirst), std::pair("modal_feed", &v.modalFeed),
+        std::pair("block_end", &v.blockEnd), std::pair("machine", &v.machine),
+        std::pair("position", &v.position), std::pair("skip", &v.skip), std::pair("external_x", &v.externalX),
+        std::pair("work_offset_x", &v.workOffsetX), std::pair("extended_x", &v.extendedX),
+        std::pair("tool_wear", &v.toolWear), std::pair("tool_geometry", &v.toolGeometry),
+        std::pair("tool_wear_too", &v.toolWearToo), std::pair("tool_geometry_too", &v.toolGeometryToo),
+        std::pair("tool_length", &v.toolLength), std::pair("alarm", &v.alarm), std::pair("timer", &v.timer),
+        std::pair("hours", &v.hours), std::pair("message", &v.message),
+        std::pair("extended_number", &v.extendedNumber)})
+    takeAway(table, key, *member, blocks);
   state(blocks);
   window(blocks);
   overlaps(table, blocks);
   withToolLength();
 }
 
+// An inherited key whose variables `remove` names.
+void ControlReader::takeAway(const ControlSection& table, std::string_view key, std::optional<int>& member,
+                             Taken& blocks) {
+  if (!member || removedVariables_.empty() || table.owns(key)) return;
+  std::size_t all = 0, removed = 0;
+  for (const auto& [other, number] : blocks) {
+    if (other != key) continue;
+    ++all;
+    removed += isRemoved(static_cast<std::uint32_t>(number)) ? 1 : 0;
+  }
+  if (removed == 0) return;
+  if (removed < all)
+    document_.fail(
+        roots_.front().value("remove").range(),
+        fmt::format("a part of the variables of `{}`, which begin at #{}, cannot be removed; state "
+                    "`{}` and its count in [variables], or remove all of them",
+                    key, *member, key));
+  std::erase_if(blocks, [&, key = key](const auto& block) { return block.first == key; });
+  member.reset();
+  removedKeys_.emplace_back(key);
+}
+
 void ControlReader::withToolLength() {
-  if (!find("with_tool_length")) return;
-  const TomlTable table = optional("with_tool_length");
+  const ControlSection table = optional("with_tool_length");
+  if (!table) return;
   const Origin from = origin(table);
   LengthInPositions out{false, false, from.grade, from.source};
   for (const TomlValue& item : table.require("variables", "a list of position and skip").items()) {
     const bool skip = item.choice({"position", "skip"}, "position") == "skip";
     bool& held = skip ? out.skip : out.position;
+    if (!(skip ? control_.variables.skip : control_.variables.position)) {
+      if (table.owns("variables"))
+        document_.fail(item.range(), fmt::format("`{}` is no variable of this control", item.text()));
+      continue; // it was removed
+    }
     if (held) document_.fail(item.range(), fmt::format("`{}` is given twice", item.text()));
-    if (!(skip ? control_.variables.skip : control_.variables.position))
-      document_.fail(item.range(), fmt::format("`{}` is no variable of this control", item.text()));
     held = true;
   }
   control_.withToolLength = std::move(out);
 }
 
-void ControlReader::overlaps(const TomlTable& table, const Taken& blocks) const {
+void ControlReader::overlaps(const ControlSection& table, const Taken& blocks) const {
   std::map<int, std::string_view> taken;
   for (const auto& [key, number] : blocks) {
-    const SourceRange range = (table.has(key) ? table.value(key) : find(key)).range();
+    SourceRange range = table.range(key);
+    if (const TomlValue own = roots_.front().value(key); own && !table.owns(key)) range = own.range();
     const auto [at, added] = taken.try_emplace(number, key);
     const bool shared = key == "modal_first" && at->second == key; // one group, many codes
     if (!added && !shared)
-      document_.fail(range, fmt::format("#{} is a variable of `{}` {}", number, at->second,
+      document_.fail(range, fmt::format("#{} is a variable of `{}` {}{}", number, at->second,
                                         at->second != key                   ? fmt::format("and of `{}`", key)
                                         : key == "state" || key == "window" ? "twice"
-                                                                            : "twice: its steps meet"));
+                                                                            : "twice: its steps meet",
+                                        remedy(base_)));
     if (control_.isCommon(static_cast<std::uint32_t>(number)))
-      document_.fail(range, fmt::format("#{} is a common variable", number));
+      document_.fail(range, fmt::format("#{} is a common variable{}", number, remedy(base_)));
   }
 }
 
 // Each may be written by `--var`; what a program may do says `access`.
 void ControlReader::state(Taken& blocks) {
-  for (const TomlTable& table : find("state").tables()) {
+  for (const TomlTable& table : own("state")) {
     const Origin origin = ControlReader::origin(table);
     if (control_.state.size() == kMostRanges)
       document_.fail(table.range(), fmt::format("more than {} ranges", kMostRanges));
@@ -153,18 +196,21 @@ void ControlReader::state(Taken& blocks) {
                      fmt::format("#{} to #{} is no range of at most 1000", range.first, range.last));
     if (const TomlValue word = table.value("word")) {
       range.word = static_cast<std::uint32_t>(word.integer(1000, 1000, 999999));
-      blocks.emplace_back("state", static_cast<int>(*range.word));
       if (range.last - range.first > 31) document_.fail(word.range(), "a word holds 32 bits at most");
     }
+    control_.state.push_back(std::move(range));
+  }
+  if (base_ != nullptr) inheritStates();
+  for (const StateRange& range : control_.state) {
+    if (range.word) blocks.emplace_back("state", static_cast<int>(*range.word));
     for (std::uint32_t n = range.first; n <= range.last && n - range.first < 1000; ++n)
       blocks.emplace_back("state", static_cast<int>(n));
-    control_.state.push_back(std::move(range));
   }
 }
 
 void ControlReader::window(Taken& blocks) {
-  if (!find("window")) return;
-  const TomlTable table = optional("window");
+  const ControlSection table = optional("window");
+  if (!table) return;
   origin(table);
   PmcWindow window;
   window.area = table.require("area", "the letter of the memory").text();
@@ -177,6 +223,11 @@ void ControlReader::window(Taken& blocks) {
     return out;
   };
   window.address = number("address");
+  if (window.address != 0 && !table.owns("address") && isRemoved(window.address)) {
+    std::erase_if(blocks, [](const auto& block) { return block.first == "window"; });
+    removedKeys_.emplace_back("window");
+    return;
+  }
   window.byte = number("byte");
   window.word = number("word");
   window.doubleWord = number("double_word");

@@ -1,6 +1,8 @@
 #include "stdlib/DataFiles.h"
 
+#include "stdlib/ControlFiles.h"
 #include "stdlib/EmbeddedData.h"
+#include "stdlib/Toml.h"
 #include "support/Files.h"
 #include "support/messages/Commands.h"
 #include "support/messages/Common.h"
@@ -44,6 +46,17 @@ bool before(const DataFile& file, std::string_view folder, std::string_view name
   return file.folder != folder ? file.folder < folder : file.name < name;
 }
 
+// In the place of one of the same name.
+void put(std::vector<DataFile>& files, DataFile one) {
+  const auto at = std::lower_bound(files.begin(), files.end(), 0, [&](const DataFile& other, int) {
+    return before(other, one.folder, one.name);
+  });
+  if (at == files.end() || at->folder != one.folder || at->name != one.name)
+    files.insert(at, std::move(one));
+  else
+    *at = std::move(one);
+}
+
 // Programs of a control in `macrob`, cycles in `cycles`, data elsewhere.
 bool isDataFile(const fs::path& path, std::string_view kind) {
   std::error_code error;
@@ -70,6 +83,19 @@ bool DataFiles::addFolder(const std::string& path, const Limits& limits, Diagnos
   if (!fs::exists(root, error)) {
     diagnostics.report<diag::FileNotFound>({}, path);
     return false;
+  }
+  // A control by its path (ControlFiles.h).
+  if (fs::is_regular_file(root, error) && root.extension() == ".toml") {
+    std::optional<std::string> bytes = readBytes(path, limits, diagnostics);
+    if (!bytes) return false;
+    loaded_.push_back(std::make_unique<std::string>(std::move(*bytes)));
+    put(files_, {"controls", path, path, *loaded_.back()});
+    // The controls that it extends by their paths.
+    const std::string base = TomlDocument::parse(*find("controls", path)).root().value("extends").text();
+    if (!isDataPath(base) || find("controls", base) != nullptr) return true;
+    const std::string next = besideFile(path, base);
+    return find("controls", next) != nullptr || !fs::is_regular_file(next, error) ||
+           addFolder(next, limits, diagnostics);
   }
   if (!fs::is_directory(root, error)) {
     diagnostics.report<diag::FileNotReadable>({}, path, "it is no folder");
@@ -107,15 +133,7 @@ bool DataFiles::addFolder(const std::string& path, const Limits& limits, Diagnos
         continue;
       }
       loaded_.push_back(std::make_unique<std::string>(std::move(*bytes)));
-      const std::string name = file.stem().string();
-      const auto at = std::lower_bound(files_.begin(), files_.end(), 0,
-                                       [&](const DataFile& other, int) { return before(other, kind, name); });
-      if (at == files_.end() || at->folder != kind || at->name != name) {
-        files_.insert(at, {kind, name, file.string(), *loaded_.back()});
-      } else {
-        at->origin = file.string();
-        at->text = *loaded_.back();
-      }
+      put(files_, {kind, file.stem().string(), file.string(), *loaded_.back()});
     }
   }
   if (ok && !any) diagnostics.report<diag::DataFolderEmpty>({}, path, kReads);

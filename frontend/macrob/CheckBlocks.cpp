@@ -166,7 +166,13 @@ public:
     if (call.program != nullptr)
       if (const auto value = literal(*call.program);
           value && (*value < 1 || *value != std::floor(*value) || (*value > last && !repeatsInside)))
-        tell(*call.program, fmt::format("programs have whole numbers from 1 to {}", last));
+        tell(
+            *call.program,
+            fmt::format("programs have whole numbers from 1 to {}{}", last,
+                        *value > last && *value <= 99999999 && *value == std::floor(*value)
+                            ? "; where the machine is set for longer ones, `[programs] last = 99999999` in a "
+                              "file that extends the control says so"
+                            : ""));
     if (call.repeat != nullptr)
       if (const auto value = literal(*call.repeat);
           value && (*value < 1 || *value > 9999 || *value != std::floor(*value)))

@@ -3,7 +3,6 @@
 #include "frontend/macrob/Calls.h"
 #include "frontend/macrob/Check.h"
 #include "frontend/macrob/Walk.h"
-#include "frontend/nc/Findings.h"
 
 #include <algorithm>
 #include <cmath>
@@ -124,7 +123,9 @@ void wordWithoutPoint(const CheckedProgram& input, Report& report) {
 
 void callWithoutProgram(const CheckedProgram& input, Report& report) {
   const auto judge = [&](const Call& call) {
-    if (call.program == nullptr) report.at(call.code->range, nc::CallWithoutProgram::format);
+    if (call.program == nullptr)
+      report.at(call.code->range, "the call names no program; the control stops with an alarm; write `P` and "
+                                  "its number");
   };
   for (const Call& call : input.calls)
     judge(call);

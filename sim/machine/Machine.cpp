@@ -1,6 +1,7 @@
 #include "sim/machine/Machine.h"
 
 #include "sim/machine/Axes.h"
+#include "sim/machine/Refusals.h"
 
 #include <algorithm>
 #include <bit>
@@ -191,7 +192,9 @@ bool Machine::executeLong(const NcWords& w) {
     if (blocks_ != 0) return stop(Ending::TextEnd);
     if (w.has('O')) {
       if (!(w.of('O') >= 0 && w.of('O') <= control_.programLast))
-        return inconclusive(fmt::format("its programs have numbers up to {}", control_.programLast), 'O');
+        return inconclusive(
+            fmt::format("its programs have numbers up to {}; {}", control_.programLast, kLongProgramNumbers),
+            'O');
       modalWords_[slotOf('O')] = w.of('O');
       stack_.back().program = static_cast<std::uint32_t>(w.of('O'));
     }
@@ -231,8 +234,9 @@ bool Machine::readCodes(const NcWords& w) {
   for (std::uint32_t i = 0; i < w.gCount; ++i) {
     const Code& code = table_.g(w.g[i]);
     if ((code.flags & Code::Unknown) != 0)
-      return inconclusive(w.g[i] == NcWords::kNoCode ? std::string("it is no code of a control")
-                                                     : fmt::format("`{}` does not list it", control_.name),
+      return inconclusive(w.g[i] == NcWords::kNoCode
+                              ? std::string("it is no code of a control")
+                              : unlistedText(control_.name, codeName('G', w.g[i]), false),
                           'G', i);
     switch (code.function) {
     case Function::Other: return inconclusive("what it does here is not known to Dotek", 'G', i);
@@ -282,13 +286,7 @@ bool Machine::readCodes(const NcWords& w) {
     const Code& code = table_.m(w.m[i] == NcWords::kNoCode ? 0x0FFFFFFF : w.m[i]);
     if (w.m[i] == NcWords::kNoCode) return inconclusive("it is no code of a control", 'M', i);
     if ((code.flags & Code::Unknown) != 0)
-      return inconclusive(
-          fmt::format(
-              "`{0}` does not list it; where it switches the probe, `--probe-on M{1}` or `--probe-off "
-              "M{1}` says so; where it moves no axis, a copy of that file as DIR/controls/{0}.toml "
-              "with the line \"M{1} auxiliary: ..\" and `--data DIR` let it pass",
-              control_.name, w.m[i]),
-          'M', i);
+      return inconclusive(unlistedText(control_.name, fmt::format("M{}", w.m[i]), true), 'M', i);
     if (code.function == Function::Other)
       return inconclusive("what it does here is not known to Dotek", 'M', i);
     if (code.function == Function::SubprogramCall) block_.call = 1;
@@ -318,6 +316,20 @@ bool Machine::checkWords(const NcWords& w) {
     allowed |= ir::addressBits("IJKR");
   }
   if (modes_[kSystem] == kExtended && (block_.slots >> kSystem & 1) != 0) allowed |= ir::addressBit('P');
+  // What an auxiliary code takes is its own; an axis word beside a G code could be its own, too.
+  if (!block_.hasOneShot) {
+    const auto auxiliary = [](const Code& code) { return code.function == Function::Auxiliary; };
+    for (std::uint32_t i = 0; i < w.gCount; ++i)
+      if (auxiliary(table_.g(w.g[i])) && axes)
+        return inconclusive(
+            "an auxiliary G code with axis words: whether they are its own is not known; write "
+            "it in a block of its own",
+            'G', i);
+      else if (auxiliary(table_.g(w.g[i])))
+        allowed |= ir::addressBits("EIJKLPQR");
+    for (std::uint32_t i = 0; i < w.mCount; ++i)
+      if (auxiliary(table_.m(w.m[i])) && !axes) allowed |= ir::addressBits("EIJKLPQR");
+  }
   // Parameters of path modes are in a block without axes.
   if (!axes && !block_.hasOneShot) {
     for (std::uint32_t i = 0; i < w.gCount; ++i)

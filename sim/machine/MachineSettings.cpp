@@ -2,6 +2,7 @@
 #include "sim/machine/Axes.h"
 #include "sim/machine/Machine.h"
 #include "sim/machine/Measurement.h"
+#include "sim/machine/Refusals.h"
 
 #include <cmath>
 #include <fmt/format.h>
@@ -84,6 +85,9 @@ bool Machine::settings(const NcWords& w) {
 
 bool Machine::miscellaneous(const NcWords& w) {
   bool spindle = w.has('S') && !limitsSpindle(w);
+  for (std::uint32_t i = 0; trace_ != nullptr && i < w.gCount; ++i)
+    if (table_.g(w.g[i]).function == Function::Auxiliary)
+      trace_->begin("auxiliary").text(codeName('G', w.g[i])).end();
   for (std::uint32_t i = 0; i < w.mCount; ++i) {
     modalWords_[slotOf('M')] = w.m[i];
     std::string_view action, state;

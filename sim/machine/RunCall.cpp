@@ -1,6 +1,7 @@
 // Calls, returns and jumps by number.
 #include "ir/Walk.h"
 #include "sim/machine/Compile.h"
+#include "sim/machine/Refusals.h"
 #include "sim/machine/Run.h"
 #include "sim/machine/Value.h"
 
@@ -36,8 +37,9 @@ bool Run::call(const CallSlots& slots) {
     number -= request.repeats * 10000.0;
   }
   if (!(number >= 1 && number <= control_.programLast))
-    return machine_.inconclusive(fmt::format("its programs have numbers from 1 to {}", control_.programLast),
-                                 'P');
+    return machine_.inconclusive(
+        fmt::format("its programs have numbers from 1 to {}; {}", control_.programLast, kLongProgramNumbers),
+        'P');
   request.program = static_cast<std::uint64_t>(number);
   request.macro = slots.kind != ir::CallKind::Subprogram;
   request.byCode = levels_.back().byCode;

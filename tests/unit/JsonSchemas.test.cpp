@@ -65,7 +65,10 @@ TEST_CASE("JSON of the goldens keeps to its schema") {
       if (!sarif && !json) continue;
       const CommandResult result = runDotek(arguments, entry.path().parent_path());
       ++written;
-      const char* const kind = sarif ? "sarif" : arguments.front() == "sim" ? "sim" : "findings";
+      const char* const kind = sarif                            ? "sarif"
+                               : arguments.front() == "sim"     ? "sim"
+                               : arguments.front() == "outline" ? "outline"
+                                                                : "findings";
       folder.write(fmt::format("{}.{}.json", ++count, kind), result.out);
     }
     int documents = 0;

@@ -1,0 +1,35 @@
+// Commands for programs of Macro B: `dotek outline`, `dotek renumber`.
+#pragma once
+
+#include "driver/Driver.h"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace dotek::driver {
+
+struct OutlineOptions {
+  std::vector<std::string> inputs;
+  CommonOptions common;
+  bool json = false;
+};
+
+struct RenumberCommandOptions {
+  std::vector<std::string> inputs;
+  CommonOptions common;
+  std::uint64_t start = 10, step = 10;
+  bool all = false;
+  std::optional<std::pair<std::uint64_t, std::uint64_t>> range; // N numbers as they are
+  std::string control; // whose greatest number counts; "": of dotek.toml, else 99999
+};
+
+// Programs, their N numbers, calls, jumps and variables. What of a file cannot be read is reported, and the
+// rest is shown.
+Outcome outline(const OutlineOptions& options);
+// `files`: the programs with new numbers, by the name of the input; `inputs`: those that change. A file with
+// an error, or with a jump that nobody can follow, gives none.
+Outcome renumber(const RenumberCommandOptions& options);
+} // namespace dotek::driver

@@ -1,0 +1,36 @@
+// What a run says where the profile of a control ends it, with the remedy.
+#pragma once
+
+#include <cstdint>
+#include <fmt/format.h>
+#include <string>
+#include <string_view>
+
+namespace dotek::sim {
+
+// Where a program's number is above those of the profile.
+inline constexpr std::string_view kLongProgramNumbers =
+    "where the machine is set for longer ones, `[programs] last = 99999999` with `repeat_in_program = false` "
+    "says "
+    "so, in a file that extends this control (`dotek new control`)";
+
+// "G54.1" of 541
+inline std::string codeName(char letter, std::uint32_t tenths) {
+  return tenths % 10 == 0 ? fmt::format("{}{}", letter, tenths / 10)
+                          : fmt::format("{}{}.{}", letter, tenths / 10, tenths % 10);
+}
+
+// A code that the profile lacks. `probe`: it could be one that switches the probe.
+inline std::string unlistedText(const std::string& control, const std::string& code, bool probe) {
+  return fmt::format(
+      "`{0}` does not list it; {1}where it moves no axis and changes no mode, `--auxiliary {2}` lets "
+      "it pass, and so does `auxiliary = [\"{2}\"]` in dotek.toml",
+      control,
+      probe ? fmt::format("where it switches the probe, `--probe-on {0}` or `--probe-off {0}` says "
+                          "so; ",
+                          code)
+            : "",
+      code);
+}
+
+} // namespace dotek::sim
