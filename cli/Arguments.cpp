@@ -44,6 +44,7 @@ void fill(const Raw& raw, Arguments& parsed) {
   parsed.force = raw.force;
   parsed.write = raw.write;
   parsed.check = raw.check;
+  parsed.diff = raw.diff;
   parsed.traceFile = raw.traceFile;
   parsed.svgFile = raw.svgFile;
   parsed.htmlFile = raw.htmlFile;

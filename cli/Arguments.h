@@ -57,6 +57,7 @@ struct Arguments {
   bool force = false; // of --force: outputs that are write-protected are replaced
   driver::Stage stage = driver::Stage::Ast;
   bool write = false, check = false;       // of fmt: --write, --check
+  bool diff = false;                       // of fmt
   driver::RenumberCommandOptions renumber; // inputs and common aside
   std::uint32_t maxErrors = 50;
 };

@@ -1,6 +1,7 @@
 #include "cli/Cli.h"
 
 #include "cli/Arguments.h"
+#include "cli/Diff.h"
 #include "cli/Files.h"
 #include "cli/Findings.h"
 #include "driver/Driver.h"
@@ -32,6 +33,13 @@
 
 namespace dotek::cli {
 namespace {
+
+// What a layout changes of a file.
+std::string diffOf(const driver::OutputFile& file, const SourceMap& sources) {
+  for (FileId id = 0; id < sources.size(); ++id)
+    if (sources.file(id).name() == file.name) return lineDiff(file.name, sources.file(id).bytes(), file.text);
+  return "";
+}
 
 // Prints what a command found and wrote; the status of the process.
 class Printer {
@@ -174,9 +182,10 @@ public:
     for (const driver::OutputFile& file : outcome.files) {
       const bool changes =
           std::find(outcome.inputs.begin(), outcome.inputs.end(), file.name) != outcome.inputs.end();
+      if (arguments.diff && changes) out_ << diffOf(file, outcome.sources);
       if (arguments.check && changes) out_ << printable(file.name) << "\n";
       if (arguments.write && changes) texts.push_back({file.name, &file.text});
-      if (!arguments.check && !arguments.write && outcome.status == 0)
+      if (!arguments.check && !arguments.diff && !arguments.write && outcome.status == 0)
         texts.push_back({orStandardOutput(arguments.output), &file.text});
     }
     if (arguments.check) return outcome.status != 0 || outcome.inputs.empty() ? outcome.status : kInputError;

@@ -42,12 +42,14 @@ void addCheck(CLI::App& app, Raw& raw) {
 }
 
 void addFmt(CLI::App& app, Raw& raw) {
-  CLI::App* fmt = app.add_subcommand("fmt", "print a cycle (.cycle) in the one layout of the language");
-  fmt->add_option("FILE", raw.inputs, "files of the cycle language; `-` is standard input");
+  CLI::App* fmt =
+      app.add_subcommand("fmt", "print a cycle (.cycle) or an NC program in the one layout of its language");
+  fmt->add_option("FILE", raw.inputs, "files of the cycle language, NC programs; `-` is standard input");
   CLI::Option* write = fmt->add_flag("--write", raw.write, "change the files instead; several may be given");
   fmt->add_flag("--check", raw.check,
                 "print the names of files that would change; status 1 where there are any")
       ->excludes(write);
+  fmt->add_flag("--diff", raw.diff, "print the lines that would change, and how")->excludes(write);
   fmt->add_option("-o", raw.output, "write the text to a file")->type_name("OUT")->excludes(write);
   addForce(*fmt, raw);
   addCommon(*fmt, raw);

@@ -2,12 +2,16 @@
 #include "driver/Command.h"
 #include "frontend/cycle/Parse.h"
 #include "frontend/cycle/Words.h"
+#include "frontend/macrob/Format.h"
+#include "frontend/macrob/Parse.h"
 #include "project/CycleCatalogue.h"
 #include "project/CycleFiles.h"
 #include "project/CycleLowering.h"
 #include "project/Inputs.h"
+#include "project/Programs.h"
 #include "support/Files.h"
 #include "support/messages/Common.h"
+#include "support/messages/Output.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -16,6 +20,7 @@
 namespace dotek::driver {
 
 namespace cycle = frontend::cycle;
+namespace macrob = frontend::macrob;
 
 namespace {
 
@@ -60,6 +65,39 @@ std::string cycleName(std::string stem) {
   return stem;
 }
 
+struct Layout {
+  std::string text;
+  bool changes = false;
+};
+
+// A file of macro programs in the one style (docs/macrob.md). nullopt: reported.
+std::optional<Layout> programLayout(const std::string& path, Session& session) {
+  const auto id = session.read(path, Encoding::Cp1250);
+  if (!id) return std::nullopt;
+  SourceMap& sources = session.sources();
+  const macrob::File file =
+      macrob::parse(*id, sources, session.limits(), session.diagnostics(), textOf(*id, session));
+  if (file.hasErrors) return std::nullopt; // the reader has said why
+  auto text = macrob::format(file, sources);
+  if (!text) {
+    session.diagnostics().report<diag::NotLaidOut>({*id, 0, 0}, path, "holds text that is no block",
+                                                   "take it out, or put it into comments");
+    return std::nullopt;
+  }
+  // What is written has to read as what was read.
+  const SourceFile& before = sources.file(*id);
+  const bool changes = before.bytes() != *text;
+  const FileId again = sources.add(SourceFile(before.name(), *text, before.encoding()));
+  Diagnostics unheard;
+  const macrob::File after = macrob::parse(again, sources, session.limits(), unheard, macrob::Text::Program);
+  if (macrob::dumpAst(file, sources, false) != macrob::dumpAst(after, sources, false)) {
+    session.diagnostics().report<diag::NotLaidOut>({*id, 0, 0}, path, "would read otherwise afterwards",
+                                                   "this is a defect of Dotek; leave the file as it is");
+    return std::nullopt;
+  }
+  return Layout{std::move(*text), changes};
+}
+
 } // namespace
 
 Outcome check(const CycleOptions& options) {
@@ -80,7 +118,16 @@ Outcome layOut(const CycleOptions& options) {
     std::vector<std::string> inputs;
     if (hasInputs(options, "fmt", session))
       for (const std::string& path : options.inputs) {
-        if (!kindAmong(path, {InputKind::Cycle}, kExpected, session)) continue;
+        const auto kind =
+            kindAmong(path, {InputKind::Cycle, InputKind::Nc}, "a cycle or an NC program", session);
+        if (!kind) continue;
+        if (kind == InputKind::Nc) {
+          if (const auto laid = programLayout(path, session)) {
+            files.push_back({path, laid->text});
+            if (laid->changes) inputs.push_back(path);
+          }
+          continue;
+        }
         const cycle::File* file = cycles.load(path);
         if (file == nullptr || file->hasErrorNodes) continue;
         files.push_back({path, cycle::layOut(*file)});

@@ -197,8 +197,15 @@ bool Run::spend(std::uint32_t steps) {
     return true;
   }
   fuel_ = 0;
+  bool returns = false; // M99 of the main program
+  for (std::uint32_t at = levels_.front().routine->begin; at < levels_.front().routine->end; ++at)
+    returns = returns || code_.instructions[at].op == Op::Exit;
   return machine_.overLimit(fmt::format(
-      "the program took more than {} steps; `--limit sim-steps=N` allows more", limits_.simSteps));
+      "the program took more than {} steps{}; `--limit sim-steps=N` allows more", limits_.simSteps,
+      returns
+          ? "; `M99` of a main program goes back to its beginning, so that it goes on for ever, as for one "
+            "part after another; a run of one part needs `M30` there"
+          : ""));
 }
 
 bool Run::fail(ArithmeticError error, bool tangent, bool bits) {
