@@ -89,7 +89,8 @@ Family familyOf(Function function) {
 // "M100-M199 ..", not "G90 ..".
 bool isCodeRange(std::string_view text) {
   const std::string_view name = text.substr(0, std::min(text.find(' '), text.find(':')));
-  return name.find('-') != std::string_view::npos;
+  const std::size_t dash = name.find('-');
+  return dash != std::string_view::npos && dash > 1 && name[dash - 1] >= '0' && name[dash - 1] <= '9';
 }
 
 // The letter of codes with this meaning; 0: either.

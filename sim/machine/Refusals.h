@@ -22,15 +22,13 @@ inline std::string codeName(char letter, std::uint32_t tenths) {
 
 // A code that the profile lacks. `probe`: it could be one that switches the probe.
 inline std::string unlistedText(const std::string& control, const std::string& code, bool probe) {
+  const std::string switches =
+      fmt::format("where it switches the probe, `--probe-on {0}` or `--probe-off {0}` says so; ", code);
   return fmt::format(
-      "`{0}` does not list it; {1}where it moves no axis and changes no mode, `--auxiliary {2}` lets "
-      "it pass, and so does `auxiliary = [\"{2}\"]` in dotek.toml",
-      control,
-      probe ? fmt::format("where it switches the probe, `--probe-on {0}` or `--probe-off {0}` says "
-                          "so; ",
-                          code)
-            : "",
-      code);
+      "`{0}` does not list it; {1}where it moves no axis and changes no mode, `--auxiliary {2}` "
+      "lets it pass, and so does \"{2} auxiliary: ..\" in a file that extends the control "
+      "(`dotek new control`)",
+      control, probe ? switches : "", code);
 }
 
 } // namespace dotek::sim

@@ -57,9 +57,10 @@ TEST_CASE("every built-in control loads, and every code has a title, a grade and
   CHECK_FALSE(Control::load(files, "fanuc"));
 }
 
-TEST_CASE("what every built-in control has: the functions that a probing program uses") {
+TEST_CASE("what every built-in control of Fanuc has: the functions that a probing program uses") {
   const DataFiles files;
   for (const DataFile* file : files.list("controls")) {
+    if (!file->name.starts_with("fanuc")) continue;
     CAPTURE(file->name);
     const Control control = ::control(file->name);
     CHECK(function(control, 'G', 0) == Function::Rapid);
@@ -356,4 +357,23 @@ TEST_CASE("addresses that count lengths are data of the control") {
   CHECK(with("XX") == "4:22: `X` is given twice");
   CHECK(with("xyz") == "4:22: `x` is no address; capital letters are");
   CHECK(with("XYP") == "4:22: `P` counts whole units on every control");
+}
+
+TEST_CASE("Haas NGC: what it has otherwise than the Fanuc that it extends") {
+  const Control haas = control("haas-ngc");
+  CHECK(haas.programLast == 99999);
+  CHECK(haas.find('G', 541) == nullptr);
+  CHECK(function(haas, 'G', 154) == Function::ExtendedWorkSystem);
+  CHECK(function(haas, 'G', 103) == Function::Auxiliary);
+  CHECK(function(haas, 'M', 97) == Function::Other); // no run passes it over
+  CHECK(function(haas, 'G', 31) == Function::Skip);
+  CHECK(haas.alarms.empty()); // Fanuc's numbers are not its own
+  CHECK(haas.variables.toolGeometry == 2000);
+  CHECK(haas.variables.toolWear == 2200);
+  CHECK_FALSE(haas.variables.toolWearToo);
+  CHECK_FALSE(haas.window);
+  CHECK(haas.callCodes.empty());
+  CHECK(haas.isCommon(10200));
+  CHECK_FALSE(haas.isCommon(10150)); // another name of #150
+  CHECK_FALSE(haas.isCommon(700));
 }
