@@ -225,9 +225,7 @@ void traceVariables(const Machine& machine, Trace& trace) {
   if (machine.dialect().firstParameter) return; // its records say them
   for (const auto& [number, value] : machine.written()) {
     trace.begin("variable").text(std::to_string(number));
-    if (isUnknown(value))
-      trace.text("unknown").end();
-    else if (isNull(value))
+    if (isNull(value))
       trace.text("null").end();
     else
       trace.word("", value).end();
