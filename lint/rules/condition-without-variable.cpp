@@ -27,8 +27,12 @@ bool neverHolds(const ir::Comparison& comparison) {
   case ir::Relation::LessEqual: return *left > *right;
   case ir::Relation::Greater: return *left <= *right;
   case ir::Relation::GreaterEqual: return *left < *right;
-  default: return false;
+  case ir::Relation::Equal:
+  case ir::Relation::NotEqual:
+  case ir::Relation::Same:
+  case ir::Relation::Different: return false;
   }
+  return false;
 }
 
 void check(const NcProgram& nc, Report& report) {
