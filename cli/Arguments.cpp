@@ -29,6 +29,7 @@ void fill(const Raw& raw, Arguments& parsed) {
   if (!raw.form.empty()) parsed.source.form = raw.form;
   parsed.convert = convertOf(raw);
   parsed.verify = verifyOf(raw);
+  parsed.runPost = runPostOf(raw);
   parsed.lint = lintOf(raw);
   parsed.sim = simOf(raw);
   parsed.renumber = renumberOf(raw);
@@ -66,6 +67,7 @@ struct CommandFlags {
 };
 constexpr CommandFlags kCommands[] = {
     {"post", Command::Post, addPost},
+    {"run-post", Command::RunPost, addRunPost},
     {"convert", Command::Convert, addConvert},
     {"lint", Command::Lint, addLint},
     {"dump", Command::Dump, addDump},
@@ -139,8 +141,9 @@ bool isMeantAsAssumption(const std::string& argument) {
 // follow `--assume` to that. What is the name of a file is an input, unless it could be both.
 std::vector<std::string> spreadPairs(const std::vector<std::string>& arguments) {
   constexpr std::string_view kAssume = "--assume";
-  constexpr std::array<std::string_view, 10> kFlags = {"--set", "--field", "--host",  "--default", "--arg",
-                                                       "--var", "--value", "--limit", "--result",  kAssume};
+  constexpr std::array<std::string_view, 11> kFlags = {"--set",    "--field",    "--host",  "--default",
+                                                       "--arg",    "--var",      "--value", "--limit",
+                                                       "--result", "--property", kAssume};
   std::vector<std::string> out;
   std::string flag;      // whose values may follow
   bool first = false;    // the next argument is its value
@@ -248,6 +251,8 @@ std::optional<int> parseArguments(const std::vector<std::string>& arguments, Arg
       if (one.name == command) parsed.command = one.command;
     if (parsed.command == Command::New && app.get_subcommands().front()->got_subcommand("cycle"))
       parsed.command = Command::NewCycle;
+    if (parsed.command == Command::New && app.get_subcommands().front()->got_subcommand("job"))
+      parsed.command = Command::NewJob;
     fill(raw, parsed);
     return std::nullopt;
   } catch (const CLI::Success& success) {

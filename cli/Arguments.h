@@ -3,6 +3,7 @@
 
 #include "driver/Driver.h"
 #include "driver/ProgramTools.h"
+#include "driver/RunPost.h"
 
 #include <iosfwd>
 #include <optional>
@@ -14,6 +15,7 @@ namespace dotek::cli {
 
 enum class Command : unsigned char {
   Post,
+  RunPost,
   Convert,
   Lint,
   Dump,
@@ -21,6 +23,7 @@ enum class Command : unsigned char {
   List,
   New,
   NewCycle,
+  NewJob,
   Check,
   Fmt,
   Doc,
@@ -43,6 +46,7 @@ struct Arguments {
   bool sarif = false, github = false, gitlab = false;
   bool statistics = false;        // of lint: --statistics
   std::string baselineFile;       // of lint: --write-baseline
+  driver::RunPostOptions runPost; // common aside
   driver::LintOptions lint;       // paths, common and source aside
   driver::ConvertOptions convert; // inputs, common and source aside
   std::string outputFolder;       // -d

@@ -68,6 +68,17 @@ public:
                                                                                               : kUsage;
   }
 
+  // The program of a post; the map beside it.
+  int posted(const driver::Outcome& outcome, const Arguments& arguments) {
+    if (arguments.mapFile.empty() || outcome.status != 0) return result(outcome, arguments);
+    err_ << renderText(outcome.diagnostics, outcome.sources, maxErrors_);
+    const std::string map = renderLineMap(outcome.maps, outcome.sources);
+    return write({{orStandardOutput(arguments.output), &outcome.output}, {arguments.mapFile, &map}}, outcome,
+                 arguments)
+               ? kDone
+               : kUsage;
+  }
+
   // Programs to standard output, `-o` or `-d`; the map beside them.
   int programs(const driver::Outcome& outcome, const Arguments& arguments) {
     err_ << renderText(outcome.diagnostics, outcome.sources, maxErrors_);
@@ -254,6 +265,12 @@ int runCommand(Arguments& arguments, std::ostream& out, std::ostream& err) {
   case Command::Post:
     return printer.result(
         driver::post({arguments.inputs, arguments.common, arguments.source, arguments.sequence}), arguments);
+  case Command::RunPost:
+    arguments.runPost.common = arguments.common;
+    return printer.posted(driver::runPost(arguments.runPost), arguments);
+  case Command::NewJob:
+    arguments.runPost.common = arguments.common;
+    return printer.result(driver::newJob(arguments.runPost), arguments);
   case Command::Convert: {
     driver::ConvertOptions& options = arguments.convert;
     options.inputs = arguments.inputs;

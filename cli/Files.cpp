@@ -52,8 +52,9 @@ std::vector<std::string> inputsOf(const Arguments& arguments) {
       arguments.command != Command::Explain && arguments.command != Command::List)
     out = arguments.inputs;
   for (const auto& one :
-       {arguments.lint.baseline, arguments.source.prog, arguments.common.job, arguments.sim.part, arguments.sim.machine,
-        arguments.verify.part, arguments.verify.machine, arguments.verify.translation})
+       {arguments.lint.baseline, arguments.source.prog, arguments.common.job, arguments.sim.part,
+        arguments.sim.machine, arguments.verify.part, arguments.verify.machine, arguments.verify.translation,
+        arguments.runPost.diff, arguments.runPost.expect})
     if (one) out.push_back(*one);
   std::error_code error;
   for (const std::string& data : arguments.common.data)

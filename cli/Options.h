@@ -56,6 +56,8 @@ struct Raw {
   std::string date;   // --date, of sim, verify and convert
   std::string remark; // --remark, of verify and convert
   std::vector<std::string> workOffsets;
+  std::vector<std::string> properties;    // --property
+  std::string matrix, diff, expect, unit; // of run-post
   std::string tool, length, radius, diameter, at, call;
   bool replay = false;
   bool json = false, quiet = false, force = false;
@@ -114,6 +116,7 @@ driver::CommonOptions commonOf(const Raw& raw);
 // The commands: each adds itself to the application, and each with options of its own reads them from what
 // was given.
 void addPost(CLI::App& app, Raw& raw);
+void addRunPost(CLI::App& app, Raw& raw);
 void addConvert(CLI::App& app, Raw& raw);
 void addLint(CLI::App& app, Raw& raw);
 void addDump(CLI::App& app, Raw& raw);
@@ -132,6 +135,7 @@ void addList(CLI::App& app, Raw& raw);
 
 driver::ConvertOptions convertOf(const Raw& raw);
 driver::LintOptions lintOf(const Raw& raw);
+driver::RunPostOptions runPostOf(const Raw& raw);
 driver::SimOptions simOf(const Raw& raw);
 driver::VerifyOptions verifyOf(const Raw& raw);
 driver::RenumberCommandOptions renumberOf(const Raw& raw);

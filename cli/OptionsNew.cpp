@@ -24,6 +24,13 @@ void addNew(CLI::App& app, Raw& raw) {
   addForce(*control, raw);
   addProbeCodes(*control, raw);
   addFolders(*control, "--data", raw.data, "folder whose data files are added or replace built-in ones");
+  CLI::App* job =
+      command->add_subcommand("job", "a job for a post of Fusion, with the post's own properties");
+  job->add_option("--from", raw.inputs, "the post")->type_name("POST.cps")->required()->expected(1);
+  job->add_option("-o", raw.output, "write the job to a file")->type_name("JOB.toml");
+  addForce(*job, raw);
+  addIncludes(*job, raw);
+  addFolders(*job, "--data", raw.data, "folder whose data files are added or replace built-in ones");
   CLI::App* cycle = command->add_subcommand("cycle", "a cycle of your own, with a comment to each part");
   cycle->add_option("NAME", raw.inputs, "name of the cycle: small letters, digits and `_`")
       ->required()

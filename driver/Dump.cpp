@@ -2,6 +2,8 @@
 #include "driver/Driver.h"
 #include "frontend/compost/Parse.h"
 #include "frontend/cycle/Parse.h"
+#include "frontend/fusion/Lower.h"
+#include "frontend/fusion/Parse.h"
 #include "frontend/gibbs/Run.h"
 #include "frontend/macrob/Parse.h"
 #include "frontend/mikroprog/Lower.h"
@@ -13,6 +15,7 @@
 #include "project/Fields.h"
 #include "project/Hosts.h"
 #include "project/Inputs.h"
+#include "project/PostShape.h"
 #include "project/Prog.h"
 #include "project/Programs.h"
 #include "support/Decimal.h"
@@ -20,6 +23,7 @@
 #include "support/NearestName.h"
 #include "support/messages/Commands.h"
 #include "support/messages/Common.h"
+#include "support/messages/Posts.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -74,6 +78,10 @@ private:
   void file(const std::string& input) {
     const Recognition* const found = session_.kindOf(input, session_.diagnostics());
     if (found == nullptr) return;
+    if (isPost(*found)) {
+      if (const auto id = session_.read(input, Encoding::Cp1250)) out_ += postText(*id);
+      return;
+    }
     const std::optional<InputKind> kind = found->kind;
     if (!kind) {
       reportNoInput(input, *found, session_);
@@ -132,6 +140,19 @@ private:
       out_ += gibbs::dumpAst(gibbs::parseDefineData(*id, context), session_.sources());
       break;
     }
+  }
+
+  // What the engine reads of a post: ES5, line for line.
+  std::string postText(FileId id) {
+    namespace fusion = frontend::fusion;
+    const fusion::Tree tree = fusion::parse(id, session_.sources());
+    for (const fusion::Unread& one : tree.unread)
+      session_.diagnostics().report<diag::PostUnread>(one.range, one.message);
+    if (!tree.unread.empty()) return "";
+    fusion::Lowered lowered = fusion::lower(tree, fusion::resolve(tree));
+    for (const fusion::Unread& one : lowered.refused)
+      session_.diagnostics().report<diag::PostConstruct>(one.range, one.message);
+    return toUtf8(lowered.text, session_.sources().file(id).encoding());
   }
 
   // What convert works on: fixed values are folded in.

@@ -3,10 +3,12 @@
 #include "driver/Driver.h"
 #include "driver/LintFix.h"
 #include "frontend/compost/Summary.h"
+#include "frontend/fusion/Parse.h"
 #include "frontend/macrob/Check.h"
 #include "frontend/mikroprog/Parse.h"
 #include "lint/Baseline.h"
 #include "lint/Config.h"
+#include "lint/PostFile.h"
 #include "lint/Project.h"
 #include "lint/Projects.h"
 #include "lint/Run.h"
@@ -19,11 +21,13 @@
 #include "project/InputWalk.h"
 #include "project/Inputs.h"
 #include "project/Job.h"
+#include "project/PostShape.h"
 #include "support/Files.h"
 #include "support/messages/ComPost.h"
 #include "support/messages/Commands.h"
 #include "support/messages/Common.h"
 #include "support/messages/Gibbs.h"
+#include "support/messages/Posts.h"
 
 #include <algorithm>
 #include <deque>
@@ -68,7 +72,7 @@ public:
       session_.diagnostics().report<diag::NothingRead>(
           {}, quoted(options_.paths) +
                   (excluded_ == 0 ? "" : fmt::format(" beside the {} that dotek.toml excludes", excluded_)));
-    const std::deque<lint::Project>& projects = projects_.gather(*inputs_, sufReadings_, checked_);
+    const std::deque<lint::Project>& projects = projects_.gather(*inputs_, sufReadings_, checked_, posts_);
     const auto run = [&](const auto& wanted) {
       for (const lint::Project& project : projects)
         lint::runRules(project, session_.diagnostics(), wanted);
@@ -245,6 +249,11 @@ private:
     }
     const Recognition* const found = session_.kindOf(path, session_.diagnostics());
     if (found == nullptr) return;
+    if (isPost(*found)) {
+      ++checkedFiles_;
+      if (const auto id = session_.read(path, Encoding::Cp1250)) post(*id);
+      return;
+    }
     if (!found->kind) {
       notRead(path, named, *found);
       return;
@@ -313,6 +322,20 @@ private:
     if (!loader) loader = std::make_unique<MacroLoader>(session_, folder);
     loader->know(path, macro);
     return *loader;
+  }
+
+  void post(FileId id) {
+    if (!fusionNames_) fusionNames_ = stdlib::FusionNames::load(session_.data());
+    lint::PostFile& post = posts_.emplace_back();
+    post.file = id;
+    post.names = &*fusionNames_;
+    post.tree = frontend::fusion::parse(id, session_.sources());
+    for (const frontend::fusion::Unread& one : post.tree.unread)
+      session_.diagnostics().report<diag::PostUnread>(one.range, one.message);
+    post.scopes = frontend::fusion::resolve(post.tree);
+    for (const auto& [name, symbol] : post.scopes.scopes.front().names)
+      if (symbol->kind == frontend::fusion::Symbol::Kind::Function && fusionNames_->entries.contains(name))
+        post.whole = true;
   }
 
   // Without --control a program with Y is taken for one of a mill, else for one of the lathe.
@@ -387,6 +410,8 @@ private:
   std::deque<gibbs::CheckedFile> checked_; // files that are no part of a cycle's folder
   std::deque<frontend::mikroprog::Program> sufPrograms_;
   std::deque<frontend::mikroprog::Reading> sufReadings_;
+  std::optional<stdlib::FusionNames> fusionNames_;
+  std::deque<lint::PostFile> posts_;
   std::map<std::string, std::optional<stdlib::MikroprogControl>> sufControls_; // loaded once, by name
 };
 

@@ -13,6 +13,8 @@
 
 namespace dotek::lint {
 
+struct PostFile;
+
 // Belongs to one project; one thread uses it.
 class Analyses {
 public:
@@ -29,6 +31,9 @@ public:
                                        const compost::Program& prog, const Project& project);
 
   const std::vector<NameUse>& names(const gibbs::Macro& macro, const Project& project);
+
+  // Posts of Fusion: what only their rules look at is no part of Project.h, which all others read.
+  std::vector<const PostFile*> posts;
 
 private:
   std::optional<SharedInputs> shared_;

@@ -10,9 +10,9 @@ namespace dotek::lint {
 namespace {
 
 constexpr std::string_view kRepair = "Repair: ";
-constexpr std::array<std::string_view, 5> kAreas = {
+constexpr std::array<std::string_view, 6> kAreas = {
     "NC programs (macro B)",         "Programs of Mikroprog",  "Posts (ComPost)",
-    "Macros and dialogs (GibbsCAM)", "Cycles with their post",
+    "Macros and dialogs (GibbsCAM)", "Cycles with their post", "Posts of Fusion",
 };
 
 std::string_view takeLine(std::string_view& text) {
@@ -138,6 +138,7 @@ std::string_view areaOf(const NamedRule& rule) {
   };
   const bool macros = has("gibbs") || has("text DefineData") || has("text c/") ||
                       page.find("DefineData.txt\n") != std::string_view::npos;
+  if (has("js")) return kAreas[5];
   if (has("suf")) return kAreas[1];
   if (has("nc") && !has("compost") && !has("gibbs")) return kAreas[0];
   if (has("compost")) return macros ? kAreas[4] : kAreas[2];

@@ -1,6 +1,7 @@
 #include "lint/Projects.h"
 
 #include "lint/Analyses.h"
+#include "lint/PostFile.h"
 #include "project/FormChoice.h"
 
 #include <algorithm>
@@ -35,7 +36,8 @@ bool Projects::isExcluded(FileId file) {
 
 const std::deque<Project>& Projects::gather(dotek::project::LoweringInputs& inputs,
                                             const std::deque<mikroprog::Reading>& sufPrograms,
-                                            const std::deque<gibbs::CheckedFile>& checked) {
+                                            const std::deque<gibbs::CheckedFile>& checked,
+                                            const std::deque<PostFile>& posts) {
   inputs_ = &inputs;
   std::set<Settings> all;
   const auto note = [&](const auto& files) {
@@ -48,6 +50,7 @@ const std::deque<Project>& Projects::gather(dotek::project::LoweringInputs& inpu
   note(compilation_.programs());
   for (const mikroprog::Reading& reading : sufPrograms)
     all.insert(settingsOf(reading.program.file));
+  note(posts);
   std::map<std::string, std::set<Settings>> named; // cycles, by the Progs that name them
   for (const auto& prog : compilation_.progs()) {
     const Settings settings = settingsOf(prog->file);
@@ -86,6 +89,7 @@ const std::deque<Project>& Projects::gather(dotek::project::LoweringInputs& inpu
     for (const mikroprog::Reading& reading : sufPrograms)
       if (settingsOf(reading.program.file) == settings) project.sufPrograms.push_back(&reading);
     take(checked, project.checked);
+    take(posts, project.analyses->posts);
     // The order of the PATHs is none.
     const SourceMap& sources = compilation_.session().sources();
     const auto earlier = [&](FileId a, FileId b) { return sources.file(a).name() < sources.file(b).name(); };

@@ -14,6 +14,8 @@
 
 namespace dotek::lint {
 
+struct PostFile;
+
 // The settings of a file: those of the command line, else those of its dotek.toml.
 struct Settings {
   std::string control; // "": what holds on every control
@@ -38,11 +40,12 @@ public:
   // true: its dotek.toml excludes it, and the command line does not name it.
   bool isExcluded(FileId file);
 
-  // All that the compilation has read, these programs of Mikroprog and these files outside of cycle folders;
-  // what it gives lives as long as they do. An unknown control or form is reported once.
+  // All that the compilation has read, these programs of Mikroprog, these files outside of cycle folders and
+  // these posts; what it gives lives as long as they do. An unknown control or form is reported once.
   const std::deque<Project>& gather(dotek::project::LoweringInputs& inputs,
                                     const std::deque<mikroprog::Reading>& sufPrograms,
-                                    const std::deque<gibbs::CheckedFile>& checked);
+                                    const std::deque<gibbs::CheckedFile>& checked,
+                                    const std::deque<PostFile>& posts);
 
 private:
   Project& begin(const Settings& settings);

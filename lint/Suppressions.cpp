@@ -1,5 +1,6 @@
 #include "lint/Suppressions.h"
 
+#include "lint/Posts.h"
 #include "support/Ascii.h"
 #include "support/NearestName.h"
 #include "support/messages/Lint.h"
@@ -46,6 +47,8 @@ std::vector<Remark> remarksOf(const Project& project) {
   for (const mikroprog::Reading* reading : project.sufPrograms)
     for (const mikroprog::Line& line : reading->program.lines)
       if (line.comment) out.push_back({line.commentRange, project.sources.text(line.commentRange)});
+  for (const PostFile* post : postsOf(project))
+    take(post->tree.tokens.comments);
   std::sort(out.begin(), out.end(), [](const Remark& a, const Remark& b) {
     return std::pair(a.range.file, a.range.begin) < std::pair(b.range.file, b.range.begin);
   });
@@ -64,7 +67,7 @@ struct DirectiveWord {
 // The words after `dotek:`; empty: the comment is none of ours.
 std::vector<DirectiveWord> wordsOf(const Remark& remark) {
   const std::string lower = lowerCase(std::string_view(remark.text));
-  std::size_t at = lower.find_first_not_of("{!(;/ \t");
+  std::size_t at = lower.find_first_not_of("{!(;/* \t");
   if (at == std::string::npos || lower.compare(at, 5, "dotek") != 0) return {};
   at = lower.find_first_not_of(" \t", at + 5);
   if (at == std::string::npos || lower[at] != ':') return {};

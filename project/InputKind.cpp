@@ -2,6 +2,7 @@
 
 #include "project/Dialects.h"
 #include "project/LineShapes.h"
+#include "project/PostShape.h"
 #include "support/Ascii.h"
 
 #include <algorithm>
@@ -283,6 +284,10 @@ Recognition recognise(View fileName, View bytes, std::optional<InputKind> expect
   const bool wide = text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF") ||
                     (nuls > 0 && nuls * 2 + 2 >= text.size() && nuls * 2 <= text.size() + 2);
   if (auto other = otherFormat(text)) return {std::nullopt, std::move(*other)};
+  const std::string upper =
+      upperCase(fileName.substr(fileName.size() - std::min<std::size_t>(4, fileName.size())));
+  if (!wide && isPostText(text, upper == ".CPS" || upper == ".CPI"))
+    return {std::nullopt, std::string(kPostInput)};
   if (wide) {
     Recognition out = recogniseText(narrowed(text), named, byName);
     out.reason = out.kind ? "UTF-16, and " + out.reason : "UTF-16 text; save it as ANSI or UTF-8";

@@ -16,10 +16,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view kKinds[] = {"controls", "cycles", "forms",    "keywords",
-                                       "macrob",   "macros", "mikroprog"};
-constexpr std::string_view kReads = "`controls/*.toml`, `cycles/*.cycle`, `forms/*.toml`, `keywords/*.toml`, "
-                                    "`macrob/*.nc`, `macros/*.toml` and `mikroprog/*.toml`";
+constexpr std::string_view kKinds[] = {"controls", "cycles", "forms",  "fusion",
+                                       "keywords", "macrob", "macros", "mikroprog"};
+constexpr std::string_view kReads =
+    "`controls/*.toml`, `cycles/*.cycle`, `forms/*.toml`, `fusion/*.toml`, `keywords/*.toml`, "
+    "`macrob/*.nc`, `macros/*.toml` and `mikroprog/*.toml`";
 
 // Entries of a folder in byte order; false with a diagnostic where it cannot be read.
 bool listFolder(const fs::path& folder, const Limits& limits, std::vector<fs::path>& out,

@@ -24,6 +24,7 @@ std::span<const MessageInfo> messageTable() {
 #include "support/messages/Output.def"
 #include "support/messages/Part.def"
 #include "support/messages/Path.def"
+#include "support/messages/Posts.def"
 #include "support/messages/Sim.def"
 #include "support/messages/Verify.def"
 #undef DOTEK_DIAGNOSTIC

@@ -36,9 +36,9 @@ std::vector<Include> includesOf(const TreeFile& file) {
 }
 
 std::vector<const TreeFile*> productSources() {
-  static constexpr const char* kFolders[] = {"support",  "ir",     "script",  "stdlib", "frontend",
-                                             "backends", "sim",    "project", "lint",   "verify",
-                                             "targets",  "driver", "lsp",     "cli"};
+  static constexpr const char* kFolders[] = {"support",  "ir",      "script",  "stdlib", "frontend",
+                                             "backends", "sim",     "project", "lint",   "verify",
+                                             "posts",    "targets", "driver",  "lsp",    "cli"};
   std::vector<const TreeFile*> out;
   for (const TreeFile& file : tree()) {
     const bool ours = std::any_of(std::begin(kFolders), std::end(kFolders),
@@ -71,8 +71,9 @@ bool isAntlr(const std::string& name) {
 
 bool mayInclude(const std::string& from, const std::string& to) {
   static const std::map<std::string, int> kLayer = {
-      {"support", 1}, {"ir", 2},      {"script", 2},  {"stdlib", 3}, {"project", 5}, {"lint", 6},
-      {"verify", 6},  {"sim/run", 6}, {"targets", 7}, {"driver", 8}, {"lsp", 9},     {"cli", 10}};
+      {"support", 1}, {"ir", 2},     {"script", 2}, {"stdlib", 3},  {"project", 5},
+      {"lint", 6},    {"verify", 6}, {"posts", 6},  {"sim/run", 6}, {"targets", 7},
+      {"driver", 8},  {"lsp", 9},    {"cli", 10}};
   // Rooms of the simulator, lowest first.
   static const std::map<std::string, int> kRoom = {
       {"sim/geometry", 1}, {"sim/machine", 2}, {"sim/mikroprog", 3}, {"sim/cycle", 3}, {"sim/picture", 3}};

@@ -2,12 +2,14 @@
 // like them.
 #include "project/InputKind.h"
 #include "project/Foreign.h"
+#include "project/PostShape.h"
 
 #include <doctest/doctest.h>
 #include <string>
 #include <vector>
 
 using dotek::project::InputKind;
+using dotek::project::isPost;
 using dotek::project::kindName;
 using dotek::project::recognise;
 using dotek::project::Recognition;
@@ -146,6 +148,16 @@ TEST_CASE("input kind: macros, dialogs, definitions and Progs without their name
   CHECK(kindOf("{ never closed\nprobe:\n SeqC ' M5' EOL\nRETURN\n") == "prog");
   CHECK(kindOf("N10 G18 G90\nN20 P1=100 ;feed\nN30 G1 X10 FP1\nN40 M25 @web.sou;record\nN50 M30\n") == "suf");
   CHECK(kindOf("N10 G18 G90 ;start\nN20 G0 X10 Z5 ;rapid\nN30 M30 ;end\n", "WEB.SUF") == "suf");
+  const std::string post =
+      "/**\n  A post.\n*/\nvar xFormat = createFormat({decimals:3});\n\nfunction onSection() {\n"
+      "  if (isFirstSection()) {\n    writeBlock(\"G54\");\n  }\n}\n";
+  CHECK(isPost(recognise("mill.cps", post)));
+  CHECK(isPost(recognise("mill.txt", post)));
+  const std::string part =
+      "// a part of a post\nfunction probeX(cycle, x) {\n  writeBlock(\"G65\", \"P9811\");\n  return x;\n}\n";
+  CHECK(isPost(recognise("part.js", part)));
+  // What is called a post by mistake.
+  CHECK(kindOf("%\nO1001\nG65 P9810 Z5. F1000.\nG0 X10.\nM30\n%\n", "mill.cps") == "nc");
 }
 
 TEST_CASE("input kind: what Dotek and others write beside programs is none") {

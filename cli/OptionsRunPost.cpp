@@ -1,0 +1,43 @@
+// Flags of `dotek run-post`.
+#include "cli/Options.h"
+
+namespace dotek::cli {
+
+void addRunPost(CLI::App& app, Raw& raw) {
+  CLI::App* run =
+      app.add_subcommand("run-post", "run a post of Fusion on a job and print the program that it writes");
+  run->add_option("POST", raw.inputs,
+                  "the post (.cps), then the job (.toml); `dotek new job --from POST` begins one")
+      ->expected(1, 2);
+  run->add_option("--matrix", raw.matrix, "instead of a job: each cycle of a kind, probing or drilling")
+      ->type_name("KIND");
+  addSeveral(*run, "--property", raw.properties, "a property of the post", "NAME=VALUE");
+  run->add_option("--unit", raw.unit, "unit of the output where no job says it (mm)")
+      ->check(CLI::IsMember({"mm", "in"}));
+  run->add_option("--diff", raw.diff,
+                  "run another version of the post too, and show where the programs differ")
+      ->type_name("POST");
+  run->add_option("--expect", raw.expect, "the program that is expected; another one is status 1")
+      ->type_name("NC");
+  run->add_option("-o", raw.output, "write the program to a file")->type_name("OUT");
+  run->add_option("--map", raw.mapFile, "write which lines of the post wrote each line of the program (JSON)")
+      ->type_name("FILE");
+  addForce(*run, raw);
+  addIncludes(*run, raw);
+  addCommon(*run, raw);
+}
+
+driver::RunPostOptions runPostOf(const Raw& raw) {
+  driver::RunPostOptions out;
+  if (!raw.inputs.empty()) out.post = raw.inputs.front();
+  if (raw.inputs.size() > 1) out.job = raw.inputs[1];
+  out.matrix = raw.matrix;
+  if (!raw.diff.empty()) out.diff = raw.diff;
+  if (!raw.expect.empty()) out.expect = raw.expect;
+  if (!raw.unit.empty()) out.inch = raw.unit == "in";
+  out.properties = pairsOf("--property", raw.properties);
+  out.map = !raw.mapFile.empty();
+  return out;
+}
+
+} // namespace dotek::cli

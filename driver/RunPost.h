@@ -1,0 +1,29 @@
+// Posts of Fusion that run: `run-post` and `new job`. Part of the public library, as Driver.h.
+#pragma once
+
+#include "driver/Driver.h"
+
+#include <optional>
+#include <string>
+
+namespace dotek::driver {
+
+// `new job` takes the post alone.
+struct RunPostOptions {
+  std::string post;                        // a post of Fusion
+  std::optional<std::string> job;          // what it is run on; nothing: `matrix` says it
+  std::string matrix;                      // "probing", "drilling"; "": a job
+  std::optional<std::string> diff, expect; // another post; a program
+  std::optional<bool> inch;                // nothing: as the job says
+  NamedTexts properties;
+  bool map = false;
+  CommonOptions common;
+};
+
+// The program that a post writes. With --diff or --expect the status is 1 where it differs, and the output
+// shows how.
+Outcome runPost(const RunPostOptions& options);
+// The beginning of a job for a post.
+Outcome newJob(const RunPostOptions& options);
+
+} // namespace dotek::driver

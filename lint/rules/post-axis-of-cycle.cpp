@@ -1,0 +1,60 @@
+#include "lint/Posts.h"
+
+namespace dotek::lint::rule {
+namespace {
+
+void check(const Project& project, Report& report) {
+  forEachNode(project, fusion::Kind::Case, [&](const PostFile& post, const fusion::Node& one) {
+    const std::string_view type = textLiteral(one.kids[0]);
+    const char own = type == "probing-x" || type == "probing-x-wall" || type == "probing-x-channel" ||
+                             type == "probing-x-channel-with-island"
+                         ? 'X'
+                     : type == "probing-y" || type == "probing-y-wall" || type == "probing-y-channel" ||
+                             type == "probing-y-channel-with-island"
+                         ? 'Y'
+                     : type == "probing-z" ? 'Z'
+                                           : '\0';
+    if (own == '\0') return;
+    for (std::size_t i = 1; i < one.kids.size(); ++i)
+      walk(one.kids[i], [&](const fusion::Node& call) {
+        if (!call.is(fusion::Kind::Call) || calledName(call) != "writeBlock") return;
+        bool macro = false;
+        for (std::size_t k = 1; k < call.kids.size(); ++k)
+          walk(call.kids[k], [&](const fusion::Node& node) {
+            if (node.is(fusion::Kind::String) || node.is(fusion::Kind::Number)) {
+              const std::string_view text =
+                  node.is(fusion::Kind::Number) ? node.text : fusion::stringText(node);
+              macro = macro || text.find("811") != std::string_view::npos ||
+                      text.find("812") != std::string_view::npos;
+            }
+          });
+        if (!macro) return;
+        const fusion::Node* wrong = nullptr;
+        bool right = false;
+        for (std::size_t k = 1; k < call.kids.size(); ++k) {
+          const fusion::Node* const word = fusion::bare(call.kids[k]);
+          if (!word->is(fusion::Kind::Binary) || word->text != "+") continue;
+          const std::string_view letter = textLiteral(word->kids[0]);
+          if (letter.size() != 1) continue;
+          if (letter[0] == own)
+            right = true;
+          else if ((letter[0] == 'X' || letter[0] == 'Y') && wrong == nullptr)
+            wrong = word;
+        }
+        if (wrong != nullptr && !right)
+          report.at(
+              post.tree.range(*wrong->kids[0]),
+              "`{}` measures along {}, and the block has the word {}: the probe moves along the other axis",
+              type, own, textLiteral(wrong->kids[0]));
+      });
+  });
+}
+
+} // namespace
+
+DOTEK_LINT_RULE(post_axis_of_cycle){
+    .severity = Severity::Warning,
+    .check = check,
+};
+
+} // namespace dotek::lint::rule

@@ -1,0 +1,41 @@
+// Jobs of `run-post` (docs/fusion-kernel.md, "Jobs"): what Fusion hands to a post.
+#pragma once
+
+#include "project/Session.h"
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace dotek::posts {
+
+struct JobOptions {
+  std::vector<std::pair<std::string, std::string>> properties; // NAME=VALUE of the command line
+  bool map = false;
+  std::uint32_t most = 1u << 20; // bytes of text
+};
+
+struct PostJob {
+  bool inch = false;
+  std::string json; // what the kernel runs
+};
+
+// Of a file. nullopt: reported.
+std::optional<PostJob> readPostJob(const std::string& path, const JobOptions& options,
+                                   project::Session& session);
+// One operation with one cycle of `--matrix`.
+struct MatrixJob {
+  std::string cycle;
+  std::string json;
+};
+// All of a kind, "probing" or "drilling"; empty: there is no such kind.
+std::vector<MatrixJob> matrixJobs(const std::string& kind, const JobOptions& options,
+                                  const project::Session& session);
+std::vector<std::string> matrixKinds(const project::Session& session);
+
+struct PostProperty;
+// The beginning of a job file, with the properties of a post.
+std::string newPostJob(const std::string& post, const std::vector<PostProperty>& properties);
+
+} // namespace dotek::posts

@@ -1,0 +1,219 @@
+// ---- text ------------------------------------------------------------------------------------------------------
+
+function Stop(kind, text) { // what ends a run early
+  this.dotekStop = kind;
+  this.text = text;
+  this.stack = new Error(text).stack;
+}
+
+function placesOfStack(stack) {
+  var out = [];
+  String(stack).split("\n").forEach(function (line) {
+    var match = /at (.*?)\s*\(?((?:post|include)[^():]*):(\d+)(?::\d+)?\)?/.exec(line);
+    if (match !== null) {
+      out.push({name: match[1].replace(/^Object\./, ""), source: match[2], line: Number(match[3])});
+    }
+  });
+  return out;
+}
+
+function begin(job) {
+  state = {job: job, text: [], size: 0, most: job.most || 1000000, places: [], line: "", redirected: [], files: {},
+    separator: " ", eol: "\n", errors: [], warnings: [], log: [], told: {}, notes: {}, handlers: [],
+    position: undefined, direction: undefined, rotation: undefined, translation: undefined, section: undefined,
+    record: undefined, parameters: {}, cyclePoint: 0, cyclePoints: [], expanding: false, skip: false, motion: undefined,
+    synchronized: false};
+}
+
+// Where the text of the NC program goes: each of its lines knows who wrote its last piece.
+function put(text, places) {
+  state.size += text.length;
+  if (state.size > state.most) {
+    throw new Stop("output", "");
+  }
+  state.text.push(text);
+  if (!state.job.map) {
+    return;
+  }
+  var parts = (state.line + text).split("\n");
+  for (var i = 0; i + 1 < parts.length; ++i) {
+    state.places.push(places);
+  }
+  state.line = parts[parts.length - 1];
+}
+
+function write(text) {
+  var piece = String(text);
+  var places = state.job.map ? placesOfStack(new Error("").stack) : undefined;
+  var to = state.redirected[state.redirected.length - 1];
+  if (to !== undefined) {
+    state.size += piece.length;
+    if (state.size > state.most) {
+      throw new Stop("output", "");
+    }
+    to.text += piece;
+    return;
+  }
+  put(piece, places);
+}
+
+function writeln(text) {
+  write((text === undefined ? "" : String(text)) + state.eol);
+}
+
+// Words of arrays and of `arguments` too; what is empty is left out.
+function wordsOf(list, into) {
+  for (var i = 0; i < list.length; ++i) {
+    var one = list[i];
+    if (one === undefined || one === null || one === "") {
+      continue;
+    }
+    if (typeof one === "object" && typeof one.length === "number") {
+      wordsOf(one, into);
+    } else {
+      into.push(String(one));
+    }
+  }
+  return into;
+}
+
+function formatWords() {
+  return wordsOf(arguments, []).join(state.separator);
+}
+function writeWords() {
+  var text = wordsOf(arguments, []).join(state.separator);
+  if (text !== "") {
+    writeln(text);
+  }
+}
+function writeWords2(first) {
+  var rest = wordsOf(Array.prototype.slice.call(arguments, 1), []);
+  if (rest.length > 0) {
+    writeln(wordsOf([first], []).concat(rest).join(state.separator));
+  }
+}
+
+function subst(text) {
+  var parameters = arguments;
+  return String(text).replace(/%(\d+)/g, function (all, digits) {
+    var value = parameters[Number(digits)];
+    return value === undefined ? all : String(value);
+  });
+}
+
+function error(text) {
+  state.errors.push(String(text));
+  var stop = new Stop("error", String(text));
+  if (settings["error-stops"]) {
+    throw stop;
+  }
+  if (state.firstError === undefined) {
+    state.firstError = stop;
+  }
+}
+
+function warning(text) {
+  state.warnings.push({text: String(text), places: placesOfStack(new Error("").stack)});
+}
+
+function redirectTo(name) {
+  state.redirected.push({name: name, text: ""});
+}
+function closeRedirection() {
+  var last = state.redirected.pop();
+  if (last === undefined) {
+    throw sourceError("closeRedirection: nothing is redirected");
+  }
+  if (last.name !== undefined) {
+    state.files[last.name] = (state.files[last.name] || "") + last.text;
+  }
+}
+
+function isSafeText(text, permitted) {
+  return String(text).split("").every(function (c) { return permitted.indexOf(c) >= 0; });
+}
+
+give({
+  write: write, writeln: writeln, writeWords: writeWords, writeWords2: writeWords2, formatWords: formatWords,
+  subst: subst, error: error, warning: warning,
+  setWordSeparator: function (text) { state.separator = String(text); },
+  getWordSeparator: function () { return state.separator; },
+  setEOL: function (text) { state.eol = String(text).replace(/\r\n?/g, "\n"); },
+  conditional: function (test, text) { return test ? (text === undefined ? "" : text) : ""; },
+  localize: function (text) { return text === undefined ? "" : String(text); },
+  localize2: function (section, text) { return String(text); },
+  translateText: function (text, from, to) {
+    var out = String(text);
+    return out.split("").map(function (c) {
+      var at = from.indexOf(c);
+      return at < 0 ? c : to.charAt(at);
+    }).join("");
+  },
+  warningOnce: function (text, id) {
+    var key = id === undefined ? "text " + text : "id " + id;
+    if (!state.told[key]) {
+      state.told[key] = true;
+      warning(text);
+    }
+  },
+  log: function (text) { state.log.push(String(text)); },
+  debug: function (text) { state.log.push(String(text)); },
+  alert: function (title, text) { warning(text === undefined ? title : title + ": " + text); },
+  validate: function (test, text) {
+    if (!test) {
+      error(text === undefined ? "validate: a condition of the post does not hold" : text);
+    }
+  },
+  cycleNotSupported: function () { error("the cycle is not supported: " + global.cycleType); },
+  redirectToBuffer: function () { redirectTo(undefined); },
+  redirectToFile: function (name) { redirectTo(String(name)); },
+  getRedirectionBuffer: function (clear) {
+    var last = state.redirected[state.redirected.length - 1];
+    var text = last === undefined ? "" : last.text;
+    if (last !== undefined && clear !== false) {
+      last.text = "";
+    }
+    return text;
+  },
+  getRedirectionBuffer2: function (clear) {
+    var last = state.redirected[state.redirected.length - 1];
+    var text = last === undefined ? "" : last.text;
+    if (last !== undefined && clear) {
+      last.text = "";
+    }
+    return text;
+  },
+  closeRedirection: closeRedirection,
+  isRedirecting: function () { return state.redirected.length > 0; },
+  isSafeText: isSafeText,
+  filterText: function (text, permitted) {
+    return String(text).split("").filter(function (c) { return permitted.indexOf(c) >= 0; }).join("");
+  },
+  isTextSupported: function () { return true; },
+  isSupportedText: function () { return true; },
+  flatten: function () { return wordsOf(arguments, []); },
+  registerTerminationHandler: function (call) { state.handlers.push(call); },
+  setExitCode: function () {},
+  setWriteInvocations: function () {}, setWriteStack: function () {},
+  setCodePage: function (page) { if (state !== undefined) { state.codePage = page; } },
+  getCodePage: function () { return (state && state.codePage) || "ascii"; }
+});
+
+var StringBuffer = function (text) {
+  this.text = text === undefined ? "" : String(text);
+};
+StringBuffer.prototype.append = function (text) { this.text += text; return this; };
+StringBuffer.prototype.toString = function () { return this.text; };
+StringBuffer.prototype.getLength = function () { return this.text.length; };
+
+var StringSubstitution = function (table) {
+  this.table = table || {};
+};
+StringSubstitution.prototype.setValue = function (name, value) { this.table[name] = value; };
+StringSubstitution.prototype.substitute = function (text) {
+  var table = this.table;
+  return String(text).replace(/\$\{([^}]*)\}/g, function (all, name) {
+    return table[name] === undefined ? all : String(table[name]);
+  });
+};
+give({StringBuffer: StringBuffer, StringSubstitution: StringSubstitution, Template: StringSubstitution});

@@ -1,0 +1,303 @@
+// What posts take for granted of ES6 and the engine lacks, and what their lowered text calls (frontend/fusion).
+// ES5.
+
+var dotekEs6 = (function () {
+  function list(of) {
+    if (of === undefined || of === null) {
+      throw new TypeError(of + " has no elements");
+    }
+    if (Array.isArray(of)) {
+      return of;
+    }
+    if (typeof of === "string") {
+      return of.split("");
+    }
+    if (typeof of.dotekList === "function") {
+      return of.dotekList();
+    }
+    if (typeof of.length === "number") {
+      return Array.prototype.slice.call(of);
+    }
+    throw new TypeError("a value without elements is read as a list");
+  }
+  function assign(to) {
+    for (var i = 1; i < arguments.length; ++i) {
+      var from = arguments[i];
+      if (from === undefined || from === null) {
+        continue;
+      }
+      for (var key in from) {
+        if (Object.prototype.hasOwnProperty.call(from, key)) {
+          to[key] = from[key];
+        }
+      }
+    }
+    return to;
+  }
+  function rest(of, taken) {
+    var out = {};
+    for (var key in of) {
+      if (Object.prototype.hasOwnProperty.call(of, key) && taken.indexOf(key) < 0) {
+        out[key] = of[key];
+      }
+    }
+    return out;
+  }
+  function pair(key, value) {
+    var out = {};
+    out[key] = value;
+    return out;
+  }
+  function extend(made, base) {
+    made.prototype = Object.create(base.prototype);
+    made.prototype.constructor = made;
+    for (var key in base) {
+      if (Object.prototype.hasOwnProperty.call(base, key)) {
+        made[key] = base[key];
+      }
+    }
+  }
+  function init(base, self, values) {
+    var out = base.apply(self, values);
+    if (self instanceof Error && out instanceof Error) {
+      self.message = out.message;
+    }
+    return self;
+  }
+  function make(type, values) {
+    var out = Object.create(type.prototype);
+    var given = type.apply(out, values);
+    return given !== null && typeof given === "object" ? given : out;
+  }
+  function accessor(object, name, kind, body) {
+    var had = Object.getOwnPropertyDescriptor(object, name) || {configurable: true, enumerable: false};
+    var now = {configurable: true, enumerable: false, get: had.get, set: had.set};
+    now[kind] = body;
+    Object.defineProperty(object, name, now);
+  }
+
+  function add(type, name, body) {
+    if (type[name] === undefined) {
+      Object.defineProperty(type, name, {value: body, writable: true, configurable: true, enumerable: false});
+    }
+  }
+  function same(a, b) {
+    return a === b || (a !== a && b !== b);
+  }
+  add(Array.prototype, "includes", function (value) {
+    for (var i = 0; i < this.length; ++i) {
+      if (same(this[i], value)) {
+        return true;
+      }
+    }
+    return false;
+  });
+  add(Array.prototype, "find", function (test, self) {
+    for (var i = 0; i < this.length; ++i) {
+      if (test.call(self, this[i], i, this)) {
+        return this[i];
+      }
+    }
+    return undefined;
+  });
+  add(Array.prototype, "findIndex", function (test, self) {
+    for (var i = 0; i < this.length; ++i) {
+      if (test.call(self, this[i], i, this)) {
+        return i;
+      }
+    }
+    return -1;
+  });
+  add(Array.prototype, "fill", function (value, from, to) {
+    var end = to === undefined ? this.length : to < 0 ? this.length + to : Math.min(to, this.length);
+    for (var i = from === undefined ? 0 : from < 0 ? this.length + from : from; i < end; ++i) {
+      this[i] = value;
+    }
+    return this;
+  });
+  add(Array.prototype, "flat", function (depth) {
+    var out = [];
+    var most = depth === undefined ? 1 : depth;
+    this.forEach(function (one) {
+      if (Array.isArray(one) && most > 0) {
+        out = out.concat(one.flat(most - 1));
+      } else {
+        out.push(one);
+      }
+    });
+    return out;
+  });
+  add(Array, "from", function (of, map) {
+    var out = list(of).slice();
+    return map === undefined ? out : out.map(function (value, i) { return map(value, i); });
+  });
+  add(Array, "of", function () {
+    return Array.prototype.slice.call(arguments);
+  });
+  add(Object, "assign", assign);
+  add(Object, "values", function (of) {
+    return Object.keys(of).map(function (key) { return of[key]; });
+  });
+  add(Object, "entries", function (of) {
+    return Object.keys(of).map(function (key) { return [key, of[key]]; });
+  });
+  add(String.prototype, "includes", function (text, from) {
+    return this.indexOf(text, from) >= 0;
+  });
+  add(String.prototype, "startsWith", function (text, from) {
+    var at = from || 0;
+    return this.substring(at, at + String(text).length) === String(text);
+  });
+  add(String.prototype, "endsWith", function (text, length) {
+    var all = length === undefined ? String(this) : this.substring(0, length);
+    return all.substring(all.length - String(text).length) === String(text);
+  });
+  add(String.prototype, "repeat", function (count) {
+    var out = "";
+    for (var i = 0; i < count; ++i) {
+      out += this;
+    }
+    return out;
+  });
+  function padding(text, length, fill) {
+    var out = "";
+    var unit = fill === undefined ? " " : String(fill);
+    while (unit !== "" && out.length < length - text.length) {
+      out += unit;
+    }
+    return out.substring(0, Math.max(0, length - text.length));
+  }
+  add(String.prototype, "padStart", function (length, fill) {
+    return padding(this, length, fill) + this;
+  });
+  add(String.prototype, "padEnd", function (length, fill) {
+    return this + padding(this, length, fill);
+  });
+  add(String.prototype, "trimStart", function () { return this.replace(/^\s+/, ""); });
+  add(String.prototype, "trimEnd", function () { return this.replace(/\s+$/, ""); });
+  add(String.prototype, "replaceAll", function (from, to) {
+    return from instanceof RegExp ? this.replace(from, to) : this.split(from).join(to);
+  });
+  add(Math, "sign", function (x) { return x > 0 ? 1 : x < 0 ? -1 : Number(x); });
+  add(Math, "trunc", function (x) { return x < 0 ? Math.ceil(x) : Math.floor(x); });
+  add(Math, "hypot", function () {
+    var sum = 0;
+    for (var i = 0; i < arguments.length; ++i) {
+      sum += arguments[i] * arguments[i];
+    }
+    return Math.sqrt(sum);
+  });
+  add(Math, "log10", function (x) { return Math.log(x) / Math.LN10; });
+  add(Math, "log2", function (x) { return Math.log(x) / Math.LN2; });
+  add(Math, "cbrt", function (x) { return x < 0 ? -Math.pow(-x, 1 / 3) : Math.pow(x, 1 / 3); });
+  add(Number, "isFinite", function (x) { return typeof x === "number" && isFinite(x); });
+  add(Number, "isNaN", function (x) { return x !== x; });
+  add(Number, "isInteger", function (x) { return typeof x === "number" && isFinite(x) && Math.floor(x) === x; });
+  add(Number, "parseFloat", parseFloat);
+  add(Number, "parseInt", parseInt);
+  add(Number, "EPSILON", 2.220446049250313e-16);
+  add(Number, "MAX_SAFE_INTEGER", 9007199254740991);
+  add(Number, "MIN_SAFE_INTEGER", -9007199254740991);
+
+  return {
+    list: list, assign: assign, rest: rest, pair: pair, extend: extend, init: init, make: make, accessor: accessor
+  };
+})();
+
+if (typeof Map === "undefined") {
+  var Map = (function () {
+    function Table(pairs) {
+      this.dotekKeys = [];
+      this.dotekValues = [];
+      this.size = 0;
+      var given = pairs === undefined || pairs === null ? [] : dotekEs6.list(pairs);
+      for (var i = 0; i < given.length; ++i) {
+        this.set(given[i][0], given[i][1]);
+      }
+    }
+    Table.prototype.dotekAt = function (key) {
+      for (var i = 0; i < this.dotekKeys.length; ++i) {
+        if (this.dotekKeys[i] === key || (key !== key && this.dotekKeys[i] !== this.dotekKeys[i])) {
+          return i;
+        }
+      }
+      return -1;
+    };
+    Table.prototype.get = function (key) {
+      var at = this.dotekAt(key);
+      return at < 0 ? undefined : this.dotekValues[at];
+    };
+    Table.prototype.has = function (key) { return this.dotekAt(key) >= 0; };
+    Table.prototype.set = function (key, value) {
+      var at = this.dotekAt(key);
+      if (at < 0) {
+        this.dotekKeys.push(key);
+        this.dotekValues.push(value);
+        ++this.size;
+      } else {
+        this.dotekValues[at] = value;
+      }
+      return this;
+    };
+    Table.prototype["delete"] = function (key) {
+      var at = this.dotekAt(key);
+      if (at >= 0) {
+        this.dotekKeys.splice(at, 1);
+        this.dotekValues.splice(at, 1);
+        --this.size;
+      }
+      return at >= 0;
+    };
+    Table.prototype.clear = function () {
+      this.dotekKeys = [];
+      this.dotekValues = [];
+      this.size = 0;
+    };
+    Table.prototype.keys = function () { return this.dotekKeys.slice(); };
+    Table.prototype.values = function () { return this.dotekValues.slice(); };
+    Table.prototype.entries = function () {
+      var values = this.dotekValues;
+      return this.dotekKeys.map(function (key, i) { return [key, values[i]]; });
+    };
+    Table.prototype.dotekList = Table.prototype.entries;
+    Table.prototype.forEach = function (call, self) {
+      this.entries().forEach(function (pair) { call.call(self, pair[1], pair[0], this); }, this);
+    };
+    return Table;
+  })();
+}
+
+if (typeof Set === "undefined") {
+  var Set = (function () {
+    function Members(values) {
+      this.dotekMap = new Map();
+      this.size = 0;
+      var given = values === undefined || values === null ? [] : dotekEs6.list(values);
+      for (var i = 0; i < given.length; ++i) {
+        this.add(given[i]);
+      }
+    }
+    Members.prototype.add = function (value) {
+      this.dotekMap.set(value, value);
+      this.size = this.dotekMap.size;
+      return this;
+    };
+    Members.prototype.has = function (value) { return this.dotekMap.has(value); };
+    Members.prototype["delete"] = function (value) {
+      var out = this.dotekMap["delete"](value);
+      this.size = this.dotekMap.size;
+      return out;
+    };
+    Members.prototype.clear = function () {
+      this.dotekMap.clear();
+      this.size = 0;
+    };
+    Members.prototype.values = function () { return this.dotekMap.keys(); };
+    Members.prototype.keys = Members.prototype.values;
+    Members.prototype.dotekList = Members.prototype.values;
+    Members.prototype.forEach = function (call, self) {
+      this.values().forEach(function (value) { call.call(self, value, value, this); }, this);
+    };
+    return Members;
+  })();
+}

@@ -1,0 +1,10 @@
+// Messages of Posts.def as types of the namespace diag.
+#pragma once
+
+#include "support/Diagnostics.h"
+
+namespace dotek::diag {
+#define DOTEK_DIAGNOSTIC DOTEK_MESSAGE_TYPE
+#include "support/messages/Posts.def"
+#undef DOTEK_DIAGNOSTIC
+} // namespace dotek::diag

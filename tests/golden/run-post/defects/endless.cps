@@ -1,0 +1,5 @@
+function onOpen() {
+  while (true) {
+    writeln("G4");
+  }
+}

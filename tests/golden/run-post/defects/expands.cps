@@ -1,0 +1,3 @@
+function onCyclePoint(x, y, z) {
+  expandCyclePoint(x, y, z);
+}

@@ -1,0 +1,3 @@
+function onCyclePoint(x, y, z) {
+  writeln("X" + cycle.missing.value);
+}

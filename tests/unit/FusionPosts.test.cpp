@@ -1,0 +1,48 @@
+// Posts of Fusion that run: the kernel against a second one, and what stops a post.
+#include "tests/GoldenRunner.h"
+#include "tests/Process.h"
+#include "tests/Skips.h"
+
+#include <array>
+#include <cstdio>
+#include <doctest/doctest.h>
+#include <filesystem>
+#include <string>
+
+namespace fs = std::filesystem;
+using namespace dotek::tests;
+
+namespace {
+
+// What a command prints; nullopt: it fails.
+std::optional<std::string> printed(const std::string& command) {
+  FILE* const pipe = popen(command.c_str(), "r");
+  if (pipe == nullptr) return std::nullopt;
+  std::string out;
+  std::array<char, 4096> part{};
+  for (std::size_t read = 0; (read = std::fread(part.data(), 1, part.size(), pipe)) > 0;)
+    out.append(part.data(), read);
+  return pclose(pipe) == 0 ? std::optional(out) : std::nullopt;
+}
+
+bool haveNode() {
+  return printed("node --version 2>/dev/null").has_value();
+}
+
+} // namespace
+
+TEST_CASE("fusion posts: a second kernel, written from the reference, prints the same blocks") {
+  if (!haveNode()) return skip("node, which runs the second kernel, is not there");
+  const fs::path second = root() / "tests" / "fusion" / "SecondKernel.js";
+  for (const fs::path& post :
+       {root() / "tests/fusion/posts/old.cps", root() / "tests/golden/run-post/matrix/mill.cps",
+        root() / "tests/fusion/posts/words.cps"}) {
+    INFO(post.string());
+    const auto wanted = printed("node '" + second.string() + "' '" + post.string() + "'");
+    REQUIRE(wanted);
+    const CommandResult ours =
+        runDotek({"run-post", post.filename().string(), "--matrix", "probing"}, post.parent_path().string());
+    CHECK_MESSAGE(ours.status == 0, ours.err);
+    CHECK(ours.out == *wanted);
+  }
+}
