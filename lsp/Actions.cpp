@@ -3,6 +3,7 @@
 #include "lint/Rule.h"
 #include "lsp/Server.h"
 #include "project/Settings.h"
+#include "support/Ascii.h"
 
 #include <algorithm>
 #include <array>
@@ -171,6 +172,14 @@ Json post(Workspace& workspace, const Json& arguments) {
   return shown(outcome, {"posted blocks", "dotek-macrob", outcome.output});
 }
 
+// By the name of a result, as editors/vscode/package.json has them.
+std::string languageOf(const std::string& name) {
+  const std::string ending = lowerCase(fs::path(name).extension().string());
+  if (ending == ".js") return "javascript";
+  if (ending == ".suf") return "dotek-mikroprog";
+  return ending == ".cycle" ? "dotek-cycle" : "dotek-macrob";
+}
+
 Json convert(Workspace& workspace, const Json& arguments) {
   Asked asked = askedOf(workspace, arguments);
   driver::ConvertOptions options;
@@ -179,8 +188,8 @@ Json convert(Workspace& workspace, const Json& arguments) {
   options.source = asked.source;
   options.to = asked.target.empty() ? "fanuc" : asked.target;
   const driver::Outcome outcome = driver::convert(options);
-  return shown(outcome, {options.to + " program", options.to == "fusion" ? "javascript" : "dotek-macrob",
-                         outcome.output});
+  const std::string name = outcome.files.empty() ? "" : outcome.files.front().name;
+  return shown(outcome, {options.to + " program", languageOf(name), outcome.output});
 }
 
 Json run(Workspace& workspace, const Json& arguments) {

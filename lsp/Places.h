@@ -30,7 +30,7 @@ std::optional<std::uint32_t> offsetOf(const SourceFile& file, const Json& positi
 // The same for the text that an editor holds.
 std::optional<std::uint32_t> offsetOf(std::string_view text, const Json& position, Units units);
 
-// "/home/a b.nc" of "file:///home/a%20b.nc"; nullopt: another scheme, or broken.
+// "/mill/a b.nc" of "file:///mill/a%20b.nc"; nullopt: another scheme, or broken.
 std::optional<std::string> pathOf(std::string_view uri);
 std::string uriOf(std::string_view path);
 

@@ -197,7 +197,7 @@ std::vector<Json> Workspace::check() {
       lint.common = options(lint.paths);
       keep(driver::lint(lint), isFolder(unit) ? unit : "", *open.begin(), byPath);
     }
-    // What had findings and has none any more is told so.
+    // What had findings and has none any more is published, too.
     for (const std::string& path : std::exchange(told_[unit], {}))
       byPath[path];
     for (auto& [path, found] : byPath) {
