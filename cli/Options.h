@@ -56,8 +56,8 @@ struct Raw {
   std::string date;   // --date, of sim, verify and convert
   std::string remark; // --remark, of verify and convert
   std::vector<std::string> workOffsets;
-  std::vector<std::string> properties;    // --property
-  std::string matrix, diff, expect, unit; // of run-post
+  std::vector<std::string> properties;         // --property
+  std::string matrix, otherPost, expect, unit; // of run-post
   std::string tool, length, radius, diameter, at, call;
   bool replay = false;
   bool json = false, quiet = false, force = false;

@@ -14,7 +14,7 @@ void addRunPost(CLI::App& app, Raw& raw) {
   addSeveral(*run, "--property", raw.properties, "a property of the post", "NAME=VALUE");
   run->add_option("--unit", raw.unit, "unit of the output where no job says it (mm)")
       ->check(CLI::IsMember({"mm", "in"}));
-  run->add_option("--diff", raw.diff,
+  run->add_option("--diff", raw.otherPost,
                   "run another version of the post too, and show where the programs differ")
       ->type_name("POST");
   run->add_option("--expect", raw.expect, "the program that is expected; another one is status 1")
@@ -32,7 +32,7 @@ driver::RunPostOptions runPostOf(const Raw& raw) {
   if (!raw.inputs.empty()) out.post = raw.inputs.front();
   if (raw.inputs.size() > 1) out.job = raw.inputs[1];
   out.matrix = raw.matrix;
-  if (!raw.diff.empty()) out.diff = raw.diff;
+  if (!raw.otherPost.empty()) out.diff = raw.otherPost;
   if (!raw.expect.empty()) out.expect = raw.expect;
   if (!raw.unit.empty()) out.inch = raw.unit == "in";
   out.properties = pairsOf("--property", raw.properties);
