@@ -50,6 +50,9 @@ void LengthNumbers::add(const stdlib::Control& control) {
   const auto wear = [&](std::optional<int> first, std::optional<int> geometry) {
     if (!first || !geometry) return;
     const auto number = static_cast<std::uint32_t>(*first);
+    // Where nobody names the control, the first profile decides what a table holds; the message names others.
+    if (std::any_of(wears.begin(), wears.end(), [&](const Wear& one) { return one.geometry == number; }))
+      return;
     wears.push_back({{number + 1, number + static_cast<std::uint32_t>(v.toolCount)},
                      static_cast<std::uint32_t>(*geometry),
                      control.name});

@@ -48,7 +48,7 @@ bool endsAsScript(View line) {
 } // namespace
 
 bool isPostText(View text, bool named) {
-  int lines = 0, fits = 0, weight = 0, functions = 0;
+  int lines = 0, fits = 0, weight = 0, functions = 0, ofPosts = 0;
   bool inComment = false;
   for (std::size_t at = 0; at < text.size() && lines < 2000;) {
     const std::size_t end = std::min(text.find_first_of("\r\n", at), text.size());
@@ -77,11 +77,12 @@ bool isPostText(View text, bool named) {
     const bool ofPost = isOfPost(line);
     fits += function || variable || ofPost || endsAsScript(line) || line.starts_with("case ") ? 1 : 0;
     functions += function ? 1 : 0;
+    ofPosts += ofPost ? 1 : 0;
     weight += (function ? 2 : 0) + (variable && line.ends_with(";") ? 1 : 0) + (ofPost ? 2 : 0);
   }
   if (lines == 0) return false;
   const double share = static_cast<double>(fits) / lines;
-  return named ? weight >= 1 && share >= 0.3 : weight >= 3 && share >= 0.6 && functions > 0;
+  return named ? weight >= 1 && share >= 0.3 : weight >= 3 && share >= 0.6 && functions > 0 && ofPosts > 0;
 }
 
 } // namespace dotek::project

@@ -92,7 +92,13 @@ bool DataFiles::addFolder(const std::string& path, const Limits& limits, Diagnos
     loaded_.push_back(std::make_unique<std::string>(std::move(*bytes)));
     put(files_, {"controls", path, path, *loaded_.back()});
     // The controls that it extends by their paths.
-    const std::string base = TomlDocument::parse(*find("controls", path)).root().value("extends").text();
+    std::string base;
+    try {
+      base = TomlDocument::parse(*find("controls", path)).root().value("extends").text();
+    } catch (const DataError& defect) {
+      diagnostics.report<diag::FileNotReadable>({}, path, defect.what());
+      return false;
+    }
     if (!isDataPath(base) || find("controls", base) != nullptr) return true;
     const std::string next = besideFile(path, base);
     return find("controls", next) != nullptr || !fs::is_regular_file(next, error) ||

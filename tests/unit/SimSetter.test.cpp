@@ -154,7 +154,9 @@ TEST_CASE("first run: a work system and a tool length that nobody has set are na
          "-20]\n"
          "max = [50, 50, 0]\n";
   const std::string probe = "G90 G54 G0 X10. Y10.\nG43 H1 Z50.\nG31 Z-5. F100\nM30\n";
-  const CommandResult first = bench.run(probe, "--part part.toml");
+  std::string unknown(kMachine); // no tool number says which length the table is to have
+  unknown.erase(unknown.find("tool = 1\n"), 9);
+  const CommandResult first = bench.run(probe, "--part part.toml", unknown);
   CHECK(has(first, "work-offset-not-set"));
   CHECK(has(first, "tool-length-not-set"));
   CHECK(has(first, "--work-offset G54=part"));
@@ -162,5 +164,7 @@ TEST_CASE("first run: a work system and a tool length that nobody has set are na
   const CommandResult second = bench.run(probe, "--part part.toml --work-offset G54=part --tool 1");
   CHECK(second.status == 0);
   CHECK_FALSE(has(second, "not-set"));
+  // The machine's file says which tool the probe is.
+  CHECK_FALSE(has(bench.run(probe, "--part part.toml --work-offset G54=part"), "tool-length-not-set"));
   CHECK(has(bench.run("O1\nIF[#26 EQ #0]THEN #3000=1(NO Z)\nG31 Z#26 F#9\nM99\n", ""), "--call"));
 }
