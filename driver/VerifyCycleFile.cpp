@@ -1,6 +1,7 @@
 #include "driver/VerifyCycleFile.h"
 
 #include "driver/VerifyCases.h"
+#include "support/messages/CamFolder.h"
 #include "support/messages/Commands.h"
 #include "support/messages/Cycle.h"
 #include "support/messages/Verify.h"
@@ -8,6 +9,7 @@
 #include "targets/Target.h"
 #include "targets/Translation.h"
 
+#include <filesystem>
 #include <memory>
 
 namespace dotek::driver {
@@ -30,6 +32,11 @@ public:
     if (!loadWorld(options_, plan_, own)) return outcomeOf(own, "");
     own.diagnostics() = Diagnostics();
     const Target* const target = findTarget(options_.to);
+    if (target->verify == nullptr) {
+      own.diagnostics().report<diag::CamVerify>(
+          {}, std::filesystem::path(options_.inputs.front()).stem().string());
+      return outcomeOf(own, "");
+    }
     // A program without arguments is written for each case.
     std::optional<Translated> written;
     if (target->fixesValues)

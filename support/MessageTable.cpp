@@ -10,6 +10,7 @@ std::span<const MessageInfo> messageTable() {
     std::vector<MessageInfo> table = {
 #define DOTEK_DIAGNOSTIC(Id, codeText, severityId, formatText, explanationText)                              \
   MessageInfo{codeText, Severity::severityId, explanationText},
+#include "support/messages/CamFolder.def"
 #include "support/messages/ComPost.def"
 #include "support/messages/Commands.def"
 #include "support/messages/Common.def"

@@ -1,6 +1,7 @@
 #include "support/Output.h"
 
 #include "support/FileIdentity.h"
+#include "support/Files.h"
 #include "support/Stream.h"
 #include "support/messages/Common.h"
 #include "support/messages/Output.h"
@@ -191,6 +192,14 @@ bool writeAll(const std::vector<NamedText>& texts, const std::string& folder, co
     return false;
   }
   if (!areApart(texts, diagnostics)) return false;
+  for (const NamedText& one : texts) { // a name may have a folder of its own
+    const fs::path parent = fs::path(one.path).parent_path();
+    if (folder.empty() || !isBelow(parent.string(), folder) || descriptorOf(one.path) >= 0) continue;
+    fs::create_directories(parent, error);
+    if (!error) continue;
+    diagnostics.report<diag::FileNotWritable>({}, parent.string(), error.message());
+    return false;
+  }
   std::vector<const NamedText*> order;
   for (const NamedText& one : texts)
     order.push_back(&one);

@@ -1,5 +1,6 @@
 #include "targets/Target.h"
 
+#include "support/messages/CamFolder.h"
 #include "support/messages/Commands.h"
 #include "support/messages/Fanuc.h"
 #include "support/messages/Fusion.h"
@@ -7,6 +8,7 @@
 #include "targets/Conversion.h"
 
 #include <algorithm>
+#include <filesystem>
 
 namespace dotek::targets {
 
@@ -88,6 +90,8 @@ const Target* checkedTarget(const ConvertOptions& options, bool programs, bool c
 }
 
 void checkTargetOptions(const Target& target, const VerifyOptions& options, Diagnostics& diagnostics) {
+  if (target.verify == nullptr && !options.inputs.empty())
+    diagnostics.report<diag::CamVerify>({}, std::filesystem::path(options.inputs.front()).stem().string());
   if (!target.takesPathAlone && !options.source.prog)
     diagnostics.report<diag::MissingOption>(
         {}, "verify", "--prog PROG.txt", "a drawn path states no measurement that such a program could make");

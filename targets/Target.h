@@ -52,6 +52,7 @@ struct Target {
   std::span<const std::string_view> hosts = {};
 
   std::unique_ptr<Conversion> (*convert)(ConversionContext& context) = nullptr;
+  // nullptr: verify refuses it, and says how else what it writes is looked at.
   std::unique_ptr<Verification> (*verify)(const VerificationSource& source) = nullptr;
   // Where inputs may be programs of macro B, too: one beside its translation. nullptr: it takes none.
   std::unique_ptr<ProgramSubject> (*programs)(const VerifyOptions& options, const VerifyPlan& plan) = nullptr;

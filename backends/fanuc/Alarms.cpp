@@ -117,6 +117,7 @@ std::string commentText(State& state, std::string_view utf8, SourceRange range) 
 void collectAlarms(State& state) {
   for (const auto* list : {&state.cycle.checks, &state.cycle.body})
     for (const ir::CycleStatement& statement : *list) {
+      if (state.options.branch && list == &state.cycle.checks) break; // they are the dialog's business
       const auto* alarm = std::get_if<ir::Alarm>(&statement.node);
       if (alarm == nullptr) continue;
       AlarmText text = messageOf(state, statement, alarm->message);

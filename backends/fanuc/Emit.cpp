@@ -5,6 +5,7 @@
 #include "ir/Positions.h"
 #include "ir/Walk.h"
 #include "support/Decimal.h"
+#include "support/messages/CamFolder.h"
 #include "support/messages/Fanuc.h"
 
 #include <algorithm>
@@ -135,6 +136,59 @@ std::optional<std::vector<EmittedLine>> emit(const ir::Cycle& cycle, const EmitO
   if (!lines) state.refuse<diag::TooManyJumps>(cycle.range, state.control.title, state.control.sequenceLast);
   if (state.failed) return std::nullopt;
   return lines;
+}
+
+namespace {
+
+// Host inputs that a block reads, and that nothing gives to it.
+void reportHosts(State& state) {
+  for (const auto& [id, local] : state.locals) {
+    const ir::Variable& variable = state.cycle.variable(id);
+    if (variable.role != ir::Role::Host || variable.name.starts_with("start_")) continue;
+    state.refuse<diag::CamHostUnknown>(state.cycle.range, variable.name, "a value of the machine or the job",
+                                       variable.name);
+  }
+}
+
+} // namespace
+
+std::optional<BranchBlocks> emitBranch(const ir::Cycle& cycle, const EmitOptions& options,
+                                       const SourceMap& sources, Diagnostics& diagnostics) {
+  const BranchOptions& branch = *options.branch;
+  State state(cycle, options, sources, diagnostics, {});
+  if (state.macros.needsSkipPosition && !state.control.variables.skip && ir::probes(cycle))
+    state.refuse<diag::NoSkipPosition>(cycle.range, "macros of " + state.macros.title, state.control.title);
+  state.guards = findGuards(state.control);
+  translateVariables(state);
+  collectAlarms(state);
+  state.copied = findCopiedModes(state);
+  if (state.failed) return std::nullopt;
+  writeBody(state);
+  const Sheet body = std::exchange(state.sheet, Sheet());
+  if (state.failed) return std::nullopt;
+  writeStarts(state);
+  if (state.writesOffset) writeRequirements(state);
+  for (const ir::ExpressionPtr& system : std::exchange(state.systems, {})) {
+    const auto* use = std::get_if<ir::VariableUse>(&system->node);
+    if (use == nullptr || !branch.holes.contains(use->variable)) // those of fields are the dialog's business
+      writeSystemAlarm(state, system, made("range of the work system"));
+  }
+  reportHosts(state);
+  if (branch.modes) writeModes(state, {});
+  state.sheet.append(body);
+  if (state.sheet.endsInTarget()) state.sheet.add("", made("end of the branch"));
+  if (const Sheet::Line* back = state.sheet.backward())
+    state.refuse<diag::BranchGoesBack>(back->out.ranges.empty() ? cycle.range : back->out.ranges.front());
+  const auto lines = state.sheet.finish(branch.firstNumber, 1, state.control.sequenceLast);
+  if (!lines) state.refuse<diag::TooManyJumps>(cycle.range, state.control.title, state.control.sequenceLast);
+  if (state.failed) return std::nullopt;
+  BranchBlocks out;
+  const std::vector<bool> numbered = state.sheet.numbered();
+  for (std::size_t i = 0; i < lines->size(); ++i)
+    out.lines.push_back({(*lines)[i], numbered[i], state.sheet.lines()[i].comment});
+  const std::size_t left = state.pool.left();
+  out.variables.assign(branch.variables.begin(), branch.variables.end() - static_cast<std::ptrdiff_t>(left));
+  return out;
 }
 
 } // namespace dotek::backends::fanuc

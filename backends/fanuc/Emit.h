@@ -24,6 +24,16 @@ struct Choice {
   std::string title;
 };
 
+// Blocks that a post prints for one operation, instead of a program.
+struct BranchOptions {
+  // What stands for each parameter and host input that the cycle uses: the post puts a number there.
+  std::map<ir::VariableId, std::string> holes;
+  std::vector<std::uint32_t>
+      variables;                 // common variables for own values, in the order in which they are taken
+  std::uint32_t firstNumber = 1; // N number of the first target of a jump, and step to the next
+  bool modes = true;             // the blocks begin with the modes that they count on
+};
+
 struct EmitOptions {
   const stdlib::Control& control;
   const stdlib::MacroSet& macros;
@@ -40,7 +50,8 @@ struct EmitOptions {
   std::map<ir::VariableId, std::string> computed = {}; // fields that are no arguments, with their formulas
   std::map<ir::VariableId, std::vector<Choice>> choices = {}; // of a field that the dialog offers as a list
   const ir::Cycle* unshared = nullptr; // the cycle before its locals took over arguments: says what those do
-  std::vector<std::string> remarks = {}; // further lines of the header, capitals and digits
+  std::vector<std::string> remarks = {};              // further lines of the header, capitals and digits
+  std::optional<BranchOptions> branch = std::nullopt; // of emitBranch() alone
 };
 
 // The argument of a parameter or host input in a call of the program.
@@ -61,5 +72,21 @@ std::optional<std::vector<Argument>> assignLetters(const ir::Cycle& cycle, const
 std::optional<std::vector<EmittedLine>> emit(const ir::Cycle& cycle, const EmitOptions& options,
                                              const SourceMap& sources, Diagnostics& diagnostics,
                                              std::vector<Argument>* assigned = nullptr);
+
+// The blocks of `options.branch`. The checks of the cycle are the dialog's business, and the body may rely on
+// them. nullopt where the control or the macro set cannot say something, or where a jump would lead back: a
+// program holds the blocks once for each point, and the control would take the numbers of a later one.
+// Reported.
+struct BranchBlocks {
+  struct Line {
+    EmittedLine out;
+    bool numbered = false; // it has an N number of its own
+    bool comment = false;
+  };
+  std::vector<Line> lines;
+  std::vector<std::uint32_t> variables; // of `branch.variables` that hold something
+};
+std::optional<BranchBlocks> emitBranch(const ir::Cycle& cycle, const EmitOptions& options,
+                                       const SourceMap& sources, Diagnostics& diagnostics);
 
 } // namespace dotek::backends::fanuc

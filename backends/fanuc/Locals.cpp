@@ -34,16 +34,22 @@ State::State(const ir::Cycle& given, const EmitOptions& emitOptions, const Sourc
              Diagnostics& report, std::vector<Argument> letters)
     : cycle(given), options(emitOptions), control(emitOptions.control), macros(emitOptions.macros),
       sources(sourceMap), diagnostics(report), arguments(std::move(letters)),
-      pool(emitOptions.control.locals, arguments) {
+      pool(emitOptions.branch ? Locals(emitOptions.branch->variables)
+                              : Locals(emitOptions.control.locals, arguments)) {
   for (const Argument& argument : arguments)
     locals[argument.variable] = argument.local;
 }
 
 std::string State::local(ir::VariableId id) {
+  if (options.branch)
+    if (const auto hole = options.branch->holes.find(id); hole != options.branch->holes.end())
+      return hole->second;
   auto found = locals.find(id);
   if (found == locals.end()) {
     const std::uint32_t taken = pool.take();
-    if (taken == 0) refuse<diag::TooManyLocals>(cycle.range, cycle.variable(id).name, control.locals);
+    if (taken == 0)
+      refuse<diag::TooManyLocals>(cycle.range, cycle.variable(id).name,
+                                  options.branch ? options.branch->variables.size() : control.locals);
     found = locals.emplace(id, taken).first;
   }
   return "#" + std::to_string(found->second);

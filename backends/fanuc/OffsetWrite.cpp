@@ -109,6 +109,7 @@ void writeOffset(State& state, const ir::OffsetSetting& setting, ir::Axis axis,
   ir::Origin origin = given;
   origin.reason = "offset: active one + measured - nominal";
   if (axis == ir::Axis::Z) state.shiftOfZ = true;
+  state.writesOffset = true;
   writeWait(state, origin);
   const ir::ExpressionPtr active = systemVariable(*workSystemVariable(state.control));
   const ir::ExpressionPtr measured = systemVariable(static_cast<int>(result->variable));
@@ -136,6 +137,7 @@ void writeSetOffset(State& state, const ir::CallCycle& set, const ir::Origin& gi
       return;
     }
     if (axis == ir::Axis::Z) state.shiftOfZ = true;
+    state.writesOffset = true;
     if (!std::exchange(waits, true)) writeWait(state, origin);
     const ir::ExpressionPtr active = systemVariable(*workSystemVariable(state.control));
     const ir::ExpressionPtr value =

@@ -2,6 +2,7 @@
 
 #include "backends/common/PlainText.h"
 
+#include <algorithm>
 #include <set>
 
 namespace dotek::backends::fanuc {
@@ -52,27 +53,60 @@ void Sheet::append(const Sheet& other) {
   place(*other.pending_);
 }
 
+Mark Sheet::root(Mark mark) const {
+  for (auto found = same_.find(mark); found != same_.end(); found = same_.find(mark))
+    mark = found->second;
+  return mark;
+}
+
+std::vector<bool> Sheet::numbered() const {
+  std::set<Mark> used;
+  for (const Line& line : lines_)
+    if (line.target) used.insert(root(*line.target));
+  std::vector<bool> out;
+  for (const Line& line : lines_)
+    out.push_back(line.mark && used.contains(root(*line.mark)));
+  return out;
+}
+
+bool Sheet::endsInTarget() const {
+  return pending_ && std::any_of(lines_.begin(), lines_.end(), [&](const Line& line) {
+           return line.target && root(*line.target) == root(*pending_);
+         });
+}
+
+const Sheet::Line* Sheet::backward() const {
+  std::set<Mark> before;
+  for (const Line& line : lines_) {
+    if (line.mark) before.insert(root(*line.mark));
+    if (line.target && before.contains(root(*line.target))) return &line;
+  }
+  return nullptr;
+}
+
 std::optional<std::vector<EmittedLine>> Sheet::finish(std::uint32_t lastNumber) const {
-  const auto root = [&](Mark mark) {
-    for (auto found = same_.find(mark); found != same_.end(); found = same_.find(mark))
-      mark = found->second;
-    return mark;
-  };
   std::set<Mark> used;
   for (const Line& line : lines_)
     if (line.target) used.insert(root(*line.target));
   const std::uint32_t step = used.size() * 10 <= lastNumber ? 10 : 1;
-  if (used.size() > lastNumber) return std::nullopt;
+  return finish(step, step, lastNumber);
+}
+
+std::optional<std::vector<EmittedLine>> Sheet::finish(std::uint32_t first, std::uint32_t step,
+                                                      std::uint32_t last) const {
+  const std::vector<bool> targets = numbered();
   std::map<Mark, std::uint32_t> numbers;
-  for (const Line& line : lines_)
-    if (line.mark && used.contains(root(*line.mark)))
-      numbers.emplace(root(*line.mark), static_cast<std::uint32_t>(numbers.size() + 1) * step);
+  for (std::size_t i = 0; i < lines_.size(); ++i)
+    if (targets[i])
+      numbers.emplace(root(*lines_[i].mark), first + static_cast<std::uint32_t>(numbers.size()) * step);
+  if (!numbers.empty() && first + (numbers.size() - 1) * step > last) return std::nullopt;
   std::vector<EmittedLine> out;
-  for (const Line& line : lines_) {
+  for (std::size_t i = 0; i < lines_.size(); ++i) {
+    const Line& line = lines_[i];
     out.push_back(line.out);
     std::string& text = out.back().text;
-    if (line.mark && used.contains(root(*line.mark)))
-      text = "N" + std::to_string(numbers.at(root(*line.mark))) + " " + text;
+    if (targets[i])
+      text = "N" + std::to_string(numbers.at(root(*line.mark))) + (text.empty() ? "" : " ") + text;
     if (line.target) text += std::to_string(numbers.at(root(*line.target)));
   }
   return out;

@@ -38,11 +38,21 @@ public:
 
   // With numbers; nullopt: more targets than sequence numbers.
   std::optional<std::vector<EmittedLine>> finish(std::uint32_t lastNumber) const;
+  // Targets numbered from `first` in steps of `step`. nullopt: numbers above `last`.
+  std::optional<std::vector<EmittedLine>> finish(std::uint32_t first, std::uint32_t step,
+                                                 std::uint32_t last) const;
+  // The first jump that leads to a line before it; nullptr: none does.
+  const Line* backward() const;
+  // A jump leads after the last line.
+  bool endsInTarget() const;
+  // Lines with a number that a jump leads to.
+  std::vector<bool> numbered() const;
 
   static constexpr std::size_t kCommentWidth = 68;
 
 private:
   Line& push(std::string text, const ir::Origin& origin);
+  Mark root(Mark mark) const;
 
   std::vector<Line> lines_;
   std::optional<Mark> pending_;

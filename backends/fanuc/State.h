@@ -14,8 +14,12 @@ namespace dotek::backends::fanuc {
 class Locals {
 public:
   Locals(std::uint32_t count, const std::vector<Argument>& arguments);
+  // Variables of the machine in the place of locals, the first is taken first.
+  explicit Locals(const std::vector<std::uint32_t>& variables)
+      : free_(variables.rbegin(), variables.rend()) {}
   // 0: none is left.
   std::uint32_t take();
+  std::size_t left() const { return free_.size(); }
 
 private:
   std::vector<std::uint32_t> free_; // the last is taken next
@@ -116,6 +120,7 @@ struct State {
   std::vector<std::set<ir::VariableId>> notAsked;
   std::set<ir::VariableId> toAsk;
   bool shiftOfZ = false;      // an offset of Z is written
+  bool writesOffset = false;  // some offset is, by the program itself
   std::size_t waited = 0;     // size of `sheet` where the axes are waited for
   const Body* body = nullptr; // facts of the body while it is written, else null
   std::size_t at = 0;         // index of the statement of the body that is being written

@@ -27,8 +27,14 @@ void collectMessages(const gibbs::Macro& macro, bool asked, std::vector<const gi
   }
 }
 
-// The alarms that the messages of the checks become; nothing: they cannot be followed.
-std::optional<std::vector<SourceRange>> alarmsOf(const gibbs::Cycle& cycle, const Project& project) {
+// What the messages of the checks become: alarms, or comments that all values get past. One that no value
+// comes to is neither.
+struct Messages {
+  std::vector<SourceRange> alarms, passed;
+};
+
+// nullopt: they cannot be followed.
+std::optional<Messages> messagesOf(const gibbs::Cycle& cycle, const Project& project) {
   ir::Cycle lowered = gibbs::declareCycle(cycle, project.sources);
   Diagnostics ignored;
   gibbs::LowerContext context{
@@ -50,9 +56,11 @@ std::optional<std::vector<SourceRange>> alarmsOf(const gibbs::Cycle& cycle, cons
         return lowered.add(std::move(variable));
       }};
   if (!gibbs::lowerChecks(*cycle.cycleData, lowered, context)) return std::nullopt;
-  std::vector<SourceRange> out;
-  for (const ir::CycleStatement& statement : lowered.checks)
-    if (std::holds_alternative<ir::Alarm>(statement.node)) out.push_back(statement.origin.range());
+  Messages out;
+  for (const ir::CycleStatement& statement : lowered.checks) {
+    if (std::holds_alternative<ir::Alarm>(statement.node)) out.alarms.push_back(statement.origin.range());
+    if (std::holds_alternative<ir::Comment>(statement.node)) out.passed.push_back(statement.origin.range());
+  }
   return out;
 }
 
@@ -64,18 +72,19 @@ void check(const Project& project, Report& report) {
     for (const gibbs::Macro* other : cycle->others)
       if (!other->hasErrorNodes) collectMessages(*other, true, messages);
     if (messages.size() < 2) continue;
-    const auto alarms = alarmsOf(*cycle, project);
-    if (!alarms) continue;
-    const auto isAlarm = [&](const gibbs::Statement* message) {
-      return std::any_of(alarms->begin(), alarms->end(), [&](const SourceRange& range) {
+    const auto become = messagesOf(*cycle, project);
+    if (!become) continue;
+    const auto isOf = [](const std::vector<SourceRange>& ranges, const gibbs::Statement* message) {
+      return std::any_of(ranges.begin(), ranges.end(), [&](const SourceRange& range) {
         return range.file == message->range.file && range.begin <= message->range.begin &&
                message->range.end <= range.end;
       });
     };
+    const auto isAlarm = [&](const gibbs::Statement* message) { return isOf(become->alarms, message); };
     const auto other = std::find_if(messages.begin(), messages.end(), isAlarm);
     if (other == messages.end()) continue;
     for (const gibbs::Statement* message : messages)
-      if (!isAlarm(message))
+      if (!isAlarm(message) && isOf(become->passed, message))
         report
             .at(message->range,
                 "after this message the macro goes on with the values that it complains of, and the post "

@@ -52,7 +52,8 @@ void check(const Project& project, Report& report) {
     const bool goesDown = std::any_of(path->begin(), path->end(), [](const gibbs::PathMove& move) {
       return move.kind == gibbs::PathMove::Kind::FeedZ && move.z < -kSame;
     });
-    if (last.z > lowest + kSame || (highest - lowest < kSame && !goesDown)) continue;
+    // Where the operation begins it may end.
+    if (last.z > -kSame || last.z > lowest + kSame || (highest - lowest < kSame && !goesDown)) continue;
     report.at(
         last.range,
         "the path ends at its lowest height, Z {} with the first values; the probe is not taken up, and the "

@@ -1,4 +1,5 @@
 #include "ir/Dataflow.h"
+#include "ir/Walk.h"
 #include "lint/NcProgram.h"
 #include "lint/Skips.h"
 
@@ -26,6 +27,20 @@ template <ir::AnyStatement Statement> AxisSet movedBy(const Statement& statement
                          ir::SetMode, ir::Dwell, ir::Stop, ir::Alarm, ir::OpaqueBlock, ir::JumpTo, ir::Loop,
                          ir::LoopEnd, ir::Exit, ir::Raise, ir::Notice, ir::Port, ir::Print,
                          ir::NameVariables> auto&) { return AxisSet{0}; });
+}
+
+// A branch that goes to where its touches say the middle is stays within what it has touched.
+template <ir::AnyStatement Statement> bool goesToMeasured(const Statement& statement) {
+  constexpr double kFirstOfSystem = 1000;
+  bool found = false;
+  if constexpr (std::same_as<Statement, ir::CycleStatement>)
+    ir::eachNode(statement, [&](const ir::Expression& node) {
+      const auto* machine = std::get_if<ir::MachineVariable>(&node.node);
+      const double* number = machine == nullptr ? nullptr : ir::constantValue(machine->number);
+      found = found || (number != nullptr && *number < kFirstOfSystem) ||
+              std::holds_alternative<ir::MeasuredResult>(node.node);
+    });
+  return found;
 }
 
 struct Travel {
@@ -61,7 +76,7 @@ std::vector<Travel> travels(const std::vector<Statement>& body, const Probing& p
     }
     const AxisSet axes = movedBy(body[i], probing);
     if (axes == 4) lifted = true;
-    if (!measured || axes == 0 || axes == 4) continue;
+    if (!measured || axes == 0 || axes == 4 || goesToMeasured(body[i])) continue;
     out.push_back({i, lifted});
     measured = false;
   }

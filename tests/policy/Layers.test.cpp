@@ -90,6 +90,8 @@ bool mayInclude(const std::string& from, const std::string& to) {
     return false;
   // A target is reached through the table, and no other target reaches its back end.
   if (to.starts_with("targets/")) return false;
+  // The branch of a Prog is text of a control.
+  if (from == "targets/gibbs" && to == "backends/fanuc") return true;
   if (to.starts_with("backends/") && layer(from) > 4)
     return from.starts_with("targets/") && (to == "backends/common" || to.substr(9) == from.substr(8));
   if (from.starts_with("targets/") && to == "targets") return true;

@@ -55,7 +55,8 @@ TEST_CASE("policy: a target says what it is and can be asked everything") {
     INFO(one.name);
     CHECK_FALSE(one.target->text.empty());
     CHECK((one.target->convert != nullptr));
-    CHECK((one.target->verify != nullptr));
+    // A CAM runs its folders itself; verify refuses and says how to look at what they post (docs/gibbs.md).
+    CHECK((one.target->verify != nullptr || one.name == "gibbs"));
     CHECK(targets::findTarget(one.name) == one.target);
     CHECK(targets::targetNames().find(one.name) != std::string::npos);
   }

@@ -1,0 +1,270 @@
+#include "backends/gibbs/TargetFields.h"
+
+#include "ir/CycleNames.h"
+#include "ir/Evaluate.h"
+#include "ir/Fold.h"
+#include "ir/Positions.h"
+#include "ir/Walk.h"
+#include "project/CycleCatalogue.h"
+#include "project/CycleFiles.h"
+#include "stdlib/HostInputs.h"
+#include "support/messages/CamFolder.h"
+#include "targets/DialogChoices.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <map>
+#include <utility>
+
+namespace dotek::targets {
+
+namespace gibbs = backends::gibbs;
+
+namespace {
+
+constexpr std::uint32_t kMaxSteps = 10000;
+constexpr double kFirstSystem = 54, kLastSystem = 59;
+
+bool readsIn(const std::vector<ir::CycleStatement>& list, ir::VariableId id) {
+  bool found = false;
+  for (const ir::CycleStatement& statement : list)
+    ir::eachNode(statement, [&](const ir::Expression& node) {
+      const auto* use = std::get_if<ir::VariableUse>(&node.node);
+      found = found || (use != nullptr && use->variable == id);
+    });
+  return found;
+}
+
+bool assignsIn(const std::vector<ir::CycleStatement>& list, ir::VariableId id) {
+  return std::any_of(list.begin(), list.end(), [&](const ir::CycleStatement& one) {
+    const auto* node = std::get_if<ir::Assign>(&one.node);
+    return node != nullptr && node->variable == id;
+  });
+}
+
+// The checks let this value pass, whatever the others are.
+bool passes(const ir::Cycle& cycle, ir::VariableId id, double value) {
+  ir::Environment environment(cycle.variables.size());
+  environment[id] = ir::Scalar::of(value);
+  for (ir::VariableId other = 0; other < environment.size(); ++other)
+    if (other != id && cycle.variable(other).defaultValue)
+      environment[other] = ir::Scalar::of(*cycle.variable(other).defaultValue);
+  return ir::runChecks(cycle, environment, kMaxSteps).end != ir::CheckRun::End::Alarm;
+}
+
+void addCheck(ir::Cycle& cycle, const ir::ConditionPtr& fine, const std::string& message, SourceRange range) {
+  const ir::LabelId label = cycle.addLabel({"system_fine", {}});
+  ir::Origin origin;
+  if (range.hasPlace()) origin.ranges.push_back(range);
+  origin.reason = "range of the work system";
+  cycle.checks.push_back({ir::Branch{fine, label}, origin});
+  cycle.checks.push_back({ir::Alarm{message}, origin});
+  cycle.checks.push_back({ir::Label{label}, origin});
+}
+
+// What the control would refuse with an alarm is refused in the dialog.
+void confineSystem(ir::Cycle& cycle, ir::VariableId id) {
+  constexpr double kNone[] = {-1, 0, 1, 53, 53.5, 54.5, 59.5, 60, 154};
+  if (std::none_of(std::begin(kNone), std::end(kNone),
+                   [&](double value) { return passes(cycle, id, value); }))
+    return;
+  const ir::Variable& variable = cycle.variable(id);
+  const ir::ExpressionPtr value = ir::variable(id);
+  const std::string message = fmt::format("The work offset {} is 54, 55, 56, 57, 58 or 59", variable.name);
+  const SourceRange range = variable.range;
+  addCheck(cycle, ir::compare(ir::Relation::GreaterEqual, value, ir::constant(kFirstSystem)), message, range);
+  addCheck(cycle, ir::compare(ir::Relation::LessEqual, value, ir::constant(kLastSystem)), message, range);
+  addCheck(cycle, ir::compare(ir::Relation::Equal, ir::unary(ir::UnaryOp::Truncate, value), value), message,
+           range);
+}
+
+std::vector<std::string> split(std::string_view text) {
+  std::vector<std::string> out;
+  while (!text.empty()) {
+    const std::size_t comma = text.find(", ");
+    out.emplace_back(text.substr(0, comma));
+    text = comma == std::string_view::npos ? std::string_view() : text.substr(comma + 2);
+  }
+  return out;
+}
+
+ir::ConditionPtr alwaysGiven(const ir::ConditionPtr& condition, const ir::Cycle& cycle) {
+  if (const auto* null = std::get_if<ir::IsNull>(&condition->node)) {
+    const auto* use = std::get_if<ir::VariableUse>(&null->value->node);
+    const bool given = use != nullptr && cycle.variable(use->variable).role == ir::Role::Parameter &&
+                       !cycle.variable(use->variable).optional;
+    return given ? ir::truth(false) : condition;
+  }
+  if (const auto* inner = std::get_if<ir::Not>(&condition->node))
+    return ir::negate(alwaysGiven(inner->inner, cycle));
+  if (const auto* both = std::get_if<ir::Junction>(&condition->node))
+    return ir::join(both->op, alwaysGiven(both->left, cycle), alwaysGiven(both->right, cycle),
+                    condition->range);
+  return condition;
+}
+
+// The body does not read it, and no check reads it beside something else.
+bool onlyItsRange(const ir::Cycle& cycle, ir::VariableId id) {
+  if (readsIn(cycle.body, id) || assignsIn(cycle.checks, id)) return false;
+  for (const ir::CycleStatement& statement : cycle.checks) {
+    bool reads = false, others = std::holds_alternative<ir::Assign>(statement.node);
+    ir::eachNode(statement, [&](const ir::Expression& node) {
+      const auto* use = std::get_if<ir::VariableUse>(&node.node);
+      if (use != nullptr) (use->variable == id ? reads : others) = true;
+    });
+    if (reads && others) return false;
+  }
+  return true;
+}
+
+// What the source says of a field beside what is in the IR.
+void describe(gibbs::Field& field, const CyclePage::Row& row) {
+  constexpr std::string_view kChoice = "choice of ";
+  field.meaning = row.meaning;
+  field.group = row.group;
+  if (row.kind == "flag") field.choices = {{0, "no"}, {1, "yes"}};
+  if (!row.kind.starts_with(kChoice)) return;
+  for (std::string& name : split(std::string_view(row.kind).substr(kChoice.size())))
+    field.choices.push_back({static_cast<double>(field.choices.size() + 1), std::move(name)});
+}
+
+bool isStart(std::string_view name) {
+  return name == "start_x" || name == "start_y" || name == "start_z";
+}
+
+} // namespace
+
+std::set<ir::VariableId> leaveOut(LoweredCycle& lowered, Diagnostics& diagnostics) {
+  ir::Cycle& cycle = lowered.cycle;
+  std::set<ir::VariableId> out;
+  std::vector<ir::CycleStatement> absent;
+  for (ir::VariableId id = 0; id < cycle.variables.size(); ++id) {
+    ir::Variable& variable = cycle.variables[id];
+    if (variable.role != ir::Role::Parameter || !variable.optional || lowered.fixed.contains(id)) continue;
+    variable.optional = variable.optional && !variable.defaultValue;
+    if (!variable.optional || !ir::uses(cycle, id)) continue;
+    out.insert(id);
+    absent.push_back({ir::Assign{id, ir::nullValue()}, {}});
+    diagnostics.report<diag::CamNotAsked>(variable.range, variable.name, variable.name);
+  }
+  cycle.checks.insert(cycle.checks.begin(), absent.begin(), absent.end());
+  // What has a default is given always.
+  for (auto* list : {&cycle.checks, &cycle.body})
+    for (ir::CycleStatement& statement : *list)
+      if (ir::ConditionPtr* condition = ir::conditionOf(statement))
+        *condition = alwaysGiven(*condition, cycle);
+  return out;
+}
+
+void dropReports(ir::Cycle& cycle, Diagnostics& diagnostics) {
+  std::vector<ir::CycleStatement> body;
+  bool said = false;
+  for (ir::CycleStatement& statement : cycle.body) {
+    const auto* call = std::get_if<ir::CallCycle>(&statement.node);
+    if (call == nullptr || call->cycle != ir::kReport) {
+      body.push_back(std::move(statement));
+      continue;
+    }
+    // The comment before it is its name.
+    if (!body.empty() && std::holds_alternative<ir::Comment>(body.back().node)) body.pop_back();
+    if (!std::exchange(said, true)) diagnostics.report<diag::CamReport>(statement.origin.range());
+  }
+  cycle.body = std::move(body);
+}
+
+void dropAbsences(LoweredCycle& lowered) {
+  ir::Cycle& cycle = lowered.cycle;
+  const auto assigned = [&](ir::VariableId id) {
+    return std::count_if(cycle.checks.begin(), cycle.checks.end(), [&](const ir::CycleStatement& one) {
+      const auto* node = std::get_if<ir::Assign>(&one.node);
+      return node != nullptr && node->variable == id;
+    });
+  };
+  std::erase_if(cycle.checks, [&](const ir::CycleStatement& one) {
+    const auto* node = std::get_if<ir::Assign>(&one.node);
+    return node != nullptr && std::holds_alternative<ir::NullValue>(node->value->node) &&
+           assigned(node->variable) > 1;
+  });
+}
+
+void fixUnused(LoweredCycle& lowered, const ir::FoldOptions& folding, Diagnostics& diagnostics) {
+  ir::Cycle& cycle = lowered.cycle;
+  std::map<ir::VariableId, double> fixed;
+  for (ir::VariableId id = 0; id < cycle.variables.size(); ++id) {
+    const ir::Variable& variable = cycle.variable(id);
+    if (variable.role != ir::Role::Parameter || lowered.fixed.contains(id) || variable.optional) continue;
+    if (ir::uses(cycle, id) && !onlyItsRange(cycle, id)) continue;
+    diagnostics.report<diag::CamUnused>(variable.range, variable.name);
+    if (variable.defaultValue && ir::uses(cycle, id)) fixed.emplace(id, *variable.defaultValue);
+  }
+  if (fixed.empty()) return;
+  lowered.fixed.insert(fixed.begin(), fixed.end());
+  ir::fold(cycle, fixed, folding);
+}
+
+gibbs::Folder folderOf(const CycleFolder& folder, LoweredCycle& lowered,
+                       const std::set<ir::VariableId>& without, gibbs::Names& names, const std::string* file,
+                       Session& session) {
+  ir::Cycle& cycle = lowered.cycle;
+  Diagnostics& diagnostics = session.diagnostics();
+  gibbs::Folder out;
+  out.title = cycle.title;
+  std::map<std::string, CyclePage::Row> rows;
+  if (file != nullptr) {
+    CycleFiles files(session);
+    if (const auto* tree = files.linked(*file)) {
+      const CyclePage page = cyclePage(*tree);
+      out.description = page.description.substr(0, page.description.find('\n'));
+      for (const CyclePage::Row& row : page.parameters)
+        rows.emplace(row.name, row);
+    }
+  }
+  const auto choices = dialogChoices(folder, cycle, session.sources());
+  for (ir::VariableId id = 0; id < cycle.variables.size(); ++id) {
+    const ir::Variable& variable = cycle.variable(id);
+    const bool computed = assignsIn(cycle.checks, id) || variable.name == "tool_radius";
+    const bool kept = computed && readsIn(cycle.body, id);
+    const bool asked = variable.role == ir::Role::Parameter && !without.contains(id);
+    if (!ir::uses(cycle, id) || (!asked && !kept)) continue;
+    const bool host = variable.role == ir::Role::Host;
+    gibbs::Field field{id,
+                       host ? names.fresh(variable.name) : names.of(id),
+                       variable.defaultValue.value_or(0),
+                       asked,
+                       variable.unit,
+                       variable.meaning,
+                       "",
+                       {}};
+    if (asked && !variable.defaultValue)
+      diagnostics.report<diag::CamDefaultMissing>(variable.range, variable.name, variable.name);
+    if (field.unit.empty()) field.unit = std::string(ir::kindUnit(variable.kind));
+    if (const auto row = rows.find(variable.name); row != rows.end()) describe(field, row->second);
+    if (const auto found = choices.find(id); found != choices.end())
+      for (const DialogChoice& one : found->second)
+        field.choices.push_back({one.value, one.title});
+    out.fields.push_back(std::move(field));
+  }
+  for (const gibbs::Field& field : out.fields)
+    if (field.asked && cycle.variable(field.variable).kind == ir::Kind::WorkOffset &&
+        readsIn(cycle.body, field.variable))
+      confineSystem(cycle, field.variable);
+  return out;
+}
+
+void checkHosts(const ir::Cycle& cycle, Diagnostics& diagnostics) {
+  for (ir::VariableId id = 0; id < cycle.variables.size(); ++id) {
+    const ir::Variable& variable = cycle.variable(id);
+    if (variable.role != ir::Role::Host) continue;
+    const bool inBody = readsIn(cycle.body, id), inChecks = readsIn(cycle.checks, id);
+    if (!inBody && !inChecks) continue;
+    if (variable.name == "tool_radius") continue;
+    if (!inChecks && (isStart(variable.name) || variable.name == "clearance")) continue;
+    const auto* info = std::find_if(std::begin(stdlib::kHostInputs), std::end(stdlib::kHostInputs),
+                                    [&](const auto& one) { return one.name == variable.name; });
+    diagnostics.report<diag::CamHostUnknown>(cycle.range, variable.name,
+                                             info == std::end(stdlib::kHostInputs) ? "" : info->meaning,
+                                             variable.name);
+  }
+}
+
+} // namespace dotek::targets

@@ -1,0 +1,10 @@
+// Messages of CamFolder.def as types of the namespace diag.
+#pragma once
+
+#include "support/Diagnostics.h"
+
+namespace dotek::diag {
+#define DOTEK_DIAGNOSTIC DOTEK_MESSAGE_TYPE
+#include "support/messages/CamFolder.def"
+#undef DOTEK_DIAGNOSTIC
+} // namespace dotek::diag
