@@ -2,6 +2,7 @@
 #include "lsp/Controls.h"
 #include "lsp/Server.h"
 #include "project/CycleFolder.h"
+#include "project/Lowering.h"
 #include "project/Session.h"
 #include "project/Settings.h"
 #include "stdlib/DataFiles.h"
@@ -72,7 +73,7 @@ std::vector<Proposal> macroB(const Index& index, const std::string& path, std::s
     return out;
   }
   std::string name = project::settingsOf(path, session).control;
-  if (name.empty()) name = "fanuc-0i-md";
+  if (name.empty()) name = project::kDefaultControl;
   const stdlib::Control* const control = session.control(name);
   const std::string word(lastWord(block));
   if (control != nullptr && (word == "G" || word == "M")) {

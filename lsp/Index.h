@@ -90,7 +90,7 @@ std::vector<Proposal> proposals(const Index& index, const std::string& path, std
 void indexMacroB(Index& index, project::Session& session, const std::string& path);
 void indexGibbs(Index& index, project::Session& session);
 void indexComPost(Index& index, project::Session& session);
-void indexCycle(Index& index, project::Session& session, const std::string& path);
+void indexCycle(Index& index, project::Session& session);
 void indexMikroprog(Index& index, project::Session& session, const std::string& path);
 
 } // namespace dotek::lsp

@@ -195,7 +195,7 @@ private:
 
 } // namespace
 
-void indexCycle(Index& index, project::Session& session, const std::string&) {
+void indexCycle(Index& index, project::Session& session) {
   Diagnostics unheard;
   const cycle::File file = cycle::parse(index.file, session.sources(), session.limits(), unheard);
   project::CycleFiles library(session);

@@ -4,6 +4,7 @@
 #include "frontend/macrob/Walk.h"
 #include "lsp/Controls.h"
 #include "lsp/Index.h"
+#include "project/Lowering.h"
 #include "project/Session.h"
 #include "project/Settings.h"
 #include "stdlib/ReadCall.h"
@@ -19,8 +20,6 @@ namespace nc = frontend::nc;
 using Role = Occurrence::Role;
 
 namespace {
-
-constexpr std::string_view kDefaultControl = "fanuc-0i-md";
 
 std::optional<std::uint32_t> wholeOf(const nc::Word& word) {
   const std::optional<double> value = macrob::literal(word);
@@ -173,7 +172,7 @@ void indexMacroB(Index& index, project::Session& session, const std::string& pat
   Diagnostics unheard;
   const macrob::File file = macrob::parse(index.file, session.sources(), session.limits(), unheard);
   std::string control = project::settingsOf(path, session).control;
-  if (control.empty()) control = kDefaultControl;
+  if (control.empty()) control = project::kDefaultControl;
   Indexer(index, session, session.control(control)).file(file);
 }
 

@@ -210,6 +210,9 @@ TEST_CASE("lsp: repairs, suppressions and layout are offered") {
   const std::string program = "O7302\nG0Z5\nX10.Y20.\nX0.Y5.\nZ3.\n#1=#1\nM99\n";
   const std::string ncPath = folder.write("O7302.nc", program);
   const Json found = client.open(ncPath, program);
+  const Json laid = client.result("textDocument/formatting", at(ncPath, 0, 0));
+  REQUIRE(laid.size() == 1);
+  CHECK(laid[0]["newText"].get<std::string>().find("X10. Y20.\n") != std::string::npos);
   const Json actions = client.result("textDocument/codeAction", all(ncPath));
   REQUIRE(!found.empty());
   for (const Json& one : found) {
