@@ -6,6 +6,7 @@
 #include "cli/Findings.h"
 #include "driver/Driver.h"
 #include "driver/Facts.h"
+#include "driver/LintFix.h"
 #include "driver/Preview.h"
 #include "driver/ProgramTools.h"
 #include "lsp/Serve.h"
@@ -186,6 +187,15 @@ public:
     return write(texts, outcome, arguments) ? outcome.status : kUsage;
   }
 
+  // Repairs as a patch; findings only where nothing could be read.
+  int proposals(const driver::Outcome& outcome) {
+    if (outcome.status == kUsage) err_ << renderText(outcome.diagnostics, outcome.sources, maxErrors_);
+    for (const driver::OutputFile& file : outcome.files)
+      out_ << diffOf(file, outcome.sources);
+    if (!outcome.summary.empty()) err_ << outcome.summary << "\n";
+    return outcome.status;
+  }
+
   // One text to standard output, or those that change in place, or the names of these.
   int layout(const driver::Outcome& outcome, const Arguments& arguments) {
     err_ << renderText(outcome.diagnostics, outcome.sources, maxErrors_);
@@ -284,6 +294,7 @@ int runCommand(Arguments& arguments, std::ostream& out, std::ostream& err) {
     options.paths = arguments.inputs;
     options.common = arguments.common;
     options.source = arguments.source;
+    if (arguments.diff) return printer.proposals(driver::proposeFixes(options));
     return printer.findings(driver::lint(options), arguments);
   }
   case Command::Dump:

@@ -41,7 +41,10 @@ void addLint(CLI::App& app, Raw& raw) {
       ->type_name("FILE");
   lint->add_option("--write-baseline", raw.writeBaseline, "list the findings of now in a file for --baseline")
       ->type_name("FILE");
-  lint->add_flag("--fix", raw.fix, "make the repairs that change no motion, coordinate or meaning");
+  CLI::Option* fix =
+      lint->add_flag("--fix", raw.fix, "make the repairs that change no motion, coordinate or meaning");
+  lint->add_flag("--diff", raw.diff, "with --fix: print the lines that would change, and how; change nothing")
+      ->needs(fix);
   lint->add_option("--form", raw.form, "what the Form of the post decides (see `dotek list forms`)")
       ->type_name("NAME");
   addSeveral(*lint, "--field", raw.field, "the post's field FIELD is the macro's variable VARIABLE",

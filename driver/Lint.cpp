@@ -445,7 +445,42 @@ Outcome lintAndFix(const LintOptions& options) {
   return outcome;
 }
 
+// The turns of lintAndFix, on texts in memory.
+Outcome proposed(LintOptions options) {
+  options.fix = false;
+  Outcome found = lintOnce(options);
+  if (found.status > 1) return found;
+  std::map<std::string, std::string> texts;
+  std::size_t repairs = 0;
+  std::vector<OutputFile> next;
+  std::vector<MadeFix> made;
+  next = safeFixes(found, made);
+  for (int turn = 0; turn < kFixTurns && !next.empty(); ++turn) {
+    repairs += made.size();
+    auto buffers = std::make_shared<std::map<std::string, std::string>>();
+    for (OutputFile& file : next)
+      texts[file.name] = std::move(file.text);
+    for (const auto& [name, text] : texts)
+      (*buffers)[fs::absolute(name).lexically_normal().generic_string()] = text;
+    options.common.buffers = buffers;
+    made.clear();
+    next = safeFixes(lintOnce(options), made);
+  }
+  for (auto& [name, text] : texts)
+    found.files.push_back({name, std::move(text)});
+  found.summary = repairs == 0 ? "no repair to make: `dotek list rules` marks the rules that --fix repairs"
+                               : fmt::format("{} repair{} in {} file{} would be made; nothing is changed",
+                                             repairs, repairs == 1 ? "" : "s", found.files.size(),
+                                             found.files.size() == 1 ? "" : "s");
+  if (repairs > 0) found.status = 1;
+  return found;
+}
+
 } // namespace
+
+Outcome proposeFixes(const LintOptions& options) {
+  return caught([&] { return proposed(options); });
+}
 
 Outcome lint(const LintOptions& options) {
   return caught([&] { return lintAndFix(options); });

@@ -63,10 +63,8 @@ void reportFixes(const std::vector<MadeFix>& made, Outcome& outcome) {
   }
 }
 
-std::vector<MadeFix> applySafeFixes(const Outcome& outcome, const Limits& limits, bool force,
-                                    Diagnostics& diagnostics) {
+std::vector<OutputFile> safeFixes(const Outcome& outcome, std::vector<MadeFix>& made) {
   std::vector<Edit> edits;
-  std::vector<MadeFix> made;
   // A file that was read under two names is mended under the first.
   std::map<FileIdentity, std::string> names;
   const auto isOther = [&](FileId file) {
@@ -90,7 +88,6 @@ std::vector<MadeFix> applySafeFixes(const Outcome& outcome, const Limits& limits
                       oneLine(outcome.sources.textUtf8(edit.range)), oneLine(edit.text)});
     }
   }
-  if (edits.empty()) return {};
   std::sort(edits.begin(), edits.end(),
             [](const Edit& a, const Edit& b) { return a.range.begin > b.range.begin; });
   std::map<std::string, std::string> texts;
@@ -99,13 +96,23 @@ std::vector<MadeFix> applySafeFixes(const Outcome& outcome, const Limits& limits
     const auto [at, added] = texts.try_emplace(file.name(), file.bytes());
     at->second.replace(edit.range.begin, edit.range.end - edit.range.begin, edit.text);
   }
+  std::vector<OutputFile> out;
+  for (auto& [name, text] : texts)
+    out.push_back({name, std::move(text)});
+  return out;
+}
+
+std::vector<MadeFix> applySafeFixes(const Outcome& outcome, const Limits& limits, bool force,
+                                    Diagnostics& diagnostics) {
+  std::vector<MadeFix> made;
+  std::vector<OutputFile> texts = safeFixes(outcome, made);
   std::vector<NamedText> writes;
-  for (auto& [name, text] : texts) {
-    const auto before = readBytes(name, limits, diagnostics);
+  for (OutputFile& file : texts) {
+    const auto before = readBytes(file.name, limits, diagnostics);
     if (!before) return {};
-    if (before->starts_with(kByteOrderMark) && !text.starts_with(kByteOrderMark))
-      text.insert(0, kByteOrderMark);
-    writes.push_back({name, &text});
+    if (before->starts_with(kByteOrderMark) && !file.text.starts_with(kByteOrderMark))
+      file.text.insert(0, kByteOrderMark);
+    writes.push_back({file.name, &file.text});
   }
   if (!writeAll(writes, "", {force, nullptr}, diagnostics)) return {};
   return made;

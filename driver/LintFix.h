@@ -17,6 +17,10 @@ struct MadeFix {
   std::string before, after; // text that was replaced, on one line
 };
 
+// The texts of files with the safe repairs of `outcome` made, by the names of the command line; a byte order
+// mark is left away. `made`: each repair. What overlaps waits for another turn.
+std::vector<OutputFile> safeFixes(const Outcome& outcome, std::vector<MadeFix>& made);
+
 // Writes the files with the safe repairs of `outcome` made: all or none. Nothing is written where there is
 // none. What overlaps waits for another turn. `force`: files that are write-protected, too.
 std::vector<MadeFix> applySafeFixes(const Outcome& outcome, const Limits& limits, bool force,
@@ -25,5 +29,9 @@ std::vector<MadeFix> applySafeFixes(const Outcome& outcome, const Limits& limits
 // One note a repair; of many of one rule in a file their number. Places are those of `outcome`, which was
 // read after them.
 void reportFixes(const std::vector<MadeFix>& made, Outcome& outcome);
+
+// What lint with `fix` would write, as `files`; nothing is written. `sources` holds the texts as they are,
+// the summary says how much is repaired. The status is 1 where a repair is proposed, else that of lint.
+Outcome proposeFixes(const LintOptions& options);
 
 } // namespace dotek::driver

@@ -154,6 +154,26 @@ TEST_CASE("lint --fix makes the safe repairs and says what is left") {
   CHECK(readAll(prog) == open);
 }
 
+TEST_CASE("lint --fix --diff prints what --fix would write, and changes nothing") {
+  const DataFolder folder;
+  const std::string text = "progStart:\r\n SetFlag('a')\r\n IF Flag? ('a')\r\n  SeqC' M32''' EOL\r\n"
+                           "  SeqC ' G0 Z5. F100' EOL\r\n END\r\nRETURN\r\n";
+  const std::string path = folder.write("p.txt", text);
+  const CommandResult shown =
+      runDotek({"lint", "p.txt", "--select", "all", "--fix", "--diff"}, folder.path());
+  CHECK(readAll(path) == text);
+  CHECK(shown.status == 1);
+  CHECK(shown.out == "--- p.txt\n+++ p.txt\n@@ -3,2 +3,2 @@\n- IF Flag? ('a')\n-  SeqC' M32''' EOL\n"
+                     "+ IF Flag?('a')\n+  SeqC ' M32' EOL\n");
+  CHECK(shown.err == "3 repairs in 1 file would be made; nothing is changed\n");
+  // What one repair lays bare is in it: applied, it is what --fix writes.
+  lint(folder, {"p.txt", "--select", "all", "--fix"});
+  const CommandResult none = runDotek({"lint", "p.txt", "--select", "all", "--fix", "--diff"}, folder.path());
+  CHECK(none.out == "");
+  CHECK(none.status == 0); // a note is left
+  CHECK(runDotek({"lint", "p.txt", "--diff"}, folder.path()).status == 2);
+}
+
 TEST_CASE("lint: dotek.toml is found above the input and says what is wanted") {
   const DataFolder folder;
   folder.write("dotek.toml",
