@@ -42,6 +42,9 @@ void fill(const Raw& raw, Arguments& parsed) {
   if (!raw.sequence.empty()) parsed.sequence = startAndStep("--seq", raw.sequence);
   parsed.json = raw.format == "json" || raw.json;
   parsed.quiet = raw.quiet;
+  parsed.color = raw.color == "always"  ? ColorMode::Always
+                 : raw.color == "never" ? ColorMode::Never
+                                        : ColorMode::Auto;
   parsed.force = raw.force;
   parsed.write = raw.write;
   parsed.check = raw.check;

@@ -35,6 +35,8 @@ enum class Command : unsigned char {
   Renumber
 };
 
+enum class ColorMode : unsigned char { Auto, Always, Never };
+
 struct Arguments {
   Command command = Command::Post;
   std::vector<std::string> inputs;
@@ -58,6 +60,7 @@ struct Arguments {
   std::string svgFile, htmlFile;  // --svg, --html
   driver::VerifyOptions verify;   // inputs, common and source aside
   bool quiet = false;
+  ColorMode color = ColorMode::Auto;
   bool force = false; // of --force: outputs that are write-protected are replaced
   driver::Stage stage = driver::Stage::Ast;
   bool write = false, check = false;       // of fmt: --write, --check

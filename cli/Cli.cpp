@@ -18,6 +18,7 @@
 #include "support/Output.h"
 #include "support/OutputCheck.h"
 #include "support/Printable.h"
+#include "support/RenderText.h"
 #include "support/Stream.h"
 #include "support/Worker.h"
 #include "support/messages/Output.h"
@@ -25,6 +26,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cerrno>
+#include <cstdlib>
 #include <cstring>
 #include <exception>
 #include <memory>
@@ -42,17 +44,33 @@ std::string diffOf(const driver::OutputFile& file, const SourceMap& sources) {
   return "";
 }
 
+// no-color.org: any value but an empty one.
+bool wantsNoColors() {
+  const char* const set = std::getenv("NO_COLOR");
+  return set != nullptr && *set != '\0';
+}
+
+// `auto`: on a terminal that understands them.
+Colors colorsOf(ColorMode mode, int descriptor) {
+  if (mode != ColorMode::Auto) return mode == ColorMode::Always ? Colors::Terminal : Colors::None;
+  const char* const terminal = std::getenv("TERM");
+  const bool dumb = terminal == nullptr || std::string_view(terminal) == "dumb";
+  return !wantsNoColors() && !dumb && isatty(descriptor) == 1 ? Colors::Terminal : Colors::None;
+}
+
 // Prints what a command found and wrote; the status of the process.
 class Printer {
 public:
-  Printer(std::ostream& out, std::ostream& err, std::uint32_t maxErrors)
-      : out_(out), err_(err), maxErrors_(maxErrors) {}
+  Printer(std::ostream& out, std::ostream& err, const Arguments& arguments)
+      : out_(out), err_(err), maxErrors_(arguments.maxErrors),
+        outColors_(colorsOf(arguments.color, STDOUT_FILENO)),
+        errColors_(colorsOf(arguments.color, STDERR_FILENO)) {}
 
   // Before anything is done.
   bool canWrite(const Arguments& arguments) {
     Diagnostics found;
     const bool good = checkOutputs(outputsOf(arguments), inputsOf(arguments), arguments.force, found);
-    err_ << renderText(found, SourceMap(), maxErrors_);
+    err_ << renderText(found, SourceMap(), maxErrors_, errColors_);
     if (!good && arguments.command == Command::Sim && arguments.json)
       out_ << sim::notRunSummary(found, SourceMap());
     return good;
@@ -60,7 +78,7 @@ public:
 
   // Results to standard output or `-o`, diagnostics to standard error.
   int result(const driver::Outcome& outcome, const Arguments& arguments) {
-    err_ << renderText(outcome.diagnostics, outcome.sources, maxErrors_);
+    err_ << renderText(outcome.diagnostics, outcome.sources, maxErrors_, errColors_);
     if (outcome.status != 0) {
       out_ << outcome.output;
       return outcome.status;
@@ -72,7 +90,7 @@ public:
   // The program of a post; the map beside it.
   int posted(const driver::Outcome& outcome, const Arguments& arguments) {
     if (arguments.mapFile.empty() || outcome.status != 0) return result(outcome, arguments);
-    err_ << renderText(outcome.diagnostics, outcome.sources, maxErrors_);
+    err_ << renderText(outcome.diagnostics, outcome.sources, maxErrors_, errColors_);
     const std::string map = renderLineMap(outcome.maps, outcome.sources);
     return write({{orStandardOutput(arguments.output), &outcome.output}, {arguments.mapFile, &map}}, outcome,
                  arguments)
@@ -82,8 +100,8 @@ public:
 
   // Programs to standard output, `-o` or `-d`; the map beside them.
   int programs(const driver::Outcome& outcome, const Arguments& arguments) {
-    err_ << renderText(outcome.diagnostics, outcome.sources, maxErrors_);
-    if (!outcome.summary.empty()) err_ << outcome.summary << "\n";
+    err_ << renderText(outcome.diagnostics, outcome.sources, maxErrors_, errColors_);
+    if (!arguments.quiet && !outcome.summary.empty()) err_ << outcome.summary << "\n";
     std::vector<NamedText> texts;
     for (const driver::OutputFile& report : outcome.reports)
       texts.push_back({reportPath(arguments, report.name), &report.text});
@@ -94,7 +112,7 @@ public:
     std::set<std::string> held; // stay what they are
     if (Diagnostics others; !arguments.force) {
       held = heldByOthers(outcome.files, arguments.outputFolder, others);
-      err_ << renderText(others, SourceMap(), maxErrors_);
+      err_ << renderText(others, SourceMap(), maxErrors_, errColors_);
       if (!held.empty() && !arguments.convert.keepGoing) return kUsage;
     }
     for (const driver::OutputFile& file : outcome.files)
@@ -136,7 +154,7 @@ public:
     else if (options.json)
       outcome.output = sim::notRunSummary(writing, SourceMap());
     out_ << outcome.output;
-    err_ << renderText(outcome.diagnostics, outcome.sources, maxErrors_);
+    err_ << renderText(outcome.diagnostics, outcome.sources, maxErrors_, errColors_);
     if (!ran || outcome.status == kUsage) outputs.clear();
     for (const driver::OutputFile& one : outcome.files) {
       if (outcome.status == kUsage || !add(one.name == "svg" ? arguments.svgFile : arguments.htmlFile)) break;
@@ -147,19 +165,19 @@ public:
                                             orStandardOutput(arguments.htmlFile)};
     const bool placed =
         !writing.hasErrors() && checkRead(paths, outcome.sources, writing) && placeAll(outputs, writing);
-    err_ << renderText(writing, SourceMap(), maxErrors_);
+    err_ << renderText(writing, SourceMap(), maxErrors_, errColors_);
     return placed ? outcome.status : kUsage;
   }
 
   // The report counts also where something differs; a terminal sees how far the run is.
   int verification(driver::VerifyOptions& options, const Arguments& arguments) {
-    if (isatty(STDERR_FILENO) == 1) {
+    if (!arguments.quiet && isatty(STDERR_FILENO) == 1) {
       options.progress = [&](std::uint64_t done, std::uint64_t all) {
         err_ << "\r" << done << " of " << all << " cases" << (done == all ? "\r\x1b[K" : "") << std::flush;
       };
     }
     const driver::Outcome outcome = driver::verify(options);
-    err_ << renderText(outcome.diagnostics, outcome.sources, maxErrors_);
+    err_ << renderText(outcome.diagnostics, outcome.sources, maxErrors_, errColors_);
     if (outcome.status == kUsage) return kUsage;
     if (options.format != targets::ReportFormat::Text && outcome.files.empty()) return outcome.status;
     const std::string& report = outcome.files.empty() ? outcome.output : outcome.files.front().text;
@@ -175,10 +193,10 @@ public:
              : arguments.json     ? renderJson(outcome.diagnostics, outcome.sources)
              : arguments.github   ? renderGithub(outcome.diagnostics, outcome.sources)
              : arguments.gitlab   ? renderGitlab(outcome.diagnostics, outcome.sources)
-                                  : renderText(outcome.diagnostics, outcome.sources, maxErrors_));
-    if (!outcome.summary.empty()) err_ << outcome.summary << "\n";
+                                  : renderText(outcome.diagnostics, outcome.sources, maxErrors_, outColors_));
+    if (!arguments.quiet && !outcome.summary.empty()) err_ << outcome.summary << "\n";
     if (const std::string line = closingLine(outcome.diagnostics);
-        !line.empty() && isatty(STDERR_FILENO) == 1)
+        !line.empty() && !arguments.quiet && isatty(STDERR_FILENO) == 1)
       err_ << line << "\n";
     if (outcome.status == kUsage || arguments.baselineFile.empty()) return outcome.status;
     std::vector<NamedText> texts;
@@ -189,7 +207,8 @@ public:
 
   // Repairs as a patch; findings only where nothing could be read.
   int proposals(const driver::Outcome& outcome) {
-    if (outcome.status == kUsage) err_ << renderText(outcome.diagnostics, outcome.sources, maxErrors_);
+    if (outcome.status == kUsage)
+      err_ << renderText(outcome.diagnostics, outcome.sources, maxErrors_, errColors_);
     for (const driver::OutputFile& file : outcome.files)
       out_ << diffOf(file, outcome.sources);
     if (!outcome.summary.empty()) err_ << outcome.summary << "\n";
@@ -198,7 +217,7 @@ public:
 
   // One text to standard output, or those that change in place, or the names of these.
   int layout(const driver::Outcome& outcome, const Arguments& arguments) {
-    err_ << renderText(outcome.diagnostics, outcome.sources, maxErrors_);
+    err_ << renderText(outcome.diagnostics, outcome.sources, maxErrors_, errColors_);
     std::vector<NamedText> texts;
     for (const driver::OutputFile& file : outcome.files) {
       const bool changes =
@@ -212,13 +231,13 @@ public:
     if (arguments.check) return outcome.status != 0 || outcome.inputs.empty() ? outcome.status : kInputError;
     Diagnostics writing;
     const bool done = writeAll(texts, "", {arguments.force, &out_}, writing);
-    err_ << renderText(writing, SourceMap(), maxErrors_);
+    err_ << renderText(writing, SourceMap(), maxErrors_, errColors_);
     return done ? outcome.status : kUsage;
   }
 
   // The pages as files of a folder, or their Markdown as one text.
   int catalogue(const driver::Outcome& outcome, const Arguments& arguments) {
-    err_ << renderText(outcome.diagnostics, outcome.sources, maxErrors_);
+    err_ << renderText(outcome.diagnostics, outcome.sources, maxErrors_, errColors_);
     if (outcome.status != 0) return outcome.status;
     std::vector<NamedText> texts;
     if (arguments.outputFolder.empty()) texts.push_back({"-", &outcome.output});
@@ -238,13 +257,14 @@ private:
     const bool done = checkRead(paths, outcome.sources, writing) &&
                       writeAll(texts, outcome.files.empty() ? "" : arguments.outputFolder,
                                {arguments.force, &out_}, writing);
-    err_ << renderText(writing, SourceMap(), maxErrors_);
+    err_ << renderText(writing, SourceMap(), maxErrors_, errColors_);
     return done;
   }
 
   std::ostream& out_;
   std::ostream& err_;
   std::uint32_t maxErrors_;
+  Colors outColors_, errColors_;
 };
 
 // Data files of the project come before those of the command line, which replace them; so does what a flag
@@ -269,7 +289,7 @@ void takeDefaultsOfProject(Arguments& arguments) {
 
 int runCommand(Arguments& arguments, std::ostream& out, std::ostream& err) {
   takeDefaultsOfProject(arguments);
-  Printer printer(out, err, arguments.maxErrors);
+  Printer printer(out, err, arguments);
   if (!printer.canWrite(arguments)) return kUsage;
   switch (arguments.command) {
   case Command::Post:

@@ -182,6 +182,9 @@ void addCommon(CLI::App& app, Raw& raw) {
   app.add_option("--encoding", raw.encoding, "utf-8, cp1250 or cp852 instead of the recognised encoding");
   app.add_option("--from", raw.from, "kind of the inputs: prog, mac, dlg, define, nc, listing, suf or cycle");
   app.add_option("--max-errors", raw.maxErrors, "print at most N errors; 0 prints all")->type_name("N");
+  app.add_option("--color", raw.color, "auto (on a terminal, unless NO_COLOR is set), always or never")
+      ->type_name("WHEN")
+      ->check(CLI::IsMember({"auto", "always", "never"}));
   addSeveral(app, "--limit", raw.limit, "set a limit (see `dotek list limits`)", "NAME=N");
   addProbeCodes(app, raw);
   addFolders(app, "--data", raw.data, "folder whose data files are added or replace built-in ones");

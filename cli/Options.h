@@ -28,7 +28,7 @@ struct Raw {
   std::vector<std::string> inputs;
   std::vector<std::string> set, field, host, assume, limit, data, include;
   std::string includeRoot, job, encoding, from, prog, routine, cycle, form, clearance, sequence, output;
-  std::string format = "text";
+  std::string format = "text", color = "auto";
   std::vector<std::string> select, ignore;
   std::string failOn;
   bool fix = false, followLinks = false, listSkipped = false, statistics = false;

@@ -57,6 +57,7 @@ void addConvert(CLI::App& app, Raw& raw) {
           "--keep-going", raw.keepGoing,
           "with -d: write the good ones of several inputs, list those that are refused, and exit with 1")
       ->needs(folder);
+  convert->add_flag("--quiet", raw.quiet, "no summary and no progress, only what was found");
   addForce(*convert, raw, ", and in the folder of -d programs of another cycle");
   addIncludes(*convert, raw);
   addCommon(*convert, raw);

@@ -55,6 +55,7 @@ void addLint(CLI::App& app, Raw& raw) {
   lint->add_option("--fail-on", raw.failOn, "exit with 1 from this severity on (warning)")
       ->check(CLI::IsMember({"note", "warning", "error", "never"}));
   addTarget(*lint, raw);
+  lint->add_flag("--quiet", raw.quiet, "no summary and no progress, only what was found");
   addForce(*lint, raw);
   addIncludes(*lint, raw);
   addCommon(*lint, raw);

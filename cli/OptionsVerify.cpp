@@ -98,6 +98,7 @@ void addVerify(CLI::App& app, Raw& raw) {
       ->type_name("TEXT");
   verify->add_option("--program-number", raw.programNumber, "O number of the translation (8000)")
       ->type_name("N");
+  verify->add_flag("--quiet", raw.quiet, "no summary and no progress, only what was found");
   addForce(*verify, raw);
   addIncludes(*verify, raw);
   addCommon(*verify, raw);

@@ -1,4 +1,5 @@
-#include "support/Diagnostics.h"
+#include "support/RenderText.h"
+
 #include "support/Printable.h"
 
 #include <algorithm>
@@ -8,6 +9,25 @@ namespace dotek {
 namespace {
 
 constexpr std::size_t kShownColumns = 160;
+
+// Sequences of a terminal (ECMA-48, SGR); none where nothing is painted.
+struct Ink {
+  explicit Ink(bool painted)
+      : bold(painted ? "\x1b[1m" : ""), red(painted ? "\x1b[1;31m" : ""),
+        magenta(painted ? "\x1b[1;35m" : ""), cyan(painted ? "\x1b[1;36m" : ""),
+        green(painted ? "\x1b[1;32m" : ""), plain(painted ? "\x1b[0m" : "") {}
+
+  std::string_view bold, red, magenta, cyan, green, plain;
+
+  std::string_view of(Severity severity) const {
+    switch (severity) {
+    case Severity::Error: return red;
+    case Severity::Warning: return magenta;
+    case Severity::Note: return cyan;
+    }
+    return plain;
+  }
+};
 
 // The last line that an excerpt was cut from: findings in one long line decode it once.
 class ShownLine {
@@ -38,17 +58,21 @@ private:
   std::vector<std::uint32_t> starts_; // first byte of each character
 };
 
-void appendPlace(std::string& out, SourceRange range, const SourceMap& sources) {
+void appendPlace(std::string& out, SourceRange range, const SourceMap& sources, const Ink& ink) {
+  out += ink.bold;
   if (!range.hasPlace()) {
-    out += "dotek: ";
-    return;
+    out += "dotek:";
+  } else {
+    const LineColumn at = sources.file(range.file).place(range.begin);
+    out += fmt::format("{}:{}:{}:", printable(sources.file(range.file).name()), at.line, at.column);
   }
-  const LineColumn at = sources.file(range.file).place(range.begin);
-  out += fmt::format("{}:{}:{}: ", printable(sources.file(range.file).name()), at.line, at.column);
+  out += ink.plain;
+  out += " ";
 }
 
 // The line and the caret below it; a long line is cut around the caret.
-void appendExcerpt(std::string& out, SourceRange range, const SourceMap& sources, ShownLine& shown) {
+void appendExcerpt(std::string& out, SourceRange range, const SourceMap& sources, ShownLine& shown,
+                   const Ink& ink) {
   if (!range.hasPlace()) return;
   const SourceFile& file = sources.file(range.file);
   const LineColumn begin = file.place(range.begin);
@@ -75,12 +99,19 @@ void appendExcerpt(std::string& out, SourceRange range, const SourceMap& sources
   }
   width = std::min(width, std::max<std::size_t>(characters > column ? characters - column : 1, 1));
   if (cutEnd) text += "...";
-  out += "  " + text + "\n  " + std::string(column, ' ') + "^" + std::string(width - 1, '~') + "\n";
+  out += fmt::format("  {}\n  {}{}^{}{}\n", text, std::string(column, ' '), ink.green,
+                     std::string(width - 1, '~'), ink.plain);
 }
 
 } // namespace
 
 std::string renderText(const Diagnostics& diagnostics, const SourceMap& sources, std::uint32_t maxErrors) {
+  return renderText(diagnostics, sources, maxErrors, Colors::None);
+}
+
+std::string renderText(const Diagnostics& diagnostics, const SourceMap& sources, std::uint32_t maxErrors,
+                       Colors colors) {
+  const Ink ink(colors == Colors::Terminal);
   std::string out;
   std::uint32_t errors = 0;
   std::uint32_t left = 0;
@@ -90,19 +121,21 @@ std::string renderText(const Diagnostics& diagnostics, const SourceMap& sources,
       ++left;
       continue;
     }
-    appendPlace(out, d.range, sources);
-    out += fmt::format("{}: {} [{}]\n", severityName(d.severity), printable(d.message), d.code);
-    appendExcerpt(out, d.range, sources, shown);
+    appendPlace(out, d.range, sources, ink);
+    out += fmt::format("{}{}:{} {} [{}]\n", ink.of(d.severity), severityName(d.severity), ink.plain,
+                       printable(d.message), d.code);
+    appendExcerpt(out, d.range, sources, shown, ink);
     for (const DiagnosticNote& note : d.notes) {
-      appendPlace(out, note.range, sources);
-      out += fmt::format("note: {}\n", printable(note.message));
-      appendExcerpt(out, note.range, sources, shown);
+      appendPlace(out, note.range, sources, ink);
+      out += fmt::format("{}note:{} {}\n", ink.cyan, ink.plain, printable(note.message));
+      appendExcerpt(out, note.range, sources, shown, ink);
     }
     if (d.fix) {
-      appendPlace(out, d.fix->edits.empty() ? d.range : d.fix->edits.front().range, sources);
+      appendPlace(out, d.fix->edits.empty() ? d.range : d.fix->edits.front().range, sources, ink);
       const bool safe = d.fix->applicability == Fix::Applicability::Safe;
-      out += fmt::format("{}: {}\n", safe ? "fix (`dotek lint --fix` makes it)" : "fix by hand",
-                         printable(d.fix->title));
+      out +=
+          fmt::format("{}{}:{} {}\n", ink.green, safe ? "fix (`dotek lint --fix` makes it)" : "fix by hand",
+                      ink.plain, printable(d.fix->title));
     }
   }
   if (left > 0)

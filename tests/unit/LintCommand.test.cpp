@@ -235,3 +235,31 @@ TEST_CASE("lint --format sarif is SARIF 2.1.0") {
   folder.write("out.sarif", "{\"version\": \"2.1.0\"}");
   CHECK(std::system(check.c_str()) != 0);
 }
+
+TEST_CASE("lint: colours are the same characters with sequences between; a file gets none unless asked") {
+  const DataFolder folder;
+  folder.write("p.txt", kDuplicate);
+  const auto out = [&](const std::string& when) {
+    return runDotek({"lint", "p.txt", "--color", when}, folder.path()).out;
+  };
+  const std::string plain = out("auto");
+  CHECK(plain.find('\x1b') == std::string::npos);
+  CHECK(out("never") == plain);
+  std::string painted = out("always");
+  CHECK(painted.find("\x1b[1;35mwarning:\x1b[0m") != std::string::npos);
+  for (std::size_t at = 0; (at = painted.find('\x1b', at)) != std::string::npos;)
+    painted.erase(at, painted.find('m', at) + 1 - at);
+  CHECK(painted == plain);
+  CHECK(runDotek({"lint", "p.txt", "--color", "sometimes"}, folder.path()).status == 2);
+}
+
+TEST_CASE("lint --quiet prints what was found and no summary") {
+  const DataFolder folder;
+  folder.write("p.txt", kDuplicate);
+  const CommandResult loud = runDotek({"lint", "."}, folder.path());
+  const CommandResult quiet = runDotek({"lint", ".", "--quiet"}, folder.path());
+  CHECK(loud.err != "");
+  CHECK(quiet.err == "");
+  CHECK(quiet.out == loud.out);
+  CHECK(quiet.status == loud.status);
+}
