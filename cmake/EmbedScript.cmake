@@ -11,11 +11,11 @@ foreach(file IN LISTS files)
   set(at 0)
   while(at LESS length)
     string(SUBSTRING "${text}" ${at} 8000 chunk)
-    string(APPEND literal "R\"DOTEK(${chunk})DOTEK\"\n")
+    string(APPEND literal "R\"DOTEK(${chunk})DOTEK\"sv\n")
     math(EXPR at "${at} + 8000")
   endwhile()
   if(literal STREQUAL "")
-    set(literal "\"\"")
+    set(literal "\"\"sv")
   endif()
   string(APPEND rows "    {\"${file}\", ${literal}},\n")
 endforeach()
@@ -23,6 +23,7 @@ file(WRITE ${OUTPUT}.tmp "#include \"${HEADER}\"
 
 namespace ${NAMESPACE} {
 namespace {
+using namespace std::string_view_literals; // the compiler counts: clang bounds the steps of a constexpr strlen
 constexpr ${TYPE} kFiles[] = {
 ${rows}};
 } // namespace

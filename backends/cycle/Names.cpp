@@ -23,7 +23,7 @@ constexpr std::pair<std::string_view, std::string_view> kHosts[] = {{"tool_radiu
 // What parameters that stand alone in a place are for: names for those whose own are no names.
 class Roles {
 public:
-  explicit Roles(const State& state) : state_(state) {
+  explicit Roles(const State& state) {
     for (const ir::CycleStatement& statement : state.cycle.body)
       of(statement);
   }
@@ -74,7 +74,6 @@ private:
                            ir::Alarm, ir::OpaqueBlock> auto&) {});
   }
 
-  const State& state_;
   std::map<ir::VariableId, std::string> roles_;
 };
 

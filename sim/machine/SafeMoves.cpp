@@ -242,11 +242,11 @@ BlockSet askingBlocks(const std::vector<const ir::Program*>& programs) {
 }
 
 std::set<std::uint32_t> neverSet(const std::vector<const ir::Program*>& programs) {
-  constexpr double kFirstCommon = 34, kLastCommon = 999;
+  constexpr double kFirstShared = 34, kLastShared = 999;
   std::set<std::uint32_t> out, set;
   const auto put = [&](std::set<std::uint32_t>& into, const ir::ExpressionPtr& number) {
     const double* value = number ? ir::constantValue(number) : nullptr;
-    if (value != nullptr && *value >= kFirstCommon && *value <= kLastCommon)
+    if (value != nullptr && *value >= kFirstShared && *value <= kLastShared)
       into.insert(static_cast<std::uint32_t>(std::lround(*value)));
   };
   for (const ir::Program* program : programs)

@@ -1,7 +1,8 @@
-// Files in TOML that steer the program: those of `--data` folders, jobs, dotek.toml. Each is read or refused
-// with its place; one that is read has its values.
+// Files in TOML that steer the program: those of `--data` folders, jobs of cycles and of posts, dotek.toml.
+// Each is read or refused with its place; one that is read has its values.
 #include "project/Settings.h"
 #include "lint/Config.h"
+#include "posts/PostJob.h"
 #include "project/Job.h"
 #include "project/Session.h"
 #include "stdlib/Control.h"
@@ -15,6 +16,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <unistd.h>
 
@@ -64,7 +66,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (size == 0) return 0;
   // toml++ runs into undefined behaviour of its own at some letters that are no ASCII.
   if (std::any_of(data, data + size, [](std::uint8_t byte) { return byte >= 0x80; })) return 0;
-  const std::size_t kind = static_cast<std::size_t>(data[0] - '0') % (kDataFolders.size() + 2);
+  const std::size_t kind = static_cast<std::size_t>(data[0] - '0') % (kDataFolders.size() + 3);
   const std::string text(data + 1, data + size);
   if (kind < kDataFolders.size()) {
     const fs::path folder = kFolder / "data" / kDataFolders[kind];
@@ -83,6 +85,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     write(job, text);
     const bool read = project::loadJob(job, session).has_value();
     if (read == session.diagnostics().hasErrors()) std::abort();
+  } else if (kind == kDataFolders.size() + 2) {
+    const std::string job = (kFolder / "post-job.toml").string();
+    write(job, text);
+    const auto read = posts::readPostJob(job, posts::JobOptions(), session);
+    if (read.has_value() == session.diagnostics().hasErrors()) std::abort();
+    if (read && !nlohmann::json::accept(read->json)) std::abort();
   } else {
     write(kFolder / "project" / "dotek.toml", text);
     lint::Configs configs(session);
