@@ -1,5 +1,6 @@
 #include "cli/Arguments.h"
 
+#include "cli/Build.h"
 #include "cli/Cli.h"
 #include "cli/Options.h"
 #include "project/Assumptions.h"
@@ -38,6 +39,13 @@ void fill(const Raw& raw, Arguments& parsed) {
   parsed.helpersFile = raw.helpersFile;
   parsed.reportFile = raw.report;
   parsed.output = raw.output;
+  parsed.standardInputName = raw.standardInputName;
+  if (!raw.standardInputName.empty()) {
+    if (std::count(raw.inputs.begin(), raw.inputs.end(), "-") == 0)
+      throw UsageError("--stdin-filename names what comes by standard input, and `-` is no input here");
+    if ((raw.fix || raw.write) && !raw.diff)
+      throw UsageError("with --stdin-filename there is no file to write; --diff prints what would change");
+  }
   parsed.maxErrors = raw.maxErrors;
   if (!raw.sequence.empty()) parsed.sequence = startAndStep("--seq", raw.sequence);
   parsed.json = raw.format == "json" || raw.json;
@@ -240,7 +248,8 @@ std::optional<int> parseArguments(const std::vector<std::string>& arguments, Arg
                                   std::ostream& out, std::ostream& err) {
   Raw raw;
   CLI::App app("Dotek, a compiler for the languages of CNC probing", "dotek");
-  app.set_version_flag("--version", "dotek " + std::string(kVersion));
+  app.set_version_flag("--version",
+                       fmt::format("dotek {} (commit {}, data {})", kVersion, builtCommit(), dataVersion()));
   app.require_subcommand(1);
   declareCommands(app, arguments, raw);
   try {

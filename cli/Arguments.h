@@ -43,7 +43,8 @@ struct Arguments {
   driver::CommonOptions common;
   driver::SourceOptions source;
   std::optional<std::pair<std::uint64_t, std::uint64_t>> sequence;
-  std::string output; // -o
+  std::string output;            // -o
+  std::string standardInputName; // --stdin-filename
   bool json = false;
   bool sarif = false, github = false, gitlab = false;
   bool statistics = false;        // of lint: --statistics

@@ -4,6 +4,7 @@
 #include "cli/Diff.h"
 #include "cli/Files.h"
 #include "cli/Findings.h"
+#include "cli/StandardInput.h"
 #include "driver/Driver.h"
 #include "driver/Facts.h"
 #include "driver/LintFix.h"
@@ -73,6 +74,13 @@ public:
     err_ << renderText(found, SourceMap(), maxErrors_, errColors_);
     if (!good && arguments.command == Command::Sim && arguments.json)
       out_ << sim::notRunSummary(found, SourceMap());
+    return good;
+  }
+
+  bool canRead(Arguments& arguments) {
+    Diagnostics found;
+    const bool good = takeStandardInput(arguments, found);
+    err_ << renderText(found, SourceMap(), maxErrors_, errColors_);
     return good;
   }
 
@@ -288,8 +296,9 @@ void takeDefaultsOfProject(Arguments& arguments) {
 }
 
 int runCommand(Arguments& arguments, std::ostream& out, std::ostream& err) {
-  takeDefaultsOfProject(arguments);
   Printer printer(out, err, arguments);
+  if (!printer.canRead(arguments)) return kUsage;
+  takeDefaultsOfProject(arguments);
   if (!printer.canWrite(arguments)) return kUsage;
   switch (arguments.command) {
   case Command::Post:

@@ -190,6 +190,13 @@ void addCommon(CLI::App& app, Raw& raw) {
   addFolders(app, "--data", raw.data, "folder whose data files are added or replace built-in ones");
 }
 
+void addStandardInput(CLI::App& app, Raw& raw) {
+  app.add_option(
+         "--stdin-filename", raw.standardInputName,
+         "what comes by `-` is the text of FILE, as an editor has it: its kind and its settings are used")
+      ->type_name("FILE");
+}
+
 void addIncludes(CLI::App& app, Raw& raw) {
   addFolders(app, "--include", raw.include, "folder of macros and meshes that inputs name, beside their own");
   app.add_option("--include-root", raw.includeRoot,

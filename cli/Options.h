@@ -29,6 +29,7 @@ struct Raw {
   std::vector<std::string> set, field, host, assume, limit, data, include;
   std::string includeRoot, job, encoding, from, prog, routine, cycle, form, clearance, sequence, output;
   std::string format = "text", color = "auto";
+  std::string standardInputName; // --stdin-filename
   std::vector<std::string> select, ignore;
   std::string failOn;
   bool fix = false, followLinks = false, listSkipped = false, statistics = false;
@@ -101,8 +102,9 @@ driver::NamedTexts pairsOf(const std::string& flag, const std::vector<std::strin
 void addCommon(CLI::App& app, Raw& raw);
 void addProbeCodes(CLI::App& app, Raw& raw);
 void addValues(CLI::App& app, Raw& raw);
-void addIncludes(CLI::App& app, Raw& raw); // which files inputs may name
-void addSource(CLI::App& app, Raw& raw);   // what says where the post is
+void addStandardInput(CLI::App& app, Raw& raw); // the name of what comes by `-`
+void addIncludes(CLI::App& app, Raw& raw);      // which files inputs may name
+void addSource(CLI::App& app, Raw& raw);        // what says where the post is
 void addTarget(CLI::App& app, Raw& raw);
 // Of convert and verify: what a translation is. `to`: what --to says there.
 void addTranslation(CLI::App& app, Raw& raw, const std::string& to);

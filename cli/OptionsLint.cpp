@@ -57,6 +57,7 @@ void addLint(CLI::App& app, Raw& raw) {
   addTarget(*lint, raw);
   lint->add_flag("--quiet", raw.quiet, "no summary and no progress, only what was found");
   addForce(*lint, raw);
+  addStandardInput(*lint, raw);
   addIncludes(*lint, raw);
   addCommon(*lint, raw);
 }

@@ -45,6 +45,7 @@ void addCheck(CLI::App& app, Raw& raw) {
   check->add_option("FILE", raw.inputs, "files of the cycle language; `-` is standard input");
   check->add_option("--format", raw.format, "text, json or sarif")
       ->check(CLI::IsMember({"text", "json", "sarif"}));
+  addStandardInput(*check, raw);
   addCommon(*check, raw);
 }
 
@@ -59,6 +60,7 @@ void addFmt(CLI::App& app, Raw& raw) {
   fmt->add_flag("--diff", raw.diff, "print the lines that would change, and how")->excludes(write);
   fmt->add_option("-o", raw.output, "write the text to a file")->type_name("OUT")->excludes(write);
   addForce(*fmt, raw);
+  addStandardInput(*fmt, raw);
   addCommon(*fmt, raw);
 }
 

@@ -458,6 +458,7 @@ Outcome proposed(LintOptions options) {
   for (int turn = 0; turn < kFixTurns && !next.empty(); ++turn) {
     repairs += made.size();
     auto buffers = std::make_shared<std::map<std::string, std::string>>();
+    if (options.common.buffers) *buffers = *options.common.buffers;
     for (OutputFile& file : next)
       texts[file.name] = std::move(file.text);
     for (const auto& [name, text] : texts)

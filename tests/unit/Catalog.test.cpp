@@ -101,7 +101,10 @@ TEST_CASE("explain: a message has its three parts") {
 TEST_CASE("the version is the one of the build") {
   CHECK(readAll(root() / "CMakeLists.txt").find("project(dotek VERSION " + std::string(kVersion) + " ") !=
         std::string::npos);
-  CHECK(runDotek({"--version"}, root()).out == "dotek " + std::string(kVersion) + "\n");
+  const std::string out = runDotek({"--version"}, root()).out;
+  CHECK(out.starts_with("dotek " + std::string(kVersion) + " (commit "));
+  CHECK(out.find(", data ") != std::string::npos);
+  CHECK(out.ends_with(")\n"));
 }
 
 TEST_CASE("lint --format sarif: version, help and fingerprints that survive inserted lines") {

@@ -1,6 +1,7 @@
 // The frame of lint: suppressions, fixes, dotek.toml, SARIF.
 #include "support/messages/Lint.h"
 #include "tests/GoldenRunner.h"
+#include "tests/Process.h"
 #include "tests/unit/DataFolder.h"
 
 #include <cstdlib>
@@ -262,4 +263,24 @@ TEST_CASE("lint --quiet prints what was found and no summary") {
   CHECK(quiet.err == "");
   CHECK(quiet.out == loud.out);
   CHECK(quiet.status == loud.status);
+}
+
+TEST_CASE("lint --stdin-filename: the text of an editor under the name of its file") {
+  const ProcessFolder folder;
+  folder.run("mkdir sub");
+  folder.write("sub/p.txt", "progStart:\n SeqC ' G43 H1' EOL\nRETURN\n"); // what is saved is clean
+  folder.write("sub/dotek.toml", "schema = 1\n[lint]\nfail-on = \"error\"\n");
+  folder.write("typed", kDuplicate);
+  const auto run = [&](const std::string& arguments) {
+    return folder.run("dotek " + arguments + " < typed");
+  };
+  const ShellResult found = run("lint --stdin-filename sub/p.txt -");
+  CHECK(found.out.starts_with("sub/p.txt:3:"));
+  CHECK(found.status == 0); // by the settings beside the file
+  CHECK(run("lint --stdin-filename new.txt -").out.starts_with("new.txt:3:"));
+  CHECK(run("lint --stdin-filename sub/p.txt sub/p.txt").status == 2);
+  CHECK(run("lint --fix --stdin-filename sub/p.txt -").status == 2);
+  folder.write("typed", "progStart:\n SeqC' M32''' EOL\nRETURN\n");
+  CHECK(run("lint --fix --diff --select all --stdin-filename sub/p.txt -").out ==
+        "--- sub/p.txt\n+++ sub/p.txt\n@@ -2,1 +2,1 @@\n- SeqC' M32''' EOL\n+ SeqC ' M32' EOL\n");
 }
