@@ -85,6 +85,7 @@ constexpr CommandFlags kCommands[] = {
     {"sim", Command::Sim, addSim},
     {"verify", Command::Verify, addVerify},
     {"new", Command::New, addNew},
+    {"init", Command::Init, addInit},
     {"explain", Command::Explain, addExplain},
     {"list", Command::List, addList},
     {"check", Command::Check, addCheck},

@@ -24,6 +24,7 @@ enum class Command : unsigned char {
   New,
   NewCycle,
   NewJob,
+  Init,
   Check,
   Fmt,
   Doc,

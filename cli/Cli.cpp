@@ -95,6 +95,16 @@ public:
                                                                                               : kUsage;
   }
 
+  // One new file; a line says where it is.
+  int begun(const driver::Outcome& outcome, const Arguments& arguments) {
+    err_ << renderText(outcome.diagnostics, outcome.sources, maxErrors_, errColors_);
+    if (outcome.status != 0) return outcome.status;
+    const driver::OutputFile& file = outcome.files.front();
+    if (!write({{file.name, &file.text}}, outcome, arguments)) return kUsage;
+    out_ << printable(outcome.summary) << "\n";
+    return kDone;
+  }
+
   // The program of a post; the map beside it.
   int posted(const driver::Outcome& outcome, const Arguments& arguments) {
     if (arguments.mapFile.empty() || outcome.status != 0) return result(outcome, arguments);
@@ -279,6 +289,7 @@ private:
 // says of the Prog or of a field.
 void takeDefaultsOfProject(Arguments& arguments) {
   std::vector<std::string> inputs = inputsOf(arguments);
+  if (arguments.command == Command::Init) return;
   if (inputs.empty()) inputs = {"."}; // `list forms`
   project::FlagDefaults defaults = project::flagDefaultsOf(inputs);
   std::vector<std::string>& given = arguments.common.data;
@@ -347,6 +358,10 @@ int runCommand(Arguments& arguments, std::ostream& out, std::ostream& err) {
           arguments);
     return printer.result(driver::newForm({arguments.inputs.back(), arguments.source.prog, arguments.common}),
                           arguments);
+  case Command::Init:
+    return printer.begun(driver::init({arguments.inputs.empty() ? "." : arguments.inputs.front(),
+                                       arguments.convert.control, arguments.force, arguments.common}),
+                         arguments);
   case Command::NewCycle:
     return printer.result(driver::newCycle(arguments.inputs.back(), arguments.common), arguments);
   case Command::Check:

@@ -125,6 +125,7 @@ void addDump(CLI::App& app, Raw& raw);
 void addSim(CLI::App& app, Raw& raw);
 void addVerify(CLI::App& app, Raw& raw);
 void addNew(CLI::App& app, Raw& raw);
+void addInit(CLI::App& app, Raw& raw);
 void addCheck(CLI::App& app, Raw& raw);
 void addFmt(CLI::App& app, Raw& raw);
 void addDoc(CLI::App& app, Raw& raw);

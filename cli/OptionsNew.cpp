@@ -39,6 +39,14 @@ void addNew(CLI::App& app, Raw& raw) {
   addForce(*cycle, raw);
 }
 
+void addInit(CLI::App& app, Raw& raw) {
+  CLI::App* init = app.add_subcommand("init", "begin the settings of a folder: a dotek.toml with comments");
+  init->add_option("FOLDER", raw.inputs, "the folder; this one if left out")->expected(0, 1);
+  addTarget(*init, raw);
+  init->add_flag("--force", raw.force, "replace the dotek.toml that is there");
+  addFolders(*init, "--data", raw.data, "folder whose data files are added or replace built-in ones");
+}
+
 void addCheck(CLI::App& app, Raw& raw) {
   CLI::App* check =
       app.add_subcommand("check", "say what is wrong with cycles (.cycle), whatever their values");

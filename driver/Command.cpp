@@ -168,20 +168,20 @@ void keepStrongest(Diagnostics& diagnostics) {
 
 bool isUsageCode(std::string_view code) {
   constexpr std::array kCodes = {
-      diag::FileNotFound::code,     diag::FileNotReadable::code,    diag::FileNotWritable::code,
-      diag::FileTooLarge::code,     diag::TooManyFiles::code,       diag::UnknownForm::code,
-      diag::FormName::code,         diag::UnknownHost::code,        diag::NotANumber::code,
-      diag::GivenTwice::code,       diag::UnknownName::code,        diag::MissingOption::code,
-      diag::DataFileDefect::code,   diag::UnknownKind::code,        diag::WrongKind::code,
-      diag::NothingRead::code,      diag::UnknownCode::code,        diag::UnknownList::code,
-      diag::NoSuchField::code,      diag::HostInputRange::code,     diag::UnknownAssumption::code,
-      diag::CycleWithSeveral::code, diag::CycleNameTwice::code,     diag::NotAFolder::code,
-      diag::UnknownTarget::code,    diag::UnknownProfile::code,     diag::UnknownMacroSet::code,
-      diag::LetterNotAllowed::code, diag::OutputForOne::code,       diag::ArgumentUnknown::code,
-      diag::LetterTwice::code,      diag::VariableFlag::code,       diag::FlagOfOtherTarget::code,
-      diag::UnknownDatum::code,     diag::OptionOfCycles::code,     diag::OptionOfPrograms::code,
-      diag::OtherDialect::code,     diag::ProgramTarget::code,      diag::OptionOfMacroB::code,
-      diag::ScriptNotRun::code,     diag::BaselineUnreadable::code,
+      diag::FileNotFound::code,      diag::FileNotReadable::code,  diag::FileNotWritable::code,
+      diag::FileTooLarge::code,      diag::TooManyFiles::code,     diag::UnknownForm::code,
+      diag::SettingsExist::code,     diag::FormName::code,         diag::UnknownHost::code,
+      diag::NotANumber::code,        diag::GivenTwice::code,       diag::UnknownName::code,
+      diag::MissingOption::code,     diag::DataFileDefect::code,   diag::UnknownKind::code,
+      diag::WrongKind::code,         diag::NothingRead::code,      diag::UnknownCode::code,
+      diag::UnknownList::code,       diag::NoSuchField::code,      diag::HostInputRange::code,
+      diag::UnknownAssumption::code, diag::CycleWithSeveral::code, diag::CycleNameTwice::code,
+      diag::NotAFolder::code,        diag::UnknownTarget::code,    diag::UnknownProfile::code,
+      diag::UnknownMacroSet::code,   diag::LetterNotAllowed::code, diag::OutputForOne::code,
+      diag::ArgumentUnknown::code,   diag::LetterTwice::code,      diag::VariableFlag::code,
+      diag::FlagOfOtherTarget::code, diag::UnknownDatum::code,     diag::OptionOfCycles::code,
+      diag::OptionOfPrograms::code,  diag::OtherDialect::code,     diag::ProgramTarget::code,
+      diag::OptionOfMacroB::code,    diag::ScriptNotRun::code,     diag::BaselineUnreadable::code,
   };
   return std::find(kCodes.begin(), kCodes.end(), code) != kCodes.end();
 }

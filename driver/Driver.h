@@ -65,6 +65,13 @@ struct NewControlOptions {
   CommonOptions common;
 };
 
+struct InitOptions {
+  std::string folder = "."; // whose dotek.toml it is
+  std::string control;      // "": none is chosen
+  bool force = false;       // a dotek.toml that is there is replaced
+  CommonOptions common;
+};
+
 // What a command gives. `status` is 0, 1 or 2 as docs/cli.md says; with a status other than 0 of post,
 // `output` is empty.
 struct Outcome {
@@ -105,6 +112,8 @@ Outcome sim(const SimOptions& options);
 // last line is the verdict: `AGREES: 990 of 1000 drawn cases, 10 undecided; edge cases: 100 of 100`, or with
 // DIFFERS or UNDECIDED the cases that do.
 Outcome verify(const VerifyOptions& options);
+// The beginning of a project's settings, as the one file; an error where there is one.
+Outcome init(const InitOptions& options);
 // The beginning of a form's data file: what the Prog's keywords print, as far as it is known.
 Outcome newForm(const NewFormOptions& options);
 // The same for a control that differs from one that Dotek knows.
