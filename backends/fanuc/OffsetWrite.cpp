@@ -4,6 +4,7 @@
 #include "backends/fanuc/Uses.h"
 #include "ir/Evaluate.h"
 #include "ir/Liveness.h"
+#include "support/Decimal.h"
 #include "support/messages/Fanuc.h"
 
 #include <algorithm>
@@ -72,6 +73,32 @@ bool checksConfine(const State& state, ir::VariableId id) {
     }
   }
   return tried;
+}
+
+// The first value of `id` that the checks let pass, where they let only such pass as `system` makes no work
+// system of: then whoever calls the program gets an alarm. Values that end like the largest and the smallest
+// are those that the checks of `id` reject, whatever the other arguments are.
+std::optional<double> passesNoSystem(const State& state, ir::VariableId id, const ir::Expression& system) {
+  constexpr double kNone = 99999;
+  constexpr int kMostTried = 400;
+  for (ir::Environment& environment : environments(state)) {
+    const auto alarm = [&](double value) {
+      environment[id] = ir::Scalar::of(value);
+      const ir::CheckRun run = ir::runChecks(state.cycle, environment, kMaxSteps);
+      return run.end == ir::CheckRun::End::Alarm ? run.at : nullptr;
+    };
+    const ir::CycleStatement* const rejected = alarm(kNone);
+    if (rejected == nullptr || alarm(-kNone) != rejected) continue;
+    std::optional<double> first;
+    for (int value = 0; value <= kMostTried; ++value) {
+      if (alarm(value) == rejected) continue;
+      const ir::Scalar names = ir::evaluate(system, environment);
+      if (!names.known() || (names.value >= kFirstSystem && names.value <= kLastSystem)) return std::nullopt;
+      if (!first) first = value;
+    }
+    if (first) return first;
+  }
+  return std::nullopt;
 }
 
 } // namespace
@@ -213,6 +240,15 @@ void writeSystemAlarm(State& state, const ir::ExpressionPtr& named, const ir::Or
     doIf(state, ir::isNull(system), left + "=" + valueText(state, ir::constant(kFirstSystem), origin),
          origin);
   }
+  for (const ir::VariableId read : variablesOf(named))
+    if (const auto passes = passesNoSystem(state, read, *named)) {
+      ir::Environment environment(state.cycle.variables.size());
+      environment[read] = ir::Scalar::of(*passes);
+      state.refuse<diag::SystemNeverNamed>(given.range(), state.cycle.variable(read).name,
+                                           numberText(*passes),
+                                           numberText(ir::evaluate(*named, environment).value));
+      return;
+    }
   constexpr std::string_view kText = "WORK OFFSET NOT 54 TO 59";
   if (use == nullptr || state.cycle.variable(use->variable).role == ir::Role::Local ||
       !checksConfine(state, use->variable)) {

@@ -83,6 +83,25 @@ TEST_CASE("fanuc measure: checks of the source that confine the system are not r
   CHECK(out.holds("IF[#19 NE FIX[#19]]THEN"));
 }
 
+TEST_CASE("fanuc measure: checks that let only such values pass as name no system in the call refuse it") {
+  for (const double first : {1.0, 54.0}) {
+    Maker cycle;
+    const VariableId g = cycle.field("G", first + 1, ir::Kind::WorkOffset);
+    const VariableId x = cycle.field("X", 0);
+    // Another check fails for the defaults, before or after that of the system.
+    cycle.refuseIf(ir::compare(Relation::LessEqual, use(x), number(0)), "X too small");
+    cycle.refuseIf(ir::join(ir::Connective::Or, ir::compare(Relation::Less, use(g), number(first)),
+                            ir::compare(Relation::Greater, use(g), number(first + 5))),
+                   "The work offset");
+    cycle.surface(ir::Axis::X, use(x), ir::binary(ir::BinaryOp::Add, use(g), number(53)), use(x))
+        .origin.arguments = {{'S', g}};
+    std::get<ir::Measure>(cycle.cycle.body[0].node).target->frame = ir::Frame::Work;
+    const Emission out = Target("inspection-plus").emit(cycle.cycle);
+    CAPTURE(first);
+    CHECK(out.codes().contains("system-never-named") == (first > 1));
+  }
+}
+
 TEST_CASE("fanuc measure: a bore") {
   Maker cycle;
   const VariableId d = cycle.field("d", 30), i = cycle.field("i", 30), j = cycle.field("j", 30);
