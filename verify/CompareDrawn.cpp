@@ -25,13 +25,46 @@ std::vector<Piece> piecesOf(const DrawnPath& path, const Point3& offset) {
   return out;
 }
 
+// Moves of the path that a call makes by itself, which touches several surfaces: from the last point before
+// its first touch at which it begins to the first one after its last touch at which it ends. Where the path
+// never is at one of these, its moves on that side stay. `from`, `to`: the call's touches, the path's next
+// one after them excluded.
+void addMovesOfCall(const DrawnPath& path, const Point3& offset, const Measure& measure, std::size_t from,
+                    std::size_t to, double tolerance, std::set<std::size_t>& moves) {
+  const std::size_t first = path.touches[from].move, last = path.touches[to - 1].move;
+  const std::size_t least = from == 0 ? 0 : path.touches[from - 1].move;
+  const std::size_t most = to < path.touches.size() ? path.touches[to].move : path.points.size();
+  const auto at = [&](std::size_t point, const Point3& wanted) {
+    return near(path.points[point] + offset, wanted, tolerance);
+  };
+  std::size_t begin = first;
+  for (std::size_t point = first; point-- > least;)
+    if (at(point, measure.start)) {
+      begin = point + 1;
+      break;
+    }
+  std::size_t end = last;
+  for (std::size_t point = last + 1; point < most; ++point)
+    if (at(point, measure.end)) {
+      end = point;
+      break;
+    }
+  for (std::size_t move = begin; move <= end; ++move)
+    moves.insert(move);
+}
+
 // Without the paths to touches and back: those are compared as contacts. A path that goes on through the
-// starting point of a touch on the far side comes back to it.
-std::vector<Piece> withoutTouches(const DrawnPath& path, const Point3& offset) {
+// starting point of a touch on the far side comes back to it. `ofCalls`: moves that are left out, too.
+std::vector<Piece> withoutTouches(const DrawnPath& path, const Point3& offset,
+                                  const std::set<std::size_t>& ofCalls) {
   std::vector<Piece> all = piecesOf(path, offset);
   std::vector<Piece> out;
   Point3 at = path.points.front() + offset;
   for (std::size_t i = 0; i < all.size(); ++i) {
+    if (ofCalls.contains(i + 1)) {
+      at = all[i].to;
+      continue;
+    }
     const bool touch = std::any_of(path.touches.begin(), path.touches.end(),
                                    [&](const DrawnTouch& one) { return one.move == i + 1; });
     if (touch) continue; // the probe measures from `at`
@@ -82,7 +115,8 @@ std::vector<Difference> compare(const DrawnPath& path, const Point3& offset, con
   const double radius = radiusOf(path);
   std::size_t next = 0;
   bool unstated = false;
-  std::set<std::size_t> again; // measures of the surface that the one before has found
+  std::set<std::size_t> ofCalls; // moves of the path
+  std::set<std::size_t> again;   // measures of the surface that the one before has found
   for (std::size_t m = 0; m < program.measures.size(); ++m) {
     const Measure& measure = program.measures[m];
     if (!measure.unstated.empty() && measure.nominal.empty()) {
@@ -102,6 +136,7 @@ std::vector<Difference> compare(const DrawnPath& path, const Point3& offset, con
       continue;
     }
     std::vector<bool> used(nominal.size(), false);
+    const std::size_t firstTouch = next;
     for (std::size_t n = 0; n < nominal.size(); ++n, ++next) {
       if (next >= path.touches.size()) {
         add(Aspect::Nominal,
@@ -123,6 +158,7 @@ std::vector<Difference> compare(const DrawnPath& path, const Point3& offset, con
       used[i] = true;
     }
     if (!out.empty()) break;
+    if (nominal.size() > 1) addMovesOfCall(path, offset, measure, firstTouch, next, tolerance, ofCalls);
   }
   if (out.empty() && !unstated && program.ending == Ending::Finished && next < path.touches.size())
     add(Aspect::Nominal,
@@ -131,7 +167,7 @@ std::vector<Difference> compare(const DrawnPath& path, const Point3& offset, con
         path.touches[next].range, {});
 
   if (program.ending != Ending::Finished) return out;
-  const std::vector<Piece> a = straight(withoutTouches(path, offset), false, tolerance);
+  const std::vector<Piece> a = straight(withoutTouches(path, offset, ofCalls), false, tolerance);
   std::vector<Piece> moves;
   std::size_t found = 0; // moves before the last measure
   std::size_t measures = 0;
