@@ -236,7 +236,8 @@ private:
       if (place.empty()) return;
       places += (places.empty() ? "" : ", ") + place;
       const bool simple =
-          to->frame == ir::Frame::Work && to->system == nullptr && place.find(' ', 2) == std::string::npos;
+          to->frame == ir::Frame::Work && to->system == nullptr &&
+          (place.find(' ', 2) == std::string::npos || ir::constantValue(to->value) != nullptr);
       s_.at[ir::indexOf(axis)] = simple ? place.substr(2) : "";
     }
     std::string_view kind = "protected move";

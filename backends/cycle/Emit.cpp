@@ -122,6 +122,24 @@ std::vector<EmittedLine> locals(State& state, const Checked& checked) {
   return out;
 }
 
+bool names(const std::string& text, const std::string& name) {
+  const auto isName = [](char c) { return c == '_' || (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9'); };
+  for (std::size_t at = text.find(name); at != std::string::npos; at = text.find(name, at + 1)) {
+    const std::size_t end = at + name.size();
+    if ((at == 0 || !isName(text[at - 1])) && (end == text.size() || !isName(text[end]))) return true;
+  }
+  return false;
+}
+
+// Values that were named in case something reads them, and nothing does.
+void dropUnread(State& state) {
+  for (const std::string& name : state.helpers) {
+    const auto reads = std::count_if(state.lines.begin(), state.lines.end(),
+                                     [&](const EmittedLine& one) { return names(one.text, name); });
+    if (reads == 1) std::erase_if(state.lines, [&](const EmittedLine& one) { return names(one.text, name); });
+  }
+}
+
 } // namespace
 
 std::optional<Emitted> emit(const ir::Cycle& cycle, const EmitOptions& options, Diagnostics& diagnostics) {
@@ -141,6 +159,7 @@ std::optional<Emitted> emit(const ir::Cycle& cycle, const EmitOptions& options, 
     computed = locals(state, *checked);
   }
   writeBody(state);
+  dropUnread(state);
   if (state.failed) return std::nullopt;
 
   std::vector<EmittedLine>& lines = out.lines;

@@ -1,13 +1,10 @@
 // Touches, and calls of cycles of the library in the place of a vendor's.
-#include "backends/cycle/State.h"
-#include "stdlib/MacroCycle.h"
+#include "backends/cycle/MeasureCall.h"
 
 #include <algorithm>
 #include <fmt/format.h>
 
 namespace dotek::backends::cycle {
-
-namespace {
 
 using stdlib::ArgumentRole;
 using stdlib::Intent;
@@ -15,16 +12,6 @@ using stdlib::Intent;
 std::string smallLetter(ir::Axis axis) {
   return std::string(1, "xyz"[ir::indexOf(axis)]);
 }
-
-constexpr ir::ResultName kPositions[] = {ir::ResultName::PositionX, ir::ResultName::PositionY,
-                                         ir::ResultName::PositionZ};
-constexpr ir::ResultName kErrors[] = {ir::ResultName::ErrorX, ir::ResultName::ErrorY, ir::ResultName::ErrorZ};
-
-// What is set: for each axis the measured value and the coordinate that it gets.
-struct Setting {
-  std::string system;
-  std::array<std::string, 3> nominal; // "": the axis is not set
-};
 
 void writeSetting(State& state, const Setting& setting, const std::array<std::string, 3>& found,
                   const ir::Origin& origin) {
@@ -44,6 +31,8 @@ void writeSetting(State& state, const Setting& setting, const std::array<std::st
   for (const ir::Axis axis : ir::kAxes)
     if (!setting.nominal[ir::indexOf(axis)].empty()) state.at[ir::indexOf(axis)].clear();
 }
+
+namespace {
 
 std::optional<Setting> settingOf(State& state, const ir::OffsetSetting& setting, SourceRange range) {
   Setting out{systemText(state, setting.system, range), {}};
@@ -91,235 +80,237 @@ void leavesHollow(State& state, const std::string& called, const std::vector<ir:
   state.measured[ir::ResultName::SizeError] = deviation;
 }
 
-// A vendor's cycle by the parameters that it is given.
-class Call {
-public:
-  Call(State& state, const ir::CallCycle& call, const ir::Origin& origin)
-      : state_(state), call_(call), origin_(origin), range_(origin.range()) {}
-
-  void write() {
-    const auto is = [&](Intent intent) { return call_.cycle == stdlib::intentName(intent); };
-    if (is(Intent::Surface)) return surface();
-    if (is(Intent::InnerCorner)) return innerCorner();
-    if (is(Intent::Bore)) return hollow("bore", {ir::Axis::X, ir::Axis::Y}, false);
-    if (is(Intent::Boss)) return hollow("boss", {ir::Axis::X, ir::Axis::Y}, true);
-    if (call_.axis && is(Intent::Pocket))
-      return hollow("channel_" + smallLetter(*call_.axis), {*call_.axis}, false);
-    if (call_.axis && is(Intent::Web)) return hollow("web_" + smallLetter(*call_.axis), {*call_.axis}, true);
-    std::string what = call_.cycle;
-    std::replace(what.begin(), what.end(), '-', ' ');
-    state_.refuse(range_, fmt::format("the measurement `{}` of the macros", what),
-                  "surfaces, bores, bosses, pockets, webs and inner corners come over; write this one with "
-                  "touches, or call a cycle of `dotek list cycles`");
-  }
-
-private:
-  const ir::CycleArgument* find(const std::string& parameter) {
-    const auto found = std::find_if(call_.arguments.begin(), call_.arguments.end(),
-                                    [&](const auto& one) { return one.parameter == parameter; });
-    if (found == call_.arguments.end()) return nullptr;
-    known_.insert(parameter);
-    return &*found;
-  }
-  const ir::CycleArgument* find(ArgumentRole role) { return find(std::string(stdlib::roleName(role))); }
-  const ir::CycleArgument* find(ArgumentRole role, ir::Axis axis) {
-    return find(std::string(stdlib::roleName(role)) + " " + smallLetter(axis));
-  }
-  std::string text(const ir::CycleArgument* argument, ir::Kind kind = ir::Kind::Length) {
-    return argument == nullptr ? "" : valueText(state_, argument->value, kind, range_);
-  }
-  static ir::Coordinate coordinate(const ir::CycleArgument& argument) {
-    return {argument.value, argument.frame.value_or(ir::Frame::Work), nullptr};
-  }
-
-  // Whatever was not looked at has no counterpart.
-  bool tookAll() {
-    for (const ir::CycleArgument& one : call_.arguments) {
-      if (known_.contains(one.parameter)) continue;
-      std::string what = one.parameter;
-      std::replace(what.begin(), what.end(), '-', ' ');
-      state_.refuse(range_, fmt::format("the {} of the call", what),
-                    "what the macros do with it is no part of the language; decide on what was measured "
-                    "(`if`, `alarm`), or take it out of the call");
-      return false;
-    }
-    return true;
-  }
-
-  // `expected`: where the feature is, along each axis.
-  std::optional<Setting> setting(const std::array<std::string, 3>& expected) {
-    Setting out{systemText(state_, call_.setting->system, range_), {}};
-    if (out.system.empty()) return std::nullopt;
-    for (const ir::Axis axis : ir::kAxes) {
-      const std::size_t i = ir::indexOf(axis);
-      if (!call_.setting->axes[i]) continue;
-      out.nominal[i] = call_.setting->nominal[i] == nullptr
-                           ? expected[i]
-                           : valueText(state_, call_.setting->nominal[i], ir::Kind::Length, range_);
-      if (out.nominal[i].empty()) return std::nullopt;
-    }
-    return out;
-  }
-
-  void alarmBeyond(const std::string& value, const std::string& limit, std::string_view message) {
-    state_.add(fmt::format("if abs({}) > {} then", value, limit), origin_);
-    state_.add(fmt::format("alarm{}", quoted(message)), origin_);
-    state_.add("end", origin_);
-  }
-
-  void surface() {
-    const ir::Axis axis = *call_.axis;
-    const ir::CycleArgument* target = find(ArgumentRole::Target, axis);
-    const std::string overtravel = text(find(ArgumentRole::Overtravel));
-    const ir::CycleArgument* limit = find(ArgumentRole::UpperLimit);
-    if (target == nullptr)
-      return state_.refuse(range_, "a surface without a place", "state where it is expected");
-    if (!tookAll()) return;
-    std::array<std::string, 3> expected;
-    expected[ir::indexOf(axis)] = workText(state_, coordinate(*target), axis, range_);
-    std::optional<Setting> set;
-    if (call_.setting && !(set = setting(expected))) return;
-    const std::string touched =
-        writeTouch(state_, axis, coordinate(*target), overtravel, "surface_" + smallLetter(axis), origin_);
-    if (touched.empty()) return;
-    leaves(state_, touched, axis);
-    if (limit != nullptr) alarmBeyond(touched + ".error", text(limit), "The surface is beyond the limit");
-    std::array<std::string, 3> found;
-    found[ir::indexOf(axis)] = touched + ".at";
-    if (set) writeSetting(state_, *set, found, origin_);
-  }
-
-  void innerCorner() {
-    const std::string overtravel = text(find(ArgumentRole::Overtravel));
-    std::array<std::string, 3> expected, found;
-    std::vector<std::pair<ir::Axis, const ir::CycleArgument*>> faces;
-    for (const ir::Axis axis : {ir::Axis::X, ir::Axis::Y})
-      if (const ir::CycleArgument* target = find(ArgumentRole::Target, axis)) {
-        faces.emplace_back(axis, target);
-        expected[ir::indexOf(axis)] = workText(state_, coordinate(*target), axis, range_);
-      }
-    if (!tookAll()) return;
-    std::optional<Setting> set;
-    if (call_.setting && !(set = setting(expected))) return;
-    state_.measured.clear();
-    std::map<ir::ResultName, std::string> left;
-    for (const auto& [axis, target] : faces) {
-      const std::string touched =
-          writeTouch(state_, axis, coordinate(*target), overtravel, "face_" + smallLetter(axis), origin_);
-      if (touched.empty()) return;
-      found[ir::indexOf(axis)] = touched + ".at";
-      left[kPositions[ir::indexOf(axis)]] = touched + ".at";
-      left[kErrors[ir::indexOf(axis)]] = touched + ".error";
-    }
-    state_.measured = std::move(left);
-    if (set) writeSetting(state_, *set, found, origin_);
-  }
-
-  // Where it begins gets a name: what follows leads away from there.
-  void keepHere(const std::vector<ir::Axis>& axes) {
-    for (const ir::Axis axis : axes) {
-      const std::size_t i = ir::indexOf(axis);
-      if (!state_.at[i].empty()) continue;
-      const std::string middle = state_.fresh("middle_" + smallLetter(axis));
-      state_.add(fmt::format("{} = here.{}", middle, smallLetter(axis)), origin_);
-      state_.at[i] = middle;
-    }
-  }
-
-  // What has a middle. `beside`: the probe goes down outside of it.
-  void hollow(const std::string& cycle, const std::vector<ir::Axis>& axes, bool beside) {
-    const bool round = axes.size() > 1;
-    const ir::CycleArgument* size =
-        round ? find(ArgumentRole::Diameter) : find(ArgumentRole::Width, axes.front());
-    if (size == nullptr)
-      return state_.refuse(range_, "a feature without a size", "state its size in the call");
-    const std::string sizeText = text(size);
-    const std::string overtravel = text(find(ArgumentRole::Overtravel));
-    const std::string tolerance = text(find(ArgumentRole::SizeTolerance));
-    const std::string zone = text(find(ArgumentRole::PositionTolerance));
-    std::string arguments = fmt::format("{} = {}", round ? "diameter" : "width", sizeText);
-    if (beside) {
-      const ir::CycleArgument* depth = find(ArgumentRole::Depth);
-      const std::string clearance = text(find(ArgumentRole::Clearance));
-      if (depth == nullptr || clearance.empty())
-        return state_.refuse(range_, "a feature from outside without depth or clearance",
-                             "state both in the call");
-      const std::string down = workText(state_, coordinate(*depth), ir::Axis::Z, range_);
-      if (down.empty()) return;
-      arguments += fmt::format(", depth = {} - {}, clearance = {}", hereText(state_, ir::Axis::Z),
-                               down.find(' ') == std::string::npos ? down : "(" + down + ")", clearance);
-    }
-    if (!tookAll()) return;
-    if (sizeText.empty() || state_.failed) return;
-    std::array<std::string, 3> expected, found;
-    keepHere(axes);
-    for (const ir::Axis axis : axes)
-      expected[ir::indexOf(axis)] = hereText(state_, axis);
-    std::optional<Setting> set;
-    if (call_.setting && !(set = setting(expected))) return;
-    if (!overtravel.empty()) {
-      if (beside)
-        return state_.refuse(range_, "the overtravel of this call", "a called cycle has the machine's");
-      walls(axes, sizeText, overtravel, found);
-    } else {
-      const std::string name = state_.fresh(round ? (beside ? "boss" : "hole") : (beside ? "web" : "slot"));
-      if (!tolerance.empty()) arguments += ", tolerance = " + tolerance;
-      state_.add(fmt::format("call {} {} -> {}", cycle, arguments, name), origin_);
-      leavesHollow(state_, name, axes, name + ".deviation");
-      for (const ir::Axis axis : axes)
-        found[ir::indexOf(axis)] = state_.measured[kPositions[ir::indexOf(axis)]];
-    }
-    if (!zone.empty()) {
-      if (axes.size() != 1)
-        return state_.refuse(range_, "the true position of a round feature",
-                             "compare both axes in the cycle");
-      const std::size_t i = ir::indexOf(axes.front());
-      alarmBeyond(fmt::format("2 * ({} - {})", found[i], expected[i]), zone,
-                  "The middle is outside its position tolerance");
-    }
-    if (set) writeSetting(state_, *set, found, origin_);
-  }
-
-  // Two walls along each axis from the middle, with an overtravel of its own.
-  void walls(const std::vector<ir::Axis>& axes, const std::string& size, const std::string& overtravel,
-             std::array<std::string, 3>& found) {
-    const std::string half = size.find(" + ") == std::string::npos && size.find(" - ") == std::string::npos
-                                 ? size + " / 2"
-                                 : "(" + size + ") / 2";
-    static constexpr const char* kNames[][2] = {{"right", "left"}, {"back", "front"}, {"", ""}};
-    std::map<ir::ResultName, std::string> left;
-    for (const ir::Axis axis : axes) {
-      const std::size_t i = ir::indexOf(axis);
-      const std::string one = state_.fresh(kNames[i][0]), other = state_.fresh(kNames[i][1]);
-      const std::string letter = smallLetter(axis);
-      state_.add(fmt::format("touch {} by {} overtravel {} -> {}", letter, half, overtravel, one), origin_);
-      state_.add(fmt::format("touch {} by -{} overtravel {} -> {}", letter, half, overtravel, other),
-                 origin_);
-      const std::string centre = state_.fresh("centre_" + letter);
-      state_.add(fmt::format("{} = ({}.at + {}.at) / 2", centre, one, other), origin_);
-      if (axes.size() > 1 && axis == axes.front())
-        state_.add(fmt::format("protected move to {} {}", letter, centre), origin_,
-                   "over the middle, as the macro goes");
-      found[i] = centre;
-      left[kPositions[i]] = centre;
-      left[kErrors[i]] = centre + " - " + hereText(state_, axis);
-      left[ir::ResultName::Size] = left[ir::ResultName::Main] = fmt::format("{}.at - {}.at", one, other);
-    }
-    if (axes.size() > 1)
-      state_.add(
-          fmt::format("protected move to {} {}", smallLetter(axes.front()), hereText(state_, axes.front())),
-          origin_, "back to where the measurement began");
-    state_.measured = std::move(left);
-  }
-
-  State& state_;
-  const ir::CallCycle& call_;
-  const ir::Origin& origin_;
-  const SourceRange range_;
-  std::set<std::string> known_;
-};
-
 } // namespace
+
+void MeasureCall::write() {
+  const auto is = [&](Intent intent) { return call_.cycle == stdlib::intentName(intent); };
+  if (is(Intent::Surface)) return surface();
+  if (is(Intent::InnerCorner)) return innerCorner();
+  if (is(Intent::Bore)) return hollow("bore", {ir::Axis::X, ir::Axis::Y}, false);
+  if (is(Intent::Boss)) return hollow("boss", {ir::Axis::X, ir::Axis::Y}, true);
+  if (call_.axis && is(Intent::Pocket))
+    return hollow("channel_" + smallLetter(*call_.axis), {*call_.axis}, false);
+  if (call_.axis && is(Intent::Web)) return hollow("web_" + smallLetter(*call_.axis), {*call_.axis}, true);
+  if (is(Intent::AngledSurface)) return angledSurface();
+  if (is(Intent::AngledPocket)) return angledPair(false);
+  if (is(Intent::AngledWeb)) return angledPair(true);
+  if (is(Intent::ThreePointBore)) return threePoints(false);
+  if (is(Intent::ThreePointBoss)) return threePoints(true);
+  if (call_.axis && is(Intent::Angle)) return faceAngle();
+  std::string what = call_.cycle;
+  std::replace(what.begin(), what.end(), '-', ' ');
+  state_.refuse(range_, fmt::format("the measurement `{}` of the macros", what),
+                "surfaces, circles, pockets, webs, inner corners and angles of faces come over; write this "
+                "one with touches, or call a cycle of `dotek list cycles`");
+}
+
+const ir::CycleArgument* MeasureCall::find(const std::string& parameter) {
+  const auto found = std::find_if(call_.arguments.begin(), call_.arguments.end(),
+                                  [&](const auto& one) { return one.parameter == parameter; });
+  if (found == call_.arguments.end()) return nullptr;
+  known_.insert(parameter);
+  return &*found;
+}
+std::string MeasureCall::text(const ir::CycleArgument* argument, ir::Kind kind) {
+  return argument == nullptr ? "" : valueText(state_, argument->value, kind, range_);
+}
+ir::Coordinate MeasureCall::coordinate(const ir::CycleArgument& argument) {
+  return {argument.value, argument.frame.value_or(ir::Frame::Work), nullptr};
+}
+
+// Whatever was not looked at has no counterpart.
+bool MeasureCall::tookAll() {
+  for (const ir::CycleArgument& one : call_.arguments) {
+    if (known_.contains(one.parameter)) continue;
+    std::string what = one.parameter;
+    std::replace(what.begin(), what.end(), '-', ' ');
+    state_.refuse(range_, fmt::format("the {} of the call", what),
+                  "what the macros do with it is no part of the language; decide on what was measured "
+                  "(`if`, `alarm`), or take it out of the call");
+    return false;
+  }
+  return true;
+}
+
+// `expected`: where the feature is, along each axis.
+std::optional<Setting> MeasureCall::setting(const std::array<std::string, 3>& expected) {
+  Setting out{systemText(state_, call_.setting->system, range_), {}};
+  if (out.system.empty()) return std::nullopt;
+  for (const ir::Axis axis : ir::kAxes) {
+    const std::size_t i = ir::indexOf(axis);
+    if (!call_.setting->axes[i]) continue;
+    out.nominal[i] = call_.setting->nominal[i] == nullptr
+                         ? expected[i]
+                         : valueText(state_, call_.setting->nominal[i], ir::Kind::Length, range_);
+    if (out.nominal[i].empty()) return std::nullopt;
+  }
+  return out;
+}
+
+void MeasureCall::alarmBeyond(const std::string& value, const std::string& limit, std::string_view message) {
+  state_.add(fmt::format("if abs({}) > {} then", value, limit), origin_);
+  state_.add(fmt::format("alarm{}", quoted(message)), origin_);
+  state_.add("end", origin_);
+}
+
+void MeasureCall::surface() {
+  const ir::Axis axis = *call_.axis;
+  const ir::CycleArgument* target = find(ArgumentRole::Target, axis);
+  const std::string overtravel = text(find(ArgumentRole::Overtravel));
+  const ir::CycleArgument* limit = find(ArgumentRole::UpperLimit);
+  const std::string tolerance = text(find(ArgumentRole::SizeTolerance));
+  const std::string zone = text(find(ArgumentRole::PositionTolerance));
+  if (target == nullptr)
+    return state_.refuse(range_, "a surface without a place", "state where it is expected");
+  if (!tookAll()) return;
+  std::array<std::string, 3> expected;
+  expected[ir::indexOf(axis)] = workText(state_, coordinate(*target), axis, range_);
+  std::optional<Setting> set;
+  if (call_.setting && !(set = setting(expected))) return;
+  const std::string touched =
+      writeTouch(state_, axis, coordinate(*target), overtravel, "surface_" + smallLetter(axis), origin_);
+  if (touched.empty()) return;
+  leaves(state_, touched, axis);
+  if (limit != nullptr) alarmBeyond(touched + ".error", text(limit), "The surface is beyond the limit");
+  if (!tolerance.empty()) alarmBeyond(touched + ".error", tolerance, "The surface is out of tolerance");
+  if (!zone.empty())
+    alarmBeyond("2 * " + touched + ".error", zone, "The surface is outside its position tolerance");
+  std::array<std::string, 3> found;
+  found[ir::indexOf(axis)] = touched + ".at";
+  if (set) writeSetting(state_, *set, found, origin_);
+}
+
+void MeasureCall::innerCorner() {
+  const std::string overtravel = text(find(ArgumentRole::Overtravel));
+  std::array<std::string, 3> expected, found;
+  std::vector<std::pair<ir::Axis, const ir::CycleArgument*>> faces;
+  for (const ir::Axis axis : {ir::Axis::X, ir::Axis::Y})
+    if (const ir::CycleArgument* target = find(ArgumentRole::Target, axis)) {
+      faces.emplace_back(axis, target);
+      expected[ir::indexOf(axis)] = workText(state_, coordinate(*target), axis, range_);
+    }
+  if (!tookAll()) return;
+  std::optional<Setting> set;
+  if (call_.setting && !(set = setting(expected))) return;
+  state_.measured.clear();
+  std::map<ir::ResultName, std::string> left;
+  for (const auto& [axis, target] : faces) {
+    const std::string touched =
+        writeTouch(state_, axis, coordinate(*target), overtravel, "face_" + smallLetter(axis), origin_);
+    if (touched.empty()) return;
+    found[ir::indexOf(axis)] = touched + ".at";
+    left[kPositions[ir::indexOf(axis)]] = touched + ".at";
+    left[kErrors[ir::indexOf(axis)]] = touched + ".error";
+  }
+  state_.measured = std::move(left);
+  if (set) writeSetting(state_, *set, found, origin_);
+}
+
+// Where it begins gets a name: what follows leads away from there.
+void MeasureCall::keepHere(const std::vector<ir::Axis>& axes) {
+  for (const ir::Axis axis : axes) {
+    const std::size_t i = ir::indexOf(axis);
+    if (!state_.at[i].empty()) continue;
+    const std::string middle = state_.fresh("middle_" + smallLetter(axis));
+    state_.add(fmt::format("{} = here.{}", middle, smallLetter(axis)), origin_);
+    state_.helpers.push_back(middle);
+    state_.at[i] = middle;
+  }
+}
+
+std::string MeasureCall::wayDown() {
+  const ir::CycleArgument* depth = find(ArgumentRole::Depth);
+  const std::string clearance = text(find(ArgumentRole::Clearance));
+  if (depth == nullptr || clearance.empty()) {
+    state_.refuse(range_, "a feature from outside without depth or clearance", "state both in the call");
+    return "";
+  }
+  const std::string down = workText(state_, coordinate(*depth), ir::Axis::Z, range_);
+  if (down.empty()) return "";
+  return fmt::format("depth = {} - {}, clearance = {}", hereText(state_, ir::Axis::Z),
+                     down.find(' ') == std::string::npos ? down : "(" + down + ")", clearance);
+}
+
+// What has a middle. `beside`: the probe goes down outside of it.
+void MeasureCall::hollow(const std::string& cycle, const std::vector<ir::Axis>& axes, bool beside) {
+  const bool round = axes.size() > 1;
+  const ir::CycleArgument* size =
+      round ? find(ArgumentRole::Diameter) : find(ArgumentRole::Width, axes.front());
+  if (size == nullptr) return state_.refuse(range_, "a feature without a size", "state its size in the call");
+  const std::string sizeText = text(size);
+  const std::string overtravel = text(find(ArgumentRole::Overtravel));
+  const std::string tolerance = text(find(ArgumentRole::SizeTolerance));
+  const std::string zone = text(find(ArgumentRole::PositionTolerance));
+  std::string arguments = fmt::format("{} = {}", round ? "diameter" : "width", sizeText);
+  if (beside) {
+    const std::string down = wayDown();
+    if (down.empty()) return;
+    arguments += ", " + down;
+  }
+  if (!tookAll()) return;
+  if (sizeText.empty() || state_.failed) return;
+  std::array<std::string, 3> expected, found;
+  keepHere(axes);
+  for (const ir::Axis axis : axes)
+    expected[ir::indexOf(axis)] = hereText(state_, axis);
+  std::optional<Setting> set;
+  if (call_.setting && !(set = setting(expected))) return;
+  if (!overtravel.empty()) {
+    if (beside)
+      return state_.refuse(range_, "the overtravel of this call", "a called cycle has the machine's");
+    walls(axes, sizeText, overtravel, found);
+    if (!tolerance.empty())
+      alarmBeyond(fmt::format("{} - {}", state_.measured[ir::ResultName::Size],
+                              sizeText.find(' ') == std::string::npos ? sizeText : "(" + sizeText + ")"),
+                  tolerance, "The size is out of tolerance");
+  } else {
+    const std::string name = state_.fresh(round ? (beside ? "boss" : "hole") : (beside ? "web" : "slot"));
+    if (!tolerance.empty()) arguments += ", tolerance = " + tolerance;
+    state_.add(fmt::format("call {} {} -> {}", cycle, arguments, name), origin_);
+    leavesHollow(state_, name, axes, name + ".deviation");
+    for (const ir::Axis axis : axes)
+      found[ir::indexOf(axis)] = state_.measured[kPositions[ir::indexOf(axis)]];
+  }
+  if (!zone.empty()) {
+    if (axes.size() != 1)
+      return state_.refuse(range_, "the true position of a round feature", "compare both axes in the cycle");
+    const std::size_t i = ir::indexOf(axes.front());
+    alarmBeyond(fmt::format("2 * ({} - {})", found[i], expected[i]), zone,
+                "The middle is outside its position tolerance");
+  }
+  if (set) writeSetting(state_, *set, found, origin_);
+}
+
+// Two walls along each axis from the middle, with an overtravel of its own.
+void MeasureCall::walls(const std::vector<ir::Axis>& axes, const std::string& size,
+                        const std::string& overtravel, std::array<std::string, 3>& found) {
+  const std::string half = size.find(" + ") == std::string::npos && size.find(" - ") == std::string::npos
+                               ? size + " / 2"
+                               : "(" + size + ") / 2";
+  static constexpr const char* kNames[][2] = {{"right", "left"}, {"back", "front"}, {"", ""}};
+  std::map<ir::ResultName, std::string> left;
+  for (const ir::Axis axis : axes) {
+    const std::size_t i = ir::indexOf(axis);
+    const std::string one = state_.fresh(kNames[i][0]), other = state_.fresh(kNames[i][1]);
+    const std::string letter = smallLetter(axis);
+    state_.add(fmt::format("touch {} by {} overtravel {} -> {}", letter, half, overtravel, one), origin_);
+    state_.add(fmt::format("touch {} by -{} overtravel {} -> {}", letter, half, overtravel, other), origin_);
+    const std::string centre = state_.fresh("centre_" + letter);
+    state_.add(fmt::format("{} = ({}.at + {}.at) / 2", centre, one, other), origin_);
+    if (axes.size() > 1 && axis == axes.front())
+      state_.add(fmt::format("protected move to {} {}", letter, centre), origin_,
+                 "over the middle, as the macro goes");
+    found[i] = centre;
+    left[kPositions[i]] = centre;
+    left[kErrors[i]] = centre + " - " + hereText(state_, axis);
+    left[ir::ResultName::Size] = left[ir::ResultName::Main] = fmt::format("{}.at - {}.at", one, other);
+  }
+  if (axes.size() > 1)
+    state_.add(
+        fmt::format("protected move to {} {}", smallLetter(axes.front()), hereText(state_, axes.front())),
+        origin_, "back to where the measurement began");
+  state_.measured = std::move(left);
+}
 
 std::string hereText(const State& state, ir::Axis axis) {
   const std::string& at = state.at[ir::indexOf(axis)];
@@ -352,7 +343,7 @@ void writeMeasure(State& state, const ir::Measure& measure, const ir::Origin& or
 }
 
 void writeCall(State& state, const ir::CallCycle& call, const ir::Origin& origin) {
-  Call(state, call, origin).write();
+  MeasureCall(state, call, origin).write();
 }
 
 } // namespace dotek::backends::cycle

@@ -55,6 +55,7 @@ struct State {
   std::map<std::pair<int, double>, std::string> constants; // named numbers, by kind
   std::vector<EmittedLine> named;                          // their lines
   std::vector<EmittedLine> lines;                          // the part that is being written
+  std::vector<std::string> helpers; // names that a line gives a value to in case something reads it
 };
 
 // ---- Names.cpp

@@ -186,8 +186,8 @@ private:
     if (shows)
       std::erase_if(own.deeds, [](const verify::Deed& one) { return one.kind == verify::Deed::Kind::Stop; });
     // A limit that the macros look at by themselves is an `alarm` of the cycle.
-    for (const MacroAlarm kind :
-         {MacroAlarm::UpperLimit, MacroAlarm::OutOfTolerance, MacroAlarm::OutOfPosition})
+    for (const MacroAlarm kind : {MacroAlarm::UpperLimit, MacroAlarm::OutOfTolerance,
+                                  MacroAlarm::OutOfPosition, MacroAlarm::OutOfAngle})
       if (now.source->alarmKind == stdlib::macroAlarmName(kind) && own.ending == verify::Ending::Alarm &&
           own.alarmKind.empty())
         own.alarmKind = now.source->alarmKind;
