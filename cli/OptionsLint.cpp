@@ -69,7 +69,7 @@ driver::LintOptions lintOf(const Raw& raw) {
   out.control = raw.control;
   out.fix = raw.fix;
   if (!raw.baseline.empty()) out.baseline = raw.baseline;
-  out.writeBaseline = !raw.writeBaseline.empty();
+  if (!raw.writeBaseline.empty()) out.writeBaseline = raw.writeBaseline;
   out.listSkipped = raw.listSkipped;
   out.force = raw.force;
   out.followLinks = raw.followLinks;

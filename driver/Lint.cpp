@@ -90,7 +90,9 @@ public:
     session_.diagnostics().sort();
     if (!passOverBaseline()) return failed();
     const std::string baseline =
-        options_.writeBaseline ? lint::Baseline::render(session_.diagnostics(), session_.sources()) : "";
+        options_.writeBaseline
+            ? lint::Baseline::render(session_.diagnostics(), session_.sources(), *options_.writeBaseline)
+            : "";
     const bool fails = !options_.writeBaseline && failsNow();
     Outcome outcome = outcomeOf(session_, "", true);
     outcome.summary = summary();
@@ -108,7 +110,7 @@ private:
     const auto text = session_.bytes(*options_.baseline, session_.diagnostics());
     if (!text) return false;
     std::string reason;
-    std::optional<lint::Baseline> baseline = lint::Baseline::read(*text, reason);
+    std::optional<lint::Baseline> baseline = lint::Baseline::read(*text, reason, *options_.baseline);
     if (!baseline) {
       session_.diagnostics().report<diag::BaselineUnreadable>({}, *options_.baseline, reason);
       return false;
@@ -116,7 +118,9 @@ private:
     baseline->passOver(session_.diagnostics(), session_.sources());
     passedOver_ = fmt::format("{} of the baseline passed over", baseline->passedOver());
     if (const std::size_t gone = baseline->gone(); gone > 0)
-      passedOver_ += fmt::format(", {} of it gone: write it anew", gone);
+      passedOver_ += baseline->isOfOthers(session_.sources())
+                         ? ", as it is of other files: it names them from its own folder"
+                         : fmt::format(", {} of it gone: write it anew", gone);
     return true;
   }
 

@@ -3,6 +3,7 @@
 #include "support/Fingerprint.h"
 #include "support/Printable.h"
 
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
 namespace dotek::lint {
@@ -13,15 +14,31 @@ using Key = std::tuple<std::string, std::string, std::string>;
 
 constexpr int kSchema = 1;
 
+namespace fs = std::filesystem;
+
+// One name, whatever a command line calls the file.
+std::string wholeName(const fs::path& path) {
+  std::error_code error;
+  const fs::path whole = fs::absolute(path, error);
+  return (error ? path : whole).lexically_normal().generic_string();
+}
+
+// Of the baseline.
+fs::path folderOf(const std::string& path) {
+  return fs::path(wholeName(path.empty() ? "baseline" : path)).parent_path();
+}
+
 // `fingerprints` has met the findings before it.
 Key keyOf(const Diagnostic& one, const SourceMap& sources, Fingerprints& fingerprints) {
   if (!one.range.hasPlace()) return {"", std::string(one.code), asUtf8(one.message)};
-  return {asUtf8(sources.file(one.range.file).name()), std::string(one.code), fingerprints.of(one, sources)};
+  return {asUtf8(wholeName(sources.file(one.range.file).name())), std::string(one.code),
+          fingerprints.of(one, sources)};
 }
 
 } // namespace
 
-std::optional<Baseline> Baseline::read(std::string_view text, std::string& reason) {
+std::optional<Baseline> Baseline::read(std::string_view text, std::string& reason, const std::string& path) {
+  const fs::path folder = folderOf(path);
   const Json document = Json::parse(text, nullptr, false);
   if (document.is_discarded() || !document.is_object()) {
     reason = "it is no JSON object";
@@ -44,18 +61,20 @@ std::optional<Baseline> Baseline::read(std::string_view text, std::string& reaso
       reason = "a finding of it has no `file`, `code` or `fingerprint`";
       return std::nullopt;
     }
-    ++out.held_[{*file, *code, *fingerprint}];
+    // What is of no file has no name.
+    ++out.held_[{file->empty() ? std::string() : wholeName(folder / *file), *code, *fingerprint}];
   }
   return out;
 }
 
-std::string Baseline::render(const Diagnostics& findings, const SourceMap& sources) {
+std::string Baseline::render(const Diagnostics& findings, const SourceMap& sources, const std::string& path) {
+  const fs::path folder = folderOf(path);
   Json rows = Json::array();
   Fingerprints fingerprints;
   for (const Diagnostic& one : findings.all()) {
     const auto [file, code, fingerprint] = keyOf(one, sources, fingerprints);
     Json row;
-    row["file"] = file;
+    row["file"] = file.empty() ? file : fs::path(file).lexically_relative(folder).generic_string();
     row["code"] = code;
     row["fingerprint"] = fingerprint;
     rows.push_back(std::move(row));
@@ -82,6 +101,15 @@ std::size_t Baseline::gone() const {
   for (const auto& [key, count] : held_)
     out += count;
   return out;
+}
+
+bool Baseline::isOfOthers(const SourceMap& sources) const {
+  for (FileId id = 0; id < sources.size(); ++id) {
+    const auto at = held_.lower_bound({asUtf8(wholeName(sources.file(id).name())), "", ""});
+    if (at != held_.end() && std::get<0>(at->first) == asUtf8(wholeName(sources.file(id).name())))
+      return false;
+  }
+  return !held_.empty();
 }
 
 } // namespace dotek::lint

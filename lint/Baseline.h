@@ -14,10 +14,14 @@ namespace dotek::lint {
 
 class Baseline {
 public:
-  // The text of a file that render() made; nullopt with the reason where it is none.
-  static std::optional<Baseline> read(std::string_view text, std::string& reason);
-  // JSON: `schema` and `findings`, each with `file`, `code` and `fingerprint`. The findings are sorted.
-  static std::string render(const Diagnostics& findings, const SourceMap& sources);
+  // The text of a file that render() made; nullopt with the reason where it is none. `path`: that file, whose
+  // folder its names of files count from; "" for the folder that the process is in.
+  static std::optional<Baseline> read(std::string_view text, std::string& reason,
+                                      const std::string& path = "");
+  // JSON: `schema` and `findings`, each with `file` (from the folder of `path`, however it was named), `code`
+  // and `fingerprint`. The findings are sorted.
+  static std::string render(const Diagnostics& findings, const SourceMap& sources,
+                            const std::string& path = "");
 
   // Takes out the findings that it holds; the findings are sorted. What remains of it is gone from the
   // inputs.
@@ -25,9 +29,11 @@ public:
 
   std::size_t passedOver() const { return passedOver_; }
   std::size_t gone() const; // of what passOver() left
+  // It is of files of which none is among `sources`.
+  bool isOfOthers(const SourceMap& sources) const;
 
 private:
-  // File, code and fingerprint; how many there are.
+  // File (absolute), code and fingerprint; how many there are.
   std::map<std::tuple<std::string, std::string, std::string>, std::size_t> held_;
   std::size_t passedOver_ = 0;
 };

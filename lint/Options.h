@@ -29,7 +29,8 @@ struct LintOptions {
   bool force = false;           // repairs files that are write-protected, too
   // --baseline: path of a list of findings that are passed over; nothing: none.
   std::optional<std::string> baseline;
-  bool writeBaseline = false; // the result has such a list of what is found, and lint does not fail
+  // The file that the result is written to, which has such a list of what is found; lint does not fail then.
+  std::optional<std::string> writeBaseline;
 };
 
 } // namespace dotek::lint

@@ -45,6 +45,13 @@ Diagnostic& reportDifference(const LengthLeftIn& one, Report& report) {
       one.read, one.length);
 }
 
+// What speaks of a control whose positions hold the length by inference alone; nullptr: no doubt.
+const std::string* doubtOf(const Project& project) {
+  if (project.control == nullptr || !project.control->withToolLength) return nullptr;
+  const stdlib::LengthInPositions& with = *project.control->withToolLength;
+  return with.grade == "inferred" ? &with.source : nullptr;
+}
+
 void checkProgram(const ir::Program& program, const Project& project, const ToolLengths& lengths,
                   Report& report) {
   // One position that is read leads to one finding, at its first coordinate.
@@ -73,9 +80,15 @@ void checkProgram(const ir::Program& program, const Project& project, const Tool
     if (first.readAt.hasPlace() &&
         (first.readAt.end <= first.range.begin || first.readAt.begin >= first.range.end))
       found.note(first.readAt, "the position is read here");
+    const std::string* const doubt = doubtOf(project);
+    if (doubt != nullptr)
+      found.note(first.readAt.hasPlace() ? first.readAt : first.range,
+                 fmt::format("that #{} holds the length is inferred for {}: {}", first.read,
+                             project.control->title, *doubt));
     Fix fix{Fix::Applicability::Display, "", {}};
     for (const LengthLeftIn& one : all) {
       if (one.range.begin != first.range.begin) found.note(one.range, "another coordinate computed from it");
+      if (doubt != nullptr) continue; // a length taken off twice puts the tool into the part
       if (auto edit = repair(one, project.sources)) fix.edits.push_back(std::move(*edit));
     }
     if (!fix.edits.empty()) {

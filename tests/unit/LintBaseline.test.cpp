@@ -41,6 +41,27 @@ TEST_CASE("baseline: what is known is passed over, what is new fails, what is go
   CHECK(gone.err.find("1 of it gone") != std::string::npos);
 }
 
+TEST_CASE("baseline: a file is the same however it is named, and wherever the command runs") {
+  const ProcessFolder folder;
+  folder.run("mkdir shop lists");
+  folder.write("shop/O7411.nc", kOld);
+  CHECK(folder.run("dotek lint shop --write-baseline lists/known.json").status == 0);
+  CHECK(Json::parse(folder.read("lists/known.json"))["findings"][0]["file"] == "../shop/O7411.nc");
+  for (const char* command : {"dotek lint ./shop --baseline lists/known.json",
+                              "dotek lint \"$PWD/shop\" --baseline lists/known.json",
+                              "cd shop; dotek lint . --baseline ../lists/known.json",
+                              "cd lists; dotek lint ../shop/O7411.nc --baseline known.json"}) {
+    const ShellResult result = folder.run(command);
+    CHECK_MESSAGE(result.status == 0, command << result.out << result.err);
+    CHECK(result.err.find("1 of the baseline passed over") != std::string::npos);
+  }
+  // A list of other files says so, and does not ask to be written anew.
+  folder.run("cp -r shop other");
+  const ShellResult other = folder.run("dotek lint other --baseline lists/known.json");
+  CHECK(other.status == 1);
+  CHECK(other.err.find("write it anew") == std::string::npos);
+}
+
 TEST_CASE("baseline: what is no baseline lets nothing pass") {
   const ProcessFolder folder;
   folder.write("O7411.nc", kOld);

@@ -284,3 +284,19 @@ TEST_CASE("lint --stdin-filename: the text of an editor under the name of its fi
   CHECK(run("lint --fix --diff --select all --stdin-filename sub/p.txt -").out ==
         "--- sub/p.txt\n+++ sub/p.txt\n@@ -2,1 +2,1 @@\n- SeqC' M32''' EOL\n+ SeqC ' M32' EOL\n");
 }
+
+TEST_CASE("lint: where a profile infers that a position holds the length, no repair is proposed") {
+  const DataFolder folder;
+  folder.write("o.nc", "O9101\nG90 G31 Z-20. F100\nG53\n#101=#5063\nG90 G0 Z#101\nM99\n");
+  const auto of = [&](const std::string& control) {
+    return runDotek({"lint", "o.nc", "--select", "tool-length-in-target", "--control", control},
+                    folder.path())
+        .out;
+  };
+  const std::string sure = of("fanuc-31i-b"), inferred = of("haas-ngc");
+  CHECK(sure.find("[tool-length-in-target]") != std::string::npos);
+  CHECK(sure.find("fix by hand") != std::string::npos);
+  CHECK(inferred.find("[tool-length-in-target]") != std::string::npos);
+  CHECK(inferred.find("is inferred for Haas NGC") != std::string::npos);
+  CHECK(inferred.find("fix by hand") == std::string::npos);
+}
