@@ -285,6 +285,7 @@ std::optional<verify::Case> CycleFileRunner::draw(std::uint64_t index) {
       std::uint32_t& count = played->rejected ? checks : alarms;
       if (count < kMostAlarms) {
         ++count;
+        met_.push_back(played->record.endedAt);
         const TargetRun ran = runTarget(*played);
         if (!ran.stopped.empty())
           stopped_ = {makeDiagnostic<diag::TranslationStopped>({}, plan_.translation->name, ran.stopped),
@@ -350,6 +351,8 @@ CaseResult CycleFileRunner::run(const verify::Case& drawn) {
     result.verdict = CaseVerdict::NoProgram;
     return result;
   }
+  if (played->record.ending == verify::Ending::Alarm) met_.push_back(played->record.endedAt);
+  result.alarms = std::exchange(met_, {});
   TargetRun ran = runTarget(*played);
   result.trace = std::move(ran.trace);
   if (!ran.stopped.empty()) {
@@ -376,6 +379,15 @@ CaseResult CycleFileRunner::run(const verify::Case& drawn) {
 
 std::vector<Rejection> CycleFileRunner::rejections() const {
   return commonestFirst(rejected_);
+}
+
+std::vector<SourceRange> CycleFileRunner::alarms() const {
+  std::vector<SourceRange> out;
+  // Those before anything moves are met by edge cases and by callers who break each check.
+  for (const ir::CycleStatement& statement : cycle().body)
+    if (std::holds_alternative<ir::Alarm>(statement.node) && statement.origin.range().hasPlace())
+      out.push_back(statement.origin.range());
+  return out;
 }
 
 VerifySides CycleFileRunner::sides() const {

@@ -41,6 +41,7 @@ public:
   verify::Case edge(std::uint64_t index) override;
   CaseResult run(const verify::Case& drawn) override;
   std::vector<Rejection> rejections() const override;
+  std::vector<SourceRange> alarms() const override;
   VerifySides sides() const override;
   std::optional<CasePictures> pictures(const verify::Case& drawn) override;
 
@@ -76,6 +77,7 @@ private:
   std::unique_ptr<Verification> target_;
   std::unique_ptr<Played> drawn_; // of draw(), for the next run()
   Rejections rejected_;           // of the last draw()
+  std::vector<SourceRange> met_;  // alarms that both sides ran to since the last result
 };
 
 } // namespace dotek::targets

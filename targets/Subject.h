@@ -84,6 +84,9 @@ struct CaseResult {
   bool ofValues = false;
   // Calls that both sides make alike and whose work no source states, with what it does not state.
   std::vector<std::pair<SourceRange, std::string>> unstated = {};
+  // Of the source, in which its runs have ended since the last result: what the translation does there is
+  // known.
+  std::vector<SourceRange> alarms = {};
   std::string trace; // of the translation; only where VerifyOptions::traces wants it
 };
 
@@ -140,6 +143,8 @@ public:
   }
   // Why the proposals of the last draw() were rejected, the most frequent reason first.
   virtual std::vector<Rejection> rejections() const { return {}; }
+  // Statements of the source that end it with an alarm; none where they are not told apart.
+  virtual std::vector<SourceRange> alarms() const { return {}; }
   virtual VerifySides sides() const { return {}; }
   // Of a case. nullopt: there is nothing to see.
   virtual std::optional<CasePictures> pictures(const verify::Case& /*drawn*/) { return std::nullopt; }

@@ -63,6 +63,14 @@ std::string_view leadOf(std::string_view about) {
                          : "";
 }
 
+std::string toleranceText(const VerifyDocument& document) {
+  std::string out = numberText(document.tolerance) + " mm";
+  if (document.wordSteps > 0)
+    out += fmt::format("; what the program rounds to words of the control: {} of their last digit",
+                       numberText(document.wordSteps));
+  return out;
+}
+
 std::string markdownOf(const VerifyDocument& d) {
   std::string out = fmt::format("# Verification of {}\n\n**{}**\n\n", plain(d.title), plain(d.summary));
   if (!d.remark.empty()) out += plain(d.remark) + "\n\n";
@@ -77,7 +85,7 @@ std::string markdownOf(const VerifyDocument& d) {
   row("target", d.target);
   row("control of the translation", d.targetControl);
   row("probing macros of the translation", d.targetMacros);
-  row("tolerance", numberText(d.tolerance) + " mm");
+  row("tolerance", toleranceText(d));
   row("seed", std::to_string(d.seed));
   row("share that has to agree", numberText(d.minAgreed) + " %");
   row("Dotek", d.version);

@@ -70,6 +70,9 @@ struct VerifyDocument {
   std::optional<File> translation;                // the text that ran
   bool edited = false;                            // it was given by --translation, and is another text
   std::uint64_t seed = 0;
+  // Besides, of a cycle of the cycle language: a word that the program rounds counts as equal within so many
+  // steps of its last digit; 0: none.
+  double wordSteps = 0;
   double tolerance = 0, minAgreed = 0;                    // mm, percent
   std::vector<std::pair<std::string, std::string>> fixed; // by flags and the job; the others are drawn
   std::vector<std::string> assumed;
@@ -90,6 +93,9 @@ void addFindings(const Diagnostics& said, const SourceMap& sources,
 
 // What a reader has to know of the findings of `about`; "": nothing.
 std::string_view leadOf(std::string_view about);
+
+// "0.000001 mm", and what holds for words.
+std::string toleranceText(const VerifyDocument& document);
 
 // The line that is meant; "": none.
 std::string lineOf(const VerifyDocument::Excerpt& excerpt);

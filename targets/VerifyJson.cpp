@@ -79,6 +79,7 @@ std::string jsonOf(const VerifyDocument& d) {
   out["cases"] = {{"drawn", countsOf(d.cases)}, {"edge", countsOf(d.edges)}};
   out["cases"]["edge"]["refused"] = d.edges.refused;
   out["compared"] = {{"pair", d.pair}, {"aspects", d.aspects}, {"tolerance_mm", d.tolerance}};
+  if (d.wordSteps > 0) out["compared"]["word_steps"] = d.wordSteps;
   out["source"] = {{"name", d.title},
                    {"control", maybe(d.sourceControl)},
                    {"form", maybe(d.form)},

@@ -108,7 +108,7 @@ private:
     for (const std::string& one : d_.aspects)
       aspects += (aspects.empty() ? "" : ", ") + one;
     row("Compared", aspects);
-    row("Equal within", numberText(d_.tolerance) + " mm");
+    row("Equal within", toleranceText(d_));
     std::string fixed;
     for (const auto& [name, value] : d_.fixed)
       fixed += fmt::format("{}{} = {}", fixed.empty() ? "" : ", ", name, value);

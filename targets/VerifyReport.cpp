@@ -90,6 +90,8 @@ void VerifyReport::add(std::uint64_t number, bool edge, verify::Case drawn, Case
     ++idle.count;
     idle.rejected += result.rejected;
   }
+  for (const SourceRange& alarm : result.alarms)
+    alarms_.emplace(alarm.file, alarm.begin);
   if (edge) return;
   for (auto& [at, what] : result.unstated)
     unstated_.emplace(std::pair(at.file, at.begin), std::pair(at, std::move(what)));
@@ -366,6 +368,12 @@ void VerifyReport::tellUnstated() {
     told_.report<diag::VerifyUnstated>(one.first, one.second);
 }
 
+void VerifyReport::tellAlarms() {
+  if (options_.replay || cases_.agree == 0) return;
+  for (const SourceRange& alarm : runner_.alarms())
+    if (!alarms_.contains({alarm.file, alarm.begin})) told_.report<diag::VerifyAlarmNotMet>(alarm);
+}
+
 void VerifyReport::tellProbe() {
   for (const auto& [place, what] : unprotected_)
     told_.report<diag::UnprotectedMove>(what.first,
@@ -443,6 +451,7 @@ std::string VerifyReport::finish() {
     if (stated) tellIdle(*reasons[i]);
   tellReplaced();
   tellUnstated();
+  tellAlarms();
   const std::uint64_t all = cases_.all();
   if (stated && static_cast<double>(cases_.agree) < options_.minAgreed / 100 * static_cast<double>(all))
     told_.report<diag::VerifyTooFew>({}, cases_.agree, all, numberText(options_.minAgreed));

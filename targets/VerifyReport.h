@@ -5,6 +5,7 @@
 #include "targets/VerifyDocument.h"
 
 #include <map>
+#include <set>
 #include <string>
 #include <tuple>
 
@@ -63,6 +64,7 @@ private:
   void tellIdle(const Idle& idle);
   void tellReplaced();
   void tellUnstated();
+  void tellAlarms();
   VerifyDocument::Excerpt excerptOf(SourceRange range);
   std::string pairText() const;
   void describe();
@@ -89,6 +91,7 @@ private:
   std::map<std::pair<FileId, std::uint32_t>, std::pair<SourceRange, std::string>> unstated_; // by place
   std::map<std::pair<FileId, std::uint32_t>, std::pair<SourceRange, bool>> unprotected_;
   std::optional<SourceRange> unarmed_;
+  std::set<std::pair<FileId, std::uint32_t>> alarms_;              // of the source, in which cases have ended
   std::optional<std::pair<std::uint64_t, verify::Case>> agreeing_; // the first
   std::optional<std::pair<std::uint64_t, Stopped>> stopped_;       // the first
 };

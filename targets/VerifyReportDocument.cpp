@@ -6,6 +6,7 @@
 #include "support/Version.h"
 #include "support/messages/Commands.h"
 #include "targets/Target.h"
+#include "targets/Verification.h"
 #include "targets/VerifyReport.h"
 
 #include <algorithm>
@@ -142,6 +143,7 @@ void VerifyReport::describe() {
   d.sourceMacros = plan_.sourceMacros;
   d.seed = options_.seed;
   d.tolerance = options_.tolerance;
+  if (plan_.cycleFile) d.wordSteps = kRoundedWord;
   d.minAgreed = options_.minAgreed;
   for (const verify::DrawField& field : plan_.fields)
     if (field.fixed) d.fixed.emplace_back((plan_.programs ? "#" : "") + field.name, numberText(*field.fixed));

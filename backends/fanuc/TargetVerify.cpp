@@ -26,8 +26,6 @@ namespace gibbs = frontend::gibbs;
 namespace {
 
 constexpr std::uint32_t kOwnAlarms = 3000; // of programs
-// Of a position whose word is rounded, and of what is met from there: in steps of the control's words.
-constexpr double kRoundedWord = 0.6;
 constexpr const char* kSystemAlarm = "WORK OFFSET NOT 54 TO 59";
 
 // Numbers and texts after `before`, "#3000=103(ARGUMENT X MISSING)": the text to the next bracket or line.

@@ -27,8 +27,7 @@ struct Ran {
 };
 using Runs = std::function<Ran(const verify::Interference&)>;
 
-constexpr double kRoundedWord = 0.6; // of a position whose word is rounded, in steps of its last decimal
-constexpr double kDatum = 0.5;       // by how much a datum may move what follows, mm
+constexpr double kDatum = 0.5; // by how much a datum may move what follows, mm
 
 class MikroprogVerification final : public Verification {
 public:
