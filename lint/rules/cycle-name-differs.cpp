@@ -38,6 +38,19 @@ bool misspelt(const std::string& a, const std::string& b) {
   return one == other;
 }
 
+// Where a routine keeps a list of cycles and lacks the folder, more letters may differ: one name goes on
+// where the other ends (`floor.len`, `floor.lenght`), or a quarter of the letters are lost, added or swapped.
+bool misspeltInList(const std::string& a, const std::string& b) {
+  constexpr std::size_t kLeastStem = 5;
+  const std::string one = gibbs::foldCase(a), other = gibbs::foldCase(b);
+  if (one.size() == other.size()) return false;
+  const std::string& shorter = one.size() < other.size() ? one : other;
+  const std::string& longer = one.size() < other.size() ? other : one;
+  if (shorter.size() >= kLeastStem && longer.starts_with(shorter)) return true;
+  const std::size_t most = shorter.size() / 4;
+  return most > 0 && nameDistance(one, other, most) <= most;
+}
+
 void check(const Project& project, Report& report) {
   std::set<std::string> folders;
   for (const gibbs::Cycle* cycle : project.cycles)
@@ -71,6 +84,8 @@ void check(const Project& project, Report& report) {
       // A name that several routines test is the name of a cycle, wherever its folder is.
       const bool elsewhere = testing.at(id.text).size() > 1;
       if (folders.contains(id.text)) continue;
+      const bool listsFolders = std::any_of(beside.begin(), beside.end(),
+                                            [&](const std::string& name) { return folders.contains(name); });
       for (const std::string& folder : folders) {
         // A folder that the Prog prints for already is not the one that is meant.
         std::string one = gibbs::foldCase(id.text);
@@ -83,7 +98,7 @@ void check(const Project& project, Report& report) {
         const bool inItsPlace = !elsewhere && beside.size() > 1 && !beside.contains(folder);
         if ((!same && !inItsPlace &&
              !compost::printingRoutines(*prog, project.compostKeywords, folder).empty()) ||
-            !misspelt(id.text, folder))
+            !(misspelt(id.text, folder) || (inItsPlace && listsFolders && misspeltInList(id.text, folder))))
           continue;
         report.at(id.range,
                   "no folder has the name `{}`; did you mean `{}`? the branch is taken for no operation",
