@@ -2,7 +2,7 @@
 // docs/fusion.md, "The kernel double". ES5. dotekRun(input) runs one operation; the value of the whole text is
 // the function that Dotek calls.
 
-var MM = 0, IN = 1;
+var MM = 1, IN = 0; // as of run-post (stdlib/fusion/kernel.toml)
 var X = 0, Y = 1, Z = 2;
 var DEG = 180 / Math.PI;
 var EOL = "\r\n", SP = " ", TAB = "\t";

@@ -25,7 +25,7 @@ std::string object(const std::map<std::string, double>& members, const RunInput&
 
 // The kernel's input: JSON, and a literal of JavaScript as well.
 std::string inputText(std::string_view prefix, bool whole, const RunInput& input, std::uint32_t most) {
-  constexpr int kMillimetre = 0, kInch = 1;
+  constexpr int kMillimetre = 1, kInch = 0;
   std::string points;
   const auto along = [&](const char* axis, double value) {
     return input.noNumber == axis ? std::string(kNoNumber) : numberLiteral(value);
