@@ -224,12 +224,12 @@ public:
   }
 
   // Repairs as a patch; findings only where nothing could be read.
-  int proposals(const driver::Outcome& outcome) {
-    if (outcome.status == kUsage)
+  int proposals(const driver::Outcome& outcome, const Arguments& arguments) {
+    if (outcome.status > kInputError)
       err_ << renderText(outcome.diagnostics, outcome.sources, maxErrors_, errColors_);
     for (const driver::OutputFile& file : outcome.files)
       out_ << diffOf(file, outcome.sources);
-    if (!outcome.summary.empty()) err_ << outcome.summary << "\n";
+    if (!arguments.quiet && !outcome.summary.empty()) err_ << outcome.summary << "\n";
     return outcome.status;
   }
 
@@ -334,7 +334,7 @@ int runCommand(Arguments& arguments, std::ostream& out, std::ostream& err) {
     options.paths = arguments.inputs;
     options.common = arguments.common;
     options.source = arguments.source;
-    if (arguments.diff) return printer.proposals(driver::proposeFixes(options));
+    if (arguments.diff) return printer.proposals(driver::proposeFixes(options), arguments);
     return printer.findings(driver::lint(options), arguments);
   }
   case Command::Dump:

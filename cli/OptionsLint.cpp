@@ -43,8 +43,10 @@ void addLint(CLI::App& app, Raw& raw) {
       ->type_name("FILE");
   CLI::Option* fix =
       lint->add_flag("--fix", raw.fix, "make the repairs that change no motion, coordinate or meaning");
+  // A patch is no list of findings.
   lint->add_flag("--diff", raw.diff, "with --fix: print the lines that would change, and how; change nothing")
-      ->needs(fix);
+      ->needs(fix)
+      ->excludes("--statistics", "--write-baseline", "--format");
   lint->add_option("--form", raw.form, "what the Form of the post decides (see `dotek list forms`)")
       ->type_name("NAME");
   addSeveral(*lint, "--field", raw.field, "the post's field FIELD is the macro's variable VARIABLE",

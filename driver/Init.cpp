@@ -1,6 +1,8 @@
 // The beginning of a project's settings.
 #include "driver/Command.h"
 #include "project/Lowering.h"
+#include "stdlib/ControlFiles.h"
+#include "support/WholeName.h"
 #include "support/messages/Commands.h"
 
 #include <filesystem>
@@ -46,6 +48,15 @@ schema = 1
 # exclude = true
 )";
 
+// A file of a control is named from the folder of the dotek.toml.
+std::string controlIn(const InitOptions& options) {
+  if (!stdlib::isDataPath(options.control)) return options.control;
+  const std::string path = std::filesystem::path(wholeName(options.control))
+                               .lexically_relative(wholeName(options.folder + "/."))
+                               .generic_string();
+  return stdlib::isDataPath(path) ? path : "./" + path;
+}
+
 } // namespace
 
 Outcome init(const InitOptions& options) {
@@ -56,8 +67,9 @@ Outcome init(const InitOptions& options) {
       session.diagnostics().report<diag::SettingsExist>({}, path);
     if (!options.control.empty()) static_cast<void>(loadControl(options.control, session));
     if (session.diagnostics().hasErrors()) return outcomeOf(session, "");
-    const std::string control = options.control.empty() ? "# control = \"fanuc-31i-b\"\n"
-                                                        : fmt::format("control = \"{}\"\n", options.control);
+    const std::string control = options.control.empty()
+                                    ? "# control = \"fanuc-31i-b\"\n"
+                                    : fmt::format("control = \"{}\"\n", controlIn(options));
     Outcome outcome = outcomeOf(session, "");
     outcome.files.push_back({path, fmt::format(fmt::runtime(kBeginning), control)});
     outcome.summary = fmt::format("`{}` is written; `dotek lint {}` checks the folder", path, options.folder);

@@ -23,6 +23,7 @@
 #include "project/Job.h"
 #include "project/PostShape.h"
 #include "support/Files.h"
+#include "support/WholeName.h"
 #include "support/messages/ComPost.h"
 #include "support/messages/Commands.h"
 #include "support/messages/Common.h"
@@ -466,7 +467,7 @@ Outcome proposed(LintOptions options) {
     for (OutputFile& file : next)
       texts[file.name] = std::move(file.text);
     for (const auto& [name, text] : texts)
-      (*buffers)[fs::absolute(name).lexically_normal().generic_string()] = text;
+      (*buffers)[wholeName(name)] = text;
     options.common.buffers = buffers;
     made.clear();
     next = safeFixes(lintOnce(options), made);

@@ -2,6 +2,7 @@
 
 #include "support/Fingerprint.h"
 #include "support/Printable.h"
+#include "support/WholeName.h"
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -15,13 +16,6 @@ using Key = std::tuple<std::string, std::string, std::string>;
 constexpr int kSchema = 1;
 
 namespace fs = std::filesystem;
-
-// One name, whatever a command line calls the file.
-std::string wholeName(const fs::path& path) {
-  std::error_code error;
-  const fs::path whole = fs::absolute(path, error);
-  return (error ? path : whole).lexically_normal().generic_string();
-}
 
 // Of the baseline.
 fs::path folderOf(const std::string& path) {
@@ -62,7 +56,8 @@ std::optional<Baseline> Baseline::read(std::string_view text, std::string& reaso
       return std::nullopt;
     }
     // What is of no file has no name.
-    ++out.held_[{file->empty() ? std::string() : wholeName(folder / *file), *code, *fingerprint}];
+    ++out.held_[{file->empty() ? std::string() : wholeName((folder / *file).generic_string()), *code,
+                 *fingerprint}];
   }
   return out;
 }

@@ -4,6 +4,7 @@
 #include "stdlib/CodeSpan.h"
 #include "support/Files.h"
 #include "support/Tape.h"
+#include "support/WholeName.h"
 #include "support/messages/Commands.h"
 
 #include <algorithm>
@@ -110,9 +111,7 @@ ReadBounds Session::bounds(const std::string& folder) const {
 
 const std::string* Session::buffer(const std::string& path) const {
   if (options_.buffers == nullptr) return nullptr;
-  std::error_code error;
-  const auto absolute = std::filesystem::absolute(path, error).lexically_normal();
-  const auto found = options_.buffers->find(absolute.generic_string());
+  const auto found = options_.buffers->find(wholeName(path));
   return found == options_.buffers->end() ? nullptr : &found->second;
 }
 

@@ -28,6 +28,14 @@ TEST_CASE("dotek init writes settings that change nothing, and never takes the p
   CHECK(readAll(path).find("\ncontrol = \"haas-ngc\"\n") != std::string::npos);
   CHECK(runDotek({"init", "--control", "no-such", "--force"}, folder.path()).status == 2);
   CHECK(runDotek({"init", "nowhere"}, folder.path()).status == 2);
+  // A control of one's own is found from the folder that it is written for.
+  std::filesystem::create_directory(folder.path() + "/sub");
+  folder.write("mine.toml", runDotek({"new", "control", "mine", "--from", "fanuc-31i-b"}, folder.path()).out);
+  folder.write("sub/O2.nc", "O2\nM30\n");
+  CHECK(runDotek({"init", "sub", "--control", "./mine.toml"}, folder.path()).status == 0);
+  CHECK(readAll(folder.path() + "/sub/dotek.toml").find("\ncontrol = \"../mine.toml\"\n") !=
+        std::string::npos);
+  CHECK(runDotek({"lint", "sub"}, folder.path()).status != 2);
 }
 
 TEST_CASE("each setting that dotek init proposes is one that Dotek reads") {

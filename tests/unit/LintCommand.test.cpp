@@ -173,6 +173,12 @@ TEST_CASE("lint --fix --diff prints what --fix would write, and changes nothing"
   CHECK(none.out == "");
   CHECK(none.status == 0); // a note is left
   CHECK(runDotek({"lint", "p.txt", "--diff"}, folder.path()).status == 2);
+  for (const std::vector<std::string>& other :
+       {std::vector<std::string>{"--statistics"}, {"--write-baseline", "known.json"}, {"--format", "json"}}) {
+    std::vector<std::string> arguments = {"lint", "p.txt", "--fix", "--diff"};
+    arguments.insert(arguments.end(), other.begin(), other.end());
+    CHECK_MESSAGE(runDotek(arguments, folder.path()).status == 2, other.front());
+  }
 }
 
 TEST_CASE("lint: dotek.toml is found above the input and says what is wanted") {
