@@ -43,10 +43,8 @@ void addLint(CLI::App& app, Raw& raw) {
       ->type_name("FILE");
   CLI::Option* fix =
       lint->add_flag("--fix", raw.fix, "make the repairs that change no motion, coordinate or meaning");
-  // A patch is no list of findings.
   lint->add_flag("--diff", raw.diff, "with --fix: print the lines that would change, and how; change nothing")
-      ->needs(fix)
-      ->excludes("--statistics", "--write-baseline", "--format");
+      ->needs(fix);
   lint->add_option("--form", raw.form, "what the Form of the post decides (see `dotek list forms`)")
       ->type_name("NAME");
   addSeveral(*lint, "--field", raw.field, "the post's field FIELD is the macro's variable VARIABLE",
@@ -66,6 +64,9 @@ void addLint(CLI::App& app, Raw& raw) {
 
 driver::LintOptions lintOf(const Raw& raw) {
   driver::LintOptions out;
+  // A patch is no list of findings. (CLI11 would list what excludes a flag in the order of addresses.)
+  if (raw.fix && raw.diff && (raw.format != "text" || raw.statistics || !raw.writeBaseline.empty()))
+    throw UsageError("--fix --diff prints a patch, which has no --format, --statistics or --write-baseline");
   if (!raw.select.empty()) out.select = codes(raw.select, true);
   out.ignore = codes(raw.ignore, false);
   out.control = raw.control;
