@@ -95,6 +95,7 @@ constexpr CommandFlags kCommands[] = {
     {"lsp", Command::Lsp, addLsp},
     {"outline", Command::Outline, addOutline},
     {"renumber", Command::Renumber, addRenumber},
+    {"flatten", Command::Flatten, addFlatten},
 };
 
 // A command that is named first is the only one that is declared: declaring all flags takes longer than many

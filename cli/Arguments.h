@@ -33,7 +33,8 @@ enum class Command : unsigned char {
   Verify,
   Lsp,
   Outline,
-  Renumber
+  Renumber,
+  Flatten
 };
 
 enum class ColorMode : unsigned char { Auto, Always, Never };

@@ -383,6 +383,11 @@ int runCommand(Arguments& arguments, std::ostream& out, std::ostream& err) {
     arguments.renumber.common = arguments.common;
     arguments.write = arguments.output.empty();
     return printer.layout(driver::renumber(arguments.renumber), arguments);
+  case Command::Flatten:
+    return printer.result(
+        driver::flatten({arguments.inputs.empty() ? "" : arguments.inputs.front(), arguments.common,
+                         arguments.sim.control, arguments.sim.variables, arguments.sim.programs}),
+        arguments);
   }
   return kDefect;
 }

@@ -134,6 +134,7 @@ void addLsp(CLI::App& app, Raw& raw);
 void addExplain(CLI::App& app, Raw& raw);
 void addOutline(CLI::App& app, Raw& raw);
 void addRenumber(CLI::App& app, Raw& raw);
+void addFlatten(CLI::App& app, Raw& raw);
 void addList(CLI::App& app, Raw& raw);
 
 driver::ConvertOptions convertOf(const Raw& raw);

@@ -1,4 +1,4 @@
-// Flags of `dotek outline` and `dotek renumber`.
+// Flags of `dotek outline`, `dotek renumber` and `dotek flatten`.
 #include "cli/Options.h"
 
 #include <CLI/CLI.hpp>
@@ -27,6 +27,19 @@ void addRenumber(CLI::App& app, Raw& raw) {
   command->add_option("-o", raw.output, "write to a file (`-`: print) and leave the input; one input")
       ->type_name("OUT");
   addForce(*command, raw);
+  addCommon(*command, raw);
+}
+
+void addFlatten(CLI::App& app, Raw& raw) {
+  CLI::App* command = app.add_subcommand(
+      "flatten", "run a program of macro B and print the plain blocks that it makes, as one program");
+  command->add_option("PROGRAM", raw.inputs, "the program")->expected(1);
+  addTarget(*command, raw);
+  addSeveral(*command, "--var", raw.variables, "value of a variable before the program begins", "N=VALUE");
+  addFolders(*command, "--programs", raw.programs, "folder of programs that can be called");
+  command->add_option("-o", raw.output, "write to a file instead of standard output")->type_name("OUT");
+  addForce(*command, raw);
+  addIncludes(*command, raw);
   addCommon(*command, raw);
 }
 

@@ -1,4 +1,4 @@
-// Commands for programs of Macro B: `dotek outline`, `dotek renumber`.
+// Commands for programs of Macro B: `dotek outline`, `dotek renumber`, `dotek flatten`.
 #pragma once
 
 #include "driver/Driver.h"
@@ -26,10 +26,21 @@ struct RenumberCommandOptions {
   std::string control; // whose greatest number counts; "": of dotek.toml, else 99999
 };
 
+struct FlattenOptions {
+  std::string input;
+  CommonOptions common;
+  std::string control;               // "": of dotek.toml, else the first
+  project::NamedTexts variables;     // --var N=VALUE
+  std::vector<std::string> programs; // --programs DIR
+};
+
 // Programs, their N numbers, calls, jumps and variables. What of a file cannot be read is reported, and the
 // rest is shown.
 Outcome outline(const OutlineOptions& options);
 // `files`: the programs with new numbers, by the name of the input; `inputs`: those that change. A file with
 // an error, or with a jump that nobody can follow, gives none.
 Outcome renumber(const RenumberCommandOptions& options);
+// The blocks that a run of the program makes, with values in the place of variables, as one program: a run of
+// it does the same. A run that does not come to its end gives none.
+Outcome flatten(const FlattenOptions& options);
 } // namespace dotek::driver

@@ -33,12 +33,36 @@ constexpr std::array kOneShot = {4.0, 10.0, 28.0, 29.0, 30.0, 31.0, 52.0, 53.0, 
 
 // ---- statements
 
+namespace {
+
+// A character of printed text that no control sends; 0: none. Capital letters, digits and `+ - / *` are
+// documented; small letters, the point, the comma and the signs of a table are sent by some.
+char unprintable(const Print& print) {
+  for (const auto& piece : print.pieces)
+    if (const auto* text = std::get_if<PrintedText>(&piece))
+      for (const char c : text->text)
+        if (std::isalnum(static_cast<unsigned char>(c)) == 0 &&
+            std::string_view(" +-/*.,=:()").find(c) == std::string_view::npos)
+          return c;
+  return '\0';
+}
+
+} // namespace
+
 void printedFormat(const CheckedProgram& input, Report& report) {
   for (const Block& block : input.program.blocks) {
     const auto* print = std::get_if<Print>(&block.body);
     if (print == nullptr)
       if (const auto* branch = std::get_if<If>(&block.body)) print = std::get_if<Print>(&branch->statement);
     if (print == nullptr) continue;
+    if (const char sign = unprintable(*print); sign != '\0') {
+      report.at(print->range,
+                "{} is in what is printed, and {} prints capital letters, digits and `+ - / *`, with `*` as "
+                "a blank; the control stops with an alarm; take it out",
+                static_cast<unsigned char>(sign) < 0x80 ? fmt::format("`{}`", sign) : "a letter beyond ASCII",
+                print->binary ? "BPRNT" : "DPRNT");
+      continue;
+    }
     for (const auto& piece : print->pieces) {
       const auto* variable = std::get_if<PrintedVariable>(&piece);
       if (variable == nullptr) continue;

@@ -3,11 +3,23 @@
 namespace dotek::lint::rule {
 namespace {
 
+// The end of it in an arc.
+void checkEnd(const ir::NcBlock& block, std::size_t at, const Machining& before, Report& report) {
+  const ir::Word* code = codeWord(block, 'G', 40);
+  if (code == nullptr || before.mode(Mode::Compensation).on != Certain::Yes) return;
+  if (within(block, at, before).motion < 2 || axesOf(block) == 0) return;
+  report.at(
+      code->range,
+      "G40 ends compensation in the block of an arc; the control stops with alarm 34; end it in a straight "
+      "move after the arc");
+}
+
 void check(const NcProgram& nc, Report& report) {
   const auto& facts = nc.machining();
   for (std::size_t i = 0; i < facts.size(); ++i) {
     const auto* block = std::get_if<ir::NcBlock>(&nc.program.body[i].node);
     if (block == nullptr || !facts[i]) continue;
+    checkEnd(*block, i, *facts[i], report);
     const ir::Word* code = codeWord(*block, 'G', 41);
     if (code == nullptr) code = codeWord(*block, 'G', 42);
     if (code == nullptr) continue;

@@ -3,7 +3,27 @@
 namespace dotek::lint::rule {
 namespace {
 
+// The first M6 of a program that names no tool at all.
+const ir::Word* changeWithoutTool(const NcProgram& nc) {
+  const ir::Word* change = nullptr;
+  const auto& facts = nc.machining();
+  for (std::size_t i = 0; i < facts.size(); ++i) {
+    if (callOf(nc.program.body[i]) != nullptr) return nullptr;
+    const auto* block = std::get_if<ir::NcBlock>(&nc.program.body[i].node);
+    if (block == nullptr) continue;
+    if (firstWord(*block, "T") != nullptr) return nullptr;
+    if (change == nullptr) change = codeWord(*block, 'M', 6);
+  }
+  return change;
+}
+
 void check(const NcProgram& nc, Report& report) {
+  if (const ir::Word* change = changeWithoutTool(nc); change != nullptr) {
+    report.at(change->range,
+              "M6 changes the tool, and the program names none; the spindle gets the tool that was called "
+              "last, whatever it is; write T before it");
+    return;
+  }
   const auto& facts = nc.machining();
   const auto& body = nc.program.body;
   int first = -1;                   // tool that the program begins with

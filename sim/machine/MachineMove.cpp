@@ -220,7 +220,9 @@ bool Machine::reference(const NcWords& w, bool first) {
   if (modes_[kComp] != 0) return inconclusive("a reference return under cutter compensation", 'G');
   if (w.has('P') && !(w.of('P') >= 2 && w.of('P') <= 4))
     return inconclusive("reference points are P2 to P4", 'P');
-  if ((w.present & kAxisBits) == 0) return true;
+  if ((w.present & kAxisBits) == 0)
+    return inconclusive(
+        "a reference return without axes: some controls move all axes, others none; name the axes", 'G');
   moved_ = true;
   Position via;
   const std::uint32_t unknown = uncertain_;

@@ -191,6 +191,16 @@ void Run::noteUnsetCell(std::uint32_t cell) {
   noteUnset(layout.numberOf(cell));
 }
 
+void Run::tellRead(std::uint32_t number, double value) {
+  if (number != 0 && machine_.layout().cellOf(number) == CellLayout::kNone)
+    listener_->systemRead(number, value);
+}
+
+void Run::tellWritten(std::uint32_t number, double value) {
+  if (machine_.layout().cellOf(number) == CellLayout::kNone)
+    listener_->systemWritten(number, nullAsZero(value));
+}
+
 bool Run::spend(std::uint32_t steps) {
   if (fuel_ > steps) {
     fuel_ -= steps;
@@ -245,8 +255,10 @@ bool Run::readAt(double number, double& value) {
   if (ahead_) noteRead(n);
   const std::optional<double> read = machine_.read(n);
   if (read && !unset_.empty() && n > control_.locals && isFresh(*read)) noteUnset(n);
-  if (read) value = *read;
-  return read.has_value();
+  if (!read) return false;
+  if (listener_ != nullptr) tellRead(n, *read);
+  value = *read;
+  return true;
 }
 
 bool Run::writeAt(double number, double value) {
@@ -254,7 +266,9 @@ bool Run::writeAt(double number, double value) {
   if (!(whole >= 0 && whole < 1e9)) return machine_.raise(Alarm::NoSuchVariable);
   const auto n = static_cast<std::uint32_t>(whole);
   if (ahead_ && expectsMotion_) noteWrite(n);
-  return machine_.write(n, value);
+  if (!machine_.write(n, value)) return false;
+  if (listener_ != nullptr) tellWritten(n, value);
+  return true;
 }
 
 // Runs until a block, a call or whatever else changes more than cells; false: the run has ended. The places
@@ -378,6 +392,7 @@ template <bool kDecimal8, bool kWatched> bool Run::execute() {
       if (ahead_) noteRead(at->a);
       const std::optional<double> value = machine_.read(at->a);
       if (!value) return false;
+      if (listener_ != nullptr) tellRead(at->a, *value);
       if (isNull(*value))
         cells[at->c] = kNull;
       else if (!put(*value))
@@ -398,6 +413,7 @@ template <bool kDecimal8, bool kWatched> bool Run::execute() {
       leave();
       if (ahead_ && expectsMotion_) noteWrite(at->a);
       if (!machine_.write(at->a, cells[at->b])) return false;
+      if (listener_ != nullptr) tellWritten(at->a, cells[at->b]);
       break;
     case Op::WriteAt:
       leave();
@@ -451,6 +467,7 @@ template <bool kDecimal8, bool kWatched> bool Run::execute() {
     case Op::Notice:
       leave();
       machine_.message(code_.texts[at->b]);
+      if (listener_ != nullptr) listener_->message(code_.texts[at->b]);
       break;
     case Op::OpenPort:
       leave();
@@ -469,6 +486,8 @@ template <bool kDecimal8, bool kWatched> bool Run::execute() {
           trace->text(name);
         trace->end();
       }
+      leave();
+      if (listener_ != nullptr) listener_->named(names);
       break;
     }
     case Op::Refuse: leave(); return refuse(code_.texts[at->b]);

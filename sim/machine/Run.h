@@ -6,6 +6,7 @@
 #include "sim/machine/Bytecode.h"
 #include "sim/machine/Machine.h"
 #include "sim/machine/MacroMeaning.h"
+#include "sim/machine/RunListener.h"
 #include "support/Limits.h"
 
 #include <cstddef>
@@ -48,11 +49,14 @@ public:
   // Before the run: notes where one of these common variables counts as 0, since nobody has set it. A run
   // that watches takes longer.
   void watchUnset(std::set<std::uint32_t> numbers) { unset_ = std::move(numbers); }
+  void setListener(RunListener* listener) { listener_ = listener; }        // before the run; outlives it
   const std::vector<UnsetRead>& unsetReads() const { return unsetReads_; } // each number once
   // How often M99 has begun the main program anew.
   std::uint64_t passes() const { return passes_; }
   // The block, or the word of it, at which the run ended.
   SourceRange place() const;
+  // The statement there; only while the run goes on.
+  const ir::ProgramStatement& statement() const { return code_.statementOf(place_); }
   // The number of the program that holds it; 0: none.
   std::uint64_t program() const { return levels_.empty() ? 0 : levels_.back().routine->number; }
   // The calls that were open then, the outermost first.
@@ -90,6 +94,9 @@ private:
   bool knows(std::uint32_t cell); // false: it does not, and the run has ended
   void noteUnset(std::uint32_t number);
   void noteUnsetCell(std::uint32_t cell);
+  void tellRead(std::uint32_t number, double value);
+  void tellWritten(std::uint32_t number, double value);
+  void tellBlock(const BlockSlots& slots);
   bool beginAnew(); // M99 of the main program; false: the run has ended
   bool spend(std::uint32_t steps);
   bool fail(ir::ArithmeticError error, bool tangent, bool bits);
@@ -136,6 +143,7 @@ private:
   const Bytecode& code_;
   const Limits& limits_;
   MacroMeaning* meaning_;
+  RunListener* listener_ = nullptr;
   const stdlib::Control& control_;
   double* cells_ = nullptr;
   std::uint32_t place_ = 0; // of the instruction that runs, then of the next

@@ -126,7 +126,9 @@ bool Run::block(const BlockSlots& slots) {
 bool Run::executeWords(const BlockSlots& slots) {
   if (words_.present == 0) return true;
   machine_.expectNoContact(slots.positions);
-  if (!machine_.execute(words_)) {
+  const bool goesOn = machine_.execute(words_);
+  if (listener_ != nullptr && (goesOn || machine_.end().ending == Ending::ProgramEnd)) tellBlock(slots);
+  if (!goesOn) {
     const Ending ending = machine_.end().ending;
     if (ending == Ending::Call || ending == Ending::Return)
       return machine_.inconclusive("a call or a return by a computed code");
@@ -139,6 +141,15 @@ bool Run::executeWords(const BlockSlots& slots) {
   for (std::uint32_t i = 0; i < words_.mCount; ++i)
     if (stopsReadingAhead(control_, 'M', words_.m[i])) ahead_ = false;
   return true;
+}
+
+void Run::tellBlock(const BlockSlots& slots) {
+  std::uint32_t points = 0;
+  for (std::uint32_t i = 0; i < slots.words; ++i) {
+    const WordSlot& slot = code_.words[slots.firstWord + i];
+    if (!slot.computed && slot.point) points |= ir::addressBit(slot.letter);
+  }
+  listener_->blockDone(words_, points);
 }
 
 // G and M codes of macros: the words after the code are its arguments. Codes of subprograms, and T: the rest

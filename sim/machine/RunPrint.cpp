@@ -12,6 +12,7 @@ bool Run::openPort(bool open) {
   if (open == portOpen_)
     return refuse(open ? "POPEN while the port is open" : "PCLOS while the port is not open");
   portOpen_ = open;
+  if (listener_ != nullptr) listener_->portSwitched(open);
   return true;
 }
 
@@ -26,6 +27,7 @@ bool Run::print(const ir::Print& print) {
     if (ahead_) noteRead(*piece.number);
     const std::optional<double> value = machine_.read(*piece.number);
     if (!value) return false;
+    if (listener_ != nullptr) tellRead(*piece.number, *value);
     // A variable without a value prints as 0.
     if (!(print.binary ? printBinary(piece, nullAsZero(*value), line)
                        : printDecimal(piece, nullAsZero(*value), line)))
@@ -41,6 +43,7 @@ bool Run::print(const ir::Print& print) {
       trace->begin("print").text(line).end();
     }
   }
+  if (listener_ != nullptr) listener_->printed(print.binary, line);
   output_ += line;
   output_ += '\n';
   if (output_.size() > limits_.outputBytes)

@@ -1,0 +1,27 @@
+// Who wants to know what a run of a macro program gives a control to do: `dotek flatten`.
+#pragma once
+
+#include "ir/NcWords.h"
+#include "ir/Statement.h"
+
+#include <cstdint>
+#include <string_view>
+
+namespace dotek::sim {
+
+class RunListener {
+public:
+  virtual ~RunListener() = default;
+  // The machine has carried out these words; the last block of a run is one of them. `points`: bits of the
+  // letters that the program itself writes with a decimal point.
+  virtual void blockDone(const ir::NcWords& words, std::uint32_t points) = 0;
+  // Variables that no cell holds: offsets, positions, modal values, clocks. In units of the program.
+  virtual void systemRead(std::uint32_t number, double value) = 0;
+  virtual void systemWritten(std::uint32_t number, double value) = 0;
+  virtual void message(std::string_view text) = 0; // #3006
+  virtual void portSwitched(bool open) = 0;
+  virtual void printed(bool binary, std::string_view line) = 0;
+  virtual void named(const ir::NameVariables& names) = 0; // SETVN
+};
+
+} // namespace dotek::sim

@@ -1,0 +1,165 @@
+// `dotek flatten`: the flat program does what its source does.
+#include "DataFolder.h"
+#include "driver/ProgramTools.h"
+#include "tests/Draws.h"
+
+#include <algorithm>
+#include <doctest/doctest.h>
+#include <fmt/format.h>
+#include <random>
+#include <sstream>
+
+using namespace dotek;
+using namespace dotek::tests;
+
+namespace {
+
+class Flat {
+public:
+  explicit Flat(const std::string& text, std::string control = "fanuc-31i-b") : control_(std::move(control)) {
+    folder_.write("source.nc", text);
+    driver::FlattenOptions options;
+    options.input = folder_.path() + "/source.nc";
+    options.control = control_;
+    out = driver::flatten(options);
+    folder_.write("flat.nc", out.output);
+  }
+  bool has(std::string_view code) const {
+    return std::any_of(out.diagnostics.all().begin(), out.diagnostics.all().end(),
+                       [&](const Diagnostic& one) { return one.code == code; });
+  }
+  // Lines of the trace, those of variables aside: a flat program sets none.
+  std::string trace(const char* name, int& status) const {
+    std::string all;
+    driver::SimOptions options;
+    options.program = folder_.path() + "/" + name;
+    options.control = control_;
+    options.trace = [&](std::string_view text) { all += text; };
+    status = driver::sim(options).status;
+    std::istringstream lines(all);
+    std::string line, kept;
+    while (std::getline(lines, line))
+      if (!line.starts_with("variable ")) kept += line + "\n";
+    return kept;
+  }
+  // The runs of both do the same; false where the source does not come to its end.
+  bool same() const {
+    int source = 0, flat = 0;
+    const std::string before = trace("source.nc", source);
+    if (source != 0) {
+      CHECK(out.status == 1);
+      CHECK(out.output.empty());
+      return false;
+    }
+    CAPTURE(out.output);
+    REQUIRE(out.status == 0);
+    CHECK(before == trace("flat.nc", flat));
+    CHECK(flat == 0);
+    return true;
+  }
+
+  driver::Outcome out;
+
+private:
+  DataFolder folder_;
+  std::string control_;
+};
+
+std::string randomProgram(std::mt19937& random) {
+  const auto pick = [&](int count) { return static_cast<int>(random() % static_cast<unsigned>(count)); };
+  std::string text = fmt::format("O{}\nG{} G90 G54 G0 X0 Y0 Z50.\nS#[0] M3\n#500={}.{}\n", 1 + pick(9000),
+                                 20 + pick(2), pick(90), pick(1000));
+  const auto value = [&]() -> std::string {
+    switch (pick(8)) {
+    case 0: return fmt::format("#{}", 500 + pick(3)); // may be null
+    case 1: return fmt::format("[#500*{}/7]", 1 + pick(9));
+    case 2: return fmt::format("[{}.5-#1]", pick(40));
+    case 3: return fmt::format("-{}.{:03}", pick(50), pick(1000));
+    case 4: return fmt::format("[SIN[#500]*{}]", pick(60));
+    case 5: return "#0";
+    case 6: return fmt::format("[ROUND[#500/{}]]", 1 + pick(6));
+    default: return fmt::format("{}.", pick(100));
+    }
+  };
+  const int loops = 1 + pick(3);
+  for (int loop = 0; loop < loops; ++loop) {
+    text += fmt::format("#1={}\nWHILE[#1 LT {}]DO1\n", pick(2), 2 + pick(4));
+    const int blocks = 1 + pick(6);
+    for (int i = 0; i < blocks; ++i) {
+      const std::string v = value(), w = value();
+      switch (pick(14)) {
+      case 0: text += fmt::format("G0 X{} Y{}\n", v, w); break;
+      case 1: text += fmt::format("G1 X{} Z{} F[#500*{}+1]\n", v, w, 1 + pick(50)); break;
+      case 2: text += fmt::format("G65 P8 A{} X{} I{}\n", v, w, value()); break;
+      case 3: text += fmt::format("IF[#1 GT {}]THEN #501={}\n", pick(4), v); break;
+      case 4: text += fmt::format("#502={}\n", v); break;
+      case 5: text += pick(2) == 0 ? "G91\n" : "G90\n"; break;
+      case 6: text += fmt::format("G4 P[#500*{}]\n", pick(100)); break;
+      case 7: text += fmt::format("#{}={}\n", 5221 + 20 * pick(6) + pick(3), v); break;
+      case 8: text += fmt::format("G{} G0 X#500\n", 54 + pick(6)); break;
+      case 9: text += fmt::format("G10 L2 P{} X{} Y{}\n", 1 + pick(6), v, w); break;
+      case 10: text += fmt::format("/G0 Y{} M{}\n", v, 8 + pick(2)); break;
+      case 11: text += fmt::format("G81 X{} Y{} Z-5. R2. F{}\nG80\n", v, w, 100 + pick(900)); break;
+      case 12: text += fmt::format("T[{}+#1]\nM6\nG43 H#1 Z50.\n", pick(9)); break;
+      default: text += "#3006=1(LOOK)\n"; break;
+      }
+    }
+    text += "#1=#1+1\nEND1\n";
+  }
+  return text + "M98 P9 L2\nM30\nO8\nG1 X[#24/3] F#500\nIF[#1 EQ #0]GOTO5\nG1 Z#1 F120.\n"
+                "N5 G0 Y[#4*2]\nM99\nO9\nG0 Z[#500+60]\nM99\n";
+}
+
+} // namespace
+
+TEST_CASE("flatten writes values, passes and called blocks, each with its line") {
+  const Flat flat("O7(PART)\n#1=0\nG0 X#9\nWHILE[#1 LT 2]DO1\nG65 P8 X[#1*20.5] D2\n#1=#1+1\nEND1\nT#1\n"
+                  "/2 G0 Y5\nM30\nO8\nG0 X#24 Y[1/3]\nG1 Z-#7 F[100/3]\nM99\n");
+  CHECK(flat.out.output == "%\nO7 (FLAT: SOURCE.NC)\n"
+                           "G0 (LINE 3)\n"
+                           "G0 X0. Y0.333 (O0008 LINE 12)\nG1 Z-2. F33.33333333 (O0008 LINE 13)\n"
+                           "G0 X20.5 Y0.333 (O0008 LINE 12)\nG1 Z-2. F33.33333333 (O0008 LINE 13)\n"
+                           "T2 (LINE 8)\n/2 G0 Y5 (LINE 9)\nM30 (LINE 10)\n%\n");
+  CHECK(flat.same());
+}
+
+TEST_CASE("flatten keeps offsets, messages, names and what is printed") {
+  const Flat flat("O7\n#500=12.5\n#5221=#500\n#2005=-#500\n#3006=1(LOOK HERE)\nSETVN500[LEFT]\nPOPEN\n"
+                  "DPRNT[X*#500[43]*END]\nPCLOS\nG0 X#5221\nM30\n");
+  CHECK(flat.out.output.find("#5221=12.5 (LINE 3)") != std::string::npos);
+  CHECK(flat.out.output.find("#3006=1(LOOK HERE)\n") != std::string::npos);
+  CHECK(flat.out.output.find("*12.500*END] (LINE 8)") != std::string::npos);
+  CHECK(flat.same());
+  CHECK_FALSE(flat.has("flatten-reads")); // it has set #5221 itself
+}
+
+TEST_CASE("flatten says what its blocks depend on, and refuses what no plain program does") {
+  CHECK(Flat("O7\nG0 X[#5221+1.]\nM30\n").has("flatten-reads"));
+  CHECK(Flat("O7\n/#1=5\nG0 X#1\nM30\n").has("flatten-switch"));
+  CHECK(Flat("O7\nG0 X[#501]\nM30\n").has("variable-not-set"));
+  CHECK(Flat("O7\n#500=1\nPOPEN\nBPRNT[#500[0]]\nPCLOS\nM30\n").has("flatten-binary"));
+  CHECK(Flat("O7\n#500=1\nPOPEN\nDPRNT[A,B]\nPCLOS\nM30\n").has("flatten-text"));
+  CHECK(Flat("O7\n#3000=5(NO TOOL)\nM30\n").out.output.empty());
+  CHECK(Flat("O7\nG31 X10. F100.\nM30\n").out.output.empty()); // what it touches no plain block says
+  DataFolder folder;
+  folder.write("a.nc", "O7\n#1=0\nWHILE[#1 LT 9999]DO1\nG0 X#1\n#1=#1+1\nEND1\nM30\n");
+  driver::FlattenOptions options;
+  options.input = folder.path() + "/a.nc";
+  options.common.limits.outputBytes = 1000;
+  const driver::Outcome out = driver::flatten(options);
+  CHECK(out.status == 1);
+  CHECK(out.output.empty());
+  CHECK(out.diagnostics.all().front().code == "flatten-long");
+}
+
+TEST_CASE("a flat program runs as its source: random programs") {
+  std::mt19937 random(20261124);
+  int ran = 0;
+  const int rounds = draws(200);
+  for (int round = 0; round < rounds; ++round) {
+    const std::string text = randomProgram(random);
+    CAPTURE(text);
+    ran += Flat(text, round % 2 == 0 ? "fanuc-31i-b" : "fanuc-0i-md").same() ? 1 : 0;
+  }
+  CHECK(ran * 2 > rounds);
+}
