@@ -19,6 +19,31 @@ std::map<std::uint32_t, std::set<std::uint32_t>> results(const Project& project)
   return out;
 }
 
+// Programs of the files that do something that lasts beside their results: set an offset, print.
+std::set<std::uint32_t> lasting(const Project& project) {
+  constexpr std::uint32_t kFirstSystem = 1000;
+  std::set<std::uint32_t> out;
+  eachProgram(project, [&](const ir::Program& program, const macrob::File&) {
+    for (const ir::ProgramStatement& statement : program.body) {
+      const auto* store = std::get_if<ir::Store>(&statement.node);
+      const auto* block = std::get_if<ir::NcBlock>(&statement.node);
+      const auto number = storedNumber(statement);
+      if (std::holds_alternative<ir::Print>(statement.node) ||
+          (block != nullptr && hasCode(*block, 'G', 10)) ||
+          (store != nullptr && (!number || *number >= kFirstSystem)))
+        out.insert(static_cast<std::uint32_t>(program.number));
+    }
+  });
+  return out;
+}
+
+std::string lettersOf(const ir::ProgramStatement& call) {
+  std::string out;
+  for (const ir::CallArgument& argument : callOf(call)->arguments)
+    out += argument.letter;
+  return out;
+}
+
 struct Use {
   const ir::ProgramStatement* call = nullptr;
   std::size_t at = 0; // its place among the statements
@@ -26,8 +51,18 @@ struct Use {
   bool again = false; // the next statement calls the same: a fast touch and a slow one
 };
 
+// What a call does beside its result is told by a letter that calls whose result is read do not have.
+bool madeForAnother(const Use& use, const std::vector<Use>& all) {
+  const std::string letters = lettersOf(*use.call);
+  return std::any_of(letters.begin(), letters.end(), [&](char letter) {
+    return std::none_of(all.begin(), all.end(), [&](const Use& one) {
+      return one.read && lettersOf(*one.call).find(letter) != std::string::npos;
+    });
+  });
+}
+
 void checkProgram(const ir::Program& program, const std::map<std::uint32_t, std::set<std::uint32_t>>& sets,
-                  Report& report) {
+                  const std::set<std::uint32_t>& works, Report& report) {
   std::map<std::uint32_t, std::vector<Use>> uses;
   std::map<std::uint32_t, std::size_t> lastRead; // of each variable: after which statements, from 1 on
   const auto judge = [&](std::uint32_t called, Use& use) { // nothing follows before the next call
@@ -39,7 +74,7 @@ void checkProgram(const ir::Program& program, const std::map<std::uint32_t, std:
   const ir::ProgramStatement* before = nullptr;
   for (const ir::ProgramStatement& statement : program.body) {
     if (ir::isLayout(statement)) continue;
-    const ir::ProgramStatement* const last = std::exchange(before, &statement);
+    const ir::ProgramStatement* const previous = std::exchange(before, &statement);
     ++place;
     eachRead(statement, [&](std::uint32_t number, SourceRange) { lastRead[number] = place; });
     const ir::Call* call = callOf(statement);
@@ -50,7 +85,7 @@ void checkProgram(const ir::Program& program, const std::map<std::uint32_t, std:
     std::vector<Use>& list = uses[called];
     if (!list.empty()) {
       judge(called, list.back());
-      list.back().again = list.back().call == last;
+      list.back().again = list.back().call == previous;
     }
     list.push_back({&statement, place, false, false});
   }
@@ -66,8 +101,10 @@ void checkProgram(const ir::Program& program, const std::map<std::uint32_t, std:
     const auto unread =
         std::count_if(list.begin(), list.end(), [](const Use& use) { return !use.read && !use.again; });
     if (read == 0 || loops || unread > read) continue;
+    // After its last call the result stays where it is: for the caller of a macro, or for the operator.
+    const bool stays = works.contains(called) || !endsProgram(program);
     for (const Use& use : list)
-      if (!use.read && !use.again)
+      if (!use.read && !use.again && !madeForAnother(use, list) && !(stays && &use == &list.back()))
         report.at(use.call->origin.range(),
                   "nothing reads a result of O{} between this call and the next one, or the end, as after "
                   "its other "
@@ -78,8 +115,10 @@ void checkProgram(const ir::Program& program, const std::map<std::uint32_t, std:
 
 void check(const Project& project, Report& report) {
   const auto sets = results(project);
-  eachProgram(project,
-              [&](const ir::Program& program, const macrob::File&) { checkProgram(program, sets, report); });
+  const auto last = lasting(project);
+  eachProgram(project, [&](const ir::Program& program, const macrob::File&) {
+    checkProgram(program, sets, last, report);
+  });
 }
 
 } // namespace

@@ -1,50 +1,110 @@
-#include "lint/NcProgram.h"
-#include "lint/Skips.h"
+#include "ir/Walk.h"
+#include "lint/AfterSkip.h"
 
 #include <algorithm>
+#include <set>
 
 namespace dotek::lint::rule {
 namespace {
 
-struct Skip {
-  const ir::ProgramStatement* statement = nullptr;
-  bool read = false;
+// What of a statement tells where the G31 has stopped: any position, a condition, a call.
+bool asks(const ir::ProgramStatement& statement) {
+  if (mayAskControl(statement)) return true;
+  bool out = false;
+  ir::eachNode(statement, [&](const ir::Expression& node) {
+    if (!std::holds_alternative<ir::MachineVariable>(node.node)) return;
+    const auto number = variableNumber(node);
+    out = out || !number || positionAxis(*number);
+  });
+  return out;
+}
+
+// The G31s that are reached from this one before anything else moves, and whether something else moves first
+// on a way to one.
+struct Following {
+  std::vector<std::size_t> skips;
+  bool moves = false; // a move, and later a G31
+  bool goesOn = false;
 };
 
-void checkProgram(const ir::Program& program, Report& report) {
-  std::vector<Skip> skips;
-  for (const ir::ProgramStatement& statement : program.body) {
-    // Where the order of running is another one, nothing is known.
-    if (std::holds_alternative<ir::JumpTo>(statement.node)) return;
-    bool computed = false;
-    if (const auto* store = std::get_if<ir::Store>(&statement.node)) {
-      const auto* variable = std::get_if<ir::MachineVariable>(&store->value->node);
-      computed = variable != nullptr && !variableNumber(*store->value);
+// Fast to the face and slowly on it, or back a little and to the same place once more.
+bool goesOn(const NcProgram& nc, std::size_t skip, std::size_t next, bool moved, bool small) {
+  const ir::NcBlock& one = *skipOf(nc.program.body[skip]);
+  const ir::NcBlock& other = *skipOf(nc.program.body[next]);
+  return axesOf(one) == axesOf(other) && (!moved || small || sameTarget(one, other));
+}
+
+Following following(const NcProgram& nc, std::size_t skip, const std::vector<std::size_t>& after) {
+  const auto& body = nc.program.body;
+  struct Way {
+    std::size_t at = 0;
+    bool moved = false, small = true; // by distances alone
+  };
+  Following out;
+  std::vector<Way> open{{skip}};
+  std::set<std::size_t> seen;
+  while (!open.empty()) {
+    const Way way = open.back();
+    open.pop_back();
+    for (const std::size_t to : nc.flow().next[way.at]) {
+      if (to >= body.size() || !seen.insert(to).second) continue;
+      if (skipOf(body[to]) != nullptr) {
+        out.goesOn = out.goesOn || goesOn(nc, skip, to, way.moved, way.small);
+        if (!way.moved) out.skips.push_back(to);
+        continue;
+      }
+      if (!isPlainMove(body[to])) {
+        open.push_back({to, way.moved, way.small});
+        continue;
+      }
+      out.moves = true;
+      const auto& block = std::get<ir::NcBlock>(body[to].node);
+      const bool distance = hasCode(block, 'G', 91) ||
+                            (nc.modes()[to] == DistanceMode::Incremental && !hasCode(block, 'G', 90));
+      if (axesOf(block) == axesOf(*skipOf(body[skip]))) open.push_back({to, true, way.small && distance});
     }
-    eachRead(statement, [&](std::uint32_t number, SourceRange) {
-      if (contactAxis(number) && !skips.empty()) skips.back().read = true;
-    });
-    if (computed && !skips.empty()) skips.back().read = true;
-    if (skipOf(statement) != nullptr) skips.push_back({&statement, false});
   }
-  if (std::none_of(skips.begin(), skips.end(), [](const Skip& skip) { return skip.read; })) return;
-  for (const Skip& skip : skips)
-    if (!skip.read)
-      report.at(skip.statement->origin.range(),
-                "nothing reads where this G31 stopped, #5061 to #5063, before the next one, as after the "
-                "others; an "
-                "early contact is not noticed; read it, or write G1 if a plain move is meant");
+  // A move that ends the measuring goes away from the part.
+  out.moves = out.moves && std::any_of(after.begin(), after.end(), [&](std::size_t at) {
+                const auto& next = nc.flow().next[at];
+                return std::any_of(next.begin(), next.end(), [&](std::size_t to) {
+                  return to < body.size() && skipOf(body[to]) != nullptr;
+                });
+              });
+  return out;
 }
 
 void check(const NcProgram& nc, Report& report) {
-  checkProgram(nc.program, report);
+  const auto& body = nc.program.body;
+  const bool reads = std::any_of(body.begin(), body.end(), [&](const ir::ProgramStatement& statement) {
+    bool contact = false;
+    eachRead(statement, [&](std::uint32_t number, SourceRange) {
+      contact = contact || contactAxis(number).has_value();
+    });
+    return contact;
+  });
+  if (!reads) return;
+  for (std::size_t i = 0; i < body.size(); ++i) {
+    const ir::NcBlock* skip = skipOf(body[i]);
+    if (skip == nullptr || mayAskControl(body[i])) continue;
+    const auto after = afterSkip(nc, i);
+    if (!after || std::any_of(after->begin(), after->end(), [&](std::size_t at) { return asks(body[at]); }))
+      continue;
+    const Following next = following(nc, i, *after);
+    if (next.goesOn || (next.skips.empty() && !next.moves)) continue;
+    report.at(
+        body[i].origin.range(),
+        "nothing reads where this G31 stopped, and the program goes on from there as if it had arrived; "
+        "after "
+        "an early contact the next moves begin at the wrong place, with the stylus against the part; compare "
+        "#5061 to #5063 with its target after it, and end in an alarm");
+  }
 }
 
 } // namespace
 
 DOTEK_LINT_RULE(skip_result_unread){
-    .severity = Severity::Note,
-    .byDefault = false,
+    .severity = Severity::Warning,
     .tier = Tier::Ir,
     .program = check,
 };

@@ -1,12 +1,51 @@
 #include "ir/Dataflow.h"
-#include "lint/NcProgram.h"
-#include "lint/Skips.h"
+#include "ir/Walk.h"
+#include "lint/AfterSkip.h"
+
+#include <algorithm>
+#include <set>
 
 namespace dotek::lint::rule {
 namespace {
 
 // What happened since the last move away: nothing, a skip move, and its contact was read.
 enum class Contact : std::uint8_t { Free, Skipped, Used };
+
+// The statement that follows takes the stylus elsewhere, or what follows in the text does not run after it.
+bool endsPair(const ir::ProgramStatement& statement) {
+  const auto* block = std::get_if<ir::NcBlock>(&statement.node);
+  return (block != nullptr && axesOf(*block) != 0) || callOf(statement) != nullptr ||
+         std::holds_alternative<ir::Jump>(statement.node) ||
+         std::holds_alternative<ir::JumpTo>(statement.node) ||
+         std::holds_alternative<ir::Exit>(statement.node) ||
+         std::holds_alternative<ir::Raise>(statement.node) ||
+         std::holds_alternative<ir::LoopEnd>(statement.node) || ir::endsProgram(statement);
+}
+
+bool reads(const ir::ProgramStatement& statement, std::uint32_t variable) {
+  bool out = false;
+  eachRead(statement, [&](std::uint32_t number, SourceRange) { out = out || number == variable; });
+  return out;
+}
+
+// The first G31 that goes to the same target as this one with nothing between that moves: fast and slow at
+// one place. Either it touched, or there is nothing to touch. Distances of G91 are another target each time.
+std::optional<std::size_t> sameBefore(const NcProgram& nc, std::size_t at) {
+  const auto& body = nc.program.body;
+  if (nc.modes()[at] == DistanceMode::Incremental || nc.modes()[at] == DistanceMode::Both)
+    return std::nullopt;
+  for (std::size_t i = at; i-- > 0;) {
+    if (const ir::NcBlock* skip = skipOf(body[i]))
+      return !hasCode(*skip, 'G', 91) && sameTarget(*skip, *skipOf(body[at])) ? std::optional(i)
+                                                                              : std::nullopt;
+    if (endsPair(body[i])) return std::nullopt;
+    if (const auto* store = std::get_if<ir::Store>(&body[i].node)) {
+      const auto number = storedNumber(body[i]);
+      if (!number || reads(body[at], *number) || store->value == nullptr) return std::nullopt;
+    }
+  }
+  return std::nullopt;
+}
 
 void check(const NcProgram& nc, Report& report) {
   const ir::Program& program = nc.program;
@@ -33,7 +72,17 @@ void check(const NcProgram& nc, Report& report) {
         return changed;
       });
   for (std::size_t i = 0; i < body.size(); ++i) {
-    if (skipOf(body[i]) == nullptr || !states[i] || *states[i] != Contact::Used) continue;
+    if (skipOf(body[i]) == nullptr || !states[i]) continue;
+    if (const auto before = sameBefore(nc, i)) {
+      report
+          .at(body[i].origin.range(),
+              "this G31 goes to the same place as the one before it, which stopped at the surface; it begins "
+              "in contact and stops at once, or with an alarm, and its result is that of the fast one; go "
+              "back with G1 between them")
+          .note(body[*before].origin.range(), "the G31 before it");
+      continue;
+    }
+    if (*states[i] != Contact::Used) continue;
     report.at(
         body[i].origin.range(),
         "the G31 before this one stopped at a surface, and nothing takes the stylus away from it; this one "

@@ -1,0 +1,127 @@
+#include "ir/Walk.h"
+#include "lint/AfterSkip.h"
+
+#include <algorithm>
+#include <set>
+
+namespace dotek::lint::rule {
+namespace {
+
+constexpr std::uint32_t kFirstCommon = 100;
+constexpr std::uint32_t kFirstSystem = 1000;
+
+template <class Tree> void collectNumbers(const Tree& tree, std::set<std::uint32_t>& out) {
+  ir::eachNode(tree, [&](const ir::Expression& node) {
+    if (!std::holds_alternative<ir::MachineVariable>(node.node)) return;
+    if (const auto number = variableNumber(node)) out.insert(*number);
+  });
+}
+
+// Variables that conditions of the program look at, and that it hands to others.
+std::set<std::uint32_t> askedIn(const ir::Program& program) {
+  std::set<std::uint32_t> out;
+  for (const ir::ProgramStatement& statement : program.body) {
+    if (const ir::ConditionPtr* condition = ir::conditionOf(statement); condition != nullptr && *condition)
+      collectNumbers(*condition, out);
+    if (callOf(statement) != nullptr) collectNumbers(statement, out);
+  }
+  return out;
+}
+
+// Those that other programs of the files ask for: results that a caller looks at.
+std::set<std::uint32_t> askedElsewhere(const NcProgram& nc) {
+  std::set<std::uint32_t> out;
+  eachProgram(nc.project, [&](const ir::Program& program, const macrob::File&) {
+    if (&program == &nc.program) return;
+    for (const std::uint32_t number : askedIn(program))
+      if (number >= kFirstCommon) out.insert(number);
+  });
+  return out;
+}
+
+// Where the contact of this G31 is taken: kept in a variable or an offset, or printed into a block that
+// offsets by it.
+struct Taken {
+  std::size_t at = 0;
+  SourceRange range;
+  std::uint32_t number = 0;
+};
+
+std::optional<Taken> takenAt(const ir::ProgramStatement& statement, std::size_t at, AxisSet axes) {
+  const auto* store = std::get_if<ir::Store>(&statement.node);
+  const auto* block = std::get_if<ir::NcBlock>(&statement.node);
+  if (store == nullptr && (block == nullptr || !hasCode(*block, 'G', 10))) return std::nullopt;
+  std::optional<Taken> out;
+  ir::eachNode(statement, [&](const ir::Expression& node) {
+    const auto number = variableNumber(node);
+    const auto axis = number ? contactAxis(*number) : std::nullopt;
+    if (axis && (*axis & axes) != 0 && !out)
+      out = Taken{at, node.range.hasPlace() ? node.range : statement.origin.range(), *number};
+  });
+  return out;
+}
+
+// Variables that hold the contact, from where it is taken and from copies of those.
+std::set<std::uint32_t> heldIn(const ir::Program& program, std::set<std::uint32_t> held) {
+  for (bool grows = !held.empty(); grows;) {
+    grows = false;
+    for (const ir::ProgramStatement& statement : program.body) {
+      const auto* store = std::get_if<ir::Store>(&statement.node);
+      const auto number = storedNumber(statement);
+      if (store == nullptr || !number || *number >= kFirstSystem || held.contains(*number)) continue;
+      std::set<std::uint32_t> read;
+      collectNumbers(store->value, read);
+      if (std::none_of(read.begin(), read.end(), [&](std::uint32_t one) { return held.contains(one); }))
+        continue;
+      held.insert(*number);
+      grows = true;
+    }
+  }
+  return held;
+}
+
+void check(const NcProgram& nc, Report& report) {
+  const auto& body = nc.program.body;
+  std::optional<std::set<std::uint32_t>> asked, elsewhere;
+  for (std::size_t i = 0; i < body.size(); ++i) {
+    const ir::NcBlock* skip = skipOf(body[i]);
+    if (skip == nullptr || mayAskControl(body[i]) || report.full(body[i].origin.range().file)) continue;
+    const auto after = afterSkip(nc, i);
+    if (!after ||
+        std::any_of(after->begin(), after->end(), [&](std::size_t at) { return mayAskControl(body[at]); }))
+      continue;
+    std::optional<Taken> taken;
+    std::set<std::uint32_t> held;
+    for (const std::size_t at : *after) {
+      const auto here = takenAt(body[at], at, axesOf(*skip));
+      if (!here) continue;
+      if (!taken) taken = here;
+      if (const auto number = storedNumber(body[at]); number && *number < kFirstSystem) held.insert(*number);
+    }
+    if (!taken) continue;
+    if (!asked) asked = askedIn(nc.program);
+    if (!elsewhere) elsewhere = askedElsewhere(nc);
+    const std::set<std::uint32_t> all = heldIn(nc.program, std::move(held));
+    if (std::any_of(all.begin(), all.end(), [&](std::uint32_t number) {
+          return asked->contains(number) || elsewhere->contains(number);
+        }))
+      continue;
+    report
+        .at(body[i].origin.range(),
+            "nothing asks whether this G31 touched; where it meets nothing, #{0} is the end of the move, and "
+            "the control goes on without an alarm with a result that is wrong; compare #{0} with the target "
+            "after it, and end in an alarm where they are equal",
+            taken->number)
+        .note(taken->range, "it is taken for the contact here");
+  }
+}
+
+} // namespace
+
+DOTEK_LINT_RULE(skip_never_tested){
+    .severity = Severity::Warning,
+    .tier = Tier::Ir,
+    .program = check,
+};
+
+} // namespace dotek::lint::rule
