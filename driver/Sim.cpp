@@ -198,11 +198,13 @@ private:
     machine.setTrace(nullptr);
     if (trace) sim::traceVariables(machine, *trace);
     trace.reset();
-    sim::reportRun(run, machine, advice, options_.programs, session_);
+    sim::reportRun(run, machine, advice, options_.programs, world_->endedOutside(), session_);
     for (const sim::UnsetRead& one : run.unsetReads())
       world_->unsetRead(one.number, one.range);
-    // A datum by G92 is what a program of Mikroprog is for.
-    if (!machine.dialect().firstParameter) sim::reportShifts(machine, run.place(), session_);
+    // A datum by G92 is what a program of Mikroprog is for, and a macro that is called leaves what it sets to
+    // its caller.
+    if (!machine.dialect().firstParameter && world_->setup().call.empty())
+      sim::reportShifts(machine, run.place(), session_);
     return finish(machine, &run);
   }
 
@@ -224,7 +226,7 @@ private:
     if (result == Result::Error)
       sim::reportScanError(options_.program, scanner, chunks, session_);
     else
-      sim::reportEnd(options_.program, scanner, machine, session_);
+      sim::reportEnd(options_.program, scanner, machine, world_->endedOutside(), session_);
     sim::reportShifts(machine, sim::placeOfLine(options_.program, scanner, session_), session_);
     return finish(machine, nullptr);
   }

@@ -37,14 +37,15 @@ void check(const Project& project, Report& report) {
   for (const BranchSteps& branch : branches)
     if (const auto end = endOf(branch)) ends.push_back(*end);
   for (const End& end : ends) {
-    if (end.up) continue;
+    // A web or a boss comes up by itself.
+    if (end.up || end.measured->deeds.outside) continue;
     const auto others = [&](bool up) {
       return std::count_if(ends.begin(), ends.end(), [&](const End& other) {
         return &other != &end && other.branch->prog == end.branch->prog && other.up == up;
       });
     };
     // Two moves down before it, to a clearance and to the depth; or what the other branches do.
-    const bool down = end.movesBefore > 1 && !end.measured->deeds.outside;
+    const bool down = end.movesBefore > 1;
     if (!down && others(true) <= others(false)) continue;
     report
         .at(end.measured->range,

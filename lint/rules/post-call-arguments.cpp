@@ -30,7 +30,11 @@ void checkBlock(const ProgBlock& block, const Project& project, Report& report) 
     if (call == nullptr) return;
     const stdlib::CallReading reading = stdlib::readCall(set, program, known);
     using stdlib::CallRefusal;
-    if (reading.refusal == CallRefusal::Ambiguous || reading.refusal == CallRefusal::Excluded)
+    if (reading.refusal == CallRefusal::Excluded && reading.excluded != nullptr)
+      report.at(call->range, "{}; the macro stops with an alarm{}; print one of them",
+                stdlib::refusalText(reading),
+                reading.excluded->text.empty() ? "" : fmt::format(" ({})", reading.excluded->text));
+    else if (reading.refusal == CallRefusal::Ambiguous || reading.refusal == CallRefusal::Excluded)
       report.at(
           call->range,
           "P{} measures one thing at a time, and the letters {} of this call belong to several; the macro "

@@ -7,14 +7,16 @@
 namespace dotek::lint::rule {
 namespace {
 
-// What of a statement tells where the G31 has stopped: any position, a condition, a call.
+// What of a statement tells where the G31 has stopped: a condition, a call, the skip position or that of the
+// machine. A copy of #5001 or #5041 is a place to go back to.
 bool asks(const ir::ProgramStatement& statement) {
   if (mayAskControl(statement)) return true;
   bool out = false;
   ir::eachNode(statement, [&](const ir::Expression& node) {
     if (!std::holds_alternative<ir::MachineVariable>(node.node)) return;
     const auto number = variableNumber(node);
-    out = out || !number || positionAxis(*number);
+    const bool machine = number && *number >= 5021 && *number <= 5023;
+    out = out || !number || machine || contactAxis(*number);
   });
   return out;
 }

@@ -95,8 +95,8 @@ bool Machine::changesWithMotion(std::uint32_t number) const {
   using Kind = Place::Kind;
   Place place;
   return number >= 1000 && find(number, place) &&
-         (place.kind == Kind::BlockEnd || place.kind == Kind::MachinePosition || place.kind == Kind::Now ||
-          place.kind == Kind::Skip || place.kind == Kind::Window);
+         (place.kind == Kind::MachinePosition || place.kind == Kind::Now || place.kind == Kind::Skip ||
+          place.kind == Kind::Window);
 }
 
 bool Machine::movesPositions(std::uint32_t number) const {

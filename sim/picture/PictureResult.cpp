@@ -118,7 +118,9 @@ PictureResult resultOf(const Picture& picture, const RunFacts& facts) {
   if (fault != nullptr && (out.verdict == Verdict::Fail || (!ended && fault->verdict != Verdict::Fail)))
     fault = nullptr;
   if (crashed) {
-    const std::string then = ended ? "" : fmt::format("; then {}", endingText(facts));
+    // The alarm of the over-travel is no second one.
+    const bool same = travel > 0 && facts.end.text.ends_with("OVER-TRAVEL");
+    const std::string then = ended || same ? "" : fmt::format("; then {}", endingText(facts));
     out.verdict = Verdict::Fail;
     out.word = collisions > 0 ? "COLLISION" : travel > 0 ? "OVER-TRAVEL" : "PROBE FAULT";
     // What happened; the list of errors has the rest of the sentence, what to do.

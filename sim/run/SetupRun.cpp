@@ -68,8 +68,12 @@ bool startsWithinTravel(const Setup& setup, std::string_view saidBy, const Machi
     diagnostics.report<diag::SetupFlag>(
         {}, saidBy,
         fmt::format("it puts the spindle to machine {}, and the travel ends at {}; the place counts from the "
-                    "zero of G54, and the tool's length is added to it",
-                    value((*start)[axis]), value(*end)));
+                    "zero of G54{}, and the tool's length is added to it",
+                    value((*start)[axis]), value(*end),
+                    machine.zeroOf(0) == Position{}
+                        ? ", which nothing has set (`--work-offset G54=part` puts it "
+                          "where the part is)"
+                        : ""));
     within = false;
   }
   return within;

@@ -100,6 +100,49 @@ void SimWorld::checkLength(const MachineMotion& motion) {
            Verdict::Fail, "FAIL: TOOL LENGTH OFF", place);
 }
 
+// A program reads where it is, perhaps by a variable that holds the length.
+void SimWorld::noteHeight() {
+  constexpr std::size_t kMostHeights = 64;
+  if (machineNow_ == nullptr || std::abs(machineNow_->toolLength()) < kLeastLength) return;
+  const double z = machineNow_->position()[2];
+  if (std::isfinite(z) && heightsRead_.size() < kMostHeights) heightsRead_.insert(std::llround(z * 1000));
+}
+
+// Back to a height that the program has read, and higher by the length of the tool: it was not taken off, or
+// its wear was taken for it.
+void SimWorld::checkHeight(const MachineMotion& motion) {
+  if (heightsRead_.empty() || machineNow_ == nullptr || motion.kind == MotionKind::Skip ||
+      motion.from[2] == motion.to[2] || machineNow_->goesToMachine() || !rangeNow_)
+    return;
+  const double length = machineNow_->toolLength(), z = machineNow_->position()[2];
+  if (std::abs(length) < kLeastLength || !std::isfinite(z)) return;
+  std::set<double> takenOff{0.0}; // instead of the length: nothing, or the wear of an offset that is in force
+  for (const Machine::ToolOffset& entry : machineNow_->toolTable())
+    if (std::abs(entry.wear + entry.geometry - std::abs(length)) < 1e-6 && entry.geometry != 0)
+      takenOff.insert(entry.wear);
+  for (const double taken : takenOff) {
+    const long long read = std::llround((z - length + taken) * 1000);
+    if (!heightsRead_.contains(read)) continue;
+    // A height that is written out is where the programmer wants it.
+    const std::string text = session_.sources().textUtf8(rangeNow_());
+    const std::size_t word = text.find_first_of("Zz");
+    const std::size_t value = word == std::string::npos ? word : text.find_first_not_of(" +-", word + 1);
+    if (value == std::string::npos || (text[value] != '#' && text[value] != '[')) return;
+    const stdlib::SystemVariables& v = machineNow_->control().variables;
+    const std::string tables =
+        v.toolWear && v.toolGeometry
+            ? fmt::format(" (#[{}+n] is the wear of a tool on this control, its length is #[{}+n]+#[{}+n])",
+                          *v.toolWear, *v.toolGeometry, *v.toolWear)
+            : "";
+    const RunPlace place = place_();
+    addFault(makeDiagnostic<diag::MoveHoldsLength>(
+                 place.range, fixedText(z, decimals_), fixedText(length, decimals_),
+                 fixedText(static_cast<double>(read) / 1000, decimals_), tables),
+             Verdict::Fail, "FAIL: TOOL LENGTH IN A MOVE", place);
+    return;
+  }
+}
+
 // The run is over: no call is open, and no block holds two of the same number.
 void SimWorld::unsetRead(std::uint32_t number, SourceRange range) {
   const SourceFile& file = session_.sources().file(range.file);

@@ -34,6 +34,7 @@ void SimWorld::missEnded(const MachineMotion& motion) {
 
 // A position that is kept without a question may be one to go back to.
 void SimWorld::positionRead(bool skip) {
+  noteHeight();
   if (!missed_ || !asks_ || (!skip && missed_->movedOn)) return;
   if (asks_())
     settleMiss();

@@ -111,8 +111,9 @@ void reportScanError(const std::string& path, const frontend::nc::Scanner& scann
 }
 
 void reportEnd(const std::string& path, const frontend::nc::Scanner& scanner, const Machine& machine,
-               Session& session) {
+               bool told, Session& session) {
   const RunEnd& end = machine.end();
+  if (told) return;
   if (end.ending != Ending::Alarm && end.ending != Ending::Inconclusive && end.ending != Ending::Call &&
       end.ending != Ending::Return)
     return;
@@ -131,7 +132,7 @@ void reportEnd(const std::string& path, const frontend::nc::Scanner& scanner, co
 }
 
 void reportRun(const Run& run, const Machine& machine, const std::string& advice,
-               const std::vector<std::string>& folders, Session& session) {
+               const std::vector<std::string>& folders, bool told, Session& session) {
   Diagnostics& diagnostics = session.diagnostics();
   const stdlib::Control& control = machine.control();
   std::string stops;
@@ -154,6 +155,7 @@ void reportRun(const Run& run, const Machine& machine, const std::string& advice
     before->note({},
                  "the control waits at " + (stops.empty() ? std::string("codes that are not known") : stops));
   }
+  if (told) return;
   const RunEnd& end = machine.end();
   const SourceRange range = run.place();
   Diagnostic* report = nullptr;

@@ -15,11 +15,11 @@ void reportScanError(const std::string& path, const frontend::nc::Scanner& scann
                      Session& session);
 // Nothing where the program came to its end. The scanner is at the block of the end.
 void reportEnd(const std::string& path, const frontend::nc::Scanner& scanner, const Machine& machine,
-               Session& session);
+               bool told, Session& session);
 // The same of a program that was loaded, and what the run found besides. `advice`: of a run that did not come
 // to its end, what it may lack; "": nothing. `folders`: of --programs.
 void reportRun(const Run& run, const Machine& machine, const std::string& advice,
-               const std::vector<std::string>& folders, Session& session);
+               const std::vector<std::string>& folders, bool told, Session& session);
 // Of a program that came to its end: what G52, G68 and G92 leave on. `range`: its last block.
 void reportShifts(const Machine& machine, SourceRange range, Session& session);
 // The last lines of the trace: what was written.

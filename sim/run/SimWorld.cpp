@@ -222,6 +222,7 @@ void SimWorld::attach(Machine& machine) {
   line_ = [&machine] { return machine.frame().line; };
   blocks_ = [&machine] { return machine.blocks(); };
   stop_ = [&machine](std::string why) { machine.inconclusive(std::move(why)); };
+  alarm_ = [&machine](std::string text) { machine.raiseUnnumbered(text); };
   end_ = [&machine] { return machine.end(); };
   frame_ = [&machine] { return frameOf(machine); };
   work_ = [&machine] {
@@ -297,6 +298,7 @@ void SimWorld::moved(const MachineMotion& motion) {
     world_->moved(motion);
   missEnded(motion);
   checkLength(motion);
+  checkHeight(motion);
   if (rangeNow_) last_ = rangeNow_();
   if (motion.kind == MotionKind::Skip && std::exchange(touched_, false))
     log_.touched(work_(), {motion.to[0] - motion.from[0], motion.to[1] - motion.from[1],
@@ -387,6 +389,9 @@ void SimWorld::take(const ProbeEvent& event, const RunPlace& place) {
     missed_.emplace(Missed{{event, place}, index, {}});
   else if (!contact && isTold(event) && !isMeantToMiss(event))
     tell(event, place);
+  if (event.outcome != Outcome::OutsideTravel || endedOutside_ || !alarm_) return;
+  endedOutside_ = true;
+  alarm_(fmt::format("{}{} OVER-TRAVEL", kAxisLetters[event.axis], event.reached > event.limit ? '+' : '-'));
 }
 
 bool SimWorld::isProtected() const {
@@ -420,6 +425,18 @@ void SimWorld::addTold(Diagnostic diagnostic, std::size_t kind, const RunPlace& 
   if (here > kMostToldAt) return;
   if (++told.number > kMostTold) {
     told.next = place.range;
+    return;
+  }
+  // Who wants no trace gets a miss in one line: its place, without the text and the calls.
+  const bool miss = kind == static_cast<std::size_t>(Outcome::Miss) ||
+                    kind == static_cast<std::size_t>(Outcome::SetterMiss);
+  if (miss && !options_.trace && !options_.json && place.range.hasPlace()) {
+    const SourceFile& file = session_.sources().file(place.range.file);
+    diagnostic.message =
+        fmt::format("{}:{}: {}", file.name(), file.place(place.range.begin).line, diagnostic.message);
+    diagnostic.range = {};
+    diagnostic.notes.clear();
+    session_.diagnostics().add(std::move(diagnostic));
     return;
   }
   constexpr std::size_t kMostCalls = 8;

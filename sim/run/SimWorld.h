@@ -80,6 +80,8 @@ public:
   void keepOffsets() { keepsOffsets_ = true; }
 
   bool hasPicture() const { return picture_; }
+  // The run has ended where the machine would leave its travel; what reports the over-travel says so.
+  bool endedOutside() const { return endedOutside_; }
   // The radius that the calibration of the stylus would have found; nothing: no machine was given.
   std::optional<double> calibratedRadius() const;
 
@@ -168,6 +170,8 @@ private:
   void checkSpindle();
   void stopSpindle();
   void checkLength(const MachineMotion& motion);
+  void noteHeight();
+  void checkHeight(const MachineMotion& motion);
   void addTold(Diagnostic diagnostic, std::size_t kind, const RunPlace& place);
   bool isTold(const ProbeEvent& event) const;        // false: it is one too many
   bool isProtected() const;                          // of the skip move that runs: it wants no contact
@@ -203,6 +207,7 @@ private:
     double length = 0;
   };
   std::optional<LostLength> lostLength_;
+  std::set<long long> heightsRead_; // Z of the tool's end where a position was read under G43, thousandths
   std::vector<RunFault> faults_;
   std::set<std::pair<std::string_view, std::uint32_t>> faultsTold_; // code, where its block begins
   SourceRange last_;                                                // the block of the last motion
@@ -219,7 +224,9 @@ private:
   bool touched_ = false; // the last skip move ended at a contact that it wanted
   PictureRecorder::FrameNow frame_;
   int decimals_ = 3;
-  std::function<void(std::string)> stop_; // ends the run as inconclusive
+  std::function<void(std::string)> stop_;  // ends the run as inconclusive
+  std::function<void(std::string)> alarm_; // ends it with an alarm of the control
+  bool endedOutside_ = false;
   std::function<Position()> position_;
   std::vector<Kept> contacts_, events_;
   struct NotedRecord {

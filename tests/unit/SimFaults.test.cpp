@@ -74,6 +74,61 @@ TEST_CASE("faults: an offset that moves by the length of the tool fails the run,
   CHECK(holds(bench.run("").err, "[offset-holds-length]"));
 }
 
+TEST_CASE("faults: a computed move that goes up by the length of the tool") {
+  Bench bench("dotek-faults-height");
+  const auto macro = [&](const std::string& kept) {
+    bench.folder.write("O9402.nc", "O9402\nG53\n" + kept +
+                                       "G90 G31 Z-12. F200\nIF[#5063-#5083 LT -11.9] GOTO 6\nG0 Z#3\nM99\n"
+                                       "N6 #3000=6(NO TOUCH)\n");
+  };
+  bench.folder.write("m.nc", kBegin + "G43 H9 Z8.\nG65 P9402\nG91 G28 Z0\nM30\n");
+  for (const std::string kept :
+       {"#3=#5043\n", "#3=#5043-#[2000+#4111]\n", "#9=#4111\n#3=#5043-#[2000+#9]\n"}) {
+    macro(kept);
+    const CommandResult wrong = bench.run("--programs .");
+    CAPTURE(kept);
+    CAPTURE(wrong.err);
+    CHECK(wrong.status == 1);
+    CHECK(holds(wrong.err, "error: this computed move goes to Z139.400, and that is 131.400"));
+    CHECK(holds(wrong.err, "[move-holds-length]"));
+    CHECK(holds(bench.svg, "FAIL: TOOL LENGTH IN A MOVE"));
+  }
+  for (const std::string kept : {"#3=#5043-#5083\n", "#3=#5003\n", "#3=#5043-#[2200+#4111]\n"}) {
+    macro(kept);
+    const CommandResult right = bench.run("--programs .");
+    CAPTURE(kept);
+    CAPTURE(right.err);
+    CHECK(right.status == 0);
+    CHECK(holds(bench.svg, ">PASS<"));
+  }
+}
+
+TEST_CASE("faults: an over-travel ends the run, once") {
+  Bench bench("dotek-faults-travel");
+  bench.folder.write("machine.toml",
+                     "schema = 1\n[setup]\nwork_offset = { G54 = \"part\" }\n[travel]\nz = [-600.0, 0.0]\n"
+                     "[probe]\ntool = 9\nball_diameter = 4\nlength = 131.4\nlength_to = \"tip\"\non = "
+                     "true\novertravel = 4\n");
+  bench.folder.write("m.nc", kBegin + "G43 H9 Z8.\nG91 G0 Z2000.\nG90 G0 X10.\n#3000=5(LATER)\nM30\n");
+  const CommandResult out = bench.run("");
+  CAPTURE(out.err);
+  CAPTURE(out.out);
+  CHECK(out.status == 1);
+  CHECK(holds(out.err, "[outside-travel]"));
+  CHECK_FALSE(holds(out.err, "[control-alarm]"));
+  CHECK_FALSE(holds(out.err, "LATER"));
+  CHECK(holds(bench.svg, ">OVER-TRAVEL<"));
+  CHECK_FALSE(holds(bench.svg, "; then"));
+}
+
+TEST_CASE("faults: a macro that is called leaves its rotation to the caller") {
+  Bench bench("dotek-faults-shift");
+  bench.folder.write("m.nc", "O9403\nG68 X0 Y0 R12.\nM99\n");
+  CHECK_FALSE(holds(bench.run("--call \" \"").err, "[shift-left-on]"));
+  bench.folder.write("m.nc", "O0403\nG68 X0 Y0 R12.\nM30\n");
+  CHECK(holds(bench.run("").err, "[shift-left-on]"));
+}
+
 TEST_CASE("faults: a spindle that turns while the probe measures") {
   Bench bench("dotek-faults-spindle");
   const std::string touch = "G43 H9 Z8.\nG31 Z-12. F200\nIF[#5063-#5083 LT -11.9] GOTO 6\nG0 Z8.\nG91 G28 "
