@@ -51,7 +51,7 @@ struct Use {
   bool again = false; // the next statement calls the same: a fast touch and a slow one
 };
 
-// What a call does beside its result is told by a letter that calls whose result is read do not have.
+// What a call does beside its result shows in a letter that calls whose result is read do not have.
 bool madeForAnother(const Use& use, const std::vector<Use>& all) {
   const std::string letters = lettersOf(*use.call);
   return std::any_of(letters.begin(), letters.end(), [&](char letter) {

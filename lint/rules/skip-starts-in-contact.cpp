@@ -1,4 +1,5 @@
 #include "ir/Dataflow.h"
+#include "ir/Match.h"
 #include "ir/Walk.h"
 #include "lint/AfterSkip.h"
 
@@ -13,13 +14,12 @@ enum class Contact : std::uint8_t { Free, Skipped, Used };
 
 // The statement that follows takes the stylus elsewhere, or what follows in the text does not run after it.
 bool endsPair(const ir::ProgramStatement& statement) {
-  const auto* block = std::get_if<ir::NcBlock>(&statement.node);
-  return (block != nullptr && axesOf(*block) != 0) || callOf(statement) != nullptr ||
-         std::holds_alternative<ir::Jump>(statement.node) ||
-         std::holds_alternative<ir::JumpTo>(statement.node) ||
-         std::holds_alternative<ir::Exit>(statement.node) ||
-         std::holds_alternative<ir::Raise>(statement.node) ||
-         std::holds_alternative<ir::LoopEnd>(statement.node) || ir::endsProgram(statement);
+  return ir::match(
+      statement, [&](const ir::NcBlock& block) { return axesOf(block) != 0 || ir::endsProgram(statement); },
+      [&](const ir::Call&) { return callOf(statement) != nullptr; },
+      [](const ir::OneOf<ir::Jump, ir::JumpTo, ir::Exit, ir::Raise, ir::LoopEnd> auto&) { return true; },
+      [](const ir::OneOf<ir::Label, ir::Branch, ir::Comment, ir::Loop, ir::Store, ir::Notice, ir::Port,
+                         ir::Print, ir::NameVariables> auto&) { return false; });
 }
 
 bool reads(const ir::ProgramStatement& statement, std::uint32_t variable) {
