@@ -167,6 +167,7 @@ std::unique_ptr<CaseRunner::Values> CaseRunner::check(const verify::Case& drawn,
   for (const auto& [name, value] : drawn.values)
     out->fields.set(name, value, {});
   if (settle) roundHosts(out->drawn);
+  startOnRetract(out->drawn);
   runCycleChecks(*folder_, out->fields, out->drawn.hosts, session_, project::Blame::Nothing);
   noteEndless(out->drawn);
   if (stopped_) return nullptr;
@@ -203,6 +204,7 @@ std::unique_ptr<CaseRunner::Values> CaseRunner::check(const verify::Case& drawn,
     if (settle) {
       draws_->settleHosts(out->drawn, drawPath({}));
       roundHosts(out->drawn);
+      startOnRetract(out->drawn);
     }
     out->path = drawPath(zeroOf(out->drawn));
   }

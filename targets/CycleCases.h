@@ -70,6 +70,7 @@ private:
   void takeValues(verify::Case& drawn) const;
   bool knowsValues();
   void roundHosts(verify::Case& drawn) const;
+  void startOnRetract(verify::Case& drawn) const;
   bool leadToNominal(std::unique_ptr<Values>& values);
   std::optional<std::vector<double>> nominalMisses(const verify::Case& drawn);
   std::string whyNotCorrected(const Values& values, const sim::Part& nominal, double off) const;

@@ -89,4 +89,18 @@ void CaseRunner::findMacros(const ir::Program& program) {
                        session_.limits());
 }
 
+// What is given stays as it is.
+void CaseRunner::startOnRetract(verify::Case& drawn) const {
+  if (!plan_.startsOnRetract) return;
+  const auto given = [&](const char* name) {
+    return plan_.fixedHosts.contains(name) ||
+           std::any_of(options_.values.begin(), options_.values.end(),
+                       [&](const auto& value) { return value.first == name; });
+  };
+  if (!given("start_z"))
+    drawn.hosts["start_z"] = drawn.hosts["retract"];
+  else if (!given("retract"))
+    drawn.hosts["retract"] = drawn.hosts["start_z"];
+}
+
 } // namespace dotek::targets

@@ -3,6 +3,7 @@
 #include "frontend/gibbs/Ast.h"
 #include "frontend/gibbs/Cycle.h"
 #include "ir/Rewrite.h"
+#include "ir/Walk.h"
 
 #include <algorithm>
 #include <map>
@@ -65,6 +66,28 @@ void add(verify::DrawField field, const LoweringInputs& inputs, VerifyPlan& plan
   plan.fields.push_back(std::move(field));
 }
 
+// The height at the entry is read before anything moves.
+bool readsEntryHeight(const ir::Cycle& cycle, const stdlib::Control& control) {
+  bool reads = false;
+  for (const ir::CycleStatement& statement : cycle.body) {
+    const bool moves = ir::match(
+        statement, [](const ir::OneOf<ir::Move, ir::Measure> auto&) { return true; },
+        [](const ir::CallCycle& call) { return call.moves; },
+        [](const ir::OneOf<ir::Label, ir::Jump, ir::Branch, ir::Store, ir::Comment, ir::Assign,
+                           ir::ProbePower, ir::Return, ir::Spindle, ir::Coolant, ir::SetMode, ir::Dwell,
+                           ir::Stop, ir::Alarm, ir::OpaqueBlock> auto&) { return false; });
+    if (moves) break;
+    ir::eachNode(statement, [&](const ir::Expression& node) {
+      const auto* variable = std::get_if<ir::MachineVariable>(&node.node);
+      const double* number = variable == nullptr ? nullptr : ir::constantValue(variable->number);
+      if (number == nullptr) return;
+      for (const auto& first : {control.variables.blockEnd, control.variables.position})
+        reads = reads || (first && *number == *first + static_cast<int>(ir::indexOf(ir::Axis::Z)));
+    });
+  }
+  return reads;
+}
+
 } // namespace
 
 void takeFields(const LoweredCycle& lowered, const CycleFolder& folder, const LoweringInputs& inputs,
@@ -84,6 +107,7 @@ void takeFields(const LoweredCycle& lowered, const CycleFolder& folder, const Lo
   for (const auto& [id, places] : decimals)
     if (const ir::Variable& host = lowered.cycle.variable(id); host.role == ir::Role::Host)
       plan.hostDecimals.emplace(host.name, places);
+  if (inputs.sourceControl) plan.startsOnRetract = readsEntryHeight(lowered.cycle, *inputs.sourceControl);
   plan.bounds = std::make_shared<verify::Bounds>(lowered.cycle);
   const std::set<double> compared = ir::constantsOf(lowered.cycle.checks);
   const std::map<std::string, std::vector<double>> offered = offeredIn(folder);

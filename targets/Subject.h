@@ -47,8 +47,11 @@ struct VerifyPlan {
   std::optional<Translation> translation; // nothing: the path is compared with the posted program
   std::optional<sim::MachineFile> machine;
   std::optional<sim::Part> part; // of --part; nothing: made from the path of each case
-  bool cycleFile = false;        // of the cycle language: its own meaning is the source
-  bool programs = false;         // macro B against its conversion: fields are variables by number
+  // The posted program counts from where the probe is (#5003): it agrees with a path of the CAM, which begins
+  // on the retract plane, only from there.
+  bool startsOnRetract = false;
+  bool cycleFile = false; // of the cycle language: its own meaning is the source
+  bool programs = false;  // macro B against its conversion: fields are variables by number
 };
 
 // A difference in places that the user has: the source's files, lines of the translation.

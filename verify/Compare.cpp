@@ -145,13 +145,19 @@ private:
            (shown > 0 || source_.text == target_.text);
   }
 
+  // A translation numbers the alarms of the source's own text anew and keeps their texts.
+  bool renumbered() const {
+    constexpr std::uint32_t kOwn = 3000;
+    return !rules_.sameProgram && source_.alarmKind.empty() && source_.alarm > kOwn && target_.alarm > kOwn;
+  }
+
   void ending() {
     const bool alarms = source_.ending == Ending::Alarm && target_.ending == Ending::Alarm;
     bool same = source_.ending == target_.ending;
     if (alarms && (!source_.alarmKind.empty() || !target_.alarmKind.empty()))
       same = source_.alarmKind == target_.alarmKind || comparesLimit();
     if (alarms && rules_.sameAlarmNumbers && same)
-      same = source_.alarm == target_.alarm && source_.text == target_.text;
+      same = (renumbered() || source_.alarm == target_.alarm) && source_.text == target_.text;
     else if (alarms && rules_.sameProgram && same && source_.alarmKind.empty())
       same = sameOwnAlarm();
     if (!same) {

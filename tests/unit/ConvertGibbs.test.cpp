@@ -161,6 +161,29 @@ TEST_CASE(
     }
 }
 
+// The branch counts from where the probe is (#5003), the path from the retract plane.
+TEST_CASE("convert to gibbs: the folder agrees with its own branch, by the command that cam-verify names") {
+  for (const char* const name : {"surface-z", "bore"}) {
+    CAPTURE(name);
+    const auto one = std::find_if(cases().begin(), cases().end(),
+                                  [&](const Case& each) { return each.cycle == std::string(name); });
+    const driver::Outcome outcome =
+        driver::convert(optionsOf(libraryPath(name), "inspection-plus", one->values));
+    REQUIRE_MESSAGE(outcome.status == 0, said(outcome));
+    const TestFolder folder("dotek-gibbs-verified");
+    const std::string path = written(outcome, folder);
+    driver::VerifyOptions verify;
+    verify.inputs = {path};
+    verify.to = "fanuc";
+    verify.source.prog = path + "/branch.txt";
+    verify.source.form = "thesis-a";
+    verify.jobs = 1;
+    verify.cases = draws(30U, 6U);
+    const driver::Outcome verified = driver::verify(verify);
+    CHECK_MESSAGE(verified.output.starts_with("AGREES"), said(verified));
+  }
+}
+
 TEST_CASE("convert to gibbs: a folder that is read and written again stays what it is") {
   for (const Case& one : cases()) {
     CAPTURE(one.cycle);
