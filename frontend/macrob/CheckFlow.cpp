@@ -195,7 +195,8 @@ private:
   }
 
   void jumps() {
-    std::unordered_set<std::uint64_t> wanted;
+    std::unordered_set<std::uint64_t> wanted, backward; // numbers
+    std::unordered_set<std::size_t> reached;            // blocks
     findInnermost();
     for (std::size_t i = 0; i < program_.blocks.size(); ++i) {
       const Goto* jump = gotoOf(block(i));
@@ -210,6 +211,8 @@ private:
       }
       wanted.insert(*number);
       const std::size_t target = targetOf(i, *number);
+      reached.insert(target);
+      if (target <= i) backward.insert(*number);
       if (target == kNone)
         found_.missingTargets[*number].push_back(jump->target->range);
       else
@@ -219,6 +222,10 @@ private:
     if (isExcerpt()) found_.missingTargets.clear();
     for (const auto& [number, blocks] : numbered_) {
       if (blocks.size() < 2 || !wanted.contains(number)) continue;
+      // Copies of a section, each with a jump forward to its own block: none of them goes astray.
+      if (!computed_ && !backward.contains(number) &&
+          std::all_of(blocks.begin(), blocks.end(), [&](std::size_t one) { return reached.contains(one); }))
+        continue;
       for (std::size_t i = 1; i < blocks.size(); ++i)
         found_.targetsTwice.push_back(
             {number, block(blocks[i]).sequenceNumber->range, block(blocks[0]).sequenceNumber->range});
