@@ -371,7 +371,7 @@ int runCommand(Arguments& arguments, std::ostream& out, std::ostream& err) {
     return printer.catalogue(driver::catalogue({arguments.inputs, arguments.common}), arguments);
   case Command::Preview:
     return printer.result(driver::preview({arguments.inputs, arguments.common}), arguments);
-  case Command::Lsp: return lsp::serve(STDIN_FILENO, STDOUT_FILENO, runningProgram());
+  case Command::Lsp: return lsp::serve(STDIN_FILENO, STDOUT_FILENO, runningProgram(), err);
   case Command::List:
     if (arguments.inputs.size() > 1)
       return printer.result(driver::listFacts(arguments.inputs[1], arguments.common), arguments);

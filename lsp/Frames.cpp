@@ -47,15 +47,19 @@ bool FrameReader::fill() {
 }
 
 std::optional<std::string> FrameReader::next() {
+  const auto none = [&] {
+    broken_ = !buffer_.empty();
+    return std::nullopt;
+  };
   std::size_t end = std::string::npos;
   while ((end = buffer_.find("\r\n\r\n")) == std::string::npos) {
-    if (buffer_.size() > kMostHeader || !fill()) return std::nullopt;
+    if (buffer_.size() > kMostHeader || !fill()) return none();
   }
   const std::optional<std::size_t> length = lengthIn(std::string_view(buffer_).substr(0, end));
-  if (!length) return std::nullopt;
+  if (!length) return none();
   buffer_.erase(0, end + 4);
   while (buffer_.size() < *length)
-    if (!fill()) return std::nullopt;
+    if (!fill()) return none();
   std::string body = buffer_.substr(0, *length);
   buffer_.erase(0, *length);
   return body;

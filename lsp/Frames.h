@@ -16,6 +16,8 @@ public:
 
   // The next message; nullopt: the other side has ended, or what came is no message of the protocol.
   std::optional<std::string> next();
+  // After next() gave nothing: what came is no message, or a part of one.
+  bool broken() const { return broken_; }
   // Something has come that next() would read, at least in part.
   bool waiting() const;
 
@@ -23,6 +25,7 @@ private:
   bool fill();
   int descriptor_;
   std::string buffer_;
+  bool broken_ = false;
 };
 
 // false: the other side no longer reads.

@@ -3,7 +3,10 @@
 #include "lsp/Frames.h"
 #include "lsp/Server.h"
 
+#include <cerrno>
 #include <csignal>
+#include <cstring>
+#include <ostream>
 
 namespace dotek::lsp {
 namespace {
@@ -12,20 +15,36 @@ std::string textOf(const Json& message) {
   return message.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
+// The status after a message that could not be written.
+int lost(int error, std::ostream& err) {
+  if (error == EPIPE) return 1;
+  err << "dotek: error: the answers of the language server cannot be written: "
+      << (error == EBADF ? "standard output is closed" : std::strerror(error)) << '\n';
+  return 2;
+}
+
 } // namespace
 
-int serve(int input, int output, const std::string& scriptProgram) {
+int serve(int input, int output, const std::string& scriptProgram, std::ostream& err) {
   std::signal(SIGPIPE, SIG_IGN); // an editor that is gone is the end of the input
   FrameReader reader(input);
   Server server(scriptProgram);
   while (!server.ended()) {
     const std::optional<std::string> text = reader.next();
-    if (!text) return 1;
+    if (!text) {
+      if (reader.broken()) {
+        err << "dotek: error: what came on standard input is no message of the language server protocol; "
+               "`dotek lsp` is started by an editor\n";
+        return 2;
+      }
+      err << "dotek: the editor ended without `shutdown` and `exit`\n";
+      return 1;
+    }
     for (const Json& message : server.receive(*text))
-      if (!writeFrame(output, textOf(message))) return 1;
+      if (!writeFrame(output, textOf(message))) return lost(errno, err);
     if (reader.waiting()) continue; // what is typed at once is checked once
     for (const Json& message : server.idle())
-      if (!writeFrame(output, textOf(message))) return 1;
+      if (!writeFrame(output, textOf(message))) return lost(errno, err);
   }
   return server.shutDown() ? 0 : 1;
 }

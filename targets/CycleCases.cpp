@@ -137,7 +137,8 @@ bool CaseRunner::prepare() {
   std::vector<std::string> hosts;
   for (const stdlib::HostInput& host : stdlib::kHostInputs)
     if (!host.ofCyclesAlone) hosts.emplace_back(host.name);
-  draws_.emplace(plan_.fields, std::move(hosts), plan_.fixedHosts, options_.seed, plan_.bounds);
+  draws_.emplace(plan_.fields, std::move(hosts), plan_.fixedHosts, options_.seed, plan_.bounds,
+                 options_.cases);
   sourceSet_ = session_.macroSet(plan_.sourceMacros);
   std::vector<const stdlib::MacroSet*> sets;
   if (sourceSet_ != nullptr) sets.push_back(sourceSet_);

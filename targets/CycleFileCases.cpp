@@ -146,7 +146,8 @@ bool CycleFileRunner::prepare() {
     if (variable.role == ir::Role::Host) hosts.push_back(variable.name);
   for (const std::string_view host : findTarget(options_.to)->hosts)
     if (std::find(hosts.begin(), hosts.end(), host) == hosts.end()) hosts.emplace_back(host);
-  draws_.emplace(plan_.fields, std::move(hosts), plan_.fixedHosts, options_.seed, plan_.bounds);
+  draws_.emplace(plan_.fields, std::move(hosts), plan_.fixedHosts, options_.seed, plan_.bounds,
+                 options_.cases);
   stand_.emplace(limitsOfCycle_);
   target_ = findTarget(options_.to)->verify({options_, plan_, session_, *inputs_, *folder_});
   return target_->prepare();

@@ -64,11 +64,18 @@ std::optional<double> Bounds::margin(std::size_t comparison, const Case& drawn) 
   return walk(comparison, drawn).margin;
 }
 
+std::vector<std::optional<double>> Bounds::margins(const Case& drawn) const {
+  std::vector<std::optional<double>> out(comparisons_.size());
+  walk(kNone, drawn, &out);
+  return out;
+}
+
 bool Bounds::rejects(const Case& drawn) const {
   return walk(kNone, drawn).alarm;
 }
 
-Bounds::Walk Bounds::walk(std::size_t wanted, const Case& drawn) const {
+Bounds::Walk Bounds::walk(std::size_t wanted, const Case& drawn,
+                          std::vector<std::optional<double>>* seen) const {
   ir::Environment environment(cycle_.variables.size());
   for (std::size_t id = 0; id < environment.size(); ++id) {
     const ir::Variable& variable = cycle_.variables[id];
@@ -77,6 +84,13 @@ Bounds::Walk Bounds::walk(std::size_t wanted, const Case& drawn) const {
     for (const auto& [name, value] : values)
       if (sameName(name, variable.name)) environment[id] = ir::Scalar::of(value);
   }
+  const auto marginOf = [&](const ir::Comparison& comparison) -> std::optional<double> {
+    const ir::Scalar left = ir::evaluate(*comparison.left, environment);
+    const ir::Scalar right = ir::evaluate(*comparison.right, environment);
+    if (!left.known() || !right.known()) return std::nullopt;
+    return left.value - right.value;
+  };
+  std::vector<bool> come(seen != nullptr ? cycle_.checks.size() : 0);
   const std::size_t end = wanted == kNone ? kNone : comparisons_[wanted].statement;
   std::size_t at = 0;
   for (std::uint32_t steps = 0; at < cycle_.checks.size() && steps < kMaxSteps; ++steps) {
@@ -89,12 +103,14 @@ Bounds::Walk Bounds::walk(std::size_t wanted, const Case& drawn) const {
     std::optional<ir::LabelId> target;
     if (const auto* jump = std::get_if<ir::Jump>(&statement.node)) target = jump->target;
     if (const auto* branch = std::get_if<ir::Branch>(&statement.node)) {
-      if (at - 1 == end) {
-        const ir::Comparison& comparison = *comparisons_[wanted].comparison;
-        const ir::Scalar left = ir::evaluate(*comparison.left, environment);
-        const ir::Scalar right = ir::evaluate(*comparison.right, environment);
-        if (!left.known() || !right.known()) return {};
-        return {false, left.value - right.value};
+      if (at - 1 == end) return {false, marginOf(*comparisons_[wanted].comparison)};
+      if (seen != nullptr && !come[at - 1]) {
+        come[at - 1] = true;
+        auto one = std::lower_bound(
+            comparisons_.begin(), comparisons_.end(), at - 1,
+            [](const Compared& compared, std::size_t place) { return compared.statement < place; });
+        for (; one != comparisons_.end() && one->statement == at - 1; ++one)
+          (*seen)[static_cast<std::size_t>(one - comparisons_.begin())] = marginOf(*one->comparison);
       }
       const std::optional<bool> holds = ir::holds(*branch->condition, environment);
       if (!holds) return {};
@@ -146,17 +162,29 @@ std::optional<Case> Bounds::meet(const Bound& bound, const std::vector<DrawField
 }
 
 std::vector<Bound> Bounds::find(const std::vector<DrawField>& fields, const std::vector<Case>& samples,
-                                bool roundsRadius) const {
+                                bool roundsRadius, std::uint64_t most) const {
+  // For each comparison the samples and fields that can meet it at all: one walk finds those of every
+  // comparison.
+  std::vector<std::vector<std::pair<std::size_t, std::size_t>>> worth(comparisons_.size());
+  for (std::size_t field = 0; field < fields.size(); ++field) {
+    if (fields[field].fixed) continue;
+    for (std::size_t sample = 0; sample < samples.size(); ++sample) {
+      if (!samples[sample].values.contains(fields[field].name)) continue;
+      const auto before = margins(samples[sample]);
+      Case other = samples[sample];
+      other.values[fields[field].name] += 1;
+      const auto changed = margins(other);
+      for (std::size_t i = 0; i < comparisons_.size(); ++i)
+        if (before[i] && changed[i] != before[i]) worth[i].emplace_back(field, sample);
+    }
+  }
   std::vector<Bound> out;
   for (std::size_t comparison = 0; comparison < comparisons_.size(); ++comparison)
-    for (std::size_t field = 0; field < fields.size(); ++field) {
-      if (fields[field].fixed) continue;
+    for (const auto& [field, sample] : worth[comparison]) {
+      if (out.size() >= most) return out;
       const Bound bound{comparison, field};
-      if (std::any_of(samples.begin(), samples.end(), [&](const Case& sample) {
-            return sample.values.contains(fields[field].name) &&
-                   meet(bound, fields, sample, roundsRadius).has_value();
-          }))
-        out.push_back(bound);
+      if (!out.empty() && out.back().comparison == comparison && out.back().field == field) continue;
+      if (meet(bound, fields, samples[sample], roundsRadius)) out.push_back(bound);
     }
   return out;
 }

@@ -22,9 +22,10 @@ public:
   // The cycle with its checks; what they compare is shared, the rest is not kept.
   explicit Bounds(const ir::Cycle& cycle);
 
-  // Those that some of the samples meet. `roundsRadius`: as for meet().
+  // Those that some of the samples meet, the first `most` of them: each costs as much as the checks are long.
+  // `roundsRadius`: as for meet().
   std::vector<Bound> find(const std::vector<DrawField>& fields, const std::vector<Case>& samples,
-                          bool roundsRadius) const;
+                          bool roundsRadius, std::uint64_t most) const;
   // The case with the field changed so that both sides are equal, for a control with eight digits, too: what
   // else they depend on is a multiple of a half then; of the ball's radius only where it may be changed.
   // nullopt: no such value was found.
@@ -40,9 +41,12 @@ private:
     std::optional<double> margin; // of the comparison that is wanted, where the checks come to it
   };
   static constexpr std::size_t kNone = SIZE_MAX;
-  Walk walk(std::size_t wanted, const Case& drawn) const; // kNone: no comparison
+  // `wanted`: kNone: no comparison. `seen`: of every comparison, where the checks first come to it.
+  Walk walk(std::size_t wanted, const Case& drawn, std::vector<std::optional<double>>* seen = nullptr) const;
   // Left less right where the checks come to the comparison; nothing: they do not, or it is not known.
   std::optional<double> margin(std::size_t comparison, const Case& drawn) const;
+  // The same of every comparison.
+  std::vector<std::optional<double>> margins(const Case& drawn) const;
 
   ir::Cycle cycle_;
   struct Compared {

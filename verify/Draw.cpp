@@ -143,7 +143,7 @@ double hostValue(const std::string& name, Random& random) {
 
 Draws::Draws(std::vector<DrawField> fields, std::vector<std::string> hosts,
              std::map<std::string, double> fixedHosts, std::uint64_t seed,
-             std::shared_ptr<const Bounds> bounds)
+             std::shared_ptr<const Bounds> bounds, std::uint64_t edges)
     : fields_(std::move(fields)), hosts_(std::move(hosts)), fixedHosts_(std::move(fixedHosts)), seed_(seed),
       bounds_(std::move(bounds)) {
   for (std::size_t n = 0; n < fields_.size(); ++n)
@@ -156,7 +156,7 @@ Draws::Draws(std::vector<DrawField> fields, std::vector<std::string> hosts,
   for (std::size_t n = 0; n < hosts_.size(); ++n)
     hostNames_.push_back({n, Random::hash(hosts_[n])});
 
-  edges_ = boundEdges();
+  edges_ = boundEdges(edges);
   // One of each field after the other, so that few cases see many fields.
   std::vector<std::vector<Edge>> each;
   std::size_t most = 0;
@@ -358,15 +358,16 @@ std::vector<Draws::Edge> Draws::edgesOf(std::size_t index) const {
   return out;
 }
 
-// Each comparison that some proposals meet: there, and one step to each side.
-std::vector<Draws::Edge> Draws::boundEdges() const {
+// Each comparison that some proposals meet: there, and one step to each side. More than `most` are not
+// wanted.
+std::vector<Draws::Edge> Draws::boundEdges(std::uint64_t most) const {
   std::vector<Edge> out;
   if (bounds_ == nullptr) return out;
   constexpr std::uint32_t kSamples = 12;
   std::vector<Case> samples;
   for (std::uint32_t n = 0; n < kSamples; ++n)
     samples.push_back(propose(n, 1000));
-  const std::vector<Bound> bounds = bounds_->find(fields_, samples, isDrawn("tool_radius"));
+  const std::vector<Bound> bounds = bounds_->find(fields_, samples, isDrawn("tool_radius"), most);
   for (const int steps : {0, -1, 1})
     for (const Bound& bound : bounds)
       out.push_back({bound.field, Edge::Means::Bound, 0, steps, bound.comparison});

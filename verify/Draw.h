@@ -48,10 +48,11 @@ struct Case {
 
 class Draws {
 public:
-  // `hosts`: names that are drawn; `fixedHosts`: given ones, which every case has.
+  // `hosts`: names that are drawn; `fixedHosts`: given ones, which every case has. edge() is asked for fewer
+  // than `edges`.
   Draws(std::vector<DrawField> fields, std::vector<std::string> hosts,
         std::map<std::string, double> fixedHosts, std::uint64_t seed,
-        std::shared_ptr<const Bounds> bounds = nullptr);
+        std::shared_ptr<const Bounds> bounds = nullptr, std::uint64_t edges = UINT64_MAX);
 
   // The `attempt`-th proposal for case `index`: the same arguments give the same case, whatever ran before.
   // It may be illegal or out of reach; the caller asks for further attempts. What is drawn for a name does
@@ -85,7 +86,7 @@ private:
     std::size_t comparison = 0; // of a Bound
   };
   std::vector<Edge> edgesOf(std::size_t field) const;
-  std::vector<Edge> boundEdges() const;
+  std::vector<Edge> boundEdges(std::uint64_t most) const;
   void apply(const Edge& edge, Case& drawn) const;
   double value(const DrawField& field, bool near, std::uint32_t attempt, Random& random) const;
   void drawSystem(Case& drawn, Random& random) const;

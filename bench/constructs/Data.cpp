@@ -264,6 +264,13 @@ void addData(std::vector<Construct>& out) {
                          fmt::format("%\nO{}\nG65 P{} X1.\nM98 P9000\n#100=#5061\nM99\n%\n", i + 1, i + 2));
                    return made;
                  }});
+  out.push_back({"files: folders one in another, lint", 100, [](long n) {
+                   Input made{{}, {"lint", "--select", "all", "."}};
+                   for (long i = 0; i < n; ++i)
+                     made.files.emplace_back(times(i, "d/") + fmt::format("O{}.nc", i + 1),
+                                             fmt::format("%\nO{}\n#100=#5061\nM99\n%\n", i + 1));
+                   return made;
+                 }});
   out.push_back({"files: programs of one number, lint", 100, [](long n) {
                    Input made{{}, {"lint", "--select", "all", "."}};
                    for (long i = 0; i < n; ++i)

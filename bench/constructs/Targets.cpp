@@ -61,7 +61,7 @@ void addTargets(std::vector<Construct>& out) {
   };
   const auto measures = [](Cycle& c, long n) { c.blocks = times(n, c.blocks); };
   for (const Target& target : targets) {
-    for (const Grown& grown : {Grown{"checks", 20, checks},
+    for (const Grown& grown : {Grown{"checks", 110, checks},
                                {"protected moves", 20, moves},
                                {"comments", 50, comments},
                                {"measurements", 10, measures}}) {

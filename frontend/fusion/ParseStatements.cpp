@@ -49,7 +49,7 @@ Node* Parser::make(Kind kind, std::uint32_t begin, std::vector<Node*> kids, std:
   Node& node = tree_.nodes.emplace_back();
   node.kind = kind;
   node.begin = begin;
-  node.end = lastEnd();
+  node.end = std::max(begin, lastEnd());
   node.kids = std::move(kids);
   node.text = text;
   return &node;
@@ -65,14 +65,14 @@ void Parser::script() {
 }
 
 void Parser::statements(std::vector<Node*>& into) {
-  while (!atEnd() && !isSign("}") && !isWord("case") && !isWord("default"))
-    into.push_back(statementOrError());
-  if (depth_ == 0 && (isWord("case") || isWord("default"))) {
+  for (;;) {
+    while (!atEnd() && !isSign("}") && !isWord("case") && !isWord("default"))
+      into.push_back(statementOrError());
+    if (depth_ != 0 || !(isWord("case") || isWord("default"))) return;
     tree_.unread.push_back(
         {{tree_.file, here().begin, here().end}, fmt::format("`{}` outside of a switch", textOf(here()))});
     ++at_;
     skipUnread();
-    statements(into);
   }
 }
 
@@ -246,7 +246,7 @@ Node* Parser::ifStatement() {
     last = one;
   }
   for (Node* one = out; one != nullptr && one->is(Kind::If); one = one->kids[2])
-    one->end = lastEnd();
+    close(one);
   return out;
 }
 

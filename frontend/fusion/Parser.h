@@ -3,6 +3,7 @@
 
 #include "frontend/fusion/Parse.h"
 
+#include <algorithm>
 #include <initializer_list>
 
 namespace dotek::frontend::fusion {
@@ -39,8 +40,9 @@ private:
   void semicolon();
 
   Node* make(Kind kind, std::uint32_t begin, std::vector<Node*> kids = {}, std::string_view text = {});
+  // What is empty ends where it begins: the word before it may end farther left.
   Node* close(Node* node) {
-    node->end = lastEnd();
+    node->end = std::max(node->begin, lastEnd());
     return node;
   }
 

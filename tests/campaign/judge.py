@@ -57,18 +57,22 @@ class Judge:
         self.slowest = (0.0, "")
         self._validators = Validators()
 
-    def run(self, arguments, folder, prints=None, files=()):
-        """What is wrong, or None. `prints` names the schema of standard output, `files` are (path, schema)."""
+    def run(self, arguments, folder, prints=None, files=(), stdin=None):
+        """What is wrong, or None. `prints` names the schema of standard output, `files` are (path, schema), `stdin` is a file."""
         begin = time.monotonic()
+        given = open(pathlib.Path(folder) / stdin, "rb") if stdin else subprocess.DEVNULL
         process = subprocess.Popen(
             [self.dotek, *arguments], cwd=folder, env=_ENVIRONMENT, start_new_session=True,
-            stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+            stdin=given, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
         try:
             out, err = process.communicate(timeout=self.limit)
         except subprocess.TimeoutExpired:
             os.killpg(process.pid, signal.SIGKILL)
             process.communicate()
             return f"does not end within {self.limit:g} s"
+        finally:
+            if stdin:
+                given.close()
         took = time.monotonic() - begin
         self.exits[process.returncode] = self.exits.get(process.returncode, 0) + 1
         if took > self.slowest[0]:

@@ -1,5 +1,6 @@
 """Inputs of all kinds, damaged at random, through every command that reads them."""
 
+import json
 import os
 import pathlib
 import re
@@ -79,9 +80,11 @@ class Campaign:
         self.progs = [ROOT / "examples/post.txt", ROOT / "examples/mill-post.txt", *_files([corpus / "compost"], ".txt")]
         self.cycles = [p.parent for p in _files([*folders, corpus], "DefineData.txt")]
         self.cycle_files = _files([ROOT / "stdlib/cycles", *folders], ".cycle")
+        self.posts = [p for p in _files([ROOT / "tests/golden/run-post", ROOT / "tests/fusion/posts"], ".cps")]
+        self.post_jobs = _files([ROOT / "tests/golden/run-post"], "job.toml")
         self.translations = {}
         self.kinds = ([self.program] * 3 + [self.mikroprog, self.settings, self.part] + [self.cycle] * 5 +
-                      [self.cycle_file] * 3 + [self.translation] * 2)
+                      [self.cycle_file] * 3 + [self.translation] * 2 + [self.post] * 2 + [self.server] * 2 + [self.baseline])
 
     def one(self, number):
         """Runs one damaged input; (what is wrong or None, arguments, folder)."""
@@ -106,7 +109,7 @@ class Campaign:
     def choose(self, *commands):
         command = self.random.choice(commands)
         extra = {}
-        for flag, name in (("json", "findings"), ("sarif", "sarif"), ("--json", "sim")):
+        for flag, name in (("json", "findings"), ("sarif", "sarif"), ("--json", "outline" if "outline" in command else "sim")):
             if flag in command:
                 extra["prints"] = name
         extra["files"] = [("m.json", "map"), ("r.json", "verify")]
@@ -127,6 +130,16 @@ class Campaign:
             ["verify", "a.nc", "--to", "fanuc", "--probe-macros", "dotek", "--cases", "5"],
             ["dump", "a.nc", "--stage", self.random.choice(["tokens", "ast", "ir"])],
             ["lint", "--from", "listing", "a.nc"],
+            ["outline", "a.nc"],
+            ["outline", "--json", "a.nc"],
+            ["renumber", "a.nc"],
+            ["renumber", "a.nc", "--all", "--step", self.random.choice(["1", "7", "100000"]), "-o", "-"],
+            ["renumber", "a.nc", "--range", "10:100", "--start", "500", "-o", "o.nc"],
+            ["fmt", "a.nc"],
+            ["fmt", "--write", "a.nc"],
+            ["fmt", "--diff", "a.nc"],
+            ["lint", "--statistics", "a.nc"],
+            ["lint", "--format", self.random.choice(["github", "gitlab"]), "a.nc"],
         )
 
     def mikroprog(self):
@@ -180,6 +193,9 @@ class Campaign:
             ["convert", *base, "--to", "fanuc"],
             ["convert", *base, "--to", "fanuc", "--probe-macros", "inspection-plus", "--map", "m.json", "-o", "o.nc"],
             ["convert", *base, "--to", "fusion", "--map", "m.json", "-o", "o.js"],
+            ["convert", *base, "--to", "cycle"],
+            ["convert", *base, "--to", "cycle", "-o", "o.cycle"],
+            ["verify", *base, "--to", "cycle", "--cases", "4"],
             ["convert", *base, "--to", "mikroprog", "--control", "mikroprog-mill", *HOSTS],
             ["verify", *base, "--to", "fanuc", "--cases", "5"],
             ["verify", *base, "--to", "fusion", "--cases", "5"],
@@ -216,6 +232,8 @@ class Campaign:
             ["convert", name, "--to", "fanuc", "--probe-macros", self.random.choice(["dotek", "inspection-plus", "easyprobe"])],
             ["convert", name, "--to", "fanuc", "--control", "fanuc-0i-md", "--map", "m.json", "-o", "o.nc"],
             ["convert", name, "--to", self.random.choice(["mikroprog", "fusion"])],
+            ["convert", name, "--to", "gibbs", "-d", "out"],
+            ["verify", name, "--to", "mikroprog", "--cases", "3"],
         )
 
     def translation(self):
@@ -232,3 +250,72 @@ class Campaign:
         (self.here / "t").write_bytes(damage(self.random, self.translations[key]))
         more += HOSTS if to == "mikroprog" else []
         return self.choose(["verify", *base, *more, "--cases", "4", "--translation", "t"])
+
+    def post(self):
+        """A post of Fusion, or its job, damaged."""
+        source = self.random.choice(self.posts)
+        job = source.with_name("job.toml")
+        broken = self.random.random() < 0.7
+        self.put(source, "a.cps", damaged=broken)
+        self.put(job if job in self.post_jobs else self.random.choice(self.post_jobs), "job.toml", damaged=not broken)
+        limit = ["--limit", "script-seconds=2"]
+        command, extra = self.choose(
+            ["run-post", "a.cps", "job.toml", *limit],
+            ["run-post", "a.cps", "job.toml", *limit, "--map", "m.json", "-o", "o.nc"],
+            ["run-post", "a.cps", "--matrix", self.random.choice(["probing", "drilling"]), *limit],
+            ["run-post", "a.cps", "job.toml", "--diff", source, *limit],
+            ["new", "job", "--from", "a.cps", *limit],
+            ["lint", "--select", "all", "--format", "json", "a.cps"],
+            ["dump", "a.cps", "--stage", self.random.choice(["tokens", "ast"])],
+        )
+        extra["files"] = []  # its map is another document
+        return command, extra
+
+    def baseline(self):
+        """A list of findings, damaged."""
+        self.put(self.random.choice(self.nc), "a.nc", damaged=False)
+        self.judge.run(["lint", "a.nc", "--select", "all", "--write-baseline", "b.json"], self.here)
+        listed = self.here / "b.json"
+        if listed.exists():
+            listed.write_bytes(damage(self.random, listed.read_bytes()))
+        return self.choose(["lint", "a.nc", "--select", "all", "--baseline", "b.json", "--format", "json"],
+                           ["lint", "a.nc", "--baseline", "b.json", "--write-baseline", "b.json"])
+
+    def server(self):
+        """A conversation with the language server: a document, edits, questions; messages or the stream are damaged."""
+        source = self.random.choice(self.random.choice([self.nc, self.cycle_files, self.posts, self.suf]))
+        text = source.read_text(errors="replace")[:20_000]
+        uri = (self.here / source.name).as_uri()
+        here = {"textDocument": {"uri": uri}}
+
+        def place():
+            return {"line": self.random.randrange(60), "character": self.random.randrange(40)}
+
+        talk = [{"id": 0, "method": "initialize", "params": {"capabilities": {}}}, {"method": "initialized", "params": {}},
+                {"method": "textDocument/didOpen",
+                 "params": {"textDocument": {"uri": uri, "languageId": "nc", "version": 1, "text": text}}}]
+        for number in range(self.random.choice([3, 10, 30])):
+            if self.random.random() < 0.5:
+                begin = place()
+                end = {"line": begin["line"] + self.random.randrange(3), "character": self.random.randrange(40)}
+                talk.append({"method": "textDocument/didChange", "params": {
+                    "textDocument": {"uri": uri, "version": number + 2},
+                    "contentChanges": [{"range": {"start": begin, "end": end},
+                                        "text": self.random.choice(TOKENS).decode("utf-8", "replace")}]}})
+            else:
+                method = self.random.choice(["hover", "definition", "references", "documentHighlight", "prepareRename", "rename",
+                                             "documentSymbol", "inlayHint", "completion", "codeAction", "codeLens", "formatting"])
+                talk.append({"id": number + 1, "method": "textDocument/" + method, "params": {
+                    **here, "position": place(), "newName": "77", "range": {"start": place(), "end": place()},
+                    "context": {"diagnostics": [], "includeDeclaration": True}, "options": {}}})
+        talk += [{"id": 999, "method": "shutdown"}, {"method": "exit"}]
+        bodies = [json.dumps({"jsonrpc": "2.0", **one}).encode() for one in talk]
+        kind = self.random.randrange(3)
+        if kind == 1:
+            at = self.random.randrange(len(bodies))
+            bodies[at] = damage(self.random, bodies[at])
+        stream = b"".join(b"Content-Length: %d\r\n\r\n%s" % (len(body), body) for body in bodies)
+        if kind == 2:
+            stream = damage(self.random, stream)
+        (self.here / "talk").write_bytes(stream)
+        return ["lsp"], {"stdin": "talk"}

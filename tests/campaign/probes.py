@@ -6,6 +6,8 @@ import subprocess
 
 from judge import ROOT
 
+POST = f"{ROOT}/tests/golden/run-post/formats/post.cps"
+JOB = f"{ROOT}/tests/golden/run-post/formats/job.toml"
 CYCLE = f"{ROOT}/examples/surface-x --prog {ROOT}/examples/post.txt --form thesis-a"
 COMMANDS = {
     "version": "--version", "help": "convert --help", "limits": "list limits", "rules": "list rules", "explain": "explain jump-to-itself",
@@ -15,6 +17,10 @@ COMMANDS = {
     "fanuc": f"verify {CYCLE} --to fanuc --assume probe-on --cases 100", "check": f"check {ROOT}/examples/cycles/bore.cycle --format json",
     "fmt": f"fmt {ROOT}/examples/cycles/bore.cycle", "doc": "doc", "preview": f"preview {ROOT}/examples/surface-x", "new cycle": "new cycle spare",
     "new control": "new control shop --from fanuc-31i-b", "cycles": "list cycles", "cycle": f"convert {ROOT}/examples/cycles/bore.cycle --to fanuc",
+    "run-post": f"run-post {POST} {JOB}", "matrix": f"run-post {ROOT}/tests/golden/run-post/matrix/mill.cps --matrix drilling", "new job": f"new job --from {POST}",
+    "outline": "outline p.nc", "outline json": "outline --json p.nc", "renumber": "renumber p.nc -o -", "fmt nc": "fmt p.nc", "fmt diff": "fmt --diff p.nc",
+    "to cycle": f"convert {ROOT}/examples/surface-z --prog {ROOT}/examples/mill-post.txt --to cycle --assume probe-on",
+    "statistics": "lint --statistics p.nc", "github": "lint --format github p.nc", "gitlab": "lint --format gitlab p.nc", "lsp": "lsp < talk",
 }
 # Put before the command: a limit that may or may not be enough.
 LIMITS = [
@@ -28,8 +34,13 @@ WRITERS = {
     "--svg": "sim p.nc --quiet --svg OUT", "--html": "sim p.nc --quiet --html OUT", "new": f"new form shop --prog {ROOT}/examples/post.txt -o OUT --force",
     "--fix": "lint OUT --fix", "preview": f"preview {ROOT}/examples/surface-x -o OUT", "fmt": f"fmt {ROOT}/examples/cycles/bore.cycle -o OUT",
     "report": f"verify {CYCLE} --to fanuc --assume probe-on --cases 20 -o OUT", "new control": "new control shop --from fanuc-31i-b -o OUT",
+    "run-post": f"run-post {POST} {JOB} -o OUT", "post map": f"run-post {POST} {JOB} -o o.nc --map OUT", "new job": f"new job --from {POST} -o OUT",
+    "renumber": "renumber p.nc -o OUT", "fmt nc": "fmt p.nc -o OUT", "in place": "renumber --all OUT", "write": "fmt --write OUT",
+    "to cycle": f"convert {ROOT}/examples/surface-z --prog {ROOT}/examples/mill-post.txt --to cycle --assume probe-on -o OUT",
 }
 NAMES = ["a\x1b[2Jb.nc", "a\nb.nc", "a\u202eb.nc", "a\u009bb.nc", "-a.nc", " .nc", "a'b.nc", "a\"b.nc", "a%sb.nc", "\u00e9.nc", "a\x7f.nc", "x" * 250 + ".nc"]
+TALK = b"".join(b"Content-Length: %d\r\n\r\n%s" % (len(body), body) for body in (
+    b'{"id":1,"method":"initialize","params":{"capabilities":{}}}', b'{"id":2,"method":"shutdown"}', b'{"method":"exit"}'))
 OLD = "%\nO1\nN1 GO X1.\nM30\n%\n"
 
 
@@ -52,6 +63,7 @@ class Probe:
         self.here = self.folder / str(self.count)
         self.here.mkdir()
         (self.here / "p.nc").write_text(OLD)
+        (self.here / "talk").write_bytes(TALK)
         (self.here / "big.nc").write_text("%\nO1\n" + "G1 X1. F100.\nX2.\n" * 60_000 + "M30\n%\n")
 
     def fault(self, script, statuses, more=lambda done: None):
@@ -145,7 +157,7 @@ def run(judge, folder, random):
                 if (probe.here / "plain").stat().st_size == 0:
                     right = (0, 1, 2)
             yield told(f"set -o pipefail; dotek {command} {stream}", right + ((141,) if "|" in stream else ()))
-    for name in ("lint", "json", "post", "fusion", "verify", "fanuc", "check", "fmt", "doc", "preview", "cycle"):
+    for name in ("lint", "json", "post", "fusion", "verify", "fanuc", "check", "fmt", "doc", "preview", "cycle", "run-post", "new job", "outline", "renumber", "to cycle", "lsp"):
         for limit in LIMITS:
             probe.fresh()
             # The loader may be refused the memory for a library: 127, before Dotek runs.
@@ -170,7 +182,8 @@ def run(judge, folder, random):
                       "wait $!; s=$?; [ $s -le 2 ] || [ $s -gt 128 ] || exit 99" + ("; rm -f .dotek*" if signal == "KILL" else "") + "; exit 0")
             yield told(script, (0,), lambda done: kept(probe, new)(subprocess.CompletedProcess([], 1)))
     for name in NAMES:
-        for command in ("lint", "sim", "sim --json", "lint --format sarif", "dump", "convert --to fanuc --control fanuc-31i-b", "sim --quiet --svg o.svg"):
+        for command in ("lint", "sim", "sim --json", "lint --format sarif", "dump", "convert --to fanuc --control fanuc-31i-b", "sim --quiet --svg o.svg",
+                        "outline", "outline --json", "renumber", "fmt --diff", "fmt --check", "lint --format github", "lint --format gitlab", "lint --statistics"):
             probe.fresh()
             path = probe.here / name
             path.write_text(OLD)
@@ -178,7 +191,9 @@ def run(judge, folder, random):
             (probe.here / "name").write_text(name + "\n")
             yield told(script.replace('"$(cat name)"', "'" + name.replace("'", "'\\''") + "'"), (0, 1, 2), quiet_names)
     pairs = [f"convert {CYCLE} --to fanuc -d . --map O8000.nc", "lint p.nc p.nc", "lint p.nc ./p.nc", f"convert {CYCLE} --to fanuc -o F --map F", "sim p.nc --svg F --html F", "sim p.nc --trace F --html F",
-             "sim p.nc --trace p.nc", "sim p.nc --svg p.nc", "convert p.nc --to fanuc --control fanuc-31i-b -o p.nc", "convert p.nc --to fanuc --control fanuc-31i-b -o -"]
+             "sim p.nc --trace p.nc", "sim p.nc --svg p.nc", "convert p.nc --to fanuc --control fanuc-31i-b -o p.nc", "convert p.nc --to fanuc --control fanuc-31i-b -o -",
+             "fmt p.nc -o p.nc", "fmt p.nc --diff -o p.nc", f"run-post {POST} {JOB} -o p.nc --map p.nc", "lint p.nc --write-baseline p.nc", f"run-post {POST} {JOB} --expect p.nc -o p.nc",
+             "lint p.nc --baseline p.nc", "renumber p.nc p.nc -o F", f"run-post {POST} {JOB} -o F --map F"]
     for command in pairs:
         probe.fresh()
         yield told("dotek " + command, (0, 1, 2), lambda done: None if (probe.here / "p.nc").read_text() == OLD else "writes over its input")

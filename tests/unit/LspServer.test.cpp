@@ -1,12 +1,15 @@
 // The language server in process: conversations, places, edits while typing.
 #include "driver/Driver.h"
 #include "lsp/Frames.h"
+#include "lsp/Serve.h"
 #include "lsp/Server.h"
 #include "tests/Draws.h"
 #include "tests/TestFolder.h"
 
 #include <doctest/doctest.h>
+#include <fcntl.h>
 #include <random>
+#include <sstream>
 #include <unistd.h>
 
 using namespace dotek;
@@ -339,5 +342,38 @@ TEST_CASE("lsp: after random edits the findings are those of a fresh lint") {
                   at(path, static_cast<int>(random() % 9), static_cast<int>(random() % 20)));
     client.result("textDocument/completion",
                   at(path, static_cast<int>(random() % 9), static_cast<int>(random() % 20)));
+  }
+}
+
+TEST_CASE("lsp: an output that fails, and an input that is no protocol, are failures with a word") {
+  const TestFolder folder("lsp-streams");
+  const auto served = [&](const std::string& input, const char* output, std::string& said) {
+    const int in = ::open(folder.write("in", input).c_str(), O_RDONLY | O_CLOEXEC);
+    const int out = ::open(output, O_WRONLY | O_CLOEXEC);
+    std::ostringstream err;
+    const int status = serve(in, out, "", err);
+    ::close(in);
+    ::close(out);
+    said = err.str();
+    return status;
+  };
+  const auto message = [](const std::string& body) {
+    return "Content-Length: " + std::to_string(body.size()) + "\r\n\r\n" + body;
+  };
+  const std::string begin = message(R"({"id":1,"method":"initialize","params":{"capabilities":{}}})");
+  const std::string end = message(R"({"id":2,"method":"shutdown"})") + message(R"({"method":"exit"})");
+  std::string said;
+  CHECK(served(begin + end, "/dev/null", said) == 0);
+  CHECK(said.empty());
+  CHECK(served(begin + end, "/dev/full", said) == 2);
+  CHECK(said.find("No space left") != std::string::npos);
+  CHECK(served(begin, "/dev/null", said) == 1);
+  CHECK(said.find("shutdown") != std::string::npos);
+  for (const std::string& bad :
+       {std::string("garbage"), begin.substr(0, 40), "Content-Length: 99999999999\r\n\r\n{}" + begin,
+        "Length: 2\r\n\r\n{}" + begin}) {
+    CAPTURE(bad);
+    CHECK(served(bad, "/dev/null", said) == 2);
+    CHECK(said.find("no message") != std::string::npos);
   }
 }

@@ -1,6 +1,8 @@
 // Drawn values: the same for the same seed, within their bounds, and often such that the cycle runs.
 #include "tests/GoldenRunner.h"
+#include "tests/unit/IrHelper.h"
 #include "tests/unit/VerifyFolder.h"
+#include "verify/Bounds.h"
 #include "verify/Random.h"
 
 #include <algorithm>
@@ -242,6 +244,36 @@ TEST_CASE("draws: edge cases hold what is illegal, one field at a time first") {
   fixed.fixed = 12;
   const Draws nothing({fixed}, {}, {}, 1);
   CHECK(nothing.edge(3).values.at("A") == 12);
+}
+
+TEST_CASE("draws: edge cases do not depend on how many of them are asked for") {
+  ir::Cycle cycle;
+  const ir::VariableId a = cycle.add(parameter("A", ir::Kind::Length)),
+                       b = cycle.add(parameter("B", ir::Kind::Length));
+  for (int i = 0; i < 40; ++i)
+    cycle.checks.push_back(statement(ir::Branch{
+        ir::compare(ir::Relation::Greater, ir::variable(i % 3 == 0 ? b : a), ir::constant(3.5 + i)), 1}));
+  cycle.checks.push_back(statement(ir::Return{}));
+  cycle.checks.push_back(statement(ir::Label{1}));
+  cycle.checks.push_back(statement(ir::Alarm{}));
+  const auto bounds = std::make_shared<const verify::Bounds>(cycle);
+  const auto with = [&](std::uint64_t edges) {
+    return Draws({field("A", 2), field("B", 1)}, {"tool_radius"}, {}, 5, bounds, edges);
+  };
+  const Draws all = with(UINT64_MAX);
+  std::set<double> met;
+  for (const std::uint64_t count : {1u, 2u, 7u, 30u, 200u}) {
+    const Draws few = with(count);
+    for (std::uint64_t n = 0; n < count; ++n) {
+      CAPTURE(count);
+      CAPTURE(n);
+      const Case one = few.edge(n), other = all.edge(n);
+      CHECK(same(one, other));
+      met.insert(one.values.at("A"));
+    }
+  }
+  CHECK(met.contains(4.5)); // where a comparison turns, and beside it
+  CHECK(met.contains(4.51));
 }
 
 TEST_CASE("draws: the examples are reached by a fifth of the proposals and more") {
