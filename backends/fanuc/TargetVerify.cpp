@@ -513,9 +513,9 @@ private:
     for (std::size_t i = 0; i < others.size(); ++i)
       (others[i].name == field.name ? others : alone)[i].fixed = value;
     std::set<std::size_t> ofField;
-    for (const verify::Bound& bound : bounds.find(alone, {given}, true))
+    for (const verify::Bound& bound : bounds.find(alone, {given}, true, UINT64_MAX))
       ofField.insert(bound.comparison);
-    for (const verify::Bound& bound : bounds.find(others, {given}, true)) {
+    for (const verify::Bound& bound : bounds.find(others, {given}, true, UINT64_MAX)) {
       const auto met = ofField.contains(bound.comparison) ? bounds.meet(bound, others, given, true)
                                                           : std::optional<verify::Case>();
       for (const int steps : {-1, 0, 1}) {

@@ -232,7 +232,8 @@ class Campaign:
             ["convert", name, "--to", "fanuc", "--probe-macros", self.random.choice(["dotek", "inspection-plus", "easyprobe"])],
             ["convert", name, "--to", "fanuc", "--control", "fanuc-0i-md", "--map", "m.json", "-o", "o.nc"],
             ["convert", name, "--to", self.random.choice(["mikroprog", "fusion"])],
-            ["convert", name, "--to", "gibbs", "-d", "out"],
+            ["convert", name, "--to", "gibbs", "-d", "out", "--probe-macros", "dotek", "--host", "approach_feed=1000",
+             *[word for one in names for word in ("--default", f"{one}={self.random.choice(['5', '30mm', 'G55', 'yes', '-8'])}")]],
             ["verify", name, "--to", "mikroprog", "--cases", "3"],
         )
 

@@ -19,8 +19,9 @@ COMMANDS = {
     "new control": "new control shop --from fanuc-31i-b", "cycles": "list cycles", "cycle": f"convert {ROOT}/examples/cycles/bore.cycle --to fanuc",
     "run-post": f"run-post {POST} {JOB}", "matrix": f"run-post {ROOT}/tests/golden/run-post/matrix/mill.cps --matrix drilling", "new job": f"new job --from {POST}",
     "outline": "outline p.nc", "outline json": "outline --json p.nc", "renumber": "renumber p.nc -o -", "fmt nc": "fmt p.nc", "fmt diff": "fmt --diff p.nc",
-    "to cycle": f"convert {ROOT}/examples/surface-z --prog {ROOT}/examples/mill-post.txt --to cycle --assume probe-on",
+    "to cycle": f"convert {CYCLE} --to cycle",
     "statistics": "lint --statistics p.nc", "github": "lint --format github p.nc", "gitlab": "lint --format gitlab p.nc", "lsp": "lsp < talk",
+    "gibbs": f"convert {ROOT}/examples/cycles/bore.cycle --to gibbs --probe-macros dotek --host approach_feed=1000 --default diameter=30 -d made",
 }
 # Put before the command: a limit that may or may not be enough.
 LIMITS = [
@@ -36,7 +37,7 @@ WRITERS = {
     "report": f"verify {CYCLE} --to fanuc --assume probe-on --cases 20 -o OUT", "new control": "new control shop --from fanuc-31i-b -o OUT",
     "run-post": f"run-post {POST} {JOB} -o OUT", "post map": f"run-post {POST} {JOB} -o o.nc --map OUT", "new job": f"new job --from {POST} -o OUT",
     "renumber": "renumber p.nc -o OUT", "fmt nc": "fmt p.nc -o OUT", "in place": "renumber --all OUT", "write": "fmt --write OUT",
-    "to cycle": f"convert {ROOT}/examples/surface-z --prog {ROOT}/examples/mill-post.txt --to cycle --assume probe-on -o OUT",
+    "to cycle": f"convert {CYCLE} --to cycle -o OUT",
 }
 NAMES = ["a\x1b[2Jb.nc", "a\nb.nc", "a\u202eb.nc", "a\u009bb.nc", "-a.nc", " .nc", "a'b.nc", "a\"b.nc", "a%sb.nc", "\u00e9.nc", "a\x7f.nc", "x" * 250 + ".nc"]
 TALK = b"".join(b"Content-Length: %d\r\n\r\n%s" % (len(body), body) for body in (

@@ -42,6 +42,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   driver::ConvertOptions options;
   options.inputs = {(kFolder / "cycle").string()};
   options.source.prog = (kFolder / "prog.txt").string();
+  options.common.assume = {"probe-on"};
   options.common.limits.steps = 20000;
   options.common.limits.paths = 200;
   driver::Outcome outcome;

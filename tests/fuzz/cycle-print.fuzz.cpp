@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <string_view>
 #include <unistd.h>
 
 using namespace dotek;
@@ -38,6 +39,16 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   options.to = kTargets[data[0] % kTargets.size()];
   if ((data[0] & 4) != 0) options.probeMacros = "dotek";
   options.useDefaults = (data[0] & 8) != 0;
+  // What a dialog has to know: a first value for each parameter, and what the CAM gives.
+  if ((data[0] & 16) != 0) {
+    constexpr std::string_view kWord = "parameter ";
+    for (std::size_t at = text.find(kWord); at != std::string::npos; at = text.find(kWord, at + 1)) {
+      const std::size_t begin = at + kWord.size();
+      options.defaults.emplace_back(
+          text.substr(begin, text.find_first_not_of("abcdefghijklmnopqrstuvwxyz_0123456789", begin) - begin), "55");
+    }
+    options.common.host.emplace_back("approach_feed", "1000");
+  }
   options.common.limits.steps = 20000;
   options.common.limits.paths = 200;
   options.common.buffers = std::make_shared<const std::map<std::string, std::string>>(
