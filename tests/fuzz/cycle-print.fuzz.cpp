@@ -45,7 +45,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     for (std::size_t at = text.find(kWord); at != std::string::npos; at = text.find(kWord, at + 1)) {
       const std::size_t begin = at + kWord.size();
       options.defaults.emplace_back(
-          text.substr(begin, text.find_first_not_of("abcdefghijklmnopqrstuvwxyz_0123456789", begin) - begin), "55");
+          text.substr(begin, text.find_first_not_of("abcdefghijklmnopqrstuvwxyz_0123456789", begin) - begin),
+          "55");
     }
     options.common.host.emplace_back("approach_feed", "1000");
   }
