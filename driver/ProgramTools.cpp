@@ -43,19 +43,19 @@ public:
     std::string out;
     for (const macrob::OutlineProgram& one : programs) {
       if (!out.empty()) out += "\n";
-      out += fmt::format("{}{}  {}\n", one.name.empty() ? "(no header)" : one.name,
-                         one.title.empty() ? "" : " (" + one.title + ")", place(one.range));
+      out += fmt::format("{}{}  {}\n", one.name.empty() ? "(no header)" : printable(one.name),
+                         one.title.empty() ? "" : " (" + printable(one.title) + ")", place(one.range));
       if (!one.numbers.empty()) out += "  numbers    " + named(one.numbers, "N") + "\n";
       for (const macrob::OutlineCall& call : one.calls)
-        out += fmt::format("  call       {} P{}{} line {}\n", call.code, call.program,
+        out += fmt::format("  call       {} P{}{} line {}\n", call.code, printable(call.program),
                            call.computed ? " (computed)" : "", line(call.range));
       for (const auto& [to, range] : one.jumps)
-        out += fmt::format("  jump       to {} line {}\n", to, line(range));
+        out += fmt::format("  jump       to {} line {}\n", printable(to), line(range));
       for (const auto& [number, use] : one.variables)
         out += fmt::format("  variable   #{}{}{}\n", number, uses("written", use.written),
                            uses("read", use.read));
       for (const auto& [name, range] : one.computedVariables)
-        out += fmt::format("  variable   {} (computed) line {}\n", name, line(range));
+        out += fmt::format("  variable   {} (computed) line {}\n", printable(name), line(range));
     }
     return out;
   }
@@ -89,7 +89,8 @@ private:
 
   std::uint32_t line(SourceRange range) const { return sources_.line(range); }
   std::string place(SourceRange range) const {
-    return range.hasPlace() ? fmt::format("{}:{}", sources_.file(range.file).name(), line(range)) : "";
+    return range.hasPlace() ? fmt::format("{}:{}", printable(sources_.file(range.file).name()), line(range))
+                            : "";
   }
   std::string lines(const std::vector<SourceRange>& ranges) const {
     std::string out;

@@ -52,12 +52,42 @@ TEST_CASE("names of files are shown as texts of messages are") {
         out += fmt::format("\\x{:02x}", static_cast<unsigned>(static_cast<unsigned char>(c)));
       return out;
     }() + "'";
-    for (const std::string command :
-         {"lint --select all ", "lint --select all --format json ", "lint --select all --format sarif ",
-          "sim ", "sim --json ", "sim --svg no/such ", "convert --to fanuc --renumber x ",
-          "convert --to fanuc --map - --control fanuc-6m ", "dump --stage ir ", "dump --stage ast ",
-          "convert --to fanuc -o ./", "nosuch ", "post ", "explain ", "list ", "sim --var ", "sim --limit ",
-          "sim --control ", "verify --to fanuc --cases 20 "}) {
+    for (const std::string command : {"lint --select all ",
+                                      "lint --select all --format json ",
+                                      "lint --select all --format sarif ",
+                                      "sim ",
+                                      "sim --json ",
+                                      "sim --svg no/such ",
+                                      "convert --to fanuc --renumber x ",
+                                      "convert --to fanuc --map - --control fanuc-6m ",
+                                      "dump --stage ir ",
+                                      "dump --stage ast ",
+                                      "convert --to fanuc -o ./",
+                                      "nosuch ",
+                                      "post ",
+                                      "explain ",
+                                      "list ",
+                                      "sim --var ",
+                                      "sim --limit ",
+                                      "sim --control ",
+                                      "verify --to fanuc --cases 20 ",
+                                      "outline ",
+                                      "outline --json ",
+                                      "renumber --all -o - ",
+                                      "renumber --range 5:1 ",
+                                      "fmt --diff ",
+                                      "fmt --check ",
+                                      "lint --format github ",
+                                      "lint --format gitlab ",
+                                      "lint --statistics ",
+                                      "lint --baseline ",
+                                      "run-post ",
+                                      "run-post --expect ",
+                                      "new job --from ",
+                                      "preview ",
+                                      "doc ",
+                                      "convert --to cycle ",
+                                      "convert --to gibbs "}) {
       const ShellResult result = folder.run("dotek " + command + quoted);
       const std::string all = result.out + result.err;
       for (const std::string bad : {"\x1B", "\xC2\x9B", "\xE2\x80\xAE", "nl\nx"})
