@@ -109,10 +109,10 @@ class Campaign:
     def choose(self, *commands):
         command = self.random.choice(commands)
         extra = {}
-        for flag, name in (("json", "findings"), ("sarif", "sarif"), ("--json", "outline" if "outline" in command else "sim")):
+        for flag, name in (("json", "findings"), ("sarif", "sarif"), ("gitlab", "gitlab"), ("--json", "outline" if "outline" in command else "sim")):
             if flag in command:
                 extra["prints"] = name
-        extra["files"] = [("m.json", "map"), ("r.json", "verify")]
+        extra["files"] = [("m.json", "map"), ("r.json", "verify"), ("new.json", "baseline")]
         return command, extra
 
     def program(self):
@@ -260,7 +260,7 @@ class Campaign:
         self.put(source, "a.cps", damaged=broken)
         self.put(job if job in self.post_jobs else self.random.choice(self.post_jobs), "job.toml", damaged=not broken)
         limit = ["--limit", "script-seconds=2"]
-        command, extra = self.choose(
+        return self.choose(
             ["run-post", "a.cps", "job.toml", *limit],
             ["run-post", "a.cps", "job.toml", *limit, "--map", "m.json", "-o", "o.nc"],
             ["run-post", "a.cps", "--matrix", self.random.choice(["probing", "drilling"]), *limit],
@@ -269,8 +269,6 @@ class Campaign:
             ["lint", "--select", "all", "--format", "json", "a.cps"],
             ["dump", "a.cps", "--stage", self.random.choice(["tokens", "ast"])],
         )
-        extra["files"] = []  # its map is another document
-        return command, extra
 
     def baseline(self):
         """A list of findings, damaged."""
@@ -280,7 +278,7 @@ class Campaign:
         if listed.exists():
             listed.write_bytes(damage(self.random, listed.read_bytes()))
         return self.choose(["lint", "a.nc", "--select", "all", "--baseline", "b.json", "--format", "json"],
-                           ["lint", "a.nc", "--baseline", "b.json", "--write-baseline", "b.json"])
+                           ["lint", "a.nc", "--baseline", "b.json", "--write-baseline", "new.json"])
 
     def server(self):
         """A conversation with the language server: a document, edits, questions; messages or the stream are damaged."""

@@ -83,6 +83,17 @@ TEST_CASE("JSON of the goldens keeps to its schema") {
                 folder.path("1.map.json"), "-o", folder.path("o.nc")},
                root());
   CHECK_MESSAGE(map.status == 0, map.err);
+  const CommandResult post = runDotek(
+      {"run-post", "post.cps", "job.toml", "--map", folder.path("2.map.json"), "-o", folder.path("p.nc")},
+      root() / "tests" / "golden" / "run-post" / "formats");
+  CHECK_MESSAGE(post.status == 0, post.err);
+  const std::string program = folder.path("\xE9\xE2\x80\xAE.nc");
+  folder.write("\xE9\xE2\x80\xAE.nc", "%\nO1\nGOTO 7\nM30\n%\n");
+  runDotek({"lint", program, "--write-baseline", folder.path("1.baseline.json")}, root());
+  CHECK_FALSE(folder.read("1.baseline.json").empty());
+  folder.write("1.gitlab.json", runDotek({"lint", program, "--format", "gitlab"}, root()).out);
+  folder.write("2.gitlab.json",
+               runDotek({"lint", "examples/macros/bore.nc", "--format", "gitlab"}, root()).out);
   const ShellResult checked = check(folder);
   CHECK_MESSAGE(checked.status == 0, checked.out << checked.err);
   // The check itself fails where something is wrong.
