@@ -17,8 +17,8 @@ TEST_CASE("lint finds a program below 800 folders, one in another") {
   const CommandResult found = runDotek({"lint", ".", "--control", "fanuc-31i-b"}, folder.path());
   CHECK(found.status == 1);
   const std::string place = path + "bad.nc:3:";
-  const std::size_t at = found.err.find(place);
+  const std::size_t at = found.out.find(place);
   REQUIRE(at != std::string::npos);
-  CHECK(found.err.substr(at, place.size() + 200).find("goto-target-missing") != std::string::npos);
-  CHECK(found.err.find("sound.nc:") == std::string::npos);
+  CHECK(found.out.substr(at, place.size() + 200).find("goto-target-missing") != std::string::npos);
+  CHECK(found.out.find("sound.nc:") == std::string::npos);
 }
