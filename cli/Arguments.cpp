@@ -33,6 +33,7 @@ void fill(const Raw& raw, Arguments& parsed) {
   parsed.runPost = runPostOf(raw);
   parsed.lint = lintOf(raw);
   parsed.sim = simOf(raw);
+  parsed.device = deviceOf(raw);
   parsed.renumber = renumberOf(raw);
   parsed.outputFolder = raw.outputFolder;
   parsed.mapFile = raw.mapFile;

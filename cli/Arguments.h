@@ -4,6 +4,7 @@
 #include "driver/Driver.h"
 #include "driver/ProgramTools.h"
 #include "driver/RunPost.h"
+#include "driver/SimDevice.h"
 
 #include <iosfwd>
 #include <optional>
@@ -59,6 +60,7 @@ struct Arguments {
   std::string helpersFile;        // --helpers
   std::string reportFile;         // --report
   driver::SimOptions sim;         // common aside
+  sim::DeviceOptions device;      // of sim
   std::string traceFile;          // --trace
   std::string svgFile, htmlFile;  // --svg, --html
   driver::VerifyOptions verify;   // inputs, common and source aside

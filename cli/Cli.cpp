@@ -168,19 +168,25 @@ public:
       };
     driver::Outcome outcome;
     if (writing.empty())
-      outcome = driver::sim(options);
+      outcome = driver::sim(options, arguments.device);
     else if (options.json)
       outcome.output = sim::notRunSummary(writing, SourceMap());
     out_ << outcome.output;
     err_ << renderText(outcome.diagnostics, outcome.sources, maxErrors_, errColors_);
     if (!ran || outcome.status == kUsage) outputs.clear();
+    const std::string reportPicture = pictureBeside(arguments.reportFile);
     for (const driver::OutputFile& one : outcome.files) {
-      if (outcome.status == kUsage || !add(one.name == "svg" ? arguments.svgFile : arguments.htmlFile)) break;
+      const std::string& path = one.name == "svg"      ? arguments.svgFile
+                                : one.name == "html"   ? arguments.htmlFile
+                                : one.name == "report" ? arguments.reportFile
+                                                       : reportPicture;
+      if (outcome.status == kUsage || !add(path)) break;
       outputs.back()->write(one.text);
     }
-    const std::vector<std::string> paths = {orStandardOutput(arguments.traceFile),
-                                            orStandardOutput(arguments.svgFile),
-                                            orStandardOutput(arguments.htmlFile)};
+    const std::vector<std::string> paths = {
+        orStandardOutput(arguments.traceFile), orStandardOutput(arguments.svgFile),
+        orStandardOutput(arguments.htmlFile), orStandardOutput(arguments.reportFile),
+        orStandardOutput(reportPicture)};
     const bool placed =
         !writing.hasErrors() && checkRead(paths, outcome.sources, writing) && placeAll(outputs, writing);
     err_ << renderText(writing, SourceMap(), maxErrors_, errColors_);

@@ -10,6 +10,11 @@ std::string orStandardOutput(const std::string& path) {
   return path.empty() ? "-" : path;
 }
 
+std::string pictureBeside(const std::string& report) {
+  if (report.empty() || report == "-") return "";
+  return fs::path(report).replace_extension(".svg").string();
+}
+
 std::string reportPath(const Arguments& arguments, const std::string& input) {
   if (arguments.inputs.size() == 1) return arguments.reportFile;
   std::error_code fault;
@@ -39,6 +44,7 @@ std::vector<OutputName> outputsOf(const Arguments& arguments) {
   if (!arguments.reportFile.empty())
     for (const std::string& input : arguments.inputs)
       add("--report", reportPath(arguments, input));
+  if (sim && !arguments.reportFile.empty()) add("--report", pictureBeside(arguments.reportFile));
   add("--trace", arguments.traceFile);
   add("--svg", arguments.svgFile);
   add("--html", arguments.htmlFile);
@@ -54,8 +60,8 @@ std::vector<std::string> inputsOf(const Arguments& arguments) {
     out = arguments.inputs;
   for (const auto& one :
        {arguments.lint.baseline, arguments.source.prog, arguments.common.job, arguments.sim.part,
-        arguments.sim.machine, arguments.verify.part, arguments.verify.machine, arguments.verify.translation,
-        arguments.runPost.diff, arguments.runPost.expect})
+        arguments.sim.machine, arguments.device.device, arguments.verify.part, arguments.verify.machine,
+        arguments.verify.translation, arguments.runPost.diff, arguments.runPost.expect})
     if (one) out.push_back(*one);
   std::error_code error;
   for (const std::string& data : arguments.common.data)

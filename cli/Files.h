@@ -9,6 +9,9 @@
 
 namespace dotek::cli {
 
+// The picture that a report links: "run.svg" of "run.md"; "" of "".
+std::string pictureBeside(const std::string& report);
+
 // Where --report of this input goes: as named, or with the input's name before the ending where there are
 // several inputs.
 std::string reportPath(const Arguments& arguments, const std::string& input);

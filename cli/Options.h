@@ -50,7 +50,7 @@ struct Raw {
   bool all = false;                   // of renumber
   bool diff = false;                  // of fmt
   std::string traceFile, svgFile, htmlFile;
-  std::string part, machine, partError, translation;
+  std::string part, machine, device, partError, translation;
   std::vector<std::string> values; // --value
   std::string cases, seed, jobs, minAgreed, tolerance, activeSystem;
   std::string report; // --report, of convert
@@ -141,6 +141,7 @@ driver::ConvertOptions convertOf(const Raw& raw);
 driver::LintOptions lintOf(const Raw& raw);
 driver::RunPostOptions runPostOf(const Raw& raw);
 driver::SimOptions simOf(const Raw& raw);
+sim::DeviceOptions deviceOf(const Raw& raw);
 driver::VerifyOptions verifyOf(const Raw& raw);
 driver::RenumberCommandOptions renumberOf(const Raw& raw);
 

@@ -1,4 +1,5 @@
 // Flags of `dotek sim`.
+#include "cli/Files.h"
 #include "cli/Options.h"
 #include "support/Decimal.h"
 #include "support/FileIdentity.h"
@@ -6,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <filesystem>
 
 namespace dotek::cli {
 
@@ -27,6 +29,13 @@ void addSim(CLI::App& app, Raw& raw) {
                   "(`none`: no part)")
       ->type_name("PART.toml");
   sim->add_option("--machine", raw.machine, "probe and travel of the machine")->type_name("MACHINE.toml");
+  sim->add_option(
+         "--device", raw.device,
+         "device beside the control: what its codes and variables do, its tables, errors of the machine")
+      ->type_name("DEVICE.toml");
+  sim->add_option("--report", raw.report,
+                  "write a page (Markdown) on what the device did, with a picture beside it (OUT with .svg)")
+      ->type_name("OUT");
   sim->add_option("--job", raw.job, "job file whose [setup] says what an operator sets; flags win over it")
       ->type_name("JOB.toml");
   sim->add_option("--tool", raw.tool, "number of the tool in the spindle, and of its offset")->type_name("N");
@@ -121,6 +130,14 @@ driver::SimOptions simOf(const Raw& raw) {
   out.programs = withoutRepeats(raw.programs);
   if (!raw.probeMacros.empty()) out.probeMacros = raw.probeMacros;
   out.variables = pairsOf("--var", raw.variables);
+  return out;
+}
+
+sim::DeviceOptions deviceOf(const Raw& raw) {
+  sim::DeviceOptions out;
+  if (!raw.device.empty()) out.device = raw.device;
+  out.report = !raw.report.empty();
+  out.picture = std::filesystem::path(pictureBeside(raw.report)).filename().string();
   return out;
 }
 

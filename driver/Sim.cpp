@@ -2,6 +2,7 @@
 #include "driver/Command.h"
 #include "driver/Driver.h"
 #include "driver/SimCycle.h"
+#include "driver/SimDevice.h"
 #include "frontend/nc/Scan.h"
 #include "project/Inputs.h"
 #include "project/Job.h"
@@ -9,8 +10,12 @@
 #include "project/ProgramLibrary.h"
 #include "project/SufProgram.h"
 #include "project/VariableFlags.h"
+#include "sim/device/Device.h"
+#include "sim/device/DeviceReport.h"
+#include "sim/geometry/PartFile.h"
 #include "sim/machine/Arguments.h"
 #include "sim/machine/Compile.h"
+#include "sim/machine/EndText.h"
 #include "sim/machine/Machine.h"
 #include "sim/machine/Run.h"
 #include "sim/machine/SafeMoves.h"
@@ -27,6 +32,7 @@
 #include "support/LineChunks.h"
 #include "support/messages/Commands.h"
 #include "support/messages/Common.h"
+#include "support/messages/Device.h"
 
 #include <set>
 #include <span>
@@ -37,9 +43,20 @@ namespace {
 
 constexpr std::string_view kFirstControl = "fanuc-0i-md";
 
+std::string endingText(const sim::RunEnd& end) {
+  switch (end.ending) {
+  case sim::Ending::ProgramEnd:
+  case sim::Ending::TextEnd: return "to the end of the program";
+  case sim::Ending::Alarm: return fmt::format("{} in line {}: {}", sim::alarmName(end), end.line, end.text);
+  case sim::Ending::Limit: return fmt::format("ended at a limit of Dotek: {}", end.text);
+  default: return fmt::format("inconclusive in line {}: {}", end.line, end.text);
+  }
+}
+
 class SimCommand {
 public:
-  SimCommand(const SimOptions& options, Session& session) : options_(options), session_(session) {}
+  SimCommand(const SimOptions& options, const sim::DeviceOptions& device, Session& session)
+      : options_(options), device_(device), session_(session) {}
 
   Outcome run() {
     if (options_.program.empty())
@@ -47,7 +64,7 @@ public:
     else if (const auto kind = kindAmong(options_.program, {InputKind::Nc, InputKind::Suf, InputKind::Cycle},
                                          "an NC program", session_);
              kind == InputKind::Cycle)
-      return simCycle(options_, session_);
+      return device_.device || device_.report ? refuseCycle() : simCycle(options_, session_);
     else if (kind == InputKind::Suf)
       return runSuf();
     if (!options_.common.set.empty()) diagnostics().report<diag::OptionOfCycles>({}, "--set");
@@ -64,7 +81,7 @@ public:
     if (control_) checkProbeCodes(*control_, session_);
     if (diagnostics().hasErrors()) return outcomeOf(session_, "");
     world_ = sim::SimWorld::load(options_, session_);
-    if (!world_) return outcomeOf(session_, "");
+    if (!world_ || !loadDevice()) return outcomeOf(session_, "");
     // What cannot be read twice, a pipe, is kept; so its size is bounded.
     std::optional<std::string> kept;
     if (isStream(options_.program)) kept = session_.bytes(options_.program, diagnostics());
@@ -76,7 +93,8 @@ public:
     if (!setVariables(machine) || !world_->prepare(machine) || !setVariables(machine) ||
         !world_->startsWithinTravel(machine))
       return outcomeOf(session_, "");
-    if (!options_.programs.empty() || !world_->setup().call.empty() || frontend::nc::mayHoldMacros(*chunks))
+    if (!options_.programs.empty() || running_ || !world_->setup().call.empty() ||
+        frontend::nc::mayHoldMacros(*chunks))
       return runLoaded(kept, machine);
     chunks->rewind();
     return runStreamed(*chunks, machine);
@@ -84,6 +102,45 @@ public:
 
 private:
   Diagnostics& diagnostics() { return session_.diagnostics(); }
+
+  Outcome refuseCycle() {
+    diagnostics().report<diag::OptionOfMacroB>({}, device_.device ? "--device" : "--report");
+    return outcomeOf(session_, "");
+  }
+
+  // The device of --device, and what it adds to the control. false: reported.
+  bool loadDevice() {
+    if (device_.report && !device_.device)
+      diagnostics().report<diag::NoDevice>({}, "--report", "whose run it shows");
+    if (!device_.device) return !diagnostics().hasErrors();
+    deviceFile_ =
+        sim::loadDevice(*device_.device, session_.limits(), session_.bounds(sim::folderOf(*device_.device)),
+                        session_.sources(), diagnostics());
+    if (!deviceFile_) return false;
+    deviceFile_->extend(*control_);
+    if (deviceFile_->usesWindow() && !control_->window) {
+      diagnostics().report<diag::DeviceNeedsWindow>({}, control_->name);
+      return false;
+    }
+    world_->setDevice(&running_.emplace(*deviceFile_, *control_));
+    return true;
+  }
+
+  void addReport(const sim::Machine& machine, Outcome& out) const {
+    if (!device_.report || !running_) return;
+    sim::DeviceReportHead head;
+    head.program = options_.program;
+    head.control = control_->title.empty() ? control_->name : control_->title;
+    head.device = *device_.device;
+    head.ending = endingText(machine.end());
+    head.complete =
+        machine.end().ending == sim::Ending::ProgramEnd || machine.end().ending == sim::Ending::TextEnd;
+    head.date = options_.date;
+    std::string picture = sim::devicePicture(*running_);
+    if (!picture.empty()) head.picture = device_.picture;
+    out.files.push_back({"report", sim::deviceReport(head, *running_, machine)});
+    if (!head.picture.empty()) out.files.push_back({"report-picture", std::move(picture)});
+  }
 
   Outcome finish(sim::Machine& machine, const sim::Run* run) {
     world_->reportRest();
@@ -93,6 +150,7 @@ private:
                                              : "",
                             true);
     out.files = world_->pictures();
+    addReport(machine, out);
     return out;
   }
 
@@ -142,7 +200,12 @@ private:
     const std::string advice = world_->setup().call.empty()
                                    ? sim::callAdvice(*library->programs().front(), options_.part.has_value())
                                    : "";
-    return runCode(sim::compile(library->programs(), *control_, session_.sources()), machine, macros.get(),
+    sim::MacroMeaning* meaning = macros.get();
+    if (running_) {
+      running_->setNext(meaning);
+      meaning = &*running_;
+    }
+    return runCode(sim::compile(library->programs(), *control_, session_.sources()), machine, meaning,
                    advice);
   }
 
@@ -159,6 +222,8 @@ private:
     if (!options_.programs.empty()) diagnostics().report<diag::OptionOfMacroB>({}, "--programs");
     if (options_.probeMacros) diagnostics().report<diag::OptionOfMacroB>({}, "--probe-macros");
     if (options_.common.job) diagnostics().report<diag::OptionOfMacroB>({}, "--job");
+    if (device_.device) diagnostics().report<diag::OptionOfMacroB>({}, "--device");
+    if (device_.report) diagnostics().report<diag::OptionOfMacroB>({}, "--report");
     if (const std::string_view flag = options_.setup.firstFlag(); !flag.empty()) noSetup(std::string(flag));
     if (diagnostics().hasErrors()) return outcomeOf(session_, "");
     const std::optional<SufProgram> suf = loadSuf(options_.program, options_.control, session_);
@@ -265,9 +330,12 @@ private:
   }
 
   const SimOptions& options_;
+  const sim::DeviceOptions& device_;
   Session& session_;
   std::optional<stdlib::Control> control_;
   std::unique_ptr<sim::SimWorld> world_;
+  std::optional<sim::DeviceFile> deviceFile_;
+  std::optional<sim::Device> running_;
   sim::BlockSet safe_;                              // skip moves to a position
   std::set<std::uint32_t> unset_;                   // common variables that no program sets
   sim::BlockSet asking_;                            // blocks that ask what a skip move came to
@@ -277,8 +345,12 @@ private:
 } // namespace
 
 Outcome sim(const SimOptions& options) {
+  return sim(options, {});
+}
+
+Outcome sim(const SimOptions& options, const sim::DeviceOptions& device) {
   Outcome out = guarded(options.common, {options.program},
-                        [&](Session& session) { return SimCommand(options, session).run(); });
+                        [&](Session& session) { return SimCommand(options, device, session).run(); });
   if (options.json && out.output.empty()) out.output = sim::notRunSummary(out.diagnostics, out.sources);
   if ((options.svg || options.html) && out.files.empty()) out.diagnostics.report<diag::PictureNotWritten>({});
   return out;

@@ -23,6 +23,7 @@ std::span<const MessageInfo> messageTable() {
 #include "support/messages/Mikroprog.def"
 #include "support/messages/Nc.def"
 #include "support/messages/Output.def"
+#include "support/messages/Device.def"
 #include "support/messages/Part.def"
 #include "support/messages/Path.def"
 #include "support/messages/Posts.def"

@@ -2,6 +2,7 @@
 #include "sim/machine/Axes.h"
 #include "sim/machine/Measurement.h"
 #include "sim/machine/Place.h"
+#include "sim/machine/SystemWatcher.h"
 
 #include <algorithm>
 #include <cmath>
@@ -206,7 +207,11 @@ std::optional<double> Machine::readSystem(std::uint32_t number, const Place& pla
   case Kind::State:
   case Kind::StateWord:
   case Kind::WindowAddress:
-  case Kind::Window: return readState(number, place);
+  case Kind::Window:
+    if (auto* const outside = dynamic_cast<SystemWatcher*>(watcher_)) {
+      if (const auto value = outside->systemRead(number)) return value;
+    }
+    return readState(number, place);
   case Kind::Write:
   case Kind::None: break;
   }
@@ -284,7 +289,11 @@ bool Machine::store(std::uint32_t number, double value, bool preset) {
   case Kind::State:
   case Kind::StateWord:
   case Kind::WindowAddress:
-  case Kind::Window: return writeState(number, place, given, preset);
+  case Kind::Window:
+    if (!writeState(number, place, given, preset)) return false;
+    if (auto* const outside = dynamic_cast<SystemWatcher*>(watcher_); outside != nullptr && !preset)
+      outside->systemWritten(number, given);
+    return true;
   case Kind::Write: return inconclusive(fmt::format("#{} needs a message", number));
   default: return raise(Alarm::WriteProtected);
   }

@@ -277,7 +277,15 @@ std::optional<double> SimWorld::contact(const SkipMove& move) {
   if (goesOn(move)) approach = std::exchange(missed_, std::nullopt);
   settleMiss();
   world_->setLine(line_());
-  const std::optional<double> share = recorder_ ? recorder_->contact(move) : world_->contact(move);
+  if (device_ != nullptr) device_->touchBegins();
+  const SkipMove real = shifted(move);
+  const std::optional<double> share = recorder_ ? recorder_->contact(real) : world_->contact(real);
+  if (device_ != nullptr && share) {
+    Position at{};
+    for (std::size_t i = 0; i < kAxes; ++i)
+      at[i] = move.machineFrom[i] + (move.machineTo[i] - move.machineFrom[i]) * *share;
+    device_->touched(at);
+  }
   if (approach && share)
     takeBackMiss(*approach);
   else if (approach)
@@ -288,14 +296,15 @@ std::optional<double> SimWorld::contact(const SkipMove& move) {
 }
 
 bool SimWorld::isThere(const SkipMove& here) {
-  return world_ && world_->isThere(here);
+  return world_ && world_->isThere(shifted(here));
 }
 
 void SimWorld::moved(const MachineMotion& motion) {
+  if (device_ != nullptr) device_->moved(motion.from, motion.to);
   if (recorder_)
-    recorder_->moved(motion);
+    recorder_->moved(shifted(motion));
   else if (world_)
-    world_->moved(motion);
+    world_->moved(shifted(motion));
   missEnded(motion);
   checkLength(motion);
   checkHeight(motion);

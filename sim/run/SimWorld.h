@@ -3,8 +3,10 @@
 #pragma once
 
 #include "project/Session.h"
+#include "sim/device/Device.h"
 #include "sim/geometry/Probe.h"
 #include "sim/machine/Machine.h"
+#include "sim/machine/SystemWatcher.h"
 #include "sim/machine/World.h"
 #include "sim/picture/PictureRecorder.h"
 #include "sim/run/MeasuredLog.h"
@@ -34,7 +36,7 @@ struct RunPlace {
   std::uint64_t program = 0;      // O number of the one that holds the block; 0: none
 };
 
-class SimWorld final : public SkipSignal, public MotionWatcher {
+class SimWorld final : public SkipSignal, public MotionWatcher, public SystemWatcher {
 public:
   using PlaceNow = std::function<RunPlace()>;
 
@@ -73,6 +75,8 @@ public:
   void setSafeMove(std::function<bool()> safe) { safe_ = std::move(safe); }
   // Asked where the program reads where it has come to: whether the block that runs asks what the last skip
   // move came to (askingBlocks).
+  // Runs beside the machine (SimDevice.cpp); nullptr: none. It outlives the run.
+  void setDevice(Device* device);
   // The block that runs, where that is known without work: findings name the one before.
   void setRange(std::function<SourceRange()> now) { rangeNow_ = std::move(now); }
   void setAsks(std::function<bool()> asks) { asks_ = std::move(asks); }
@@ -114,6 +118,9 @@ public:
   void toolChanged(std::uint32_t number) override;
   void auxiliary(std::uint32_t code) override;
   void lengthNotSet(std::uint32_t offset) override;
+  void dwelled(double seconds) override;
+  void systemWritten(std::uint32_t variable, double value) override;
+  std::optional<double> systemRead(std::uint32_t variable) override;
   void callBegins(std::uint32_t program, std::span<const double> locals) override;
   void callEnded(std::uint32_t program) override;
   void touchBegins(std::span<const PlannedTouch> touches) override;
@@ -151,7 +158,7 @@ private:
   SimWorld(const SimOptions& options, Session& session) : options_(options), session_(session) {}
   bool takeBall(const Setup& given);
   bool loadFiles(const Setup& given);
-  bool isActive() const { return world_.has_value() || picture_; }
+  bool isActive() const { return world_.has_value() || picture_ || device_ != nullptr; }
   void begin();
   void checkSystem(); // that somebody has set the work system that the probe measures in
   void finishPicture();
@@ -165,6 +172,10 @@ private:
   bool goesOn(const SkipMove& move) const;
   void takeBackMiss(const Missed& miss);
   void tellMiss(const Missed& miss);
+  // SimDevice.cpp: where the probe is, with the errors of the machine.
+  bool isTouching();
+  SkipMove shifted(const SkipMove& move) const;
+  MachineMotion shifted(const MachineMotion& motion) const;
   // SimFaults.cpp: what is wrong though nothing touches.
   void addFault(Diagnostic diagnostic, Verdict verdict, std::string_view word, const RunPlace& place);
   void checkSpindle();
@@ -183,6 +194,7 @@ private:
   std::string measuredJson() const;
 
   const SimOptions& options_;
+  Device* device_ = nullptr;
   Session& session_;
   std::optional<MachineFile> machine_;
   Setup setup_;

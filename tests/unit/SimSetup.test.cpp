@@ -2,6 +2,7 @@
 // printed.
 #include "tests/GoldenRunner.h"
 #include "tests/TestFolder.h"
+#include "tests/unit/PageCommands.h"
 
 #include <doctest/doctest.h>
 #include <filesystem>
@@ -18,28 +19,6 @@ namespace {
 
 CommandResult runIn(const TestFolder& folder, const std::string& command) {
   return runDotek(splitArguments(command), folder.path());
-}
-
-// The commands of a page without `dotek`, each with its last heading.
-std::vector<std::pair<std::string, std::string>> commandsOf(const std::string& page) {
-  std::vector<std::pair<std::string, std::string>> out;
-  std::string heading;
-  bool open = false;
-  for (std::size_t begin = 0; begin < page.size();) {
-    const std::size_t end = std::min(page.find('\n', begin), page.size());
-    std::string line = page.substr(begin, end - begin);
-    begin = end + 1;
-    if (line.starts_with("## ")) heading = line;
-    const bool first = line.starts_with("    dotek ");
-    if (!first && !open) continue;
-    open = line.ends_with('\\');
-    if (open) line.pop_back();
-    if (first)
-      out.emplace_back(heading, line.substr(10));
-    else
-      out.back().second += line;
-  }
-  return out;
 }
 
 constexpr std::string_view kBox =
