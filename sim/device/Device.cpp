@@ -28,6 +28,10 @@ double numberOf(std::uint32_t bits, std::uint32_t bytes) {
   return bytes == 4 ? static_cast<double>(static_cast<std::int32_t>(bits)) : static_cast<double>(bits);
 }
 
+std::string withUnit(double value, const std::string& unit) {
+  return unit.empty() ? numberText(value) : numberText(value) + " " + unit;
+}
+
 std::string seconds(double value) {
   return numberText(std::round(value * 1000) / 1000) + " s";
 }
@@ -83,9 +87,9 @@ bool Device::apply(const DeviceCall& call, std::span<const double> locals, Machi
     const double wanted = given(local), got = limited(value, wanted);
     const double half = file_.values[value].perUnit > 0 ? 0.5 / file_.values[value].perUnit : 0;
     if (std::abs(got - wanted) > half + 1e-9)
-      say(fmt::format("{} asks for {} {}", call.name, numberText(wanted), file_.values[value].unit),
-          fmt::format("the device applies {} {}, the end of its range", numberText(got),
-                      file_.values[value].unit));
+      say(fmt::format("{} asks for {}", call.name, withUnit(wanted, file_.values[value].unit)),
+          fmt::format("the device applies {}, the end of its range",
+                      withUnit(got, file_.values[value].unit)));
     values_[value] = got;
     settles_[value] = call.settle;
     setBy_[value] = call.name;
@@ -292,8 +296,12 @@ void Device::touched(const Position& machine) {
                           ? fmt::format(" and {} {}", numberText(value), file_.values[*error.value].unit)
                           : ""),
           "the run takes the error at the nearest end of the table", false);
-    if (touches_.size() < kMostTouches)
-      touches_.push_back({position, values_, machine[error.axis], -shiftAt(machine)[error.axis]});
+    const DeviceTouch now{position, values_, machine[error.axis], -shiftAt(machine)[error.axis]};
+    // A macro touches fast and then slowly: the last touch of a place counts.
+    if (!touches_.empty() && touches_.back().position == position && touches_.back().values == values_)
+      touches_.back() = now;
+    else if (touches_.size() < kMostTouches)
+      touches_.push_back(now);
     return;
   }
 }

@@ -102,7 +102,9 @@ void readings(std::string& out, const Device& device, const std::vector<Pass>& a
   const std::string unit = values.empty() ? "" : values[value].unit;
   out += fmt::format("## Readings\n\n{} touches: what each read too much, mm, by {}.\n\n",
                      device.touches().size(),
-                     values.empty() ? "position" : fmt::format("{} in {}", values[value].title, unit));
+                     values.empty() ? "position"
+                     : unit.empty() ? values[value].title
+                                    : fmt::format("{} in {}", values[value].title, unit));
   out += head({"position", "touches", "readings"});
   for (const Pass& pass : all) {
     std::string text;
