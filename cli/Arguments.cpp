@@ -2,6 +2,7 @@
 
 #include "cli/Build.h"
 #include "cli/Cli.h"
+#include "cli/Help.h"
 #include "cli/Options.h"
 #include "project/Assumptions.h"
 #include "sim/run/SimReport.h"
@@ -108,12 +109,34 @@ void declareCommands(CLI::App& app, const std::vector<std::string>& arguments, R
   const bool any = std::any_of(std::begin(kCommands), std::end(kCommands), named);
   for (const CommandFlags& one : kCommands)
     if (!any || named(one)) one.add(app, raw);
+  if (!any) {
+    CLI::App* help = app.add_subcommand("help", "print a page of the manual, or which pages there are");
+    help->add_option("TOPIC", raw.inputs, "a page, or a command")->expected(0, 1);
+  }
+  for (CLI::App* command : app.get_subcommands(nullptr))
+    command->footer(helpFooter(command->get_name()));
+}
+
+// `dotek help [TOPIC]`.
+int printHelp(const CLI::App& app, const std::vector<std::string>& topics, std::ostream& out) {
+  if (topics.empty()) {
+    out << app.help() << "\n" << helpTopics();
+    return kDone;
+  }
+  const std::string page = helpOn(topics.front());
+  if (page.empty()) {
+    const std::string near = nearestName(topics.front(), helpTopicNames());
+    throw UsageError("no page `" + topics.front() + "`" +
+                     (near.empty() ? "" : "; did you mean `" + near + "`?") + "; `dotek help` lists them");
+  }
+  out << page;
+  return kDone;
 }
 
 // CLI11 would only say that a command is missing.
 void checkCommand(const std::vector<std::string>& arguments) {
   if (arguments.empty() || arguments.front().starts_with('-')) return;
-  std::vector<std::string> known;
+  std::vector<std::string> known = {"help"};
   for (const CommandFlags& one : kCommands)
     known.emplace_back(one.name);
   if (std::find(known.begin(), known.end(), arguments.front()) != known.end()) return;
@@ -262,6 +285,7 @@ std::optional<int> parseArguments(const std::vector<std::string>& arguments, Arg
     app.parse(reversed);
     refuseEmptyValues(app);
     const std::string command = app.get_subcommands().front()->get_name();
+    if (command == "help") return printHelp(app, raw.inputs, out);
     for (const CommandFlags& one : kCommands)
       if (one.name == command) parsed.command = one.command;
     if (parsed.command == Command::New && app.get_subcommands().front()->got_subcommand("cycle"))

@@ -16,6 +16,19 @@ function(dotek_embed_folder folder output header namespace type function)
     VERBATIM COMMENT "Embedding ${folder}")
 endfunction()
 
+# dotek_embed_files(<folder> <output.cpp> <header> <namespace> <type> <function> <file>...): the same for files that are named.
+function(dotek_embed_files folder output header namespace type function)
+  list(TRANSFORM ARGN PREPEND ${PROJECT_SOURCE_DIR}/${folder}/ OUTPUT_VARIABLE files)
+  string(REPLACE ";" "|" names "${ARGN}")
+  add_custom_command(
+    OUTPUT ${output}
+    COMMAND ${CMAKE_COMMAND} -DROOT=${PROJECT_SOURCE_DIR}/${folder} -DOUTPUT=${output} -DFILES=${names}
+            -DHEADER=${header} -DNAMESPACE=${namespace} -DTYPE=${type} -DFUNCTION=${function}
+            -P ${PROJECT_SOURCE_DIR}/cmake/EmbedScript.cmake
+    DEPENDS ${files} ${PROJECT_SOURCE_DIR}/cmake/EmbedScript.cmake
+    VERBATIM COMMENT "Embedding pages of ${folder}")
+endfunction()
+
 # dotek_store_tables(<output.cpp>): the keyword tables in a form that needs no parser. The tool runs at build.
 function(dotek_store_tables output)
   add_executable(dotek_store ${PROJECT_SOURCE_DIR}/stdlib/store/Main.cpp $<TARGET_OBJECTS:dotek_stdlib_objects>)

@@ -1,7 +1,12 @@
-# Run by dotek_embed_folder: writes OUTPUT, a sorted table of the files below ROOT that match one of PATTERNS.
-string(REPLACE "|" ";" globs "${PATTERNS}")
-list(TRANSFORM globs PREPEND ${ROOT}/)
-file(GLOB_RECURSE files RELATIVE ${ROOT} ${globs})
+# Run by dotek_embed_folder and dotek_embed_files: writes OUTPUT, a sorted table of the files below ROOT that match one of PATTERNS, or
+# are named in FILES.
+if(DEFINED FILES)
+  string(REPLACE "|" ";" files "${FILES}")
+else()
+  string(REPLACE "|" ";" globs "${PATTERNS}")
+  list(TRANSFORM globs PREPEND ${ROOT}/)
+  file(GLOB_RECURSE files RELATIVE ${ROOT} ${globs})
+endif()
 list(SORT files)
 set(rows "")
 foreach(file IN LISTS files)

@@ -23,14 +23,32 @@ function(dotek_package)
   endif()
 
   set(package ${CMAKE_INSTALL_LIBDIR}/cmake/dotek)
-  install(TARGETS dotek_library EXPORT dotek)
-  install(EXPORT dotek NAMESPACE dotek:: FILE dotekTargets.cmake DESTINATION ${package})
+  install(TARGETS dotek_library EXPORT dotek COMPONENT development)
+  install(EXPORT dotek NAMESPACE dotek:: FILE dotekTargets.cmake DESTINATION ${package}
+    COMPONENT development)
   write_basic_package_version_file(${PROJECT_BINARY_DIR}/generated/dotekConfigVersion.cmake
     COMPATIBILITY SameMinorVersion)
   install(FILES ${PROJECT_BINARY_DIR}/generated/dotekConfigVersion.cmake cmake/dotekConfig.cmake
-    cmake/FindAntlr4Runtime.cmake cmake/FindDuktape.cmake cmake/FindMd.cmake DESTINATION ${package})
-  install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
+    cmake/FindAntlr4Runtime.cmake cmake/FindDuktape.cmake cmake/FindMd.cmake DESTINATION ${package} COMPONENT development)
+  install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
   install(CODE "set(SOURCE \"${PROJECT_SOURCE_DIR}\")
-set(INCLUDES \"\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_INCLUDEDIR}/dotek\")")
-  install(SCRIPT cmake/InstallHeaders.cmake)
+set(INCLUDES \"\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_INCLUDEDIR}/dotek\")" COMPONENT development)
+  install(SCRIPT cmake/InstallHeaders.cmake COMPONENT development)
+endfunction()
+
+# Beside the program: manual pages and completions, made when it is installed; docs, examples, data files to copy from, settings of
+# editors, and the licences of what is in the program.
+function(dotek_install_manual)
+  install(CODE "set(SOURCE \"${PROJECT_SOURCE_DIR}\")
+set(PROGRAM \"$<TARGET_FILE:dotek>\")
+set(SHARE \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_DATADIR}\")
+set(NOTICES \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_DOCDIR}/notices.txt\")" COMPONENT program)
+  install(SCRIPT packaging/InstallManual.cmake COMPONENT program)
+  install(DIRECTORY docs/ DESTINATION ${CMAKE_INSTALL_DOCDIR}/docs COMPONENT program FILES_MATCHING PATTERN "*.md" PATTERN "*.svg"
+    PATTERN library EXCLUDE PATTERN schemas EXCLUDE)
+  install(FILES README.md CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
+  install(DIRECTORY examples DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
+  install(DIRECTORY editors/nvim editors/kate DESTINATION ${CMAKE_INSTALL_DOCDIR}/editors COMPONENT program)
+  install(DIRECTORY stdlib/ DESTINATION ${CMAKE_INSTALL_DATADIR}/dotek COMPONENT program FILES_MATCHING PATTERN "*.toml" PATTERN "*.cycle"
+    PATTERN store EXCLUDE PATTERN fusion EXCLUDE PATTERN keywords EXCLUDE PATTERN macrob EXCLUDE)
 endfunction()

@@ -1,5 +1,5 @@
-// The version of Dotek, as `--version`, SARIF and reports say it. CMakeLists.txt has the same number (a test
-// holds them together).
+// The version of Dotek, as `--version`, SARIF and reports say it. CMakeLists.txt reads it here, and the
+// package has it from the program.
 #pragma once
 
 #include <string_view>

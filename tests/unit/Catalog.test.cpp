@@ -99,8 +99,7 @@ TEST_CASE("explain: a message has its three parts") {
 }
 
 TEST_CASE("the version is the one of the build") {
-  CHECK(readAll(root() / "CMakeLists.txt").find("project(dotek VERSION " + std::string(kVersion) + " ") !=
-        std::string::npos);
+  CHECK(readAll(root() / "CMakeLists.txt").find("project(dotek VERSION ${version} ") != std::string::npos);
   const std::string out = runDotek({"--version"}, root()).out;
   CHECK(out.starts_with("dotek " + std::string(kVersion) + " (commit "));
   CHECK(out.find(", data ") != std::string::npos);

@@ -1,0 +1,123 @@
+// The manual in the program, the examples of each help, and the commands of README and tutorials: all run.
+#include "cli/Help.h"
+#include "tests/GoldenRunner.h"
+#include "tests/Goldens.h"
+#include "tests/Process.h"
+
+#include <algorithm>
+#include <doctest/doctest.h>
+#include <filesystem>
+#include <sstream>
+
+namespace fs = std::filesystem;
+using namespace dotek::tests;
+
+namespace {
+
+std::vector<std::string> linesOfText(const std::string& text) {
+  std::vector<std::string> out;
+  std::istringstream in(text);
+  for (std::string line; std::getline(in, line);)
+    out.push_back(line);
+  return out;
+}
+
+void copyExamples(const ProcessFolder& folder) {
+  fs::copy(root() / "examples", folder.path("examples"), fs::copy_options::recursive);
+}
+
+// What fails says so: a status that is not 0 comes with a finding.
+bool saysWhy(const ShellResult& result) {
+  return result.status == 0 || result.out.find("error: ") != std::string::npos ||
+         result.out.find("warning: ") != std::string::npos ||
+         result.out.find("::error ") != std::string::npos;
+}
+
+// The text with the output of each command `    $ COMMAND` as it is now. A command goes on to the END of its
+// here-document, or after a `\`.
+std::string ranAgain(const std::string& text) {
+  const ProcessFolder folder;
+  copyExamples(folder);
+  const std::vector<std::string> lines = linesOfText(text);
+  std::string out;
+  for (std::size_t i = 0; i < lines.size();) {
+    out += lines[i] + "\n";
+    if (!lines[i].starts_with("    $ ")) {
+      ++i;
+      continue;
+    }
+    std::string command = lines[i].substr(6);
+    const bool document = command.ends_with("<<'END'");
+    for (++i; i < lines.size() && (document ? !command.ends_with("\nEND") : command.ends_with("\\")); ++i) {
+      out += lines[i] + "\n";
+      command += "\n" + (lines[i].size() > 4 ? lines[i].substr(4) : "");
+    }
+    while (i < lines.size() && lines[i].starts_with("    ") && !lines[i].starts_with("    $ "))
+      ++i;
+    const ShellResult result = folder.run("exec 2>&1\n" + command);
+    CHECK_MESSAGE(saysWhy(result), command << " ends with " << result.status << " and " << result.out);
+    for (const std::string& line : linesOfText(result.out))
+      out += line.empty() ? "    \n" : "    " + line + "\n";
+  }
+  return out;
+}
+
+} // namespace
+
+TEST_CASE("manual: README and tutorials show what their commands print") {
+  std::vector<fs::path> pages = {root() / "README.md"};
+  for (const auto& entry : fs::directory_iterator(root() / "docs" / "tutorials"))
+    pages.push_back(entry.path());
+  std::sort(pages.begin(), pages.end());
+  CHECK(pages.size() >= 5);
+  int rewritten = 0;
+  for (const fs::path& page : pages) {
+    const std::string text = readAll(page);
+    CHECK_MESSAGE(text.find("\n    $ dotek ") != std::string::npos, page.string());
+    const std::string difference =
+        settle({page.parent_path(), page, ""}, ranAgain(text), settings().update, rewritten);
+    CHECK_MESSAGE(difference.empty(), page.string() << ": " << difference);
+  }
+}
+
+TEST_CASE("manual: the examples of each command run, and its page is there") {
+  const std::string overview = runDotek({"--help"}, root()).out;
+  const std::size_t at = overview.find("\nSubcommands:\n");
+  REQUIRE(at != std::string::npos);
+  const ProcessFolder folder;
+  copyExamples(folder);
+  int commands = 0;
+  for (const std::string& line : linesOfText(overview.substr(at + 14))) {
+    const std::string command = line.size() > 2 ? line.substr(2, line.find(' ', 2) - 2) : "";
+    if (command.empty()) continue;
+    ++commands;
+    const std::string help = runDotek({command, "--help"}, root()).out;
+    const std::size_t more = help.find("\nMore: `dotek help ");
+    REQUIRE_MESSAGE(more != std::string::npos, command);
+    const std::string topic = help.substr(more + 19, help.find('`', more + 19) - more - 19);
+    CHECK_MESSAGE(!dotek::cli::helpOn(topic).empty(), command << ": " << topic);
+    const std::size_t examples = help.find("\nExamples:\n");
+    if (examples == std::string::npos) continue;
+    const ShellResult result = folder.run("set -e\n" + help.substr(examples + 11, more - examples - 11));
+    CHECK_MESSAGE(result.status == 0, command << ": " << result.err);
+  }
+  CHECK(commands > 15);
+}
+
+TEST_CASE("manual: dotek help prints a page, the section of a command, or the list") {
+  CHECK(runDotek({"help", "cycles"}, root()).out == readAll(root() / "docs" / "cycles.md"));
+  CHECK(runDotek({"help", "docs/cycles.md"}, root()).out == readAll(root() / "docs" / "cycles.md"));
+  CHECK(runDotek({"help", "my-first-cycle"}, root()).out ==
+        readAll(root() / "docs" / "tutorials" / "my-first-cycle.md"));
+  CHECK(runDotek({"help", "dump"}, root()).out.starts_with("## dump\n"));
+  CHECK(runDotek({"help", "list"}, root()).out.starts_with("## explain, list\n"));
+  const CommandResult list = runDotek({"help"}, root());
+  CHECK(list.status == 0);
+  for (const dotek::cli::HelpPage& page : dotek::cli::helpPages())
+    CHECK_MESSAGE(list.out.find("\n  " + std::string(page.name.substr(0, page.name.size() - 3)) + " ") !=
+                      std::string::npos,
+                  page.name);
+  const CommandResult misspelt = runDotek({"help", "cycels"}, root());
+  CHECK(misspelt.status == 2);
+  CHECK(misspelt.err.find("did you mean `cycles`?") != std::string::npos);
+}
