@@ -562,7 +562,7 @@ verify::Record CaseRunner::runPosted(const Values& values, sim::World& world, bo
 }
 
 verify::Record CaseRunner::runPosted(const Values& values, sim::World& world, const verify::Entry& entry,
-                                     verify::Stand::Way way) const {
+                                     verify::Stand::Way way, const verify::Interference& interference) const {
   std::optional<sim::VendorMacros> meaning;
   if (sourceSet_ != nullptr) {
     meaning.emplace(*sourceSet_, *inputs_->sourceControl);
@@ -571,7 +571,7 @@ verify::Record CaseRunner::runPosted(const Values& values, sim::World& world, co
     if (way == verify::Stand::Way::MovePath) meaning->touchApart();
   }
   return sourceStand_->run(values.posted->code, world, entry, values.posted->stores,
-                           meaning ? &*meaning : nullptr, way);
+                           meaning ? &*meaning : nullptr, way, interference);
 }
 
 // What the source measures, whatever the part: surfaces that the probe cannot get at by its own axes are out

@@ -86,7 +86,7 @@ private:
   verify::Record runPosted(const Values& values, sim::World& world, bool probeOn,
                            verify::Stand::Way way) const;
   verify::Record runPosted(const Values& values, sim::World& world, const verify::Entry& entry,
-                           verify::Stand::Way way) const;
+                           verify::Stand::Way way, const verify::Interference& interference = {}) const;
   std::string whyNotMeasured(Values& values);
   TargetRun runTarget(const Values& values, sim::World& world, bool probeOn, const verify::Record* source,
                       ShownRun* shown = nullptr);

@@ -114,6 +114,15 @@ SourceQuestions::Ran CaseRunner::Questions::from(const verify::Entry& entry) {
   return out;
 }
 
+SourceQuestions::Ran CaseRunner::Questions::missing(std::size_t search) {
+  Ran out;
+  if (!values_.posted) return out;
+  out.record = runner_.runPosted(values_, world_, runner_.entryOf(values_, probeOn_), verify::Stand::Way::Run,
+                                 {search, {}, {}});
+  if (out.record.ending != verify::Ending::Inconclusive) out.answer = Answer::Runs;
+  return out;
+}
+
 bool CaseRunner::Questions::setsActive(const std::string& field, double value) const {
   const auto& fields = runner_.plan_.fields;
   return std::any_of(fields.begin(), fields.end(), [&](const verify::DrawField& one) {

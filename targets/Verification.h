@@ -39,6 +39,8 @@ public:
   virtual Ran with(const std::string& name, double value) = 0;
   // The values of the case, called from another state.
   virtual Ran from(const verify::Entry& entry) = 0;
+  // The values of the case, where the bare skip move `search` (from 0) finds nothing.
+  virtual Ran missing(std::size_t search) = 0;
   // Some value of the field makes the path, or what is measured, another one.
   virtual bool moves(const std::string& field) = 0;
   // With some value of the field or the host input the dialog rejects the others.

@@ -93,12 +93,12 @@ std::vector<Touch> nominalOf(const Measure& measure, double radius) {
   return {out};
 }
 
-// A travel that goes on beyond the surface finds it.
-bool isOnTheWay(const Touch& wanted, const Point3& surface, double tolerance) {
-  constexpr double kMostBeyond = 12; // mm, as parts are made for
+// A travel that goes on beyond the surface finds it, however far it would go. `start`: of the ball's lowest
+// point.
+bool isOnTheWay(const Touch& wanted, const Point3& surface, const Point3& start, double tolerance) {
   const Point3 beyond = wanted.point - surface;
-  const double along = beyond.dot(wanted.direction);
-  return along >= -tolerance && along <= kMostBeyond && near(beyond, wanted.direction * along, tolerance);
+  const double along = beyond.dot(wanted.direction), whole = (wanted.point - start).dot(wanted.direction);
+  return along >= -tolerance && along <= whole && near(beyond, wanted.direction * along, tolerance);
 }
 
 } // namespace
@@ -127,7 +127,7 @@ std::vector<Difference> compare(const DrawnPath& path, const Point3& offset, con
     const auto meets = [&](const Touch& wanted, const Touch& drawn) {
       return near(wanted.direction, drawn.direction, 1e-9) &&
              (near(wanted.point, drawn.point + offset, tolerance) ||
-              (measure.travels && isOnTheWay(wanted, drawn.point + offset, tolerance)));
+              (measure.travels && isOnTheWay(wanted, drawn.point + offset, measure.start, tolerance)));
     };
     if (measure.travels && nominal.size() == 1 && next > 0 &&
         !(next < path.touches.size() && meets(nominal[0], path.touches[next].touch)) &&

@@ -97,7 +97,7 @@ public:
     for (const auto& [key, causes] : before.back())
       if (key != kAnything && !(key == extendedKey() && isExtendedPutBack()))
         for (const Cause& cause : causes)
-          refuse(key, cause);
+          if (!isGroup(key, Function::ToolLengthOff) || !endsOwnTool(cause)) refuse(key, cause);
     for (std::size_t i = 0; i < list.size(); ++i)
       out_.inForce.push_back(before[i].empty() ? "" : before[i].begin()->second.begin()->text);
     if (!lost_.empty()) state_.remarks.push_back("CHANGES THAT ARE NOT PUT BACK:" + lost_);
@@ -118,6 +118,27 @@ private:
   // The caller has one of G54 to G59, as an alarm makes sure, and that is put back.
   Key extendedKey() const { return {'E', 0}; }
   bool isExtendedPutBack() const { return state_.guards.extended == Guard::Checked; }
+
+  // The length of a tool that the branch itself has loaded: the caller's is that of a tool which is no more
+  // in the spindle, and as with G43 the header says so.
+  bool endsOwnTool(const Cause& cause) {
+    const auto* off = state_.control.find(Function::ToolLengthOff);
+    if (off == nullptr || cause.text != codeText(*off)) return false;
+    const auto& list = state_.cycle.body;
+    const bool own = std::any_of(list.begin(), list.begin() + static_cast<std::ptrdiff_t>(cause.at),
+                                 [&](const ir::CycleStatement& statement) { return changesTool(statement); });
+    if (own) lost_ += " " + cause.text;
+    return own;
+  }
+  bool changesTool(const ir::CycleStatement& statement) const {
+    const auto* block = std::get_if<ir::OpaqueBlock>(&statement.node);
+    return block != nullptr &&
+           std::any_of(block->words.begin(), block->words.end(), [&](const ir::Word& word) {
+             const auto tenths = tenthsOf(word);
+             const auto* code = word.address == 'M' && tenths ? state_.control.find('M', *tenths) : nullptr;
+             return code != nullptr && code->function == Function::ToolChange;
+           });
+  }
 
   InForce behind(std::size_t at, InForce now) const {
     const ir::CycleStatement& statement = state_.cycle.body[at];

@@ -193,7 +193,10 @@ void guardSystem(State& state, const ir::ExpressionPtr& given, const ir::Origin&
   if (std::any_of(state.systems.begin(), state.systems.end(), same)) return;
   const auto ids = variablesOf(system);
   const bool atEntry = std::all_of(ids.begin(), ids.end(), [&](ir::VariableId id) {
-    return state.cycle.variable(id).role != ir::Role::Local && !isAssigned(state.cycle.body, id);
+    // What the checks compute is known when they are done, before anything moves; a branch has none.
+    const bool known = state.cycle.variable(id).role != ir::Role::Local ||
+                       (!state.options.branch && isAssigned(state.cycle.checks, id));
+    return known && !isAssigned(state.cycle.body, id);
   });
   if (atEntry)
     state.systems.push_back(system);

@@ -1,19 +1,19 @@
 // Cases of verify --to fanuc.
 #include "backends/fanuc/TargetVerify.h"
 
+#include "backends/fanuc/TargetAlarms.h"
 #include "backends/fanuc/TargetText.h"
 #include "frontend/gibbs/Ast.h"
 #include "sim/machine/Value.h"
 #include "sim/machine/VendorMacros.h"
 #include "support/Decimal.h"
+#include "targets/MissedTouches.h"
 #include "targets/Stage.h"
 #include "verify/Bounds.h"
 #include "verify/Callers.h"
 #include "verify/Exactness.h"
 
 #include <algorithm>
-#include <cctype>
-#include <charconv>
 #include <cmath>
 #include <fmt/format.h>
 #include <optional>
@@ -26,48 +26,6 @@ namespace gibbs = frontend::gibbs;
 namespace {
 
 constexpr std::uint32_t kOwnAlarms = 3000; // of programs
-constexpr const char* kSystemAlarm = "WORK OFFSET NOT 54 TO 59";
-
-// Numbers and texts after `before`, "#3000=103(ARGUMENT X MISSING)": the text to the next bracket or line.
-std::vector<std::pair<std::uint32_t, std::string>> alarmsIn(std::string_view text, std::string_view before,
-                                                            char open) {
-  std::vector<std::pair<std::uint32_t, std::string>> out;
-  for (std::size_t at = 0; (at = text.find(before, at)) != std::string_view::npos;) {
-    at += before.size();
-    std::uint32_t number = 0;
-    const auto end = std::from_chars(text.data() + at, text.data() + text.size(), number);
-    const auto begin = static_cast<std::size_t>(end.ptr - text.data());
-    if (end.ec != std::errc() || begin >= text.size() || text[begin] != open) continue;
-    out.emplace_back(number, text.substr(begin + 1, text.find_first_of(")\n", begin + 1) - begin - 1));
-  }
-  return out;
-}
-
-// What the list of arguments in the header gives as the default of a letter: a number, or GIVE. "": no such
-// line.
-std::string_view listedDefault(std::string_view program, char letter) {
-  const std::size_t heading = program.find("(      NAME ");
-  if (heading == std::string_view::npos) return "";
-  const std::size_t column = program.substr(heading).find(" DEFAULT ");
-  for (std::size_t at = heading; (at = program.find('\n', at)) != std::string_view::npos;) {
-    const std::size_t begin = ++at;
-    const std::string_view line = program.substr(begin, program.find('\n', begin) - begin);
-    if (!line.starts_with('(')) return "";
-    if (line.size() <= column + 1 || line[1] != letter || !line.substr(2).starts_with(" #")) continue;
-    const std::string_view rest = line.substr(column + 1);
-    return rest.substr(0, rest.find_first_of(" )"));
-  }
-  return "";
-}
-
-// Letters and digits, in upper case.
-std::string plain(std::string_view text) {
-  std::string out;
-  for (const char c : text)
-    if (std::isalnum(static_cast<unsigned char>(c)) != 0)
-      out += static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
-  return out;
-}
 
 // What the program leaves: zeros of the systems in coordinates of the machine, variables.
 void traceResults(const verify::Record& record, sim::Trace& trace) {
@@ -175,7 +133,8 @@ private:
 
   // `trace`: nullptr: nobody reads it.
   verify::Record runText(const TargetCase& now, const verify::Entry& entry, std::string* trace,
-                         verify::Stand::Way way = verify::Stand::Way::Run) {
+                         verify::Stand::Way way = verify::Stand::Way::Run,
+                         const verify::Interference& interference = {}) {
     if (now.shown != nullptr) ran_ = entry;
     std::optional<sim::VendorMacros> meaning;
     if (set_ != nullptr) {
@@ -190,8 +149,8 @@ private:
       writer->begin("start").word("X", at.x).word("Y", at.y).word("Z", at.z).end();
     }
     stand_.setTrace(writer ? &*writer : nullptr);
-    verify::Record record =
-        stand_.run(text_.code(), now.world, entry, now.stores, meaning ? &*meaning : nullptr, way);
+    verify::Record record = stand_.run(text_.code(), now.world, entry, now.stores,
+                                       meaning ? &*meaning : nullptr, way, interference);
     if (writer) traceResults(record, *writer);
     // What macros do inside is their own business.
     std::erase_if(record.early, [&](const verify::EarlyUse& use) { return text_.line(use.range) == 0; });
@@ -216,22 +175,13 @@ private:
     else if (!record.pieces.empty())
       out.differsAt(verify::Aspect::Ending,
                     "the dialog rejects the values, and the program moves before its alarm", line);
-    else if (!saysSo(record.text, now.rejection))
+    else if (!saysSo(translation_.text, record.text, now.rejection))
       out.differsAt(verify::Aspect::Ending,
                     fmt::format("the dialog rejects the values, `{}`, and the program stops with `{}`",
                                 now.rejection, record.text),
                     line);
     else
       out.refused = true;
-  }
-
-  // The text of an alarm is that of a message, in upper case and cut, or one of the translation's own. What a
-  // message has beside ASCII is written in several ways.
-  static bool saysSo(std::string_view alarm, std::string_view message) {
-    const bool ascii = std::all_of(message.begin(), message.end(),
-                                   [](char c) { return static_cast<unsigned char>(c) < 0x80; });
-    return !ascii || plain(message).find(plain(alarm)) != std::string::npos ||
-           std::string_view(kSystemAlarm).starts_with(alarm);
   }
 
   // Without a Prog: the path and the touches alone.
@@ -294,7 +244,7 @@ private:
     const std::uint32_t line = text_.line(record.endedAt);
     if (from_.plan.cycleFile && source.ending == verify::Ending::Alarm && source.alarmKind.empty() &&
         record.ending == verify::Ending::Alarm && record.alarm >= kOwnAlarms && !translation_.madeUp(line) &&
-        !saysSo(record.text, source.text))
+        !saysSo(translation_.text, record.text, source.text))
       out.differsAt(verify::Aspect::Ending,
                     fmt::format("an alarm (`{}`) against `{}`", source.text, record.text), line);
     // How far another vendor's macro searches is its own business: it may find what the source's does not.
@@ -311,20 +261,6 @@ private:
     else
       add(verify::compare(source, record, rules), out);
     if (!out.undecided && out.differences.empty()) compareReturn(record, &source, out);
-  }
-
-  // The list in the header says what each alarm is. "" or what is wrong.
-  static std::string whyListsOther(std::string_view program) {
-    const auto listed = alarmsIn(program, "(ALARM ", ' ');
-    if (listed.empty()) return "";
-    for (const auto& [number, alarm] : alarmsIn(program, "#3000=", '(')) {
-      const bool there = std::any_of(listed.begin(), listed.end(), [&](const auto& one) {
-        const std::string text = plain(one.second), own = plain(alarm);
-        return one.first == number && (text.starts_with(own) || own.starts_with(text));
-      });
-      if (!there) return fmt::format("alarm {} `{}` is not in the list of the header", number, alarm);
-    }
-    return "";
   }
 
   // ---- callers who break what it demands
@@ -389,6 +325,13 @@ private:
                 out);
     }
     callFromOthers(now, entry, out);
+    add(compareMissed(
+            now, ran,
+            [&](const verify::Interference& none) {
+              return runText(now, entry, nullptr, verify::Stand::Way::Run, none);
+            },
+            [&](const verify::Record& source) { return rulesFor(now, source); }),
+        out);
     for (const OutputArgument& argument : translation_.arguments)
       callWithout(argument, now, entry, out);
     for (const verify::DrawField& field : from_.plan.fields)
@@ -558,6 +501,7 @@ private:
     if (argument == translation_.arguments.end() || drawn == now.drawn.values.end()) return;
     const double first = field.firstSystem;
     if (field.systemOf(drawn->second) == 0) return;
+    callWithActive(field, argument->letter, now, entry, out);
     for (const double value : {first - 1, first + 6, first + 0.5}) {
       const SourceQuestions::Ran meant = now.questions->with(field.name, value);
       // What the source takes is no fault of the translation.
@@ -572,6 +516,28 @@ private:
         differs(fmt::format("with {} {}", argument->letter, numberText(value)),
                 "an alarm has to stop it before anything moves, it is no work offset", record, out);
     }
+  }
+
+  // The system that is in force: what comes after is moved by what was set.
+  void callWithActive(const verify::DrawField& field, char letter, const TargetCase& now,
+                      const verify::Entry& entry, TargetRun& out) {
+    const double value = field.firstSystem + (now.entry.system - 54.0);
+    const SourceQuestions::Ran meant = now.questions->with(field.name, value);
+    if (meant.answer != SourceQuestions::Answer::Runs) return;
+    verify::Entry other = entry;
+    const std::uint32_t local = stdlib::localOf(letter);
+    std::erase_if(other.variables, [&](const auto& one) { return one.first == local; });
+    other.variables.emplace_back(local, value);
+    const verify::Record record = runText(now, other, nullptr);
+    if (record.ending == verify::Ending::Alarm && translation_.madeUp(text_.line(record.endedAt))) return;
+    verify::CompareRules rules = rulesFor(now, meant.record);
+    rules.samePlace = nullptr;
+    std::vector<verify::Difference> found = verify::compare(meant.record, record, rules);
+    const std::string who = fmt::format("with {} {}, the system in force", letter, numberText(value));
+    for (verify::Difference& one : found)
+      one.text = fmt::format("called {}: {}", who, one.text);
+    if (!found.empty()) noteCaller(who);
+    add(std::move(found), out);
   }
 
   const VerificationSource from_;

@@ -92,7 +92,7 @@ bool MacroBlocks::block(const std::vector<const ir::CycleStatement*>& statements
             });
           };
           if (isOnly("NT", -1)) return;
-          const bool length = isOnly("NH", 43);
+          const bool length = isOnly("NH", 43) || isOnly("N", 49);
           for (Place& place : at_)
             if (!length || &place == &at_[ir::indexOf(ir::Axis::Z)]) place.value = nullptr;
           last_ = nullptr;
@@ -173,6 +173,7 @@ bool MacroBlocks::leavesModes(const ir::OpaqueBlock& block) {
     case Function::ReferenceReturn:
     case Function::MachineCoordinates:
     case Function::ToolLengthPlus:
+    case Function::ToolLengthOff: // our own macros look at it; along Z nothing is known after it
     case Function::ToolChange:
     case Function::Auxiliary:
     case Function::Rapid:

@@ -2,11 +2,13 @@
 #include "backends/fusion/TargetVerify.h"
 #include "backends/fusion/Emit.h"
 #include "backends/fusion/Run.h"
+#include "backends/fusion/TargetWritten.h"
 #include "ir/Program.h"
 #include "sim/machine/Compile.h"
 #include "sim/machine/VendorMacros.h"
 #include "support/Decimal.h"
 #include "support/messages/Verify.h"
+#include "targets/MissedTouches.h"
 #include "targets/ReadBack.h"
 #include "targets/Stage.h"
 #include "verify/Callers.h"
@@ -142,17 +144,6 @@ private:
     }
   }
 
-  // Without a line, or one after the end, the last one that holds something.
-  static SourceRange rangeOfLine(const SourceFile& file, FileId id, std::uint32_t line) {
-    line = line == 0 ? file.lineCount() : std::min(line, file.lineCount());
-    while (line > 1 && file.line(line).empty())
-      --line;
-    const std::string_view text = file.line(line);
-    const std::size_t blank = std::min(text.find_first_not_of(" \t"), text.size());
-    const std::uint32_t begin = file.lineStart(line);
-    return {id, begin + static_cast<std::uint32_t>(blank), begin + static_cast<std::uint32_t>(text.size())};
-  }
-
   fusion::RunInput inputOf(const verify::Case& drawn) const {
     const auto host = [&](const char* name, double otherwise) {
       const auto found = drawn.hosts.find(name);
@@ -174,39 +165,6 @@ private:
   }
 
   // ---- what it owes the post (docs/fusion.md)
-
-  // Lines without the numbers of writeBlock, and whether each had one.
-  struct Written {
-    std::string text;
-    std::vector<std::string> lines;
-    std::vector<bool> numbered;
-  };
-  static Written writtenOf(const std::string& text) {
-    Written out;
-    constexpr std::string_view kNumber = "N1 ";
-    for (std::size_t at = 0; at < text.size();) {
-      const std::size_t end = std::min(text.find('\n', at), text.size());
-      std::string line = text.substr(at, end - at);
-      const bool numbered = line.starts_with(kNumber);
-      if (numbered) line.erase(0, kNumber.size());
-      out.text += line + "\n";
-      out.lines.push_back(std::move(line));
-      out.numbered.push_back(numbered);
-      at = end + 1;
-    }
-    return out;
-  }
-
-  static bool isComment(const std::string& line) {
-    const std::size_t at = line.find_first_not_of(" \t");
-    return at == std::string::npos || (line[at] == '(' && line.find(')') == line.find_last_not_of(" \t\r"));
-  }
-
-  static bool hasNumber(const std::string& posted) {
-    const std::size_t at = posted.find_first_not_of(" \t");
-    return at != std::string::npos && posted[at] == 'N' && at + 1 < posted.size() && posted[at + 1] >= '0' &&
-           posted[at + 1] <= '9';
-  }
 
   void compareFrame(const TargetCase& now, const fusion::RunResult& result, TargetRun& out) const {
     if (!result.taken)
@@ -237,19 +195,6 @@ private:
     }
   }
 
-  // As the fragment itself warns.
-  static bool losesDigits(const fusion::RunResult& result) {
-    return std::any_of(result.warnings.begin(), result.warnings.end(), [](const std::string& one) {
-      return one.find("has more digits than are printed") != std::string::npos;
-    });
-  }
-
-  static std::string didInstead(const fusion::RunResult& result) {
-    if (result.fault) return "it fails: " + result.fault->text;
-    if (!result.errors.empty()) return "it stops with `" + result.errors.front() + "`";
-    return result.text.empty() ? "it writes nothing" : "it writes blocks";
-  }
-
   // The operation of another cycle, a document in inches, a field that the operation does not give.
   void runOtherwise(const TargetCase& now, TargetRun& out) {
     fusion::RunInput input = inputOf(now.drawn);
@@ -273,6 +218,8 @@ private:
                       (result.errors.empty() || result.taken ? didInstead(result)
                                                              : "its dispatch does not return true"));
     runWithoutSense(now, out);
+    runRejected(now, out);
+    runWithActive(now, out);
     for (const verify::DrawField& field : from_.plan.fields) {
       input = inputOf(now.drawn);
       if (field.fixed || input.properties.erase(fusion::propertyOf(prefix_, field.name)) == 0) continue;
@@ -313,16 +260,78 @@ private:
   }
 
   // A number that fits no picture and no word of a control is printed by nobody.
-  void demandText(const fusion::RunInput& input, double value, const std::string& what, TargetRun& out) {
-    if (!out.differences.empty()) return;
+  // true: that is so, or it is refused for another reason.
+  bool demandText(const fusion::RunInput& input, double value, const std::string& what, TargetRun& out) {
+    if (!out.differences.empty()) return false;
     const fusion::RunResult result = fragment_.run(input);
+    const bool other = !result.errors.empty() && !isOfFragment(result.errors.front());
     if (result.fault)
       out.differs(verify::Aspect::Ending,
                   fmt::format("{} as {}: it fails: {}", numberText(value), what, result.fault->text));
-    if (result.text.find("null") == std::string::npos || right_.find("null") != std::string::npos) return;
+    if (result.text.find("null") == std::string::npos || right_.find("null") != std::string::npos)
+      return other;
     out.differs(verify::Aspect::Ending,
                 fmt::format("{} as `{}` does not fit and has to be an error; it writes `null`",
                             numberText(value), what));
+    return false;
+  }
+
+  // A check of the dialog may bound one field by another: then that one is larger still.
+  void demandTexts(fusion::RunInput input, const std::string& property, double value, const std::string& what,
+                   TargetRun& out) {
+    constexpr double kLarger = 16;
+    input.properties[property] = value;
+    if (!demandText(input, value, what, out)) return;
+    for (auto& [name, other] : input.properties) {
+      if (name == property) continue;
+      const double drawn = other;
+      for (const double larger : {value * kLarger, -value * kLarger}) {
+        other = larger;
+        demandText(input, value, what, out);
+      }
+      other = drawn;
+    }
+  }
+
+  // Values that the dialog rejects beside those of the case, which leave all else as it is.
+  void runRejected(const TargetCase& now, TargetRun& out) {
+    constexpr double kFar = 500;
+    for (const verify::DrawField& field : from_.plan.fields) {
+      fusion::RunInput input = inputOf(now.drawn);
+      const auto property = input.properties.find(fusion::propertyOf(prefix_, field.name));
+      if (field.fixed || property == input.properties.end()) continue;
+      for (const double value : {0.0, kFar, -kFar}) {
+        if (!out.differences.empty()) return;
+        if (now.questions->with(field.name, value).answer != SourceQuestions::Answer::Rejected) continue;
+        property->second = value;
+        const fusion::RunResult result = fragment_.run(input);
+        if (!result.fault && !result.errors.empty() && result.text.empty()) continue;
+        out.differs(verify::Aspect::Ending, fmt::format("the dialog rejects {} as `{}`; {}",
+                                                        numberText(value), field.name, didInstead(result)));
+      }
+    }
+  }
+
+  // The system in force is set: what comes after is moved by that.
+  void runWithActive(const TargetCase& now, TargetRun& out) {
+    for (const verify::DrawField& field : from_.plan.fields) {
+      if (field.kind != ir::Kind::WorkOffset || field.fixed || !out.differences.empty()) continue;
+      fusion::RunInput input = inputOf(now.drawn);
+      const auto property = input.properties.find(fusion::propertyOf(prefix_, field.name));
+      if (property == input.properties.end()) continue;
+      property->second = field.firstSystem + (now.entry.system - 54.0);
+      const SourceQuestions::Ran meant = now.questions->with(field.name, property->second);
+      const fusion::RunResult result = fragment_.run(input);
+      if (meant.answer != SourceQuestions::Answer::Runs || !result.ok()) continue;
+      const std::optional<Compiled> made = compiled(result.text, out);
+      if (!made) return;
+      std::vector<verify::Difference> found =
+          verify::compare(meant.record, runCode(*made, now, now.entry), rulesFor(now));
+      for (verify::Difference& one : found)
+        one.text = fmt::format("with {} as `{}`, the system in force: {}", numberText(property->second),
+                               field.name, one.text);
+      add(std::move(found), made->id, out);
+    }
   }
 
   bool uses(const TargetCase& now, const std::string& name) {
@@ -357,8 +366,7 @@ private:
         }
       for (const double size : kLarge)
         for (const double value : {size, -size}) {
-          property->second = value;
-          demandText(input, value, field.name, out);
+          demandTexts(input, property->first, value, field.name, out);
         }
     }
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -435,35 +443,48 @@ private:
                 at.second == other.lines.end() ? "" : *at.second);
   }
 
-  void runText(const TargetCase& now, const std::string& numbered, TargetRun& out) {
+  // What a fragment has posted, ready to run. nullopt: it cannot be read, and `out` says so.
+  struct Compiled {
+    FileId id = 0;
+    std::unique_ptr<ir::ProgramFile> file;
+    sim::Bytecode code;
+  };
+  std::optional<Compiled> compiled(const std::string& numbered, TargetRun& out) {
     const std::string text = writtenOf(numbered).text;
     Diagnostics found;
     auto file = readBack("posted by the fragment", "O1\n" + text + "M30\n", control_, from_.session.limits(),
                          sources_, found);
-    const FileId id = static_cast<FileId>(sources_.size() - 1);
     if (!file) {
       out.differs(verify::Aspect::Ending, "the text of the fragment cannot be read: " + firstError(found));
-      return;
+      return std::nullopt;
     }
+    Compiled made{
+        static_cast<FileId>(sources_.size() - 1), std::make_unique<ir::ProgramFile>(std::move(*file)), {}};
     std::vector<const ir::Program*> programs;
-    for (const ir::Program& program : file->programs)
+    for (const ir::Program& program : made.file->programs)
       programs.push_back(&program);
     if (macros_)
       for (const ir::Program& program : macros_->programs)
         programs.push_back(&program);
-    const sim::Bytecode code = sim::compile(programs, control_, sources_);
-    const verify::Record record = runCode(code, now, now.entry);
+    made.code = sim::compile(programs, control_, sources_);
+    return made;
+  }
+
+  void runText(const TargetCase& now, const std::string& numbered, TargetRun& out) {
+    const std::optional<Compiled> made = compiled(numbered, out);
+    if (!made) return;
+    const verify::Record record = runCode(*made, now, now.entry);
     if (record.overLimit) {
       out.stopped = record.text;
       return;
     }
     const auto show = [&](const verify::Entry& entry, std::string who) {
       if (now.shown != nullptr)
-        *now.shown = {runCode(code, now, entry, verify::Stand::Way::KeepMoves), std::move(who)};
+        *now.shown = {runCode(*made, now, entry, verify::Stand::Way::KeepMoves), std::move(who)};
     };
     show(now.entry, "");
     const verify::CompareRules rules = rulesFor(now);
-    add(verify::compare(*now.source, record, rules), id, out);
+    add(verify::compare(*now.source, record, rules), made->id, out);
     if (now.questions == nullptr || now.posted == nullptr || !out.differences.empty()) return;
     // With another work system or tool length in force than the source selects.
     for (const verify::OtherCaller& other :
@@ -473,25 +494,60 @@ private:
           !verify::runsAlike(*now.source, meant.record, rules))
         continue;
       std::vector<verify::Difference> differences =
-          verify::compare(meant.record, runCode(code, now, other.entry), rules);
+          verify::compare(meant.record, runCode(*made, now, other.entry), rules);
       if (differences.empty()) continue;
       for (verify::Difference& one : differences)
         one.text = fmt::format("printed {}: {}", other.who, one.text);
       show(other.entry, "printed " + other.who);
-      add(std::move(differences), id, out);
+      add(std::move(differences), made->id, out);
       return;
+    }
+    add(compareMissed(
+            now, record,
+            [&](const verify::Interference& none) {
+              return runCode(*made, now, now.entry, verify::Stand::Way::Run, none);
+            },
+            [&](const verify::Record& source) {
+              verify::CompareRules own =
+                  rules; // alarms that the source itself raises are printed as they are
+              own.sameAlarmNumbers = own.sameAlarmNumbers || source.alarmKind.empty();
+              return own;
+            }),
+        made->id, out);
+    runShifted(*made, now, record, out);
+  }
+
+  // A local shift of Z where the fragment writes an offset along it and the source does not: what it computes
+  // would hold the shift.
+  void runShifted(const Compiled& made, const TargetCase& now, const verify::Record& ran, TargetRun& out) {
+    if (!out.differences.empty() || !ran.ownOffsetOfZ || now.source->ownOffsetOfZ) return;
+    for (const verify::BrokenCaller& caller : verify::brokenCallers(control_, true)) {
+      if (caller.blocks.find('Z') == std::string::npos) continue;
+      verify::Entry broken = now.entry;
+      broken.blocks = caller.blocks;
+      const verify::Record record = runCode(made, now, broken);
+      const bool stops = record.ending == verify::Ending::Alarm && caller.alarm.starts_with(record.text) &&
+                         !record.text.empty() && record.measures.empty();
+      if (!stops)
+        out.differs(verify::Aspect::Ending, fmt::format("printed {}: `{}` has to stop it before it measures",
+                                                        caller.who, caller.alarm));
     }
   }
 
-  verify::Record runCode(const sim::Bytecode& code, const TargetCase& now, const verify::Entry& entry,
-                         verify::Stand::Way way = verify::Stand::Way::Run) const {
+  verify::Record runCode(const Compiled& made, const TargetCase& now, const verify::Entry& entry,
+                         verify::Stand::Way way = verify::Stand::Way::Run,
+                         const verify::Interference& interference = {}) const {
     std::optional<sim::VendorMacros> meaning;
     if (set_ != nullptr) {
       meaning.emplace(*set_, control_);
       meaning->setStylusRadius(now.drawn.hosts.at("tool_radius"));
       if (sourceSet_ == set_) meaning->passUnstated();
     }
-    return stand_.run(code, now.world, entry, now.stores, meaning ? &*meaning : nullptr, way);
+    verify::Record record =
+        stand_.run(made.code, now.world, entry, now.stores, meaning ? &*meaning : nullptr, way, interference);
+    // What macros do inside is their own business.
+    std::erase_if(record.early, [&](const verify::EarlyUse& use) { return use.range.file != made.id; });
+    return record;
   }
 
   verify::CompareRules rulesFor(const TargetCase& now) const {
@@ -501,6 +557,8 @@ private:
       rules.results = std::max(rules.tolerance, kEightDigits);
     if (sourceSet_ != set_) rules.results = std::max(rules.results, verify::kGridSteps);
     rules.sameAlarmNumbers = sourceSet_ == set_;
+    const stdlib::CodeInfo* const wait = control_.find(stdlib::Function::MachineCoordinates);
+    rules.waits = wait != nullptr && wait->grade != "assumed";
     if (const auto host = now.drawn.hosts.find("overtravel");
         sourceSet_ != set_ && host != now.drawn.hosts.end())
       rules.overtravel = host->second;

@@ -1,0 +1,89 @@
+#include "backends/fanuc/TargetAlarms.h"
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <cstdint>
+#include <fmt/format.h>
+#include <utility>
+#include <vector>
+
+namespace dotek::targets {
+
+namespace {
+
+constexpr std::string_view kSystemAlarm = "WORK OFFSET NOT 54 TO 59";
+
+// Numbers and texts after `before`, "#3000=103(ARGUMENT X MISSING)": the text to the next bracket or line.
+std::vector<std::pair<std::uint32_t, std::string>> alarmsIn(std::string_view text, std::string_view before,
+                                                            char open) {
+  std::vector<std::pair<std::uint32_t, std::string>> out;
+  for (std::size_t at = 0; (at = text.find(before, at)) != std::string_view::npos;) {
+    at += before.size();
+    std::uint32_t number = 0;
+    const auto end = std::from_chars(text.data() + at, text.data() + text.size(), number);
+    const auto begin = static_cast<std::size_t>(end.ptr - text.data());
+    if (end.ec != std::errc() || begin >= text.size() || text[begin] != open) continue;
+    out.emplace_back(number, text.substr(begin + 1, text.find_first_of(")\n", begin + 1) - begin - 1));
+  }
+  return out;
+}
+
+// Letters and digits, in upper case.
+std::string plain(std::string_view text) {
+  std::string out;
+  for (const char c : text)
+    if (std::isalnum(static_cast<unsigned char>(c)) != 0)
+      out += static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+  return out;
+}
+
+// An alarm of the program, or one that its header lists, says what the message says.
+bool hasAlarm(std::string_view program, const std::string& message) {
+  for (const auto& list : {alarmsIn(program, "#3000=", '('), alarmsIn(program, "(ALARM ", ' ')})
+    for (const auto& [number, text] : list)
+      if (const std::string own = plain(text); !own.empty() && message.find(own) != std::string::npos)
+        return true;
+  return false;
+}
+
+} // namespace
+
+std::string_view listedDefault(std::string_view program, char letter) {
+  const std::size_t heading = program.find("(      NAME ");
+  if (heading == std::string_view::npos) return "";
+  const std::size_t column = program.substr(heading).find(" DEFAULT ");
+  for (std::size_t at = heading; (at = program.find('\n', at)) != std::string_view::npos;) {
+    const std::size_t begin = ++at;
+    const std::string_view line = program.substr(begin, program.find('\n', begin) - begin);
+    if (!line.starts_with('(')) return "";
+    if (line.size() <= column + 1 || line[1] != letter || !line.substr(2).starts_with(" #")) continue;
+    const std::string_view rest = line.substr(column + 1);
+    return rest.substr(0, rest.find_first_of(" )"));
+  }
+  return "";
+}
+
+bool saysSo(std::string_view program, std::string_view alarm, std::string_view message) {
+  const bool ascii = std::all_of(message.begin(), message.end(),
+                                 [](char c) { return static_cast<unsigned char>(c) < 0x80; });
+  if (!ascii) return true;
+  const std::string wanted = plain(message);
+  return wanted.find(plain(alarm)) != std::string::npos ||
+         (kSystemAlarm.starts_with(alarm) && !hasAlarm(program, wanted));
+}
+
+std::string whyListsOther(std::string_view program) {
+  const auto listed = alarmsIn(program, "(ALARM ", ' ');
+  if (listed.empty()) return "";
+  for (const auto& [number, alarm] : alarmsIn(program, "#3000=", '(')) {
+    const bool there = std::any_of(listed.begin(), listed.end(), [&](const auto& one) {
+      const std::string text = plain(one.second), own = plain(alarm);
+      return one.first == number && (text.starts_with(own) || own.starts_with(text));
+    });
+    if (!there) return fmt::format("alarm {} `{}` is not in the list of the header", number, alarm);
+  }
+  return "";
+}
+
+} // namespace dotek::targets

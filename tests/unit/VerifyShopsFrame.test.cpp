@@ -1,0 +1,102 @@
+// What `verify` sees beside the cases as they are drawn: a system in force that is set, touches that find
+// nothing, values that the dialog alone rejects.
+#include "driver/Driver.h"
+#include "support/Worker.h"
+#include "tests/GoldenRunner.h"
+#include "tests/TestFolder.h"
+#include "tests/policy/Tree.h"
+
+#include <doctest/doctest.h>
+
+using namespace dotek;
+using namespace dotek::tests;
+
+namespace {
+
+struct Shop {
+  const char *shop, *cycle, *to, *set;
+};
+
+void take(targets::TranslationOptions& options, const Shop& of) {
+  const auto shops = root() / "tests" / "shops";
+  options.inputs = {(shops / of.shop / of.cycle).generic_string()};
+  options.source.prog = (shops / of.shop / "post.txt").generic_string();
+  options.common.data = {(shops / "data").generic_string()};
+  options.common.scriptProgram = runningProgram();
+  options.to = of.to;
+  options.probeMacros = of.set;
+}
+
+std::string converted(const Shop& of) {
+  driver::ConvertOptions options;
+  take(options, of);
+  const driver::Outcome outcome = driver::convert(options);
+  REQUIRE_MESSAGE(outcome.status == 0, renderText(outcome.diagnostics, outcome.sources, 0));
+  return outcome.files.front().text;
+}
+
+int verified(const Shop& of, const std::string& text, std::uint64_t cases = 40) {
+  const TestFolder folder("dotek-shop-frame");
+  driver::VerifyOptions options;
+  take(options, of);
+  options.cases = cases;
+  options.jobs = 1;
+  options.translation = folder.write("edited", text);
+  return driver::verify(options).status;
+}
+
+std::string without(std::string text, const std::string& from, const std::string& to) {
+  const std::size_t at = text.rfind(from);
+  REQUIRE_MESSAGE(at != std::string::npos, from << " is not in\n" << text);
+  return text.replace(at, from.size(), to);
+}
+
+} // namespace
+
+TEST_CASE("convert: a work offset that the dialog computes is checked before the branch loads its tool") {
+  for (const char* cycle : {"AL.Bossage.Trois", "AL.Epaisseur.Y"}) {
+    const std::string text = converted({"origins", cycle, "fanuc", "inspection-plus"});
+    const std::size_t last = text.rfind("(WORK OFFSET NOT 54 TO 59)");
+    REQUIRE(last != std::string::npos);
+    CHECK(last < text.find("T30 M6"));
+    CHECK(verified({"origins", cycle, "fanuc", "inspection-plus"}, text) == 0);
+    // The branch leaves no tool length, as it does on the source's control.
+    CHECK(text.find("G49") != std::string::npos);
+  }
+}
+
+TEST_CASE("verify: the path may end its touch anywhere on a G31 that goes on far beyond it") {
+  for (const char* cycle : {"KR.Mittel.Z", "KR.Dicke.Y", "KR.Ecke.Innen"}) {
+    CAPTURE(cycle);
+    const Shop shop{"repeats", cycle, "fanuc", "inspection-plus"};
+    CHECK(verified(shop, converted(shop)) == 0);
+  }
+}
+
+TEST_CASE("verify: the retract after a measure that sets the system in force") {
+  const Shop corner{"inspection", "JT.Vice.Corner", "fanuc", "dotek"};
+  const std::string text = converted(corner);
+  CHECK(verified(corner, text) == 0);
+  CHECK(verified(corner, without(text, "G65 P8810 Z#13\n", "")) == 1);
+}
+
+TEST_CASE("verify: each touch that finds nothing ends with the alarm of the source") {
+  const Shop top{"direct", "DP.Top.Zero", "fusion", "dotek"};
+  const std::string text = converted(top);
+  CHECK(verified(top, text) == 0);
+  CHECK(verified(top, without(text, "writeBlock(\"IF[#541LE[", "writeln(\"(\" + \"")) == 1);
+}
+
+TEST_CASE("verify: a check of a fragment that only another error hides") {
+  const Shop face{"easyprobe", "Brandl.Flaeche.X", "fusion", "dotek"};
+  const std::string text = converted(face);
+  CHECK(verified(face, without(text, "if (RUECKZUG < (TIEFE + 5)) {", "if (false) {")) == 1);
+}
+
+TEST_CASE("verify: the alarm of another check is not that of the dialog") {
+  const Shop slot{"flags", "NK.Rowek.X", "fanuc", "dotek"};
+  const std::string text = converted(slot);
+  const std::size_t at = text.find("IF[#28 EQ 2.]THEN #3000=101");
+  REQUIRE(at != std::string::npos);
+  CHECK(verified(slot, std::string(text).erase(at, text.find('\n', at) + 1 - at), 600) == 1);
+}
