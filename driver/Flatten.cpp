@@ -218,7 +218,7 @@ private:
     std::erase_if(unset, [&](std::uint32_t number) { return !sim::isFresh(machine.common(number)); });
     run.watchUnset(unset);
     run.run();
-    sim::reportRun(run, machine, sim::callAdvice(main, false), options_.programs, session_);
+    sim::reportRun(run, machine, sim::callAdvice(main, false), options_.programs, false, session_);
     for (const sim::UnsetRead& one : run.unsetReads())
       diagnostics().report<diag::VariableNotSet>(one.range, one.number, one.number);
     for (const ir::Program* program : programs)
