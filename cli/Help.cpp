@@ -43,6 +43,7 @@ constexpr CommandHelp kCommands[] = {
     {"lsp", "", "editor"},
     {"outline", "dotek outline examples/macros/bore.nc", "outline"},
     {"renumber", "dotek renumber examples/macros/bore.nc --start 10 --step 10 -o O9110.nc", "renumber"},
+    {"flatten", "", "flatten"},
     {"help", "dotek help cycles\ndotek help tutorials/my-first-cycle", "help"},
 };
 

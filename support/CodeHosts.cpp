@@ -67,14 +67,14 @@ std::string renderGitlab(const Diagnostics& diagnostics, const SourceMap& source
   for (const Diagnostic& one : diagnostics.all()) {
     const std::string path = one.range.hasPlace() ? sources.file(one.range.file).name() : "";
     Json row;
-    row["description"] = one.message;
+    row["description"] = asUtf8(one.message);
     row["check_name"] = one.code;
     // GitLab compares fingerprints of all files: the name of the file is part of it.
     row["fingerprint"] = sha256(
         path + '\n' +
         (one.range.hasPlace() ? fingerprints.of(one, sources) : std::string(one.code) + '\n' + one.message));
     row["severity"] = severityOf(one.severity);
-    row["location"]["path"] = path;
+    row["location"]["path"] = asUtf8(path);
     row["location"]["lines"]["begin"] = one.range.hasPlace() ? sources.line(one.range) : 1;
     rows.push_back(std::move(row));
   }

@@ -21,25 +21,20 @@ std::optional<double> valueWhenEmpty(const ir::ExpressionPtr& value) {
   if (const auto* unary = std::get_if<ir::Unary>(&value->node)) {
     const auto operand = valueWhenEmpty(unary->operand);
     if (!operand) return std::nullopt;
-    switch (unary->op) {
-    case ir::UnaryOp::Negate: return -*operand;
-    case ir::UnaryOp::NullAsZero:
-    case ir::UnaryOp::AddPoint: return operand;
-    case ir::UnaryOp::Truncate: return std::trunc(*operand);
-    case ir::UnaryOp::Round: return std::round(*operand);
-    default: return std::nullopt;
-    }
+    if (unary->op == ir::UnaryOp::Negate) return -*operand;
+    if (unary->op == ir::UnaryOp::NullAsZero || unary->op == ir::UnaryOp::AddPoint) return operand;
+    if (unary->op == ir::UnaryOp::Truncate) return std::trunc(*operand);
+    if (unary->op == ir::UnaryOp::Round) return std::round(*operand);
+    return std::nullopt;
   }
   const auto* binary = std::get_if<ir::Binary>(&value->node);
   if (binary == nullptr) return std::nullopt;
   const auto left = valueWhenEmpty(binary->left), right = valueWhenEmpty(binary->right);
   if (!left || !right) return std::nullopt;
-  switch (binary->op) {
-  case ir::BinaryOp::Add: return *left + *right;
-  case ir::BinaryOp::Subtract: return *left - *right;
-  case ir::BinaryOp::Multiply: return *left * *right;
-  default: return std::nullopt;
-  }
+  if (binary->op == ir::BinaryOp::Add) return *left + *right;
+  if (binary->op == ir::BinaryOp::Subtract) return *left - *right;
+  if (binary->op == ir::BinaryOp::Multiply) return *left * *right;
+  return std::nullopt;
 }
 
 // A number that the program computes: the arguments that it comes from, and what it is without them.

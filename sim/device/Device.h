@@ -77,7 +77,7 @@ private:
   MacroMeaning* next_ = nullptr;
   Report report_;
   std::function<bool()> touching_;
-  std::map<std::uint32_t, std::uint8_t> memory_; // behind the window
+  std::map<std::uint32_t, std::uint8_t> memory_; // beyond the window
   std::map<std::uint32_t, double> variables_;
   double address_ = -1;
   std::vector<double> values_;

@@ -77,7 +77,7 @@ private:
     DeviceCell out;
     const TomlTable table = at.table();
     if (table.has("variable") == table.has("address")) {
-      fail(at.range(), "either `variable` (a system variable) or `address` (behind the window) is expected");
+      fail(at.range(), "either `variable` (a system variable) or `address` (beyond the window) is expected");
       return out;
     }
     out.variable = static_cast<std::uint32_t>(table.value("variable").integer(0, 1000, kMostNumber));
@@ -333,12 +333,12 @@ void DeviceFile::extend(stdlib::Control& control) {
 }
 
 bool DeviceFile::usesWindow() const {
-  const auto behind = [](const DeviceCell& cell) { return cell.variable == 0; };
-  return std::any_of(signals.begin(), signals.end(), [&](const auto& one) { return behind(one.cell); }) ||
+  const auto beyond = [](const DeviceCell& cell) { return cell.variable == 0; };
+  return std::any_of(signals.begin(), signals.end(), [&](const auto& one) { return beyond(one.cell); }) ||
          std::any_of(tables.begin(), tables.end(), [&](const DeviceTable& one) {
-           return behind(one.strobe) || behind(one.index) ||
+           return beyond(one.strobe) || beyond(one.index) ||
                   std::any_of(one.columns.begin(), one.columns.end(),
-                              [&](const auto& column) { return behind(column.cell); });
+                              [&](const auto& column) { return beyond(column.cell); });
          });
 }
 

@@ -17,10 +17,10 @@
 
 namespace dotek::sim {
 
-// A place of the device's memory that a program reaches: bytes behind the control's window, or a system
+// A place of the device's memory that a program reaches: bytes beyond the control's window, or a system
 // variable.
 struct DeviceCell {
-  std::uint32_t variable = 0; // 0: behind the window
+  std::uint32_t variable = 0; // 0: beyond the window
   std::uint32_t address = 0;
   std::uint32_t bytes = 1;
   std::optional<std::uint32_t> bit; // of the byte
@@ -123,7 +123,7 @@ struct DeviceFile {
   std::uint64_t seed = 1; // of the noise
   // The control with what the file adds: codes, a window.
   void extend(stdlib::Control& control);
-  bool usesWindow() const; // one of its cells is behind it
+  bool usesWindow() const; // one of its cells is beyond it
 };
 
 // nullopt: reported. Tables are looked for from the folder of the file on, and read where `bounds` allow it.

@@ -54,7 +54,8 @@ Lines otherBounds(const std::string& line, const Lines&) {
   Lines out;
   static const std::array<std::pair<const char*, const char*>, 4> kTurns = {
       {{" LE ", " LT "}, {" LT ", " LE "}, {" GE ", " GT "}, {" GT ", " GE "}}};
-  if (!line.starts_with("IF[") || matches(line, "#4\\d\\d\\d|#50\\d\\d|#51\\d\\d")) return out;
+  // No part lies on the bound of a measured value to the last digit.
+  if (!line.starts_with("IF[") || matches(line, "#4\\d\\d\\d|#50\\d\\d|#51\\d\\d|#1[34]\\d\\b")) return out;
   for (const auto& [from, to] : kTurns)
     for (std::size_t at = 0; (at = line.find(from, at)) != std::string::npos; ++at)
       out.push_back(std::string(line).replace(at, 4, to));

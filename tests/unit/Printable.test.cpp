@@ -73,7 +73,6 @@ TEST_CASE("names of files are shown as texts of messages are") {
                                       "verify --to fanuc --cases 20 ",
                                       "outline ",
                                       "outline --json ",
-                                      "renumber --all -o - ",
                                       "renumber --range 5:1 ",
                                       "fmt --diff ",
                                       "fmt --check ",

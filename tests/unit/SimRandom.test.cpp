@@ -81,6 +81,7 @@ public:
       return;
     }
     if (special == 28) {
+      if (!axes) return fail("inconclusive G"); // which axes a control then takes differs
       for (const char axis : {'X', 'Y', 'Z'})
         if (value.contains(axis)) machine_[axis] = 0;
       return;
