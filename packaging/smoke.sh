@@ -10,6 +10,7 @@ sources=()
 [[ -z ${DOTEK_MIRROR:-} ]] || sources=("$DOTEK_MIRROR")
 mmdebstrap --quiet --variant=minbase bookworm "$root" "${sources[@]}"
 cp "$deb" "$root/dotek.deb"
+chroot "$root" apt-get update -qq
 chroot "$root" apt-get install -y -qq --no-install-recommends /dotek.deb >"$root/log" 2>&1 || { cat "$root/log" >&2; exit 1; }
 chroot "$root" /bin/bash -euo pipefail <<'TXT'
 cd /usr/share/doc/dotek/examples

@@ -76,6 +76,26 @@ TEST_CASE("install: the completions know commands, flags and values") {
   }
 }
 
+TEST_CASE("install: the site has each page, and its links lead somewhere") {
+  const ProcessFolder folder;
+  if (!have(folder, "python3 pandoc")) return;
+  const ShellResult made =
+      folder.run(source() + "python3 $SOURCE/packaging/site.py --dotek $DOTEK --docs $SOURCE/docs --out site");
+  REQUIRE_MESSAGE(made.status == 0, made.out << made.err);
+  for (const char* name : {"index", "tutorials/my-first-cycle", "rules/README", "commands", "controls",
+                           "cycles-library", "cli"})
+    CHECK_MESSAGE(!folder.read(std::string("site/") + name + ".html").empty(), name);
+  const ShellResult broken = folder.run(R"(cd site && python3 - <<'END'
+import glob, os, re
+for page in glob.glob("**/*.html", recursive=True):
+    for target in re.findall(r'(?:href|src)="([^"#]+)', open(page, encoding="utf-8").read()):
+        if "://" not in target and not os.path.exists(os.path.join(os.path.dirname(page), target)):
+            print(page, target)
+END)");
+  CHECK(broken.status == 0);
+  CHECK(broken.out == "");
+}
+
 TEST_CASE("install: two packages of one program have the same bytes, and hold what belongs to it") {
   const ProcessFolder folder;
   if (!have(folder, "python3 cmake dpkg-deb dpkg-shlibdeps strip")) return;
