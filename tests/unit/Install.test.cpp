@@ -79,11 +79,11 @@ TEST_CASE("install: the completions know commands, flags and values") {
 TEST_CASE("install: the site has each page, and its links lead somewhere") {
   const ProcessFolder folder;
   if (!have(folder, "python3 pandoc")) return;
-  const ShellResult made =
-      folder.run(source() + "python3 $SOURCE/packaging/site.py --dotek $DOTEK --docs $SOURCE/docs --out site");
+  const ShellResult made = folder.run(
+      source() + "python3 $SOURCE/packaging/site.py --dotek $DOTEK --docs $SOURCE/docs --out site");
   REQUIRE_MESSAGE(made.status == 0, made.out << made.err);
-  for (const char* name : {"index", "tutorials/my-first-cycle", "rules/README", "commands", "controls",
-                           "cycles-library", "cli"})
+  for (const char* name :
+       {"index", "tutorials/my-first-cycle", "rules/README", "commands", "controls", "cycles-library", "cli"})
     CHECK_MESSAGE(!folder.read(std::string("site/") + name + ".html").empty(), name);
   const ShellResult broken = folder.run(R"(cd site && python3 - <<'END'
 import glob, os, re
