@@ -65,6 +65,8 @@ void fill(const Raw& raw, Arguments& parsed) {
   parsed.sarif = raw.format == "sarif";
   parsed.github = raw.format == "github";
   parsed.gitlab = raw.format == "gitlab";
+  parsed.html = raw.format == "html";
+  parsed.watch = raw.watch;
   parsed.statistics = raw.statistics;
   parsed.baselineFile = raw.writeBaseline;
   parsed.stage = raw.stage == "tokens" ? driver::Stage::Tokens

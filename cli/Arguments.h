@@ -49,7 +49,8 @@ struct Arguments {
   std::string output;            // -o
   std::string standardInputName; // --stdin-filename
   bool json = false;
-  bool sarif = false, github = false, gitlab = false;
+  bool sarif = false, github = false, gitlab = false, html = false;
+  bool watch = false;             // of lint
   bool statistics = false;        // of lint: --statistics
   std::string baselineFile;       // of lint: --write-baseline
   driver::RunPostOptions runPost; // common aside

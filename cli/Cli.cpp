@@ -4,7 +4,9 @@
 #include "cli/Diff.h"
 #include "cli/Files.h"
 #include "cli/Findings.h"
+#include "cli/FindingsPage.h"
 #include "cli/StandardInput.h"
+#include "cli/Watch.h"
 #include "driver/Driver.h"
 #include "driver/Facts.h"
 #include "driver/LintFix.h"
@@ -217,6 +219,7 @@ public:
              : arguments.json     ? renderJson(outcome.diagnostics, outcome.sources)
              : arguments.github   ? renderGithub(outcome.diagnostics, outcome.sources)
              : arguments.gitlab   ? renderGitlab(outcome.diagnostics, outcome.sources)
+             : arguments.html     ? findingsPage(outcome.diagnostics, outcome.sources, outcome.summary)
                                   : renderText(outcome.diagnostics, outcome.sources, maxErrors_, outColors_));
     if (!arguments.quiet && !outcome.summary.empty()) err_ << outcome.summary << "\n";
     if (const std::string line = closingLine(outcome.diagnostics);
@@ -341,6 +344,18 @@ int runCommand(Arguments& arguments, std::ostream& out, std::ostream& err) {
     options.common = arguments.common;
     options.source = arguments.source;
     if (arguments.diff) return printer.proposals(driver::proposeFixes(options), arguments);
+    if (arguments.watch)
+      return watch(
+          options.paths,
+          [&](int& status) {
+            const driver::Outcome outcome = driver::lint(options);
+            status = printer.findings(outcome, arguments);
+            std::set<std::string> read;
+            for (FileId file = 0; file < outcome.sources.size(); ++file)
+              read.insert(outcome.sources.file(file).name());
+            return read;
+          },
+          out, err);
     return printer.findings(driver::lint(options), arguments);
   }
   case Command::Dump:

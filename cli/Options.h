@@ -33,7 +33,8 @@ struct Raw {
   std::vector<std::string> select, ignore;
   std::string failOn;
   bool fix = false, followLinks = false, listSkipped = false, statistics = false;
-  std::string baseline, writeBaseline;
+  std::string baseline, writeBaseline, changedSince;
+  bool watch = false;
   bool write = false, check = false; // of fmt
   std::string stage = "ast";
   std::vector<std::string> letters, defaults;

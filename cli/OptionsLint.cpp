@@ -32,8 +32,8 @@ std::set<std::string> codes(const std::vector<std::string>& given, bool all) {
 void addLint(CLI::App& app, Raw& raw) {
   CLI::App* lint = app.add_subcommand("lint", "check macros, dialogs, cycle folders and posts");
   lint->add_option("PATH", raw.inputs, "files and folders");
-  lint->add_option("--format", raw.format, "text, json, sarif, github or gitlab")
-      ->check(CLI::IsMember({"text", "json", "sarif", "github", "gitlab"}));
+  lint->add_option("--format", raw.format, "text, json, sarif, github, gitlab or html")
+      ->check(CLI::IsMember({"text", "json", "sarif", "github", "gitlab", "html"}));
   lint->add_flag("--follow-links", raw.followLinks, "of folders: also links that lead out of them");
   lint->add_flag("--list-skipped", raw.listSkipped, "of folders: name each file that is skipped");
   lint->add_flag("--statistics", raw.statistics, "how often each code is found, instead of the findings");
@@ -41,6 +41,9 @@ void addLint(CLI::App& app, Raw& raw) {
       ->type_name("FILE");
   lint->add_option("--write-baseline", raw.writeBaseline, "list the findings of now in a file for --baseline")
       ->type_name("FILE");
+  lint->add_option("--changed-since", raw.changedSince,
+                   "only findings of files that git calls changed since this commit, branch or tag")
+      ->type_name("REF");
   CLI::Option* fix =
       lint->add_flag("--fix", raw.fix, "make the repairs that change no motion, coordinate or meaning");
   lint->add_flag("--diff", raw.diff, "with --fix: print the lines that would change, and how; change nothing")
@@ -56,6 +59,7 @@ void addLint(CLI::App& app, Raw& raw) {
       ->check(CLI::IsMember({"note", "warning", "error", "never"}));
   addTarget(*lint, raw);
   lint->add_flag("--quiet", raw.quiet, "no summary and no progress, only what was found");
+  lint->add_flag("--watch", raw.watch, "run again whenever a file changes, until it is interrupted");
   addForce(*lint, raw);
   addStandardInput(*lint, raw);
   addIncludes(*lint, raw);
@@ -67,12 +71,19 @@ driver::LintOptions lintOf(const Raw& raw) {
   // A patch is no list of findings. (CLI11 would list what excludes a flag in the order of addresses.)
   if (raw.fix && raw.diff && (raw.format != "text" || raw.statistics || !raw.writeBaseline.empty()))
     throw UsageError("--fix --diff prints a patch, which has no --format, --statistics or --write-baseline");
+  if (raw.watch && (raw.fix || !raw.writeBaseline.empty()))
+    throw UsageError(
+        "--watch reads files that somebody edits; --fix and --write-baseline would write beside them");
+  if (raw.watch &&
+      std::any_of(raw.inputs.begin(), raw.inputs.end(), [](const std::string& one) { return one == "-"; }))
+    throw UsageError("--watch takes files and folders; what comes by standard input does not change");
   if (!raw.select.empty()) out.select = codes(raw.select, true);
   out.ignore = codes(raw.ignore, false);
   out.control = raw.control;
   out.fix = raw.fix;
   if (!raw.baseline.empty()) out.baseline = raw.baseline;
   if (!raw.writeBaseline.empty()) out.writeBaseline = raw.writeBaseline;
+  out.changedSince = raw.changedSince;
   out.listSkipped = raw.listSkipped;
   out.force = raw.force;
   out.followLinks = raw.followLinks;

@@ -1,4 +1,5 @@
 #include "support/messages/Lint.h"
+#include "driver/ChangedFiles.h"
 #include "driver/Command.h"
 #include "driver/Driver.h"
 #include "driver/LintFix.h"
@@ -61,6 +62,10 @@ public:
       configs_.of(path);
     // A setting that is not understood would change what is reported: nothing is reported then.
     if (session_.diagnostics().hasErrors()) return failed();
+    if (!options_.changedSince.empty()) {
+      changed_ = changedFiles(options_.paths, options_.changedSince, session_.diagnostics());
+      if (!changed_) return failed();
+    }
     inputs_ = compilation_.load(options_.source, "");
     if (inputs_ == nullptr) return failed();
     for (const std::string& path : options_.paths) {
@@ -391,12 +396,25 @@ private:
     std::erase_if(all, [&](const Diagnostic& d) {
       if (isUsageCode(d.code) || d.code == diag::TooManyFindings::code) return false;
       return projects_.isExcluded(d.range.file) ||
-             !lint::isWanted(d.code, options_, projects_.configOf(d.range.file));
+             !lint::isWanted(d.code, options_, projects_.configOf(d.range.file)) || isOfUnchanged(d);
     });
     for (Diagnostic& d : all) {
       const auto& severity = projects_.configOf(d.range.file).severity;
       if (const auto at = severity.find(d.code); at != severity.end() && at->second) d.severity = *at->second;
     }
+  }
+
+  // A finding whose other place is in a changed file is of that change.
+  bool isOfUnchanged(const Diagnostic& d) {
+    if (!changed_ || !d.range.hasPlace()) return false;
+    return !isChanged(d.range.file) && std::none_of(d.notes.begin(), d.notes.end(), [&](const auto& note) {
+      return note.range.hasPlace() && isChanged(note.range.file);
+    });
+  }
+  bool isChanged(FileId file) {
+    const auto [at, isNew] = isChanged_.try_emplace(file);
+    if (isNew) at->second = changed_->contains(nameAmongChanged(session_.sources().file(file).name()));
+    return at->second;
   }
 
   const LintOptions& options_;
@@ -408,6 +426,8 @@ private:
   lint::Projects projects_;
   InputWalk walk_;
   std::size_t checkedFiles_ = 0, excluded_ = 0;
+  std::optional<std::set<std::string>> changed_; // names of --changed-since
+  std::map<FileId, bool> isChanged_;
   std::string passedOver_; // of the baseline, for the summary
   LoweringInputs* inputs_ = nullptr;
   std::map<std::string, std::unique_ptr<MacroLoader>> loaders_; // by folder

@@ -27,6 +27,8 @@ struct LintOptions {
   bool listSkipped = false;     // the summary names each file that was skipped
   bool fix = false;             // makes the safe repairs, then says what is left
   bool force = false;           // repairs files that are write-protected, too
+  // --changed-since: findings are of the files that differ from this state of a repository; "": of all.
+  std::string changedSince;
   // --baseline: path of a list of findings that are passed over; nothing: none.
   std::optional<std::string> baseline;
   // The file that the result is written to, which has such a list of what is found; lint does not fail then.
