@@ -12,10 +12,11 @@ void takeControls(targets::TranslationOptions& options, project::Session& sessio
   if (options.inputs.empty() || !(options.control.empty() || options.fromControl.empty())) return;
   std::error_code error;
   const std::string& first = options.inputs.front();
-  const bool programs = !std::filesystem::is_directory(first, error) && !project::isCycleFile(first, session);
+  const bool cycle = project::isCycleFile(first, session);
+  const bool programs = !std::filesystem::is_directory(first, error) && !cycle;
   const targets::Target* const target = targets::findTarget(options.to);
-  const bool takes =
-      options.control.empty() && (target == nullptr || !(target->ownControls || target->controlOfForm));
+  const bool takes = options.control.empty() &&
+                     (target == nullptr || !(target->ownControls || (target->controlOfForm && !cycle)));
   const bool reads = programs && options.fromControl.empty();
   if (!takes && !reads) return;
   std::vector<std::string> inputs = options.inputs;

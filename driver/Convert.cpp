@@ -154,6 +154,8 @@ private:
   bool loadCycles(const Target& target) {
     Diagnostics& diagnostics = session_.diagnostics();
     const bool first = options_.control.empty() || target.ownControls;
+    if (std::any_of(order_.begin(), order_.end(), [](const Input& one) { return one.isCycleFile; }))
+      compilation_.takeLiterals();
     context_.inputs =
         compilation_.load(options_.source, first ? std::string(kDefaultControl) : options_.control);
     if (context_.inputs == nullptr) return false;

@@ -11,7 +11,9 @@
 #include "ir/Fold.h"
 #include "ir/Print.h"
 #include "project/Compilation.h"
+#include "project/CycleFiles.h"
 #include "project/CycleLowering.h"
+#include "project/CycleValues.h"
 #include "project/Fields.h"
 #include "project/Hosts.h"
 #include "project/Inputs.h"
@@ -199,7 +201,8 @@ private:
   }
 
   // Puts in the values of --set and --host.
-  void fix(ir::Cycle& cycle) {
+  // `file`: of a cycle of the language, whose values may be literals; nullptr: it is none.
+  void fix(ir::Cycle& cycle, const std::string* file = nullptr) {
     const std::map<std::string, double> hosts = parseHosts(options_.common.host, session_.diagnostics());
     std::map<ir::VariableId, double> fixed;
     std::set<std::string> names;
@@ -214,6 +217,8 @@ private:
       if (set == options_.common.set.end()) continue;
       if (const auto value = parseNumber(set->second))
         fixed[id] = *value;
+      else if (file != nullptr)
+        literal(*file, *set, id, fixed);
       else
         session_.diagnostics().report<diag::NotANumber>({}, "--set", set->first, set->second);
     }
@@ -226,6 +231,15 @@ private:
     if (!fixed.empty()) ir::fold(cycle, fixed);
   }
 
+  void literal(const std::string& file, const std::pair<std::string, std::string>& given, ir::VariableId id,
+               std::map<ir::VariableId, double>& fixed) {
+    CycleFiles files(session_);
+    const auto* const tree = files.linked(file);
+    if (tree == nullptr) return;
+    const auto values = cycleValues(*tree, {given}, session_.diagnostics());
+    if (const auto value = values.find(given.first); value != values.end()) fixed[id] = value->second;
+  }
+
   // false: it is no cycle of the cycle language.
   bool cycleIr(const std::string& input) {
     if (!isCycleFile(input, session_)) return false;
@@ -233,7 +247,7 @@ private:
     if (!lowered) return true;
     ir::Module module;
     module.cycles.push_back(std::move(lowered->cycle));
-    fix(module.cycles.front());
+    fix(module.cycles.front(), &input);
     out_ += ir::print(module, &session_.sources());
     return true;
   }

@@ -5,13 +5,18 @@
 #include "frontend/gibbs/Parse.h"
 #include "frontend/macrob/Lower.h"
 #include "frontend/macrob/Parse.h"
+#include "project/CycleFiles.h"
 #include "project/CycleLowering.h"
+#include "project/CycleValues.h"
 #include "project/Inputs.h"
 #include "project/Prog.h"
+#include "support/Decimal.h"
 #include "support/Files.h"
 #include "support/NearestName.h"
 #include "support/messages/Commands.h"
+#include "support/messages/Sim.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace dotek::project {
@@ -39,12 +44,12 @@ const std::vector<stdlib::Control>& Compilation::controls(const stdlib::ProbeCod
 }
 
 LoweringInputs* Compilation::load(const SourceOptions& source, const std::string& control) {
-  inputs_ = loadLoweringInputs(source, control, session_);
+  inputs_ = loadLoweringInputs(source, control, session_, sets_);
   return inputs_ ? &*inputs_ : nullptr;
 }
 
 LoweringInputs* Compilation::loadSettings(const SourceOptions& source) {
-  inputs_ = project::loadSettings(source, session_);
+  inputs_ = project::loadSettings(source, session_, sets_);
   return inputs_ ? &*inputs_ : nullptr;
 }
 
@@ -94,6 +99,10 @@ const std::string* Compilation::fileOf(const CycleFolder& folder) const {
 
 std::optional<LoweredCycle> Compilation::lower(const CycleFolder& folder, Strictness strictness) {
   if (const std::string* file = fileOf(folder)) return lowerFile(*file, {});
+  // Fields of a folder are numbers, whatever the cycles beside it take.
+  for (const auto& [name, text] : session_.options().set)
+    if (!parseNumber(text) && usedSets_.insert(name).second)
+      session_.diagnostics().report<diag::NotANumber>({}, "--set", name, text);
   return lowerCycle(folder, *inputs_, usedSets_, session_, strictness);
 }
 
@@ -133,8 +142,43 @@ void giveApproachFeed(ir::Cycle& cycle) {
 
 } // namespace
 
+namespace {
+
+// Values of --set and the job by the names of parameters; what is no number is a literal of the language:
+// `18mm`, `G54`. Values that are none are reported.
+std::vector<std::pair<std::string, double>> setsOf(const std::string& path, const LoweringInputs& inputs,
+                                                   Session& session) {
+  std::vector<std::pair<std::string, double>> out = inputs.sets;
+  Diagnostics said = std::exchange(session.diagnostics(), Diagnostics());
+  CycleFiles files(session);
+  const auto* const tree = files.linked(path); // it has been lowered
+  session.diagnostics() = std::move(said);
+  for (const auto& [name, text] : session.options().set) {
+    if (parseNumber(text) || tree == nullptr) continue;
+    Diagnostics found;
+    const auto values = cycleValues(*tree, {{name, text}}, found);
+    const bool twice =
+        std::any_of(out.begin(), out.end(), [&, &set = name](const auto& one) { return one.first == set; });
+    if (twice) {
+      session.diagnostics().report<diag::GivenTwice>({}, "--set", name);
+    } else if (const auto value = values.find(name); value != values.end()) {
+      out.emplace_back(name, value->second);
+    } else {
+      for (Diagnostic& one : found.all())
+        if (one.code == diag::ParameterValue::code) session.diagnostics().add(std::move(one));
+      out.emplace_back(name, 0); // one that the cycle does not have is reported by name
+    }
+  }
+  return out;
+}
+
+} // namespace
+
 std::optional<LoweredCycle> Compilation::lowerFile(const std::string& path, const SourceOptions& source) {
-  if (!inputs_ && loadSettings(source) == nullptr) return std::nullopt;
+  if (!inputs_) {
+    takeLiterals();
+    if (loadSettings(source) == nullptr) return std::nullopt;
+  }
   std::optional<frontend::cycle::Lowered> lowered = lowerCycleFile(path, session_);
   if (!lowered) return std::nullopt;
   LoweredCycle out;
@@ -142,6 +186,7 @@ std::optional<LoweredCycle> Compilation::lowerFile(const std::string& path, cons
   out.letters = std::move(lowered->letters);
   giveApproachFeed(out.cycle);
   std::set<std::string> names;
+  const auto sets = setsOf(path, *inputs_, session_);
   for (ir::VariableId id = 0; id < out.cycle.variables.size(); ++id) {
     const ir::Variable& variable = out.cycle.variable(id);
     const auto fix = [&](double value) {
@@ -150,14 +195,14 @@ std::optional<LoweredCycle> Compilation::lowerFile(const std::string& path, cons
     };
     if (variable.role == ir::Role::Parameter) {
       names.insert(variable.name);
-      for (const auto& [name, value] : inputs_->sets)
+      for (const auto& [name, value] : sets)
         if (name == variable.name) fix(value);
     }
     if (variable.role != ir::Role::Host) continue;
     if (const auto given = inputs_->hosts.find(variable.name); given != inputs_->hosts.end())
       fix(given->second);
   }
-  for (const auto& [name, value] : inputs_->sets) {
+  for (const auto& [name, value] : sets) {
     if (inputs_->oneOfSeveral && !names.contains(name)) continue;
     usedSets_.insert(name); // reported here, once
     if (names.contains(name)) continue;

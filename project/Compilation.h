@@ -36,6 +36,8 @@ public:
   // Under which settings cycles are lowered; reads the Prog of the command line. nullptr: a flag, the Prog or
   // a data file has a defect, reported.
   LoweringInputs* load(const SourceOptions& source, const std::string& control);
+  // Before it, where files of the cycle language are among the inputs.
+  void takeLiterals() { sets_ = SetTexts::Literals; }
   // Without the controls and before the Prog, for who runs a cycle instead of lowering it; then the Prog.
   LoweringInputs* loadSettings(const SourceOptions& source);
   bool loadProg(const SourceOptions& source); // false: reported
@@ -81,6 +83,7 @@ private:
   Session& session_;
   std::map<stdlib::ProbeCodes, std::vector<stdlib::Control>> controls_;
   std::optional<LoweringInputs> inputs_;
+  SetTexts sets_ = SetTexts::Numbers;
   std::deque<std::shared_ptr<const frontend::compost::Program>> progs_;
   std::deque<CycleFolder> folders_;
   std::deque<frontend::gibbs::Macro> macros_;

@@ -56,12 +56,13 @@ void checkProbeCodes(const stdlib::Control& control, Session& session) {
 
 namespace {
 
-void readSets(LoweringInputs& inputs, Session& session) {
+void readSets(LoweringInputs& inputs, SetTexts texts, Session& session) {
   for (const auto& [name, text] : session.options().set) {
     const std::optional<double> value = parseNumber(text);
     const std::string folded = gibbs::foldCase(name);
     const bool twice = std::any_of(inputs.sets.begin(), inputs.sets.end(),
                                    [&](const auto& set) { return gibbs::foldCase(set.first) == folded; });
+    if (!value && texts == SetTexts::Literals) continue;
     if (!value)
       session.diagnostics().report<diag::NotANumber>({}, "--set", name, text);
     else if (twice)
@@ -384,12 +385,12 @@ void useForm(LoweringInputs& inputs, const std::string& name, Session& session) 
     inputs.sourceControl = loadControl(inputs.form->control, session);
 }
 
-std::optional<LoweringInputs> loadSettings(const SourceOptions& source, Session& session) {
+std::optional<LoweringInputs> loadSettings(const SourceOptions& source, Session& session, SetTexts sets) {
   LoweringInputs inputs;
   Diagnostics& diagnostics = session.diagnostics();
   inputs.givenHosts = parseHosts(session.options().host, diagnostics);
   inputs.hosts = inputs.givenHosts;
-  readSets(inputs, session);
+  readSets(inputs, sets, session);
   if (session.options().job) inputs.job = loadJob(*session.options().job, session);
   if (inputs.job) inputs.hosts.insert(inputs.job->hosts.begin(), inputs.job->hosts.end());
   inputs.routine = source.routine;
@@ -415,8 +416,8 @@ bool loadProgInto(LoweringInputs& inputs, const SourceOptions& source, Session& 
 }
 
 std::optional<LoweringInputs> loadLoweringInputs(const SourceOptions& source, const std::string& control,
-                                                 Session& session) {
-  std::optional<LoweringInputs> inputs = loadSettings(source, session);
+                                                 Session& session, SetTexts sets) {
+  std::optional<LoweringInputs> inputs = loadSettings(source, session, sets);
   std::optional<stdlib::Control> target;
   if (!control.empty()) target = loadControl(control, session);
   if (target) checkProbeCodes(*target, session);

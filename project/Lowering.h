@@ -47,12 +47,16 @@ struct LoweringInputs {
   bool oneOfSeveral = false; // cycles: a name of --set or --field may be that of another one
 };
 
+// What --set may hold: numbers, or literals of the cycle language as well (`18mm`), which each input judges.
+enum class SetTexts : std::uint8_t { Numbers, Literals };
+
 // Reports and gives nothing where an option, the Prog or a data file has a defect. `control` may be "".
 std::optional<LoweringInputs> loadLoweringInputs(const SourceOptions& source, const std::string& control,
-                                                 Session& session);
+                                                 Session& session, SetTexts sets = SetTexts::Numbers);
 // The first half of it, what the command line and the job say and the form of --prog, without its control;
 // and the Prog. false: reported.
-std::optional<LoweringInputs> loadSettings(const SourceOptions& source, Session& session);
+std::optional<LoweringInputs> loadSettings(const SourceOptions& source, Session& session,
+                                           SetTexts sets = SetTexts::Numbers);
 bool loadProgInto(LoweringInputs& inputs, const SourceOptions& source, Session& session);
 
 // The form of this name, and the control that it is of. What is missing is reported.

@@ -75,6 +75,7 @@ CycleFileRunner::~CycleFileRunner() = default;
 bool CycleFileRunner::load() {
   const Target* const target = findTarget(options_.to);
   const bool first = options_.control.empty() || (target != nullptr && target->ownControls);
+  compilation_.takeLiterals();
   inputs_ = compilation_.load(options_.source, first ? std::string(kDefaultControl) : options_.control);
   if (inputs_ == nullptr) return false;
   const std::string& path = options_.inputs.front();

@@ -49,4 +49,18 @@ dialogChoices(const project::CycleFolder& folder, const ir::Cycle& cycle, const 
   return out;
 }
 
+std::vector<DialogChoice> choicesOfType(std::string_view type) {
+  constexpr std::string_view kChoice = "choice of ", kComma = ", ";
+  if (type == "flag") return {{0, "no"}, {1, "yes"}};
+  std::vector<DialogChoice> out;
+  if (!type.starts_with(kChoice)) return out;
+  type.remove_prefix(kChoice.size());
+  while (!type.empty()) {
+    const std::size_t comma = std::min(type.find(kComma), type.size());
+    out.push_back({static_cast<double>(out.size() + 1), std::string(type.substr(0, comma))});
+    type.remove_prefix(std::min(comma + kComma.size(), type.size()));
+  }
+  return out;
+}
+
 } // namespace dotek::targets

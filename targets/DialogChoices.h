@@ -7,6 +7,7 @@
 
 #include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace dotek::targets {
@@ -21,5 +22,9 @@ struct DialogChoice {
 // its order. Other parameters are absent.
 std::map<ir::VariableId, std::vector<DialogChoice>>
 dialogChoices(const project::CycleFolder& folder, const ir::Cycle& cycle, const SourceMap& sources);
+
+// Of a parameter of the cycle language, by its type as a page of the cycle names it ("flag", "choice of a,
+// b"); none of other types.
+std::vector<DialogChoice> choicesOfType(std::string_view type);
 
 } // namespace dotek::targets

@@ -7,19 +7,35 @@ namespace {
 
 constexpr std::uint32_t kMaxSteps = 10000;
 constexpr int kMostTries = 2000;
-constexpr double kLengths[] = {10, 20, 30, 5, 50, 2, 100, 1, 4, 8, 0.5, 200, -10, -5, 45, 90, 3, 6, 0};
+// What a caller may be shown, the harmless before the large: whoever copies it goes a short way.
+constexpr double kPlain[] = {1,  2,  3,  4,   5,   6,  8,  10, 12,  15, 20,  25,  30,  40,  45, 50,
+                             60, 80, 90, 0.5, 0.1, -1, -2, -5, -10, 0,  100, 150, 200, 300, 500};
+constexpr int kRounds = 3; // one value may only be small once another is
 
 double typical(const ir::Variable& variable) {
   if (variable.defaultValue) return *variable.defaultValue;
   if (variable.kind == ir::Kind::WorkOffset) return 54;
   if (variable.kind == ir::Kind::ToolOffset || variable.kind == ir::Kind::Count) return 1;
-  if (variable.kind == ir::Kind::Feed) return 1000;
+  if (variable.kind == ir::Kind::Feed) return 500;
   if (variable.role != ir::Role::Host) return 0;
   if (variable.name == "clearance") return 50;
   if (variable.name == "retract") return 5;
   if (variable.name == "tool_radius") return 3;
-  if (variable.name == "return_feed") return 1000;
+  if (variable.name == "return_feed") return 500;
   return 0;
+}
+
+// Each open value as far to the front of the list as the checks allow.
+template <class Passes>
+void makeSmall(const std::vector<ir::VariableId>& open, ir::Environment& all, const Passes& passes) {
+  for (int round = 0; round < kRounds; ++round)
+    for (const ir::VariableId id : open) {
+      const double now = all[id].value;
+      for (const double value : kPlain) {
+        all[id] = ir::Scalar::of(value);
+        if (value == now || passes()) break;
+      }
+    }
 }
 
 } // namespace
@@ -53,9 +69,10 @@ std::map<ir::VariableId, double> exampleValues(const State& state) {
   for (int n = 0; n < kMostTries; ++n) {
     for (const ir::VariableId id : open) {
       draw = draw * 1664525U + 1013904223U;
-      all[id] = ir::Scalar::of(kLengths[(draw >> 16U) % std::size(kLengths)]);
+      all[id] = ir::Scalar::of(kPlain[(draw >> 16U) % std::size(kPlain)]);
     }
     if (!passes()) continue;
+    makeSmall(open, all, passes);
     for (const ir::VariableId id : open)
       out[id] = all[id].value;
     break;

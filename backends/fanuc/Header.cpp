@@ -35,6 +35,7 @@ public:
   Sheet write() {
     out_.add("%", origin("begin of the file"));
     out_.add("O" + number() + "(" + title() + ")", origin("program number"));
+    if (isCut()) say(wholeTitle());
     if (!state_.cycle.title.empty()) say("CYCLE " + state_.cycle.name);
     say("FOR " + state_.control.title + ", MACROS OF " + state_.macros.title);
     if (!state_.cycle.measurementStated)
@@ -73,13 +74,18 @@ private:
     return std::string(digits.size() < 4 ? 4 - digits.size() : 0, '0') + digits;
   }
 
+  std::string wholeTitle() const {
+    return headerText(state_.cycle.title.empty() ? state_.cycle.name : state_.cycle.title);
+  }
+  bool isCut() const { return wrapWords(wholeTitle(), kTitleWidth).size() > 1; }
+
+  // Two points where it is cut: the next comment then has all of it.
   std::string title() const {
-    const std::string& given = state_.cycle.title.empty() ? state_.cycle.name : state_.cycle.title;
-    const auto lines = wrapWords(headerText(given), kTitleWidth);
+    const auto lines = wrapWords(wholeTitle(), kTitleWidth);
     std::string out = lines.empty() ? "" : lines.front();
     while (!out.empty() && std::string_view(" ,-.:/").find(out.back()) != std::string_view::npos)
-      out.pop_back(); // where it was cut
-    return out.empty() ? "PROBE CYCLE" : out;
+      out.pop_back();
+    return out.empty() ? "PROBE CYCLE" : isCut() ? out + ".." : out;
   }
 
   std::string meaning(const ir::Variable& variable) const {

@@ -69,7 +69,8 @@ std::optional<std::vector<EmittedLine>> emit(const ir::Cycle& cycle, const EmitO
                                              Diagnostics& diagnostics) {
   State state(cycle, options, diagnostics);
   // Jumps that the Prog prints are printed as they are.
-  if (options.printed.empty() || (options.foreignMacros && !isStraight(cycle) && turnsIncremental(cycle))) {
+  if ((options.printed.empty() && !options.call) ||
+      (options.foreignMacros && !isStraight(cycle) && turnsIncremental(cycle))) {
     state.refuse<diag::FusionNeedsProg>(cycle.range);
     return std::nullopt;
   }
@@ -85,8 +86,12 @@ std::optional<std::vector<EmittedLine>> emit(const ir::Cycle& cycle, const EmitO
   Script rest;
   const auto body = [&](Script& into) {
     std::swap(state.script, into);
-    writeChecks(state);
-    writeBlocks(state);
+    if (options.call) {
+      writeCall(state);
+    } else {
+      writeChecks(state);
+      writeBlocks(state);
+    }
     std::swap(state.script, into);
   };
   rest.indent();
@@ -102,6 +107,7 @@ std::optional<std::vector<EmittedLine>> emit(const ir::Cycle& cycle, const EmitO
   writeProperties(state);
   Script& script = state.script;
   writeHelpers(state);
+  if (options.call) writeProgram(state);
   script.add("// Checks the fields, then prints the blocks of the cycle.");
   script.add("function " + state.prefix + "_write(x, y, z) {");
   script.append(reading);

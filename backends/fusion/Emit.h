@@ -19,10 +19,25 @@ namespace dotek::backends::fusion {
 // nominal.
 inline constexpr std::string_view kMissedNominal = "the start and the travel do not lead to the nominal in ";
 
+// The remark of a fragment that leaves the checks of a cycle to the program that it calls.
+inline constexpr std::string_view kChecksOfProgram =
+    "The checks are left to the program: a post cannot compute all that they compare.";
+
 // A value that a field may have, and what the dialog says of it.
 struct Choice {
   double value = 0;
   std::string title; // UTF-8
+};
+
+// A macro program that the fragment calls and carries, in place of printed blocks.
+struct ProgramCall {
+  struct Argument {
+    ir::VariableId variable = 0;
+    char letter = 0;
+  };
+  std::uint32_t number = 0;
+  std::vector<Argument> arguments; // in the order of the call
+  std::vector<EmittedLine> lines;  // of the program, without `%`
 };
 
 struct EmitOptions {
@@ -38,6 +53,8 @@ struct EmitOptions {
   std::map<ir::VariableId, double> defaults; // values of the source, those its checks reject included
   // The functions of sharedHelpers() are in the post: the fragment calls them and holds none of them.
   bool helpersApart = false;
+  std::optional<ProgramCall> call = std::nullopt;    // then nothing is `printed`
+  std::map<ir::VariableId, std::string> groups = {}; // of fields, as the source calls them (UTF-8)
 };
 
 // "surfaceX" of "surface-x": what each name of the fragment begins with. Letters and digits of ASCII alone; a
@@ -46,6 +63,8 @@ std::string prefixOf(const std::string& cycleName);
 
 // "surfaceX_G": the property of a field.
 std::string propertyOf(std::string_view prefix, std::string_view field);
+// "surfaceX_give_G": 1 where an operation gives a field that may be left out, else 0.
+std::string givingPropertyOf(std::string_view prefix, std::string_view field);
 
 // The fragment: head, properties, functions PREFIX_dispatch(x, y, z) and PREFIX_write(x, y, z) with what they
 // need. nullopt where something cannot be said: reported. `cycle` is folded; its body is straight.
@@ -57,11 +76,14 @@ std::string sharedHelpers(const stdlib::Control& control);
 
 // What is around fragments in the post of postAround(): before the first, after the last.
 std::vector<EmittedLine> postHead();
-std::vector<EmittedLine> postTail(const std::vector<std::string>& prefixes);
+// `closing`: of those that carry a program, which is written after the end.
+std::vector<EmittedLine> postTail(const std::vector<std::string>& prefixes,
+                                  const std::vector<std::string>& closing = {});
 
 // The smallest post around fragments: header, formats, writeBlock, entry functions. `prefixes` of the
 // fragments, in the order in which their dispatch functions are asked.
 std::vector<EmittedLine> postAround(const std::vector<std::vector<EmittedLine>>& fragments,
-                                    const std::vector<std::string>& prefixes);
+                                    const std::vector<std::string>& prefixes,
+                                    const std::vector<std::string>& closing = {});
 
 } // namespace dotek::backends::fusion

@@ -54,13 +54,6 @@ function onLinear(x, y, z, feed) {
 }
 )";
 
-constexpr std::string_view kEnd = R"(
-function onClose() {
-  writeBlock("M30");
-  writeln("%");
-}
-)";
-
 } // namespace
 
 std::vector<EmittedLine> postHead() {
@@ -69,7 +62,8 @@ std::vector<EmittedLine> postHead() {
   return script.lines();
 }
 
-std::vector<EmittedLine> postTail(const std::vector<std::string>& prefixes) {
+std::vector<EmittedLine> postTail(const std::vector<std::string>& prefixes,
+                                  const std::vector<std::string>& closing) {
   Script script;
   // Nothing else is printed by this post.
   if (!prefixes.empty()) script.add("properties.dotekCycle.value = " + quoted(prefixes.front()) + ";");
@@ -83,19 +77,26 @@ std::vector<EmittedLine> postTail(const std::vector<std::string>& prefixes) {
   }
   script.add("error(localize(\"the operation names no probing cycle: its property dotekCycle\"));");
   script.close();
-  script.text(kEnd);
+  script.blank();
+  script.open("function onClose() {");
+  script.add("writeBlock(\"M30\");");
+  for (const std::string& prefix : closing)
+    script.add(prefix + "_close();");
+  script.add("writeln(\"%\");");
+  script.close();
   return script.lines();
 }
 
 std::vector<EmittedLine> postAround(const std::vector<std::vector<EmittedLine>>& fragments,
-                                    const std::vector<std::string>& prefixes) {
+                                    const std::vector<std::string>& prefixes,
+                                    const std::vector<std::string>& closing) {
   Script script;
   script.append(postHead());
   for (const auto& fragment : fragments) {
     script.blank();
     script.append(fragment);
   }
-  script.append(postTail(prefixes));
+  script.append(postTail(prefixes, closing));
   return script.lines();
 }
 

@@ -42,7 +42,20 @@ bool isWhole(ir::Kind kind) {
 }
 
 bool isField(const State& state, ir::VariableId id) {
-  return state.cycle.variable(id).role == ir::Role::Parameter && !state.options.fixed.contains(id);
+  if (state.cycle.variable(id).role != ir::Role::Parameter || state.options.fixed.contains(id)) return false;
+  const auto& call = state.options.call;
+  return !call || std::any_of(call->arguments.begin(), call->arguments.end(),
+                              [&](const ProgramCall::Argument& one) { return one.variable == id; });
+}
+
+// The key of a field's group: that of the cycle, or one of its own.
+std::string groupKey(const State& state, ir::VariableId id) {
+  const auto found = state.options.groups.find(id);
+  if (found == state.options.groups.end() || found->second.empty()) return state.prefix;
+  std::set<std::string> names;
+  for (const auto& [other, name] : state.options.groups)
+    if (!name.empty()) names.insert(name);
+  return state.prefix + "Group" + std::to_string(std::distance(names.begin(), names.find(found->second)) + 1);
 }
 
 const std::vector<Choice>* choicesOf(const State& state, ir::VariableId id) {
@@ -62,16 +75,34 @@ void writeProperty(State& state, ir::VariableId id) {
   const auto given = state.options.defaults.find(id);
   const auto value =
       given == state.options.defaults.end() ? variable.defaultValue : std::optional(given->second);
+  const std::string unit = !variable.unit.empty() ? variable.unit
+                           : state.options.call   ? std::string(ir::kindUnit(variable.kind))
+                                                  : std::string();
   if (isReserved(variable.name)) state.diagnostics.report<diag::ReservedName>(variable.range, variable.name);
   if (isWhole(variable.kind) && value && *value != static_cast<double>(static_cast<long long>(*value)))
     state.refuse<diag::NotWhole>(variable.range, variable.name, numberText(*value));
+  const std::string group = groupKey(state, id);
+  if (mayBeLeftOut(state, id)) {
+    state.script.open("properties." + givingPropertyOf(state.prefix, variable.name) + " = {", origin);
+    state.script.add(
+        "title: " + quoted("Give: " + (variable.meaning.empty() ? variable.name : variable.meaning)) + ",");
+    state.script.add("description: " +
+                     quoted("Whether " + variable.name + " of " + state.cycle.name +
+                            " is given; else it is left out of the call") +
+                     ",");
+    state.script.add("group: " + quoted(group) + ",");
+    state.script.add("type: \"enum\",");
+    state.script.add("values: [{title: \"no\", id: \"0\"}, {title: \"yes\", id: \"1\"}],");
+    state.script.add("value: \"0\",");
+    state.script.add("scope: \"operation\"");
+    state.script.close("};");
+  }
   state.script.open("properties." + propertyName(state, variable) + " = {", origin);
   state.script.add("title: " + quoted(variable.meaning.empty() ? variable.name : variable.meaning) + ",");
-  state.script.add("description: " +
-                   quoted(variable.name + " of " + state.cycle.name +
-                          (variable.unit.empty() ? std::string() : ", " + variable.unit)) +
-                   ",");
-  state.script.add("group: " + quoted(state.prefix) + ",");
+  state.script.add(
+      "description: " +
+      quoted(variable.name + " of " + state.cycle.name + (unit.empty() ? std::string() : ", " + unit)) + ",");
+  state.script.add("group: " + quoted(group) + ",");
   state.script.add(std::string("type: ") +
                    (choices != nullptr       ? "\"enum\""
                     : isWhole(variable.kind) ? "\"integer\""
@@ -99,6 +130,10 @@ std::string propertyOf(std::string_view prefix, std::string_view field) {
     name +=
         static_cast<unsigned char>(c) < 0x80 && std::isalnum(static_cast<unsigned char>(c)) != 0 ? c : '_';
   return std::string(prefix) + "_" + name;
+}
+
+std::string givingPropertyOf(std::string_view prefix, std::string_view field) {
+  return propertyOf(prefix, "give_" + std::string(field));
 }
 
 ir::VariableId State::host(std::string_view wanted) {
@@ -134,6 +169,14 @@ void writeHead(State& state) {
   script.comment(cycle.name + (cycle.title.empty() ? "" : " (" + cycle.title + ")") +
                  ": a probing cycle as a part of a Fusion post. Macros of " + state.options.macros.title +
                  ". Millimetres.");
+  if (state.options.call) {
+    const std::string program = "O" + std::to_string(state.options.call->number);
+    script.comment("The blocks go to the point and call the program " + program + ", written for " +
+                   state.options.control.title + ". onClose ends, after M30, with  " + state.prefix +
+                   "_close();  which writes that program into the same file where an operation calls it. A "
+                   "control that runs the file without taking it into its memory needs " +
+                   program + " there beforehand.");
+  }
   script.comment("minimumRevision: " + std::to_string(kFirstRevision));
   script.comment(
       "Needs of the post: writeBlock(text), which puts the block number before; xOutput, yOutput, zOutput, "
@@ -184,11 +227,20 @@ void writeProperties(State& state) {
              ", order: 101};");
   script.add("properties.dotekCycle.values.push({title: " + quoted(title) + ", id: " + quoted(state.prefix) +
              "});");
+  std::map<std::string, std::string> groups;
+  for (const auto& [id, name] : state.options.groups)
+    if (!name.empty()) groups.emplace(groupKey(state, id), name);
+  int order = 101;
+  for (const auto& [key, name] : groups)
+    script.add("groupDefinitions." + key + " = {title: " + quoted("Probing: " + title + ", " + name) +
+               ", order: " + std::to_string(++order) + "};");
   std::set<std::string> taken;
   for (ir::VariableId id = 0; id < state.cycle.variables.size(); ++id) {
     if (!isField(state, id)) continue;
     const ir::Variable& variable = state.cycle.variable(id);
-    if (!taken.insert(propertyName(state, variable)).second) {
+    const bool alone =
+        !mayBeLeftOut(state, id) || taken.insert(givingPropertyOf(state.prefix, variable.name)).second;
+    if (!taken.insert(propertyName(state, variable)).second || !alone) {
       state.refuse<diag::PropertyTwice>(variable.range, variable.name, propertyName(state, variable));
       continue;
     }
@@ -207,12 +259,17 @@ void writeReading(State& state) {
       ir::Origin origin;
       origin.ranges = {variable.range};
       const bool length = choicesOf(state, id) == nullptr && !isWhole(variable.kind);
+      const std::string value = length ? state.helper(Helper::Given) + "(" + get + ")"
+                                : choicesOf(state, id) != nullptr ? "Number(" + get + ")"
+                                                                  : get;
+      const std::string giving = "Number(currentSection.getProperty(" +
+                                 quoted(givingPropertyOf(state.prefix, variable.name)) + ")) === 1";
       script.add("var " + state.name(id) + " = " +
-                     (length                            ? state.helper(Helper::Given) + "(" + get + ")"
-                      : choicesOf(state, id) != nullptr ? "Number(" + get + ")"
-                                                        : get) +
-                     ";",
+                     (mayBeLeftOut(state, id) ? giving + " ? " + value + " : undefined" : value) + ";",
                  origin);
+      if (mayBeLeftOut(state, id))
+        state.errorIf(giving + " && !" + state.helper(Helper::IsNumber) + "(" + state.name(id) + ")",
+                      variable.name + " is no number", {});
       continue;
     }
     const HostText* host = hostText(variable.name);
@@ -233,15 +290,21 @@ void writeReading(State& state) {
     const ir::Variable& variable = state.cycle.variable(id);
     const HostText* host = variable.role == ir::Role::Host ? hostText(variable.name) : nullptr;
     const std::string what = host != nullptr ? std::string(host->text) : variable.name;
-    state.errorIf("!" + state.helper(Helper::IsNumber) + "(" + state.name(id) + ")", what + " is no number",
-                  {});
+    const bool absent = mayBeLeftOut(state, id);
+    if (!absent)
+      state.errorIf("!" + state.helper(Helper::IsNumber) + "(" + state.name(id) + ")", what + " is no number",
+                    {});
     // A number that cannot be meant, as the command line refuses it.
     const bool positive = variable.name == "tool_radius";
     if (host != nullptr && (positive || variable.name == "overtravel"))
       state.errorIf(state.name(id) + (positive ? " <= 0" : " < 0"),
                     what + (positive ? " is not above 0" : " is negative"), {});
     if (isWhole(variable.kind))
-      state.errorIf(state.name(id) + " % 1 !== 0", what + " is no whole number", {});
+      state.errorIf((absent ? state.name(id) + " !== undefined && " : "") + state.name(id) + " % 1 !== 0",
+                    what + " is no whole number", {});
+    if (state.options.call && variable.kind == ir::Kind::WorkOffset)
+      state.errorIf(state.name(id) + " < 54 || " + state.name(id) + " > 59",
+                    what + " is the number of a work offset, 54 to 59", {});
   }
   for (const auto& [name, value] : state.options.fixedByName) {
     const HostText* host = hostText(name);

@@ -42,7 +42,7 @@ std::string inputText(std::string_view prefix, bool whole, const RunInput& input
               {"lengthOffset", input.toolLengthOffset}},
              input),
       object(input.cycle, input), input.probing ? "\"strategy\": \"probe\", " : "",
-      whole ? "" : "\"entry\": " + quoted(std::string(prefix) + "_dispatch") + ", ", most);
+      whole ? "" : "\"entry\": " + quoted(std::string(prefix) + "_" + input.entry) + ", ", most);
 }
 
 std::string textOf(const std::vector<EmittedLine>& lines) {

@@ -28,6 +28,7 @@ struct RunInput {
   // What arrives as a text instead of a number: a property, a member of the cycle, "x", "y", "z" of the
   // points, "diameter", "number" or "lengthOffset" of the tool. "": nothing does.
   std::string noNumber = {};
+  std::string entry = "dispatch"; // the function of a fragment that is called for each point
 };
 
 struct RunResult {

@@ -88,6 +88,15 @@ void writeChecks(State& state);
 // The texts of all values first, so that nothing is written before the last error; then the blocks.
 void writeBlocks(State& state);
 
+// ---- Call.cpp ----
+
+// Texts of the arguments, checks, then the way to the start and the call.
+void writeCall(State& state);
+// The functions that write the program.
+void writeProgram(State& state);
+// The field has no value unless the operation says that it gives it.
+bool mayBeLeftOut(const State& state, ir::VariableId id);
+
 // Pieces of a block on their way to one string expression.
 class Text {
 public:

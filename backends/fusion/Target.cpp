@@ -2,6 +2,8 @@
 #include "backends/fusion/TargetVerify.h"
 
 #include "backends/fusion/Emit.h"
+#include "backends/fusion/TargetCycle.h"
+#include "backends/fusion/TargetVerifyCycle.h"
 #include "ir/Fold.h"
 #include "support/messages/Commands.h"
 #include "support/messages/Fusion.h"
@@ -28,7 +30,9 @@ void dropNotesOfPrograms(Diagnostics& diagnostics) {
 }
 
 void checkFusionConvert(const ConvertOptions& options, Diagnostics& diagnostics) {
-  if (!options.source.prog) diagnostics.report<diag::FusionNeedsProg>({});
+  const bool cycles = std::any_of(options.inputs.begin(), options.inputs.end(),
+                                  [](const std::string& path) { return path.ends_with(".cycle"); });
+  if (!options.source.prog && !cycles) diagnostics.report<diag::FusionNeedsProg>({});
 }
 
 void refuseFlag(std::string_view flag, Diagnostics& diagnostics) {
@@ -40,7 +44,9 @@ class FusionConversion final : public Conversion {
 public:
   using Conversion::Conversion;
 
-  bool cycle(const CycleFolder& folder, std::size_t /*index*/) override {
+  bool cycle(const CycleFolder& folder, std::size_t index) override {
+    if (const std::string* file = context_.compilation.fileOf(folder)) return cycleFile(folder, index, *file);
+    if (!takesFlags()) return true;
     std::optional<LoweredSource> source = lowerSource(folder, context_);
     if (!source) return false;
     const stdlib::MacroSet* called = source->lowered.macros;
@@ -65,20 +71,67 @@ public:
       return;
     }
     std::vector<std::vector<backends::EmittedLine>> fragments;
-    std::vector<std::string> prefixes;
+    std::vector<std::string> prefixes, closing;
     for (const Part& part : parts_) {
+      if (part.closes) closing.push_back(part.prefix);
       fragments.push_back(part.lines);
       prefixes.push_back(part.prefix);
     }
     write((parts_.size() == 1 ? parts_.front().prefix : std::string("cycles")) + ".cps",
-          fusion::postAround(fragments, prefixes));
+          fusion::postAround(fragments, prefixes, closing));
   }
 
 private:
   struct Part {
     std::string cycle, prefix;
     std::vector<backends::EmittedLine> lines;
+    bool closes = false; // it carries a program
   };
+
+  // Flags of programs on a control are for files of the cycle language.
+  bool takesFlags() {
+    Diagnostics& diagnostics = session_.diagnostics();
+    if (!options_.source.prog) diagnostics.report<diag::FusionNeedsProg>({});
+    if (!options_.letters.empty()) refuseFlag("--arg", diagnostics);
+    if (options_.programNumber) refuseFlag("--program-number", diagnostics);
+    if (!options_.results.empty()) refuseFlag("--result", diagnostics);
+    return !diagnostics.hasErrors();
+  }
+
+  bool cycleFile(const CycleFolder& folder, std::size_t index, const std::string& file) {
+    std::optional<CalledCycle> called = calledCycle(folder, index, file, context_);
+    if (!called) return !session_.diagnostics().hasErrors();
+    const LoweringInputs& inputs = *context_.inputs;
+    const stdlib::MacroSet* const macros = session_.macroSet(called->macros);
+    if (macros == nullptr) return true;
+    const ir::Cycle& cycle = called->lowered.cycle;
+    fusion::EmitOptions emit{*inputs.control,
+                             *macros,
+                             false,
+                             {},
+                             called->lowered.fixed,
+                             called->lowered.fixedByName,
+                             std::move(called->choices),
+                             {},
+                             options_.helpersApart};
+    emit.fixedByName.insert(inputs.hosts.begin(), inputs.hosts.end());
+    emit.call = std::move(called->call);
+    emit.groups = std::move(called->groups);
+    keep(cycle, fusion::emit(cycle, emit, session_.diagnostics()), true);
+    ConversionResult& result = context_.result;
+    result.macros = called->macros;
+    result.arguments.push_back(std::move(called->arguments));
+    if (!options_.wholePost) result.macrosByCycle.push_back(called->macros);
+    return true;
+  }
+
+  void keep(const ir::Cycle& cycle, std::optional<std::vector<backends::EmittedLine>> lines, bool closes) {
+    const std::string prefix = fusion::prefixOf(cycle.name);
+    for (const Part& part : parts_)
+      if (part.prefix == prefix)
+        session_.diagnostics().report<diag::FragmentNameTwice>({}, part.cycle, cycle.name, prefix);
+    if (lines) parts_.push_back({cycle.name, prefix, std::move(*lines), closes});
+  }
 
   void write(const std::string& name, std::vector<backends::EmittedLine> lines) {
     for (backends::EmittedLine& line : lines)
@@ -114,19 +167,20 @@ private:
       for (DialogChoice& choice : choices)
         emit.choices[id].push_back({choice.value, std::move(choice.title)});
     emit.fixedByName.insert(inputs.hosts.begin(), inputs.hosts.end());
-    const std::string prefix = fusion::prefixOf(lowered.cycle.name);
-    for (const Part& part : parts_)
-      if (part.prefix == prefix)
-        session_.diagnostics().report<diag::FragmentNameTwice>({}, part.cycle, lowered.cycle.name, prefix);
     auto lines = fusion::emit(lowered.cycle, emit, session_.diagnostics());
     if (options_.probeMacros && !foreign) dropNotesOfPrograms(session_.diagnostics());
-    if (lines) parts_.push_back({lowered.cycle.name, prefix, std::move(*lines)});
+    keep(lowered.cycle, std::move(lines), false);
   }
 
   std::vector<Part> parts_;
 };
 
-constexpr TargetFlag kFlags[] = {TargetFlag::ProbeMacros, TargetFlag::WholePost, TargetFlag::Helpers};
+constexpr TargetFlag kFlags[] = {TargetFlag::ProbeMacros, TargetFlag::WholePost,     TargetFlag::Helpers,
+                                 TargetFlag::Arg,         TargetFlag::ProgramNumber, TargetFlag::Result};
+
+std::unique_ptr<Verification> verificationOf(const VerificationSource& source) {
+  return source.plan.cycleFile ? fusionCycleVerification(source) : fusionVerification(source);
+}
 
 } // namespace
 
@@ -138,8 +192,9 @@ DOTEK_TARGET(fusion) = {
     .refuseFlag = refuseFlag,
     .checkConvert = checkFusionConvert,
     .controlOfForm = true,
+    .takesCycleFiles = true,
     .convert = conversionBy<FusionConversion>,
-    .verify = fusionVerification,
+    .verify = verificationOf,
 };
 
 } // namespace target

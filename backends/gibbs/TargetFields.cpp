@@ -78,16 +78,6 @@ void confineSystem(ir::Cycle& cycle, ir::VariableId id) {
            range);
 }
 
-std::vector<std::string> split(std::string_view text) {
-  std::vector<std::string> out;
-  while (!text.empty()) {
-    const std::size_t comma = text.find(", ");
-    out.emplace_back(text.substr(0, comma));
-    text = comma == std::string_view::npos ? std::string_view() : text.substr(comma + 2);
-  }
-  return out;
-}
-
 ir::ConditionPtr alwaysGiven(const ir::ConditionPtr& condition, const ir::Cycle& cycle) {
   if (const auto* null = std::get_if<ir::IsNull>(&condition->node)) {
     const auto* use = std::get_if<ir::VariableUse>(&null->value->node);
@@ -119,13 +109,10 @@ bool onlyItsRange(const ir::Cycle& cycle, ir::VariableId id) {
 
 // What the source says of a field beside what is in the IR.
 void describe(gibbs::Field& field, const CyclePage::Row& row) {
-  constexpr std::string_view kChoice = "choice of ";
   field.meaning = row.meaning;
   field.group = row.group;
-  if (row.kind == "flag") field.choices = {{0, "no"}, {1, "yes"}};
-  if (!row.kind.starts_with(kChoice)) return;
-  for (std::string& name : split(std::string_view(row.kind).substr(kChoice.size())))
-    field.choices.push_back({static_cast<double>(field.choices.size() + 1), std::move(name)});
+  for (DialogChoice& one : choicesOfType(row.kind))
+    field.choices.push_back({one.value, std::move(one.title)});
 }
 
 bool isStart(std::string_view name) {

@@ -75,7 +75,13 @@ std::optional<MikroprogProgram> writeMikroprog(const CycleFolder& folder, Lowere
                                    [&](const stdlib::HostInput& one) { return one.name == host; });
     diagnostics.report<diag::HostNeeded>(cycle.range, folder.name, host, info->meaning, host);
   }
-  if (diagnostics.hasErrors()) return std::nullopt;
+  if (diagnostics.hasErrors()) {
+    // What it says besides is said at once.
+    ir::Cycle rest = cycle;
+    ir::fold(rest, lowered.fixed, {true, session.limits().steps});
+    if (writing.cycleFile) joinSettings(rest, diagnostics);
+    return std::nullopt;
+  }
   if (const std::optional<ir::CycleStatement> alarm = certainAlarm(lowered)) {
     reportRejected(folder, lowered, *alarm, session);
     return std::nullopt;

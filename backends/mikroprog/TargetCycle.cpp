@@ -93,7 +93,7 @@ void refuseMeasured(const ir::Cycle& cycle, Diagnostics& diagnostics) {
     if (!reads) continue;
     if (ir::conditionOf(statement) != nullptr) {
       diagnostics.report<diag::FlowRefused>(statement.origin.range(), "what was measured");
-      return;
+      continue;
     }
     if (place == nullptr) place = &statement;
   }
@@ -145,7 +145,6 @@ void joinSettings(ir::Cycle& cycle, Diagnostics& diagnostics) {
       diagnostics.report<diag::MikroprogCannot>(
           range, "an offset from a value that is computed",
           "the control sets the datum at a contact, and computes nothing with what was measured");
-      return;
     }
     list.erase(list.begin() + static_cast<std::ptrdiff_t>(i--));
   }
