@@ -203,9 +203,11 @@ std::unique_ptr<CaseRunner::Values> CaseRunner::check(const verify::Case& drawn,
       return verify::drawnPath(*path, start + zero, hosts.at("retract") + zero.z, hosts.at("tool_radius"));
     };
     if (settle) {
-      draws_->settleHosts(out->drawn, drawPath({}));
+      const verify::DrawnPath settling = drawPath({});
+      draws_->settleHosts(out->drawn, settling);
       roundHosts(out->drawn);
       startOnRetract(out->drawn);
+      if (target_ == nullptr) clearOnRetract(out->drawn, settling);
     }
     out->path = drawPath(zeroOf(out->drawn));
   }

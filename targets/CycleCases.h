@@ -70,7 +70,9 @@ private:
   void takeValues(verify::Case& drawn) const;
   bool knowsValues();
   void roundHosts(verify::Case& drawn) const;
+  bool isGiven(const char* host) const; // by --host or a replay
   void startOnRetract(verify::Case& drawn) const;
+  void clearOnRetract(verify::Case& drawn, const verify::DrawnPath& path) const;
   bool leadToNominal(std::unique_ptr<Values>& values);
   std::optional<std::vector<double>> nominalMisses(const verify::Case& drawn);
   std::string whyNotCorrected(const Values& values, const sim::Part& nominal, double off) const;

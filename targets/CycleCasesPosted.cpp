@@ -89,18 +89,32 @@ void CaseRunner::findMacros(const ir::Program& program) {
                        session_.limits());
 }
 
+bool CaseRunner::isGiven(const char* host) const {
+  return plan_.fixedHosts.contains(host) ||
+         std::any_of(options_.values.begin(), options_.values.end(),
+                     [&](const auto& value) { return value.first == host; });
+}
+
 // What is given stays as it is.
 void CaseRunner::startOnRetract(verify::Case& drawn) const {
   if (!plan_.startsOnRetract) return;
-  const auto given = [&](const char* name) {
-    return plan_.fixedHosts.contains(name) ||
-           std::any_of(options_.values.begin(), options_.values.end(),
-                       [&](const auto& value) { return value.first == name; });
-  };
-  if (!given("start_z"))
+  if (!isGiven("start_z"))
     drawn.hosts["start_z"] = drawn.hosts["retract"];
-  else if (!given("retract"))
+  else if (!isGiven("retract"))
     drawn.hosts["retract"] = drawn.hosts["start_z"];
+}
+
+// The plane that a ToolPath.mac reads and that of ZCP1 are one, the main clearance plane, on which the CAM
+// begins. A path that goes there shows it; one that states all heights by fields says nothing of it.
+void CaseRunner::clearOnRetract(verify::Case& drawn, const verify::DrawnPath& path) const {
+  const auto retract = drawn.hosts.find("retract");
+  if (retract == drawn.hosts.end()) return;
+  const bool goesThere =
+      std::any_of(path.points.begin() + 1, path.points.end(),
+                  [&](const sim::Point3& point) { return std::abs(point.z - retract->second) <= 1e-9; });
+  if (!goesThere) return;
+  for (const char* const host : {"clearance", "start_z"})
+    if (drawn.hosts.contains(host) && !isGiven(host)) drawn.hosts[host] = retract->second;
 }
 
 } // namespace dotek::targets

@@ -74,6 +74,7 @@ public:
     early();
     if (!rules_.atMeasures) deeds();
     if (rules_.sameAlarmNumbers) switches();
+    takeAll(compareIdleMoves(source_, target_, rules_));
     takeAll(compareValues(source_, target_, rules_));
     if (!stopsInMacros() && !near(source_.end, target_.end, rules_.tolerance))
       add(Aspect::End, fmt::format("it ends at {} against {}", textOf(source_.end), textOf(target_.end)),

@@ -101,6 +101,38 @@ bool isOnTheWay(const Touch& wanted, const Point3& surface, const Point3& start,
   return along >= -tolerance && along <= whole && near(beyond, wanted.direction * along, tolerance);
 }
 
+// A program that loads its tool comes from the place where it changes it, and may go back there: of that,
+// what lies above where the drawn path begins and ends is not drawn. The moves stay as they are where they
+// do not lead through these places from above.
+void trimToolChange(const Point3& first, const Point3& last, double tolerance, std::vector<Piece>& moves) {
+  for (std::size_t i = 0; i < moves.size() && moves[i].from.z >= first.z - tolerance; ++i) {
+    const bool through = near(moves[i].from, first, tolerance) || near(moves[i].to, first, tolerance) ||
+                         between(moves[i].from, first, moves[i].to, tolerance);
+    if (!through) continue;
+    Piece approach = moves[i];
+    approach.to = first;
+    approach.from = first + Point3{1, 2, 3}; // aslant: no piece after it goes on in one line with it
+    moves[i].from = first;
+    moves.erase(moves.begin(), moves.begin() + static_cast<std::ptrdiff_t>(i));
+    moves.insert(moves.begin(), approach);
+    break;
+  }
+  while (!moves.empty()) {
+    Piece& up = moves.back();
+    const bool vertical = std::abs(up.from.x - up.to.x) <= tolerance &&
+                          std::abs(up.from.y - up.to.y) <= tolerance && up.to.z >= up.from.z - tolerance;
+    if (!vertical || up.to.z <= last.z + tolerance ||
+        !between(up.from, {up.to.x, up.to.y, last.z}, up.to, tolerance)) {
+      if (!vertical || up.from.z < last.z - tolerance) break;
+      if (near(up.to, last, tolerance)) break;
+      moves.pop_back();
+      continue;
+    }
+    up.to.z = last.z;
+    break;
+  }
+}
+
 } // namespace
 
 std::vector<Difference> compare(const DrawnPath& path, const Point3& offset, const Record& program,
@@ -171,15 +203,23 @@ std::vector<Difference> compare(const DrawnPath& path, const Point3& offset, con
   std::vector<Piece> moves;
   std::size_t found = 0; // moves before the last measure
   std::size_t measures = 0;
+  std::optional<Point3> before; // where a bare skip move has begun that the last piece was
   for (const Piece& piece : program.pieces) {
     if (piece.kind != sim::PathKind::Measuring) {
       moves.push_back(piece);
+      if (before) moves.back().from = *before; // the path back is that of the touch, as in the drawn one
+      before.reset();
       continue;
     }
+    if (!before && piece.from != piece.to) before = piece.from;
     if (again.contains(measures++)) moves.resize(found); // what lies between two touches of one surface
     found = moves.size();
   }
+  const bool loads = std::any_of(program.deeds.begin(), program.deeds.end(),
+                                 [](const Deed& one) { return one.kind == Deed::Kind::ToolChange; });
+  if (loads && !a.empty()) trimToolChange(a.front().to, a.back().to, tolerance, moves);
   const std::vector<Piece> b = straight(moves, false, tolerance);
+  const Point3 end = loads && !b.empty() ? b.back().to : program.end;
   for (std::size_t i = 0; i < std::max(a.size(), b.size()); ++i) {
     if (i < a.size() && i < b.size() && near(a[i].to, b[i].to, tolerance)) continue;
     const std::string one = i < a.size() ? "the path goes to " + textOf(a[i].to) : "the path ends";
@@ -191,10 +231,9 @@ std::vector<Difference> compare(const DrawnPath& path, const Point3& offset, con
         i < b.size() ? b[i].range : SourceRange{});
     break;
   }
-  if (!path.points.empty() && !near(path.points.back() + offset, program.end, tolerance))
+  if (!path.points.empty() && !near(path.points.back() + offset, end, tolerance))
     add(Aspect::End,
-        fmt::format("the path ends at {} against {}", textOf(path.points.back() + offset),
-                    textOf(program.end)),
+        fmt::format("the path ends at {} against {}", textOf(path.points.back() + offset), textOf(end)),
         path.ranges.back(), program.pieces.empty() ? SourceRange{} : program.pieces.back().range);
   return out;
 }

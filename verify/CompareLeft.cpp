@@ -203,6 +203,42 @@ std::string systemName(std::uint32_t system) {
                                   : fmt::format("G{}", system);
 }
 
+std::vector<Difference> compareIdleMoves(const Record& source, const Record& target,
+                                         const CompareRules& rules) {
+  const std::vector<IdleMove>&a = source.idle, &b = target.idle;
+  std::vector<Difference> out;
+  if (a.size() != b.size()) return out; // a translation may leave out what moves nothing
+  const auto word = [](const std::optional<double>& value) {
+    return value ? numberText(*value) : std::string("nothing");
+  };
+  const auto same = [&](const std::optional<double>& one, const std::optional<double>& other) {
+    return one && other ? std::abs(*one - *other) <= std::max(rules.results, rules.relative * std::abs(*one))
+                        : one.has_value() == other.has_value();
+  };
+  const auto valueOf = [](const IdleMove& move, std::uint32_t local) {
+    const auto found = move.given.find(local);
+    return found == move.given.end() ? std::nullopt : std::optional(found->second);
+  };
+  for (std::size_t i = 0; i < a.size() && out.empty(); ++i) {
+    if (a[i].program == 0 || b[i].program == 0) return out;
+    if (!same(a[i].feed, b[i].feed) && a[i].feed && b[i].feed)
+      addFirst(out, {Aspect::Path,
+                     fmt::format("a protected move that stays where it is, at F{} against F{}",
+                                 word(a[i].feed), word(b[i].feed)),
+                     a[i].range, b[i].range});
+    if (!rules.sameAlarmNumbers || a[i].program != b[i].program) continue;
+    for (char letter = 'A'; letter <= 'Z'; ++letter) {
+      const std::uint32_t local = stdlib::localOf(letter);
+      if (local == 0 || same(valueOf(a[i], local), valueOf(b[i], local))) continue;
+      addFirst(out, {Aspect::Path,
+                     fmt::format("P{} called with {} {} against {}", a[i].program, letter,
+                                 word(valueOf(a[i], local)), word(valueOf(b[i], local))),
+                     a[i].range, b[i].range});
+    }
+  }
+  return out;
+}
+
 std::vector<Difference> compareValues(const Record& source, const Record& target, const CompareRules& rules) {
   return LeftComparison(source, target, rules).values();
 }

@@ -14,6 +14,10 @@ void addFirst(std::vector<Difference>& list, Difference one);
 // "G54", "G54.1 P3" of a key of Record::zeros.
 std::string systemName(std::uint32_t system);
 
+// Protected moves called for where the machine is: the letters where both call the same macros, else the
+// feed.
+std::vector<Difference> compareIdleMoves(const Record& source, const Record& target,
+                                         const CompareRules& rules);
 // Work offsets, tool offsets and variables: the first difference of each.
 std::vector<Difference> compareValues(const Record& source, const Record& target, const CompareRules& rules);
 // The modal groups in force at the end.

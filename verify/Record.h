@@ -128,6 +128,16 @@ struct Deed {
   SourceRange range;
 };
 
+// A protected move called for where the machine is already: it moves nothing, but from another place it
+// would.
+struct IdleMove {
+  std::uint32_t program = 0;             // of the macro; 0: of a cycle
+  std::size_t pieces = 0;                // that came before it
+  std::optional<double> feed = {};       // an argument
+  std::map<std::uint32_t, double> given; // arguments by local
+  SourceRange range;
+};
+
 // A call of a macro that switches the probe: what is in force where it is called, as of Piece.
 struct SwitchCall {
   std::uint32_t program = 0;
@@ -151,6 +161,10 @@ struct Record {
   std::vector<Mark> marks;
   std::vector<Deed> deeds;
   std::vector<SwitchCall> switches;
+  std::vector<IdleMove> idle;
+  // The program's own #1, #2 .. (from the second entry on) where it first moves or has called a macro; empty:
+  // it does neither.
+  std::vector<double> locals;
   // What went wrong on the path (no contacts, no misses), and where in the program.
   std::vector<std::pair<sim::ProbeEvent, SourceRange>> events;
   // Work offsets that were written: G number (54 to 59; 54.1 Pn as kExtendedSystem + n) and axis (0 to 2), to

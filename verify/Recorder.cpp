@@ -235,6 +235,7 @@ void Recorder::moved(const sim::MachineMotion& motion) {
     kind =
         call_.moves || (call_.depth == 0 && positions_) ? sim::PathKind::Protected : sim::PathKind::Measuring;
   if (call_.depth == 0) {
+    noteLocals();
     if (kind == sim::PathKind::Measuring) {
       Measure measure;
       measure.start = from;
@@ -292,6 +293,8 @@ void Recorder::callBegins(std::uint32_t program, std::span<const double> locals)
   const stdlib::MacroSignature* const signature = signatureOf(**set, program, locals);
   const Intent intent = signature == nullptr ? Intent::Surface : signature->intent;
   call_.moves = intent == Intent::ProtectedMove;
+  for (std::uint32_t number = 1; call_.moves && number < locals.size(); ++number)
+    if (!sim::isNull(locals[number]) && !sim::isUnknown(locals[number])) call_.given[number] = locals[number];
   if (const stdlib::MacroArgument* feed =
           signature == nullptr ? nullptr : signature->find(stdlib::ArgumentRole::Feed)) {
     const double given = locals[stdlib::localOf(feed->letter)];
@@ -413,6 +416,9 @@ void Recorder::endCall() {
     record_.pieces.push_back({sim::PathKind::Measuring, call_.start, call_.start, call_.with, call_.range,
                               std::nullopt, call_.modes, call_.frame});
   } else if (call_.moves) {
+    if (machine_.running() && (end - call_.start).length() <= kSameSignal)
+      record_.idle.push_back(
+          {call_.program, record_.pieces.size(), call_.feed, std::move(call_.given), call_.range});
     record_.pieces.push_back({sim::PathKind::Protected, call_.start, end, call_.with, call_.range, call_.feed,
                               call_.modes, call_.frame});
   }
@@ -420,8 +426,17 @@ void Recorder::endCall() {
 }
 
 void Recorder::callEnded(std::uint32_t /*program*/) {
-  if (call_.depth == 0) return;
-  if (--call_.depth == 0) endCall();
+  if (call_.depth == 0 || --call_.depth > 0) return;
+  endCall();
+  noteLocals();
+}
+
+// Those of the level that moves or has called.
+void Recorder::noteLocals() {
+  if (!record_.locals.empty()) return;
+  record_.locals.assign(static_cast<std::size_t>(machine_.control().locals) + 1, sim::kNull);
+  for (std::uint32_t number = 1; number < record_.locals.size(); ++number)
+    record_.locals[number] = machine_.local(number);
 }
 
 // What a cycle does by itself counts as one thing, as a call of a macro does.

@@ -95,6 +95,7 @@ private:
   void noteOptions(const stdlib::MacroSignature& signature, std::span<const double> locals,
                    Measure& measure) const;
   void noteEarlyUses();
+  void noteLocals();
   void beginOwn();
   void endOwn();
   void endCall();
@@ -130,10 +131,11 @@ private:
     sim::Point3 start;
     SourceRange range;
     Surroundings with;
-    std::uint32_t system = 0;           // that the call names, 54 to 59; 0: none
-    std::array<bool, 3> names{};        // axes whose coordinate it names
-    std::array<sim::Position, 6> zeros; // of G54 to G59, of one that measures
-    std::optional<double> feed;         // an argument
+    std::uint32_t system = 0;              // that the call names, 54 to 59; 0: none
+    std::array<bool, 3> names{};           // axes whose coordinate it names
+    std::array<sim::Position, 6> zeros;    // of G54 to G59, of one that measures
+    std::optional<double> feed;            // an argument
+    std::map<std::uint32_t, double> given; // arguments by local
     std::array<std::uint32_t, 3> modes{};
     WorkFrame frame;
     std::size_t moved = 0;            // touches after which the path was moved (touchedApart)

@@ -439,9 +439,33 @@ private:
       one.text =
           value ? fmt::format("called {}, for which {} is the default: {}", who, numberText(*value), one.text)
                 : fmt::format("called {}: {}", who, one.text);
-    if (!found.empty()) noteCaller(who);
+    const bool alike = found.empty();
+    if (!alike) noteCaller(who);
     add(std::move(found), out);
-    if (value) callAtBounds(argument, *field, *value, now, entry, out);
+    if (!value) return;
+    if (alike) compareDefault(argument, *value, without, record, now, out);
+    callAtBounds(argument, *field, *value, now, entry, out);
+  }
+
+  // A tolerance may let both pass: what the program counts with is the same as with the default given. One
+  // that is left out and stays null has no default to be another one.
+  void compareDefault(const OutputArgument& argument, double value, const verify::Entry& without,
+                      const verify::Record& ran, const TargetCase& now, TargetRun& out) {
+    const std::uint32_t local = stdlib::localOf(argument.letter);
+    if (local >= ran.locals.size() || sim::isNull(ran.locals[local]) || sim::isUnknown(ran.locals[local]))
+      return;
+    verify::Entry with = without;
+    with.variables.emplace_back(local, value);
+    const verify::Record meant = runText(now, with, nullptr);
+    if (local >= meant.locals.size() || sim::isNull(meant.locals[local]) ||
+        sim::isUnknown(meant.locals[local]) ||
+        std::abs(meant.locals[local] - ran.locals[local]) <= from_.options.tolerance)
+      return;
+    const std::string who = fmt::format("without {} ({})", argument.letter, argument.name);
+    out.differs(verify::Aspect::Variable,
+                fmt::format("called {}, for which {} is the default: it counts with {}", who,
+                            numberText(value), numberText(ran.locals[local])));
+    noteCaller(who);
   }
 
   // Where a check that reads the argument turns, and a step beside it: it does the same with the default

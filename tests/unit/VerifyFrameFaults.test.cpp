@@ -117,7 +117,10 @@ bool isMotionModeOfMacros(const Fault& fault, const std::string& program) {
   if (!std::regex_search(program, kept, std::regex("#(\\d+)=#4001\\b"))) return false;
   const std::string back = "G#" + kept[1].str() + " ";
   const bool unkept = fault.before == kept[0].str() && fault.after.empty(); // G of a null local is no word
-  if (!unkept && (!fault.before.starts_with(back) || fault.after.starts_with(back))) return false;
+  // In its place a mode of the caller's that is in force at the end, or put back beside it, comes once more.
+  const bool another = fault.before == kept[0].str() &&
+                       std::regex_match(fault.after, std::regex("#" + kept[1].str() + "=#40\\d\\d"));
+  if (!unkept && !another && (!fault.before.starts_with(back) || fault.after.starts_with(back))) return false;
   for (const std::string& line : linesOf(program)) {
     if (line.starts_with("(")) continue;
     if (std::regex_search(line, std::regex("(^|[^0-9A-Z#])G0?[0-3](?![0-9])"))) return false;
@@ -178,7 +181,8 @@ std::string_view whyNothing(const Fault& fault, const std::string& program) {
   if (fault.kind == "do not set a mode" && isSetAgain(fault, program))
     return "blocks of the source set it again before anything moves";
   if (fault.kind == "do not wait for the axes") return whyNoWait(program, fault.line);
-  if ((fault.kind == "do not put a mode back" || fault.kind == "do not keep a mode") &&
+  if ((fault.kind == "do not put a mode back" || fault.kind == "do not keep a mode" ||
+       fault.kind == "keep the mode of another group") &&
       isMotionModeOfMacros(fault, program))
     return "the macros put the motion mode back, and nothing else sets it";
   return "";
