@@ -17,6 +17,12 @@ namespace {
 
 constexpr std::uint64_t kCases = 200; // of each input
 
+// What comes of it that one input is not verified.
+std::string notWritten(const ConvertOptions& options, std::size_t inputs) {
+  if (options.keepGoing) return "it is not written";
+  return inputs > 1 ? "nothing is written, and `--keep-going` writes the others" : "nothing is written";
+}
+
 // The sources of `from` become sources of `into`; the diagnostics follow.
 void take(Outcome& into, Outcome from) {
   const FileId first = into.sources.size();
@@ -157,9 +163,8 @@ Outcome verified(const ConvertOptions& options, Outcome outcome) {
     if (good)
       outcome.diagnostics.report<diag::Verified>({}, input, counts);
     else
-      outcome.diagnostics.report<diag::NotVerified>(
-          {}, options.keepGoing ? "it is not written" : "nothing is written", input,
-          counts.empty() ? "it cannot be looked at" : counts);
+      outcome.diagnostics.report<diag::NotVerified>({}, notWritten(options, inputs.size()), input,
+                                                    counts.empty() ? "it cannot be looked at" : counts);
   }
   outcome.diagnostics.sort();
   const bool each = options.keepGoing && outcome.files.size() == inputs.size();

@@ -8,6 +8,7 @@
 #include "lint/Skips.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <set>
 
@@ -28,13 +29,15 @@ struct Held {
   bool unknown = false;
   bool maybeAdded = false, maybeTaken = false; // a value that may be the length is a term, with + or with -
   std::optional<Read> read;                    // where the length comes from
+  std::optional<Read> length;                  // #5083 itself is a term
   const LengthNumbers::Wear* wear = nullptr;   // the wear of a tool is a term
 
   bool none() const { return lengths == 0 && !unknown; }
   bool free() const { return maybeAdded || maybeTaken; }
   bool operator==(const Held& other) const {
     return lengths == other.lengths && unknown == other.unknown && maybeAdded == other.maybeAdded &&
-           maybeTaken == other.maybeTaken && wear == other.wear && read.has_value() == other.read.has_value();
+           maybeTaken == other.maybeTaken && wear == other.wear &&
+           read.has_value() == other.read.has_value() && length.has_value() == other.length.has_value();
   }
 };
 
@@ -51,6 +54,7 @@ Held sum(const Held& a, const Held& b, bool subtract) {
   out.maybeAdded = a.maybeAdded || (subtract ? b.maybeTaken : b.maybeAdded);
   out.maybeTaken = a.maybeTaken || (subtract ? b.maybeAdded : b.maybeTaken);
   out.read = a.read ? a.read : b.read;
+  out.length = a.length ? a.length : b.length;
   out.wear = a.wear != nullptr ? a.wear : b.wear;
   return out;
 }
@@ -91,6 +95,7 @@ Held merged(Held into, const Held& other) {
   into.maybeAdded = into.maybeAdded || other.maybeAdded;
   into.maybeTaken = into.maybeTaken || other.maybeTaken;
   if (!into.read) into.read = other.read;
+  if (!into.length) into.length = other.length;
   if (into.wear == nullptr) into.wear = other.wear;
   return into;
 }
@@ -116,7 +121,7 @@ public:
         macro_(!endsProgram(program)) {}
 
   std::vector<LengthLeftIn> run() {
-    if (!readsPosition()) return {};
+    if (!readsPosition() && !readsLength()) return {};
     Fact entry;
     if (called_) entry.offset = called_->offset;
     // A macro that measures tools runs without an offset; one that takes the length off does not.
@@ -131,8 +136,12 @@ public:
         [](Fact& into, const Fact& other) { return merge(into, other); });
     for (std::size_t i = 0; i < body.size(); ++i)
       if (facts[i]) noteHeights(body[i], *facts[i]);
-    for (std::size_t i = 0; i < body.size(); ++i)
-      if (facts[i]) judge(body[i], *facts[i]);
+    const auto modes = distanceModes(body, ir::flowOf(body));
+    for (std::size_t i = 0; i < body.size(); ++i) {
+      if (!facts[i]) continue;
+      absolute_ = modes[i] && statedMode(body[i]).value_or(*modes[i]) == DistanceMode::Absolute;
+      judge(body[i], *facts[i]);
+    }
     return std::move(found_);
   }
 
@@ -212,6 +221,7 @@ private:
       if (off) return out;
       out.lengths = 1;
       if (position) out.read = Read{*number, expression.range};
+      if (numbers_.length.contains(*number)) out.length = Read{*number, expression.range};
       return out;
     }
     if (const Held* held = fact.values.find(*number)) return *held;
@@ -308,10 +318,15 @@ private:
   void report(LengthLeftIn::Place place, SourceRange range, const ir::ExpressionPtr& value,
               const Fact& fact) {
     const Held one = held(value, fact);
-    if (!one.read || one.unknown || one.lengths == 0 || fact.offset == Offset::Off) return;
+    if (one.unknown || one.lengths == 0 || fact.offset == Offset::Off) return;
     if (one.lengths > 0 ? one.maybeTaken : one.maybeAdded) return;
+    // The length taken off a coordinate that never held it.
+    const bool taken = !one.read && one.length && one.lengths < 0 && place == LengthLeftIn::Place::Move;
+    if (!one.read && !(taken && absolute_)) return;
+    const Read& read = taken ? *one.length : *one.read;
     const std::uint32_t length = numbers_.length.empty() ? 0 : *numbers_.length.begin();
-    LengthLeftIn found{place, range, value->range, one.lengths, one.read->number, one.read->range, length};
+    LengthLeftIn found{place, range, value->range, one.lengths, read.number, read.range, length};
+    found.taken = taken;
     if (one.wear != nullptr) found.wear = {one.wear->wear.first - 1, one.wear->geometry};
     if (fact.offset == Offset::On && called_ && called_->offset == Offset::On) found.call = called_->call;
     found_.push_back(std::move(found));
@@ -357,8 +372,9 @@ private:
     ir::match(
         *condition,
         [&](const ir::Comparison& one) {
-          if (one.relation != ir::Relation::Same && one.relation != ir::Relation::Different)
-            judgePair(one.left, one.right, fact);
+          if (one.relation == ir::Relation::Same || one.relation == ir::Relation::Different) return;
+          judgePair(one.left, one.right, fact);
+          judgeSize(one, fact);
         },
         [&](const ir::Not& one) { judgeCondition(one.inner, fact); },
         [&](const ir::Junction& one) {
@@ -368,9 +384,25 @@ private:
         [](const ir::OneOf<ir::IsNull, ir::Truth> auto&) {});
   }
 
+  // ABS of a contact against a tolerance, under an offset that the program states: the height that was looked
+  // for may be a number, or 0, which is not written.
+  void judgeSize(const ir::Comparison& comparison, const Fact& fact) {
+    if (fact.offset != Offset::On) return;
+    for (const auto& [side, bound] :
+         {std::pair{comparison.left, comparison.right}, std::pair{comparison.right, comparison.left}}) {
+      const auto* size = std::get_if<ir::Unary>(&side->node);
+      if (size == nullptr || size->op != ir::UnaryOp::Absolute) continue;
+      const Held other = held(bound, fact);
+      const double* number = ir::constantValue(bound);
+      constexpr double kMostTolerance = 10; // mm; more is no tolerance of a contact
+      if (!other.none() || other.free() || (number != nullptr && std::abs(*number) > kMostTolerance))
+        continue;
+      report(LengthLeftIn::Place::Difference, size->operand->range, size->operand, fact);
+    }
+  }
+
   // Under an offset that nothing of the program takes back, a height is where the tool's end is.
   void judgeDifferences(const ir::ProgramStatement& statement, const Fact& fact) {
-    if (heights_.empty()) return;
     ir::eachNode(statement, [&](const ir::Expression& one) {
       const auto* binary = std::get_if<ir::Binary>(&one.node);
       if (binary != nullptr && binary->op == ir::BinaryOp::Subtract)
@@ -456,6 +488,7 @@ private:
   const std::set<std::uint32_t>& switching_;
   std::optional<CalledUnder> called_; // by programs of the files
   bool macro_;                        // it returns: what is in force is its caller's
+  bool absolute_ = false;             // G90 is in force at the statement that is judged
   std::set<std::uint32_t> heights_;   // variables of which absolute Z words are computed
   std::vector<LengthLeftIn> found_;
 };

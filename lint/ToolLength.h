@@ -32,6 +32,7 @@ struct LengthLeftIn {
     std::uint32_t wear = 2000, geometry = 2200;
   };
   std::optional<Wear> wear = std::nullopt;
+  bool taken = false;    // the length is taken off a coordinate that does not hold it; `read` is the length
   SourceRange call = {}; // by which the program is called under G43; no place: nothing says so
 };
 

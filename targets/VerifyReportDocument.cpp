@@ -103,6 +103,11 @@ void VerifyReport::describeInputs() {
     if (const auto bytes = path ? readBytes(*path, session.limits(), ignored) : std::nullopt)
       add(*path, *bytes);
   }
+  // Forms, controls and macro sets of `--data`, `--control` and dotek.toml: what they say decides each word.
+  for (const char* const folder :
+       {"controls", "cycles", "forms", "fusion", "keywords", "macrob", "macros", "mikroprog"})
+    for (const stdlib::DataFile* file : session.data().list(folder))
+      if (!file->builtIn()) add(file->origin, std::string(file->text));
   std::sort(document_.inputs.begin(), document_.inputs.end(),
             [](const auto& a, const auto& b) { return a.name < b.name; });
   const Target* const target = findTarget(options_.to);

@@ -87,7 +87,9 @@ void duplicateFormat(const CheckedProg& input, Report& report) {
     if (added) return;
     report
         .at(format.nameRange,
-            "`{}` has a `FORMAT` already; which of the two it is printed with is not known; remove one",
+            "`{}` has a `FORMAT` already; which of the two it is printed with is not known; remove one; "
+            "one keyword has one picture in the whole post, and a word that takes no point needs a keyword "
+            "of its own",
             input.text(format.nameRange))
         .note(first->second, "the first `FORMAT` of it");
   });

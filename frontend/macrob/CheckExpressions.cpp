@@ -3,6 +3,7 @@
 #include "frontend/macrob/Constant.h"
 #include "frontend/macrob/Format.h"
 #include "frontend/macrob/Walk.h"
+#include "ir/Interval.h"
 
 #include <algorithm>
 #include <cmath>
@@ -97,6 +98,43 @@ std::set<std::uint32_t> countersOf(const Program& program) {
   return out;
 }
 
+// Between what the value lies. Of #0 the functions here make 0, which is within.
+ir::Interval intervalOf(const Expression& expression) {
+  if (const auto value = constantOf(expression)) return {*value, *value};
+  if (const auto* negated = std::get_if<nc::Negated>(&expression.node))
+    return ir::negated(intervalOf(*negated->operand));
+  if (const auto* call = std::get_if<nc::FunctionCall>(&expression.node)) {
+    if (call->arguments.empty()) return {};
+    const ir::Interval inner = intervalOf(*call->arguments.front());
+    if (call->name == "ABS") return ir::absolute(inner);
+    if (call->name == "SQRT") return {0, ir::Interval::kNone};
+    if (call->name == "SIN" || call->name == "COS") return {-1, 1};
+    if (call->name == "FIX" && inner.low >= 0) return {0, inner.high};
+    if (call->name == "FUP" && inner.low >= 0) return {inner.low, ir::Interval::kNone};
+    return {};
+  }
+  const auto* operation = std::get_if<nc::Operation>(&expression.node);
+  if (operation == nullptr) return {};
+  const ir::Interval left = intervalOf(*operation->left), right = intervalOf(*operation->right);
+  if (operation->op == "+") return ir::sum(left, right);
+  if (operation->op == "-") return ir::sum(left, ir::negated(right));
+  if (operation->op == "*") return ir::product(left, right);
+  if (operation->op == "/" && right.low == right.high && right.low != 0)
+    return ir::product(left, {1 / right.low, 1 / right.low});
+  return {};
+}
+
+std::optional<bool> decided(const std::string& op, ir::Interval left, ir::Interval right) {
+  if (left.any() && right.any()) return std::nullopt;
+  const auto turned = [](std::optional<bool> one) { return one ? std::optional(!*one) : one; };
+  if (op == "LT") return ir::alwaysLess(left, right);
+  if (op == "GE") return turned(ir::alwaysLess(left, right));
+  if (op == "LE") return ir::alwaysAtMost(left, right);
+  if (op == "GT") return turned(ir::alwaysAtMost(left, right));
+  if (op == "EQ") return ir::alwaysEqual(left, right);
+  return turned(ir::alwaysEqual(left, right));
+}
+
 // Whether the comparison holds, where that is the same whatever the variables in it are. `WHILE[1EQ1]` is
 // meant so.
 std::optional<bool> alwaysSame(const Comparison& comparison) {
@@ -105,7 +143,7 @@ std::optional<bool> alwaysSame(const Comparison& comparison) {
   const auto right = constantOf(*comparison.right);
   if (left && right) return holds(comparison.op, *left, *right);
   if (print(*comparison.left) == print(*comparison.right)) return holds(comparison.op, 0, 0);
-  return std::nullopt;
+  return decided(comparison.op, intervalOf(*comparison.left), intervalOf(*comparison.right));
 }
 
 template <class Kind, class Visit> void eachPart(const CheckedProgram& input, const Visit& visit) {
@@ -245,10 +283,11 @@ void constantCondition(const CheckedProgram& input, Report& report) {
     eachComparison(*condition, [&](const Comparison& comparison, SourceRange range) {
       if (const auto result = alwaysSame(comparison))
         report.at(range,
-                  "the condition {} holds, whatever the variables are; the branch is no test; one of the "
+                  "the condition {} holds, whatever the variables are; the branch is no test{}; one of the "
                   "numbers is "
                   "wrong",
-                  *result ? "always" : "never");
+                  *result ? "always" : "never",
+                  *result ? "" : ", and what it leads to, an alarm for instance, never comes of it");
     });
 }
 

@@ -12,7 +12,8 @@ using Place = LengthLeftIn::Place;
 // `Z#101` becomes `Z[#101-#5083]`; nothing where the length is in it otherwise than once.
 std::optional<Edit> repair(const LengthLeftIn& one, const SourceMap& sources) {
   // Where the wear is taken off, the length has to come in its place.
-  if (one.wear || !one.value.hasPlace() || one.length == 0 || (one.lengths != 1 && one.lengths != -1))
+  if (one.taken || one.wear || !one.value.hasPlace() || one.length == 0 ||
+      (one.lengths != 1 && one.lengths != -1))
     return std::nullopt;
   std::string text(sources.text(one.value));
   const bool bracketed = text.starts_with('[') && text.ends_with(']') && text.find(']') == text.size() - 1;
@@ -45,6 +46,17 @@ Diagnostic& reportDifference(const LengthLeftIn& one, Report& report) {
       one.read, one.length);
 }
 
+// The mistake the other way round.
+Diagnostic& reportTaken(const LengthLeftIn& one, Report& report) {
+  return report.at(
+      one.range,
+      "#{} is taken off this Z, which is a coordinate of the work system and holds no length of a tool; "
+      "under G43 the move goes too low by that length, into the part; leave it away: it comes off what is "
+      "read "
+      "from #5043 or #5063",
+      one.read);
+}
+
 // What speaks of a control whose positions hold the length by inference alone; nullptr: no doubt.
 const std::string* doubtOf(const Project& project) {
   if (project.control == nullptr || !project.control->withToolLength) return nullptr;
@@ -65,7 +77,8 @@ void checkProgram(const ir::Program& program, const Project& project, const Tool
   for (const std::vector<LengthLeftIn>& all : read) {
     const LengthLeftIn& first = all.front();
     Diagnostic& found =
-        first.place == Place::Difference
+        first.taken ? reportTaken(first, report)
+        : first.place == Place::Difference
             ? reportDifference(first, report)
             : report.at(first.range,
                         "{0} computed from #{1}, which holds the length of the tool too, and {5}; "
@@ -80,7 +93,7 @@ void checkProgram(const ir::Program& program, const Project& project, const Tool
     if (first.readAt.hasPlace() &&
         (first.readAt.end <= first.range.begin || first.readAt.begin >= first.range.end))
       found.note(first.readAt, "the position is read here");
-    const std::string* const doubt = doubtOf(project);
+    const std::string* const doubt = first.taken ? nullptr : doubtOf(project);
     if (doubt != nullptr)
       found.note(first.readAt.hasPlace() ? first.readAt : first.range,
                  fmt::format("that #{} holds the length is inferred for {}: {}", first.read,

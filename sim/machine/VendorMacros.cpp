@@ -2,6 +2,7 @@
 
 #include "sim/machine/Arguments.h"
 #include "sim/machine/VendorRun.h"
+#include "stdlib/MacroLimits.h"
 #include "stdlib/ReadCall.h"
 
 #include <fmt/format.h>
@@ -148,6 +149,8 @@ bool VendorRun::begin() {
       passed_ = true;
     }
     if (given && isUnknown(locals_[local])) return notKnown("the value is not known", one.letter);
+    if (given && stdlib::isLimit(one.role) && locals_[local] < 0)
+      return meaningless("what it does with a limit below 0 is in no source", one.letter);
   }
   if (machine_.mode(kDistance) != 0) return notKnown("what it does under G91 is in no source");
   if (machine_.mode(kUnits) != 0)

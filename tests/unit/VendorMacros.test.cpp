@@ -356,6 +356,10 @@ TEST_CASE("tolerances stop the run; the upper limit before anything is set") {
   CHECK(bored("9814 D40. M.3") == "OUT OF POSITION"); // 0.2 off is beyond a zone of 0.3
   CHECK(bored("9814 D40. U.5") == "runs");
   CHECK(bored("9814 D40. U.15") == "the error is larger than the call allows");
+  // No source says whether the macro takes the size of a limit below 0.
+  for (const char* const negative :
+       {"9814 D40. U-.5", "9814 D40. H-.15", "9814 D40. M-.5", "9811 X20. U-.15"})
+    CHECK_MESSAGE(bored(negative) == "inconclusive", negative);
   VendorCase limit;
   limit.world.bore(0.2, 0, 40.1);
   CHECK_FALSE(limit.call("9814 D40. S1 U.15"));

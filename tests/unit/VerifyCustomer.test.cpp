@@ -1,6 +1,7 @@
 // Posts and programs as a customer has them: their own tool offset and system, offsets as arguments, checks
 // that reject most values, modes that are put back; and the document that is handed over.
 #include "driver/Driver.h"
+#include "support/Sha256.h"
 #include "tests/GoldenRunner.h"
 #include "tests/TestFolder.h"
 
@@ -230,6 +231,21 @@ TEST_CASE("verify: the document says the same in each format, and escapes what i
   CHECK(report(targets::ReportFormat::Json).find("\"date\": \"2026-11-22\"") != std::string::npos);
   options.format = targets::ReportFormat::Text;
   CHECK(driver::verify(options).files.empty());
+}
+
+TEST_CASE("verify: the document lists the data files that decide what is posted") {
+  const TestFolder folder("dotek-verify-customer");
+  const std::string text = "schema = 1\nextends = \"fanuc-0i-md\"\ntitle = \"The shop's mill\"\n";
+  const std::string control = folder.write("mill.toml", text);
+  driver::VerifyOptions options = programs(folder.write("a.nc", "%\nO100\nG0X#1\nM30\n%\n"), 10);
+  options.format = targets::ReportFormat::Json;
+  options.common.data = {control};
+  const driver::Outcome outcome = driver::verify(options);
+  REQUIRE(outcome.files.size() == 1);
+  const std::string& report = outcome.files.front().text;
+  CHECK_MESSAGE(report.find("mill.toml") != std::string::npos, told(outcome));
+  CHECK(report.find(sha256(text)) != std::string::npos);
+  CHECK(report.find("built in") == std::string::npos);
 }
 
 TEST_CASE("verify: the document says what the form only assumes and what the translation changes") {

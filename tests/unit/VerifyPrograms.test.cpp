@@ -269,6 +269,7 @@ TEST_CASE("convert --verify writes nothing that does not agree") {
   CHECK(several.status == 1);
   CHECK(several.err.find("good.nc` is verified: AGREES") != std::string::npos);
   CHECK(several.err.find("missing.nc` is not verified: UNDECIDED: 200 of 200") != std::string::npos);
+  CHECK(several.err.find("`--keep-going`") != std::string::npos);
   CHECK(!fs::exists(root / "c"));
 }
 
