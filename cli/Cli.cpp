@@ -405,10 +405,9 @@ int runCommand(Arguments& arguments, std::ostream& out, std::ostream& err) {
     arguments.write = arguments.output.empty();
     return printer.layout(driver::renumber(arguments.renumber), arguments);
   case Command::Flatten:
-    return printer.result(
-        driver::flatten({arguments.inputs.empty() ? "" : arguments.inputs.front(), arguments.common,
-                         arguments.sim.control, arguments.sim.variables, arguments.sim.programs}),
-        arguments);
+    arguments.sim.program = arguments.inputs.empty() ? "" : arguments.inputs.front();
+    arguments.sim.common = arguments.common;
+    return printer.result(driver::flatten(arguments.sim), arguments);
   }
   return kDefect;
 }

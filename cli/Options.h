@@ -136,6 +136,10 @@ void addExplain(CLI::App& app, Raw& raw);
 void addOutline(CLI::App& app, Raw& raw);
 void addRenumber(CLI::App& app, Raw& raw);
 void addFlatten(CLI::App& app, Raw& raw);
+// Flags of a run, which `sim` and `flatten` share: part and machine; what an operator sets. simOf() reads
+// them.
+void addPart(CLI::App& command, Raw& raw, const char* what);
+void addSetup(CLI::App& command, Raw& raw);
 void addList(CLI::App& app, Raw& raw);
 
 driver::ConvertOptions convertOf(const Raw& raw);

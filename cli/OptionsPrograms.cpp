@@ -37,6 +37,12 @@ void addFlatten(CLI::App& app, Raw& raw) {
   addTarget(*command, raw);
   addSeveral(*command, "--var", raw.variables, "value of a variable before the program begins", "N=VALUE");
   addFolders(*command, "--programs", raw.programs, "folder of programs that can be called");
+  command
+      ->add_option("--probe-macros", raw.probeMacros,
+                   "set of probing macros that calls without a program mean (all)")
+      ->type_name("SET");
+  addPart(*command, raw, "part that the probe touches");
+  addSetup(*command, raw);
   command->add_option("-o", raw.output, "write to a file instead of standard output")->type_name("OUT");
   addForce(*command, raw);
   addIncludes(*command, raw);

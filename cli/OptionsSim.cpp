@@ -11,6 +11,36 @@
 
 namespace dotek::cli {
 
+void addPart(CLI::App& command, Raw& raw, const char* what) {
+  command.add_option("--part", raw.part, what)->type_name("PART.toml");
+  command.add_option("--machine", raw.machine, "probe and travel of the machine")->type_name("MACHINE.toml");
+}
+
+void addSetup(CLI::App& command, Raw& raw) {
+  command
+      .add_option("--job", raw.job, "job file whose [setup] says what an operator sets; flags win over it")
+      ->type_name("JOB.toml");
+  command.add_option("--tool", raw.tool, "number of the tool in the spindle, and of its offset")
+      ->type_name("N");
+  command
+      .add_option("--length", raw.length,
+                  "length of that tool, as its offset says (that of the machine's probe)")
+      ->type_name("MM");
+  command.add_option("--diameter", raw.diameter, "diameter of the stylus ball, where no --machine says it")
+      ->type_name("MM");
+  command.add_option("--radius", raw.radius, "its radius, instead of --diameter")->type_name("MM");
+  command
+      .add_option("--work-offset", raw.workOffsets,
+                  "zero of G54 to G59 in coordinates of the machine; `G54=part`: where the part is meant to "
+                  "be; repeat it for several")
+      ->option_text("G54=X,Y,Z")
+      ->allow_extra_args(false);
+  command.add_option("--at", raw.at, "where the tool's end is before the program, in G54")
+      ->type_name("X,Y,Z");
+  command.add_option("--call", raw.call, "call the program by G65 with these arguments")
+      ->type_name("\"D25. S54\"");
+}
+
 void addSim(CLI::App& app, Raw& raw) {
   CLI::App* sim = app.add_subcommand("sim", "run an NC program on a machine and print what it does");
   sim->add_option("PROGRAM", raw.inputs, "the program, or a cycle (NAME.cycle)")->expected(1);
@@ -24,11 +54,9 @@ void addSim(CLI::App& app, Raw& raw) {
   sim->add_option("--probe-macros", raw.probeMacros,
                   "set of probing macros that calls without a program mean (all)")
       ->type_name("SET");
-  sim->add_option("--part", raw.part,
-                  "part that the probe touches; a cycle without one gets that which its touches expect "
-                  "(`none`: no part)")
-      ->type_name("PART.toml");
-  sim->add_option("--machine", raw.machine, "probe and travel of the machine")->type_name("MACHINE.toml");
+  addPart(*sim, raw,
+          "part that the probe touches; a cycle without one gets that which its touches expect (`none`: no "
+          "part)");
   sim->add_option(
          "--device", raw.device,
          "device beside the control: what its codes and variables do, its tables, errors of the machine")
@@ -36,23 +64,7 @@ void addSim(CLI::App& app, Raw& raw) {
   sim->add_option("--report", raw.report,
                   "write a page (Markdown) on what the device did, with a picture beside it (OUT with .svg)")
       ->type_name("OUT");
-  sim->add_option("--job", raw.job, "job file whose [setup] says what an operator sets; flags win over it")
-      ->type_name("JOB.toml");
-  sim->add_option("--tool", raw.tool, "number of the tool in the spindle, and of its offset")->type_name("N");
-  sim->add_option("--length", raw.length,
-                  "length of that tool, as its offset says (that of the machine's probe)")
-      ->type_name("MM");
-  sim->add_option("--diameter", raw.diameter, "diameter of the stylus ball, where no --machine says it")
-      ->type_name("MM");
-  sim->add_option("--radius", raw.radius, "its radius, instead of --diameter")->type_name("MM");
-  sim->add_option("--work-offset", raw.workOffsets,
-                  "zero of G54 to G59 in coordinates of the machine; `G54=part`: where the part is meant to "
-                  "be; repeat it for several")
-      ->option_text("G54=X,Y,Z")
-      ->allow_extra_args(false);
-  sim->add_option("--at", raw.at, "where the tool's end is before the program, in G54")->type_name("X,Y,Z");
-  sim->add_option("--call", raw.call, "call the program by G65 with these arguments")
-      ->type_name("\"D25. S54\"");
+  addSetup(*sim, raw);
   sim->add_option("--svg", raw.svgFile, "write a picture of the run, three views")->type_name("OUT");
   sim->add_option("--html", raw.htmlFile, "write a page that shows the run in space")->type_name("OUT");
   sim->add_option("--date", raw.date, "date that the pictures show, as you write it")->type_name("TEXT");

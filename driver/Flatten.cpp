@@ -1,27 +1,20 @@
 // `dotek flatten`: what a run of a macro program gives the control to do, as plain blocks.
 #include "driver/Command.h"
 #include "driver/ProgramTools.h"
+#include "driver/WatchedRun.h"
 #include "project/Inputs.h"
-#include "project/Lowering.h"
-#include "project/ProgramLibrary.h"
-#include "project/Settings.h"
 #include "project/VariableFlags.h"
 #include "sim/machine/Arguments.h"
-#include "sim/machine/Compile.h"
-#include "sim/machine/Run.h"
-#include "sim/machine/SafeMoves.h"
 #include "sim/machine/Value.h"
-#include "sim/run/Advice.h"
-#include "sim/run/SimMacros.h"
-#include "sim/run/SimReport.h"
+#include "stdlib/MacroSet.h"
 #include "support/Decimal.h"
-#include "support/messages/Commands.h"
 #include "support/messages/Sim.h"
 
 #include <algorithm>
 #include <filesystem>
 #include <fmt/format.h>
 #include <set>
+#include <span>
 
 namespace dotek::driver {
 namespace {
@@ -53,14 +46,33 @@ std::string commentText(std::string_view text) {
   return out;
 }
 
-class FlatProgram final : public sim::RunListener {
+class FlatProgram final : public WatchedRun, public sim::RunListener {
 public:
-  FlatProgram(const stdlib::Control& control, std::uint64_t mainProgram, FileId mainFile, Session& session)
-      : control_(control), mainProgram_(mainProgram), mainFile_(mainFile), session_(session) {}
+  FlatProgram(const SimOptions& options, Session& session) : options_(options), session_(session) {}
 
-  void setRun(const sim::Run& run) { run_ = &run; }
-  void given(std::uint32_t number) { written_.insert(number); } // by --var: known to who asks
-  std::string take() { return std::move(text_); }
+  std::string_view command() const override { return "flatten"; }
+  // After a run that came to its end.
+  std::string take() const { return "%\n" + header_ + text_ + "%\n"; }
+
+  void read(const stdlib::Control& control, const std::vector<const ir::Program*>& programs,
+            FileId file) override {
+    control_ = &control;
+    mainProgram_ = programs.front()->number;
+    mainFile_ = file;
+    header_ = headerOf(*programs.front());
+    for (const ir::Program* program : programs)
+      for (const ir::ProgramStatement& statement : program->body)
+        if (statement.blockDelete != 0 && !std::holds_alternative<ir::NcBlock>(statement.node))
+          session_.diagnostics().report<diag::FlattenSwitch>(statement.origin.range());
+    // By --var: known to who asks.
+    for (const auto& [number, value] : variablesOf(options_.variables, session_.diagnostics()))
+      written_.insert(number);
+  }
+  sim::RunListener& begins(const sim::Run& run, const sim::Machine& machine) override {
+    run_ = &run;
+    machine_ = &machine;
+    return *this;
+  }
 
   void blockDone(const ir::NcWords& words, std::uint32_t points) override {
     std::string out;
@@ -93,18 +105,19 @@ public:
 
   void systemRead(std::uint32_t number, double value) override {
     if (written_.contains(number) || !read_.insert(number).second || read_.size() > kMostReads) return;
-    session_.diagnostics().report<diag::FlattenReads>(
-        run_->place(),
-        sim::isNull(value) ? fmt::format("follows from `#{}` without a value", number)
-                           : fmt::format("follows from `#{}` = {}", number, numberOf(value, false)),
-        number);
+    const std::string held = sim::isNull(value) ? fmt::format("`#{}` without a value", number)
+                                                : fmt::format("`#{}` = {}", number, numberOf(value, false));
+    if (canBePreset(number))
+      session_.diagnostics().report<diag::FlattenReads>(run_->place(), "follows from " + held, number);
+    else
+      session_.diagnostics().report<diag::FlattenPosition>(run_->place(), held);
   }
   void systemWritten(std::uint32_t number, double value) override {
     written_.insert(number);
     line(fmt::format("#{}={}", number, numberOf(value, true)));
   }
   void message(std::string_view text) override {
-    line(fmt::format("#{}=1({})", control_.variables.message.value_or(3006), text), false);
+    line(fmt::format("#{}=1({})", control_->variables.message.value_or(3006), text), false);
   }
   void portSwitched(bool open) override { line(open ? "POPEN" : "PCLOS"); }
   void printed(bool binary, std::string_view printed) override {
@@ -121,6 +134,22 @@ public:
     std::replace(text.begin(), text.end(), ' ', '*');
     line("DPRNT[" + text + "]");
   }
+  // What calls it stays, with its values: a run of the flat program gives the macro the same meaning.
+  void meaningRan(std::uint32_t program, std::span<const double> locals) override {
+    std::string block = fmt::format("G65 P{}", program);
+    for (std::uint32_t local = 1; local < locals.size(); ++local) {
+      if (sim::isNull(locals[local])) continue;
+      const char letter = stdlib::letterOfLocal(local);
+      if (letter == 0) {
+        session_.diagnostics().report<diag::RunInconclusive>(
+            run_->place(), fmt::format("G65 P{}", program),
+            fmt::format("its argument #{} has no letter, so no block says the same", local));
+        return;
+      }
+      block += fmt::format(" {}{}", letter, numberOf(locals[local], true));
+    }
+    line(block);
+  }
   void named(const ir::NameVariables& names) override {
     std::string all;
     for (const std::string& name : names.names)
@@ -131,9 +160,17 @@ public:
 private:
   static constexpr std::size_t kMostReads = 20;
 
+  // --var sets it; else it is what the run itself comes to, as positions and modal values are.
+  bool canBePreset(std::uint32_t number) const {
+    sim::Machine other(*machine_);
+    other.setTrace(nullptr);
+    other.setWatcher(nullptr);
+    return other.preset(number, 0);
+  }
+
   // A code that calls a program has been an ordinary one where the run came to it.
   void checkCode(char letter, double value) {
-    const stdlib::CallCode* const call = sim::findCallCode(control_, letter, value);
+    const stdlib::CallCode* const call = sim::findCallCode(*control_, letter, value);
     if (call == nullptr) return;
     session_.diagnostics().report<diag::FlattenCalls>(
         run_->place(), letter + numberOf(value, false),
@@ -143,7 +180,8 @@ private:
 
   // Its source as a comment: the line, of another program than the main one with its number.
   void line(std::string block, bool comment = true) {
-    if (text_.size() > session_.limits().outputBytes) return;
+    const std::uint64_t most = session_.limits().outputBytes;
+    if (text_.size() > most) return;
     const SourceRange range = run_->place();
     if (comment && range.hasPlace()) {
       const std::uint64_t program = run_->program();
@@ -155,86 +193,12 @@ private:
     }
     text_ += block;
     text_ += '\n';
+    if (text_.size() > most) session_.diagnostics().report<diag::FlattenLong>({}, most);
   }
 
-  const stdlib::Control& control_;
-  std::uint64_t mainProgram_;
-  FileId mainFile_;
-  Session& session_;
-  const sim::Run* run_ = nullptr;
-  std::set<std::uint32_t> read_, written_; // system variables; written, or given
-  std::string text_;
-};
-
-class FlattenCommand {
-public:
-  FlattenCommand(const FlattenOptions& options, Session& session) : options_(options), session_(session) {}
-
-  Outcome run() {
-    if (options_.input.empty())
-      diagnostics().report<diag::MissingOption>({}, "flatten", "PROGRAM", "an NC program");
-    else
-      static_cast<void>(kindAmong(options_.input, {InputKind::Nc}, "an NC program", session_));
-    if (diagnostics().hasErrors()) return outcomeOf(session_, "");
-    const Settings settings = settingsOf(options_.input, session_);
-    const std::string name = !options_.control.empty() ? options_.control : settings.control;
-    const auto control = loadControl(name.empty() ? std::string(project::kDefaultControl) : name, session_);
-    if (!control || diagnostics().hasErrors()) return outcomeOf(session_, "");
-    const std::optional<FileId> id = session_.read(options_.input, Encoding::Cp1250);
-    if (!id) return outcomeOf(session_, "");
-    std::optional<ProgramLibrary> library = ProgramLibrary::load(*id, options_.programs, *control, session_);
-    if (!library) return outcomeOf(session_, "");
-    const auto macros = sim::SimMacros::load(std::nullopt, false, *control, *library, session_);
-    sim::Machine machine(*control);
-    if (!macros || !setVariables(machine, *control)) return outcomeOf(session_, "");
-    return outcomeOf(session_, flat(*control, *library, machine, *macros, *id));
-  }
-
-private:
-  Diagnostics& diagnostics() { return session_.diagnostics(); }
-
-  bool setVariables(sim::Machine& machine, const stdlib::Control& control) {
-    for (const auto& [number, value] : variablesOf(options_.variables, diagnostics()))
-      if (!machine.preset(number, value))
-        diagnostics().report<diag::VariableFlag>(
-            {}, fmt::format("{}={}", number, numberText(value)),
-            fmt::format("`{}` has no such variable that a program could set", control.name));
-    return !diagnostics().hasErrors();
-  }
-
-  std::string flat(const stdlib::Control& control, ProgramLibrary& library, sim::Machine& machine,
-                   sim::SimMacros& macros, FileId id) {
-    const std::vector<const ir::Program*> programs = library.programs();
-    const ir::Program& main = *programs.front();
-    const sim::Bytecode code = sim::compile(programs, control, session_.sources());
-    sim::Run run(machine, code, session_.limits(), &macros);
-    run.setUnreadable(library.unreadable());
-    FlatProgram flat(control, main.number, id, session_);
-    flat.setRun(run);
-    for (const auto& [number, value] : variablesOf(options_.variables, diagnostics()))
-      flat.given(number);
-    run.setListener(&flat);
-    std::set<std::uint32_t> unset = sim::neverSet(programs);
-    std::erase_if(unset, [&](std::uint32_t number) { return !sim::isFresh(machine.common(number)); });
-    run.watchUnset(unset);
-    run.run();
-    sim::reportRun(run, machine, sim::callAdvice(main, false), options_.programs, false, session_);
-    for (const sim::UnsetRead& one : run.unsetReads())
-      diagnostics().report<diag::VariableNotSet>(one.range, one.number, one.number);
-    for (const ir::Program* program : programs)
-      for (const ir::ProgramStatement& statement : program->body)
-        if (statement.blockDelete != 0 && !std::holds_alternative<ir::NcBlock>(statement.node))
-          diagnostics().report<diag::FlattenSwitch>(statement.origin.range());
-    std::string body = flat.take();
-    if (body.size() > session_.limits().outputBytes)
-      diagnostics().report<diag::FlattenLong>({}, session_.limits().outputBytes);
-    if (diagnostics().hasErrors()) return "";
-    return "%\n" + header(main) + body + "%\n";
-  }
-
-  std::string header(const ir::Program& main) const {
+  std::string headerOf(const ir::Program& main) const {
     const std::string comment =
-        "(FLAT: " + commentText(std::filesystem::path(options_.input).filename().string()) + ")\n";
+        "(FLAT: " + commentText(std::filesystem::path(options_.program).filename().string()) + ")\n";
     switch (main.nameKind) {
     case ir::Program::NameKind::None: return comment;
     case ir::Program::NameKind::Number: return "O" + main.name + " " + comment;
@@ -244,14 +208,29 @@ private:
     return comment;
   }
 
-  const FlattenOptions& options_;
+  const SimOptions& options_;
   Session& session_;
+  const stdlib::Control* control_ = nullptr;
+  std::uint64_t mainProgram_ = 0;
+  FileId mainFile_{};
+  const sim::Run* run_ = nullptr;
+  const sim::Machine* machine_ = nullptr;
+  std::set<std::uint32_t> read_, written_; // system variables; written, or given
+  std::string header_, text_;
 };
 
 } // namespace
 
-Outcome flatten(const FlattenOptions& options) {
-  return guarded(options.common, [&](Session& session) { return FlattenCommand(options, session).run(); });
+Outcome flatten(const SimOptions& options) {
+  return guarded(options.common, {options.program}, [&](Session& session) {
+    if (!options.program.empty())
+      static_cast<void>(kindAmong(options.program, {InputKind::Nc}, "an NC program", session));
+    if (session.diagnostics().hasErrors()) return outcomeOf(session, "");
+    FlatProgram flat(options, session);
+    Outcome out = runWatched(options, flat, session);
+    out.output = out.status == 0 ? flat.take() : "";
+    return out;
+  });
 }
 
 } // namespace dotek::driver

@@ -26,14 +26,6 @@ struct RenumberCommandOptions {
   std::string control; // whose greatest number counts; "": of dotek.toml, else 99999
 };
 
-struct FlattenOptions {
-  std::string input;
-  CommonOptions common;
-  std::string control;               // "": of dotek.toml, else the first
-  project::NamedTexts variables;     // --var N=VALUE
-  std::vector<std::string> programs; // --programs DIR
-};
-
 // Programs, their N numbers, calls, jumps and variables. What of a file cannot be read is reported, and the
 // rest is shown.
 Outcome outline(const OutlineOptions& options);
@@ -41,6 +33,8 @@ Outcome outline(const OutlineOptions& options);
 // an error, or with a jump that nobody can follow, gives none.
 Outcome renumber(const RenumberCommandOptions& options);
 // The blocks that a run of the program makes, with values in the place of variables, as one program: a run of
-// it does the same. A run that does not come to its end gives none.
-Outcome flatten(const FlattenOptions& options);
+// it with the same part and setup, and without `setup.call`, does the same. A run that does not come to its
+// end gives none. Of `options` count those that say what runs, on what, and where it begins.
+Outcome flatten(const SimOptions& options);
+
 } // namespace dotek::driver

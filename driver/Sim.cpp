@@ -3,6 +3,7 @@
 #include "driver/Driver.h"
 #include "driver/SimCycle.h"
 #include "driver/SimDevice.h"
+#include "driver/WatchedRun.h"
 #include "frontend/nc/Scan.h"
 #include "project/Inputs.h"
 #include "project/Job.h"
@@ -55,12 +56,13 @@ std::string endingText(const sim::RunEnd& end) {
 
 class SimCommand {
 public:
-  SimCommand(const SimOptions& options, const sim::DeviceOptions& device, Session& session)
-      : options_(options), device_(device), session_(session) {}
+  SimCommand(const SimOptions& options, const sim::DeviceOptions& device, Session& session,
+             WatchedRun* watched = nullptr)
+      : options_(options), device_(device), session_(session), watched_(watched) {}
 
   Outcome run() {
     if (options_.program.empty())
-      diagnostics().report<diag::MissingOption>({}, "sim", "PROGRAM", "an NC program");
+      diagnostics().report<diag::MissingOption>({}, command(), "PROGRAM", "an NC program");
     else if (const auto kind = kindAmong(options_.program, {InputKind::Nc, InputKind::Suf, InputKind::Cycle},
                                          "an NC program", session_);
              kind == InputKind::Cycle)
@@ -80,7 +82,7 @@ public:
     control_ = loadControl(control.empty() ? std::string(kFirstControl) : control, session_);
     if (control_) checkProbeCodes(*control_, session_);
     if (diagnostics().hasErrors()) return outcomeOf(session_, "");
-    world_ = sim::SimWorld::load(options_, session_);
+    world_ = sim::SimWorld::load(options_, session_, command());
     if (!world_ || !loadDevice()) return outcomeOf(session_, "");
     // What cannot be read twice, a pipe, is kept; so its size is bounded.
     std::optional<std::string> kept;
@@ -93,7 +95,7 @@ public:
     if (!setVariables(machine) || !world_->prepare(machine) || !setVariables(machine) ||
         !world_->startsWithinTravel(machine))
       return outcomeOf(session_, "");
-    if (!options_.programs.empty() || running_ || !world_->setup().call.empty() ||
+    if (watched_ != nullptr || !options_.programs.empty() || running_ || !world_->setup().call.empty() ||
         frontend::nc::mayHoldMacros(*chunks))
       return runLoaded(kept, machine);
     chunks->rewind();
@@ -102,6 +104,7 @@ public:
 
 private:
   Diagnostics& diagnostics() { return session_.diagnostics(); }
+  std::string_view command() const { return watched_ == nullptr ? "sim" : watched_->command(); }
 
   Outcome refuseCycle() {
     diagnostics().report<diag::OptionOfMacroB>({}, device_.device ? "--device" : "--report");
@@ -205,6 +208,7 @@ private:
       running_->setNext(meaning);
       meaning = &*running_;
     }
+    if (watched_ != nullptr) watched_->read(*control_, library->programs(), *id);
     return runCode(sim::compile(library->programs(), *control_, session_.sources()), machine, meaning,
                    advice);
   }
@@ -259,6 +263,7 @@ private:
     for (auto number = unset_.begin(); number != unset_.end();)
       number = sim::isFresh(machine.common(*number)) ? std::next(number) : unset_.erase(number);
     run.watchUnset(unset_);
+    if (watched_ != nullptr) run.setListener(&watched_->begins(run, machine));
     run.run();
     machine.setTrace(nullptr);
     if (trace) sim::traceVariables(machine, *trace);
@@ -332,6 +337,7 @@ private:
   const SimOptions& options_;
   const sim::DeviceOptions& device_;
   Session& session_;
+  WatchedRun* watched_; // nullptr: nobody listens
   std::optional<stdlib::Control> control_;
   std::unique_ptr<sim::SimWorld> world_;
   std::optional<sim::DeviceFile> deviceFile_;
@@ -354,6 +360,11 @@ Outcome sim(const SimOptions& options, const sim::DeviceOptions& device) {
   if (options.json && out.output.empty()) out.output = sim::notRunSummary(out.diagnostics, out.sources);
   if ((options.svg || options.html) && out.files.empty()) out.diagnostics.report<diag::PictureNotWritten>({});
   return out;
+}
+
+Outcome runWatched(const SimOptions& options, WatchedRun& watched, Session& session) {
+  const sim::DeviceOptions none;
+  return SimCommand(options, none, session, &watched).run();
 }
 
 } // namespace dotek::driver

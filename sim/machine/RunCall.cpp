@@ -109,6 +109,7 @@ bool Run::begin(const Request& request) {
     if (!meaning_->run(machine_, number, std::span<const double>(cells_, locals_.size()))) return false;
     machine_.leave();
     if (MotionWatcher* const watcher = machine_.watcher(); watcher != nullptr) watcher->callEnded(number);
+    if (listener_ != nullptr) listener_->meaningRan(number, locals_);
   }
   ahead_ = expectsMotion_;
   ++place_;

@@ -5,6 +5,7 @@
 #include "ir/Statement.h"
 
 #include <cstdint>
+#include <span>
 #include <string_view>
 
 namespace dotek::sim {
@@ -22,6 +23,9 @@ public:
   virtual void portSwitched(bool open) = 0;
   virtual void printed(bool binary, std::string_view line) = 0;
   virtual void named(const ir::NameVariables& names) = 0; // SETVN
+  // A pass of a macro that no program holds, and that ran by its meaning; `locals` by number from #0 (unused)
+  // on, kNull where there is none.
+  virtual void meaningRan(std::uint32_t program, std::span<const double> locals) = 0;
 };
 
 } // namespace dotek::sim

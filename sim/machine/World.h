@@ -87,6 +87,8 @@ public:
   Point3 centreAt(const Position& position) const;
   // In the spindle; nullptr: the probe is.
   const CuttingTool* cuttingTool() const { return devices_.find(tool_); }
+  // A tool is in the spindle that is neither the probe nor one of the machine's file.
+  bool isUnknownTool() const;
 
 private:
   std::optional<Touch> touchOf(double radius, const Point3& from, const Point3& to) const;
@@ -94,7 +96,6 @@ private:
     Outcome outcome;
     double share;
   };
-  bool isUnknownTool() const;
   std::optional<SetterTouch> setterTouch(const Point3& from, const Point3& to) const;
   std::optional<double> toolContact(const SkipMove& move);
   ProbeEvent& addSetter(Outcome outcome, MotionKind kind, const SetterTouch& touch, const Point3& from,

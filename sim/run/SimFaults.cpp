@@ -49,6 +49,16 @@ void SimWorld::stopSpindle() {
   if (machineNow_ != nullptr) spindleSeen_ = {machineNow_->spindle(), machineNow_->spindleSpeed()};
 }
 
+// A tool that cuts meets the part on purpose; of the probe it counts where it goes.
+bool SimWorld::isBesideItsPath() {
+  if (!options_.part || !world_ || machineNow_ == nullptr || machineNow_->mode(kComp) == 0 ||
+      world_->cuttingTool() != nullptr || world_->isUnknownTool())
+    return false;
+  stop_("the probe moves under cutter compensation (`G41`, `G42`): it goes beside the programmed path, which "
+        "Dotek does not follow, so what it meets is not known; write `G40` before it moves");
+  return true;
+}
+
 // Some probes are switched on by turning the spindle: what counts is that it turns in a skip move.
 void SimWorld::checkSpindle() {
   if (machineNow_ == nullptr) return;

@@ -72,7 +72,8 @@ std::optional<Setup> setupOfJob(Session& session) {
 
 } // namespace
 
-std::unique_ptr<SimWorld> SimWorld::load(const SimOptions& options, Session& session) {
+std::unique_ptr<SimWorld> SimWorld::load(const SimOptions& options, Session& session,
+                                         std::string_view command) {
   std::unique_ptr<SimWorld> out(new SimWorld(options, session));
   out->picture_ = options.svg || options.html;
   std::optional<Setup> given = setupOfJob(session);
@@ -81,7 +82,7 @@ std::unique_ptr<SimWorld> SimWorld::load(const SimOptions& options, Session& ses
   const bool stylus = given->ballDiameter && given->length;
   if (options.part && !options.machine && !stylus) {
     session.diagnostics().report<diag::MissingOption>(
-        {}, "sim", "--machine MACHINE.toml, or --tool 1 --length L --diameter D",
+        {}, command, "--machine MACHINE.toml, or --tool 1 --length L --diameter D",
         "what touches the part of `--part` is a stylus of that length and that diameter of its ball");
     return nullptr;
   }
@@ -300,6 +301,7 @@ bool SimWorld::isThere(const SkipMove& here) {
 }
 
 void SimWorld::moved(const MachineMotion& motion) {
+  if (isBesideItsPath()) return;
   if (device_ != nullptr) device_->moved(motion.from, motion.to);
   if (recorder_)
     recorder_->moved(shifted(motion));

@@ -40,8 +40,9 @@ class SimWorld final : public SkipSignal, public MotionWatcher, public SystemWat
 public:
   using PlaceNow = std::function<RunPlace()>;
 
-  // nullptr: an error was reported.
-  static std::unique_ptr<SimWorld> load(const SimOptions& options, Session& session);
+  // nullptr: an error was reported. `command`: that messages name.
+  static std::unique_ptr<SimWorld> load(const SimOptions& options, Session& session,
+                                        std::string_view command = "sim");
   // The same for a cycle, which runs on no control: as far as nothing says otherwise the probe is tool 1 and
   // in the spindle. Without a machine's file its stylus is `stylus`, and it begins at X0 Y0 Z0 of G54.
   static std::unique_ptr<SimWorld> loadForCycle(const SimOptions& options, const Probe& stylus,
@@ -158,6 +159,7 @@ private:
   SimWorld(const SimOptions& options, Session& session) : options_(options), session_(session) {}
   bool takeBall(const Setup& given);
   bool loadFiles(const Setup& given);
+  bool isBesideItsPath(); // by cutter compensation, where that matters: the run has ended
   bool isActive() const { return world_.has_value() || picture_ || device_ != nullptr; }
   void begin();
   void checkSystem(); // that somebody has set the work system that the probe measures in

@@ -16,11 +16,14 @@ namespace {
 
 class Flat {
 public:
-  explicit Flat(const std::string& text, std::string control = "fanuc-31i-b") : control_(std::move(control)) {
+  // `setup`: part, machine and what an operator sets.
+  explicit Flat(const std::string& text, std::string control = "fanuc-31i-b",
+                const driver::SimOptions& setup = {})
+      : setup_(setup) {
+    setup_.control = std::move(control);
     folder_.write("source.nc", text);
-    driver::FlattenOptions options;
-    options.input = folder_.path() + "/source.nc";
-    options.control = control_;
+    driver::SimOptions options = setup_;
+    options.program = folder_.path() + "/source.nc";
     out = driver::flatten(options);
     folder_.write("flat.nc", out.output);
   }
@@ -31,9 +34,9 @@ public:
   // Lines of the trace, those of variables aside: a flat program sets none.
   std::string trace(const char* name, int& status) const {
     std::string all;
-    driver::SimOptions options;
+    driver::SimOptions options = setup_;
     options.program = folder_.path() + "/" + name;
-    options.control = control_;
+    if (std::string_view(name) == "flat.nc") options.setup.call.clear();
     options.trace = [&](std::string_view text) { all += text; };
     status = driver::sim(options).status;
     std::istringstream lines(all);
@@ -62,7 +65,29 @@ public:
 
 private:
   DataFolder folder_;
-  std::string control_;
+  driver::SimOptions setup_;
+};
+
+// A plate of 100 x 80 x 20 with a bore of 30 at X30 Y40, Z0 at its upper face, in G54; the probe is tool 1.
+class Plate {
+public:
+  Plate() {
+    folder_.write("part.toml",
+                  "schema = 1\n[place]\nshift = [-300.0, -200.0, -400.0]\n"
+                  "[[shape]]\nkind = \"box\"\nmin = [0.0, 0.0, -20.0]\nmax = [100.0, 80.0, 0.0]\n"
+                  "[[shape]]\nkind = \"hole\"\nat = [30.0, 40.0, 0.0]\ndiameter = 30.0\nthrough = true\n");
+    folder_.write("machine.toml", "schema = 1\n[setup]\ntool = 1\nwork_offset = { G54 = \"part\" }\n"
+                                  "[probe]\ntool = 1\nball_diameter = 6.0\neffective_radius = 2.99\n"
+                                  "length = 180.0\nlength_to = \"tip\"\nstem_diameter = 4.0\n"
+                                  "stem_length = 50.0\nbody_diameter = 40.0\nbody_length = 60.0\n"
+                                  "overtravel = 6.0\non = true\n");
+    setup.part = folder_.path() + "/part.toml";
+    setup.machine = folder_.path() + "/machine.toml";
+  }
+  driver::SimOptions setup;
+
+private:
+  DataFolder folder_;
 };
 
 std::string randomProgram(std::mt19937& random) {
@@ -143,8 +168,8 @@ TEST_CASE("flatten says what its blocks depend on, and refuses what no plain pro
   CHECK(Flat("O7\nG31 X10. F100.\nM30\n").out.output.empty()); // what it touches no plain block says
   DataFolder folder;
   folder.write("a.nc", "O7\n#1=0\nWHILE[#1 LT 9999]DO1\nG0 X#1\n#1=#1+1\nEND1\nM30\n");
-  driver::FlattenOptions options;
-  options.input = folder.path() + "/a.nc";
+  driver::SimOptions options;
+  options.program = folder.path() + "/a.nc";
   options.common.limits.outputBytes = 1000;
   const driver::Outcome out = driver::flatten(options);
   CHECK(out.status == 1);
@@ -162,4 +187,61 @@ TEST_CASE("a flat program runs as its source: random programs") {
     ran += Flat(text, round % 2 == 0 ? "fanuc-31i-b" : "fanuc-0i-md").same() ? 1 : 0;
   }
   CHECK(ran * 2 > rounds);
+}
+
+TEST_CASE("flatten runs a macro that is called, on a part, from a place") {
+  Plate plate;
+  plate.setup.setup.at = {30, 40, 10};
+  plate.setup.setup.call = "D30. Z-5. S55";
+  const std::string macro = "O9100\n#1=#5001\n#2=#5003\nG31 Z#26 F900\nG31 X[#1+#7/2+3.] F60\n#3=#5061\n"
+                            "G0 X#1\nG31 X[#1-#7/2-3.] F60\n#4=#5061\nG0 X[[#3+#4]/2]\n"
+                            "#[5221+[#19-54]*20]=[#3+#4]/2\nG0 Z#2\nM99\n";
+  const Flat flat(macro, "fanuc-31i-b", plate.setup);
+  CHECK(flat.same());
+  CHECK(flat.has("flatten-position"));
+  CHECK(flat.out.output.find("(O9100 LINE 5)") != std::string::npos);
+  CHECK(flat.out.output.find("M30 (--CALL LINE ") != std::string::npos);
+  CHECK(flat.out.output.find("G65") == std::string::npos);
+  // As for sim, whose words name the command.
+  driver::SimOptions noProbe = plate.setup;
+  noProbe.machine.reset();
+  const Flat without(macro, "fanuc-31i-b", noProbe);
+  CHECK(without.out.output.empty());
+  REQUIRE(without.has("missing-option"));
+  CHECK(without.out.diagnostics.all().front().message.find("flatten") != std::string::npos);
+}
+
+TEST_CASE("flatten keeps the call of a macro that runs by its meaning") {
+  Plate plate;
+  plate.setup.setup.at = {50, 40, 10};
+  const Flat flat("O7\nG43 H1 Z10.\n#1=5.\nG65 P9810 X[#1*12] F[#1*100]\nG65 P9811 Z[#1-5.]\nM30\n",
+                  "fanuc-31i-b", plate.setup);
+  CAPTURE(flat.out.output);
+  CHECK(flat.same());
+  CHECK(flat.out.output.find("G65 P9810 F500. X60. (LINE 4)") != std::string::npos);
+  CHECK(flat.out.output.find("G65 P9811 Z0. (LINE 5)") != std::string::npos);
+  const Flat second("O7\nG43 H1 Z10.\nG65 P9811 Z0 I1. I2. I3. I4.\nM30\n", "fanuc-31i-b", plate.setup);
+  CHECK(second.out.output.empty());
+}
+
+TEST_CASE("a flat program of a macro on a part runs as its source: random touches") {
+  std::mt19937 random(20261125);
+  const auto pick = [&](int count) { return static_cast<int>(random() % static_cast<unsigned>(count)); };
+  int ran = 0;
+  const int rounds = draws(60);
+  for (int round = 0; round < rounds; ++round) {
+    Plate plate;
+    plate.setup.setup.at = {30.0 + pick(5) - 2, 40.0 + pick(5) - 2, 10};
+    plate.setup.setup.call = fmt::format("D{}. Z-{}.{}", 28 + pick(5), 3 + pick(5), pick(10));
+    std::string macro = "O9100\n#10=#5001\n#11=#5002\n#12=#5003\nG31 Z#26 F900\n#1=0\n"
+                        "WHILE[#1 LT 4]DO1\n#2=#1*90.\n";
+    macro += fmt::format("G31 X[#10+[#7/2+4.]*COS[#2]] Y[#11+[#7/2+4.]*SIN[#2]] F{}\n", 30 + pick(300));
+    macro += "#[20+#1]=#5061\n#[28+#1]=#5062\nG0 X#10 Y#11\n#1=#1+1\nEND1\n";
+    macro += pick(2) == 0 ? "IF[#20 GT #22]THEN #5241=[#20+#22]/2\n" : "G10 L2 P2 X[[#20+#22]/2] Y#29\n";
+    macro += "G0 Z#12\nG0 X[[#20+#22]/2]\nM99\n";
+    CAPTURE(macro);
+    CAPTURE(plate.setup.setup.call);
+    ran += Flat(macro, round % 2 == 0 ? "fanuc-31i-b" : "fanuc-0i-md", plate.setup).same() ? 1 : 0;
+  }
+  CHECK(ran * 4 > rounds * 3);
 }

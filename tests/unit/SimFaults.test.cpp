@@ -3,6 +3,7 @@
 #include "tests/TestFolder.h"
 
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 #include <string>
 #include <string_view>
 
@@ -263,4 +264,26 @@ TEST_CASE("faults: M99 at the end of a main program ends a run in which nothing 
   // One that counts and ends runs to its end.
   folder.write("m.nc", "O9173\n#621=#621+1\nIF[#621 LT 2500] GOTO 5\nM30\nN5 M99\n");
   CHECK(sim("--quiet").status == 0);
+}
+
+TEST_CASE("faults: the probe under cutter compensation is not where the program says") {
+  Bench bench("dotek-comp");
+  const auto sim = [&](const std::string& program) {
+    bench.folder.write("m.nc", "O7\nG90 G54 G0 G43 H9 Z50.\n" + program + "M30\n");
+    return runDotek(
+        splitArguments("sim m.nc --part part.toml --machine machine.toml --tool 9 --at 0,0,50 --quiet"),
+        bench.folder.path());
+  };
+  for (const char* code : {"G41 D5", "G42 D5", "G17 G1 G41"}) {
+    CAPTURE(code);
+    const CommandResult result = sim(fmt::format("{} X10. F500\nY20.\nG40 X0\n", code));
+    CAPTURE(result.err);
+    CHECK(result.status == 1);
+    CHECK(holds(result.err, "m.nc:3:1: error"));
+    CHECK(holds(result.err, "under cutter compensation"));
+  }
+  CHECK(sim("G40 G1 X10. F500\nY20.\n").status == 0);
+  CHECK(sim("G41 D5\nG40\nG1 X10. F500\n").status == 0); // nothing moves under it
+  // A tool that cuts goes on.
+  CHECK_FALSE(holds(sim("T2 M6\nG41 D5 G1 X10. F500\nG40 X0\n").err, "under cutter compensation"));
 }
