@@ -2,6 +2,7 @@
 #include "frontend/cycle/BuildAst.h"
 
 #include "frontend/cycle/Parse.h"
+#include "frontend/cycle/Tokens.h"
 #include "support/Ascii.h"
 #include "support/messages/Common.h"
 #include "support/messages/Cycle.h"
@@ -103,8 +104,8 @@ void Builder::close(SourceRange range, bool written) {
   statements().push_back(std::move(done.statement));
 }
 
-// A line that could not be read. One that was to open a block opens it all the same, so that its `end` and
-// `else` are where they belong.
+// A line that could not be read. One that was to open, continue or close a block, in the words of another
+// language, does so all the same: the lines after it are where they belong.
 void Builder::lost(SourceRange range) {
   std::string_view text = sources_.text(range);
   const auto word = [&] {
@@ -121,10 +122,19 @@ void Builder::lost(SourceRange range) {
   Statement out;
   out.range = range;
   const std::string first = lowerCase(word());
+  if (isForeignEnd(first) && !open_.empty()) {
+    close(range, true);
+    return;
+  }
+  auto* const choice = open_.empty() ? nullptr : std::get_if<If>(&open_.back().statement.node);
+  if (isForeignElseIf(first) && choice != nullptr && choice->otherwise == nullptr) {
+    choice->parts.push_back({missing(), {}, {}});
+    return;
+  }
   if (first == "if") {
-    If choice;
-    choice.parts.push_back({missing(), {}, {}});
-    out.node = std::move(choice);
+    If opened;
+    opened.parts.push_back({missing(), {}, {}});
+    out.node = std::move(opened);
   } else if (first == "repeat") {
     out.node = Repeat{missing(), {}};
   } else if (first == "while") {

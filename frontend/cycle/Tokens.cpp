@@ -130,9 +130,8 @@ template <class Types> bool isOneOf(size_t type, const Types& types) {
 }
 
 std::string misspelt(const std::string& word) {
-  if (word == "endif" || word == "endwhile" || word == "next" || word == "wend" || word == "done")
-    return "a block ends with `end`";
-  if (word == "elseif" || word == "elsif" || word == "elif") return "write `else if CONDITION then`";
+  if (isForeignEnd(word)) return "a block ends with `end`";
+  if (isForeignElseIf(word)) return "write `else if CONDITION then`";
   if (word == "goto" || word == "jump" || word == "label" || word == "return")
     return "there are no jumps; write what is to happen inside `if CONDITION then` .. `end`";
   if (word == "let" || word == "var" || word == "int" || word == "float")
@@ -337,6 +336,15 @@ Language language() {
     return explain(offending, parser);
   };
   return result;
+}
+
+bool isForeignEnd(std::string_view word) {
+  constexpr std::array<std::string_view, 6> kWords = {"endif", "endwhile", "endfor", "next", "wend", "done"};
+  return std::find(kWords.begin(), kWords.end(), word) != kWords.end();
+}
+
+bool isForeignElseIf(std::string_view word) {
+  return word == "elseif" || word == "elsif" || word == "elif";
 }
 
 } // namespace dotek::frontend::cycle

@@ -154,6 +154,21 @@ TEST_CASE("cycles: what dotek new writes is laid out, and nothing is wrong with 
   CHECK(cycle::layOut(reading.file) == draft);
 }
 
+TEST_CASE("cycles: ends of other languages close their blocks, and each is one message") {
+  Reading reading("cycle other \"Other words\"\nparameter wide : length \"Width\"\nneeds probe\n"
+                  "if wide > 5 mm then\n  move by z 1 mm\nelseif wide > 3 mm then\n  move by z 2 mm\nelse\n"
+                  "  move by z 3 mm\nendif\nfor i = 1 to 3\n  repeat 2 times\n    move by z 1 mm\n  done\n"
+                  "next i\n");
+  std::string found;
+  for (const Diagnostic& one : reading.diagnostics.all())
+    found += one.message + "\n";
+  CHECK(found == "no statement begins with `elseif`; write `else if CONDITION then`\n"
+                 "no statement begins with `endif`; a block ends with `end`\n"
+                 "no statement begins with `done`; a block ends with `end`\n"
+                 "no statement begins with `next`; a block ends with `end`\n");
+  CHECK(reading.file.hasErrorNodes);
+}
+
 TEST_CASE("cycles: any bytes end in a diagnostic, not in a crash") {
   std::mt19937 engine(7);
   for (std::uint32_t seed = 1; seed <= draws(200U); ++seed) {
