@@ -202,6 +202,13 @@ private:
     return "";
   }
 
+  // `PRM[3201,5]`
+  bool isInParameter(std::size_t i) const {
+    while (i > 0 && type(i) != Lexer::LBRACKET)
+      --i;
+    return type(i) == Lexer::LBRACKET && i > 0 && isAddress(type(i - 1)) && tokens_[i - 1].text == "M";
+  }
+
   void decimalComma(std::size_t i) {
     if (type(i) != Lexer::COMMA || i == 0 || type(i - 1) != Lexer::NUMBER || type(i + 1) != Lexer::NUMBER)
       return;
@@ -209,7 +216,7 @@ private:
     const Tok& right = tokens_[i + 1];
     if ((left.text + right.text).find('.') != std::string::npos) return;
     const std::string function = functionAround(i);
-    if (function == "ATAN" || function == "POW") return;
+    if (function == "ATAN" || function == "POW" || isInParameter(i)) return;
     const SourceRange range = rangeOf(tokens_[i]);
     left.text += "." + right.text;
     left.end = right.end;

@@ -3,6 +3,7 @@
 #include "frontend/macrob/Keywords.h"
 #include "support/Ascii.h"
 #include "support/NearestName.h"
+#include "support/messages/Common.h"
 #include "support/messages/MacroB.h"
 
 #include <algorithm>
@@ -78,6 +79,7 @@ public:
 
   std::optional<Diagnostic> run() const {
     if (tokens_.empty()) return std::nullopt;
+    if (auto out = unread()) return out;
     if (auto out = header()) return out;
     if (auto out = flowWord()) return out;
     if (auto out = sign()) return out;
@@ -94,6 +96,46 @@ public:
   }
 
 private:
+  // Words of a control that Dotek does not read: nothing of them is to be corrected.
+  std::optional<Diagnostic> unread() const {
+    const auto letter = [&](std::size_t i, char c) {
+      return isAddress(type(i)) && (source_[tokens_[i].begin] & ~0x20) == c;
+    };
+    const auto told = [&](std::size_t first, std::size_t last, const char* what) {
+      return makeDiagnostic<diag::SyntaxError>(range(tokens_[first].begin, tokens_[last].end), what);
+    };
+    for (std::size_t i = 0; i < tokens_.size(); ++i) {
+      if (type(i) == Lexer::COMMA && depthAt(i) == 0 && (letter(i + 1, 'C') || letter(i + 1, 'R')))
+        return told(
+            i, i + 1,
+            "`,C` is a chamfer and `,R` a rounding at the corner to the next block, where the control "
+            "has them; Dotek does not read them, so it cannot run or check this block; the points of "
+            "the chamfer, or an arc, say the same");
+      if (letter(i, 'P') && letter(i + 1, 'R') && letter(i + 2, 'M') && type(i + 3) == Lexer::LBRACKET)
+        return told(
+            i, i + 2,
+            "`PRM[..]` is the value of a parameter of the machine, where the control has it; Dotek does "
+            "not read it, as no file says what the parameters of a machine are; put the value into a "
+            "common variable for a run here");
+      if (source_[tokens_[i].begin] == '<' && depthAt(i) == 0 && callsBefore(i))
+        return told(
+            i, i,
+            "a program that is called by its name, where the control has that; Dotek follows calls by "
+            "number alone; call the program by its O number");
+    }
+    return std::nullopt;
+  }
+
+  // `M98`, `G65`, and an optional P right before `i`.
+  bool callsBefore(std::size_t i) const {
+    if (i > 0 && isAddress(type(i - 1)) && (source_[tokens_[i - 1].begin] & ~0x20) == 'P') --i;
+    if (i < 2 || type(i - 1) != Lexer::NUMBER || !isAddress(type(i - 2))) return false;
+    const char address = static_cast<char>(source_[tokens_[i - 2].begin] & ~0x20);
+    const std::string& code = tokens_[i - 1].text;
+    return (address == 'M' && (code == "98" || code == "198")) ||
+           (address == 'G' && (code == "65" || code == "66" || code == "66.1"));
+  }
+
   std::size_t type(std::size_t i) const { return typeAt(tokens_, i); }
   SourceRange rangeOf(std::size_t i) const { return {file_, tokens_[i].begin, tokens_[i].end}; }
   SourceRange range(std::size_t begin, std::size_t end) const {

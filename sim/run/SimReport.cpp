@@ -75,6 +75,16 @@ std::string positionText(const Position& position, std::uint32_t shown) {
   return "{" + out + "}";
 }
 
+namespace {
+
+// C or R follows the comma that ends at `at`.
+bool isCornerWord(std::string_view line, std::size_t at) {
+  at = line.find_first_not_of(" \t", at);
+  return at != std::string_view::npos && std::string_view("CRcr").find(line[at]) != std::string_view::npos;
+}
+
+} // namespace
+
 SourceRange placeOfLine(const std::string& path, const frontend::nc::Scanner& scanner, Session& session) {
   const std::string_view line = scanner.lineText();
   return wholeLine(addLine(path, line, scanner.line(), session), line);
@@ -95,6 +105,12 @@ void reportScanError(const std::string& path, const frontend::nc::Scanner& scann
   case ScanFault::BadCharacter:
     if (text == std::string(1, '\0'))
       diagnostics.report<diag::NulByte>(range);
+    else if (text == "," && isCornerWord(scanner.lineText(), error.end))
+      diagnostics.report<diag::RunInconclusive>(
+          range, text,
+          "`,C` is a chamfer and `,R` a rounding at the corner to the next block, where the control has "
+          "them; "
+          "Dotek does not follow them; write the points of the chamfer, or an arc, for a run here");
     else
       diagnostics.report<diag::BlockCharacter>(range, text);
     break;

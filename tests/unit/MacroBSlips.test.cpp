@@ -79,3 +79,20 @@ TEST_CASE("macrob: comments as other controls write them are one finding in a fi
   holds({"G0 X1.;G1 X2.;\nM30;", "", "comment-sign", ""});
   holds({"O100;#1=5.;IF[#1EQ5.]GOTO10;N10 M30;", "", "comment-sign", ""});
 }
+
+TEST_CASE("macrob slips: what is not read is no slip, and nothing is to be corrected") {
+  for (const char* text :
+       {"G1 X10. ,C2.", "G1 X10. , R#1 F100", "N5 G1X#1,c[#2]", "#7=PRM[3201,5]", "#7=PRM[#3]+1",
+        "IF[PRM[20]EQ1]GOTO8\nN8", "M98 P<SUB-1>", "G65P<BORE.2>D30.", "M98 <SUB>", "G66 <SUB> X#1"}) {
+    CAPTURE(text);
+    MacroFile file(std::string(text) + "\n");
+    const std::string told = file.check().told();
+    CHECK(told.starts_with("E 1:"));
+    CHECK(told.ends_with(" syntax-error"));
+    CHECK(told.find(';') == std::string::npos); // one finding
+    CHECK(file.diagnostics.all().front().message.find("Dotek") != std::string::npos);
+    CHECK_FALSE(file.diagnostics.all().front().fix);
+  }
+  // A comparison, and commas of numbers, are what they were.
+  holds({"IF[#4<2]GOTO8\nN8", "E 1:6 sign-unknown", "sign-unknown", "IF[#4LT2]GOTO8\nN8"});
+}

@@ -287,3 +287,19 @@ TEST_CASE("faults: the probe under cutter compensation is not where the program 
   // A tool that cuts goes on.
   CHECK_FALSE(holds(sim("T2 M6\nG41 D5 G1 X10. F500\nG40 X0\n").err, "under cutter compensation"));
 }
+
+TEST_CASE("faults: a chamfer or a rounding at a corner is not followed, and is no stray comma") {
+  Bench bench("dotek-corner");
+  for (const char* block : {"G1 X10. F100 ,C2.", "G1 X10. F100 , R.5", "G1 X#1 F100 ,C2."}) {
+    CAPTURE(block);
+    bench.folder.write("m.nc", fmt::format("O7\nG90 G54 G0 Z50.\n{}\nM30\n", block));
+    const CommandResult result = runDotek(splitArguments("sim m.nc --quiet"), bench.folder.path());
+    CAPTURE(result.err);
+    CHECK(result.status == 1);
+    CHECK(holds(result.err, "m.nc:3:"));
+    CHECK(holds(result.err, "is a chamfer"));
+    CHECK_FALSE(holds(result.err, "remove it"));
+  }
+  bench.folder.write("m.nc", "O7\nG1 X10. F100 , Y5.\nM30\n");
+  CHECK(holds(runDotek(splitArguments("sim m.nc --quiet"), bench.folder.path()).err, "remove it"));
+}
