@@ -63,8 +63,8 @@ private:
     if (failed) return;
     failed = true;
     const size_t rule = parser->getContext() == nullptr ? 0 : parser->getContext()->getRuleIndex();
-    diagnostics_.report<diag::SyntaxError>(rangeOf(file_, offending),
-                                           language_.explain(rule, offending, *parser));
+    const antlr4::Token& at = language_.place ? language_.place(offending, *parser) : offending;
+    diagnostics_.report<diag::SyntaxError>(rangeOf(file_, at), language_.explain(rule, offending, *parser));
   }
 
   FileId file_;

@@ -58,6 +58,9 @@ struct Language {
   // fit. In the field's words; never a token set.
   std::function<std::string(size_t rule, const antlr4::Token& offending, const antlr4::Parser& parser)>
       explain;
+  // The token that the message points at; without it the offending one.
+  std::function<const antlr4::Token&(const antlr4::Token& offending, const antlr4::Parser& parser)> place =
+      {};
 };
 
 SourceRange rangeOf(FileId file, const antlr4::Token& token);

@@ -149,13 +149,23 @@ bool isForeignUnit(std::string_view word) {
   return std::find(kUnits.begin(), kUnits.end(), word) != kUnits.end();
 }
 
-// What is wrong with a line that the grammar does not take, at its first token that does not fit.
-std::string explain(const antlr4::Token& offending, const antlr4::Parser& parser) {
+// Of the line that the token is in.
+size_t firstOfLine(const antlr4::Token& token, const antlr4::Parser& parser) {
   auto& input = *const_cast<antlr4::Parser&>(parser).getTokenStream();
-  size_t first = offending.getTokenIndex();
+  size_t first = token.getTokenIndex();
   const auto endsLine = [&](size_t index) { return input.get(index)->getType() == Lexer::NEWLINE; };
   for (size_t at = first; at > 0 && !endsLine(at - 1); --at)
     if (input.get(at - 1)->getChannel() == antlr4::Token::DEFAULT_CHANNEL) first = at - 1;
+  return first;
+}
+
+// How a message begins whose fault is the first word of the line, whatever comes after it.
+constexpr std::string_view kNoStatement = "no statement begins with";
+
+// What is wrong with a line that the grammar does not take, at its first token that does not fit.
+std::string explain(const antlr4::Token& offending, const antlr4::Parser& parser) {
+  auto& input = *const_cast<antlr4::Parser&>(parser).getTokenStream();
+  const size_t first = firstOfLine(offending, parser);
   const antlr4::Token& head = *input.get(first);
   const std::string word = head.getText();
   const std::string text = offending.getText();
@@ -183,7 +193,7 @@ std::string explain(const antlr4::Token& offending, const antlr4::Parser& parser
       return fmt::format("a value is given with `=` alone: `{} = value`", word);
     if (head.getType() == Lexer::NAME) {
       const std::string hint = misspelt(word);
-      return fmt::format("no statement begins with `{}`; {}", word,
+      return fmt::format("{} `{}`; {}", kNoStatement, word,
                          hint.empty() ? "a value is given as `name = value`" : hint);
     }
     if (head.getType() == Lexer::CODE || head.getType() == Lexer::WORK_OFFSET)
@@ -192,8 +202,7 @@ std::string explain(const antlr4::Token& offending, const antlr4::Parser& parser
                          word);
     if (head.getType() == Lexer::ODD_NAME)
       return fmt::format("names are written small, with `_` between words: `{}`", proposeName(word));
-    if (&head == &offending)
-      return fmt::format("no statement begins with `{}`", type == Lexer::NEWLINE ? "" : word);
+    if (&head == &offending) return fmt::format("{} `{}`", kNoStatement, type == Lexer::NEWLINE ? "" : word);
   }
   if (type == Lexer::NEWLINE || type == antlr4::Token::EOF)
     return fmt::format("the line ends before the statement is complete{}", write);
@@ -334,6 +343,10 @@ Language language() {
   result.depthResets = {Lexer::NEWLINE};
   result.explain = [](size_t, const antlr4::Token& offending, const antlr4::Parser& parser) {
     return explain(offending, parser);
+  };
+  result.place = [](const antlr4::Token& offending, const antlr4::Parser& parser) -> const antlr4::Token& {
+    if (!explain(offending, parser).starts_with(kNoStatement)) return offending;
+    return *const_cast<antlr4::Parser&>(parser).getTokenStream()->get(firstOfLine(offending, parser));
   };
   return result;
 }
