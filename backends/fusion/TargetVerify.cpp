@@ -325,8 +325,10 @@ private:
       if (meant.answer != SourceQuestions::Answer::Runs || !result.ok()) continue;
       const std::optional<Compiled> made = compiled(result.text, out);
       if (!made) return;
+      verify::CompareRules rules = rulesFor(now);
+      rules.tolerance = rules.results; // what follows is as exactly as the control computes the offset
       std::vector<verify::Difference> found =
-          verify::compare(meant.record, runCode(*made, now, now.entry), rulesFor(now));
+          verify::compare(meant.record, runCode(*made, now, now.entry), rules);
       for (verify::Difference& one : found)
         one.text = fmt::format("with {} as `{}`, the system in force: {}", numberText(property->second),
                                field.name, one.text);
