@@ -25,6 +25,7 @@
 #include "support/Stream.h"
 #include "support/Worker.h"
 #include "support/messages/Output.h"
+#include "support/messages/Sim.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -32,6 +33,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <exception>
+#include <filesystem>
 #include <memory>
 #include <ostream>
 #include <set>
@@ -173,6 +175,12 @@ public:
       outcome = driver::sim(options, arguments.device);
     else if (options.json)
       outcome.output = sim::notRunSummary(writing, SourceMap());
+    for (Diagnostic& one : outcome.diagnostics.all()) {
+      if (one.code != diag::PictureNotWritten::code) continue;
+      for (const std::string& path : {arguments.svgFile, arguments.htmlFile})
+        if (std::error_code fault; std::filesystem::is_regular_file(path, fault))
+          one.note({}, "`" + path + "` is from an earlier run");
+    }
     out_ << outcome.output;
     err_ << renderText(outcome.diagnostics, outcome.sources, maxErrors_, errColors_);
     if (!ran || outcome.status == kUsage) outputs.clear();
@@ -395,7 +403,8 @@ int runCommand(Arguments& arguments, std::ostream& out, std::ostream& err) {
   case Command::Lsp: return lsp::serve(STDIN_FILENO, STDOUT_FILENO, runningProgram(), err);
   case Command::List:
     if (arguments.inputs.size() > 1)
-      return printer.result(driver::listFacts(arguments.inputs[1], arguments.common), arguments);
+      return printer.result(driver::listFacts(arguments.inputs[0], arguments.inputs[1], arguments.common),
+                            arguments);
     return printer.result(driver::list(arguments.inputs.front(), arguments.common), arguments);
   case Command::Outline:
     return printer.result(driver::outline({arguments.inputs, arguments.common, arguments.json}), arguments);

@@ -121,7 +121,11 @@ namespace {
 
 std::string probeCode(const std::string& flag, const std::string& text) {
   if (!text.empty() && !stdlib::codeOf(text))
-    throw UsageError(flag + " takes a code such as M31, not `" + text + "`");
+    throw UsageError(
+        flag + " takes one M or G code without further words, such as M31, not `" + text +
+        "`; where the machine needs a word beside it (P2), name the code that calls a program with "
+        "that block, or take macros that switch the probe by a call (`--probe-macros "
+        "inspection-plus`)");
   return text;
 }
 

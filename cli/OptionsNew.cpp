@@ -105,7 +105,8 @@ void addList(CLI::App& app, Raw& raw) {
   CLI::App* list = app.add_subcommand("list", "print a table");
   list->add_option("WHAT", raw.inputs,
                    "cycles, controls, macros, forms, rules, messages, targets, hosts, limits or assumptions; "
-                   "`controls NAME`: the facts of one control, with the files that state them")
+                   "`controls NAME`: the facts of one control, with the files that state them; "
+                   "`macros NAME`: the calls of one set, with what each letter means")
       ->required()
       ->expected(1, 2);
   addCommon(*list, raw);

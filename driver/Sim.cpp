@@ -28,6 +28,7 @@
 #include "sim/run/SimReport.h"
 #include "sim/run/SimWorld.h"
 #include "stdlib/Control.h"
+#include "support/Ascii.h"
 #include "support/Decimal.h"
 #include "support/Files.h"
 #include "support/LineChunks.h"
@@ -240,6 +241,17 @@ private:
     return runCode(sim::mikroprog::compile(suf->program, profile, session_.sources()), machine, nullptr, "");
   }
 
+  // Of an alarm over the tool length while none is in force and the machine's file has a probe; "": not so.
+  std::string lengthAdvice(const sim::Machine& machine) const {
+    const sim::RunEnd& end = machine.end();
+    const bool ofLength = end.ending == sim::Ending::Alarm && machine.toolLength() == 0 &&
+                          lowerCase(end.text).find("tool length") != std::string::npos;
+    if (!ofLength || !world_->hasMachineFile() || world_->setup().tool) return "";
+    return "the run began without a tool offset; `--tool N` puts the probe of the machine's file into the "
+           "spindle "
+           "with G43 HN in force, or the program writes G43 H before the call";
+  }
+
   // `advice`: what a run lacks that does not come to its end.
   Outcome runCode(const sim::Bytecode& code, sim::Machine& machine, sim::MacroMeaning* macros,
                   const std::string& advice) {
@@ -268,7 +280,9 @@ private:
     machine.setTrace(nullptr);
     if (trace) sim::traceVariables(machine, *trace);
     trace.reset();
-    sim::reportRun(run, machine, advice, options_.programs, world_->endedOutside(), session_);
+    const std::string length = lengthAdvice(machine);
+    sim::reportRun(run, machine, length.empty() ? advice : length, options_.programs, world_->endedOutside(),
+                   session_);
     for (const sim::UnsetRead& one : run.unsetReads())
       world_->unsetRead(one.number, one.range);
     // A datum by G92 is what a program of Mikroprog is for, and a macro that is called leaves what it sets to

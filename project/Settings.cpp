@@ -121,7 +121,10 @@ stdlib::ProbeCodes probeCodesIn(const stdlib::TomlDocument& document, const stdl
     if (stdlib::codeOf(text))
       (on ? out.on : out.off) = std::move(text);
     else
-      document.fail(value.range(), "`" + text + "` is no code; `M31` is the form");
+      document.fail(value.range(), "`" + text +
+                                       "` is not one M or G code without further words; `M31` is the form. "
+                                       "Where the machine needs a word "
+                                       "beside it (P2), name the code that calls a program with that block");
   }
   return out;
 }

@@ -83,14 +83,19 @@ private:
       s_.done.insert(&list[i]);
       one(list[i], i);
     }
-    const auto missing = [&](bool settled, std::string_view what, std::string_view function) {
+    const auto missing = [&](bool settled, bool turns) {
       if (settled) return;
-      s_.diagnostics.report<diag::SpindleNotStopped>(list[first].origin.range(), what, s_.code(function));
-      s_.remarks.push_back(fmt::format("NOTHING HERE STOPS {}: THE CALLER HAS TO",
-                                       what == "the spindle" ? "THE SPINDLE" : "THE COOLANT"));
+      const std::string_view what = turns ? "the spindle" : "the coolant";
+      s_.diagnostics.report<diag::SpindleNotStopped>(
+          list[first].origin.range(), what,
+          turns ? "a turning spindle breaks the stylus" : "coolant moves the stylus",
+          s_.options.cycleFile ? fmt::format("`{} off` before it", turns ? "spindle" : "coolant")
+                               : s_.code(turns ? "spindle-off" : "coolant-off") + " into the branch");
+      s_.remarks.push_back(
+          fmt::format("NOTHING HERE STOPS {}: THE CALLER HAS TO", turns ? "THE SPINDLE" : "THE COOLANT"));
     };
-    missing(spindle, "the spindle", "spindle-off");
-    missing(coolant, "the coolant", "coolant-off");
+    missing(spindle, true);
+    missing(coolant, false);
   }
 
   void one(const ir::CycleStatement& statement, std::size_t index) {

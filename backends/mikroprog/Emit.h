@@ -35,6 +35,7 @@ struct EmitOptions {
   std::map<std::string, double> hosts; // stdlib/HostInputs.h: mm, mm/min
   bool lengthToCentre = false;         // the tool length ends at the ball's centre, else at its lowest point
   std::vector<NamedValue> values;      // of the parameters, for the header
+  bool cycleFile = false;              // the source is a file of the cycle language, for messages
 };
 
 // Whether a move or a measurement of the cycle needs an axis Y.

@@ -91,6 +91,7 @@ std::optional<MikroprogProgram> writeMikroprog(const CycleFolder& folder, Lowere
   emit.datum = writing.datum == "operator" ? mikroprog::Datum::Operator : mikroprog::Datum::SetPosition;
   emit.assumed = questionsOf(writing.assume);
   emit.hosts = writing.hosts;
+  emit.cycleFile = writing.cycleFile;
   emit.lengthToCentre = writing.lengthToCentre;
   for (ir::VariableId id = 0; id < cycle.variables.size(); ++id) {
     const ir::Variable& variable = cycle.variable(id);

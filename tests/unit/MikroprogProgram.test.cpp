@@ -222,6 +222,21 @@ TEST_CASE("mikroprog: spindle and coolant rest before the first probe move, or a
   const auto turned = MikroprogTarget().emit(turning.cycle);
   CHECK_FALSE(turned.codes().contains("moved-before"));
   CHECK(turned.codes().contains("spindle-not-stopped"));
+  // Each names what its own source has for it.
+  const auto text = [](const MikroprogEmission& one) {
+    std::string out;
+    for (const Diagnostic& d : one.diagnostics.all())
+      if (d.code == "spindle-not-stopped") out += d.message + "\n";
+    return out;
+  };
+  CHECK(text(emission).find("write M9 into the branch") != std::string::npos);
+  CHECK(text(emission).find("turning") == std::string::npos);
+  MikroprogTarget fromFile;
+  fromFile.options.cycleFile = true;
+  const std::string both = text(fromFile.emit(turning.cycle));
+  CHECK(both.find("write `spindle off` before it") != std::string::npos);
+  CHECK(both.find("write `coolant off` before it") != std::string::npos);
+  CHECK(both.find("branch") == std::string::npos);
 }
 
 TEST_CASE("mikroprog: what a program needs of the operation") {

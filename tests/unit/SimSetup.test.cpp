@@ -167,6 +167,7 @@ TEST_CASE("setup: a start beyond the machine's travel is an error with axis, pla
   const CommandResult above = runIn(scratch, run + "--at 10,20,320.5");
   CHECK(above.status == 1);
   CHECK(has(above, "`--at`: it puts the spindle to machine Z0.500, and the travel ends at Z0.000"));
+  CHECK_FALSE(has(above, "--work-offset"));
   CHECK(has(runIn(scratch, run + "--at -100.25,20,5"),
             "it puts the spindle to machine X-400.250, and the travel ends at X-400.000"));
   // An axis without travel is not judged.
@@ -191,6 +192,62 @@ TEST_CASE("setup: a start beyond the machine's travel is an error with axis, pla
   const CommandResult cycle = runIn(scratch, "sim down.cycle --machine machine.toml --at 10,20,400");
   CHECK(cycle.status == 1);
   CHECK(has(cycle, "machine Z80.000"));
+}
+
+TEST_CASE("setup: a start beyond the travel over a zero that nothing has set names --work-offset") {
+  const TestFolder scratch("dotek-setup-zero");
+  scratch.write("down.nc", kDown);
+  scratch.write("part.toml", kBox);
+  scratch.write("machine.toml", "schema = 1\n[travel]\nz = [-500, 0]\n[probe]\nball_diameter = 6\n"
+                                "length = 80\nlength_to = \"tip\"\non = true\n");
+  const std::string run =
+      "sim down.nc --machine machine.toml --part part.toml --call \"Z-3.\" --tool 1 --at 10,20,5";
+  CHECK(has(runIn(scratch, run), "`--work-offset G54=part` puts it where the part is"));
+  CHECK_FALSE(has(runIn(scratch, run + " --work-offset G54=part"), "travel"));
+}
+
+TEST_CASE("setup: an alarm over the tool length names --tool where the machine's file has a probe") {
+  const TestFolder scratch("dotek-setup-length");
+  scratch.write("ask.nc",
+                "O9002\nIF[#4008 NE 49]GOTO 10\n#3000=17(TOOL LENGTH NOT ACTIVE)\nN10 G0 Z5.\nM99\n");
+  scratch.write("other.nc", "O9003\n#3000=18(Z MISSING)\nM99\n");
+  scratch.write("machine.toml", "schema = 1\n[probe]\nball_diameter = 6\nlength = 80\nlength_to = \"tip\"\n"
+                                "on = true\n");
+  const std::string machine = " --machine machine.toml --call \" \"";
+  CHECK(has(runIn(scratch, "sim ask.nc" + machine), "`--tool N`"));
+  CHECK_FALSE(has(runIn(scratch, "sim other.nc" + machine), "`--tool N`"));
+  CHECK_FALSE(has(runIn(scratch, "sim ask.nc --call \" \""), "`--tool N` puts"));
+  CHECK_FALSE(has(runIn(scratch, "sim ask.nc" + machine + " --tool 3"), "TOOL LENGTH"));
+}
+
+TEST_CASE("setup: a picture that was not written names the file of an earlier run only where there is one") {
+  const TestFolder scratch("dotek-picture-earlier");
+  scratch.write("broken.nc", "O1\n#1=[2\nM30\n");
+  const CommandResult none = runIn(scratch, "sim broken.nc --svg run.svg --html run.html");
+  CHECK(has(none, "no picture was written"));
+  CHECK_FALSE(has(none, "earlier run"));
+  scratch.write("run.html", "old");
+  const CommandResult one = runIn(scratch, "sim broken.nc --svg run.svg --html run.html");
+  CHECK(has(one, "`run.html` is from an earlier run"));
+  CHECK_FALSE(has(one, "`run.svg` is"));
+}
+
+TEST_CASE("list: the calls of a set of macros say what their letters mean and which exclude each other") {
+  const CommandResult set = runDotek({"list", "macros", "inspection-plus"}, root());
+  CHECK(set.status == 0);
+  const std::size_t pocket = set.out.find("\nP9812 pocket along X");
+  REQUIRE(pocket != std::string::npos);
+  const std::string call = set.out.substr(pocket, set.out.find("\n\n", pocket + 1) - pocket);
+  CAPTURE(call);
+  CHECK(call.find("  X  expected width; always given") != std::string::npos);
+  CHECK(call.find("  U  upper limit of the error") != std::string::npos);
+  CHECK(call.find("  H  tolerance of the size") != std::string::npos);
+  CHECK(call.find("  S  work offset to set: 1 to 6 are G54 to G59") != std::string::npos);
+  CHECK(call.find("not together: S, H") != std::string::npos);
+  const CommandResult none = runDotek({"list", "macros", "none"}, root());
+  CHECK(none.status == 2);
+  CHECK(none.err.find("inspection-plus") != std::string::npos);
+  CHECK(runDotek({"list", "rules", "none"}, root()).status == 2);
 }
 
 TEST_CASE("setup: a program that is not there names the folders that were searched") {
