@@ -42,6 +42,7 @@ public:
   Ran missing(std::size_t search) override;
   bool moves(const std::string& field) override;
   bool rejectsSome(const std::string& name) override;
+  bool maySkip(const std::string& name) override;
 
 private:
   bool setsActive(const std::string& field, double value) const;

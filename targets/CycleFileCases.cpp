@@ -1,4 +1,4 @@
-#include "targets/CycleFileCases.h"
+#include "targets/CycleFileCasesParts.h"
 
 #include "frontend/cycle/Link.h"
 #include "ir/Rewrite.h"
@@ -26,10 +26,11 @@ namespace {
 constexpr std::uint32_t kAttempts = 2000; // to find values that the cycle takes
 // Of values with which the cycle ends in an alarm of its own: so many of a case are run on both sides.
 constexpr std::uint32_t kMostAlarms = 2;
-constexpr double kReach = 12;      // how far a search goes beyond a surface, mm
-constexpr double kOvertravel = 10; // of a search where nothing states it: that of vendors' macros, mm
-constexpr double kLeastWay = 0.01; // mm to a touch; macros take less for a stylus that is deflected
-constexpr double kLeftOut = 0.35;  // share of the cases in which a caller leaves an argument out
+constexpr std::uint64_t kCallerCases = 8; // whose callers break what the translation demands
+constexpr double kReach = 12;             // how far a search goes beyond a surface, mm
+constexpr double kOvertravel = 10;        // of a search where nothing states it: that of vendors' macros, mm
+constexpr double kLeastWay = 0.01;        // mm to a touch; macros take less for a stylus that is deflected
+constexpr double kLeftOut = 0.35;         // share of the cases in which a caller leaves an argument out
 
 // Names of the choice, as many as the type has; of a flag both states.
 std::vector<double> choicesOf(const cycle::Type& type) {
@@ -53,18 +54,6 @@ bool touchesAtOnce(const verify::Record& record, double ballRadius, SourceRange&
 }
 
 } // namespace
-
-// `rejected`: an alarm before anything moves.
-struct CycleFileRunner::Played {
-  verify::Case drawn;
-  std::optional<sim::Part> part;
-  verify::Record record;
-  bool rejected = false;
-  bool partMade = false;
-  bool atOnce = false; // a touch finds its surface where it begins
-  std::string why;     // it says nothing of a translation; "": it does
-  SourceRange whyAt;
-};
 
 CycleFileRunner::CycleFileRunner(const VerifyOptions& options, const VerifyPlan& plan)
     : options_(options), plan_(plan), session_(options.common), compilation_(session_),
@@ -264,6 +253,7 @@ std::optional<verify::Case> CycleFileRunner::draw(std::uint64_t index) {
   std::uint32_t alarms = 0, checks = 0;
   for (std::uint32_t tries = 0; tries < kAttempts; ++tries) {
     verify::Case proposal = draws_->propose(index, tries);
+    proposal.callers = plan_.translation && (index < kCallerCases || options_.replay);
     if (options_.activeSystem) proposal.system = *options_.activeSystem;
     if (options_.partError) {
       const auto& [x, y, z, turn] = *options_.partError;
@@ -315,6 +305,11 @@ verify::Case CycleFileRunner::edge(std::uint64_t index) {
 }
 
 TargetRun CycleFileRunner::runTarget(const Played& played, ShownRun* shown) {
+  Questions questions(*this, played);
+  return runTarget(played, played.drawn.callers && !played.rejected ? &questions : nullptr, shown);
+}
+
+TargetRun CycleFileRunner::runTarget(const Played& played, SourceQuestions* questions, ShownRun* shown) {
   sim::World world(*played.part, probeFor(plan_, played.drawn), limits());
   const verify::Entry entry = entryOf(played.drawn);
   TargetCase now{.drawn = played.drawn,
@@ -324,6 +319,7 @@ TargetRun CycleFileRunner::runTarget(const Played& played, ShownRun* shown) {
                  .source = played.rejected ? nullptr : &played.record,
                  .stream = callerStream(played.drawn)};
   now.shown = shown;
+  now.questions = questions;
   now.rejected = played.rejected;
   now.rejection = played.record.text;
   now.sourceOf = [](SourceRange place) { return place; };
@@ -373,6 +369,7 @@ CaseResult CycleFileRunner::run(const verify::Case& drawn) {
     return result;
   }
   takeDifferences(result, ran);
+  if (drawn.callers && result.findings.empty() && result.why.empty()) runAtBounds(drawn, result);
   result.verdict = !result.findings.empty() ? CaseVerdict::Differ
                    : result.why.empty()     ? CaseVerdict::Agrees
                                             : CaseVerdict::Undecided;

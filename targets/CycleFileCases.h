@@ -47,6 +47,7 @@ public:
 
 private:
   struct Played; // the cycle's own run of a case
+  class Questions;
   std::unique_ptr<Played> play(verify::Case drawn, bool drawError);
   verify::Record runCycle(const verify::Case& drawn, sim::World& world, bool keepMoves) const;
   sim::CycleInputs inputsOf(const verify::Case& drawn) const;
@@ -58,6 +59,8 @@ private:
   bool knowsValues();
   verify::Case replayed(verify::Case drawn) const;
   TargetRun runTarget(const Played& played, ShownRun* shown = nullptr);
+  TargetRun runTarget(const Played& played, SourceQuestions* questions, ShownRun* shown);
+  void runAtBounds(const verify::Case& drawn, CaseResult& result);
   void takeDifferences(CaseResult& result, const TargetRun& ran) const;
 
   const VerifyOptions& options_;

@@ -106,6 +106,10 @@ bool CaseRunner::Questions::rejectsSome(const std::string& name) {
   return false;
 }
 
+bool CaseRunner::Questions::maySkip(const std::string&) {
+  return false; // a folder knows no arguments
+}
+
 SourceQuestions::Ran CaseRunner::Questions::from(const verify::Entry& entry) {
   Ran out;
   if (!values_.posted) return out;

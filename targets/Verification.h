@@ -45,6 +45,8 @@ public:
   virtual bool moves(const std::string& field) = 0;
   // With some value of the field or the host input the dialog rejects the others.
   virtual bool rejectsSome(const std::string& name) = 0;
+  // The source itself says what it does without the argument, and the cases leave it out.
+  virtual bool maySkip(const std::string& name) = 0;
 };
 
 // For a picture: the translation's run with its moves, that of the caller who sees the first difference.

@@ -164,22 +164,26 @@ private:
     }
   }
 
+  std::string rejects() const {
+    return from_.plan.cycleFile ? "the checks of the cycle reject the values"
+                                : "the dialog rejects the values";
+  }
+
   // The dialog has rejected the values: the translation raises an alarm, and nothing has moved.
   void compareRejection(const verify::Record& record, const TargetCase& now, TargetRun& out) const {
     const std::uint32_t line = text_.line(record.endedAt);
     if (record.ending == verify::Ending::Alarm && record.pieces.empty() && setsSomething(record, now.entry))
-      out.differsAt(verify::Aspect::Ending,
-                    "the dialog rejects the values, and the program sets an offset before its alarm", line);
-    else if (record.ending != verify::Ending::Alarm)
-      out.differsAt(verify::Aspect::Ending, "the dialog rejects the values, and the program runs", line);
-    else if (!record.pieces.empty())
-      out.differsAt(verify::Aspect::Ending,
-                    "the dialog rejects the values, and the program moves before its alarm", line);
-    else if (!saysSo(translation_.text, record.text, now.rejection))
-      out.differsAt(verify::Aspect::Ending,
-                    fmt::format("the dialog rejects the values, `{}`, and the program stops with `{}`",
-                                now.rejection, record.text),
+      out.differsAt(verify::Aspect::Ending, rejects() + ", and the program sets an offset before its alarm",
                     line);
+    else if (record.ending != verify::Ending::Alarm)
+      out.differsAt(verify::Aspect::Ending, rejects() + ", and the program runs", line);
+    else if (!record.pieces.empty())
+      out.differsAt(verify::Aspect::Ending, rejects() + ", and the program moves before its alarm", line);
+    else if (!saysSo(translation_.text, record.text, now.rejection))
+      out.differsAt(
+          verify::Aspect::Ending,
+          fmt::format("{}, `{}`, and the program stops with `{}`", rejects(), now.rejection, record.text),
+          line);
     else
       out.refused = true;
   }
@@ -333,7 +337,7 @@ private:
             [&](const verify::Record& source) { return rulesFor(now, source); }),
         out);
     for (const OutputArgument& argument : translation_.arguments)
-      callWithout(argument, now, entry, out);
+      if (!now.questions->maySkip(argument.name)) callWithout(argument, now, entry, out);
     for (const verify::DrawField& field : from_.plan.fields)
       if (field.kind == ir::Kind::WorkOffset && !field.fixed) callWithSystems(field, now, entry, out);
   }

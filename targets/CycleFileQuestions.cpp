@@ -1,0 +1,81 @@
+// Callers of a cycle that no case draws: other values than those of the case, and values that its checks
+// refuse.
+#include "targets/CycleFileCasesParts.h"
+#include "targets/Stage.h"
+
+#include "support/Decimal.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace dotek::targets {
+
+SourceQuestions::Ran CycleFileRunner::Questions::with(const std::string& name, double value) {
+  Ran out;
+  verify::Case other = played_.drawn;
+  (other.hosts.contains(name) ? other.hosts : other.values)[name] = value;
+  sim::World world(*played_.part, probeFor(runner_.plan_, other), runner_.limits());
+  out.record = runner_.runCycle(other, world, false);
+  if (out.record.ending == verify::Ending::Inconclusive) return out;
+  const bool rejected =
+      out.record.ending == verify::Ending::Alarm && out.record.pieces.empty() && out.record.measures.empty();
+  out.answer = rejected ? Answer::Rejected : Answer::Runs;
+  return out;
+}
+
+// A cycle selects no work system and no tool length of its own.
+SourceQuestions::Ran CycleFileRunner::Questions::from(const verify::Entry&) {
+  return {};
+}
+
+// It has no bare skip moves: a touch that finds nothing is an alarm.
+SourceQuestions::Ran CycleFileRunner::Questions::missing(std::size_t) {
+  return {};
+}
+
+bool CycleFileRunner::Questions::moves(const std::string&) {
+  return true;
+}
+
+bool CycleFileRunner::Questions::rejectsSome(const std::string& name) {
+  if (runner_.isField(name)) return true;
+  constexpr double kFar = 1e5;
+  const auto rejected = [&](double value) { return with(name, value).answer == Answer::Rejected; };
+  return rejected(0) || rejected(kFar) || rejected(-kFar);
+}
+
+bool CycleFileRunner::Questions::maySkip(const std::string& name) {
+  const auto& variables = runner_.cycle().variables;
+  return std::any_of(variables.begin(), variables.end(), [&](const ir::Variable& one) {
+    return one.name == name && (one.optional || one.defaultValue);
+  });
+}
+
+// Where a check turns, and a step beside: what the cycle refuses the program has to refuse, with the same
+// text.
+void CycleFileRunner::runAtBounds(const verify::Case& drawn, CaseResult& result) {
+  if (plan_.bounds == nullptr) return;
+  for (const verify::Bound& bound : plan_.bounds->find(plan_.fields, {drawn}, true, UINT64_MAX)) {
+    const std::optional<verify::Case> met = plan_.bounds->meet(bound, plan_.fields, drawn, true);
+    if (!met) continue;
+    const verify::DrawField& field = plan_.fields[bound.field];
+    for (const int steps : {-1, 0, 1}) {
+      verify::Case beside = *met;
+      beside.callers = false;
+      double& value = beside.values[field.name];
+      value += steps * std::pow(10.0, -field.decimals);
+      if (!plan_.bounds->rejects(beside)) continue; // others are drawn
+      const std::unique_ptr<Played> played = play(beside, false);
+      if (!played->rejected) continue;
+      const TargetRun ran = runTarget(*played, nullptr, nullptr);
+      if (ran.refused || ran.undecided || !ran.stopped.empty() || ran.differences.empty()) continue;
+      takeDifferences(result, ran);
+      for (CaseFinding& finding : result.findings)
+        finding.text = fmt::format("called with {} {}: {}", field.name, numberText(value), finding.text);
+      return;
+    }
+  }
+}
+
+} // namespace dotek::targets

@@ -1,0 +1,71 @@
+// A program of a cycle is called by those who break what it demands, and with what its checks refuse.
+#include "tests/Process.h"
+
+#include <doctest/doctest.h>
+
+using namespace dotek::tests;
+
+namespace {
+
+constexpr const char* kGroove = R"TXT(cycle groove "Groove in z"
+
+parameter wide   : length               "Width of the groove"  require wide > 2 * ball_radius "Groove is narrow"
+parameter below  : length = 4 mm        "Depth of the touches" require below > 0 mm
+parameter slack  : length optional      "Largest deviation of the width"
+parameter system : work_offset optional "Work offset that gets the middle"
+result    width  : length               "Width found"
+result    middle : length               "Middle of the groove"
+
+spindle off
+coolant off
+probe on
+protected move by z -below
+touch x by wide / 2 -> right
+touch x by -wide / 2 -> left
+protected move to start
+probe off
+width = right.at - left.at
+middle = (right.at + left.at) / 2
+if given slack and abs(width - wide) > slack then
+  alarm "Width out of tolerance"
+end
+if given system then
+  set system: middle becomes x 0 mm
+end
+)TXT";
+
+constexpr const char* kFlags = " --to fanuc --control fanuc-31i-b --probe-macros inspection-plus "
+                               "--result width=#600,middle=#601 ";
+
+} // namespace
+
+TEST_CASE("verify cycles: a demand on the caller or a check that is lost is seen") {
+  const ProcessFolder folder;
+  folder.write("groove.cycle", kGroove);
+  REQUIRE(folder.run(std::string("dotek convert groove.cycle") + kFlags + "-o whole.nc").status == 0);
+  const std::string verify = std::string("dotek verify groove.cycle") + kFlags + "--cases 60 --translation ";
+  const ShellResult whole = folder.run(verify + "whole.nc");
+  CHECK_MESSAGE(whole.status == 0, whole.out << whole.err);
+
+  struct Damage {
+    const char* edit;
+    const char* said;
+  };
+  for (const Damage& one :
+       {Damage{"/THEN #3000=.*(NOT METRIC)/d", "called with G20 in force"},
+        Damage{"/THEN #3000=.*(TOOL LENGTH NOT ACTIVE)/d", "called with G49 in force"},
+        Damage{"/THEN #3000=.*(ROTATION ACTIVE)/d", "called with G68"},
+        Damage{"/THEN #3000=.*(ARGUMENT A MISSING)/d", "called without A (wide)"},
+        Damage{"/THEN #3000=.*(BELOW OUT OF RANGE)/d", "called with below"},
+        Damage{"/THEN #3000=.*(GROOVE IS NARROW)/d", "the checks of the cycle reject the values"},
+        Damage{"/ GT 59.*WORK OFFSET NOT/d", "it is no work offset"},
+        Damage{"/ NE FIX.*WORK OFFSET/d", "it is no work offset"}}) {
+    CAPTURE(one.edit);
+    const ShellResult edited = folder.run(std::string("sed '") + one.edit +
+                                          "' whole.nc >less.nc; cmp -s whole.nc less.nc && echo same");
+    REQUIRE(edited.out.empty());
+    const ShellResult result = folder.run(verify + "less.nc");
+    CHECK_MESSAGE(result.status == 1, result.out << result.err);
+    CHECK_MESSAGE((result.out + result.err).find(one.said) != std::string::npos, result.out << result.err);
+  }
+}
