@@ -360,6 +360,15 @@ void writeBeginning(State& state) {
       fmt::format("THE FIRST MOVE GOES TO{} AT THE HEIGHT WHERE Z IS{}", words,
                   height ? ", WHICH HAS TO BE Z" + numberText(*state.start[ir::indexOf(ir::Axis::Z)])
                          : ": BEGIN WITH Z ABOVE ALL THAT LIES BETWEEN" + least));
+  // Each way of a cycle counts from where it starts.
+  if (height && state.options.cycleFile && *state.start[ir::indexOf(ir::Axis::Z)] < *safeHeight(state))
+    state.refuse<diag::MikroprogCannot>(
+        state.cycle.range,
+        fmt::format(
+            "the cycle would start at Z{}, below the clearance plane of {}, to which the program goes first",
+            numberText(*state.start[ir::indexOf(ir::Axis::Z)]), numberText(*safeHeight(state))),
+        "give a `--host start_z` that is not below the clearance, or a clearance that is not above the "
+        "start");
   if (height) {
     guard(state, made("contact before anything moves"));
     retractFirst(state);
