@@ -181,7 +181,7 @@ public:
         if (std::error_code fault; std::filesystem::is_regular_file(path, fault))
           one.note({}, "`" + path + "` is from an earlier run");
     }
-    out_ << outcome.output;
+    if (!arguments.quiet || options.json) out_ << outcome.output; // else of a trace that goes to a file
     err_ << renderText(outcome.diagnostics, outcome.sources, maxErrors_, errColors_);
     if (!ran || outcome.status == kUsage) outputs.clear();
     const std::string reportPicture = pictureBeside(arguments.reportFile);

@@ -19,7 +19,7 @@ constexpr CommandHelp kCommands[] = {
      "post"},
     {"run-post",
      "dotek convert examples/surface-x --prog examples/post.txt --to fusion --whole-post -o shop.cps\n"
-     "dotek run-post shop.cps --matrix probing",
+     "dotek run-post shop.cps --matrix drilling",
      "run-post"},
     {"convert",
      "dotek convert examples/surface-x --prog examples/post.txt --to fanuc --verify -o O8000.nc\n"

@@ -2,6 +2,7 @@
 // printed.
 #include "tests/GoldenRunner.h"
 #include "tests/TestFolder.h"
+#include "tests/policy/Tree.h"
 #include "tests/unit/PageCommands.h"
 
 #include <doctest/doctest.h>
@@ -387,4 +388,19 @@ TEST_CASE("setup: what an operator sets is refused for a program of Mikroprog, w
   CHECK(result.status == 2);
   CHECK(has(result, "`[setup] of machine.toml`"));
   CHECK(has(result, "`length = 0`"));
+}
+
+TEST_CASE("setup: --quiet prints nothing of a good run, also where a trace goes to a file") {
+  const TestFolder folder("dotek-quiet");
+  const std::string trace = "--trace " + (folder.path() / "out.txt").string();
+  const auto sim = [&](const std::string& more) {
+    return runDotek(splitArguments("sim examples/macros/bore.nc --call \"D30. Z-5. S55\" --part "
+                                   "examples/macros/plate.toml --machine examples/macros/mill.toml --at "
+                                   "30,40,10 --var 520=5.97 " +
+                                   more),
+                    root());
+  };
+  CHECK(sim(trace).out.find("measured, mm") != std::string::npos);
+  CHECK(sim("--quiet").out.empty());
+  CHECK(sim("--quiet " + trace).out.empty());
 }
