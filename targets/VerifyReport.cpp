@@ -63,6 +63,7 @@ void VerifyReport::add(std::uint64_t number, bool edge, verify::Case drawn, Case
   const bool ofPost = std::all_of(result.findings.begin(), result.findings.end(), [](const CaseFinding& one) {
     return one.pair == CaseFinding::Pair::PathAndPost;
   });
+  std::set<const Group*> counted; // several callers of one case may see the same
   for (CaseFinding& finding : result.findings) {
     Group& group = groups_[keyOf(edge, finding)];
     if (group.count == 0 || number < group.first) {
@@ -71,6 +72,7 @@ void VerifyReport::add(std::uint64_t number, bool edge, verify::Case drawn, Case
       group.drawn = drawn;
       group.finding = std::move(finding);
     }
+    if (!counted.insert(&group).second) continue;
     ++group.count;
     if (ofPost) ++group.alone;
   }
