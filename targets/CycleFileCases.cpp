@@ -227,8 +227,7 @@ std::unique_ptr<CycleFileRunner::Played> CycleFileRunner::play(verify::Case draw
   if (!out->part) out->part = emptyPart(zero);
   sim::World world(*out->part, probe, limits());
   out->record = runCycle(out->drawn, world, false);
-  out->rejected = out->record.ending == verify::Ending::Alarm && out->record.pieces.empty() &&
-                  out->record.measures.empty();
+  out->rejected = isRejection(out->record);
   out->why = verify::whyNoEvidence(out->record, out->whyAt);
   // A cycle that touches nothing computes, and sets what it computes.
   if (out->record.ending == verify::Ending::Finished && rehearsal.surfaces.empty()) out->why.clear();

@@ -5,6 +5,11 @@
 
 namespace dotek::targets {
 
+// An alarm before anything moves: the checks of the cycle refuse the values.
+inline bool isRejection(const verify::Record& record) {
+  return record.ending == verify::Ending::Alarm && record.pieces.empty() && record.measures.empty();
+}
+
 // `rejected`: an alarm before anything moves.
 struct CycleFileRunner::Played {
   verify::Case drawn;

@@ -18,9 +18,7 @@ SourceQuestions::Ran CycleFileRunner::Questions::with(const std::string& name, d
   sim::World world(*played_.part, probeFor(runner_.plan_, other), runner_.limits());
   out.record = runner_.runCycle(other, world, false);
   if (out.record.ending == verify::Ending::Inconclusive) return out;
-  const bool rejected =
-      out.record.ending == verify::Ending::Alarm && out.record.pieces.empty() && out.record.measures.empty();
-  out.answer = rejected ? Answer::Rejected : Answer::Runs;
+  out.answer = isRejection(out.record) ? Answer::Rejected : Answer::Runs;
   return out;
 }
 

@@ -131,17 +131,7 @@ private:
 
   // What keeps the translation from being read, at its line where that is known.
   void report(const script::Fault& fault) {
-    Diagnostics& diagnostics = from_.session.diagnostics();
-    const Translation& translation = *from_.plan.translation;
-    if (fault.kind == script::Fault::Kind::NoWorker) {
-      diagnostics.report<diag::ScriptNotRun>({}, fault.text);
-    } else if (fault.kind == script::Fault::Kind::Stopped) {
-      diagnostics.report<diag::TranslationStopped>({}, translation.name, fault.text);
-    } else {
-      SourceMap& sources = from_.session.sources();
-      const FileId id = sources.add(SourceFile(translation.name, translation.text, Encoding::Utf8));
-      diagnostics.report<diag::ScriptFails>(rangeOfLine(sources.file(id), id, lineOf(fault)), fault.text);
-    }
+    reportFault(fault, lineOf(fault), *from_.plan.translation, from_.session);
   }
 
   fusion::RunInput inputOf(const verify::Case& drawn) const {

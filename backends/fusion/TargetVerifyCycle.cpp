@@ -133,6 +133,7 @@ public:
                       .rejected = now.rejected,
                       .rejection = now.rejection,
                       .sourceOf = now.sourceOf,
+                      .questions = now.questions,
                       .shown = now.shown,
                       .stream = now.stream};
     TargetRun ran = inner_->run(called);
@@ -155,18 +156,8 @@ private:
   }
 
   bool report(const script::Fault& fault) {
-    Diagnostics& diagnostics = from_.session.diagnostics();
-    const Translation& translation = *from_.plan.translation;
-    if (fault.kind == script::Fault::Kind::NoWorker) {
-      diagnostics.report<diag::ScriptNotRun>({}, fault.text);
-    } else if (fault.kind == script::Fault::Kind::Stopped) {
-      diagnostics.report<diag::TranslationStopped>({}, translation.name, fault.text);
-    } else {
-      SourceMap& sources = from_.session.sources();
-      const FileId id = sources.add(SourceFile(translation.name, translation.text, Encoding::Utf8));
-      const std::uint32_t line = fault.source == fusion::kFragment ? fault.line : 0;
-      diagnostics.report<diag::ScriptFails>(rangeOfLine(sources.file(id), id, line), fault.text);
-    }
+    reportFault(fault, fault.source == fusion::kFragment ? fault.line : 0, *from_.plan.translation,
+                from_.session);
     return false;
   }
 

@@ -1,5 +1,7 @@
 #include "backends/fusion/TargetWritten.h"
 
+#include "support/messages/Verify.h"
+
 #include <algorithm>
 #include <utility>
 
@@ -52,6 +54,20 @@ std::string didInstead(const backends::fusion::RunResult& result) {
   if (result.fault) return "it fails: " + result.fault->text;
   if (!result.errors.empty()) return "it stops with `" + result.errors.front() + "`";
   return result.text.empty() ? "it writes nothing" : "it writes blocks";
+}
+
+void reportFault(const script::Fault& fault, std::uint32_t line, const Translation& translation,
+                 Session& session) {
+  Diagnostics& diagnostics = session.diagnostics();
+  if (fault.kind == script::Fault::Kind::NoWorker) {
+    diagnostics.report<diag::ScriptNotRun>({}, fault.text);
+  } else if (fault.kind == script::Fault::Kind::Stopped) {
+    diagnostics.report<diag::TranslationStopped>({}, translation.name, fault.text);
+  } else {
+    SourceMap& sources = session.sources();
+    const FileId id = sources.add(SourceFile(translation.name, translation.text, Encoding::Utf8));
+    diagnostics.report<diag::ScriptFails>(rangeOfLine(sources.file(id), id, line), fault.text);
+  }
 }
 
 } // namespace dotek::targets

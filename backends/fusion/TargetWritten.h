@@ -2,7 +2,9 @@
 #pragma once
 
 #include "backends/fusion/Run.h"
+#include "project/Session.h"
 #include "support/Source.h"
+#include "targets/Subject.h"
 
 #include <cstdint>
 #include <string>
@@ -24,6 +26,10 @@ bool hasNumber(const std::string& posted);
 
 // Without a line, or one after the end, the last one that holds something.
 SourceRange rangeOfLine(const SourceFile& file, FileId id, std::uint32_t line);
+
+// What keeps the translation from being run; `line` of its text, 0 where that is not known.
+void reportFault(const script::Fault& fault, std::uint32_t line, const Translation& translation,
+                 Session& session);
 
 // As the fragment itself warns.
 bool losesDigits(const backends::fusion::RunResult& result);

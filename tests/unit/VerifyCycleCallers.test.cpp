@@ -69,3 +69,24 @@ TEST_CASE("verify cycles: a demand on the caller or a check that is lost is seen
     CHECK_MESSAGE((result.out + result.err).find(one.said) != std::string::npos, result.out << result.err);
   }
 }
+
+TEST_CASE("verify cycles: a demand of the program that a fragment carries is seen, too") {
+  const ProcessFolder folder;
+  folder.write("groove.cycle", kGroove);
+  const std::string flags = std::string(" --to fusion --host approach_feed=1000 --control fanuc-31i-b ") +
+                            "--probe-macros inspection-plus --result width=#600,middle=#601 ";
+  REQUIRE(folder.run("dotek convert groove.cycle" + flags + "-o whole.js").status == 0);
+  const std::string verify = "dotek verify groove.cycle" + flags + "--cases 20 --translation ";
+  const ShellResult whole = folder.run(verify + "whole.js");
+  CHECK_MESSAGE(whole.status == 0, whole.out << whole.err);
+  for (const char* const lost : {"NOT METRIC", "ROTATION ACTIVE", "ARGUMENT A MISSING"}) {
+    CAPTURE(lost);
+    const ShellResult edited = folder.run(std::string("sed '/THEN #3000=.*") + lost +
+                                          "/d' whole.js >less.js; cmp -s whole.js less.js && echo same");
+    REQUIRE(edited.out.empty());
+    const ShellResult result = folder.run(verify + "less.js");
+    CHECK_MESSAGE(result.status == 1, result.out << result.err);
+    CHECK_MESSAGE((result.out + result.err).find("called with") != std::string::npos,
+                  result.out << result.err);
+  }
+}
