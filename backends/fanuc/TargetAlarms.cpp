@@ -76,12 +76,13 @@ bool saysSo(std::string_view program, std::string_view alarm, std::string_view m
 std::string whyListsOther(std::string_view program) {
   const auto listed = alarmsIn(program, "(ALARM ", ' ');
   if (listed.empty()) return "";
-  for (const auto& [number, alarm] : alarmsIn(program, "#3000=", '(')) {
-    const bool there = std::any_of(listed.begin(), listed.end(), [&](const auto& one) {
-      const std::string text = plain(one.second), own = plain(alarm);
-      return one.first == number && (text.starts_with(own) || own.starts_with(text));
+  for (const auto& raised : alarmsIn(program, "#3000=", '(')) {
+    const bool there = std::any_of(listed.begin(), listed.end(), [&raised](const auto& one) {
+      const std::string text = plain(one.second), own = plain(raised.second);
+      return one.first == raised.first && (text.starts_with(own) || own.starts_with(text));
     });
-    if (!there) return fmt::format("alarm {} `{}` is not in the list of the header", number, alarm);
+    if (!there)
+      return fmt::format("alarm {} `{}` is not in the list of the header", raised.first, raised.second);
   }
   return "";
 }

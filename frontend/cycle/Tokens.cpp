@@ -352,8 +352,8 @@ Language language() {
 }
 
 bool isForeignEnd(std::string_view word) {
-  constexpr std::array<std::string_view, 6> kWords = {"endif", "endwhile", "endfor", "next", "wend", "done"};
-  return std::find(kWords.begin(), kWords.end(), word) != kWords.end();
+  constexpr std::array<std::string_view, 6> kEnds = {"endif", "endwhile", "endfor", "next", "wend", "done"};
+  return std::find(kEnds.begin(), kEnds.end(), word) != kEnds.end();
 }
 
 bool isForeignElseIf(std::string_view word) {

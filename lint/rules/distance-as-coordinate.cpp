@@ -56,9 +56,9 @@ void check(const NcProgram& nc, Report& report) {
         continue;
       }
       if (!skip) {
-        const bool fromContact = std::any_of(read->begin(), read->end(), [&](std::uint32_t number) {
-          return contactAxis(number) == static_cast<AxisSet>(bit);
-        });
+        const auto own = static_cast<AxisSet>(bit);
+        const bool fromContact = std::any_of(
+            read->begin(), read->end(), [own](std::uint32_t number) { return contactAxis(number) == own; });
         back = fromContact ? i : body.size();
         if (!fromContact) distance = body.size();
         continue;
