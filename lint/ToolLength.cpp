@@ -311,7 +311,8 @@ private:
       for (std::uint32_t local = 1; local <= kLastLocal; ++local)
         if (fact.values.find(local) != nullptr) fact.values.set(local, unknownHeld());
     const double* number = call->program ? ir::constantValue(call->program) : nullptr;
-    if (number != nullptr && switching_.contains(static_cast<std::uint32_t>(*number)))
+    if (number != nullptr && *number >= 0 && *number < 1e9 &&
+        switching_.contains(static_cast<std::uint32_t>(*number)))
       fact.offset = Offset::Either;
   }
 
@@ -461,7 +462,7 @@ private:
   // Arguments along Z that a probing macro takes as coordinates of the work system.
   void judgeCall(const ir::Call& call, const Fact& fact) {
     const double* number = call.program ? ir::constantValue(call.program) : nullptr;
-    if (call.kind != ir::CallKind::Macro || number == nullptr || *number < 0) return;
+    if (call.kind != ir::CallKind::Macro || number == nullptr || !(*number >= 0 && *number < 1e9)) return;
     const auto program = static_cast<std::uint32_t>(*number);
     std::string letters;
     for (const ir::CallArgument& argument : call.arguments)

@@ -216,8 +216,9 @@ bool isEdingWord(View body) {
          body.starts_with("MSG \"");
 }
 bool isHeading(View line) {
-  const std::size_t at = line.find_first_not_of('#');
-  return line.starts_with('#') && at + 1 < line.size() && line[at] == ' ' && isLetter(line[at + 1]);
+  if (!line.starts_with('#')) return false;
+  const View rest = line.substr(std::min(line.find_first_not_of('#'), line.size()));
+  return rest.size() > 1 && rest[0] == ' ' && isLetter(rest[1]);
 }
 // `L X+10 R0 FMAX`, `L IX-5`: an address with a sign.
 bool isKlartextLine(View body) {

@@ -17,6 +17,7 @@ namespace {
 
 constexpr double kNumberInForce = 4114; // the variable that holds the number of the last block
 constexpr std::uint32_t kLocals = 33;
+constexpr double kLargest = 1e9; // above it, a number is that of no block, program or variable
 
 struct Change {
   SourceRange range; // empty: put in
@@ -31,7 +32,7 @@ struct Numbers {
 
 std::optional<std::uint64_t> wholeOf(const Expression& expression) {
   const std::optional<double> value = literal(expression);
-  if (!value || *value < 0 || *value > 1e9 || *value != std::floor(*value)) return std::nullopt;
+  if (!value || *value < 0 || *value > kLargest || *value != std::floor(*value)) return std::nullopt;
   return static_cast<std::uint64_t>(*value);
 }
 
@@ -232,23 +233,26 @@ private:
     const auto program = literal(*call->program);
     for (std::size_t i = 0; i < file_.programs.size(); ++i) {
       const auto& name = file_.programs[i].name;
-      if (program && name && name->number == static_cast<std::uint64_t>(*program))
-        return word(i, *q, "a block");
+      if (program && name && static_cast<double>(name->number) == *program) return word(i, *q, "a block");
     }
     refuse(q->range, "begins another program at one of its blocks, and that program is not in this file",
            "put both programs into one file first");
   }
 
   void word(std::size_t which, const nc::Word& word, const std::string& what) {
-    if (const auto value = literal(word); value && *value >= 0 && *value == std::floor(*value))
-      return target(which, word.range, static_cast<std::uint64_t>(*value), std::string(1, word.address));
-    refuse(word.range, "computes the number of " + what, "write the number");
+    const auto value = literal(word);
+    if (!value || *value < 0 || *value != std::floor(*value))
+      return refuse(word.range, "computes the number of " + what, "write the number");
+    if (*value > kLargest)
+      return refuse(word.range, "names no block: no control has so large a number",
+                    "write the number of a block");
+    target(which, word.range, static_cast<std::uint64_t>(*value), std::string(1, word.address));
   }
 
   // M99 P: a block of who called, and of the program itself where nobody did.
   void followReturn(std::size_t which, const nc::Word& word) {
     const auto value = literal(word);
-    if (!value || *value < 0 || *value != std::floor(*value))
+    if (!value || *value < 0 || *value > kLargest || *value != std::floor(*value))
       return refuse(word.range, "computes the number of a block", "write the number");
     const auto number = static_cast<std::uint64_t>(*value);
     std::set<std::size_t> callers;
@@ -305,8 +309,9 @@ private:
       if (jump != nullptr && &expression == jump->target.get()) return;
       const auto to =
           set != nullptr && &expression == set->value.get() ? constantOf(*set->variable) : std::nullopt;
-      if (to && followed_.contains({which, static_cast<std::uint32_t>(*to)})) return;
-      if (to && *to <= kLocals && onlyGoto(which, static_cast<std::uint32_t>(*to))) return;
+      const bool known = to && *to >= 0 && *to <= kLargest;
+      if (known && followed_.contains({which, static_cast<std::uint32_t>(*to)})) return;
+      if (known && *to <= kLocals && onlyGoto(which, static_cast<std::uint32_t>(*to))) return;
       refuse(expression.range, "reads the number of a block, which changes",
              "take the number from a variable of the program");
     });

@@ -28,7 +28,7 @@ struct Reads {
     const auto count = [](const ir::Expression& node, std::map<std::uint32_t, std::size_t>& into) {
       const auto* variable = std::get_if<ir::MachineVariable>(&node.node);
       const double* number = variable == nullptr ? nullptr : ir::constantValue(variable->number);
-      if (number != nullptr && *number >= 1) ++into[static_cast<std::uint32_t>(*number)];
+      if (number != nullptr && *number >= 1 && *number < 1e6) ++into[static_cast<std::uint32_t>(*number)];
     };
     for (const ir::ProgramStatement& statement : body)
       ir::eachNode(statement, [&](const ir::Expression& node) {

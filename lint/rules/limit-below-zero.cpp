@@ -38,7 +38,7 @@ void checkProgram(const ir::Program& program, const Project& project, Report& re
   for (const ir::ProgramStatement& statement : program.body) {
     const auto* call = std::get_if<ir::Call>(&statement.node);
     const double* number = call != nullptr && call->program ? ir::constantValue(call->program) : nullptr;
-    if (number == nullptr || *number < 1 || call->kind != ir::CallKind::Macro) continue;
+    if (number == nullptr || *number < 1 || *number > 99999999 || call->kind != ir::CallKind::Macro) continue;
     std::string letters;
     std::vector<Given> given;
     for (const ir::CallArgument& argument : call->arguments) {

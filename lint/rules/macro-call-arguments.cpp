@@ -32,7 +32,7 @@ void checkCall(const macrob::Words& words, const Project& project, const std::se
   // Words that are no arguments are reported already, and are what is missing here.
   if (!call->before.empty() || !call->refused.empty()) return;
   const auto number = macrob::literal(*call->program);
-  if (!number || *number < 1) return;
+  if (!number || *number < 1 || *number > 99999999) return;
   const auto program = static_cast<std::uint32_t>(*number);
   if (own.contains(program)) return;
   for (const stdlib::MacroSet& set : project.macroSets) {

@@ -37,7 +37,7 @@ void check(const NcProgram& nc, Report& report) {
     const ir::Word* tool = firstWord(*block, "T");
     if (tool != nullptr) {
       const double* number = ir::constantValue(tool->value);
-      if (number == nullptr) return;
+      if (number == nullptr || !(*number >= 0 && *number < 1e9)) return;
       const bool again = first >= 0 && *number == first;
       if (first < 0) first = static_cast<int>(*number);
       // The first tool is fetched again for the next part.

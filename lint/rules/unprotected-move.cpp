@@ -110,7 +110,7 @@ void passBlock(State& state, const ir::NcBlock& block) {
   if (hasCode(block, 'M', 6)) state.down = false;
   for (const ir::Word& word : block.words) {
     const double* code = word.address == 'G' ? ir::constantValue(word.value) : nullptr;
-    if (code != nullptr && *code <= 3) state.motion = *code <= 1 ? static_cast<int>(*code) : -1;
+    if (code != nullptr && *code >= 0 && *code <= 3) state.motion = *code <= 1 ? static_cast<int>(*code) : -1;
   }
 }
 

@@ -49,7 +49,7 @@ void checkCall(const macrob::Words& words, const Project& project, Wrong& found)
   const auto call = macrob::callOf(words);
   if (!call || call->kind != macrob::CallKind::Simple || call->program == nullptr) return;
   const auto number = macrob::literal(*call->program);
-  if (!number || *number < 1) return;
+  if (!number || *number < 1 || *number > 99999999) return;
   for (const stdlib::MacroSet& set : project.macroSets) {
     const auto signatures = set.of(static_cast<std::uint32_t>(*number));
     if (signatures.empty()) continue;

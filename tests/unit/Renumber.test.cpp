@@ -56,6 +56,11 @@ TEST_CASE("renumber refuses what it cannot follow") {
   CHECK(refused("O1\nN7 X1.\nGOTO#3\n")); // an argument
   CHECK(refused("O1\nN7 X1.\n#500=#4114\n"));
   CHECK(refused("O1\nN7 X1.\nM98 P3 Q7\n"));
+  const std::string huge(55, '3');
+  CHECK(refused("O1\nG71 P" + huge + " Q7 U1.\nN7 X1.\n"));
+  CHECK(refused("O1\nN7 X1.\nM99 P" + huge + "\n"));
+  CHECK(refused("O1\nN7 X1.\nM98 P" + huge + " Q7\n"));
+  CHECK(refused("O1\nN7 X1.\n#" + huge + "=#4114\n"));
   CHECK(refused("O1\nN7 X1.\nN7 X2.\nGOTO 7\n"));
   CHECK(refused("O1\nM30\nO2\nN4 X2.\nM99 P4\n")); // of a caller in another file
   CHECK(renumbered("O1\nN7 X[\n").empty());
