@@ -266,11 +266,14 @@ private:
     });
     world_->setRange([&run] { return run.place(); });
     // Blocks of Mikroprog ask by a code of their own.
-    if (!machine.dialect().firstParameter)
+    if (!machine.dialect().firstParameter) {
       world_->setAsks([this, &run] {
         const SourceRange range = run.place();
         return asking_.contains({range.file, range.begin});
       });
+      world_->setMissInHand([&run] { return run.missInHand(); });
+      run.watchMisses(world_.get());
+    }
     world_->attach(machine);
     for (auto number = unset_.begin(); number != unset_.end();)
       number = sim::isFresh(machine.common(*number)) ? std::next(number) : unset_.erase(number);

@@ -147,8 +147,9 @@ Run::Run(Machine& machine, const Bytecode& code, const Limits& limits, MacroMean
     : machine_(machine), code_(code), limits_(limits), meaning_(meaning), control_(machine.control()),
       fuel_(limits.simSteps) {
   machine_.setCallLimit(limits.callDepth);
-  const std::uint32_t first =
-      machine_.addCells(kTemporaries + static_cast<std::uint32_t>(code.constants.size()));
+  const std::uint32_t added = kTemporaries + static_cast<std::uint32_t>(code.constants.size());
+  const std::uint32_t first = machine_.addCells(added);
+  cellCount_ = first + added;
   cells_ = machine_.cells();
   std::copy(code.constants.begin(), code.constants.end(), cells_ + first + kTemporaries);
   locals_.assign(machine_.layout().locals() + 1, kNull);
@@ -168,7 +169,8 @@ void Run::run() {
     machine_.beginProgram(static_cast<std::uint32_t>(main.routine->number));
   const bool decimal = control_.arithmetic == stdlib::Arithmetic::Decimal8;
   for (bool goesOn = true; goesOn;) {
-    if (machine_.hasUnknown() || !unset_.empty())
+    followsMisses_ = followsMisses_ || (misses_ != nullptr && misses_->hasMisses());
+    if (machine_.hasUnknown() || !unset_.empty() || followsMisses_)
       goesOn = decimal ? execute<true, true>() : execute<false, true>();
     else
       goesOn = decimal ? execute<true, false>() : execute<false, false>();
@@ -312,6 +314,7 @@ template <bool kDecimal8, bool kWatched> bool Run::execute() {
         if ((operands & 1) != 0) noteUnsetCell(at->a);
         if ((operands & 2) != 0) noteUnsetCell(at->b);
       }
+      if (followsMisses_) followMiss(*at);
     }
     switch (at->op) {
     case Op::Copy: {

@@ -6,6 +6,7 @@
 #include "sim/machine/Bytecode.h"
 #include "sim/machine/Machine.h"
 #include "sim/machine/MacroMeaning.h"
+#include "sim/machine/MissWatcher.h"
 #include "sim/machine/RunListener.h"
 #include "support/Limits.h"
 
@@ -14,6 +15,7 @@
 #include <map>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace dotek::sim {
@@ -49,6 +51,11 @@ public:
   // Before the run: notes where one of these common variables counts as 0, since nobody has set it. A run
   // that watches takes longer.
   void watchUnset(std::set<std::uint32_t> numbers) { unset_ = std::move(numbers); }
+  // Before the run: values are followed that come from where a skip move
+  // has ended that met nothing. The watcher outlives the run.
+  void watchMisses(const MissWatcher* watcher);
+  // Of the value, or of the words, that the machine is given now: the miss that they come from; 0: none.
+  std::uint32_t missInHand() const { return missInHand_; }
   void setListener(RunListener* listener) { listener_ = listener; }        // before the run; outlives it
   const std::vector<UnsetRead>& unsetReads() const { return unsetReads_; } // each number once
   // How often M99 has begun the main program anew.
@@ -100,6 +107,15 @@ private:
   bool beginAnew(); // M99 of the main program; false: the run has ended
   bool spend(std::uint32_t steps);
   bool fail(ir::ArithmeticError error, bool tangent, bool bits);
+
+  // ---- RunMisses.cpp
+  std::uint32_t missOf(std::uint32_t cell) const;
+  std::uint32_t missOfVariable(double number) const;
+  void followMiss(const Instruction& at);
+  void enterMisses();
+  void leaveMisses();
+  std::vector<std::pair<std::uint32_t, double>> valuesOfMisses() const;
+  void forgetChanged(const std::vector<std::pair<std::uint32_t, double>>& before);
 
   // ---- RunBlock.cpp
   bool block(const BlockSlots& slots);
@@ -159,6 +175,11 @@ private:
   std::vector<EarlyRead> early_, earlyWrites_;
   std::set<std::uint32_t> unset_;
   std::vector<UnsetRead> unsetReads_;
+  const MissWatcher* misses_ = nullptr;
+  bool followsMisses_ = false;                           // there has been one
+  std::vector<std::uint32_t> fromMiss_, argumentMisses_; // by cell; by local of the next call
+  std::vector<std::vector<std::uint32_t>> savedMisses_;  // locals of the callers
+  std::uint32_t missInHand_ = 0, cellCount_ = 0;
   std::uint64_t passes_ = 0;
   std::vector<double> lastPass_; // the machine as the last pass began
   std::map<std::uint64_t, std::string> unreadable_;

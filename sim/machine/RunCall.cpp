@@ -101,6 +101,7 @@ bool Run::begin(const Request& request) {
   const auto number = static_cast<std::uint32_t>(request.program);
   if (meaning_ == nullptr || !request.macro || !meaning_->knows(number))
     return machine_.raise(Alarm::NoSuchProgram);
+  const auto ofMisses = valuesOfMisses();
   for (std::uint32_t i = 0; i < request.repeats; ++i) {
     if (!spend(10) || !machine_.enter({number, 0, 0, true})) return false;
     std::copy(locals_.begin() + 1, locals_.end(), cells_ + 1);
@@ -111,6 +112,7 @@ bool Run::begin(const Request& request) {
     if (MotionWatcher* const watcher = machine_.watcher(); watcher != nullptr) watcher->callEnded(number);
     if (listener_ != nullptr) listener_->meaningRan(number, locals_);
   }
+  forgetChanged(ofMisses);
   ahead_ = expectsMotion_;
   ++place_;
   return true;
@@ -124,6 +126,7 @@ bool Run::beginPass(const Level& level) {
   if (!machine_.enter(frame)) return false;
   if (level.macro) {
     std::copy(locals_.begin() + 1, locals_.end(), cells_ + 1);
+    enterMisses();
     if (MotionWatcher* const watcher = machine_.watcher(); watcher != nullptr)
       watcher->callBegins(frame.program, locals_);
   }
@@ -205,6 +208,7 @@ bool Run::beginAnew() {
 
 void Run::leaveLevel(const Level& level) {
   machine_.leave();
+  if (level.macro) leaveMisses();
   if (MotionWatcher* const watcher = machine_.watcher(); watcher != nullptr && level.macro)
     watcher->callEnded(static_cast<std::uint32_t>(level.routine->number));
 }

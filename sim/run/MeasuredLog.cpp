@@ -61,6 +61,10 @@ void MeasuredLog::offsetWritten(const OffsetWrite& write) {
   last.afterMiss = last.afterMiss || missedAt_;
 }
 
+void MeasuredLog::writtenAfterMiss() {
+  if (!entries_.empty()) entries_.back().afterMiss = true;
+}
+
 // "" as its title: it went nowhere.
 Measurement MeasuredLog::measurementOf(const Point3& position, const Point3& way, std::string_view what) {
   Measurement found;

@@ -35,6 +35,7 @@ public:
   void callEnded(std::uint32_t program);
   void measured(const Measurement& found);
   void offsetWritten(const OffsetWrite& write);
+  void writtenAfterMiss(); // of the last one
   // A skip move that ended at a contact: where, in work coordinates, and the way of the machine to it.
   void touched(const Point3& position, const Point3& way);
   // A skip move that met nothing, and whose skip position is used: `one` says where it ended. What is set

@@ -77,6 +77,7 @@ void SimWorld::checkSpindle() {
 void SimWorld::offsetWritten(const OffsetWrite& write) {
   log_.offsetWritten(write);
   if (machineNow_ == nullptr) return;
+  checkMiss(write);
   const double inForce = std::abs(machineNow_->toolLength());
   const double moved = write.after - write.before;
   const bool zero = write.name.ends_with(" Z");

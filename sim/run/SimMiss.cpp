@@ -3,6 +3,7 @@
 #include "support/Decimal.h"
 #include "support/messages/Part.h"
 
+#include <cmath>
 #include <fmt/format.h>
 #include <utility>
 
@@ -17,7 +18,56 @@ std::string machinePoint(const Point3& p) {
 
 } // namespace
 
+std::optional<SimWorld::Missed> SimWorld::beginSearch(const SkipMove& move) {
+  lastMiss_ = 0;
+  movedOn_ = false;
+  std::optional<Missed> approach;
+  if (goesOn(move)) approach = std::exchange(missed_, std::nullopt);
+  settleMiss();
+  return approach;
+}
+
+void SimWorld::keepMiss(Kept miss, std::size_t index) {
+  if (misses_.size() < kMostKept) {
+    misses_.push_back(miss);
+    lastMiss_ = static_cast<std::uint32_t>(misses_.size());
+  }
+  missed_.emplace(Missed{std::move(miss), index, {}});
+  missed_->number = lastMiss_;
+}
+
+// The skip position along the way of the move, and until another motion the place where it has ended.
+std::uint32_t SimWorld::missIn(std::uint32_t variable) const {
+  if (lastMiss_ == 0 || machineNow_ == nullptr) return 0;
+  const stdlib::SystemVariables& v = machineNow_->control().variables;
+  const double ways[] = {lastWay_.x, lastWay_.y, lastWay_.z};
+  const auto along = [&](std::optional<int> first) {
+    if (!first || static_cast<long>(variable) < *first) return false;
+    const std::size_t axis = variable - static_cast<std::uint32_t>(*first);
+    return axis < 3 && std::abs(ways[axis]) > 1e-6;
+  };
+  const bool held = along(v.skip) || (!movedOn_ && (along(v.position) || along(v.machine)));
+  return held ? lastMiss_ : 0;
+}
+
+void SimWorld::checkMiss(const OffsetWrite& write) {
+  const std::uint32_t miss = missInHand_ ? missInHand_() : 0;
+  if (miss == 0 || miss > misses_.size()) return;
+  log_.writtenAfterMiss();
+  if (missesTold_.contains(miss)) return;
+  const Kept& kept = misses_[miss - 1];
+  const RunPlace place = place_();
+  Diagnostic one = makeDiagnostic<diag::MissWritten>(
+      place.range, write.name, fixedText(write.before, decimals_), fixedText(write.after, decimals_));
+  one.note(kept.place.range, "this skip move met nothing, and ended at " + machinePoint(kept.event.centre));
+  addFault(std::move(one), Verdict::Fail, "FAIL: OFFSET SET WITHOUT A TOUCH", place);
+}
+
 void SimWorld::missEnded(const MachineMotion& motion) {
+  if (motion.kind != MotionKind::Skip)
+    movedOn_ = true;
+  else if (lastMiss_ != 0)
+    lastWay_ = {motion.to[0] - motion.from[0], motion.to[1] - motion.from[1], motion.to[2] - motion.from[2]};
   if (!missed_) return;
   missed_->movedOn = motion.kind != MotionKind::Skip;
   if (missed_->movedOn || std::exchange(missed_->ended, true)) return;
@@ -46,6 +96,7 @@ void SimWorld::useMiss() {
   Missed missed = std::move(*missed_);
   missed_.reset();
   ++usedMisses_;
+  missesTold_.insert(missed.number);
   if (missed.index < events_.size()) events_[missed.index].event.used = true;
   const RunPlace place = place_();
   Diagnostic one = makeDiagnostic<diag::MissMeasured>(

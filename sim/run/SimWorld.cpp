@@ -274,9 +274,7 @@ std::optional<double> SimWorld::contact(const SkipMove& move) {
   if (!world_) return std::nullopt;
   checkSystem();
   checkSpindle();
-  std::optional<Missed> approach;
-  if (goesOn(move)) approach = std::exchange(missed_, std::nullopt);
-  settleMiss();
+  const std::optional<Missed> approach = beginSearch(move);
   world_->setLine(line_());
   if (device_ != nullptr) device_->touchBegins();
   const SkipMove real = shifted(move);
@@ -397,7 +395,7 @@ void SimWorld::take(const ProbeEvent& event, const RunPlace& place) {
                                : std::string(kRotary));
   else if (asks_ && (event.outcome == Outcome::Miss || event.outcome == Outcome::SetterMiss) &&
            !isMeantToMiss(event))
-    missed_.emplace(Missed{{event, place}, index, {}});
+    keepMiss({event, place}, index);
   else if (!contact && isTold(event) && !isMeantToMiss(event))
     tell(event, place);
   if (event.outcome != Outcome::OutsideTravel || endedOutside_ || !alarm_) return;

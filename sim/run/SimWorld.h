@@ -6,6 +6,7 @@
 #include "sim/device/Device.h"
 #include "sim/geometry/Probe.h"
 #include "sim/machine/Machine.h"
+#include "sim/machine/MissWatcher.h"
 #include "sim/machine/SystemWatcher.h"
 #include "sim/machine/World.h"
 #include "sim/picture/PictureRecorder.h"
@@ -36,7 +37,7 @@ struct RunPlace {
   std::uint64_t program = 0;      // O number of the one that holds the block; 0: none
 };
 
-class SimWorld final : public SkipSignal, public MotionWatcher, public SystemWatcher {
+class SimWorld final : public SkipSignal, public MotionWatcher, public SystemWatcher, public MissWatcher {
 public:
   using PlaceNow = std::function<RunPlace()>;
 
@@ -81,6 +82,8 @@ public:
   // The block that runs, where that is known without work: findings name the one before.
   void setRange(std::function<SourceRange()> now) { rangeNow_ = std::move(now); }
   void setAsks(std::function<bool()> asks) { asks_ = std::move(asks); }
+  // Asked where an offset is written: the miss that the value comes from (missIn); 0: none.
+  void setMissInHand(std::function<std::uint32_t()> miss) { missInHand_ = std::move(miss); }
   // Offsets that are written are kept also where there is neither part nor machine nor picture.
   void keepOffsets() { keepsOffsets_ = true; }
 
@@ -129,6 +132,8 @@ public:
   void reported(const Measurement& line) override { addFound(line); }
   void measured(const Measurement& found) override { log_.measured(found); }
   void offsetWritten(const OffsetWrite& write) override;
+  bool hasMisses() const override { return !misses_.empty(); }
+  std::uint32_t missIn(std::uint32_t variable) const override;
 
 private:
   static constexpr std::size_t kMostKept = 10'000; // of contacts and of events, in the summary
@@ -153,7 +158,8 @@ private:
     std::size_t index = 0; // in events_; beyond its end: it is not kept
     PictureMeasured row;
     bool ended = false, movedOn = false;
-    Point3 way{}; // of the motion
+    Point3 way{};             // of the motion
+    std::uint32_t number = 0; // in misses_, from 1
   };
 
   SimWorld(const SimOptions& options, Session& session) : options_(options), session_(session) {}
@@ -167,7 +173,11 @@ private:
   void takeEvents();
   void tell(const ProbeEvent& event, const RunPlace& place);
   void take(const ProbeEvent& event, const RunPlace& place);
+  // Before a skip move; the last one, where this goes on from there.
+  std::optional<Missed> beginSearch(const SkipMove& move);
+  void keepMiss(Kept miss, std::size_t index);
   void missEnded(const MachineMotion& motion);
+  void checkMiss(const OffsetWrite& write);
   void useMiss();
   void settleMiss(); // nothing more is known of the last one
   // The skip move that begins goes on where the last one met nothing: that was an approach.
@@ -226,6 +236,12 @@ private:
   std::set<std::pair<std::string_view, std::uint32_t>> faultsTold_; // code, where its block begins
   SourceRange last_;                                                // the block of the last motion
   std::optional<Missed> missed_;
+  std::vector<Kept> misses_;   // at most kMostKept
+  std::uint32_t lastMiss_ = 0; // of misses_, from 1: the last skip move; 0: that was none
+  Point3 lastWay_{};
+  bool movedOn_ = false;               // since then
+  std::set<std::uint32_t> missesTold_; // as errors
+  std::function<std::uint32_t()> missInHand_;
   std::uint64_t usedMisses_ = 0;
   bool keepsOffsets_ = false;
   std::function<std::uint64_t()> line_, blocks_;

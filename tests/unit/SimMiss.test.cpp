@@ -167,3 +167,56 @@ TEST_CASE("miss: a skip move that begins in contact names the move before it") {
   CHECK(holds(bench.svg, ">PROBE FAULT<"));
   CHECK(holds(bench.svg, "in line 6"));
 }
+
+TEST_CASE("miss: an offset that is set from one fails the run, whatever IF has looked at the value") {
+  Bench bench("dotek-miss-written");
+  const std::string tolerance = "G0 X-20.\nIF[ABS[#1] GT 50.]GOTO91\n";
+  const auto fails = [&](const std::string& body) {
+    const CommandResult out = bench.run(body);
+    CAPTURE(body);
+    CAPTURE(out.err);
+    const bool found = holds(out.err, "[miss-written]");
+    CHECK((out.status == 1) == found);
+    CHECK(holds(bench.svg, "FAIL: OFFSET SET WITHOUT A TOUCH") == found);
+    CHECK(holds(bench.html, "FAIL: OFFSET SET WITHOUT A TOUCH") == found);
+    return found;
+  };
+  const std::string away = kAway;
+  // Wear, a work system by a computed number, G10, through copies, from #5041 and #5021.
+  CHECK(fails(away + "#1=#5061\n" + tolerance + "#2002=#2002-#1\n"));
+  CHECK(holds(bench.svg, "after a miss"));
+  CHECK(fails(away + "#1=#5061+3.\n" + tolerance + "#4=#1/2.\n#[5201+20]=#5221+#4\n"));
+  CHECK(fails(away + "#1=#5041\n" + tolerance + "G10 L2 P1 X#1\n"));
+  CHECK(fails(away + "#101=#5021\nIF[ABS[#101] GT 500.]GOTO91\n#[2000+2]=#101\n"));
+  // Overwritten by a touch, or by a number; of another axis; not written at all.
+  CHECK_FALSE(fails(away + "#1=#5061\n" + tolerance + "#1=0.02\n#2002=#2002-#1\n"));
+  CHECK_FALSE(fails(std::string(kDown) + "IF[#5003 GT 0]GOTO91\nG31 X5. F50\n#2=#5061\nG0 X-20.\n" + away +
+                    "#1=#5061\n" + tolerance + "#2002=#2\n"));
+  CHECK_FALSE(fails(away + "#1=#5061\n#3=#5062\n" + tolerance + "#2002=#3\n"));
+  CHECK_FALSE(fails(away + "#1=#5061\n" + tolerance));
+  // What asks first comes to its alarm.
+  const CommandResult asked = bench.run(away + "IF[#5061 GE [#24-.01]]GOTO91\n#2002=#5061\n");
+  CHECK(holds(asked.err, "3001"));
+  CHECK_FALSE(holds(asked.err, "[miss-written]"));
+}
+
+TEST_CASE(
+    "miss: a value is followed into a program that sets the offset, and a number of the caller is not") {
+  Bench bench("dotek-miss-handed");
+  const auto fails = [&](const std::string& caller, const std::string& called) {
+    bench.folder.write("m.nc", "O9002\nG90\n" + caller + "M99\nN91 #3000=1(NONE)\nO9003\n" + called +
+                                   "M99\nN91 #3000=1(NONE)\n");
+    const CommandResult out = runDotek(
+        splitArguments("sim m.nc --part part.toml --machine machine.toml --call \"Z-5. X-15.\" --quiet"),
+        bench.folder.path());
+    CAPTURE(out.err);
+    return holds(out.err, "[miss-written]");
+  };
+  const std::string away = std::string(kAway) + "#1=#5061\nIF[ABS[#1] GT 50.]GOTO91\n";
+  CHECK(fails(away + "G65 P9003 C#1\n", "#2002=#3\n"));
+  CHECK(fails(away + "#110=#1\nM98 P9003\n", "#2002=#110\n"));
+  CHECK_FALSE(fails(away + "G65 P9003 C0.02\n", "#2002=#3\n#1=#3\n"));
+  CHECK_FALSE(fails("#4=0.5\n" + away + "G65 P9003 C0.02\n#2002=#4\n", "#4=#3\n"));
+  // The locals of the caller are its own again.
+  CHECK(fails(away + "G65 P9003 C0.02\n#2002=#1\n", "#1=#3\n"));
+}

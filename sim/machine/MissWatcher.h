@@ -1,0 +1,17 @@
+// Who follows what skip moves that met nothing have left in variables.
+#pragma once
+
+#include <cstdint>
+
+namespace dotek::sim {
+
+class MissWatcher {
+public:
+  virtual ~MissWatcher() = default;
+  // Whether a skip move of the run has met nothing.
+  virtual bool hasMisses() const = 0;
+  // The skip move, counted from 1, of whose end this variable would say something now; 0: none.
+  virtual std::uint32_t missIn(std::uint32_t variable) const = 0;
+};
+
+} // namespace dotek::sim
