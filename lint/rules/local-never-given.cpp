@@ -14,12 +14,20 @@ bool isPlain(const ir::Expression& expression) {
   return std::holds_alternative<ir::Constant>(expression.node) || variableNumber(expression).has_value();
 }
 
+// A store to a computed number that does not count from one above the locals: #[#1] may be any.
+bool maySetLocal(const ir::ProgramStatement& statement) {
+  const auto* store = std::get_if<ir::Store>(&statement.node);
+  if (store == nullptr || storedNumber(statement)) return false;
+  const auto first = store->number ? ir::firstNumber(store->number) : std::nullopt;
+  return !first || *first <= kLastLocal;
+}
+
 // `calls`: the locals that some call of the program sets; nullptr: nothing calls it.
 void checkProgram(const ir::Program& program, const std::set<std::uint32_t>* calls, Report& report) {
   std::set<std::uint32_t> given;
   if (calls != nullptr) given = *calls;
   for (const ir::ProgramStatement& statement : program.body) {
-    if (std::holds_alternative<ir::Store>(statement.node) && !storedNumber(statement)) return;
+    if (maySetLocal(statement)) return;
     if (const auto number = storedNumber(statement)) given.insert(*number);
     const ir::Call* call = callOf(statement);
     if (call != nullptr && call->kind == ir::CallKind::Subprogram) return;

@@ -1,0 +1,192 @@
+#include "ir/Walk.h"
+#include "lint/NcProgram.h"
+#include "lint/Probing.h"
+
+#include <functional>
+#include <optional>
+#include <set>
+
+namespace dotek::lint::rule {
+namespace {
+
+constexpr std::uint32_t kLastLocal = 33;
+constexpr std::uint32_t kFirstSystem = 1000;
+constexpr double kMostTolerance = 1.0; // mm; a larger literal may be a limit of its own
+
+// Positions of the machine and of the tool, and where a skip signal came, of three axes.
+bool isPosition(std::uint32_t number) {
+  return (number >= 5021 && number <= 5023) || (number >= 5041 && number <= 5043) ||
+         (number >= 5061 && number <= 5063);
+}
+bool isSystem(const ir::ExpressionPtr& expression) {
+  const auto number = expression ? variableNumber(*expression) : std::nullopt;
+  return number && *number >= kFirstSystem;
+}
+
+const ir::ExpressionPtr& bare(const ir::ExpressionPtr& expression) {
+  const auto* unary = expression ? std::get_if<ir::Unary>(&expression->node) : nullptr;
+  return unary != nullptr && unary->op == ir::UnaryOp::NullAsZero ? bare(unary->operand) : expression;
+}
+
+void eachComparison(const ir::ConditionPtr& condition,
+                    const std::function<void(const ir::Comparison&, SourceRange)>& visit) {
+  if (!condition) return;
+  if (const auto* one = std::get_if<ir::Not>(&condition->node)) eachComparison(one->inner, visit);
+  if (const auto* both = std::get_if<ir::Junction>(&condition->node)) {
+    eachComparison(both->left, visit);
+    eachComparison(both->right, visit);
+  }
+  if (const auto* comparison = std::get_if<ir::Comparison>(&condition->node))
+    visit(*comparison, condition->range);
+}
+
+// What one program says of its variables.
+struct Uses {
+  std::set<std::uint32_t> measured; // hold a position that was read after a G31, or what is computed from one
+  std::set<std::uint32_t> computing; // are read elsewhere than in a comparison: no tolerance
+  std::map<std::uint32_t, std::vector<const ir::Store*>> stores;
+  std::vector<ir::ExpressionPtr> targets; // of G31
+};
+
+Uses usesOf(const NcProgram& nc) {
+  Uses out;
+  const auto& body = nc.program.body;
+  const auto isMeasured = [&](const ir::ExpressionPtr& value) {
+    bool yes = false;
+    ir::eachNode(value, [&](const ir::Expression& node) {
+      const auto number =
+          std::holds_alternative<ir::MachineVariable>(node.node) ? variableNumber(node) : std::nullopt;
+      yes = yes || (number && (isPosition(*number) || out.measured.contains(*number)));
+    });
+    return yes;
+  };
+  bool skipped = false;
+  for (std::size_t i = 0; i < body.size(); ++i) {
+    if (const ir::NcBlock* skip = skipOf(body[i])) {
+      skipped = true;
+      for (const ir::Word& word : skip->words)
+        if (word.address >= 'X' && word.address <= 'Z') out.targets.push_back(word.value);
+    }
+    const auto* store = std::get_if<ir::Store>(&body[i].node);
+    const auto stored = storedNumber(body[i]);
+    if (store != nullptr && stored && *stored < kFirstSystem) {
+      out.stores[*stored].push_back(store);
+      if (skipped && isMeasured(store->value)) out.measured.insert(*stored);
+    }
+    if (ir::conditionOf(body[i]) != nullptr) continue;
+    for (const VariableRead& read : nc.reads(i))
+      out.computing.insert(read.number);
+  }
+  return out;
+}
+
+// A difference of which one side was measured and the other is none of the control's own.
+const ir::Binary* deviation(const ir::ExpressionPtr& value, const Uses& uses) {
+  const auto* difference = value ? std::get_if<ir::Binary>(&value->node) : nullptr;
+  if (difference == nullptr || difference->op != ir::BinaryOp::Subtract) return nullptr;
+  const ir::ExpressionPtr &left = bare(difference->left), &right = bare(difference->right);
+  if (ir::constantValue(left) != nullptr || ir::constantValue(right) != nullptr || isSystem(left) ||
+      isSystem(right))
+    return nullptr;
+  for (const ir::ExpressionPtr& target : uses.targets) // whether the move came to its end
+    if (target && (ir::equal(target, left) || ir::equal(target, right))) return nullptr;
+  const auto measured = [&](const ir::ExpressionPtr& side) {
+    bool yes = false;
+    ir::eachNode(side, [&](const ir::Expression& node) {
+      const auto number =
+          std::holds_alternative<ir::MachineVariable>(node.node) ? variableNumber(node) : std::nullopt;
+      yes = yes || (number && (isPosition(*number) || uses.measured.contains(*number)));
+    });
+    return yes;
+  };
+  return measured(left) != measured(right) ? difference : nullptr;
+}
+
+// The value as a difference, or a variable that this program sets to one and to nothing else.
+const ir::Binary* deviationOf(const ir::ExpressionPtr& value, const Uses& uses) {
+  if (const ir::Binary* one = deviation(value, uses)) return one;
+  const auto number = value ? variableNumber(*value) : std::nullopt;
+  const auto found = number ? uses.stores.find(*number) : uses.stores.end();
+  return found == uses.stores.end() || found->second.size() != 1
+             ? nullptr
+             : deviation(found->second.front()->value, uses);
+}
+
+bool isTolerance(const ir::ExpressionPtr& bound, const Uses& uses) {
+  if (const double* value = ir::constantValue(bound)) return *value > 0 && *value <= kMostTolerance;
+  const auto number = bound ? variableNumber(*bound) : std::nullopt;
+  if (!number || *number == 0 || *number > kLastLocal || uses.computing.contains(*number)) return false;
+  const auto stores = uses.stores.find(*number);
+  return stores == uses.stores.end() ||
+         std::all_of(stores->second.begin(), stores->second.end(), [](const ir::Store* store) {
+           const double* value = ir::constantValue(store->value);
+           return value != nullptr && *value > 0;
+         });
+}
+
+bool isDirected(ir::Relation relation) {
+  return relation == ir::Relation::Less || relation == ir::Relation::LessEqual ||
+         relation == ir::Relation::Greater || relation == ir::Relation::GreaterEqual;
+}
+
+struct Test {
+  const ir::Binary* of = nullptr;
+  SourceRange range;
+};
+
+void check(const NcProgram& nc, Report& report) {
+  const auto& body = nc.program.body;
+  if (std::none_of(body.begin(), body.end(), [](const auto& one) { return skipOf(one) != nullptr; })) return;
+  const Uses uses = usesOf(nc);
+  std::vector<Test> tests;              // one side each
+  std::vector<const ir::Binary*> other; // compared in another way: both sides, the other one
+  const auto look = [&](const ir::ExpressionPtr& value, const ir::ExpressionPtr& bound,
+                        const SourceRange& range) {
+    const ir::ExpressionPtr& one = bare(value);
+    if (const ir::Binary* of = deviationOf(one, uses)) {
+      if (isTolerance(bare(bound), uses))
+        tests.push_back({of, range});
+      else
+        other.push_back(of);
+      return;
+    }
+    ir::eachNode(one, [&](const ir::Expression& node) {
+      const auto* unary = std::get_if<ir::Unary>(&node.node);
+      if (unary == nullptr) return;
+      if (const ir::Binary* of = deviationOf(bare(unary->operand), uses)) other.push_back(of);
+    });
+  };
+  for (const ir::ProgramStatement& statement : body)
+    if (const ir::ConditionPtr* condition = ir::conditionOf(statement); condition != nullptr)
+      eachComparison(*condition, [&](const ir::Comparison& comparison, SourceRange range) {
+        if (!isDirected(comparison.relation)) return;
+        const SourceRange place = range.hasPlace() ? range : statement.origin.range();
+        look(comparison.left, comparison.right, place);
+        look(comparison.right, comparison.left, place);
+      });
+  const auto same = [](const ir::Binary& a, const ir::Binary& b) {
+    return (ir::equal(a.left, b.left) && ir::equal(a.right, b.right)) ||
+           (ir::equal(a.left, b.right) && ir::equal(a.right, b.left));
+  };
+  for (std::size_t i = 0; i < tests.size(); ++i) {
+    bool both = std::any_of(other.begin(), other.end(),
+                            [&](const ir::Binary* one) { return same(*one, *tests[i].of); });
+    for (std::size_t j = 0; j < tests.size(); ++j)
+      both = both || (j != i && same(*tests[j].of, *tests[i].of));
+    if (!both)
+      report.at(tests[i].range,
+                "only one side of this tolerance is tested: what was measured less what is expected has a "
+                "sign, and each value below it passes, however far off; compare ABS[..], or test the other "
+                "side too");
+  }
+}
+
+} // namespace
+
+DOTEK_LINT_RULE(tolerance_one_sided){
+    .severity = Severity::Warning,
+    .tier = Tier::Ir,
+    .program = check,
+};
+
+} // namespace dotek::lint::rule
