@@ -39,7 +39,7 @@ public:
       : runner_(runner), values_(values), world_(world), probeOn_(probeOn) {}
   Ran with(const std::string& field, double value) override;
   Ran from(const verify::Entry& entry) override;
-  Ran missing(std::size_t search) override;
+  Ran disturbed(const verify::Interference& interference) override;
   bool moves(const std::string& field) override;
   bool rejectsSome(const std::string& name) override;
   bool maySkip(const std::string& name) override;

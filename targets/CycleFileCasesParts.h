@@ -30,7 +30,7 @@ public:
   Questions(const CycleFileRunner& runner, const Played& played) : runner_(runner), played_(played) {}
   Ran with(const std::string& name, double value) override;
   Ran from(const verify::Entry& entry) override;
-  Ran missing(std::size_t search) override;
+  Ran disturbed(const verify::Interference& interference) override;
   bool moves(const std::string& field) override;
   bool rejectsSome(const std::string& name) override;
   bool maySkip(const std::string& name) override;

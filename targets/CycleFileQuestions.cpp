@@ -28,7 +28,7 @@ SourceQuestions::Ran CycleFileRunner::Questions::from(const verify::Entry&) {
 }
 
 // It has no bare skip moves: a touch that finds nothing is an alarm.
-SourceQuestions::Ran CycleFileRunner::Questions::missing(std::size_t) {
+SourceQuestions::Ran CycleFileRunner::Questions::disturbed(const verify::Interference&) {
   return {};
 }
 

@@ -118,11 +118,11 @@ SourceQuestions::Ran CaseRunner::Questions::from(const verify::Entry& entry) {
   return out;
 }
 
-SourceQuestions::Ran CaseRunner::Questions::missing(std::size_t search) {
+SourceQuestions::Ran CaseRunner::Questions::disturbed(const verify::Interference& interference) {
   Ran out;
   if (!values_.posted) return out;
   out.record = runner_.runPosted(values_, world_, runner_.entryOf(values_, probeOn_), verify::Stand::Way::Run,
-                                 {search, {}, {}});
+                                 interference);
   if (out.record.ending != verify::Ending::Inconclusive) out.answer = Answer::Runs;
   return out;
 }

@@ -10,6 +10,7 @@
 #include "targets/Subject.h"
 #include "verify/Compare.h"
 #include "verify/DrawnPath.h"
+#include "verify/Interference.h"
 #include "verify/Stand.h"
 
 #include <cstdint>
@@ -39,8 +40,8 @@ public:
   virtual Ran with(const std::string& name, double value) = 0;
   // The values of the case, called from another state.
   virtual Ran from(const verify::Entry& entry) = 0;
-  // The values of the case, where the bare skip move `search` (from 0) finds nothing.
-  virtual Ran missing(std::size_t search) = 0;
+  // The values of the case, where bare skip moves find something else.
+  virtual Ran disturbed(const verify::Interference& interference) = 0;
   // Some value of the field makes the path, or what is measured, another one.
   virtual bool moves(const std::string& field) = 0;
   // With some value of the field or the host input the dialog rejects the others.

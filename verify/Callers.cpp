@@ -167,6 +167,20 @@ std::vector<OtherCaller> otherCallers(const ir::Program& posted, const Control& 
   return out;
 }
 
+std::vector<OtherCaller> otherModes(const Control& control, const Entry& entry) {
+  std::vector<OtherCaller> out;
+  for (const Function function : {Function::Incremental, Function::FeedPerRevolution, Function::PlaneZX,
+                                  Function::PlaneYZ, Function::Feed}) {
+    const CodeInfo* const code = control.find(function);
+    if (code == nullptr) continue;
+    OtherCaller& other = out.emplace_back();
+    other.entry = entry;
+    other.who = fmt::format("under G{}", numberText(code->tenths / 10.0));
+    other.entry.blocks += fmt::format("G{}\n", numberText(code->tenths / 10.0));
+  }
+  return out;
+}
+
 std::string whyNotPutBack(const Control& control, const Record& ran, const Record* source) {
   const std::set<std::uint32_t> groups = restored(control);
   for (std::uint32_t group = 1; group < ran.modalAfter.size(); ++group) {

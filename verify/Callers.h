@@ -40,6 +40,9 @@ struct OtherCaller {
 // `posted`: what the source prints; `entry`: as it runs else. `stream` chooses.
 std::vector<OtherCaller> otherCallers(const ir::Program& posted, const stdlib::Control& control,
                                       const Entry& entry, std::uint64_t stream);
+// Each with one mode in force that the source's own run does not begin with: the distance, the kind of feed,
+// the plane, the motion.
+std::vector<OtherCaller> otherModes(const stdlib::Control& control, const Entry& entry);
 // Some block has a G code of this function.
 bool hasCode(const ir::Program& program, const stdlib::Control& control, stdlib::Function function);
 

@@ -3,6 +3,7 @@
 
 #include "sim/machine/Value.h"
 #include "support/Decimal.h"
+#include "verify/CompareParts.h"
 
 #include <algorithm>
 #include <cmath>
@@ -38,23 +39,21 @@ private:
     addFirst(out_, {aspect, std::move(text), source, target});
   }
 
-  // What follows the last measure made it.
-  SourceRange lastMeasure(const Record& record) const {
-    return record.measures.empty() ? SourceRange{} : record.measures.back().range;
-  }
-
   void zeros() {
     for (const auto& [key, value] : source_.zeros) {
       const auto other = target_.zeros.find(key);
       const double equal = std::max(rules_.results, rules_.relative * std::abs(value));
       if (other != target_.zeros.end() && std::abs(other->second - value) <= equal) continue;
-      const std::string found = other == target_.zeros.end() ? "nothing" : fixedText(other->second, kShown);
       const bool shift = key.first == 52 || key.first == 92;
+      const std::string what = fmt::format("{} {} along {}", shift ? "what" : "the zero of",
+                                           systemName(key.first), "XYZ"[key.second]);
+      const std::string where = fixedText(value, kShown);
       add(Aspect::Offset,
-          fmt::format("{} {} along {} {} {}{} against {}", shift ? "what" : "the zero of",
-                      systemName(key.first), "XYZ"[key.second],
-                      shift ? "has shifted all work systems by is" : "lies at", fixedText(value, kShown),
-                      shift ? "" : " of the machine", found),
+          other == target_.zeros.end()
+              ? fmt::format("the source moves {} to {}, the translation does not", what, where)
+              : fmt::format("{} {} {}{} against {}", what,
+                            shift ? "has shifted all work systems by is" : "lies at", where,
+                            shift ? "" : " of the machine", fixedText(other->second, kShown)),
           lastMeasure(source_), lastMeasure(target_));
       return;
     }
@@ -65,8 +64,8 @@ private:
     for (const auto& [key, value] : target_.zeros) {
       if (key.first <= kExtendedSystem || source_.zeros.contains(key)) continue;
       add(Aspect::Offset,
-          fmt::format("nothing against the zero of {} along {}, which is moved to {}", systemName(key.first),
-                      "XYZ"[key.second], fixedText(value, kShown)),
+          fmt::format("the translation moves the zero of {} along {} to {}, the source does not",
+                      systemName(key.first), "XYZ"[key.second], fixedText(value, kShown)),
           lastMeasure(source_), lastMeasure(target_));
       return;
     }
@@ -83,9 +82,9 @@ private:
       return at == record.tools.end() ? std::optional<Entry>() : at->second;
     };
     const auto tell = [&](const std::optional<Entry>& tool) {
-      if (!tool) return std::string("is not written");
-      if (!rules_.toolParts) return "is " + fixedText(tool->geometry + tool->wear, kShown);
-      return fmt::format("is {} with a wear of {}", fixedText(tool->geometry, kShown),
+      if (!tool) return std::string("does not write it");
+      if (!rules_.toolParts) return "makes it " + fixedText(tool->geometry + tool->wear, kShown);
+      return fmt::format("makes it {} with a wear of {}", fixedText(tool->geometry, kShown),
                          fixedText(tool->wear, kShown));
     };
     const auto differs = [&](const std::optional<Entry>& a, const std::optional<Entry>& b) {
@@ -100,18 +99,35 @@ private:
     for (const std::uint32_t number : numbers) {
       const std::optional<Entry> one = entry(source_, number), other = entry(target_, number);
       if (!differs(one, other)) continue;
-      add(Aspect::Tool, fmt::format("tool offset {} {} against {}", number, tell(one), tell(other)),
+      add(Aspect::Tool,
+          fmt::format("tool offset {}: the source {}, the translation {}", number, tell(one), tell(other)),
           lastMeasure(source_), lastMeasure(target_));
       return;
     }
   }
 
+  static bool isNumber(double value) { return !sim::isNull(value) && !sim::isUnknown(value); }
+
   void stores() {
-    const auto shown = [](const std::map<std::uint32_t, double>& stores, std::uint32_t number) {
-      const auto found = stores.find(number);
-      if (found == stores.end()) return std::string("was not written");
-      if (sim::isUnknown(found->second)) return std::string("is not known");
-      return sim::isNull(found->second) ? std::string("null") : numberText(found->second);
+    const auto differ = [&](std::uint32_t number) {
+      const auto one = source_.stores.find(number), other = target_.stores.find(number);
+      const bool both = one != source_.stores.end() && other != target_.stores.end();
+      if (both && isNumber(one->second) && isNumber(other->second)) {
+        const ShownNumbers shown = shownNumbers(one->second, other->second);
+        add(Aspect::Variable, fmt::format("#{} is {} against {}", number, shown.source, shown.target),
+            lastMeasure(source_), lastMeasure(target_));
+        return;
+      }
+      const auto left = [&](const std::map<std::uint32_t, double>& stores, const auto& found) {
+        if (found == stores.end()) return std::string("does not write it");
+        if (sim::isUnknown(found->second)) return std::string("leaves a value that is not known");
+        if (sim::isNull(found->second)) return std::string("leaves it null");
+        return "leaves it at " + shownNumbers(found->second, found->second + 1).source;
+      };
+      add(Aspect::Variable,
+          fmt::format("#{}: the source {}, the translation {}", number, left(source_.stores, one),
+                      left(target_.stores, other)),
+          lastMeasure(source_), lastMeasure(target_));
     };
     for (const auto& [number, value] : source_.stores) {
       const auto other = target_.stores.find(number);
@@ -124,19 +140,13 @@ private:
                                        std::max(rules_.results, rules_.relative * std::abs(value))))
           continue;
       }
-      add(Aspect::Variable,
-          fmt::format("#{} {} against {}", number, shown(source_.stores, number),
-                      shown(target_.stores, number)),
-          lastMeasure(source_), lastMeasure(target_));
+      differ(number);
       return;
     }
     if (!rules_.sameProgram) return;
     for (const auto& [number, value] : target_.stores) {
       if (source_.stores.contains(number)) continue;
-      add(Aspect::Variable,
-          fmt::format("#{} {} against {}", number, shown(source_.stores, number),
-                      shown(target_.stores, number)),
-          lastMeasure(source_), lastMeasure(target_));
+      differ(number);
       return;
     }
   }

@@ -9,8 +9,6 @@
 
 namespace dotek::verify {
 
-// Adds it where nothing of its aspect is in the list.
-void addFirst(std::vector<Difference>& list, Difference one);
 // "G54", "G54.1 P3" of a key of Record::zeros.
 std::string systemName(std::uint32_t system);
 

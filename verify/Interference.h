@@ -10,11 +10,21 @@
 
 namespace dotek::verify {
 
+// mm; what a control that counts in eight digits compares exactly.
+inline constexpr double kStep = 0.001;
+
 // Each by its number in the run, from 0. Of bare skip moves: those within a call are the macro's own.
 struct Interference {
   std::optional<std::size_t> missing;  // this search finds nothing
   std::optional<std::size_t> obstacle; // this protected move is stopped half way
   std::optional<std::size_t> touching; // this question finds contact
+  // Every search ends on the control's step, and this one where it has gone so many mm. One that finds
+  // nothing else goes to its end.
+  struct Placed {
+    std::size_t search = 0;
+    double distance = 0;
+  };
+  std::optional<Placed> placed = {};
 };
 
 // Pieces after the last stop, which the operator has read, that go straight up in feed. 0 where anything else

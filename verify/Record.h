@@ -75,11 +75,12 @@ struct Measure {
   // Arguments of the call that say neither where a surface is nor what is set: how far it searches, tools,
   // tolerances, what is printed.
   std::map<stdlib::ArgumentRole, double> options = {};
-  // What no source says of the call, which the run has passed over; "" where all is known. Then its number,
-  // and all of its letters.
+  // What no source says of the call, which the run has passed over; "" where all is known.
   std::string unstated = {};
+  // Of a call its number, 0 else, and the letters that it gives, by local.
   std::uint32_t program = 0;
-  std::map<std::uint32_t, double> locals = {};
+  std::vector<std::pair<std::uint32_t, double>> locals = {};
+  std::optional<double> letter(char letter) const;
 };
 
 // It touches at an angle in the plane XY. Words lead there that are rounded to the control's step: such a
@@ -138,10 +139,11 @@ struct IdleMove {
   SourceRange range;
 };
 
-// A call of a macro that switches the probe: what is in force where it is called, as of Piece.
+// The probe is switched: what is in force there, as of Piece, and what is on before.
 struct SwitchCall {
-  std::uint32_t program = 0;
+  std::uint32_t program = 0; // of the macro; 0: by a code
   std::array<std::uint32_t, 3> modes = {};
+  Surroundings with;
   SourceRange range;
 };
 

@@ -41,6 +41,13 @@ bool isOblique(const Measure& measure) {
                      [](const Touch& touch) { return touch.direction.x != 0 && touch.direction.y != 0; });
 }
 
+std::optional<double> Measure::letter(char letter) const {
+  const std::uint32_t local = stdlib::localOf(letter);
+  const auto found = std::find_if(locals.begin(), locals.end(),
+                                  [&](const auto& one) { return local != 0 && one.first == local; });
+  return found == locals.end() ? std::nullopt : std::optional(found->second);
+}
+
 Recorder::Recorder(sim::Machine& machine, sim::World& world, std::vector<const stdlib::MacroSet*> sets,
                    double toolLength)
     : machine_(machine), world_(world), sets_(std::move(sets)), length_(toolLength) {
@@ -130,18 +137,43 @@ std::optional<double> Recorder::contact(const sim::SkipMove& move) {
     for (std::size_t i = 0; i < 3; ++i)
       longer.machineTo[i] += (move.machineTo[i] - move.machineFrom[i]) * (kTouchSlack / length);
   }
+  std::optional<std::size_t> search;
   if (length > 0 && call_.depth == 0) {
     std::size_t& count = positions_ ? record_.protectedMoves : record_.searches;
     const std::size_t number = count++;
+    if (!positions_) search = number;
     const bool disturbed = (positions_ ? interference_.obstacle : interference_.missing) == number;
     if (disturbed) {
       disturb(1);
       return positions_ ? std::optional(0.5) : std::nullopt;
     }
   }
-  const std::optional<double> share = world_.contact(longer);
-  if (!share || !(length > 0)) return share;
-  return std::min(1.0, *share * (length + kTouchSlack) / length);
+  std::optional<double> share = world_.contact(longer);
+  if (share && length > 0) share = std::min(1.0, *share * (length + kTouchSlack) / length);
+  return search && interference_.placed ? placedContact(move, length, *search, share) : share;
+}
+
+std::optional<double> Recorder::placedContact(const sim::SkipMove& move, double length, std::size_t search,
+                                              std::optional<double> share) const {
+  constexpr double kUp = 0.623; // no contact of a drawn part lies where this turns
+  double distance = share.value_or(0) * length;
+  if (interference_.placed->search == search)
+    distance = interference_.placed->distance;
+  else if (!share)
+    return std::nullopt;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double way = move.machineTo[i] - move.machineFrom[i];
+    if (std::abs(std::abs(way) - length) > kSameSignal) continue; // it goes along this axis alone
+    const double at = move.machineFrom[i] + (way < 0 ? -distance : distance);
+    distance = std::abs(std::floor(at / kStep + kUp) * kStep - move.machineFrom[i]);
+  }
+  return std::min(1.0, distance / length);
+}
+
+void Recorder::probeSwitched(bool on) {
+  if (call_.depth == 0) record_.switches.push_back({0, modes(true), surroundings(), place()});
+  world_.probeSwitched(on);
+  probe_ = on ? Switch::On : Switch::Off;
 }
 
 bool Recorder::isThere(const sim::SkipMove& here) {
@@ -301,10 +333,14 @@ void Recorder::callBegins(std::uint32_t program, std::span<const double> locals)
     if (!sim::isNull(given) && !sim::isUnknown(given)) call_.feed = given;
   }
   const bool switches = intent == Intent::ProbeOn || intent == Intent::ProbeOff;
-  if (switches) record_.switches.push_back({program, call_.modes, call_.range});
+  if (switches) record_.switches.push_back({program, call_.modes, call_.with, call_.range});
   call_.measures = !call_.moves && !switches;
   if (!call_.measures) return;
   Measure measure = begunMeasure();
+  measure.program = program;
+  for (std::uint32_t number = 1; number < locals.size(); ++number)
+    if (!sim::isNull(locals[number]) && !sim::isUnknown(locals[number]))
+      measure.locals.emplace_back(number, locals[number]);
   if (signature != nullptr) {
     noteSystem(*signature, locals);
     noteOptions(*signature, locals, measure);
@@ -316,14 +352,10 @@ void Recorder::callBegins(std::uint32_t program, std::span<const double> locals)
   record_.measures.push_back(std::move(measure));
 }
 
-void Recorder::callUnstated(std::string_view what, std::span<const double> locals) {
+void Recorder::callUnstated(std::string_view what, std::span<const double> /*locals*/) {
   if (call_.depth == 0 || !call_.measures) return;
   Measure& measure = record_.measures.back();
   measure.unstated = what;
-  measure.program = call_.program;
-  for (std::uint32_t number = 1; number < locals.size(); ++number)
-    if (!sim::isNull(locals[number]) && !sim::isUnknown(locals[number]))
-      measure.locals[number] = locals[number];
 }
 
 // A datum that moves nothing is one, too.

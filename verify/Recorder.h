@@ -34,12 +34,13 @@ public:
   void begin(std::function<SourceRange()> place, bool keepMoves);
   std::optional<double> contact(const sim::SkipMove& move) override;
   void moved(const sim::MachineMotion& motion) override;
-  void probeSwitched(bool on) override { world_.probeSwitched(on), probe_ = on ? Switch::On : Switch::Off; }
+  void probeSwitched(bool on) override;
   void positionSet() override { mark(Mark::Kind::Datum); }
   void paused(std::string_view text) override {
     mark(Mark::Kind::Stop, text);
     note(Deed::Kind::Stop, 0, text);
   }
+  void messaged(std::string_view text) override { note(Deed::Kind::Stop, 0, text); }
   void toolChanged(std::uint32_t number) override { note(Deed::Kind::ToolChange, number); }
   void auxiliary(std::uint32_t code) override { note(Deed::Kind::Auxiliary, code); }
   void dwelled(double seconds) override { note(Deed::Kind::Dwell, seconds); }
@@ -84,6 +85,8 @@ private:
   WorkFrame frame() const;
   void addPiece(sim::PathKind kind, const sim::Point3& from, const sim::Point3& to, SourceRange range);
   double rehearsedContact(const sim::SkipMove& move);
+  std::optional<double> placedContact(const sim::SkipMove& move, double length, std::size_t search,
+                                      std::optional<double> share) const;
   void mark(Mark::Kind kind, std::string_view text = "", double value = 0);
   void note(Deed::Kind kind, double value, std::string_view text = "");
   void movePath(const Measure& measure);

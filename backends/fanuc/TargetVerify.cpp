@@ -334,7 +334,7 @@ private:
             [&](const verify::Interference& none) {
               return runText(now, entry, nullptr, verify::Stand::Way::Run, none);
             },
-            [&](const verify::Record& source) { return rulesFor(now, source); }),
+            [&](const verify::Record& source) { return rulesFor(now, source); }, comparesExactly()),
         out);
     for (const OutputArgument& argument : translation_.arguments)
       if (!now.questions->maySkip(argument.name)) callWithout(argument, now, entry, out);
@@ -368,6 +368,11 @@ private:
       noteCaller(other.who);
       out.differs(verify::Aspect::Modal, why);
     }
+  }
+
+  bool comparesExactly() const {
+    return control_.arithmetic == stdlib::Arithmetic::Decimal8 &&
+           from_.inputs.sourceControl->arithmetic == stdlib::Arithmetic::Decimal8;
   }
 
   bool loadsTool(const TargetCase& now) const {

@@ -377,6 +377,7 @@ bool Machine::raise(std::uint32_t n, std::string_view text) {
 }
 
 void Machine::message(std::string_view text) {
+  if (watcher_ != nullptr) watcher_->messaged(text);
   if (trace_ != nullptr) trace_->begin("message").text(text).end();
 }
 

@@ -107,6 +107,51 @@ TEST_CASE("verify: each aspect has its difference") {
   CHECK(differing("G90\n", "G91\n", true) == Aspects{Aspect::Modal});
 }
 
+namespace {
+
+// Of the first difference of the aspect.
+std::string toldOf(Aspect aspect, const std::string& one, const std::string& other) {
+  const OneRun source(one, "inspection-plus", {}, verify::Stand::Way::Run, true);
+  const OneRun target(other, "inspection-plus", {}, verify::Stand::Way::Run, true);
+  verify::CompareRules rules;
+  rules.sameAlarmNumbers = true;
+  for (const verify::Difference& difference : verify::compare(source.record, target.record, rules))
+    if (difference.aspect == aspect) return difference.text;
+  return "";
+}
+
+} // namespace
+
+TEST_CASE("verify: a difference names its sides and shows what differs") {
+  // The same place from the other side: the letter that says so.
+  const std::string side = kOn + "G65P9812X30.Z-5.R";
+  const std::string nominal = toldOf(Aspect::Nominal, side + "6.\n", side + "-6.\n");
+  CAPTURE(nominal);
+  CHECK(nominal.find("along X") != std::string::npos);
+  CHECK(nominal.ends_with("(P9812 with R6 against R-6)"));
+  CHECK(toldOf(Aspect::Path, kOn + "G65P9810Z-1.F2500.\nG65P9810Z-2.F250.\nX1.\n",
+               kOn + "G65P9810Z-1.F250.\nG65P9810Z-2.F250.\nX1.\n")
+            .find(" at F2500 against a protected move to ") != std::string::npos);
+  CHECK(toldOf(Aspect::Variable, "#500=28.04904099999999\n", "#500=0.0000409999999\n") ==
+        "#500 is 28.049041 against 0.000041");
+  CHECK(toldOf(Aspect::Variable, "#500=1.\n", "\n") ==
+        "#500: the source leaves it at 1, the translation does not write it");
+  CHECK(toldOf(Aspect::Ending, "G0X1.\n", "G0X1.\n#3000=9(NO)\n") ==
+        "the source ends, the translation stops with alarm 3009 (NO)");
+  CHECK(toldOf(Aspect::State, "M19\n", "\n") == "the source has M19, the translation nothing");
+  CHECK(toldOf(Aspect::Path, "G0X10.\nY20.\n", "G0X10.\n").ends_with(", the translation does not"));
+}
+
+TEST_CASE("verify: what is on counts where the probe is switched, and where the program stops itself") {
+  CHECK(differing("M8\nM9\nG65P9832\n", "M8\nG65P9832\nM9\n").empty()); // other macros may be there
+  CHECK(toldOf(Aspect::State, "M8\nM9\nG65P9832\n", "M8\nG65P9832\nM9\n") ==
+        "coolant off against flood where the probe is switched");
+  const std::string stop = "#3000=9(NO)\n";
+  CHECK(toldOf(Aspect::State, kOn + "G0X1.\nG65P9833\n" + stop, kOn + "G0X1.\n" + stop) ==
+        "probe off against on at its alarm");
+  CHECK(toldOf(Aspect::State, kOn + "G0X1.\n" + stop, kOn + "G0X1.\n" + stop).empty());
+}
+
 TEST_CASE("verify: tools, M codes, stops and dwells count, where and in which order they come") {
   const Aspects state{Aspect::State};
   CHECK(differing("T20M6\nG0X1.\n", "T20M6\nG0X1.\n").empty());
@@ -116,6 +161,9 @@ TEST_CASE("verify: tools, M codes, stops and dwells count, where and in which or
   CHECK(differing("T20M6\nT1\n", "T20M6\n") == state); // the next tool is looked for
   CHECK(differing("T20M6\nG0X1.\n", "G0X1.\nT20M6\n") == state);
   CHECK(differing("M19\n", "\n") == state);
+  CHECK(differing("#3006=1(LOOK)\n", "\n") == state);
+  CHECK(differing("#3006=1(LOOK)\n", "#3006=1(GO ON)\n") == state);
+  CHECK(differing("#3006=1(LOOK)\n", "#3006=2(LOOK)\n").empty()); // a number of its own
   CHECK(differing("\n", "M19\n") == state);
   CHECK(differing("M19\nG0X1.\n", "G0X1.\nM19\n") == state);
   CHECK(differing("T20M6\nM19\n", "M19\nT20M6\n") == state);
@@ -140,7 +188,7 @@ TEST_CASE("verify: what the translation meets and the source does not") {
   REQUIRE(found.size() == 1);
   CHECK(found.front().aspect == Aspect::Contact);
   CAPTURE(found.front().text);
-  CHECK(found.front().text.starts_with("nothing against a "));
+  CHECK(found.front().text.starts_with("the translation meets what the source does not: a "));
   CHECK(verify::compare(met, met, {}).empty());
 }
 

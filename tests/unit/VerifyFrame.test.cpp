@@ -139,7 +139,7 @@ TEST_CASE("verify calls a program by those who break what it demands") {
 }
 
 TEST_CASE("verify sees what is read or written while the axes still move") {
-  check(kFace, {{"G53", "", "", "is read before the motion before it has ended"}});
+  check(kFace, {{"G53", "", "", "reads #5021 before the motion before it has ended, the source does not"}});
   const Source source{"surface-x", "post.txt", "inspection-plus"};
   const std::string good = converted(source, "fanuc");
   const std::size_t write = good.find("\n#[5221");
@@ -148,7 +148,7 @@ TEST_CASE("verify sees what is read or written while the axes still move") {
   REQUIRE(wait != std::string::npos);
   const Said said = verified(source, "fanuc", good.substr(0, wait) + good.substr(wait + 4));
   CHECK(said.status == 1);
-  CHECK(said.text.find("is written before the motion before it has ended") != std::string::npos);
+  CHECK(said.text.find(" before the motion before it has ended, the source does not") != std::string::npos);
 }
 
 TEST_CASE("verify sees a bound that depends on the radius, and a search made shorter") {
@@ -159,7 +159,7 @@ TEST_CASE("verify sees a bound that depends on the radius, and a search made sho
   check(kFace, {{"ABS[#24]", includes ? " LE " : " LT ", includes ? " LT " : " LE ", ""}}, 60);
   check(kFace, {{"G65 P9023", "\n", " Q2.\n", ""}});
   check({"surface-x", "post.txt", "inspection-plus"},
-        {{"G65 P9811", "\n", " Q2.\n", "overtravel nothing against 2"}});
+        {{"G65 P9811", "\n", " Q2.\n", "the source has no overtravel, the translation overtravel 2"}});
 }
 
 TEST_CASE("verify sees what a fragment owes its post") {

@@ -18,6 +18,7 @@
 #include <filesystem>
 #include <fmt/format.h>
 #include <map>
+#include <optional>
 #include <regex>
 #include <set>
 #include <sstream>
@@ -164,6 +165,40 @@ bool isSetAgain(const Fault& fault, const std::string& program) {
   return lost.empty();
 }
 
+// "IF[#19+53. LT 54.]": by how much the local is away from where it turns; nothing: it is no such line.
+struct LocalBound {
+  std::string local, relation;
+  double bound = 0;
+};
+std::optional<LocalBound> localBound(const std::string& line) {
+  static const std::regex form("^IF\\[(#\\d+)(?:([+-][0-9.]+))? (LT|GT|LE|GE) (-?[0-9.]+)\\]");
+  std::smatch found;
+  if (!std::regex_search(line, found, form)) return std::nullopt;
+  const double added = found[2].matched ? parseNumber(found[2].str()).value_or(0) : 0;
+  return LocalBound{found[1], found[3], parseNumber(found[4].str()).value_or(0) - added};
+}
+
+// An earlier check of the same local at the same place ends in an alarm already: by itself, or by the number
+// of an alarm that is raised before this line.
+bool isCheckedBefore(const Fault& fault, const std::string& program) {
+  const std::optional<LocalBound> own = localBound(fault.before);
+  if (!own || fault.before.find("THEN #3000=") == std::string::npos) return false;
+  const std::vector<std::string> lines = linesOf(program);
+  static const std::regex chooses("THEN (#\\d+)=([0-9.]+)$");
+  for (std::size_t i = 0; i < fault.line; ++i) {
+    const std::optional<LocalBound> one = localBound(lines[i]);
+    if (!one || one->local != own->local || one->relation != own->relation || one->bound != own->bound)
+      continue;
+    if (lines[i].find("THEN #3000=") != std::string::npos) return true;
+    std::smatch chosen;
+    if (!std::regex_search(lines[i], chosen, chooses)) continue;
+    const std::string raises = fmt::format("IF[{} EQ {}]THEN #3000=", chosen[1].str(), chosen[2].str());
+    for (std::size_t k = i + 1; k < fault.line; ++k)
+      if (lines[k].starts_with(raises)) return true;
+  }
+  return false;
+}
+
 // Without an effect, whoever calls. "" where there is one.
 std::string_view whyNothing(const Fault& fault, const std::string& program) {
   if (fault.before.find("#4014 LT 54.") != std::string::npos ||
@@ -180,6 +215,8 @@ std::string_view whyNothing(const Fault& fault, const std::string& program) {
     return "G40 and G80 are demanded of the caller";
   if (fault.kind == "do not set a mode" && isSetAgain(fault, program))
     return "blocks of the source set it again before anything moves";
+  if (fault.kind == "do not check" && isCheckedBefore(fault, program))
+    return "an earlier check of the same bound ends in an alarm already";
   if (fault.kind == "do not wait for the axes") return whyNoWait(program, fault.line);
   if ((fault.kind == "do not put a mode back" || fault.kind == "do not keep a mode" ||
        fault.kind == "keep the mode of another group") &&
@@ -277,6 +314,34 @@ bool countsSteps(const Fault& fault) {
   return fault.before.find("if (++steps > ") != std::string::npos;
 }
 
+// A job file holds 32-bit numbers: sums of these are exact, and none of them is half a thousandth.
+bool meetsNoSum(const Fault& fault) {
+  return fault.kind == "turn a bound" && fault.before.find(" > 0.0005)") != std::string::npos;
+}
+
+// The G31 before it waits as well, and the work system that comes in the place of the G53 is in force.
+bool waitsAlready(const Fault& fault, const std::string& fragment) {
+  static const std::regex block("^ *writeBlock\\(\"(G\\d+)\"\\);$"), system("\"G(5[4-9])[ \"]");
+  std::smatch now, then, last;
+  if (!std::regex_match(fault.before, now, block) || now[1] != "G53") return false;
+  const bool dropped = fault.after.empty();
+  if (!dropped && !std::regex_match(fault.after, then, block)) return false;
+  const std::vector<std::string> lines = linesOf(fragment);
+  if (fault.line == 0 || lines[fault.line - 1].find("writeBlock(\"G31 ") == std::string::npos) return false;
+  std::string inForce;
+  for (std::size_t i = 0; i < fault.line; ++i)
+    if (std::regex_search(lines[i], last, system) && lines[i].find("writeBlock(") != std::string::npos)
+      inForce = "G" + last[1].str();
+  return dropped || then[1] == inForce;
+}
+
+std::string_view whyNothingOfFragment(const Fault& fault, const std::string& fragment) {
+  if (countsSteps(fault)) return "what ends a loop that would never end stops nothing else";
+  if (meetsNoSum(fault)) return "no sum of 32-bit numbers is that bound";
+  if (waitsAlready(fault, fragment)) return "the G31 before the G53 waits as well";
+  return "";
+}
+
 std::vector<PlantedKind> plantedKinds(std::vector<Translation>& all) {
   std::vector<PlantedKind> out;
   for (const std::string_view kind : frameFaultKinds())
@@ -293,8 +358,9 @@ std::vector<PlantedKind> plantedKinds(std::vector<Translation>& all) {
                                         : kind.family == &kMotion ? faultsOf(kind.kind, one.text, words)
                                                                   : fragmentFaultsOf(kind.kind, one.text);
       for (const Fault& fault : faults)
-        if (kind.family == &kFrame ? whyNothing(fault, one.text).empty()
-                                   : kind.family != &kFragment || !countsSteps(fault))
+        if (kind.family == &kFrame
+                ? whyNothing(fault, one.text).empty()
+                : kind.family != &kFragment || whyNothingOfFragment(fault, one.text).empty())
           kind.places.push_back({&one, fault});
     }
   }

@@ -302,7 +302,7 @@ TEST_CASE("verify: prints, alarms and stores of a translated program count") {
   target.stores[500] = 1;
   auto found = verify::compare(source, target, rules);
   REQUIRE(found.size() == 1);
-  CHECK(found[0].text == "#500 was not written against 1");
+  CHECK(found[0].text == "#500: the source does not write it, the translation leaves it at 1");
   source.stores[500] = 1.0000004;
   CHECK(verify::compare(source, target, rules).empty());
   source.stores[500] = 1e9;

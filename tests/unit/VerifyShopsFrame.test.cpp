@@ -87,6 +87,45 @@ TEST_CASE("verify: each touch that finds nothing ends with the alarm of the sour
   CHECK(verified(top, without(text, "writeBlock(\"IF[#541LE[", "writeln(\"(\" + \"")) == 1);
 }
 
+TEST_CASE("verify: what is measured turns a check just where it turns in the source") {
+  // A part of another thickness, or a surface a step from the end of the search, on either side.
+  for (const char* to : {"fanuc", "fusion"}) {
+    const Shop thick{"repeats", "KR.Dicke.Y", to, "inspection-plus"};
+    const bool fusion = std::string_view(to) == "fusion";
+    const std::string text = converted(thick);
+    CAPTURE(text);
+    CHECK(verified(thick, text) == 0);
+    CHECK(verified(thick,
+                   without(text, fusion ? "]LE\" + TOL" : "] GT #", fusion ? "]LT\" + TOL" : "] GE #")) == 1);
+    const std::size_t at = text.rfind('\n', text.find("DICKE PRUEFEN"));
+    REQUIRE(at != std::string::npos);
+    CHECK(verified(thick, std::string(text).erase(at, text.find('\n', at + 1) - at)) == 1);
+  }
+  const Shop bore{"direct", "DP.Bore.Zero", "fanuc", "dotek"};
+  const std::string text = converted(bore);
+  CHECK(verified(bore, text) == 0);
+  for (const auto& [from, to] :
+       {std::pair("[#544 LE #", "[#544 LT #"), std::pair("[#541 GE #", "[#541 GT #")})
+    CHECK(verified(bore, without(text, from, to)) == 1);
+}
+
+TEST_CASE(
+    "verify: a fragment runs under any modes of the post around it, and leaves the probe as the source") {
+  const Shop bore{"direct", "DP.Bore.Zero", "fusion", "inspection-plus"};
+  const std::string text = converted(bore);
+  CHECK(verified(bore, text, 12) == 0);
+  CHECK(verified(bore, without(text, "  writeBlock(\"G90 G94\");\n", ""), 12) == 1);
+  const Shop thick{"repeats", "KR.Dicke.Y", "fusion", "inspection-plus"};
+  const std::string other = converted(thick);
+  CHECK(verified(thick, other, 12) == 0);
+  const std::size_t alarm = other.find("  writeBlock(\"#3000=120");
+  const std::size_t off = other.rfind("  writeBlock(\"M32\");\n", alarm);
+  REQUIRE(off != std::string::npos);
+  CHECK(verified(thick, std::string(other).erase(off, 21), 12) == 1);
+  // A plane of retract that fits no word.
+  CHECK(verified(thick, without(other, "if (clearanceText === null) {", "if (false) {"), 12) == 1);
+}
+
 TEST_CASE("verify: a check of a fragment that only another error hides") {
   const Shop face{"easyprobe", "Brandl.Flaeche.X", "fusion", "dotek"};
   const std::string text = converted(face);

@@ -1,0 +1,144 @@
+// What two runs do beside moving and measuring.
+#include "support/Decimal.h"
+#include "verify/CompareLeft.h"
+#include "verify/CompareParts.h"
+#include "verify/PathPieces.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <set>
+
+namespace dotek::verify {
+
+namespace {
+
+std::string_view switchName(Switch state) {
+  switch (state) {
+  case Switch::NotSwitched: return "not switched";
+  case Switch::Off: return "off";
+  case Switch::On: return "on";
+  }
+  return "";
+}
+
+std::string_view faultName(sim::Outcome outcome) {
+  switch (outcome) {
+  case sim::Outcome::Contact: return "a contact";
+  case sim::Outcome::EarlyContact: return "a contact that no measuring move makes";
+  case sim::Outcome::Miss: return "no contact";
+  case sim::Outcome::NotArmed: return "a touch with the probe off";
+  case sim::Outcome::NoSignal: return "a touch without a signal";
+  case sim::Outcome::Overtravel: return "a stylus that is pushed too far";
+  case sim::Outcome::StemCollision: return "a collision of the stem";
+  case sim::Outcome::BodyCollision: return "a collision of the probe's body";
+  case sim::Outcome::RapidIntoPart: return "a rapid into the part";
+  case sim::Outcome::OutsideTravel: return "a move out of the machine's travel";
+  case sim::Outcome::SetterMiss: return "no contact with the tool setter";
+  case sim::Outcome::SetterHit: return "a collision with the tool setter";
+  case sim::Outcome::NotModelled: return "a rotary or second axis off zero";
+  }
+  return "";
+}
+
+std::string deedText(const Deed& deed) {
+  switch (deed.kind) {
+  case Deed::Kind::ToolChange: return fmt::format("a change to tool {}", numberText(deed.value));
+  case Deed::Kind::Auxiliary: return "M" + numberText(deed.value);
+  case Deed::Kind::Stop: return deed.text.empty() ? "a stop" : fmt::format("a stop ({})", deed.text);
+  case Deed::Kind::Dwell: return fmt::format("a dwell of {} s", numberText(deed.value));
+  }
+  return "";
+}
+
+} // namespace
+
+void compareState(const ComparedPair& pair, const Surroundings& a, const Surroundings& b,
+                  std::string_view when, SourceRange source, SourceRange target) {
+  if (a == b) return;
+  std::string text;
+  const auto tell = [&](std::string_view what, std::string_view one, std::string_view other) {
+    if (one != other) text += fmt::format("{}{} {} against {}", text.empty() ? "" : ", ", what, one, other);
+  };
+  static constexpr std::string_view kSpindle[] = {"off", "clockwise", "counterclockwise"};
+  static constexpr std::string_view kCoolant[] = {"not switched", "off", "flood", "mist"};
+  tell("probe", switchName(a.probe), switchName(b.probe));
+  tell("spindle", kSpindle[a.spindle], kSpindle[b.spindle]);
+  tell("coolant", kCoolant[static_cast<std::size_t>(a.coolant)],
+       kCoolant[static_cast<std::size_t>(b.coolant)]);
+  tell("speed", "S" + numberText(a.speed), "S" + numberText(b.speed));
+  pair.add(Aspect::State, text + std::string(when), source, target);
+}
+
+// Tools, M codes, stops: which, in which order, where, and with what on.
+void compareDeeds(const ComparedPair& pair) {
+  const std::vector<Deed>&a = pair.source.deeds, &b = pair.target.deeds;
+  for (std::size_t i = 0; i < std::max(a.size(), b.size()); ++i) {
+    const std::string one = i < a.size() ? deedText(a[i]) : "nothing";
+    const std::string other = i < b.size() ? deedText(b[i]) : "nothing";
+    const SourceRange here = i < a.size() ? a[i].range : SourceRange{};
+    const SourceRange there = i < b.size() ? b[i].range : SourceRange{};
+    if (one != other) {
+      pair.add(Aspect::State, sidesText(one, other), here, there);
+      return;
+    }
+    if (a[i].measures != b[i].measures) {
+      pair.add(Aspect::State,
+               fmt::format("{} after {} measures against {}", one, a[i].measures, b[i].measures), here,
+               there);
+      return;
+    }
+    if (!near(a[i].at, b[i].at, pair.rules.tolerance)) {
+      pair.add(Aspect::State, fmt::format("{} at {} against {}", one, textOf(a[i].at), textOf(b[i].at)), here,
+               there);
+      return;
+    }
+    compareState(pair, a[i].with, b[i].with, " at " + one, here, there);
+  }
+}
+
+// What the probe meets besides its contacts, also within calls. After a fault of the source the
+// case is undecided anyway.
+void compareFaults(const ComparedPair& pair) {
+  if (!pair.source.events.empty() || pair.target.events.empty()) return;
+  const auto& [event, where] = pair.target.events.front();
+  pair.add(Aspect::Contact,
+           fmt::format("the translation meets what the source does not: {} at {}", faultName(event.outcome),
+                       textOf(event.centre)),
+           lastMeasure(pair.source), where);
+}
+
+// The control reads ahead: without a block that waits it reads an earlier position, or moves what is still
+// to be moved to.
+void compareEarlyUses(const ComparedPair& pair) {
+  if (!pair.rules.waits) return;
+  for (const EarlyUse& use : pair.target.early) {
+    const bool known =
+        std::any_of(pair.source.early.begin(), pair.source.early.end(), [&](const EarlyUse& one) {
+          return one.write == use.write && (pair.rules.samePlace ? pair.rules.samePlace(one.range, use.range)
+                                                                 : one.number == use.number);
+        });
+    if (known) continue;
+    pair.add(use.write ? Aspect::Offset : Aspect::Variable,
+             fmt::format("the translation {} #{} before the motion before it has ended, the source does not",
+                         use.write ? "writes" : "reads", use.number),
+             {}, use.range);
+  }
+}
+
+// What a macro that switches the probe does on its way is in no source: it is called under the same modes.
+void compareSwitches(const ComparedPair& pair) {
+  const std::vector<SwitchCall>&a = pair.source.switches, &b = pair.target.switches;
+  for (std::size_t i = 0; i < std::min(a.size(), b.size()) && a[i].program == b[i].program; ++i) {
+    const bool macro = a[i].program != 0;
+    for (std::size_t k = 0; macro && k < a[i].modes.size(); ++k)
+      if (a[i].modes[k] != b[i].modes[k] && a[i].modes[k] != 0 && b[i].modes[k] != 0)
+        return pair.add(Aspect::Modal,
+                        fmt::format("P{} called under G{} against G{}", a[i].program,
+                                    numberText(a[i].modes[k] / 10.0), numberText(b[i].modes[k] / 10.0)),
+                        a[i].range, b[i].range);
+    compareState(pair, a[i].with, b[i].with, " where the probe is switched", a[i].range, b[i].range);
+  }
+}
+
+} // namespace dotek::verify
