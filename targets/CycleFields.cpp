@@ -66,6 +66,26 @@ void add(verify::DrawField field, const LoweringInputs& inputs, VerifyPlan& plan
   plan.fields.push_back(std::move(field));
 }
 
+bool computesPlaces(const ir::Cycle& cycle) {
+  const auto kept = [](const ir::ExpressionPtr& value) {
+    bool out = false;
+    ir::eachNode(value, [&](const ir::Expression& node) {
+      out = out || std::holds_alternative<ir::MachineVariable>(node.node) ||
+            std::holds_alternative<ir::MeasuredResult>(node.node);
+    });
+    return out;
+  };
+  for (const ir::CycleStatement& one : cycle.body) {
+    bool found = false;
+    const bool moves = std::holds_alternative<ir::Move>(one.node) ||
+                       std::holds_alternative<ir::Measure>(one.node) ||
+                       std::holds_alternative<ir::CallCycle>(one.node);
+    if (moves) ir::eachSlot(one, [&](const ir::ExpressionPtr& value) { found = found || kept(value); });
+    if (found) return true;
+  }
+  return false;
+}
+
 // The height at the entry is read before anything moves.
 bool readsEntryHeight(const ir::Cycle& cycle, const stdlib::Control& control) {
   bool reads = false;
@@ -107,6 +127,7 @@ void takeFields(const LoweredCycle& lowered, const CycleFolder& folder, const Lo
   for (const auto& [id, places] : decimals)
     if (const ir::Variable& host = lowered.cycle.variable(id); host.role == ir::Role::Host)
       plan.hostDecimals.emplace(host.name, places);
+  plan.computesPlaces = computesPlaces(lowered.cycle);
   if (inputs.sourceControl) plan.startsOnRetract = readsEntryHeight(lowered.cycle, *inputs.sourceControl);
   plan.bounds = std::make_shared<verify::Bounds>(lowered.cycle);
   const std::set<double> compared = ir::constantsOf(lowered.cycle.checks);

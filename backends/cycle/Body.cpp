@@ -117,13 +117,14 @@ private:
           writeMeasure(s_, node, origin);
         },
         [&](const ir::CallCycle& node) {
-          arm(origin);
+          if (node.moves) arm(origin);
           writeCall(s_, node, origin);
         },
         [&](const ir::Comment& node) {
           if (!isOfStop(index)) s_.add("// " + oneLine(node.text), origin);
         },
         [&](const ir::Assign& node) {
+          if (repeats(node)) return;
           const std::string value = valueText(s_, node.value, s_.cycle.variable(node.variable).kind, range);
           if (!value.empty()) s_.add(s_.names[node.variable] + " = " + value, origin);
         },
@@ -174,6 +175,21 @@ private:
               "calls the cycle");
         },
         [](const ir::OneOf<ir::Label, ir::Jump, ir::Branch, ir::Return> auto&) {});
+  }
+
+  // The name of a touch says the value by itself.
+  bool repeats(const ir::Assign& node) {
+    if (!s_.aliases.contains(node.variable)) return false;
+    const ir::ExpressionPtr* value = &node.value;
+    while (const auto* unary = std::get_if<ir::Unary>(&(*value)->node)) {
+      if (unary->op != ir::UnaryOp::NullAsZero) break;
+      value = &unary->operand;
+    }
+    const auto* result = std::get_if<ir::MeasuredResult>(&(*value)->node);
+    const auto found = result == nullptr ? s_.measured.end() : s_.measured.find(result->name);
+    if (found == s_.measured.end() || found->second.find(' ') != std::string::npos) return false;
+    s_.names[node.variable] = found->second;
+    return true;
   }
 
   static std::string oneLine(std::string text) {

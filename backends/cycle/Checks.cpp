@@ -289,6 +289,15 @@ private:
     ir::eachNode(condition, [&](const ir::Expression& node) {
       if (const auto* use = std::get_if<ir::VariableUse>(&node.node)) read.insert(use->variable);
     });
+    if (read.size() == 1)
+      if (const auto names = state_.choices.find(*read.begin()); names != state_.choices.end()) {
+        for (std::size_t place = 1; place <= names->second.size(); ++place) {
+          ir::Environment environment(state_.cycle.variables.size());
+          environment[*read.begin()] = ir::Scalar::of(static_cast<double>(place));
+          if (ir::holds(*condition, environment) != true) return condition;
+        }
+        return ir::truth(true); // it is one of them
+      }
     const bool alone = read.size() == 1 && state_.cycle.variable(*read.begin()).kind == ir::Kind::WorkOffset;
     if (!alone) {
       const auto* junction = std::get_if<ir::Junction>(&condition->node);

@@ -1,6 +1,6 @@
 #include "backends/cycle/Emit.h"
 
-#include "backends/cycle/State.h"
+#include "backends/cycle/Idioms.h"
 #include "ir/Fold.h"
 #include "ir/Positions.h"
 #include "ir/Walk.h"
@@ -23,7 +23,8 @@ std::string lowered(std::string_view text) {
 bool hasPlaceInLanguage(const State& state, ir::VariableId id) {
   const std::string& name = state.names.at(id);
   static constexpr std::string_view kOwn[] = {"ball_radius", "overtravel", "approach_feed", "measuring_feed",
-                                              "retract",     "start.x",    "start.y",       "start.z"};
+                                              "retract",     "start.x",    "start.y",       "start.z",
+                                              "here.x",      "here.y",     "here.z"};
   return std::find(std::begin(kOwn), std::end(kOwn), name) != std::end(kOwn);
 }
 
@@ -43,9 +44,14 @@ EmittedLine parameterLine(State& state, ir::VariableId id, Emitted& out) {
     state.refuse(variable.range, "a text as a parameter", "make a choice of names of it");
   const auto found = state.shifts.find(id);
   const double shift = found == state.shifts.end() ? 0 : found->second;
-  out.parameters[variable.name] = {name, shift};
+  const auto names = state.choices.find(id);
+  out.parameters[variable.name] = {name, shift, names == state.choices.end() ? 0 : names->second.size()};
   std::string initial;
-  if (variable.defaultValue) {
+  const auto chosen = state.choices.find(id);
+  const bool named = chosen != state.choices.end();
+  if (named && variable.defaultValue) {
+    initial = " = " + chosen->second[static_cast<std::size_t>(*variable.defaultValue) - 1];
+  } else if (variable.defaultValue) {
     const double value = *variable.defaultValue + shift;
     const bool fits =
         kind != ir::Kind::WorkOffset || (value >= 54 && value <= 59 && value == std::floor(value));
@@ -57,12 +63,18 @@ EmittedLine parameterLine(State& state, ir::VariableId id, Emitted& out) {
   }
   std::string title = variable.meaning;
   const auto choices = state.options.choices.find(id);
-  const bool list =
-      choices != state.options.choices.end() && kind != ir::Kind::Flag && kind != ir::Kind::WorkOffset;
+  const bool list = !named && choices != state.options.choices.end() && kind != ir::Kind::Flag &&
+                    kind != ir::Kind::WorkOffset;
   if (list) title += (title.empty() ? "" : ": ") + offered(choices->second);
   const bool renamed = lowered(variable.name) != name && variable.role == ir::Role::Parameter;
   if (renamed) title += fmt::format("{}({})", title.empty() ? "" : " ", variable.name);
-  std::string line = fmt::format("parameter {} : {}{}{}", name, typeOf(kind), initial, quoted(title));
+  std::string type = typeOf(kind);
+  if (named) {
+    type = "choice of ";
+    for (const std::string& one : chosen->second)
+      type += (type.ends_with("of ") ? "" : ", ") + one;
+  }
+  std::string line = fmt::format("parameter {} : {}{}{}", name, type, initial, quoted(title));
   if (list) {
     std::string condition;
     for (const Choice& one : choices->second)
@@ -147,6 +159,8 @@ std::optional<Emitted> emit(const ir::Cycle& cycle, const EmitOptions& options, 
   if (!cycle.measurementStated)
     state.refuse(cycle.range, "a drawn path without its branch of a post",
                  "a path does not say what is measured; give the post with `--prog PROG.txt`");
+  readIdioms(state);
+  findChoices(state);
   nameVariables(state);
   Emitted out;
   out.name = options.proposeName(cycle.name);

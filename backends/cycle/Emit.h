@@ -3,6 +3,7 @@
 
 #include "backends/common/EmittedLine.h"
 #include "ir/Cycle.h"
+#include "stdlib/Control.h"
 #include "support/Diagnostics.h"
 
 #include <cstdint>
@@ -29,12 +30,16 @@ struct EmitOptions {
   std::function<std::string(std::string_view)> proposeName;
   std::map<ir::VariableId, std::vector<Choice>> choices;
   std::set<ir::VariableId> fixed; // values that are put in: no parameters any more
+  // Whose words the source writes: what it says with variables of that control has words in the language.
+  // nullptr: none.
+  const stdlib::Control* control = nullptr;
 };
 
 // What a parameter of the source is called in the cycle. Value in the cycle = value of the source + shift.
 struct ParameterName {
   std::string name;
-  double shift = 0; // of a work offset that the source counts from 1: 53
+  double shift = 0;      // of a work offset that the source counts from 1: 53
+  std::size_t names = 0; // of a choice: how many; 0: it is none
 };
 
 struct Emitted {

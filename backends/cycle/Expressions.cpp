@@ -131,6 +131,15 @@ private:
     case ir::BinaryOp::Add:
     case ir::BinaryOp::Subtract: {
       const ir::Kind kind = left != ir::Kind::Number ? left : right != ir::Kind::Number ? right : want;
+      // Of `a + -b` the difference.
+      const auto* negated = std::get_if<ir::Unary>(&binary.right->node);
+      const bool less = negated != nullptr && negated->op == ir::UnaryOp::Negate;
+      if (less) {
+        const bool turned = binary.op == ir::BinaryOp::Add;
+        const ir::Binary plain{turned ? ir::BinaryOp::Subtract : ir::BinaryOp::Add, binary.left,
+                               negated->operand};
+        return binaryText(plain, want);
+      }
       const bool minus = binary.op == ir::BinaryOp::Subtract;
       const std::string a = bracketed(value(binary.left, kind), kSum);
       const std::string b = bracketed(value(binary.right, kind), minus ? kProduct : kSum);
@@ -182,7 +191,26 @@ private:
   std::string compared(const ir::Comparison& comparison) {
     const ir::Kind left = kindOf(state_, comparison.left), right = kindOf(state_, comparison.right);
     const ir::Kind kind = left != ir::Kind::Number ? left : right;
+    const bool area = isArea(state_, comparison.left) || isArea(state_, comparison.right);
+    // A whole number is one in both directions.
+    const auto whole = [](const ir::ExpressionPtr& one, const ir::ExpressionPtr& other) {
+      const auto* rounded = std::get_if<ir::Unary>(&one->node);
+      return rounded != nullptr &&
+             (rounded->op == ir::UnaryOp::Truncate || rounded->op == ir::UnaryOp::RoundUp) &&
+             ir::equal(rounded->operand, other);
+    };
+    const bool equality =
+        comparison.relation == ir::Relation::Equal || comparison.relation == ir::Relation::NotEqual ||
+        comparison.relation == ir::Relation::Same || comparison.relation == ir::Relation::Different;
     const auto side = [&](const ir::ExpressionPtr& one) {
+      const ir::ExpressionPtr& other = one == comparison.left ? comparison.right : comparison.left;
+      const auto* use = std::get_if<ir::VariableUse>(&other->node);
+      const auto names = use == nullptr ? state_.choices.end() : state_.choices.find(use->variable);
+      if (const double* place = ir::constantValue(one); place != nullptr && names != state_.choices.end())
+        return names->second[static_cast<std::size_t>(*place) - 1];
+      if (equality && whole(one, other)) return called("down", other, kind).text;
+      if (const double* zero = ir::constantValue(one); area && zero != nullptr && *zero == 0)
+        return std::string("0");
       if (kind == ir::Kind::WorkOffset)
         if (const double* system = ir::constantValue(one)) return fmt::format("G{}", numberText(*system));
       return value(one, kind).text;
@@ -207,6 +235,18 @@ private:
 };
 
 } // namespace
+
+bool isArea(const State& state, const ir::ExpressionPtr& value) {
+  if (const auto* unary = std::get_if<ir::Unary>(&value->node))
+    return (unary->op == ir::UnaryOp::NullAsZero || ir::keepsKind(unary->op)) &&
+           isArea(state, unary->operand);
+  const auto* binary = std::get_if<ir::Binary>(&value->node);
+  if (binary == nullptr) return false;
+  if (binary->op == ir::BinaryOp::Multiply)
+    return kindOf(state, binary->left) == ir::Kind::Length &&
+           kindOf(state, binary->right) == ir::Kind::Length;
+  return ir::addsKinds(binary->op) && (isArea(state, binary->left) || isArea(state, binary->right));
+}
 
 std::string literal(double value, ir::Kind kind, const std::string& digits) {
   std::string number = digits.empty() ? numberText(value) : digits;
@@ -271,6 +311,8 @@ ir::Kind kindOf(const State& state, const ir::ExpressionPtr& value) {
       return isDimension(left) && left == right ? ir::Kind::Ratio : left;
     if (ir::addsKinds(binary->op)) return left != ir::Kind::Number ? left : right;
   }
+  if (const auto* unary = std::get_if<ir::Unary>(&value->node))
+    if (unary->op == ir::UnaryOp::SquareRoot && isArea(state, unary->operand)) return ir::Kind::Length;
   if (const auto* unary = std::get_if<ir::Unary>(&value->node))
     if (unary->op == ir::UnaryOp::NullAsZero || ir::keepsKind(unary->op))
       return kindOf(state, unary->operand);

@@ -1,5 +1,6 @@
 // Touches, and calls of cycles of the library in the place of a vendor's.
 #include "backends/cycle/MeasureCall.h"
+#include "ir/CycleNames.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -342,7 +343,32 @@ void writeMeasure(State& state, const ir::Measure& measure, const ir::Origin& or
   if (set) writeSetting(state, *set, found, origin);
 }
 
+namespace {
+
+// `set`, as the source writes it by itself.
+void writeOffset(State& state, const ir::CallCycle& call, const ir::Origin& origin) {
+  const SourceRange range = origin.range();
+  Setting set{systemText(state, call.setting->system, range), {}};
+  if (set.system.empty()) return;
+  std::array<std::string, 3> found;
+  for (const ir::Axis axis : ir::kAxes) {
+    const std::size_t i = ir::indexOf(axis);
+    if (!call.setting->axes[i]) continue;
+    const auto measured = std::find_if(call.arguments.begin(), call.arguments.end(), [&](const auto& one) {
+      return one.parameter == "measured " + smallLetter(axis);
+    });
+    set.nominal[i] = valueText(state, call.setting->nominal[i], ir::Kind::Length, range);
+    if (measured != call.arguments.end())
+      found[i] = valueText(state, measured->value, ir::Kind::Length, range);
+    if (set.nominal[i].empty() || found[i].empty()) return;
+  }
+  writeSetting(state, set, found, origin);
+}
+
+} // namespace
+
 void writeCall(State& state, const ir::CallCycle& call, const ir::Origin& origin) {
+  if (call.cycle == ir::kSetOffset) return writeOffset(state, call, origin);
   MeasureCall(state, call, origin).write();
 }
 

@@ -18,7 +18,10 @@ constexpr std::pair<std::string_view, std::string_view> kHosts[] = {{"tool_radiu
                                                                     {"retract", "retract"},
                                                                     {"start_x", "start.x"},
                                                                     {"start_y", "start.y"},
-                                                                    {"start_z", "start.z"}};
+                                                                    {"start_z", "start.z"},
+                                                                    {"here_x", "here.x"},
+                                                                    {"here_y", "here.y"},
+                                                                    {"here_z", "here.z"}};
 
 // What parameters that stand alone in a place are for: names for those whose own are no names.
 class Roles {

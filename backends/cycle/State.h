@@ -45,6 +45,9 @@ struct State {
   std::set<std::string> taken;                 // names
   std::map<ir::VariableId, std::string> names; // of all variables that are read
   std::map<ir::VariableId, double> shifts;     // of work offsets
+  // Of parameters that are a choice of names: the names, of 1, 2, ..
+  std::map<ir::VariableId, std::vector<std::string>> choices;
+  std::set<ir::VariableId> aliases; // names that may repeat what a touch gives
   // Where the probe is along each axis, as the moves say it; "": they do not.
   std::array<std::string, 3> at;
   // What the results of the last measurement are in the cycle.
@@ -62,6 +65,12 @@ struct State {
 
 // Names, kinds and shifts of all parameters, hosts and locals.
 void nameVariables(State& state);
+
+// ---- Choices.cpp
+
+// Parameters whose dialog lists 1, 2, .. and that are only compared with these are a choice of names, and
+// those that list yes and no are flags.
+void findChoices(State& state);
 // "\"Nominal diameter\"", "" for none.
 std::string quoted(std::string_view text);
 std::string typeOf(ir::Kind kind); // "length"
@@ -74,6 +83,8 @@ std::string valueText(State& state, const ir::ExpressionPtr& value, ir::Kind wan
 std::string conditionText(State& state, const ir::ConditionPtr& condition, SourceRange range);
 std::string literal(double value, ir::Kind kind, const std::string& digits = "");
 ir::Kind kindOf(const State& state, const ir::ExpressionPtr& value);
+// A product of two lengths, which has no kind of its own.
+bool isArea(const State& state, const ir::ExpressionPtr& value);
 // A work offset: "G56", or the parameter. "": refused.
 std::string systemText(State& state, const ir::ExpressionPtr& system, SourceRange range);
 

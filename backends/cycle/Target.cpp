@@ -59,7 +59,7 @@ public:
     if (session_.diagnostics().hasErrors()) return true;
     const ir::Cycle& cycle = source->lowered.cycle;
     const SourceRange range = cycle.range;
-    auto written = writtenCycle(folder, source->lowered, session_);
+    auto written = writtenCycle(folder, source->lowered, sourceControl(), session_);
     if (!written) return true;
     std::string file = written->name + ".cycle";
     std::replace(file.begin(), file.end(), '_', '-');
@@ -78,6 +78,11 @@ public:
   }
 
 private:
+  const stdlib::Control* sourceControl() const {
+    const LoweringInputs* inputs = context_.inputs;
+    return inputs == nullptr || !inputs->sourceControl ? nullptr : &*inputs->sourceControl;
+  }
+
   // What the checks of the language have against the text.
   void refuse(SourceRange range, const Diagnostics& found) {
     for (const Diagnostic& one : found.all()) {

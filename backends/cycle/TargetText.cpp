@@ -12,12 +12,15 @@ namespace dotek::targets {
 
 namespace cycle = frontend::cycle;
 
-std::optional<backends::cycle::Emitted>
-writtenCycle(const project::CycleFolder& folder, project::LoweredCycle& lowered, project::Session& session) {
+std::optional<backends::cycle::Emitted> writtenCycle(const project::CycleFolder& folder,
+                                                     project::LoweredCycle& lowered,
+                                                     const stdlib::Control* control,
+                                                     project::Session& session) {
   ir::fold(lowered.cycle, lowered.fixed);
   backends::cycle::EmitOptions options;
   options.isReserved = cycle::isReserved;
   options.proposeName = cycle::proposeName;
+  options.control = control;
   for (auto& [id, choices] : dialogChoices(folder, lowered.cycle, session.sources()))
     for (DialogChoice& choice : choices)
       options.choices[id].push_back({choice.value, std::move(choice.title)});

@@ -13,9 +13,12 @@
 
 namespace dotek::targets {
 
-// The cycle of a folder; `lowered` is folded on the way. nullopt: it has no form, reported.
-std::optional<backends::cycle::Emitted>
-writtenCycle(const project::CycleFolder& folder, project::LoweredCycle& lowered, project::Session& session);
+// The cycle of a folder, whose post writes for `control` (nullptr: not known); `lowered` is folded on the
+// way. nullopt: it has no form, reported.
+std::optional<backends::cycle::Emitted> writtenCycle(const project::CycleFolder& folder,
+                                                     project::LoweredCycle& lowered,
+                                                     const stdlib::Control* control,
+                                                     project::Session& session);
 
 // A text of the language as the library sees it.
 class ReadCycle {

@@ -35,7 +35,8 @@ public:
     std::optional<LoweredCycle> lowered = lowerCycle(from_.folder, from_.inputs, used, session);
     if (!lowered) return false;
     lowered->cycle.name = from_.folder.name;
-    written_ = writtenCycle(from_.folder, *lowered, session);
+    written_ = writtenCycle(from_.folder, *lowered,
+                            from_.inputs.sourceControl ? &*from_.inputs.sourceControl : nullptr, session);
     if (!written_) return false;
     const Translation& translation = *from_.plan.translation;
     Diagnostics found;
@@ -60,9 +61,9 @@ public:
     bool good = true;
     const sim::CycleInputs inputs = inputsOf(now.drawn, good);
     if (!good) {
-      // No caller of the cycle can give such a work offset.
+      // No caller of the cycle can give such a value.
       out.refused = true;
-      out.why = "the work offset is none of G54 to G59";
+      out.why = "a work offset is none of G54 to G59, or a choice none of its names";
       return out;
     }
     const verify::Record record = stand_.run(cycle_, inputs, now.world, now.entry, now.stores);
@@ -95,8 +96,11 @@ private:
     for (const auto& [name, parameter] : written_->parameters) {
       const auto field = drawn.values.find(name);
       const auto given = field == drawn.values.end() ? drawn.hosts.find(name) : field;
-      if (given != drawn.hosts.end() && given != drawn.values.end())
-        values[parameter.name] = given->second + parameter.shift;
+      if (given == drawn.hosts.end() || given == drawn.values.end()) continue;
+      const double value = values[parameter.name] = given->second + parameter.shift;
+      if (parameter.names > 0)
+        good =
+            good && value >= 1 && value <= static_cast<double>(parameter.names) && value == std::floor(value);
     }
     out.values.resize(cycle_.variables.size());
     for (ir::VariableId id = 0; id < cycle_.variables.size(); ++id) {
@@ -145,7 +149,7 @@ private:
     rules.results =
         std::max({rules.tolerance, resultTolerance(*from_.inputs.sourceControl, *from_.inputs.sourceControl),
                   kGridSteps});
-    rules.tolerance = std::max(rules.tolerance, kGridSteps);
+    rules.tolerance = std::max(from_.plan.computesPlaces ? rules.results : rules.tolerance, kGridSteps);
     rules.relative = rules.results > from_.options.tolerance ? 2e-7 : 0;
     rules.mayRestoreModes = true;
     // Where its caller switches the probe, both leave it as it was.
@@ -191,7 +195,13 @@ private:
       if (now.source->alarmKind == stdlib::macroAlarmName(kind) && own.ending == verify::Ending::Alarm &&
           own.alarmKind.empty())
         own.alarmKind = now.source->alarmKind;
-    for (verify::Difference& one : verify::compare(*now.source, own, rules)) {
+    // What the source keeps for itself is a name of the cycle's own.
+    verify::Record source = *now.source;
+    std::erase_if(source.stores, [&](const auto& one) {
+      return std::none_of(written_->kept.begin(), written_->kept.end(),
+                          [&](const auto& kept) { return kept.second == one.first; });
+    });
+    for (verify::Difference& one : verify::compare(source, own, rules)) {
       const std::uint32_t line = lineOf(one.target);
       out.differences.push_back({std::move(one), line, ""});
     }

@@ -214,7 +214,8 @@ private:
     rules.results = std::max(from_.options.tolerance, resultTolerance(control_, *from_.inputs.sourceControl));
     if (sourceSet_ != set_) rules.results = std::max(rules.results, verify::kGridSteps);
     // After a write of the system that is active, what follows is as exactly as the control computes.
-    rules.tolerance = writesActive(source, now.entry) ? rules.results : from_.options.tolerance;
+    const bool computed = from_.plan.computesPlaces || writesActive(source, now.entry);
+    rules.tolerance = computed ? rules.results : from_.options.tolerance;
     // Positions that the cycle computes go to the control rounded to its least increment, and contacts on
     // round surfaces follow.
     if (from_.plan.cycleFile) {

@@ -190,6 +190,42 @@ TEST_CASE("convert to gibbs: the folder agrees with its own branch, by the comma
   }
 }
 
+TEST_CASE("convert to gibbs: the folder comes back as a cycle that does the same") {
+  for (const Case& one : cases()) {
+    if (one.cycle == std::string("surface-z")) continue; // from another height than its path
+    CAPTURE(one.cycle);
+    const driver::Outcome outcome =
+        driver::convert(optionsOf(libraryPath(one.cycle), "inspection-plus", one.values));
+    REQUIRE_MESSAGE(outcome.status == 0, said(outcome));
+    const TestFolder folder("dotek-gibbs-back");
+    const std::string path = written(outcome, folder);
+    driver::ConvertOptions back;
+    back.inputs = {path};
+    back.to = "cycle";
+    back.source.prog = path + "/branch.txt";
+    back.source.form = "thesis-a";
+    const driver::Outcome cycle = driver::convert(back);
+    REQUIRE_MESSAGE(cycle.status == 0, said(cycle));
+    REQUIRE(cycle.files.size() == 1);
+    const std::string& text = cycle.files.front().text;
+    // Places, offsets and lists by their words, and no variable of a control.
+    CHECK_MESSAGE(text.find("#") == std::string::npos, text);
+    CHECK_MESSAGE(
+        (text.find("set system:") == std::string::npos) == (one.cycle == std::string("step-height")), text);
+    if (text.find("violation") != std::string::npos)
+      CHECK_MESSAGE(text.find(": choice of stops, flags = stops") != std::string::npos, text);
+    driver::VerifyOptions verify;
+    verify.inputs = {path};
+    verify.to = "cycle";
+    verify.source.prog = path + "/branch.txt";
+    verify.source.form = "thesis-a";
+    verify.jobs = 1;
+    verify.cases = draws(20U, 5U);
+    const driver::Outcome verified = driver::verify(verify);
+    CHECK_MESSAGE(verified.output.starts_with("AGREES"), said(verified));
+  }
+}
+
 TEST_CASE("convert to gibbs: a folder that is read and written again stays what it is") {
   for (const Case& one : cases()) {
     CAPTURE(one.cycle);
