@@ -8,6 +8,8 @@
 #include "support/messages/Cycle.h"
 
 #include <algorithm>
+#include <set>
+#include <string>
 #include <utility>
 
 namespace dotek::frontend::cycle {
@@ -178,7 +180,22 @@ const Header* File::header() const {
   return nullptr;
 }
 
-File parse(FileId file, const SourceMap& sources, const Limits& limits, Diagnostics& diagnostics) {
+namespace {
+
+// A word of the language that is declared as a name is one mistake, wherever it is used after that.
+void reportOnce(Diagnostics& found, const SourceMap& sources, Diagnostics& diagnostics) {
+  std::set<std::string> declared;
+  for (const Diagnostic& one : found.all())
+    if (one.code == diag::WordAsName::code) declared.insert(std::string(sources.text(one.range)));
+  for (Diagnostic& one : found.all())
+    if (one.code != diag::SyntaxError::code || !declared.contains(std::string(sources.text(one.range))))
+      diagnostics.add(std::move(one));
+}
+
+} // namespace
+
+File parse(FileId file, const SourceMap& sources, const Limits& limits, Diagnostics& reported) {
+  Diagnostics diagnostics;
   ByteStream bytes = openBytes(file, sources, limits, diagnostics);
   TokenReader reader(&bytes);
   const Language cycles = language();
@@ -199,7 +216,9 @@ File parse(FileId file, const SourceMap& sources, const Limits& limits, Diagnost
     Diagnostic& found = diagnostics.report<diag::WordInCapitals>(range, sources.textUtf8(range), small);
     found.fix = Fix{Fix::Applicability::Safe, "write `" + small + "`", {{range, small}}};
   }
-  return builder.finish();
+  File out = builder.finish();
+  reportOnce(diagnostics, sources, reported);
+  return out;
 }
 
 std::string dumpTokens(FileId file, const SourceMap& sources, const Limits& limits,

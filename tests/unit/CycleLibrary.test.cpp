@@ -90,6 +90,24 @@ TEST_CASE("library of cycles: the check says what lowering refuses, and what is 
   CHECK(codes("lid.cycle", head + "call low\n").contains("touch-upward"));
 }
 
+TEST_CASE("check: a word of the language that is declared as a name is one finding, wherever it is used") {
+  const TestFolder folder("dotek-cycle-word");
+  const auto found = [&](const std::string& use) {
+    const project::CommonOptions options;
+    project::Session session(options);
+    project::CycleFiles files(session);
+    project::checkCycleFile(
+        folder.write("lid.cycle", "// A lid.\ncycle lid \"Lid\"\n\nparameter a : length = 5 "
+                                  "mm \"Way\"\n\nspindle off\nprobe on\n" +
+                                      use + "probe off\n"),
+        files, session);
+    return session.diagnostics().all().size();
+  };
+  CHECK(found("touch x by a -> right\n") == 1);
+  CHECK(found("touch x by a + 2 mm -> right\nmove by y a\n") == 1);
+  CHECK(found("touch x by a -> right\ntouch y by b -> back\n") == 2);
+}
+
 TEST_CASE("library of cycles: what a dialog and a catalogue print is there") {
   Library library;
   library.each([&](const stdlib::DataFile&, const cycle::File& file) {
