@@ -225,20 +225,28 @@ private:
           return here(ir::Axis::Z);
         return node;
       });
-      if (const auto* move = std::get_if<ir::Move>(&one.node)) {
-        for (const ir::Axis axis : ir::kAxes)
-          moved[ir::indexOf(axis)] = moved[ir::indexOf(axis)] || move->axes[ir::indexOf(axis)];
-      } else if (const auto* call = std::get_if<ir::CallCycle>(&one.node)) {
-        if (call->moves && !call->returns) moved = {true, true, true};
-        if (call->setting) moved = {true, true, true}; // other coordinates of the same place
-      } else if (const auto* measure = std::get_if<ir::Measure>(&one.node)) {
-        if (measure->setting) moved = {true, true, true};
-      } else if (std::holds_alternative<ir::OpaqueBlock>(one.node) ||
-                 std::holds_alternative<ir::Store>(one.node)) {
-        const auto* store = std::get_if<ir::Store>(&one.node);
-        const auto number = store == nullptr ? std::nullopt : numberOf(store->number);
-        if (store == nullptr || !number || *number >= 1000) moved = {true, true, true};
-      }
+      constexpr std::array<bool, 3> kAll = {true, true, true};
+      ir::match(
+          one,
+          [&](const ir::Move& node) {
+            for (std::size_t i = 0; i < moved.size(); ++i)
+              moved[i] = moved[i] || node.axes[i];
+          },
+          [&](const ir::CallCycle& node) {
+            // What is set gives other coordinates to the same place.
+            if ((node.moves && !node.returns) || node.setting) moved = kAll;
+          },
+          [&](const ir::Measure& node) {
+            if (node.setting) moved = kAll;
+          },
+          [&](const ir::OpaqueBlock&) { moved = kAll; },
+          [&](const ir::Store& node) {
+            const auto number = numberOf(node.number);
+            if (!number || *number >= 1000) moved = kAll;
+          },
+          [](const ir::OneOf<ir::Label, ir::Jump, ir::Branch, ir::ProbePower, ir::Comment, ir::Assign,
+                             ir::Return, ir::Spindle, ir::Coolant, ir::SetMode, ir::Dwell, ir::Stop,
+                             ir::Alarm> auto&) {});
     }
   }
 
