@@ -115,7 +115,9 @@ private:
   // The device of --device, and what it adds to the control. false: reported.
   bool loadDevice() {
     if (device_.report && !device_.device)
-      diagnostics().report<diag::NoDevice>({}, "--report", "whose run it shows");
+      diagnostics().report<diag::NoDevice>({}, "--report",
+                                           "whose run it shows; a run of the probe is shown by `--svg OUT` "
+                                           "(to print) and `--html OUT`");
     if (!device_.device) return !diagnostics().hasErrors();
     deviceFile_ =
         sim::loadDevice(*device_.device, session_.limits(), session_.bounds(sim::folderOf(*device_.device)),

@@ -68,7 +68,9 @@ std::string axisWord(State& state, ir::Axis axis, double value, SourceRange rang
 
 std::string shownPlace(const State& state, ir::Axis axis, double value) {
   const char letter = ir::letterOf(axis);
-  return letter + numberText(state.control.isDiameter(letter) ? 2 * value : value);
+  constexpr double kSteps = 1e6; // of a mm: sums of what is written have no more places
+  const double shown = state.control.isDiameter(letter) ? 2 * value : value;
+  return letter + numberText(std::round(shown * kSteps) / kSteps + 0.0);
 }
 
 std::string shownLength(const State& state, ir::Axis axis, double value) {

@@ -282,11 +282,15 @@ bool Machine::skipMove(const NcWords& w) {
   if (!target(w, end) || (feeds && !feedKnown())) return false;
   if (feeds && !(feed_ > 0)) return raise(Alarm::NoFeed);
   moved_ = true;
-  if (skip_ == nullptr)
+  if (skip_ == nullptr) {
+    const auto own = std::find_if(w.g.begin(), w.g.begin() + w.gCount, [&](std::uint32_t code) {
+      return table_.g(code).function == Function::Skip;
+    });
     return inconclusive(
         "no part is given, so whether the probe touches is not known; `--part PART.toml --machine "
         "MACHINE.toml` give one and a probe, or `--part PART.toml --tool 1 --length L --diameter D`",
-        'G');
+        'G', own == w.g.begin() + w.gCount ? 0 : static_cast<std::uint32_t>(own - w.g.begin()));
+  }
   SkipMove skip;
   skip.from = work_;
   skip.to = end;

@@ -146,7 +146,8 @@ PictureResult resultOf(const Picture& picture, const RunFacts& facts) {
                            facts.subject,
                            misses == 1 ? "a skip move met" : fmt::format("{} skip moves met", misses));
   }
-  if (ended && !crashed && !measuredNothing && !picture.part && picture.contacts.empty())
+  const bool atSetter = facts.events[static_cast<std::size_t>(Outcome::SetterMiss)] > 0;
+  if (ended && !crashed && !measuredNothing && !picture.part && picture.contacts.empty() && !atSetter)
     out.text += "; no part was given, so nothing could be touched";
 
   const bool faulty = !crashed && !measuredNothing && fault != nullptr;

@@ -310,14 +310,18 @@ private:
       out_ += fmt::format("<circle cx=\"{}\" cy=\"{}\" r=\"{}\" stroke=\"{}\"/>\n", px(at[0]), px(at[1]),
                           px(radius), colour);
     };
+    const auto ofProbe = [&](std::size_t move) {
+      return move < picture_.moves.size() && picture_.moves[move].tool == 0;
+    };
     out_ +=
         fmt::format("<g fill=\"none\" stroke-opacity=\"0.7\" clip-path=\"url(#clip{})\">\n", frame_.across);
     for (const PictureContact& contact : picture_.contacts) {
-      if (contact.move < picture_.moves.size() && isSeen(picture_.moves[contact.move].to))
+      if (ofProbe(contact.move) && isSeen(picture_.moves[contact.move].to))
         ball(picture_.moves[contact.move].to, pathStyle(PathKind::Measuring).colour);
     }
     for (std::size_t i = 0; i < picture_.errors.size() && i < kMostErrors; ++i) {
-      if (isSeen(picture_.errors[i].at)) ball(picture_.errors[i].at, kErrorColour);
+      if (ofProbe(picture_.errors[i].move) && isSeen(picture_.errors[i].at))
+        ball(picture_.errors[i].at, kErrorColour);
     }
     out_ += "</g>\n";
   }

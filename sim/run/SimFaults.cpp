@@ -111,6 +111,21 @@ void SimWorld::checkLength(const MachineMotion& motion) {
            Verdict::Fail, "FAIL: TOOL LENGTH OFF", place);
 }
 
+void SimWorld::noteEmptyOffset(Diagnostic& finding) const {
+  const CuttingTool* const tool = world_ ? world_->cuttingTool() : nullptr;
+  if (tool == nullptr || machineNow_ == nullptr || tool->length == 0 ||
+      tool->number >= machineNow_->toolTable().size() || machineNow_->toolLengthOf(tool->number) != 0)
+    return;
+  const std::string length = numberText(tool->length);
+  finding.note(
+      {},
+      fmt::format(
+          "tool offset {0} (H{0}) is 0, and tool {0} is {1} mm long; a program that reads the offset takes "
+          "the tool for that long; `tools = [{{ number = {0}, length = {1} }}]` of [setup] sets "
+          "it as an operator does",
+          tool->number, length));
+}
+
 // A program reads where it is, perhaps by a variable that holds the length.
 void SimWorld::noteHeight() {
   constexpr std::size_t kMostHeights = 64;

@@ -421,6 +421,7 @@ void SimWorld::tell(const ProbeEvent& event, const RunPlace& place) {
   if (one.empty()) return;
   const bool atStart = event.outcome == Outcome::EarlyContact && event.kind == MotionKind::Skip;
   if (atStart && last_.hasPlace()) one.all().front().note(last_, "the move before it");
+  noteEmptyOffset(one.all().front());
   addTold(std::move(one.all().front()), static_cast<std::size_t>(event.outcome), place);
 }
 

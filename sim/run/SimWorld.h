@@ -195,6 +195,7 @@ private:
   void checkLength(const MachineMotion& motion);
   void noteHeight();
   void checkHeight(const MachineMotion& motion);
+  void noteEmptyOffset(Diagnostic& finding) const; // of the tool in the spindle, which has a length
   void addTold(Diagnostic diagnostic, std::size_t kind, const RunPlace& place);
   bool isTold(const ProbeEvent& event) const;        // false: it is one too many
   bool isProtected() const;                          // of the skip move that runs: it wants no contact

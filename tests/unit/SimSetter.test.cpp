@@ -168,3 +168,40 @@ TEST_CASE("first run: a work system and a tool length that nobody has set are na
   CHECK_FALSE(has(bench.run(probe, "--part part.toml --work-offset G54=part"), "tool-length-not-set"));
   CHECK(has(bench.run("O1\nIF[#26 EQ #0]THEN #3000=1(NO Z)\nG31 Z#26 F#9\nM99\n", ""), "--call"));
 }
+
+TEST_CASE("tool setter: a tool that runs into it with an empty offset names the offset, and how to set it") {
+  const Bench bench;
+  const std::string into = std::string(kOver) + "G53 G0 Z-355.\nM30\n";
+  const CommandResult empty = bench.run("T5 M6\n" + into, "");
+  CHECK(empty.status == 1);
+  CHECK(has(empty, "setter-collision"));
+  CHECK(has(empty, "tool offset 5 (H5) is 0, and tool 5 is 80 mm long"));
+  CHECK(has(empty, "tools = [{ number = 5, length = 80 }]"));
+  const CommandResult filled = bench.run("T5 M6\n" + into, "--var 2205=80");
+  CHECK(has(filled, "setter-collision"));
+  CHECK(filled.out.find("(H5) is 0") == std::string::npos);
+}
+
+TEST_CASE("tool setter: a run that it gave no signal says nothing of a missing part, and draws no ball of "
+          "the probe") {
+  const Bench bench;
+  const CommandResult out = bench.run(std::string(kOver) + "G91 G31 Z-9. F100\nM30\n",
+                                      "--tool 5 --length 80 --svg p.svg --html p.html");
+  CHECK(out.status == 0);
+  const std::string drawn = readAll(bench.folder / "p.svg") + readAll(bench.folder / "p.html");
+  CHECK(drawn.find("PASS, WITH MISSES") != std::string::npos);
+  CHECK(drawn.find("nothing could be touched") == std::string::npos);
+  const std::string svg = readAll(bench.folder / "p.svg");
+  CHECK(svg.find("stroke-opacity=\"0.7\" clip-path=\"url(#clip0)\">\n</g>") != std::string::npos);
+}
+
+TEST_CASE(
+    "a run without a part ends at the G31 of its block, and --report without a device names the pictures") {
+  const Bench bench;
+  std::ofstream(bench.folder / "q.nc", std::ios::binary) << "G21 G17\nG90 G31 Z-5. F100\nM30\n";
+  const CommandResult out = runDotek(splitArguments("sim q.nc --quiet"), bench.folder);
+  CHECK(has(out, "q.nc:2:5: error: `G31`: no part is given"));
+  const CommandResult report = runDotek(splitArguments("sim q.nc --report r.md"), bench.folder);
+  CHECK(report.status != 0);
+  CHECK(has(report, "`--svg OUT` (to print) and `--html OUT`"));
+}
