@@ -1,9 +1,12 @@
 #include "backends/fanuc/Uses.h"
 
 #include "ir/Flow.h"
+#include "ir/Rewrite.h"
 #include "ir/Walk.h"
 
 #include <algorithm>
+#include <map>
+#include <optional>
 
 namespace dotek::backends::fanuc {
 
@@ -83,6 +86,33 @@ bool decides(const ir::Cycle& cycle, const std::vector<std::vector<std::size_t>>
   return false;
 }
 
+// With variables of the machine that the cycle sets as variables of its own, after all others: what is kept
+// in #150 moves the probe where #150 does. nullopt: it sets none.
+std::optional<ir::Cycle> withNamedStores(const ir::Cycle& given) {
+  std::map<double, ir::VariableId> stored;
+  const auto first = static_cast<ir::VariableId>(given.variables.size());
+  for (const ir::CycleStatement& statement : given.body)
+    if (const auto* store = std::get_if<ir::Store>(&statement.node))
+      if (const double* number = ir::constantValue(store->number))
+        stored.emplace(*number, first + static_cast<ir::VariableId>(stored.size()));
+  if (stored.empty()) return std::nullopt;
+  ir::Cycle out = given;
+  for (ir::CycleStatement& statement : out.body) {
+    ir::rewrite(statement, [&](const ir::ExpressionPtr& node) -> ir::ExpressionPtr {
+      const auto* variable = std::get_if<ir::MachineVariable>(&node->node);
+      const double* number = variable == nullptr ? nullptr : ir::constantValue(variable->number);
+      const auto found = number == nullptr ? stored.end() : stored.find(*number);
+      return found == stored.end() ? node : ir::variable(found->second);
+    });
+    const auto* store = std::get_if<ir::Store>(&statement.node);
+    const double* number = store == nullptr ? nullptr : ir::constantValue(store->number);
+    if (number == nullptr) continue;
+    const ir::ExpressionPtr value = store->value;
+    statement.node = ir::Assign{stored.at(*number), value};
+  }
+  return out;
+}
+
 } // namespace
 
 Ids variablesOf(const ir::ExpressionPtr& expression) {
@@ -149,7 +179,9 @@ Ids bodyVariables(const ir::Cycle& cycle) {
   return out;
 }
 
-Ids movingVariables(const ir::Cycle& cycle) {
+Ids movingVariables(const ir::Cycle& given) {
+  const std::optional<ir::Cycle> named = withNamedStores(given);
+  const ir::Cycle& cycle = named ? *named : given;
   Ids out;
   for (const ir::CycleStatement& statement : cycle.body)
     out.merge(movesBy(statement));
@@ -169,6 +201,7 @@ Ids movingVariables(const ir::Cycle& cycle) {
       if (decides(cycle, next, i, out)) out.insert(read.begin(), read.end());
     }
   }
+  out.erase(out.lower_bound(static_cast<ir::VariableId>(given.variables.size())), out.end());
   return out;
 }
 

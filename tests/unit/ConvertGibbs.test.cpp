@@ -226,6 +226,26 @@ TEST_CASE("convert to gibbs: the folder comes back as a cycle that does the same
   }
 }
 
+// The diameter moves the probe by way of a variable of the control: nobody may leave it out.
+TEST_CASE("convert to gibbs: what the branch keeps in a variable and moves by is an argument to be given") {
+  const auto one = std::find_if(cases().begin(), cases().end(),
+                                [](const Case& each) { return each.cycle == std::string("boss"); });
+  const driver::Outcome outcome =
+      driver::convert(optionsOf(libraryPath("boss"), "inspection-plus", one->values));
+  REQUIRE_MESSAGE(outcome.status == 0, said(outcome));
+  const TestFolder folder("dotek-gibbs-moves");
+  const std::string path = written(outcome, folder);
+  driver::ConvertOptions options;
+  options.inputs = {path};
+  options.to = "fanuc";
+  options.source.prog = path + "/branch.txt";
+  options.source.form = "thesis-a";
+  const driver::Outcome program = driver::convert(options);
+  REQUIRE_MESSAGE(program.files.size() == 1, said(program));
+  CHECK_MESSAGE(program.files.front().text.find("DIAMETER    MM   GIVE") != std::string::npos,
+                program.files.front().text);
+}
+
 TEST_CASE("convert to gibbs: a folder that is read and written again stays what it is") {
   for (const Case& one : cases()) {
     CAPTURE(one.cycle);
