@@ -180,10 +180,12 @@ private:
     else if (!record.pieces.empty())
       out.differsAt(verify::Aspect::Ending, rejects() + ", and the program moves before its alarm", line);
     else if (!saysSo(translation_.text, record.text, now.rejection))
-      out.differsAt(
-          verify::Aspect::Ending,
-          fmt::format("{}, `{}`, and the program stops with `{}`", rejects(), now.rejection, record.text),
-          line);
+      out.differsAt(verify::Aspect::Ending,
+                    from_.plan.cycleFile
+                        ? fmt::format("{}, `{}`, and the program stops with `{}`", rejects(), now.rejection,
+                                      record.text)
+                        : fmt::format("{}; the program stops with `{}`", now.rejection, record.text),
+                    line);
     else
       out.refused = true;
   }

@@ -90,8 +90,7 @@ public:
                                 result.errors.front()));
       else if (now.rejected && !says(result.errors.front(), now.rejection))
         out.differs(verify::Aspect::Ending,
-                    fmt::format("the dialog rejects the values, `{}`, and the fragment stops with `{}`",
-                                now.rejection, result.errors.front()));
+                    fmt::format("{}; the fragment stops with `{}`", now.rejection, result.errors.front()));
       out.refused = out.differences.empty();
       out.why = "the post stops with an error: " + result.errors.front();
       return out;

@@ -35,14 +35,17 @@ std::string converted(const Shop& of) {
   return outcome.files.front().text;
 }
 
-int verified(const Shop& of, const std::string& text, std::uint64_t cases = 40) {
+// `said`: takes what it reports; nullptr: nobody reads it.
+int verified(const Shop& of, const std::string& text, std::uint64_t cases = 40, std::string* said = nullptr) {
   const TestFolder folder("dotek-shop-frame");
   driver::VerifyOptions options;
   take(options, of);
   options.cases = cases;
   options.jobs = 1;
   options.translation = folder.write("edited", text);
-  return driver::verify(options).status;
+  const driver::Outcome outcome = driver::verify(options);
+  if (said != nullptr) *said = renderText(outcome.diagnostics, outcome.sources, 0);
+  return outcome.status;
 }
 
 std::string without(std::string text, const std::string& from, const std::string& to) {
@@ -137,5 +140,10 @@ TEST_CASE("verify: the alarm of another check is not that of the dialog") {
   const std::string text = converted(slot);
   const std::size_t at = text.find("IF[#28 EQ 2.]THEN #3000=101");
   REQUIRE(at != std::string::npos);
-  CHECK(verified(slot, std::string(text).erase(at, text.find('\n', at) + 1 - at), 600) == 1);
+  std::string said;
+  CHECK(verified(slot, std::string(text).erase(at, text.find('\n', at) + 1 - at), 600, &said) == 1);
+  // The message of the dialog stands in no other quotation.
+  CAPTURE(said);
+  CHECK(said.find("`the dialog of") == std::string::npos);
+  CHECK(said.find("; the program stops with `") != std::string::npos);
 }
