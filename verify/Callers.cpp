@@ -175,6 +175,7 @@ std::vector<OtherCaller> otherModes(const Control& control, const Entry& entry) 
     if (code == nullptr) continue;
     OtherCaller& other = out.emplace_back();
     other.entry = entry;
+    other.ofModes = true;
     other.who = fmt::format("under G{}", numberText(code->tenths / 10.0));
     other.entry.blocks += fmt::format("G{}\n", numberText(code->tenths / 10.0));
   }

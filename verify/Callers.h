@@ -36,6 +36,7 @@ std::vector<BrokenCaller> brokenCallers(const stdlib::Control& control, bool shi
 struct OtherCaller {
   std::string who; // "under G57"
   Entry entry;
+  bool ofModes = false; // macros may refuse it before anything is measured
 };
 // `posted`: what the source prints; `entry`: as it runs else. `stream` chooses.
 std::vector<OtherCaller> otherCallers(const ir::Program& posted, const stdlib::Control& control,

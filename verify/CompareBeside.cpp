@@ -51,6 +51,16 @@ std::string deedText(const Deed& deed) {
   return "";
 }
 
+// A program that is written cuts what the operator reads to what a control shows, after a whole word.
+bool sameStop(const Deed& source, const Deed& target) {
+  constexpr std::size_t kShownText = 26;
+  if (source.kind != Deed::Kind::Stop || target.kind != Deed::Kind::Stop || target.text.empty() ||
+      !source.text.starts_with(target.text))
+    return false;
+  const std::size_t next = source.text.find(' ', target.text.size() + 1);
+  return std::min(next, source.text.size()) > kShownText;
+}
+
 } // namespace
 
 void compareState(const ComparedPair& pair, const Surroundings& a, const Surroundings& b,
@@ -78,7 +88,8 @@ void compareDeeds(const ComparedPair& pair) {
     const std::string other = i < b.size() ? deedText(b[i]) : "nothing";
     const SourceRange here = i < a.size() ? a[i].range : SourceRange{};
     const SourceRange there = i < b.size() ? b[i].range : SourceRange{};
-    if (one != other) {
+    const bool both = i < a.size() && i < b.size();
+    if (one != other && !(both && sameStop(a[i], b[i]))) {
       pair.add(Aspect::State, sidesText(one, other), here, there);
       return;
     }

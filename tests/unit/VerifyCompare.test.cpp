@@ -163,7 +163,10 @@ TEST_CASE("verify: tools, M codes, stops and dwells count, where and in which or
   CHECK(differing("M19\n", "\n") == state);
   CHECK(differing("#3006=1(LOOK)\n", "\n") == state);
   CHECK(differing("#3006=1(LOOK)\n", "#3006=1(GO ON)\n") == state);
-  CHECK(differing("#3006=1(LOOK)\n", "#3006=2(LOOK)\n").empty()); // a number of its own
+  CHECK(differing("#3006=1(LOOK)\n", "#3006=2(LOOK)\n").empty());          // a number of its own
+  const std::string longStop = "#3006=1(SIDE FAR OFF, G56 NOT CHANGED)\n"; // is cut after 26 at most
+  CHECK(differing(longStop, "#3006=1(SIDE FAR OFF, G56 NOT)\n").empty());
+  CHECK(differing(longStop, "#3006=1(SIDE FAR OFF, G56)\n") == state);
   CHECK(differing("\n", "M19\n") == state);
   CHECK(differing("M19\nG0X1.\n", "G0X1.\nM19\n") == state);
   CHECK(differing("T20M6\nM19\n", "M19\nT20M6\n") == state);

@@ -335,9 +335,25 @@ bool waitsAlready(const Fault& fault, const std::string& fragment) {
   return dropped || then[1] == inForce;
 }
 
+// The picture of a value that the checks before it keep between two constants, both of which it prints.
+bool fitsAlways(const Fault& fault, const std::string& fragment) {
+  static const std::regex check("^ *if \\((\\w+)Text === null\\) \\{$");
+  std::smatch found;
+  if (fault.kind != "do not check" || !std::regex_match(fault.before, found, check)) return false;
+  const std::string name = found[1];
+  bool above = false, below = false;
+  const std::vector<std::string> lines = linesOf(fragment);
+  for (std::size_t i = 0; i < fault.line; ++i) {
+    above = above || std::regex_match(lines[i], std::regex(" *if \\(" + name + " < -?\\d{1,3}\\) \\{"));
+    below = below || std::regex_match(lines[i], std::regex(" *if \\(" + name + " > -?\\d{1,3}\\) \\{"));
+  }
+  return above && below;
+}
+
 std::string_view whyNothingOfFragment(const Fault& fault, const std::string& fragment) {
   if (countsSteps(fault)) return "what ends a loop that would never end stops nothing else";
   if (meetsNoSum(fault)) return "no sum of 32-bit numbers is that bound";
+  if (fitsAlways(fault, fragment)) return "checks before it keep the value where it fits";
   if (waitsAlready(fault, fragment)) return "the G31 before the G53 waits as well";
   return "";
 }

@@ -112,6 +112,15 @@ TEST_CASE("verify: what is measured turns a check just where it turns in the sou
     CHECK(verified(bore, without(text, from, to)) == 1);
 }
 
+TEST_CASE("verify: a stop that is cut, and macros that refuse a mode of the post, are no difference") {
+  for (const Shop& shop : {Shop{"direct", "DP.Side.Zero", "fanuc", "inspection-plus"},
+                           Shop{"easyprobe", "Brandl.Hoehe.Z", "fusion", "dotek"},
+                           Shop{"toolchange", "MX.Arc.Centre", "fusion", "dotek"}}) {
+    CAPTURE(shop.cycle);
+    CHECK(verified(shop, converted(shop), 12) == 0);
+  }
+}
+
 TEST_CASE(
     "verify: a fragment runs under any modes of the post around it, and leaves the probe as the source") {
   const Shop bore{"direct", "DP.Bore.Zero", "fusion", "inspection-plus"};
