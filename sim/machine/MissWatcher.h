@@ -12,6 +12,8 @@ public:
   virtual bool hasMisses() const = 0;
   // The skip move, counted from 1, of whose end this variable would say something now; 0: none.
   virtual std::uint32_t missIn(std::uint32_t variable) const = 0;
+  // A block that has run shifts or turns the coordinates (G52, G92, G68) by words that come from that one.
+  virtual void shiftedBy(std::uint32_t miss) = 0;
 };
 
 } // namespace dotek::sim

@@ -53,7 +53,7 @@ public:
   void watchUnset(std::set<std::uint32_t> numbers) { unset_ = std::move(numbers); }
   // Before the run: values are followed that come from where a skip move
   // has ended that met nothing. The watcher outlives the run.
-  void watchMisses(const MissWatcher* watcher);
+  void watchMisses(MissWatcher* watcher);
   // Of the value, or of the words, that the machine is given now: the miss that they come from; 0: none.
   std::uint32_t missInHand() const { return missInHand_; }
   void setListener(RunListener* listener) { listener_ = listener; }        // before the run; outlives it
@@ -112,6 +112,7 @@ private:
   std::uint32_t missOf(std::uint32_t cell) const;
   std::uint32_t missOfVariable(double number) const;
   void followMiss(const Instruction& at);
+  void checkShift();
   void enterMisses();
   void leaveMisses();
   std::vector<std::pair<std::uint32_t, double>> valuesOfMisses() const;
@@ -175,7 +176,7 @@ private:
   std::vector<EarlyRead> early_, earlyWrites_;
   std::set<std::uint32_t> unset_;
   std::vector<UnsetRead> unsetReads_;
-  const MissWatcher* misses_ = nullptr;
+  MissWatcher* misses_ = nullptr;
   bool followsMisses_ = false;                           // there has been one
   std::vector<std::uint32_t> fromMiss_, argumentMisses_; // by cell; by local of the next call
   std::vector<std::vector<std::uint32_t>> savedMisses_;  // locals of the callers

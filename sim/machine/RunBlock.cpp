@@ -134,6 +134,7 @@ bool Run::executeWords(const BlockSlots& slots) {
       return machine_.inconclusive("a call or a return by a computed code");
     return false;
   }
+  checkShift();
   if (machine_.moved()) ahead_ = true;
   if (!slots.mayStop) return true;
   for (std::uint32_t i = 0; i < words_.gCount; ++i)

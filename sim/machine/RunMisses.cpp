@@ -8,7 +8,7 @@
 
 namespace dotek::sim {
 
-void Run::watchMisses(const MissWatcher* watcher) {
+void Run::watchMisses(MissWatcher* watcher) {
   misses_ = watcher;
   fromMiss_.assign(cellCount_, 0);
   argumentMisses_.assign(locals_.size(), 0);
@@ -76,6 +76,18 @@ void Run::followMiss(const Instruction& at) {
     return;
   }
   default: return;
+  }
+}
+
+// After a block.
+void Run::checkShift() {
+  if (!followsMisses_ || missInHand_ == 0) return;
+  for (std::uint32_t i = 0; i < words_.gCount; ++i) {
+    const stdlib::CodeInfo* const code = control_.find('G', words_.g[i]);
+    if (code != nullptr &&
+        (code->function == stdlib::Function::LocalShift || code->function == stdlib::Function::SetPosition ||
+         code->function == stdlib::Function::RotationOn))
+      misses_->shiftedBy(missInHand_);
   }
 }
 

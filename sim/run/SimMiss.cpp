@@ -63,6 +63,15 @@ void SimWorld::checkMiss(const OffsetWrite& write) {
   addFault(std::move(one), Verdict::Fail, "FAIL: OFFSET SET WITHOUT A TOUCH", place);
 }
 
+void SimWorld::shiftedBy(std::uint32_t miss) {
+  if (miss == 0 || miss > misses_.size() || missesTold_.contains(miss)) return;
+  const Kept& kept = misses_[miss - 1];
+  const RunPlace place = place_();
+  Diagnostic one = makeDiagnostic<diag::MissShifts>(place.range, blockNow().text);
+  one.note(kept.place.range, "this skip move met nothing, and ended at " + machinePoint(kept.event.centre));
+  addFault(std::move(one), Verdict::Fail, "FAIL: SHIFTED WITHOUT A TOUCH", place);
+}
+
 void SimWorld::missEnded(const MachineMotion& motion) {
   if (motion.kind != MotionKind::Skip)
     movedOn_ = true;

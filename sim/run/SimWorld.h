@@ -134,6 +134,7 @@ public:
   void offsetWritten(const OffsetWrite& write) override;
   bool hasMisses() const override { return !misses_.empty(); }
   std::uint32_t missIn(std::uint32_t variable) const override;
+  void shiftedBy(std::uint32_t miss) override;
 
 private:
   static constexpr std::size_t kMostKept = 10'000; // of contacts and of events, in the summary

@@ -220,3 +220,21 @@ TEST_CASE(
   // The locals of the caller are its own again.
   CHECK(fails(away + "G65 P9003 C0.02\n#2002=#1\n", "#1=#3\n"));
 }
+
+TEST_CASE("miss: coordinates that are turned or shifted by one fail the run") {
+  Bench bench("dotek-miss-shifts");
+  const auto fails = [&](const std::string& body) {
+    const CommandResult out = bench.run(body);
+    CAPTURE(body);
+    CAPTURE(out.err);
+    const bool found = holds(out.err, "[miss-in-shift]");
+    CHECK(holds(bench.svg, "FAIL: SHIFTED WITHOUT A TOUCH") == found);
+    return found && out.status == 1;
+  };
+  const std::string away = std::string(kAway) + "#1=#5061\nIF[ABS[#1] GT 50.]GOTO91\nG0 X-20.\n";
+  CHECK(fails(away + "G68 X0 Y0 R[ATAN[#1-2.]/[40.]]\nG69\n"));
+  CHECK(fails(away + "#2=#1+3.\nG52 X#2\nG52 X0\n"));
+  CHECK(fails(away + "G92 X#1\n"));
+  CHECK_FALSE(fails(away + "G52 X1.5\nG52 X0\n"));
+  CHECK_FALSE(fails(away + "#1=2.\nG68 X0 Y0 R#1\nG69\n"));
+}
