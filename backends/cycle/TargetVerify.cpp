@@ -183,12 +183,6 @@ private:
     }
     verify::Record own = joinedMeasures(*now.source, record);
     leaveProbeOn(*now.source, own);
-    // A control's message to the operator (#3006) is recorded by nobody; its stop cannot be compared.
-    const bool shows = std::any_of(now.lines.begin(), now.lines.end(), [](const auto& line) {
-      return line.text.find("#3006") != std::string::npos;
-    });
-    if (shows)
-      std::erase_if(own.deeds, [](const verify::Deed& one) { return one.kind == verify::Deed::Kind::Stop; });
     // A limit that the macros look at by themselves is an `alarm` of the cycle.
     for (const MacroAlarm kind : {MacroAlarm::UpperLimit, MacroAlarm::OutOfTolerance,
                                   MacroAlarm::OutOfPosition, MacroAlarm::OutOfAngle})
