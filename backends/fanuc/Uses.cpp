@@ -58,10 +58,18 @@ Ids movesBy(const ir::CycleStatement& statement) {
   return out;
 }
 
+// G53 without an axis moves nothing: the control ends what it has read ahead.
+bool isWait(const ir::OpaqueBlock& block) {
+  return std::all_of(block.words.begin(), block.words.end(), [](const ir::Word& word) {
+    const double* code = word.address == 'G' ? ir::constantValue(word.value) : nullptr;
+    return code != nullptr && *code == 53;
+  });
+}
+
 bool mayMove(const ir::CycleStatement& statement) {
   return match(
-      statement,
-      [](const ir::OneOf<ir::Move, ir::Measure, ir::CallCycle, ir::OpaqueBlock> auto&) { return true; },
+      statement, [](const ir::OneOf<ir::Move, ir::Measure, ir::CallCycle> auto&) { return true; },
+      [](const ir::OpaqueBlock& node) { return !isWait(node); },
       [](const ir::OneOf<ir::Label, ir::Jump, ir::Branch, ir::Store, ir::ProbePower, ir::Comment, ir::Assign,
                          ir::Return, ir::Spindle, ir::Coolant, ir::SetMode, ir::Dwell, ir::Stop,
                          ir::Alarm> auto&) { return false; });
@@ -74,6 +82,17 @@ bool decides(const ir::Cycle& cycle, const std::vector<std::vector<std::size_t>>
   if (next[branch].size() < 2) return false;
   const auto first = reachableFrom(next, next[branch][0]);
   const auto second = reachableFrom(next, next[branch][1]);
+  // A side that ends in an alarm before anything moves: the branch checks.
+  const auto onlyStops = [&](const std::vector<bool>& side, std::size_t begin) {
+    bool stops = false;
+    for (std::size_t i = 0; i < cycle.body.size(); ++i) {
+      if (!side[i] && i != begin) continue;
+      if (mayMove(cycle.body[i])) return false;
+      stops = stops || std::holds_alternative<ir::Alarm>(cycle.body[i].node);
+    }
+    return stops;
+  };
+  if (onlyStops(first, next[branch][0]) || onlyStops(second, next[branch][1])) return false;
   const bool loop = first[branch] || second[branch];
   for (std::size_t i = 0; i < cycle.body.size(); ++i) {
     const bool a = first[i] || i == next[branch][0];
