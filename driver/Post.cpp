@@ -1,6 +1,7 @@
 #include "frontend/compost/Post.h"
 #include "driver/Command.h"
 #include "driver/Driver.h"
+#include "driver/PostedLimits.h"
 #include "frontend/compost/Summary.h"
 #include "project/Compilation.h"
 #include "project/CycleChecks.h"
@@ -284,6 +285,7 @@ Outcome PostCommand::run() {
   if (job) boundary(job->endRoutine, job->endRange, run);
   const std::vector<compost::PostedLine> lines = run.finish();
   checkProgramNumber(lines);
+  reportLimits(lines, session_);
   keepStrongest(session_.diagnostics());
   std::string out;
   for (const compost::PostedLine& line : lines)
