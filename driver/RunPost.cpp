@@ -220,7 +220,9 @@ Outcome newJob(const RunPostOptions& options) {
   return guarded(options.common, [&](Session& session) {
     posts::PostRunner runner(session, script::Options(session.options().scriptProgram, session.limits()));
     if (!runner.load(options.post, false)) return outcomeOf(session, "");
-    return outcomeOf(session, posts::newPostJob(options.post, runner.properties()));
+    return outcomeOf(session,
+                     posts::newPostJob(options.post, runner.properties(),
+                                       posts::namesProbing(session.sources().file(runner.file()).bytes())));
   });
 }
 

@@ -4,6 +4,7 @@
 #include "stdlib/Toml.h"
 
 #include <algorithm>
+#include <array>
 #include <fmt/format.h>
 #include <map>
 
@@ -128,7 +129,14 @@ std::vector<MatrixJob> matrixJobs(const std::string& kind, const JobOptions& opt
   return out;
 }
 
-std::string newPostJob(const std::string& post, const std::vector<PostProperty>& properties) {
+bool namesProbing(std::string_view text) {
+  constexpr std::array<std::string_view, 5> kMarks = {"probing-", "isProbing", "STRATEGY_PROBING",
+                                                      "hasParameter(\"probe", "include("};
+  return std::any_of(kMarks.begin(), kMarks.end(),
+                     [&](std::string_view mark) { return text.find(mark) != std::string_view::npos; });
+}
+
+std::string newPostJob(const std::string& post, const std::vector<PostProperty>& properties, bool probes) {
   std::string out =
       "# What `dotek run-post` hands to " + post +
       "\nschema = 1\nunit = \"mm\"\n\n[program]\nname = "
@@ -139,9 +147,10 @@ std::string newPostJob(const std::string& post, const std::vector<PostProperty>&
     if (!one.title.empty()) out += "# " + one.title + (one.choices.empty() ? "" : ": " + one.choices) + "\n";
     out += (plain ? "" : "# ") + jsonText(one.name) + " = " + one.value + "\n";
   }
-  out += R"(
-# One operation after the other; the steps of an operation in their order.
-[[section]]
+  out += "\n# One operation after the other; the steps of an operation in their order.\n";
+  if (!probes) out += "# The post names no probing cycle: a section of strategy \"probe\" is left out.\n";
+  if (probes)
+    out += R"([[section]]
 strategy = "probe"
 work_offset = 1
 tool = { number = 7, type = "TOOL_PROBE", diameter = 6.0, description = "probe", spindleRPM = 50 }
@@ -155,7 +164,8 @@ cycle = "probing-xy-circular-hole"
 points = [[100.0, 50.0, 0.0]]
 with = { clearance = 20.0, retract = 8.0, stock = 0.0, depth = 5.0, bottom = -5.0, feedrate = 1000.0, probeClearance = 4.0, probeOvertravel = 10.0, width1 = 40.0 }
 
-[[section]]
+)";
+  out += R"([[section]]
 strategy = "drill"
 work_offset = 1
 tool = { number = 3, type = "TOOL_DRILL", diameter = 8.0, description = "drill", spindleRPM = 1500, coolant = "COOLANT_FLOOD" }
