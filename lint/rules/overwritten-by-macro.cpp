@@ -34,6 +34,10 @@ void check(const NcProgram& nc, Report& report) {
   const ir::Program& program = nc.program;
   const Project& project = nc.project;
   const Probing& probing = probingOf(project);
+  // Nothing is looked up for a program that calls nothing: a file may hold many of them.
+  if (std::none_of(program.body.begin(), program.body.end(),
+                   [&](const auto& statement) { return probing.step(statement).program != 0; }))
+    return;
   // Of programs that are among the files the text says what they write.
   std::set<std::uint64_t> ofFiles;
   for (const NcFile& file : project.programs)
