@@ -180,12 +180,7 @@ private:
   // The name of a touch says the value by itself.
   bool repeats(const ir::Assign& node) {
     if (!s_.aliases.contains(node.variable)) return false;
-    const ir::ExpressionPtr* value = &node.value;
-    while (const auto* unary = std::get_if<ir::Unary>(&(*value)->node)) {
-      if (unary->op != ir::UnaryOp::NullAsZero) break;
-      value = &unary->operand;
-    }
-    const auto* result = std::get_if<ir::MeasuredResult>(&(*value)->node);
+    const auto* result = std::get_if<ir::MeasuredResult>(&bare(node.value).node);
     const auto found = result == nullptr ? s_.measured.end() : s_.measured.find(result->name);
     if (found == s_.measured.end() || found->second.find(' ') != std::string::npos) return false;
     s_.names[node.variable] = found->second;

@@ -209,15 +209,6 @@ private:
     list_ = std::move(kept);
   }
 
-  static const ir::Expression& bare(const ir::ExpressionPtr& value) {
-    const ir::ExpressionPtr* out = &value;
-    while (const auto* unary = std::get_if<ir::Unary>(&(*out)->node)) {
-      if (unary->op != ir::UnaryOp::NullAsZero) break;
-      out = &unary->operand;
-    }
-    return **out;
-  }
-
   // A name that only repeats another one is left away.
   void alias() {
     std::map<ir::VariableId, std::size_t> sets;

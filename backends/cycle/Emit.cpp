@@ -44,11 +44,10 @@ EmittedLine parameterLine(State& state, ir::VariableId id, Emitted& out) {
     state.refuse(variable.range, "a text as a parameter", "make a choice of names of it");
   const auto found = state.shifts.find(id);
   const double shift = found == state.shifts.end() ? 0 : found->second;
-  const auto names = state.choices.find(id);
-  out.parameters[variable.name] = {name, shift, names == state.choices.end() ? 0 : names->second.size()};
-  std::string initial;
   const auto chosen = state.choices.find(id);
   const bool named = chosen != state.choices.end();
+  out.parameters[variable.name] = {name, shift, named ? chosen->second.size() : 0};
+  std::string initial;
   if (named && variable.defaultValue) {
     initial = " = " + chosen->second[static_cast<std::size_t>(*variable.defaultValue) - 1];
   } else if (variable.defaultValue) {

@@ -236,6 +236,11 @@ private:
 
 } // namespace
 
+const ir::Expression& bare(const ir::ExpressionPtr& value) {
+  const auto* unary = std::get_if<ir::Unary>(&value->node);
+  return unary != nullptr && unary->op == ir::UnaryOp::NullAsZero ? bare(unary->operand) : *value;
+}
+
 bool isArea(const State& state, const ir::ExpressionPtr& value) {
   if (const auto* unary = std::get_if<ir::Unary>(&value->node))
     return (unary->op == ir::UnaryOp::NullAsZero || ir::keepsKind(unary->op)) &&

@@ -1,6 +1,7 @@
 // What a program of a control says with its own means, and the language with a word: waits, checks of the
 // control's state, the place of the probe, writes of work offsets.
 #include "backends/cycle/Idioms.h"
+#include "backends/common/Waits.h"
 #include "ir/CycleNames.h"
 #include "ir/Evaluate.h"
 #include "ir/InferKinds.h"
@@ -106,12 +107,7 @@ private:
   void dropWaits() {
     std::erase_if(list_, [&](const ir::CycleStatement& one) {
       const auto* block = std::get_if<ir::OpaqueBlock>(&one.node);
-      if (block == nullptr || block->words.size() != 1 || block->words[0].address != 'G') return false;
-      const double* code =
-          block->words[0].value == nullptr ? nullptr : ir::constantValue(block->words[0].value);
-      if (code == nullptr) return false;
-      const auto* info = control_.find('G', static_cast<std::uint32_t>(std::lround(*code * 10)));
-      if (info == nullptr || info->function != stdlib::Function::MachineCoordinates) return false;
+      if (block == nullptr || !isWait(*block, control_)) return false;
       state_.note(one.origin.range(), "a wait for the blocks before it",
                   "a cycle reads a value when it gets there; each target waits where it has to");
       return true;

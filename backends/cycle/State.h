@@ -83,6 +83,8 @@ std::string valueText(State& state, const ir::ExpressionPtr& value, ir::Kind wan
 std::string conditionText(State& state, const ir::ConditionPtr& condition, SourceRange range);
 std::string literal(double value, ir::Kind kind, const std::string& digits = "");
 ir::Kind kindOf(const State& state, const ir::ExpressionPtr& value);
+// Without the operators around it that make 0 of null.
+const ir::Expression& bare(const ir::ExpressionPtr& value);
 // A product of two lengths, which has no kind of its own.
 bool isArea(const State& state, const ir::ExpressionPtr& value);
 // A work offset: "G56", or the parameter. "": refused.

@@ -103,7 +103,8 @@ std::optional<std::vector<EmittedLine>> emit(const ir::Cycle& cycle, const EmitO
     state.refuse<diag::NoSkipPosition>(cycle.range, "macros of " + state.macros.title, state.control.title);
   state.guards = findGuards(state.control);
   if (takesOwnLength(state)) state.guards.toolLength = Guard::Absent;
-  state.moving = movingVariables(options.unshared != nullptr ? *options.unshared : state.cycle);
+  state.moving =
+      movingVariables(options.unshared != nullptr ? *options.unshared : state.cycle, state.control);
   translateVariables(state);
   collectAlarms(state);
   state.copied = findCopiedModes(state);

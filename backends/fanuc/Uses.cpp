@@ -1,5 +1,6 @@
 #include "backends/fanuc/Uses.h"
 
+#include "backends/common/Waits.h"
 #include "ir/Flow.h"
 #include "ir/Rewrite.h"
 #include "ir/Walk.h"
@@ -58,18 +59,10 @@ Ids movesBy(const ir::CycleStatement& statement) {
   return out;
 }
 
-// G53 without an axis moves nothing: the control ends what it has read ahead.
-bool isWait(const ir::OpaqueBlock& block) {
-  return std::all_of(block.words.begin(), block.words.end(), [](const ir::Word& word) {
-    const double* code = word.address == 'G' ? ir::constantValue(word.value) : nullptr;
-    return code != nullptr && *code == 53;
-  });
-}
-
-bool mayMove(const ir::CycleStatement& statement) {
+bool mayMove(const ir::CycleStatement& statement, const stdlib::Control& control) {
   return match(
       statement, [](const ir::OneOf<ir::Move, ir::Measure, ir::CallCycle> auto&) { return true; },
-      [](const ir::OpaqueBlock& node) { return !isWait(node); },
+      [&](const ir::OpaqueBlock& node) { return !isWait(node, control); },
       [](const ir::OneOf<ir::Label, ir::Jump, ir::Branch, ir::Store, ir::ProbePower, ir::Comment, ir::Assign,
                          ir::Return, ir::Spindle, ir::Coolant, ir::SetMode, ir::Dwell, ir::Stop,
                          ir::Alarm> auto&) { return false; });
@@ -77,7 +70,7 @@ bool mayMove(const ir::CycleStatement& statement) {
 
 // Whether the branch decides on a move, or on an assignment to one of `moving`.
 bool decides(const ir::Cycle& cycle, const std::vector<std::vector<std::size_t>>& next, std::size_t branch,
-             const Ids& moving) {
+             const Ids& moving, const stdlib::Control& control) {
   if (cycle.body.size() > kMostStatements) return true;
   if (next[branch].size() < 2) return false;
   const auto first = reachableFrom(next, next[branch][0]);
@@ -87,7 +80,7 @@ bool decides(const ir::Cycle& cycle, const std::vector<std::vector<std::size_t>>
     bool stops = false;
     for (std::size_t i = 0; i < cycle.body.size(); ++i) {
       if (!side[i] && i != begin) continue;
-      if (mayMove(cycle.body[i])) return false;
+      if (mayMove(cycle.body[i], control)) return false;
       stops = stops || std::holds_alternative<ir::Alarm>(cycle.body[i].node);
     }
     return stops;
@@ -98,7 +91,7 @@ bool decides(const ir::Cycle& cycle, const std::vector<std::vector<std::size_t>>
     const bool a = first[i] || i == next[branch][0];
     const bool b = second[i] || i == next[branch][1];
     if (loop ? !a && !b : a == b) continue;
-    if (mayMove(cycle.body[i])) return true;
+    if (mayMove(cycle.body[i], control)) return true;
     const auto* assign = std::get_if<ir::Assign>(&cycle.body[i].node);
     if (assign != nullptr && moving.contains(assign->variable)) return true;
   }
@@ -198,7 +191,7 @@ Ids bodyVariables(const ir::Cycle& cycle) {
   return out;
 }
 
-Ids movingVariables(const ir::Cycle& given) {
+Ids movingVariables(const ir::Cycle& given, const stdlib::Control& control) {
   const std::optional<ir::Cycle> named = withNamedStores(given);
   const ir::Cycle& cycle = named ? *named : given;
   Ids out;
@@ -217,7 +210,7 @@ Ids movingVariables(const ir::Cycle& given) {
       if (branch == nullptr) continue;
       const Ids read = idsOf(branch->condition);
       if (std::includes(out.begin(), out.end(), read.begin(), read.end())) continue;
-      if (decides(cycle, next, i, out)) out.insert(read.begin(), read.end());
+      if (decides(cycle, next, i, out, control)) out.insert(read.begin(), read.end());
     }
   }
   out.erase(out.lower_bound(static_cast<ir::VariableId>(given.variables.size())), out.end());

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "ir/Cycle.h"
+#include "stdlib/Control.h"
 
 #include <set>
 
@@ -15,8 +16,9 @@ bool isAssigned(const std::vector<ir::CycleStatement>& list, ir::VariableId id);
 // start_x, start_y, start_z.
 bool isStartHost(const ir::Variable& variable);
 // Variables that reach a coordinate, travel, diameter or feed of a move or a measurement, directly, through
-// assignments, or by choosing which of them happen.
-std::set<ir::VariableId> movingVariables(const ir::Cycle& cycle);
+// assignments, or by choosing which of them happen; not those that only choose an alarm. `control`: of the
+// blocks that are copied.
+std::set<ir::VariableId> movingVariables(const ir::Cycle& cycle, const stdlib::Control& control);
 // Variables that reach anything that the body does: read there, or in assignments to what is read there. What
 // checks alone read is not among them.
 std::set<ir::VariableId> bodyVariables(const ir::Cycle& cycle);
