@@ -4,6 +4,7 @@
 #include "frontend/macrob/Scan.h"
 #include "stdlib/MacroLimits.h"
 #include "stdlib/ReadCall.h"
+#include "support/Decimal.h"
 #include "support/messages/Commands.h"
 
 #include <fmt/format.h>
@@ -16,23 +17,22 @@ namespace {
 
 void reportLimits(const macrob::Call& call, const frontend::compost::PostedLine& line,
                   project::Session& session) {
-  const auto number = call.program == nullptr ? std::nullopt : macrob::literal(*call.program);
-  if (call.kind != macrob::CallKind::Simple || !number || *number < 1 || *number > 99999999) return;
-  const auto program = static_cast<std::uint32_t>(*number);
+  const auto program = macrob::calledProgram(call);
+  if (call.kind != macrob::CallKind::Simple || !program) return;
   std::string letters;
   for (const macrob::CallArgument& argument : call.arguments)
     letters += argument.word->address;
   for (const stdlib::MacroSet& set : session.macroSets()) {
-    if (!set.calls(program)) continue;
-    const stdlib::MacroSignature* const signature = stdlib::readCall(set, program, letters).signature;
+    if (!set.calls(*program)) continue;
+    const stdlib::MacroSignature* const signature = stdlib::readCall(set, *program, letters).signature;
     if (signature == nullptr) continue;
     for (const macrob::CallArgument& given : call.arguments) {
       const auto value = macrob::literal(*given.word);
       const stdlib::MacroArgument* const argument = signature->find(given.word->address);
       if (!value || !(*value < 0) || argument == nullptr || !stdlib::isLimit(argument->role)) continue;
-      session.diagnostics().report<diag::PostedLimit>(
-          line.range, fmt::format("{}", given.word->address), fmt::format("{:g}", *value),
-          fmt::format("P{}", program), stdlib::roleName(argument->role));
+      session.diagnostics().report<diag::PostedLimit>(line.range, std::string(1, given.word->address),
+                                                      numberText(*value), fmt::format("P{}", *program),
+                                                      stdlib::roleName(argument->role));
     }
     return;
   }

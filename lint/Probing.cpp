@@ -74,6 +74,9 @@ Probing::Probing(const Project& project) : project_(project) {
 }
 
 void Probing::readOwn() {
+  for (const NcFile& file : project_.programs)
+    for (const macrob::Program& one : file.file->programs)
+      if (one.name) own_.insert(one.name->number);
   struct Own {
     std::set<std::uint32_t> calls;
     std::uint32_t number = 0;

@@ -53,6 +53,8 @@ public:
   bool probes(const ir::Program& program) const;
   // The program is one of these files, and a G31 is in it or in one that it calls.
   bool skips(std::uint32_t program) const { return skipping_.contains(program); }
+  // A program of these files has this number.
+  bool isOwn(std::uint32_t program) const { return own_.contains(program); }
   // It is one of these files, and has a move along Z alone after its last G31 or measurement.
   bool liftsAfter(std::uint32_t program) const { return lifting_.contains(program); }
 
@@ -69,6 +71,7 @@ private:
   const Project& project_;
   // Programs of the files: without a switch, with a G31, with a move along Z after it.
   std::set<std::uint32_t> quiet_, skipping_, lifting_;
+  std::set<std::uint64_t> own_; // all of them, also those that could not be lowered
   // Without --control a code of the builder counts as the one known profile that has it says, where the files
   // probe at all: M31 is a conveyor elsewhere.
   bool guessCodes_ = false;

@@ -43,6 +43,13 @@ private:
 
 } // namespace
 
+std::optional<std::uint32_t> calledProgram(const Call& call) {
+  constexpr double kLast = 99999999;
+  const auto number = call.program == nullptr ? std::nullopt : literal(*call.program);
+  if (!number || !(*number >= 1 && *number <= kLast)) return std::nullopt;
+  return static_cast<std::uint32_t>(*number);
+}
+
 std::optional<double> literal(const Expression& expression) {
   if (expression.brackets > 0) return std::nullopt;
   if (const auto* number = std::get_if<nc::Number>(&expression.node)) return number->value;

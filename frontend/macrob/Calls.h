@@ -38,6 +38,8 @@ struct Call {
 
 // The call of an NC block; nullopt: it has none.
 std::optional<Call> callOf(const Words& words);
+// The program that it names by a number, rounded down, 1 to 99999999; nullopt: it names none, or computes it.
+std::optional<std::uint32_t> calledProgram(const Call& call);
 
 // Value of a number without brackets; nullopt: something else. Of a word, too.
 std::optional<double> literal(const Expression& expression);

@@ -28,13 +28,12 @@ std::set<std::uint64_t> ownPrograms(const Project& project) {
 void checkCall(const macrob::Words& words, const Project& project, const std::set<std::uint64_t>& own,
                Report& report) {
   const auto call = macrob::callOf(words);
-  if (!call || call->kind != macrob::CallKind::Simple || call->program == nullptr) return;
+  if (!call || call->kind != macrob::CallKind::Simple) return;
   // Words that are no arguments are reported already, and are what is missing here.
   if (!call->before.empty() || !call->refused.empty()) return;
-  const auto number = macrob::literal(*call->program);
-  if (!number || *number < 1 || *number > 99999999) return;
-  const auto program = static_cast<std::uint32_t>(*number);
-  if (own.contains(program)) return;
+  const auto number = macrob::calledProgram(*call);
+  if (!number || own.contains(*number)) return;
+  const std::uint32_t program = *number;
   for (const stdlib::MacroSet& set : project.macroSets) {
     if (!set.calls(program)) continue;
     std::string letters;

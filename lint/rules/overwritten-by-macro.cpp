@@ -34,17 +34,8 @@ void check(const NcProgram& nc, Report& report) {
   const ir::Program& program = nc.program;
   const Project& project = nc.project;
   const Probing& probing = probingOf(project);
-  // Nothing is looked up for a program that calls nothing: a file may hold many of them.
-  if (std::none_of(program.body.begin(), program.body.end(),
-                   [&](const auto& statement) { return probing.step(statement).program != 0; }))
-    return;
-  // Of programs that are among the files the text says what they write.
-  std::set<std::uint64_t> ofFiles;
-  for (const NcFile& file : project.programs)
-    for (const macrob::Program& one : file.file->programs)
-      if (one.name) ofFiles.insert(one.name->number);
   const auto setOf = [&](std::uint32_t number) -> const stdlib::MacroSet* {
-    if (ofFiles.contains(number)) return nullptr;
+    if (probing.isOwn(number)) return nullptr; // its text says what it writes
     for (const stdlib::MacroSet& set : project.macroSets)
       if (set.calls(number)) return &set;
     return nullptr;

@@ -1,4 +1,5 @@
 #include "ir/Walk.h"
+#include "lint/AfterSkip.h"
 #include "lint/NcProgram.h"
 #include "lint/Probing.h"
 
@@ -13,11 +14,6 @@ constexpr std::uint32_t kLastLocal = 33;
 constexpr std::uint32_t kFirstSystem = 1000;
 constexpr double kMostTolerance = 1.0; // mm; a larger literal may be a limit of its own
 
-// Positions of the machine and of the tool, and where a skip signal came, of three axes.
-bool isPosition(std::uint32_t number) {
-  return (number >= 5021 && number <= 5023) || (number >= 5041 && number <= 5043) ||
-         (number >= 5061 && number <= 5063);
-}
 bool isSystem(const ir::ExpressionPtr& expression) {
   const auto number = expression ? variableNumber(*expression) : std::nullopt;
   return number && *number >= kFirstSystem;
@@ -48,18 +44,20 @@ struct Uses {
   std::vector<ir::ExpressionPtr> targets; // of G31
 };
 
+// A position is in it, or a variable that holds one.
+bool isMeasured(const ir::ExpressionPtr& value, const Uses& uses) {
+  bool out = false;
+  ir::eachNode(value, [&](const ir::Expression& node) {
+    const auto number =
+        std::holds_alternative<ir::MachineVariable>(node.node) ? variableNumber(node) : std::nullopt;
+    out = out || (number && (positionAxis(*number) || uses.measured.contains(*number)));
+  });
+  return out;
+}
+
 Uses usesOf(const NcProgram& nc) {
   Uses out;
   const auto& body = nc.program.body;
-  const auto isMeasured = [&](const ir::ExpressionPtr& value) {
-    bool yes = false;
-    ir::eachNode(value, [&](const ir::Expression& node) {
-      const auto number =
-          std::holds_alternative<ir::MachineVariable>(node.node) ? variableNumber(node) : std::nullopt;
-      yes = yes || (number && (isPosition(*number) || out.measured.contains(*number)));
-    });
-    return yes;
-  };
   bool skipped = false;
   for (std::size_t i = 0; i < body.size(); ++i) {
     if (const ir::NcBlock* skip = skipOf(body[i])) {
@@ -71,7 +69,7 @@ Uses usesOf(const NcProgram& nc) {
     const auto stored = storedNumber(body[i]);
     if (store != nullptr && stored && *stored < kFirstSystem) {
       out.stores[*stored].push_back(store);
-      if (skipped && isMeasured(store->value)) out.measured.insert(*stored);
+      if (skipped && isMeasured(store->value, out)) out.measured.insert(*stored);
     }
     if (ir::conditionOf(body[i]) != nullptr) continue;
     for (const VariableRead& read : nc.reads(i))
@@ -90,16 +88,7 @@ const ir::Binary* deviation(const ir::ExpressionPtr& value, const Uses& uses) {
     return nullptr;
   for (const ir::ExpressionPtr& target : uses.targets) // whether the move came to its end
     if (target && (ir::equal(target, left) || ir::equal(target, right))) return nullptr;
-  const auto measured = [&](const ir::ExpressionPtr& side) {
-    bool yes = false;
-    ir::eachNode(side, [&](const ir::Expression& node) {
-      const auto number =
-          std::holds_alternative<ir::MachineVariable>(node.node) ? variableNumber(node) : std::nullopt;
-      yes = yes || (number && (isPosition(*number) || uses.measured.contains(*number)));
-    });
-    return yes;
-  };
-  return measured(left) != measured(right) ? difference : nullptr;
+  return isMeasured(left, uses) != isMeasured(right, uses) ? difference : nullptr;
 }
 
 // The value as a difference, or a variable that this program sets to one and to nothing else.

@@ -47,16 +47,15 @@ private:
 
 void checkCall(const macrob::Words& words, const Project& project, Wrong& found) {
   const auto call = macrob::callOf(words);
-  if (!call || call->kind != macrob::CallKind::Simple || call->program == nullptr) return;
-  const auto number = macrob::literal(*call->program);
-  if (!number || *number < 1 || *number > 99999999) return;
+  const auto number = call ? macrob::calledProgram(*call) : std::nullopt;
+  if (!number || call->kind != macrob::CallKind::Simple) return;
   for (const stdlib::MacroSet& set : project.macroSets) {
-    const auto signatures = set.of(static_cast<std::uint32_t>(*number));
+    const auto signatures = set.of(*number);
     if (signatures.empty()) continue;
     std::string letters;
     for (const macrob::CallArgument& argument : call->arguments)
       letters += argument.word->address;
-    if (!mayBeOf(set, static_cast<std::uint32_t>(*number), letters)) return;
+    if (!mayBeOf(set, *number, letters)) return;
     for (const macrob::CallArgument& argument : call->arguments) {
       const stdlib::MacroArgument* known = signatures.front()->find(argument.word->address);
       if (known == nullptr || known->role != stdlib::ArgumentRole::System) continue;
