@@ -28,6 +28,15 @@ LIMITS = [
     "ulimit -v 20000", "ulimit -v 40000", "ulimit -v 80000", "ulimit -v 200000", "ulimit -n 3", "ulimit -n 4", "ulimit -n 8", "ulimit -u 1",
     "ulimit -s 64", "ulimit -s 200", "ulimit -Ss 64", "ulimit -s unlimited", "ulimit -f 0", "ulimit -f 1", "ulimit -c 0", "ulimit -l 0",
 ]
+
+
+def bearable(limit, program):
+    """Of memory at least what the program itself takes in it: with less the system ends the process before it begins."""
+    if not limit.startswith("ulimit -v "):
+        return limit
+    return f"ulimit -v {max(int(limit.split()[-1]), pathlib.Path(program).stat().st_size // 1024 + 1024)}"
+
+
 STREAMS = {"> /dev/full": 2, ">&-": 2, "<&-": None, "2>&-": None, "2> /dev/full": None, "<&- 2>&-": None, "| head -c 1 > /dev/null": None}
 # Files that a command writes, and how it writes them.
 WRITERS = {
@@ -119,7 +128,7 @@ DRAWN = 150
 def drawn(probe, random):
     """A command below limits, with streams and signals as they come; a file that it writes is old or complete."""
     if random.random() < 0.5:
-        limits = random.sample([f"ulimit -v {random.randrange(20_000, 250_000)}", f"ulimit -n {random.randrange(3, 12)}",
+        limits = random.sample([bearable(f"ulimit -v {random.randrange(20_000, 250_000)}", probe.judge.dotek), f"ulimit -n {random.randrange(3, 12)}",
                                 f"ulimit -s {random.choice([64, 100, 300, 1000, 8000])}", f"ulimit -f {random.randrange(0, 40)}",
                                 f"ulimit -t {random.randrange(1, 3)}", f"ulimit -u {random.randrange(1, 4)}"], random.choice([1, 1, 2, 3]))
         command = random.choice(list(COMMANDS.values()))
@@ -159,7 +168,7 @@ def run(judge, folder, random):
                     right = (0, 1, 2)
             yield told(f"set -o pipefail; dotek {command} {stream}", right + ((141,) if "|" in stream else ()))
     for name in ("lint", "json", "post", "fusion", "verify", "fanuc", "check", "fmt", "doc", "preview", "cycle", "run-post", "new job", "outline", "renumber", "to cycle", "lsp"):
-        for limit in LIMITS:
+        for limit in (bearable(one, judge.dotek) for one in LIMITS):
             probe.fresh()
             # The loader may be refused the memory for a library: 127, before Dotek runs.
             yield told(f"{limit}; dotek {COMMANDS[name]} > out", (0, 1, 2) + ((127,) if "-v" in limit or "-n 3" in limit else ()))
