@@ -17,6 +17,11 @@ const ToolLengths& Analyses::toolLengths(const Project& project) {
   return *toolLengths_;
 }
 
+const Askers& Analyses::askers(const Project& project) {
+  if (!askers_) askers_ = collectAskers(project);
+  return *askers_;
+}
+
 const std::vector<Siblings>& Analyses::siblings(const Project& project) {
   if (!siblings_) siblings_ = findSiblings(project);
   return *siblings_;
@@ -49,6 +54,10 @@ const Probing& probingOf(const Project& project) {
 
 const ToolLengths& toolLengthsOf(const Project& project) {
   return project.analyses->toolLengths(project);
+}
+
+const Askers& askersOf(const Project& project) {
+  return project.analyses->askers(project);
 }
 
 const std::vector<Siblings>& siblingsOf(const Project& project) {

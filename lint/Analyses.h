@@ -1,6 +1,7 @@
 // What several rules ask of one project, computed when first asked for.
 #pragma once
 
+#include "lint/AskedVariables.h"
 #include "lint/MacroNames.h"
 #include "lint/Probing.h"
 #include "lint/ProgBlocks.h"
@@ -25,6 +26,7 @@ public:
   const SharedInputs& shared(const Project& project);
   const Probing& probing(const Project& project);
   const ToolLengths& toolLengths(const Project& project);
+  const Askers& askers(const Project& project);
   const std::vector<Siblings>& siblings(const Project& project);
   // Of statements of a Prog, known by their address.
   const std::vector<ProgBlock>& blocks(const std::vector<compost::Statement>& statements,
@@ -39,6 +41,7 @@ private:
   std::optional<SharedInputs> shared_;
   std::optional<Probing> probing_;
   std::optional<ToolLengths> toolLengths_;
+  std::optional<Askers> askers_;
   std::optional<std::vector<Siblings>> siblings_;
   std::map<const std::vector<compost::Statement>*, std::vector<ProgBlock>> blocks_;
   std::map<const gibbs::Macro*, std::vector<NameUse>> names_;

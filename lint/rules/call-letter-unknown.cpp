@@ -32,26 +32,22 @@ std::string listed(const std::set<char>& letters) {
   return out;
 }
 
-void checkFile(const macrob::File& file, const Project& project, Report& report) {
+// `own`: programs of the files, whose text says what they take.
+void checkFile(const macrob::File& file, const std::set<std::uint64_t>& own, const Project& project,
+               Report& report) {
   std::vector<Call> calls;
   for (const macrob::Program& program : file.programs) {
     for (const macrob::Block& block : program.blocks) {
       const auto* words = std::get_if<macrob::Words>(&block.body);
       auto call = words == nullptr ? std::nullopt : macrob::callOf(*words);
-      if (!call || call->kind != macrob::CallKind::Simple || call->program == nullptr) continue;
-      const auto number = macrob::literal(*call->program);
-      if (!number || *number < 1 || *number > 9999) continue;
+      const auto number = call ? macrob::calledProgram(*call) : std::nullopt;
+      if (!number || call->kind != macrob::CallKind::Simple || own.contains(*number)) continue;
       std::string letters;
       for (const macrob::CallArgument& argument : call->arguments)
         letters += argument.word->address;
-      calls.push_back({std::move(*call), static_cast<std::uint32_t>(*number), letters});
+      calls.push_back({std::move(*call), *number, letters});
     }
   }
-  std::set<std::uint64_t> own; // the text of what is among the files says what it takes
-  for (const NcFile& nc : project.programs)
-    for (const macrob::Program& program : nc.file->programs)
-      if (program.name) own.insert(program.name->number);
-  std::erase_if(calls, [&](const Call& call) { return own.contains(call.program); });
   for (const stdlib::MacroSet& set : project.macroSets) {
     // The file is one for this pack: another call fits.
     const auto fits = [&](const Call& call) {
@@ -59,11 +55,11 @@ void checkFile(const macrob::File& file, const Project& project, Report& report)
       return !known.empty() && !call.letters.empty() &&
              std::all_of(call.letters.begin(), call.letters.end(), [&](char c) { return known.contains(c); });
     };
+    if (std::none_of(calls.begin(), calls.end(), fits)) continue;
     for (const Call& call : calls) {
       const std::set<char> known = lettersOf(set, call.program);
       if (known.empty()) continue;
       const bool moves = set.of(call.program).front()->intent == stdlib::Intent::ProtectedMove;
-      if (std::none_of(calls.begin(), calls.end(), fits)) continue;
       for (const macrob::CallArgument& argument : call.call.arguments) {
         const char letter = argument.word->address;
         if (known.contains(letter)) continue;
@@ -81,8 +77,12 @@ void checkFile(const macrob::File& file, const Project& project, Report& report)
 }
 
 void check(const Project& project, Report& report) {
+  std::set<std::uint64_t> own;
   for (const NcFile& nc : project.programs)
-    checkFile(*nc.file, project, report);
+    for (const macrob::Program& program : nc.file->programs)
+      if (program.name) own.insert(program.name->number);
+  for (const NcFile& nc : project.programs)
+    checkFile(*nc.file, own, project, report);
 }
 
 } // namespace

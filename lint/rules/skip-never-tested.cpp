@@ -1,5 +1,6 @@
 #include "ir/Walk.h"
 #include "lint/AfterSkip.h"
+#include "lint/AskedVariables.h"
 
 #include <algorithm>
 #include <set>
@@ -15,28 +16,6 @@ template <class Tree> void collectNumbers(const Tree& tree, std::set<std::uint32
     if (!std::holds_alternative<ir::MachineVariable>(node.node)) return;
     if (const auto number = variableNumber(node)) out.insert(*number);
   });
-}
-
-// Variables that conditions of the program look at, and that it hands to others.
-std::set<std::uint32_t> askedIn(const ir::Program& program) {
-  std::set<std::uint32_t> out;
-  for (const ir::ProgramStatement& statement : program.body) {
-    if (const ir::ConditionPtr* condition = ir::conditionOf(statement); condition != nullptr && *condition)
-      collectNumbers(*condition, out);
-    if (callOf(statement) != nullptr) collectNumbers(statement, out);
-  }
-  return out;
-}
-
-// Those that other programs of the files ask for: results that a caller looks at.
-std::set<std::uint32_t> askedElsewhere(const NcProgram& nc) {
-  std::set<std::uint32_t> out;
-  eachProgram(nc.project, [&](const ir::Program& program, const macrob::File&) {
-    if (&program == &nc.program) return;
-    for (const std::uint32_t number : askedIn(program))
-      if (number >= kFirstCommon) out.insert(number);
-  });
-  return out;
 }
 
 // Where the contact of this G31 is taken: kept in a variable or an offset, or printed into a block that
@@ -82,7 +61,7 @@ std::set<std::uint32_t> heldIn(const ir::Program& program, std::set<std::uint32_
 
 void check(const NcProgram& nc, Report& report) {
   const auto& body = nc.program.body;
-  std::optional<std::set<std::uint32_t>> asked, elsewhere;
+  std::optional<std::set<std::uint32_t>> asked;
   for (std::size_t i = 0; i < body.size(); ++i) {
     const ir::NcBlock* skip = skipOf(body[i]);
     if (skip == nullptr || mayAskControl(body[i]) || report.full(body[i].origin.range().file)) continue;
@@ -100,10 +79,10 @@ void check(const NcProgram& nc, Report& report) {
     }
     if (!taken) continue;
     if (!asked) asked = askedIn(nc.program);
-    if (!elsewhere) elsewhere = askedElsewhere(nc);
     const std::set<std::uint32_t> all = heldIn(nc.program, std::move(held));
+    // A result that a caller looks at is asked for there.
     if (std::any_of(all.begin(), all.end(), [&](std::uint32_t number) {
-          return asked->contains(number) || elsewhere->contains(number);
+          return asked->contains(number) || (number >= kFirstCommon && askersOf(nc.project).contains(number));
         }))
       continue;
     report
