@@ -50,9 +50,7 @@ std::string nearPath(const fs::path& path) {
   return (near.empty() ? path : near).generic_string();
 }
 
-SettingsFile load(const fs::path& folder, Session& session) {
-  const fs::path file = settingsFileAbove(folder);
-  if (file.empty()) return {};
+SettingsFile load(const fs::path& file, Session& session) {
   const auto id = readSettings(nearPath(file), session.limits(), session.sources(), session.diagnostics());
   if (!id) return {};
   const auto document = TomlDocument::parse(*id, session.sources(), session.diagnostics());
@@ -167,11 +165,37 @@ Settings SettingsFile::of(const std::string& path) const {
   return out;
 }
 
+namespace {
+
+// Each folder is looked at once: without a file of its own it has the settings of the one above.
+const SettingsFile& settingsAt(const fs::path& folder, Session& session) {
+  auto& known = session.settings();
+  std::vector<std::string> without;
+  SettingsFile found;
+  for (fs::path at = folder; !at.empty(); at = at.parent_path()) {
+    const std::string name = at.generic_string();
+    if (const auto before = known.find(name); before != known.end()) {
+      if (without.empty()) return before->second;
+      found = before->second;
+      break;
+    }
+    without.push_back(name);
+    if (const fs::path file = settingsFileIn(at); !file.empty()) {
+      found = load(file, session);
+      break;
+    }
+    if (at == at.root_path()) break;
+  }
+  for (const std::string& name : without)
+    known.emplace(name, found);
+  return known[folder.generic_string()];
+}
+
+} // namespace
+
 Settings settingsOf(const std::string& path, Session& session) {
-  const fs::path whole = wholePath(path), folder = folderOf(whole);
-  const auto [at, isNew] = session.settings().try_emplace(folder.generic_string());
-  if (isNew) at->second = load(folder, session);
-  return at->second.of(whole.generic_string());
+  const fs::path whole = wholePath(path);
+  return settingsAt(folderOf(whole), session).of(whole.generic_string());
 }
 
 FlagDefaults flagDefaultsOf(const std::vector<std::string>& inputs) {
