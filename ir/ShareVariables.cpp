@@ -1,6 +1,7 @@
 #include "ir/ShareVariables.h"
 
 #include "ir/Flow.h"
+#include "ir/IdBits.h"
 #include "ir/Rewrite.h"
 #include "ir/Walk.h"
 
@@ -12,37 +13,25 @@
 namespace dotek::ir {
 namespace {
 
-using Ids = std::vector<bool>; // by variable
-
 template <class Visit> void eachRead(const CycleStatement& statement, const Visit& visit) {
   eachNode(statement, [&](const Expression& node) {
     if (const auto* use = std::get_if<VariableUse>(&node.node)) visit(use->variable);
   });
 }
 
-// true: `into` has grown.
-bool unite(Ids& into, const Ids& other) {
-  bool grown = false;
-  for (std::size_t id = 0; id < into.size(); ++id) {
-    grown = grown || (other[id] && !into[id]);
-    into[id] = into[id] || other[id];
-  }
-  return grown;
-}
-
 // Variables that some path reads after each statement, before it assigns them.
-std::vector<Ids> liveAfter(const std::vector<CycleStatement>& list, std::size_t variables) {
+std::vector<IdBits> liveAfter(const std::vector<CycleStatement>& list, std::size_t variables) {
   const auto next = successors(list);
-  std::vector<Ids> before(list.size() + 1, Ids(variables)), after(list.size(), Ids(variables));
+  std::vector<IdBits> before(list.size() + 1, IdBits(variables)), after(list.size(), IdBits(variables));
   for (bool changed = true; changed;) {
     changed = false;
     for (std::size_t i = list.size(); i-- > 0;) {
       for (const std::size_t to : next[i])
-        unite(after[i], before[to]);
-      Ids now = after[i];
-      if (const auto* assign = std::get_if<Assign>(&list[i].node)) now[assign->variable] = false;
-      eachRead(list[i], [&](VariableId id) { now[id] = true; });
-      changed |= unite(before[i], now);
+        after[i].unite(before[to]);
+      IdBits now = after[i];
+      if (const auto* assign = std::get_if<Assign>(&list[i].node)) now.erase(assign->variable);
+      eachRead(list[i], [&](VariableId id) { now.insert(id); });
+      changed |= before[i].unite(now);
     }
   }
   return after;
@@ -53,10 +42,10 @@ bool isMeasure(Kind kind) {
          kind == Kind::Flag;
 }
 
-Ids readIn(const std::vector<CycleStatement>& list, std::size_t variables) {
-  Ids out(variables);
+IdBits readIn(const std::vector<CycleStatement>& list, std::size_t variables) {
+  IdBits out(variables);
   for (const CycleStatement& statement : list)
-    eachRead(statement, [&](VariableId id) { out[id] = true; });
+    eachRead(statement, [&](VariableId id) { out.insert(id); });
   return out;
 }
 
@@ -66,12 +55,12 @@ void dropCopies(Cycle& cycle) {
   for (const auto* list : {&cycle.checks, &cycle.body})
     for (const CycleStatement& statement : *list)
       if (const auto* assign = std::get_if<Assign>(&statement.node)) ++assigned[assign->variable];
-  const Ids inChecks = readIn(cycle.checks, cycle.variables.size());
+  const IdBits inChecks = readIn(cycle.checks, cycle.variables.size());
   std::map<VariableId, VariableId> names;
   for (const CycleStatement& statement : cycle.body) {
     const auto* assign = std::get_if<Assign>(&statement.node);
     const auto* use = assign != nullptr ? std::get_if<VariableUse>(&assign->value->node) : nullptr;
-    if (use == nullptr || assigned[assign->variable] != 1 || inChecks[assign->variable] ||
+    if (use == nullptr || assigned[assign->variable] != 1 || inChecks.contains(assign->variable) ||
         cycle.variable(assign->variable).role != Role::Local)
       continue;
     const auto named = names.find(use->variable);
@@ -101,12 +90,12 @@ void dropUnneeded(Cycle& cycle) {
   std::map<LabelId, std::size_t> labels;
   for (std::size_t i = 0; i < body.size(); ++i)
     if (const auto* label = std::get_if<Label>(&body[i].node)) labels.emplace(label->label, i);
-  Ids needed = readIn(cycle.checks, cycle.variables.size());
-  for (VariableId id = 0; id < needed.size(); ++id)
-    if (cycle.variable(id).role != Role::Local) needed[id] = true;
+  IdBits needed = readIn(cycle.checks, cycle.variables.size());
+  for (VariableId id = 0; id < cycle.variables.size(); ++id)
+    if (cycle.variable(id).role != Role::Local) needed.insert(id);
   const auto isNeeded = [&](std::size_t i) {
     if (const auto* assign = std::get_if<Assign>(&body[i].node))
-      return needed[assign->variable] || !alwaysHasValue(assign->value);
+      return needed.contains(assign->variable) || !alwaysHasValue(assign->value);
     const auto* branch = std::get_if<Branch>(&body[i].node);
     return branch == nullptr || labels.at(branch->target) < i;
   };
@@ -126,7 +115,7 @@ void dropUnneeded(Cycle& cycle) {
           (!isNeeded(i) && (!std::holds_alternative<Branch>(body[i].node) || decidesNothing(i, stays))))
         continue;
       stays[i] = grown = true;
-      eachRead(body[i], [&](VariableId id) { needed[id] = true; });
+      eachRead(body[i], [&](VariableId id) { needed.insert(id); });
     }
   }
   std::vector<CycleStatement> rest;
@@ -154,52 +143,57 @@ void shareVariables(Cycle& cycle, Sharing sharing) {
     dropSelfCopies(cycle.body);
   }
   const std::size_t count = cycle.variables.size();
-  const std::vector<Ids> after = liveAfter(cycle.body, count);
-  Ids mayShare(count), assigned(count);
+  const std::vector<IdBits> after = liveAfter(cycle.body, count);
+  IdBits mayShare(count), assigned(count);
   std::vector<VariableId> order; // of their first assignments
   for (const CycleStatement& statement : cycle.body)
     if (const auto* assign = std::get_if<Assign>(&statement.node);
-        assign != nullptr && !assigned[assign->variable]) {
-      assigned[assign->variable] = true;
+        assign != nullptr && !assigned.contains(assign->variable)) {
+      assigned.insert(assign->variable);
       order.push_back(assign->variable);
     }
   for (VariableId id = 0; id < count; ++id)
-    mayShare[id] = assigned[id] && cycle.variable(id).role == Role::Local && !cycle.variable(id).optional;
+    if (assigned.contains(id) && cycle.variable(id).role == Role::Local && !cycle.variable(id).optional)
+      mayShare.insert(id);
   for (const CycleStatement& statement : cycle.checks) {
-    eachRead(statement, [&](VariableId id) { mayShare[id] = false; });
-    if (const auto* assign = std::get_if<Assign>(&statement.node)) mayShare[assign->variable] = false;
+    eachRead(statement, [&](VariableId id) { mayShare.erase(id); });
+    if (const auto* assign = std::get_if<Assign>(&statement.node)) mayShare.erase(assign->variable);
   }
   // What is needed before the first statement was not assigned by this body.
   if (!cycle.body.empty()) {
-    Ids first = after.front();
-    if (const auto* assign = std::get_if<Assign>(&cycle.body.front().node)) first[assign->variable] = false;
-    eachRead(cycle.body.front(), [&](VariableId id) { first[id] = true; });
+    IdBits first = after.front();
+    if (const auto* assign = std::get_if<Assign>(&cycle.body.front().node)) first.erase(assign->variable);
+    eachRead(cycle.body.front(), [&](VariableId id) { first.insert(id); });
     for (VariableId id = 0; id < count; ++id)
-      if (first[id]) mayShare[id] = false;
+      if (first.contains(id)) mayShare.erase(id);
   }
-  std::vector<Ids> together(count, Ids(count)); // needed at the same time
+  std::vector<IdBits> together(count, IdBits(count)); // needed at the same time
   for (std::size_t i = 0; i < cycle.body.size(); ++i) {
     const auto* assign = std::get_if<Assign>(&cycle.body[i].node);
     if (assign == nullptr) continue;
     for (VariableId id = 0; id < count; ++id)
-      if (after[i][id] && id != assign->variable)
-        together[assign->variable][id] = together[id][assign->variable] = true;
+      if (after[i].contains(id) && id != assign->variable) {
+        together[assign->variable].insert(id);
+        together[id].insert(assign->variable);
+      }
   }
   std::vector<std::vector<VariableId>> shared; // the first gives the name
   std::map<VariableId, VariableId> names;
   if (arguments) {
     // One that nothing reads is no argument.
-    const Ids inChecks = readIn(cycle.checks, count), inBody = readIn(cycle.body, count);
+    const IdBits inChecks = readIn(cycle.checks, count), inBody = readIn(cycle.body, count);
     for (VariableId id = 0; id < count; ++id)
-      if (cycle.variable(id).role == Role::Parameter && !assigned[id] && (inChecks[id] || inBody[id]))
+      if (cycle.variable(id).role == Role::Parameter && !assigned.contains(id) &&
+          (inChecks.contains(id) || inBody.contains(id)))
         shared.push_back({id});
   }
   for (const VariableId id : order) {
-    if (!mayShare[id]) continue;
+    if (!mayShare.contains(id)) continue;
     const auto fits = [&](const std::vector<VariableId>& one) {
       const Kind own = cycle.variable(id).kind, other = cycle.variable(one.front()).kind;
       return (own == other || (arguments && isMeasure(own) && isMeasure(other))) &&
-             std::none_of(one.begin(), one.end(), [&](VariableId each) { return together[id][each]; });
+             std::none_of(one.begin(), one.end(),
+                          [&](VariableId each) { return together[id].contains(each); });
     };
     const auto found = std::find_if(shared.begin(), shared.end(), fits);
     if (found == shared.end()) {
