@@ -2,6 +2,7 @@
 #include "driver/ChangedFiles.h"
 #include "driver/Command.h"
 #include "driver/Driver.h"
+#include "driver/LintBaseline.h"
 #include "driver/LintFix.h"
 #include "frontend/compost/Summary.h"
 #include "frontend/fusion/Parse.h"
@@ -95,10 +96,23 @@ public:
     select();
     session_.diagnostics().sort();
     if (!passOverBaseline()) return failed();
-    const std::string baseline =
-        options_.writeBaseline
-            ? lint::Baseline::render(session_.diagnostics(), session_.sources(), *options_.writeBaseline)
-            : "";
+    std::string baseline;
+    if (options_.writeBaseline) {
+      std::error_code error;
+      lint::Baseline before;
+      // What it holds of files that this run does not look at stays.
+      if (fs::exists(*options_.writeBaseline, error)) {
+        std::optional<lint::Baseline> written = readBaseline(*options_.writeBaseline, session_);
+        if (!written) return failed();
+        before = std::move(*written);
+      }
+      const lint::Baseline::Judged judged = judgedBy(lookedAt(), session_.sources());
+      baseline = lint::Baseline::render(session_.diagnostics(), session_.sources(), *options_.writeBaseline,
+                                        before, judged);
+      if (const std::size_t others = before.others(judged); others > 0)
+        passedOver_ = fmt::format("{} of the baseline stay{}: this run did not look for {}", others,
+                                  others == 1 ? "s" : "", others == 1 ? "it" : "them");
+    }
     const bool fails = !options_.writeBaseline && failsNow();
     Outcome outcome = outcomeOf(session_, "", true);
     outcome.summary = summary();
@@ -113,21 +127,23 @@ private:
   // false: it cannot be read; reported.
   bool passOverBaseline() {
     if (!options_.baseline) return true;
-    const auto text = session_.bytes(*options_.baseline, session_.diagnostics());
-    if (!text) return false;
-    std::string reason;
-    std::optional<lint::Baseline> baseline = lint::Baseline::read(*text, reason, *options_.baseline);
-    if (!baseline) {
-      session_.diagnostics().report<diag::BaselineUnreadable>({}, *options_.baseline, reason);
-      return false;
-    }
+    std::optional<lint::Baseline> baseline = readBaseline(*options_.baseline, session_);
+    if (!baseline) return false;
     baseline->passOver(session_.diagnostics(), session_.sources());
     passedOver_ = fmt::format("{} of the baseline passed over", baseline->passedOver());
-    if (const std::size_t gone = baseline->gone(); gone > 0)
-      passedOver_ += baseline->isOfOthers(session_.sources())
-                         ? ", as it is of other files: it names them from its own folder"
-                         : fmt::format(", {} of it gone: write it anew", gone);
+    if (const std::size_t gone = baseline->gone(judgedBy(lookedAt(), session_.sources())); gone > 0)
+      passedOver_ += fmt::format(", {} of it gone: write it anew", gone);
+    else if (baseline->isOfOthers(session_.sources()))
+      passedOver_ += ", as it is of other files: it names them from its own folder";
     return true;
+  }
+
+  LookedAt lookedAt() {
+    return {options_.paths, [this](FileId file) { return !changed_ || isChanged(file); },
+            [this](const std::string& code) { return isWantedSomewhere(code); },
+            [this](const std::string& code, FileId file) {
+              return lint::isWanted(code, options_, projects_.configOf(file));
+            }};
   }
 
   Outcome failed() {

@@ -6,6 +6,7 @@
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <vector>
 
 namespace dotek::lint {
 namespace {
@@ -62,12 +63,17 @@ std::optional<Baseline> Baseline::read(std::string_view text, std::string& reaso
   return out;
 }
 
-std::string Baseline::render(const Diagnostics& findings, const SourceMap& sources, const std::string& path) {
+std::string Baseline::render(const Diagnostics& findings, const SourceMap& sources, const std::string& path,
+                             const Baseline& before, const Judged& judged) {
   const fs::path folder = folderOf(path);
-  Json rows = Json::array();
+  std::vector<Key> keys;
   Fingerprints fingerprints;
-  for (const Diagnostic& one : findings.all()) {
-    const auto [file, code, fingerprint] = keyOf(one, sources, fingerprints);
+  for (const Diagnostic& one : findings.all())
+    keys.push_back(keyOf(one, sources, fingerprints));
+  for (const auto& [key, count] : before.held_)
+    if (!judged(std::get<0>(key), std::get<1>(key))) keys.insert(keys.end(), count, key);
+  Json rows = Json::array();
+  for (const auto& [file, code, fingerprint] : keys) {
     Json row;
     row["file"] = file.empty() ? file : fs::path(file).lexically_relative(folder).generic_string();
     row["code"] = code;
@@ -91,10 +97,17 @@ void Baseline::passOver(Diagnostics& findings, const SourceMap& sources) {
   });
 }
 
-std::size_t Baseline::gone() const {
+std::size_t Baseline::gone(const Judged& judged) const {
   std::size_t out = 0;
   for (const auto& [key, count] : held_)
-    out += count;
+    if (count > 0 && judged(std::get<0>(key), std::get<1>(key))) out += count;
+  return out;
+}
+
+std::size_t Baseline::others(const Judged& judged) const {
+  std::size_t out = 0;
+  for (const auto& [key, count] : held_)
+    if (count > 0 && !judged(std::get<0>(key), std::get<1>(key))) out += count;
   return out;
 }
 

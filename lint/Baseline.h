@@ -4,6 +4,7 @@
 #include "support/Diagnostics.h"
 
 #include <cstddef>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -18,17 +19,23 @@ public:
   // folder its names of files count from; "" for the folder that the process is in.
   static std::optional<Baseline> read(std::string_view text, std::string& reason,
                                       const std::string& path = "");
+  // Whether a run would have found the finding if it were there still: the file (absolute) was looked at, or
+  // is no longer where the run looked, and the rule ran.
+  using Judged = std::function<bool(const std::string& file, const std::string& code)>;
+
   // JSON: `schema` and `findings`, each with `file` (from the folder of `path`, however it was named), `code`
-  // and `fingerprint`. The findings are sorted.
-  static std::string render(const Diagnostics& findings, const SourceMap& sources,
-                            const std::string& path = "");
+  // and `fingerprint`. The findings are sorted. Those of `before` that the run did not judge stay.
+  static std::string render(const Diagnostics& findings, const SourceMap& sources, const std::string& path,
+                            const Baseline& before, const Judged& judged);
+  Baseline() = default; // empty
 
   // Takes out the findings that it holds; the findings are sorted. What remains of it is gone from the
   // inputs.
   void passOver(Diagnostics& findings, const SourceMap& sources);
 
   std::size_t passedOver() const { return passedOver_; }
-  std::size_t gone() const; // of what passOver() left
+  std::size_t gone(const Judged& judged) const;   // of what passOver() left
+  std::size_t others(const Judged& judged) const; // not judged by the run
   // It is of files of which none is among `sources`.
   bool isOfOthers(const SourceMap& sources) const;
 

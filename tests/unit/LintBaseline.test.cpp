@@ -62,6 +62,35 @@ TEST_CASE("baseline: a file is the same however it is named, and wherever the co
   CHECK(other.err.find("write it anew") == std::string::npos);
 }
 
+TEST_CASE(
+    "baseline: a run that looks at a part of the files calls nothing of the others gone, and keeps it") {
+  const ProcessFolder folder;
+  folder.run("git init -q; git config user.email a@b.c; git config user.name A; mkdir mill lathe");
+  folder.write("mill/O7411.nc", kOld);
+  folder.write("mill/O7412.nc", "O7412\nG0Z5.\nGOTO70\nN30M99\n");
+  folder.write("lathe/O7413.nc", "O7413\nG0Z5.\nGOTO80\nN30M99\n");
+  folder.run("dotek lint . --write-baseline known.json; git add .; git commit -qm A");
+  for (const char* command :
+       {"dotek lint mill/O7412.nc --baseline known.json", "dotek lint mill --baseline known.json",
+        "dotek lint . --baseline known.json --changed-since HEAD",
+        "dotek lint . --baseline known.json --select hash-missing"}) {
+    const ShellResult result = folder.run(command);
+    CHECK_MESSAGE(result.status == 0, command << result.out << result.err);
+    CHECK_MESSAGE(result.err.find("gone") == std::string::npos, command << result.err);
+  }
+  // A file that is gone takes its findings with it, where the run looks.
+  folder.run("rm mill/O7411.nc");
+  CHECK(folder.run("dotek lint mill --baseline known.json").err.find("1 of it gone") != std::string::npos);
+  CHECK(folder.run("dotek lint lathe --baseline known.json").err.find("gone") == std::string::npos);
+  const ShellResult part = folder.run("dotek lint mill --write-baseline known.json");
+  CHECK(part.err.find("1 of the baseline stays") != std::string::npos);
+  CHECK(Json::parse(folder.read("known.json"))["findings"].size() == 2);
+  CHECK(folder.run("dotek lint . --baseline known.json").status == 0);
+  folder.write("known.json", "not a baseline");
+  CHECK(folder.run("dotek lint . --write-baseline known.json").status == 2);
+  CHECK(folder.read("known.json") == "not a baseline");
+}
+
 TEST_CASE("baseline: what is no baseline lets nothing pass") {
   const ProcessFolder folder;
   folder.write("O7411.nc", kOld);
