@@ -164,6 +164,7 @@ std::optional<Emitted> emit(const ir::Cycle& cycle, const EmitOptions& options, 
   Emitted out;
   out.name = options.proposeName(cycle.name);
   const std::optional<Checked> checked = readChecks(state);
+  if (checked) nameSystems(state, *checked);
   std::vector<EmittedLine> parameters;
   writeParameters(state, out, parameters);
   std::vector<EmittedLine> required, computed;

@@ -48,6 +48,8 @@ private:
   // `expected`: where the feature is, along each axis.
   std::optional<Setting> setting(const std::array<std::string, 3>& expected);
   void alarmBeyond(const std::string& value, const std::string& limit, std::string_view message);
+  void alarmOutside(const std::vector<ir::Axis>& axes, const std::array<std::string, 3>& found,
+                    const std::array<std::string, 3>& expected, const std::string& zone);
   // Where it begins gets a name: what follows leads away from there.
   void keepHere(const std::vector<ir::Axis>& axes);
   // Arguments for the way down beside a feature, "depth = .., clearance = ..". "": refused.

@@ -242,6 +242,7 @@ void MeasureCall::hollow(const std::string& cycle, const std::vector<ir::Axis>& 
   const std::string overtravel = text(find(ArgumentRole::Overtravel));
   const std::string tolerance = text(find(ArgumentRole::SizeTolerance));
   const std::string zone = text(find(ArgumentRole::PositionTolerance));
+  const std::string limit = text(find(ArgumentRole::UpperLimit));
   std::string arguments = fmt::format("{} = {}", round ? "diameter" : "width", sizeText);
   if (beside) {
     const std::string down = wayDown();
@@ -260,10 +261,11 @@ void MeasureCall::hollow(const std::string& cycle, const std::vector<ir::Axis>& 
     if (beside)
       return state_.refuse(range_, "the overtravel of this call", "a called cycle has the machine's");
     walls(axes, sizeText, overtravel, found);
+    state_.measured[ir::ResultName::SizeError] =
+        fmt::format("{} - {}", state_.measured[ir::ResultName::Size],
+                    sizeText.find(' ') == std::string::npos ? sizeText : "(" + sizeText + ")");
     if (!tolerance.empty())
-      alarmBeyond(fmt::format("{} - {}", state_.measured[ir::ResultName::Size],
-                              sizeText.find(' ') == std::string::npos ? sizeText : "(" + sizeText + ")"),
-                  tolerance, "The size is out of tolerance");
+      alarmBeyond(state_.measured[ir::ResultName::SizeError], tolerance, "The size is out of tolerance");
   } else {
     const std::string name = state_.fresh(round ? (beside ? "boss" : "hole") : (beside ? "web" : "slot"));
     if (!tolerance.empty()) arguments += ", tolerance = " + tolerance;
@@ -272,14 +274,29 @@ void MeasureCall::hollow(const std::string& cycle, const std::vector<ir::Axis>& 
     for (const ir::Axis axis : axes)
       found[ir::indexOf(axis)] = state_.measured[kPositions[ir::indexOf(axis)]];
   }
-  if (!zone.empty()) {
-    if (axes.size() != 1)
-      return state_.refuse(range_, "the true position of a round feature", "compare both axes in the cycle");
-    const std::size_t i = ir::indexOf(axes.front());
-    alarmBeyond(fmt::format("2 * ({} - {})", found[i], expected[i]), zone,
-                "The middle is outside its position tolerance");
+  if (!limit.empty()) {
+    for (const ir::Axis axis : axes)
+      alarmBeyond(fmt::format("{} - {}", found[ir::indexOf(axis)], expected[ir::indexOf(axis)]), limit,
+                  "The middle is beyond the limit");
+    alarmBeyond(state_.measured[ir::ResultName::SizeError], limit, "The size is beyond the limit");
   }
+  if (!zone.empty()) alarmOutside(axes, found, expected, zone);
   if (set) writeSetting(state_, *set, found, origin_);
+}
+
+// The middle lies outside of its zone, whose diameter is given.
+void MeasureCall::alarmOutside(const std::vector<ir::Axis>& axes, const std::array<std::string, 3>& found,
+                               const std::array<std::string, 3>& expected, const std::string& zone) {
+  constexpr std::string_view kText = "The middle is outside its position tolerance";
+  const auto error = [&](ir::Axis axis) {
+    return fmt::format("{} - {}", found[ir::indexOf(axis)], expected[ir::indexOf(axis)]);
+  };
+  if (axes.size() == 1) return alarmBeyond(fmt::format("2 * ({})", error(axes.front())), zone, kText);
+  state_.add(
+      fmt::format("if 2 * sqrt(square({}) + square({})) > {} then", error(axes[0]), error(axes[1]), zone),
+      origin_);
+  state_.add(fmt::format("alarm{}", quoted(kText)), origin_);
+  state_.add("end", origin_);
 }
 
 // Two walls along each axis from the middle, with an overtravel of its own.

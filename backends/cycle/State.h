@@ -99,6 +99,12 @@ struct Checked {
 // nullopt: refused.
 std::optional<Checked> readChecks(State& state);
 
+// ---- Systems.cpp
+
+// A work offset that the checks count from a parameter (`index = wcs - 53`, set as `index + 53`) is that
+// parameter.
+void nameSystems(State& state, const Checked& checked);
+
 // ---- Body.cpp
 
 void writeBody(State& state);

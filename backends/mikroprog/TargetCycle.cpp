@@ -76,11 +76,29 @@ bool takeSetting(ir::CycleStatement& touch, ir::Axis axis, const ir::CycleSettin
   return true;
 }
 
+// Variables whose value comes from what was measured, also by way of others. The counter of a loop does not.
+std::set<ir::VariableId> measuredVariables(const ir::Cycle& cycle) {
+  std::set<ir::VariableId> out;
+  for (bool grown = true; grown;) {
+    grown = false;
+    for (const ir::CycleStatement& statement : cycle.body) {
+      const auto* set = std::get_if<ir::Assign>(&statement.node);
+      if (set == nullptr || out.contains(set->variable)) continue;
+      bool measured = false;
+      ir::eachNode(set->value, [&](const ir::Expression& node) {
+        const auto* use = std::get_if<ir::VariableUse>(&node.node);
+        measured = measured || std::holds_alternative<ir::MeasuredResult>(node.node) ||
+                   (use != nullptr && out.contains(use->variable));
+      });
+      if (measured) grown = out.insert(set->variable).second || grown;
+    }
+  }
+  return out;
+}
+
 // What still reads a value that was measured: a decision, else a place.
 void refuseMeasured(const ir::Cycle& cycle, Diagnostics& diagnostics) {
-  std::set<ir::VariableId> measured;
-  for (const ir::CycleStatement& statement : cycle.body)
-    if (const auto* set = std::get_if<ir::Assign>(&statement.node)) measured.insert(set->variable);
+  const std::set<ir::VariableId> measured = measuredVariables(cycle);
   if (measured.empty()) return;
   const ir::CycleStatement* place = nullptr;
   for (const ir::CycleStatement& statement : cycle.body) {
