@@ -67,6 +67,8 @@ void addVerify(CLI::App& app, Raw& raw) {
       ->add_option("--translation", raw.translation,
                    "look at this program instead of what convert writes: the same one, edited by hand")
       ->type_name("FILE");
+  addSeveral(*verify, "--default", raw.defaults, "default of an argument, first value of a field of a dialog",
+             "NAME=VALUE");
   addSeveral(*verify, "--var", raw.variables,
              "value of a variable before the programs begin, instead of a drawn one", "N=VALUE");
   verify->add_option("--part", raw.part, "the part that is probed (made from the source where left out)")
@@ -124,6 +126,7 @@ driver::VerifyOptions verifyOf(const Raw& raw) {
   if (!raw.activeSystem.empty())
     out.activeSystem = static_cast<std::uint32_t>(countOf("--active-system", raw.activeSystem, 54, 54, 59));
   out.variables = pairsOf("--var", raw.variables);
+  out.defaults = pairsOf("--default", raw.defaults);
   out.replay = raw.replay;
   out.values = pairsOf("--value", raw.values);
   if (!out.values.empty() && !out.replay)

@@ -32,11 +32,6 @@ public:
     if (!loadWorld(options_, plan_, own)) return outcomeOf(own, "");
     own.diagnostics() = Diagnostics();
     const Target* const target = findTarget(options_.to);
-    if (target->verify == nullptr) {
-      own.diagnostics().report<diag::CamVerify>(
-          {}, std::filesystem::path(options_.inputs.front()).stem().string());
-      return outcomeOf(own, "");
-    }
     // A program without arguments is written for each case.
     std::optional<Translated> written;
     if (target->fixesValues)

@@ -144,7 +144,7 @@ bool CaseRunner::prepare() {
   if (sourceSet_ != nullptr) sets.push_back(sourceSet_);
   sourceStand_.emplace(*inputs_->sourceControl, sets, session_.limits());
   if (!plan_.translation) return true;
-  target_ = findTarget(options_.to)->verify({options_, plan_, session_, *inputs_, *folder_});
+  target_ = findTarget(options_.to)->verify({options_, plan_, session_, *inputs_, *folder_, compilation_});
   if (target_->needsNominal()) nominal_ = std::make_unique<NominalFields>(plan_.fields);
   return target_->prepare();
 }

@@ -49,6 +49,20 @@ public:
   std::optional<verify::Case> another(std::uint64_t index) override;
   verify::Case edge(std::uint64_t index) override { return settled(draws_->edge(index)); }
   CaseResult run(const verify::Case& drawn) override;
+  // What the folder does with the values of another source's case, in its world and for its caller: the
+  // checks of its dialog, and its posted program, in which `stores` are kept.
+  struct Performed {
+    bool rejected = false;                // by the dialog
+    std::string text;                     // what it says then, or why nothing can be run
+    SourceRange at;                       // of the check
+    std::optional<verify::Record> record; // places are of the posted text; nothing: rejected, or no program
+    std::vector<frontend::compost::PostedLine> lines; // of that text
+  };
+  Performed perform(const verify::Case& values, sim::World& world, const verify::Entry& entry,
+                    const std::set<std::uint32_t>& stores, verify::Stand::Way way);
+  // The line of its Prog that printed a place of the posted text; no place: none did.
+  static SourceRange progPlace(SourceRange posted, const std::vector<frontend::compost::PostedLine>& lines);
+
   std::vector<std::pair<std::string, SourceRange>> droppedDigits(const verify::Case& drawn) override;
   std::vector<Rejection> rejections() const override;
   VerifySides sides() const override;

@@ -38,16 +38,46 @@ TargetRun CaseRunner::runTarget(const Values& values, sim::World& world, bool pr
   return target_->run(now);
 }
 
-SourceRange CaseRunner::sourceOf(SourceRange posted, const Values& values) const {
-  if (!posted.hasPlace() || values.lines.empty()) return {};
+SourceRange CaseRunner::progPlace(SourceRange posted, const std::vector<compost::PostedLine>& lines) {
+  if (!posted.hasPlace() || lines.empty()) return {};
   // The text was "O1", then a posted line each.
   std::uint32_t at = 3;
-  for (const compost::PostedLine& line : values.lines) {
+  for (const compost::PostedLine& line : lines) {
     const std::uint32_t end = at + static_cast<std::uint32_t>(line.text.size()) + 1;
     if (posted.begin < end) return posted.begin < at ? SourceRange{} : line.range;
     at = end;
   }
   return {};
+}
+
+SourceRange CaseRunner::sourceOf(SourceRange posted, const Values& values) const {
+  return progPlace(posted, values.lines);
+}
+
+CaseRunner::Performed CaseRunner::perform(const verify::Case& values, sim::World& world,
+                                          const verify::Entry& entry, const std::set<std::uint32_t>& stores,
+                                          verify::Stand::Way way) {
+  Performed out;
+  const std::unique_ptr<Values> now = check(values, false);
+  if (!now) {
+    out.text = stopped_ ? stopped_->why.message : refusal_;
+    return out;
+  }
+  if (now->rejected) {
+    out.rejected = true;
+    out.text = now->rejection;
+    out.at = now->rejectedAt;
+    return out;
+  }
+  if (!readPosted(*now)) {
+    out.text = refusal_;
+    return out;
+  }
+  now->posted->stores.insert(stores.begin(), stores.end());
+  out.record = runPosted(*now, world, entry, way);
+  std::erase_if(out.record->stores, [&](const auto& one) { return !stores.contains(one.first); });
+  out.lines = now->lines;
+  return out;
 }
 
 void CaseRunner::addFinding(CaseResult& result, const verify::Difference& difference,

@@ -139,7 +139,7 @@ bool CycleFileRunner::prepare() {
   draws_.emplace(plan_.fields, std::move(hosts), plan_.fixedHosts, options_.seed, plan_.bounds,
                  options_.cases);
   stand_.emplace(limitsOfCycle_);
-  target_ = findTarget(options_.to)->verify({options_, plan_, session_, *inputs_, *folder_});
+  target_ = findTarget(options_.to)->verify({options_, plan_, session_, *inputs_, *folder_, compilation_});
   return target_->prepare();
 }
 
@@ -150,6 +150,10 @@ void CycleFileRunner::leaveOut(verify::Case& drawn) const {
     const auto field = std::find_if(plan_.fields.begin(), plan_.fields.end(),
                                     [&](const auto& one) { return one.name == variable.name; });
     if (field == plan_.fields.end() || field->fixed) continue;
+    const Verification::Given given =
+        target_ == nullptr ? Verification::Given::AsDrawn : target_->given(variable.name);
+    if (given == Verification::Given::Never) drawn.values.erase(variable.name);
+    if (given != Verification::Given::AsDrawn) continue;
     verify::Random random(verify::Random::sub(drawn.stream, verify::Random::hash(variable.name)));
     if (random.chance(kLeftOut)) drawn.values.erase(variable.name);
   }

@@ -90,8 +90,6 @@ const Target* checkedTarget(const ConvertOptions& options, bool programs, bool c
 }
 
 void checkTargetOptions(const Target& target, const VerifyOptions& options, Diagnostics& diagnostics) {
-  if (target.verify == nullptr && !options.inputs.empty())
-    diagnostics.report<diag::CamVerify>({}, std::filesystem::path(options.inputs.front()).stem().string());
   if (!target.takesPathAlone && !options.source.prog)
     diagnostics.report<diag::MissingOption>(
         {}, "verify", "--prog PROG.txt", "a drawn path states no measurement that such a program could make");

@@ -48,11 +48,11 @@ struct Target {
   bool fixesValues = false;
   bool takesPathAlone = false;  // verify takes a cycle without a Prog: its path alone
   bool takesCycleFiles = false; // convert takes files of the cycle language
+  bool writesFolder = false;    // several files for each cycle; the last has the blocks
   // Where it fixes values: host inputs that every program needs.
   std::span<const std::string_view> hosts = {};
 
   std::unique_ptr<Conversion> (*convert)(ConversionContext& context) = nullptr;
-  // nullptr: verify refuses it, and says how else what it writes is looked at.
   std::unique_ptr<Verification> (*verify)(const VerificationSource& source) = nullptr;
   // Where inputs may be programs of macro B, too: one beside its translation. nullptr: it takes none.
   std::unique_ptr<ProgramSubject> (*programs)(const VerifyOptions& options, const VerifyPlan& plan) = nullptr;

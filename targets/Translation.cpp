@@ -31,6 +31,7 @@ ConvertOptions convertOptionsOf(const VerifyOptions& options) {
   ConvertOptions out;
   static_cast<TranslationOptions&>(out) = options;
   out.programNumber = options.programNumber;
+  out.defaults = options.defaults;
   return out;
 }
 
@@ -58,9 +59,11 @@ std::optional<Translated> translated(const VerifyOptions& options, Compilation& 
     conversion->program(options.inputs.front());
   conversion->finish();
   const ConversionResult& result = context.result;
-  if (session.diagnostics().hasErrors() || result.files.size() != 1) return std::nullopt;
+  const bool several = findTarget(options.to)->writesFolder;
+  if (session.diagnostics().hasErrors() || result.files.empty() || (result.files.size() != 1 && !several))
+    return std::nullopt;
   Translated out{
-      translationOf(result.files.front(), result.maps.front(),
+      translationOf(result.files.back(), result.maps.back(),
                     result.arguments.empty() ? std::vector<OutputArgument>() : result.arguments.front(),
                     session.sources()),
       result.macros,

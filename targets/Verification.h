@@ -3,6 +3,7 @@
 
 #include "frontend/compost/Post.h"
 #include "ir/Program.h"
+#include "project/Compilation.h"
 #include "project/CycleFolder.h"
 #include "project/Lowering.h"
 #include "project/Session.h"
@@ -114,6 +115,10 @@ public:
   virtual bool needsNominal() const { return false; }
   // Whether each datum moves the path that follows: it then has to fit the part wherever the datums are.
   virtual bool datumsMovePath() const { return false; }
+  // Which values the caller of a cycle gives, after prepare(): what he may leave out as he likes, always or
+  // never.
+  enum class Given : std::uint8_t { AsDrawn, Always, Never };
+  virtual Given given(const std::string& /*parameter*/) const { return Given::AsDrawn; }
   // Before the first case. false: reported to the session.
   virtual bool prepare() = 0;
   // The session's diagnostics are this run's own.
@@ -124,9 +129,10 @@ public:
 struct VerificationSource {
   const VerifyOptions& options;
   const VerifyPlan& plan;
-  Session& session;
+  Session& session; // of the compilation
   LoweringInputs& inputs;
   const CycleFolder& folder;
+  Compilation& compilation;
 };
 
 } // namespace dotek::targets

@@ -201,6 +201,8 @@ std::string VerifyReport::command() const {
   if (!options_.datum.empty()) flag("--datum", options_.datum);
   for (const auto& [name, variable] : options_.results)
     flag("--result", name + "=" + variable);
+  for (const auto& [name, value] : options_.defaults)
+    flag("--default", name + "=" + value);
   if (options_.programNumber) flag("--program-number", std::to_string(*options_.programNumber));
   if (options_.common.job) flag("--job", *options_.common.job);
   if (options_.translation) flag("--translation", *options_.translation);

@@ -79,7 +79,8 @@ public:
     number_ = at == std::string::npos
                   ? 0
                   : static_cast<std::uint32_t>(std::atoi(plan_.translation->text.c_str() + at + 2));
-    inner_ = target::fanuc.verify({from_.options, plan_, from_.session, from_.inputs, from_.folder});
+    inner_ = target::fanuc.verify(
+        {from_.options, plan_, from_.session, from_.inputs, from_.folder, from_.compilation});
     return inner_->prepare();
   }
 

@@ -3,6 +3,7 @@
 #include "backends/fanuc/Emit.h"
 #include "backends/gibbs/Emit.h"
 #include "backends/gibbs/TargetFields.h"
+#include "backends/gibbs/TargetVerify.h"
 #include "ir/Fold.h"
 #include "ir/ShareVariables.h"
 #include "project/CycleCatalogue.h"
@@ -12,6 +13,7 @@
 #include "support/messages/Fanuc.h"
 #include "targets/Conversion.h"
 #include "targets/KeptResults.h"
+#include "targets/Translation.h"
 
 #include <algorithm>
 #include <set>
@@ -65,6 +67,9 @@ public:
     return true;
   }
 
+  // Of the last cycle: the fields that the dialog asks for, by the source's name.
+  const std::map<std::string, std::string>& fields() const { return fields_; }
+
 private:
   void write(const CycleFolder& folder, LoweredCycle& lowered, const stdlib::MacroSet& macros,
              const std::set<ir::VariableId>& without, const KeptResults& results, const std::string* file) {
@@ -112,6 +117,8 @@ private:
       diagnostics.report<diag::CamHostUnknown>(cycle.range, "clearance", "in a computed place", "clearance");
       return;
     }
+    for (const gibbs::Field& field : out.fields)
+      if (field.asked) fields_[cycle.variable(field.variable).name] = field.name;
     ConversionResult& result = context_.result;
     result.macros = macros.name;
     result.add(out.name + "/DefineData.txt", text->define);
@@ -167,11 +174,31 @@ private:
     }
     return out;
   }
+
+  std::map<std::string, std::string> fields_;
 };
 
 constexpr TargetFlag kFlags[] = {TargetFlag::ProbeMacros, TargetFlag::Result};
 
 } // namespace
+
+std::optional<WrittenFolder> writtenFolder(const VerificationSource& source) {
+  const ConvertOptions options = convertOptionsOf(source.options);
+  ConversionContext context{options,
+                            source.compilation,
+                            source.session,
+                            source.compilation.folders(),
+                            source.compilation.usedSets(),
+                            &source.inputs};
+  GibbsConversion conversion(context);
+  if (!conversion.beginCycles() || !conversion.cycle(source.folder, 0)) return std::nullopt;
+  conversion.finish();
+  if (context.result.files.empty() || source.session.diagnostics().hasErrors()) return std::nullopt;
+  const std::string& first = context.result.files.front().name;
+  WrittenFolder out{first.substr(0, first.find('/')), context.result.files, conversion.fields()};
+  source.session.diagnostics() = Diagnostics();
+  return out;
+}
 
 namespace target {
 
@@ -179,7 +206,9 @@ DOTEK_TARGET(gibbs) = {
     .text = "folder of a custom drill cycle of GibbsCAM, with the branch of its post",
     .flags = kFlags,
     .takesCycleFiles = true,
+    .writesFolder = true,
     .convert = conversionBy<GibbsConversion>,
+    .verify = folderVerification,
 };
 
 } // namespace target

@@ -93,9 +93,9 @@ def gibbs(path, folder, reasons):
         text = re.sub(r".*\[(cam-default-missing|cam-host-unknown|no-such-field)\].*\n", "", text)
         return reason(text, reasons), ""
     written = f"{folder}/{path.stem}"
+    arguments = ["verify", *[one for one in arguments[1:] if one not in ("-d", folder, "--force")], "--cases", CASES]
+    _, branch = run(*arguments)
     flags = ["--prog", f"{written}/branch.txt", "--form", "thesis-a", "--assume", "probe-on", "--cases", CASES]
-    _, branch = run("verify", written, "--to", "fanuc", "--control", "fanuc-31i-b", "--probe-macros",
-                    "inspection-plus", *flags)
     _, back = run("verify", written, "--to", "cycle", *flags)
     return judged(branch, reasons), judged(back, reasons)
 

@@ -168,7 +168,7 @@ TEST_CASE(
 }
 
 // The branch counts from where the probe is (#5003), the path from the retract plane.
-TEST_CASE("convert to gibbs: the folder agrees with its own branch, by the command that cam-verify names") {
+TEST_CASE("convert to gibbs: the folder agrees with its own branch, run as any other folder") {
   for (const char* const name : {"surface-z", "bore"}) {
     CAPTURE(name);
     const auto one = std::find_if(cases().begin(), cases().end(),
@@ -322,11 +322,6 @@ TEST_CASE("convert to gibbs: what a dialog or a Prog cannot say is refused or sa
   driver::ConvertOptions without = optionsOf((root() / "examples/surface-x").string(), "dotek", {});
   without.common.host.clear();
   expectSaid(driver::convert(without), "cam-no-post");
-  driver::VerifyOptions verify;
-  verify.inputs = {folder.write("edge.cycle", head + touch)};
-  verify.to = "gibbs";
-  verify.probeMacros = "dotek";
-  expectSaid(driver::verify(verify), "cam-verify");
 }
 
 // Controls of a dialog as rectangles: x, y, width, height.

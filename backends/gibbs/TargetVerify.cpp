@@ -1,0 +1,276 @@
+// Cases of verify --to gibbs: the folder that was written runs as the CAM would run it. Its dialog takes or
+// rejects the values, its branch prints a program, and that program is compared with what the source does.
+#include "backends/gibbs/TargetVerify.h"
+
+#include "support/Files.h"
+#include "support/messages/Verify.h"
+#include "targets/CycleCases.h"
+#include "targets/ReadBack.h"
+#include "targets/Stage.h"
+#include "targets/Target.h"
+#include "verify/Exactness.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fmt/format.h>
+#include <fstream>
+
+namespace dotek::targets {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+// A folder of its own below that of the system's temporary files.
+class Scratch {
+public:
+  Scratch() {
+    std::error_code error;
+    std::string name = (fs::temp_directory_path(error) / "dotek-XXXXXX").string();
+    if (!error && ::mkdtemp(name.data()) != nullptr) path_ = name;
+  }
+  ~Scratch() {
+    std::error_code error;
+    if (!path_.empty()) fs::remove_all(path_, error);
+  }
+  Scratch(const Scratch&) = delete;
+  Scratch& operator=(const Scratch&) = delete;
+  const fs::path& path() const { return path_; } // "": it cannot be made
+
+private:
+  fs::path path_;
+};
+
+bool write(const fs::path& path, const std::string& text) {
+  std::error_code error;
+  fs::create_directories(path.parent_path(), error);
+  std::ofstream out(path, std::ios::binary);
+  out << text;
+  out.flush();
+  return out.good();
+}
+
+// What a message of the dialog says, out of what Dotek says of it.
+std::string_view messageIn(std::string_view rejection) {
+  const std::size_t end = rejection.rfind('`');
+  const std::size_t begin = end == 0 || end == std::string_view::npos ? end : rejection.rfind(": `", end - 1);
+  return begin == std::string_view::npos || begin == end ? rejection
+                                                         : rejection.substr(begin + 3, end - begin - 3);
+}
+
+// Of an alarm, which a control shows in capitals, cut and without marks.
+std::string lettersOf(std::string_view text) {
+  std::string out;
+  for (const char c : text)
+    if ((c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9'))
+      out += c;
+    else if (c >= 'a' && c <= 'z')
+      out += static_cast<char>(c - 'a' + 'A');
+  return out;
+}
+
+class FolderVerification final : public Verification {
+public:
+  explicit FolderVerification(const VerificationSource& source)
+      : from_(source), sourceSet_(source.session.macroSet(source.plan.sourceMacros)),
+        set_(source.session.macroSet(source.plan.targetMacros)) {}
+
+  bool prepare() override {
+    Session& session = from_.session;
+    const auto written = writtenFolder(from_);
+    if (!written) return false;
+    fields_ = written->fields;
+    fs::path folder = scratch_.path() / written->name;
+    std::string name = written->name;
+    if (from_.options.translation) {
+      // An edited one lies where its branch is.
+      folder = fs::path(*from_.options.translation).parent_path();
+      if (folder.empty()) folder = ".";
+    } else {
+      bool good = !scratch_.path().empty();
+      for (const OutputFile& file : written->files)
+        good = good && write(scratch_.path() / file.name, file.text);
+      if (!good) {
+        session.diagnostics().report<diag::TranslationNotRead>({}, written->name,
+                                                               "no temporary folder can be written");
+        return false;
+      }
+    }
+    options_.common = from_.options.common;
+    options_.common.job.reset();
+    options_.common.set.clear();
+    options_.common.field.clear();
+    options_.common.projectField.clear();
+    options_.common.host.clear();
+    options_.common.assume.insert("probe-on");
+    options_.common.from.reset();
+    options_.inputs = {folder.string()};
+    options_.source.prog = from_.options.translation
+                               ? *from_.options.translation
+                               : (folder / fs::path(written->files.back().name).filename()).string();
+    options_.source.form =
+        from_.inputs.form ? std::optional(from_.inputs.form->name) : from_.options.source.form;
+    options_.source.cycle = name;
+    options_.control = from_.inputs.control->name;
+    plan_.sourceMacros = plan_.targetMacros = from_.plan.targetMacros;
+    runner_ = std::make_unique<CaseRunner>(options_, plan_);
+    if (runner_->load() && runner_->prepare()) return true;
+    session.diagnostics().report<diag::TranslationNotRead>({}, folder.string(),
+                                                           firstError(runner_->session().diagnostics()));
+    return false;
+  }
+
+  // A field of a dialog always has a value, and what no field asks for is left out always.
+  Given given(const std::string& parameter) const override {
+    return fields_.contains(parameter) ? Given::Always : Given::Never;
+  }
+
+  TargetRun run(const TargetCase& now) override {
+    TargetRun out;
+    verify::Case values = now.drawn;
+    values.values.clear();
+    for (const auto& [name, value] : now.drawn.values)
+      if (const auto field = fields_.find(name); field != fields_.end()) values.values[field->second] = value;
+    for (const auto& [name, field] : fields_)
+      if (const auto host = now.drawn.hosts.find(name); host != now.drawn.hosts.end())
+        values.values[field] = host->second;
+    for (const char* host : {"retract", "clearance"})
+      values.hosts.try_emplace(host, now.drawn.hosts.at("start_z"));
+    const CaseRunner::Performed ran =
+        runner_->perform(values, now.world, now.entry, now.stores, verify::Stand::Way::Run);
+    if (runner_->stopped()) out.stopped = runner_->stopped()->why.message;
+    if (!out.stopped.empty()) return out;
+    if (now.rejected)
+      compareRejection(ran, now, out);
+    else if (ran.rejected && namesNoSystem(now.drawn)) {
+      out.refused = true;
+      out.why = ran.text;
+    } else if (ran.rejected)
+      out.differsAt(verify::Aspect::Ending,
+                    fmt::format("the source takes the values, and the dialog that is written says `{}`",
+                                messageIn(ran.text)),
+                    0);
+    else if (!ran.record)
+      out.differsAt(verify::Aspect::Ending, "the branch that is written prints no program: " + ran.text, 0);
+    else if (now.source != nullptr)
+      compareRecords(ran, now, out);
+    if (now.shown != nullptr && ran.record)
+      *now.shown = {
+          runner_->perform(values, now.world, now.entry, now.stores, verify::Stand::Way::KeepMoves).record,
+          ""};
+    return out;
+  }
+
+private:
+  // The dialog that is written lets nothing but a work offset through, whatever the source does with it.
+  bool namesNoSystem(const verify::Case& drawn) const {
+    return std::any_of(from_.plan.fields.begin(), from_.plan.fields.end(), [&](const verify::DrawField& one) {
+      const auto value = drawn.values.find(one.name);
+      return one.kind == ir::Kind::WorkOffset && value != drawn.values.end() &&
+             (one.systemOf(value->second) == 0 || value->second != std::floor(value->second));
+    });
+  }
+
+  std::uint32_t lineOf(SourceRange posted, const CaseRunner::Performed& ran) const {
+    const SourceRange printed = CaseRunner::progPlace(posted, ran.lines);
+    return printed.hasPlace() ? runner_->session().sources().line(printed) : 0;
+  }
+
+  void compareRejection(const CaseRunner::Performed& ran, const TargetCase& now, TargetRun& out) const {
+    const std::string_view wanted = from_.plan.cycleFile ? now.rejection : messageIn(now.rejection);
+    const std::string_view own = messageIn(ran.text);
+    if (ran.rejected) {
+      // Texts of the dialog are ASCII without quotes.
+      const auto same = [](char a, char b) {
+        return a == b || static_cast<unsigned char>(a) > 127 || static_cast<unsigned char>(b) > 127 ||
+               a == '\'' || b == '\'' || a == '"' || b == '"' || a == '?' || b == '?';
+      };
+      const bool alike = own.size() == wanted.size()
+                             ? std::equal(own.begin(), own.end(), wanted.begin(), same)
+                             : wanted.find_first_of("\"'") != std::string_view::npos ||
+                                   std::any_of(wanted.begin(), wanted.end(),
+                                               [](char c) { return static_cast<unsigned char>(c) > 127; });
+      out.refused = alike;
+      if (!alike)
+        out.differsAt(
+            verify::Aspect::Ending,
+            fmt::format("the source rejects the values, `{}`, and the dialog that is written says `{}`",
+                        wanted, own),
+            0);
+      return;
+    }
+    // What no dialog knows, such as the place of the probe, the branch asks before anything moves.
+    if (ran.record && ran.record->ending == verify::Ending::Alarm && ran.record->pieces.empty() &&
+        ran.record->measures.empty())
+      out.refused = true;
+    else
+      out.differsAt(
+          verify::Aspect::Ending,
+          fmt::format("the source rejects the values, `{}`, and the dialog that is written takes them",
+                      wanted),
+          0);
+  }
+
+  void compareRecords(const CaseRunner::Performed& ran, const TargetCase& now, TargetRun& out) const {
+    const verify::Record& source = *now.source;
+    verify::Record record = *ran.record;
+    // What macros do inside is their own business.
+    std::erase_if(record.early, [&](const verify::EarlyUse& use) { return lineOf(use.range, ran) == 0; });
+    const stdlib::Control& control = *from_.inputs.control;
+    verify::CompareRules rules;
+    rules.results = std::max(from_.options.tolerance, resultTolerance(control, *from_.inputs.sourceControl));
+    if (sourceSet_ != set_ || from_.plan.cycleFile)
+      rules.results = std::max(rules.results, verify::kGridSteps);
+    // Fields are printed to the control's least increment.
+    const double rounded = kRoundedWord * std::pow(10, -control.decimals);
+    rules.results = std::max(rules.results, rounded);
+    rules.tolerance = std::max(from_.options.tolerance, rounded);
+    rules.relative = rules.results > from_.options.tolerance ? 2e-7 : 0;
+    rules.mayRestoreModes = true;
+    rules.switchesProbe = from_.options.switchProbe;
+    const stdlib::CodeInfo* const wait = control.find(stdlib::Function::MachineCoordinates);
+    rules.waits = wait != nullptr && wait->grade != "assumed";
+    rules.sameAlarmNumbers = sourceSet_ == set_ && !from_.plan.cycleFile;
+    // An alarm of the branch before anything moves: it asks what no dialog knows.
+    if (record.ending == verify::Ending::Alarm && record.pieces.empty() && record.measures.empty() &&
+        source.ending != verify::Ending::Alarm) {
+      out.refused = true;
+      out.why = record.text;
+      return;
+    }
+    const bool own = source.ending == verify::Ending::Alarm && source.alarmKind.empty() &&
+                     record.ending == verify::Ending::Alarm && record.alarmKind.empty();
+    if (own && !lettersOf(source.text).starts_with(lettersOf(record.text)))
+      out.differsAt(verify::Aspect::Ending,
+                    fmt::format("an alarm (`{}`) against `{}`", source.text, record.text),
+                    lineOf(record.endedAt, ran));
+    const bool searches = source.ending == verify::Ending::Alarm &&
+                          source.alarmKind == stdlib::macroAlarmName(stdlib::MacroAlarm::ProbeFail);
+    if ((sourceSet_ != set_ || from_.plan.cycleFile) && searches && verify::findsAll(record)) {
+      out.undecided = true;
+      return;
+    }
+    for (verify::Difference& one : verify::compare(source, record, rules)) {
+      const std::uint32_t line = lineOf(one.target, ran);
+      out.differences.push_back({std::move(one), line, ""});
+    }
+  }
+
+  const VerificationSource from_;
+  const stdlib::MacroSet *sourceSet_, *set_;
+  Scratch scratch_;
+  VerifyOptions options_; // of the written folder
+  VerifyPlan plan_;
+  std::map<std::string, std::string> fields_; // of the written folder, by the source's name
+  std::unique_ptr<CaseRunner> runner_;
+};
+
+} // namespace
+
+std::unique_ptr<Verification> folderVerification(const VerificationSource& source) {
+  return std::make_unique<FolderVerification>(source);
+}
+
+} // namespace dotek::targets

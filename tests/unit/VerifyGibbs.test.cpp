@@ -1,0 +1,116 @@
+// verify --to gibbs: the folder that is written, by its dialog and its branch, beside its source.
+#include "driver/Driver.h"
+#include "tests/Draws.h"
+#include "tests/GoldenRunner.h"
+#include "tests/Process.h"
+#include "tests/TestFolder.h"
+
+#include <doctest/doctest.h>
+#include <string>
+
+using namespace dotek;
+using namespace dotek::tests;
+
+namespace {
+
+std::string cycle(const char* name) {
+  return (root() / "stdlib/cycles" / (std::string(name) + ".cycle")).string();
+}
+
+driver::VerifyOptions optionsOf(const std::string& input) {
+  driver::VerifyOptions out;
+  out.inputs = {input};
+  out.to = "gibbs";
+  out.control = "fanuc-31i-b";
+  out.probeMacros = "inspection-plus";
+  out.common.host = {{"approach_feed", "1000"}, {"overtravel", "5"}};
+  out.defaults = {{"system", "55"}};
+  out.jobs = 1;
+  out.cases = draws(40U, 8U);
+  return out;
+}
+
+std::string said(const driver::Outcome& outcome) {
+  std::string out = outcome.output;
+  for (const Diagnostic& one : outcome.diagnostics.all())
+    out += "\n" + one.message + " [" + std::string(one.code) + "]";
+  return out;
+}
+
+// "": it stands nowhere.
+std::string replaced(std::string text, std::string_view from, std::string_view to) {
+  const std::size_t at = text.find(from);
+  return at == std::string::npos ? "" : text.replace(at, from.size(), to);
+}
+
+} // namespace
+
+TEST_CASE("verify to gibbs: what is written of a cycle agrees with it") {
+  driver::VerifyOptions bore = optionsOf(cycle("bore"));
+  bore.defaults.emplace_back("diameter", "40");
+  driver::VerifyOptions web = optionsOf(cycle("web-y"));
+  for (const auto& one : {std::pair("width", "30"), std::pair("depth", "5"), std::pair("clearance", "8"),
+                          std::pair("tolerance", "0.1")})
+    web.defaults.emplace_back(one);
+  for (const driver::VerifyOptions& options : {bore, web}) {
+    const driver::Outcome outcome = driver::verify(options);
+    CHECK_MESSAGE(outcome.output.starts_with("AGREES"), said(outcome));
+  }
+}
+
+TEST_CASE("verify to gibbs: what is written of a folder agrees with it") {
+  driver::VerifyOptions options = optionsOf((root() / "tests/golden/cycle/from-cam/ledge").string());
+  options.source.prog = (root() / "tests/golden/cycle/from-cam/post.txt").string();
+  options.source.form = "thesis-a";
+  options.control.clear();
+  options.probeMacros.reset();
+  options.defaults = {{"NP", "55"}};
+  const driver::Outcome outcome = driver::verify(options);
+  CHECK_MESSAGE(outcome.output.starts_with("AGREES"), said(outcome));
+}
+
+TEST_CASE("verify to gibbs: a dialog or a branch that was damaged differs") {
+  const std::string convert =
+      " --to gibbs --control fanuc-31i-b --probe-macros inspection-plus --host "
+      "approach_feed=1000 --host overtravel=5 --default system=55 --default diameter=40 ";
+  const ProcessFolder folder;
+  REQUIRE(folder.run("dotek convert " + cycle("bore") + convert + "-d out").status == 0);
+  const std::string branch = folder.read("out/bore/branch.txt"),
+                    checks = folder.read("out/bore/CycleData.mac");
+  const auto verdict = [&](const std::string& cases) {
+    return folder.run("dotek verify " + cycle("bore") + convert + "--cases " + cases +
+                      " --jobs 1 --translation out/bore/branch.txt");
+  };
+  const std::string cases = std::to_string(draws(40U, 10U));
+  CHECK_MESSAGE(verdict(cases).out.starts_with("AGREES"), branch);
+
+  const auto differs = [&](const std::string& file, const std::string& text, std::string_view from,
+                           std::string_view to) {
+    CAPTURE(from);
+    const std::string damaged = replaced(text, from, to);
+    REQUIRE_MESSAGE(!damaged.empty(), text);
+    folder.write("out/bore/" + file, damaged);
+    const ShellResult result = verdict(cases);
+    CHECK_MESSAGE(result.out.starts_with("DIFFERS"), result.out << result.err);
+    folder.write("out/bore/" + file, text);
+  };
+  differs("branch.txt", branch, "G65 P9833", "G65 P9832");                    // the probe stays on
+  differs("branch.txt", branch, "]+#157-", "]-#157-");                        // a sign
+  differs("branch.txt", branch, " SeqC ' G65 P9810 Z#150 F1000.' EOL\n", ""); // a retract
+  differs("branch.txt", branch, " SeqC SpinOff EOL\n", "");
+  differs("branch.txt", branch, " SeqC ' G53' EOL\n SeqC ' #[5221", " SeqC ' #[5221"); // reads ahead
+  differs("CycleData.mac", checks, "if depth < 0 then goto", "if depth < 0.5 then goto");
+  differs("CycleData.mac", checks, "if diameter >= 2*radius+1 then goto fine", "goto fine");
+  differs("CycleData.mac", checks, "The ball has room in the bore", "The bore has room in the ball");
+}
+
+TEST_CASE("convert to gibbs with --verify writes what agrees") {
+  const ProcessFolder folder;
+  const ShellResult result =
+      folder.run("dotek convert " + cycle("surface-z") +
+                 " --to gibbs --control fanuc-31i-b --probe-macros inspection-plus --host approach_feed=1000 "
+                 "--host overtravel=5 --default system=55 --default distance=12 --verify -d out");
+  CHECK_MESSAGE(result.status == 0, result.out << result.err);
+  CHECK(result.err.find("[verified]") != std::string::npos);
+  CHECK_FALSE(folder.read("out/surface-z/branch.txt").empty());
+}
