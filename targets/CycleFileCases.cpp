@@ -30,6 +30,7 @@ constexpr std::uint64_t kCallerCases = 8; // whose callers break what the transl
 constexpr double kReach = 12;             // how far a search goes beyond a surface, mm
 constexpr double kOvertravel = 10;        // of a search where nothing states it: that of vendors' macros, mm
 constexpr double kLeastWay = 0.01;        // mm to a touch; macros take less for a stylus that is deflected
+constexpr double kMissing = 0.3;          // share of the surfaces that may be missing and are
 constexpr double kLeftOut = 0.35;         // share of the cases in which a caller leaves an argument out
 
 // Names of the choice, as many as the type has; of a flag both states.
@@ -51,6 +52,21 @@ bool touchesAtOnce(const verify::Record& record, double ballRadius, SourceRange&
     return true;
   }
   return false;
+}
+
+// Without some of those after which the cycle goes on where nothing is found; which, the values decide, so
+// that a replay has the same part.
+std::vector<verify::Touch> foundOf(const verify::CycleStand::Rehearsal& rehearsal,
+                                   const verify::Case& drawn) {
+  std::uint64_t seed = 0;
+  for (const auto& [name, value] : drawn.values)
+    seed = verify::Random::sub(seed, verify::Random::hash(name + numberText(value)));
+  std::vector<verify::Touch> out;
+  for (std::size_t i = 0; i < rehearsal.surfaces.size(); ++i) {
+    verify::Random random(verify::Random::sub(seed, i));
+    if (!rehearsal.mayMiss[i] || !random.chance(kMissing)) out.push_back(rehearsal.surfaces[i]);
+  }
+  return out;
 }
 
 } // namespace
@@ -217,15 +233,15 @@ std::unique_ptr<CycleFileRunner::Played> CycleFileRunner::play(verify::Case draw
   verify::CycleStand::Rehearsal rehearsal = stand_->rehearse(cycle(), inputsOf(out->drawn), probe, entry);
   if (plan_.part) {
     out->part = plan_.part;
-  } else if (!rehearsal.surfaces.empty()) {
+  } else if (std::vector<verify::Touch> surfaces = foundOf(rehearsal, out->drawn); !surfaces.empty()) {
     if (drawError) {
       verify::Random random(verify::Random::sub(out->drawn.stream, verify::Random::hash("part")));
       verify::Record expected;
-      expected.measures.emplace_back().nominal = rehearsal.surfaces;
+      expected.measures.emplace_back().nominal = surfaces;
       out->drawn.error = verify::drawError(expected, probe.ballRadius(), random);
     }
-    out->part = verify::partOf(rehearsal.surfaces, probe.ballRadius(), std::max(probe.ballRadius(), kReach),
-                               out->drawn.error);
+    out->part =
+        verify::partOf(surfaces, probe.ballRadius(), std::max(probe.ballRadius(), kReach), out->drawn.error);
     out->partMade = out->part.has_value();
   }
   if (!out->part) out->part = emptyPart(zero);

@@ -1,5 +1,6 @@
 #include "verify/CycleStand.h"
 
+#include "ir/CycleNames.h"
 #include "sim/cycle/CycleMachine.h"
 
 #include <utility>
@@ -30,6 +31,19 @@ sim::Machine machineAt(const Entry& entry, double length) {
   return machine;
 }
 
+// Touches after which the cycle goes on where nothing is found.
+std::set<std::pair<FileId, std::size_t>> mayMissIn(const ir::Cycle& cycle) {
+  std::set<std::pair<FileId, std::size_t>> out;
+  for (const ir::CycleStatement& statement : cycle.body) {
+    const auto* const call = std::get_if<ir::CallCycle>(&statement.node);
+    if (call == nullptr || (call->cycle != ir::kSurface && call->cycle != ir::kSurfaceAlong)) continue;
+    const SourceRange range = statement.origin.range();
+    for (const ir::CycleArgument& argument : call->arguments)
+      if (argument.parameter == "miss") out.emplace(range.file, range.begin);
+  }
+  return out;
+}
+
 } // namespace
 
 Record CycleStand::run(const ir::Cycle& cycle, sim::CycleInputs inputs, sim::World& world, const Entry& entry,
@@ -49,6 +63,10 @@ Record CycleStand::run(const ir::Cycle& cycle, sim::CycleInputs inputs, sim::Wor
   run.run();
   machine.setWatcher(nullptr);
   Record record = recorder.finish(stores);
+  const auto mayMiss = mayMissIn(cycle);
+  for (Measure& measure : record.measures)
+    if (mayMiss.contains({measure.range.file, measure.range.begin}))
+      measure.options[stdlib::ArgumentRole::FlagOnly] = 1;
   if (const auto kind = run.alarmKind()) record.alarmKind = stdlib::macroAlarmName(*kind);
   return record;
 }
@@ -60,8 +78,10 @@ CycleStand::Rehearsal CycleStand::rehearse(const ir::Cycle& cycle, sim::CycleInp
   sim::CycleRun run(machine, cycle, std::move(inputs), limits_, true);
   run.run();
   Rehearsal out;
+  const auto mayMiss = mayMissIn(cycle);
   for (const sim::ExpectedSurface& one : run.expected())
-    out.surfaces.push_back({one.point, one.direction});
+    out.surfaces.push_back({one.point, one.direction}),
+        out.mayMiss.push_back(mayMiss.contains({one.range.file, one.range.begin}));
   const sim::RunEnd& end = machine.end();
   if (end.ending == sim::Ending::TextEnd) return out;
   out.ending = end.ending == sim::Ending::Alarm ? Ending::Alarm : Ending::Inconclusive;

@@ -23,6 +23,7 @@ public:
   // that does not come to its end those before it, and `ending` says so.
   struct Rehearsal {
     std::vector<Touch> surfaces;
+    std::vector<bool> mayMiss; // of each: the cycle goes on where nothing is found
     Ending ending = Ending::Finished;
     std::string text; // why it did not
     SourceRange at;

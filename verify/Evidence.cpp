@@ -54,6 +54,7 @@ std::string whyNoEvidence(const Record& record, SourceRange& at) {
   for (const Measure& measure : record.measures) {
     at = measure.range;
     if (!measure.unstated.empty() && measure.contacts.empty()) continue;
+    if (measure.options.contains(stdlib::ArgumentRole::FlagOnly) && measure.contacts.empty()) continue;
     if (measure.contacts.empty() || measure.contacts.size() < measure.nominal.size())
       return "a measuring move makes no contact";
   }

@@ -1,5 +1,7 @@
 #include "backends/fanuc/Emit.h"
 
+#include "backends/fanuc/OwnCycles.h"
+
 #include "backends/fanuc/State.h"
 #include "backends/fanuc/Uses.h"
 #include "ir/Positions.h"
@@ -91,10 +93,11 @@ bool fits(const EmitOptions& options, SourceRange range, Diagnostics& diagnostic
 
 } // namespace
 
-std::optional<std::vector<EmittedLine>> emit(const ir::Cycle& cycle, const EmitOptions& options,
+std::optional<std::vector<EmittedLine>> emit(const ir::Cycle& given, const EmitOptions& options,
                                              const SourceMap& sources, Diagnostics& diagnostics,
                                              std::vector<Argument>* assigned) {
-  if (!fits(options, cycle.range, diagnostics)) return std::nullopt;
+  if (!fits(options, given.range, diagnostics)) return std::nullopt;
+  const ir::Cycle cycle = withTouchCalls(given, options.macros);
   auto arguments = assignLetters(cycle, options, diagnostics);
   if (!arguments) return std::nullopt;
   if (assigned != nullptr) *assigned = *arguments;
@@ -122,6 +125,8 @@ std::optional<std::vector<EmittedLine>> emit(const ir::Cycle& cycle, const EmitO
   writeList(state, state.cycle.checks, false);
   for (const ir::ExpressionPtr& system : std::exchange(state.systems, {}))
     writeSystemAlarm(state, system, made("range of the work system"));
+  for (const ir::ExpressionPtr& distance : std::exchange(state.distances, {}))
+    writeDistanceAlarm(state, distance, made("way of a touch"));
   writeModes(state, saved);
   state.sheet.append(body);
   restoreModes(state, saved);
@@ -153,9 +158,10 @@ void reportHosts(State& state) {
 
 } // namespace
 
-std::optional<BranchBlocks> emitBranch(const ir::Cycle& cycle, const EmitOptions& options,
+std::optional<BranchBlocks> emitBranch(const ir::Cycle& given, const EmitOptions& options,
                                        const SourceMap& sources, Diagnostics& diagnostics) {
   const BranchOptions& branch = *options.branch;
+  const ir::Cycle cycle = withTouchCalls(given, options.macros);
   State state(cycle, options, sources, diagnostics, {});
   if (state.macros.needsSkipPosition && !state.control.variables.skip && ir::probes(cycle))
     state.refuse<diag::NoSkipPosition>(cycle.range, "macros of " + state.macros.title, state.control.title);
@@ -174,6 +180,8 @@ std::optional<BranchBlocks> emitBranch(const ir::Cycle& cycle, const EmitOptions
     if (use == nullptr || !branch.holes.contains(use->variable)) // those of fields are the dialog's business
       writeSystemAlarm(state, system, made("range of the work system"));
   }
+  for (const ir::ExpressionPtr& distance : std::exchange(state.distances, {}))
+    writeDistanceAlarm(state, distance, made("way of a touch"));
   reportHosts(state);
   if (branch.modes) writeModes(state, {});
   state.sheet.append(body);

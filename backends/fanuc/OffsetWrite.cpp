@@ -182,6 +182,16 @@ void writeWait(State& state, const ir::Origin& origin) {
   if (wait != nullptr && wait->grade != "assumed") state.sheet.add(codeText(*wait), origin);
 }
 
+bool knownAtEntry(const State& state, const ir::ExpressionPtr& value) {
+  const auto ids = variablesOf(value);
+  return std::all_of(ids.begin(), ids.end(), [&](ir::VariableId id) {
+    // What the checks compute is known when they are done, before anything moves; a branch has none.
+    const bool known = state.cycle.variable(id).role != ir::Role::Local ||
+                       (!state.options.branch && isAssigned(state.cycle.checks, id));
+    return known && !isAssigned(state.cycle.body, id);
+  });
+}
+
 void guardSystem(State& state, const ir::ExpressionPtr& given, const ir::Origin& origin) {
   const ir::ExpressionPtr system = tidy(given);
   if (const double* value = ir::constantValue(system)) {
@@ -191,14 +201,7 @@ void guardSystem(State& state, const ir::ExpressionPtr& given, const ir::Origin&
   }
   const auto same = [&](const ir::ExpressionPtr& other) { return ir::equal(other, system); };
   if (std::any_of(state.systems.begin(), state.systems.end(), same)) return;
-  const auto ids = variablesOf(system);
-  const bool atEntry = std::all_of(ids.begin(), ids.end(), [&](ir::VariableId id) {
-    // What the checks compute is known when they are done, before anything moves; a branch has none.
-    const bool known = state.cycle.variable(id).role != ir::Role::Local ||
-                       (!state.options.branch && isAssigned(state.cycle.checks, id));
-    return known && !isAssigned(state.cycle.body, id);
-  });
-  if (atEntry)
+  if (knownAtEntry(state, system))
     state.systems.push_back(system);
   else
     writeSystemAlarm(state, system, origin);

@@ -1,5 +1,6 @@
 #include "backends/fanuc/OwnCycles.h"
 
+#include "backends/common/MacroCall.h"
 #include "ir/CycleNames.h"
 #include "support/messages/Cycle.h"
 
@@ -35,16 +36,26 @@ bool writeOwnCycle(State& state, const ir::CallCycle& cycle, const ir::Origin& o
     return refuse("a correction of a tool", "report the value, and correct the tool on the machine");
   if (cycle.cycle == ir::kKeep)
     return refuse("a value for a later run", "report the value, or decide on it in this cycle");
-  if (cycle.cycle == ir::kSurfaceAlong) return refuse("a touch along a direction", "touch along x, y or z");
+  if (cycle.cycle == ir::kSurfaceAlong) {
+    const bool plane = state.macros.find(stdlib::Intent::AngledSurface) == nullptr;
+    return refuse(plane ? "a touch along a direction" : "a touch along a direction that leads up or down",
+                  plane ? "touch along x, y or z, or take `--probe-macros dotek`"
+                        : "touch along x, y or z, or along a direction of x and y");
+  }
   if (cycle.cycle == ir::kReport) {
     leaveReportOut(state, origin);
     return true;
   }
   if (cycle.cycle == ir::kResults) return true; // taken out before
-  if (cycle.cycle != ir::kSurface) return false;
+  const bool along = cycle.set.empty() && cycle.cycle == stdlib::intentName(stdlib::Intent::AngledSurface);
+  if (cycle.cycle != ir::kSurface && !along) return false;
   if (has(cycle, "once")) return refuse("a single touch", "leave `once` out: the macros touch as they do");
-  if (has(cycle, "miss"))
-    return refuse("going on where nothing is found", "leave the `else` out: the macro stops with an alarm");
+  const stdlib::MacroSignature* const signature = signatureOf(state.macros, cycle);
+  if (cycle.set.empty() && has(cycle, stdlib::roleName(stdlib::ArgumentRole::FlagOnly)) &&
+      signature != nullptr && signature->find(stdlib::ArgumentRole::FlagOnly) == nullptr)
+    return refuse("going on where nothing is found",
+                  "leave the `else` out, and the macro stops with an alarm, or take `--probe-macros dotek`");
+  if (along) guardDistance(state, cycle, origin);
   return false;
 }
 

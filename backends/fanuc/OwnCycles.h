@@ -10,4 +10,20 @@ bool writeOwnCycle(State& state, const ir::CallCycle& cycle, const ir::Origin& o
 // Sets the offsets of a kSetOffset by the values that the program has computed.
 void writeSetOffset(State& state, const ir::CallCycle& set, const ir::Origin& origin);
 
+// ---- OwnTouches.cpp
+
+// The cycle with its touches along a direction in the plane XY as the call `angled-surface` that the set has,
+// and those that may find nothing with the parameter `flag-only`. Statements keep their places. What the set
+// has no call for stays as it is.
+ir::Cycle withTouchCalls(const ir::Cycle& given, const stdlib::MacroSet& macros);
+// It was made by withTouchCalls().
+bool isOwnTouchAlong(const ir::CycleStatement& statement);
+// An alarm where the surface of such a touch is not expected before the ball: once at entry, where it is
+// known there.
+void guardDistance(State& state, const ir::CallCycle& cycle, const ir::Origin& origin);
+void writeDistanceAlarm(State& state, const ir::ExpressionPtr& distance, const ir::Origin& origin);
+// Right after the call: what a set does not leave of such a touch, its error along the direction (Main) or
+// the height at which it was (PositionZ), mm. nullptr: the control or the set does not say enough.
+ir::ExpressionPtr resultAlong(State& state, const ir::CycleStatement& measured, ir::ResultName name);
+
 } // namespace dotek::backends::fanuc

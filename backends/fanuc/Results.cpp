@@ -1,9 +1,11 @@
 // Which variable holds what a macro measured, and keeping it where a later call would overwrite it.
 #include "backends/common/MacroCall.h"
+#include "backends/fanuc/OwnCycles.h"
 #include "backends/fanuc/State.h"
 #include "backends/fanuc/Uses.h"
 #include "ir/Flow.h"
 #include "ir/Walk.h"
+#include "support/messages/Cycle.h"
 #include "support/messages/Fanuc.h"
 
 #include <algorithm>
@@ -103,6 +105,7 @@ std::optional<ErrorOf> errorOf(ir::ResultName name) {
 
 // The macro leaves what was measured, and not its error.
 bool isComputed(const State& state, const ir::CycleStatement& measured, ir::ResultName name) {
+  if (isOwnTouchAlong(measured)) return name == ir::ResultName::Main || name == ir::ResultName::PositionZ;
   const auto of = errorOf(name);
   const stdlib::MacroSignature* signature = of ? signatureOf(state.macros, measured) : nullptr;
   if (signature == nullptr || findResult(*signature, name) != nullptr) return false;
@@ -169,7 +172,9 @@ std::optional<std::uint32_t> variableOf(State& state, ir::ResultName name, const
                                                     ir::resultTitle(*found.instead));
     if (found.result != nullptr) return found.result->variable;
   }
-  state.refuse<diag::ResultUnknown>(range, state.macros.title, ir::resultTitle(name));
+  // Of a measurement that was refused nothing more is said.
+  const bool refused = measure != nullptr && state.failed && signatureOf(state.macros, *measure) == nullptr;
+  if (!refused) state.refuse<diag::ResultUnknown>(range, state.macros.title, ir::resultTitle(name));
   return std::nullopt;
 }
 
@@ -183,6 +188,18 @@ void keepResults(State& state, const ir::Origin& given) {
     origin.ranges = given.ranges;
     if (isComputed(state, *measure, key.second)) {
       origin.reason = "measured minus expected";
+      if (isOwnTouchAlong(*measure)) {
+        const ir::ExpressionPtr value = resultAlong(state, *measure, key.second);
+        if (value == nullptr && key.second == ir::ResultName::PositionZ)
+          state.refuse<diag::CycleStatementCannot>(origin.range(), "the height of a touch along a direction",
+                                                   state.control.title, state.macros.title,
+                                                   "write `here.z + ball_radius` in its place");
+        else if (value == nullptr)
+          state.refuse<diag::ResultUnknown>(origin.range(), state.macros.title, ir::resultTitle(key.second));
+        else
+          assign(state, "#" + std::to_string(local), value, origin);
+        continue;
+      }
       const ErrorOf of = *errorOf(key.second);
       const ir::ExpressionPtr expected = expectedOf(state, *measure, of.axis);
       const auto variable = variableOf(state, of.measured, measure, origin.range());

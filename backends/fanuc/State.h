@@ -109,10 +109,11 @@ struct State {
   std::map<const ir::CycleStatement*, std::size_t> sourceAlarms; // index in `alarms`
   Guards guards;
   CopiedModes copied;
-  std::vector<ir::ExpressionPtr> systems; // work systems to be checked at entry
-  std::vector<std::string> remarks;       // of the header
-  std::set<std::string> reported;         // what is said once for the whole program
-  std::set<ir::VariableId> moving;        // movingVariables() of the cycle
+  std::vector<ir::ExpressionPtr> systems;   // work systems to be checked at entry
+  std::vector<ir::ExpressionPtr> distances; // of touches along a direction, likewise
+  std::vector<std::string> remarks;         // of the header
+  std::set<std::string> reported;           // what is said once for the whole program
+  std::set<ir::VariableId> moving;          // movingVariables() of the cycle
   // Arguments that checks ask for where they read them; before each statement of the checks those of them
   // that some way to it has not asked for; of the statement that is being written, those still to be asked
   // for.
@@ -236,6 +237,8 @@ std::optional<int> workSystemVariable(const stdlib::Control& control);
 // A block that the control does not read beyond before the axes are; nothing where it has none.
 void writeWait(State& state, const ir::Origin& origin);
 void writeSystemAlarm(State& state, const ir::ExpressionPtr& system, const ir::Origin& origin);
+// What it reads is given before the body begins, and the body changes none of it.
+bool knownAtEntry(const State& state, const ir::ExpressionPtr& value);
 // Makes sure that `system` is 54 to 59 where nothing else does.
 void guardSystem(State& state, const ir::ExpressionPtr& system, const ir::Origin& origin);
 

@@ -85,6 +85,7 @@ bool VendorRun::surface() {
     Position centre;
     double ball = 0;
     if (!touch(direction, std::abs(way), centre, travel) || !radius(direction, ball)) return false;
+    if (missed_) return true;
     foundPosition(axis, centre[i] + direction[i] * ball, start_[i] + way);
   }
   return true;
@@ -164,6 +165,7 @@ bool VendorRun::angledSurface() {
   Position centre;
   double ball = 0;
   if (!touch(direction, expected, centre) || !radius(direction, ball)) return false;
+  if (missed_) return true;
   for (const ir::Axis axis : {ir::Axis::X, ir::Axis::Y}) {
     const std::size_t i = ir::indexOf(axis);
     foundPosition(axis, centre[i] + direction[i] * ball, start_[i] + direction[i] * expected);

@@ -87,6 +87,7 @@ private:
   std::optional<double> feed_; // that stays in force; nothing: not known
 
   bool passed_ = false; // nothing is touched
+  bool missed_ = false; // a touch that may find nothing found nothing
   double radiusX_ = 0, radiusY_ = 0;
   bool vectors_ = false; // radii by direction are in force
   // How a width or a diameter is touched: from within at the height of the start; or beside the feature, down

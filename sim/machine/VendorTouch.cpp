@@ -69,9 +69,11 @@ bool VendorRun::touch(const Direction& direction, double expected, Position& cen
   const Position from = machine_.position();
   const Position end = along(from, direction, travel);
   for (int pass = 0; pass < 2; ++pass) { // a fast touch and a slow one
-    const std::optional<bool> contact = machine_.probeTo(end);
+    const bool mayMiss = value(Role::FlagOnly).value_or(0) == 1;
+    const std::optional<bool> contact = machine_.probeTo(end, mayMiss);
     if (!contact) return false;
-    if (!*contact) return alarm(stdlib::MacroAlarm::ProbeFail);
+    missed_ = !*contact;
+    if (missed_) return mayMiss ? machine_.travelTo(from) : alarm(stdlib::MacroAlarm::ProbeFail);
     centre = machine_.position();
     if (distance(from, centre) < kNoPath) return alarm(stdlib::MacroAlarm::ProbeOpen);
     if (!machine_.travelTo(from)) return false;

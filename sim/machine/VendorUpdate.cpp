@@ -15,6 +15,7 @@ using stdlib::SystemCode;
 namespace {
 
 constexpr double kNothing = 1e-9; // no difference of lengths on a grid of a nanometre
+constexpr double kNoContact = 2;  // #149 of a touch that was told to raise no alarm
 constexpr std::uint32_t kFirstSystem = 54, kSystems = 6;
 
 std::string fixed(double value) {
@@ -39,8 +40,8 @@ bool VendorRun::finish() {
       found_[Output::SizeError] = *size_ - *expectedSize_;
     }
     found_[Output::OutOfTolerance] = 0;
-    found_[Output::ProbeError] = 0;
-    if (MotionWatcher* const watcher = machine_.watcher(); watcher != nullptr)
+    found_[Output::ProbeError] = missed_ ? kNoContact : 0;
+    if (MotionWatcher* const watcher = machine_.watcher(); watcher != nullptr && !missed_)
       watcher->measured(measurementOf(signature_, locals_, found_));
   }
   if (!checkTolerances()) return false;

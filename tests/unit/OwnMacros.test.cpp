@@ -213,6 +213,23 @@ TEST_CASE("own macros: features on placed parts, both controls") {
       check(row, control);
 }
 
+TEST_CASE("own macros: M1 of a touch leaves a flag instead of an alarm, and sets nothing") {
+  const auto away = [](ContactWorld& w) { wall(w, 60, 0, 180); };
+  const auto there = [](ContactWorld& w) { wall(w, 20.3, 0, 180); };
+  const std::vector<Row> rows = {
+      {"X1.Y2.Z3.", "G65P8811X20.S4M1", away, {{149, 2}, {509, 7}, {510, 8}, {511, 9}}},
+      {"X1.Y2.Z3.", "G65P8811Z-20.M1", away, {{149, 2}}},
+      {"X1.Y2.Z3.", "G65P8811X20.S4M1", there, {{149, 0}, {135, 20.3}, {509, kX + 0.3}}},
+      {"X1.Y2.Z3.", "G65P8821A0D20.S4M1", away, {{149, 2}, {509, 7}, {510, 8}, {511, 9}}},
+      {"X1.Y2.Z3.", "G65P8821A0D20.S4M1", there, {{149, 0}, {135, 20.3}, {509, kX - 0.7}}},
+      // A touch that found something wipes out the flag of the one before.
+      {"X1.Y2.Z3.", "G65P8811X-20.M1\nG65P8811X20.", there, {{149, 0}, {135, 20.3}}},
+  };
+  for (const char* control : {"fanuc-0i-md", "fanuc-31i-b"})
+    for (const Row& row : rows)
+      check(row, control);
+}
+
 TEST_CASE("own macros: a protected move, free and obstructed") {
   for (const char* control : {"fanuc-0i-md", "fanuc-31i-b"}) {
     CAPTURE(control);
@@ -268,6 +285,9 @@ TEST_CASE("own macros: alarms") {
       {"G65P8811X20.", "alarm 3093"},
       {"G65P8814D40.", "alarm 3093"},
       {"G65P8811X20.", "alarm 3092", "", "", near},
+      {"G65P8811X20.M1", "alarm 3092", "", "", near},
+      {"G65P8811X20.M0", "alarm 3093"},
+      {"G65P8821A10.D20.M2", "alarm 3093"},
       {"G65P8811X20.", "alarm 3095", "#520=0\n"},
       {"G65P8811X20.", "alarm 3095", "#521=#0\n"},
       {"G65P8811X20.", "alarm 3095", "#522=0\n"},

@@ -109,6 +109,25 @@ TEST_CASE("no surface within the overtravel is PROBE FAIL, contact at the start 
   CHECK(open.machine->end().text == "PROBE OPEN");
 }
 
+// No set but our own has the letter.
+TEST_CASE("a touch that may find nothing: back, the flag, no offset") {
+  for (const bool there : {true, false}) {
+    VendorCase probe("dotek");
+    probe.world.wall(there ? 20.3 : 60, 0, 180);
+    REQUIRE((probe.machine->write(520, 3) && probe.machine->write(5281, 7)));
+    probe.stand(0, 2, 1);
+    REQUIRE(probe.call("8811 X20. S4 M1"));
+    CHECK(near(probe.variable(149), there ? 0 : 2));
+    CHECK(near(probe.variable(5281), there ? 0.3 : 7));
+    CHECK(near(probe.machine->position()[0], 0));
+    REQUIRE(probe.call("8821 A0 D20. S4 M1"));
+    CHECK(near(probe.variable(149), there ? 0 : 2));
+  }
+  VendorCase alarm("dotek");
+  REQUIRE(alarm.machine->write(520, 3));
+  CHECK_FALSE(alarm.call("8811 X20. M0"));
+}
+
 TEST_CASE("S: the system gets the offset in force plus the error") {
   VendorCase probe;
   probe.world.wall(120.3, 0, 180);

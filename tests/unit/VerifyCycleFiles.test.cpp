@@ -69,7 +69,8 @@ driver::Outcome verifyPlanted(driver::VerifyOptions options, const Planted& plan
 TEST_CASE("verify cycles: the library does on a control what it means") {
   for (const char* const name :
        {"bore", "bore-depth", "surface-x", "surface-y", "surface-z", "web-x", "channel-y", "mean-touch-z",
-        "corner-inner", "corner-outer", "rectangle-inside", "step-height", "edge-angle-x", "judge"})
+        "corner-inner", "corner-outer", "rectangle-inside", "step-height", "edge-angle-x", "judge",
+        "surface-angled", "bore-3", "boss-angled"})
     for (const char* const set : {"inspection-plus", "dotek"}) {
       CAPTURE(name);
       CAPTURE(set);
@@ -79,6 +80,65 @@ TEST_CASE("verify cycles: the library does on a control what it means") {
       CHECK_MESSAGE(outcome.status == 0, said(outcome));
       CHECK_MESSAGE(outcome.output.starts_with("AGREES"), outcome.output);
     }
+}
+
+TEST_CASE("verify cycles: a touch that goes on where nothing is found is tried without its surface") {
+  const TestFolder folder("dotek-miss");
+  const std::string path = folder.write("edges.cycle", R"(cycle edges "Edges that may not be there"
+
+parameter direction : angle  "Direction of the first"
+parameter way       : length "Way"                    require way > 6 mm
+result    found     : count  "How many are there"
+
+probe on
+found = 2
+touch along x cos(direction), y sin(direction) by way -> one else
+  found = found - 1
+end
+touch x by way -> two else
+  found = found - 1
+end
+probe off
+)");
+  driver::VerifyOptions options = optionsOf(path, "dotek", "fanuc-31i-b");
+  options.results = {{"found", "#600"}};
+  options.cases = 60;
+  const driver::Outcome sound = driver::verify(options);
+  CHECK_MESSAGE(sound.output.starts_with("AGREES"), said(sound));
+  for (const Planted& planted :
+       {Planted{" M1\n", "\n"}, Planted{"IF[#149 NE 0.]GOTO", "IF[#149 EQ 0.]GOTO"}}) {
+    CAPTURE(planted.was);
+    const driver::Outcome found = verifyPlanted(options, planted);
+    CHECK_MESSAGE(found.output.starts_with("DIFFERS"), said(found));
+  }
+}
+
+TEST_CASE("verify cycles: the error of a touch along a direction, whatever its parts are") {
+  const TestFolder folder("dotek-along");
+  const std::string path = folder.write("along.cycle", R"(cycle along "Along"
+
+parameter part_x, part_y : ratio  "Parts of the direction"
+parameter way            : length "Way"                   require way > 6 mm
+result    away, at_x, high : length "What is found"
+require square(part_x) + square(part_y) > 0.01
+
+probe on
+touch along x part_x, y part_y by way -> edge
+probe off
+away = edge.error
+at_x = edge.at_x
+high = edge.at_z - ball_radius
+)");
+  for (const char* const set : {"inspection-plus", "dotek"}) {
+    CAPTURE(set);
+    driver::VerifyOptions options = optionsOf(path, set, "fanuc-31i-b");
+    options.results = {{"away", "#600"}, {"at_x", "#601"}, {"high", "#602"}};
+    options.cases = 60;
+    const driver::Outcome sound = driver::verify(options);
+    CHECK_MESSAGE(sound.output.starts_with("AGREES"), said(sound));
+    const driver::Outcome planted = verifyPlanted(options, {"A#", "A-#"});
+    CHECK_MESSAGE(planted.output.starts_with("DIFFERS"), said(planted));
+  }
 }
 
 // Where the ball begins within a hundredth of the wall, macros take the stylus for deflected.
