@@ -24,8 +24,8 @@ std::optional<std::uint32_t> numberOf(std::string_view text) {
   return out;
 }
 
-std::string heading(std::string_view name, std::uint32_t number) {
-  return fmt::format("RESULT {} IN #{}", upperCase(name), number);
+std::string heading(std::string_view what, std::string_view name, std::uint32_t number) {
+  return fmt::format("{} {} IN #{}", what, upperCase(name), number);
 }
 
 } // namespace
@@ -42,8 +42,16 @@ KeptResults keepResults(ir::Cycle& cycle, const NamedTexts& given, Diagnostics& 
   std::vector<ir::CycleStatement> body;
   for (ir::CycleStatement& statement : cycle.body) {
     const auto* call = std::get_if<ir::CallCycle>(&statement.node);
-    if (call == nullptr || call->cycle != ir::kResults) {
+    const bool stored = call != nullptr && call->cycle == ir::kKeep;
+    if (call == nullptr || (call->cycle != ir::kResults && !stored)) {
       body.push_back(std::move(statement));
+      continue;
+    }
+    if (stored && std::any_of(call->arguments.begin(), call->arguments.end(),
+                              [&](const auto& one) { return !wanted.contains(one.parameter); })) {
+      for (const ir::CycleArgument& one : call->arguments)
+        known.insert(one.parameter);
+      body.push_back(std::move(statement)); // who writes the program refuses it
       continue;
     }
     for (const ir::CycleArgument& one : call->arguments) {
@@ -53,7 +61,8 @@ KeptResults keepResults(ir::Cycle& cycle, const NamedTexts& given, Diagnostics& 
         if (first) out.lost.push_back(one.parameter);
         continue;
       }
-      if (first) out.headings.push_back(heading(one.parameter, at->second));
+      if (stored) out.stored.insert(at->second);
+      if (first) out.headings.push_back(heading(stored ? "STORED" : "RESULT", one.parameter, at->second));
       body.push_back({ir::Store{ir::constant(at->second), one.value}, statement.origin});
     }
   }

@@ -1,4 +1,5 @@
 // What two runs do beside moving and measuring.
+#include "support/Ascii.h"
 #include "support/Decimal.h"
 #include "verify/CompareLeft.h"
 #include "verify/CompareParts.h"
@@ -51,13 +52,16 @@ std::string deedText(const Deed& deed) {
   return "";
 }
 
-// A program that is written cuts what the operator reads to what a control shows, after a whole word.
+// A program that is written says it in capitals, and cuts what the operator reads to what a control shows,
+// after a whole word.
 bool sameStop(const Deed& source, const Deed& target) {
   constexpr std::size_t kShownText = 26;
-  if (source.kind != Deed::Kind::Stop || target.kind != Deed::Kind::Stop || target.text.empty() ||
-      !source.text.starts_with(target.text))
+  const std::string text = upperCase(source.text), shown = upperCase(target.text);
+  if (source.kind != Deed::Kind::Stop || target.kind != Deed::Kind::Stop || shown.empty() ||
+      !text.starts_with(shown))
     return false;
-  const std::size_t next = source.text.find(' ', target.text.size() + 1);
+  if (text == shown) return true;
+  const std::size_t next = text.find(' ', shown.size() + 1);
   return std::min(next, source.text.size()) > kShownText;
 }
 

@@ -127,6 +127,8 @@ std::optional<std::vector<EmittedLine>> emit(const ir::Cycle& given, const EmitO
     writeSystemAlarm(state, system, made("range of the work system"));
   for (const ir::ExpressionPtr& distance : std::exchange(state.distances, {}))
     writeDistanceAlarm(state, distance, made("way of a touch"));
+  for (const ir::ExpressionPtr& tool : std::exchange(state.tools, {}))
+    writeToolAlarm(state, tool, made("range of the tool offset"));
   writeModes(state, saved);
   state.sheet.append(body);
   restoreModes(state, saved);
@@ -182,6 +184,11 @@ std::optional<BranchBlocks> emitBranch(const ir::Cycle& given, const EmitOptions
   }
   for (const ir::ExpressionPtr& distance : std::exchange(state.distances, {}))
     writeDistanceAlarm(state, distance, made("way of a touch"));
+  for (const ir::ExpressionPtr& tool : std::exchange(state.tools, {})) {
+    const auto* use = std::get_if<ir::VariableUse>(&tool->node);
+    if (use == nullptr || !branch.holes.contains(use->variable))
+      writeToolAlarm(state, tool, made("range of the tool offset"));
+  }
   reportHosts(state);
   if (branch.modes) writeModes(state, {});
   state.sheet.append(body);

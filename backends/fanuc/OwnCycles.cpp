@@ -32,10 +32,15 @@ bool writeOwnCycle(State& state, const ir::CallCycle& cycle, const ir::Origin& o
     writeSetOffset(state, cycle, origin);
     return true;
   }
-  if (cycle.cycle == ir::kSetTool)
-    return refuse("a correction of a tool", "report the value, and correct the tool on the machine");
-  if (cycle.cycle == ir::kKeep)
-    return refuse("a value for a later run", "report the value, or decide on it in this cycle");
+  if (cycle.cycle == ir::kSetTool) {
+    writeSetTool(state, cycle, origin);
+    return true;
+  }
+  if (cycle.cycle == ir::kKeep) {
+    const std::string remedy =
+        "name a common variable that keeps it, as `--result " + cycle.arguments.front().parameter + "=#560`";
+    return refuse("a value for a later run", remedy.c_str());
+  }
   if (cycle.cycle == ir::kSurfaceAlong) {
     const bool plane = state.macros.find(stdlib::Intent::AngledSurface) == nullptr;
     return refuse(plane ? "a touch along a direction" : "a touch along a direction that leads up or down",

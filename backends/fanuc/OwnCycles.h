@@ -10,6 +10,14 @@ bool writeOwnCycle(State& state, const ir::CallCycle& cycle, const ir::Origin& o
 // Sets the offsets of a kSetOffset by the values that the program has computed.
 void writeSetOffset(State& state, const ir::CallCycle& set, const ir::Origin& origin);
 
+// ---- ToolWrite.cpp
+
+// The length of a tool (kSetTool) into its geometry, the wear becomes 0. Refused: a radius, a control whose
+// profile says no table, a move after it.
+void writeSetTool(State& state, const ir::CallCycle& set, const ir::Origin& origin);
+// An alarm where `tool` is no offset of the table.
+void writeToolAlarm(State& state, const ir::ExpressionPtr& tool, const ir::Origin& origin);
+
 // ---- OwnTouches.cpp
 
 // The cycle with its touches along a direction in the plane XY as the call `angled-surface` that the set has,

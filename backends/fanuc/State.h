@@ -111,6 +111,7 @@ struct State {
   CopiedModes copied;
   std::vector<ir::ExpressionPtr> systems;   // work systems to be checked at entry
   std::vector<ir::ExpressionPtr> distances; // of touches along a direction, likewise
+  std::vector<ir::ExpressionPtr> tools;     // tool offsets, likewise
   std::vector<std::string> remarks;         // of the header
   std::set<std::string> reported;           // what is said once for the whole program
   std::set<ir::VariableId> moving;          // movingVariables() of the cycle

@@ -52,7 +52,7 @@ public:
     const bool ofLanguage = context_.compilation.fileOf(folder) != nullptr;
     KeptResults results;
     if (ofLanguage)
-      results = leaveResults(lowered.cycle);
+      results = leaveResults(lowered.cycle, *macros);
     else
       for (const auto& [name, number] : options_.results)
         session_.diagnostics().report<diag::CycleResultUnknown>({}, name, folder.name, "");
@@ -104,8 +104,20 @@ private:
   }
 
   // A program hands nothing back but what --result names.
-  KeptResults leaveResults(ir::Cycle& cycle) {
+  KeptResults leaveResults(ir::Cycle& cycle, const stdlib::MacroSet& macros) {
     KeptResults out = keepResults(cycle, options_.results, session_.diagnostics());
+    const auto keeps = [&](std::uint32_t number) {
+      const auto& common = context_.inputs->control->common;
+      return std::any_of(common.begin(), common.end(), [&](const stdlib::VariableRange& range) {
+        return range.kept && number >= range.first && number <= range.last;
+      });
+    };
+    for (const std::uint32_t number : out.stored)
+      if (!keeps(number))
+        session_.diagnostics().report<diag::CycleStatementCannot>(
+            cycle.range,
+            fmt::format("a value for a later run in #{}, which is empty after power on,", number),
+            context_.inputs->control->title, macros.title, "name a variable that keeps its value");
     for (const std::string& name : out.lost)
       session_.diagnostics().report<diag::ResultNotLeft>(cycle.range, name);
     return out;

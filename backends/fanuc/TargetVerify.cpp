@@ -2,6 +2,7 @@
 #include "backends/fanuc/TargetVerify.h"
 
 #include "backends/fanuc/TargetAlarms.h"
+#include "backends/fanuc/TargetEntry.h"
 #include "backends/fanuc/TargetText.h"
 #include "frontend/gibbs/Ast.h"
 #include "sim/machine/Value.h"
@@ -115,6 +116,7 @@ private:
     verify::Entry entry = now.entry;
     entry.blocks = verify::callerModes(control_, now.stream);
     addArguments(now.drawn, entry);
+    presetWear(from_, now.drawn, entry);
     return entry;
   }
 

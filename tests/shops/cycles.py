@@ -63,7 +63,14 @@ def direct(path, target, flags, reasons):
     for name, value in HOSTS.items():
         if target == "mikroprog" or name in ("approach_feed", "overtravel"):
             arguments += ["--host", f"{name}={value}"]
-    status, text = run(*arguments)
+    stored = []
+    for _ in range(6):
+        status, text = run(*arguments, *stored)
+        wanted = re.findall(r"as `--result (\w+)=#560`", text)
+        if not wanted:
+            break
+        for name in dict.fromkeys(wanted):  # values for a later run, each in a variable of its own
+            stored += ["--result", f"{name}=#{560 + len(stored) // 2}"]
     return judged(text, reasons)
 
 

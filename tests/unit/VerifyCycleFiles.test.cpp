@@ -141,6 +141,36 @@ high = edge.at_z - ball_radius
   }
 }
 
+TEST_CASE("verify cycles: the tool offsets that both sides leave") {
+  for (const char* const control : {"fanuc-31i-b", "haas-ngc"}) {
+    CAPTURE(control);
+    driver::VerifyOptions options = optionsOf(libraryPath("tool-length"), "inspection-plus", control);
+    options.cases = 40;
+    const driver::Outcome sound = driver::verify(options);
+    CHECK_MESSAGE(sound.output.starts_with("AGREES"), said(sound));
+  }
+  driver::VerifyOptions options = optionsOf(libraryPath("tool-length"), "dotek", "fanuc-31i-b");
+  options.cases = 40;
+  for (const Planted& planted : {Planted{"#[2000+#20]=0.", "#[2001+#20]=0."}, // the wear stays
+                                 Planted{"#[2200+#20]=", "#[2201+#20]="},     // another tool
+                                 Planted{"#[2200+#20]=", "#[2000+#20]="}}) {  // nothing is left of it
+    CAPTURE(planted.was);
+    const driver::Outcome found = verifyPlanted(options, planted);
+    CHECK_MESSAGE(found.output.starts_with("DIFFERS"), said(found));
+  }
+}
+
+TEST_CASE("verify cycles: a stop and values for a later run") {
+  driver::VerifyOptions options = optionsOf(libraryPath("calibrate-turn"), "dotek", "fanuc-31i-b");
+  options.cases = 20;
+  CHECK(says(driver::verify(options), "cycle-statement"));
+  options.results = {{"probe_offset_x", "#560"}, {"probe_offset_y", "#561"}};
+  const driver::Outcome sound = driver::verify(options);
+  CHECK_MESSAGE(sound.output.starts_with("AGREES"), said(sound));
+  const driver::Outcome found = verifyPlanted(options, {"#561=", "#562="});
+  CHECK_MESSAGE(found.output.starts_with("DIFFERS"), said(found));
+}
+
 // Where the ball begins within a hundredth of the wall, macros take the stylus for deflected.
 TEST_CASE("verify cycles: a touch without a way says nothing") {
   const TestFolder folder("dotek-no-way");
