@@ -26,6 +26,8 @@ namespace {
 constexpr std::uint32_t kAttempts = 2000; // to find values that the cycle takes
 // Of values with which the cycle ends in an alarm of its own: so many of a case are run on both sides.
 constexpr std::uint32_t kMostAlarms = 2;
+// Of values that the cycle takes and for which no program is written: others are not looked for any more.
+constexpr std::uint32_t kMostRefused = 300;
 constexpr std::uint64_t kCallerCases = 8; // whose callers break what the translation demands
 constexpr double kReach = 12;             // how far a search goes beyond a surface, mm
 constexpr double kOvertravel = 10;        // of a search where nothing states it: that of vendors' macros, mm
@@ -269,7 +271,7 @@ verify::Case CycleFileRunner::replayed(verify::Case drawn) const {
 
 std::optional<verify::Case> CycleFileRunner::draw(std::uint64_t index) {
   rejected_.clear();
-  std::uint32_t alarms = 0, checks = 0;
+  std::uint32_t alarms = 0, checks = 0, refused = 0;
   for (std::uint32_t tries = 0; tries < kAttempts; ++tries) {
     verify::Case proposal = draws_->propose(index, tries);
     proposal.callers = plan_.translation && (index < kCallerCases || options_.replay);
@@ -282,12 +284,20 @@ std::optional<verify::Case> CycleFileRunner::draw(std::uint64_t index) {
     leaveOut(proposal);
     settle(proposal);
     std::unique_ptr<Played> played = play(std::move(proposal), !options_.partError);
-    bool taken = played->why.empty();
+    bool taken = played->why.empty(), unwritten = false;
     // Written for each case: values for which there is no program tell nothing.
     if (taken && findTarget(options_.to)->fixesValues) {
       const TargetRun ran = runTarget(*played);
       taken = !ran.refused;
-      if (ran.refused) played->why = ran.why;
+      if (ran.refused) {
+        unwritten = true;
+        played->why = ran.why;
+        for (const Diagnostic& one : session_.diagnostics().all())
+          if (one.severity == Severity::Error) {
+            played->whyAt = one.range;
+            break;
+          }
+      }
     }
     // An alarm of the cycle is an alarm of the program, too: a difference is not drawn away. Where a move
     // that is to meet nothing grazes the part, or a touch has no way, the last digit decides.
@@ -310,7 +320,9 @@ std::optional<verify::Case> CycleFileRunner::draw(std::uint64_t index) {
       return drawn;
     }
     Rejection& rejection = rejected_[{played->why, played->whyAt.begin}];
-    rejection = {rejection.count + 1, played->why, played->whyAt};
+    rejection = {rejection.count + 1, played->why, played->whyAt, unwritten};
+    refused += unwritten ? 1 : 0;
+    if (refused >= kMostRefused) break;
   }
   return std::nullopt;
 }

@@ -105,7 +105,8 @@ struct VerifySides {
 struct Rejection {
   std::uint32_t count = 0;
   std::string why;
-  SourceRange at; // of a check; no place: the reach of the probe, or what the post prints
+  SourceRange at;            // of a check; no place: the reach of the probe, or what the post prints
+  bool byConversion = false; // the source takes them, and nothing is written for them
 };
 
 // By reason and place.

@@ -24,10 +24,18 @@ constexpr std::uint64_t kEdges = std::uint64_t{1} << 62; // numbers of edge case
 // The places of the checks are those of one thread's files, which all threads read alike.
 void tellNoValues(CaseSubject& main, const std::vector<Rejection>& rejections) {
   constexpr std::size_t kMostTold = 4;
-  std::uint32_t all = 0;
-  for (const Rejection& one : rejections)
+  std::uint32_t all = 0, refused = 0;
+  const Rejection* first = nullptr;
+  for (const Rejection& one : rejections) {
     all += one.count;
-  Diagnostic& finding = main.session().diagnostics().report<diag::NoValuesFound>(main.place(), all);
+    if (!one.byConversion) continue;
+    refused += one.count;
+    if (first == nullptr) first = &one;
+  }
+  Diagnostics& said = main.session().diagnostics();
+  Diagnostic& finding = first != nullptr
+                            ? said.report<diag::ConversionRefused>(main.place(), refused, first->why)
+                            : said.report<diag::NoValuesFound>(main.place(), all);
   for (std::size_t i = 0; i < std::min(rejections.size(), kMostTold); ++i)
     finding.note(rejections[i].at, fmt::format("{} of them: {}", rejections[i].count, rejections[i].why));
 }

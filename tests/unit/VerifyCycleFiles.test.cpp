@@ -171,6 +171,19 @@ TEST_CASE("verify cycles: a stop and values for a later run") {
   CHECK_MESSAGE(found.output.starts_with("DIFFERS"), said(found));
 }
 
+// Its middle is computed from contacts, whatever the values are.
+TEST_CASE("verify cycles: a cycle that no values make a program of is refused as such") {
+  driver::VerifyOptions options = optionsOf(libraryPath("bore"), "", "mikroprog-mill");
+  options.to = "mikroprog";
+  options.probeMacros.reset();
+  options.cases = 5;
+  options.common.host = {{"approach_feed", "1000"}, {"overtravel", "5"}, {"start_x", "0"},
+                         {"start_y", "0"},          {"start_z", "10"},   {"retract", "20"}};
+  const driver::Outcome outcome = driver::verify(options);
+  CHECK_MESSAGE(says(outcome, "conversion-refused"), said(outcome));
+  CHECK(said(outcome).find("computes nothing with what was measured") != std::string::npos);
+}
+
 // Where the ball begins within a hundredth of the wall, macros take the stylus for deflected.
 TEST_CASE("verify cycles: a touch without a way says nothing") {
   const TestFolder folder("dotek-no-way");
