@@ -16,13 +16,14 @@ namespace gibbs = frontend::gibbs;
 FieldTable::FieldTable(const CycleFolder& folder, std::vector<std::string> printed, Session& session)
     : folder_(folder), session_(session), printed_(std::move(printed)) {
   for (const gibbs::Field& field : gibbs::declaredFields(*folder.cycle))
-    entries_.push_back({field.name.text, field.value, field.valueRange, field.assumption});
+    entries_.push_back(
+        {field.name.text, gibbs::foldCase(field.name.text), field.value, field.valueRange, field.assumption});
 }
 
 const FieldTable::Entry* FieldTable::declared(const std::string& name) const {
   const std::string folded = gibbs::foldCase(name);
-  const auto found = std::find_if(entries_.begin(), entries_.end(),
-                                  [&](const Entry& e) { return gibbs::foldCase(e.name) == folded; });
+  const auto found =
+      std::find_if(entries_.begin(), entries_.end(), [&](const Entry& e) { return e.folded == folded; });
   return found == entries_.end() ? nullptr : &*found;
 }
 
@@ -205,14 +206,14 @@ std::optional<double> FieldTable::value(const std::string& name, SourceRange whe
 std::map<std::string, double> FieldTable::macroValues() const {
   std::map<std::string, double> out;
   for (const Entry& entry : entries_) {
-    if (entry.value) out.emplace(gibbs::foldCase(entry.name), *entry.value);
+    if (entry.value) out.emplace(entry.folded, *entry.value);
   }
   return out;
 }
 
 void FieldTable::change(const std::string& folded, double value) {
   for (Entry& entry : entries_) {
-    if (gibbs::foldCase(entry.name) == folded) entry.value = value;
+    if (entry.folded == folded) entry.value = value;
   }
 }
 

@@ -55,6 +55,7 @@ public:
 private:
   struct Entry {
     std::string name; // as the macro spells it
+    std::string folded;
     std::optional<double> value;
     SourceRange valueRange;
     std::string_view assumption; // that reading the first value needs; "" for none

@@ -9,7 +9,8 @@ namespace dotek::stdlib {
 namespace {
 
 template <class T> const T* lookUp(const NameMap<T>& map, std::string_view name) {
-  const auto at = map.find(upperCase(name));
+  const bool folded = std::none_of(name.begin(), name.end(), [](char c) { return upperCase(c) != c; });
+  const auto at = folded ? map.find(name) : map.find(upperCase(name));
   return at == map.end() ? nullptr : &at->second;
 }
 

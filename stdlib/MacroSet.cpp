@@ -93,6 +93,15 @@ bool MacroSet::calls(std::uint32_t program) const {
                      [&](const MacroSignature& signature) { return signature.program == program; });
 }
 
+bool MacroSet::hasUnstated() const {
+  return std::any_of(signatures.begin(), signatures.end(), [](const MacroSignature& signature) {
+    return !signature.unknown.empty() ||
+           std::any_of(signature.arguments.begin(), signature.arguments.end(), [](const MacroArgument& one) {
+             return !one.unknown.empty() || one.role == ArgumentRole::Unstated;
+           });
+  });
+}
+
 std::vector<const MacroSignature*> MacroSet::of(std::uint32_t program) const {
   std::vector<const MacroSignature*> out;
   for (const MacroSignature& signature : signatures) {

@@ -243,6 +243,8 @@ struct MacroSet {
   bool needsSkipPosition = false; // the macros read the skip position of the control
 
   bool calls(std::uint32_t program) const;
+  // Whether there are calls whose work no source states.
+  bool hasUnstated() const;
   // Signatures of the program.
   std::vector<const MacroSignature*> of(std::uint32_t program) const;
   // The signature for an intent; of a surface, an angle, a pocket and a web the one along `axis`. nullptr:

@@ -40,23 +40,24 @@ const RefusedLetters* exclusion(const MacroSet& set, std::uint32_t program, std:
 }
 
 // Chooses the signature, or says what the nearest ones lack.
-void choose(CallReading& out, const std::vector<const MacroSignature*>& signatures) {
+void choose(CallReading& out) {
   std::size_t least = SIZE_MAX;
-  for (const MacroSignature* signature : signatures) {
-    if (signature->fits(out.letters)) {
+  for (const MacroSignature& signature : out.set->signatures) {
+    if (signature.program != out.program) continue;
+    if (signature.fits(out.letters)) {
       if (out.signature != nullptr) {
         out.signature = nullptr;
         out.refusal = CallRefusal::Ambiguous;
         return;
       }
-      out.signature = signature;
+      out.signature = &signature;
       continue;
     }
     const bool takesAll = std::all_of(out.letters.begin(), out.letters.end(),
-                                      [&](char letter) { return signature->find(letter) != nullptr; });
+                                      [&](char letter) { return signature.find(letter) != nullptr; });
     if (!takesAll) continue;
     std::size_t count = 0;
-    const std::string missing = lack(*signature, out.letters, count);
+    const std::string missing = lack(signature, out.letters, count);
     if (count > least) continue;
     out.missing = count < least ? missing : out.missing + " or " + missing;
     least = count;
@@ -81,8 +82,7 @@ CallReading readCall(const MacroSet& set, std::uint32_t program, std::string_vie
   out.set = &set;
   out.program = program;
   out.letters = letters;
-  const std::vector<const MacroSignature*> signatures = set.of(program);
-  if (signatures.empty()) {
+  if (!set.calls(program)) {
     out.refusal = CallRefusal::UnknownProgram;
     return out;
   }
@@ -100,10 +100,11 @@ CallReading readCall(const MacroSet& set, std::uint32_t program, std::string_vie
     out.refusal = CallRefusal::Excluded;
     return out;
   }
-  choose(out, signatures);
-  if (out.signature != nullptr)
-    for (std::size_t i = 0; i < letters.size(); ++i)
-      out.arguments.push_back({out.signature->find(letters[i]), i});
+  choose(out);
+  if (out.signature == nullptr) return out;
+  out.arguments.reserve(letters.size());
+  for (std::size_t i = 0; i < letters.size(); ++i)
+    out.arguments.push_back({out.signature->find(letters[i]), i});
   return out;
 }
 

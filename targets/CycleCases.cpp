@@ -160,12 +160,12 @@ void CaseRunner::roundHosts(verify::Case& drawn) const {
 }
 
 // Checks and path of a case. nullptr: the source cannot be run; refusal_ says why.
-std::unique_ptr<CaseRunner::Values> CaseRunner::check(const verify::Case& drawn, bool settle) {
+std::unique_ptr<CaseRunner::Values> CaseRunner::check(verify::Case drawn, bool settle) {
   if (stopped_) return nullptr;
   session_.diagnostics() = Diagnostics();
-  auto out =
-      std::unique_ptr<Values>(new Values{drawn, *fields_, {}, {}, false, "", {}, {}, {}, false, nullptr, {}});
-  for (const auto& [name, value] : drawn.values)
+  auto out = std::unique_ptr<Values>(
+      new Values{std::move(drawn), *fields_, {}, {}, false, "", {}, {}, {}, false, nullptr, {}});
+  for (const auto& [name, value] : out->drawn.values)
     out->fields.set(name, value, {});
   if (settle) roundHosts(out->drawn);
   startOnRetract(out->drawn);
@@ -288,7 +288,7 @@ std::unique_ptr<CaseRunner::Values> CaseRunner::attemptAsIs(const verify::Case& 
   refusedAt_ = {};
   verify::Case taken = proposal;
   takeSelected(taken, true);
-  std::unique_ptr<Values> values = check(taken, true);
+  std::unique_ptr<Values> values = check(std::move(taken), true);
   if (!values) {
     unreadable_ = true;
     return nullptr;
@@ -349,9 +349,12 @@ std::optional<verify::Case> CaseRunner::another(std::uint64_t index) {
 // Proposals from `tries` on, up to `end`.
 std::optional<verify::Case> CaseRunner::drawFrom(std::uint64_t index, std::uint32_t tries,
                                                  std::uint32_t end) {
-  const auto isForeseen = [&](verify::Case proposal) {
-    roundHosts(proposal);
-    return plan_.bounds != nullptr && !plan_.findsMacros && plan_.bounds->rejects(proposal);
+  const auto isForeseen = [&](const verify::Case& proposal) {
+    if (plan_.bounds == nullptr || plan_.findsMacros) return false;
+    if (plan_.hostDecimals.empty()) return plan_.bounds->rejects(proposal);
+    verify::Case rounded = proposal;
+    roundHosts(rounded);
+    return plan_.bounds->rejects(rounded);
   };
   for (; tries < end; ++tries) {
     verify::Case proposal = draws_->propose(index, tries);
@@ -466,7 +469,8 @@ bool CaseRunner::makePart(Values& values) const {
 // The part of what the calls state, where the path shows more than that and a call is not stated. false: it
 // is none of these.
 bool CaseRunner::takeStatedPart(Values& values) {
-  if (!passesUnstated() || (!values.posted && !readPosted(values))) return false;
+  if (!passesUnstated() || !sourceSet_->hasUnstated() || (!values.posted && !readPosted(values)))
+    return false;
   const sim::Part empty = emptyPart(zeroOf(values.drawn));
   sim::World nothing(empty, probeFor(plan_, values.drawn));
   verify::Record rehearsal = runPosted(values, nothing, true, verify::Stand::Way::Rehearse);

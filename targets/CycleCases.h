@@ -72,7 +72,7 @@ private:
   struct Posted; // the posted program of one case
   struct Values; // of one case, after the checks
   class Questions;
-  std::unique_ptr<Values> check(const verify::Case& drawn, bool settle);
+  std::unique_ptr<Values> check(verify::Case drawn, bool settle);
   std::optional<verify::Case> drawFrom(std::uint64_t index, std::uint32_t tries, std::uint32_t end);
   bool passesUnstated() const;
   bool halvesBetweenSteps(const ir::Program& program) const;

@@ -146,8 +146,10 @@ Draws::Draws(std::vector<DrawField> fields, std::vector<std::string> hosts,
              std::shared_ptr<const Bounds> bounds, std::uint64_t edges)
     : fields_(std::move(fields)), hosts_(std::move(hosts)), fixedHosts_(std::move(fixedHosts)), seed_(seed),
       bounds_(std::move(bounds)) {
-  for (std::size_t n = 0; n < fields_.size(); ++n)
+  for (std::size_t n = 0; n < fields_.size(); ++n) {
     fieldNames_.push_back({n, Random::hash(fields_[n].name)});
+    thresholds_.push_back(usableThresholds(fields_[n]));
+  }
   std::sort(fieldNames_.begin(), fieldNames_.end(),
             [&](const Name& a, const Name& b) { return fields_[a.index].name < fields_[b.index].name; });
   std::erase_if(hosts_, [&](const std::string& name) { return fixedHosts_.contains(name); });
@@ -174,7 +176,8 @@ bool Draws::isDrawn(const char* host) const {
   return std::binary_search(hosts_.begin(), hosts_.end(), host);
 }
 
-double Draws::value(const DrawField& field, bool near, std::uint32_t attempt, Random& random) const {
+double Draws::value(std::size_t index, bool near, std::uint32_t attempt, Random& random) const {
+  const DrawField& field = fields_[index];
   if (field.fixed) return *field.fixed;
   if (field.kind == Kind::WorkOffset)
     return field.firstSystem + static_cast<double>(random.whole(0, kLastSystem - kFirstSystem));
@@ -192,7 +195,7 @@ double Draws::value(const DrawField& field, bool near, std::uint32_t attempt, Ra
   case Kind::Length:
   case Kind::Ratio: break;
   }
-  const std::vector<double> thresholds = usableThresholds(field);
+  const std::vector<double>& thresholds = thresholds_[index];
   const double drawn = !thresholds.empty() && random.chance(0.6) ? besideThresholds(field, thresholds, random)
                        : field.kind == Kind::Angle               ? angleValue(field, near, random)
                        : field.kind == Kind::Feed                ? feedValue(field, near, random)
@@ -222,7 +225,7 @@ Case Draws::propose(std::uint64_t index, std::uint32_t attempt) const {
   for (const Name& name : fieldNames_) {
     const DrawField& field = fields_[name.index];
     Random own(base ^ name.hash);
-    out.values.emplace_hint(out.values.end(), field.name, value(field, near, attempt, own));
+    out.values.emplace_hint(out.values.end(), field.name, value(name.index, near, attempt, own));
   }
   for (const Name& name : hostNames_) {
     const std::string& host = hosts_[name.index];

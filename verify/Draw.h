@@ -88,7 +88,7 @@ private:
   std::vector<Edge> edgesOf(std::size_t field) const;
   std::vector<Edge> boundEdges(std::uint64_t most) const;
   void apply(const Edge& edge, Case& drawn) const;
-  double value(const DrawField& field, bool near, std::uint32_t attempt, Random& random) const;
+  double value(std::size_t index, bool near, std::uint32_t attempt, Random& random) const; // of a field
   void drawSystem(Case& drawn, Random& random) const;
   bool isDrawn(const char* host) const;
 
@@ -100,8 +100,9 @@ private:
   std::vector<std::string> hosts_;
   std::map<std::string, double> fixedHosts_;
   std::uint64_t seed_;
-  std::shared_ptr<const Bounds> bounds_;     // nullptr: not known
-  std::vector<Name> fieldNames_, hostNames_; // in the order of their names
+  std::shared_ptr<const Bounds> bounds_;        // nullptr: not known
+  std::vector<Name> fieldNames_, hostNames_;    // in the order of their names
+  std::vector<std::vector<double>> thresholds_; // of each field, those of use for a length, ascending
   std::vector<Edge> edges_;
 };
 

@@ -145,7 +145,7 @@ private:
     return "";
   }
   bool collides(const sim::Capsule& capsule, const Point3& way) const {
-    return sim::firstCollision(part_, capsule, way).has_value();
+    return sim::collides(part_, capsule, way);
   }
 
   const DrawnPath& path_;

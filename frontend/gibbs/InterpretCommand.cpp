@@ -89,10 +89,7 @@ Interpreter::Flow Interpreter::showDialog(State& state, const Command& c, Source
 
 // The inputs get their values: those of fields what was typed in, others their default.
 bool Interpreter::takeInputs(State& state, const Dialog* dialog, SourceRange range) {
-  if (dialog == nullptr) {
-    return std::all_of(around_.fields.begin(), around_.fields.end(),
-                       [&](const std::string& field) { return storeField(state, field, range); });
-  }
+  if (dialog == nullptr) return storeFields(state, range);
   for (const Control& control : dialog->controls) {
     if (!control.variable) continue;
     const std::string key = foldCase(control.variable->text);
@@ -230,17 +227,23 @@ Value Interpreter::dataValue(State& state, const Command& c, const CommandSignat
   if (specAt(signature, 0)->kind == ArgumentSpec::Kind::Value) {
     const auto number = evaluateLeniently(state, *c.arguments[0]);
     fault_.reset();
-    const auto tool = around_.hosts.find("tool_number");
-    const bool given = tool != around_.hosts.end() && !state.written.contains("tool_number") && number &&
-                       *number == Value(tool->second);
+    const double* tool = knownHost("tool_number");
+    const bool given =
+        tool != nullptr && !state.written.contains("tool_number") && number && *number == Value(*tool);
     if (!isOwn(family, number ? symbolIn(*number) : nullptr) && !(family.starts_with("tool") && given)) {
       const std::string which = around_.sources.textUtf8(c.arguments[0]->range);
       return opaque(state, "", {}, reason + " of number `" + which + "`", false, range);
     }
   }
   if (state.written.contains(*host)) return writtenHost(state, *host, reason, range);
-  const auto known = around_.hosts.find(*host);
-  return known != around_.hosts.end() ? Value(known->second) : sourceValue(Symbol::host(*host));
+  const double* known = knownHost(*host);
+  return known != nullptr ? Value(*known) : sourceValue(Symbol::host(*host));
+}
+
+const double* Interpreter::knownHost(const std::string& name) const {
+  if (around_.hosts == nullptr) return nullptr;
+  const auto found = around_.hosts->find(name);
+  return found == around_.hosts->end() ? nullptr : &found->second;
 }
 
 Value Interpreter::writtenHost(State& state, const std::string& host, const std::string&, SourceRange) {

@@ -212,9 +212,8 @@ std::optional<Value> Interpreter::read(State& state, const VariableRef& ref) {
   const auto key = keyOf(state, ref, true);
   if (!key) return std::nullopt;
   const bool text = ref.name.isText();
-  const bool ofCam = !ref.index && !state.frames.back().locals.contains(*key) && isOfCam(*key);
-  if (auto value = lookUp(state, *key, ref, ofCam)) return value;
-  if (ofCam) {
+  if (auto value = lookUp(state, *key, ref)) return value;
+  if (!ref.index && !state.frames.back().locals.contains(*key) && isOfCam(*key)) {
     // Each read of a cursor gives another element.
     const bool cursor = key->starts_with("NEXT_") && around_.keywords.isSystemVariable(*key);
     return opaque(state, cursor ? "" : *key, {}, *key, text, ref.name.range);
@@ -239,8 +238,8 @@ bool Interpreter::write(State& state, const VariableRef& ref, Value value, Sourc
     fault<diag::TextOverflow>(ref.name.range, false, around_.limits.textLength);
     return false;
   }
-  const bool local = state.frames.back().locals.contains(*key);
-  if (!local && isOfCam(*key) && *key != "CALLBACK_RETURNCODE" && !isField(*key)) {
+  const bool own = isField(*key) || *key == "CALLBACK_RETURNCODE" || !isOfCam(*key);
+  if (!own && !state.frames.back().locals.contains(*key)) {
     fault<diag::SystemNameWritten>(ref.name.range, false, ref.name.text);
     return false;
   }

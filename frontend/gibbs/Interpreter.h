@@ -96,21 +96,13 @@ protected:
     const std::set<std::string>& assumptions;
     const MacroLoader& load;
     const DialogLoader& loadDialog;
-    std::set<std::string> fields;        // of the cycle, folded
-    std::map<std::string, double> hosts; // host inputs that are known
+    const std::map<std::string, double>* hosts = nullptr; // host inputs that are known; nullptr: none
   };
 
   template <class Context>
   Interpreter(Context& context, Purpose purpose)
-      : around_{context.sources,
-                context.keywords,
-                context.limits,
-                context.diagnostics,
-                context.assumptions,
-                context.load,
-                context.loadDialog,
-                {},
-                {}},
+      : around_{context.sources,     context.keywords, context.limits,    context.diagnostics,
+                context.assumptions, context.load,     context.loadDialog},
         purpose_(purpose) {}
   Interpreter(const Interpreter&) = delete;
   Interpreter& operator=(const Interpreter&) = delete;
@@ -145,7 +137,10 @@ protected:
   std::optional<Fault> fault_;
   bool lenient_ = false; // arguments without an effect: what is not set is merely unknown
 
-  bool isField(const std::string& key) const { return around_.fields.contains(key); }
+  // A field of the cycle, by its folded name.
+  virtual bool isField(const std::string& key) const = 0;
+  // Whether the name is one of the CAM, where no local variable has it.
+  bool isOfCam(const std::string& key) const;
 
 private:
   // ---- what the domains decide, where it is no matter of course in a run: values
@@ -168,9 +163,8 @@ private:
   // Key of an element of an array.
   virtual std::optional<std::string> element(State& state, const std::string& key, const VariableRef& ref,
                                              bool reads) = 0;
-  // nothing: no value is set; `ofCam`: the name is one of the CAM.
-  virtual std::optional<Value> lookUp(State& state, const std::string& key, const VariableRef& ref,
-                                      bool ofCam) = 0;
+  // nothing: no value is set.
+  virtual std::optional<Value> lookUp(State& state, const std::string& key, const VariableRef& ref) = 0;
   virtual bool store(State& state, const std::string& key, const VariableRef& ref, Value value,
                      SourceRange range) = 0;
 
@@ -200,8 +194,9 @@ private:
   virtual Flow needsUser(const Command& c, const std::string& name) = 0;
   virtual void dialogOpens(State& state, SourceRange range) = 0;
   virtual Flow dialogAgain(State&, SourceRange) { return Flow::DialogAgain; }
-  // A field takes the value that was typed in.
+  // A field, or each, takes the value that was typed in.
   virtual bool storeField(State& state, const std::string& field, SourceRange range) = 0;
+  virtual bool storeFields(State& state, SourceRange range) = 0;
   virtual bool dialogCloses(State&, SourceRange) { return true; }
   // The value, safe from what is assigned to the variable that it was read from.
   virtual Value kept(const Value& value, SourceRange) { return value; }
@@ -233,6 +228,7 @@ private:
   Value dataValue(State& state, const Command& c, const stdlib::CommandSignature& signature,
                   const std::string& name, bool text);
   std::optional<Value> evaluateLeniently(State& state, const Expression& e);
+  const double* knownHost(const std::string& name) const;
 
   // ---- InterpretExpression.cpp
   std::optional<Value> evaluate(State&, const NumberLiteral& literal, SourceRange range);
@@ -245,7 +241,6 @@ private:
   std::optional<Value> evaluate(State&, const ErrorExpression&, SourceRange range);
   std::optional<Truth> decide(State& state, const Comparison& c);
   std::optional<std::string> keyOf(State& state, const VariableRef& ref, bool reads);
-  bool isOfCam(const std::string& key) const;
 
   std::map<const Macro*, std::unique_ptr<const Program>> programs_;
 };

@@ -67,6 +67,11 @@ bool Flattener::dialogCloses(State& state, SourceRange range) {
   return true;
 }
 
+bool Flattener::storeFields(State& state, SourceRange range) {
+  return std::all_of(fields_.begin(), fields_.end(),
+                     [&](const auto& field) { return storeField(state, field.first, range); });
+}
+
 bool Flattener::storeField(State& state, const std::string& field, SourceRange range) {
   const ir::VariableId id = fields_.at(field);
   if (state.changed.contains(field)) {

@@ -168,10 +168,10 @@ std::optional<std::string> Flattener::element(State&, const std::string&, const 
 }
 
 // Any number may be set when the program runs; whether it is, the walk over the flat code finds out.
-std::optional<Value> Flattener::lookUp(State& state, const std::string& key, const VariableRef& ref,
-                                       bool ofCam) {
+std::optional<Value> Flattener::lookUp(State& state, const std::string& key, const VariableRef& ref) {
   if (auto known = fixed(state, key)) return known;
-  const bool own = !ofCam || isField(key) || key == "CALLBACK_RETURNCODE";
+  const bool own = ref.index || state.frames.back().locals.contains(key) || isField(key) ||
+                   key == "CALLBACK_RETURNCODE" || !isOfCam(key);
   if (!own || ref.name.isText()) return std::nullopt;
   if (lenient_) return opaque(state, "", {}, ref.name.text, false, ref.name.range);
   return ir::variable(variableOf(keyFor(state, key), ref.name), ref.name.range);

@@ -20,7 +20,6 @@ Flattener::Flattener(ir::Cycle& cycle, LowerContext& context, Purpose purpose)
     const std::string key = foldCase(cycle.variables[id].name);
     if (cycle.variables[id].role == ir::Role::Parameter) {
       fields_.emplace(key, id);
-      around_.fields.insert(key);
     }
     names_.insert(key);
   }

@@ -80,6 +80,7 @@ private:
   void dialogOpens(State& state, SourceRange range) override;
   Flow dialogAgain(State& state, SourceRange range) override;
   bool storeField(State& state, const std::string& field, SourceRange range) override;
+  bool storeFields(State& state, SourceRange range) override;
   bool dialogCloses(State& state, SourceRange range) override;
   Value kept(const Value& value, SourceRange range) override;
   std::optional<Value> coordinate(const Value& value, SourceRange range) override;
@@ -102,8 +103,8 @@ private:
                                     const Value& right) override;
   std::optional<std::string> element(State& state, const std::string& key, const VariableRef& ref,
                                      bool reads) override;
-  std::optional<Value> lookUp(State& state, const std::string& key, const VariableRef& ref,
-                              bool ofCam) override;
+  bool isField(const std::string& key) const override { return fields_.contains(key); }
+  std::optional<Value> lookUp(State& state, const std::string& key, const VariableRef& ref) override;
   bool store(State& state, const std::string& key, const VariableRef& ref, Value value,
              SourceRange range) override;
   // The number at run time; data of the CAM that are no host input fail.

@@ -43,6 +43,12 @@ bool Machine::storeField(State& state, const std::string& field, SourceRange) {
   return true;
 }
 
+bool Machine::storeFields(State& state, SourceRange range) {
+  for (const auto& [field, value] : context_.fields)
+    storeField(state, field, range);
+  return true;
+}
+
 std::optional<Value> Machine::coordinate(const Value& value, SourceRange range) {
   const Unknown* unknown = unknownIn(value);
   if (unknown == nullptr) return value;

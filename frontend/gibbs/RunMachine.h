@@ -27,9 +27,7 @@ enum class PathEnd : std::uint8_t {
 class Machine final : public Interpreter {
 public:
   Machine(RunContext& context, Purpose purpose) : Interpreter(context, purpose), context_(context) {
-    around_.hosts = context.hosts;
-    for (const auto& [name, value] : context.fields)
-      around_.fields.insert(name);
+    around_.hosts = &context.hosts;
   }
 
   State start(const Macro& macro);
@@ -67,6 +65,7 @@ private:
   Flow needsUser(const Command& c, const std::string& name) override;
   void dialogOpens(State& state, SourceRange range) override;
   bool storeField(State& state, const std::string& field, SourceRange range) override;
+  bool storeFields(State& state, SourceRange range) override;
   std::optional<Value> coordinate(const Value& value, SourceRange range) override;
   bool addMove(PathMove::Kind kind, const std::array<std::optional<Value>, 3>& axes,
                SourceRange range) override;
@@ -89,8 +88,8 @@ private:
   std::optional<bool> ask(const State& state, Question question);
   std::optional<std::string> element(State& state, const std::string& key, const VariableRef& ref,
                                      bool reads) override;
-  std::optional<Value> lookUp(State& state, const std::string& key, const VariableRef& ref,
-                              bool ofCam) override;
+  bool isField(const std::string& key) const override { return context_.fields.contains(key); }
+  std::optional<Value> lookUp(State& state, const std::string& key, const VariableRef& ref) override;
   bool store(State& state, const std::string& key, const VariableRef& ref, Value value,
              SourceRange range) override;
 

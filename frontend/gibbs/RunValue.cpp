@@ -51,7 +51,7 @@ std::optional<std::string> Machine::element(State& state, const std::string& key
   return key + "(" + std::to_string(static_cast<std::size_t>(*number)) + ")";
 }
 
-std::optional<Value> Machine::lookUp(State& state, const std::string& key, const VariableRef&, bool) {
+std::optional<Value> Machine::lookUp(State& state, const std::string& key, const VariableRef&) {
   const Frame& frame = state.frames.back();
   const auto local = frame.locals.find(key);
   if (local != frame.locals.end()) return local->second;

@@ -98,6 +98,7 @@ std::optional<Call> callOf(const Words& words) {
     call.before.push_back(&words.words[i]);
   const bool macro =
       call.kind == CallKind::Simple || call.kind == CallKind::AfterMoves || call.kind == CallKind::EachBlock;
+  if (macro) call.arguments.reserve(words.words.size() - at);
   Sets sets;
   for (; at < words.words.size(); ++at) {
     const nc::Word& word = words.words[at];

@@ -8,8 +8,7 @@
 namespace dotek::frontend::macrob {
 
 CheckedProgram::CheckedProgram(const Program& parsed, const stdlib::Control* machine, const SourceMap& files)
-    : program(parsed), control(machine), sources(files), flow(flowOf(parsed, files)),
-      modes(modesBefore(parsed, machine)) {
+    : program(parsed), control(machine), sources(files), flow(flowOf(parsed, files)) {
   // A program of a CAM is numbers for the most part; no check looks at a short one by itself.
   constexpr std::size_t kShort = 8;
   for (const Block& block : program.blocks) {
@@ -28,6 +27,11 @@ CheckedProgram::CheckedProgram(const Program& parsed, const stdlib::Control* mac
     plain.push_back(words);
     if (call && call->kind == CallKind::Subprogram) subprograms.push_back(std::move(*call));
   }
+}
+
+const std::vector<std::optional<Modes>>& CheckedProgram::modes() const {
+  if (!modes_) modes_ = modesBefore(program, control);
+  return *modes_;
 }
 
 std::span<const Check<CheckedProgram>* const> programChecks() {

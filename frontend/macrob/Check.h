@@ -66,7 +66,11 @@ public:
   std::vector<const Words*> plain;
   std::vector<Call> subprograms; // M98; in `plain` as well
   FlowFindings flow;
-  std::vector<std::optional<Modes>> modes; // before each block; see modesBefore
+  // Before each block; see modesBefore.
+  const std::vector<std::optional<Modes>>& modes() const;
+
+private:
+  mutable std::optional<std::vector<std::optional<Modes>>> modes_; // when they are asked for
 };
 
 // Loops, jumps, blocks that never run.

@@ -34,11 +34,12 @@ const nc::Word* takesWords(const Words& words) {
 
 // `visit(block, words, modes before it, modes for its words)`, for blocks that some path leads to.
 template <class Visit> void eachBlock(const CheckedProgram& input, const Visit& visit) {
-  for (std::size_t i = 0; i < input.modes.size(); ++i) {
+  const std::vector<std::optional<Modes>>& modes = input.modes();
+  for (std::size_t i = 0; i < modes.size(); ++i) {
     const Block& block = input.program.blocks[i];
     const auto* words = std::get_if<Words>(&block.body);
-    if (words == nullptr || block.repaired || !input.modes[i] || !isPlain(*words)) continue;
-    visit(*words, *input.modes[i], within(*words, *input.modes[i]));
+    if (words == nullptr || block.repaired || !modes[i] || !isPlain(*words)) continue;
+    visit(*words, *modes[i], within(*words, *modes[i]));
   }
 }
 
@@ -273,7 +274,7 @@ void rotationWords(const CheckedProgram& input, Report& report) {
 // ---- calls
 
 void callsItself(const CheckedProgram& input, Report& report) {
-  if (!input.program.name || input.modes.empty()) return;
+  if (!input.program.name || input.modes().empty()) return;
   const std::uint64_t own = input.program.name->number;
   std::vector<bool> passed;
   std::map<const nc::Word*, std::size_t> blocks; // by the first of their words

@@ -130,8 +130,9 @@ private:
 // until they are free, hit or too small; the earlier half is looked at first.
 class Sweep {
 public:
-  Sweep(const Solid& solid, double radius, const Vec& a, const Vec& b, const Vec& way)
-      : solid_(solid), radius_(radius), a_(a), axis_(b - a), way_(way) {}
+  // `any`: where it touches first is not asked.
+  Sweep(const Solid& solid, double radius, const Vec& a, const Vec& b, const Vec& way, bool any)
+      : solid_(solid), radius_(radius), a_(a), axis_(b - a), way_(way), any_(any) {}
 
   double run() {
     for (const Mesh& mesh : solid_.meshes)
@@ -171,7 +172,7 @@ private:
   }
 
   void search(double t0, double t1, double s0, double s1) {
-    if (t0 >= best_ || (best_ <= 1 && (best_ - t0) * way_.norm() < kSafe / 10)) return;
+    if (t0 >= best_ || (best_ <= 1 && (any_ || (best_ - t0) * way_.norm() < kSafe / 10))) return;
     const Vec middle = a_ + (t0 + t1) / 2 * way_ + (s0 + s1) / 2 * axis_;
     const Vec halfWay = (t1 - t0) / 2 * way_, halfAxis = (s1 - s0) / 2 * axis_;
     const double along = halfWay.norm(), across = halfAxis.norm();
@@ -204,6 +205,7 @@ private:
   const Solid& solid_;
   double radius_;
   Vec a_, axis_, way_;
+  bool any_;
   double best_ = 2; // more than 1: nothing is met
   int cells_ = 0;
 };
@@ -214,6 +216,8 @@ std::optional<Touch> firstContact(const Part& part, double radius, const Point3&
   const Vec start = vec(part.toPart(from)), end = vec(part.toPart(to));
   const Vec reach = Vec::Constant(radius + kFarAway);
   if (!part.solid().mayLieIn(start.cwiseMin(end) - reach, start.cwiseMax(end) + reach)) return std::nullopt;
+  const Patch path{(start + end) / 2, (end - start) / 2, Vec::Zero()};
+  if (part.solid().isBeyond(path, radius + kSafe)) return std::nullopt;
   Touch out;
   const double length = (end - start).norm();
   const double way = Ball(part.solid(), radius, start, end).run(out.atStart);
@@ -226,16 +230,30 @@ std::optional<Touch> firstContact(const Part& part, double radius, const Point3&
   return out;
 }
 
-std::optional<double> firstCollision(const Part& part, const Capsule& capsule, const Point3& way) {
+namespace {
+
+// More than 1: nothing is met.
+double sweep(const Part& part, const Capsule& capsule, const Point3& way, bool any) {
   const Vec a = vec(part.toPart(capsule.a)), b = vec(part.toPart(capsule.b));
   const Vec turned = vec(part.turnToPart(way));
   const Vec reach = Vec::Constant(capsule.radius + kFarAway);
   const Vec least = a.cwiseMin(b), most = a.cwiseMax(b);
   if (!part.solid().mayLieIn(least.cwiseMin(least + turned) - reach, most.cwiseMax(most + turned) + reach))
-    return std::nullopt;
-  const double share = Sweep(part.solid(), capsule.radius, a, b, turned).run();
-  if (share > 1) return std::nullopt;
-  return share;
+    return 2;
+  const Patch path{(a + b + turned) / 2, (b - a) / 2, turned / 2};
+  if (part.solid().isBeyond(path, capsule.radius + kSafe)) return 2;
+  return Sweep(part.solid(), capsule.radius, a, b, turned, any).run();
+}
+
+} // namespace
+
+std::optional<double> firstCollision(const Part& part, const Capsule& capsule, const Point3& way) {
+  const double share = sweep(part, capsule, way, false);
+  return share > 1 ? std::nullopt : std::optional(share);
+}
+
+bool collides(const Part& part, const Capsule& capsule, const Point3& way) {
+  return sweep(part, capsule, way, true) <= 1;
 }
 
 } // namespace dotek::sim

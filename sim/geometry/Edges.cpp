@@ -29,36 +29,51 @@ struct Solid::Ruling {
   Vec at[2] = {Vec::Zero(), Vec::Zero()};
 };
 
-bool Solid::findEdges() {
-  work_ = 0;
+const Solid::Edges& Solid::edges() const {
+  std::call_once(edges_->found, [this] { findEdges(); });
+  return *edges_;
+}
+
+// Planes meet in lines, each of which all planes cut.
+bool Solid::mayWait() const {
+  const bool blocks = std::all_of(nodes.begin(), nodes.end(), [&](const Node& node) {
+    if (node.action != Action::Add || node.shape < 0) return false;
+    const Shape& shape = shapes[static_cast<std::size_t>(node.shape)];
+    return shape.kind == Shape::Kind::Block && shape.d == 0;
+  });
+  const auto planes = static_cast<double>(surfaces_.size()), count = static_cast<double>(shapes.size());
+  return blocks && planes * planes / 2 * (1 + planes + (planes + 2) * (2 + 4 * count)) < mostWork_;
+}
+
+bool Solid::findEdges() const {
   for (std::uint32_t i = 0; i < surfaces_.size(); ++i) {
     for (std::uint32_t j = i + 1; j < surfaces_.size(); ++j) {
-      const std::size_t begin = pieces_.size();
-      if (!meet(i, j) || (work_ += 1) > mostWork_) return false;
+      const std::size_t begin = edges_->pieces.size();
+      if (!meet(i, j) || (edges_->work += 1) > mostWork_) return false;
       addChains(begin);
     }
   }
   return true;
 }
 
-void Solid::addChains(std::size_t begin) {
-  for (; begin < pieces_.size(); begin += kChain) {
+void Solid::addChains(std::size_t begin) const {
+  for (; begin < edges_->pieces.size(); begin += kChain) {
     Chain chain;
     chain.begin = begin;
-    chain.end = std::min(begin + kChain, pieces_.size());
+    chain.end = std::min(begin + kChain, edges_->pieces.size());
     for (std::size_t i = begin; i < chain.end; ++i)
-      chain.centre += (pieces_[i].a + pieces_[i].b) / 2;
+      chain.centre += (edges_->pieces[i].a + edges_->pieces[i].b) / 2;
     chain.centre /= static_cast<double>(chain.end - begin);
     for (std::size_t i = begin; i < chain.end; ++i) {
-      const Piece& piece = pieces_[i];
+      const Piece& piece = edges_->pieces[i];
       chain.radius = std::max({chain.radius, (piece.a - chain.centre).norm() + piece.sag,
                                (piece.b - chain.centre).norm() + piece.sag});
     }
-    chains_.push_back(chain);
+    edges_->chains.push_back(chain);
   }
 }
 
-bool Solid::meet(std::uint32_t i, std::uint32_t j) {
+bool Solid::meet(std::uint32_t i, std::uint32_t j) const {
   using Kind = Surface::Kind;
   const Surface *s = &surfaces_[i], *t = &surfaces_[j];
   if (s->shape != t->shape && !mayTouch(s->shape, shapeBoxes_[t->shape])) return true;
@@ -117,7 +132,7 @@ bool Solid::meet(std::uint32_t i, std::uint32_t j) {
   return rulings(i, j);
 }
 
-bool Solid::straight(const Vec& o, const Vec& d, std::uint32_t i, std::uint32_t j) {
+bool Solid::straight(const Vec& o, const Vec& d, std::uint32_t i, std::uint32_t j) const {
   double from = -4 * kFar, to = 4 * kFar;
   for (const std::uint32_t k : {i, j}) {
     Vec centre;
@@ -141,7 +156,7 @@ bool Solid::straight(const Vec& o, const Vec& d, std::uint32_t i, std::uint32_t 
       if (t[n] > from && t[n] < to) cuts.push_back(t[n]);
     }
   }
-  work_ += static_cast<double>(surfaces_.size());
+  edges_->work += static_cast<double>(surfaces_.size());
   std::sort(cuts.begin(), cuts.end());
   Piece piece;
   piece.first = i;
@@ -151,18 +166,19 @@ bool Solid::straight(const Vec& o, const Vec& d, std::uint32_t i, std::uint32_t 
     if (cuts[n] - cuts[n - 1] < 1e-10) continue;
     const bool kept = isKept(o + (cuts[n - 1] + cuts[n]) / 2 * d, piece);
     if (kept && open) {
-      pieces_.back().b = o + cuts[n] * d;
+      edges_->pieces.back().b = o + cuts[n] * d;
     } else if (kept) {
       piece.a = o + cuts[n - 1] * d;
       piece.b = o + cuts[n] * d;
-      pieces_.push_back(piece);
+      edges_->pieces.push_back(piece);
     }
     open = kept;
   }
-  return work_ < mostWork_;
+  return edges_->work < mostWork_;
 }
 
-bool Solid::circle(const Vec& centre, const Vec& axis, double radius, std::uint32_t i, std::uint32_t j) {
+bool Solid::circle(const Vec& centre, const Vec& axis, double radius, std::uint32_t i,
+                   std::uint32_t j) const {
   const Vec x = across(axis) * radius, y = axis.cross(x);
   const auto point = [&](int n) {
     const double angle = 2 * std::numbers::pi * (n % kArcs) / kArcs;
@@ -179,10 +195,10 @@ bool Solid::circle(const Vec& centre, const Vec& axis, double radius, std::uint3
   return true;
 }
 
-Solid::Ruling Solid::ruling(double angle, std::uint32_t i, std::uint32_t j) {
+Solid::Ruling Solid::ruling(double angle, std::uint32_t i, std::uint32_t j) const {
   const Surface& s = surfaces_[i];
   const Surface& other = surfaces_[j];
-  work_ += 1;
+  edges_->work += 1;
   const Vec e1 = across(s.axis), e2 = s.axis.cross(e1);
   const Vec radial = std::cos(angle) * e1 + std::sin(angle) * e2;
   const bool cone = s.kind == Surface::Kind::Cone;
@@ -202,7 +218,7 @@ Solid::Ruling Solid::ruling(double angle, std::uint32_t i, std::uint32_t j) {
   return out;
 }
 
-bool Solid::rulings(std::uint32_t i, std::uint32_t j) {
+bool Solid::rulings(std::uint32_t i, std::uint32_t j) const {
   std::vector<Ruling> list;
   const double step = 2 * std::numbers::pi / kRulings;
   for (int n = 0; n <= kRulings; ++n)
@@ -243,8 +259,8 @@ bool Solid::rulings(std::uint32_t i, std::uint32_t j) {
   return true;
 }
 
-bool Solid::link(const Ruling& a, const Ruling& b, std::uint32_t i, std::uint32_t j, int depth) {
-  if (work_ > mostWork_) return false;
+bool Solid::link(const Ruling& a, const Ruling& b, std::uint32_t i, std::uint32_t j, int depth) const {
+  if (edges_->work > mostWork_) return false;
   if (a.count == 0 && b.count == 0) return true;
   const auto split = [&] {
     const Ruling middle = ruling((a.angle + b.angle) / 2, i, j);
@@ -312,10 +328,10 @@ bool Solid::isOnOwners(const Vec& q, const Piece& piece, double reach) const {
          std::abs(shapes[surfaces_[piece.second].shape].distance(q)) <= reach;
 }
 
-bool Solid::isKept(const Vec& q, const Piece& piece) {
-  work_ += 2;
+bool Solid::isKept(const Vec& q, const Piece& piece) const {
+  edges_->work += 2;
   if (!isOnOwners(q, piece, 1e-6)) return false;
-  work_ += 4 * static_cast<double>(shapes.size());
+  edges_->work += 4 * static_cast<double>(shapes.size());
   const Vec n = surfaces_[piece.first].normal(q), m = surfaces_[piece.second].normal(q);
   return n.cross(m).norm() > kTangent && isEdge(q, n, m);
 }
@@ -328,13 +344,13 @@ double Solid::bend(const Surface& surface, const Piece& piece, double length) {
 }
 
 // Cuts a curved piece where other surfaces cross it and keeps what is an edge of the part.
-bool Solid::keep(const Piece& piece, int depth) {
-  if (work_ > mostWork_) return false;
+bool Solid::keep(const Piece& piece, int depth) const {
+  if (edges_->work > mostWork_) return false;
   const double length = (piece.b - piece.a).norm();
   if (!isOnOwners((piece.a + piece.b) / 2, piece, length + piece.sag + 1e-6)) return true;
   // Far from all that is left of the part it is no edge, and cuts in it would be for nothing.
   if (std::abs(shapesBound((piece.a + piece.b) / 2)) > length + piece.sag + 1e-6) return true;
-  work_ += static_cast<double>(2 * surfaces_.size());
+  edges_->work += static_cast<double>(2 * surfaces_.size());
   std::vector<double> cuts = {0, 1};
   bool halve = false;
   for (std::uint32_t k = 0; k < surfaces_.size(); ++k) {
@@ -374,7 +390,7 @@ bool Solid::keep(const Piece& piece, int depth) {
     Piece part = piece;
     part.a = point(cuts[n - 1]);
     part.b = point(cuts[n]);
-    pieces_.push_back(part);
+    edges_->pieces.push_back(part);
   }
   return true;
 }

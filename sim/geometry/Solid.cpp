@@ -82,13 +82,13 @@ bool Solid::build() {
   if (meshes.empty()) openMouths(nodes);
   solidNodes_ = withoutMeshes(nodes);
   surfaces_.clear();
-  pieces_.clear();
-  chains_.clear();
+  edges_ = std::make_unique<Edges>();
   corners_.clear();
   shapeBoxes_.clear();
   for (const Shape& shape : shapes)
     shapeBoxes_.push_back(boxOf(shape));
   boxes_.clear();
+  added_.clear();
   if (!addBoxes(nodes)) boxes_.clear();
   std::vector<Apex> apexes;
   for (std::uint32_t i = 0; i < shapes.size(); ++i)
@@ -96,13 +96,17 @@ bool Solid::build() {
   for (const Apex& apex : apexes) {
     if (isBoundary(apex.point, apex.axis)) corners_.push_back(apex.point);
   }
-  return findEdges();
+  waits_ = mayWait();
+  if (waits_) return true;
+  bool out = false;
+  std::call_once(edges_->found, [&] { out = findEdges(); });
+  return out;
 }
 
 // What has a surface has an edge or a corner, or a face without any: a ball, a cylinder or a plane without
 // end.
 bool Solid::isEmpty() const {
-  if (!meshes.empty() || !pieces_.empty() || !corners_.empty()) return false;
+  if (waits_ || !meshes.empty() || !edges_->pieces.empty() || !corners_.empty()) return false;
   return std::none_of(surfaces_.begin(), surfaces_.end(), [&](const Surface& s) {
     if (s.kind == Surface::Kind::Plane) return isBoundary(s.origin, s.axis);
     const Vec n = across(s.axis);
@@ -160,6 +164,7 @@ bool Solid::addBoxes(const std::vector<Node>& list) {
     const Box& box = shapeBoxes_[static_cast<std::size_t>(node.shape)];
     if (!box.most.allFinite() || !box.least.allFinite()) return false;
     boxes_.push_back(box);
+    added_.push_back(static_cast<std::uint32_t>(node.shape));
   }
   return true;
 }
@@ -169,6 +174,20 @@ bool Solid::mayLieIn(const Vec& least, const Vec& most) const {
   for (const Box& box : boxes_)
     if ((box.least.array() <= most.array()).all() && (box.most.array() >= least.array()).all()) return true;
   return false;
+}
+
+bool Solid::isBeyond(const Patch& patch, double reach) const {
+  if (boxes_.empty()) return false;
+  return std::all_of(added_.begin(), added_.end(), [&](std::uint32_t index) {
+    const Shape& shape = shapes[index];
+    const Vec half = shape.kind == Shape::Kind::Block ? Vec(shape.a, shape.b, shape.c)
+                     : shape.kind == Shape::Kind::Cone
+                         ? Vec(std::max(shape.a, shape.b), std::max(shape.a, shape.b), shape.c)
+                         : Vec::Constant(shape.a);
+    const Vec middle = shape.axes.transpose() * (patch.middle - shape.origin);
+    const Vec a = shape.axes.transpose() * patch.a, b = shape.axes.transpose() * patch.b;
+    return (middle.cwiseAbs() - a.cwiseAbs() - b.cwiseAbs() - half).maxCoeff() > reach;
+  });
 }
 
 double Solid::bound(const Vec& p) const {
@@ -218,10 +237,11 @@ void Solid::footOnEdges(const Vec& p, double& best, Vec& point) const {
       point = corner;
     }
   }
-  for (const Chain& chain : chains_) {
+  const Edges& known = edges();
+  for (const Chain& chain : known.chains) {
     if ((p - chain.centre).norm() - chain.radius >= best) continue;
     for (std::size_t i = chain.begin; i < chain.end; ++i) {
-      const Piece& piece = pieces_[i];
+      const Piece& piece = known.pieces[i];
       const Vec chord = piece.b - piece.a;
       const double square = chord.squaredNorm();
       const double u = square > 0 ? std::clamp((p - piece.a).dot(chord) / square, 0.0, 1.0) : 0;

@@ -6,6 +6,8 @@
 #include "sim/geometry/Shape.h"
 
 #include <limits>
+#include <memory>
+#include <mutex>
 #include <vector>
 
 namespace dotek::sim {
@@ -32,8 +34,9 @@ public:
   std::vector<Mesh> meshes; // in lists of Add only
   std::vector<Node> nodes;
 
-  // Finds faces, edges and corners. false: that takes more than a bounded amount of work, or the curve in
-  // which two surfaces meet cannot be followed.
+  // Finds faces, edges and corners; edges of a few blocks, which can always be found, when they are first
+  // asked for. false: that takes more than a bounded amount of work, or the curve in which two surfaces meet
+  // cannot be followed.
   bool build();
   // As PartBuilder::limitWork.
   void limitWork(double most) { mostWork_ = most; }
@@ -52,6 +55,9 @@ public:
   Foot shapesFoot(const Vec& p) const;
   // Whether anything of it may lie between the corners `least` and `most` of a box.
   bool mayLieIn(const Vec& least, const Vec& most) const;
+  // Whether each shape that is added has a face whose plane keeps the patch away from it by more than
+  // `reach`. false: not known.
+  bool isBeyond(const Patch& patch, double reach) const;
   // Whether nothing is left of it.
   bool isEmpty() const;
 
@@ -65,8 +71,15 @@ private:
   struct Chain {
     Vec centre = Vec::Zero();
     double radius = 0;
-    std::size_t begin = 0, end = 0; // of pieces_
+    std::size_t begin = 0, end = 0; // of pieces
   };
+  struct Edges {
+    std::once_flag found;
+    std::vector<Piece> pieces;
+    std::vector<Chain> chains;
+    double work = 0; // evaluations of a surface, about
+  };
+  const Edges& edges() const;
 
   double boundOf(const std::vector<Node>& list, const Vec& p, std::int32_t* nearest) const;
   // The least value on a patch, or the greatest; a bound.
@@ -79,22 +92,23 @@ private:
 
   // ---- Edges.cpp
   struct Ruling;
-  bool findEdges();
-  bool meet(std::uint32_t i, std::uint32_t j);
-  bool straight(const Vec& o, const Vec& d, std::uint32_t i, std::uint32_t j);
-  bool circle(const Vec& centre, const Vec& axis, double radius, std::uint32_t i, std::uint32_t j);
-  bool rulings(std::uint32_t i, std::uint32_t j);
-  bool link(const Ruling& a, const Ruling& b, std::uint32_t i, std::uint32_t j, int depth);
-  Ruling ruling(double angle, std::uint32_t i, std::uint32_t j);
+  bool findEdges() const; // into edges_
+  bool mayWait() const;   // findEdges() cannot fail
+  bool meet(std::uint32_t i, std::uint32_t j) const;
+  bool straight(const Vec& o, const Vec& d, std::uint32_t i, std::uint32_t j) const;
+  bool circle(const Vec& centre, const Vec& axis, double radius, std::uint32_t i, std::uint32_t j) const;
+  bool rulings(std::uint32_t i, std::uint32_t j) const;
+  bool link(const Ruling& a, const Ruling& b, std::uint32_t i, std::uint32_t j, int depth) const;
+  Ruling ruling(double angle, std::uint32_t i, std::uint32_t j) const;
   bool smooth(Piece& piece) const;
-  bool keep(const Piece& piece, int depth);
+  bool keep(const Piece& piece, int depth) const;
   static double bend(const Surface& surface, const Piece& piece, double length);
   bool isOnOwners(const Vec& q, const Piece& piece, double reach) const;
-  bool isKept(const Vec& q, const Piece& piece);
+  bool isKept(const Vec& q, const Piece& piece) const;
   // The point of the curve in the plane across the chord at share u of the chord. false: none is found.
   bool onCurve(const Piece& piece, double u, Vec& q) const;
   void nearestOnPiece(const Vec& p, const Piece& piece, double& best, Vec& point) const;
-  void addChains(std::size_t begin);
+  void addChains(std::size_t begin) const;
 
   // A box that holds one of the pieces that are added.
   struct Box {
@@ -104,14 +118,15 @@ private:
   static Box boxOf(const Shape& shape);         // may be without end
   bool mayTouch(std::uint32_t shape, const Box& box) const;
 
-  std::vector<Node> solidNodes_; // nodes without meshes
-  std::vector<Box> boxes_;       // none: not bounded
-  std::vector<Box> shapeBoxes_;  // by shape
+  std::vector<Node> solidNodes_;     // nodes without meshes
+  std::vector<Box> boxes_;           // none: not bounded
+  std::vector<std::uint32_t> added_; // shapes of boxes_
+  std::vector<Box> shapeBoxes_;      // by shape
   std::vector<Surface> surfaces_;
-  std::vector<Piece> pieces_;
-  std::vector<Chain> chains_;
+  std::unique_ptr<Edges> edges_ = std::make_unique<Edges>();
   std::vector<Vec> corners_;
-  double work_ = 0, mostWork_ = 1e8; // of build(): evaluations of a surface, about
+  bool waits_ = false; // edges are found when they are asked for
+  double mostWork_ = 1e8;
 };
 
 } // namespace dotek::sim

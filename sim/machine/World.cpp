@@ -37,8 +37,15 @@ Point3 World::centreAt(const Position& position) const {
   return {position[0], position[1], position[2] - probe_.centreLength()};
 }
 
-std::optional<Touch> World::touchOf(double radius, const Point3& from, const Point3& to) const {
-  return part_.isEmpty() ? std::nullopt : firstContact(part_, radius, from, to);
+void World::setPart(Part part) {
+  part_ = std::move(part);
+  recentTouches_.forget();
+  recentObstacles_.forget();
+}
+
+std::optional<Touch> World::touchOf(double radius, const Point3& from, const Point3& to) {
+  if (part_.isEmpty()) return std::nullopt;
+  return recentTouches_.of(from, to, radius, [&] { return firstContact(part_, radius, from, to); });
 }
 
 bool World::isThere(const SkipMove& here) {
@@ -83,10 +90,14 @@ bool World::isOld(const Obstacle& hit, double length) const {
   return pressed_ && hit.share * length <= kNear;
 }
 
+std::optional<World::Obstacle> World::obstacle(const Point3& from, const Point3& way) {
+  if (!(probe_.stemDiameter > 0) || part_.isEmpty()) return std::nullopt;
+  return recentObstacles_.of(from, way, 0, [&] { return findObstacle(from, way); });
+}
+
 // The stem or the body on the path, the earlier of the two.
-std::optional<World::Obstacle> World::obstacle(const Point3& from, const Point3& way) const {
+std::optional<World::Obstacle> World::findObstacle(const Point3& from, const Point3& way) const {
   std::optional<Obstacle> out;
-  if (!(probe_.stemDiameter > 0) || part_.isEmpty()) return out;
   const Point3 top = from + Point3{0, 0, probe_.stemLength};
   if (const auto share = firstCollision(part_, {from, top, probe_.stemDiameter / 2}, way))
     out = {Outcome::StemCollision, *share};

@@ -6,6 +6,7 @@
 #include "sim/geometry/Probe.h"
 #include "sim/machine/Machine.h"
 #include "sim/machine/MotionWatcher.h"
+#include "sim/machine/Recent.h"
 #include "support/Diagnostics.h"
 
 #include <string_view>
@@ -75,7 +76,7 @@ public:
   // Tools besides the probe, and the tool setter. The number of the tool in the spindle; 0: the probe.
   void setDevices(Devices devices) { devices_ = std::move(devices); }
   void toolChanged(std::uint32_t number) override { tool_ = number; }
-  void setPart(Part part) { part_ = std::move(part); }
+  void setPart(Part part);
   // As at the start: the events are forgotten, the noise begins anew with `seed`.
   void restart(std::uint64_t seed);
 
@@ -91,7 +92,7 @@ public:
   bool isUnknownTool() const;
 
 private:
-  std::optional<Touch> touchOf(double radius, const Point3& from, const Point3& to) const;
+  std::optional<Touch> touchOf(double radius, const Point3& from, const Point3& to);
   struct Obstacle {
     Outcome outcome;
     double share;
@@ -108,7 +109,8 @@ private:
     double reached, limit;
   };
   std::optional<Leaving> leavesTravel(const Position& from, const Position& to) const;
-  std::optional<Obstacle> obstacle(const Point3& from, const Point3& way) const;
+  std::optional<Obstacle> obstacle(const Point3& from, const Point3& way);
+  std::optional<Obstacle> findObstacle(const Point3& from, const Point3& way) const;
   // Is where the last motion ended, which was reported.
   bool isOld(const Obstacle& hit, double length) const;
   double noise();
@@ -129,6 +131,9 @@ private:
   std::uint64_t seed_;
   std::uint64_t touches_ = 0;
   std::vector<ProbeEvent> events_;
+  // A macro touches twice, and of two programs that are compared the second does what the first did.
+  Recent<std::optional<Touch>> recentTouches_;
+  Recent<std::optional<Obstacle>> recentObstacles_;
 };
 
 // What went wrong, as a finding at `range`. A contact is none; a miss is a note, since a protected move is

@@ -479,3 +479,8 @@ TEST_CASE("a call is read once: arguments by role, or one refusal in words") {
   CHECK(refused("inspection-plus", 9811, "XST") ==
         "program `9811` of `inspection-plus` does not take S and T together");
 }
+
+TEST_CASE("a set says whether some of its calls do what no source states") {
+  CHECK(!macros("easyprobe").hasUnstated());
+  CHECK(macros("inspection-plus").hasUnstated()); // the way round an outer corner
+}

@@ -146,3 +146,36 @@ TEST_CASE("part: a capsule collides where the balls along its axis do") {
   }
   CHECK(hits > 20);
 }
+
+TEST_CASE("part: whether a capsule collides is whether it does somewhere") {
+  int hits = 0, misses = 0;
+  for (std::uint64_t seed = 0; seed < kParts; ++seed) {
+    INFO("seed " << seed);
+    const RandomPart random = RandomPart::make(seed);
+    PartRandom numbers(seed + 5000);
+    for (int n = 0; n < 20; ++n) {
+      const Point3 from = numbers.direction() * numbers.between(5, 50);
+      const Capsule capsule{from, from + numbers.direction() * numbers.between(0, 25),
+                            numbers.between(0.5, 5)};
+      const Point3 way = from * -numbers.between(0, 1.7) + numbers.point(12);
+      const bool found = firstCollision(*random.part, capsule, way).has_value();
+      CHECK(collides(*random.part, capsule, way) == found);
+      ++(found ? hits : misses);
+    }
+  }
+  CHECK(hits > 100);
+  CHECK(misses > 100);
+}
+
+TEST_CASE("part: boxes have edges, outward and inward ones") {
+  PartBuilder builder;
+  builder.box({0, 0, 0}, {20, 10, 50});
+  builder.box({0, 0, 0}, {10, 20, 50});
+  const std::unique_ptr<Part> angle = finish(builder);
+  // In the corner of the L the nearest of the surface is its inner edge.
+  const Part::Nearest inner = angle->nearest({8, 8, 25});
+  CHECK(inner.distance == doctest::Approx(-std::sqrt(8)).epsilon(1e-12));
+  CHECK(lengthOf(inner.point - Point3{10, 10, 25}) < 1e-9);
+  CHECK(angle->distance({23, 14, 25}) == doctest::Approx(5).epsilon(1e-12));
+  CHECK(lengthOf(angle->nearest({23, 14, 25}).point - Point3{20, 10, 25}) < 1e-9);
+}

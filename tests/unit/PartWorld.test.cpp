@@ -333,3 +333,18 @@ TEST_CASE("probe: backing off from a collision is no second one") {
   bench.move(MotionKind::Rapid, {80, 20, 1.5}, {80, 20, 20});
   CHECK(bench.outcomes() == std::vector{Outcome::StemCollision});
 }
+
+TEST_CASE("probe: a path that is asked for again meets the part that is there now") {
+  Bench bench(probe());
+  const Point3 from{-20, 30, -10}, to{20, 30, -10};
+  const auto first = bench.skip(from, to);
+  REQUIRE(first);
+  CHECK(bench.skip(from, to) == first);
+  CHECK(bench.outcomes() == std::vector{Outcome::Contact, Outcome::Contact});
+  bench.move(MotionKind::Feed, {80, 20, 20}, {80, 20, 1.5});
+  bench.world.setPart(plate().placed({{5, 0, -40}, {}}));
+  bench.world.restart(1);
+  CHECK(!bench.skip(from, to));
+  bench.move(MotionKind::Feed, {80, 20, 20}, {80, 20, 1.5});
+  CHECK(bench.outcomes() == std::vector{Outcome::Miss});
+}
