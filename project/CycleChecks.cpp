@@ -109,7 +109,8 @@ void runCycleChecks(const CycleFolder& folder, FieldTable& fields, const std::ma
       hosts,
       session.options().assume,
       [&](const std::string& name, SourceRange where) { return folder.loader->macro(name, where); },
-      [&](const std::string& name, SourceRange where) { return folder.loader->dialog(name, where); }};
+      [&](const std::string& name, SourceRange where) { return folder.loader->dialog(name, where); },
+      &folder.loader->programs()};
   const gibbs::ChecksResult result = gibbs::runChecks(*folder.cycle->cycleData, context);
   switch (result.verdict) {
   case gibbs::ChecksResult::Verdict::Rejected: rejected(result, folder, context, blame, diagnostics); return;

@@ -5,6 +5,7 @@
 #include "frontend/gibbs/Check.h"
 #include "frontend/gibbs/Cycle.h"
 #include "frontend/gibbs/Parse.h"
+#include "frontend/gibbs/Program.h"
 #include "project/IncludeGraph.h"
 #include "project/Session.h"
 
@@ -29,6 +30,8 @@ public:
   const frontend::gibbs::Macro* macro(const std::string& name, SourceRange where);
   const frontend::gibbs::Dialog* dialog(const std::string& name, SourceRange where);
   bool hasDialog(const std::string& name) const;
+  // Of the macros, as runs have compiled them under the limits of the session.
+  frontend::gibbs::Programs& programs() { return programs_; }
   // Makes a tree that was parsed elsewhere known under its file's path.
   void know(const std::string& path, const frontend::gibbs::Macro& macro);
   void know(const std::string& path, const frontend::gibbs::Dialog& dialog);
@@ -48,6 +51,7 @@ private:
   std::filesystem::path folder_;
   ReadBounds bounds_;
   IncludeGraph includes_;
+  frontend::gibbs::Programs programs_;
   std::deque<frontend::gibbs::Macro> ownMacros_;
   std::deque<frontend::gibbs::Dialog> ownDialogs_;
   std::map<std::string, std::filesystem::path> found_;          // by name and suffix as asked for

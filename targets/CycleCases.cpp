@@ -189,7 +189,8 @@ std::unique_ptr<CaseRunner::Values> CaseRunner::check(verify::Case drawn, bool s
         out->drawn.hosts,
         session_.options().assume,
         [&](const std::string& name, SourceRange where) { return folder_->loader->macro(name, where); },
-        [&](const std::string& name, SourceRange where) { return folder_->loader->dialog(name, where); }};
+        [&](const std::string& name, SourceRange where) { return folder_->loader->dialog(name, where); },
+        &folder_->loader->programs()};
     const auto path = gibbs::runToolPath(*folder_->cycle->toolPath, context);
     if (!path) {
       noteEndless(out->drawn);

@@ -88,7 +88,11 @@ bool Stand::prepare(sim::Machine& machine, const Entry& entry, double ballRadius
 Record Stand::run(const sim::Bytecode& code, sim::World& world, const Entry& entry,
                   const std::set<std::uint32_t>& stores, sim::MacroMeaning* meaning, Way way,
                   const Interference& interference) const {
-  sim::Machine machine(fresh_);
+  if (machine_)
+    *machine_ = fresh_;
+  else
+    machine_.emplace(fresh_);
+  sim::Machine& machine = *machine_;
   const double length = world.probe().centreLength() + world.probe().ballRadius();
   if (!prepare(machine, entry, world.probe().ballRadius(), length)) {
     Record record;
@@ -112,6 +116,8 @@ Record Stand::run(const sim::Bytecode& code, sim::World& world, const Entry& ent
   machine.setTrace(trace_);
   run.run();
   machine.setWatcher(nullptr);
+  machine.setSkipSignal(nullptr);
+  machine.setTrace(nullptr);
   Record record = recorder.finish(stores);
   record.printed = run.output();
   return record;

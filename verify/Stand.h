@@ -72,7 +72,9 @@ private:
   const Limits& limits_;
   sim::Trace* trace_ = nullptr;
   sim::BlockSet watching_;
-  const sim::Machine fresh_; // copied for each run
+  const sim::Machine fresh_;
+  // Of the last run: what is assigned for the next keeps its memory. So a stand is used by one thread.
+  mutable std::optional<sim::Machine> machine_;
 };
 
 } // namespace dotek::verify

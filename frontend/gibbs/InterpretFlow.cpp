@@ -8,10 +8,13 @@
 namespace dotek::frontend::gibbs {
 
 const Program& Interpreter::programOf(const Macro& macro) {
-  auto& program = programs_[&macro];
-  if (!program)
-    program = std::make_unique<const Program>(compileProgram(macro, around_.limits, around_.load));
-  return *program;
+  for (const Programs* known : {&programs_, around_.programs})
+    if (known != nullptr)
+      if (const auto found = known->find(&macro); found != known->end()) return *found->second;
+  auto program = std::make_unique<const Program>(compileProgram(macro, around_.limits, around_.load));
+  // A file that cannot be read is reported by each run.
+  Programs& keeper = around_.programs == nullptr || program->includes ? programs_ : *around_.programs;
+  return *keeper.emplace(&macro, std::move(program)).first->second;
 }
 
 void Interpreter::reportOnce(Diagnostic diagnostic) {

@@ -45,7 +45,9 @@ inline constexpr std::size_t kNoMessage = kNowhere;
 // One path; it can be copied where a condition depends on something unknown.
 struct State {
   std::vector<Frame> frames;
-  std::map<std::string, Value> globals;      // in a translation only what is known when translating
+  // In a run what was assigned, other fields of the cycle aside; in a translation what is known when
+  // translating.
+  std::map<std::string, Value> globals;
   std::map<std::string, std::size_t> arrays; // declared number of elements
   std::map<std::string, Value> written;      // host inputs that a SET_ command has changed
   std::optional<ir::AngleUnit> angles;
@@ -97,6 +99,7 @@ protected:
     const MacroLoader& load;
     const DialogLoader& loadDialog;
     const std::map<std::string, double>* hosts = nullptr; // host inputs that are known; nullptr: none
+    Programs* programs = nullptr;                         // kept from run to run; nullptr: none
   };
 
   template <class Context>
@@ -242,7 +245,7 @@ private:
   std::optional<Truth> decide(State& state, const Comparison& c);
   std::optional<std::string> keyOf(State& state, const VariableRef& ref, bool reads);
 
-  std::map<const Macro*, std::unique_ptr<const Program>> programs_;
+  Programs programs_;
 };
 
 } // namespace dotek::frontend::gibbs

@@ -158,6 +158,7 @@ private:
       return;
     }
     if (++includes_ >= limit()) return; // tooLarge() will say so
+    program_.includes = true;
     const Macro* macro = load_ ? load_(node.file, node.fileRange) : nullptr;
     if (macro == nullptr) {
       emit(node.fileRange, RefuseStep{"the file that #INCLUDE names is not there"});

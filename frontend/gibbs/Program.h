@@ -8,6 +8,7 @@
 #include <functional>
 #include <limits>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -83,10 +84,13 @@ struct Program {
   std::vector<Loop> loops;
   // Folded name to place; nowhere: the label appears twice.
   std::map<std::string, std::size_t> labels;
+  bool includes = false; // lines of other files
 };
 
 // Never fails: what cannot be run becomes an instruction that says so when it is reached.
 using MacroLoader = std::function<const Macro*(const std::string& name, SourceRange where)>;
+// By their macros, which outlive them.
+using Programs = std::map<const Macro*, std::unique_ptr<const Program>>;
 Program compileProgram(const Macro& macro, const Limits& limits, const MacroLoader& load);
 
 } // namespace dotek::frontend::gibbs

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "frontend/gibbs/Ast.h"
+#include "frontend/gibbs/Program.h"
 #include "stdlib/GibbsKeywords.h"
 #include "support/Diagnostics.h"
 #include "support/Limits.h"
@@ -31,6 +32,8 @@ struct RunContext {
   std::function<const Macro*(const std::string& name, SourceRange where)> load;
   // The parsed dialog that DIALOG names, nullptr if there is none.
   std::function<const Dialog*(const std::string& name, SourceRange where)> loadDialog;
+  // Compiled macros that further runs with these limits use again; nullptr: none are kept.
+  Programs* programs = nullptr;
 };
 
 // A MESSAGE or STOP that was shown, or a return code that was set, before the values were rejected.

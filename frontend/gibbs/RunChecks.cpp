@@ -110,7 +110,9 @@ private:
       addOnce(shown_, message);
     std::map<std::string, double> changed;
     for (const auto& [field, given] : context_.fields) {
-      const Value& value = state.globals.at(field);
+      const auto assigned = state.globals.find(field);
+      if (assigned == state.globals.end()) continue;
+      const Value& value = assigned->second;
       if (const Unknown* unknown = unknownIn(value)) {
         machine_.reportOnce(makeDiagnostic<diag::FieldOpen>(machine_.place(), field, unknownText(*unknown)));
         return PathEnd::Failed;

@@ -32,14 +32,11 @@ void Machine::dialogOpens(State& state, SourceRange) {
 }
 
 bool Machine::storeField(State& state, const std::string& field, SourceRange) {
-  const double value = context_.fields.at(field);
   auto& locals = state.frames.back().locals;
-  const auto local = locals.find(field);
-  if (local != locals.end()) {
-    local->second = value;
-  } else {
-    state.globals[field] = value;
-  }
+  if (const auto local = locals.find(field); local != locals.end())
+    local->second = context_.fields.at(field);
+  else
+    state.globals.erase(field);
   return true;
 }
 

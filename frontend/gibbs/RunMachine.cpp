@@ -7,8 +7,6 @@ namespace dotek::frontend::gibbs {
 
 State Machine::start(const Macro& macro) {
   State state;
-  for (const auto& [name, value] : context_.fields)
-    state.globals.emplace_hint(state.globals.end(), name, value);
   Frame frame;
   frame.program = &programOf(macro);
   state.frames.push_back(std::move(frame));

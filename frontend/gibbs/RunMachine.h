@@ -28,6 +28,7 @@ class Machine final : public Interpreter {
 public:
   Machine(RunContext& context, Purpose purpose) : Interpreter(context, purpose), context_(context) {
     around_.hosts = &context.hosts;
+    around_.programs = context.programs;
   }
 
   State start(const Macro& macro);

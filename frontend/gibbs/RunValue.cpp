@@ -56,7 +56,9 @@ std::optional<Value> Machine::lookUp(State& state, const std::string& key, const
   const auto local = frame.locals.find(key);
   if (local != frame.locals.end()) return local->second;
   const auto global = state.globals.find(key);
-  return global == state.globals.end() ? std::nullopt : std::optional(global->second);
+  if (global != state.globals.end()) return global->second;
+  const auto field = context_.fields.find(key);
+  return field == context_.fields.end() ? std::nullopt : std::optional<Value>(field->second);
 }
 
 bool Machine::store(State& state, const std::string& key, const VariableRef&, Value value, SourceRange) {

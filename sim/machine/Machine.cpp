@@ -23,7 +23,7 @@ constexpr std::uint32_t kQuickWords[4] = {kMoveWords, kMoveWords, kMoveWords | i
 } // namespace
 
 Machine::Machine(const stdlib::Control& control, Dialect dialect)
-    : control_(control), dialect_(std::move(dialect)), table_(control), layout_(control) {
+    : control_(&control), dialect_(std::move(dialect)), table_(control), layout_(control) {
   // What is in force at power on, as most machines are set: rapid, XY, absolute, mm, per minute, G54.
   for (const Function function :
        {Function::Rapid, Function::PlaneXY, Function::Absolute, Function::Metric, Function::FeedPerMinute,
@@ -92,7 +92,7 @@ void Machine::setZero(std::uint32_t system, const Position& zero) {
 
 void Machine::setToolLength(std::uint32_t tool, double length) {
   if (tool >= tools_.size()) tools_.resize(tool + 1);
-  tools_[tool] = control_.variables.toolGeometry ? ToolOffset{0, length} : ToolOffset{length, 0};
+  tools_[tool] = control_->variables.toolGeometry ? ToolOffset{0, length} : ToolOffset{length, 0};
 }
 
 double Machine::toolLengthOf(std::uint32_t tool) const {
@@ -191,9 +191,9 @@ bool Machine::executeLong(const NcWords& w) {
   if ((w.marks & NcWords::ProgramName) != 0) {
     if (blocks_ != 0) return stop(Ending::TextEnd);
     if (w.has('O')) {
-      if (!(w.of('O') >= 0 && w.of('O') <= control_.programLast))
+      if (!(w.of('O') >= 0 && w.of('O') <= control_->programLast))
         return inconclusive(
-            fmt::format("its programs have numbers up to {}; {}", control_.programLast, kLongProgramNumbers),
+            fmt::format("its programs have numbers up to {}; {}", control_->programLast, kLongProgramNumbers),
             'O');
       modalWords_[slotOf('O')] = w.of('O');
       stack_.back().program = static_cast<std::uint32_t>(w.of('O'));
@@ -236,7 +236,7 @@ bool Machine::readCodes(const NcWords& w) {
     if ((code.flags & Code::Unknown) != 0)
       return inconclusive(w.g[i] == NcWords::kNoCode
                               ? std::string("it is no code of a control")
-                              : unlistedText(control_.name, codeName('G', w.g[i]), false),
+                              : unlistedText(control_->name, codeName('G', w.g[i]), false),
                           'G', i);
     switch (code.function) {
     case Function::Other: return inconclusive("what it does here is not known to Dotek", 'G', i);
@@ -286,7 +286,7 @@ bool Machine::readCodes(const NcWords& w) {
     const Code& code = table_.m(w.m[i] == NcWords::kNoCode ? 0x0FFFFFFF : w.m[i]);
     if (w.m[i] == NcWords::kNoCode) return inconclusive("it is no code of a control", 'M', i);
     if ((code.flags & Code::Unknown) != 0)
-      return inconclusive(unlistedText(control_.name, fmt::format("M{}", w.m[i]), true), 'M', i);
+      return inconclusive(unlistedText(control_->name, fmt::format("M{}", w.m[i]), true), 'M', i);
     if (code.function == Function::Other)
       return inconclusive("what it does here is not known to Dotek", 'M', i);
     if (code.function == Function::SubprogramCall) block_.call = 1;
@@ -311,7 +311,7 @@ bool Machine::checkWords(const NcWords& w) {
     }
   } else if (modes_[kCanned] != 0) {
     allowed |= ir::addressBits("RQPIJ");
-    if (control_.repeatLetter != 0) allowed |= ir::addressBit(control_.repeatLetter);
+    if (control_->repeatLetter != 0) allowed |= ir::addressBit(control_->repeatLetter);
   } else if (modes_[kMotion] >= kArcClockwise) {
     allowed |= ir::addressBits("IJKR");
   }
@@ -352,7 +352,7 @@ bool Machine::stop(Ending ending) {
 }
 
 bool Machine::raise(Alarm alarm, char letter) {
-  const stdlib::AlarmInfo* info = control_.find(alarm);
+  const stdlib::AlarmInfo* info = control_->find(alarm);
   if (info == nullptr && !dialect_.numbersAlarms)
     return inconclusive(fmt::format("what the control does then is not known ({})", stdlib::alarmName(alarm)),
                         letter);
@@ -414,16 +414,16 @@ void Machine::noteModal(Function function) {
 }
 
 bool Machine::enter(const Frame& callee) {
-  if (control_.callDepth && stack_.size() > *control_.callDepth) return raise(Alarm::SubprogramDepth);
+  if (control_->callDepth && stack_.size() > *control_->callDepth) return raise(Alarm::SubprogramDepth);
   if (stack_.size() > callLimit_)
     return overLimit(
         fmt::format("calls nest deeper than {}; `--limit call-depth=N` allows more", callLimit_));
   if (callee.macro) {
-    if (level_ >= control_.macroLevels) return raise(Alarm::MacroDepth);
+    if (level_ >= control_->macroLevels) return raise(Alarm::MacroDepth);
     ++level_;
     const auto locals = cells_.begin() + 1;
-    saved_.insert(saved_.end(), locals, locals + control_.locals);
-    std::fill_n(locals, control_.locals, kNull);
+    saved_.insert(saved_.end(), locals, locals + control_->locals);
+    std::fill_n(locals, control_->locals, kNull);
   }
   stack_.push_back(callee);
   modalWords_[slotOf('O')] = callee.program;
@@ -434,7 +434,7 @@ void Machine::leave() {
   if (stack_.size() < 2) return;
   if (stack_.back().macro) {
     --level_;
-    const auto from = saved_.end() - static_cast<std::ptrdiff_t>(control_.locals);
+    const auto from = saved_.end() - static_cast<std::ptrdiff_t>(control_->locals);
     std::copy(from, saved_.end(), cells_.begin() + 1);
     saved_.erase(from, saved_.end());
   }

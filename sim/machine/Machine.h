@@ -158,7 +158,7 @@ public:
   double seconds() const { return seconds_; }
   // The last block moved an axis, or told one to move to where it is.
   bool moved() const { return moved_; }
-  const stdlib::Control& control() const { return control_; }
+  const stdlib::Control& control() const { return *control_; }
   Trace* trace() const { return trace_; }
 
   // ---- variables of macros
@@ -190,7 +190,7 @@ public:
   }
   // To the least input increment, as a word of a length is; in the unit in force.
   double toIncrement(double value) const {
-    return rounded(value, control_.decimals + (modes_[kUnits] != 0 ? 1 : 0));
+    return rounded(value, control_->decimals + (modes_[kUnits] != 0 ? 1 : 0));
   }
 
   // ---- calls; the caller finds the program and runs it
@@ -358,7 +358,7 @@ private:
   bool store(std::uint32_t number, double value, bool preset);
   std::uint32_t windowBytes(const Place& place) const; // 0: the address lies outside
 
-  const stdlib::Control& control_;
+  const stdlib::Control* control_; // a pointer: a machine can be assigned
   Dialect dialect_;
   CodeTable table_;
   Trace* trace_ = nullptr;

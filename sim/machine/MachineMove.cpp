@@ -148,7 +148,7 @@ bool Machine::arc(const NcWords& w, const Position& end) {
       second = way[1];
     }
     const double difference = std::abs(std::hypot(first, second) - std::hypot(first - du, second - dv));
-    if (arcTolerance_ < 0 && difference > control_.increment)
+    if (arcTolerance_ < 0 && difference > control_->increment)
       return inconclusive("how far the radius may be off is not known", 'G');
     if (arcTolerance_ >= 0 && difference > arcTolerance_) return raise(Alarm::ArcRadius);
   }
@@ -363,7 +363,7 @@ bool Machine::cannedCycle(const NcWords& w) {
   }
   if (!hasDepth_) return inconclusive("a canned cycle without a depth", 'G');
   double repeats = 1;
-  if (control_.repeatLetter != 0 && w.has(control_.repeatLetter)) repeats = w.of(control_.repeatLetter);
+  if (control_->repeatLetter != 0 && w.has(control_->repeatLetter)) repeats = w.of(control_->repeatLetter);
   if (repeats == 0) { // R, depth and feed are kept, and nothing moves
     uncertain_ = unknown;
     shown_ = shown;
@@ -372,7 +372,7 @@ bool Machine::cannedCycle(const NcWords& w) {
     return true;
   }
   if (!(repeats >= 1 && repeats <= 9999) || repeats != std::floor(repeats))
-    return inconclusive("how the cycle repeats is not known", control_.repeatLetter);
+    return inconclusive("how the cycle repeats is not known", control_->repeatLetter);
   if (modes_[kCanned] == 2 && modes_[kReturn] != 0)
     return inconclusive("back boring returns to the initial level only", 'G');
   // In incremental mode each repeat is a step further.

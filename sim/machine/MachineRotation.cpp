@@ -146,7 +146,7 @@ bool Machine::turnTarget(const NcWords& w, Position& end, std::uint32_t unknown)
     const double turned = rotation_.turnedBack(work_)[axis], asBefore = rotation_.told(axis);
     double value = turned;
     if (!same(turned, asBefore)) {
-      switch (control_.rotation.otherAxis) {
+      switch (control_->rotation.otherAxis) {
       case RotationFacts::Position::Turned: break;
       case RotationFacts::Position::AsBefore:
         if (!std::isnan(asBefore)) {
@@ -173,7 +173,7 @@ bool Machine::turnTarget(const NcWords& w, Position& end, std::uint32_t unknown)
 
 std::optional<double> Machine::turnedVariable(std::uint32_t number, std::size_t axis, const Position& work,
                                               const Position& latched) {
-  switch (control_.rotation.positions) {
+  switch (control_->rotation.positions) {
   case RotationFacts::Frame::Work: return work[axis];
   case RotationFacts::Frame::Program: return latched[axis];
   case RotationFacts::Frame::Unknown: break;

@@ -38,7 +38,7 @@ double Machine::lengthOf(const NcWords& w, char letter) const {
   const double value = w.of(letter);
   const bool linear = (ir::addressBit(letter) & kRotaryBits) == 0;
   const bool inch = linear && modes_[kUnits] != 0;
-  const int places = control_.decimals + (inch ? 1 : 0);
+  const int places = control_->decimals + (inch ? 1 : 0);
   const bool bare = (needPoint_ & ~w.pointed & ir::addressBit(letter)) != 0;
   double out = value;
   if (bare) {
@@ -57,7 +57,7 @@ bool Machine::settings(const NcWords& w) {
     if (w.has(letter) && !(letter == 'S' && limitsSpeed)) modalWords_[slotOf(letter)] = w.of(letter);
   if (w.has('F')) {
     const bool bare =
-        control_.decimal == stdlib::DecimalMode::Increment && (w.pointed & ir::addressBit('F')) == 0;
+        control_->decimal == stdlib::DecimalMode::Increment && (w.pointed & ir::addressBit('F')) == 0;
     if (bare && (modes_[kFeedMode] != 0 || modes_[kUnits] != 0))
       return inconclusive("what it counts without a point is not known", 'F');
     if (!(w.of('F') >= 0)) return inconclusive("a feed is not below 0", 'F');
@@ -201,7 +201,7 @@ bool Machine::changeToolLength(const NcWords& w) {
       return inconclusive("which axis the tool length is added to depends on a parameter", 'G');
     const double h = modalWords_[slotOf('H')];
     if (!number || !(h >= 0) || (h != 0 && h >= static_cast<double>(tools_.size())))
-      return inconclusive(fmt::format("`{}` has tool offsets up to {}", control_.name, tools_.size() - 1),
+      return inconclusive(fmt::format("`{}` has tool offsets up to {}", control_->name, tools_.size() - 1),
                           w.has('H') ? 'H' : 'G');
     const ToolOffset& tool = tools_[static_cast<std::size_t>(h)];
     if (watcher_ != nullptr && h != 0 && tool.wear == 0 && tool.geometry == 0)
@@ -280,7 +280,7 @@ bool Machine::dataInput(const NcWords& w) {
   if (kind && (*kind == 1 || (*kind >= 10 && *kind <= 13))) {
     if (*kind >= 12) return inconclusive("Dotek does not keep offsets of the tool's radius", 'L');
     if (*number == 0 || *number >= tools_.size())
-      return inconclusive(fmt::format("`{}` has tool offsets up to {}", control_.name, tools_.size() - 1),
+      return inconclusive(fmt::format("`{}` has tool offsets up to {}", control_->name, tools_.size() - 1),
                           'P');
     if (!w.has('R') || (w.present & kAxisBits) != 0) return inconclusive("a tool offset takes R", 'G');
     double& value = *kind == 10 ? tools_[*number].geometry : tools_[*number].wear;

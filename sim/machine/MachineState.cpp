@@ -12,8 +12,8 @@ using stdlib::StateRange;
 bool Machine::findState(std::uint32_t number, Place& place) const {
   using Kind = Place::Kind;
   std::size_t before = 0;
-  for (std::size_t i = 0; i < control_.state.size(); ++i) {
-    const StateRange& range = control_.state[i];
+  for (std::size_t i = 0; i < control_->state.size(); ++i) {
+    const StateRange& range = control_->state[i];
     if (number >= range.first && number <= range.last) {
       place = {Kind::State, before + (number - range.first), i};
       return true;
@@ -24,8 +24,8 @@ bool Machine::findState(std::uint32_t number, Place& place) const {
     }
     before += range.last - range.first + 1;
   }
-  if (!control_.window) return false;
-  const stdlib::PmcWindow& window = *control_.window;
+  if (!control_->window) return false;
+  const stdlib::PmcWindow& window = *control_->window;
   if (number == window.address)
     place = {Kind::WindowAddress, 0, 0};
   else if (number == window.byte)
@@ -80,11 +80,11 @@ std::optional<double> Machine::readState(std::uint32_t number, const Place& plac
     const double value = state_[place.index];
     if (isFresh(value))
       return unknown(fmt::format("what #{} holds ({}) is not known; `--var {}=VALUE` sets it", number,
-                                 control_.state[place.axis].title, number));
+                                 control_->state[place.axis].title, number));
     return value;
   }
   case Kind::StateWord: {
-    const StateRange& range = control_.state[place.axis];
+    const StateRange& range = control_->state[place.axis];
     double out = 0, weight = 1;
     for (std::uint32_t i = 0; i <= range.last - range.first; ++i, weight *= 2) {
       const double bit = state_[place.index + i];
@@ -103,7 +103,7 @@ std::optional<double> Machine::readState(std::uint32_t number, const Place& plac
   const std::uint32_t count = windowBytes(place);
   if (count == 0)
     return unknown(fmt::format("#{} is read at no address of the {} area that `{}` has", number,
-                               control_.window->area, control_.name));
+                               control_->window->area, control_->name));
   std::uint32_t bits = 0; // the lowest byte is first
   for (std::uint32_t i = 0; i < count; ++i)
     bits |= static_cast<std::uint32_t>(pmc_[static_cast<std::size_t>(pmcAddress_) + i]) << (8 * i);
@@ -115,7 +115,7 @@ std::optional<double> Machine::readState(std::uint32_t number, const Place& plac
 bool Machine::writeState(std::uint32_t number, const Place& place, double value, bool preset) {
   using Kind = Place::Kind;
   if (place.kind == Kind::State || place.kind == Kind::StateWord) {
-    const StateRange& range = control_.state[place.axis];
+    const StateRange& range = control_->state[place.axis];
     if (!preset && range.access == StateRange::Access::ReadOnly) return raise(Alarm::WriteProtected);
     if (range.null || (preset && range.access == StateRange::Access::ReadOnly && range.initial))
       return raise(Alarm::WriteProtected);
@@ -143,15 +143,15 @@ bool Machine::writeState(std::uint32_t number, const Place& place, double value,
         fmt::format("#{} takes whole numbers; what becomes of a fraction is not known", number));
   if (place.kind == Kind::WindowAddress) {
     if (!(whole >= 0 && whole < static_cast<double>(pmc_.size())))
-      return inconclusive(
-          fmt::format("`{}` has {} bytes of the {} area", control_.name, pmc_.size(), control_.window->area));
+      return inconclusive(fmt::format("`{}` has {} bytes of the {} area", control_->name, pmc_.size(),
+                                      control_->window->area));
     pmcAddress_ = whole;
     return true;
   }
   const std::uint32_t count = windowBytes(place);
   if (count == 0)
     return inconclusive(fmt::format("#{} is written at no address of the {} area that `{}` has", number,
-                                    control_.window->area, control_.name));
+                                    control_->window->area, control_->name));
   const double range = std::ldexp(1.0, static_cast<int>(8 * count));
   if (!(whole >= -range / 2 && whole < range))
     return inconclusive(fmt::format("the value does not fit the {} bytes of #{}", count, number));

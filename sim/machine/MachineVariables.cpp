@@ -14,7 +14,7 @@ using stdlib::Alarm;
 
 bool Machine::find(std::uint32_t number, Place& place) const {
   using Kind = Place::Kind;
-  const stdlib::SystemVariables& v = control_.variables;
+  const stdlib::SystemVariables& v = control_->variables;
   const auto n = static_cast<long>(number);
   const auto axisOf = [&](std::optional<int> first, Kind kind) {
     if (!first || n < *first || n >= *first + static_cast<long>(kAxes)) return false;
@@ -182,10 +182,10 @@ std::optional<double> Machine::readSystem(std::uint32_t number, const Place& pla
     std::optional<double> out = skip ? turnedVariable(number, place.axis, skipped_, skippedTurned_)
                                      : turnedVariable(number, place.axis, work_, rotation_.turnedBack(work_));
     if (out && place.axis == 2 && toolLength_ != 0) {
-      const std::optional<stdlib::LengthInPositions>& with = control_.withToolLength;
+      const std::optional<stdlib::LengthInPositions>& with = control_->withToolLength;
       if (!with) {
         inconclusive(fmt::format("whether #{} holds the length of the tool is not known of {}", number,
-                                 control_.title));
+                                 control_->title));
         return std::nullopt;
       }
       if (skip ? with->skip : with->position) out = snap(*out + toolLength_);

@@ -118,6 +118,7 @@ bool VendorRun::alarm(stdlib::MacroAlarm alarm) {
 }
 
 void VendorRun::sayOnce(std::string_view action, const std::string& text) {
+  if (machine_.trace() == nullptr) return;
   if (memory_.said.insert(std::string(action) + " " + text).second) machine_.remark(action, text);
 }
 

@@ -144,6 +144,7 @@ bool VendorRun::setSystem() {
     if (!before || !machine_.write(*to, *before + *error)) return false;
     const auto after = machine_.read(*to);
     if (!after) return false;
+    if (machine_.trace() == nullptr) continue;
     const std::string name =
         extended ? fmt::format("54.1 P{}", system) : std::to_string(kFirstSystem + system);
     machine_.remark("offset", fmt::format("{} {}{}", name, ir::letterOf(axis), fixed(*after)));
