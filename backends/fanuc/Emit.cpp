@@ -184,11 +184,6 @@ std::optional<BranchBlocks> emitBranch(const ir::Cycle& given, const EmitOptions
   }
   for (const ir::ExpressionPtr& distance : std::exchange(state.distances, {}))
     writeDistanceAlarm(state, distance, made("way of a touch"));
-  for (const ir::ExpressionPtr& tool : std::exchange(state.tools, {})) {
-    const auto* use = std::get_if<ir::VariableUse>(&tool->node);
-    if (use == nullptr || !branch.holes.contains(use->variable))
-      writeToolAlarm(state, tool, made("range of the tool offset"));
-  }
   reportHosts(state);
   if (branch.modes) writeModes(state, {});
   state.sheet.append(body);

@@ -85,6 +85,10 @@ void writeSetTool(State& state, const ir::CallCycle& set, const ir::Origin& give
   const std::optional<int> first = v.toolGeometry ? v.toolGeometry : v.toolWear;
   if (tool == nullptr || length == nullptr) return refuse("a correction of the radius of a tool", kByHand);
   if (!first) return refuse("a correction of a tool", kByHand);
+  // A dialog does not know how many offsets the table has, and a post looks at nothing.
+  if (state.options.branch)
+    return refuse("a correction of a tool by a post",
+                  "write the program with `--to fanuc`, and have it called");
   if (movesAfter(state))
     return refuse(
         "a move after the length of a tool is set",
