@@ -87,8 +87,14 @@ private:
         [&](const OneOf<Move, Measure, CallCycle, SetMode> auto&) {
           eachRequirement(statement, [&](const ExpressionPtr& value, Kind kind) { add(value, kind); });
         },
-        [&](const OneOf<Store, Label, Jump, Return, ProbePower, Spindle, Coolant, Dwell, Stop, Alarm, Comment,
-                        OpaqueBlock> auto&) {
+        [&](const OpaqueBlock& node) {
+          for (const Word& word : node.words) {
+            const bool ofTool = word.address == 'T' || word.address == 'H';
+            if (word.value != nullptr) add(word.value, ofTool ? Kind::ToolOffset : Kind::Number);
+          }
+        },
+        [&](const OneOf<Store, Label, Jump, Return, ProbePower, Spindle, Coolant, Dwell, Stop, Alarm,
+                        Comment> auto&) {
           eachSlot(statement, [&](const ExpressionPtr& value) { add(value, Kind::Number); });
         });
   }

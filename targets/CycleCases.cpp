@@ -15,6 +15,7 @@
 #include "support/messages/Commands.h"
 #include "support/messages/Gibbs.h"
 #include "support/messages/Verify.h"
+#include "targets/DialogChoices.h"
 #include "targets/NominalFields.h"
 #include "targets/ReadBack.h"
 #include "targets/Stage.h"
@@ -177,6 +178,10 @@ std::unique_ptr<CaseRunner::Values> CaseRunner::check(verify::Case drawn, bool s
     out->rejected = true;
     out->rejection = one.message;
     out->rejectedAt = one.range;
+    return out;
+  }
+  if (out->rejection = whyNotOffered(plan_.fields, drawn); !out->rejection.empty()) {
+    out->rejected = true;
     return out;
   }
   if (folder_->cycle->toolPath) {
@@ -497,7 +502,7 @@ void CaseRunner::misplace(Values& values) const {
 }
 
 sim::Point3 CaseRunner::zeroOf(const verify::Case& drawn) const {
-  return entryFor(plan_, drawn, false).zeros[drawn.system - 54];
+  return entryFor(drawn, false).zeros[drawn.system - 54];
 }
 
 // Host inputs as the path and the post's pictures have them.

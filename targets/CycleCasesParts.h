@@ -40,6 +40,8 @@ public:
   Ran with(const std::string& field, double value) override;
   Ran from(const verify::Entry& entry) override;
   Ran disturbed(const verify::Interference& interference) override;
+  void elsewhere(const verify::PartError& more, double grown,
+                 const std::function<void(const verify::Record&, sim::World&)>& look) override;
   bool moves(const std::string& field) override;
   bool rejectsSome(const std::string& name) override;
   bool maySkip(const std::string& name) override;

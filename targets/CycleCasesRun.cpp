@@ -109,8 +109,7 @@ CaseResult CaseRunner::run(const verify::Case& drawn) {
     values->part = plan_.part;
   result.partMade = values->path && !values->path->touches.empty();
   if (!values->part) values->part = emptyPart(zeroOf(drawn));
-  sim::World world(*values->part, probeFor(plan_, drawn),
-                   plan_.machine ? plan_.machine->limits : sim::MachineLimits{});
+  sim::World world(*values->part, probeFor(plan_, drawn)); // its zeros are drawn: no travel holds for them
 
   if (routine_ == nullptr) {
     result.why = "measurement not stated by the source";

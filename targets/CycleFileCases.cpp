@@ -209,7 +209,7 @@ sim::CycleInputs CycleFileRunner::inputsOf(const verify::Case& drawn) const {
 
 // What the cycle switches off is on before.
 verify::Entry CycleFileRunner::entryOf(const verify::Case& drawn) const {
-  verify::Entry entry = entryFor(plan_, drawn, needsProbe_ || options_.common.assume.contains("probe-on"));
+  verify::Entry entry = entryFor(drawn, needsProbe_ || options_.common.assume.contains("probe-on"));
   verify::Random random(callerStream(drawn));
   const bool left = random.chance(0.5), mist = random.chance(0.5);
   if (stopsSpindle_) entry.spindle = left ? 2 : 1;
@@ -218,7 +218,7 @@ verify::Entry CycleFileRunner::entryOf(const verify::Case& drawn) const {
 }
 
 sim::MachineLimits CycleFileRunner::limits() const {
-  return plan_.machine ? plan_.machine->limits : sim::MachineLimits{};
+  return {}; // zeros are drawn: no travel holds for them
 }
 
 verify::Record CycleFileRunner::runCycle(const verify::Case& drawn, sim::World& world, bool keepMoves) const {

@@ -12,6 +12,9 @@ namespace dotek::targets {
 namespace {
 
 constexpr double kSame = 1e-9;
+constexpr double kReach = 12; // how far a search goes beyond a surface, mm
+constexpr double kContactShare =
+    0.75; // of a bare skip move that is rehearsed: at its end it would have missed
 
 bool sameMotion(const verify::Record& a, const verify::Record& b) {
   const auto samePiece = [](const verify::Piece& one, const verify::Piece& other) {
@@ -86,7 +89,9 @@ SourceQuestions::Ran CaseRunner::Questions::play(const std::string& field, doubl
   if (!runner_.readPosted(*now)) return out;
   now->part = values_.part;
   now->caller = callerStream(values_.drawn);
-  out.record = runner_.runPosted(*now, world_, probeOn_, way);
+  verify::Entry entry = runner_.entryOf(*now, probeOn_);
+  entry.contactShare = kContactShare;
+  out.record = runner_.runPosted(*now, world_, entry, way);
   if (out.record.ending != verify::Ending::Inconclusive) out.answer = Answer::Runs;
   return out;
 }
@@ -127,6 +132,23 @@ SourceQuestions::Ran CaseRunner::Questions::disturbed(const verify::Interference
   return out;
 }
 
+void CaseRunner::Questions::elsewhere(const verify::PartError& more, double grown,
+                                      const std::function<void(const verify::Record&, sim::World&)>& look) {
+  if (!values_.posted || !values_.path || values_.path->touches.empty() || runner_.plan_.part) return;
+  std::vector<verify::Touch> touches = values_.path->nominal();
+  for (verify::Touch& touch : touches)
+    touch.point = touch.point + touch.direction * grown;
+  verify::PartError error = values_.drawn.error;
+  error.shift = error.shift + more.shift;
+  error.turn += more.turn;
+  const double radius = values_.drawn.hosts.at("tool_radius");
+  const std::optional<sim::Part> part = verify::partOf(touches, radius, std::max(radius, kReach), error);
+  if (!part) return;
+  sim::World world(*part, probeFor(runner_.plan_, values_.drawn));
+  const verify::Record record = runner_.runPosted(values_, world, probeOn_, verify::Stand::Way::Run);
+  if (record.ending != verify::Ending::Inconclusive) look(record, world);
+}
+
 bool CaseRunner::Questions::setsActive(const std::string& field, double value) const {
   const auto& fields = runner_.plan_.fields;
   return std::any_of(fields.begin(), fields.end(), [&](const verify::DrawField& one) {
@@ -163,7 +185,7 @@ bool CaseRunner::Questions::moves(const std::string& field) {
 }
 
 verify::Entry CaseRunner::entryOf(const Values& values, bool probeOn) const {
-  verify::Entry out = entryFor(plan_, values.drawn, probeOn);
+  verify::Entry out = entryFor(values.drawn, probeOn);
   if (values.posted)
     selectExtended(values.posted->file.programs.front(), *inputs_->sourceControl,
                    target_ == nullptr || !(target_->datumsMovePath() || target_->needsNominal()), out);

@@ -1,8 +1,11 @@
 #include "targets/DialogChoices.h"
 
 #include "frontend/gibbs/Ast.h"
+#include "ir/Fold.h"
 
-#include <optional>
+#include <algorithm>
+#include <cmath>
+#include <set>
 
 namespace dotek::targets {
 
@@ -17,6 +20,33 @@ std::optional<double> numberOf(const gibbs::Expression& expression) {
   if (number == nullptr) return std::nullopt;
   const bool minus = unary != nullptr && unary->op == gibbs::UnaryOperator::Minus;
   return minus && number->value != 0 ? -number->value : number->value;
+}
+
+std::string notInList(const std::string& name) {
+  return name + " is not in its list";
+}
+
+bool isWhole(double value) {
+  return value == std::trunc(value);
+}
+
+// Joined in pairs, as a condition nests no deeper than that.
+ir::ConditionPtr oneOf(const ir::ExpressionPtr& value, const std::vector<double>& values) {
+  if (values.size() == 1) return ir::compare(ir::Relation::Equal, value, ir::constant(values.front()));
+  const auto half = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  return ir::join(ir::Connective::Or, oneOf(value, {values.begin(), half}),
+                  oneOf(value, {half, values.end()}));
+}
+
+// An alarm of the checks where the parameter does not meet it.
+void demand(ir::Cycle& cycle, ir::VariableId id, const ir::ConditionPtr& offered) {
+  const ir::LabelId label = cycle.addLabel({"offered", {}});
+  ir::Origin origin;
+  if (cycle.variable(id).range.hasPlace()) origin.ranges.push_back(cycle.variable(id).range);
+  origin.reason = "list of the dialog";
+  cycle.checks.push_back({ir::Branch{offered, label}, origin});
+  cycle.checks.push_back({ir::Alarm{notInList(cycle.variable(id).name)}, origin});
+  cycle.checks.push_back({ir::Label{label}, origin});
 }
 
 } // namespace
@@ -61,6 +91,48 @@ std::vector<DialogChoice> choicesOfType(std::string_view type) {
     type.remove_prefix(std::min(comma + kComma.size(), type.size()));
   }
   return out;
+}
+
+bool takesNoOther(ir::Kind kind, const std::vector<double>& offered) {
+  constexpr std::size_t kSystems = 6;
+  const std::set<double> values(offered.begin(), offered.end());
+  return !values.empty() && values != std::set<double>{0, 1} &&
+         (kind != ir::Kind::WorkOffset || values.size() != kSystems);
+}
+
+std::optional<double> besideList(const verify::DrawField& field) {
+  if (!takesNoOther(field.kind, field.choices)) return std::nullopt;
+  return *std::max_element(field.choices.begin(), field.choices.end()) + 1;
+}
+
+std::string whyNotOffered(const std::vector<verify::DrawField>& fields, const verify::Case& drawn) {
+  for (const verify::DrawField& field : fields) {
+    const auto value = drawn.values.find(field.name);
+    if (value != drawn.values.end() && takesNoOther(field.kind, field.choices) &&
+        std::find(field.choices.begin(), field.choices.end(), value->second) == field.choices.end())
+      return notInList(field.name);
+  }
+  return "";
+}
+
+void confineToLists(ir::Cycle& cycle, const std::map<ir::VariableId, std::vector<DialogChoice>>& choices) {
+  constexpr std::size_t kFew = 3; // values
+  for (const auto& [id, list] : choices) {
+    std::set<double> values;
+    for (const DialogChoice& one : list)
+      values.insert(one.value);
+    if (!ir::uses(cycle, id) || !takesNoOther(cycle.variable(id).kind, {values.begin(), values.end()}))
+      continue;
+    const ir::ExpressionPtr value = ir::variable(id);
+    const double least = *values.begin(), most = *values.rbegin();
+    if (values.size() > kFew && most - least + 1 == static_cast<double>(values.size()) && isWhole(least)) {
+      demand(cycle, id, ir::compare(ir::Relation::GreaterEqual, value, ir::constant(least)));
+      demand(cycle, id, ir::compare(ir::Relation::LessEqual, value, ir::constant(most)));
+      demand(cycle, id, ir::compare(ir::Relation::Equal, ir::unary(ir::UnaryOp::Truncate, value), value));
+    } else {
+      demand(cycle, id, oneOf(value, {values.begin(), values.end()}));
+    }
+  }
 }
 
 } // namespace dotek::targets

@@ -5,7 +5,10 @@
 #include "project/CycleFolder.h"
 #include "support/Source.h"
 
+#include "verify/Draw.h"
+
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -26,5 +29,17 @@ dialogChoices(const project::CycleFolder& folder, const ir::Cycle& cycle, const 
 // Of a parameter of the cycle language, by its type as a page of the cycle names it ("flag", "choice of a,
 // b"); none of other types.
 std::vector<DialogChoice> choicesOfType(std::string_view type);
+
+// A parameter of this kind takes no other value than these, which its dialog offers: those of a list, unless
+// it offers all six work systems, each of which is asked of the program anyway. A check box offers 0 and 1.
+bool takesNoOther(ir::Kind kind, const std::vector<double>& offered);
+// A value that the list of the field does not offer. nullopt: it takes others.
+std::optional<double> besideList(const verify::DrawField& field);
+// The first value of the case that the list of its field does not offer, as the alarm says it; "": there is
+// none.
+std::string whyNotOffered(const std::vector<verify::DrawField>& fields, const verify::Case& drawn);
+// The checks of the cycle reject what a list does not offer, as its dialog does; that of a work offset which
+// offers all six systems is left to what is asked of each. The body has to read the parameter.
+void confineToLists(ir::Cycle& cycle, const std::map<ir::VariableId, std::vector<DialogChoice>>& choices);
 
 } // namespace dotek::targets

@@ -44,7 +44,7 @@ std::uint64_t callerStream(const verify::Case& drawn) {
   return out;
 }
 
-verify::Entry entryFor(const VerifyPlan& plan, const verify::Case& drawn, bool probeOn) {
+verify::Entry entryFor(const verify::Case& drawn, bool probeOn) {
   verify::Entry entry;
   const auto host = [&](const char* name) {
     const auto found = drawn.hosts.find(name);
@@ -54,18 +54,6 @@ verify::Entry entryFor(const VerifyPlan& plan, const verify::Case& drawn, bool p
   entry.system = drawn.system;
   entry.toolOffset = drawn.toolOffset;
   entry.probeOn = probeOn;
-  if (plan.machine) {
-    // Where the machine's travel is stated, the cycle is in its middle.
-    double middle[3] = {};
-    const sim::Point3 zero = entry.zeros[drawn.system - 54];
-    for (std::size_t axis = 0; axis < 3; ++axis)
-      if (const auto& span = plan.machine->limits.travel[axis])
-        middle[axis] = (span->least + span->most) / 2 - (axis == 0   ? zero.x + entry.start.x
-                                                         : axis == 1 ? zero.y + entry.start.y
-                                                                     : zero.z + entry.start.z);
-    for (sim::Point3& one : entry.zeros)
-      one = one + sim::Point3{middle[0], middle[1], middle[2]};
-  }
   return entry;
 }
 

@@ -12,7 +12,7 @@ namespace dotek::targets {
 sim::Probe probeFor(const VerifyPlan& plan, const verify::Case& drawn);
 // The same for the same values and host inputs: what is drawn of the caller by it comes again in a replay.
 std::uint64_t callerStream(const verify::Case& drawn);
-verify::Entry entryFor(const VerifyPlan& plan, const verify::Case& drawn, bool probeOn);
+verify::Entry entryFor(const verify::Case& drawn, bool probeOn);
 // The first block of the program with an M code of this function.
 std::optional<SourceRange> blockWith(const ir::Program& program, const stdlib::Control& control,
                                      stdlib::Function function);

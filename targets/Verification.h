@@ -16,6 +16,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <set>
 #include <span>
 #include <string>
@@ -47,6 +48,10 @@ public:
   virtual bool moves(const std::string& field) = 0;
   // With some value of the field or the host input the dialog rejects the others.
   virtual bool rejectsSome(const std::string& name) = 0;
+  // The values of the case where the part is off by `more` besides, and each surface lies `grown` mm farther
+  // along its touch; `look` gets the run and its part, unless there is none.
+  virtual void elsewhere(const verify::PartError& more, double grown,
+                         const std::function<void(const verify::Record&, sim::World&)>& look);
   // The source itself says what it does without the argument, and the cases leave it out.
   virtual bool maySkip(const std::string& name) = 0;
 };
@@ -81,6 +86,12 @@ struct TargetCase {
   // A number that is the same for the same values, for what the caller has in force.
   std::uint64_t stream = 0;
 };
+
+// The source's run as it usually is, beside one that `other` begins: where that has another tool length in
+// force, the run under the own one on the same machine, on which a change of the length alone moves no axis.
+// `kept` keeps it.
+const verify::Record& usualRun(const TargetCase& now, const verify::Entry& other,
+                               std::optional<verify::Record>& kept);
 
 // A difference, and the line of the translation that shows it: by number where the plan holds its text, as
 // text where that is of this case alone.

@@ -57,6 +57,7 @@ struct CompareRules {
   // compared by their meaning on each. Both or none.
   const stdlib::Control* sourceControl = nullptr;
   const stdlib::Control* targetControl = nullptr;
+  std::uint32_t shownText = 26; // characters of a message that the target's control shows
   bool waits = false; // the target's control knows a code that waits: it uses nothing early that the source
                       // does not
 };

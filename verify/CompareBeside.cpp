@@ -53,16 +53,15 @@ std::string deedText(const Deed& deed) {
 }
 
 // A program that is written says it in capitals, and cuts what the operator reads to what a control shows,
-// after a whole word.
-bool sameStop(const Deed& source, const Deed& target) {
-  constexpr std::size_t kShownText = 26;
+// after a whole word. `most`: characters that it shows.
+bool sameStop(const Deed& source, const Deed& target, std::size_t most) {
   const std::string text = upperCase(source.text), shown = upperCase(target.text);
   if (source.kind != Deed::Kind::Stop || target.kind != Deed::Kind::Stop || shown.empty() ||
       !text.starts_with(shown))
     return false;
   if (text == shown) return true;
   const std::size_t next = text.find(' ', shown.size() + 1);
-  return std::min(next, source.text.size()) > kShownText;
+  return std::min(next, source.text.size()) > most;
 }
 
 } // namespace
@@ -93,7 +92,7 @@ void compareDeeds(const ComparedPair& pair) {
     const SourceRange here = i < a.size() ? a[i].range : SourceRange{};
     const SourceRange there = i < b.size() ? b[i].range : SourceRange{};
     const bool both = i < a.size() && i < b.size();
-    if (one != other && !(both && sameStop(a[i], b[i]))) {
+    if (one != other && !(both && sameStop(a[i], b[i], pair.rules.shownText))) {
       pair.add(Aspect::State, sidesText(one, other), here, there);
       return;
     }

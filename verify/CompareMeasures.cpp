@@ -143,7 +143,12 @@ void contacts(const ComparedPair& pair, const Measure& a, const Measure& b) {
   const double equal = isOblique(a) && !pair.rules.sameAlarmNumbers
                            ? std::max(pair.rules.results, kObliqueWord)
                            : pair.rules.results;
+  // A macro of another vendor goes to the middle by words of the control's step, and touches across it from
+  // there.
+  constexpr double kHalfStep = 0.00051;
+  const bool round = !pair.rules.sameAlarmNumbers && a.nominal.size() >= 4;
   for (std::size_t i = 0; i < a.contacts.size(); ++i) {
+    if (round && near(a.contacts[i].centre, b.contacts[i].centre, kHalfStep)) continue;
     // Where the ball's middle is, is measured: on a narrow bore the point of the wall lies farther beside.
     if (near(a.contacts[i].point, b.contacts[i].point, equal) ||
         near(a.contacts[i].centre, b.contacts[i].centre, equal))

@@ -190,9 +190,11 @@ struct Record {
   double feedBefore = 0, feedAfter = 0; // F in force
   // At the end the motion code, or F, is what a macro of the vendor has left.
   bool motionOfMacro = false, feedOfMacro = false;
-  SourceRange lastBlock;               // that ran
-  std::vector<EarlyUse> early;         // each place once
-  bool ownOffsetOfZ = false;           // written by the program, not within a measuring call
+  SourceRange lastBlock;       // that ran
+  std::vector<EarlyUse> early; // each place once
+  // Measures before the program writes an offset of Z for the first time, not within a call; nothing: it does
+  // not.
+  std::optional<std::size_t> ownOffsetOfZ;
   std::vector<sim::PictureMove> moves; // every motion, for pictures; only where asked for
 };
 

@@ -60,7 +60,7 @@ public:
   void assumeProbe(Switch probe) { probe_ = probe; }
   // Without a part: each measuring move makes its contact, no other one does. So a run shows all that the
   // program would measure. A bare skip move makes it at this share of its path, or where it comes to the
-  // plane of an earlier one; what calls do makes it at its end.
+  // plane of an earlier one; what calls do makes it where they expect their surface, else at its end.
   void rehearse(double share) { rehearsal_ = share; }
   // Blocks of skip moves that are meant to meet nothing, though no vendor's macro makes them. nullptr: none.
   void watchOnly(const sim::BlockSet* blocks) { watching_ = blocks; }
@@ -85,6 +85,8 @@ private:
   WorkFrame frame() const;
   void addPiece(sim::PathKind kind, const sim::Point3& from, const sim::Point3& to, SourceRange range);
   double rehearsedContact(const sim::SkipMove& move);
+  // Of a call's touch, as a share of its path: 1 where no surface is expected on it.
+  double expectedContact(const sim::Point3& from, const sim::Point3& direction, double length) const;
   std::optional<double> placedContact(const sim::SkipMove& move, double length, std::size_t search,
                                       std::optional<double> share) const;
   void mark(Mark::Kind kind, std::string_view text = "", double value = 0);

@@ -103,6 +103,22 @@ private:
   SourceRange range_;
 };
 
+// `G10 L2 P1 X.. Y.. Z..` writes an offset on both: P1 to P6 are the systems of the group that both tell.
+bool writesWorkOffset(const ir::OpaqueBlock& block, const stdlib::Control& from, const stdlib::Control& to) {
+  bool offset = false;
+  for (const ir::Word& word : block.words) {
+    const double* number = word.value == nullptr ? nullptr : ir::constantValue(word.value);
+    if (std::string_view("XYZN").find(word.address) != std::string_view::npos) continue;
+    if (number == nullptr) return false;
+    if (word.address == 'L' && *number == 2)
+      offset = true;
+    else if (!(word.address == 'G' && *number == 10) &&
+             !(word.address == 'P' && *number >= 1 && *number <= 6))
+      return false;
+  }
+  return offset && workSystemVariable(from) && workSystemVariable(to);
+}
+
 } // namespace
 
 void translateVariables(State& state) {
@@ -113,6 +129,7 @@ std::string copiedText(State& state, const ir::OpaqueBlock& block, const ir::Ori
   const stdlib::Control& from = state.options.sourceControl;
   const bool same = state.control.name == from.name;
   const bool reads = from.decimal == state.control.decimal && from.increment == state.control.increment;
+  const bool offset = !same && writesWorkOffset(block, from, state.control);
   std::string text, foreign;
   for (const ir::Word& given : block.words) {
     if (given.address == 'N') continue; // the source's own numbering
@@ -127,7 +144,7 @@ std::string copiedText(State& state, const ir::OpaqueBlock& block, const ir::Ori
           tenths < 0 ? nullptr : state.control.find(given.address, static_cast<std::uint32_t>(tenths));
       const bool known = here != nullptr && there != nullptr && here->function == there->function &&
                          here->function != stdlib::Function::Other &&
-                         here->function != stdlib::Function::DataInput; // its words differ
+                         (offset || here->function != stdlib::Function::DataInput); // its words differ
       if (!known && foreign.empty())
         foreign = std::string(1, given.address) + (number == nullptr ? ".." : numberText(*number));
     }

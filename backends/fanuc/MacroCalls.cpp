@@ -240,9 +240,15 @@ void writeCycle(State& state, const ir::CallCycle& given, const ir::Origin& orig
     if (state.failed) return;
   }
   const MacroCall call = macroCall(*signature, cycle, values);
-  for (const std::string& parameter : call.notTaken)
+  for (const std::string& parameter : call.notTaken) {
+    if (parameter == stdlib::roleName(stdlib::ArgumentRole::Print)) {
+      state.diagnostics.report<diag::PrintLeftOut>(origin.range(), state.macros.title);
+      state.sheet.comment("PRINT OF THE SOURCE LEFT OUT", origin);
+      continue;
+    }
     state.refuse<diag::ParameterNotTaken>(origin.range(), parameter, signature->program, state.macros.title,
                                           given.set);
+  }
   if (state.failed) return;
   writeCall(state, call, origin);
   if (state.failed) return;

@@ -56,15 +56,17 @@ public:
     else
       for (const auto& [name, number] : options_.results)
         session_.diagnostics().report<diag::CycleResultUnknown>({}, name, folder.name, "");
+    const auto lists = dialogChoices(folder, lowered.cycle, session_.sources());
+    confineToLists(lowered.cycle, lists);
     ir::fold(lowered.cycle, lowered.fixed);
     fanuc::EmitOptions emit{*inputs.control, *macros, *inputs.sourceControl, 0, {}, {}, {}, {}};
     emit.plainMessages = options_.common.assume.contains("plain-messages");
     emit.foreignMacros = macros != lowered.macros;
     emit.computed = lowered.computed;
     emit.remarks = std::move(results.headings);
-    for (auto& [id, choices] : dialogChoices(folder, lowered.cycle, session_.sources()))
-      for (DialogChoice& choice : choices)
-        emit.choices[id].push_back({choice.value, std::move(choice.title)});
+    for (const auto& [id, choices] : lists)
+      for (const DialogChoice& choice : choices)
+        emit.choices[id].push_back({choice.value, choice.title});
     emit.programNumber = numberOf(index);
     emit.defaults = options_.useDefaults ? fanuc::Defaults::Use : fanuc::Defaults::Alarm;
     emit.probePower = options_.switchProbe ? fanuc::ProbePowerMode::Macro : fanuc::ProbePowerMode::Source;

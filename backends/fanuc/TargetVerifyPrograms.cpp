@@ -332,7 +332,7 @@ verify::Case ProgramRunner::edge(std::uint64_t index) {
 
 verify::Record ProgramRunner::runSide(const Side& side, const verify::Case& drawn, sim::World& world,
                                       verify::Stand::Way way) const {
-  verify::Entry entry = entryFor(plan_, drawn, assumesProbe());
+  verify::Entry entry = entryFor(drawn, assumesProbe());
   for (const auto& [name, value] : drawn.values)
     entry.variables.emplace_back(static_cast<std::uint32_t>(std::stoul(name)), value);
   // Most programs of one's own look for a surface beyond the place where it is expected.
@@ -362,7 +362,7 @@ std::unique_ptr<ProgramRunner::Played> ProgramRunner::play(verify::Case drawn, b
   auto out = std::make_unique<Played>();
   out->drawn = std::move(drawn);
   const sim::Probe probe = probeFor(plan_, out->drawn);
-  const sim::Point3 zero = entryFor(plan_, out->drawn, false).zeros[out->drawn.system - 54];
+  const sim::Point3 zero = entryFor(out->drawn, false).zeros[out->drawn.system - 54];
   const Side source{&*sourceControl_, sourceSet_, &sourceCode_, sourceStand_.get()};
   if (plan_.part) {
     out->part = plan_.part;

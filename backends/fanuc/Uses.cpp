@@ -98,6 +98,37 @@ bool decides(const ir::Cycle& cycle, const std::vector<std::vector<std::size_t>>
   return false;
 }
 
+// Whether the branch among the checks decides on an assignment to one of `wanted`, both sides of which pass
+// the checks.
+bool choosesAmong(const std::vector<ir::CycleStatement>& checks,
+                  const std::vector<std::vector<std::size_t>>& next, std::size_t branch, const Ids& wanted) {
+  if (checks.size() > kMostStatements) return true;
+  if (next[branch].size() < 2) return false;
+  const std::size_t end = checks.size(), one = next[branch][0], other = next[branch][1];
+  const auto first = reachableFrom(next, one), second = reachableFrom(next, other);
+  if ((one != end && !first[end]) || (other != end && !second[end])) return false;
+  const bool loop = first[branch] || second[branch];
+  for (std::size_t i = 0; i < end; ++i) {
+    const bool a = first[i] || i == one, b = second[i] || i == other;
+    if (loop ? !a && !b : a == b) continue;
+    const auto* assign = std::get_if<ir::Assign>(&checks[i].node);
+    if (assign != nullptr && wanted.contains(assign->variable)) return true;
+  }
+  return false;
+}
+
+// What the checks choose the values of `out` by.
+void addChoosing(const std::vector<ir::CycleStatement>& checks,
+                 const std::vector<std::vector<std::size_t>>& next, Ids& out) {
+  for (std::size_t i = 0; i < checks.size(); ++i) {
+    const auto* branch = std::get_if<ir::Branch>(&checks[i].node);
+    if (branch == nullptr) continue;
+    const Ids read = idsOf(branch->condition);
+    if (std::includes(out.begin(), out.end(), read.begin(), read.end())) continue;
+    if (choosesAmong(checks, next, i, out)) out.insert(read.begin(), read.end());
+  }
+}
+
 // With variables of the machine that the cycle sets as variables of its own, after all others: what is kept
 // in #150 moves the probe where #150 does. nullopt: it sets none.
 std::optional<ir::Cycle> withNamedStores(const ir::Cycle& given) {
@@ -181,12 +212,14 @@ Ids bodyVariables(const ir::Cycle& cycle) {
     ir::eachNode(statement, [&](const ir::Expression& node) {
       if (const auto* use = std::get_if<ir::VariableUse>(&node.node)) out.insert(use->variable);
     });
+  const auto next = ir::successors(cycle.checks);
   for (std::size_t before = out.size() + 1; before != out.size();) {
     before = out.size();
     for (const ir::CycleStatement& statement : cycle.checks) {
       const auto* assign = std::get_if<ir::Assign>(&statement.node);
       if (assign != nullptr && out.contains(assign->variable)) collect(out, assign->value);
     }
+    addChoosing(cycle.checks, next, out);
   }
   return out;
 }
@@ -197,7 +230,7 @@ Ids movingVariables(const ir::Cycle& given, const stdlib::Control& control) {
   Ids out;
   for (const ir::CycleStatement& statement : cycle.body)
     out.merge(movesBy(statement));
-  const auto next = ir::successors(cycle.body);
+  const auto next = ir::successors(cycle.body), ofChecks = ir::successors(cycle.checks);
   for (std::size_t before = out.size() + 1; before != out.size();) {
     before = out.size();
     for (const auto* list : {&cycle.checks, &cycle.body})
@@ -205,6 +238,7 @@ Ids movingVariables(const ir::Cycle& given, const stdlib::Control& control) {
         const auto* assign = std::get_if<ir::Assign>(&statement.node);
         if (assign != nullptr && out.contains(assign->variable)) collect(out, assign->value);
       }
+    addChoosing(cycle.checks, ofChecks, out);
     for (std::size_t i = 0; i < cycle.body.size(); ++i) {
       const auto* branch = std::get_if<ir::Branch>(&cycle.body[i].node);
       if (branch == nullptr) continue;

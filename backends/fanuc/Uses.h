@@ -19,8 +19,8 @@ bool isStartHost(const ir::Variable& variable);
 // assignments, or by choosing which of them happen; not those that only choose an alarm. `control`: of the
 // blocks that are copied.
 std::set<ir::VariableId> movingVariables(const ir::Cycle& cycle, const stdlib::Control& control);
-// Variables that reach anything that the body does: read there, or in assignments to what is read there. What
-// checks alone read is not among them.
+// Variables that reach anything that the body does: read there, or in assignments to what is read there, or
+// where the checks choose among such assignments. What checks alone read is not among them.
 std::set<ir::VariableId> bodyVariables(const ir::Cycle& cycle);
 // Statements that may follow each statement, whatever many later, itself only in a loop.
 std::vector<bool> reachableFrom(const std::vector<std::vector<std::size_t>>& next, std::size_t from);

@@ -510,9 +510,13 @@ void MacroBlocks::cycle(const ir::CallCycle& given, const ir::Origin& origin, st
             place({one.value, *one.frame, nullptr}, axis, ir::Frame::Work, origin);
   }
   MacroCall out = macroCall(*signature, call, asked);
-  for (const std::string& parameter : out.notTaken)
-    state_.refuse<diag::ParameterNotTaken>(origin.range(), parameter, signature->program, macros.title,
-                                           given.set);
+  for (const std::string& parameter : out.notTaken) {
+    if (parameter == stdlib::roleName(stdlib::ArgumentRole::Print))
+      state_.diagnostics.report<diag::PrintLeftOut>(origin.range(), macros.title);
+    else
+      state_.refuse<diag::ParameterNotTaken>(origin.range(), parameter, signature->program, macros.title,
+                                             given.set);
+  }
   this->call(out, origin, lines);
   for (const Tolerance& one : tolerances)
     if (!state_.failed) alarmAbove(one.error, one.limit, one.text, lines, origin);

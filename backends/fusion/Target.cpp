@@ -153,6 +153,8 @@ private:
         options_.probeMacros ? session_.macroSet(*options_.probeMacros) : lowered.macros;
     const bool foreign = macros != lowered.macros && lowered.macros != nullptr;
     if (macros == nullptr) macros = &none;
+    const auto lists = dialogChoices(folder, lowered.cycle, session_.sources());
+    confineToLists(lowered.cycle, lists);
     ir::fold(lowered.cycle, lowered.fixed);
     fusion::EmitOptions emit{*inputs.sourceControl,
                              *macros,
@@ -163,9 +165,9 @@ private:
                              {},
                              std::move(defaults),
                              options_.helpersApart};
-    for (auto& [id, choices] : dialogChoices(folder, lowered.cycle, session_.sources()))
-      for (DialogChoice& choice : choices)
-        emit.choices[id].push_back({choice.value, std::move(choice.title)});
+    for (const auto& [id, choices] : lists)
+      for (const DialogChoice& choice : choices)
+        emit.choices[id].push_back({choice.value, choice.title});
     emit.fixedByName.insert(inputs.hosts.begin(), inputs.hosts.end());
     auto lines = fusion::emit(lowered.cycle, emit, session_.diagnostics());
     if (options_.probeMacros && !foreign) dropNotesOfPrograms(session_.diagnostics());

@@ -3,6 +3,7 @@
 #include "backends/fusion/Emit.h"
 #include "backends/fusion/TargetWritten.h"
 #include "support/Decimal.h"
+#include "targets/DialogChoices.h"
 
 #include <algorithm>
 #include <cmath>
@@ -186,6 +187,10 @@ void OperationDemands::runWithoutSense(const TargetCase& now, TargetRun& out) {
       property->second += 0.5;
       demandError(now, field.name, input, fmt::format("a half as `{}`", field.name), out,
                   " is no whole number");
+    }
+    if (const auto beside = besideList(field); beside && now.questions->moves(field.name)) {
+      property->second = *beside;
+      demandError(now, field.name, input, fmt::format("{} as `{}`", numberText(*beside), field.name), out);
     }
     if (field.kind == ir::Kind::WorkOffset && !sameSet_)
       for (const double system : {field.firstSystem - 1, field.firstSystem + 6}) {

@@ -9,7 +9,9 @@
 #include "sim/machine/VendorMacros.h"
 #include "support/Decimal.h"
 #include "support/messages/Verify.h"
+#include "targets/DialogChoices.h"
 #include "targets/MissedTouches.h"
+#include "targets/OffParts.h"
 #include "targets/ReadBack.h"
 #include "targets/Stage.h"
 #include "verify/Callers.h"
@@ -234,10 +236,11 @@ private:
         verify::otherCallers(*now.posted, control_, now.entry, now.stream);
     for (verify::OtherCaller& other : verify::otherModes(control_, now.entry))
       others.push_back(std::move(other));
+    std::optional<verify::Record> keeps;
     for (const verify::OtherCaller& other : others) {
       const SourceQuestions::Ran meant = now.questions->from(other.entry);
       if (meant.answer != SourceQuestions::Answer::Runs ||
-          !verify::runsAlike(*now.source, meant.record, rules))
+          !verify::runsAlike(usualRun(now, other.entry, keeps), meant.record, rules))
         continue;
       const verify::Record ran = runCode(*made, now, other.entry);
       if (other.ofModes && refusesModes(ran, numbered)) continue;
@@ -262,7 +265,16 @@ private:
             },
             control_.arithmetic == stdlib::Arithmetic::Decimal8),
         made->id, out);
+    add(compareOffParts(
+            now, [&](sim::World& world) { return runIn(world, *made, now); },
+            [&](const verify::Record&) { return rulesFor(now); }),
+        made->id, out);
     runShifted(*made, now, record, out);
+  }
+
+  verify::Record runIn(sim::World& world, const Compiled& made, const TargetCase& now) const {
+    const TargetCase there{.drawn = now.drawn, .entry = now.entry, .stores = now.stores, .world = world};
+    return runCode(made, there, now.entry);
   }
 
   // A macro may ask for the modes that it needs: its own alarm comes before anything is measured.
@@ -283,7 +295,7 @@ private:
       broken.blocks = caller.blocks;
       const verify::Record record = runCode(made, now, broken);
       const bool stops = record.ending == verify::Ending::Alarm && caller.alarm.starts_with(record.text) &&
-                         !record.text.empty() && record.measures.empty();
+                         !record.text.empty() && record.measures.size() < *ran.ownOffsetOfZ;
       if (!stops)
         out.differs(verify::Aspect::Ending, fmt::format("printed {}: `{}` has to stop it before it measures",
                                                         caller.who, caller.alarm));
@@ -313,6 +325,7 @@ private:
       rules.results = std::max(rules.tolerance, kEightDigits);
     if (sourceSet_ != set_) rules.results = std::max(rules.results, verify::kGridSteps);
     rules.sameAlarmNumbers = sourceSet_ == set_;
+    rules.shownText = control_.alarmLength;
     const stdlib::CodeInfo* const wait = control_.find(stdlib::Function::MachineCoordinates);
     rules.waits = wait != nullptr && wait->grade != "assumed";
     if (const auto host = now.drawn.hosts.find("overtravel");

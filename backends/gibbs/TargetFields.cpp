@@ -62,18 +62,41 @@ void addCheck(ir::Cycle& cycle, const ir::ConditionPtr& fine, const std::string&
   cycle.checks.push_back({ir::Label{label}, origin});
 }
 
-// What the control would refuse with an alarm is refused in the dialog.
-void confineSystem(ir::Cycle& cycle, ir::VariableId id) {
-  constexpr double kNone[] = {-1, 0, 1, 53, 53.5, 54.5, 59.5, 60, 154};
-  if (std::none_of(std::begin(kNone), std::end(kNone),
-                   [&](double value) { return passes(cycle, id, value); }))
+// 1 where the body counts the systems from 1, as `system + 53`; else 54.
+double firstSystem(const ir::Cycle& cycle, ir::VariableId id) {
+  bool counted = false;
+  for (const ir::CycleStatement& statement : cycle.body)
+    ir::eachNode(statement, [&](const ir::Expression& node) {
+      const auto* sum = std::get_if<ir::Binary>(&node.node);
+      if (sum == nullptr || sum->op != ir::BinaryOp::Add) return;
+      const auto* use = std::get_if<ir::VariableUse>(&sum->left->node);
+      const double* shift = ir::constantValue(sum->right);
+      counted = counted ||
+                (use != nullptr && use->variable == id && shift != nullptr && *shift == kFirstSystem - 1);
+    });
+  return counted ? 1 : kFirstSystem;
+}
+
+// What the control would refuse with an alarm is refused in the dialog. A list offers nothing else.
+void confineSystem(ir::Cycle& cycle, const gibbs::Field& field) {
+  constexpr double kBeside[] = {-55, -54, -53, -1, -0.5, 0.5, 5.5, 6, 100}; // from the first one
+  const ir::VariableId id = field.variable;
+  const double first = firstSystem(cycle, id), last = first + kLastSystem - kFirstSystem;
+  const auto isSystem = [&](const gibbs::Choice& one) {
+    return one.value >= first && one.value <= last && one.value == std::trunc(one.value);
+  };
+  if (!field.choices.empty() && std::all_of(field.choices.begin(), field.choices.end(), isSystem)) return;
+  if (std::none_of(std::begin(kBeside), std::end(kBeside),
+                   [&](double beside) { return passes(cycle, id, first + beside); }))
     return;
   const ir::Variable& variable = cycle.variable(id);
   const ir::ExpressionPtr value = ir::variable(id);
-  const std::string message = fmt::format("The work offset {} is 54, 55, 56, 57, 58 or 59", variable.name);
+  const std::string message =
+      first == 1 ? fmt::format("The work offset {} is 1, 2, 3, 4, 5 or 6", variable.name)
+                 : fmt::format("The work offset {} is 54, 55, 56, 57, 58 or 59", variable.name);
   const SourceRange range = variable.range;
-  addCheck(cycle, ir::compare(ir::Relation::GreaterEqual, value, ir::constant(kFirstSystem)), message, range);
-  addCheck(cycle, ir::compare(ir::Relation::LessEqual, value, ir::constant(kLastSystem)), message, range);
+  addCheck(cycle, ir::compare(ir::Relation::GreaterEqual, value, ir::constant(first)), message, range);
+  addCheck(cycle, ir::compare(ir::Relation::LessEqual, value, ir::constant(last)), message, range);
   addCheck(cycle, ir::compare(ir::Relation::Equal, ir::unary(ir::UnaryOp::Truncate, value), value), message,
            range);
 }
@@ -234,7 +257,7 @@ gibbs::Folder folderOf(const CycleFolder& folder, LoweredCycle& lowered,
   for (const gibbs::Field& field : out.fields)
     if (field.asked && cycle.variable(field.variable).kind == ir::Kind::WorkOffset &&
         readsIn(cycle.body, field.variable))
-      confineSystem(cycle, field.variable);
+      confineSystem(cycle, field);
   return out;
 }
 

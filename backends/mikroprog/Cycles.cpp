@@ -28,6 +28,10 @@ bool takes(State& state, const ir::CallCycle& cycle, const std::vector<std::stri
   bool out = true;
   for (const ir::CycleArgument& argument : cycle.arguments) {
     if (std::find(taken.begin(), taken.end(), argument.parameter) != taken.end()) continue;
+    if (argument.parameter == stdlib::roleName(stdlib::ArgumentRole::Print)) {
+      state.diagnostics.report<diag::PrintLeftOut>(range, state.control.title);
+      continue;
+    }
     state.refuse<diag::MikroprogCannot>(range, "the " + argument.parameter + " of the call",
                                         std::string(kNoArithmetic));
     out = false;

@@ -142,7 +142,6 @@ Interpreter::Flow Interpreter::addMove(State& state, const Command& c, SourceRan
 // ---- commands of the table ------------------------------------------------------------------------------
 
 Interpreter::Flow Interpreter::unknownCommand(State& state, const Command& c, const std::string& name) {
-  bool writes = false;
   for (const ExpressionPtr& argument : c.arguments) {
     const auto* ref = std::get_if<VariableRef>(&argument->node);
     if (ref == nullptr || ref->index) continue;
@@ -150,11 +149,10 @@ Interpreter::Flow Interpreter::unknownCommand(State& state, const Command& c, co
     if (!state.frames.back().locals.contains(key) &&
         (around_.keywords.isConstant(key) || around_.keywords.isSystemVariable(key)))
       continue;
-    writes = true;
     const Value unknown = opaque(state, "", {}, name, ref->name.isText(), argument->range);
     if (!write(state, *ref, unknown, argument->range)) return Flow::Failed;
   }
-  if (writes) reportOnce(makeDiagnostic<diag::UnknownCommandRun>(c.name.range, name));
+  reportOnce(makeDiagnostic<diag::UnknownCommandRun>(c.name.range, name));
   return Flow::Next;
 }
 

@@ -7,6 +7,34 @@
 
 namespace dotek::frontend::gibbs {
 
+namespace {
+
+// A text of the dialog without its quotes, the unit in brackets at its end, and blanks.
+std::string withoutUnit(std::string text) {
+  const auto trim = [&] {
+    const std::size_t from = text.find_first_not_of(" \t\""), to = text.find_last_not_of(" \t\"");
+    text = from == std::string::npos ? "" : text.substr(from, to - from + 1);
+  };
+  trim();
+  if (const std::size_t open = text.rfind('['); text.ends_with(']') && open != std::string::npos)
+    text.resize(open);
+  trim();
+  return text;
+}
+
+// What both labels of an input say, UTF-8; the left one where it is more than the field's name or a symbol.
+std::string meaningOf(const Field& field, std::string meaning, const SourceMap& sources) {
+  constexpr std::size_t kSymbol = 2; // characters
+  const InputLabel& label = *field.label;
+  if (label.name.size() <= kSymbol || foldCase(label.name) == foldCase(field.name.text) ||
+      !label.nameRange.hasPlace())
+    return meaning;
+  const std::string left = withoutUnit(sources.textUtf8(label.nameRange));
+  return meaning.empty() || left.empty() ? left + meaning : left + ", " + meaning;
+}
+
+} // namespace
+
 ir::Cycle declareCycle(const Cycle& source, const SourceMap& sources) {
   ir::Cycle cycle;
   cycle.name = source.name;
@@ -29,7 +57,7 @@ ir::Cycle declareCycle(const Cycle& source, const SourceMap& sources) {
     if (field.value && field.assumption.empty()) parameter.defaultDigits = sources.textUtf8(field.valueRange);
     if (field.label) {
       parameter.unit = utf8(field.label->unit);
-      parameter.meaning = utf8(field.label->meaning);
+      parameter.meaning = meaningOf(field, utf8(field.label->meaning), sources);
     }
     parameter.range = field.name.range;
     cycle.add(std::move(parameter));

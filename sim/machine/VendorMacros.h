@@ -18,6 +18,7 @@ struct VendorMemory {
   std::optional<double> stylusRadius; // of a calibrated stylus, mm, where the set's variables do not hold it
   std::set<std::string> said;         // remarks that appear once in a trace
   bool passUnstated = false;
+  std::uint32_t measured = 0; // calls that measure, so far
   bool touchesApart = false;
 };
 
@@ -34,8 +35,9 @@ public:
   void setStylusRadius(double radius) { memory_.stylusRadius = radius; }
 
   // A call whose work no source states is passed over, as MotionWatcher::callUnstated says, instead of ending
-  // the run: the probe stays where it is, and the results are not known. For comparing programs that make it
-  // alike.
+  // the run: the probe stays where it is. What no source says of the variables that a call leaves is a number
+  // that depends on the call's place among those that measure and on the variable; a protected move leaves
+  // them alone. For comparing programs that make the same calls.
   void passUnstated() { memory_.passUnstated = true; }
 
   // A corner is touched face by face, each with what it sets and from the coordinates in which the call

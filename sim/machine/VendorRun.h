@@ -75,6 +75,7 @@ private:
   bool setSystem();
   bool setTool();
   void writeResults();
+  void leaveUnstated(std::uint32_t variable); // what no source says that it holds
   std::optional<std::uint32_t> offsetVariable(std::uint32_t system, bool extended, ir::Axis axis) const;
 
   Machine& machine_;

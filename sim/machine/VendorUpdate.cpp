@@ -181,16 +181,26 @@ bool VendorRun::setTool() {
   return true;
 }
 
+void VendorRun::leaveUnstated(std::uint32_t variable) {
+  if (!memory_.passUnstated) return machine_.forget(variable);
+  std::uint64_t mixed = (std::uint64_t{memory_.measured} << 32U | variable) * 0x9E37'79B9'7F4A'7C15ULL;
+  mixed ^= mixed >> 29U;
+  machine_.write(variable, (static_cast<double>(mixed % 2001) - 1000) / 1000);
+}
+
 void VendorRun::writeResults() {
+  const bool measures = signature_.intent != Intent::ProtectedMove && signature_.intent != Intent::ProbeOn &&
+                        signature_.intent != Intent::ProbeOff;
+  if (measures) ++memory_.measured;
   for (const auto& [first, last] : set_.overwritten)
-    for (std::uint32_t variable = first; variable <= last; ++variable)
-      if (variable != set_.probing.feedVariable) machine_.forget(variable);
+    for (std::uint32_t variable = first; (measures || !memory_.passUnstated) && variable <= last; ++variable)
+      if (variable != set_.probing.feedVariable) leaveUnstated(variable);
   if (feed_ && set_.probing.feedVariable) machine_.write(*set_.probing.feedVariable, *feed_);
   for (const stdlib::MacroResult& result : signature_.results) {
     const auto holds = result.documented ? std::optional<Output>(result.output) : result.taken;
     const auto found = holds ? found_.find(*holds) : found_.end();
     if (found == found_.end()) {
-      machine_.forget(result.variable);
+      leaveUnstated(result.variable);
       continue;
     }
     if (!result.documented)

@@ -1,0 +1,138 @@
+// Callers who break what a program demands, or have something else in force.
+#include "backends/fanuc/TargetVerification.h"
+
+#include "backends/fanuc/TargetAlarms.h"
+#include "frontend/gibbs/Ast.h"
+#include "sim/machine/Value.h"
+#include "support/Decimal.h"
+#include "targets/MissedTouches.h"
+#include "targets/OffParts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace dotek::targets {
+
+namespace gibbs = frontend::gibbs;
+
+bool FanucVerification::setsSomething(const verify::Record& record, const verify::Entry& entry) {
+  for (std::uint32_t system = 0; system < entry.zeros.size(); ++system) {
+    const double before[] = {entry.zeros[system].x, entry.zeros[system].y, entry.zeros[system].z};
+    for (std::uint32_t axis = 0; axis < 3; ++axis)
+      if (const auto zero = record.zeros.find({54 + system, axis});
+          zero != record.zeros.end() && zero->second != before[axis])
+        return true;
+  }
+  return !record.tools.empty();
+}
+
+bool FanucVerification::stopsAtOnce(const verify::Record& record, const verify::Entry& entry,
+                                    std::string_view text) {
+  if (record.ending != verify::Ending::Alarm || record.alarm < kOwnAlarms || !record.pieces.empty() ||
+      setsSomething(record, entry))
+    return false;
+  return text.empty() || (!record.text.empty() && text.starts_with(record.text));
+}
+
+std::string FanucVerification::didInstead(const verify::Record& record) {
+  switch (record.ending) {
+  case verify::Ending::Finished: return "it runs to its end";
+  case verify::Ending::Inconclusive: return "what it does is not known: " + record.text;
+  case verify::Ending::Alarm: break;
+  }
+  return fmt::format("it {}stops with `{}`", record.pieces.empty() ? "" : "moves, then ", record.text);
+}
+
+void FanucVerification::differs(const std::string& who, const std::string& wanted,
+                                const verify::Record& record, TargetRun& out) {
+  out.differsAt(verify::Aspect::Ending, fmt::format("called {}: {}; {}", who, wanted, didInstead(record)),
+                text_.line(record.endedAt));
+  noteCaller(who);
+}
+
+void FanucVerification::noteCaller(const std::string& who) {
+  if (!differing_ && ran_) differing_ = {who, *ran_};
+}
+
+void FanucVerification::callOtherwise(const TargetCase& now, const verify::Entry& entry,
+                                      const verify::Record& ran, TargetRun& out) {
+  if (const std::string why = whyListsOther(translation_.text); !why.empty())
+    out.differs(verify::Aspect::Ending, why);
+  const bool writesZ = ran.ownOffsetOfZ && (now.source == nullptr || !now.source->ownOffsetOfZ);
+  for (const verify::BrokenCaller& caller : verify::brokenCallers(control_, writesZ)) {
+    if (caller.ofToolLength && loadsTool(now)) continue;
+    verify::Entry broken = entry;
+    broken.blocks = caller.blocks;
+    broken.modal = caller.modal;
+    const verify::Record record = runText(now, broken, nullptr);
+    // A shift moves the start as well, where that is fixed.
+    if (!caller.blocks.empty() && stopsAtOnce(record, broken, "") && record.text.starts_with("START NOT AT"))
+      continue;
+    if (!stopsAtOnce(record, broken, caller.alarm))
+      differs(caller.who, fmt::format("`{}` has to stop it before anything moves", caller.alarm), record,
+              out);
+  }
+  callFromOthers(now, entry, out);
+  add(compareMissed(
+          now, ran,
+          [&](const verify::Interference& none) {
+            return runText(now, entry, nullptr, verify::Stand::Way::Run, none);
+          },
+          [&](const verify::Record& source) { return rulesFor(now, source); }, comparesExactly()),
+      out);
+  if (out.differences.empty())
+    add(compareOffParts(
+            now, [&](sim::World& world) { return runIn(world, now, entry); },
+            [&](const verify::Record& source) { return rulesFor(now, source); }),
+        out);
+  for (const OutputArgument& argument : translation_.arguments)
+    if (!now.questions->maySkip(argument.name)) callWithout(argument, now, entry, out);
+  for (const verify::DrawField& field : from_.plan.fields)
+    if (field.kind == ir::Kind::WorkOffset && !field.fixed) callWithSystems(field, now, entry, out);
+  for (const verify::DrawField& field : from_.plan.fields)
+    if (!field.fixed) callBesideList(field, now, entry, out);
+}
+
+void FanucVerification::callFromOthers(const TargetCase& now, const verify::Entry& entry, TargetRun& out) {
+  if (now.posted == nullptr || now.source == nullptr) return;
+  const stdlib::Control& posts = *from_.inputs.sourceControl;
+  std::optional<verify::Record> keeps;
+  const auto usual = [&](const verify::Entry& other) -> const verify::Record& {
+    return usualRun(now, other, keeps);
+  };
+  for (verify::OtherCaller& other : verify::otherCallers(*now.posted, posts, now.entry, now.stream)) {
+    const SourceQuestions::Ran meant = now.questions->from(other.entry);
+    if (meant.answer != SourceQuestions::Answer::Runs) continue;
+    verify::CompareRules rules = rulesFor(now, meant.record);
+    rules.samePlace = nullptr;
+    if (!verify::runsAlike(usual(other.entry), meant.record, rules)) continue;
+    other.entry.blocks = entry.blocks;
+    other.entry.variables = entry.variables;
+    const verify::Record record = runText(now, other.entry, nullptr);
+    std::vector<verify::Difference> found = verify::compare(meant.record, record, rules);
+    for (verify::Difference& one : found)
+      one.text = fmt::format("called {}: {}", other.who, one.text);
+    const bool alike = found.empty();
+    if (!alike) noteCaller(other.who);
+    add(std::move(found), out);
+    if (!alike) return;
+    if (record.ending != verify::Ending::Finished) continue;
+    const std::string why = verify::whyNotPutBack(control_, record, &meant.record);
+    if (why.empty()) continue;
+    noteCaller(other.who);
+    out.differs(verify::Aspect::Modal, why);
+  }
+}
+
+bool FanucVerification::comparesExactly() const {
+  return control_.arithmetic == stdlib::Arithmetic::Decimal8 &&
+         from_.inputs.sourceControl->arithmetic == stdlib::Arithmetic::Decimal8;
+}
+
+bool FanucVerification::loadsTool(const TargetCase& now) const {
+  return now.posted != nullptr &&
+         verify::hasCode(*now.posted, *from_.inputs.sourceControl, stdlib::Function::ToolLengthPlus);
+}
+
+} // namespace dotek::targets

@@ -1,0 +1,98 @@
+// Private to the verification of programs: TargetVerify.cpp runs and compares one case, TargetCallers.cpp
+// calls the program otherwise, TargetArguments.cpp with other arguments.
+#pragma once
+
+#include "backends/fanuc/TargetText.h"
+#include "backends/fanuc/TargetVerify.h"
+#include "targets/Stage.h"
+#include "verify/Callers.h"
+
+#include <optional>
+#include <set>
+#include <string>
+#include <string_view>
+#include <utility>
+
+namespace dotek::targets {
+
+constexpr std::uint32_t kOwnAlarms = 3000; // of programs
+
+class FanucVerification final : public Verification {
+public:
+  explicit FanucVerification(const VerificationSource& source);
+  bool prepare() override;
+  TargetRun run(const TargetCase& now) override;
+
+private:
+  verify::Entry entryOf(const TargetCase& now) const;
+  void addArguments(const verify::Case& drawn, verify::Entry& entry) const;
+  // `trace`: nullptr: nobody reads it.
+  verify::Record runText(const TargetCase& now, const verify::Entry& entry, std::string* trace,
+                         verify::Stand::Way way = verify::Stand::Way::Run,
+                         const verify::Interference& interference = {});
+  // The same on another part.
+  verify::Record runIn(sim::World& world, const TargetCase& now, const verify::Entry& entry);
+  void add(std::vector<verify::Difference> found, TargetRun& out) const;
+  std::string rejects() const;
+  // The dialog has rejected the values: the translation raises an alarm, and nothing has moved.
+  void compareRejection(const verify::Record& record, const TargetCase& now, TargetRun& out) const;
+  // Without a Prog: the path and the touches alone.
+  void comparePath(const TargetCase& now, const verify::Record& record, TargetRun& out) const;
+  // It goes back to its caller and leaves him what he had in force.
+  void compareReturn(const verify::Record& record, const verify::Record* source, TargetRun& out) const;
+  verify::CompareRules rulesFor(const TargetCase& now, const verify::Record& source) const;
+  void compareRecords(const TargetCase& now, const verify::Record& record, TargetRun& out) const;
+
+  // ---- callers who break what it demands
+  static bool setsSomething(const verify::Record& record, const verify::Entry& entry);
+  // An alarm before anything moves or is set; `text`: which one, as far as the control shows it; "": any.
+  static bool stopsAtOnce(const verify::Record& record, const verify::Entry& entry, std::string_view text);
+  static std::string didInstead(const verify::Record& record);
+  void differs(const std::string& who, const std::string& wanted, const verify::Record& record,
+               TargetRun& out);
+  // The first caller who sees a difference, of the last run.
+  void noteCaller(const std::string& who);
+  void callOtherwise(const TargetCase& now, const verify::Entry& entry, const verify::Record& ran,
+                     TargetRun& out);
+  // From the same place, with another work system or tool length in force than the source selects.
+  void callFromOthers(const TargetCase& now, const verify::Entry& entry, TargetRun& out);
+  bool comparesExactly() const;
+  bool loadsTool(const TargetCase& now) const;
+  const verify::DrawField* fieldOf(const std::string& name) const;
+  std::optional<double> defaultOf(const verify::DrawField& field) const;
+  // Where the argument is left out: an alarm if it moves something, else the default.
+  void callWithout(const OutputArgument& argument, const TargetCase& now, const verify::Entry& entry,
+                   TargetRun& out);
+  // A tolerance may let both pass: what the program counts with is the same as with the default given. One
+  // that is left out and stays null has no default to be another one.
+  void compareDefault(const OutputArgument& argument, double value, const verify::Entry& without,
+                      const verify::Record& ran, const TargetCase& now, TargetRun& out);
+  // Where a check that reads the argument turns, and a step beside it: it does the same with the default
+  // given.
+  void callAtBounds(const OutputArgument& argument, const verify::DrawField& field, double value,
+                    const TargetCase& now, const verify::Entry& entry, TargetRun& out);
+  static std::string endingOf(const verify::Record& record);
+  // Beside the six work systems, and between two of them.
+  void callWithSystems(const verify::DrawField& field, const TargetCase& now, const verify::Entry& entry,
+                       TargetRun& out);
+  // A value that the list of the dialog does not offer: an alarm.
+  void callBesideList(const verify::DrawField& field, const TargetCase& now, const verify::Entry& entry,
+                      TargetRun& out);
+  // The system that is in force: what comes after is moved by what was set.
+  void callWithActive(const verify::DrawField& field, char letter, const TargetCase& now,
+                      const verify::Entry& entry, TargetRun& out);
+
+  const VerificationSource from_;
+  const Translation& translation_;
+  const stdlib::Control& control_;
+  const stdlib::MacroSet *sourceSet_, *set_;
+  const Limits limits_ = limitsOfRun(from_.session.limits());
+  verify::Stand stand_;
+  FanucText text_;
+  // For a picture: what ran last, and the caller of the first difference.
+  std::optional<verify::Entry> ran_;
+  std::optional<std::pair<std::string, verify::Entry>> differing_;
+  std::set<char> atBounds_; // letters of arguments whose defaults were looked at where checks turn
+};
+
+} // namespace dotek::targets

@@ -1,0 +1,98 @@
+#include "targets/OffParts.h"
+
+#include "support/Decimal.h"
+#include "verify/CompareParts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <set>
+#include <tuple>
+
+namespace dotek::targets {
+
+namespace {
+
+constexpr double kBeyond = 1.25;  // of the limit
+constexpr double kMost = 2;       // mm: searches go farther
+constexpr double kMostTurn = 3;   // degrees
+constexpr double kOwnLimit = 0.3; // mm, for comparisons of the program's own
+
+// How a part is off besides: surfaces moved along their touches, all of it moved along X, turned.
+using Off = std::tuple<double, double, double>;
+
+void add(double grown, double moved, double turned, std::set<Off>& out) {
+  const auto rounded = [](double value) { return std::round(value * 1000) / 1000; };
+  const Off one{rounded(grown), rounded(moved), rounded(turned)};
+  if (one == Off{} || std::abs(grown) > kMost || std::abs(moved) > kMost || std::abs(turned) > kMostTurn)
+    return;
+  out.insert(one);
+}
+
+// Beyond the limits that the calls state. A size is off by twice what a surface is, a true position by twice
+// what its middle is.
+std::set<Off> offsOf(const verify::Record& source, bool compares) {
+  using Role = stdlib::ArgumentRole;
+  std::set<Off> out;
+  for (const verify::Measure& measure : source.measures)
+    for (const auto& [role, value] : measure.options) {
+      const double limit = std::abs(value) * kBeyond + 0.002;
+      switch (role) {
+      case Role::SizeTolerance:
+      case Role::UpperLimit:
+        for (const double grown : {limit / 2, -limit / 2})
+          add(grown, 0, 0, out);
+        if (measure.nominal.size() == 1) add(limit, 0, 0, out);
+        break;
+      case Role::PositionTolerance: add(0, limit / 2, 0, out); break;
+      case Role::AngleTolerance: add(0, 0, limit, out); break;
+      default: break;
+      }
+    }
+  if (compares)
+    for (const double grown : {kOwnLimit, -kOwnLimit})
+      add(grown, 0, 0, out);
+  return out;
+}
+
+std::string textOf(const Off& off) {
+  const auto& [grown, moved, turned] = off;
+  if (grown != 0) return fmt::format("each surface {} mm farther along its touch", numberText(grown));
+  if (moved != 0) return fmt::format("all of it {} mm farther along X", numberText(moved));
+  return fmt::format("it turned by {} degrees more", numberText(turned));
+}
+
+// What it does can be held against another set's macros: it has found all its surfaces.
+bool counts(const verify::Record& source) {
+  return source.ending == verify::Ending::Finished ||
+         (source.ending == verify::Ending::Alarm &&
+          (source.alarmKind.empty() || !verify::ownTextOf(source.alarmKind).empty()));
+}
+
+} // namespace
+
+std::vector<verify::Difference>
+compareOffParts(const TargetCase& now, const std::function<verify::Record(sim::World&)>& run,
+                const std::function<verify::CompareRules(const verify::Record&)>& rules) {
+  std::vector<verify::Difference> found;
+  if (now.source == nullptr || now.questions == nullptr || now.posted == nullptr) return found;
+  const auto& body = now.posted->body;
+  const bool compares = std::any_of(body.begin(), body.end(), [](const ir::ProgramStatement& one) {
+    return std::holds_alternative<ir::Branch>(one.node);
+  });
+  for (const Off& off : offsOf(*now.source, compares)) {
+    verify::PartError more;
+    more.shift.x = std::get<1>(off);
+    more.turn = std::get<2>(off);
+    now.questions->elsewhere(more, std::get<0>(off), [&](const verify::Record& meant, sim::World& world) {
+      if (!counts(meant)) return;
+      found = verify::compare(meant, run(world), rules(meant));
+    });
+    for (verify::Difference& one : found)
+      one.text = fmt::format("with the part off, {}: {}", textOf(off), one.text);
+    if (!found.empty()) return found;
+  }
+  return found;
+}
+
+} // namespace dotek::targets

@@ -1,0 +1,100 @@
+// Where skip moves make their contact: in the world, in a rehearsal, or where an interference puts it.
+#include "verify/Recorder.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace dotek::verify {
+
+namespace {
+
+constexpr double kSameSignal = 1e-6; // mm: two signals of one place
+constexpr double kSameDirection = 0.999;
+
+} // namespace
+
+double Recorder::rehearsedContact(const sim::SkipMove& move) {
+  const sim::Point3 from = lowest(move.machineFrom), path = lowest(move.machineTo) - from;
+  const double length = path.length();
+  if (!(length > kTouchSlack)) return 1;
+  const sim::Point3 direction = path * (1 / length);
+  if (call_.depth > 0) return expectedContact(from, direction, length);
+  for (const Touch& known : rehearsed_) {
+    const double along = (known.point - from).dot(direction);
+    if (known.direction.dot(direction) > kSameDirection && along > kTouchSlack && along <= length)
+      return along / length;
+  }
+  rehearsed_.push_back({from + path * *rehearsal_, direction});
+  return *rehearsal_;
+}
+
+double Recorder::expectedContact(const sim::Point3& from, const sim::Point3& direction, double length) const {
+  const double radius = std::abs(direction.z) < 0.5 ? world_.probe().ballRadius() : 0;
+  if (!call_.measures) return 1;
+  for (const Touch& expected : record_.measures.back().nominal) {
+    const double along = (expected.point - from).dot(direction) - radius;
+    if (expected.direction.dot(direction) > kSameDirection && along > kTouchSlack && along <= length)
+      return along / length;
+  }
+  return 1;
+}
+
+std::optional<double> Recorder::contact(const sim::SkipMove& move) {
+  const SourceRange here = place();
+  positions_ = move.positions ||
+               (call_.depth == 0 && watching_ != nullptr && watching_->contains({here.file, here.begin}));
+  aim_ = lowest(move.machineTo);
+  if (rehearsal_) return call_.moves || positions_ ? std::nullopt : std::optional(rehearsedContact(move));
+  sim::SkipMove longer = move;
+  double length = 0;
+  for (std::size_t i = 0; i < 3; ++i)
+    length = std::hypot(length, move.machineTo[i] - move.machineFrom[i]);
+  if (length > 0) {
+    for (std::size_t i = 0; i < 3; ++i)
+      longer.machineTo[i] += (move.machineTo[i] - move.machineFrom[i]) * (kTouchSlack / length);
+  }
+  std::optional<std::size_t> search;
+  if (length > 0 && call_.depth == 0) {
+    std::size_t& count = positions_ ? record_.protectedMoves : record_.searches;
+    const std::size_t number = count++;
+    if (!positions_) search = number;
+    const bool disturbed = (positions_ ? interference_.obstacle : interference_.missing) == number;
+    if (disturbed) {
+      disturb(1);
+      return positions_ ? std::optional(0.5) : std::nullopt;
+    }
+  }
+  std::optional<double> share = world_.contact(longer);
+  if (share && length > 0) share = std::min(1.0, *share * (length + kTouchSlack) / length);
+  return search && interference_.placed ? placedContact(move, length, *search, share) : share;
+}
+
+std::optional<double> Recorder::placedContact(const sim::SkipMove& move, double length, std::size_t search,
+                                              std::optional<double> share) const {
+  constexpr double kUp = 0.623; // no contact of a drawn part lies where this turns
+  double distance = share.value_or(0) * length;
+  if (interference_.placed->search == search)
+    distance = interference_.placed->distance;
+  else if (!share)
+    return std::nullopt;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double way = move.machineTo[i] - move.machineFrom[i];
+    if (std::abs(std::abs(way) - length) > kSameSignal) continue; // it goes along this axis alone
+    const double at = move.machineFrom[i] + (way < 0 ? -distance : distance);
+    distance = std::abs(std::floor(at / kStep + kUp) * kStep - move.machineFrom[i]);
+  }
+  return std::min(1.0, distance / length);
+}
+
+bool Recorder::isThere(const sim::SkipMove& here) {
+  if (interference_.touching == record_.guards++) {
+    disturb(0);
+    return true;
+  }
+  return world_.isThere(here);
+}
+
+void Recorder::disturb(std::size_t pieces) {
+  if (!record_.disturbed) record_.disturbed = {record_.pieces.size() + pieces, record_.marks.size()};
+}
+} // namespace dotek::verify
