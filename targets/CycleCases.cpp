@@ -43,7 +43,6 @@ constexpr std::uint32_t kMoreAttempts = 200; // for others in the place of those
 constexpr std::uint64_t kAsked = 4;
 constexpr std::uint32_t kForeseen = 1500;
 constexpr std::uint64_t kCallerCases = 8; // in which callers break what the translation demands
-constexpr double kNear = 0.01;            // beside what a corrected path measures, mm
 constexpr double kReach = 12;             // how far a search goes beyond a surface, mm
 
 // Variables of the control that the program writes by number.
@@ -426,22 +425,6 @@ std::optional<std::vector<double>> CaseRunner::nominalMisses(const verify::Case&
     for (const auto& [key, moved] : measure.datums)
       out.push_back(moved - active[key.second]);
   return out;
-}
-
-// Where each datum moves the path that follows: the path also fits the part with some axes at their place.
-std::string CaseRunner::whyNotCorrected(const Values& values, const sim::Part& nominal, double off) const {
-  const std::vector<verify::Touch> touches = values.path->nominal();
-  for (unsigned axes = 0; axes < 7; ++axes) {
-    verify::PartError error = values.drawn.error;
-    error.shift.x *= axes & 1;
-    error.shift.y *= axes >> 1 & 1;
-    error.shift.z *= axes >> 2 & 1;
-    const sim::Part part = verify::withError(nominal, touches, error);
-    std::string why =
-        verify::whyNotReached(*values.path, part, probeFor(plan_, values.drawn), off, off + kNear);
-    if (!why.empty()) return why;
-  }
-  return "";
 }
 
 // A clearance that is given has to lie between the two highest levels of the path, as a drawn one does.

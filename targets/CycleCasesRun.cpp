@@ -11,6 +11,12 @@ namespace dotek::targets {
 
 namespace compost = frontend::compost;
 
+namespace {
+
+constexpr double kNear = 0.01; // beside what a corrected path measures, mm
+
+} // namespace
+
 TargetRun CaseRunner::runTarget(const Values& values, sim::World& world, bool probeOn,
                                 const verify::Record* source, ShownRun* shown) {
   const verify::Entry entry = entryOf(values, probeOn);
@@ -48,6 +54,22 @@ SourceRange CaseRunner::progPlace(SourceRange posted, const std::vector<compost:
     at = end;
   }
   return {};
+}
+
+// Where each datum moves the path that follows: the path also fits the part with some axes at their place.
+std::string CaseRunner::whyNotCorrected(const Values& values, const sim::Part& nominal, double off) const {
+  const std::vector<verify::Touch> touches = values.path->nominal();
+  for (unsigned axes = 0; axes < 7; ++axes) {
+    verify::PartError error = values.drawn.error;
+    error.shift.x *= axes & 1;
+    error.shift.y *= axes >> 1 & 1;
+    error.shift.z *= axes >> 2 & 1;
+    const sim::Part part = verify::withError(nominal, touches, error);
+    std::string why =
+        verify::whyNotReached(*values.path, part, probeFor(plan_, values.drawn), off, off + kNear);
+    if (!why.empty()) return why;
+  }
+  return "";
 }
 
 SourceRange CaseRunner::sourceOf(SourceRange posted, const Values& values) const {
