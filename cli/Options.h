@@ -44,7 +44,7 @@ struct Raw {
   std::string probePower = "source";
   std::string datum;
   std::vector<std::string> results;
-  std::vector<std::string> variables;
+  std::vector<std::string> variables, shown; // --var, --show
   std::vector<std::string> programs;
   std::vector<std::string> auxiliary; // --auxiliary
   std::string start, step, range;     // of renumber

@@ -46,6 +46,10 @@ void addSim(CLI::App& app, Raw& raw) {
   sim->add_option("PROGRAM", raw.inputs, "the program, or a cycle (NAME.cycle)")->expected(1);
   addTarget(*sim, raw);
   addSeveral(*sim, "--var", raw.variables, "value of a variable before the program begins", "N=VALUE");
+  addSeveral(*sim, "--show", raw.shown,
+             "common variable that the table of what was measured shows at the end, by this name, beside the "
+             "value that is expected, where one is given",
+             "N=NAME[=NOMINAL]");
   addSeveral(*sim, "--set", raw.set,
              "value of a parameter of a cycle: diameter=30, diameter=1.2in, system=G55", "NAME=VALUE");
   addSeveral(*sim, "--host", raw.host, "value that a cycle takes from the machine (see `dotek list hosts`)",
@@ -142,6 +146,7 @@ driver::SimOptions simOf(const Raw& raw) {
   out.programs = withoutRepeats(raw.programs);
   if (!raw.probeMacros.empty()) out.probeMacros = raw.probeMacros;
   out.variables = pairsOf("--var", raw.variables);
+  out.shown = pairsOf("--show", raw.shown);
   return out;
 }
 

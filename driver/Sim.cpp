@@ -4,6 +4,7 @@
 #include "driver/SimCycle.h"
 #include "driver/SimDevice.h"
 #include "driver/WatchedRun.h"
+#include "frontend/macrob/Check.h"
 #include "frontend/nc/Scan.h"
 #include "project/Inputs.h"
 #include "project/Job.h"
@@ -85,6 +86,8 @@ public:
     if (diagnostics().hasErrors()) return outcomeOf(session_, "");
     world_ = sim::SimWorld::load(options_, session_, command());
     if (!world_ || !loadDevice()) return outcomeOf(session_, "");
+    shown_ = project::shownVariablesOf(options_.shown, *control_, diagnostics());
+    if (!shown_.empty()) world_->keepOffsets();
     // What cannot be read twice, a pipe, is kept; so its size is bounded.
     std::optional<std::string> kept;
     if (isStream(options_.program)) kept = session_.bytes(options_.program, diagnostics());
@@ -149,6 +152,8 @@ private:
   }
 
   Outcome finish(sim::Machine& machine, const sim::Run* run) {
+    addShown(machine);
+    if (!machine.dialect().firstParameter) sim::addLists(machine, run, shown_.empty(), *world_);
     world_->reportRest();
     Outcome out = outcomeOf(session_,
                             options_.json    ? sim::summary(machine, run, *world_, session_)
@@ -158,6 +163,16 @@ private:
     out.files = world_->pictures();
     addReport(machine, out);
     return out;
+  }
+
+  // The variables of --show, as the run has left them: a row of the table.
+  void addShown(const sim::Machine& machine) {
+    if (shown_.empty()) return;
+    sim::Measurement found{0, "results", {}};
+    for (const project::ShownVariable& one : shown_)
+      found.values.push_back({fmt::format("{} (#{})", one.name, one.number), one.nominal,
+                              machine.common(one.number), ir::Kind::Number});
+    world_->addFound(found);
   }
 
   bool setVariables(sim::Machine& machine) {
@@ -198,6 +213,7 @@ private:
     world_->setReader([&](std::uint32_t program, std::span<const double> locals) {
       return macros->foundBy(program, locals, machine);
     });
+    notePoints(library->programs());
     unreadable_ = library->unreadable();
     safe_ = sim::safeMoves(library->programs(), *control_);
     asking_ = sim::askingBlocks(library->programs());
@@ -216,6 +232,36 @@ private:
                    advice);
   }
 
+  // Once: a length without a point is a thousandth of what it looks like, and the run follows it.
+  void notePoints(const std::vector<const ir::Program*>& programs) {
+    std::size_t more = 0;
+    SourceRange first;
+    for (const ir::Program* program : programs)
+      for (const ir::ProgramStatement& statement : program->body) {
+        const auto* block = std::get_if<ir::NcBlock>(&statement.node);
+        if (block == nullptr) continue;
+        for (const ir::Word& word : block->words) {
+          if (std::string_view("XYZIJKR").find(word.address) == std::string_view::npos ||
+              !control_->countsIncrements(word.address))
+            continue;
+          const ir::Constant* bare = ir::numberWithoutPoint(word.value);
+          if (bare == nullptr || bare->value == 0) continue;
+          if (first.hasPlace())
+            ++more;
+          else
+            first = statement.origin.range();
+        }
+      }
+    if (!first.hasPlace()) return;
+    const auto& check = frontend::macrob::wordWithoutPointCheck;
+    Report report(check.code, Severity::Note, diagnostics());
+    report.at(
+        first,
+        "a length here has no point, and `{}` counts least increments: `X10` is {} mm; so it is with {} "
+        "more in the programs",
+        control_->name, fixedText(10 * control_->increment, control_->decimals), more);
+  }
+
   void noSetup(const std::string& what) {
     diagnostics().report<diag::OptionOfMacroB>({}, what).note(
         {},
@@ -226,6 +272,7 @@ private:
   // A program of Mikroprog; what lint finds an error in is not run.
   Outcome runSuf() {
     if (!options_.variables.empty()) diagnostics().report<diag::OptionOfMacroB>({}, "--var");
+    if (!options_.shown.empty()) diagnostics().report<diag::OptionOfMacroB>({}, "--show");
     if (!options_.programs.empty()) diagnostics().report<diag::OptionOfMacroB>({}, "--programs");
     if (options_.probeMacros) diagnostics().report<diag::OptionOfMacroB>({}, "--probe-macros");
     if (options_.common.job) diagnostics().report<diag::OptionOfMacroB>({}, "--job");
@@ -361,6 +408,7 @@ private:
   std::unique_ptr<sim::SimWorld> world_;
   std::optional<sim::DeviceFile> deviceFile_;
   std::optional<sim::Device> running_;
+  std::vector<project::ShownVariable> shown_;
   sim::BlockSet safe_;                              // skip moves to a position
   std::set<std::uint32_t> unset_;                   // common variables that no program sets
   sim::BlockSet asking_;                            // blocks that ask what a skip move came to

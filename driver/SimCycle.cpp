@@ -80,6 +80,7 @@ private:
       if (given) diagnostics().report<diag::OptionOfPrograms>({}, flag);
     };
     none(!options_.variables.empty(), "--var");
+    none(!options_.shown.empty(), "--show");
     none(!options_.programs.empty(), "--programs");
     none(options_.probeMacros.has_value(), "--probe-macros");
     none(!options_.control.empty(), "--control");

@@ -27,6 +27,8 @@ bool Run::print(const ir::Print& print) {
     if (ahead_) noteRead(*piece.number);
     const std::optional<double> value = machine_.read(*piece.number);
     if (!value) return false;
+    if (!unset_.empty() && *piece.number > control_.locals && isFresh(machine_.common(*piece.number)))
+      noteUnset(*piece.number);
     if (listener_ != nullptr) tellRead(*piece.number, *value);
     // A variable without a value prints as 0.
     if (!(print.binary ? printBinary(piece, nullAsZero(*value), line)

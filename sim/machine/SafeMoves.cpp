@@ -255,6 +255,10 @@ std::set<std::uint32_t> neverSet(const std::vector<const ir::Program*>& programs
         if (const auto* variable = std::get_if<ir::MachineVariable>(&node.node)) put(out, variable->number);
       });
       if (const auto* store = std::get_if<ir::Store>(&statement.node)) put(set, store->number);
+      if (const auto* print = std::get_if<ir::Print>(&statement.node))
+        for (const ir::PrintPiece& piece : print->pieces)
+          if (piece.number && *piece.number >= kFirstShared && *piece.number <= kLastShared)
+            out.insert(*piece.number);
     }
   for (const std::uint32_t number : set)
     out.erase(number);

@@ -77,6 +77,13 @@ struct PictureMeasured {
   bool afterMiss = false; // so did one before these offsets were written
 };
 
+// Lines of text below the table: what the program printed, which variables it left. UTF-8.
+struct PictureList {
+  std::string id; // of the element
+  std::string title;
+  std::vector<std::string> lines; // at least one
+};
+
 // How a run went: the banner of both pictures.
 enum class Verdict : std::uint8_t {
   Pass,
@@ -107,6 +114,7 @@ struct Picture {
   std::vector<PictureBlock> blocks;
   std::vector<PictureFrame> frames;
   std::vector<PictureMeasured> measured;
+  std::vector<PictureList> lists;
   std::optional<PictureResult> result; // nothing: no banner
   std::string control;                 // that the program ran on, UTF-8; "": none
   std::string date;                    // as the user gives it, UTF-8; "": none

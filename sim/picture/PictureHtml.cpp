@@ -55,6 +55,7 @@ public:
       if (mark == "DATE" && !picture_.date.empty())
         out += fmt::format(" <small>{}</small>", xmlText(picture_.date, 100));
       if (mark == "MEASURED") out += measuredHtml(picture_, [&](std::size_t move) { return placeOf(move); });
+      if (mark == "LISTS") out += listsHtml(picture_);
       if (mark == "BANNER" && picture_.result) out += bannerHtml(*picture_.result);
       if (mark == "STYLE") out += pageStyle();
       if (mark == "NOTES") out += notes();

@@ -46,6 +46,7 @@ public:
   void faultHere(const std::string& text);
   // The last miss was an approach: it is no error.
   void missWasApproach();
+  void addList(PictureList list) { picture_.lists.push_back(std::move(list)); }
   // After the run: what stopped it is an error at the end of the path, and the picture has its banner.
   void finish(const RunFacts& facts, std::vector<PictureMeasured> measured = {});
 

@@ -32,5 +32,8 @@ std::string measuredText(const std::vector<PictureMeasured>& measured, std::size
 std::string measuredSvg(const Picture& picture, double left, double& at);
 // A section of the page; `place`: of a move, in the moves of the page.
 std::string measuredHtml(const Picture& picture, const std::function<std::size_t(std::size_t)>& place);
+// The lists; "": there are none. `at` as above.
+std::string listsSvg(const Picture& picture, double left, double& at);
+std::string listsHtml(const Picture& picture); // a section of the page each
 
 } // namespace dotek::sim

@@ -10,6 +10,8 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <numeric>
+#include <vector>
 
 namespace dotek::sim {
 namespace {
@@ -32,32 +34,32 @@ double finite(double value) {
 
 class Legend {
 public:
-  Legend(double left, double top) : left_(left), at_(top) {}
+  Legend(double left, double top) : left_(left), place(top) {}
 
   void sample(PathKind kind) {
     const PathStyle& style = pathStyle(kind);
     out_ += fmt::format("<path d=\"M{} {}h44\" stroke=\"{}\" stroke-width=\"{}\"{} fill=\"none\"/>",
-                        px(left_), px(at_ - 4), style.colour, style.width,
+                        px(left_), px(place - 4), style.colour, style.width,
                         *style.dashes == '\0' ? "" : fmt::format(" stroke-dasharray=\"{}\"", style.dashes));
     text(fmt::format("{} move", pathKindName(kind)), 56);
   }
   void mark(const std::string& shape, const std::string& what) {
-    out_ += fmt::format("<g transform=\"translate({} {})\">{}</g>", px(left_ + 22), px(at_ - 4), shape);
+    out_ += fmt::format("<g transform=\"translate({} {})\">{}</g>", px(left_ + 22), px(place - 4), shape);
     text(what, 56);
   }
   void text(const std::string& line, double indent = 0, const char* colour = "#20262d") {
-    out_ += fmt::format("<text x=\"{}\" y=\"{}\" fill=\"{}\">{}</text>\n", px(left_ + indent), px(at_),
+    out_ += fmt::format("<text x=\"{}\" y=\"{}\" fill=\"{}\">{}</text>\n", px(left_ + indent), px(place),
                         colour, xmlText(line));
-    at_ += kLine;
+    place += kLine;
   }
-  void gap(double height) { at_ += height; }
+  void gap(double height) { place += height; }
   void raw(const std::string& svg) { out_ += svg; }
   double left() const { return left_; }
-  double at() const { return at_; }
+  double at() const { return place; }
   std::string take() { return std::move(out_); }
 
 private:
-  double left_, at_; // base line of the next text
+  double left_, place; // base line of the next text
   std::string out_;
 };
 
@@ -193,7 +195,12 @@ std::string drawErrors(const Picture& picture, double width, double& at) {
                        bold ? " font-weight=\"bold\"" : "", xmlText(text));
     at += kLine;
   };
-  for (std::size_t i = 0; i < picture.errors.size() && i < kMostErrors; ++i) {
+  std::vector<std::size_t> order(picture.errors.size()); // errors before misses
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_partition(order.begin(), order.end(),
+                        [&](std::size_t i) { return !isMiss(picture.errors[i]); });
+  for (std::size_t place = 0; place < order.size() && place < kMostErrors; ++place) {
+    const std::size_t i = order[place];
     const PictureError& error = picture.errors[i];
     std::string text = error.text;
     if (const std::optional<std::size_t> block = blockOf(picture, error))
@@ -247,7 +254,9 @@ std::string pictureSvg(const Picture& picture) {
   double bottom = low + size.z * s + 56;
   const std::string errors = drawErrors(picture, width, bottom);
   const std::string measured = measuredSvg(picture, kLeft, bottom);
-  const double height = bottom + kBottom - (errors.empty() && measured.empty() ? 14 : 0);
+  const std::string lists = listsSvg(picture, kLeft, bottom);
+  const bool bare = errors.empty() && measured.empty() && lists.empty();
+  const double height = bottom + kBottom - (bare ? 14 : 0);
 
   std::string out = fmt::format(
       "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" viewBox=\"0 0 {0} {1}\" "
@@ -270,7 +279,7 @@ std::string pictureSvg(const Picture& picture) {
     out += fmt::format("<text x=\"{}\" y=\"{}\" text-anchor=\"end\" fill=\"#4a525c\">{}</text>\n",
                        px(width - kRight), px(banner + 34), xmlText(picture.date, 60));
   out += views;
-  out += "<g id=\"legend\">\n" + legend + "</g>\n" + errors + measured + "</svg>\n";
+  out += "<g id=\"legend\">\n" + legend + "</g>\n" + errors + measured + lists + "</svg>\n";
   return out;
 }
 

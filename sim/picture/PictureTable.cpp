@@ -1,4 +1,5 @@
 // The table of what was measured, of both pictures.
+#include "sim/machine/Value.h"
 #include "sim/picture/PictureReport.h"
 #include "sim/picture/PictureText.h"
 #include "support/Decimal.h"
@@ -10,6 +11,7 @@ namespace dotek::sim {
 namespace {
 
 constexpr std::size_t kMostSvg = 60, kMostHtml = 1000; // rows
+constexpr std::size_t kMostSvgLines = 40;              // of a list
 
 struct Row {
   std::string name, nominal, measured, deviation;
@@ -28,12 +30,11 @@ public:
   }
   Row row(const MeasuredValue& value) const {
     const char* const unit = value.kind == ir::Kind::Angle ? "\xC2\xB0" : "";
+    const auto nominal = [&] { return value.nominal ? number(*value.nominal) + unit : std::string("-"); };
+    if (isNull(value.measured)) return {value.name, nominal(), "empty", "-"};
     if (value.kind == ir::Kind::Flag) return {value.name, "-", value.measured == 0 ? "no" : "yes", "-"};
-    Row out{value.name, "-", number(value.measured) + unit, "-"};
-    if (value.nominal) {
-      out.nominal = number(*value.nominal) + unit;
-      out.deviation = signedNumber(value.measured - *value.nominal) + unit;
-    }
+    Row out{value.name, nominal(), number(value.measured) + unit, "-"};
+    if (value.nominal) out.deviation = signedNumber(value.measured - *value.nominal) + unit;
     return out;
   }
   std::string offset(const OffsetWrite& write, const PictureMeasured& of) const {
@@ -129,6 +130,42 @@ std::string measuredSvg(const Picture& picture, double left, double& at) {
     at += kRow;
   }
   return out + "</g>\n";
+}
+
+std::string listsSvg(const Picture& picture, double left, double& at) {
+  std::string out;
+  const auto text = [&](double x, const std::string& what, const char* style) {
+    out += fmt::format("<text x=\"{}\" y=\"{}\" {}>{}</text>\n", shortNumber(left + x, 2), shortNumber(at, 2),
+                       style, xmlText(what, 120));
+    at += 17;
+  };
+  for (const PictureList& list : picture.lists) {
+    out += fmt::format("<g id=\"{}\" fill=\"#20262d\">\n", list.id);
+    at += 18;
+    text(0, list.title, "font-size=\"14\" font-weight=\"bold\"");
+    at += 3;
+    for (std::size_t i = 0; i < list.lines.size() && i < kMostSvgLines; ++i)
+      text(18, list.lines[i], "xml:space=\"preserve\" font-family=\"Consolas, DejaVu Sans Mono, monospace\"");
+    if (list.lines.size() > kMostSvgLines)
+      text(18, fmt::format("and {} lines more; the page lists them", list.lines.size() - kMostSvgLines), "");
+    out += "</g>\n";
+  }
+  return out;
+}
+
+std::string listsHtml(const Picture& picture) {
+  std::string out;
+  for (const PictureList& list : picture.lists) {
+    out += fmt::format("<section id=\"{}\" class=\"list\">\n<h2>{}</h2>\n<pre>", list.id,
+                       xmlText(list.title, 100));
+    for (std::size_t i = 0; i < list.lines.size() && i < kMostHtml; ++i)
+      out += xmlText(list.lines[i], 400) + "\n";
+    out += "</pre>\n";
+    if (list.lines.size() > kMostHtml)
+      out += fmt::format("<p>and {} lines more</p>\n", list.lines.size() - kMostHtml);
+    out += "</section>\n";
+  }
+  return out;
 }
 
 std::string measuredHtml(const Picture& picture, const std::function<std::size_t(std::size_t)>& place) {

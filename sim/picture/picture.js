@@ -186,8 +186,8 @@ window.onerror = (message, source, line) => {
   for (const id of ["slider", "back", "next", "play"]) byId(id).disabled = moves.length === 0;
   if (moves.length === 0) byId("count").textContent = "no moves";
 
-  // ---- errors
-  data.errors.forEach((error) => {
+  // ---- errors: those before misses
+  [false, true].flatMap((miss) => data.errors.filter((error) => error.miss === miss)).forEach((error) => {
     const item = document.createElement("li"), button = document.createElement("button");
     button.textContent = error.letter + error.number + "  " + (data.blocks[error.block] ? data.blocks[error.block][1] + ": " : "") + error.text;
     button.addEventListener("click", () => go(error.move));

@@ -1,5 +1,6 @@
 #include "sim/run/MeasuredLog.h"
 
+#include <algorithm>
 #include <cmath>
 #include <iterator>
 #include <utility>
@@ -80,11 +81,33 @@ Measurement MeasuredLog::measurementOf(const Point3& position, const Point3& way
   return found;
 }
 
+PictureMeasured* MeasuredLog::sameTouch(const Point3& position, const Point3& way, std::string_view system) {
+  constexpr double kAlong = 0.5, kAcross = 0.01; // mm; a fast touch stops a little later than a slow one
+  constexpr double kSameWay = 0.9999;            // of the cosine
+  if (touch_.rows == 0 || touch_.rows != entries_.size() || touch_.calls != calls_.size()) return nullptr;
+  PictureMeasured& last = entries_.back();
+  const double lengths = way.length() * touch_.way.length();
+  if (!last.offsets.empty() || last.system != system || lengths <= 0 ||
+      way.dot(touch_.way) < kSameWay * lengths)
+    return nullptr;
+  const Point3 apart = position - touch_.position;
+  const double along = apart.dot(way) / way.length();
+  const double across = std::sqrt(std::max(0.0, apart.dot(apart) - along * along));
+  return std::abs(along) <= kAlong && across <= kAcross ? &last : nullptr;
+}
+
 void MeasuredLog::touched(const Point3& position, const Point3& way) {
   if (!now_.block) return;
   Measurement found = measurementOf(position, way, "touch");
   if (found.values.empty()) return;
-  add(entry(std::move(found), now_.block(), now_.system()));
+  PictureMeasured one = entry(std::move(found), now_.block(), now_.system());
+  PictureMeasured* const same = sameTouch(position, way, one.system);
+  if (same != nullptr && touch_.read) one.found.title += " again";
+  if (same != nullptr && !touch_.read)
+    *same = std::move(one);
+  else
+    add(std::move(one));
+  touch_ = {entries_.size(), calls_.size(), position, way, false};
 }
 
 void MeasuredLog::missed(PictureMeasured one) {

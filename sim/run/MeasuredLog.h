@@ -37,7 +37,10 @@ public:
   void offsetWritten(const OffsetWrite& write);
   void writtenAfterMiss(); // of the last one
   // A skip move that ended at a contact: where, in work coordinates, and the way of the machine to it.
+  // One at the same place as the last, with nothing between that asked where that was, takes its row: that
+  // was an approach.
   void touched(const Point3& position, const Point3& way);
+  void positionRead() { touch_.read = true; } // by the program
   // A skip move that met nothing, and whose skip position is used: `one` says where it ended. What is set
   // until another call begins is set after it.
   void missed(PictureMeasured one);
@@ -59,7 +62,18 @@ private:
   PictureMeasured entry(Measurement found, PictureBlock block, std::string system) const;
   void add(PictureMeasured one);
 
+  // The last touch of a skip move, while its row is the last.
+  struct Touch {
+    std::size_t rows = 0; // entries_ after it; 0: there was none
+    std::size_t calls = 0;
+    Point3 position, way;
+    bool read = false;
+  };
+  // Of the touch at the same place from the same side; nullptr: there is none.
+  PictureMeasured* sameTouch(const Point3& position, const Point3& way, std::string_view system);
+
   Now now_;
+  Touch touch_;
   Reader reader_;
   std::vector<Call> calls_;
   std::vector<PictureMeasured> entries_;

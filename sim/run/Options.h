@@ -19,6 +19,7 @@ struct SimOptions {
   project::CommonOptions common;
   std::string control;               // "": the first
   project::NamedTexts variables;     // --var N=VALUE
+  project::NamedTexts shown;         // --show N=NAME or N=NAME=NOMINAL
   std::vector<std::string> programs; // --programs DIR: what can be called beside the programs of the file
   // --probe-macros: the set of vendors' macros that runs by its meaning; nothing: all.
   std::optional<std::string> probeMacros;

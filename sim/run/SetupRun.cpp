@@ -56,8 +56,8 @@ std::optional<Position> startOf(const Setup& setup, const Machine& machine) {
   return out;
 }
 
-bool startsWithinTravel(const Setup& setup, std::string_view saidBy, const MachineLimits& limits,
-                        const Machine& machine, Diagnostics& diagnostics) {
+bool startsWithinTravel(const Setup& setup, std::string_view saidBy, bool leftOut,
+                        const MachineLimits& limits, const Machine& machine, Diagnostics& diagnostics) {
   const std::optional<Position> start = startOf(setup, machine);
   if (!start) return true;
   bool within = true;
@@ -70,7 +70,7 @@ bool startsWithinTravel(const Setup& setup, std::string_view saidBy, const Machi
         fmt::format("it puts the spindle to machine {}, and the travel ends at {}; the place counts from the "
                     "zero of G54{}, and the tool's length is added to it",
                     value((*start)[axis]), value(*end),
-                    machine.zeroOf(0) == Position{}
+                    machine.zeroOf(0) == Position{} && !leftOut
                         ? ", which nothing has set (`--work-offset G54=part` puts it "
                           "where the part is)"
                         : ""));

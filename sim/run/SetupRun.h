@@ -27,8 +27,9 @@ std::optional<Position> startOf(const Setup& setup, const Machine& machine);
 
 // Whether X, Y and Z are within the machine's travel where `setup.at` puts the tool; one that says nothing
 // is. false: reported as what `saidBy` says ("--at").
-bool startsWithinTravel(const Setup& setup, std::string_view saidBy, const MachineLimits& limits,
-                        const Machine& machine, Diagnostics& diagnostics);
+// `leftOut`: the file of the machine says where the zero of G54 is, and it does not count.
+bool startsWithinTravel(const Setup& setup, std::string_view saidBy, bool leftOut,
+                        const MachineLimits& limits, const Machine& machine, Diagnostics& diagnostics);
 
 // A main program that calls O`number` with the arguments of `setup.call`. Where the setup names a tool its
 // length is in force (G43), and the machine stays where it is.

@@ -78,6 +78,7 @@ void SimWorld::offsetWritten(const OffsetWrite& write) {
   log_.offsetWritten(write);
   if (machineNow_ == nullptr) return;
   checkMiss(write);
+  checkWear(write);
   const double inForce = std::abs(machineNow_->toolLength());
   const double moved = write.after - write.before;
   const bool zero = write.name.ends_with(" Z");

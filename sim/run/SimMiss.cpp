@@ -94,6 +94,7 @@ void SimWorld::missEnded(const MachineMotion& motion) {
 // A position that is kept without a question may be one to go back to.
 void SimWorld::positionRead(bool skip) {
   noteHeight();
+  log_.positionRead();
   if (!missed_ || !asks_ || (!skip && missed_->movedOn)) return;
   if (asks_())
     settleMiss();

@@ -9,8 +9,10 @@
 #include "support/messages/MacroB.h"
 #include "support/messages/Sim.h"
 
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <string_view>
 
 namespace dotek::sim {
 namespace {
@@ -237,6 +239,27 @@ void reportShifts(const Machine& machine, SourceRange range, Session& session) {
            fmt::format("{} degrees; most controls end it at M30, some do not",
                        numberText(machine.rotation().degrees())),
            "`G69`");
+}
+
+void addLists(const Machine& machine, const Run* run, bool variables, SimWorld& world) {
+  PictureList printed{"printed", "Printed by the program (DPRNT)", {}};
+  if (run != nullptr) {
+    std::string_view text = run->output();
+    while (!text.empty()) {
+      const std::size_t end = std::min(text.find('\n'), text.size());
+      printed.lines.push_back(toUtf8Text(std::string(text.substr(0, end))));
+      text.remove_prefix(std::min(end + 1, text.size()));
+    }
+  }
+  world.addList(std::move(printed));
+  PictureList left{"left", "Left by the program", {}};
+  if (machine.rotation().on())
+    left.lines.push_back(fmt::format("G68 R{} in force", numberText(machine.rotation().degrees())));
+  if (variables && run != nullptr)
+    for (const auto& [number, value] : machine.written())
+      if (machine.control().isCommon(number) && std::isfinite(value))
+        left.lines.push_back(fmt::format("#{} = {}", number, fixedText(value, machine.control().decimals)));
+  world.addList(std::move(left));
 }
 
 void traceVariables(const Machine& machine, Trace& trace) {

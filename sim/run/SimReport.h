@@ -24,6 +24,9 @@ void reportRun(const Run& run, const Machine& machine, const std::string& advice
 void reportShifts(const Machine& machine, SourceRange range, Session& session);
 // The last lines of the trace: what was written.
 void traceVariables(const Machine& machine, Trace& trace);
+// What the program printed, the rotation that is in force at its end, and where `variables` says so the
+// common variables that it left: lists of the pictures. `run`: nullptr of plain blocks.
+void addLists(const Machine& machine, const Run* run, bool variables, SimWorld& world);
 // docs/sim.md says what is in it. `run`: of a program that was loaded; nullptr: of plain blocks.
 std::string summary(Machine& machine, const Run* run, const SimWorld& world, Session& session);
 // Its last member.

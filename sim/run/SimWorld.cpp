@@ -28,30 +28,6 @@ constexpr std::string_view kRotary =
 constexpr std::string_view kNowhere = "where the machine is in this move is not known, so what it meets is "
                                       "not";
 
-std::string pointJson(const Point3& p) {
-  return fmt::format("{{\"X\": {}, \"Y\": {}, \"Z\": {}}}", jsonNumber(p.x, 6), jsonNumber(p.y, 6),
-                     jsonNumber(p.z, 6));
-}
-
-bool hasPoint(Outcome outcome) {
-  switch (outcome) {
-  case Outcome::Contact:
-  case Outcome::EarlyContact:
-  case Outcome::NotArmed:
-  case Outcome::NoSignal:
-  case Outcome::Overtravel:
-  case Outcome::RapidIntoPart: return true;
-  case Outcome::Miss:
-  case Outcome::StemCollision:
-  case Outcome::BodyCollision:
-  case Outcome::OutsideTravel:
-  case Outcome::SetterMiss:
-  case Outcome::NotModelled: break;
-  case Outcome::SetterHit: return true;
-  }
-  return false;
-}
-
 // A probe that is on, from the gauge line down to the tip of its ball.
 MachineFile bareStylus(double diameter, double length) {
   MachineFile out;
@@ -140,7 +116,11 @@ bool SimWorld::loadFiles(const Setup& given) {
   if (!machine_ || (options_.part && !part)) return false;
   setup_ = machine_->setup;
   // A machine's file serves runs without a part, too.
-  if (!part) std::erase_if(setup_.zeros, [](const Setup::Zero& zero) { return zero.ofPart; });
+  if (!part)
+    std::erase_if(setup_.zeros, [&](const Setup::Zero& zero) {
+      if (zero.ofPart) zeroLeftOut_ = static_cast<std::uint8_t>(zero.system);
+      return zero.ofPart;
+    });
   setup_.override(given);
   // A macro that is called has its tool in the spindle, and [probe] says which that is.
   if (!setup_.call.empty() && !setup_.tool) setup_.tool = machine_->devices.probeTool;
@@ -199,8 +179,12 @@ Position SimWorld::startOf(const Machine& machine) const {
 }
 
 bool SimWorld::startsWithinTravel(const Machine& machine) const {
-  return !machine_ || sim::startsWithinTravel(setup_, options_.setup.at ? "--at" : "at` of `[setup]",
-                                              machine_->limits, machine, session_.diagnostics());
+  if (!machine_ || sim::startsWithinTravel(setup_, options_.setup.at ? "--at" : "at` of `[setup]",
+                                           zeroLeftOut_ == std::uint8_t{0}, machine_->limits, machine,
+                                           session_.diagnostics()))
+    return true;
+  noteZeroLeftOut(session_.diagnostics().all().back());
+  return false;
 }
 
 void SimWorld::attach(Machine& machine) {
@@ -274,6 +258,8 @@ std::optional<double> SimWorld::contact(const SkipMove& move) {
   if (!world_) return std::nullopt;
   checkSystem();
   checkSpindle();
+  searchWay_ = {move.machineTo[0] - move.machineFrom[0], move.machineTo[1] - move.machineFrom[1],
+                move.machineTo[2] - move.machineFrom[2]};
   const std::optional<Missed> approach = beginSearch(move);
   world_->setLine(line_());
   if (device_ != nullptr) device_->touchBegins();
@@ -309,9 +295,13 @@ void SimWorld::moved(const MachineMotion& motion) {
   checkLength(motion);
   checkHeight(motion);
   if (rangeNow_) last_ = rangeNow_();
-  if (motion.kind == MotionKind::Skip && std::exchange(touched_, false))
-    log_.touched(work_(), {motion.to[0] - motion.from[0], motion.to[1] - motion.from[1],
-                           motion.to[2] - motion.from[2]});
+  if (motion.kind == MotionKind::Skip && std::exchange(touched_, false)) {
+    const Point3 way{motion.to[0] - motion.from[0], motion.to[1] - motion.from[1],
+                     motion.to[2] - motion.from[2]};
+    heightTouched_.reset();
+    if (way.x == 0 && way.y == 0 && world_ && world_->cuttingTool() == nullptr) heightTouched_ = work_().z;
+    log_.touched(work_(), way);
+  }
   takeEvents();
 }
 
@@ -385,6 +375,7 @@ void SimWorld::take(const ProbeEvent& event, const RunPlace& place) {
   if (!isMeantToMiss(event)) ++outcomes_[static_cast<std::size_t>(event.outcome)];
   const std::size_t index = kept.size();
   if (kept.size() < kMostKept) kept.push_back({event, place});
+  if (contact) checkEdge(event, place);
   // The end of the run says it.
   if (event.outcome == Outcome::NotModelled)
     stop_(event.tool != 0
@@ -422,6 +413,7 @@ void SimWorld::tell(const ProbeEvent& event, const RunPlace& place) {
   const bool atStart = event.outcome == Outcome::EarlyContact && event.kind == MotionKind::Skip;
   if (atStart && last_.hasPlace()) one.all().front().note(last_, "the move before it");
   noteEmptyOffset(one.all().front());
+  if (event.outcome == Outcome::OutsideTravel) noteZeroLeftOut(one.all().front());
   addTold(std::move(one.all().front()), static_cast<std::size_t>(event.outcome), place);
 }
 
@@ -479,6 +471,10 @@ void SimWorld::addFound(const Measurement& found) {
   log_.callEnded(0);
 }
 
+void SimWorld::addList(PictureList list) {
+  if (recorder_ && !list.lines.empty()) recorder_->addList(std::move(list));
+}
+
 std::uint64_t SimWorld::collisions() const {
   std::uint64_t out = 0;
   for (const Outcome outcome : {Outcome::EarlyContact, Outcome::Overtravel, Outcome::StemCollision,
@@ -520,78 +516,6 @@ PictureBlock SimWorld::blockNow() const {
     if (c == '\n' || c == '\r') c = ' ';
   return {std::move(text), fmt::format("{}:{}", file.name(), file.place(place.range.begin).line),
           place.program == 0 ? "" : fmt::format("O{:04}", place.program)};
-}
-
-std::string SimWorld::placeJson(const SourceRange& range) const {
-  if (!range.hasPlace()) return "\"file\": null, \"line\": 0";
-  const SourceFile& file = session_.sources().file(range.file);
-  return fmt::format("\"file\": {}, \"line\": {}", jsonString(file.name()), file.place(range.begin).line);
-}
-
-std::string SimWorld::json(const Kept& kept) const {
-  const ProbeEvent& event = kept.event;
-  const bool contact = event.outcome == Outcome::Contact;
-  std::string out = contact ? "{" : fmt::format("{{\"outcome\": \"{}\", ", outcomeName(event.outcome));
-  if (event.used) out += "\"used\": true, ";
-  out += placeJson(kept.place.range) + ", \"calls\": [";
-  for (auto call = kept.place.calls.rbegin(); call != kept.place.calls.rend(); ++call)
-    out += (call == kept.place.calls.rbegin() ? "{" : ", {") + placeJson(*call) + "}";
-  out += "], \"centre\": " + pointJson(event.centre);
-  if (hasPoint(event.outcome))
-    out += ", \"point\": " + pointJson(event.point) + ", \"normal\": " + pointJson(event.normal) +
-           ", \"depth\": " + jsonNumber(event.depth, 6);
-  return out + "}";
-}
-
-// [] where nothing was measured.
-std::string SimWorld::measuredJson() const {
-  std::string out;
-  for (const PictureMeasured& one : log_.entries()) {
-    std::string values, offsets;
-    for (const MeasuredValue& value : one.found.values)
-      values +=
-          fmt::format("{}{{\"name\": {}, \"nominal\": {}, \"measured\": {}, \"deviation\": {}}}",
-                      values.empty() ? "" : ", ", jsonString(value.name),
-                      value.nominal ? fixedText(*value.nominal, 6) : "null", fixedText(value.measured, 6),
-                      value.nominal ? fixedText(value.measured - *value.nominal, 6) : "null");
-    for (const OffsetWrite& write : one.offsets)
-      offsets += fmt::format("{}{{\"name\": {}, \"before\": {}, \"after\": {}}}", offsets.empty() ? "" : ", ",
-                             jsonString(write.name), fixedText(write.before, 6), fixedText(write.after, 6));
-    out += fmt::format(
-        "{}\n    {{\"feature\": {}, \"program\": {}, \"place\": {}, \"system\": {}, \"values\": [{}], "
-        "\"offsets\": [{}]{}{}}}",
-        out.empty() ? "" : ",", jsonString(one.found.title), one.found.program, jsonString(one.block.place),
-        jsonString(one.system), values, offsets, one.missed ? ", \"missed\": true" : "",
-        one.afterMiss ? ", \"afterMiss\": true" : "");
-  }
-  return out.empty() ? out : out + "\n  ";
-}
-
-std::string SimWorld::summary() const {
-  const auto list = [&](const std::vector<Kept>& kept) {
-    std::string out;
-    for (const Kept& one : kept)
-      out += (out.empty() ? "\n    " : ",\n    ") + json(one);
-    return out.empty() ? out : out + "\n  ";
-  };
-  std::string out = "  \"measured\": [" + measuredJson() + "],\n  \"contacts\": [" + list(contacts_) +
-                    "],\n  \"events\": [" + list(events_) + "],\n";
-  if (contactCount_ > contacts_.size() || eventCount_ > events_.size())
-    out += fmt::format("  \"contactsLeftOut\": {},\n  \"eventsLeftOut\": {},\n",
-                       contactCount_ - contacts_.size(), eventCount_ - events_.size());
-  return out;
-}
-
-std::string SimWorld::notes() const {
-  const auto text = [](const std::string& bytes) { return jsonString(toUtf8Text(bytes)); };
-  std::string records, stops;
-  for (const NotedRecord& one : records_)
-    records += fmt::format("{}{{\"file\": {}, {}}}", records.empty() ? "" : ", ", text(one.file),
-                           one.value ? "\"value\": " + numberText(*one.value)
-                                     : "\"position\": " + positionText(one.position, 7));
-  for (const std::string& one : stops_)
-    stops += (stops.empty() ? "" : ", ") + text(one);
-  return "  \"records\": [" + records + "],\n  \"stops\": [" + stops + "],\n";
 }
 
 } // namespace dotek::sim

@@ -97,6 +97,8 @@ public:
   void unsetRead(std::uint32_t number, SourceRange range);
   // What a run came to as a whole, beside what it touched: `found` is a row of the table.
   void addFound(const Measurement& found);
+  // Of the pictures; without lines it is none.
+  void addList(PictureList list);
   // Collisions of the run, and touches that nothing asked for.
   std::uint64_t collisions() const;
   // What the banner of the pictures calls what ran: "cycle".
@@ -197,6 +199,10 @@ private:
   void noteHeight();
   void checkHeight(const MachineMotion& motion);
   void noteEmptyOffset(Diagnostic& finding) const; // of the tool in the spindle, which has a length
+  void noteZeroLeftOut(Diagnostic& finding) const; // of a machine's file, which counts with a part alone
+  // SimTouch.cpp: touches that measure something else than the program takes them for.
+  void checkEdge(const ProbeEvent& event, const RunPlace& place);
+  void checkWear(const OffsetWrite& write);
   void addTold(Diagnostic diagnostic, std::size_t kind, const RunPlace& place);
   bool isTold(const ProbeEvent& event) const;        // false: it is one too many
   bool isProtected() const;                          // of the skip move that runs: it wants no contact
@@ -213,6 +219,7 @@ private:
   std::optional<MachineFile> machine_;
   Setup setup_;
   std::optional<std::array<double, 3>> partZero_; // where the part is meant to be
+  std::optional<std::uint8_t> zeroLeftOut_;       // a system that was to be there, and there is no part
   std::optional<World> world_;
   bool picture_ = false;
   std::string_view subject_ = "program";
@@ -238,11 +245,12 @@ private:
   std::set<std::pair<std::string_view, std::uint32_t>> faultsTold_; // code, where its block begins
   SourceRange last_;                                                // the block of the last motion
   std::optional<Missed> missed_;
-  std::vector<Kept> misses_;   // at most kMostKept
-  std::uint32_t lastMiss_ = 0; // of misses_, from 1: the last skip move; 0: that was none
-  Point3 lastWay_{};
-  bool movedOn_ = false;               // since then
-  std::set<std::uint32_t> missesTold_; // as errors
+  std::vector<Kept> misses_;            // at most kMostKept
+  std::uint32_t lastMiss_ = 0;          // of misses_, from 1: the last skip move; 0: that was none
+  Point3 lastWay_{}, searchWay_{};      // of the last skip move as it ended, as it began
+  std::optional<double> heightTouched_; // Z in work coordinates, of a touch along Z alone by the probe
+  bool movedOn_ = false;                // since then
+  std::set<std::uint32_t> missesTold_;  // as errors
   std::function<std::uint32_t()> missInHand_;
   std::uint64_t usedMisses_ = 0;
   bool keepsOffsets_ = false;

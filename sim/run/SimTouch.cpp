@@ -1,0 +1,104 @@
+// Touches that come to something else than the program takes them for: an edge instead of a face, and a
+// correction of a tool that goes the wrong way.
+#include "sim/run/SimWorld.h"
+#include "support/Decimal.h"
+#include "support/messages/Part.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace dotek::sim {
+namespace {
+
+// Whether the surface ends at this point of it, so that a ball which comes along the normal meets an edge:
+// from a place beside the normal the point is still the nearest.
+bool isEdge(const Part& part, const Point3& point, const Point3& normal) {
+  constexpr double kAway = 0.05;   // mm; what is rounded by less counts as an edge
+  constexpr double kFarther = 1.2; // times as far as from a face: the surface turns by 34 degrees or more
+  const Point3 other = std::abs(normal.z) < 0.9 ? Point3{0, 0, 1} : Point3{1, 0, 0};
+  Point3 across = other - normal * normal.dot(other);
+  across = across * (1 / across.length());
+  const Point3 along{normal.y * across.z - normal.z * across.y, normal.z * across.x - normal.x * across.z,
+                     normal.x * across.y - normal.y * across.x};
+  for (const Point3& side : {across, across * -1.0, along, along * -1.0})
+    if (part.distance(point + (normal + side) * kAway) > kFarther * kAway) return true;
+  return false;
+}
+
+// The number of "tool 5 wear"; nothing: another offset.
+std::optional<std::uint32_t> toolOf(std::string_view name) {
+  constexpr std::string_view kTool = "tool ";
+  if (!name.starts_with(kTool) || (!name.ends_with(" wear") && !name.ends_with(" geometry")))
+    return std::nullopt;
+  name.remove_prefix(kTool.size());
+  std::uint32_t number = 0;
+  if (std::from_chars(name.data(), name.data() + name.size(), number).ec != std::errc()) return std::nullopt;
+  return number;
+}
+
+} // namespace
+
+// What is measured there is nearer to the middle of the ball than the face that the move looks for.
+void SimWorld::checkEdge(const ProbeEvent& event, const RunPlace& place) {
+  if (event.kind != MotionKind::Skip || isProtected() || !world_ || world_->part().isEmpty() ||
+      world_->cuttingTool() != nullptr)
+    return;
+  const double reach = (event.centre - event.point).length();
+  if (!isEdge(world_->part(), event.point, event.normal)) return;
+  const Point3 way = event.point - event.centre;
+  Point3 ahead = searchWay_;
+  if (ahead.length() == 0) return;
+  ahead = ahead * (1 / ahead.length());
+  const double off = reach - way.dot(ahead);
+  constexpr double kLeastOff = 0.001; // mm; at the edge itself it is right
+  if (off < kLeastOff) return;
+  // One depth is one cause: further places are notes of the first.
+  constexpr std::size_t kMostNotes = 10;
+  for (Diagnostic& told : session_.diagnostics().all()) {
+    if (told.code != diag::EdgeTouched::code || told.range == place.range) continue;
+    const bool known = std::any_of(told.notes.begin(), told.notes.end(),
+                                   [&](const auto& note) { return note.range == place.range; });
+    if (!known && told.notes.size() < kMostNotes)
+      told.note(place.range, fmt::format("so does this one, by {} mm", fixedText(off, decimals_)));
+    return;
+  }
+  addFault(makeDiagnostic<diag::EdgeTouched>(place.range, fixedText(off, decimals_)), Verdict::Doubt,
+           "PASS, AN EDGE TOUCHED", place);
+}
+
+// A face that lies too high was cut by a tool that is longer than its offset says. The expected height is in
+// a variable, or 0.
+void SimWorld::checkWear(const OffsetWrite& write) {
+  const std::optional<std::uint32_t> tool = toolOf(write.name);
+  const double moved = write.after - write.before;
+  constexpr double kLeast = 1e-4, kSame = 1e-6;
+  if (!tool || !heightTouched_ || machineNow_ == nullptr || std::abs(moved) < kLeast) return;
+  // The probe measures its own length so, and G44 counts lengths the other way.
+  if (machineNow_->tool() == *tool || (machine_ && machine_->devices.probeTool == *tool) ||
+      machineNow_->toolLength() < 0)
+    return;
+  const double expected = *heightTouched_ - moved;
+  bool found = std::abs(expected) < kSame;
+  for (const auto& [first, last] : {std::pair{1U, 33U}, {100U, 199U}, {500U, 999U}})
+    for (std::uint32_t number = first; !found && number <= last; ++number)
+      found = std::abs(machineNow_->common(number) - expected) < kSame;
+  if (!found) return;
+  addFault(makeDiagnostic<diag::WearWrongWay>(place_().range, write.name, fixedText(write.before, decimals_),
+                                              fixedText(write.after, decimals_),
+                                              fixedText(*heightTouched_, decimals_),
+                                              fixedText(expected, decimals_), moved > 0 ? "high" : "low"),
+           Verdict::Doubt, "PASS, WEAR THE WRONG WAY", place_());
+}
+
+void SimWorld::noteZeroLeftOut(Diagnostic& finding) const {
+  if (!zeroLeftOut_) return;
+  finding.note({},
+               fmt::format("`{}` puts G{} where the part is, and no part is given: its zero is that of the "
+                           "machine; `--part PART.toml` or `--work-offset G{}=X,Y,Z` says where it is",
+                           options_.machine.value_or("[setup]"), 54 + *zeroLeftOut_, 54 + *zeroLeftOut_));
+}
+
+} // namespace dotek::sim
