@@ -15,8 +15,11 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-std::string uri(const std::string& path) {
+// Relative to the folder that the command ran in, without a `./` that means nothing.
+std::string uri(std::string_view path) {
   std::string out;
+  while (path.starts_with("./"))
+    path.remove_prefix(2);
   for (const char c : path) {
     const auto byte = static_cast<unsigned char>(c);
     if (std::isalnum(byte) != 0 || std::string_view("-._~/").find(c) != std::string_view::npos)

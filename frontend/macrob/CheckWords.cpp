@@ -27,8 +27,9 @@ const nc::Number* withoutPoint(const nc::Word& word) {
   return number != nullptr && !number->point && number->value != 0 ? number : nullptr;
 }
 
-std::string millimetres(const nc::Number& number, const stdlib::Control& control) {
-  return fmt::format("{:.{}f}", number.value * control.increment, control.decimals);
+std::string millimetres(const nc::Word& word, const nc::Number& number, const stdlib::Control& control) {
+  const double value = literal(word).value_or(number.value); // with its sign
+  return fmt::format("{:.{}f}", value * control.increment, control.decimals);
 }
 
 std::string nameOf(const Call& call) {
@@ -114,7 +115,7 @@ void wordWithoutPoint(const CheckedProgram& input, Report& report) {
                   "`{0}` has no point; this control counts least increments and reads {1}; write `{0}.` if "
                   "the larger "
                   "value is meant",
-                  wordText(word), millimetres(*digits, control));
+                  wordText(word), millimetres(word, *digits, control));
     }
   }
 }
@@ -196,7 +197,7 @@ void argumentWithoutPoint(const CheckedProgram& input, Report& report) {
           input.control->countsIncrements(argument.word->address))
         report.at(argument.word->range,
                   "`{0}` has no point; this control counts least increments and hands over {1}; write `{0}.`",
-                  wordText(*argument.word), millimetres(*digits, *input.control));
+                  wordText(*argument.word), millimetres(*argument.word, *digits, *input.control));
     }
 }
 

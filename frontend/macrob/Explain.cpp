@@ -180,6 +180,13 @@ private:
       return syntax(here(),
                     fmt::format("the value of `{}` is a calculation; put it into brackets, `{}[{}[..]]`",
                                 tokens_[at_ - 1].text, tokens_[at_ - 1].text, tokens_[at_].text));
+    const bool sign = before == Lexer::MINUS || before == Lexer::PLUS;
+    if (sign && type(at_) == Lexer::FUNCTION && at_ >= 2 &&
+        (type(at_ - 2) == Lexer::ADDRESS || type(at_ - 2) == Lexer::ADDRESS_N))
+      return syntax(here(),
+                    fmt::format("the value of `{0}` is a calculation; put it into brackets with its sign, "
+                                "`{0}[{1}{2}[..]]`",
+                                tokens_[at_ - 2].text, tokens_[at_ - 1].text, tokens_[at_].text));
     if (addressBefore)
       return syntax(rangeOf(tokens_[at_ - 1]),
                     fmt::format("no value follows the address `{}`", tokens_[at_ - 1].text));

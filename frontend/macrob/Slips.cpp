@@ -277,6 +277,13 @@ private:
                        const std::string& letters) -> std::optional<Diagnostic> {
       if (letters.size() < 2 || isWholeKeyword(letters)) return std::nullopt;
       const char next = nextAfter(where.end);
+      // `XABS[#1]`
+      const View behind = View(letters).substr(1);
+      if (next == '[' && depthAt(i) == 0 && wordAt(behind).kind == WordKind::Function &&
+          wordAt(behind).length == behind.size() && wordAt(letters).kind == WordKind::Address)
+        return makeDiagnostic<diag::SyntaxError>(
+            where, fmt::format("the value of `{0}` is a calculation; put it into brackets, `{0}[{1}[..]]`",
+                               letters[0], behind));
       const bool operand =
           next == '[' || next == '#' || next == '(' || isDigit(next) || next == '-' || next == '.';
       // Text outside of brackets may hold the same words.

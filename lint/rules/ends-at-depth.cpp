@@ -7,6 +7,26 @@
 namespace dotek::lint::rule {
 namespace {
 
+// Statements after which the program may come to the end at `end`.
+std::vector<bool> leadingTo(std::size_t end, const ir::ProgramFlow& flow) {
+  std::vector<std::vector<std::size_t>> before(flow.next.size());
+  for (std::size_t at = 0; at < flow.next.size(); ++at)
+    for (const std::size_t to : flow.next[at])
+      if (to < before.size()) before[to].push_back(at);
+  std::vector<bool> out(flow.next.size());
+  std::vector<std::size_t> open{end};
+  while (!open.empty()) {
+    const std::size_t at = open.back();
+    open.pop_back();
+    for (const std::size_t from : before[at])
+      if (!out[from]) {
+        out[from] = true;
+        open.push_back(from);
+      }
+  }
+  return out;
+}
+
 struct Height {
   std::optional<double> z; // of the last move along Z; nothing: not known
   bool skipped = false;    // a touch went down since
@@ -17,14 +37,9 @@ void checkProgram(const NcProgram& nc, const Probing& probing, Report& report) {
   const ir::Program& program = nc.program;
   const auto& body = program.body;
   if (!endsProgram(program)) return;
-  double highest = -1e9;
-  bool touches = false;
-  for (const ir::ProgramStatement& statement : body) {
-    const auto* block = std::get_if<ir::NcBlock>(&statement.node);
-    touches = touches || skipOf(statement) != nullptr;
-    if (block != nullptr && isPlainMove(statement))
-      if (const auto z = wordValue(*block, 'Z')) highest = std::max(highest, *z);
-  }
+  const bool touches = std::any_of(body.begin(), body.end(), [](const ir::ProgramStatement& statement) {
+    return skipOf(statement) != nullptr;
+  });
   if (!touches) return;
   const auto& modes = nc.modes();
   const auto heights = ir::factsBefore<Height>(
@@ -47,7 +62,15 @@ void checkProgram(const NcProgram& nc, const Probing& probing, Report& report) {
         return true;
       });
   for (std::size_t i = 0; i < body.size(); ++i) {
-    if (!endsProgram(body[i]) || !heights[i] || !heights[i]->z || *heights[i]->z >= highest) continue;
+    if (!endsProgram(body[i]) || !heights[i] || !heights[i]->z) continue;
+    // Heights on other ways, those to an alarm, are none that it travels at.
+    double highest = -1e9;
+    const std::vector<bool> leads = leadingTo(i, nc.flow());
+    for (std::size_t at = 0; at < body.size(); ++at)
+      if (leads[at] && isPlainMove(body[at]))
+        if (const auto z = wordValue(std::get<ir::NcBlock>(body[at].node), 'Z'))
+          highest = std::max(highest, *z);
+    if (*heights[i]->z >= highest) continue;
     report.at(
         body[i].origin.range(),
         "the program ends with the stylus at Z {}, below the Z {} that it travels at; the next move of the "

@@ -24,13 +24,19 @@ void check(const Project& project, Report& report) {
       return i < lines.size() && lines[i].statement &&
              std::holds_alternative<gibbs::Goto>(lines[i].statement->node);
     };
-    for (std::size_t i = 0; i < lines.size(); ++i)
-      jumps += isMessage(lines[i]) && leads(i + 1) ? 1 : 0;
+    std::set<std::string> targets;
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+      if (!isMessage(lines[i]) || !leads(i + 1)) continue;
+      ++jumps;
+      targets.insert(gibbs::foldCase(std::get<gibbs::Goto>(lines[i + 1].statement->node).label.text));
+    }
     for (std::size_t i = 0; i + 1 < lines.size() && jumps > 1; ++i) {
       const gibbs::Line& label = lines[i + 1];
       if (!isMessage(lines[i]) || !label.label || !used.contains(gibbs::foldCase(label.label->name.text)))
         continue;
       if (i + 2 < lines.size() && isMessage(lines[i + 2])) continue;
+      // The others jump to this very label.
+      if (targets.contains(gibbs::foldCase(label.label->name.text))) continue;
       report.at(lines[i].statement->range,
                 "after this message the macro goes on with the values that it complains "
                 "of; after the others it jumps away; write the GOTO");

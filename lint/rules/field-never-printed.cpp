@@ -68,6 +68,37 @@ Uses usesOf(const gibbs::Cycle& cycle) {
   return out;
 }
 
+// An IF without its END takes what follows into it: which branch prints what is not known then.
+bool hasOpenIf(const std::vector<compost::Statement>& statements) {
+  return std::any_of(statements.begin(), statements.end(), [](const compost::Statement& statement) {
+    const auto* branch = std::get_if<std::unique_ptr<compost::If>>(&statement);
+    return branch != nullptr &&
+           (!(*branch)->endRange || hasOpenIf((*branch)->thenBody) || hasOpenIf((*branch)->elseBody));
+  });
+}
+bool hasOpenIf(const compost::Program& prog) {
+  return std::any_of(prog.items.begin(), prog.items.end(), [](const compost::Item& item) {
+    const auto* routine = std::get_if<compost::Routine>(&item);
+    return routine != nullptr && hasOpenIf(routine->body);
+  });
+}
+
+// Fields that a macro before the path computes and no input of the dialog takes: they are there for the path.
+std::set<std::string> computedForPath(const gibbs::Cycle& cycle) {
+  std::set<std::string> out;
+  if (!cycle.dialog || cycle.dialog->hasErrorNodes || !cycle.otherDialogs.empty()) return out;
+  for (const gibbs::Macro* macro : macrosOf(cycle)) {
+    if (cycle.toolPath && macro == &*cycle.toolPath) continue;
+    eachStatement(*macro, [&](const gibbs::Statement& statement) {
+      if (const auto* assign = std::get_if<gibbs::Assignment>(&statement.node))
+        out.insert(gibbs::foldCase(assign->target.name.text));
+    });
+  }
+  for (const gibbs::Control& control : cycle.dialog->controls)
+    if (control.variable) out.erase(gibbs::foldCase(control.variable->text));
+  return out;
+}
+
 void check(const Project& project, Report& report) {
   for (const gibbs::Cycle* cycle : project.cycles) {
     if (!cycle->defineData || cycle->defineData->hasErrorNodes) continue;
@@ -75,8 +106,10 @@ void check(const Project& project, Report& report) {
     std::set<std::string> printed;
     const compost::BranchRef* shown = nullptr;
     std::vector<compost::BranchRef> branches;
+    bool open = false;
     for (const Joined& joined : project.joined) {
       if (joined.cycle != cycle) continue;
+      open = open || hasOpenIf(*joined.prog);
       for (const compost::BranchRef& branch : compost::branchesOf(*joined.prog, cycle->name)) {
         if (!compost::fieldsPrinted(*joined.prog, branch, cycle->name).empty()) branches.push_back(branch);
       }
@@ -89,7 +122,8 @@ void check(const Project& project, Report& report) {
       }
     }
     // A post that prints no field at all is no post of this cycle.
-    if (branches.empty()) continue;
+    if (branches.empty() || open) continue;
+    const std::set<std::string> ofPath = computedForPath(*cycle);
     shown = &branches.front();
     const Uses uses = usesOf(*cycle);
     std::set<std::string> drawn;
@@ -100,6 +134,7 @@ void check(const Project& project, Report& report) {
       const std::string key = gibbs::foldCase(definition.name.text);
       // A length that only bounds other fields has no place in the program; one that the path draws has.
       const bool bound = uses.bounds.contains(key) && !drawn.contains(key);
+      if (ofPath.contains(key) && drawn.contains(key)) continue;
       if (printed.contains(key) || uses.computes.contains(key) || bound ||
           project.gibbsKeywords.isReservedField(key))
         continue;

@@ -22,6 +22,12 @@ bool endsNormally(const ir::ProgramStatement& statement) {
                                 ir::NameVariables> auto&) { return false; });
 }
 
+// The text ends with it.
+bool isLast(const NcProgram& nc) {
+  const auto& programs = nc.file.programs;
+  return !programs.empty() && programs.back().name && programs.back().name->number == nc.program.number;
+}
+
 void check(const NcProgram& nc, Report& report) {
   const ir::Program& program = nc.program;
   if (program.nameKind == ir::Program::NameKind::None || program.body.empty()) return;
@@ -43,6 +49,13 @@ void check(const NcProgram& nc, Report& report) {
         past->origin.range(),
         "the program goes on past its last block; the control stops with an alarm, or begins again from "
         "the top; end it with M30, a macro with M99");
+  else if (past != nullptr && nc.file.markFirst && isLast(nc))
+    report.at(
+        past->origin.range(),
+        "the text ends after this block, without M30, M2 or M99 and without the `%` that closes what a `%` "
+        "has "
+        "opened: a transfer that broke off leaves this; the control waits for more, or stops with an alarm, "
+        "with the spindle and the modes as they are; send the program again");
   else if (!ends && alarms)
     report.at(
         program.range,

@@ -3,6 +3,7 @@
 #include "lint/Skips.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace dotek::lint::rule {
 namespace {
@@ -50,8 +51,17 @@ void checkProgram(const NcProgram& nc, const Probing& probing, Report& report) {
         into.reset();
         return true;
       });
+  // Whether a tool has been changed since the probe was switched on: it is in the magazine.
+  const auto changed = ir::factsBefore<bool>(
+      body, nc.flow(), false,
+      [&](std::size_t at, std::size_t, bool since) {
+        if (probing.step(body[at]).kind == ProbeStep::Kind::On) return false;
+        const auto* block = std::get_if<ir::NcBlock>(&body[at].node);
+        return since || (block != nullptr && hasCode(*block, 'M', 6));
+      },
+      [](bool& into, bool other) { return other && !std::exchange(into, true); });
   for (std::size_t i = 0; i < body.size(); ++i) {
-    if (!states[i] || *states[i] != ProbeState::On || !isPlainMove(body[i])) continue;
+    if (!states[i] || *states[i] != ProbeState::On || !isPlainMove(body[i]) || *changed[i]) continue;
     if (!modes[i] || *modes[i] == DistanceMode::Incremental) continue;
     const Height z = heightOf(body[i]);
     const Height before = *heights[i];

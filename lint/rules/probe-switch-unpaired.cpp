@@ -71,22 +71,31 @@ void checkPost(const compost::Program& prog, const Project& project, Report& rep
               "machine drives the stylus into the part; switch it on before the measurements");
 }
 
-// Branches of one routine: one that only switches off, or only on, where others do both.
+// Branches of one routine: one that only switches off, or only on, where others do both, or where one that
+// measures only switches on and another one only off.
 void checkBranches(const Project& project, Report& report) {
   for (const Siblings& siblings : siblingsOf(project)) {
     std::vector<Switches> each(siblings.branches.size());
-    bool both = false;
+    bool both = false, onAlone = false, offAlone = false;
     for (std::size_t i = 0; i < each.size(); ++i) {
-      add(each[i], siblings.branches[i].blocks, project);
-      both = both || (each[i].on.hasPlace() && each[i].off.hasPlace());
+      const std::vector<ProgBlock>& blocks = siblings.branches[i].blocks;
+      add(each[i], blocks, project);
+      const bool on = each[i].on.hasPlace(), off = each[i].off.hasPlace();
+      const bool measures = std::any_of(blocks.begin(), blocks.end(), [&](const ProgBlock& block) {
+        return meaningOf(project, macroCalled(wordsOf(block, nullptr))).measures();
+      });
+      both = both || (on && off);
+      onAlone = onAlone || (measures && on && !off);
+      offAlone = offAlone || (measures && off && !on);
     }
-    if (!both) continue;
+    if (!both && !(onAlone && offAlone)) continue;
     for (std::size_t i = 0; i < each.size(); ++i) {
       const bool on = each[i].on.hasPlace();
       if (on == each[i].off.hasPlace()) continue;
       report.at(on ? each[i].on : each[i].off,
-                "the branch for `{}` switches the probe {} and not {}, as other branches do; write both",
-                siblings.branches[i].id, on ? "on" : "off", on ? "off" : "on");
+                "the branch for `{}` switches the probe {} and not {}{}; write both", siblings.branches[i].id,
+                on ? "on" : "off", on ? "off" : "on",
+                both ? ", as other branches do" : ", and no other branch runs with it");
     }
   }
 }

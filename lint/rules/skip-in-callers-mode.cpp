@@ -1,4 +1,5 @@
 #include "ir/Dataflow.h"
+#include "ir/Walk.h"
 #include "lint/Skips.h"
 
 #include <cmath>
@@ -34,9 +35,36 @@ Others othersOf(const Project& project) {
   return out;
 }
 
+constexpr std::uint32_t kModeOfCaller = 4003; // #4003: 90 or 91
+
+// Variables that hold the mode of the caller: #31=#4003.
+std::set<std::uint32_t> copiesOfMode(const ir::Program& program) {
+  std::set<std::uint32_t> out{kModeOfCaller};
+  for (const ir::ProgramStatement& statement : program.body) {
+    const auto* store = std::get_if<ir::Store>(&statement.node);
+    const auto number = storedNumber(statement);
+    if (store != nullptr && number && variableNumber(*store->value) == kModeOfCaller) out.insert(*number);
+  }
+  return out;
+}
+
+// An IF looks at the mode: what goes on from there knows it.
+bool asksMode(const ir::ProgramStatement& statement, const std::set<std::uint32_t>& copies) {
+  const ir::ConditionPtr* condition = ir::conditionOf(statement);
+  if (condition == nullptr || !*condition) return false;
+  bool out = false;
+  ir::eachNode(*condition, [&](const ir::Expression& node) {
+    if (!std::holds_alternative<ir::MachineVariable>(node.node)) return;
+    const auto number = variableNumber(node);
+    out = out || (number && copies.contains(*number));
+  });
+  return out;
+}
+
 void checkProgram(const ir::Program& program, const Others& others, Report& report) {
   // Its callers are read, and state the mode that it goes by.
   if (others.called.contains(static_cast<std::uint32_t>(program.number))) return;
+  const std::set<std::uint32_t> copies = copiesOfMode(program);
   const auto stated = ir::factsBefore<DistanceMode>(
       program.body, ir::flowOf(program.body), DistanceMode::AsBefore,
       [&](std::size_t at, std::size_t, DistanceMode mode) {
@@ -44,6 +72,7 @@ void checkProgram(const ir::Program& program, const Others& others, Report& repo
         // A subprogram may be there to set modes.
         if (callOf(statement) != nullptr)
           return others.quiet.contains(calledBy(statement)) ? mode : DistanceMode::Unknown;
+        if (mode == DistanceMode::AsBefore && asksMode(statement, copies)) return DistanceMode::Unknown;
         return statedMode(statement).value_or(mode);
       },
       [](DistanceMode& into, DistanceMode other) {

@@ -2,6 +2,8 @@
 #include "lint/AfterSkip.h"
 
 #include <algorithm>
+#include <cmath>
+#include <map>
 #include <set>
 
 namespace dotek::lint::rule {
@@ -29,6 +31,100 @@ struct Following {
   bool goesOn = false;
 };
 
+// A sum of multiples of variables, by number; 0 is the constant.
+using Form = std::map<std::uint32_t, double>;
+
+std::optional<Form> formOf(const ir::ExpressionPtr& expression, int depth = 0);
+
+std::optional<Form> sumOf(const std::optional<Form>& a, const std::optional<Form>& b, double factor) {
+  if (!a || !b) return std::nullopt;
+  Form out = *a;
+  for (const auto& [number, value] : *b)
+    out[number] += factor * value;
+  return out;
+}
+
+std::optional<Form> productOf(const ir::Binary& binary, int depth) {
+  const std::optional<Form> left = formOf(binary.left, depth), right = formOf(binary.right, depth);
+  const auto number = [](const std::optional<Form>& form) -> std::optional<double> {
+    if (!form || form->size() != 1 || form->begin()->first != 0) return std::nullopt;
+    return form->begin()->second;
+  };
+  const bool divides = binary.op == ir::BinaryOp::Divide;
+  if (const auto factor = number(right); factor && left && (!divides || *factor != 0))
+    return sumOf(Form{}, left, divides ? 1 / *factor : *factor);
+  if (const auto factor = number(left); factor && right && !divides) return sumOf(Form{}, right, *factor);
+  return std::nullopt;
+}
+
+std::optional<Form> formOf(const ir::ExpressionPtr& expression, int depth) {
+  constexpr int kDeepest = 40;
+  if (!expression || depth > kDeepest) return std::nullopt;
+  if (const double* value = ir::constantValue(expression)) return Form{{0, *value}};
+  if (const auto number = variableNumber(*expression); number && *number != 0) return Form{{*number, 1}};
+  if (const auto* unary = std::get_if<ir::Unary>(&expression->node)) {
+    if (unary->op == ir::UnaryOp::Negate) return sumOf(Form{}, formOf(unary->operand, depth + 1), -1);
+    if (unary->op == ir::UnaryOp::NullAsZero || unary->op == ir::UnaryOp::RoundIncrement)
+      return formOf(unary->operand, depth + 1);
+    return std::nullopt;
+  }
+  const auto* binary = std::get_if<ir::Binary>(&expression->node);
+  if (binary == nullptr) return std::nullopt;
+  if (binary->op == ir::BinaryOp::Add || binary->op == ir::BinaryOp::Subtract)
+    return sumOf(formOf(binary->left, depth + 1), formOf(binary->right, depth + 1),
+                 binary->op == ir::BinaryOp::Add ? 1 : -1);
+  if (binary->op == ir::BinaryOp::Multiply || binary->op == ir::BinaryOp::Divide)
+    return productOf(*binary, depth + 1);
+  return std::nullopt;
+}
+
+// Both ways are of one line, to opposite sides, whatever the variables hold.
+bool areOpposite(const Form& a, const Form& b) {
+  double ratio = 0;
+  for (const auto& [number, value] : a)
+    if (std::abs(value) > 1e-9) {
+      const auto at = b.find(number);
+      ratio = at == b.end() ? 0 : at->second / value;
+      break;
+    }
+  if (ratio >= 0) return false;
+  std::optional<Form> rest = sumOf(b, a, -ratio);
+  return std::all_of(rest->begin(), rest->end(), [](const auto& one) { return std::abs(one.second) < 1e-9; });
+}
+
+std::optional<Form> targetOf(const ir::NcBlock& block, char axis) {
+  for (const ir::Word& word : block.words)
+    if (word.address == axis) return formOf(word.value);
+  return std::nullopt;
+}
+
+// The next G31 goes back the way that this one has come: none of the two is an approach to the other.
+bool comesBack(const NcProgram& nc, std::size_t skip, std::size_t next) {
+  const auto& body = nc.program.body;
+  const ir::NcBlock& one = *skipOf(body[skip]);
+  const AxisSet axes = axesOf(one);
+  if (axes != 1 && axes != 2 && axes != 4) return false;
+  const char axis = axes == 1 ? 'X' : axes == 2 ? 'Y' : 'Z';
+  for (const std::size_t at : {skip, next})
+    if (statedMode(body[at]).value_or(nc.modes()[at].value_or(DistanceMode::Unknown)) ==
+        DistanceMode::Incremental)
+      return false;
+  // Where it begins: the last target in the text, with no way in between.
+  std::optional<Form> from;
+  for (std::size_t at = skip; at-- > 0 && !from;) {
+    const auto& goesTo = nc.flow().next[at];
+    if (goesTo.size() != 1 || *goesTo.begin() != at + 1 || callOf(body[at]) != nullptr) break;
+    const auto* block = std::get_if<ir::NcBlock>(&body[at].node);
+    if (block == nullptr || !hasWord(*block, axis)) continue;
+    if (!isPlainMove(*block)) break;
+    from = targetOf(*block, axis);
+    if (!from) break;
+  }
+  const std::optional<Form> to = targetOf(one, axis), then = targetOf(*skipOf(body[next]), axis);
+  const std::optional<Form> there = sumOf(to, from, -1), back = sumOf(then, to, -1);
+  return there && back && areOpposite(*there, *back);
+}
+
 // Fast to the face and slowly on it, or back a little and to the same place once more.
 bool goesOn(const NcProgram& nc, std::size_t skip, std::size_t next, bool moved, bool small) {
   const ir::NcBlock& one = *skipOf(nc.program.body[skip]);
@@ -51,7 +147,8 @@ Following following(const NcProgram& nc, std::size_t skip, const std::vector<std
     for (const std::size_t to : nc.flow().next[way.at]) {
       if (to >= body.size() || !seen.insert(to).second) continue;
       if (skipOf(body[to]) != nullptr) {
-        out.goesOn = out.goesOn || goesOn(nc, skip, to, way.moved, way.small);
+        out.goesOn = out.goesOn ||
+                     (goesOn(nc, skip, to, way.moved, way.small) && (way.moved || !comesBack(nc, skip, to)));
         if (!way.moved) out.skips.push_back(to);
         continue;
       }

@@ -8,13 +8,21 @@ namespace {
 
 // Numbers that the macro takes for a work offset: G54 to G59 by their G number; 1 to 6, or those of the
 // additional systems and of the external offset, by index; S154.01 to S154.99 are the additional systems G154
-// of a Haas, and G54.1 P1 to P99 where a set follows them.
-bool isOffset(stdlib::SystemCode code, double number) {
-  if (number > 154 && number < 155) return true;
-  if (number != std::floor(number)) return code == stdlib::SystemCode::GNumber && number > 54 && number < 55;
-  if (number >= 54 && number <= 59) return true;
-  return code != stdlib::SystemCode::GNumber &&
-         ((number >= 0 && number <= 7) || (number >= 101 && number <= 400));
+// of a Haas, and G54.1 P1 to P99 where a set follows them. OfHaas: an index only in the version for it.
+enum class Named : std::uint8_t { None, OfHaas, Offset };
+Named namedBy(stdlib::SystemCode code, double number) {
+  const bool byNumber = code == stdlib::SystemCode::GNumber;
+  if (number > 154 && number < 155) return byNumber ? Named::Offset : Named::OfHaas;
+  if (number != std::floor(number))
+    return byNumber && number > 54 && number < 55 ? Named::Offset : Named::None;
+  if (number >= 54 && number <= 59) return byNumber ? Named::Offset : Named::OfHaas;
+  return !byNumber && ((number >= 0 && number <= 7) || (number >= 101 && number <= 400)) ? Named::Offset
+                                                                                         : Named::None;
+}
+
+// Whether the control has the additional systems of a Haas. Yes where nobody has said which control it is.
+bool mayBeHaas(const Project& project) {
+  return project.control == nullptr || project.control->find('G', 1540) != nullptr;
 }
 
 // Calls of one set in one file: one finding with its places.
@@ -60,10 +68,12 @@ void checkCall(const macrob::Words& words, const Project& project, Wrong& found)
       const stdlib::MacroArgument* known = signatures.front()->find(argument.word->address);
       if (known == nullptr || known->role != stdlib::ArgumentRole::System) continue;
       const auto value = macrob::literal(*argument.word);
-      if (!value || isOffset(known->systemCode, *value)) continue;
-      const std::string taken = known->systemCode == stdlib::SystemCode::GNumber
-                                    ? "54 to 59"
-                                    : "1 to 6, 54 to 59, or 101 and above";
+      if (!value) continue;
+      const Named named = namedBy(known->systemCode, *value);
+      if (named == Named::Offset || (named == Named::OfHaas && mayBeHaas(project))) continue;
+      const std::string taken = known->systemCode == stdlib::SystemCode::GNumber ? "54 to 59"
+                                : mayBeHaas(project) ? "1 to 6, 54 to 59, or 101 and above"
+                                                     : "1 to 6, or 101 and above";
       found.add(set, taken, argument.word->range);
     }
     return;

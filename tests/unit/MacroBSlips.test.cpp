@@ -96,3 +96,17 @@ TEST_CASE("macrob slips: what is not read is no slip, and nothing is to be corre
   // A comparison, and commas of numbers, are what they were.
   holds({"IF[#4<2]GOTO8\nN8", "E 1:6 sign-unknown", "sign-unknown", "IF[#4LT2]GOTO8\nN8"});
 }
+
+TEST_CASE("macrob slips: a function as the value of an address wants brackets, with a sign as well") {
+  const auto message = [](const std::string& text) {
+    MacroFile file(text + "\n");
+    std::string out;
+    for (const Diagnostic& one : file.check().diagnostics.all())
+      if (one.severity == Severity::Error) out += one.message;
+    return out;
+  };
+  CHECK(message("G0 X ABS[#1]").find("`X[ABS[..]]`") != std::string::npos);
+  CHECK(message("G0 XABS[#1]").find("`X[ABS[..]]`") != std::string::npos);
+  CHECK(message("G91G31Z-ABS[#26]F500.").find("`Z[-ABS[..]]`") != std::string::npos);
+  CHECK(message("G91G31Z[-ABS[#26]]F500.").empty());
+}
