@@ -85,7 +85,7 @@ std::string kindOf(const cycle::Type& type) {
 }
 
 std::string asked(const std::optional<cycle::Text>& message, const std::string& condition) {
-  return message ? fmt::format("{} (`{}`)", message->text, condition) : fmt::format("`{}`", condition);
+  return message ? fmt::format("`{}` (alarm: {})", condition, message->text) : fmt::format("`{}`", condition);
 }
 
 void parameter(const cycle::Parameter& parameter, CyclePage& page) {

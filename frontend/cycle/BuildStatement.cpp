@@ -75,6 +75,8 @@ Type Builder::type(Parser::TypeContext& context) {
                            : word == "string"     ? "text"
                                                   : nearestName(word, typeWords());
   error<diag::UnknownType>(out.range, word, near.empty() ? "" : " (did you mean `" + near + "`?)");
+  // What is meant, so that the value beside it is not judged by another type.
+  if (const std::optional<TypeName> meant = typeOf(near)) out.name = *meant;
   return out;
 }
 

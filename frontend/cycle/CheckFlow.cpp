@@ -375,6 +375,8 @@ void Checker::finish(const Known& known, SourceRange where) {
   if (!needsProbe_ && known.probe != ProbeState::Off)
     diagnostics_.report<diag::ProbeLeftOn>(where,
                                            known.probe == ProbeState::On ? "" : ", at least on some paths");
+  // A statement that could not be read may be the one that gives it.
+  if (file_.hasErrorNodes) return;
   for (const auto& [name, symbol] : symbols_)
     if (symbol.role == Symbol::Role::Result && !known.set.contains(name))
       diagnostics_.report<diag::ResultNotSet>(symbol.range, name);

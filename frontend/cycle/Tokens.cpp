@@ -210,6 +210,9 @@ std::string explain(const antlr4::Token& offending, const antlr4::Parser& parser
     return fmt::format("`{}` is G code; in a cycle coordinates are written `x 5 mm`{}", text, write);
   if (type == Lexer::ODD_NAME && (word == "stop" || word == "alarm" || word == "report"))
     return fmt::format("a text is in `\"`{}", write);
+  if (type == Lexer::ODD_NAME && text.size() == 1 &&
+      std::string_view("XYZABC").find(text) != std::string_view::npos)
+    return fmt::format("axes are written small: `{}`", lowerCase(text));
   if (type == Lexer::ODD_NAME)
     return fmt::format("names are written small, with `_` between words: `{}`", proposeName(text));
   // `12 cm`: what follows a number is its unit.
@@ -284,20 +287,36 @@ std::unique_ptr<antlr4::Token> TokenReader::read() {
   return next;
 }
 
+// `NAME =` after a line whose bracket is open and which no comma or operator ends: an assignment begins, as
+// no `=` is within brackets.
+bool TokenReader::givesValue(std::size_t before) {
+  if (isOneOf(before, kOpenEnds) || before == LPAREN) return false;
+  previous_ = NAME;
+  while (true) {
+    queue_.push_back(read());
+    const antlr4::Token& found = *queue_.back();
+    if (found.getChannel() == antlr4::Token::DEFAULT_CHANNEL) return found.getType() == EQUALS;
+  }
+}
+
 std::unique_ptr<antlr4::Token> TokenReader::nextToken() {
   std::unique_ptr<antlr4::Token> next;
-  if (!queue_.empty()) {
+  const bool ahead = !queue_.empty();
+  if (ahead) {
     next = std::move(queue_.front());
     queue_.pop_front();
   } else {
     next = read();
+  }
+  // A line end that was read ahead is the last of what was.
+  if (!ahead || (queue_.empty() && next->getChannel() == antlr4::Token::DEFAULT_CHANNEL)) {
     const bool tooLong = next->getType() == NEWLINE && goesOn() && tokens_ > kStatementTokens;
     if (tooLong) tooLong_.push_back(next->getStartIndex());
     if (next->getType() == NEWLINE && goesOn() && !tooLong) {
       // What the next line begins with decides.
       const size_t before = previous_;
       previous_ = NEWLINE;
-      size_t ahead = antlr4::Token::EOF;
+      size_t begin = antlr4::Token::EOF; // of the next line
       while (true) {
         queue_.push_back(read());
         antlr4::Token& found = *queue_.back();
@@ -306,11 +325,12 @@ std::unique_ptr<antlr4::Token> TokenReader::nextToken() {
           static_cast<antlr4::CommonToken&>(found).setChannel(antlr4::Token::HIDDEN_CHANNEL);
           continue;
         }
-        ahead = found.getType();
+        begin = found.getType();
         break;
       }
+      const bool begins = isOneOf(begin, kBegins) || (begin == NAME && depth_ > 0 && givesValue(before));
       previous_ = before;
-      if (!isOneOf(ahead, kBegins) && ahead != antlr4::Token::EOF)
+      if (!begins && begin != antlr4::Token::EOF)
         static_cast<antlr4::CommonToken&>(*next).setChannel(antlr4::Token::HIDDEN_CHANNEL);
     }
   }

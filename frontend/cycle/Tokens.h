@@ -38,6 +38,7 @@ private:
   std::unique_ptr<antlr4::Token> read();
   void classify(antlr4::CommonToken& token);
   bool goesOn() const;
+  bool givesValue(std::size_t before);
   bool operandEnded() const;
 
   std::deque<std::unique_ptr<antlr4::Token>> queue_;

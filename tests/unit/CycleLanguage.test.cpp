@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 #include <iterator>
 #include <random>
 #include <string>
@@ -167,6 +168,45 @@ TEST_CASE("cycles: ends of other languages close their blocks, and each is one m
                  "no statement begins with `done`; a block ends with `end`\n"
                  "no statement begins with `next`; a block ends with `end`\n");
   CHECK(reading.file.hasErrorNodes);
+}
+
+TEST_CASE(
+    "cycles: a bracket that is left open is reported at its line, and a value on the next line is read") {
+  const auto messages = [](const std::string& lines) {
+    Reading reading("cycle d \"T\"\nparameter gap : length = 5 mm \"G\"\nresult got : length \"G\"\nspindle "
+                    "off\nprobe on\ntouch x by gap -> face\nprobe off\n" +
+                    lines);
+    cycle::check(reading.file, reading.sources, reading.diagnostics);
+    std::string found;
+    for (const Diagnostic& one : reading.diagnostics.all())
+      if (one.severity == Severity::Error)
+        found += fmt::format("{}: {}\n", reading.sources.file(one.range.file).place(one.range.begin).line,
+                             one.message);
+    return found;
+  };
+  CHECK(messages("got = abs(face.at\nother = got * got\n") ==
+        "8: the bracket that opens here is not closed; write `)`\n");
+  CHECK(messages("got = abs(face.at\nif gap > 3 mm then\nend\n") ==
+        "8: the bracket that opens here is not closed; write `)`\n");
+  // Within brackets a statement may go on.
+  CHECK(messages("other = gap\ngot = abs(\nother\n- face.at)\n") == "");
+  CHECK(messages("other = gap\ngot = max(other,\nface.at\n)\n") == "");
+  CHECK(messages("other = gap\ngot = abs(face.at -\nother)\n") == "");
+}
+
+TEST_CASE(
+    "cycles: a type of another language counts as the one that is meant, and capitals of axes are named") {
+  Reading reading(
+      "cycle d \"T\"\nparameter n : number = 3 \"N\"\nneeds probe\nrepeat n times\n  touch X by 5 mm -> "
+      "face\nend\n");
+  cycle::check(reading.file, reading.sources, reading.diagnostics);
+  std::string found;
+  for (const Diagnostic& one : reading.diagnostics.all())
+    if (one.severity == Severity::Error) found += one.message + "\n";
+  CHECK(found.find("did you mean `count`?") != std::string::npos);
+  CHECK(found.find("has no unit") == std::string::npos);
+  CHECK(found.find("axes are written small: `x`") != std::string::npos);
+  CHECK(found.find("x_value") == std::string::npos);
 }
 
 TEST_CASE("cycles: any bytes end in a diagnostic, not in a crash") {
