@@ -13,7 +13,9 @@ void takeControls(targets::TranslationOptions& options, project::Session& sessio
   std::error_code error;
   const std::string& first = options.inputs.front();
   const bool cycle = project::isCycleFile(first, session);
-  const bool programs = !std::filesystem::is_directory(first, error) && !cycle;
+  // What is not there is neither; reading it says so.
+  const bool programs = !std::filesystem::is_directory(first, error) && !cycle &&
+                        (first == "-" || std::filesystem::exists(first, error));
   const targets::Target* const target = targets::findTarget(options.to);
   const bool takes = options.control.empty() &&
                      (target == nullptr || !(target->ownControls || (target->controlOfForm && !cycle)));

@@ -131,6 +131,7 @@ std::string copiedText(State& state, const ir::OpaqueBlock& block, const ir::Ori
   const bool reads = from.decimal == state.control.decimal && from.increment == state.control.increment;
   const bool offset = !same && writesWorkOffset(block, from, state.control);
   std::string text, foreign;
+  bool unlisted = false; // the code that is foreign, by the control of the source
   for (const ir::Word& given : block.words) {
     if (given.address == 'N') continue; // the source's own numbering
     const double* number = given.value == nullptr ? nullptr : ir::constantValue(given.value);
@@ -145,8 +146,10 @@ std::string copiedText(State& state, const ir::OpaqueBlock& block, const ir::Ori
       const bool known = here != nullptr && there != nullptr && here->function == there->function &&
                          here->function != stdlib::Function::Other &&
                          (offset || here->function != stdlib::Function::DataInput); // its words differ
-      if (!known && foreign.empty())
+      if (!known && foreign.empty()) {
         foreign = std::string(1, given.address) + (number == nullptr ? ".." : numberText(*number));
+        unlisted = here == nullptr && number != nullptr;
+      }
     }
     text += text.empty() ? "" : " ";
     if (given.value == nullptr) {
@@ -161,7 +164,14 @@ std::string copiedText(State& state, const ir::OpaqueBlock& block, const ir::Ori
     }
   }
   if (!foreign.empty()) {
-    state.refuse<diag::OpaqueBlockRefused>(origin.range(), foreign, from.title, state.control.title);
+    Diagnostic& refused = state.refuse<diag::OpaqueBlockRefused>(
+        origin.range(), foreign,
+        unlisted ? fmt::format("the machine of the post, by its form {}, which does not list it", from.title)
+                 : from.title,
+        state.control.title);
+    if (unlisted)
+      refused.note({}, "`control = \"NAME\"` in the form (docs/compost.md) says for which control the post "
+                       "writes; `--probe-on` and `--probe-off` name the codes of the probe");
     return "";
   }
   return text;

@@ -140,18 +140,20 @@ private:
     }
   }
 
-  // Which arguments move the probe, and which only feed checks.
+  // Which arguments move the probe, which only set or decide something, and which only feed checks.
   void effects() {
     const ir::Cycle* const unshared = state_.options.unshared;
     const std::set<ir::VariableId> used = bodyVariables(unshared != nullptr ? *unshared : state_.cycle);
-    std::string moving, checking, late;
+    std::string moving, setting, checking, late;
     for (const Argument& argument : state_.arguments) {
       const ir::VariableId id = argument.variable;
       if (state_.moving.contains(id)) moving += std::string(" ") + argument.letter;
+      if (used.contains(id) && !state_.moving.contains(id)) setting += std::string(" ") + argument.letter;
       if (!used.contains(id)) checking += std::string(" ") + argument.letter;
       if (state_.late.contains(id)) late += std::string(" ") + argument.letter;
     }
     if (!moving.empty()) say("MOVE THE PROBE:" + moving);
+    if (!setting.empty()) say("SET OR COMPARE, MOVE NOTHING:" + setting);
     if (!checking.empty()) say("ONLY CHECKED, MOVE AND SET NOTHING:" + checking);
     if (!late.empty()) say("NO ALARM WHERE NO CHECK COMES TO READ THEM:" + late);
   }

@@ -141,3 +141,26 @@ TEST_CASE("a Prog with 100,000 nested brackets, IFs or blanks is refused at its 
     CHECK(post.err.size() < 3000);
   }
 }
+
+TEST_CASE("commands: a folder that is not there is said to be so, also beside a dotek.toml with a control") {
+  const DataFolder folder;
+  folder.write("dotek.toml", "schema = 1\ncontrol = \"fanuc-31i-b\"\n");
+  for (const std::vector<std::string>& command :
+       {std::vector<std::string>{"verify", "nothing", "--prog", example("post.txt")},
+        {"convert", "nothing", "--prog", example("post.txt"), "--to", "fanuc"}}) {
+    const CommandResult result = runDotek(command, folder.path());
+    CHECK(result.status != 0);
+    CHECK(result.err.find("`nothing`") != std::string::npos);
+    CHECK(result.err.find("--from-control") == std::string::npos);
+  }
+}
+
+TEST_CASE("commands: formats for code hosts name files of `.` without the ./") {
+  const DataFolder folder;
+  folder.write("sub/O0001.nc", "%\nO0001\nGOTO 20\nM30\n%\n");
+  for (const char* format : {"sarif", "github", "gitlab"}) {
+    const CommandResult result = runDotek({"lint", ".", "--format", format}, folder.path());
+    CHECK(result.out.find("sub/O0001.nc") != std::string::npos);
+    CHECK(result.out.find("./sub") == std::string::npos);
+  }
+}
