@@ -179,7 +179,7 @@ std::unique_ptr<CaseRunner::Values> CaseRunner::check(verify::Case drawn, bool s
     out->rejectedAt = one.range;
     return out;
   }
-  if (out->rejection = whyNotOffered(plan_.fields, drawn); !out->rejection.empty()) {
+  if (out->rejection = whyNotOffered(plan_.fields, out->drawn); !out->rejection.empty()) {
     out->rejected = true;
     return out;
   }

@@ -108,13 +108,6 @@ bool loadWorld(const VerifyOptions& options, VerifyPlan& plan, Session& session)
     plan.machine =
         sim::loadMachine(*options.machine, session.limits(), session.sources(), session.diagnostics());
     if (!plan.machine) return false;
-    const auto& travel = plan.machine->limits.travel;
-    if (std::any_of(std::begin(travel), std::end(travel), [](const auto& span) { return span.has_value(); }))
-      session.diagnostics().report<diag::VerifyMachineIgnored>({}, "the travel", "is",
-                                                               "the zeros of the work systems are drawn");
-    if (plan.machine->probe.noise > 0)
-      session.diagnostics().report<diag::VerifyMachineIgnored>({}, "the noise", "is",
-                                                               "both sides get exact contacts");
   }
   if (!options.part) return true;
   const auto part =

@@ -431,11 +431,21 @@ std::string VerifyReport::verdict() {
   return out + '\n';
 }
 
+void VerifyReport::tellMachine() {
+  if (!plan_.machine) return;
+  const auto& travel = plan_.machine->limits.travel;
+  if (std::any_of(std::begin(travel), std::end(travel), [](const auto& span) { return span.has_value(); }))
+    told_.report<diag::VerifyMachineIgnored>({}, "the travel", "the zeros of the work systems are drawn");
+  if (plan_.machine->probe.noise > 0)
+    told_.report<diag::VerifyMachineIgnored>({}, "the noise", "both sides get exact contacts");
+}
+
 std::string VerifyReport::finish() {
   Session& session = runner_.session();
   const bool stated = options_.source.prog || plan_.programs || plan_.cycleFile;
   if (!stated) told_.report<diag::MeasurementNotStated>(runner_.place(), cases_.undecided, cases_.all());
   if (partsMade_) told_.report<diag::PartNotUsed>({});
+  tellMachine();
   tellProbe();
   if (options_.source.prog) tellPictures();
   std::size_t told = 0;

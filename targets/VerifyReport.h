@@ -72,6 +72,7 @@ private:
   const verify::Case* shown() const; // in the document; nullptr: none
   void addNotes();
   void addPicture();
+  void tellMachine(); // what of --machine no case looks at
   void tellProbe();
   void tellPictures();
   SourceRange targetRange(std::uint32_t line);

@@ -1,5 +1,6 @@
 // Work offsets that the checks count anew, 1 for G54 of a field that holds 54.
 #include "backends/cycle/State.h"
+#include "ir/Match.h"
 #include "ir/Rewrite.h"
 
 #include <optional>
@@ -33,6 +34,14 @@ std::optional<Counted> countedFrom(const ir::ExpressionPtr& value) {
   return out;
 }
 
+bool setsSystems(const ir::CycleStatement& statement) {
+  return ir::match(
+      statement, [](const ir::OneOf<ir::Measure, ir::CallCycle> auto&) { return true; },
+      [](const ir::OneOf<ir::Move, ir::Label, ir::Jump, ir::Branch, ir::Store, ir::ProbePower, ir::Comment,
+                         ir::Assign, ir::Return, ir::Spindle, ir::Coolant, ir::SetMode, ir::Dwell, ir::Stop,
+                         ir::Alarm, ir::OpaqueBlock> auto&) { return false; });
+}
+
 } // namespace
 
 void nameSystems(State& state, const Checked& checked) {
@@ -56,9 +65,7 @@ void nameSystems(State& state, const Checked& checked) {
     return sum && sum->by == 0 ? sum->parameter : node;
   };
   for (ir::CycleStatement& statement : state.cycle.body)
-    if (std::holds_alternative<ir::Measure>(statement.node) ||
-        std::holds_alternative<ir::CallCycle>(statement.node))
-      ir::rewrite(statement, named);
+    if (setsSystems(statement)) ir::rewrite(statement, named);
   for (const auto& [id, from] : counted)
     state.shifts.erase(id);
 }

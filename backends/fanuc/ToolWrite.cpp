@@ -3,6 +3,7 @@
 #include "backends/fanuc/State.h"
 #include "backends/fanuc/Uses.h"
 #include "ir/Flow.h"
+#include "ir/Match.h"
 #include "support/messages/Cycle.h"
 
 #include <algorithm>
@@ -21,10 +22,12 @@ ir::ExpressionPtr argumentOf(const ir::CallCycle& set, std::string_view paramete
 }
 
 bool moves(const ir::CycleStatement& statement) {
-  const auto* const cycle = std::get_if<ir::CallCycle>(&statement.node);
-  return std::holds_alternative<ir::Move>(statement.node) ||
-         std::holds_alternative<ir::Measure>(statement.node) ||
-         std::holds_alternative<ir::OpaqueBlock>(statement.node) || (cycle != nullptr && cycle->moves);
+  return ir::match(
+      statement, [](const ir::CallCycle& call) { return call.moves; },
+      [](const ir::OneOf<ir::Move, ir::Measure, ir::OpaqueBlock> auto&) { return true; },
+      [](const ir::OneOf<ir::Label, ir::Jump, ir::Branch, ir::Store, ir::ProbePower, ir::Comment, ir::Assign,
+                         ir::Return, ir::Spindle, ir::Coolant, ir::SetMode, ir::Dwell, ir::Stop,
+                         ir::Alarm> auto&) { return false; });
 }
 
 // Whether a length that is written counts from the next move or from the next G43 on, a parameter decides.

@@ -5,6 +5,7 @@
 #include "support/Files.h"
 #include "support/messages/Verify.h"
 #include "targets/CycleCases.h"
+#include "targets/DialogChoices.h"
 #include "targets/ReadBack.h"
 #include "targets/Stage.h"
 #include "targets/Target.h"
@@ -199,6 +200,11 @@ private:
             fmt::format("the source rejects the values, `{}`, and the dialog that is written says `{}`",
                         wanted, own),
             0);
+      return;
+    }
+    // What a list does not offer nobody chooses in the one that is written, either.
+    if (!whyNotOffered(from_.plan.fields, now.drawn).empty()) {
+      out.refused = true;
       return;
     }
     // What no dialog knows, such as the place of the probe, the branch asks before anything moves.

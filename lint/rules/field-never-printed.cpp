@@ -68,21 +68,6 @@ Uses usesOf(const gibbs::Cycle& cycle) {
   return out;
 }
 
-// An IF without its END takes what follows into it: which branch prints what is not known then.
-bool hasOpenIf(const std::vector<compost::Statement>& statements) {
-  return std::any_of(statements.begin(), statements.end(), [](const compost::Statement& statement) {
-    const auto* branch = std::get_if<std::unique_ptr<compost::If>>(&statement);
-    return branch != nullptr &&
-           (!(*branch)->endRange || hasOpenIf((*branch)->thenBody) || hasOpenIf((*branch)->elseBody));
-  });
-}
-bool hasOpenIf(const compost::Program& prog) {
-  return std::any_of(prog.items.begin(), prog.items.end(), [](const compost::Item& item) {
-    const auto* routine = std::get_if<compost::Routine>(&item);
-    return routine != nullptr && hasOpenIf(routine->body);
-  });
-}
-
 // Fields that a macro before the path computes and no input of the dialog takes: they are there for the path.
 std::set<std::string> computedForPath(const gibbs::Cycle& cycle) {
   std::set<std::string> out;
@@ -106,10 +91,8 @@ void check(const Project& project, Report& report) {
     std::set<std::string> printed;
     const compost::BranchRef* shown = nullptr;
     std::vector<compost::BranchRef> branches;
-    bool open = false;
     for (const Joined& joined : project.joined) {
       if (joined.cycle != cycle) continue;
-      open = open || hasOpenIf(*joined.prog);
       for (const compost::BranchRef& branch : compost::branchesOf(*joined.prog, cycle->name)) {
         if (!compost::fieldsPrinted(*joined.prog, branch, cycle->name).empty()) branches.push_back(branch);
       }
@@ -122,7 +105,7 @@ void check(const Project& project, Report& report) {
       }
     }
     // A post that prints no field at all is no post of this cycle.
-    if (branches.empty() || open) continue;
+    if (branches.empty()) continue;
     const std::set<std::string> ofPath = computedForPath(*cycle);
     shown = &branches.front();
     const Uses uses = usesOf(*cycle);

@@ -101,7 +101,7 @@ TEST_CASE("verify to gibbs: a dialog or a branch that was damaged differs") {
   differs("branch.txt", branch, " SeqC ' G53' EOL\n SeqC ' #[5221", " SeqC ' #[5221"); // reads ahead
   differs("CycleData.mac", checks, "if depth < 0 then goto", "if depth < 0.5 then goto");
   differs("CycleData.mac", checks, "if diameter >= 2*radius+1 then goto fine", "goto fine");
-  differs("CycleData.mac", checks, "The ball has room in the bore", "The bore has room in the ball");
+  differs("CycleData.mac", checks, "No room in the bore", "No bore in the room");
 }
 
 TEST_CASE("convert to gibbs with --verify writes what agrees") {
