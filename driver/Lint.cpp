@@ -100,8 +100,8 @@ public:
     if (options_.writeBaseline) {
       std::error_code error;
       lint::Baseline before;
-      // What it holds of files that this run does not look at stays.
-      if (fs::exists(*options_.writeBaseline, error)) {
+      // What it holds of files that this run does not look at stays. A pipe or a device holds nothing.
+      if (fs::is_regular_file(*options_.writeBaseline, error)) {
         std::optional<lint::Baseline> written = readBaseline(*options_.writeBaseline, session_);
         if (!written) return failed();
         before = std::move(*written);
