@@ -102,9 +102,15 @@ public:
       lint::Baseline before;
       // What it holds of files that this run does not look at stays. A pipe or a device holds nothing.
       if (fs::is_regular_file(*options_.writeBaseline, error)) {
-        std::optional<lint::Baseline> written = readBaseline(*options_.writeBaseline, session_);
-        if (!written) return failed();
-        before = std::move(*written);
+        const auto text = session_.bytes(*options_.writeBaseline, session_.diagnostics());
+        if (!text) return failed();
+        std::string reason;
+        std::optional<lint::Baseline> written = lint::Baseline::read(*text, reason, *options_.writeBaseline);
+        if (written)
+          before = std::move(*written);
+        else
+          passedOver_ =
+              fmt::format("`{}` was no baseline ({}) and is replaced", *options_.writeBaseline, reason);
       }
       const lint::Baseline::Judged judged = judgedBy(lookedAt(), session_.sources());
       baseline = lint::Baseline::render(session_.diagnostics(), session_.sources(), *options_.writeBaseline,
