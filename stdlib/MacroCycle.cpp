@@ -96,6 +96,10 @@ std::string parameterName(const MacroArgument& argument) {
   return out;
 }
 
+bool isPrintout(std::string_view parameter) {
+  return parameter == roleName(ArgumentRole::Print);
+}
+
 bool movesProbe(ArgumentRole role) {
   switch (role) {
   case ArgumentRole::Nominal:

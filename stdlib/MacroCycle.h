@@ -7,6 +7,7 @@
 #include <array>
 #include <optional>
 #include <string>
+#include <string_view>
 
 namespace dotek::stdlib {
 
@@ -28,5 +29,9 @@ std::string parameterName(const MacroArgument& argument);
 
 // The probe moves by the argument; false: it checks, corrects or prints.
 bool movesProbe(ArgumentRole role);
+
+// The parameter, by its name, asks for a printout of the package alone: another set, or none, need not have
+// it.
+bool isPrintout(std::string_view parameter);
 
 } // namespace dotek::stdlib

@@ -123,6 +123,11 @@ ir::Coordinate MeasureCall::coordinate(const ir::CycleArgument& argument) {
 bool MeasureCall::tookAll() {
   for (const ir::CycleArgument& one : call_.arguments) {
     if (known_.contains(one.parameter)) continue;
+    if (stdlib::isPrintout(one.parameter)) {
+      state_.note(range_, "the printout that the call asks for",
+                  "`report` prints in a cycle, where it is wanted");
+      continue;
+    }
     std::string what = one.parameter;
     std::replace(what.begin(), what.end(), '-', ' ');
     state_.refuse(range_, fmt::format("the {} of the call", what),

@@ -241,7 +241,7 @@ void writeCycle(State& state, const ir::CallCycle& given, const ir::Origin& orig
   }
   const MacroCall call = macroCall(*signature, cycle, values);
   for (const std::string& parameter : call.notTaken) {
-    if (parameter == stdlib::roleName(stdlib::ArgumentRole::Print)) {
+    if (stdlib::isPrintout(parameter)) {
       state.diagnostics.report<diag::PrintLeftOut>(origin.range(), state.macros.title);
       state.sheet.comment("PRINT OF THE SOURCE LEFT OUT", origin);
       continue;

@@ -511,7 +511,7 @@ void MacroBlocks::cycle(const ir::CallCycle& given, const ir::Origin& origin, st
   }
   MacroCall out = macroCall(*signature, call, asked);
   for (const std::string& parameter : out.notTaken) {
-    if (parameter == stdlib::roleName(stdlib::ArgumentRole::Print))
+    if (stdlib::isPrintout(parameter))
       state_.diagnostics.report<diag::PrintLeftOut>(origin.range(), macros.title);
     else
       state_.refuse<diag::ParameterNotTaken>(origin.range(), parameter, signature->program, macros.title,

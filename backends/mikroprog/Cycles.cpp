@@ -28,7 +28,7 @@ bool takes(State& state, const ir::CallCycle& cycle, const std::vector<std::stri
   bool out = true;
   for (const ir::CycleArgument& argument : cycle.arguments) {
     if (std::find(taken.begin(), taken.end(), argument.parameter) != taken.end()) continue;
-    if (argument.parameter == stdlib::roleName(stdlib::ArgumentRole::Print)) {
+    if (stdlib::isPrintout(argument.parameter)) {
       state.diagnostics.report<diag::PrintLeftOut>(range, state.control.title);
       continue;
     }
