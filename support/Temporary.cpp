@@ -8,10 +8,13 @@
 #include <cstdint>
 #include <cstdio>
 #include <fcntl.h>
+#include <filesystem>
 #include <fmt/format.h>
+#include <fstream>
 #include <sys/random.h>
 #include <sys/stat.h>
 #include <unistd.h>
+#include <utility>
 
 namespace dotek {
 namespace {
@@ -20,8 +23,10 @@ namespace {
 // Temporary. With more files at one time a signal leaves the rest.
 std::array<std::atomic<const char*>, 1024> pending; // NOLINT
 static_assert(std::atomic<const char*>::is_always_lock_free);
+std::atomic<bool> ending; // NOLINT
 
 void remember(const char* path) {
+  while (ending.load()) ::pause(); // a signal ends the process: nothing is made any more
   for (auto& slot : pending) {
     const char* empty = nullptr;
     if (slot.compare_exchange_strong(empty, path)) return;
@@ -38,8 +43,15 @@ void forget(const char* path) {
 // Calls only what is safe in a handler. The signal has its default action again (SA_RESETHAND) and ends the
 // process when this returns.
 extern "C" void removeAndEnd(int signal) {
-  for (auto& slot : pending)
-    if (const char* path = slot.load()) ::unlink(path);
+  ending.store(true);
+  // A folder goes when it is empty, which another thread may still be filling.
+  bool filled = true;
+  for (int i = 0; filled && i < 1000; ++i) {
+    filled = false;
+    for (auto& slot : pending)
+      if (const char* path = slot.load(); path != nullptr && ::unlink(path) != 0)
+        filled |= ::rmdir(path) != 0 && errno == ENOTEMPTY;
+  }
   ::raise(signal);
 }
 
@@ -101,6 +113,51 @@ int Temporary::rename(const std::string& path) {
     ::close(folder);
   }
   return 0;
+}
+
+TemporaryFolder::~TemporaryFolder() {
+  for (auto at = made_.rbegin(); at != made_.rend(); ++at) {
+    if (::unlink(at->c_str()) != 0) ::rmdir(at->c_str());
+    forget(at->c_str());
+  }
+}
+
+const std::string& TemporaryFolder::keep(std::string path) {
+  const std::string& kept = made_.emplace_back(std::move(path));
+  remember(kept.c_str());
+  return kept;
+}
+
+bool TemporaryFolder::create() {
+  std::error_code error;
+  const std::string below = std::filesystem::temp_directory_path(error).string();
+  constexpr int kTries = 16;
+  for (int i = 0; i < kTries && !error && path_.empty(); ++i) {
+    std::uint64_t name = 0;
+    if (::getentropy(&name, sizeof name) != 0) return false;
+    const std::string& path = keep(fmt::format("{}/dotek-{:016x}", below, name));
+    if (::mkdir(path.c_str(), 0700) == 0) {
+      path_ = path;
+    } else {
+      forget(path.c_str());
+      made_.pop_back();
+    }
+  }
+  return !path_.empty();
+}
+
+bool TemporaryFolder::write(const std::string& name, const std::string& text) {
+  if (path_.empty()) return false;
+  if (const std::size_t slash = name.find('/'); slash != std::string::npos) {
+    const std::string folder = path_ + "/" + name.substr(0, slash);
+    if (std::find(made_.begin(), made_.end(), folder) == made_.end() &&
+        ::mkdir(keep(folder).c_str(), 0700) != 0)
+      return false;
+  }
+  std::ofstream out(keep(path_ + "/" + name), std::ios::binary);
+  out << text;
+  out.flush();
+  return out.good();
 }
 
 } // namespace dotek

@@ -1,6 +1,7 @@
-// A file that takes the place of another when it is complete.
+// Files that take the place of others when they are complete, and folders of files that are gone at the end.
 #pragma once
 
+#include <deque>
 #include <string>
 
 namespace dotek {
@@ -25,6 +26,27 @@ public:
 private:
   int descriptor_ = -1;
   std::string folder_, path_; // path_ "": there is none any more
+};
+
+// A new folder below that of the system's temporary files, for its owner alone. Gone with this object with
+// all that write() has put into it, and on the same signals.
+class TemporaryFolder {
+public:
+  TemporaryFolder() = default;
+  ~TemporaryFolder();
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+
+  // false: it cannot be made.
+  bool create();
+  const std::string& path() const { return path_; } // "": there is none
+  // A file in it, "NAME" or "FOLDER/NAME". false: it cannot be written.
+  bool write(const std::string& name, const std::string& text);
+
+private:
+  const std::string& keep(std::string path); // before it is there
+  std::string path_;
+  std::deque<std::string> made_; // folders before what is in them
 };
 
 // From now on SIGHUP, SIGINT, SIGQUIT, SIGTERM, SIGPIPE and SIGXCPU remove the temporary files of this

@@ -43,7 +43,6 @@ constexpr std::uint32_t kMoreAttempts = 200; // for others in the place of those
 constexpr std::uint64_t kAsked = 4;
 constexpr std::uint32_t kForeseen = 1500;
 constexpr std::uint64_t kCallerCases = 8; // in which callers break what the translation demands
-constexpr double kReach = 12;             // how far a search goes beyond a surface, mm
 
 // Variables of the control that the program writes by number.
 std::set<std::uint32_t> storesOf(const std::vector<ir::Program>& programs) {

@@ -54,7 +54,6 @@ public:
   struct Performed {
     bool rejected = false;                // by the dialog
     std::string text;                     // what it says then, or why nothing can be run
-    SourceRange at;                       // of the check
     std::optional<verify::Record> record; // places are of the posted text; nothing: rejected, or no program
     std::vector<frontend::compost::PostedLine> lines; // of that text
   };

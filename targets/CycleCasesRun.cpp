@@ -88,7 +88,6 @@ CaseRunner::Performed CaseRunner::perform(const verify::Case& values, sim::World
   if (now->rejected) {
     out.rejected = true;
     out.text = now->rejection;
-    out.at = now->rejectedAt;
     return out;
   }
   if (!readPosted(*now)) {

@@ -29,7 +29,6 @@ constexpr std::uint32_t kMostAlarms = 2;
 // Of values that the cycle takes and for which no program is written: others are not looked for any more.
 constexpr std::uint32_t kMostRefused = 300;
 constexpr std::uint64_t kCallerCases = 8; // whose callers break what the translation demands
-constexpr double kReach = 12;             // how far a search goes beyond a surface, mm
 constexpr double kOvertravel = 10;        // of a search where nothing states it: that of vendors' macros, mm
 constexpr double kLeastWay = 0.01;        // mm to a touch; macros take less for a stylus that is deflected
 constexpr double kMissing = 0.3;          // share of the surfaces that may be missing and are

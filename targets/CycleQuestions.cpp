@@ -12,7 +12,6 @@ namespace dotek::targets {
 namespace {
 
 constexpr double kSame = 1e-9;
-constexpr double kReach = 12; // how far a search goes beyond a surface, mm
 constexpr double kContactShare =
     0.75; // of a bare skip move that is rehearsed: at its end it would have missed
 

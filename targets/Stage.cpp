@@ -1,8 +1,10 @@
 #include "targets/Stage.h"
 
 #include "verify/Compare.h"
+#include "verify/Exactness.h"
 #include "verify/Random.h"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 
@@ -120,6 +122,19 @@ Limits limitsOfRun(const Limits& limits) {
   Limits out = limits;
   if (out.simSteps == Limits().simSteps) out.simSteps = kMostSteps;
   return out;
+}
+
+verify::CompareRules programRules(const VerificationSource& from, const stdlib::Control& control,
+                                  const stdlib::MacroSet* sourceSet, const stdlib::MacroSet* set) {
+  verify::CompareRules rules;
+  rules.tolerance = from.options.tolerance;
+  rules.results = std::max(rules.tolerance, resultTolerance(control, *from.inputs.sourceControl));
+  if (sourceSet != set) rules.results = std::max(rules.results, verify::kGridSteps);
+  rules.sameAlarmNumbers = sourceSet == set;
+  rules.shownText = control.alarmLength;
+  const stdlib::CodeInfo* const wait = control.find(stdlib::Function::MachineCoordinates);
+  rules.waits = wait != nullptr && wait->grade != "assumed";
+  return rules;
 }
 
 double resultTolerance(const stdlib::Control& one, const stdlib::Control& other) {

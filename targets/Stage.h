@@ -29,6 +29,12 @@ std::string controlText(const stdlib::Control& control);
 // Those of the run of a translated cycle: one that goes round for ever ends soon, unless `--limit sim-steps`
 // says how long it may take.
 Limits limitsOfRun(const Limits& limits);
+// How far a search goes beyond a surface, mm.
+inline constexpr double kReach = 12;
+// What is compared of two programs of macro B, the target's on `control`: its waits, its alarms, results of
+// macros of two sets (nullptr: none).
+verify::CompareRules programRules(const VerificationSource& from, const stdlib::Control& control,
+                                  const stdlib::MacroSet* sourceSet, const stdlib::MacroSet* set);
 // What results may differ by where one of the controls computes with eight digits, mm.
 double resultTolerance(const stdlib::Control& one, const stdlib::Control& other);
 

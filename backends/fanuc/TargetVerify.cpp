@@ -207,9 +207,7 @@ void FanucVerification::compareReturn(const verify::Record& record, const verify
 }
 
 verify::CompareRules FanucVerification::rulesFor(const TargetCase& now, const verify::Record& source) const {
-  verify::CompareRules rules;
-  rules.results = std::max(from_.options.tolerance, resultTolerance(control_, *from_.inputs.sourceControl));
-  if (sourceSet_ != set_) rules.results = std::max(rules.results, verify::kGridSteps);
+  verify::CompareRules rules = programRules(from_, control_, sourceSet_, set_);
   // After a write of the system that is active, what follows is as exactly as the control computes.
   const bool computed = from_.plan.computesPlaces || writesActive(source, now.entry);
   rules.tolerance = computed ? rules.results : from_.options.tolerance;
@@ -223,11 +221,7 @@ verify::CompareRules FanucVerification::rulesFor(const TargetCase& now, const ve
   // Of eight digits the last one is a ten millionth at most; two of them.
   rules.relative = rules.results > from_.options.tolerance ? 2e-7 : 0;
   rules.mayRestoreModes = true;
-  rules.shownText = control_.alarmLength;
   rules.switchesProbe = from_.options.switchProbe;
-  rules.sameAlarmNumbers = sourceSet_ == set_;
-  const stdlib::CodeInfo* const wait = control_.find(stdlib::Function::MachineCoordinates);
-  rules.waits = wait != nullptr && wait->grade != "assumed";
   rules.samePlace = [this, &now](SourceRange one, SourceRange other) {
     return translation_.stemsFrom(now.sourceOf(one), text_.line(other), from_.session.sources());
   };

@@ -23,7 +23,6 @@ constexpr std::uint32_t kChecked = 400;       // of them, that a check of the pr
 constexpr std::uint32_t kEndless = 3;         // of them, that come to the limit of steps
 constexpr std::uint32_t kMostSteps = 200'000; // of one run: --limit sim-steps may make it less
 constexpr std::uint64_t kMostCalled = 9999;   // by M98 on every control
-constexpr double kReach = 12;                 // how far a search goes beyond a surface, mm
 // Where one control computes with eight digits and the other with fifteen: an increment of a word, and what
 // eight digits leave of a value.
 constexpr double kOtherArithmetic = 0.0011, kEightDigits = 1e-6;

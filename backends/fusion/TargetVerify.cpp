@@ -28,8 +28,6 @@ namespace fusion = backends::fusion;
 
 namespace {
 
-constexpr double kEightDigits = 5e-5; // left of a result beside another way to compute it
-
 class FusionVerification final : public Verification {
 public:
   explicit FusionVerification(const VerificationSource& source)
@@ -319,15 +317,7 @@ private:
   }
 
   verify::CompareRules rulesFor(const TargetCase& now) const {
-    verify::CompareRules rules;
-    rules.tolerance = rules.results = from_.options.tolerance;
-    if (control_.arithmetic == stdlib::Arithmetic::Decimal8)
-      rules.results = std::max(rules.tolerance, kEightDigits);
-    if (sourceSet_ != set_) rules.results = std::max(rules.results, verify::kGridSteps);
-    rules.sameAlarmNumbers = sourceSet_ == set_;
-    rules.shownText = control_.alarmLength;
-    const stdlib::CodeInfo* const wait = control_.find(stdlib::Function::MachineCoordinates);
-    rules.waits = wait != nullptr && wait->grade != "assumed";
+    verify::CompareRules rules = programRules(from_, control_, sourceSet_, set_);
     if (const auto host = now.drawn.hosts.find("overtravel");
         sourceSet_ != set_ && host != now.drawn.hosts.end())
       rules.overtravel = host->second;

@@ -2,56 +2,25 @@
 // rejects the values, its branch prints a program, and that program is compared with what the source does.
 #include "backends/gibbs/TargetVerify.h"
 
-#include "support/Files.h"
+#include "backends/gibbs/Emit.h"
+#include "support/Temporary.h"
 #include "support/messages/Verify.h"
 #include "targets/CycleCases.h"
 #include "targets/DialogChoices.h"
 #include "targets/ReadBack.h"
 #include "targets/Stage.h"
 #include "targets/Target.h"
-#include "verify/Exactness.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 #include <fmt/format.h>
-#include <fstream>
 
 namespace dotek::targets {
 
 namespace fs = std::filesystem;
 
 namespace {
-
-// A folder of its own below that of the system's temporary files.
-class Scratch {
-public:
-  Scratch() {
-    std::error_code error;
-    std::string name = (fs::temp_directory_path(error) / "dotek-XXXXXX").string();
-    if (!error && ::mkdtemp(name.data()) != nullptr) path_ = name;
-  }
-  ~Scratch() {
-    std::error_code error;
-    if (!path_.empty()) fs::remove_all(path_, error);
-  }
-  Scratch(const Scratch&) = delete;
-  Scratch& operator=(const Scratch&) = delete;
-  const fs::path& path() const { return path_; } // "": it cannot be made
-
-private:
-  fs::path path_;
-};
-
-bool write(const fs::path& path, const std::string& text) {
-  std::error_code error;
-  fs::create_directories(path.parent_path(), error);
-  std::ofstream out(path, std::ios::binary);
-  out << text;
-  out.flush();
-  return out.good();
-}
 
 // What a message of the dialog says, out of what Dotek says of it.
 std::string_view messageIn(std::string_view rejection) {
@@ -83,16 +52,16 @@ public:
     const auto written = writtenFolder(from_);
     if (!written) return false;
     fields_ = written->fields;
-    fs::path folder = scratch_.path() / written->name;
-    std::string name = written->name;
+    fs::path folder;
     if (from_.options.translation) {
       // An edited one lies where its branch is.
       folder = fs::path(*from_.options.translation).parent_path();
       if (folder.empty()) folder = ".";
     } else {
-      bool good = !scratch_.path().empty();
+      bool good = scratch_.create();
       for (const OutputFile& file : written->files)
-        good = good && write(scratch_.path() / file.name, file.text);
+        good = good && scratch_.write(file.name, file.text);
+      folder = fs::path(scratch_.path()) / written->name;
       if (!good) {
         session.diagnostics().report<diag::TranslationNotRead>({}, written->name,
                                                                "no temporary folder can be written");
@@ -113,7 +82,7 @@ public:
                                : (folder / fs::path(written->files.back().name).filename()).string();
     options_.source.form =
         from_.inputs.form ? std::optional(from_.inputs.form->name) : from_.options.source.form;
-    options_.source.cycle = name;
+    options_.source.cycle = written->name;
     options_.control = from_.inputs.control->name;
     plan_.sourceMacros = plan_.targetMacros = from_.plan.targetMacros;
     runner_ = std::make_unique<CaseRunner>(options_, plan_);
@@ -181,20 +150,11 @@ private:
 
   void compareRejection(const CaseRunner::Performed& ran, const TargetCase& now, TargetRun& out) const {
     const std::string_view wanted = from_.plan.cycleFile ? now.rejection : messageIn(now.rejection);
-    const std::string_view own = messageIn(ran.text);
     if (ran.rejected) {
-      // Texts of the dialog are ASCII without quotes.
-      const auto same = [](char a, char b) {
-        return a == b || static_cast<unsigned char>(a) > 127 || static_cast<unsigned char>(b) > 127 ||
-               a == '\'' || b == '\'' || a == '"' || b == '"' || a == '?' || b == '?';
-      };
-      const bool alike = own.size() == wanted.size()
-                             ? std::equal(own.begin(), own.end(), wanted.begin(), same)
-                             : wanted.find_first_of("\"'") != std::string_view::npos ||
-                                   std::any_of(wanted.begin(), wanted.end(),
-                                               [](char c) { return static_cast<unsigned char>(c) > 127; });
-      out.refused = alike;
-      if (!alike)
+      const std::string_view own = messageIn(ran.text);
+      Diagnostics ignored;
+      out.refused = own == backends::gibbs::plain(wanted, {}, ignored);
+      if (!out.refused)
         out.differsAt(
             verify::Aspect::Ending,
             fmt::format("the source rejects the values, `{}`, and the dialog that is written says `{}`",
@@ -225,20 +185,15 @@ private:
     // What macros do inside is their own business.
     std::erase_if(record.early, [&](const verify::EarlyUse& use) { return lineOf(use.range, ran) == 0; });
     const stdlib::Control& control = *from_.inputs.control;
-    verify::CompareRules rules;
-    rules.results = std::max(from_.options.tolerance, resultTolerance(control, *from_.inputs.sourceControl));
-    if (sourceSet_ != set_ || from_.plan.cycleFile)
-      rules.results = std::max(rules.results, verify::kGridSteps);
+    verify::CompareRules rules = programRules(from_, control, sourceSet_, set_);
     // Fields are printed to the control's least increment.
     const double rounded = kRoundedWord * std::pow(10, -control.decimals);
     rules.results = std::max(rules.results, rounded);
-    rules.tolerance = std::max(from_.options.tolerance, rounded);
+    rules.tolerance = std::max(rules.tolerance, rounded);
     rules.relative = rules.results > from_.options.tolerance ? 2e-7 : 0;
     rules.mayRestoreModes = true;
     rules.switchesProbe = from_.options.switchProbe;
-    const stdlib::CodeInfo* const wait = control.find(stdlib::Function::MachineCoordinates);
-    rules.waits = wait != nullptr && wait->grade != "assumed";
-    rules.sameAlarmNumbers = sourceSet_ == set_ && !from_.plan.cycleFile;
+    rules.sameAlarmNumbers = rules.sameAlarmNumbers && !from_.plan.cycleFile;
     // An alarm of the branch before anything moves: it asks what no dialog knows.
     if (record.ending == verify::Ending::Alarm && record.pieces.empty() && record.measures.empty() &&
         source.ending != verify::Ending::Alarm) {
@@ -266,7 +221,7 @@ private:
 
   const VerificationSource from_;
   const stdlib::MacroSet *sourceSet_, *set_;
-  Scratch scratch_;
+  TemporaryFolder scratch_;
   VerifyOptions options_; // of the written folder
   VerifyPlan plan_;
   std::map<std::string, std::string> fields_; // of the written folder, by the source's name

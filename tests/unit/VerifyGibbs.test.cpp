@@ -104,6 +104,23 @@ TEST_CASE("verify to gibbs: a dialog or a branch that was damaged differs") {
   differs("CycleData.mac", checks, "No room in the bore", "No bore in the room");
 }
 
+TEST_CASE("verify to gibbs: the temporary folder is gone at the end, and on a signal") {
+  const ProcessFolder folder;
+  const std::string verify =
+      "TMPDIR=$PWD/made \"$DOTEK\" verify " + cycle("surface-z") +
+      " --to gibbs --control fanuc-31i-b --probe-macros inspection-plus --host "
+      "approach_feed=1000 --host overtravel=5 --default system=55 --default distance=12 ";
+  folder.run("mkdir made");
+  CHECK(folder.run(verify + "--cases 4 --jobs 1").status == 0);
+  CHECK(folder.run("ls -A made").out.empty());
+  const ShellResult ended = folder.run(
+      verify + "--cases 10000000 >/dev/null 2>&1 & run=$!\n" +
+      "until ls made/*/*/branch.txt >/dev/null 2>&1; do sleep 0.05; done\nkill -TERM $run\nwait $run\n"
+      "echo $?");
+  CHECK(ended.out == "143\n");
+  CHECK(folder.run("ls -A made").out.empty());
+}
+
 TEST_CASE("convert to gibbs with --verify writes what agrees") {
   const ProcessFolder folder;
   const ShellResult result =
