@@ -7,29 +7,10 @@
 namespace dotek::lint::rule {
 namespace {
 
-// Statements after which the program may come to the end at `end`.
-std::vector<bool> leadingTo(std::size_t end, const ir::ProgramFlow& flow) {
-  std::vector<std::vector<std::size_t>> before(flow.next.size());
-  for (std::size_t at = 0; at < flow.next.size(); ++at)
-    for (const std::size_t to : flow.next[at])
-      if (to < before.size()) before[to].push_back(at);
-  std::vector<bool> out(flow.next.size());
-  std::vector<std::size_t> open{end};
-  while (!open.empty()) {
-    const std::size_t at = open.back();
-    open.pop_back();
-    for (const std::size_t from : before[at])
-      if (!out[from]) {
-        out[from] = true;
-        open.push_back(from);
-      }
-  }
-  return out;
-}
-
 struct Height {
   std::optional<double> z; // of the last move along Z; nothing: not known
   bool skipped = false;    // a touch went down since
+  double highest = -1e9;   // of plain moves on a way to here: that to an alarm is another way
   bool operator==(const Height&) const = default;
 };
 
@@ -46,30 +27,30 @@ void checkProgram(const NcProgram& nc, const Probing& probing, Report& report) {
       body, nc.flow(), Height{},
       [&](std::size_t at, std::size_t, Height height) -> Height {
         const auto* block = std::get_if<ir::NcBlock>(&body[at].node);
+        const auto z = block == nullptr ? std::nullopt : wordValue(*block, 'Z');
+        if (block != nullptr && isPlainMove(body[at]) && z) height.highest = std::max(height.highest, *z);
+        const Height unknown{std::nullopt, false, height.highest};
         if (probing.step(body[at]).kind == ProbeStep::Kind::Protected || callOf(body[at]) != nullptr)
-          return {};
+          return unknown;
         if (block == nullptr) return height;
         for (const double code : {28.0, 30.0, 53.0})
-          if (hasCode(*block, 'G', code) && axesOf(*block) != 0) return {};
+          if (hasCode(*block, 'G', code) && axesOf(*block) != 0) return unknown;
         if (!hasWord(*block, 'Z')) return height;
         const bool absolute = statedMode(body[at]).value_or(*modes[at]) == DistanceMode::Absolute;
-        if (skipOf(body[at]) != nullptr) return {absolute ? wordValue(*block, 'Z') : std::nullopt, true};
-        return {absolute ? wordValue(*block, 'Z') : std::nullopt, false};
+        return {absolute ? z : std::nullopt, skipOf(body[at]) != nullptr, height.highest};
       },
       [](Height& into, const Height& other) {
-        if (into == other || !into.z) return false;
-        into = {};
-        return true;
+        const Height before = into;
+        into.highest = std::max(into.highest, other.highest);
+        if (into.z && (into.z != other.z || into.skipped != other.skipped)) {
+          into.z.reset();
+          into.skipped = false;
+        }
+        return into != before;
       });
   for (std::size_t i = 0; i < body.size(); ++i) {
     if (!endsProgram(body[i]) || !heights[i] || !heights[i]->z) continue;
-    // Heights on other ways, those to an alarm, are none that it travels at.
-    double highest = -1e9;
-    const std::vector<bool> leads = leadingTo(i, nc.flow());
-    for (std::size_t at = 0; at < body.size(); ++at)
-      if (leads[at] && isPlainMove(body[at]))
-        if (const auto z = wordValue(std::get<ir::NcBlock>(body[at].node), 'Z'))
-          highest = std::max(highest, *z);
+    const double highest = heights[i]->highest;
     if (*heights[i]->z >= highest) continue;
     report.at(
         body[i].origin.range(),

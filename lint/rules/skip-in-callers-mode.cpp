@@ -1,5 +1,6 @@
 #include "ir/Dataflow.h"
-#include "ir/Walk.h"
+#include "ir/Evaluate.h"
+#include "ir/Rewrite.h"
 #include "lint/Skips.h"
 
 #include <cmath>
@@ -35,7 +36,8 @@ Others othersOf(const Project& project) {
   return out;
 }
 
-constexpr std::uint32_t kModeOfCaller = 4003; // #4003: 90 or 91
+constexpr std::uint32_t kModeOfCaller = 4003; // #4003
+constexpr double kAbsolute = 90, kIncremental = 91;
 
 // Variables that hold the mode of the caller: #31=#4003.
 std::set<std::uint32_t> copiesOfMode(const ir::Program& program) {
@@ -48,42 +50,63 @@ std::set<std::uint32_t> copiesOfMode(const ir::Program& program) {
   return out;
 }
 
-// An IF looks at the mode: what goes on from there knows it.
-bool asksMode(const ir::ProgramStatement& statement, const std::set<std::uint32_t>& copies) {
-  const ir::ConditionPtr* condition = ir::conditionOf(statement);
-  if (condition == nullptr || !*condition) return false;
-  bool out = false;
-  ir::eachNode(*condition, [&](const ir::Expression& node) {
-    if (!std::holds_alternative<ir::MachineVariable>(node.node)) return;
-    const auto number = variableNumber(node);
-    out = out || (number && copies.contains(*number));
-  });
-  return out;
+// The mode before a statement.
+struct Mode {
+  DistanceMode mode = DistanceMode::AsBefore;
+  bool asked = false; // an IF has found it in force: no block states it
+  bool operator==(const Mode&) const = default;
+};
+
+// What the way to `to` says of the mode of the caller; nothing: not more than before.
+std::optional<Mode> askedOn(const ir::ProgramStatement& statement, bool holds,
+                            const std::set<std::uint32_t>& copies) {
+  const auto* branch = std::get_if<ir::Branch>(&statement.node);
+  if (branch == nullptr || !branch->condition) return std::nullopt;
+  const auto passes = [&](double mode) {
+    bool asks = false;
+    const ir::ConditionPtr condition =
+        ir::rewrite(branch->condition, [&](const ir::ExpressionPtr& node) -> ir::ExpressionPtr {
+          const auto number = variableNumber(*node);
+          if (!number || !copies.contains(*number)) return node;
+          asks = true;
+          return ir::constant(mode);
+        });
+    return !asks || ir::holds(*condition, {}).value_or(holds) == holds;
+  };
+  const bool absolute = passes(kAbsolute), incremental = passes(kIncremental);
+  if (absolute == incremental) return std::nullopt;
+  return Mode{absolute ? DistanceMode::Absolute : DistanceMode::Incremental, true};
 }
 
 void checkProgram(const ir::Program& program, const Others& others, Report& report) {
   // Its callers are read, and state the mode that it goes by.
   if (others.called.contains(static_cast<std::uint32_t>(program.number))) return;
   const std::set<std::uint32_t> copies = copiesOfMode(program);
-  const auto stated = ir::factsBefore<DistanceMode>(
-      program.body, ir::flowOf(program.body), DistanceMode::AsBefore,
-      [&](std::size_t at, std::size_t, DistanceMode mode) {
+  const auto stated = ir::factsBefore<Mode>(
+      program.body, ir::flowOf(program.body), Mode{},
+      [&](std::size_t at, std::size_t to, Mode mode) {
         const ir::ProgramStatement& statement = program.body[at];
         // A subprogram may be there to set modes.
         if (callOf(statement) != nullptr)
-          return others.quiet.contains(calledBy(statement)) ? mode : DistanceMode::Unknown;
-        if (mode == DistanceMode::AsBefore && asksMode(statement, copies)) return DistanceMode::Unknown;
-        return statedMode(statement).value_or(mode);
+          return others.quiet.contains(calledBy(statement)) ? mode : Mode{DistanceMode::Unknown, false};
+        if (const auto own = statedMode(statement)) return Mode{*own, false};
+        if (mode.mode != DistanceMode::AsBefore) return mode;
+        return askedOn(statement, to != at + 1, copies).value_or(mode);
       },
-      [](DistanceMode& into, DistanceMode other) {
-        if (into == other || into == DistanceMode::Unknown) return false;
-        into = DistanceMode::Unknown;
-        return true;
+      [](Mode& into, const Mode& other) {
+        if (into == other || into.mode == DistanceMode::Unknown) return false;
+        const auto ofCaller = [](const Mode& one) { return one.asked || one.mode == DistanceMode::AsBefore; };
+        const Mode before = into;
+        // Both ways from the IF together: it is one or the other again.
+        into =
+            Mode{ofCaller(into) && ofCaller(other) ? DistanceMode::AsBefore : DistanceMode::Unknown, false};
+        return into != before;
       });
   Diagnostic* first = nullptr; // the mode that is missing is one cause for all of them
   for (std::size_t i = 0; i < program.body.size(); ++i) {
     const ir::NcBlock* skip = skipOf(program.body[i]);
-    if (skip == nullptr || axesOf(*skip) == 0 || !stated[i] || *stated[i] != DistanceMode::AsBefore) continue;
+    if (skip == nullptr || axesOf(*skip) == 0 || !stated[i] || stated[i]->mode != DistanceMode::AsBefore)
+      continue;
     if (statedMode(program.body[i])) continue;
     if (first != nullptr)
       first->note(program.body[i].origin.range(), "and this one");

@@ -1,9 +1,9 @@
+#include "ir/Linear.h"
+#include "ir/Rewrite.h"
 #include "ir/Walk.h"
 #include "lint/AfterSkip.h"
 
 #include <algorithm>
-#include <cmath>
-#include <map>
 #include <set>
 
 namespace dotek::lint::rule {
@@ -31,70 +31,34 @@ struct Following {
   bool goesOn = false;
 };
 
-// A sum of multiples of variables, by number; 0 is the constant.
-using Form = std::map<std::uint32_t, double>;
+using Form = ir::LinearForm;
 
-std::optional<Form> formOf(const ir::ExpressionPtr& expression, int depth = 0);
-
-std::optional<Form> sumOf(const std::optional<Form>& a, const std::optional<Form>& b, double factor) {
-  if (!a || !b) return std::nullopt;
-  Form out = *a;
-  for (const auto& [number, value] : *b)
-    out[number] += factor * value;
-  return out;
-}
-
-std::optional<Form> productOf(const ir::Binary& binary, int depth) {
-  const std::optional<Form> left = formOf(binary.left, depth), right = formOf(binary.right, depth);
-  const auto number = [](const std::optional<Form>& form) -> std::optional<double> {
-    if (!form || form->size() != 1 || form->begin()->first != 0) return std::nullopt;
-    return form->begin()->second;
-  };
-  const bool divides = binary.op == ir::BinaryOp::Divide;
-  if (const auto factor = number(right); factor && left && (!divides || *factor != 0))
-    return sumOf(Form{}, left, divides ? 1 / *factor : *factor);
-  if (const auto factor = number(left); factor && right && !divides) return sumOf(Form{}, right, *factor);
-  return std::nullopt;
-}
-
-std::optional<Form> formOf(const ir::ExpressionPtr& expression, int depth) {
-  constexpr int kDeepest = 40;
-  if (!expression || depth > kDeepest) return std::nullopt;
-  if (const double* value = ir::constantValue(expression)) return Form{{0, *value}};
-  if (const auto number = variableNumber(*expression); number && *number != 0) return Form{{*number, 1}};
-  if (const auto* unary = std::get_if<ir::Unary>(&expression->node)) {
-    if (unary->op == ir::UnaryOp::Negate) return sumOf(Form{}, formOf(unary->operand, depth + 1), -1);
-    if (unary->op == ir::UnaryOp::NullAsZero || unary->op == ir::UnaryOp::RoundIncrement)
-      return formOf(unary->operand, depth + 1);
-    return std::nullopt;
-  }
-  const auto* binary = std::get_if<ir::Binary>(&expression->node);
-  if (binary == nullptr) return std::nullopt;
-  if (binary->op == ir::BinaryOp::Add || binary->op == ir::BinaryOp::Subtract)
-    return sumOf(formOf(binary->left, depth + 1), formOf(binary->right, depth + 1),
-                 binary->op == ir::BinaryOp::Add ? 1 : -1);
-  if (binary->op == ir::BinaryOp::Multiply || binary->op == ir::BinaryOp::Divide)
-    return productOf(*binary, depth + 1);
-  return std::nullopt;
+std::optional<Form> less(const std::optional<Form>& a, const std::optional<Form>& b) {
+  return a && b ? ir::add(*a, *b, -1) : std::nullopt;
 }
 
 // Both ways are of one line, to opposite sides, whatever the variables hold.
 bool areOpposite(const Form& a, const Form& b) {
   double ratio = 0;
-  for (const auto& [number, value] : a)
-    if (std::abs(value) > 1e-9) {
-      const auto at = b.find(number);
-      ratio = at == b.end() ? 0 : at->second / value;
-      break;
-    }
-  if (ratio >= 0) return false;
-  std::optional<Form> rest = sumOf(b, a, -ratio);
-  return std::all_of(rest->begin(), rest->end(), [](const auto& one) { return std::abs(one.second) < 1e-9; });
+  if (a.terms.empty())
+    ratio = a.constant == 0 || !b.terms.empty() ? 0 : b.constant / a.constant;
+  else if (const auto at = b.terms.find(a.terms.begin()->first); at != b.terms.end())
+    ratio = at->second / a.terms.begin()->second;
+  return ratio < 0 && ir::add(b, a, -ratio) == Form{};
 }
 
 std::optional<Form> targetOf(const ir::NcBlock& block, char axis) {
   for (const ir::Word& word : block.words)
-    if (word.address == axis) return formOf(word.value);
+    if (word.address == axis && word.value != nullptr)
+      return ir::linear(ir::rewrite(word.value,
+                                    [](const ir::ExpressionPtr& node) {
+                                      const auto* one = std::get_if<ir::Unary>(&node->node);
+                                      const bool form =
+                                          one != nullptr && (one->op == ir::UnaryOp::NullAsZero ||
+                                                             one->op == ir::UnaryOp::RoundIncrement);
+                                      return form ? one->operand : node;
+                                    }),
+                        {});
   return std::nullopt;
 }
 
@@ -121,7 +85,7 @@ bool comesBack(const NcProgram& nc, std::size_t skip, std::size_t next) {
     if (!from) break;
   }
   const std::optional<Form> to = targetOf(one, axis), then = targetOf(*skipOf(body[next]), axis);
-  const std::optional<Form> there = sumOf(to, from, -1), back = sumOf(then, to, -1);
+  const std::optional<Form> there = less(to, from), back = less(then, to);
   return there && back && areOpposite(*there, *back);
 }
 
