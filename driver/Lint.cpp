@@ -98,24 +98,13 @@ public:
     if (!passOverBaseline()) return failed();
     std::string baseline;
     if (options_.writeBaseline) {
-      std::error_code error;
-      lint::Baseline before;
-      // What it holds of files that this run does not look at stays. A pipe or a device holds nothing.
-      if (fs::is_regular_file(*options_.writeBaseline, error)) {
-        const auto text = session_.bytes(*options_.writeBaseline, session_.diagnostics());
-        if (!text) return failed();
-        std::string reason;
-        std::optional<lint::Baseline> written = lint::Baseline::read(*text, reason, *options_.writeBaseline);
-        if (written)
-          before = std::move(*written);
-        else
-          passedOver_ =
-              fmt::format("`{}` was no baseline ({}) and is replaced", *options_.writeBaseline, reason);
-      }
+      const std::optional<lint::Baseline> before =
+          keptBaseline(*options_.writeBaseline, session_, passedOver_);
+      if (!before) return failed();
       const lint::Baseline::Judged judged = judgedBy(lookedAt(), session_.sources());
       baseline = lint::Baseline::render(session_.diagnostics(), session_.sources(), *options_.writeBaseline,
-                                        before, judged);
-      if (const std::size_t others = before.others(judged); others > 0)
+                                        *before, judged);
+      if (const std::size_t others = before->others(judged); others > 0)
         passedOver_ = fmt::format("{} of the baseline stay{}: this run did not look for {}", others,
                                   others == 1 ? "s" : "", others == 1 ? "it" : "them");
     }

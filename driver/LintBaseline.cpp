@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <fmt/format.h>
 #include <map>
 
 namespace dotek::driver {
@@ -43,6 +44,18 @@ std::optional<lint::Baseline> readBaseline(const std::string& path, project::Ses
   std::optional<lint::Baseline> out = lint::Baseline::read(*text, reason, path);
   if (!out) session.diagnostics().report<diag::BaselineUnreadable>({}, path, reason);
   return out;
+}
+
+std::optional<lint::Baseline> keptBaseline(const std::string& path, project::Session& session,
+                                           std::string& said) {
+  std::error_code error;
+  if (!fs::is_regular_file(path, error)) return lint::Baseline();
+  const auto text = session.bytes(path, session.diagnostics());
+  if (!text) return std::nullopt;
+  std::string reason;
+  if (auto out = lint::Baseline::read(*text, reason, path)) return out;
+  said = fmt::format("`{}` was no baseline ({}) and is replaced", path, reason);
+  return lint::Baseline();
 }
 
 } // namespace dotek::driver

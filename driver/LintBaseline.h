@@ -25,5 +25,9 @@ lint::Baseline::Judged judgedBy(LookedAt looked, const SourceMap& sources);
 
 // nullopt: it cannot be read, or is no baseline; reported.
 std::optional<lint::Baseline> readBaseline(const std::string& path, project::Session& session);
+// What a file holds that is to be written anew: nothing where there is none, where it is a pipe or a device,
+// and where it is no baseline, which `said` says then. nullopt: it cannot be read; reported.
+std::optional<lint::Baseline> keptBaseline(const std::string& path, project::Session& session,
+                                           std::string& said);
 
 } // namespace dotek::driver

@@ -241,9 +241,7 @@ private:
         const auto* block = std::get_if<ir::NcBlock>(&statement.node);
         if (block == nullptr) continue;
         for (const ir::Word& word : block->words) {
-          if (std::string_view("XYZIJKR").find(word.address) == std::string_view::npos ||
-              !control_->countsIncrements(word.address))
-            continue;
+          if (!control_->isLength(word.address) || !control_->countsIncrements(word.address)) continue;
           const ir::Constant* bare = ir::numberWithoutPoint(word.value);
           if (bare == nullptr || bare->value == 0) continue;
           if (first.hasPlace())

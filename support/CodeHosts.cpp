@@ -3,6 +3,7 @@
 #include "support/Fingerprint.h"
 #include "support/Printable.h"
 #include "support/Sha256.h"
+#include "support/WholeName.h"
 
 #include <nlohmann/json.hpp>
 
@@ -42,13 +43,6 @@ std::string_view severityOf(Severity severity) {
   return "info";
 }
 
-// A path in the repository, which the hosts compare with theirs: without a leading `./`.
-std::string hostPath(std::string path) {
-  while (path.starts_with("./"))
-    path.erase(0, 2);
-  return path;
-}
-
 } // namespace
 
 std::string renderGithub(const Diagnostics& diagnostics, const SourceMap& sources) {
@@ -58,7 +52,7 @@ std::string renderGithub(const Diagnostics& diagnostics, const SourceMap& source
     if (one.range.hasPlace()) {
       const SourceFile& file = sources.file(one.range.file);
       const LineColumn begin = file.place(one.range.begin), end = file.place(one.range.end);
-      out += fmt::format("file={},line={},endLine={},", escaped(printable(hostPath(file.name())), true),
+      out += fmt::format("file={},line={},endLine={},", escaped(printable(withoutDot(file.name())), true),
                          begin.line, end.line);
       // Columns are of one line.
       if (begin.line == end.line) out += fmt::format("col={},endColumn={},", begin.column, end.column);
@@ -72,7 +66,8 @@ std::string renderGitlab(const Diagnostics& diagnostics, const SourceMap& source
   Json rows = Json::array();
   Fingerprints fingerprints;
   for (const Diagnostic& one : diagnostics.all()) {
-    const std::string path = one.range.hasPlace() ? hostPath(sources.file(one.range.file).name()) : "";
+    const std::string path =
+        one.range.hasPlace() ? std::string(withoutDot(sources.file(one.range.file).name())) : "";
     Json row;
     row["description"] = asUtf8(one.message);
     row["check_name"] = one.code;

@@ -3,6 +3,7 @@
 #include "support/Fingerprint.h"
 #include "support/Printable.h"
 #include "support/Version.h"
+#include "support/WholeName.h"
 
 #include <algorithm>
 #include <cctype>
@@ -15,12 +16,10 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// Relative to the folder that the command ran in, without a `./` that means nothing.
+// Relative to the folder that the command ran in.
 std::string uri(std::string_view path) {
   std::string out;
-  while (path.starts_with("./"))
-    path.remove_prefix(2);
-  for (const char c : path) {
+  for (const char c : withoutDot(path)) {
     const auto byte = static_cast<unsigned char>(c);
     if (std::isalnum(byte) != 0 || std::string_view("-._~/").find(c) != std::string_view::npos)
       out += c;

@@ -11,4 +11,10 @@ std::string wholeName(const std::string& path) {
   return (error ? std::filesystem::path(path) : whole).lexically_normal().generic_string();
 }
 
+std::string_view withoutDot(std::string_view path) {
+  while (path.starts_with("./"))
+    path.remove_prefix(2);
+  return path;
+}
+
 } // namespace dotek

@@ -79,9 +79,10 @@ CycleStand::Rehearsal CycleStand::rehearse(const ir::Cycle& cycle, sim::CycleInp
   run.run();
   Rehearsal out;
   const auto mayMiss = mayMissIn(cycle);
-  for (const sim::ExpectedSurface& one : run.expected())
-    out.surfaces.push_back({one.point, one.direction}),
-        out.mayMiss.push_back(mayMiss.contains({one.range.file, one.range.begin}));
+  for (const sim::ExpectedSurface& one : run.expected()) {
+    out.surfaces.push_back({one.point, one.direction});
+    out.mayMiss.push_back(mayMiss.contains({one.range.file, one.range.begin}));
+  }
   const sim::RunEnd& end = machine.end();
   if (end.ending == sim::Ending::TextEnd) return out;
   out.ending = end.ending == sim::Ending::Alarm ? Ending::Alarm : Ending::Inconclusive;

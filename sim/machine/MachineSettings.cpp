@@ -288,7 +288,7 @@ bool Machine::dataInput(const NcWords& w) {
     value = snap((add ? value : 0) + lengthOf(w, 'R'));
     if (watcher_ != nullptr)
       watcher_->offsetWritten(
-          {fmt::format("tool {} {}", *number, *kind == 10 ? "geometry" : "wear"), before, value});
+          {fmt::format("tool {} {}", *number, *kind == 10 ? "geometry" : "wear"), before, value, *number});
     if (trace_ != nullptr)
       trace_->begin("tool-offset").text(fmt::format("L{} P{}", *kind, *number)).word("", value).end();
     return true;

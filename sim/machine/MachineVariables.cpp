@@ -263,7 +263,9 @@ bool Machine::store(std::uint32_t number, double value, bool preset) {
   const double given = isNull(value) ? 0 : value;
   const double length = snap(inInches(place) ? given * kInch : given);
   const auto set = [&](double& offset, const auto& name) {
-    if (watcher_ != nullptr && !preset) watcher_->offsetWritten({name(), offset, length});
+    const bool ofTool = place.kind == Kind::Wear || place.kind == Kind::Geometry;
+    if (watcher_ != nullptr && !preset)
+      watcher_->offsetWritten({name(), offset, length, ofTool ? static_cast<std::uint32_t>(place.index) : 0});
     offset = length;
   };
   const auto axis = [&] { return kAxisLetters[place.axis]; }; // of the kinds that have one

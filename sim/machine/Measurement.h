@@ -31,6 +31,7 @@ struct Measurement {
 struct OffsetWrite {
   std::string name; // "G54 X", "G54.1 P3 Z", "external X", "tool 5 wear"
   double before = 0, after = 0;
+  std::uint32_t tool = 0; // whose wear or geometry it is; 0: another offset
 };
 
 // What a call of a macro with this signature found. `locals`: its arguments by number, kNull where there is

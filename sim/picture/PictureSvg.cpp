@@ -34,32 +34,32 @@ double finite(double value) {
 
 class Legend {
 public:
-  Legend(double left, double top) : left_(left), place(top) {}
+  Legend(double left, double top) : left_(left), at_(top) {}
 
   void sample(PathKind kind) {
     const PathStyle& style = pathStyle(kind);
     out_ += fmt::format("<path d=\"M{} {}h44\" stroke=\"{}\" stroke-width=\"{}\"{} fill=\"none\"/>",
-                        px(left_), px(place - 4), style.colour, style.width,
+                        px(left_), px(at_ - 4), style.colour, style.width,
                         *style.dashes == '\0' ? "" : fmt::format(" stroke-dasharray=\"{}\"", style.dashes));
     text(fmt::format("{} move", pathKindName(kind)), 56);
   }
   void mark(const std::string& shape, const std::string& what) {
-    out_ += fmt::format("<g transform=\"translate({} {})\">{}</g>", px(left_ + 22), px(place - 4), shape);
+    out_ += fmt::format("<g transform=\"translate({} {})\">{}</g>", px(left_ + 22), px(at_ - 4), shape);
     text(what, 56);
   }
   void text(const std::string& line, double indent = 0, const char* colour = "#20262d") {
-    out_ += fmt::format("<text x=\"{}\" y=\"{}\" fill=\"{}\">{}</text>\n", px(left_ + indent), px(place),
+    out_ += fmt::format("<text x=\"{}\" y=\"{}\" fill=\"{}\">{}</text>\n", px(left_ + indent), px(at_),
                         colour, xmlText(line));
-    place += kLine;
+    at_ += kLine;
   }
-  void gap(double height) { place += height; }
+  void gap(double height) { at_ += height; }
   void raw(const std::string& svg) { out_ += svg; }
   double left() const { return left_; }
-  double at() const { return place; }
+  double at() const { return at_; }
   std::string take() { return std::move(out_); }
 
 private:
-  double left_, place; // base line of the next text
+  double left_, at_; // base line of the next text
   std::string out_;
 };
 

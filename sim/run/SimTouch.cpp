@@ -5,8 +5,6 @@
 #include "support/messages/Part.h"
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <cmath>
 #include <fmt/format.h>
 
@@ -26,17 +24,6 @@ bool isEdge(const Part& part, const Point3& point, const Point3& normal) {
   for (const Point3& side : {across, across * -1.0, along, along * -1.0})
     if (part.distance(point + (normal + side) * kAway) > kFarther * kAway) return true;
   return false;
-}
-
-// The number of "tool 5 wear"; nothing: another offset.
-std::optional<std::uint32_t> toolOf(std::string_view name) {
-  constexpr std::string_view kTool = "tool ";
-  if (!name.starts_with(kTool) || (!name.ends_with(" wear") && !name.ends_with(" geometry")))
-    return std::nullopt;
-  name.remove_prefix(kTool.size());
-  std::uint32_t number = 0;
-  if (std::from_chars(name.data(), name.data() + name.size(), number).ec != std::errc()) return std::nullopt;
-  return number;
 }
 
 } // namespace
@@ -72,19 +59,24 @@ void SimWorld::checkEdge(const ProbeEvent& event, const RunPlace& place) {
 // A face that lies too high was cut by a tool that is longer than its offset says. The expected height is in
 // a variable, or 0.
 void SimWorld::checkWear(const OffsetWrite& write) {
-  const std::optional<std::uint32_t> tool = toolOf(write.name);
   const double moved = write.after - write.before;
   constexpr double kLeast = 1e-4, kSame = 1e-6;
-  if (!tool || !heightTouched_ || machineNow_ == nullptr || std::abs(moved) < kLeast) return;
+  if (write.tool == 0 || !heightTouched_ || machineNow_ == nullptr || std::abs(moved) < kLeast) return;
   // The probe measures its own length so, and G44 counts lengths the other way.
-  if (machineNow_->tool() == *tool || (machine_ && machine_->devices.probeTool == *tool) ||
+  if (machineNow_->tool() == write.tool || (machine_ && machine_->devices.probeTool == write.tool) ||
       machineNow_->toolLength() < 0)
     return;
   const double expected = *heightTouched_ - moved;
+  const stdlib::Control& control = machineNow_->control();
+  const auto holds = [&](std::uint32_t number) {
+    return std::abs(machineNow_->common(number) - expected) < kSame;
+  };
   bool found = std::abs(expected) < kSame;
-  for (const auto& [first, last] : {std::pair{1U, 33U}, {100U, 199U}, {500U, 999U}})
-    for (std::uint32_t number = first; !found && number <= last; ++number)
-      found = std::abs(machineNow_->common(number) - expected) < kSame;
+  for (std::uint32_t number = 1; !found && number <= control.locals; ++number)
+    found = holds(number);
+  for (const stdlib::VariableRange& range : control.common)
+    for (std::uint32_t number = range.first; !found && number <= range.last; ++number)
+      found = holds(number);
   if (!found) return;
   addFault(makeDiagnostic<diag::WearWrongWay>(place_().range, write.name, fixedText(write.before, decimals_),
                                               fixedText(write.after, decimals_),
