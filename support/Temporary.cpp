@@ -26,7 +26,8 @@ static_assert(std::atomic<const char*>::is_always_lock_free);
 std::atomic<bool> ending; // NOLINT
 
 void remember(const char* path) {
-  while (ending.load()) ::pause(); // a signal ends the process: nothing is made any more
+  while (ending.load())
+    ::pause(); // a signal ends the process: nothing is made any more
   for (auto& slot : pending) {
     const char* empty = nullptr;
     if (slot.compare_exchange_strong(empty, path)) return;
