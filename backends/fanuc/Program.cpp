@@ -21,10 +21,16 @@ public:
 
   std::optional<std::vector<EmittedLine>> run() {
     checkNumbers();
+    AnyVariable any(context_);
+    std::optional<FileModes> modes;
+    if (!context_.same()) modes.emplace(file_, context_.from());
+    CallLevels levels(file_);
     for (ir::Program& program : file_.programs) {
-      translateVariables(program, context_);
-      translateWords(program, file_, context_);
-      checkProgram(program, file_, context_);
+      if (modes) {
+        translateVariables(program, any, context_);
+        translateWords(program, *modes, context_);
+      }
+      checkProgram(program, levels, context_);
     }
     if (context_.diagnostics.hasErrors()) return std::nullopt;
     out_.push_back({"%", {}, ""});

@@ -42,7 +42,8 @@ std::string_view workaround(std::string_view function) {
 
 class Variables {
 public:
-  Variables(ir::Program& program, const ProgramContext& context) : program_(program), context_(context) {}
+  Variables(ir::Program& program, AnyVariable& any, const ProgramContext& context)
+      : program_(program), any_(any), context_(context) {}
 
   void run() {
     for (ir::ProgramStatement& statement : program_.body) {
@@ -109,10 +110,10 @@ private:
     const SourceRange range = number->range.hasPlace() ? number->range : statement_->origin.range();
     const auto base = ir::firstNumber(number);
     const bool system = base && *base >= kFirstSystem;
-    const bool same = sameVariables(context_.from(), context_.to());
+    const bool same = any_.same();
     const bool known = system && (variableThere(*base, context_.from(), context_.to()).number ||
                                   variableThere(*base + 1, context_.from(), context_.to()).number);
-    const bool holds = system ? same && known : same || holdsVariablesOf(context_.to(), context_.from());
+    const bool holds = system ? same && known : same || any_.holds();
     if (!holds)
       context_.diagnostics.report<diag::VariableNumberComputed>(range, context_.to().title,
                                                                 context_.from().title);
@@ -122,6 +123,7 @@ private:
   }
 
   ir::Program& program_;
+  AnyVariable& any_;
   const ProgramContext& context_;
   ir::ProgramStatement* statement_ = nullptr;
   bool told_ = false;
@@ -129,8 +131,8 @@ private:
 
 class Checks {
 public:
-  Checks(const ir::Program& program, const ir::ProgramFile& file, const ProgramContext& context)
-      : program_(program), file_(file), context_(context) {}
+  Checks(const ir::Program& program, CallLevels& levels, const ProgramContext& context)
+      : program_(program), levels_(levels), context_(context) {}
 
   void run() {
     for (const ir::ProgramStatement& statement : program_.body) {
@@ -265,36 +267,15 @@ private:
                                                             context_.to().programLast, context_.to().title);
   }
 
-  // Levels of G65 and G66 that calls within the file come to, this program counted as called by none.
   void levels() {
-    std::map<std::uint64_t, const ir::Program*> byNumber;
-    for (const ir::Program& one : file_.programs)
-      byNumber.emplace(one.number, &one);
-    std::set<const ir::Program*> open;
-    std::map<const ir::Program*, std::uint32_t> depth;
-    const std::function<std::uint32_t(const ir::Program&)> depthOf = [&](const ir::Program& program) {
-      if (const auto known = depth.find(&program); known != depth.end()) return known->second;
-      if (open.size() > kMostCalls || !open.insert(&program).second) return 0u;
-      std::uint32_t most = 0;
-      for (const ir::ProgramStatement& statement : program.body) {
-        const auto* call = std::get_if<ir::Call>(&statement.node);
-        if (call == nullptr || call->kind == ir::CallKind::Off) continue;
-        const auto number = wholeOf(call->program);
-        const auto target = number ? byNumber.find(*number) : byNumber.end();
-        const std::uint32_t below = target == byNumber.end() ? 0 : depthOf(*target->second);
-        most = std::max(most, below + (call->kind == ir::CallKind::Subprogram ? 0 : 1));
-      }
-      open.erase(&program);
-      return depth[&program] = most;
-    };
-    const std::uint32_t most = depthOf(program_);
+    const std::uint32_t most = levels_.from(program_);
     if (most > context_.to().macroLevels)
       context_.diagnostics.report<diag::MacroLevelsThere>(program_.range, most, context_.to().title,
                                                           context_.to().macroLevels);
   }
 
   const ir::Program& program_;
-  const ir::ProgramFile& file_;
+  CallLevels& levels_;
   const ProgramContext& context_;
   const ir::ProgramStatement* statement_ = nullptr;
   bool outputTold_ = false;
@@ -303,12 +284,43 @@ private:
 
 } // namespace
 
-void translateVariables(ir::Program& program, const ProgramContext& context) {
-  if (!context.same()) Variables(program, context).run();
+bool AnyVariable::same() {
+  if (!same_) same_ = sameVariables(context_.from(), context_.to());
+  return *same_;
 }
 
-void checkProgram(const ir::Program& program, const ir::ProgramFile& file, const ProgramContext& context) {
-  Checks(program, file, context).run();
+bool AnyVariable::holds() {
+  if (!holds_) holds_ = holdsVariablesOf(context_.to(), context_.from());
+  return *holds_;
+}
+
+CallLevels::CallLevels(const ir::ProgramFile& file) {
+  for (const ir::Program& one : file.programs)
+    byNumber_.emplace(one.number, &one);
+}
+
+std::uint32_t CallLevels::from(const ir::Program& program) {
+  if (const auto known = depth_.find(&program); known != depth_.end()) return known->second;
+  if (open_.size() > kMostCalls || !open_.insert(&program).second) return 0u;
+  std::uint32_t most = 0;
+  for (const ir::ProgramStatement& statement : program.body) {
+    const auto* call = std::get_if<ir::Call>(&statement.node);
+    if (call == nullptr || call->kind == ir::CallKind::Off) continue;
+    const auto number = wholeOf(call->program);
+    const auto target = number ? byNumber_.find(*number) : byNumber_.end();
+    const std::uint32_t below = target == byNumber_.end() ? 0 : from(*target->second);
+    most = std::max(most, below + (call->kind == ir::CallKind::Subprogram ? 0 : 1));
+  }
+  open_.erase(&program);
+  return depth_[&program] = most;
+}
+
+void translateVariables(ir::Program& program, AnyVariable& any, const ProgramContext& context) {
+  Variables(program, any, context).run();
+}
+
+void checkProgram(const ir::Program& program, CallLevels& levels, const ProgramContext& context) {
+  Checks(program, levels, context).run();
 }
 
 } // namespace dotek::backends::fanuc

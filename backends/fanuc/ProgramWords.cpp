@@ -42,20 +42,15 @@ std::string withPoint(double value) {
 
 class Words {
 public:
-  Words(ir::Program& program, const ir::ProgramFile& file, const ProgramContext& context)
-      : program_(program), file_(file), context_(context), text_(context.to()) {
+  Words(ir::Program& program, const FileModes& modes, const ProgramContext& context)
+      : program_(program), modes_(modes), context_(context), text_(context.to()) {
     counts_ = to().decimal != from().decimal ||
               (to().decimal == stdlib::DecimalMode::Increment &&
                (to().increment != from().increment || to().lengths != from().lengths));
-    for (const ir::Program& one : file.programs) {
-      const SavedModes saved(one, file, from());
-      for (std::size_t i = 0; i < one.body.size(); ++i)
-        seen(one.body[i], saved, i);
-    }
   }
 
   void run() {
-    const SavedModes saved(program_, file_, from());
+    const SavedModes saved(program_, modes_.variables, from());
     for (std::size_t i = 0; i < program_.body.size(); ++i) {
       ir::ProgramStatement& statement = program_.body[i];
       range_ = statement.origin.range();
@@ -76,29 +71,6 @@ private:
 
   static bool isFunction(const CodeInfo* info, Function function) {
     return info != nullptr && info->function == function;
-  }
-
-  // Modes of the file under which the numbers or addresses of a block mean something else.
-  void seen(const ir::ProgramStatement& statement, const SavedModes& saved, std::size_t at) {
-    match(
-        statement,
-        [&](const ir::Call& node) { eachBlock_ = eachBlock_ || node.kind == ir::CallKind::EachBlock; },
-        [&](const ir::NcBlock& node) { seen(node, saved, at); },
-        [](const ir::OneOf<ir::Label, ir::Jump, ir::Branch, ir::Store, ir::Comment, ir::JumpTo, ir::Loop,
-                           ir::LoopEnd, ir::Exit, ir::Raise, ir::Notice, ir::Port, ir::Print,
-                           ir::NameVariables> auto&) {});
-  }
-
-  void seen(const ir::NcBlock& block, const SavedModes& saved, std::size_t at) {
-    for (const ir::Word& word : block.words) {
-      if (word.address != 'G') continue;
-      const auto tenths = tenthsOf(word.value);
-      const CodeInfo* info = tenths ? from().find('G', *tenths) : nullptr;
-      computed_ = computed_ || (!tenths && !saved.restores(word.value, at));
-      inch_ = inch_ || isFunction(info, Function::Inch);
-      perRevolution_ = perRevolution_ || isFunction(info, Function::FeedPerRevolution);
-      canned_ = canned_ || isFunction(info, Function::CannedCycle) || isFunction(info, Function::BackBoring);
-    }
   }
 
   // ---- codes
@@ -213,13 +185,13 @@ private:
 
   // The word may repeat a canned cycle, which the target does by another letter.
   bool repeats(const ir::Word& word, const Block& block) const {
-    return canned_ && word.address == from().repeatLetter && to().repeatLetter != from().repeatLetter &&
+    return modes_.canned && word.address == from().repeatLetter && to().repeatLetter != from().repeatLetter &&
            !block.arc && !block.input;
   }
 
   bool isCertain(char address, const Block& block) const {
-    if (inch_ || eachBlock_ || computed_ || block.unknown) return false;
-    if (address == 'F') return !perRevolution_ && !block.thread;
+    if (modes_.inch || modes_.eachBlock || modes_.computed || block.unknown) return false;
+    if (address == 'F') return !modes_.perRevolution && !block.thread;
     if (address == 'K') return block.arc;
     // Whether Q takes a point in every cycle that has it no source says.
     return address != 'Q' && from().isLength(address) && to().isLength(address) &&
@@ -227,7 +199,7 @@ private:
   }
 
   void point(ir::Word& word, const Block& block) {
-    if (ir::isAddressIn(ir::kWholeAddresses, word.address) && !eachBlock_) return;
+    if (ir::isAddressIn(ir::kWholeAddresses, word.address) && !modes_.eachBlock) return;
     if (!isCertain(word.address, block)) return uncertain(word.address, word.value, word.range);
     if (word.address != 'F') word.value = pointed(word.value);
   }
@@ -260,7 +232,7 @@ private:
       if (!counts_ || withoutPoint(argument.value) == nullptr ||
           (!from().isLength(argument.letter) && !to().isLength(argument.letter)))
         continue;
-      if (inch_ || from().isLength(argument.letter) != to().isLength(argument.letter))
+      if (modes_.inch || from().isLength(argument.letter) != to().isLength(argument.letter))
         uncertain(argument.letter, argument.value, argument.range);
       else
         argument.value = pointed(argument.value);
@@ -268,20 +240,44 @@ private:
   }
 
   ir::Program& program_;
-  const ir::ProgramFile& file_;
+  const FileModes& modes_;
   const ProgramContext& context_;
   ProgramText text_;
   SourceRange range_;
   bool counts_ = false; // a number without a point counts otherwise on the target
-  bool inch_ = false, eachBlock_ = false, computed_ = false, perRevolution_ = false, canned_ = false;
   bool pointTold_ = false;
   std::set<std::string> told_;
 };
 
 } // namespace
 
-void translateWords(ir::Program& program, const ir::ProgramFile& file, const ProgramContext& context) {
-  if (!context.same()) Words(program, file, context).run();
+FileModes::FileModes(const ir::ProgramFile& file, const stdlib::Control& from)
+    : variables(modeVariables(file, from)) {
+  const auto isFunction = [](const CodeInfo* info, Function function) {
+    return info != nullptr && info->function == function;
+  };
+  for (const ir::Program& program : file.programs) {
+    const SavedModes saved(program, variables, from);
+    for (std::size_t at = 0; at < program.body.size(); ++at) {
+      const auto* call = std::get_if<ir::Call>(&program.body[at].node);
+      eachBlock = eachBlock || (call != nullptr && call->kind == ir::CallKind::EachBlock);
+      const auto* block = std::get_if<ir::NcBlock>(&program.body[at].node);
+      if (block == nullptr) continue;
+      for (const ir::Word& word : block->words) {
+        if (word.address != 'G') continue;
+        const auto tenths = tenthsOf(word.value);
+        const CodeInfo* info = tenths ? from.find('G', *tenths) : nullptr;
+        computed = computed || (!tenths && !saved.restores(word.value, at));
+        inch = inch || isFunction(info, Function::Inch);
+        perRevolution = perRevolution || isFunction(info, Function::FeedPerRevolution);
+        canned = canned || isFunction(info, Function::CannedCycle) || isFunction(info, Function::BackBoring);
+      }
+    }
+  }
+}
+
+void translateWords(ir::Program& program, const FileModes& modes, const ProgramContext& context) {
+  Words(program, modes, context).run();
 }
 
 } // namespace dotek::backends::fanuc

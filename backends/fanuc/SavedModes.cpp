@@ -3,6 +3,8 @@
 #include "ir/Dataflow.h"
 
 #include <cmath>
+#include <tuple>
+#include <utility>
 
 namespace dotek::backends::fanuc {
 
@@ -24,36 +26,53 @@ std::optional<std::uint32_t> numberOf(const ir::Store& store) {
   return static_cast<std::uint32_t>(std::lround(*number));
 }
 
+// #4001 to #4099; 0: the control has none.
+std::pair<std::uint32_t, std::uint32_t> modesOf(const stdlib::Control& control) {
+  if (!control.variables.modalFirst) return {0, 0};
+  const auto first = static_cast<std::uint32_t>(*control.variables.modalFirst) + 1;
+  return {first, first + kGroups - 1};
+}
+
+// Adds what the program writes into variables that `wanted` names.
+template <class Wanted>
+void addWritten(ModeVariables& out, const ir::Program& program, const stdlib::Control& control,
+                const Wanted& wanted) {
+  const auto [first, last] = modesOf(control);
+  for (const ir::ProgramStatement& statement : program.body) {
+    const auto* store = std::get_if<ir::Store>(&statement.node);
+    const auto number = store == nullptr ? std::nullopt : numberOf(*store);
+    if (!number || !wanted(*number)) continue;
+    const auto read = variableOf(store->value);
+    (read && *read >= first && *read <= last ? out.modes : out.others).insert(*number);
+  }
+}
+
 } // namespace
 
-SavedModes::SavedModes(const ir::Program& program, const ir::ProgramFile& file,
+ModeVariables modeVariables(const ir::ProgramFile& file, const stdlib::Control& control) {
+  ModeVariables out;
+  if (!control.variables.modalFirst) return out;
+  for (const ir::Program& program : file.programs)
+    addWritten(out, program, control, [&](std::uint32_t number) { return number > control.locals; });
+  for (const std::uint32_t number : out.others)
+    out.modes.erase(number);
+  return out;
+}
+
+SavedModes::SavedModes(const ir::Program& program, const ModeVariables& common,
                        const stdlib::Control& control) {
-  if (!control.variables.modalFirst) return;
-  first_ = static_cast<std::uint32_t>(*control.variables.modalFirst) + 1;
-  last_ = first_ + kGroups - 1;
-  std::set<std::uint32_t> others; // hold something else, or may
-  const auto isMode = [&](const ir::Store& store) {
-    const auto read = variableOf(store.value);
-    return read && *read >= first_ && *read <= last_;
-  };
-  for (const ir::Program& one : file.programs) {
-    for (const ir::ProgramStatement& statement : one.body) {
-      const auto* store = std::get_if<ir::Store>(&statement.node);
-      const auto number = store == nullptr ? std::nullopt : numberOf(*store);
-      if (!number) continue;
-      const bool local = *number <= control.locals;
-      if (local && &one != &program) continue;
-      (isMode(*store) ? modes_ : others).insert(*number);
-    }
-  }
-  for (const std::uint32_t number : others)
-    modes_.erase(number);
-  if (modes_.empty()) return;
+  std::tie(first_, last_) = modesOf(control);
+  if (first_ == 0) return;
+  ModeVariables own;
+  addWritten(own, program, control, [&](std::uint32_t number) { return number <= control.locals; });
+  for (const std::uint32_t number : own.others)
+    own.modes.erase(number);
+  if (own.modes.empty() && common.modes.empty()) return;
   const auto after = [&](std::size_t at, std::size_t, ir::NumberSet fact) {
     const ir::ProgramStatement& statement = program.body[at];
     const auto* store = std::get_if<ir::Store>(&statement.node);
     const auto number = store == nullptr || statement.blockDelete != 0 ? std::nullopt : numberOf(*store);
-    if (number && modes_.contains(*number)) fact.insert(*number);
+    if (number && (own.modes.contains(*number) || common.modes.contains(*number))) fact.insert(*number);
     return fact;
   };
   set_ = ir::factsBefore<ir::NumberSet>(

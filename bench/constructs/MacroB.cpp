@@ -22,13 +22,19 @@ const std::vector<std::string> kLint = {"lint", "--select", "all", "--from", "nc
 const std::vector<std::string> kSim = {"sim", "--quiet"};
 const std::vector<std::string> kConvert = {
     "convert", "--to", "fanuc", "--control", "fanuc-31i-b", "--from-control", "fanuc-31i-b", "-o", "out.nc"};
+// Numbers and codes are looked up on both.
+const std::vector<std::string> kAcross = {
+    "convert", "--to", "fanuc", "--control", "fanuc-31i-b", "--from-control", "fanuc-0i-md", "-o", "out.nc"};
 
 } // namespace
 
 void addMacroB(std::vector<Construct>& out) {
   const auto linted = [&](const char* what, long size, std::function<std::string(long)> text) {
-    out.push_back({fmt::format("macro B: {}, lint", what), size,
-                   [text = std::move(text)](long n) { return nc(text(n), kLint); }});
+    const std::pair<const char*, const std::vector<std::string>*> commands[] = {
+        {"lint", &kLint}, {"sim", &kSim}, {"convert to another control", &kAcross}};
+    for (const auto& [verb, command] : commands)
+      out.push_back({fmt::format("macro B: {}, {}", what, verb), size,
+                     [text, command = command](long n) { return nc(text(n), *command); }});
   };
   const auto blocks = [&](const char* what, long size, Line line) {
     linted(what, size, [line = std::move(line)](long n) { return program(repeated(n, line)); });
@@ -48,6 +54,18 @@ void addMacroB(std::vector<Construct>& out) {
   both("ordinary programs (KB)", 60, programs, {"dump", "--stage", "tokens"}, "dump tokens");
   both("ordinary programs (KB)", 60, programs, kConvert, "convert");
 
+  linted("short programs", 400, [](long n) {
+    return "%\n" + repeated(n, [](long i) { return fmt::format("O{}\nG0 X1.\nM99\n", i + 1); }) + "%\n";
+  });
+  linted("a program that calls the others", 400, [](long n) {
+    return "%\nO9000\n" + repeated(n, [](long i) { return fmt::format("G65 P{}\n", i + 1); }) + "M99\n" +
+           repeated(n, [](long i) { return fmt::format("O{}\nG0 X1.\nM99\n", i + 1); }) + "%\n";
+  });
+  blocks("computed numbers of variables", 500,
+         [](long i) { return fmt::format("#[{0}]=#[#[{0}]]\n", 500 + i % 400); });
+  blocks("copies of positions asked for again", 500, [](long i) {
+    return fmt::format("#{0}=#5061\nIF[#{0} EQ #{1}]GOTO 9\n", 100 + i % 50, 500 + i % 500);
+  });
   blocks("variables", 2000, [](long i) { return fmt::format("#{}=#{}+1.\n", 100000 + i, 100000 + i / 2); });
   blocks("variables with IF", 1000,
          [](long i) { return fmt::format("IF[#{0} GT 1.]THEN #{1}=#{0}+1.\n", 100000 + i / 2, 100000 + i); });
