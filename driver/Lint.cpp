@@ -53,7 +53,8 @@ public:
       : options_(options), session_(session), configs_(session), compilation_(session), cycles_(session),
         projects_(options, configs_, compilation_),
         walk_(
-            options.followLinks, [this](const std::string& path, bool) { folder(path); },
+            options.followLinks, session.limits().files,
+            [this](const std::string& path, bool) { folder(path); },
             [this](const std::string& path, bool named) { file(path, named); }) {}
 
   Outcome run() {
@@ -75,6 +76,7 @@ public:
     }
     for (const std::string& path : options_.paths)
       walk_.visit(path, session_.diagnostics());
+    if (walk_.ended()) return failed();
     if (checkedFiles_ == 0 && !session_.diagnostics().hasErrors() && !options_.paths.empty())
       session_.diagnostics().report<diag::NothingRead>(
           {}, quoted(options_.paths) +

@@ -1,6 +1,7 @@
 #include "project/InputWalk.h"
 
 #include "support/Files.h"
+#include "support/messages/Commands.h"
 #include "support/messages/Common.h"
 
 #include <algorithm>
@@ -40,7 +41,7 @@ std::string InputWalk::real(const std::string& path) {
 void InputWalk::visit(const std::string& path, Diagnostics& diagnostics) {
   std::error_code error;
   if (path == "-" || !fs::is_directory(path, error)) {
-    if (isStream(path) || isNew(path)) file_(path, true);
+    if (isStream(path) || isNew(path)) found(path, true, diagnostics);
     return;
   }
   root_ = canonical(path);
@@ -50,13 +51,20 @@ void InputWalk::visit(const std::string& path, Diagnostics& diagnostics) {
     if (fs::is_directory(link, error))
       folder(link, false, diagnostics);
     else if (isNew(link))
-      file_(link, false);
+      found(link, false, diagnostics);
   }
   links_.clear();
 }
 
+void InputWalk::found(const std::string& path, bool named, Diagnostics& diagnostics) {
+  if (found_++ < most_)
+    file_(path, named);
+  else if (found_ == most_ + 1)
+    diagnostics.report<diag::TooManyFiles>({}, most_);
+}
+
 void InputWalk::folder(const std::string& path, bool named, Diagnostics& diagnostics) {
-  if (!isNew(path)) return;
+  if (found_ > most_ || !isNew(path)) return;
   folders_.emplace(path, real(path));
   folder_(path, named);
   std::error_code error;
@@ -66,7 +74,8 @@ void InputWalk::folder(const std::string& path, bool named, Diagnostics& diagnos
   if (error) diagnostics.report<diag::FileNotReadable>({}, path, error.message());
   std::sort(entries.begin(), entries.end());
   for (const fs::path& one : entries)
-    if (!one.filename().string().starts_with('.')) entry(one.generic_string(), diagnostics);
+    if (found_ <= most_ && !one.filename().string().starts_with('.'))
+      entry(one.generic_string(), diagnostics);
 }
 
 void InputWalk::entry(const std::string& path, Diagnostics& diagnostics) {
@@ -82,7 +91,7 @@ void InputWalk::entry(const std::string& path, Diagnostics& diagnostics) {
   } else if (fs::is_directory(status)) {
     folder(path, false, diagnostics);
   } else if (fs::is_regular_file(status)) {
-    if (isNew(path)) file_(path, false);
+    if (isNew(path)) found(path, false, diagnostics);
   } else {
     passOver(path, "no regular file");
   }

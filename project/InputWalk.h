@@ -23,13 +23,15 @@ public:
   // line.
   using Visit = std::function<void(const std::string& path, bool named)>;
 
-  // `followLinks`: also those that lead out of the folder that was named.
-  InputWalk(bool followLinks, Visit folder, Visit file)
-      : followLinks_(followLinks), folder_(std::move(folder)), file_(std::move(file)) {}
+  // `followLinks`: also those that lead out of the folder that was named. `most`: files that are visited.
+  InputWalk(bool followLinks, std::size_t most, Visit folder, Visit file)
+      : followLinks_(followLinks), most_(most), folder_(std::move(folder)), file_(std::move(file)) {}
 
   // A file is visited whatever it is. In a folder regular files are, in the order of their names; what begins
-  // with a dot is left alone.
+  // with a dot is left alone. With more than `most` files the walk ends and says so.
   void visit(const std::string& path, Diagnostics& diagnostics);
+
+  bool ended() const { return found_ > most_; } // before it had visited all
 
   const std::vector<PassedOver>& passedOver() const { return passedOver_; }
   void passOver(const std::string& path, std::string reason) {
@@ -39,12 +41,14 @@ public:
 private:
   void folder(const std::string& path, bool named, Diagnostics& diagnostics);
   void entry(const std::string& path, Diagnostics& diagnostics);
+  void found(const std::string& path, bool named, Diagnostics& diagnostics);
   bool isNew(const std::string& path);
   // Without links. Of what is in a folder of the walk from the folder's: the whole path is long where folders
   // are deep.
   std::string real(const std::string& path);
 
   bool followLinks_;
+  std::size_t most_, found_ = 0;
   Visit folder_, file_;
   std::string root_;                           // of the walk, without links
   std::set<std::string> visited_;              // without links

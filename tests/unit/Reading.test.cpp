@@ -322,6 +322,17 @@ TEST_CASE("reading: FIFOs, standard input and its names give what the file gives
   }
 }
 
+TEST_CASE("reading: a walk of more files than the limit says so and reports nothing of them") {
+  const DataFolder folder;
+  for (const char* name : {"m/a.nc", "m/b.nc", "m/sub/c.nc", "m/sub/readme.md", "m/z/d.nc"})
+    folder.write(name, kBad);
+  const CommandResult run = dotekIn(folder, {"lint", "m", "--limit", "files=4"});
+  CHECK(run.status == 2);
+  CHECK(holds(run.out, "more than 4 files"));
+  CHECK_FALSE(holds(run.out, "a.nc"));
+  CHECK(dotekIn(folder, {"lint", "m", "--limit", "files=5"}).status == 1);
+}
+
 TEST_CASE("reading: a walk ends, leaves links out of its folder and what is no regular file") {
   const DataFolder folder;
   folder.write("m/a.nc", kGood);
