@@ -75,6 +75,36 @@ bool areApart(const std::vector<NamedText>& texts, Diagnostics& diagnostics) {
   return true;
 }
 
+bool placeFinished(const std::vector<std::unique_ptr<Output>>& outputs, Diagnostics& diagnostics) {
+  const SignalHold together;
+  return std::all_of(outputs.begin(), outputs.end(),
+                     [&](const auto& one) { return one->place(diagnostics); });
+}
+
+// Folders that are made for results; gone again, where they are empty, unless they are kept.
+class NewFolders {
+public:
+  NewFolders() = default;
+  ~NewFolders() {
+    for (auto at = made_.rbegin(); at != made_.rend(); ++at)
+      ::rmdir(at->c_str());
+  }
+  NewFolders(const NewFolders&) = delete;
+  NewFolders& operator=(const NewFolders&) = delete;
+
+  void create(const fs::path& path, std::error_code& error) {
+    std::vector<std::string> missing; // the innermost first
+    for (fs::path at = path; !at.empty() && !fs::exists(at, error) && !error; at = at.parent_path())
+      missing.push_back(at.string());
+    fs::create_directories(path, error);
+    made_.insert(made_.end(), missing.rbegin(), missing.rend());
+  }
+  void keep() { made_.clear(); }
+
+private:
+  std::vector<std::string> made_; // the outermost first
+};
+
 } // namespace
 
 bool Output::check(const std::string& path, bool force, Diagnostics& diagnostics) {
@@ -138,7 +168,7 @@ void Output::flush() {
   buffer_.clear();
 }
 
-void Output::keepOwner(Diagnostics& diagnostics) {
+void Output::keepOwner() {
   unsigned mode = before_->mode;
   const int descriptor = temporary_.descriptor();
   struct stat now {};
@@ -148,7 +178,7 @@ void Output::keepOwner(Diagnostics& diagnostics) {
     // The group alone can often be kept. Who runs as the owner runs as another one now.
     const bool group = ::fchown(descriptor, static_cast<uid_t>(-1), before_->group) == 0;
     mode &= ~static_cast<unsigned>(S_ISUID | (group ? 0 : S_ISGID));
-    diagnostics.report<diag::OutputOwner>({}, path_);
+    otherOwner_ = true;
   }
   if (::fchmod(descriptor, mode) != 0 && error_ == 0) error_ = errno;
 }
@@ -160,7 +190,7 @@ bool Output::finish(Diagnostics& diagnostics) {
   }
   flush();
   if (!target_.empty() && error_ == 0) {
-    if (before_) keepOwner(diagnostics);
+    if (before_) keepOwner();
     if (error_ == 0) error_ = temporary_.sync();
     const int closed = temporary_.close();
     if (error_ == 0) error_ = closed;
@@ -172,21 +202,22 @@ bool Output::finish(Diagnostics& diagnostics) {
 
 bool Output::place(Diagnostics& diagnostics) {
   if (target_.empty()) return true;
-  const int error = temporary_.rename(target_);
-  return error == 0 || failed(error, diagnostics);
+  if (const int error = temporary_.rename(target_); error != 0) return failed(error, diagnostics);
+  if (otherOwner_) diagnostics.report<diag::OutputOwner>({}, path_);
+  return true;
 }
 
 bool placeAll(const std::vector<std::unique_ptr<Output>>& outputs, Diagnostics& diagnostics) {
   return std::all_of(outputs.begin(), outputs.end(),
                      [&](const auto& one) { return one->finish(diagnostics); }) &&
-         std::all_of(outputs.begin(), outputs.end(),
-                     [&](const auto& one) { return one->place(diagnostics); });
+         placeFinished(outputs, diagnostics);
 }
 
 bool writeAll(const std::vector<NamedText>& texts, const std::string& folder, const WriteOptions& options,
               Diagnostics& diagnostics) {
   std::error_code error;
-  if (!folder.empty()) fs::create_directories(folder, error);
+  NewFolders made; // outlives the files in them
+  if (!folder.empty()) made.create(folder, error);
   if (error) {
     diagnostics.report<diag::FileNotWritable>({}, folder, error.message());
     return false;
@@ -195,7 +226,7 @@ bool writeAll(const std::vector<NamedText>& texts, const std::string& folder, co
   for (const NamedText& one : texts) { // a name may have a folder of its own
     const fs::path parent = fs::path(one.path).parent_path();
     if (folder.empty() || !isBelow(parent.string(), folder) || descriptorOf(one.path) >= 0) continue;
-    fs::create_directories(parent, error);
+    made.create(parent, error);
     if (!error) continue;
     diagnostics.report<diag::FileNotWritable>({}, parent.string(), error.message());
     return false;
@@ -214,8 +245,9 @@ bool writeAll(const std::vector<NamedText>& texts, const std::string& folder, co
     outputs.back()->write(*one->text);
     if (!outputs.back()->finish(diagnostics)) return false;
   }
-  return std::all_of(outputs.begin(), outputs.end(),
-                     [&](const auto& one) { return one->place(diagnostics); });
+  if (!placeFinished(outputs, diagnostics)) return false;
+  made.keep();
+  return true;
 }
 
 } // namespace dotek

@@ -41,7 +41,7 @@ public:
 private:
   explicit Output(std::string path) : path_(std::move(path)) {}
   void flush();
-  void keepOwner(Diagnostics& diagnostics);
+  void keepOwner();
   bool failed(int error, Diagnostics& diagnostics) const;
 
   std::string path_;   // as named
@@ -55,6 +55,7 @@ private:
     unsigned mode = 0, owner = 0, group = 0;
   };
   std::unique_ptr<Before> before_; // the file that is replaced
+  bool otherOwner_ = false;        // than that file's
 };
 
 // Finishes all, then places all: none is placed where one cannot be finished.

@@ -23,11 +23,16 @@ namespace {
 // Temporary. With more files at one time a signal leaves the rest.
 std::array<std::atomic<const char*>, 1024> pending; // NOLINT
 static_assert(std::atomic<const char*>::is_always_lock_free);
-std::atomic<bool> ending; // NOLINT
+std::atomic<bool> ending;        // NOLINT; a signal is about to end the process
+std::atomic<int> holds, waiting; // NOLINT; SignalHold objects, and the signal that waits for them
+
+void waitForEnd() {
+  while (ending.load())
+    ::usleep(1000);
+}
 
 void remember(const char* path) {
-  while (ending.load())
-    ::pause(); // a signal ends the process: nothing is made any more
+  waitForEnd(); // nothing is made any more
   for (auto& slot : pending) {
     const char* empty = nullptr;
     if (slot.compare_exchange_strong(empty, path)) return;
@@ -41,10 +46,15 @@ void forget(const char* path) {
   }
 }
 
-// Calls only what is safe in a handler. The signal has its default action again (SA_RESETHAND) and ends the
-// process when this returns.
+// Calls only what is safe in a handler. The signal has its default action again and ends the process, where a
+// handler calls this when that returns.
 extern "C" void removeAndEnd(int signal) {
   ending.store(true);
+  if (holds.load() > 0) {
+    waiting.store(signal);
+    ending.store(false);
+    return;
+  }
   // A folder goes when it is empty, which another thread may still be filling.
   bool filled = true;
   for (int i = 0; filled && i < 1000; ++i) {
@@ -53,6 +63,9 @@ extern "C" void removeAndEnd(int signal) {
       if (const char* path = slot.load(); path != nullptr && ::unlink(path) != 0)
         filled |= ::rmdir(path) != 0 && errno == ENOTEMPTY;
   }
+  struct sigaction action {};
+  action.sa_handler = SIG_DFL;
+  ::sigaction(signal, &action, nullptr);
   ::raise(signal);
 }
 
@@ -64,9 +77,18 @@ void removeTemporariesOnSignals() {
     if (::sigaction(signal, nullptr, &action) != 0 || action.sa_handler == SIG_IGN) continue;
     action = {};
     action.sa_handler = removeAndEnd;
-    action.sa_flags = static_cast<int>(SA_RESETHAND);
     ::sigaction(signal, &action, nullptr);
   }
+}
+
+SignalHold::SignalHold() {
+  ++holds;
+  waitForEnd();
+}
+
+SignalHold::~SignalHold() {
+  if (--holds > 0) return;
+  if (const int signal = waiting.exchange(0); signal != 0) removeAndEnd(signal);
 }
 
 Temporary::~Temporary() {

@@ -54,4 +54,13 @@ private:
 // uses it.
 void removeTemporariesOnSignals();
 
+// While one lives those signals wait: files that belong together take their places together.
+class SignalHold {
+public:
+  SignalHold();
+  ~SignalHold();
+  SignalHold(const SignalHold&) = delete;
+  SignalHold& operator=(const SignalHold&) = delete;
+};
+
 } // namespace dotek

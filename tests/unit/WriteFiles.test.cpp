@@ -1,9 +1,14 @@
 // Files that commands write: what is kept of the file before, what is refused, what is left after a signal.
+#include "support/Temporary.h"
 #include "tests/Process.h"
 #include "tests/Skips.h"
+#include "tests/TestFolder.h"
 
+#include <csignal>
 #include <doctest/doctest.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 using namespace dotek::tests;
 
@@ -51,6 +56,12 @@ TEST_CASE("a file that is written anew keeps owner and group, or it is said") {
   CHECK(lost.out == "0\n1234 4321 666\n");
   CHECK(lost.err.find("note: `o` has another owner now") != std::string::npos);
   CHECK(lost.err.find("[output-owner]") != std::string::npos);
+  // Who may not replace it in a folder of others is told so, and not that its owner has changed.
+  const ShellResult sticky = folder.run(
+      "chmod 1777 .; rm -f o; echo old > o; chmod 666 o; setpriv --reuid 1234 --regid 4321 --clear-groups "
+      "./d sim p.nc --trace o; echo $?; stat -c '%u %a' o; cat o");
+  CHECK(sticky.out == "2\n0 666\nold\n");
+  CHECK(sticky.err.find("[output-owner]") == std::string::npos);
 }
 
 TEST_CASE("a link is followed, also one that leads to nothing yet") {
@@ -147,6 +158,37 @@ TEST_CASE("a signal ends the program and leaves nothing") {
   const ShellResult ignored = folder.run("trap '' HUP; set -m; \"$DOTEK\" sim p.nc --limit sim-steps=3000000 "
                                          "--quiet & kill -HUP -- -$!; wait $!; echo $?");
   CHECK(ignored.out != "129\n");
+}
+
+TEST_CASE("a signal while files take their places waits for the last of them") {
+  const TestFolder folder("dotek-signals");
+  const pid_t child = fork();
+  REQUIRE(child >= 0);
+  if (child == 0) {
+    dotek::removeTemporariesOnSignals();
+    for (const int signal : {SIGTERM, SIGHUP}) {
+      const dotek::SignalHold together;
+      raise(signal);
+      folder.write(std::to_string(signal), "written");
+    }
+    _exit(1);
+  }
+  int status = 0;
+  REQUIRE(waitpid(child, &status, 0) == child);
+  CHECK(WIFSIGNALED(status));
+  CHECK(WTERMSIG(status) == SIGTERM);
+  CHECK(std::filesystem::exists(folder.path() / std::to_string(SIGTERM)));
+  CHECK_FALSE(std::filesystem::exists(folder.path() / std::to_string(SIGHUP)));
+}
+
+TEST_CASE("a folder for results that could not be written is gone") {
+  const ProcessFolder folder;
+  folder.write("cycles/spare.cycle", "cycle spare \"" + std::string(2000, 'x') + "\"\nspindle off\n");
+  // No file may be larger than 1 KB.
+  const ShellResult full = folder.run("ulimit -f 1; dotek doc cycles -o new/site; echo $?");
+  CHECK(full.out == "2\n");
+  CHECK(folder.names() == "cycles ");
+  CHECK(folder.run("dotek doc cycles -o new/site").status == 0);
 }
 
 TEST_CASE("what cannot be written is said before anything is done") {
