@@ -88,6 +88,12 @@ PostFault faultOf(const script::Fault& fault) {
              : fault.kind == script::Fault::Kind::Stopped ? PostFault::Kind::Stopped
                                                           : PostFault::Kind::NoWorker;
   out.text = fault.text;
+  constexpr std::string_view kStop = "dotek-stop "; // of the kernel: kind and text
+  if (out.kind == PostFault::Kind::Thrown && out.text.starts_with(kStop)) {
+    const std::size_t end = std::min(out.text.find(' ', kStop.size()), out.text.size());
+    out.kind = kindOf(std::string_view(out.text).substr(kStop.size(), end - kStop.size()));
+    out.text.erase(0, std::min(end + 1, out.text.size()));
+  }
   if (fault.source == "post" && fault.line != 0) out.stack.push_back({fault.line, ""});
   return out;
 }

@@ -5,6 +5,10 @@ function Stop(kind, text) { // what ends a run early
   this.text = text;
   this.stack = new Error(text).stack;
 }
+Stop.prototype = Object.create(Error.prototype);
+Stop.prototype.toString = function () { // read where a post stops as it is loaded
+  return "dotek-stop " + this.dotekStop + " " + this.text;
+};
 
 function placesOfStack(stack) {
   var out = [];

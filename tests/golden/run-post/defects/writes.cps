@@ -1,0 +1,4 @@
+description = "Writes as it is loaded, without end";
+for (;;) {
+  writeln("G0");
+}
