@@ -186,7 +186,9 @@ std::vector<ProgWord> wordsOf(const ProgBlock& block, const stdlib::Form* form) 
     } else if (comment || piece.kind == ProgPiece::Kind::Sequence) {
       continue;
     } else if (piece.kind == ProgPiece::Kind::Number) {
-      if (!out.empty() && out.back().digits.empty() && out.back().hole == nullptr) out.back().hole = &piece;
+      const bool open = !out.empty() && out.back().hole == nullptr &&
+                        (out.back().digits.empty() || out.back().digits == "-" || out.back().digits == "+");
+      if (open) out.back().hole = &piece;
     } else if (form != nullptr) {
       const auto entry = form->commands.find(piece.word->name);
       if (entry == form->commands.end()) continue;

@@ -24,7 +24,7 @@ struct ProgPiece {
 // An NC word of a block: an address with digits, or with a hole that a piece fills.
 struct ProgWord {
   char address = 0;
-  std::string digits;              // "" of a hole
+  std::string digits;              // of a hole: "" or the sign before it
   const ProgPiece* hole = nullptr; // what fills it
   SourceRange range;               // of the address and its digits
 };

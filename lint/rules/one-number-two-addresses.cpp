@@ -26,7 +26,8 @@ void check(const Project& project, Report& report) {
         const std::vector<ProgWord> words = wordsOf(block, nullptr);
         for (std::size_t i = 0; i < words.size(); ++i) {
           for (std::size_t j = 0; j < i; ++j) {
-            if (words[i].hole == nullptr || words[j].hole == nullptr) continue;
+            if (words[i].hole == nullptr || words[j].hole == nullptr || words[i].digits != words[j].digits)
+              continue;
             if (words[i].address == words[j].address || !sameNumber(*words[i].hole, *words[j].hole)) continue;
             report
                 .at(words[i].hole->range,
