@@ -104,16 +104,17 @@ public:
   }
 
   void systemRead(std::uint32_t number, double value) override {
+    if (measured_.contains(number)) return measuredRead(number, value);
     if (written_.contains(number) || !read_.insert(number).second || read_.size() > kMostReads) return;
-    const std::string held = sim::isNull(value) ? fmt::format("`#{}` without a value", number)
-                                                : fmt::format("`#{}` = {}", number, numberOf(value, false));
     if (canBePreset(number))
-      session_.diagnostics().report<diag::FlattenReads>(run_->place(), "follows from " + held, number);
+      session_.diagnostics().report<diag::FlattenReads>(run_->place(), "follows from " + held(number, value),
+                                                        number);
     else
-      session_.diagnostics().report<diag::FlattenPosition>(run_->place(), held);
+      session_.diagnostics().report<diag::FlattenPosition>(run_->place(), held(number, value));
   }
   void systemWritten(std::uint32_t number, double value) override {
     written_.insert(number);
+    measured_.erase(number);
     line(fmt::format("#{}={}", number, numberOf(value, true)));
   }
   void message(std::string_view text) override {
@@ -150,6 +151,11 @@ public:
     }
     line(block);
   }
+  void measuredWritten(std::uint32_t number) override { measured_.insert(number); }
+  void measuredRead(std::uint32_t number, double value) override {
+    if (measuredReads_.insert(number).second)
+      session_.diagnostics().report<diag::FlattenPosition>(run_->place(), held(number, value));
+  }
   void named(const ir::NameVariables& names) override {
     std::string all;
     for (const std::string& name : names.names)
@@ -159,6 +165,11 @@ public:
 
 private:
   static constexpr std::size_t kMostReads = 20;
+
+  static std::string held(std::uint32_t number, double value) {
+    return sim::isNull(value) ? fmt::format("`#{}` without a value", number)
+                              : fmt::format("`#{}` = {}", number, numberOf(value, false));
+  }
 
   // --var sets it; else it is what the run itself comes to, as positions and modal values are.
   bool canBePreset(std::uint32_t number) const {
@@ -215,7 +226,8 @@ private:
   FileId mainFile_{};
   const sim::Run* run_ = nullptr;
   const sim::Machine* machine_ = nullptr;
-  std::set<std::uint32_t> read_, written_; // system variables; written, or given
+  std::set<std::uint32_t> read_, written_;           // system variables; written, or given
+  std::set<std::uint32_t> measured_, measuredReads_; // left by macros without text
   std::string header_, text_;
 };
 

@@ -166,6 +166,10 @@ public:
   std::optional<double> read(std::uint32_t number);
   // false: the run has ended (115, 116, or inconclusive). #3000 and #3006 are `raise` and `message`.
   bool write(std::uint32_t number, double value);
+  // The same, of what a macro without text has measured.
+  bool writeMeasured(std::uint32_t number, double value);
+  // The variables that it has written so since this was last asked.
+  std::vector<std::uint32_t> takeMeasured() { return std::exchange(measured_, {}); }
   // Before the program begins: system variables that a program cannot write, too.
   bool preset(std::uint32_t number, double value);
   double local(std::uint32_t number) const { return cells_[number]; } // 1 to control.locals
@@ -406,6 +410,7 @@ private:
 
   CellLayout layout_;
   std::vector<double> cells_;
+  std::vector<std::uint32_t> measured_;
   std::vector<double> saved_;                             // locals of the levels below
   std::vector<std::pair<std::uint32_t, double>> presets_; // cell and value
   std::vector<double> state_;                             // by range of the control; kFresh: not known

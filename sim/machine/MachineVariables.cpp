@@ -223,6 +223,11 @@ bool Machine::write(std::uint32_t number, double value) {
   return store(number, value, false);
 }
 
+bool Machine::writeMeasured(std::uint32_t number, double value) {
+  measured_.push_back(number);
+  return store(number, value, false);
+}
+
 bool Machine::preset(std::uint32_t number, double value) {
   if (const std::uint32_t cell = layout_.cellOf(number); cell != CellLayout::kNone)
     presets_.emplace_back(cell, value);

@@ -122,6 +122,33 @@ unsigned operandsOf(Op op) {
   return 0;
 }
 
+// What it comes to is put into the cell c.
+bool setsCell(Op op) {
+  switch (op) {
+  case Op::Copy:
+  case Op::Number:
+  case Op::Sine:
+  case Op::Cosine:
+  case Op::SquareRoot:
+  case Op::Unary:
+  case Op::NegateGiven:
+  case Op::ToIncrement:
+  case Op::Add:
+  case Op::Subtract:
+  case Op::Multiply:
+  case Op::Divide:
+  case Op::Binary:
+  case Op::Read:
+  case Op::ReadAt:
+  case Op::Test:
+  case Op::And:
+  case Op::Or:
+  case Op::Not:
+  case Op::Place: return true;
+  default: return false;
+  }
+}
+
 // Null is read as 0 there, or leaves a word of a block out: not a question about null, not what keeps it.
 bool countsNull(const Instruction& instruction) {
   switch (instruction.op) {
@@ -170,7 +197,7 @@ void Run::run() {
   const bool decimal = control_.arithmetic == stdlib::Arithmetic::Decimal8;
   for (bool goesOn = true; goesOn;) {
     followsMisses_ = followsMisses_ || (misses_ != nullptr && misses_->hasMisses());
-    if (machine_.hasUnknown() || !unset_.empty() || followsMisses_)
+    if (machine_.hasUnknown() || !unset_.empty() || followsMisses_ || !measured_.empty())
       goesOn = decimal ? execute<true, true>() : execute<false, true>();
     else
       goesOn = decimal ? execute<true, false>() : execute<false, false>();
@@ -194,8 +221,32 @@ void Run::noteUnsetCell(std::uint32_t cell) {
 }
 
 void Run::tellRead(std::uint32_t number, double value) {
-  if (number != 0 && machine_.layout().cellOf(number) == CellLayout::kNone)
+  const std::uint32_t cell = machine_.layout().cellOf(number);
+  if (cell != CellLayout::kNone)
+    tellMeasured(cell);
+  else if (number != 0)
     listener_->systemRead(number, value);
+}
+
+void Run::tellMeasured(std::uint32_t cell) {
+  if (!measured_.empty() && measured_.contains(cell))
+    listener_->measuredRead(machine_.layout().numberOf(cell), cells_[cell]);
+}
+
+// Before the instruction is carried out; what is read from a number that is computed follows in readAt().
+void Run::followMeasured(const Instruction& at, unsigned operands) {
+  if ((operands & 1) != 0) tellMeasured(at.a);
+  if ((operands & 2) != 0) tellMeasured(at.b);
+  if (setsCell(at.op)) measured_.erase(at.c);
+}
+
+void Run::takeMeasured() {
+  for (const std::uint32_t number : machine_.takeMeasured()) {
+    if (listener_ == nullptr) continue;
+    const std::uint32_t cell = machine_.layout().cellOf(number);
+    if (cell != CellLayout::kNone && cell > machine_.layout().locals()) measured_.insert(cell);
+    listener_->measuredWritten(number);
+  }
 }
 
 void Run::tellWritten(std::uint32_t number, double value) {
@@ -269,6 +320,7 @@ bool Run::writeAt(double number, double value) {
   const auto n = static_cast<std::uint32_t>(whole);
   if (ahead_ && expectsMotion_) noteWrite(n);
   if (!machine_.write(n, value)) return false;
+  measured_.erase(machine_.layout().cellOf(n));
   if (listener_ != nullptr) tellWritten(n, value);
   return true;
 }
@@ -315,6 +367,7 @@ template <bool kDecimal8, bool kWatched> bool Run::execute() {
         if ((operands & 2) != 0) noteUnsetCell(at->b);
       }
       if (followsMisses_) followMiss(*at);
+      if (!measured_.empty()) followMeasured(*at, operands);
     }
     switch (at->op) {
     case Op::Copy: {

@@ -102,6 +102,9 @@ private:
   void noteUnset(std::uint32_t number);
   void noteUnsetCell(std::uint32_t cell);
   void tellRead(std::uint32_t number, double value);
+  void tellMeasured(std::uint32_t cell); // where it holds such a value
+  void followMeasured(const Instruction& at, unsigned operands);
+  void takeMeasured(); // after a macro without text
   void tellWritten(std::uint32_t number, double value);
   void tellBlock(const BlockSlots& slots);
   bool beginAnew(); // M99 of the main program; false: the run has ended
@@ -181,6 +184,8 @@ private:
   std::vector<std::uint32_t> fromMiss_, argumentMisses_; // by cell; by local of the next call
   std::vector<std::vector<std::uint32_t>> savedMisses_;  // locals of the callers
   std::uint32_t missInHand_ = 0, cellCount_ = 0;
+  std::set<std::uint32_t>
+      measured_; // cells of common variables that a macro without text left; for a listener
   std::uint64_t passes_ = 0;
   std::vector<double> lastPass_; // the machine as the last pass began
   std::map<std::uint64_t, std::string> unreadable_;

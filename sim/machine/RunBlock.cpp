@@ -90,6 +90,8 @@ bool Run::block(const BlockSlots& slots) {
     if (!knows(code_.words[slots.firstWord + i].cell)) return false;
   for (std::uint32_t i = 0; !unset_.empty() && i < slots.words; ++i)
     noteUnsetCell(code_.words[slots.firstWord + i].cell);
+  for (std::uint32_t i = 0; !measured_.empty() && i < slots.words; ++i)
+    tellMeasured(code_.words[slots.firstWord + i].cell);
   const Level& level = levels_.back();
   if (slots.mayCall && !level.byCode) {
     const stdlib::CallCode* found = nullptr;

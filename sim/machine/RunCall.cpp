@@ -26,6 +26,8 @@ bool Run::repeatsOf(double value, std::uint32_t& repeats) {
 bool Run::call(const CallSlots& slots) {
   if (slots.kind == ir::CallKind::Off) return modalOff();
   if (!knows(slots.program) || !knows(slots.repeats)) return false;
+  tellMeasured(slots.program);
+  tellMeasured(slots.repeats);
   const double program = slots.program == kNoCell ? kNull : cell(slots.program);
   if (isNull(program)) return machine_.raise(Alarm::NoProgramNumber);
   Request request;
@@ -48,6 +50,7 @@ bool Run::call(const CallSlots& slots) {
   for (std::uint32_t i = 0; i < slots.arguments; ++i) {
     const ArgumentSlot& argument = code_.arguments[slots.firstArgument + i];
     if (!knows(argument.cell)) return false;
+    tellMeasured(argument.cell);
     const double value = cells_[argument.cell];
     if (isNull(value)) continue;
     // A length as written counts increments where the control does not calculate.
@@ -111,6 +114,7 @@ bool Run::begin(const Request& request) {
     machine_.leave();
     if (MotionWatcher* const watcher = machine_.watcher(); watcher != nullptr) watcher->callEnded(number);
     if (listener_ != nullptr) listener_->meaningRan(number, locals_);
+    takeMeasured();
   }
   forgetChanged(ofMisses);
   ahead_ = expectsMotion_;

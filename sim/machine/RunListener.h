@@ -26,6 +26,10 @@ public:
   // A pass of a macro that no program holds, and that ran by its meaning; `locals` by number from #0 (unused)
   // on, kNull where there is none.
   virtual void meaningRan(std::uint32_t program, std::span<const double> locals) = 0;
+  // What such a macro has measured: it is in this variable now, and this common variable, which still holds
+  // it, is read.
+  virtual void measuredWritten(std::uint32_t number) = 0;
+  virtual void measuredRead(std::uint32_t number, double value) = 0;
 };
 
 } // namespace dotek::sim

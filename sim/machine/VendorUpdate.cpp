@@ -141,7 +141,7 @@ bool VendorRun::setSystem() {
     const auto to = offsetVariable(system, extended, axis);
     if (!from || !to) return meaningless("the control has no such work offset", chosen->letter);
     const auto before = machine_.read(*from);
-    if (!before || !machine_.write(*to, *before + *error)) return false;
+    if (!before || !machine_.writeMeasured(*to, *before + *error)) return false;
     const auto after = machine_.read(*to);
     if (!after) return false;
     if (machine_.trace() == nullptr) continue;
@@ -176,7 +176,7 @@ bool VendorRun::setTool() {
     return meaningless("it is no tool offset of the control", chosen->letter);
   const std::uint32_t variable = static_cast<std::uint32_t>(*firstOffset) + *number;
   const auto before = machine_.read(variable);
-  if (!before || !machine_.write(variable, *before - *share * *error)) return false;
+  if (!before || !machine_.writeMeasured(variable, *before - *share * *error)) return false;
   machine_.remark("tool-offset", fmt::format("{} Z{}", *number, fixed(*before - *share * *error)));
   return true;
 }
@@ -185,7 +185,7 @@ void VendorRun::leaveUnstated(std::uint32_t variable) {
   if (!memory_.passUnstated) return machine_.forget(variable);
   std::uint64_t mixed = (std::uint64_t{memory_.measured} << 32U | variable) * 0x9E37'79B9'7F4A'7C15ULL;
   mixed ^= mixed >> 29U;
-  machine_.write(variable, (static_cast<double>(mixed % 2001) - 1000) / 1000);
+  machine_.writeMeasured(variable, (static_cast<double>(mixed % 2001) - 1000) / 1000);
 }
 
 void VendorRun::writeResults() {
@@ -205,7 +205,7 @@ void VendorRun::writeResults() {
     }
     if (!result.documented)
       sayOnce("assumed", fmt::format("#{} {}", result.variable, stdlib::outputName(*holds)));
-    machine_.write(result.variable, found->second);
+    machine_.writeMeasured(result.variable, found->second);
   }
 }
 

@@ -224,6 +224,34 @@ TEST_CASE("flatten keeps the call of a macro that runs by its meaning") {
   CHECK(second.out.output.empty());
 }
 
+TEST_CASE("flatten warns of each use of what a macro without text has measured") {
+  Plate plate;
+  plate.setup.setup.at = {50, 40, 10};
+  const std::string before = "O7\nG43 H1 Z10.\n#137=1.\n#1=#137\nG65 P9832\nG65 P9811 Z0. S2\n";
+  const auto warned = [&](const std::string& use) {
+    const Flat flat(before + use + "\nM30\n", "fanuc-31i-b", plate.setup);
+    CAPTURE(use);
+    CAPTURE(flat.out.output);
+    REQUIRE(flat.out.status == 0);
+    CHECK_FALSE(flat.has("flatten-reads"));
+    return std::count_if(flat.out.diagnostics.all().begin(), flat.out.diagnostics.all().end(),
+                         [](const Diagnostic& one) { return one.code == "flatten-position"; });
+  };
+  CHECK(warned("#5223=#137") == 1);
+  CHECK(warned("#1=#137*2.\nG0 X#1") == 1); // where it is read; what follows from it is part of that
+  CHECK(warned("G0 X#137\nG1 Y#137 F100.") == 1);
+  CHECK(warned("#1=137\n#2=#[#1]") == 1);
+  CHECK(warned("IF[#137 GT 0.1]GOTO5\nG0 X1.\nN5") == 1);
+  CHECK(warned("G65 P9810 X[#137+50.] F100.") == 1);
+  CHECK(warned("G65 P8 X1.\nM30\nO8\nG0 X[#24+#137]\nM99") == 1);
+  CHECK(warned("POPEN\nDPRNT[Z#137[43]]\nPCLOS") == 1);
+  CHECK(warned("#1=#137\n#2=#5243") == 2);
+  CHECK(warned("#5221=#5243") == 1); // the offset that it has set
+  CHECK(warned("#137=5.\nG0 X#137\n#5243=2.\n#5223=#5243") == 0);
+  CHECK(warned("#1=137\n#[#1]=5.\nG0 X#137") == 0);
+  CHECK(warned("G0 X1.") == 0);
+}
+
 TEST_CASE("a flat program of a macro on a part runs as its source: random touches") {
   std::mt19937 random(20261125);
   const auto pick = [&](int count) { return static_cast<int>(random() % static_cast<unsigned>(count)); };
