@@ -105,7 +105,7 @@ public:
 
   void systemRead(std::uint32_t number, double value) override {
     if (measured_.contains(number)) return measuredRead(number, value);
-    if (written_.contains(number) || !read_.insert(number).second || read_.size() > kMostReads) return;
+    if (written_.contains(number) || !read_.insert(number).second) return;
     if (canBePreset(number))
       session_.diagnostics().report<diag::FlattenReads>(run_->place(), "follows from " + held(number, value),
                                                         number);
@@ -164,8 +164,6 @@ public:
   }
 
 private:
-  static constexpr std::size_t kMostReads = 20;
-
   static std::string held(std::uint32_t number, double value) {
     return sim::isNull(value) ? fmt::format("`#{}` without a value", number)
                               : fmt::format("`#{}` = {}", number, numberOf(value, false));

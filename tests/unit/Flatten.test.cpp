@@ -252,6 +252,16 @@ TEST_CASE("flatten warns of each use of what a macro without text has measured")
   CHECK(warned("G0 X1.") == 0);
 }
 
+TEST_CASE("flatten names everything that the blocks depend on") {
+  std::string text = "O7\n";
+  for (int i = 1; i <= 60; ++i)
+    text += fmt::format("#{}=#{}\n", 100 + i % 40, 2000 + i);
+  const Flat flat(text + "M30\n");
+  const auto& all = flat.out.diagnostics.all();
+  CHECK(std::count_if(all.begin(), all.end(),
+                      [](const Diagnostic& one) { return one.code == "flatten-reads"; }) == 60);
+}
+
 TEST_CASE("a flat program of a macro on a part runs as its source: random touches") {
   std::mt19937 random(20261125);
   const auto pick = [&](int count) { return static_cast<int>(random() % static_cast<unsigned>(count)); };
