@@ -4,15 +4,14 @@
 #include "support/Printable.h"
 #include "support/WholeName.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <nlohmann/json.hpp>
-#include <vector>
 
 namespace dotek::lint {
 namespace {
 
 using Json = nlohmann::ordered_json;
-using Key = std::tuple<std::string, std::string, std::string>;
 
 constexpr int kSchema = 1;
 
@@ -23,11 +22,9 @@ fs::path folderOf(const std::string& path) {
   return fs::path(wholeName(path.empty() ? "baseline" : path)).parent_path();
 }
 
-// `fingerprints` has met the findings before it.
-Key keyOf(const Diagnostic& one, const SourceMap& sources, Fingerprints& fingerprints) {
-  if (!one.range.hasPlace()) return {"", std::string(one.code), asUtf8(one.message)};
-  return {asUtf8(wholeName(sources.file(one.range.file).name())), std::string(one.code),
-          fingerprints.of(one, sources)};
+// Equal lines count alike, whichever is the first of them.
+std::string withoutNumber(const std::string& fingerprint) {
+  return fingerprint.substr(0, fingerprint.find(':'));
 }
 
 } // namespace
@@ -56,30 +53,62 @@ std::optional<Baseline> Baseline::read(std::string_view text, std::string& reaso
       reason = "a finding of it has no `file`, `code` or `fingerprint`";
       return std::nullopt;
     }
+    Held held;
+    if (const auto places = one.find("places"); places != one.end()) {
+      held.places.emplace();
+      if (!places->is_array() ||
+          !std::all_of(places->begin(), places->end(), [](const Json& place) { return place.is_string(); })) {
+        reason = "`places` of a finding is no array of texts";
+        return std::nullopt;
+      }
+      for (const Json& place : *places)
+        held.places->push_back(place.get<std::string>());
+    }
     // What is of no file has no name.
-    ++out.held_[{file->empty() ? std::string() : wholeName((folder / *file).generic_string()), *code,
-                 *fingerprint}];
+    const std::string name = file->empty() ? "" : wholeName((folder / *file).generic_string());
+    if (held.places) ++out.places_[{name, *code, withoutNumber(*fingerprint)}];
+    for (const std::string& place : held.places.value_or(std::vector<std::string>()))
+      ++out.places_[{name, *code, place}];
+    out.held_.emplace(Key{name, *code, *fingerprint}, std::move(held));
   }
+  return out;
+}
+
+Baseline::Key Baseline::keyOf(const Diagnostic& one, const SourceMap& sources, std::string fingerprint) {
+  if (!one.range.hasPlace()) return {"", std::string(one.code), asUtf8(one.message)};
+  return {asUtf8(wholeName(sources.file(one.range.file).name())), std::string(one.code),
+          std::move(fingerprint)};
+}
+
+// A finding may list further places as notes. Those of other files say where the other half of it is.
+std::vector<std::string> Baseline::placesOf(const Diagnostic& one, const SourceMap& sources) {
+  std::vector<std::string> out;
+  for (const DiagnosticNote& note : one.notes)
+    if (note.range.hasPlace() && note.range.file == one.range.file)
+      out.push_back(fingerprintOf(one.code, note.range, sources));
+  std::sort(out.begin(), out.end());
   return out;
 }
 
 std::string Baseline::render(const Diagnostics& findings, const SourceMap& sources, const std::string& path,
                              const Baseline& before, const Judged& judged) {
   const fs::path folder = folderOf(path);
-  std::vector<Key> keys;
-  Fingerprints fingerprints;
-  for (const Diagnostic& one : findings.all())
-    keys.push_back(keyOf(one, sources, fingerprints));
-  for (const auto& [key, count] : before.held_)
-    if (!judged(std::get<0>(key), std::get<1>(key))) keys.insert(keys.end(), count, key);
   Json rows = Json::array();
-  for (const auto& [file, code, fingerprint] : keys) {
+  const auto add = [&](const Key& key, const std::optional<std::vector<std::string>>& places) {
+    const auto& [file, code, fingerprint] = key;
     Json row;
     row["file"] = file.empty() ? file : fs::path(file).lexically_relative(folder).generic_string();
     row["code"] = code;
     row["fingerprint"] = fingerprint;
+    if (places) row["places"] = *places;
     rows.push_back(std::move(row));
-  }
+  };
+  Fingerprints fingerprints;
+  for (const Diagnostic& one : findings.all())
+    add(keyOf(one, sources, one.range.hasPlace() ? fingerprints.of(one, sources) : ""),
+        placesOf(one, sources));
+  for (const auto& [key, held] : before.held_)
+    if (!judged(std::get<0>(key), std::get<1>(key))) add(key, held.places);
   Json document;
   document["schema"] = kSchema;
   document["findings"] = std::move(rows);
@@ -89,26 +118,47 @@ std::string Baseline::render(const Diagnostics& findings, const SourceMap& sourc
 void Baseline::passOver(Diagnostics& findings, const SourceMap& sources) {
   Fingerprints fingerprints;
   std::erase_if(findings.all(), [&](const Diagnostic& one) {
-    const auto at = held_.find(keyOf(one, sources, fingerprints));
-    if (at == held_.end() || at->second == 0) return false;
-    --at->second;
+    if (!holds(keyOf(one, sources, one.range.hasPlace() ? fingerprints.of(one, sources) : ""),
+               placesOf(one, sources)))
+      return false;
     ++passedOver_;
     return true;
   });
 }
 
+bool Baseline::holds(const Key& key, const std::vector<std::string>& places) {
+  const auto& [file, code, fingerprint] = key;
+  const auto [begin, end] = held_.equal_range(key);
+  const auto same = std::find_if(begin, end, [](const auto& one) { return !one.second.found; });
+  // It is there still, even where it has a place more.
+  if (same != end) {
+    same->second.found = true;
+    if (!same->second.places) return true;
+  }
+  std::map<Key, std::size_t> needed;
+  ++needed[{file, code, withoutNumber(fingerprint)}];
+  for (const std::string& place : places)
+    ++needed[{file, code, place}];
+  const auto left = [&](const auto& one) {
+    const auto at = places_.find(one.first);
+    return at != places_.end() && at->second >= one.second;
+  };
+  if (!std::all_of(needed.begin(), needed.end(), left)) return false;
+  for (const auto& [place, count] : needed)
+    places_[place] -= count;
+  return true;
+}
+
 std::size_t Baseline::gone(const Judged& judged) const {
-  std::size_t out = 0;
-  for (const auto& [key, count] : held_)
-    if (count > 0 && judged(std::get<0>(key), std::get<1>(key))) out += count;
-  return out;
+  return static_cast<std::size_t>(std::count_if(held_.begin(), held_.end(), [&](const auto& one) {
+    return !one.second.found && judged(std::get<0>(one.first), std::get<1>(one.first));
+  }));
 }
 
 std::size_t Baseline::others(const Judged& judged) const {
-  std::size_t out = 0;
-  for (const auto& [key, count] : held_)
-    if (count > 0 && !judged(std::get<0>(key), std::get<1>(key))) out += count;
-  return out;
+  return static_cast<std::size_t>(std::count_if(held_.begin(), held_.end(), [&](const auto& one) {
+    return !one.second.found && !judged(std::get<0>(one.first), std::get<1>(one.first));
+  }));
 }
 
 bool Baseline::isOfOthers(const SourceMap& sources) const {

@@ -10,6 +10,7 @@
 #include <string>
 #include <string_view>
 #include <tuple>
+#include <vector>
 
 namespace dotek::lint {
 
@@ -23,25 +24,39 @@ public:
   // is no longer where the run looked, and the rule ran.
   using Judged = std::function<bool(const std::string& file, const std::string& code)>;
 
-  // JSON: `schema` and `findings`, each with `file` (from the folder of `path`, however it was named), `code`
-  // and `fingerprint`. The findings are sorted. Those of `before` that the run did not judge stay.
+  // JSON: `schema` and `findings`, each with `file` (from the folder of `path`, however it was named),
+  // `code`, `fingerprint` and `places`, the fingerprints of its notes in that file. The findings are sorted.
+  // Those of `before` that the run did not judge stay.
   static std::string render(const Diagnostics& findings, const SourceMap& sources, const std::string& path,
                             const Baseline& before, const Judged& judged);
   Baseline() = default; // empty
 
-  // Takes out the findings that it holds; the findings are sorted. What remains of it is gone from the
-  // inputs.
+  // Takes out the findings of which it holds each place, as often as they are there; the findings are sorted.
+  // What remains of it is gone from the inputs.
   void passOver(Diagnostics& findings, const SourceMap& sources);
 
   std::size_t passedOver() const { return passedOver_; }
-  std::size_t gone(const Judged& judged) const;   // of what passOver() left
+  std::size_t gone(const Judged& judged) const;   // of what passOver() did not find
   std::size_t others(const Judged& judged) const; // not judged by the run
   // It is of files of which none is among `sources`.
   bool isOfOthers(const SourceMap& sources) const;
 
 private:
-  // File (absolute), code and fingerprint; how many there are.
-  std::map<std::tuple<std::string, std::string, std::string>, std::size_t> held_;
+  // File (absolute), code and fingerprint.
+  using Key = std::tuple<std::string, std::string, std::string>;
+  struct Held {
+    // nullopt: of a list that was written before places were kept.
+    std::optional<std::vector<std::string>> places;
+    bool found = false;
+  };
+
+  static Key keyOf(const Diagnostic& one, const SourceMap& sources, std::string fingerprint);
+  static std::vector<std::string> placesOf(const Diagnostic& one, const SourceMap& sources);
+  bool holds(const Key& key, const std::vector<std::string>& places);
+
+  std::multimap<Key, Held> held_;
+  // By file, code and fingerprint without its number: how many places of the held findings are not taken yet.
+  std::map<Key, std::size_t> places_;
   std::size_t passedOver_ = 0;
 };
 

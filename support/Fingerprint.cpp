@@ -27,10 +27,14 @@ std::uint64_t hash(std::string_view text) {
 
 } // namespace
 
+std::string fingerprintOf(std::string_view code, SourceRange place, const SourceMap& sources) {
+  return fmt::format("{:016x}", hash(std::string(code) + '\n' + lineOf(place, sources)));
+}
+
 std::string Fingerprints::of(const Diagnostic& finding, const SourceMap& sources) {
-  const std::string key = std::string(finding.code) + '\n' + lineOf(finding.range, sources);
+  const std::string key = fingerprintOf(finding.code, finding.range, sources);
   const std::uint32_t order = seen_[{finding.range.file, key}]++;
-  return fmt::format("{:016x}:{}", hash(key), order + 1);
+  return fmt::format("{}:{}", key, order + 1);
 }
 
 } // namespace dotek

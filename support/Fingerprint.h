@@ -6,9 +6,14 @@
 #include <cstdint>
 #include <map>
 #include <string>
+#include <string_view>
 #include <utility>
 
 namespace dotek {
+
+// Of a place of a finding with this code: its code and the text of its line, blanks aside.
+// "0123456789abcdef".
+std::string fingerprintOf(std::string_view code, SourceRange place, const SourceMap& sources);
 
 // Hashes code and text of the line that a finding begins on, blanks aside; of equal ones in a file it counts
 // their order. Findings are given in the order of the diagnostics.

@@ -15,8 +15,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   }
   SourceMap sources;
   Diagnostics findings;
-  const std::size_t gone = baseline->gone();
+  const auto all = [](const std::string&, const std::string&) { return true; };
+  const std::size_t gone = baseline->gone(all);
   baseline->passOver(findings, sources);
-  if (baseline->passedOver() != 0 || baseline->gone() != gone) std::abort();
+  if (baseline->passedOver() != 0 || baseline->gone(all) != gone) std::abort();
   return 0;
 }

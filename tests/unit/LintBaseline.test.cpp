@@ -93,11 +93,44 @@ TEST_CASE(
   CHECK(Json::parse(folder.read("known.json"))["findings"].size() == 2);
 }
 
+TEST_CASE("baseline: a place more of an accepted finding is new") {
+  const ProcessFolder folder;
+  const auto lint = [&](const std::string& lines) {
+    folder.write("O1.nc", "O1(A)\n" + lines + "G1 X10. F200.\nM30\n");
+    return folder.run("dotek lint O1.nc --select goto-target-missing --baseline known.json");
+  };
+  const std::string five = "IF[#5 EQ #0]GOTO 50\n", six = "IF[#6 EQ #0]GOTO 50\n";
+  folder.write("O1.nc", "O1(A)\n" + five + "G1 X10. F200.\nM30\n");
+  folder.run("dotek lint O1.nc --select goto-target-missing --write-baseline known.json");
+  CHECK(lint(five).status == 0);
+  CHECK(lint("(MOVED)\n" + five + "G0 Z5.\n").status == 0);
+  for (const std::string& lines : {five + six, six + five, five + five, five + "G0 Z5.\n" + six}) {
+    const ShellResult more = lint(lines);
+    CHECK_MESSAGE(more.status == 1, lines);
+    CHECK_MESSAGE(more.out.find("goto-target-missing") != std::string::npos, lines);
+  }
+  CHECK(lint(six).status == 1);
+  // Both accepted: each of them alone is, too; one in the place of the other is not.
+  lint(five + six);
+  folder.run("dotek lint O1.nc --select goto-target-missing --write-baseline known.json");
+  for (const std::string& lines : {five + six, "N1 G0 Z5.\n" + five + "(BETWEEN)\n" + six, five, six})
+    CHECK_MESSAGE(lint(lines).status == 0, lines);
+  CHECK(lint(five + six).err.find("gone") == std::string::npos);
+  CHECK(lint("").err.find("1 of it gone") != std::string::npos);
+  CHECK(lint(five + "IF[#7 EQ #0]GOTO 50\n").status == 1);
+  // Lists without places stay what they were.
+  folder.run("sed -i '/places/,/]/d; s/\\(\"fingerprint\".*\\),$/\\1/' known.json");
+  CHECK(folder.read("known.json").find("places") == std::string::npos);
+  CHECK(lint(five).status == 0);
+}
+
 TEST_CASE("baseline: what is no baseline lets nothing pass") {
   const ProcessFolder folder;
   folder.write("O7411.nc", kOld);
   for (const char* text :
-       {"", "[]", "{\"schema\":2,\"findings\":[]}", "{\"schema\":1,\"findings\":[{\"file\":1}]}", "O7411"}) {
+       {"", "[]",
+        "{\"schema\":1,\"findings\":[{\"file\":\"a\",\"code\":\"b\",\"fingerprint\":\"c\",\"places\":[1]}]}",
+        "{\"schema\":2,\"findings\":[]}", "{\"schema\":1,\"findings\":[{\"file\":1}]}", "O7411"}) {
     folder.write("known.json", text);
     const ShellResult result = folder.run("dotek lint O7411.nc --baseline known.json");
     CHECK(result.status == 2);
