@@ -1,5 +1,6 @@
 #include "support/messages/Lint.h"
 #include "driver/ChangedFiles.h"
+#include "driver/ChangedTogether.h"
 #include "driver/Command.h"
 #include "driver/Driver.h"
 #include "driver/LintBaseline.h"
@@ -82,6 +83,7 @@ public:
           {}, quoted(options_.paths) +
                   (excluded_ == 0 ? "" : fmt::format(" beside the {} that dotek.toml excludes", excluded_)));
     const std::deque<lint::Project>& projects = projects_.gather(*inputs_, sufReadings_, checked_, posts_);
+    if (changed_) together_.emplace(projects, *changed_, [this](FileId file) { return isChanged(file); });
     const auto run = [&](const auto& wanted) {
       for (const lint::Project& project : projects)
         lint::runRules(project, session_.diagnostics(), wanted);
@@ -417,9 +419,9 @@ private:
     }
   }
 
-  // A finding whose other place is in a changed file is of that change.
+  // A finding whose other place is in a changed file is of that change, and so is one that may rest on it.
   bool isOfUnchanged(const Diagnostic& d) {
-    if (!changed_ || !d.range.hasPlace()) return false;
+    if (!changed_ || !d.range.hasPlace() || together_->covers(d.code, d.range.file)) return false;
     return !isChanged(d.range.file) && std::none_of(d.notes.begin(), d.notes.end(), [&](const auto& note) {
       return note.range.hasPlace() && isChanged(note.range.file);
     });
@@ -441,7 +443,8 @@ private:
   std::size_t checkedFiles_ = 0, excluded_ = 0;
   std::optional<std::set<std::string>> changed_; // names of --changed-since
   std::map<FileId, bool> isChanged_;
-  std::string passedOver_; // of the baseline, for the summary
+  std::optional<ChangedTogether> together_; // with those
+  std::string passedOver_;                  // of the baseline, for the summary
   LoweringInputs* inputs_ = nullptr;
   std::map<std::string, std::unique_ptr<MacroLoader>> loaders_; // by folder
   std::set<std::string> entryPoints_;      // routines that run without a call in the Prog

@@ -51,6 +51,45 @@ TEST_CASE("lint --changed-since reports what git calls changed, and files that i
   CHECK(folder.run("dotek lint a.nc --changed-since HEAD --fix").status == 0);
 }
 
+TEST_CASE("lint --changed-since reports what a change of another file brings about") {
+  const ProcessFolder folder;
+  if (!haveGit(folder)) return;
+  const std::string git = kGit;
+  for (const char* name : {"bore", "surface"}) {
+    folder.run(std::string("mkdir -p cycles/") + name);
+    folder.write(std::string("cycles/") + name + "/DefineData.txt", "D = 40\n");
+  }
+  const std::string begin = "#1 = '####.##;0'\nFORMAT(OpFieldData#,1)\nprobe:\n";
+  const auto branch = [](const std::string& name) {
+    return "IF CycleType?('" + name + "')\n SeqC ' G65 P9023 X'OpFieldData#('D') EOL\nEND\n";
+  };
+  folder.write("post.txt", begin + branch("bore") + branch("surface") + "RETURN\n");
+  folder.write("O1.nc", "O1\nG65 P2\nM30\n");
+  folder.write("O2.nc", "O2\nM99\n");
+  folder.write("O3.nc", kNoLength); // has a finding of its own
+  REQUIRE(folder.run(git + "init -q . && git add . && " + git + "commit -qm first").status == 0);
+  const auto lint = [&] { return folder.run("dotek lint . --changed-since HEAD").out; };
+  CHECK_FALSE(has(lint(), "cycle-without-branch"));
+
+  folder.write("post.txt", begin + branch("surface") + "RETURN\n");
+  CHECK(has(folder.run("dotek lint .").out, "cycle-without-branch"));
+  CHECK(has(lint(), "cycles/bore/DefineData.txt:1:1: "));
+  CHECK(has(lint(), "[cycle-without-branch]"));
+  CHECK_FALSE(has(lint(), "O3.nc"));
+  REQUIRE(folder.run(git + "commit -qam second").status == 0);
+  CHECK_FALSE(has(lint(), "cycle-without-branch")); // known before
+
+  // A program that others call goes, or gets another number.
+  folder.run("git rm -q O2.nc");
+  CHECK(has(lint(), "O1.nc:2:"));
+  CHECK(has(lint(), "[program-not-found]"));
+  CHECK_FALSE(has(lint(), "O3.nc"));
+  folder.write("X2.nc", "O22\nM99\n");
+  CHECK(has(lint(), "[program-not-found]"));
+  REQUIRE(folder.run("git add . && " + git + "commit -qm third").status == 0);
+  CHECK_FALSE(has(lint(), "program-not-found"));
+}
+
 TEST_CASE("lint --changed-since without an answer reports nothing else, and is no success") {
   const ProcessFolder folder;
   if (!haveGit(folder)) return;
