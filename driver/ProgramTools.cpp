@@ -12,6 +12,8 @@
 #include "support/messages/Commands.h"
 
 #include <fmt/format.h>
+#include <algorithm>
+#include <deque>
 
 namespace dotek::driver {
 
@@ -147,10 +149,13 @@ Outcome outline(const OutlineOptions& options) {
 Outcome renumber(const RenumberCommandOptions& options) {
   return guarded(options.common, [&](Session& session) {
     std::vector<OutputFile> files;
-    std::vector<std::string> changed;
+    std::vector<std::string> names, changed;
+    std::deque<macrob::File> parsedFiles;
+    std::vector<macrob::RenumberInput> inputs;
     if (hasInputs(options.inputs, "renumber", session))
       for (const std::string& path : options.inputs) {
-        const std::optional<macrob::File> file = parsed(path, session);
+        if (std::find(names.begin(), names.end(), path) != names.end()) continue;
+        std::optional<macrob::File> file = parsed(path, session);
         if (!file) continue;
         macrob::RenumberOptions how{options.start, options.step, options.all, options.range};
         const std::string control =
@@ -160,12 +165,16 @@ Outcome renumber(const RenumberCommandOptions& options) {
           if (!profile) break;
           how.last = profile->sequenceLast;
         }
-        auto text = macrob::renumber(*file, how, session.sources(), session.diagnostics());
-        if (!text) continue;
-        if (*text != session.sources().file(file->file).bytes()) changed.push_back(path);
-        files.push_back({path, std::move(*text)});
+        inputs.push_back({&parsedFiles.emplace_back(std::move(*file)), how});
+        names.push_back(path);
       }
     Outcome outcome = outcomeOf(session, "", true);
+    auto texts = macrob::renumber(inputs, session.sources(), session.diagnostics());
+    for (std::size_t i = 0; i < texts.size(); ++i) {
+      if (!texts[i]) continue;
+      if (*texts[i] != session.sources().file(inputs[i].file->file).bytes()) changed.push_back(names[i]);
+      files.push_back({names[i], std::move(*texts[i])});
+    }
     if (outcome.status == 0) {
       outcome.files = std::move(files);
       outcome.inputs = std::move(changed);

@@ -143,7 +143,8 @@ void ProgramNumbers::renumber() {
     diagnostics.report<diag::RenumberRange>(program_.labels[id].range, number, last, context_.to().title);
     return;
   }
-  if (callsOut && !digits_.empty()) diagnostics.report<diag::RenumberCalls>(program_.range);
+  if (callsOut && !digits_.empty())
+    diagnostics.report<diag::RenumberCalls>(program_.range, "`--renumber`: ", "", "");
 }
 
 // A GOTO names a number, and the control searches for it: forward, then from the top.

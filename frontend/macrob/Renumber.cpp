@@ -3,6 +3,7 @@
 #include "frontend/macrob/Calls.h"
 #include "frontend/macrob/Constant.h"
 #include "frontend/macrob/Walk.h"
+#include "support/messages/Fanuc.h"
 #include "support/messages/Output.h"
 
 #include <algorithm>
@@ -54,25 +55,50 @@ bool endsRun(const Program& program) {
   });
 }
 
+// A program among those of all files.
+struct Place {
+  std::size_t input = 0;
+  const Program* program = nullptr;
+  bool first = false; // of its file
+};
+
 class Renumbering {
 public:
-  Renumbering(const File& file, const RenumberOptions& options, const SourceMap& sources,
-              Diagnostics& diagnostics)
-      : file_(file), options_(options), sources_(sources), diagnostics_(diagnostics),
-        numbers_(file.programs.size()) {}
+  Renumbering(std::span<const RenumberInput> inputs, const SourceMap& sources, Diagnostics& diagnostics)
+      : inputs_(inputs), sources_(sources), diagnostics_(diagnostics), ranged_(inputs.size()) {
+    for (std::size_t i = 0; i < inputs.size(); ++i) {
+      if (inputs[i].file->hasErrors) continue;
+      for (const Program& program : inputs[i].file->programs)
+        places_.push_back({i, &program, &program == &inputs[i].file->programs.front()});
+    }
+    numbers_.resize(places_.size());
+    for (std::size_t i = 0; i < places_.size(); ++i)
+      if (const auto& name = programAt(i).name) named_[static_cast<double>(name->number)].push_back(i);
+  }
 
-  std::optional<std::string> run() {
-    for (std::size_t i = 0; i < file_.programs.size(); ++i)
+  std::vector<std::optional<std::string>> run() {
+    for (std::size_t i = 0; i < places_.size(); ++i)
       number(i);
-    for (std::size_t i = 0; i < file_.programs.size(); ++i)
+    for (std::size_t i = 0; i < places_.size(); ++i)
       follow(i);
-    if (failed_) return std::nullopt;
-    std::sort(changes_.begin(), changes_.end(),
-              [](const Change& a, const Change& b) { return a.range.begin < b.range.begin; });
-    const std::string_view text = sources_.file(file_.file).bytes();
+    std::vector<std::optional<std::string>> out(inputs_.size());
+    if (failed_) return out;
+    warnOfCalls();
+    std::stable_sort(changes_.begin(), changes_.end(),
+                     [](const Change& a, const Change& b) { return a.range.begin < b.range.begin; });
+    for (std::size_t i = 0; i < inputs_.size(); ++i)
+      if (!inputs_[i].file->hasErrors) out[i] = changed(inputs_[i].file->file);
+    return out;
+  }
+  bool ranged(std::size_t input) const { return ranged_[input]; }
+
+private:
+  std::string changed(FileId file) const {
+    const std::string_view text = sources_.file(file).bytes();
     std::string out;
     std::size_t at = 0;
     for (const Change& change : changes_) {
+      if (change.range.file != file) continue;
       out += text.substr(at, change.range.begin - at);
       out += change.text;
       at = change.range.end;
@@ -80,7 +106,48 @@ public:
     return out += text.substr(at);
   }
 
-private:
+  const Program& programAt(std::size_t which) const { return *places_[which].program; }
+
+  // The programs that a call of this one may mean.
+  std::vector<std::size_t> called(std::size_t from, double number) const {
+    std::vector<std::size_t> own, others;
+    const auto named = named_.find(number);
+    if (named == named_.end()) return own;
+    for (const std::size_t i : named->second)
+      (places_[i].input == places_[from].input ? own : others).push_back(i);
+    return own.empty() ? others : own;
+  }
+  // M98 P21002 is O1002 twice on some controls.
+  std::vector<std::size_t> called(std::size_t from, const Call& call, double number) const {
+    std::vector<std::size_t> out = called(from, number);
+    if (out.empty() && call.repeat == nullptr && number > 9999) return called(from, std::fmod(number, 10000));
+    return out;
+  }
+
+  template <class Visit> void eachCall(std::size_t which, const Visit& visit) const {
+    for (const Block& block : programAt(which).blocks) {
+      const auto* words = std::get_if<Words>(&block.body);
+      const auto call = words == nullptr ? std::nullopt : callOf(*words);
+      if (call && call->program != nullptr && call->kind != CallKind::Return) visit(*call);
+    }
+  }
+
+  // One that is not given may return to a block by its old number. Once a file.
+  void warnOfCalls() {
+    std::set<std::size_t> told;
+    for (std::size_t i = 0; i < places_.size(); ++i) {
+      const auto& fresh = numbers_[i].fresh;
+      if (std::none_of(fresh.begin(), fresh.end(), [](const auto& one) { return one.first != one.second; }))
+        continue;
+      eachCall(i, [&](const Call& call) {
+        const auto number = literal(*call.program);
+        if ((number && !called(i, call, *number).empty()) || !told.insert(places_[i].input).second) return;
+        diagnostics_.report<diag::RenumberCalls>(call.program->range, "", ", nor in another that is given",
+                                                 "; give their files in the same command");
+      });
+    }
+  }
+
   void refuse(SourceRange range, const std::string& why, const std::string& remedy) {
     failed_ = true;
     diagnostics_.report<diag::NotRenumbered>(range, sources_.textUtf8(range), why, remedy);
@@ -88,12 +155,14 @@ private:
 
   // New numbers of a program's own blocks.
   void number(std::size_t which) {
-    const Program& program = file_.programs[which];
+    const Program& program = programAt(which);
+    const RenumberOptions& options = inputs_[places_[which].input].options;
+    const FileId file = inputs_[places_[which].input].file->file;
     Numbers& numbers = numbers_[which];
     for (const Block& block : program.blocks)
       if (block.sequenceNumber) ++numbers.count[block.sequenceNumber->value];
     std::size_t begin = 0, end = program.blocks.size();
-    if (options_.range) {
+    if (options.range) {
       const auto at = [&](std::uint64_t n) {
         const auto found =
             std::find_if(program.blocks.begin(), program.blocks.end(), [&](const Block& block) {
@@ -101,21 +170,21 @@ private:
             });
         return static_cast<std::size_t>(found - program.blocks.begin());
       };
-      begin = at(options_.range->first);
-      end = at(options_.range->second);
+      begin = at(options.range->first);
+      end = at(options.range->second);
       if (begin >= program.blocks.size() || end >= program.blocks.size() || end < begin) return;
       ++end;
-      ranged_ = true;
+      ranged_[places_[which].input] = true;
     }
-    std::uint64_t next = options_.start;
+    std::uint64_t next = options.start;
     std::set<std::uint64_t> given;
     for (std::size_t i = begin; i < end; ++i) {
       const Block& block = program.blocks[i];
       const auto& old = block.sequenceNumber;
-      if (!old && (!options_.all || std::holds_alternative<std::monostate>(block.body))) continue;
-      if (next > options_.last) {
+      if (!old && (!options.all || std::holds_alternative<std::monostate>(block.body))) continue;
+      if (next > options.last) {
         failed_ = true;
-        diagnostics_.report<diag::NumbersTaken>(block.range, next, options_.last);
+        diagnostics_.report<diag::NumbersTaken>(block.range, next, options.last);
         return;
       }
       if (old) {
@@ -123,14 +192,14 @@ private:
         numbers.fresh.emplace(old->value, next);
       } else {
         const std::uint32_t place = block.blockDelete ? block.blockDelete->range.end : block.range.begin;
-        const std::string_view text = sources_.file(file_.file).bytes();
+        const std::string_view text = sources_.file(file).bytes();
         const bool blank = place < text.size() && (text[place] == ' ' || text[place] == '\t');
-        changes_.push_back({{file_.file, place, place},
+        changes_.push_back({{file, place, place},
                             fmt::format("{}N{}{}", block.blockDelete && block.blockDelete->number ? " " : "",
                                         next, blank ? "" : " ")});
       }
       given.insert(next);
-      next += options_.step;
+      next += options.step;
     }
     for (std::size_t i = 0; i < program.blocks.size(); ++i) {
       const auto& old = program.blocks[i].sequenceNumber;
@@ -156,7 +225,7 @@ private:
   }
 
   void follow(std::size_t which) {
-    for (const Block& block : file_.programs[which].blocks) {
+    for (const Block& block : programAt(which).blocks) {
       if (const Goto* jump = gotoOf(block)) followGoto(which, *jump);
       if (const auto* words = std::get_if<Words>(&block.body)) followWords(which, *words);
       followConditions(which, block);
@@ -182,7 +251,7 @@ private:
     if (!followed_.emplace(which, variable).second) return;
     std::vector<const Expression*> values;
     bool other = false;
-    for (const Block& block : file_.programs[which].blocks) {
+    for (const Block& block : programAt(which).blocks) {
       const Goto* const here = gotoOf(block);
       const Expression* const asTarget = here == nullptr ? nullptr : here->target.get();
       walk(block, [&](const Expression& expression, bool) {
@@ -231,12 +300,15 @@ private:
     if (call->kind == CallKind::Return) return followReturn(which, *call->program);
     if (call->kind != CallKind::Subprogram || q == nullptr) return;
     const auto program = literal(*call->program);
-    for (std::size_t i = 0; i < file_.programs.size(); ++i) {
-      const auto& name = file_.programs[i].name;
-      if (program && name && static_cast<double>(name->number) == *program) return word(i, *q, "a block");
-    }
-    refuse(q->range, "begins another program at one of its blocks, and that program is not in this file",
-           "put both programs into one file first");
+    const auto to = program ? called(which, *program) : std::vector<std::size_t>();
+    if (to.empty())
+      return refuse(q->range,
+                    "begins another program at one of its blocks, and that program is in no file given",
+                    "give its file in the same command, or put both programs into one");
+    if (to.size() > 1)
+      return refuse(q->range, "begins another program at one of its blocks, and several files given have it",
+                    "give the file that is meant alone");
+    word(to.front(), *q, "a block");
   }
 
   void word(std::size_t which, const nc::Word& word, const std::string& what) {
@@ -256,22 +328,36 @@ private:
       return refuse(word.range, "computes the number of a block", "write the number");
     const auto number = static_cast<std::uint64_t>(*value);
     std::set<std::size_t> callers;
-    const auto& name = file_.programs[which].name;
-    for (std::size_t i = 0; name && i < file_.programs.size(); ++i)
-      for (const Block& block : file_.programs[i].blocks) {
-        const auto* words = std::get_if<Words>(&block.body);
-        const auto call = words == nullptr ? std::nullopt : callOf(*words);
-        if (!call || call->program == nullptr || call->kind == CallKind::Return) continue;
-        const auto program = literal(*call->program);
-        if (!program || *program == static_cast<double>(name->number) ||
-            (call->repeat == nullptr && *program > 9999 &&
-             std::fmod(*program, 10000) == static_cast<double>(name->number)))
-          callers.insert(i);
-      }
-    if (callers.empty() && (which == 0 || endsRun(file_.programs[which]))) callers.insert(which);
+    const auto& name = programAt(which).name;
+    bool unclear = false;
+    for (std::size_t i = 0; name && i < places_.size(); ++i)
+      eachCall(i, [&](const Call& call) {
+        const auto program = literal(*call.program);
+        if (!program) {
+          // Of another file only where it has such a block.
+          if (places_[i].input == places_[which].input || numbers_[i].count.contains(number))
+            callers.insert(i);
+          return;
+        }
+        const std::vector<std::size_t> to = called(i, call, *program);
+        if (std::find(to.begin(), to.end(), which) == to.end()) return;
+        callers.insert(i);
+        unclear = unclear || to.size() > 1;
+      });
+    if (unclear)
+      return refuse(word.range,
+                    "goes to a block of a caller, and several files given have a program of this number",
+                    "renumber those that belong together by themselves");
+    const bool own = numbers_[which].count.contains(number);
+    if (callers.empty() && own && (places_[which].first || endsRun(programAt(which)))) callers.insert(which);
     if (callers.empty())
-      return refuse(word.range, "goes to a block of a program that is not in this file",
-                    "put both programs into one file first");
+      return refuse(
+          word.range,
+          own ? "goes to a block of a program that is in no file given"
+              : fmt::format("goes to N{}, which no block of the program has, and no caller of it is given",
+                            number),
+          own ? "give the file of the caller in the same command, or put both programs into one"
+              : "give the file of the caller in the same command, or the block its number");
     std::set<std::uint64_t> fresh;
     for (const std::size_t caller : callers) {
       const auto at = numbers_[caller].fresh.find(number);
@@ -319,7 +405,7 @@ private:
 
   bool onlyGoto(std::size_t which, std::uint32_t variable) const {
     bool other = false;
-    for (const Block& block : file_.programs[which].blocks) {
+    for (const Block& block : programAt(which).blocks) {
       const Goto* const jump = gotoOf(block);
       const Expression* const asTarget = jump == nullptr ? nullptr : jump->target.get();
       walk(block, [&](const Expression& expression, bool) {
@@ -331,36 +417,41 @@ private:
     return !other;
   }
 
-public:
-  bool ranged() const { return ranged_; }
-
-private:
-  const File& file_;
-  const RenumberOptions& options_;
+  std::span<const RenumberInput> inputs_;
   const SourceMap& sources_;
   Diagnostics& diagnostics_;
-  std::vector<Numbers> numbers_; // by program
+  std::vector<bool> ranged_; // by input
+  std::vector<Place> places_;
+  std::map<double, std::vector<std::size_t>> named_; // places, by the number of the program
+  std::vector<Numbers> numbers_;                     // by place
   std::vector<Change> changes_;
   std::set<std::pair<std::size_t, std::uint32_t>> followed_; // program, variable
   std::set<const Expression*> compared_;
-  bool failed_ = false, ranged_ = false;
+  bool failed_ = false;
 };
 
 } // namespace
 
-std::optional<std::string> renumber(const File& file, const RenumberOptions& options,
-                                    const SourceMap& sources, Diagnostics& diagnostics) {
-  if (file.hasErrors) return std::nullopt;
-  Renumbering renumbering(file, options, sources, diagnostics);
-  std::optional<std::string> out = renumbering.run();
-  if (options.range && !renumbering.ranged() && !diagnostics.hasErrors()) {
+std::vector<std::optional<std::string>> renumber(std::span<const RenumberInput> inputs,
+                                                 const SourceMap& sources, Diagnostics& diagnostics) {
+  Renumbering renumbering(inputs, sources, diagnostics);
+  std::vector<std::optional<std::string>> out = renumbering.run();
+  for (std::size_t i = 0; i < inputs.size(); ++i) {
+    const auto& [file, options] = inputs[i];
+    if (!options.range || renumbering.ranged(i) || file->hasErrors || diagnostics.hasErrors()) continue;
     diagnostics.report<diag::NotRenumbered>(
-        {file.file, 0, 0}, fmt::format("--range {}:{}", options.range->first, options.range->second),
+        {file->file, 0, 0}, fmt::format("--range {}:{}", options.range->first, options.range->second),
         "names blocks that no program of the file has in this order",
         "name the numbers of two blocks of one program");
-    return std::nullopt;
+    out[i].reset();
   }
   return out;
+}
+
+std::optional<std::string> renumber(const File& file, const RenumberOptions& options,
+                                    const SourceMap& sources, Diagnostics& diagnostics) {
+  const RenumberInput input{&file, options};
+  return std::move(renumber(std::span(&input, 1), sources, diagnostics).front());
 }
 
 } // namespace dotek::frontend::macrob

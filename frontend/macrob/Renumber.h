@@ -6,8 +6,10 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace dotek::frontend::macrob {
 
@@ -24,5 +26,14 @@ struct RenumberOptions {
 // nullopt: the file has errors, or something goes where nobody can follow, reported at its place.
 std::optional<std::string> renumber(const File& file, const RenumberOptions& options,
                                     const SourceMap& sources, Diagnostics& diagnostics);
+
+struct RenumberInput {
+  const File* file = nullptr;
+  RenumberOptions options;
+};
+// The same of several files: M99 P and Q of M98 are followed from one to another. Of two programs of one
+// number a call means that of its own file.
+std::vector<std::optional<std::string>> renumber(std::span<const RenumberInput> inputs,
+                                                 const SourceMap& sources, Diagnostics& diagnostics);
 
 } // namespace dotek::frontend::macrob

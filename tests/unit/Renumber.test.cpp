@@ -48,6 +48,55 @@ TEST_CASE("renumber follows each way to name a block") {
         "O1\nM98 P2\nN10 X1.\nN20 M30\nO2\nN10 X2.\nM99 P20\n");
 }
 
+TEST_CASE("renumber follows returns and calls from one file to another") {
+  struct Several {
+    explicit Several(const std::vector<std::string>& texts) {
+      std::vector<frontend::macrob::File> files;
+      for (const std::string& text : texts)
+        files.push_back(frontend::macrob::parse(sources.add(SourceFile("O.nc", text, Encoding::Utf8)),
+                                                sources, Limits(), diagnostics));
+      std::vector<frontend::macrob::RenumberInput> inputs;
+      for (const frontend::macrob::File& file : files)
+        inputs.push_back({&file, {}});
+      for (const auto& out : frontend::macrob::renumber(inputs, sources, diagnostics))
+        result.push_back(out.value_or(""));
+    }
+    std::size_t count(std::string_view code) const {
+      return static_cast<std::size_t>(std::count_if(diagnostics.all().begin(), diagnostics.all().end(),
+                                                    [&](const Diagnostic& one) { return one.code == code; }));
+    }
+    SourceMap sources;
+    Diagnostics diagnostics;
+    std::vector<std::string> result;
+  };
+  using Texts = std::vector<std::string>;
+  const std::string main = "O1\nN20 G65 P9600 A1.\nN25 X1.\nN30 M30\n";
+  const std::string called = "O9600\nN7 X1.\nM99 P30\n";
+  const Texts fresh{"O1\nN10 G65 P9600 A1.\nN20 X1.\nN30 M30\n", "O9600\nN10 X1.\nM99 P30\n"};
+  CHECK(Several({main, called}).result == fresh);
+  CHECK(Several({called, main}).result == Texts{fresh[1], fresh[0]});
+  CHECK(Several({"O1\nN20 M98 P9600\nN40 M30\n", "O9600\nM99 P40\n"}).result ==
+        Texts{"O1\nN10 M98 P9600\nN20 M30\n", "O9600\nM99 P20\n"});
+  CHECK(Several({"O1\nM98 P9600 Q7\nM30\n", "O9600\nN7 M99\n"}).result ==
+        Texts{"O1\nM98 P9600 Q10\nM30\n", "O9600\nN10 M99\n"});
+  CHECK(Several({main, called}).diagnostics.all().empty());
+
+  // A caller by itself: what is called may return to an old number.
+  CHECK(Several({main}).result.front() == fresh[0]);
+  CHECK(Several({main}).count("renumber-calls") == 1);
+  CHECK(Several({"O1\nG65 P#1\nN7 M30\n"}).count("renumber-calls") == 1);
+  CHECK(Several({"O1\nG65 P9600\nG65 P9601\nN10 M30\n"}).count("renumber-calls") == 0); // nothing changes
+  CHECK(Several({main, "O2\nN1 M30\n"}).count("renumber-calls") == 1);
+  // The caller is not there, is not certain, or there are two whose numbers differ.
+  for (const Texts& texts :
+       {Texts{called}, Texts{called, "O2\nN30 M30\n"}, Texts{main, called, called},
+        Texts{main, called, "O2\nN1 X1.\nN30 G65 P9600\nM30\n"},
+        Texts{main, called, "O2\nN1 X1.\nN30 G65 P#1\nM30\n"}, Texts{main, "O9600\nM99 P#1\n"}})
+    CHECK(Several(texts).count("not-renumbered") > 0);
+  CHECK(Several({main, called, "O2\nG65 P#1\nM30\n"}).count("not-renumbered") == 0);
+  CHECK(Several({called}).diagnostics.all().front().message.find("in the same command") != std::string::npos);
+}
+
 TEST_CASE("renumber refuses what it cannot follow") {
   CHECK(refused("O1\nN7 X1.\nGOTO[#1+6]\n"));
   CHECK(refused("O1\nN7 X1.\nGOTO#100\n"));
