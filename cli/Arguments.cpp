@@ -292,6 +292,8 @@ std::optional<int> parseArguments(const std::vector<std::string>& arguments, Arg
       if (one.name == command) parsed.command = one.command;
     if (parsed.command == Command::New && app.get_subcommands().front()->got_subcommand("cycle"))
       parsed.command = Command::NewCycle;
+    if (parsed.command == Command::New && app.get_subcommands().front()->got_subcommand("macros"))
+      parsed.command = Command::NewMacros;
     if (parsed.command == Command::New && app.get_subcommands().front()->got_subcommand("job"))
       parsed.command = Command::NewJob;
     fill(raw, parsed);

@@ -24,6 +24,7 @@ enum class Command : unsigned char {
   List,
   New,
   NewCycle,
+  NewMacros,
   NewJob,
   Init,
   Check,

@@ -393,6 +393,8 @@ int runCommand(Arguments& arguments, std::ostream& out, std::ostream& err) {
                          arguments);
   case Command::NewCycle:
     return printer.result(driver::newCycle(arguments.inputs.back(), arguments.common), arguments);
+  case Command::NewMacros:
+    return printer.result(driver::newMacros(arguments.inputs.back(), arguments.common), arguments);
   case Command::Check:
     return printer.findings(driver::check({arguments.inputs, arguments.common}), arguments);
   case Command::Fmt: return printer.layout(driver::layOut({arguments.inputs, arguments.common}), arguments);

@@ -55,8 +55,8 @@ std::vector<std::string> inputsOf(const Arguments& arguments) {
   std::vector<std::string> out;
   // The name of a new form and what `explain` and `list` take are no files.
   if (arguments.command != Command::New && arguments.command != Command::NewCycle &&
-      arguments.command != Command::Init && arguments.command != Command::Explain &&
-      arguments.command != Command::List)
+      arguments.command != Command::NewMacros && arguments.command != Command::Init &&
+      arguments.command != Command::Explain && arguments.command != Command::List)
     out = arguments.inputs;
   for (const auto& one :
        {arguments.lint.baseline, arguments.source.prog, arguments.common.job, arguments.sim.part,

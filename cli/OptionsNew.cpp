@@ -37,6 +37,15 @@ void addNew(CLI::App& app, Raw& raw) {
       ->expected(1);
   cycle->add_option("-o", raw.output, "write the cycle to a file")->type_name("FILE");
   addForce(*cycle, raw);
+  CLI::App* macros = command->add_subcommand(
+      "macros",
+      "the programs of a set of probing macros that Dotek has the text of, for the control's memory");
+  macros->add_option("NAME", raw.inputs, "the set: `dotek` is the one that is built in")
+      ->required()
+      ->expected(1);
+  macros->add_option("-o", raw.output, "write the programs to a file")->type_name("FILE");
+  addForce(*macros, raw);
+  addFolders(*macros, "--data", raw.data, "folder whose data files are added or replace built-in ones");
 }
 
 void addInit(CLI::App& app, Raw& raw) {

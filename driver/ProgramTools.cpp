@@ -10,10 +10,11 @@
 #include "project/Settings.h"
 #include "support/Printable.h"
 #include "support/messages/Commands.h"
+#include "support/messages/Output.h"
 
-#include <fmt/format.h>
 #include <algorithm>
 #include <deque>
+#include <fmt/format.h>
 
 namespace dotek::driver {
 
@@ -168,18 +169,30 @@ Outcome renumber(const RenumberCommandOptions& options) {
         inputs.push_back({&parsedFiles.emplace_back(std::move(*file)), how});
         names.push_back(path);
       }
-    Outcome outcome = outcomeOf(session, "", true);
     auto texts = macrob::renumber(inputs, session.sources(), session.diagnostics());
     for (std::size_t i = 0; i < texts.size(); ++i) {
       if (!texts[i]) continue;
       if (*texts[i] != session.sources().file(inputs[i].file->file).bytes()) changed.push_back(names[i]);
       files.push_back({names[i], std::move(*texts[i])});
     }
+    Outcome outcome = outcomeOf(session, "", true);
     if (outcome.status == 0) {
       outcome.files = std::move(files);
       outcome.inputs = std::move(changed);
     }
     return outcome;
+  });
+}
+
+Outcome newMacros(const std::string& name, const CommonOptions& common) {
+  return guarded(common, {}, [&](Session& session) {
+    const stdlib::DataFile* const text = session.data().find("macrob", name);
+    if (text != nullptr) return outcomeOf(session, std::string(text->text));
+    std::string there;
+    for (const stdlib::DataFile* file : session.data().list("macrob"))
+      there += (there.empty() ? "`" : ", `") + file->name + "`";
+    session.diagnostics().report<diag::NoMacroText>({}, printable(name), there);
+    return outcomeOf(session, "");
   });
 }
 

@@ -1,4 +1,4 @@
-// Commands for programs of Macro B: `dotek outline`, `dotek renumber`, `dotek flatten`.
+// Commands for programs of Macro B: `dotek outline`, `dotek renumber`, `dotek new macros`, `dotek flatten`.
 #pragma once
 
 #include "driver/Driver.h"
@@ -32,6 +32,9 @@ Outcome outline(const OutlineOptions& options);
 // `files`: the programs with new numbers, by the name of the input; `inputs`: those that change. A file with
 // an error, or with a jump that nobody can follow, gives none.
 Outcome renumber(const RenumberCommandOptions& options);
+// The programs of a set of probing macros, as the control's memory holds them. Of most sets only the vendor
+// has them, which is an error.
+Outcome newMacros(const std::string& name, const CommonOptions& common);
 // The blocks that a run of the program makes, with values in the place of variables, as one program: a run of
 // it with the same part and setup, and without `setup.call`, does the same. A run that does not come to its
 // end gives none. Of `options` count those that say what runs, on what, and where it begins.

@@ -62,7 +62,7 @@ TEST_CASE("a fragment with our own macros says what they need and calls them") {
   const driver::ConvertOptions convert = ownMacrosFor(folder, "fanuc-0i-md");
   const std::string fragment = fragmentOf(convert);
   CHECK(fragment.find("// Set before the first call of a macro: #520 radius") != std::string::npos);
-  CHECK(fragment.find("macrob/dotek.nc") != std::string::npos);
+  CHECK(fragment.find("dotek new macros dotek") != std::string::npos);
   fusion::RunInput input;
   input.toolDiameter = 6;
   input.cycle = {{"clearance", 15}, {"probeOvertravel", 8}};

@@ -1,6 +1,7 @@
 // Our own macros on G31: their text, run on parts of exact geometry.
 #include "tests/unit/OwnMacros.h"
 #include "driver/Driver.h"
+#include "driver/ProgramTools.h"
 #include "tests/GoldenRunner.h"
 
 #include <cstdio>
@@ -367,4 +368,17 @@ TEST_CASE("own macros: lint finds nothing, on both controls") {
     CHECK(outcome.status == 0);
     CHECK(outcome.diagnostics.all().empty());
   }
+}
+
+TEST_CASE("own macros: `new macros` prints the text for the control, and has none of a vendor") {
+  const driver::Outcome own = driver::newMacros("dotek", {});
+  CHECK(own.status == 0);
+  CHECK(own.output == readAll(root() / "stdlib/macrob/dotek.nc"));
+  const driver::Outcome vendor = driver::newMacros("inspection-plus", {});
+  CHECK(vendor.status == 1);
+  CHECK(vendor.output.empty());
+  REQUIRE_FALSE(vendor.diagnostics.all().empty());
+  CHECK(vendor.diagnostics.all().front().code == "no-macro-text");
+  const CommandResult written = runDotek({"new", "macros", "dotek", "-o", "-"}, root());
+  CHECK(written.out == own.output);
 }
