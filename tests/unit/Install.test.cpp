@@ -108,7 +108,9 @@ TEST_CASE("install: two packages of one program have the same bytes, and hold wh
        {"/usr/bin/dotek\n", "/usr/share/man/man1/dotek.1.gz\n",
         "/usr/share/bash-completion/completions/dotek\n", "/usr/share/doc/dotek/copyright\n",
         "/usr/share/doc/dotek/docs/cycles.md\n", "/usr/share/doc/dotek/examples/post.txt\n",
-        "/usr/share/dotek/controls/fanuc-31i-b.toml\n"})
+        "/usr/share/dotek/controls/fanuc-31i-b.toml\n", "/usr/share/dotek/macrob/dotek.nc\n",
+        "/usr/share/doc/dotek/docs/schemas/sim.schema.json\n",
+        "/usr/share/doc/dotek/.pre-commit-hooks.yaml\n"})
     CHECK_MESSAGE(listed.find(name) != std::string::npos, name << " is not in " << listed);
   CHECK(listed.find(".h\n") == std::string::npos);
   CHECK(listed.find(".a\n") == std::string::npos);
