@@ -29,6 +29,12 @@ bool Checker::declareName(const Name& name, Symbol symbol) {
   symbol.range = used_.hasPlace() ? used_ : name.range;
   const auto [at, isNew] = symbols_.try_emplace(name.text, symbol);
   if (isNew) return true;
+  if (!at->second.range.hasPlace() && at->second.role != Symbol::Role::Host) {
+    // It was only read so far, and reported there.
+    symbol.read = true;
+    at->second = symbol;
+    return true;
+  }
   if (at->second.role == Symbol::Role::Host)
     diagnostics_.report<diag::HostName>(symbol.range, name.text, proposeName("my_" + name.text));
   else
@@ -67,6 +73,7 @@ void Checker::clauses(const Parameter& parameter) {
   Known known;
   for (const Name& name : parameter.names)
     known.given.insert(name.text);
+  inClause_ = true;
   for (const Clause& clause : parameter.clauses) {
     if (clause.kind == Clause::Kind::Require) wantFlag(*clause.first, "`require`", known);
     if (clause.kind == Clause::Kind::Range) {
@@ -75,6 +82,7 @@ void Checker::clauses(const Parameter& parameter) {
       want(*clause.second, quantity, "the largest value", known);
     }
   }
+  inClause_ = false;
 }
 
 void Checker::parameter(const Parameter& parameter) {
@@ -169,8 +177,27 @@ void Checker::collect(const Block& block) {
   }
 }
 
+void Checker::collectDeclarations() {
+  const auto add = [&](const Statement& statement, SourceRange from) {
+    const auto take = [&](const auto& declaration) {
+      for (const Name& name : declaration.names)
+        below_.emplace(name.text, from.hasPlace() ? from : name.range);
+    };
+    if (const auto* one = std::get_if<Parameter>(&statement.node)) take(*one);
+    if (const auto* one = std::get_if<Result>(&statement.node)) take(*one);
+  };
+  for (const Statement& statement : file_.body.statements) {
+    add(statement, {});
+    const auto* use = std::get_if<Use>(&statement.node);
+    if (use == nullptr || use->options == nullptr) continue;
+    for (const Statement& one : use->options->body.statements)
+      add(one, use->name.range);
+  }
+}
+
 void Checker::run() {
   header();
+  collectDeclarations();
   collect(file_.body);
   bool running = false;
   for (const Statement& statement : file_.body.statements) {

@@ -44,6 +44,13 @@ bool isBareNumber(const Expression& expression) {
 } // namespace
 
 void Checker::unknownName(SourceRange range, const std::string& name) {
+  if (const auto below = below_.find(name); below != below_.end()) {
+    diagnostics_
+        .report<diag::DeclaredBelow>(range, name, sources_.line(below->second),
+                                     inClause_ ? ", or write the check as a `require` line after both" : "")
+        .note(below->second, "it is declared here");
+    return;
+  }
   // Past the first ones no hint is read, and each costs as much as there are names.
   constexpr int kMostHints = 200;
   const std::string near = name == "true"              ? "yes"

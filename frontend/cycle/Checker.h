@@ -39,6 +39,7 @@ private:
   void unread();
   // Names of touches, called cycles and values, wherever they get their values.
   void collect(const Block& block);
+  void collectDeclarations();
 
   // ---- CheckFlow.cpp
   void block(const Block& block, Known& known);
@@ -87,6 +88,9 @@ private:
   Symbols symbols_;
   int nameHints_ = 0; // names looked up for "did you mean"
   std::map<std::string, Symbol::Role, std::less<>> later_;
+  // Parameters and results, wherever they are declared.
+  std::map<std::string, SourceRange, std::less<>> below_;
+  bool inClause_ = false; // of a parameter
   // Where `use` brought the declarations that are being taken; no place: they are the file's own.
   SourceRange used_;
   bool options_ = false; // a file of options
