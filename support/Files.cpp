@@ -40,7 +40,7 @@ OpenFile openInput(const std::string& path, Diagnostics& diagnostics) {
     return file;
   }
   if (fs::is_directory(status)) {
-    diagnostics.report<diag::FileNotReadable>({}, path, "it is a folder");
+    diagnostics.report<diag::FileNotReadable>({}, path, "it is a folder; name the files in it");
     return file;
   }
   file.reset(std::fopen(path.c_str(), "rb"));

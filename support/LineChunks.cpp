@@ -64,7 +64,7 @@ std::unique_ptr<LineChunks> LineChunks::open(const std::string& path, Diagnostic
   struct stat status {};
   if (::fstat(descriptor, &status) == 0 && S_ISDIR(status.st_mode)) {
     ::close(descriptor);
-    diagnostics.report<diag::FileNotReadable>({}, path, "it is a folder");
+    diagnostics.report<diag::FileNotReadable>({}, path, "it is a folder; name the files in it");
     return nullptr;
   }
   return std::unique_ptr<LineChunks>(new LineChunks(descriptor, buffer));

@@ -1,7 +1,14 @@
 #include "targets/Conversion.h"
 
+#include "project/CycleFiles.h"
+#include "project/CycleValues.h"
 #include "project/Values.h"
+#include "support/Decimal.h"
 #include "support/messages/Commands.h"
+#include "support/messages/Sim.h"
+
+#include <algorithm>
+#include <utility>
 
 namespace dotek::targets {
 
@@ -47,13 +54,52 @@ void refuseOptions(const ConvertOptions& options, bool programs, bool cycles, Di
   }
 }
 
+namespace {
+
+// Literals of the cycle language as numbers: `18mm`, `G54`. Values that are none are reported.
+dotek::project::NamedTexts defaultsAsNumbers(const std::string& path, ConversionContext& context) {
+  dotek::project::NamedTexts out = context.options.defaults;
+  Session& session = context.session;
+  if (std::all_of(out.begin(), out.end(),
+                  [](const auto& one) { return parseNumber(one.second).has_value(); }))
+    return out;
+  Diagnostics said = std::exchange(session.diagnostics(), Diagnostics());
+  dotek::project::CycleFiles files(session);
+  const auto* const tree = files.linked(path); // it has been lowered
+  session.diagnostics() = std::move(said);
+  if (tree == nullptr) return out;
+  std::erase_if(out, [&](auto& one) {
+    auto& [name, text] = one;
+    if (parseNumber(text)) return false;
+    Diagnostics found;
+    const auto values = dotek::project::cycleValues(*tree, {{name, text}}, found);
+    if (const auto value = values.find(name); value != values.end()) {
+      text = numberText(value->second);
+      return false;
+    }
+    bool wrong = false; // else the cycle has no such parameter, which is reported by name
+    for (Diagnostic& d : found.all()) {
+      if (d.code != diag::ParameterValue::code) continue;
+      wrong = true;
+      context.usedDefaults.insert(name);
+      if (const std::size_t flag = d.message.find("--set"); flag != std::string::npos)
+        d.message.replace(flag, 5, "--default");
+      session.diagnostics().add(std::move(d));
+    }
+    return wrong;
+  });
+  return out;
+}
+
+} // namespace
+
 std::optional<LoweredSource> lowerSource(const CycleFolder& folder, ConversionContext& context) {
   Session& session = context.session;
   std::optional<LoweredCycle> lowered = context.compilation.lower(folder);
   if (!lowered) return std::nullopt;
   LoweredSource out{std::move(*lowered), {}};
-  if (context.compilation.fileOf(folder) != nullptr) {
-    applyDefaults(context.options.defaults, out.lowered, context.usedDefaults, session);
+  if (const std::string* const file = context.compilation.fileOf(folder)) {
+    applyDefaults(defaultsAsNumbers(*file, context), out.lowered, context.usedDefaults, session);
     return out;
   }
   ir::Cycle& cycle = out.lowered.cycle;

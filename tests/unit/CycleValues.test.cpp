@@ -1,5 +1,6 @@
 // Values of parameters as a command line gives them.
 #include "project/CycleValues.h"
+#include "tests/Process.h"
 
 #include <doctest/doctest.h>
 
@@ -60,4 +61,21 @@ TEST_CASE("cycle values: flags, offsets and choices by their names") {
   choice.choices = {{{}, "inside"}, {{}, "outside"}};
   CHECK(read(choice, "outside") == 2);
   CHECK_FALSE(read(choice, "beside"));
+}
+
+TEST_CASE("cycle values: --default of convert takes what --set takes") {
+  const tests::ProcessFolder folder;
+  folder.write("edge.cycle", "cycle edge \"Edge\"\nparameter system : work_offset\nparameter depth : length\n"
+                             "spindle off\nprobe on\nprotected move by z -depth\ntouch x by 10 mm -> left\n"
+                             "protected move to start\nprobe off\nset system: left.at becomes x 0 mm\n");
+  const std::string command = "dotek convert edge.cycle --to fanuc -o - --default ";
+  const auto plain = folder.run(command + "system=55 --default depth=12.7");
+  REQUIRE_MESSAGE(plain.status == 0, plain.err);
+  const auto literal = folder.run(command + "system=G55 --default depth=0.5in");
+  CHECK(literal.status == 0);
+  CHECK(literal.out == plain.out);
+  const auto wrong = folder.run(command + "system=G60");
+  CHECK(wrong.status != 0);
+  CHECK(wrong.err.find("`--default system=G60`: this parameter takes a work offset") != std::string::npos);
+  CHECK(folder.run(command + "sytem=G55").err.find("no-such-field") != std::string::npos);
 }
