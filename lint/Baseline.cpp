@@ -133,7 +133,10 @@ bool Baseline::holds(const Key& key, const std::vector<std::string>& places) {
   // It is there still, even where it has a place more.
   if (same != end) {
     same->second.found = true;
-    if (!same->second.places) return true;
+    if (!same->second.places) {
+      if (!places.empty()) ++passedBlindly_;
+      return true;
+    }
   }
   std::map<Key, std::size_t> needed;
   ++needed[{file, code, withoutNumber(fingerprint)}];

@@ -36,6 +36,8 @@ public:
   void passOver(Diagnostics& findings, const SourceMap& sources);
 
   std::size_t passedOver() const { return passedOver_; }
+  // Of those, how many list further places that the baseline, which is of an older version, does not know.
+  std::size_t passedBlindly() const { return passedBlindly_; }
   std::size_t gone(const Judged& judged) const;   // of what passOver() did not find
   std::size_t others(const Judged& judged) const; // not judged by the run
   // It is of files of which none is among `sources`.
@@ -57,7 +59,7 @@ private:
   std::multimap<Key, Held> held_;
   // By file, code and fingerprint without its number: how many places of the held findings are not taken yet.
   std::map<Key, std::size_t> places_;
-  std::size_t passedOver_ = 0;
+  std::size_t passedOver_ = 0, passedBlindly_ = 0;
 };
 
 } // namespace dotek::lint

@@ -122,6 +122,10 @@ TEST_CASE("baseline: a place more of an accepted finding is new") {
   folder.run("sed -i '/places/,/]/d; s/\\(\"fingerprint\".*\\),$/\\1/' known.json");
   CHECK(folder.read("known.json").find("places") == std::string::npos);
   CHECK(lint(five).status == 0);
+  CHECK(lint(five).err.find("older version") == std::string::npos);
+  const ShellResult blind = lint(five + six);
+  CHECK(blind.status == 0);
+  CHECK(blind.err.find("1 of them with further places") != std::string::npos);
 }
 
 TEST_CASE("baseline: what is no baseline lets nothing pass") {
