@@ -1,6 +1,7 @@
 #include "sim/machine/SafeMoves.h"
 
 #include "ir/Walk.h"
+#include "sim/machine/SkipWants.h"
 
 #include <algorithm>
 #include <bitset>
@@ -191,6 +192,7 @@ BlockSet safeMoves(const std::vector<const ir::Program*>& programs, const stdlib
   BlockSet out;
   for (const ir::Program* program : programs) {
     const auto& body = program->body;
+    std::set<std::size_t> watched;
     for (std::size_t at = 0; at < body.size(); ++at) {
       if (!does(body[at], stdlib::Function::Skip, control)) continue;
       const auto axes = axesOf(body[at]);
@@ -202,8 +204,11 @@ BlockSet safeMoves(const std::vector<const ir::Program*>& programs, const stdlib
           (ir::conditionOf(body[i]) != nullptr ? compared : kept) = true;
         moved = moved || mayMove(body[i]);
       }
-      if (compared && !kept) out.insert(blockOf(body[at]));
+      if (compared && !kept) watched.insert(at);
     }
+    const std::set<std::size_t> touches = wantingContact(*program, watched, control);
+    for (const std::size_t at : watched)
+      if (!touches.contains(at)) out.insert(blockOf(body[at]));
   }
   return out;
 }

@@ -18,7 +18,7 @@ using BlockSet = std::set<std::pair<FileId, std::uint32_t>>;
 // Skip moves that go to a position and watch for the part on the way there. Such a one is followed by an IF
 // that looks at the skip position (#5061 and the following), or, before anything moves, at where the machine
 // is (#5001, #5041 and the following), and nothing else reads it before the next skip move; who measures
-// keeps it.
+// keeps it. A move that wants a contact (SkipWants.h) is none: a quick touch whose IF alarms without one.
 BlockSet safeMoves(const std::vector<const ir::Program*>& programs, const stdlib::Control& control);
 
 // Blocks that read where a skip move has ended and ask what it came to: conditions, copies that a condition

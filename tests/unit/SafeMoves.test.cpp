@@ -1,0 +1,74 @@
+#include "sim/machine/SafeMoves.h"
+#include "frontend/macrob/Lower.h"
+#include "tests/unit/MacroBHelper.h"
+
+#include <algorithm>
+#include <doctest/doctest.h>
+
+using namespace dotek;
+using tests::MacroFile;
+
+namespace {
+
+// Lines, from 1, of the skip moves that go to a position; the program has its alarm at N9.
+std::string safeIn(const std::string& body) {
+  const std::string text = "O1\n" + body + "M99\nN9#3000=5(HALT)\n";
+  MacroFile parsed(text);
+  const auto control = stdlib::Control::load(stdlib::DataFiles(), "fanuc-31i-b");
+  REQUIRE(control);
+  const auto file = frontend::macrob::lower(parsed.file, *control, parsed.sources, parsed.diagnostics);
+  INFO(text << parsed.told());
+  REQUIRE(file);
+  std::string out;
+  for (const auto& [id, begin] : sim::safeMoves({&file->programs.front()}, *control)) {
+    const auto end = text.begin() + static_cast<std::ptrdiff_t>(begin);
+    out += (out.empty() ? "" : " ") + std::to_string(std::count(text.begin(), end, '\n'));
+  }
+  return out;
+}
+
+} // namespace
+
+TEST_CASE("safe moves: the IF alarms with a contact, that of a touch without one") {
+  const std::string from = "#10=#5041\n", there = "G31X[#10+20.]F200.\n", down = "G90G31Z#26F1000\n";
+  CHECK(safeIn(from + there + "IF[#5061LT#10+19.99]GOTO9\n") == "2");
+  CHECK(safeIn(from + there + "IF[#5061GE#10+19.99]GOTO9\n") == "");
+  CHECK(safeIn(from + there + "IF[#5061GE#10+19.99]THEN#3000=5(NONE)\n") == "");
+  CHECK(safeIn(from + there + "IF[#5061LT#10+19.99]GOTO5\n#3000=5(NONE)\nN5\n") == "");
+  CHECK(safeIn(from + there + "IF[#5061GE#10+19.99]GOTO5\n#3000=5(HIT)\nN5\n") == "2");
+  CHECK(safeIn(down + "IF[ABS[#5063-#26]GT0.01]GOTO9\n") == "1");
+  CHECK(safeIn(down + "IF[ABS[#5063-#26]LT0.01]GOTO9\n") == "");
+  CHECK(safeIn(down + "IF[ABS[#5063-#5083-#26]GT0.01]GOTO9\n") == "1");
+  CHECK(safeIn(down + "IF[ABS[#5063-#5083-#26]LE0.01]GOTO9\n") == "");
+  CHECK(safeIn(down + "IF[[#5063GT#26+0.01]OR[#1EQ2]]GOTO9\n") == "1"); // not decided: as it looks
+  CHECK(safeIn(down + "IF[[#5063LE#26+0.01]OR[#1EQ2]]GOTO9\n") == "");
+  CHECK(safeIn(down + "IF[#5043LE#26+0.01]GOTO9\n") == "");
+  CHECK(safeIn(down + "IF[#5043GT#26+0.01]GOTO9\n") == "1");
+  // By a way of its own to the alarm, down in the text or with a move away.
+  CHECK(safeIn(down + "IF[#5063LE#26+0.01]GOTO8\nM99\nN8G0Z50.\nGOTO9\n") == "");
+  // From a start that a variable holds, by steps.
+  CHECK(safeIn("#2=#5042\nG91G31Y-12.F200\nG90\nIF[#5062LE#2-11.99]GOTO9\n") == "");
+  CHECK(safeIn("#2=#5042\nG91G31Y-12.F200\nG90\nIF[#5062GT#2-11.99]GOTO9\n") == "2");
+  // The end of the move is in a variable that one branch sets; the same one is compared.
+  CHECK(safeIn("IF[#18EQ#0]THEN#18=2.\n#3=#24+#18\nG90G31X#3F200\nIF[#5061GE#24+#18-.01]GOTO9\n") == "");
+  CHECK(safeIn("IF[#18EQ#0]THEN#18=2.\n#3=#24+#18\nG90G31X#3F200\nIF[#5061LT#24+#18-.01]GOTO9\n") == "3");
+}
+
+TEST_CASE("safe moves: what the end of the move does not decide stays one") {
+  const std::string down = "G90G31Z#26F1000\n";
+  CHECK(safeIn(down + "IF[#5063LE#7]GOTO9\n") == "1");
+  CHECK(safeIn(down + "#26=#26-1.\nIF[#5063LE#26+1.005]GOTO9\n") == "");
+  CHECK(safeIn(down + "#26=#8\nIF[#5063LE#26+0.01]GOTO9\n") == "1");
+  CHECK(safeIn(down + "IF[#5063LE#26+0.01]GOTO8\nM99\nN8#500=1\n") == "1"); // no alarm on either way
+  CHECK(safeIn(down + "IF[#5063LE#26+0.01]GOTO8\nGOTO9\nN8GOTO9\n") == "1");
+  CHECK(safeIn("GOTO#1\nN1" + down + "IF[#5063LE#26+0.01]GOTO9\n") == "2");
+}
+
+TEST_CASE("safe moves: the first of two touches is none, whatever its IF says") {
+  const std::string down = "#5=#5043\nG90G31Z[#5-10.]F1000\nIF[#5063LE#7]GOTO9\n", read = "#101=#5063\n";
+  CHECK(safeIn(down + "G91G0Z1.\nG31Z-2.F30\nG90\n" + read) == "");
+  CHECK(safeIn(down + "G91G31Z-2.F30\nG90\n" + read) == "2");        // not back
+  CHECK(safeIn(down + "G91G0Z1.\nG31X-2.F30\nG90\n" + read) == "2"); // another axis
+  CHECK(safeIn(down + "G91G0Z1.\nG31Z2.F30\nG90\n" + read) == "2");  // the other way
+  CHECK(safeIn(down + "G91G0Z1.\nX5.\nG31Z-2.F30\nG90\n" + read) == "2");
+}
