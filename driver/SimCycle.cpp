@@ -165,7 +165,7 @@ private:
     rehearsal.run();
     std::vector<verify::Touch> touches;
     for (const sim::ExpectedSurface& one : rehearsal.expected())
-      touches.push_back({one.point, one.direction});
+      touches.push_back({one.point, one.direction, one.distance});
     if (touches.empty()) return true;
     reportShortTouches(rehearsal.expected());
     const auto part = verify::partOf(touches, cycleInputs_.ballRadius, cycleInputs_.overtravel, {});
@@ -173,8 +173,33 @@ private:
       diagnostics().report<diag::NoNominalPart>(rehearsal.place());
       return false;
     }
+    if (const auto other = meetsAnother(machine, *part, rehearsal.expected())) {
+      diagnostics().report<diag::NoNominalPart>(*other);
+      return false;
+    }
     world_->setPart(*part);
     return madePart_ = true;
+  }
+
+  // The first touch whose surface the ball does not come to, where it meets another one: the faces of two
+  // touches are in each other's way.
+  std::optional<SourceRange> meetsAnother(sim::Machine machine, const sim::Part& part,
+                                          const std::vector<sim::ExpectedSurface>& expected) {
+    constexpr double kOff = 0.05; // mm: more than a probe is off
+    sim::World world(part, world_->probe());
+    machine.setSkipSignal(&world);
+    machine.setWatcher(&world);
+    sim::CycleRun run(machine, *cycle_, cycleInputs_, session_.limits());
+    run.run();
+    std::vector<sim::Point3> met;
+    for (const sim::ProbeEvent& event : world.events())
+      if (event.outcome == sim::Outcome::Contact) met.push_back(event.point);
+    if (met.size() < expected.size()) return std::nullopt; // the probe is off, or the cycle ends before
+    for (const sim::ExpectedSurface& one : expected)
+      if (std::none_of(met.begin(), met.end(),
+                       [&](const sim::Point3& point) { return (point - one.point).length() < kOff; }))
+        return one.range;
+    return std::nullopt;
   }
 
   // A distance that was counted from the ball instead of from its centre: the part then lies within the ball.

@@ -80,7 +80,7 @@ CycleStand::Rehearsal CycleStand::rehearse(const ir::Cycle& cycle, sim::CycleInp
   Rehearsal out;
   const auto mayMiss = mayMissIn(cycle);
   for (const sim::ExpectedSurface& one : run.expected()) {
-    out.surfaces.push_back({one.point, one.direction});
+    out.surfaces.push_back({one.point, one.direction, one.distance});
     out.mayMiss.push_back(mayMiss.contains({one.range.file, one.range.begin}));
   }
   const sim::RunEnd& end = machine.end();

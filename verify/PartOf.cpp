@@ -1,6 +1,7 @@
 #include "verify/DrawnPath.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -18,6 +19,8 @@ constexpr double kBeside = 2.5;  // mm of a face beside the ball: more than an e
 constexpr double kBehind = 2;    // mm of material after a search that finds nothing
 constexpr double kAbove = 3;     // mm of a face above and below the ball's centre
 constexpr double kRim = 10;      // mm of a plate around its bore
+constexpr double kLeast = 0.35;  // mm of a face beside the ball's centre: an error moves it by no more
+constexpr double kMeets = 0.01;  // mm that the ball gets into a face before it is in its way
 
 bool isSame(const Point3& a, const Point3& b) {
   return (a - b).length() <= kSame;
@@ -54,7 +57,8 @@ struct Pair {
 class Shapes {
 public:
   Shapes(const std::vector<Touch>& touches, double ballRadius, double reach)
-      : middle_(middleOf(touches)), beside_(ballRadius + kBeside), behind_(reach + kBehind) {
+      : middle_(middleOf(touches)), all_(touches), radius_(ballRadius), beside_(ballRadius + kBeside),
+        behind_(reach + kBehind) {
     std::vector<Touch> rest = distinct(touches);
     takeCircles(rest);
     std::vector<Pair> pairs = takePairs(rest);
@@ -218,11 +222,69 @@ private:
 
   // Its face looks against the touch.
   void addBlock(const Point3& point, const Point3& direction, double depth) {
-    const Point3 middle = point + direction * (depth / 2) - middle_;
-    if (direction.z != 0)
-      return builder_.block(middle, {0, 0, 1}, {1, 0, 0}, {beside_, beside_, depth / 2}, 0,
+    Block block;
+    block.origin = point;
+    block.axes[0] = direction;
+    block.high[0] = depth;
+    const bool level = direction.z == 0;
+    block.axes[1] = level ? Point3{-direction.y, direction.x, 0} : Point3{1, 0, 0};
+    block.axes[2] = level ? Point3{0, 0, 1} : Point3{0, 1, 0};
+    block.low[1] = -beside_, block.high[1] = beside_;
+    block.low[2] = level ? -kAbove : -beside_, block.high[2] = level ? kAbove : beside_;
+    for (const Touch& touch : all_)
+      if (touch.way > 0) makeWay(block, touch);
+    Point3 middle = point - middle_, half;
+    for (std::size_t i = 0; i < 3; ++i)
+      middle = middle + block.axes[i] * ((block.low[i] + block.high[i]) / 2);
+    const auto halfOf = [&](std::size_t i) { return (block.high[i] - block.low[i]) / 2; };
+    if (!level)
+      return builder_.block(middle, {0, 0, 1}, {1, 0, 0}, {halfOf(1), halfOf(2), halfOf(0)}, 0,
                             PartBuilder::Action::Add);
-    builder_.block(middle, {0, 0, 1}, direction, {depth / 2, beside_, kAbove}, 0, PartBuilder::Action::Add);
+    builder_.block(middle, {0, 0, 1}, direction, {halfOf(0), halfOf(1), halfOf(2)}, 0,
+                   PartBuilder::Action::Add);
+  }
+
+  // The first axis is the touch's; ends are counted from the touched point.
+  struct Block {
+    Point3 origin;
+    std::array<Point3, 3> axes;
+    std::array<double, 3> low{}, high{};
+  };
+  // The face ends half way to the ball of a touch that would meet it on its way. Where too little of it would
+  // be left it stays: no part has both faces.
+  void makeWay(Block& block, const Touch& touch) const {
+    const bool level = touch.direction.z == 0;
+    const Point3 end = level ? touch.point - touch.direction * radius_ : touch.point + Point3{0, 0, radius_};
+    const Point3 begin = end - touch.direction * touch.way;
+    std::array<double, 3> from{}, to{};
+    double enters = 0, leaves = 1;
+    for (std::size_t i = 0; i < 3; ++i) {
+      from[i] = (begin - block.origin).dot(block.axes[i]);
+      to[i] = (end - block.origin).dot(block.axes[i]);
+      const double low = block.low[i] - radius_ + kMeets, high = block.high[i] + radius_ - kMeets;
+      const double step = to[i] - from[i];
+      if (std::abs(step) < kSame) {
+        if (from[i] <= low || from[i] >= high) return;
+        continue;
+      }
+      const double one = (low - from[i]) / step, other = (high - from[i]) / step;
+      enters = std::max(enters, std::min(one, other));
+      leaves = std::min(leaves, std::max(one, other));
+    }
+    if (enters >= leaves) return;
+    std::size_t axis = 0;
+    double gap = 2 * kLeast;
+    for (const std::size_t i : {1U, 2U}) {
+      const double off = std::min(std::abs(from[i]), std::abs(to[i])) - radius_;
+      if (from[i] * to[i] <= 0 || off < gap) continue;
+      axis = i;
+      gap = off;
+    }
+    if (axis == 0) return;
+    if (from[axis] > 0)
+      block.high[axis] = std::min(block.high[axis], gap / 2);
+    else
+      block.low[axis] = std::max(block.low[axis], -gap / 2);
   }
 
   struct Bore {
@@ -231,7 +293,8 @@ private:
   };
   std::vector<Bore> bores_;
   Point3 middle_; // zero of the part: what it is turned about
-  double beside_, behind_;
+  const std::vector<Touch>& all_;
+  double radius_, beside_, behind_;
   PartBuilder builder_;
 };
 

@@ -58,6 +58,7 @@ struct Piece {
 struct Touch {
   sim::Point3 point;
   sim::Point3 direction; // of the motion, length 1
+  double way = 0;        // of the ball before it, mm; 0: not known
 };
 
 // A call, or a bare skip move, that measures.

@@ -1,0 +1,49 @@
+// The part that `sim` makes of the touches of a cycle.
+#include "tests/GoldenRunner.h"
+#include "tests/TestFolder.h"
+
+#include <doctest/doctest.h>
+#include <string>
+
+using namespace dotek::tests;
+
+namespace {
+
+CommandResult simulated(const std::string& touches) {
+  const TestFolder folder("dotek-made-part");
+  folder.write("steps.cycle", "cycle steps \"Steps\"\nresult run : length\nspindle off\nprobe on\n" +
+                                  touches + "protected move to start\nprobe off\nrun = high.at - low.at\n");
+  return runDotek(splitArguments("sim steps.cycle"), folder.path());
+}
+
+bool holds(const CommandResult& result, const std::string& text) {
+  return (result.out + result.err).find(text) != std::string::npos;
+}
+
+} // namespace
+
+TEST_CASE("made part: the face of a lower touch ends below the way of the upper one") {
+  const CommandResult down =
+      simulated("touch x by 16 mm -> high\nprotected move by z -4 mm\ntouch x by 12 mm -> low\n");
+  CAPTURE(down.err);
+  CHECK(down.status == 0);
+  CHECK(holds(down, "result run 4.000000"));
+  CHECK_FALSE(holds(down, "edge-touched"));
+  const CommandResult aside =
+      simulated("touch y by 16 mm -> high\nprotected move by x -5 mm\ntouch y by 12 mm -> low\n");
+  CHECK(holds(aside, "result run 4.000000"));
+}
+
+TEST_CASE("made part: where no part has both faces the run asks for one") {
+  const CommandResult below = simulated("touch z by -5 mm -> high\ntouch z by -13 mm -> low\n");
+  CAPTURE(below.err);
+  CHECK(below.status == 1);
+  CHECK(holds(below, "steps.cycle:6:1: error: "));
+  CHECK(holds(below, "[no-nominal-part]"));
+  const CommandResult close =
+      simulated("touch x by 16 mm -> high\nprotected move by z -2 mm\ntouch x by 12 mm -> low\n");
+  CHECK(holds(close, "[no-nominal-part]"));
+  // Without a probe that is on the part is not what is wrong.
+  CHECK_FALSE(
+      holds(simulated("probe off\ntouch x by 5 mm -> high\ntouch x by 9 mm -> low\n"), "no-nominal-part"));
+}
