@@ -15,6 +15,8 @@ namespace dotek::backends::fanuc {
 
 namespace {
 
+constexpr std::string_view kSourceSet = "take the macro set of the source";
+
 constexpr double kFirstSystem = 54, kLastSystem = 59;
 constexpr std::uint32_t kMaxSteps = 10000;
 
@@ -123,14 +125,15 @@ void writeOffset(State& state, const ir::OffsetSetting& setting, ir::Axis axis,
                  const stdlib::MacroSignature& signature, const ir::Origin& given) {
   const std::string why = obstacle(state);
   if (!why.empty()) {
-    state.refuse<diag::OffsetWriteUnsafe>(given.range(), std::string(1, ir::letterOf(axis)), why);
+    state.refuse<diag::OffsetWriteUnsafe>(given.range(), std::string(1, ir::letterOf(axis)), why, kSourceSet);
     return;
   }
   const auto result = std::find_if(signature.results.begin(), signature.results.end(),
                                    [&](const auto& r) { return r.name == positionOf(axis); });
   if (result == signature.results.end()) {
     state.refuse<diag::OffsetWriteUnsafe>(given.range(), std::string(1, ir::letterOf(axis)),
-                                          "the macro does not say where it leaves the measured position");
+                                          "the macro does not say where it leaves the measured position",
+                                          kSourceSet);
     return;
   }
   ir::Origin origin = given;
@@ -160,7 +163,9 @@ void writeSetOffset(State& state, const ir::CallCycle& set, const ir::Origin& gi
                      [&](const ir::CycleArgument& one) { return one.parameter == parameter; });
     if (measured == set.arguments.end()) continue;
     if (!why.empty()) {
-      state.refuse<diag::OffsetWriteUnsafe>(given.range(), std::string(1, ir::letterOf(axis)), why);
+      state.refuse<diag::OffsetWriteUnsafe>(given.range(), std::string(1, ir::letterOf(axis)), why,
+                                            "take another control (`dotek list controls`), or make the place "
+                                            "a result and set the offset by hand");
       return;
     }
     if (axis == ir::Axis::Z) state.shiftOfZ = true;

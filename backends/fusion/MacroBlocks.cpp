@@ -495,7 +495,8 @@ void MacroBlocks::cycle(const ir::CallCycle& given, const ir::Origin& origin, st
         if (call.setting->axes[ir::indexOf(axis)] && own->nominal[ir::indexOf(axis)] == nullptr)
           own->nominal[ir::indexOf(axis)] = expects(call, axis);
       if (const std::string why = offsetObstacle(*signature, *own); !why.empty()) {
-        state_.refuse<diag::OffsetWriteUnsafe>(origin.range(), "the feature", why);
+        state_.refuse<diag::OffsetWriteUnsafe>(origin.range(), "the feature", why,
+                                               "take the macro set of the source");
         return;
       }
       asked.setsSystem = false;

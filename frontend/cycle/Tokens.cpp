@@ -227,6 +227,13 @@ std::string explain(const antlr4::Token& offending, const antlr4::Parser& parser
   if (type != Lexer::NAME && isReserved(text) && at + 1 < input.size() && input.get(at + 1)->getText() == ".")
     return fmt::format("`{0}` is a word of the language, so nothing can be called that; write `{1}`", text,
                        proposeName(text));
+  if (text == "touch" && head.getType() == Lexer::NAME)
+    return fmt::format("a touch names what it finds after `->`; write `touch .. -> {}`", word);
+  for (size_t i = first; word == "set" && i <= at; ++i)
+    if (input.get(i)->getText() == "wear")
+      return "a cycle sets the length of a tool and no wear, and a wear is no length; take the present "
+             "length as "
+             "a parameter and write `set tool T length present + found`";
   return fmt::format("`{}` does not fit here{}", text, write);
 }
 

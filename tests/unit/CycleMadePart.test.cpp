@@ -47,3 +47,21 @@ TEST_CASE("made part: where no part has both faces the run asks for one") {
   CHECK_FALSE(
       holds(simulated("probe off\ntouch x by 5 mm -> high\ntouch x by 9 mm -> low\n"), "no-nominal-part"));
 }
+
+TEST_CASE(
+    "cycle: a touch that is written as a value, a wear as length, and an offset that no control can set") {
+  const TestFolder folder("dotek-cycle-remedies");
+  const auto said = [&](const std::string& command, const std::string& body) {
+    folder.write("one.cycle", "cycle one \"One\"\nspindle off\nprobe on\n" + body + "probe off\n");
+    const CommandResult result = runDotek(splitArguments(command), folder.path());
+    return result.out + result.err;
+  };
+  CHECK(said("lint one.cycle", "left = touch x by 5 mm\n").find("write `touch .. -> left`") !=
+        std::string::npos);
+  CHECK(said("lint one.cycle", "set tool 3 wear 0.03 mm\n").find("no wear") != std::string::npos);
+  const std::string unset =
+      said("convert one.cycle --to fanuc --control fanuc-6m --probe-macros inspection-plus",
+           "touch x by 5 mm -> side\nplace = side.at\nset G54: place becomes x 0 mm\n");
+  CHECK(unset.find("[offset-write-unsafe]") != std::string::npos);
+  CHECK(unset.find("macro set of the source") == std::string::npos);
+}
