@@ -218,7 +218,7 @@ std::shared_ptr<const ir::ProgramFile> Compilation::lower(const macrob::File& fi
                                                           const stdlib::Control* control) {
   const auto as = [&](const stdlib::Control& one) -> std::shared_ptr<const ir::ProgramFile> {
     Diagnostics ignored;
-    auto program = macrob::lower(file, one, session_.sources(), ignored);
+    auto program = macrob::lower(file, one, session_.sources(), ignored, macrob::LowerFor::Rules);
     return program ? std::make_shared<const ir::ProgramFile>(std::move(*program)) : nullptr;
   };
   if (control != nullptr) return as(*control);

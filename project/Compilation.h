@@ -75,7 +75,8 @@ public:
   const std::string* fileOf(const CycleFolder& folder) const;
   // Names of --set that some cycle knows which was lowered.
   std::set<std::string>& usedSets() { return usedSets_; }
-  // Programs as this control reads them, or, without one, as the first that can. nullptr: none can.
+  // Programs as this control reads them, or, without one, as the first that can, for rules. nullptr: none
+  // can.
   std::shared_ptr<const ir::ProgramFile> lower(const frontend::macrob::File& file,
                                                const stdlib::Control* control);
 

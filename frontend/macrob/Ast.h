@@ -138,6 +138,7 @@ struct Block {
   // The tree is what the block most likely means: an error was reported, and its repair is taken as made.
   // What runs or translates refuses.
   bool repaired = false;
+  bool target = false; // something goes to its number (Targets.h)
 };
 
 struct ProgramName {

@@ -349,10 +349,9 @@ void offsetOverwritten(const CheckedProgram& input, Report& report) {
     if (!first) continue;
     for (std::size_t j = i + 1; j < blocks.size() && j < i + 50; ++j) {
       const Block& block = blocks[j];
-      const bool comment = std::holds_alternative<std::monostate>(block.body) && !block.sequenceNumber;
+      const bool comment = std::holds_alternative<std::monostate>(block.body) && !block.target;
       if (comment) continue;
-      if (block.sequenceNumber || block.blockDelete || !std::holds_alternative<nc::Assignment>(block.body))
-        break;
+      if (block.target || block.blockDelete || !std::holds_alternative<nc::Assignment>(block.body)) break;
       const auto& assignment = std::get<nc::Assignment>(block.body);
       bool reads = false;
       walk(*assignment.value, [&](const Expression& expression, bool) {

@@ -253,7 +253,7 @@ void positionReadEarly(const CheckedProgram& input, Report& report) {
         moving = nullptr; // reported once for each motion
       });
     // Nothing is known of a block that jumps arrive at, or that could not be read.
-    if (block.sequenceNumber || std::holds_alternative<Goto>(block.body) ||
+    if (block.target || std::holds_alternative<Goto>(block.body) ||
         std::holds_alternative<Unread>(block.body))
       moving = nullptr;
     if (const auto* words = std::get_if<Words>(&block.body)) moving = moves(*words) ? &block : nullptr;

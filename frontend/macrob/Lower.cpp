@@ -18,7 +18,8 @@ namespace {
 
 // The control reaches these while it runs, if ever: an alarm there, no reason not to begin.
 bool isForRunTime(std::string_view code, LowerFor use) {
-  if (code == gotoTargetMissingCheck.code || code == jumpIntoLoopCheck.code) return use == LowerFor::Run;
+  if (code == gotoTargetMissingCheck.code || code == jumpIntoLoopCheck.code)
+    return use != LowerFor::Translation;
   return code == variableOutOfRangeCheck.code || code == nullWrittenCheck.code ||
          code == readOnlyWrittenCheck.code || code == argumentWithoutPointCheck.code ||
          code == wordOutOfRangeCheck.code;
@@ -28,8 +29,9 @@ constexpr std::size_t kSmall = 1000; // statements
 
 class ProgramLowering {
 public:
-  ProgramLowering(const Program& program, const stdlib::Control& control, Diagnostics& diagnostics)
-      : program_(program), control_(control), diagnostics_(diagnostics) {}
+  ProgramLowering(const Program& program, const stdlib::Control& control, Diagnostics& diagnostics,
+                  LowerFor use)
+      : program_(program), control_(control), diagnostics_(diagnostics), use_(use) {}
 
   ir::Program run() {
     name();
@@ -88,7 +90,9 @@ private:
   void place(ir::LabelId label) { add(ir::Label{label}).blockDelete = 0; }
 
   void block(const Block& block) {
-    if (const auto& number = block.sequenceNumber; number && number->value != UINT64_MAX) {
+    const auto& number = block.sequenceNumber;
+    const bool wanted = block.target || use_ != LowerFor::Rules;
+    if (number && number->value != UINT64_MAX && wanted) {
       const std::vector<NumberedBlock>& same = labels_.at(number->value);
       place(std::lower_bound(same.begin(), same.end(), at_, before)->label);
     }
@@ -274,6 +278,7 @@ private:
   const Program& program_;
   const stdlib::Control& control_;
   Diagnostics& diagnostics_;
+  LowerFor use_;
   ir::Program out_;
   std::map<std::uint64_t, std::vector<NumberedBlock>> labels_; // by N number, in the order of the text
   std::vector<OpenLoop> loops_;
@@ -323,7 +328,7 @@ std::optional<ir::ProgramFile> lower(const File& file, const stdlib::Control& co
   reportMarks(file, sources, refused);
   ir::ProgramFile out{file.markFirst, file.markLast, {}};
   for (const Program& program : file.programs)
-    out.programs.push_back(ProgramLowering(program, control, refused).run());
+    out.programs.push_back(ProgramLowering(program, control, refused, use).run());
   for (Diagnostic& one : refused.all())
     diagnostics.add(std::move(one));
   if (refused.hasErrors()) return std::nullopt;

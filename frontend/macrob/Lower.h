@@ -12,8 +12,9 @@
 
 namespace dotek::frontend::macrob {
 
-// A run meets a jump without a target when it gets there; a translation is refused at once.
-enum class LowerFor : std::uint8_t { Run, Translation };
+// A run meets a jump without a target when it gets there; a translation is refused at once. Rules look at
+// the same as a run, without the numbers that nothing goes to.
+enum class LowerFor : std::uint8_t { Run, Translation, Rules };
 
 // The programs of the file, as `control` reads them (the form of ATAN, functions, brackets). Reports and
 // gives nothing where a block was not read or repaired, or where the control cannot run a statement. Words

@@ -6,6 +6,7 @@
 #include "frontend/macrob/Misprints.h"
 #include "frontend/macrob/Scan.h"
 #include "frontend/macrob/Slips.h"
+#include "frontend/macrob/Targets.h"
 #include "support/messages/Common.h"
 #include "support/messages/MacroB.h"
 
@@ -376,6 +377,7 @@ File parse(FileId file, const SourceMap& sources, const Limits& limits, Diagnost
     repairLoops(program, diagnostics);
     out.hasErrors = out.hasErrors || diagnostics.all().size() != before;
   }
+  markTargets(out);
   return out;
 }
 

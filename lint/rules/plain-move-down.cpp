@@ -36,7 +36,7 @@ void checkProgram(const NcProgram& nc, const Probing& probing, Report& report) {
         // A measurement returns to where it began.
         if (probing.step(body[at]).kind == ProbeStep::Kind::Measure) return height;
         if (const auto* block = std::get_if<ir::NcBlock>(&body[at].node);
-            block != nullptr && !hasWord(*block, 'Z'))
+            block != nullptr ? !hasWord(*block, 'Z') : callOf(body[at]) == nullptr)
           return height;
         // A protected move along X or Y stays on its height.
         const Height z = heightOf(body[at]);

@@ -20,6 +20,20 @@ bool isIdle(const ir::ProgramStatement& statement) {
   });
 }
 
+// Its text without block delete and number.
+std::string_view textOf(const ir::ProgramStatement& statement, const SourceMap& sources) {
+  std::string_view text = sources.text(statement.origin.range());
+  const auto skip = [&](char mark) {
+    text.remove_prefix(std::min(text.find_first_not_of(" \t"), text.size()));
+    if (text.empty() || text.front() != mark) return;
+    text.remove_prefix(1);
+    text.remove_prefix(std::min(text.find_first_not_of("0123456789"), text.size()));
+  };
+  for (const char mark : {'/', 'N', '/', ' '})
+    skip(mark);
+  return text;
+}
+
 void checkProgram(const NcProgram& nc, Report& report) {
   const auto& body = nc.program.body;
   const SourceMap& sources = nc.project.sources;
@@ -30,7 +44,8 @@ void checkProgram(const NcProgram& nc, Report& report) {
     if (!both || !nc.modes()[i]) continue;
     const auto& now = std::get<ir::NcBlock>(body[i].node);
     const bool incremental = *nc.modes()[i] != DistanceMode::Absolute && axesOf(now) != 0;
-    if (incremental || sources.text(body[i].origin.range()) != sources.text(body[i - 1].origin.range()))
+    if (incremental || body[i].blockDelete != body[i - 1].blockDelete ||
+        textOf(body[i], sources) != textOf(body[i - 1], sources))
       continue;
     report.at(body[i].origin.range(), "this block is the same as the one before and changes nothing; one of "
                                       "the two is left over, or was meant to differ");
