@@ -46,7 +46,7 @@ std::uint32_t SimWorld::missIn(std::uint32_t variable) const {
     const std::size_t axis = variable - static_cast<std::uint32_t>(*first);
     return axis < 3 && std::abs(ways[axis]) > 1e-6;
   };
-  const bool held = along(v.skip) || (!movedOn_ && (along(v.position) || along(v.machine)));
+  const bool held = along(v.skip) || (!movedOn_ && (along(v.position) || along(v.machine) || along(v.blockEnd)));
   return held ? lastMiss_ : 0;
 }
 

@@ -188,6 +188,11 @@ TEST_CASE("miss: an offset that is set from one fails the run, whatever IF has l
   CHECK(fails(away + "#1=#5061+3.\n" + tolerance + "#4=#1/2.\n#[5201+20]=#5221+#4\n"));
   CHECK(fails(away + "#1=#5041\n" + tolerance + "G10 L2 P1 X#1\n"));
   CHECK(fails(away + "#101=#5021\nIF[ABS[#101] GT 500.]GOTO91\n#[2000+2]=#101\n"));
+  // The end of the block, also by way of a copy; not once the machine has gone on, and not of another axis.
+  CHECK(fails(away + "#5241=#5221+#5001+3.\n"));
+  CHECK(fails(away + "#1=#5001\n#2=#1\n" + tolerance + "#2002=#2002-#2\n"));
+  CHECK_FALSE(fails(away + "G0 X-20.\n#2002=#5001/1000.\n"));
+  CHECK_FALSE(fails(away + "#2002=#5002/1000.\n"));
   // Overwritten by a touch, or by a number; of another axis; not written at all.
   CHECK_FALSE(fails(away + "#1=#5061\n" + tolerance + "#1=0.02\n#2002=#2002-#1\n"));
   CHECK_FALSE(fails(std::string(kDown) + "IF[#5003 GT 0]GOTO91\nG31 X5. F50\n#2=#5061\nG0 X-20.\n" + away +
