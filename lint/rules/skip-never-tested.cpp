@@ -40,6 +40,33 @@ std::optional<Taken> takenAt(const ir::ProgramStatement& statement, std::size_t 
   return out;
 }
 
+// G92 where the machine is still at the end of the G31: the place gets coordinates of the surface.
+std::optional<Taken> zeroSetThere(const NcProgram& nc, const std::vector<std::size_t>& after,
+                                  std::size_t skip, AxisSet axes) {
+  const auto& body = nc.program.body;
+  std::set<std::size_t> seen;
+  std::vector<std::size_t> open{skip};
+  while (!open.empty()) {
+    const std::size_t from = open.back();
+    open.pop_back();
+    for (const std::size_t at : nc.flow().next[from]) {
+      if (!std::binary_search(after.begin(), after.end(), at) || !seen.insert(at).second) continue;
+      const auto* block = std::get_if<ir::NcBlock>(&body[at].node);
+      const AxisSet named = block == nullptr || hasCode(*block, 'G', 10) ? AxisSet{0} : axesOf(*block);
+      if (named == 0) {
+        open.push_back(at);
+        continue;
+      }
+      if (!hasCode(*block, 'G', 92) || (named & axes) == 0) continue; // it moves on
+      std::uint32_t number = 5061;
+      while ((named & axes & 1U << (number - 5061)) == 0)
+        ++number;
+      return Taken{at, body[at].origin.range(), number};
+    }
+  }
+  return std::nullopt;
+}
+
 // Variables that hold the contact, from where it is taken and from copies of those.
 std::set<std::uint32_t> heldIn(const ir::Program& program, std::set<std::uint32_t> held) {
   for (bool grows = !held.empty(); grows;) {
@@ -77,6 +104,7 @@ void check(const NcProgram& nc, Report& report) {
       if (!taken) taken = here;
       if (const auto number = storedNumber(body[at]); number && *number < kFirstSystem) held.insert(*number);
     }
+    if (const auto zero = zeroSetThere(nc, *after, i, axesOf(*skip)); zero && !taken) taken = zero;
     if (!taken) continue;
     if (!asked) asked = askedIn(nc.program);
     const std::set<std::uint32_t> all = heldIn(nc.program, std::move(held));

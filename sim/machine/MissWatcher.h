@@ -14,6 +14,9 @@ public:
   virtual std::uint32_t missIn(std::uint32_t variable) const = 0;
   // A block that has run shifts or turns the coordinates (G52, G92, G68) by words that come from that one.
   virtual void shiftedBy(std::uint32_t miss) = 0;
+  // A block that has run gives the place where the machine is new coordinates of these axes (G92), by
+  // bit: X 1, Y 2, Z 4.
+  virtual void placeSet(std::uint32_t axes) = 0;
 };
 
 } // namespace dotek::sim

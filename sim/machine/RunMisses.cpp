@@ -81,10 +81,14 @@ void Run::followMiss(const Instruction& at) {
 
 // After a block.
 void Run::checkShift() {
-  if (!followsMisses_ || missInHand_ == 0) return;
+  if (!followsMisses_) return;
   for (std::uint32_t i = 0; i < words_.gCount; ++i) {
     const stdlib::CodeInfo* const code = control_.find('G', words_.g[i]);
-    if (code != nullptr &&
+    if (code == nullptr) continue;
+    if (code->function == stdlib::Function::SetPosition)
+      misses_->placeSet((words_.has('X') ? 1U : 0U) | (words_.has('Y') ? 2U : 0U) |
+                        (words_.has('Z') ? 4U : 0U));
+    if (missInHand_ != 0 &&
         (code->function == stdlib::Function::LocalShift || code->function == stdlib::Function::SetPosition ||
          code->function == stdlib::Function::RotationOn))
       misses_->shiftedBy(missInHand_);

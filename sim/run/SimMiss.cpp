@@ -10,6 +10,7 @@
 namespace dotek::sim {
 namespace {
 
+constexpr double kSomeWay = 1e-6;     // mm along an axis
 constexpr std::size_t kUsedMiss = 15; // among what is reported, after the outcomes
 
 std::string machinePoint(const Point3& p) {
@@ -44,9 +45,10 @@ std::uint32_t SimWorld::missIn(std::uint32_t variable) const {
   const auto along = [&](std::optional<int> first) {
     if (!first || static_cast<long>(variable) < *first) return false;
     const std::size_t axis = variable - static_cast<std::uint32_t>(*first);
-    return axis < 3 && std::abs(ways[axis]) > 1e-6;
+    return axis < 3 && std::abs(ways[axis]) > kSomeWay;
   };
-  const bool held = along(v.skip) || (!movedOn_ && (along(v.position) || along(v.machine) || along(v.blockEnd)));
+  const bool held =
+      along(v.skip) || (!movedOn_ && (along(v.position) || along(v.machine) || along(v.blockEnd)));
   return held ? lastMiss_ : 0;
 }
 
@@ -70,6 +72,23 @@ void SimWorld::shiftedBy(std::uint32_t miss) {
   Diagnostic one = makeDiagnostic<diag::MissShifts>(place.range, blockNow().text);
   one.note(kept.place.range, "this skip move met nothing, and ended at " + machinePoint(kept.event.centre));
   addFault(std::move(one), Verdict::Fail, "FAIL: SHIFTED WITHOUT A TOUCH", place);
+}
+
+// The machine is still where the skip move has ended that nobody has asked about: whatever coordinates it
+// gets, they are those of no surface.
+void SimWorld::placeSet(std::uint32_t axes) {
+  if (!missed_ || missed_->movedOn || isProtected()) return;
+  const double ways[] = {missed_->way.x, missed_->way.y, missed_->way.z};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if ((axes >> axis & 1) == 0 || std::abs(ways[axis]) <= kSomeWay) continue;
+    const Missed missed = std::move(*missed_);
+    missed_.reset();
+    if (missed.index < events_.size()) events_[missed.index].event.used = true;
+    log_.writtenAfterMiss();
+    shiftedBy(missed.number);
+    missesTold_.insert(missed.number);
+    return;
+  }
 }
 
 void SimWorld::missEnded(const MachineMotion& motion) {

@@ -137,6 +137,7 @@ public:
   bool hasMisses() const override { return !misses_.empty(); }
   std::uint32_t missIn(std::uint32_t variable) const override;
   void shiftedBy(std::uint32_t miss) override;
+  void placeSet(std::uint32_t axes) override;
 
 private:
   static constexpr std::size_t kMostKept = 10'000; // of contacts and of events, in the summary

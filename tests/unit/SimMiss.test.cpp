@@ -240,6 +240,13 @@ TEST_CASE("miss: coordinates that are turned or shifted by one fail the run") {
   CHECK(fails(away + "G68 X0 Y0 R[ATAN[#1-2.]/[40.]]\nG69\n"));
   CHECK(fails(away + "#2=#1+3.\nG52 X#2\nG52 X0\n"));
   CHECK(fails(away + "G92 X#1\n"));
+  // Where it stopped gets coordinates, and nothing has asked.
+  CHECK(fails(std::string(kAway) + "G92 X-3.\n"));
+  CHECK(fails(std::string(kAway) + "G4 P100\nG92 X-3. Y0\n"));
+  CHECK_FALSE(fails(std::string(kAway) + "G92 Y0\n"));
+  CHECK_FALSE(fails(std::string(kAway) + "G0 X-20.\nG92 X-3.\n"));
+  CHECK_FALSE(fails(std::string(kAway) + "IF[#5061 GE [#24-.01]]GOTO91\nG92 X-3.\n"));
+  CHECK_FALSE(fails("G31 Z#26 F1000\nIF[#5063 GT [#26+.1]]GOTO91\nG31 X5. F50\nG92 X-3.\n")); // it touched
   CHECK_FALSE(fails(away + "G52 X1.5\nG52 X0\n"));
   CHECK_FALSE(fails(away + "#1=2.\nG68 X0 Y0 R#1\nG69\n"));
 }
