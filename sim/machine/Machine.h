@@ -100,6 +100,10 @@ public:
   // Of the active work system, mm and degrees; not turned by G68.
   const Position& position() const { return work_; }
   Position machinePosition() const; // the tool's length included
+  // As far as they are known: NaN for other axes. That of the machine may be known where a parameter decides
+  // whether the tool's length stays in force.
+  Position knownPosition() const { return knownOf(work_, uncertain_); }
+  Position knownMachinePosition() const;
   // Where the zero of G54 (0) to G59 (5) lies, in coordinates of the machine: with the external offset.
   Position zeroOf(std::uint32_t system) const;
   // What G52 and G92 have added to the zeros of all work systems.
@@ -339,6 +343,7 @@ private:
   // A position that a variable holds, `axis` of it.
   std::optional<double> turnedVariable(std::uint32_t number, std::size_t axis, const Position& work,
                                        const Position& latched);
+  static Position knownOf(Position position, std::uint32_t unknown);
   void traceMove(std::string_view action, const Position& end, bool feed);
   // Says the watcher of a motion of `axes` (bits) to where the machine is now. `certain`: it is known.
   void tellMotion(MotionKind kind, std::uint32_t axes, bool certain = true);

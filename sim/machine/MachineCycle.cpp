@@ -20,7 +20,7 @@ bool Machine::goTo(const Position& end, MotionKind kind, std::optional<double> f
   moved_ = true;
   if (watcher_ != nullptr) tellMotion(kind, axes);
   if (trace_ != nullptr)
-    traceMove(kind == MotionKind::Rapid ? "rapid" : "feed", work_, kind != MotionKind::Rapid);
+    traceMove(kind == MotionKind::Rapid ? "rapid" : "feed", knownPosition(), kind != MotionKind::Rapid);
   return running();
 }
 
@@ -78,7 +78,8 @@ bool Machine::selectSystem(const WorkSystem& system) {
   modes_[kSystem] = system.extended ? kExtended : static_cast<std::uint8_t>(system.index);
   if (system.extended) extendedNow_ = system.index;
   if (!applyOffsets()) return false;
-  if (trace_ != nullptr) trace_->begin("system").text(nameOf(system).substr(1)).position(work_, shown_).end();
+  if (trace_ != nullptr)
+    trace_->begin("system").text(nameOf(system).substr(1)).position(knownPosition(), shown_).end();
   return true;
 }
 

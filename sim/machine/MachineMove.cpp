@@ -105,7 +105,8 @@ bool Machine::move(const NcWords& w) {
     return arc(w, end);
   }
   if (trace_ != nullptr)
-    traceMove(modes_[kMotion] == kRapid ? "rapid" : "feed", end, modes_[kMotion] != kRapid);
+    traceMove(modes_[kMotion] == kRapid ? "rapid" : "feed", knownOf(end, uncertain_),
+              modes_[kMotion] != kRapid);
   work_ = end;
   if (watcher_ != nullptr)
     tellMotion(modes_[kMotion] == kRapid ? MotionKind::Rapid : MotionKind::Feed, movedBy(w));
@@ -154,7 +155,7 @@ bool Machine::arc(const NcWords& w, const Position& end) {
   }
   if (trace_ != nullptr) {
     trace_->begin(modes_[kMotion] == kArcClockwise ? "arc-cw" : "arc-ccw").text(plane.name);
-    trace_->position(end, shown_);
+    trace_->position(knownOf(end, uncertain_), shown_);
     trace_->text("centre")
         .word("", snap(work_[plane.first] + first))
         .word("", snap(work_[plane.second] + second));
@@ -202,9 +203,12 @@ bool Machine::machineMove(const NcWords& w) {
     if (i == 2 && toolLength_ != 0) lose(1u << 2, "G53");
   }
   movedInMachine(axisNumbers(w.present & kAxisBits));
-  if (trace_ != nullptr)
-    traceMove(modes_[kMotion] == kRapid ? "machine rapid" : "machine feed", machinePosition(),
-              modes_[kMotion] != kRapid);
+  if (trace_ != nullptr) {
+    Position at = knownMachinePosition();
+    for (std::size_t i = 0; i < kAxes; ++i)
+      if (has(w, i)) at[i] = machinePosition()[i];
+    traceMove(modes_[kMotion] == kRapid ? "machine rapid" : "machine feed", at, modes_[kMotion] != kRapid);
+  }
   if (watcher_ == nullptr) return true;
   lengthInDoubt_ = false;
   tellMotion(modes_[kMotion] == kRapid ? MotionKind::Rapid : MotionKind::Feed,
@@ -262,7 +266,8 @@ bool Machine::reference(const NcWords& w, bool first) {
     for (std::size_t i = 0; i < kAxes; ++i)
       if (has(w, i)) axes += kAxisLetters[i];
     trace_->begin(first ? "reference" : "second-reference").text(axes).text("via");
-    trace_->position(via, shown_).end();
+    const std::uint32_t named = modes_[kDistance] != 0 ? 0 : axisNumbers(w.present & kAxisBits);
+    trace_->position(knownOf(via, unknown & ~named), shown_).end();
   }
   if (watcher_ == nullptr || !running()) return true;
   const bool doubt = lengthInDoubt_ || (has(w, 2) && toolLength_ != 0);
@@ -388,11 +393,11 @@ bool Machine::cannedCycle(const NcWords& w) {
       trace_->begin("cycle").text(code == nullptr ? "?" : fmt::format("G{}", code->tenths / 10));
       Position bottom = at;
       bottom[depth] = cycleDepth_;
-      trace_->position(bottom, shown_)
+      trace_->position(knownOf(bottom, uncertain_), shown_)
           .word("R", cycleR_)
           .word("F", feed_)
           .text("ends")
-          .position(at, shown_)
+          .position(knownOf(at, uncertain_), shown_)
           .end();
     }
     if (watcher_ != nullptr) {

@@ -186,7 +186,7 @@ bool Machine::changeSystem(const NcWords& w) {
   if (trace_ != nullptr && changed) {
     trace_->begin("system").text(modes_[kSystem] == kExtended ? fmt::format("54.1 P{}", extendedNow_)
                                                               : std::to_string(54 + modes_[kSystem]));
-    trace_->position(work_, shown_).end();
+    trace_->position(knownPosition(), shown_).end();
   }
   return true;
 }
@@ -333,7 +333,7 @@ bool Machine::setPosition(const NcWords& w) {
     work_[i] = value;
   }
   if (watcher_ != nullptr) watcher_->positionSet();
-  if (trace_ != nullptr) trace_->begin("set-position").position(work_, shown_).end();
+  if (trace_ != nullptr) trace_->begin("set-position").position(knownPosition(), shown_).end();
   return running();
 }
 

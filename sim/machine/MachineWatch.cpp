@@ -38,6 +38,22 @@ void Machine::tellMotion(MotionKind kind, std::uint32_t axes, bool certain) {
   tellTo(kind, to, lost);
 }
 
+Position Machine::knownOf(Position position, std::uint32_t unknown) {
+  for (std::size_t i = 0; i < kAxes; ++i)
+    if ((unknown >> i & 1) != 0) position[i] = std::nan("");
+  return position;
+}
+
+Position Machine::knownMachinePosition() const {
+  const Position now = machinePosition();
+  std::uint32_t unknown = 0;
+  for (std::size_t i = 0; i < kAxes; ++i) {
+    const bool told = watcher_ != nullptr && (lost_ >> i & 1) == 0 && at_[i] == now[i];
+    if ((uncertain_ >> i & 1) != 0 && !told) unknown |= 1u << i;
+  }
+  return knownOf(now, unknown);
+}
+
 void Machine::tellArc(const PlaneAxes& plane, std::uint32_t axes, double first, double second,
                       const Position& begin) {
   const Position now = machinePosition();

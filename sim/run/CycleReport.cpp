@@ -90,8 +90,9 @@ std::string cycleSummary(const ir::Cycle& cycle, const CycleRun& run, const Mach
   out += fmt::format("  \"ending\": \"{}\",\n  \"control\": null,\n  \"cycle\": {},\n", endingOf(machine),
                      jsonString(cycle.name));
   out += fmt::format("  \"blocks\": {},\n", machine.blocks());
-  out += fmt::format("  \"position\": {},\n", positionText(machine.position(), machine.movedAxes()));
-  out += fmt::format("  \"machine\": {},\n", positionText(machine.machinePosition(), machine.movedAxes()));
+  out += fmt::format("  \"position\": {},\n", positionText(machine.knownPosition(), machine.movedAxes()));
+  out +=
+      fmt::format("  \"machine\": {},\n", positionText(machine.knownMachinePosition(), machine.movedAxes()));
   if (end.ending == Ending::Alarm)
     out += fmt::format("  \"alarm\": {{\"number\": null, \"text\": {}, \"line\": {}, \"stack\": []}},\n",
                        jsonString(end.text), lineOf(run, session));

@@ -280,8 +280,9 @@ std::string summary(Machine& machine, const Run* run, const SimWorld& world, Ses
   out += fmt::format("  \"ending\": \"{}\",\n", endingName(machine, notRead));
   out += fmt::format("  \"control\": {},\n", jsonString(machine.control().name));
   out += fmt::format("  \"blocks\": {},\n", machine.blocks());
-  out += fmt::format("  \"position\": {},\n", positionText(machine.position(), machine.movedAxes()));
-  out += fmt::format("  \"machine\": {},\n", positionText(machine.machinePosition(), machine.movedAxes()));
+  out += fmt::format("  \"position\": {},\n", positionText(machine.knownPosition(), machine.movedAxes()));
+  out +=
+      fmt::format("  \"machine\": {},\n", positionText(machine.knownMachinePosition(), machine.movedAxes()));
   std::string unknown;
   for (std::size_t i = 0; i < kAxes; ++i)
     if ((machine.uncertain() >> i & 1) != 0)

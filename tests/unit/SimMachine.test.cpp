@@ -222,8 +222,33 @@ TEST_CASE("sim: an axis whose place is not known") {
   Simulation s;
   s.run(length);
   CHECK(s.machine->uncertain() == 4);
+  CHECK(std::isnan(s.machine->knownPosition()[2]));
+  CHECK(std::isnan(s.machine->knownMachinePosition()[2]));
+  CHECK(s.machine->knownPosition()[0] == 0);
   CHECK_FALSE(s.machine->read(5023));
   CHECK(s.state() == "inconclusive");
+}
+
+TEST_CASE("sim: the trace says which axes are not known") {
+  const auto traced = [](std::string_view text) {
+    std::string out;
+    Simulation s;
+    {
+      sim::Trace trace([&](std::string_view lines) { out += lines; });
+      s.machine->setTrace(&trace);
+      s.run(text);
+      s.machine->setTrace(nullptr);
+    }
+    return out;
+  };
+  const std::string length = "G10 L10 P1 R10.\nG90 G0 Z5.\nG43 H1\n";
+  CHECK(traced(length + "X1.").find("rapid X1.000000 Y0.000000 Z?\n") != std::string::npos);
+  CHECK(traced(length + "G53 X1.").find("machine rapid X1.000000 Y0.000000 Z?\n") != std::string::npos);
+  CHECK(traced(length + "G53 Z-3.").find("machine rapid X0.000000 Y0.000000 Z-3.000000\n") !=
+        std::string::npos);
+  CHECK(traced(length + "G55").find("system 55 X0.000000 Y0.000000 Z?\n") != std::string::npos);
+  CHECK(traced(length + "G92 X2.").find("set-position X2.000000 Y0.000000 Z?\n") != std::string::npos);
+  CHECK(traced(length + "Z7.").find("rapid X0.000000 Y0.000000 Z7.000000\n") != std::string::npos);
 }
 
 TEST_CASE("sim: machine coordinates and reference points") {
