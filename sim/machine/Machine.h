@@ -15,6 +15,7 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -418,7 +419,8 @@ private:
   std::vector<std::uint32_t> measured_;
   std::vector<double> saved_;                             // locals of the levels below
   std::vector<std::pair<std::uint32_t, double>> presets_; // cell and value
-  std::vector<double> state_;                             // by range of the control; kFresh: not known
+  std::map<std::uint32_t, double> givenOffsets_; // tool offsets of unknown meaning that preset() gave a value
+  std::vector<double> state_;                    // by range of the control; kFresh: not known
   std::vector<std::uint8_t> pmc_;
   double pmcAddress_ = -1;
   Probe probe_ = Probe::NotSwitched;

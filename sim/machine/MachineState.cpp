@@ -51,6 +51,8 @@ std::vector<double> Machine::snapshot() const {
   for (const ToolOffset& tool : tools_)
     out.insert(out.end(), {tool.wear, tool.geometry});
   out.insert(out.end(), toolRadii_.begin(), toolRadii_.end());
+  for (const auto& [number, value] : givenOffsets_)
+    out.push_back(value);
   out.insert(out.end(), state_.begin(), state_.end());
   out.insert(out.end(), pmc_.begin(), pmc_.end());
   out.insert(out.end(), modes_.begin(), modes_.end());

@@ -85,10 +85,16 @@ std::optional<double> Machine::read(std::uint32_t number) {
     const std::optional<double> value = readSystem(number, place);
     return value && !isNull(*value) && inInches(place) ? *value / kInch : value;
   }
-  if (number < 1000 || number == UINT32_MAX)
+  if (number < 1000 || number == UINT32_MAX) {
     raise(Alarm::NoSuchVariable);
-  else
+  } else if (control_->isToolOffset(number)) {
+    if (const auto given = givenOffsets_.find(number); given != givenOffsets_.end()) return given->second;
+    inconclusive(fmt::format("what #{0} holds depends on the control's memory for offsets; `--var {0}=VALUE` "
+                             "gives it a value, which has no effect on a move",
+                             number));
+  } else {
     inconclusive(fmt::format("what #{} holds is not known to Dotek", number));
+  }
   return std::nullopt;
 }
 
@@ -263,7 +269,17 @@ bool Machine::store(std::uint32_t number, double value, bool preset) {
   }
   if (number < 1000 || number == UINT32_MAX) return raise(Alarm::NoSuchVariable);
   Place place;
-  if (!find(number, place)) return inconclusive(fmt::format("what #{} sets is not known to Dotek", number));
+  if (!find(number, place)) {
+    const bool offset = control_->isToolOffset(number);
+    if (offset && (preset || givenOffsets_.contains(number))) {
+      givenOffsets_[number] = isNull(value) ? 0 : value;
+      return true;
+    }
+    return inconclusive(offset ? fmt::format("what #{0} sets depends on the control's memory for offsets; "
+                                             "`--var {0}=VALUE` makes it a value without effect on a move",
+                                             number)
+                               : fmt::format("what #{} sets is not known to Dotek", number));
+  }
   // A system variable holds numbers: null counts as 0 there.
   const double given = isNull(value) ? 0 : value;
   const double length = snap(inInches(place) ? given * kInch : given);

@@ -102,6 +102,25 @@ TEST_CASE("sim variables: positions") {
   CHECK(s.machine->read(5004) == 5);
 }
 
+TEST_CASE("sim variables: a tool offset of unknown meaning has the value that it is given before the run") {
+  Simulation s("fanuc-31i-b");
+  CHECK_FALSE(s.machine->read(2403));
+  CHECK(s.state() == "inconclusive");
+  CHECK(s.machine->end().text.find("`--var 2403=VALUE`") != std::string::npos);
+  Simulation written("fanuc-31i-b");
+  CHECK_FALSE(written.machine->write(2403, 1));
+  CHECK(written.state() == "inconclusive");
+  Simulation given("fanuc-31i-b");
+  CHECK(given.machine->preset(2403, 0));
+  CHECK(given.machine->read(2403) == 0);
+  CHECK(given.machine->write(2403, -0.01));
+  CHECK(given.machine->read(2403) == -0.01);
+  CHECK_FALSE(given.machine->read(2404));
+  // D of the 31i is stated.
+  CHECK(Simulation("fanuc-31i-b").machine->read(12003) == 0);
+  CHECK_FALSE(Simulation("fanuc-31i-b").machine->preset(3999, 1));
+}
+
 TEST_CASE("sim variables: timers (#3001 ms, settable; #3002 hours)") {
   Simulation s;
   s.machine->advance(1.5);
