@@ -449,14 +449,15 @@ bool has(std::string_view text, std::initializer_list<std::string_view> words) {
                      [&](std::string_view word) { return text.find(word) != std::string_view::npos; });
 }
 
-// The number of the written variable, or what its computed number counts from: 2200 of #[2200+#7].
+// The first variable that may be written: the one with this number, or the one after what a computed number
+// counts from: 2201 of #[2200+#7], since no tool has the number 0.
 std::optional<double> writtenFrom(const nc::Assignment& assignment) {
   if (const auto number = literal(*assignment.variable)) return number;
   const Expression* at = assignment.variable.get();
   while (const auto* sum = std::get_if<nc::Operation>(&at->node)) {
     if (sum->op != "+") return std::nullopt;
-    if (const auto left = literal(*sum->left)) return left;
-    if (const auto right = literal(*sum->right)) return right;
+    if (const auto left = literal(*sum->left)) return *left + 1;
+    if (const auto right = literal(*sum->right)) return *right + 1;
     at = sum->left.get();
   }
   return std::nullopt;
@@ -472,7 +473,7 @@ void wearInGeometry(const CheckedProgram& input, Report& report) {
   const int geometry = control != nullptr ? *control->variables.toolGeometry : 2200;
   const int wear = control != nullptr ? *control->variables.toolWear : 2000;
   const int count = control != nullptr ? control->variables.toolCount : 200;
-  const auto in = [&](double number, int first) { return number >= first && number <= first + count; };
+  const auto in = [&](double number, int first) { return number > first && number <= first + count; };
   std::string all;
   for (const Comment& comment : input.program.comments)
     all += upper(comment.text) + "\n";
@@ -492,7 +493,7 @@ void wearInGeometry(const CheckedProgram& input, Report& report) {
     if (std::holds_alternative<std::monostate>(block.body)) before = &block.comments;
     if (assignment == nullptr) continue;
     const auto from = writtenFrom(*assignment);
-    if (from && in(*from, wear) && *from < geometry) writesWear = true;
+    if (from && in(*from, wear) && !in(*from, geometry)) writesWear = true;
     if (!from || !in(*from, geometry)) continue;
     std::string near;
     for (const Comment& comment : block.comments)
