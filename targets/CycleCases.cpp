@@ -197,6 +197,13 @@ std::unique_ptr<CaseRunner::Values> CaseRunner::check(verify::Case drawn, bool s
     const auto path = gibbs::runToolPath(*folder_->cycle->toolPath, context);
     if (!path) {
       noteEndless(out->drawn);
+      for (const Diagnostic& one : session_.diagnostics().all()) {
+        if (one.code != diag::ReturnCodeSet::code && one.code != diag::ToolPathStopped::code) continue;
+        out->rejected = true; // the macro draws no path for these values, as a dialog takes them not
+        out->rejection = one.message;
+        out->rejectedAt = one.range;
+        return out;
+      }
       refusal_ = session_.diagnostics().all().empty() ? "the path cannot be run"
                                                       : session_.diagnostics().all().front().message;
       return nullptr;

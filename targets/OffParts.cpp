@@ -17,6 +17,8 @@ constexpr double kBeyond = 1.25;  // of the limit
 constexpr double kMost = 2;       // mm: searches go farther
 constexpr double kMostTurn = 3;   // degrees
 constexpr double kOwnLimit = 0.3; // mm, for comparisons of the program's own
+constexpr double kSearch = 10;    // mm beyond a surface, of vendors' macros by themselves
+constexpr double kOfSearch = 0.9; // the part lies within it
 
 // How a part is off besides: surfaces moved along their touches, all of it moved along X, turned.
 using Off = std::tuple<double, double, double>;
@@ -55,6 +57,18 @@ std::set<Off> offsOf(const verify::Record& source, bool compares) {
   return out;
 }
 
+// How much farther the surfaces may lie for the source to find all of them; 0: it searches for none beyond
+// where it expects it. `most`: farther no translation has to search.
+double searchOf(const verify::Record& source, std::optional<double> most) {
+  double out = most.value_or(kSearch);
+  for (const verify::Measure& measure : source.measures) {
+    if (measure.travels || measure.nominal.size() != 1) return 0;
+    const auto stated = measure.options.find(stdlib::ArgumentRole::Overtravel);
+    if (stated != measure.options.end()) out = std::min(out, stated->second);
+  }
+  return source.measures.empty() ? 0 : std::max(out, 0.0) * kOfSearch;
+}
+
 std::string textOf(const Off& off) {
   const auto& [grown, moved, turned] = off;
   if (grown != 0) return fmt::format("each surface {} mm farther along its touch", numberText(grown));
@@ -80,12 +94,16 @@ compareOffParts(const TargetCase& now, const std::function<verify::Record(sim::W
   const bool compares = std::any_of(body.begin(), body.end(), [](const ir::ProgramStatement& one) {
     return std::holds_alternative<ir::Branch>(one.node);
   });
-  for (const Off& off : offsOf(*now.source, compares)) {
+  std::set<Off> offs = offsOf(*now.source, compares);
+  const double search = searchOf(*now.source, rules(*now.source).overtravel);
+  if (search > 0) offs.insert({std::round(search * 1000) / 1000, 0, 0});
+  for (const Off& off : offs) {
     verify::PartError more;
     more.shift.x = std::get<1>(off);
     more.turn = std::get<2>(off);
     now.questions->elsewhere(more, std::get<0>(off), [&](const verify::Record& meant, sim::World& world) {
       if (!counts(meant)) return;
+      if (std::get<0>(off) > kMost && meant.ending != verify::Ending::Finished) return;
       found = verify::compare(meant, run(world), rules(meant));
     });
     for (verify::Difference& one : found)

@@ -74,6 +74,13 @@ std::string withLetters(std::string text, const Measure& a, const Measure& b, do
   return letters.empty() ? text : fmt::format("{} (P{} with {})", text, a.program, letters);
 }
 
+// A travel that goes on beyond the surface finds it.
+bool leadsBeyond(const Touch& travel, const Touch& surface, double tolerance) {
+  const sim::Point3 beyond = travel.point - surface.point;
+  const double along = beyond.dot(surface.direction);
+  return along >= -tolerance && near(beyond, surface.direction * along, tolerance);
+}
+
 void nominal(const ComparedPair& pair, const Measure& a, const Measure& b) {
   if (a.nominal.size() != b.nominal.size()) {
     const auto surfaces = [](std::size_t count) {
@@ -87,7 +94,8 @@ void nominal(const ComparedPair& pair, const Measure& a, const Measure& b) {
   }
   for (std::size_t i = 0; i < a.nominal.size(); ++i) {
     const Touch &one = a.nominal[i], &other = b.nominal[i];
-    const bool samePoint = near(one.point, other.point, pair.rules.tolerance);
+    const bool samePoint = near(one.point, other.point, pair.rules.tolerance) ||
+                           (b.travels && !a.travels && leadsBeyond(other, one, pair.rules.tolerance));
     const bool sameWay = near(one.direction, other.direction, 1e-9);
     if (samePoint && sameWay) continue;
     std::string text =

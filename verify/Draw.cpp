@@ -251,10 +251,15 @@ void Draws::settleHosts(Case& drawn, const DrawnPath& path) const {
   Random random(drawn.stream);
   const double down = random.share(), up = random.share();
   if (path.points.size() > 1) {
-    double highest = path.points[1].z, second = -1e9;
-    for (std::size_t n = 1; n < path.points.size(); ++n)
+    // What moves before the first height keeps that of the entry, to which the path has to come back.
+    std::size_t first = 1;
+    while (first + 1 < path.points.size() && path.points[first].z == path.points[0].z)
+      ++first;
+    const bool beside = first > 1;
+    double highest = path.points[first].z, second = -1e9;
+    for (std::size_t n = first; n < path.points.size(); ++n)
       highest = std::max(highest, path.points[n].z);
-    for (std::size_t n = 1; n < path.points.size(); ++n)
+    for (std::size_t n = first; n < path.points.size(); ++n)
       if (path.points[n].z < highest - 1e-9) second = std::max(second, path.points[n].z);
     if (second == -1e9) second = highest;
     if (isDrawn("clearance")) {
@@ -264,7 +269,8 @@ void Draws::settleHosts(Case& drawn, const DrawnPath& path) const {
     if (isDrawn("start_z")) {
       const auto clearance = drawn.hosts.find("clearance");
       const double least = clearance == drawn.hosts.end() ? highest : std::max(highest, clearance->second);
-      drawn.hosts["start_z"] = std::ceil((least + 60 * up) * 1000 - 1e-6) / 1000;
+      const double above = beside ? 0 : 60 * up;
+      drawn.hosts["start_z"] = std::ceil((least + above) * 1000 - 1e-6) / 1000;
     }
   }
 

@@ -4,6 +4,7 @@
 #include "ir/Linear.h"
 
 #include <algorithm>
+#include <type_traits>
 
 namespace dotek::backends {
 
@@ -31,11 +32,56 @@ const stdlib::MacroArgument* placeOf(const stdlib::MacroSignature& signature, co
   return found == signature.arguments.end() ? nullptr : &*found;
 }
 
-ir::ExpressionPtr valueOf(const stdlib::MacroArgument& argument, const ir::Measure& measure,
-                          const CallValues& values) {
+// The macro takes a travel and no overtravel, and the source a place: the travel is its whole search.
+bool isWholeSearch(const stdlib::MacroSignature& signature, const stdlib::MacroArgument& argument,
+                   ir::Frame source) {
+  return signature.intent == stdlib::Intent::Surface && argument.role == stdlib::ArgumentRole::Target &&
+         argument.frame == ir::Frame::Here && source != ir::Frame::Here &&
+         signature.find(stdlib::ArgumentRole::Overtravel) == nullptr;
+}
+
+} // namespace
+
+ir::ExpressionPtr longerTravel(const ir::ExpressionPtr& travel, const ir::ExpressionPtr& more) {
+  if (const double* known = ir::constantValue(ir::simplify(travel)))
+    return ir::simplify(
+        ir::binary(*known < 0 ? ir::BinaryOp::Subtract : ir::BinaryOp::Add, travel, more, travel->range));
+  const ir::ExpressionPtr times = ir::binary(
+      ir::BinaryOp::Add, ir::constant(1),
+      ir::binary(ir::BinaryOp::Divide, more, ir::unary(ir::UnaryOp::Absolute, travel, travel->range)));
+  return ir::binary(ir::BinaryOp::Multiply, travel, times, travel->range);
+}
+
+ir::ExpressionPtr overtravelOf(const stdlib::MacroSet* macros, ir::Axis axis) {
+  if (macros == nullptr) return nullptr;
+  const auto& facts = macros->probing;
+  const auto& known = axis == ir::Axis::Z && facts.overtravelZ ? facts.overtravelZ : facts.overtravel;
+  return known ? ir::constant(*known) : nullptr;
+}
+
+namespace {
+
+ir::ExpressionPtr beyondOf(const CallValues& values, ir::Axis axis) {
+  return values.beyond ? values.beyond(axis) : nullptr;
+}
+
+// How far the source searches beyond where it expects the surface; nullptr: not known.
+ir::ExpressionPtr searchedBeyond(const ir::CallCycle& cycle, ir::Axis axis, const CallValues& values) {
+  const ir::CycleArgument* given =
+      find(cycle, std::string(stdlib::roleName(stdlib::ArgumentRole::Overtravel)));
+  return given != nullptr ? given->value : beyondOf(values, axis);
+}
+
+ir::ExpressionPtr valueOf(const stdlib::MacroSignature& signature, const stdlib::MacroArgument& argument,
+                          const ir::Measure& measure, const CallValues& values) {
   switch (argument.role) {
-  case stdlib::ArgumentRole::Target:
-    return measure.target ? values.place(*measure.target, argument.axis, argument.frame) : nullptr;
+  case stdlib::ArgumentRole::Target: {
+    if (!measure.target) return nullptr;
+    const ir::ExpressionPtr out = values.place(*measure.target, argument.axis, argument.frame);
+    const ir::ExpressionPtr beyond =
+        isWholeSearch(signature, argument, measure.target->frame) ? beyondOf(values, argument.axis) : nullptr;
+    return out == nullptr || beyond == nullptr ? out : longerTravel(out, beyond);
+  }
   case stdlib::ArgumentRole::Diameter: return measure.diameter;
   case stdlib::ArgumentRole::Overtravel: return values.overtravel ? values.overtravel() : nullptr;
   case stdlib::ArgumentRole::Nominal:
@@ -46,16 +92,16 @@ ir::ExpressionPtr valueOf(const stdlib::MacroArgument& argument, const ir::Measu
   }
 }
 
-ir::ExpressionPtr valueOf(const stdlib::MacroArgument& argument, const ir::Move& move,
-                          const CallValues& values) {
+ir::ExpressionPtr valueOf(const stdlib::MacroSignature& /*signature*/, const stdlib::MacroArgument& argument,
+                          const ir::Move& move, const CallValues& values) {
   if (argument.role == stdlib::ArgumentRole::Feed) return move.feed;
   if (argument.role != stdlib::ArgumentRole::Target) return nullptr;
   const auto& coordinate = move.axes[ir::indexOf(argument.axis)];
   return coordinate ? values.place(*coordinate, argument.axis, argument.frame) : nullptr;
 }
 
-ir::ExpressionPtr valueOf(const stdlib::MacroArgument& argument, const ir::CallCycle& cycle,
-                          const CallValues& values) {
+ir::ExpressionPtr valueOf(const stdlib::MacroSignature& signature, const stdlib::MacroArgument& argument,
+                          const ir::CallCycle& cycle, const CallValues& values) {
   if (argument.role == stdlib::ArgumentRole::System)
     return cycle.setting && values.setsSystem ? systemNumber(argument, cycle.setting->system) : nullptr;
   if (argument.role == stdlib::ArgumentRole::Nominal)
@@ -65,7 +111,30 @@ ir::ExpressionPtr valueOf(const stdlib::MacroArgument& argument, const ir::CallC
     return argument.role == stdlib::ArgumentRole::Overtravel && values.overtravel ? values.overtravel()
                                                                                   : nullptr;
   if (!given->frame) return given->value;
-  return values.place(ir::Coordinate{given->value, *given->frame, nullptr}, argument.axis, argument.frame);
+  const ir::ExpressionPtr out =
+      values.place(ir::Coordinate{given->value, *given->frame, nullptr}, argument.axis, argument.frame);
+  const ir::ExpressionPtr beyond = isWholeSearch(signature, argument, *given->frame)
+                                       ? searchedBeyond(cycle, argument.axis, values)
+                                       : nullptr;
+  return out == nullptr || beyond == nullptr ? out : longerTravel(out, beyond);
+}
+
+// Of the target of a surface.
+template <class Node> bool searchKnown(const Node& node, ir::Axis axis, const CallValues& values) {
+  if constexpr (std::is_same_v<Node, ir::CallCycle>)
+    return searchedBeyond(node, axis, values) != nullptr;
+  else
+    return beyondOf(values, axis) != nullptr;
+}
+template <class Node>
+std::optional<ir::Frame> targetFrame(const Node& node, const stdlib::MacroArgument& argument) {
+  if constexpr (std::is_same_v<Node, ir::Measure>)
+    return node.target ? std::optional(node.target->frame) : std::nullopt;
+  else if constexpr (std::is_same_v<Node, ir::CallCycle>) {
+    const ir::CycleArgument* given = find(node, stdlib::parameterName(argument));
+    return given == nullptr ? std::nullopt : given->frame;
+  } else
+    return std::nullopt;
 }
 
 template <class Node>
@@ -73,7 +142,11 @@ MacroCall callOf(const stdlib::MacroSignature& signature, const Node& node, cons
   MacroCall out;
   out.signature = &signature;
   for (const stdlib::MacroArgument& argument : signature.arguments) {
-    if (ir::ExpressionPtr value = valueOf(argument, node, values))
+    const auto frame = targetFrame(node, argument);
+    if (values.beyond && frame && isWholeSearch(signature, argument, *frame) &&
+        !searchKnown(node, argument.axis, values))
+      out.endsAtSurface = true;
+    if (ir::ExpressionPtr value = valueOf(signature, argument, node, values))
       out.arguments.push_back({&argument, std::move(value)});
     else if (argument.required)
       out.missing.push_back(&argument);
@@ -179,8 +252,15 @@ MacroCall macroCall(const stdlib::MacroSignature& signature, const ir::Measure& 
 MacroCall macroCall(const stdlib::MacroSignature& signature, const ir::CallCycle& cycle,
                     const CallValues& values) {
   MacroCall out = callOf(signature, cycle, values);
+  const std::string overtravel(stdlib::roleName(stdlib::ArgumentRole::Overtravel));
+  const bool inTravel =
+      std::any_of(signature.arguments.begin(), signature.arguments.end(), [&](const auto& argument) {
+        const auto frame = targetFrame(cycle, argument);
+        return frame && isWholeSearch(signature, argument, *frame);
+      });
   for (const ir::CycleArgument& given : cycle.arguments)
-    if (placeOf(signature, given.parameter) == nullptr) out.notTaken.push_back(given.parameter);
+    if (placeOf(signature, given.parameter) == nullptr && !(inTravel && given.parameter == overtravel))
+      out.notTaken.push_back(given.parameter);
   return out;
 }
 

@@ -44,8 +44,17 @@ struct CallValues {
   std::function<ir::ExpressionPtr(const ir::Coordinate& coordinate, ir::Axis axis, ir::Frame frame)> place;
   // The greatest travel beyond what is expected; nullptr or empty: the macro's own.
   std::function<ir::ExpressionPtr()> overtravel;
+  // How far the source searches beyond what it expects along the axis where the statement does not say;
+  // nullptr or empty: not known. A macro that is given a travel, and no overtravel, travels so much farther.
+  std::function<ir::ExpressionPtr(ir::Axis axis)> beyond = {};
   bool setsSystem = true; // the call itself sets the offset of the measurement
 };
+
+// Of the set's calls that state none; nullptr: not known, or there is no set.
+ir::ExpressionPtr overtravelOf(const stdlib::MacroSet* macros, ir::Axis axis);
+
+// A travel made longer by `more` its own way.
+ir::ExpressionPtr longerTravel(const ir::ExpressionPtr& travel, const ir::ExpressionPtr& more);
 
 struct GivenArgument {
   const stdlib::MacroArgument* argument = nullptr; // never null
@@ -57,6 +66,7 @@ struct MacroCall {
   std::vector<GivenArgument> arguments;                   // in the order of the signature
   std::vector<const stdlib::MacroArgument*> missing = {}; // required, and the statement states no value
   std::vector<std::string> notTaken = {};                 // parameters that the macro has no letter for
+  bool endsAtSurface = false; // it searches no farther than to where the surface is expected
 };
 
 MacroCall macroCall(const stdlib::MacroSignature& signature, const ir::Measure& measure,

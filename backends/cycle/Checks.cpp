@@ -260,12 +260,13 @@ private:
       if (step.ends) return std::move(step.ends);
       at = step.next;
     }
-    if (!end(locals)) return give(state_.cycle.range, "a value that the checks compute in several ways");
+    if (const auto several = end(locals))
+      return give(assignedAt(*several), "a value that the checks compute in several ways");
     return Decisions{{nullptr, nullptr}};
   }
 
-  // Locals that the body reads are the same on all paths.
-  bool end(const Locals& locals) {
+  // Locals that the body reads are the same on all paths; else one that is not.
+  std::optional<ir::VariableId> end(const Locals& locals) {
     if (!ended_) {
       ended_ = locals;
       for (const ir::CycleStatement& statement : state_.cycle.body)
@@ -273,13 +274,24 @@ private:
           if (const auto* use = std::get_if<ir::VariableUse>(&node.node)) readByBody_.insert(use->variable);
         });
     }
-    return std::all_of(readByBody_.begin(), readByBody_.end(), [&](ir::VariableId id) {
+    const auto found = std::find_if_not(readByBody_.begin(), readByBody_.end(), [&](ir::VariableId id) {
       const Locals& first = *ended_;
       const auto one = first.find(id), other = locals.find(id);
       if (one == ended_->end() || other == locals.end()) return one == ended_->end() && other == locals.end();
       return one->second.where.empty() && other->second.where.empty() &&
              ir::equal(one->second.otherwise, other->second.otherwise);
     });
+    return found == readByBody_.end() ? std::nullopt : std::optional(*found);
+  }
+
+  // Where the checks give the variable its value.
+  SourceRange assignedAt(ir::VariableId id) const {
+    SourceRange out = state_.cycle.range;
+    for (const ir::CycleStatement& statement : list_)
+      if (const auto* set = std::get_if<ir::Assign>(&statement.node);
+          set && set->variable == id && statement.origin.range().hasPlace())
+        out = statement.origin.range();
+    return out;
   }
 
   // ---- what the type of a work offset says anyway

@@ -47,6 +47,7 @@ struct EmitOptions {
   bool plainMessages = false;
   // The source calls another set: calls are written in the order of the signature, not of the source's block.
   bool foreignMacros = false;
+  const stdlib::MacroSet* source = nullptr;            // that the source calls; nullptr: none is known
   std::map<ir::VariableId, std::string> computed = {}; // fields that are no arguments, with their formulas
   std::map<ir::VariableId, std::vector<Choice>> choices = {}; // of a field that the dialog offers as a list
   const ir::Cycle* unshared = nullptr; // the cycle before its locals took over arguments: says what those do

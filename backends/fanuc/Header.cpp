@@ -37,7 +37,8 @@ public:
     out_.add("O" + number() + "(" + title() + ")", origin("program number"));
     if (isCut()) say(wholeTitle());
     if (!state_.cycle.title.empty()) say("CYCLE " + state_.cycle.name);
-    say("FOR " + state_.control.title + ", MACROS OF " + state_.macros.title);
+    say("FOR " + state_.control.title +
+        (state_.macros.name.empty() ? "" : ", MACROS OF " + state_.macros.title));
     if (!state_.cycle.measurementStated)
       say("THE SOURCE STATES A PATH ONLY: NO OFFSET IS SET BY THIS PROGRAM");
     table();

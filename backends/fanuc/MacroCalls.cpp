@@ -51,6 +51,8 @@ void writeCall(State& state, const MacroCall& call, const ir::Origin& origin) {
                          word(state, one.argument->letter, one.value, formOf(state, *one.argument), origin)});
   if (!state.failed) refuseMissing(state, state.macros, call, origin.range());
   if (state.failed) return;
+  if (call.endsAtSurface)
+    state.diagnostics.report<diag::SearchEndsAtSurface>(origin.range(), call.signature->program);
   order(arguments, state.options.foreignMacros ? "" : origin.addresses);
   std::string text = "G65 P" + std::to_string(call.signature->program);
   for (const CallWord& argument : arguments)
@@ -72,6 +74,8 @@ CallValues valuesFor(State& state, const ir::Origin& origin) {
     const ir::ExpressionPtr work = place(state, coordinate, axis, ir::Frame::Work, range);
     return work == nullptr ? nullptr : ir::binary(ir::BinaryOp::Subtract, work, now, work->range);
   };
+  if (state.options.source != nullptr)
+    out.beyond = [&state](ir::Axis axis) { return overtravelOf(state.options.source, axis); };
   return out;
 }
 

@@ -5,6 +5,7 @@
 #include "support/messages/Fanuc.h"
 
 #include <algorithm>
+#include <cmath>
 #include <deque>
 
 namespace dotek::backends::fanuc {
@@ -91,13 +92,36 @@ ir::ExpressionPtr withRange(const ir::ExpressionPtr& expression, SourceRange ran
   return copy;
 }
 
+bool isAuxiliary(const State& state, const ir::OpaqueBlock& block) {
+  return std::all_of(block.words.begin(), block.words.end(), [&](const ir::Word& word) {
+    const double* value = word.value == nullptr ? nullptr : ir::constantValue(word.value);
+    if (word.address != 'M' || value == nullptr || !(*value >= 0 && *value < kFirstOfMachine)) return false;
+    const auto* code =
+        state.options.sourceControl.find('M', static_cast<std::uint32_t>(std::lround(*value * 10)));
+    return code != nullptr && code->function == stdlib::Function::Auxiliary;
+  });
+}
+
+// The body with comments in the place of copied codes that move nothing and change no mode.
+ir::Cycle withoutAuxiliary(const State& state) {
+  ir::Cycle out = state.cycle;
+  for (ir::CycleStatement& statement : out.body)
+    if (const auto* block = std::get_if<ir::OpaqueBlock>(&statement.node);
+        block && isAuxiliary(state, *block))
+      statement.node = ir::Comment{};
+  return out;
+}
+
 } // namespace
 
 Body findBody(const State& state) {
-  const auto& list = state.cycle.body;
+  const ir::Cycle moving = withoutAuxiliary(state);
+  const auto& list = moving.body;
   Body out;
-  out.positions = ir::positions(state.cycle);
-  out.last = ir::lastMeasurements(state.cycle);
+  out.positions = ir::positions(moving);
+  for (const ir::CycleStatement* last : ir::lastMeasurements(moving))
+    out.last.push_back(last == nullptr ? nullptr
+                                       : &state.cycle.body[static_cast<std::size_t>(last - list.data())]);
   std::vector<Facts> facts(list.size());
   const auto next = ir::successors(list);
   std::deque<std::size_t> open;

@@ -244,8 +244,8 @@ bool translateCalls(ir::ProgramFile& file, const CallOptions& options, Diagnosti
   const ir::ProgramFile before = file;
   const std::uint32_t alarm = freeAlarm(file, options.control);
   for (ir::Program& program : file.programs) {
-    const TranslateSettings settings{source, wanted, options.control,
-                                     [&program] { return program.addLabel({}); }, alarm};
+    const TranslateSettings settings{
+        source, wanted, options.control, [&program] { return program.addLabel({}); }, alarm, options.written};
     translateResults(program, before, settings, own);
     Calls(program, before, settings, own).run();
   }

@@ -8,6 +8,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace dotek::backends::fanuc {
@@ -22,6 +23,7 @@ struct CallOptions {
   const std::vector<stdlib::MacroSet>& sets; // all that are known
   const stdlib::Control& control;            // that the programs are written for
   std::optional<std::uint32_t> number;       // of the one program of the file, in place of its own
+  std::string written = {};                  // name of the control that they become; "": `control`
 };
 
 // Calls of the file become those of `wanted`, and reads of their results follow. A file that calls `wanted`,

@@ -62,6 +62,7 @@ public:
     fanuc::EmitOptions emit{*inputs.control, *macros, *inputs.sourceControl, 0, {}, {}, {}, {}};
     emit.plainMessages = options_.common.assume.contains("plain-messages");
     emit.foreignMacros = macros != lowered.macros;
+    emit.source = lowered.macros;
     emit.computed = lowered.computed;
     emit.remarks = std::move(results.headings);
     for (const auto& [id, choices] : lists)
@@ -158,11 +159,28 @@ private:
     return first + static_cast<std::uint32_t>(index);
   }
 
-  // The set that the program calls: given, else the source's; a path alone takes the first that touches
-  // without setting an offset.
+  // Blocks of the source say all, and the control has the codes of the probe's switch: G31 in them measures.
+  bool needsNone(const ir::Cycle& cycle) const {
+    const stdlib::Control& control = *context_.inputs->control;
+    return std::all_of(cycle.body.begin(), cycle.body.end(),
+                       [&](const ir::CycleStatement& statement) {
+                         if (const auto* power = std::get_if<ir::ProbePower>(&statement.node))
+                           return control.find(power->on ? stdlib::Function::ProbeOn
+                                                         : stdlib::Function::ProbeOff) != nullptr;
+                         return !ir::probes(statement) &&
+                                !std::holds_alternative<ir::CallCycle>(statement.node);
+                       }) &&
+           std::any_of(cycle.body.begin(), cycle.body.end(), [](const ir::CycleStatement& statement) {
+             return std::holds_alternative<ir::OpaqueBlock>(statement.node);
+           });
+  }
+
+  // The set that the program calls: given, else the source's, none where nothing calls one; a path alone
+  // takes the first that touches without setting an offset.
   const stdlib::MacroSet* macrosOf(const LoweredCycle& lowered) {
     if (options_.probeMacros) return session_.macroSet(*options_.probeMacros);
     if (lowered.macros != nullptr) return lowered.macros;
+    if (needsNone(lowered.cycle)) return &none_;
     for (const stdlib::MacroSet& set : session_.macroSets()) {
       const stdlib::MacroSignature* surface = set.find(stdlib::Intent::Surface);
       const stdlib::MacroArgument* system =
@@ -200,6 +218,11 @@ private:
   }
 
   ProgramConversion programs_;
+  const stdlib::MacroSet none_ = [] {
+    stdlib::MacroSet set;
+    set.title = "no set";
+    return set;
+  }();
 };
 
 constexpr TargetFlag kFlags[] = {TargetFlag::Arg,         TargetFlag::ProgramNumber, TargetFlag::ProbeMacros,

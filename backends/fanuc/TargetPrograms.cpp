@@ -14,6 +14,23 @@ namespace dotek::targets {
 
 namespace fanuc = backends::fanuc;
 
+namespace {
+
+bool holds(const ir::ProgramFile& file, const stdlib::CodeInfo& code) {
+  const auto is = [&](const ir::Word& word) {
+    const double* value = word.value == nullptr ? nullptr : ir::constantValue(word.value);
+    return word.address == code.letter && (value == nullptr || *value * 10 == code.tenths);
+  };
+  for (const ir::Program& program : file.programs)
+    for (const ir::ProgramStatement& statement : program.body)
+      if (const auto* block = std::get_if<ir::NcBlock>(&statement.node);
+          block && std::any_of(block->words.begin(), block->words.end(), is))
+        return true;
+  return false;
+}
+
+} // namespace
+
 bool ProgramConversion::load() {
   const std::string target = options_.control.empty() ? std::string(kDefaultControl) : options_.control;
   control_ = loadControl(target, session_);
@@ -26,10 +43,26 @@ bool ProgramConversion::load() {
   return wanted_ != nullptr;
 }
 
-bool ProgramConversion::translateCalls(ir::ProgramFile& file) {
+stdlib::Control ProgramConversion::sourceOf(const ir::ProgramFile& file) const {
+  stdlib::Control out = *source_;
+  if (wanted_ == nullptr) return out;
+  stdlib::ProbeCodes codes;
+  for (const bool on : {true, false}) {
+    const stdlib::Function function = on ? stdlib::Function::ProbeOn : stdlib::Function::ProbeOff;
+    const stdlib::CodeInfo* code = control_->find(function);
+    // What it means in a block of the source is not known.
+    if (out.find(function) == nullptr && code != nullptr && code->tenths % 10 == 0 && !holds(file, *code))
+      (on ? codes.on : codes.off) = code->letter + std::to_string(code->tenths / 10);
+  }
+  stdlib::addProbeCodes(out, codes);
+  return out;
+}
+
+bool ProgramConversion::translateCalls(ir::ProgramFile& file, const stdlib::Control& source) {
   if (wanted_ == nullptr) return true;
-  return fanuc::translateCalls(file, {*wanted_, session_.macroSets(), *source_, options_.programNumber},
-                               session_.diagnostics());
+  return fanuc::translateCalls(
+      file, {*wanted_, session_.macroSets(), source, options_.programNumber, control_->name},
+      session_.diagnostics());
 }
 
 void ProgramConversion::convert(const std::string& path, ConversionResult& result) {
@@ -43,8 +76,9 @@ void ProgramConversion::convert(const std::string& path, ConversionResult& resul
     return;
   }
   if (leader.begin < leader.end) session_.diagnostics().report<diag::LeaderLeftOut>(leader);
-  if (!translateCalls(*programs)) return;
-  fanuc::ProgramOptions emit{*control_, *source_, options_.programNumber, options_.renumber, false};
+  const stdlib::Control source = sourceOf(*programs);
+  if (!translateCalls(*programs, source)) return;
+  fanuc::ProgramOptions emit{*control_, source, options_.programNumber, options_.renumber, false};
   emit.plainMessages = options_.common.assume.contains("plain-messages");
   const auto lines = fanuc::emitPrograms(*programs, emit, session_.sources(), session_.diagnostics());
   if (!lines) return;

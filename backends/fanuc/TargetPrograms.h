@@ -23,7 +23,10 @@ public:
   void convert(const std::string& path, ConversionResult& result);
 
 private:
-  bool translateCalls(ir::ProgramFile& file);
+  bool translateCalls(ir::ProgramFile& file, const stdlib::Control& source);
+  // The control of the file, with the codes by which the target's switches the probe where it has none
+  // itself: blocks that are added for another set's macros are the target's.
+  stdlib::Control sourceOf(const ir::ProgramFile& file) const;
 
   const ConvertOptions& options_;
   Session& session_;

@@ -1,5 +1,6 @@
 #include "backends/fanuc/TranslateCall.h"
 
+#include "backends/common/MacroCall.h"
 #include "ir/Linear.h"
 #include "stdlib/ReadCall.h"
 #include "support/Decimal.h"
@@ -92,7 +93,7 @@ std::string read(const ir::Call& call, const stdlib::MacroSet& set, stdlib::Call
   return stdlib::refusalText(out);
 }
 
-ir::Axis axisOf(const MacroSignature& signature) {
+ir::Axis measuredAxis(const MacroSignature& signature) {
   for (const MacroArgument& argument : signature.arguments)
     if (argument.role == ArgumentRole::Target || argument.role == ArgumentRole::Width) return argument.axis;
   return ir::Axis::X;
@@ -110,7 +111,7 @@ public:
       out_.call = call_;
       return std::move(out_);
     }
-    to_ = settings_.target.find(from_->intent, axisOf(*from_));
+    to_ = settings_.target.find(from_->intent, measuredAxis(*from_));
     if (to_ == nullptr)
       probePower();
     else
@@ -167,8 +168,9 @@ private:
     }
     const auto* code = settings_.control.find(on ? stdlib::Function::ProbeOn : stdlib::Function::ProbeOff);
     if (code == nullptr) {
-      refuse(fmt::format("neither `{}` nor `{}` says how the probe is switched {}", target(),
-                         settings_.control.name, on ? "on" : "off"));
+      refuse(fmt::format("neither `{}` nor `{}` says how the probe is switched {}; `--probe-{} CODE` does",
+                         target(), settings_.written.empty() ? settings_.control.name : settings_.written,
+                         on ? "on" : "off", on ? "on" : "off"));
       return;
     }
     block(*code);
@@ -188,7 +190,8 @@ private:
   void carry(const MacroArgument& argument, const ir::CallArgument& word) {
     if (!argument.unknown.empty() || argument.role == ArgumentRole::Unstated)
       return refuse(fmt::format("what `{}` of {} says is in no source", argument.letter, title()));
-    if (argument.role == ArgumentRole::Nominal) return; // with the system
+    if (argument.role == ArgumentRole::Nominal) return;                    // with the system
+    if (argument.role == ArgumentRole::Overtravel && travelsFar()) return; // with the target
     const MacroArgument* place = to_->find(argument.role, argument.axis);
     if (place == nullptr || !place->unknown.empty())
       return refuse(fmt::format("`{}` of {} is its {}, and `{}` is not known to take one", argument.letter,
@@ -212,6 +215,13 @@ private:
     if (refused()) return value;
     present(value, from.letter);
     if (from.frame == ir::Frame::Work) {
+      const ir::ExpressionPtr beyond = travelsFar() ? searchedBeyond(from.axis) : nullptr;
+      if (beyond != nullptr) {
+        note(fmt::format("`{}` of `{}` is the greatest travel: it ends as far beyond the expected surface as "
+                         "`{}` searches",
+                         to.letter, target(), settings_.source.name));
+        return longerTravel(minus(value, here), beyond);
+      }
       note(fmt::format("`{}` of `{}` is the greatest travel: nothing is searched beyond the expected surface",
                        to.letter, target()));
       return minus(value, here);
@@ -219,6 +229,24 @@ private:
     note(fmt::format("`{}` of `{}` is where the surface is expected: it is searched beyond, too", to.letter,
                      target()));
     return plus(here, value);
+  }
+
+  // The target macro takes a travel and no overtravel, and the source's a place.
+  bool travelsFar() const {
+    const auto frameOf = [&](const MacroSignature& signature) -> std::optional<ir::Frame> {
+      const MacroArgument* argument = signature.find(ArgumentRole::Target, measuredAxis(signature));
+      return argument == nullptr ? std::nullopt : std::optional(argument->frame);
+    };
+    return from_->intent == Intent::Surface && frameOf(*from_) == ir::Frame::Work &&
+           frameOf(*to_) == ir::Frame::Here && to_->find(ArgumentRole::Overtravel) == nullptr;
+  }
+  // How far the call searches beyond where it expects the surface; nullptr: not known.
+  ir::ExpressionPtr searchedBeyond(ir::Axis axis) {
+    const stdlib::ReadArgument* given = reading_.find(ArgumentRole::Overtravel, ir::Axis::X);
+    if (given == nullptr) return overtravelOf(&settings_.source, axis);
+    const ir::CallArgument& word = call_.arguments[given->at];
+    present(word.value, word.letter);
+    return number(length(word.letter, word.value));
   }
 
   // Of the active system, the tool's length taken off, as the axes stand.
@@ -420,7 +448,7 @@ TranslatedVariable translateResult(const ir::Call& call, std::uint32_t variable,
                         result->output == stdlib::Output::Main ? "the result of the macro"
                                                                : stdlib::outputName(result->output)),
             0};
-  const MacroSignature* to = target.find(reading.signature->intent, axisOf(*reading.signature));
+  const MacroSignature* to = target.find(reading.signature->intent, measuredAxis(*reading.signature));
   const stdlib::MacroResult* there = to == nullptr ? nullptr : to->find(result->output);
   if (there == nullptr || !there->documented)
     return {fmt::format("`{}` is not known to leave the {} in a variable", target.name,

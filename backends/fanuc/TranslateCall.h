@@ -17,8 +17,9 @@ struct TranslateSettings {
   const stdlib::MacroSet& target;
   const stdlib::Control& control; // of the program
   std::function<ir::LabelId()>
-      newLabel;            // a label without number of the program, for the checks before a call
-  std::uint32_t alarm = 0; // n of #3000 of those checks
+      newLabel;             // a label without number of the program, for the checks before a call
+  std::uint32_t alarm = 0;  // n of #3000 of those checks
+  std::string written = {}; // name of the control that the program becomes; "": `control`
 };
 
 struct TranslatedCall {

@@ -55,6 +55,7 @@ struct EmitOptions {
   bool helpersApart = false;
   std::optional<ProgramCall> call = std::nullopt;    // then nothing is `printed`
   std::map<ir::VariableId, std::string> groups = {}; // of fields, as the source calls them (UTF-8)
+  const stdlib::MacroSet* source = nullptr;          // that the source calls; nullptr: none is known
 };
 
 // "surfaceX" of "surface-x": what each name of the fragment begins with. Letters and digits of ASCII alone; a

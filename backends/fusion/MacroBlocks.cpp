@@ -117,7 +117,11 @@ bool MacroBlocks::block(const std::vector<const ir::CycleStatement*>& statements
   for (const ir::CycleStatement* one : statements) {
     const ir::Origin& origin = one->origin;
     const auto other = [&] {
-      if (!otherCode(*one, codes)) state_.refuse<diag::FusionMixedBlock>(origin.range());
+      if (otherCode(*one, codes)) return;
+      if (readsResult(*one))
+        state_.refuse<diag::FusionResultCompared>(origin.range());
+      else
+        state_.refuse<diag::FusionMixedBlock>(origin.range());
     };
     match(
         *one, [&](const ir::Move& node) { move(node, origin, lines); },
@@ -549,6 +553,8 @@ CallValues MacroBlocks::values(const ir::Origin& origin) {
     return fixed != state_.options.fixedByName.end() ? ir::constant(fixed->second)
                                                      : ir::variable(state_.host("overtravel"));
   };
+  if (state_.options.source != nullptr)
+    out.beyond = [this](ir::Axis axis) { return overtravelOf(state_.options.source, axis); };
   return out;
 }
 
@@ -556,6 +562,8 @@ CallValues MacroBlocks::values(const ir::Origin& origin) {
 void MacroBlocks::call(const MacroCall& call, const ir::Origin& origin, std::vector<Text>& lines) {
   if (!state_.failed) refuseMissing(state_, state_.options.macros, call, origin.range());
   if (state_.failed) return;
+  if (call.endsAtSurface)
+    state_.diagnostics.report<diag::SearchEndsAtSurface>(origin.range(), call.signature->program);
   const stdlib::MacroSignature& signature = *call.signature;
   Text text;
   text.add("G65 P" + std::to_string(signature.program));

@@ -169,6 +169,7 @@ private:
       for (const DialogChoice& choice : choices)
         emit.choices[id].push_back({choice.value, choice.title});
     emit.fixedByName.insert(inputs.hosts.begin(), inputs.hosts.end());
+    emit.source = lowered.macros;
     auto lines = fusion::emit(lowered.cycle, emit, session_.diagnostics());
     if (options_.probeMacros && !foreign) dropNotesOfPrograms(session_.diagnostics());
     keep(lowered.cycle, std::move(lines), false);

@@ -62,7 +62,7 @@ public:
     const ir::FoldOptions folding{true, session_.limits().steps};
     ir::fold(lowered.cycle, lowered.fixed, folding);
     dropAbsences(lowered);
-    fixUnused(lowered, folding, diagnostics);
+    fixUnused(lowered, file == nullptr, folding, diagnostics);
     write(folder, lowered, *macros, without, results, file);
     return true;
   }
@@ -91,6 +91,7 @@ private:
     fanuc::EmitOptions emit{control, macros, *inputs.sourceControl, 0, {}, {}, {}, {}};
     emit.plainMessages = options_.common.assume.contains("plain-messages");
     emit.foreignMacros = &macros != lowered.macros;
+    emit.source = lowered.macros;
     emit.branch.emplace();
     emit.branch->firstNumber = kFirstNumber;
     emit.branch->modes = file != nullptr;

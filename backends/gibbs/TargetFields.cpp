@@ -116,17 +116,42 @@ ir::ConditionPtr alwaysGiven(const ir::ConditionPtr& condition, const ir::Cycle&
   return condition;
 }
 
-// The body does not read it, and no check reads it beside something else.
+struct Reads {
+  bool it = false, others = false;
+};
+Reads readsOf(const ir::CycleStatement& statement, ir::VariableId id) {
+  Reads out;
+  ir::eachNode(statement, [&](const ir::Expression& node) {
+    const auto* use = std::get_if<ir::VariableUse>(&node.node);
+    if (use != nullptr) (use->variable == id ? out.it : out.others) = true;
+  });
+  return out;
+}
+
+// The statement is a branch that looks at the variable alone, and leads forward past nothing but alarms and
+// further branches that look at it: what it finds decides of an alarm, and of nothing else.
+bool decidesAlarms(const std::vector<ir::CycleStatement>& list, std::size_t at, ir::VariableId id) {
+  const auto looks = [&](const ir::CycleStatement& one) {
+    return std::holds_alternative<ir::Branch>(one.node) && readsOf(one, id).it;
+  };
+  const auto* branch = std::get_if<ir::Branch>(&list[at].node);
+  if (branch == nullptr || readsOf(list[at], id).others) return false;
+  for (std::size_t i = at + 1; i < list.size(); ++i) {
+    const ir::CycleStatement& one = list[i];
+    if (const auto* label = std::get_if<ir::Label>(&one.node); label && label->label == branch->target)
+      return true;
+    if (!std::holds_alternative<ir::Alarm>(one.node) && !std::holds_alternative<ir::Label>(one.node) &&
+        !std::holds_alternative<ir::Comment>(one.node) && !looks(one))
+      return false;
+  }
+  return false;
+}
+
+// The body does not read it, and the checks compare it with constants and stop, no more.
 bool onlyItsRange(const ir::Cycle& cycle, ir::VariableId id) {
   if (readsIn(cycle.body, id) || assignsIn(cycle.checks, id)) return false;
-  for (const ir::CycleStatement& statement : cycle.checks) {
-    bool reads = false, others = std::holds_alternative<ir::Assign>(statement.node);
-    ir::eachNode(statement, [&](const ir::Expression& node) {
-      const auto* use = std::get_if<ir::VariableUse>(&node.node);
-      if (use != nullptr) (use->variable == id ? reads : others) = true;
-    });
-    if (reads && others) return false;
-  }
+  for (std::size_t i = 0; i < cycle.checks.size(); ++i)
+    if (readsOf(cycle.checks[i], id).it && !decidesAlarms(cycle.checks, i, id)) return false;
   return true;
 }
 
@@ -197,13 +222,14 @@ void dropAbsences(LoweredCycle& lowered) {
   });
 }
 
-void fixUnused(LoweredCycle& lowered, const ir::FoldOptions& folding, Diagnostics& diagnostics) {
+void fixUnused(LoweredCycle& lowered, bool keepChecked, const ir::FoldOptions& folding,
+               Diagnostics& diagnostics) {
   ir::Cycle& cycle = lowered.cycle;
   std::map<ir::VariableId, double> fixed;
   for (ir::VariableId id = 0; id < cycle.variables.size(); ++id) {
     const ir::Variable& variable = cycle.variable(id);
     if (variable.role != ir::Role::Parameter || lowered.fixed.contains(id) || variable.optional) continue;
-    if (ir::uses(cycle, id) && !onlyItsRange(cycle, id)) continue;
+    if (ir::uses(cycle, id) && (keepChecked || !onlyItsRange(cycle, id))) continue;
     diagnostics.report<diag::CamUnused>(variable.range, variable.name);
     if (variable.defaultValue && ir::uses(cycle, id)) fixed.emplace(id, *variable.defaultValue);
   }

@@ -25,8 +25,9 @@ void dropReports(ir::Cycle& cycle, Diagnostics& diagnostics);
 void dropAbsences(LoweredCycle& lowered);
 
 // Fixes parameters of a folded cycle that nothing but their own range depends on at their defaults, with a
-// note, and folds again.
-void fixUnused(LoweredCycle& lowered, const ir::FoldOptions& folding, Diagnostics& diagnostics);
+// note, and folds again. `keepChecked`: what a check looks at stays.
+void fixUnused(LoweredCycle& lowered, bool keepChecked, const ir::FoldOptions& folding,
+               Diagnostics& diagnostics);
 
 // Fields with their first values, and checks of those that hold a work offset. `file`: of the cycle language;
 // nullptr: the cycle is a folder. What has no first value is reported.

@@ -8,6 +8,54 @@ namespace dotek::frontend::nc {
 
 using stdlib::Function;
 
+namespace {
+
+// The code moves nothing by itself: coordinates beside it are a move by G0 or G1, G90 or G91 as in force.
+bool leavesCoordinates(const stdlib::CodeInfo* code) {
+  if (code == nullptr) return true; // M: a G code that no table has may have any effect
+  switch (code->function) {
+  case Function::Rapid:
+  case Function::Feed:
+  case Function::PlaneXY:
+  case Function::PlaneZX:
+  case Function::PlaneYZ:
+  case Function::CutterCompOff:
+  case Function::CutterCompLeft:
+  case Function::CutterCompRight:
+  case Function::ToolLengthPlus:
+  case Function::ToolLengthMinus:
+  case Function::ToolLengthOff:
+  case Function::ScalingOff:
+  case Function::RotationOff:
+  case Function::MirrorOff:
+  case Function::PolarOff:
+  case Function::WorkSystem:
+  case Function::ExtendedWorkSystem:
+  case Function::CannedCycleOff:
+  case Function::ReturnInitial:
+  case Function::ReturnR:
+  case Function::Absolute:
+  case Function::Incremental:
+  case Function::FeedPerMinute:
+  case Function::FeedPerRevolution:
+  case Function::PathMode:
+  case Function::Stop:
+  case Function::OptionalStop:
+  case Function::SpindleClockwise:
+  case Function::SpindleCounterClockwise:
+  case Function::SpindleOff:
+  case Function::CoolantMist:
+  case Function::CoolantFlood:
+  case Function::CoolantOff:
+  case Function::ProbeOn:
+  case Function::ProbeOff:
+  case Function::Auxiliary: return true;
+  default: return false;
+  }
+}
+
+} // namespace
+
 bool Lifter::words() {
   Plan plan;
   for (const Code& code : codes_) {
@@ -232,7 +280,30 @@ bool Lifter::dwell() {
   return true;
 }
 
+// The program gets its modes from a caller: a copied move needs its own as a translated one does.
+bool Lifter::knownModes(const Plan& plan) {
+  if (plan.anyEffect || !std::all_of(codes_.begin(), codes_.end(),
+                                     [](const Code& code) { return leavesCoordinates(code.info); }))
+    return true;
+  const auto coordinate = std::find_if(block_.words.begin(), block_.words.end(), [](const Word& word) {
+    return std::string_view("XYZABCUVW").find(word.address) != std::string_view::npos;
+  });
+  if (coordinate == block_.words.end()) return true;
+  const auto has = [&](ir::Mode one, ir::Mode other) {
+    return std::any_of(plan.modes.begin(), plan.modes.end(),
+                       [&](const ir::SetMode& mode) { return mode.mode == one || mode.mode == other; });
+  };
+  const bool code = plan.opaque.front() == 'G';
+  if (!plan.motion && !context_.state.motion)
+    return refuse<diag::ModeNotKnown>(coordinate->range, wordText(*coordinate), "G0 or G1",
+                                      code ? "G0 " + plan.opaque : "G0 or G1");
+  if (!has(ir::Mode::Absolute, ir::Mode::Incremental) && !context_.state.absolute)
+    return refuse<diag::ModeNotKnown>(coordinate->range, wordText(*coordinate), "G90 or G91", "G90 or G91");
+  return true;
+}
+
 bool Lifter::opaque(const Plan& plan) {
+  if (!knownModes(plan)) return false;
   ir::OpaqueBlock opaque;
   for (const Word& word : block_.words) {
     const ir::ExpressionPtr read = rawValue(word);

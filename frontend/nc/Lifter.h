@@ -65,6 +65,8 @@ private:
   bool motion(const ir::ExpressionPtr& feed);
   bool dwell();
   bool opaque(const Plan& plan);
+  // Refuses a coordinate of an opaque block under a mode that is not known.
+  bool knownModes(const Plan& plan);
 
   // LiftFlow
   bool statement();

@@ -275,6 +275,56 @@ TEST_CASE("convert to gibbs: a folder that is read and written again stays what 
   }
 }
 
+TEST_CASE("convert to gibbs: a field that only decides stays, with what it decides") {
+  const TestFolder folder("dotek-gibbs-decides");
+  folder.write("side/DefineData.txt", "SIDE = 1\nW = 12\nX = 0\n");
+  folder.write("side/CycleData.dlg", "dialog \"Side\", 40, 40, 420, 200\nlabel 20, 20, 60, 24, \"SIDE\"\n"
+                                     "dropdown_new 90, 20, 110, 24, SIDE\ndropdown_add 1, \"left\", 1\n"
+                                     "dropdown_add 1, \"right\", 2\ndropdown_val 1, SIDE\n"
+                                     "label 20, 50, 60, 24, \"W [mm]\"\ninput 90, 50, 70, 24, W, W\n"
+                                     "ok 130, 130, 80, 28\ncancel 230, 130, 80, 28\n");
+  folder.write("side/ToolPath.mac", "op = callback_op\nget_op_data op, TOOL_NUM, tool\n"
+                                    "get_tool_data tool, MTOOL_RADIUS, radius\n"
+                                    "if SIDE = 1 then add_custom_drill_cycle_path feed_x, W-radius\n"
+                                    "if SIDE = 2 then add_custom_drill_cycle_path feed_x, radius-W\n"
+                                    "add_custom_drill_cycle_path feed_x, 0\n");
+  const std::string prog = folder.write(
+      "post.txt", "#1 = '####.###;0'\nFORMAT(OpFieldData#,1)\nprobe:\nIF CycleType?('side')\n SeqC SpinOff "
+                  "EOL\n SeqC ' M31' EOL\n SeqC ' G65 P9023 S55. X'OpFieldData#('X')' I0' EOL\n"
+                  " SeqC ' M32' EOL\nEND\nRETURN\n");
+  const auto checks = [&](const std::string& lines) {
+    folder.write("side/CycleData.mac",
+                 ":ask\ndialog \"CycleData.dlg\"\nif W <= 5 then message \"Too short\"\n"
+                 "if W <= 5 then goto ask\n" +
+                     lines);
+    driver::ConvertOptions options = optionsOf((folder / "side").string(), "easyprobe", {});
+    options.source.prog = prog;
+    options.source.form = "thesis-a";
+    options.probeMacros.reset();
+    const driver::Outcome outcome = driver::convert(options);
+    REQUIRE_MESSAGE(outcome.status == 0, said(outcome));
+    CHECK_FALSE(says(outcome, "cam-unused"));
+    std::string out;
+    for (const OutputFile& file : outcome.files)
+      if (file.name == "side/CycleData.mac" || file.name == "side/DefineData.txt") out += file.text;
+    return out;
+  };
+  const auto holds = [](const std::string& text, std::string_view part) {
+    CHECK_MESSAGE(text.find(part) != std::string::npos, part << " in\n" << text);
+  };
+  const std::string sign = checks("v = 1\nif SIDE = 2 then v = -1\nX = v*W\n");
+  holds(sign, "SIDE = 1");
+  holds(sign, "if SIDE");
+  holds(sign, "-1");
+  const std::string limit = checks(
+      "k = 0\nif SIDE = 2 then k = 8\nif W < k then message \"too near\"\nif W < k then goto ask\nX = W\n");
+  holds(limit, "if SIDE");
+  const std::string jumped = checks("X = W\nif SIDE = 1 then goto done\nX = 0-W\n:done\n");
+  holds(jumped, "if SIDE");
+  const std::string checked = checks("if SIDE = 2 then message \"no\"\nif SIDE = 2 then goto ask\nX = W\n");
+  holds(checked, "message \"no\"");
+}
+
 TEST_CASE("convert to gibbs: what a dialog or a Prog cannot say is refused or said") {
   const TestFolder folder("dotek-gibbs-says");
   const auto convert = [&](const std::string& text, const Values& defaults,

@@ -108,6 +108,25 @@ TEST_CASE("fanuc copied: groups that a bare code puts back are kept") {
   CHECK(extended.codes().empty());
 }
 
+TEST_CASE("fanuc copied: an auxiliary code leaves the probe where it is") {
+  const auto emitted = [](const char* block) {
+    Maker cycle;
+    cycle.move(ir::Motion::Rapid, ir::Axis::X, number(5));
+    cycle.add(copied(block));
+    cycle.surface(ir::Axis::X, number(10), nullptr, nullptr);
+    Target target("inspection-plus");
+    stdlib::CodeInfo air;
+    air.letter = 'M';
+    air.tenths = 1410;
+    air.function = stdlib::Function::Auxiliary;
+    target.source.codes.push_back(air);
+    target.control.codes.push_back(air);
+    return target.emit(cycle.cycle);
+  };
+  CHECK(emitted("M141").has("G65 P9811 X15."));
+  CHECK_FALSE(emitted("M77").has("G65 P9811 X15."));
+}
+
 TEST_CASE("fanuc copied: what nothing is known of is said") {
   const Emission out = emitCopied({"T5 M6", "M98 P100", "M77"});
   CHECK(out.has("(CHANGES THAT ARE NOT PUT BACK: M6 M98 M77)"));

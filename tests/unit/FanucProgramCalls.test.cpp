@@ -113,7 +113,8 @@ TEST_CASE("calls of another set: what is put before a call has lines of its own,
       toEasy("#1=1\nN10(A)G90G65P9811X#24S1(B)\nN20G65P9811Z5.S1\n/N30G65P9832\nGOTO10\nM99\n");
   CHECK(out.codes.empty());
   CHECK(out.text == "#1=1\nN10(A) G90(B)\nG53\nIF[#24 EQ #0]THEN #3000=150(X IS MISSING)\n"
-                    "G65 P9023 S54. X[#24-#5041] I#24\nN20 G53\nG65 P9023 S54. Z[5.-[#5043-#5083]] K5.\n"
+                    "G65 P9023 S54. X[[#24-#5041]*[1+10/ABS[#24-#5041]]] I#24\nN20 G53\nG65 P9023 S54. "
+                    "Z[[5.-[#5043-#5083]]*[1+10/ABS[5.-[#5043-#5083]]]] K5.\n"
                     "/N30 M31\nGOTO 10\nM99\n");
   std::uint32_t last = 0;
   for (const ir::ProgramStatement& statement : out.file.programs[0].body) {

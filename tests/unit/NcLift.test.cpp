@@ -237,6 +237,24 @@ TEST_CASE("an opaque block changes the modes that its codes say, a call all of t
   CHECK(after("M98 P1", "G65 P9770 Z5.") == "[opaque-block], [call-under-incremental]");
 }
 
+TEST_CASE("a coordinate of a copied block needs its modes as any other") {
+  CHECK(lifted("G43 H1 Z5.") == "refused: [mode-not-known]");
+  CHECK(message("G43 H1 Z5.").find("`G0 G43`") != std::string::npos);
+  CHECK(lifted("G49 Z{x}") == "refused: [mode-not-known]");
+  CHECK(lifted("A90.") == "refused: [mode-not-known]");
+  CHECK(lifted("D1 X5.") == "refused: [mode-not-known]");
+  CHECK(lifted("M77 Z5.") == "refused: [mode-not-known]");
+  CHECK(lifted("G65 P9770 Z5.\nG43 H1 Z5.") == "refused: [mode-not-known]");
+  CHECK(lifted("G0 X1.\nM98 P1\nG0 G43 H1 Z5.").find("[mode-not-known]") != std::string::npos); // G90?
+  CHECK(lifted("G0 G43 H1 Z5.") == "with [opaque-block]");
+  CHECK(lifted("G0 X1.\nG43 H1 Z5.") == "with [opaque-block]");
+  CHECK(lifted("G43 H1") == "with [opaque-block]");
+  // Coordinates of the code itself.
+  for (const char* own : {"G28 Z0.", "G91 G28 Z0.", "G53 Z0.", "G52 X0. Y0.", "G92 X0.", "G68 X0. Y0. R5.",
+                          "G81 Z-5. R1. F50", "G2 X2. R1. F50"})
+    CHECK_MESSAGE(lifted(own).find("[mode-not-known]") == std::string::npos, own);
+}
+
 TEST_CASE("assignments: variables of the machine, results, alarms") {
   CHECK(lifted("#550=5") == "store 550=5\n");
   CHECK(lifted("#550=#551+1") == "store 550=(u14(#551)+1)\n"); // an unset #551 counts as 0

@@ -49,9 +49,14 @@ std::string show(const ir::ExpressionPtr& expression) {
   if (const auto* unary = std::get_if<ir::Unary>(&expression->node))
     return unary->op == ir::UnaryOp::NullAsZero ? show(unary->operand)
            : unary->op == ir::UnaryOp::Negate   ? "-" + show(unary->operand)
+           : unary->op == ir::UnaryOp::Absolute ? "ABS" + show(unary->operand)
                                                 : "ROUND[" + show(unary->operand) + "]";
   const auto& binary = std::get<ir::Binary>(expression->node);
-  return "[" + show(binary.left) + (binary.op == ir::BinaryOp::Add ? "+" : "-") + show(binary.right) + "]";
+  const char* const sign = binary.op == ir::BinaryOp::Add        ? "+"
+                           : binary.op == ir::BinaryOp::Multiply ? "*"
+                           : binary.op == ir::BinaryOp::Divide   ? "/"
+                                                                 : "-";
+  return "[" + show(binary.left) + sign + show(binary.right) + "]";
 }
 
 std::string show(const ir::Condition& condition) {
@@ -59,6 +64,11 @@ std::string show(const ir::Condition& condition) {
   constexpr std::string_view kNames[] = {"EQ", "NE", "LT", "GT", "LE", "GE", "EQ", "NE"};
   return show(comparison.left) + " " + std::string(kNames[static_cast<std::size_t>(comparison.relation)]) +
          " " + show(comparison.right);
+}
+
+// The travel and 10 mm beyond.
+std::string beyond(const std::string& travel, const std::string& more = "10") {
+  return "[" + travel + "*[1+[" + more + "/ABS" + travel + "]]]";
 }
 
 struct Case {
@@ -119,16 +129,16 @@ TEST_CASE("protected moves keep their coordinates") {
 }
 
 TEST_CASE("a surface: coordinate and travel by the position, Z without the tool's length") {
-  CHECK(toEasy("9811 X20. S3") == "G53 P9023 S56 X[20-#5041] I20");
+  CHECK(toEasy("9811 X20. S3") == "G53 P9023 S56 X" + beyond("[20-#5041]") + " I20");
   CHECK(toEasy("9811 Y#25 S1") ==
-        "G53 unless #25 NE #0 alarm 150 (Y IS MISSING) P9023 S54 Y[#25-#5042] J#25");
+        "G53 unless #25 NE #0 alarm 150 (Y IS MISSING) P9023 S54 Y" + beyond("[#25-#5042]") + " J#25");
   CHECK(toEasy("9811 X-#24 S1") ==
-        "G53 unless #24 NE #0 alarm 150 (X IS MISSING) P9023 S54 X[-#24-#5041] I-#24");
-  CHECK(toEasy("9811 Z-5. S6") == "G53 P9023 S59 Z[-5-[#5043-#5083]] K-5");
-  // Without S EasyProbe cannot measure, and with Q it cannot be reported how far.
+        "G53 unless #24 NE #0 alarm 150 (X IS MISSING) P9023 S54 X" + beyond("[-#24-#5041]") + " I-#24");
+  CHECK(toEasy("9811 Z-5. S6") == "G53 P9023 S59 Z" + beyond("[-5-[#5043-#5083]]") + " K-5");
+  // Without S EasyProbe cannot measure; Q says how far beyond it looks.
   CHECK(toEasy("9811 X20.") ==
         "refused: P9023 of `easyprobe` wants `S`, its system, and the call states none");
-  CHECK(toEasy("9811 X20. S1 Q5.").find("`Q` of P9811") != std::string::npos);
+  CHECK(toEasy("9811 X20. S1 Q5.") == "G53 P9023 S54 X" + beyond("[20-#5041]", "5") + " I20");
   CHECK(toEasy("9811 X20. S101").find("names no system G54 to G59") != std::string::npos);
 }
 
@@ -136,7 +146,8 @@ TEST_CASE("a computed system is checked before the call") {
   CHECK(toEasy("9811 X20. S#19") ==
         "G53 unless #19 NE #0 alarm 150 (S IS MISSING) unless #19 GE 1 alarm 150 (S IS NOT G54 TO G59) "
         "unless #19 LE 6 alarm 150 (S IS NOT G54 TO G59) unless #19 EQ ROUND[#19] alarm 150 (S IS NOT G54 TO "
-        "G59) P9023 S[#19+53] X[20-#5041] I20");
+        "G59) P9023 S[#19+53] X" +
+            beyond("[20-#5041]") + " I20");
 }
 
 TEST_CASE("a nominal becomes a correction only where it is the expected coordinate by proof") {
@@ -157,11 +168,11 @@ TEST_CASE("a bore: the centre is expected where the probe is") {
 
 TEST_CASE("a number without a point keeps its length") {
   // The 0i-MD's table counts millimetres; a control that counts increments hands over 0.020 mm.
-  CHECK(toEasy("9811 X20 S3") == "G53 P9023 S56 X[20-#5041] I20");
+  CHECK(toEasy("9811 X20 S3") == "G53 P9023 S56 X" + beyond("[20-#5041]") + " I20");
   Case one = between("inspection-plus", "easyprobe");
   one.control.decimal = stdlib::DecimalMode::Increment;
   const TranslatedCall scaled = translateCall(call("9811 X20 S3"), one.settings());
-  CHECK(translated(std::move(one), "9811 X20 S3") == "G53 P9023 S56 X[0.02-#5041] I0.02");
+  CHECK(translated(std::move(one), "9811 X20 S3") == "G53 P9023 S56 X" + beyond("[0.02-#5041]") + " I0.02");
   REQUIRE(scaled.call);
   for (const ir::CallArgument& argument : scaled.call->arguments)
     if (const auto* constant = std::get_if<ir::Constant>(&argument.value->node))

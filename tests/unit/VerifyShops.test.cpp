@@ -122,10 +122,10 @@ TEST_CASE("verify: a corner as two calls of single surfaces") {
   const std::string said = verified(corner);
   CHECK_MESSAGE(agrees(said), said);
   const std::string good = converted(corner);
-  for (const auto& [from, to] : std::vector<std::pair<std::string, std::string>>{
-           {"Y[#25-#27] J#25", "Y[#25-#27] J#24"}, // another nominal
-           {"X[#24-#28] I#24", "X[#28-#24] I#24"}, // the other way
-           {"G65 P9023 S[#19+53.] Y", "G65 P9023 S[#19+54.] Y"}})
+  for (const auto& [from, to] :
+       std::vector<std::pair<std::string, std::string>>{{"J#25", "J#24"},                 // another nominal
+                                                        {"X[[#24-#28]*", "X[[#28-#24]*"}, // the other way
+                                                        {"G65 P9023 S[#19+53.] Y", "G65 P9023 S[#19+54.] Y"}})
     CHECK_MESSAGE(verified(corner, replaced(good, from, to)).find("\nDIFFERS") != std::string::npos,
                   from << " to " << to);
 }
