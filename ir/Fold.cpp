@@ -15,10 +15,14 @@ namespace {
 constexpr int kMostRounds = 8;
 
 // Folds the list; what is known at its end, nothing where no path ends there.
-std::optional<Environment> foldList(std::vector<CycleStatement>& list, const Environment& entry,
+std::optional<Environment> foldList(Cycle& cycle, std::vector<CycleStatement>& list, const Environment& entry,
                                     const FoldOptions& options) {
   if (options.unroll) {
-    if (auto run = unroll(list, entry, options.maxSteps)) {
+    const auto another = [&](LabelId label) {
+      const LabelName name = cycle.labels.at(label);
+      return cycle.addLabel(name);
+    };
+    if (auto run = unroll(list, entry, options.maxSteps, another)) {
       list = std::move(run->statements);
       return std::move(run->atEnd);
     }
@@ -126,8 +130,8 @@ void fold(Cycle& cycle, const std::map<VariableId, double>& values, const FoldOp
     const auto* set = std::get_if<Assign>(&statement.node);
     if (set && set->variable < rest.size()) rest[set->variable] = Scalar{};
   }
-  const auto afterChecks = foldList(cycle.checks, entry, options);
-  foldList(cycle.body, afterChecks ? *afterChecks : rest, options);
+  const auto afterChecks = foldList(cycle, cycle.checks, entry, options);
+  foldList(cycle, cycle.body, afterChecks ? *afterChecks : rest, options);
 
   for (int round = 0; round < kMostRounds; ++round) {
     bool changed = removeDeadAssignments(cycle);

@@ -17,8 +17,8 @@ ConditionPtr simplify(const ConditionPtr& condition);
 // with what nobody reaches, so do assignments that nobody reads (unless their arithmetic may fail), labels
 // without a jump and jumps to what follows anyway. Variables are propagated as constants (or as null) where
 // every path to a use gives the same one; the body begins with what the checks leave. A loop whose bounds are
-// constants stays a loop unless `unroll`: then a list whose branches are all decided becomes the statements
-// in the order in which they run. Variables keep their ids.
+// constants stays a loop unless `unroll`: then a list in which it is decided how often each loop runs becomes
+// the statements in the order in which they run, and goes forward only. Variables keep their ids.
 struct FoldOptions {
   bool unroll = false;
   std::uint32_t maxSteps = 100000; // of unrolling; more: the loop stays

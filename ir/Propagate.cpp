@@ -3,7 +3,9 @@
 #include "ir/Substitute.h"
 #include "ir/Walk.h"
 
+#include <algorithm>
 #include <deque>
+#include <map>
 #include <set>
 #include <utility>
 
@@ -210,52 +212,163 @@ std::vector<CycleStatement> specialised(const std::vector<CycleStatement>& list,
   return out;
 }
 
-std::optional<Unrolled> unroll(const std::vector<CycleStatement>& list, Environment entry,
-                               std::uint32_t maxSteps) {
-  const auto places = labelPlaces(list);
-  Environment environment = std::move(entry);
-  Unrolled out;
-  std::size_t at = 0;
-  for (std::uint32_t steps = 0; at < list.size(); ++steps) {
-    if (steps >= maxSteps) return std::nullopt;
-    const CycleStatement& statement = list[at++];
-    enum class Then : std::uint8_t { Next, Jump, End, Alarm, Undecided };
-    LabelId target = 0;
-    const Then then = match(
-        statement, [](const Label&) { return Then::Next; }, [](const Return&) { return Then::End; },
-        [&](const Jump& node) {
-          target = node.target;
-          return Then::Jump;
+namespace {
+
+class Unrolling {
+public:
+  Unrolling(const std::vector<CycleStatement>& list, Environment entry, std::uint32_t maxSteps,
+            const std::function<LabelId(LabelId)>& newLabel)
+      : list_(list), places_(labelPlaces(list)), now_(std::move(entry)), steps_(maxSteps),
+        newLabel_(newLabel) {
+    for (std::size_t at = 0; at < list.size(); ++at)
+      if (const auto to = placeOf(targetOf(list[at])); to && *to <= at) {
+        std::size_t& first = firstBack_.try_emplace(at, *to).first->second;
+        first = std::min(first, *to);
+      }
+    // From here on: the first statement that something after a place goes back to.
+    std::size_t least = list.size();
+    for (auto at = firstBack_.rbegin(); at != firstBack_.rend(); ++at)
+      at->second = least = std::min(least, at->second);
+  }
+
+  std::optional<Unrolled> run() {
+    while (good_ && next())
+      good_ = good_ && steps_-- > 0;
+    if (!good_) return std::nullopt;
+    if (now_) ends(*now_);
+    return std::move(out_);
+  }
+
+private:
+  struct Waiting {
+    LabelId label = 0;
+    Environment environment;
+  };
+
+  static std::optional<LabelId> targetOf(const CycleStatement& statement) {
+    if (const auto* jump = std::get_if<Jump>(&statement.node)) return jump->target;
+    if (const auto* branch = std::get_if<Branch>(&statement.node)) return branch->target;
+    return std::nullopt;
+  }
+  std::optional<std::size_t> placeOf(std::optional<LabelId> label) const {
+    const auto found = label ? places_.find(*label) : places_.end();
+    return found == places_.end() ? std::nullopt : std::optional(found->second);
+  }
+
+  void ends(const Environment& environment) {
+    if (out_.atEnd)
+      meet(*out_.atEnd, environment);
+    else
+      out_.atEnd = environment;
+  }
+
+  void emit(const CycleStatement& like, decltype(CycleStatement::node) node) {
+    CycleStatement out;
+    out.origin = like.origin;
+    out.node = std::move(node);
+    out_.statements.push_back(std::move(out));
+  }
+
+  // The label that stands for the place from now on.
+  LabelId wait(std::size_t place) {
+    const auto [at, isNew] = waiting_.try_emplace(place);
+    if (isNew)
+      at->second = Waiting{newLabel_(std::get<Label>(list_[place].node).label), *now_};
+    else
+      meet(at->second.environment, *now_);
+    return at->second.label;
+  }
+
+  void jump(const CycleStatement& statement, std::size_t to) {
+    if (to < at_) {
+      // What waits is after the loop, or two ways would go through the next round.
+      for (const auto& [place, waits] : waiting_) {
+        const auto back = firstBack_.lower_bound(place);
+        good_ = good_ && (back == firstBack_.end() || back->second > at_);
+      }
+      at_ = to;
+    } else if (waiting_.empty() || waiting_.begin()->first >= to) {
+      at_ = to;
+    } else {
+      const LabelId label = wait(to);
+      emit(statement, Jump{label});
+      now_.reset();
+    }
+  }
+
+  // Whether there is more.
+  bool next() {
+    if (!now_) {
+      if (waiting_.empty()) return false;
+      at_ = waiting_.begin()->first;
+    }
+    if (at_ >= list_.size()) return false;
+    if (const auto lands = waiting_.find(at_); lands != waiting_.end()) {
+      emit(list_[at_], Label{lands->second.label});
+      if (now_)
+        meet(*now_, lands->second.environment);
+      else
+        now_ = std::move(lands->second.environment);
+      waiting_.erase(lands);
+    }
+    const CycleStatement& statement = list_[at_++];
+    match(
+        statement, [](const Label&) {},
+        [&](const Return&) {
+          ends(*now_);
+          if (!waiting_.empty()) emit(statement, Return{});
+          now_.reset();
         },
+        [&](const Jump& node) { goTo(statement, placeOf(node.target)); },
         [&](const Branch& node) {
-          const auto taken = holds(*node.condition, environment);
-          target = node.target;
-          return !taken ? Then::Undecided : *taken ? Then::Jump : Then::Next;
+          const auto taken = holds(*node.condition, *now_);
+          const auto to = placeOf(node.target);
+          if (taken == true) return goTo(statement, to);
+          if (taken == false) return;
+          good_ = good_ && to && *to >= at_;
+          if (!good_) return;
+          ConditionPtr condition = substitute(node.condition, *now_);
+          emit(statement, Branch{std::move(condition), wait(*to)});
         },
         [&](const Assign& node) {
-          out.statements.push_back(specialisedStatement(statement, environment));
-          assign(node, environment);
-          return Then::Next;
+          out_.statements.push_back(specialisedStatement(statement, *now_));
+          assign(node, *now_);
         },
         [&](const Alarm&) {
-          out.statements.push_back(specialisedStatement(statement, environment));
-          return Then::Alarm;
+          out_.statements.push_back(specialisedStatement(statement, *now_));
+          now_.reset();
         },
         [&](const OneOf<Store, Move, Measure, CallCycle, ProbePower, Spindle, Coolant, SetMode, Dwell, Stop,
                         Comment, OpaqueBlock> auto&) {
-          out.statements.push_back(specialisedStatement(statement, environment));
-          return Then::Next;
+          out_.statements.push_back(specialisedStatement(statement, *now_));
         });
-    if (then == Then::End) break;
-    if (then == Then::Alarm) return out;
-    if (then == Then::Undecided) return std::nullopt;
-    if (then == Then::Next) continue;
-    const auto place = places.find(target);
-    if (place == places.end()) return std::nullopt;
-    at = place->second;
+    return true;
   }
-  out.atEnd = std::move(environment);
-  return out;
+
+  void goTo(const CycleStatement& statement, std::optional<std::size_t> to) {
+    if (to)
+      jump(statement, *to);
+    else
+      good_ = false;
+  }
+
+  const std::vector<CycleStatement>& list_;
+  std::unordered_map<LabelId, std::size_t> places_;
+  std::map<std::size_t, std::size_t> firstBack_; // by the place of a jump back, see the constructor
+  std::optional<Environment> now_;               // nothing: no way comes here
+  std::uint32_t steps_;
+  const std::function<LabelId(LabelId)>& newLabel_;
+  std::map<std::size_t, Waiting> waiting_; // branches that have not landed, by the place of their label
+  std::size_t at_ = 0;
+  bool good_ = true;
+  Unrolled out_;
+};
+
+} // namespace
+
+std::optional<Unrolled> unroll(const std::vector<CycleStatement>& list, Environment entry,
+                               std::uint32_t maxSteps, const std::function<LabelId(LabelId)>& newLabel) {
+  return Unrolling(list, std::move(entry), maxSteps, newLabel).run();
 }
 
 } // namespace dotek::ir

@@ -4,6 +4,7 @@
 #include "ir/Evaluate.h"
 
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <unordered_map>
 #include <vector>
@@ -25,13 +26,15 @@ Constants propagate(const std::vector<CycleStatement>& list, Environment entry);
 // The list under these constants: what is known put in, decided branches and unreachable statements gone.
 std::vector<CycleStatement> specialised(const std::vector<CycleStatement>& list, const Constants& constants);
 
-// The statements in the order in which they run from `entry`, if each branch is decided and the list ends
-// within `maxSteps`; labels and jumps are left out.
+// The statements in the order in which they run from `entry`, so that nothing goes back: loops whose rounds
+// are decided are written out, and a branch that is not decided goes forward to a label of its own. Nothing:
+// how often something runs is not decided, or there are more than `maxSteps`. `newLabel`: another one like
+// it.
 struct Unrolled {
   std::vector<CycleStatement> statements;
   std::optional<Environment> atEnd; // nothing: it ends in an alarm
 };
 std::optional<Unrolled> unroll(const std::vector<CycleStatement>& list, Environment entry,
-                               std::uint32_t maxSteps);
+                               std::uint32_t maxSteps, const std::function<LabelId(LabelId)>& newLabel);
 
 } // namespace dotek::ir

@@ -3,6 +3,7 @@
 #include "ir/Fold.h"
 #include "tests/unit/IrHelper.h"
 
+#include <algorithm>
 #include <doctest/doctest.h>
 
 using namespace dotek;
@@ -274,9 +275,22 @@ TEST_CASE("ir: a loop stays unless it is unrolled") {
   fold(bounded, {}, {true, 10});
   CHECK(bounded.body.size() == 7);
 
+  // A way out that is not decided leads forward from each turn.
   Cycle undecided = loop(true);
   fold(undecided, {}, {true, 100});
-  CHECK(undecided.body.size() == 8);
+  REQUIRE(undecided.body.size() == 6); // store, branch, store, branch, store, label
+  for (const std::size_t i : {0, 2, 4})
+    CHECK(equal(stored(undecided.body[i]), constant(static_cast<double>(i / 2 + 1))));
+  const LabelId out = std::get<Label>(undecided.body[5].node).label;
+  CHECK(std::get<Branch>(undecided.body[1].node).target == out);
+  CHECK(std::get<Branch>(undecided.body[3].node).target == out);
+  // How often it goes round is not decided.
+  Cycle open = loop(false);
+  open.body[2] = statement(
+      Branch{compare(Relation::Greater, variable(2), kA), std::get<Branch>(open.body[2].node).target});
+  fold(open, {}, {true, 100});
+  CHECK(std::any_of(open.body.begin(), open.body.end(),
+                    [](const CycleStatement& one) { return std::holds_alternative<Jump>(one.node); }));
   Cycle decided = loop(true);
   fold(decided, {{1, 0}}, {true, 100});
   REQUIRE(decided.body.size() == 1);

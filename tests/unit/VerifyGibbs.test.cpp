@@ -121,6 +121,45 @@ TEST_CASE("verify to gibbs: the temporary folder is gone at the end, and on a si
   CHECK(folder.run("ls -A made").out.empty());
 }
 
+TEST_CASE("verify to gibbs: a loop of fixed rounds is written out, with what it decides on contacts") {
+  const ProcessFolder folder;
+  folder.write("least.cycle", R"(cycle least "Least height of three"
+parameter pitch : length = 10 mm require pitch > 0 mm "No pitch"
+result lowest : length
+result above : length
+spindle off
+probe on
+least = 100 mm
+sum = 0 mm
+for i = 0 to 2
+  protected move to x start.x + i * pitch
+  touch z by -5 mm -> face
+  least = min(least, face.at)
+  if face.at > 0 mm then
+    sum = sum + face.at
+  end
+end
+probe off
+lowest = least
+above = sum
+)");
+  const std::string to = " --to gibbs --control fanuc-31i-b --probe-macros inspection-plus --host "
+                         "approach_feed=1000 --host overtravel=5 --result lowest=#600 --result above=#601 ";
+  REQUIRE(folder.run("dotek convert least.cycle" + to + "-d out").status == 0);
+  const auto verdict = [&] {
+    return folder.run("dotek verify least.cycle" + to +
+                      "--jobs 1 --translation out/least/branch.txt --cases " +
+                      std::to_string(draws(60U, 10U)));
+  };
+  const ShellResult sound = verdict();
+  CHECK_MESSAGE(sound.out.starts_with("AGREES"), sound.out << sound.err);
+  const std::string branch = folder.read("out/least/branch.txt");
+  const std::string damaged = replaced(branch, " GT 0.]THEN #151=#151+", " LT 0.]THEN #151=#151+");
+  REQUIRE_MESSAGE(!damaged.empty(), branch);
+  folder.write("out/least/branch.txt", damaged);
+  CHECK_MESSAGE(verdict().out.starts_with("DIFFERS"), damaged);
+}
+
 TEST_CASE("convert to gibbs with --verify writes what agrees") {
   const ProcessFolder folder;
   const ShellResult result =
