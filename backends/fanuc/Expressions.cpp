@@ -2,6 +2,7 @@
 #include "backends/fanuc/MacroNames.h"
 #include "backends/fanuc/State.h"
 #include "ir/Fold.h"
+#include "ir/Rewrite.h"
 #include "support/Decimal.h"
 #include "support/messages/Fanuc.h"
 
@@ -226,9 +227,19 @@ ir::ExpressionPtr withoutZeroes(const ir::ExpressionPtr& expression) {
   return ir::binary(binary->op, left, right, expression->range);
 }
 
+// Where the control divides in ATAN alone the angle of a ratio is that of the ratio over 1.
+ir::ExpressionPtr withArcTangents(const State& state, const ir::ExpressionPtr& expression) {
+  if (has(state.control, "ATAN[y]") || !has(state.control, "ATAN[y]/[x]")) return expression;
+  return ir::rewrite(expression, [](const ir::ExpressionPtr& node) -> ir::ExpressionPtr {
+    const auto* unary = std::get_if<ir::Unary>(&node->node);
+    if (unary == nullptr || unary->op != ir::UnaryOp::ArcTangent) return node;
+    return ir::binary(ir::BinaryOp::Direction, ir::constant(1), unary->operand, node->range);
+  });
+}
+
 std::string textOf(State& state, const ir::ExpressionPtr& given, Form form, const ir::Origin& origin,
                    std::uint32_t depth) {
-  const ir::ExpressionPtr value = withoutZeroes(given);
+  const ir::ExpressionPtr value = withArcTangents(state, withoutZeroes(given));
   checkModulo(state, value, origin);
   Printer printer(state, form, origin);
   return printer.print(value, depth);
@@ -359,7 +370,7 @@ std::string machineText(State& state, const ir::ExpressionPtr& number, const ir:
 }
 
 void assign(State& state, const std::string& left, const ir::ExpressionPtr& given, const ir::Origin& origin) {
-  const ir::ExpressionPtr value = tidy(given);
+  const ir::ExpressionPtr value = withArcTangents(state, tidy(given));
   if (const auto* binary = std::get_if<ir::Binary>(&value->node)) {
     if (binary->op == ir::BinaryOp::ValueOr) return assignValueOr(state, left, *binary, origin);
     if (binary->op == ir::BinaryOp::Direction && has(state.control, "ATAN[y]/[x]"))

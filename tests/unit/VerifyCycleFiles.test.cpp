@@ -160,6 +160,29 @@ TEST_CASE("verify cycles: the tool offsets that both sides leave") {
   }
 }
 
+TEST_CASE("verify cycles: the angle of a ratio, on a control that has ATAN of two values only") {
+  const TestFolder folder("dotek-ratio");
+  const std::string path = folder.write("slope.cycle", R"(cycle slope "Slope"
+parameter away : length = 10 mm
+result turn : angle
+spindle off
+probe on
+touch x by 5 mm -> side
+probe off
+turn = 90 deg - atan(side.error / away) * 2
+)");
+  for (const char* const control : {"haas-ngc", "fanuc-0i-md"}) {
+    CAPTURE(control);
+    driver::VerifyOptions options = optionsOf(path, "inspection-plus", control);
+    options.results = {{"turn", "#600"}};
+    options.cases = 40;
+    const driver::Outcome sound = driver::verify(options);
+    CHECK_MESSAGE(sound.output.starts_with("AGREES"), said(sound));
+    const driver::Outcome found = verifyPlanted(options, {"=90.-", "=90.+"});
+    CHECK_MESSAGE(found.output.starts_with("DIFFERS"), said(found));
+  }
+}
+
 TEST_CASE("verify cycles: a stop and values for a later run") {
   driver::VerifyOptions options = optionsOf(libraryPath("calibrate-turn"), "dotek", "fanuc-31i-b");
   options.cases = 20;
