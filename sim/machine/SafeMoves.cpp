@@ -1,6 +1,7 @@
 #include "sim/machine/SafeMoves.h"
 
 #include "ir/Walk.h"
+#include "sim/machine/BackJumps.h"
 #include "sim/machine/SkipWants.h"
 
 #include <algorithm>
@@ -107,8 +108,21 @@ std::optional<std::uint64_t> keyOf(const ir::ExpressionPtr& number) {
 class Copies {
 public:
   explicit Copies(const ir::Program& program) : program_(program) {
+    std::map<ir::LabelId, std::size_t> labels;
     for (std::size_t i = 0; i < program.body.size(); ++i)
-      if (const auto* label = std::get_if<ir::Label>(&program.body[i].node)) labels_[label->label] = i;
+      if (const auto* label = std::get_if<ir::Label>(&program.body[i].node)) labels[label->label] = i;
+    for (std::size_t i = 0; i < program.body.size(); ++i) {
+      if (const auto target = jumpOf(program.body[i]))
+        if (const auto label = labels.find(*target); label != labels.end()) jumps_.add(i, label->second);
+      const ir::ConditionPtr* condition = ir::conditionOf(program.body[i]);
+      if (condition == nullptr || !*condition) continue;
+      ir::eachNode(*condition, [&](const ir::Expression& node) {
+        const auto* variable = std::get_if<ir::MachineVariable>(&node.node);
+        const auto key = variable == nullptr ? std::nullopt : keyOf(variable->number);
+        if (key && (readers_[*key].empty() || readers_[*key].back() != i)) readers_[*key].push_back(i);
+      });
+    }
+    jumps_.close();
   }
 
   // `tests`: whether the program of this number has a condition that reads this local.
@@ -116,6 +130,8 @@ public:
     now_.clear();
     for (std::size_t at = 0; at < program_.body.size(); ++at)
       step(at, tests);
+    for (const auto& [key, copy] : now_)
+      askAgain(key, copy, program_.body.size());
   }
 
   BlockSet asking;
@@ -134,7 +150,7 @@ private:
       if (readsWhat(*variable, axis) != Reads::Other) out.insert(here);
       const std::optional<std::uint64_t> key = keyOf(variable->number);
       if (const auto found = key ? now_.find(*key) : now_.end(); found != now_.end())
-        out.insert(found->second.begin(), found->second.end());
+        out.insert(found->second.blocks.begin(), found->second.blocks.end());
     });
     return out;
   }
@@ -144,12 +160,34 @@ private:
     if (condition == nullptr || !*condition) return;
     asking.merge(sources(*condition, blockOf(statement)));
   }
-  // Back to a label: conditions of what runs once more see what is held now.
-  void askFrom(ir::LabelId target, std::size_t at) {
-    const auto label = labels_.find(target);
-    if (label == labels_.end()) return;
-    for (std::size_t i = label->second; i < at; ++i)
-      ask(i);
+  // What a variable holds, and since which statement.
+  struct Copy {
+    BlockSet blocks;
+    std::size_t since = 0;
+  };
+  // Conditions before a jump that leads back to them see what the variable holds there. `until`: the
+  // statement that writes the next copy.
+  void askAgain(std::uint64_t key, const Copy& copy, std::size_t until) {
+    const auto found = readers_.find(key);
+    if (copy.blocks.empty() || found == readers_.end()) return;
+    const std::vector<std::size_t>& readers = found->second;
+    // Between two conditions the first of them is the last one before each jump.
+    auto next = std::upper_bound(readers.begin(), readers.end(), copy.since);
+    for (std::size_t from = copy.since; from < until; ++next) {
+      const bool last = next == readers.end() || *next >= until;
+      if (next != readers.begin() && jumps_.leastTarget(from, last ? until : *next + 1) <= *std::prev(next)) {
+        asking.insert(copy.blocks.begin(), copy.blocks.end());
+        return;
+      }
+      if (last) return;
+      from = *next;
+    }
+  }
+  static std::optional<ir::LabelId> jumpOf(const ir::ProgramStatement& statement) {
+    if (const auto* jump = std::get_if<ir::Jump>(&statement.node)) return jump->target;
+    if (const auto* branch = std::get_if<ir::Branch>(&statement.node)) return branch->target;
+    if (const auto* end = std::get_if<ir::LoopEnd>(&statement.node)) return end->begin;
+    return std::nullopt;
   }
   template <class Tests> void step(std::size_t at, const Tests& tests) {
     const ir::ProgramStatement& statement = program_.body[at];
@@ -162,14 +200,14 @@ private:
       });
       ask(at);
     }
-    if (const auto* jump = std::get_if<ir::Jump>(&statement.node)) askFrom(jump->target, at);
-    if (const auto* branch = std::get_if<ir::Branch>(&statement.node)) askFrom(branch->target, at);
-    if (const auto* end = std::get_if<ir::LoopEnd>(&statement.node)) askFrom(end->begin, at);
     if (const auto* store = std::get_if<ir::Store>(&statement.node)) {
       const std::optional<std::uint64_t> key = keyOf(store->number);
       if (!key) return;
-      now_[*key] = sources(store->value, here);
-      held[*key].insert(now_[*key].begin(), now_[*key].end());
+      Copy copy{sources(store->value, here), at};
+      Copy& now = now_[*key];
+      askAgain(*key, now, at);
+      now = std::move(copy);
+      held[*key].insert(now.blocks.begin(), now.blocks.end());
     }
     if (const auto* call = std::get_if<ir::Call>(&statement.node)) {
       sharesLocals = sharesLocals || call->kind == ir::CallKind::Subprogram;
@@ -182,8 +220,9 @@ private:
   }
 
   const ir::Program& program_;
-  std::map<ir::LabelId, std::size_t> labels_;
-  std::map<std::uint64_t, BlockSet> now_;
+  BackJumps jumps_;
+  std::map<std::uint64_t, std::vector<std::size_t>> readers_; // conditions by the variables that they read
+  std::map<std::uint64_t, Copy> now_;
 };
 
 } // namespace

@@ -1,9 +1,13 @@
 #include "sim/machine/SafeMoves.h"
 #include "frontend/macrob/Lower.h"
+#include "tests/Draws.h"
 #include "tests/unit/MacroBHelper.h"
 
 #include <algorithm>
 #include <doctest/doctest.h>
+#include <map>
+#include <random>
+#include <set>
 
 using namespace dotek;
 using tests::MacroFile;
@@ -71,4 +75,59 @@ TEST_CASE("safe moves: the first of two touches is none, whatever its IF says") 
   CHECK(safeIn(down + "G91G0Z1.\nG31X-2.F30\nG90\n" + read) == "2"); // another axis
   CHECK(safeIn(down + "G91G0Z1.\nG31Z2.F30\nG90\n" + read) == "2");  // the other way
   CHECK(safeIn(down + "G91G0Z1.\nX5.\nG31Z-2.F30\nG90\n" + read) == "2");
+}
+
+TEST_CASE("asking blocks: as a walk finds that asks each condition again at each jump back") {
+  std::mt19937 random(31);
+  const auto below = [&](std::size_t n) {
+    return std::uniform_int_distribution<std::size_t>(0, n - 1)(random);
+  };
+  for (std::size_t round = 0; round < tests::draws(400U, 40U); ++round) {
+    // Each line copies a position or another variable, or asks and jumps.
+    struct Line {
+      bool asks = false, position = false;
+      unsigned to = 0, from = 0;
+      std::size_t target = 0;
+    };
+    const std::size_t count = 3 + below(12);
+    std::vector<Line> lines(count);
+    std::string text = "O1\n";
+    for (std::size_t i = 0; i < count; ++i) {
+      Line& line = lines[i];
+      line.asks = below(2) == 0;
+      line.position = below(3) == 0;
+      line.to = static_cast<unsigned>(below(4));
+      line.from = static_cast<unsigned>(below(4));
+      line.target = below(count);
+      text += "N" + std::to_string(i + 1);
+      text += line.asks
+                  ? "IF[#" + std::to_string(101 + line.from) + "EQ1]GOTO" + std::to_string(line.target + 1)
+                  : "#" + std::to_string(101 + line.to) + "=" +
+                        (line.position ? "#5061" : "#" + std::to_string(101 + line.from));
+      text += "\n";
+    }
+    text += "M99\n";
+    std::set<std::size_t> expected;
+    std::map<unsigned, std::set<std::size_t>> now;
+    for (std::size_t at = 0; at < count; ++at) {
+      const Line& line = lines[at];
+      if (!line.asks) {
+        now[line.to] = line.position ? std::set<std::size_t>{at} : now[line.from];
+        continue;
+      }
+      for (std::size_t i = std::min(line.target, at); i <= at; ++i)
+        if (lines[i].asks) expected.insert(now[lines[i].from].begin(), now[lines[i].from].end());
+    }
+    MacroFile parsed(text);
+    const auto control = stdlib::Control::load(stdlib::DataFiles(), "fanuc-31i-b");
+    REQUIRE(control);
+    const auto file = frontend::macrob::lower(parsed.file, *control, parsed.sources, parsed.diagnostics);
+    REQUIRE_MESSAGE(file, text << parsed.told());
+    std::set<std::size_t> found;
+    for (const auto& [id, begin] : sim::askingBlocks({&file->programs.front()}))
+      found.insert(static_cast<std::size_t>(
+                       std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(begin), '\n')) -
+                   1);
+    CHECK_MESSAGE(found == expected, text);
+  }
 }
