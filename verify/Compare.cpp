@@ -142,11 +142,16 @@ private:
     longer.insert(longer.begin() + static_cast<std::ptrdiff_t>(i) + 1, std::move(rest));
   }
 
+  // So short that the last digits of its ends decide whether it is one.
+  bool mayVanish(const Piece& piece) const {
+    return piece.kind != sim::PathKind::Measuring && near(piece.from, piece.to, 2 * rules_.tolerance);
+  }
+
   // A move that is not much longer than the tolerance may come to nothing where both its ends are rounded.
   void dropVanished(std::vector<Piece>& longer, const std::vector<Piece>& other, std::size_t i) const {
     if (i + 1 >= longer.size() || i >= other.size()) return;
     const Piece &one = longer[i], &next = longer[i + 1], &there = other[i];
-    if (one.kind == sim::PathKind::Measuring || !near(one.from, one.to, 2 * rules_.tolerance)) return;
+    if (!mayVanish(one)) return;
     const bool goesOn = next.kind == there.kind && near(next.from, there.from, 2 * rules_.tolerance) &&
                         near(next.to, there.to, rules_.tolerance);
     if (goesOn) longer.erase(longer.begin() + static_cast<std::ptrdiff_t>(i));
@@ -243,6 +248,8 @@ private:
     std::vector<Piece> a = straight(pieces(source_), true, rules_.tolerance);
     std::vector<Piece> b = straight(pieces(target_), true, rules_.tolerance);
     for (std::size_t i = 0; i < std::max(a.size(), b.size()); ++i) {
+      const bool alone = i >= std::min(a.size(), b.size()) && i + 1 == std::max(a.size(), b.size());
+      if (alone && mayVanish(i < a.size() ? a[i] : b[i])) return;
       if (i >= a.size()) {
         add(Aspect::Path,
             fmt::format("the translation goes on by a {} move to {}, the source does not",

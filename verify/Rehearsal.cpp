@@ -65,7 +65,8 @@ PartError drawError(const Record& rehearsal, double ballRadius, Random& random) 
     const bool plus = random.chance(0.5);
     if (up[axis] && down[axis]) continue; // whichever way, one of them would not arrive
     const double sign = up[axis] ? -1 : down[axis] ? 1 : plus ? 1 : -1;
-    shift[axis] = std::trunc(sign * size * 1000) / 1000;
+    // Never a whole number of thousandths, as limits are: rounding alone would decide which side it is on.
+    shift[axis] = sign * (std::trunc(size * 1000) + 0.5) / 1000;
   }
   PartError out;
   out.shift = {shift[0], shift[1], shift[2]};

@@ -235,6 +235,22 @@ TEST_CASE("verify: a move that vanishes where both its ends are rounded") {
   CHECK_FALSE(same(0.001, 0.0004));
   CHECK_FALSE(same(0.0021, 0.0006));
   CHECK_FALSE(same(0.0021, 0.0006, true));
+  // The last move of one side.
+  const auto last = [&](double length, bool turned) {
+    verify::Record source = run.record;
+    verify::Piece tiny = source.pieces.back();
+    tiny.from = tiny.to;
+    tiny.to.y += length;
+    source.pieces.push_back(tiny);
+    verify::CompareRules rules;
+    rules.tolerance = 0.0006;
+    return (turned ? verify::compare(run.record, source, rules) : verify::compare(source, run.record, rules))
+        .empty();
+  };
+  for (const bool turned : {false, true}) {
+    CHECK(last(0.001, turned));
+    CHECK_FALSE(last(0.0021, turned));
+  }
 }
 
 TEST_CASE("verify: endings") {
