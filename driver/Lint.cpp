@@ -77,7 +77,11 @@ public:
     }
     for (const std::string& path : options_.paths)
       walk_.visit(path, session_.diagnostics());
-    if (walk_.ended()) return failed();
+    if (walk_.ended()) {
+      std::erase_if(session_.diagnostics().all(),
+                    [](const Diagnostic& d) { return d.code != diag::TooManyFiles::code; });
+      return failed();
+    }
     if (checkedFiles_ == 0 && !session_.diagnostics().hasErrors() && !options_.paths.empty())
       session_.diagnostics().report<diag::NothingRead>(
           {}, quoted(options_.paths) +

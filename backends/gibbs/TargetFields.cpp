@@ -138,11 +138,17 @@ bool decidesAlarms(const std::vector<ir::CycleStatement>& list, std::size_t at, 
   if (branch == nullptr || readsOf(list[at], id).others) return false;
   for (std::size_t i = at + 1; i < list.size(); ++i) {
     const ir::CycleStatement& one = list[i];
-    if (const auto* label = std::get_if<ir::Label>(&one.node); label && label->label == branch->target)
-      return true;
-    if (!std::holds_alternative<ir::Alarm>(one.node) && !std::holds_alternative<ir::Label>(one.node) &&
-        !std::holds_alternative<ir::Comment>(one.node) && !looks(one))
-      return false;
+    const std::optional<bool> ends = ir::match(
+        one,
+        [&](const ir::Label& node) {
+          return node.label == branch->target ? std::optional(true) : std::nullopt;
+        },
+        [](const ir::OneOf<ir::Alarm, ir::Comment> auto&) { return std::optional<bool>(); },
+        [&](const ir::Branch&) { return looks(one) ? std::optional<bool>() : false; },
+        [](const ir::OneOf<ir::Assign, ir::Store, ir::Jump, ir::Return, ir::Move, ir::Measure, ir::CallCycle,
+                           ir::ProbePower, ir::Spindle, ir::Coolant, ir::SetMode, ir::Dwell, ir::Stop,
+                           ir::OpaqueBlock> auto&) { return std::optional(false); });
+    if (ends) return *ends;
   }
   return false;
 }

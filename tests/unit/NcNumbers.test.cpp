@@ -65,12 +65,12 @@ TEST_CASE("the seconds of a dwell count like a length, its milliseconds never") 
 }
 
 TEST_CASE("words of an opaque block keep their number: only the same control gets them") {
-  CHECK(both("G43 H1 Z5", "fanuc-6m") == "opaque G43 H1 Z5\n[opaque-block]");
+  CHECK(both("G0 G43 H1 Z5", "fanuc-6m") == "opaque G0 G43 H1 Z5\n[opaque-block]");
 }
 
 TEST_CASE("a hole of an opaque block is scaled: the target writes it with a point") {
-  CHECK(both("G43 H{h|##} Z{a|###}", "fanuc-6m") ==
-        "opaque G43 Hh Z(a/1000)\n[decimal-point], [opaque-block]");
+  CHECK(both("G0 G43 H{h|##} Z{a|###}", "fanuc-6m") ==
+        "opaque G0 G43 Hh Z(a/1000)\n[decimal-point], [opaque-block]");
 }
 
 TEST_CASE("a picture without a point prints increments where the control counts them") {
