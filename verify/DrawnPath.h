@@ -47,7 +47,8 @@ struct PartError {
 // middle, two pairs of one size, are a bore (looking inward: a boss; one pair looking inward: a web), as are
 // three at angles to the axes that look from one middle over one distance; other
 // touches get a block each, as small as the ball, the error and a search beyond the surface need (`reach`,
-// mm), and smaller where the ball of another touch would meet it on its known way (Touch::way). nullopt: there are no touches, or more than a part can have.
+// mm), and smaller where the ball of another touch would meet it on its known way (Touch::way). nullopt:
+// there are no touches, or more than a part can have.
 std::optional<sim::Part> partOf(const std::vector<Touch>& touches, double ballRadius, double reach,
                                 const PartError& error);
 // What partOf() made for these touches without an error, placed with one; cheap.
