@@ -66,6 +66,12 @@ void addMacroB(std::vector<Construct>& out) {
   blocks("copies of positions asked for again", 500, [](long i) {
     return fmt::format("#{0}=#5061\nIF[#{0} EQ #{1}]GOTO 9\n", 100 + i % 50, 500 + i % 500);
   });
+  linted("variables after a watched move", 400, [](long n) {
+    return program(
+        "G90 G31 X-10. F100\nIF[#5061 GT -9.9]GOTO 9\n" +
+        repeated(n, [](long i) { return fmt::format("#{}=#{}+1.\n", 100000 + i, 100000 + i / 2); }) +
+        "M99\nN9 #3000=1(HIT)\n");
+  });
   blocks("variables", 2000, [](long i) { return fmt::format("#{}=#{}+1.\n", 100000 + i, 100000 + i / 2); });
   blocks("variables with IF", 1000,
          [](long i) { return fmt::format("IF[#{0} GT 1.]THEN #{1}=#{0}+1.\n", 100000 + i / 2, 100000 + i); });

@@ -19,6 +19,7 @@ namespace dotek::sim {
 namespace {
 
 constexpr std::size_t kMostStatements = 4000; // more is no macro that measures
+constexpr std::size_t kMostValues = 200'000;  // variables by statements: what is kept
 constexpr std::string_view kAxes = "XYZ";
 constexpr std::uint32_t kBlockEnd = 5001, kPlace = 5041, kSkip = 5061, kLength = 5081;
 constexpr std::uint32_t kFirstCommon = 100;
@@ -441,6 +442,11 @@ std::set<std::size_t> wantingContact(const ir::Program& program, const std::set<
   const bool computed = std::any_of(program.body.begin(), program.body.end(),
                                     [](const auto& statement) { return ir::isComputedJump(statement); });
   if (skips.empty() || computed || program.body.size() > kMostStatements) return out;
+  std::set<double> written;
+  for (const ir::ProgramStatement& statement : program.body)
+    if (const auto* store = std::get_if<ir::Store>(&statement.node))
+      if (const double* number = ir::constantValue(store->number)) written.insert(*number);
+  if (written.size() * program.body.size() > kMostValues) return out;
   const Wants wants(program, control);
   for (const std::size_t skip : skips)
     if (wants.contact(skip)) out.insert(skip);
