@@ -44,8 +44,8 @@ std::vector<ShownVariable> shownVariablesOf(const NamedTexts& given, const stdli
     const std::size_t sign = text.find('=');
     ShownVariable one{number.value_or(0), text.substr(0, sign), std::nullopt};
     if (sign != std::string::npos) one.nominal = parseNumber(std::string_view(text).substr(sign + 1));
-    const auto wrong = [&](std::string_view why) {
-      diagnostics.report<diag::ShowFlag>({}, variable + "=" + text, why);
+    const auto wrong = [&, flag = variable + "=" + text](std::string_view why) {
+      diagnostics.report<diag::ShowFlag>({}, flag, why);
     };
     if (!number || one.name.empty())
       wrong("it takes NUMBER=NAME or NUMBER=NAME=NOMINAL, as in `100=DIAMETER=30`");

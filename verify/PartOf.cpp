@@ -233,7 +233,7 @@ private:
     block.low[2] = level ? -kAbove : -beside_, block.high[2] = level ? kAbove : beside_;
     for (const Touch& touch : all_)
       if (touch.way > 0) makeWay(block, touch);
-    Point3 middle = point - middle_, half;
+    Point3 middle = point - middle_;
     for (std::size_t i = 0; i < 3; ++i)
       middle = middle + block.axes[i] * ((block.low[i] + block.high[i]) / 2);
     const auto halfOf = [&](std::size_t i) { return (block.high[i] - block.low[i]) / 2; };

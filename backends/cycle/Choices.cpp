@@ -91,8 +91,8 @@ void findChoices(State& state) {
     }
     std::set<std::string> apart(names.begin(), names.end());
     counts = counts && apart.size() == names.size() && !apart.contains("");
-    const auto isTitled = [&](double value, const char* title) {
-      return std::any_of(choices.begin(), choices.end(),
+    const auto isTitled = [&offered = choices](double value, const char* title) {
+      return std::any_of(offered.begin(), offered.end(),
                          [&](const Choice& one) { return one.value == value && one.title == title; });
     };
     const bool flag = choices.size() == 2 && isTitled(0, "no") && isTitled(1, "yes");
