@@ -45,15 +45,15 @@ struct CallValues {
   // The greatest travel beyond what is expected; nullptr or empty: the macro's own.
   std::function<ir::ExpressionPtr()> overtravel;
   // How far the source searches beyond what it expects along the axis where the statement does not say;
-  // nullptr or empty: not known. A macro that is given a travel, and no overtravel, travels so much farther.
+  // nullptr or empty: not known. A macro that takes a travel and no overtravel travels that much farther.
   std::function<ir::ExpressionPtr(ir::Axis axis)> beyond = {};
   bool setsSystem = true; // the call itself sets the offset of the measurement
 };
 
-// Of the set's calls that state none; nullptr: not known, or there is no set.
+// Overtravel of calls that state none; nullptr: not known, or there is no set.
 ir::ExpressionPtr overtravelOf(const stdlib::MacroSet* macros, ir::Axis axis);
 
-// A travel made longer by `more` its own way.
+// `travel`, made longer by `more` in its own direction.
 ir::ExpressionPtr longerTravel(const ir::ExpressionPtr& travel, const ir::ExpressionPtr& more);
 
 struct GivenArgument {

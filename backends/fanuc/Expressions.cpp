@@ -227,7 +227,7 @@ ir::ExpressionPtr withoutZeroes(const ir::ExpressionPtr& expression) {
   return ir::binary(binary->op, left, right, expression->range);
 }
 
-// Where the control divides in ATAN alone the angle of a ratio is that of the ratio over 1.
+// Of a control that has only ATAN[y]/[x]: the angle of a ratio is that of the ratio over 1.
 ir::ExpressionPtr withArcTangents(const State& state, const ir::ExpressionPtr& expression) {
   if (has(state.control, "ATAN[y]") || !has(state.control, "ATAN[y]/[x]")) return expression;
   return ir::rewrite(expression, [](const ir::ExpressionPtr& node) -> ir::ExpressionPtr {
