@@ -106,7 +106,8 @@ sim::Setup setupOf(const Raw& raw) {
   constexpr std::uint64_t kMostTool = 999;
   if (!raw.tool.empty()) out.tool = static_cast<std::uint32_t>(countOf("--tool", raw.tool, 1, 1, kMostTool));
   if (!raw.length.empty()) {
-    if (!out.tool) throw UsageError("--length is the length of a tool; --tool N says of which");
+    if (!out.tool && raw.machine.empty() && raw.job.empty())
+      throw UsageError("--length is the length of a tool; --tool N says of which");
     out.length = numberOf("--length", raw.length, 0, -kFarthest, kFarthest);
   }
   if (!raw.radius.empty() && !raw.diameter.empty())

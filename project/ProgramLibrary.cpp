@@ -1,6 +1,7 @@
 #include "project/ProgramLibrary.h"
 
 #include "project/Programs.h"
+#include "stdlib/CalledProgram.h"
 #include "support/Files.h"
 #include "support/messages/Commands.h"
 #include "support/messages/Common.h"
@@ -116,17 +117,20 @@ bool ProgramLibrary::read(Unread& file, Session& session) {
   return true;
 }
 
-ProgramLibrary::Calls ProgramLibrary::calls() const {
+ProgramLibrary::Calls ProgramLibrary::calls(const stdlib::Control& control) const {
   Calls out;
   for (const ir::Program& program : programs_) {
     for (const ir::ProgramStatement& statement : program.body) {
       const auto* call = std::get_if<ir::Call>(&statement.node);
       if (call == nullptr || call->program == nullptr) continue;
       const double* number = ir::constantValue(call->program);
-      if (number == nullptr)
+      if (number == nullptr) {
         out.computed = true;
-      else if (*number >= 1 && *number < 1e8)
-        out.numbers.insert(static_cast<std::uint64_t>(std::llround(*number)));
+      } else if (*number >= 1 && *number < 1e8) {
+        const auto written = static_cast<std::uint64_t>(std::llround(*number));
+        const bool counts = call->kind == ir::CallKind::Subprogram && call->repeats == nullptr;
+        out.numbers.insert(counts ? stdlib::subprogramCall(written, control).program : written);
+      }
     }
   }
   return out;
@@ -137,7 +141,7 @@ bool ProgramLibrary::addCalled(const stdlib::Control& control, Session& session)
   bool good = true;
   for (bool found = true; found;) {
     found = false;
-    const Calls called = calls();
+    const Calls called = calls(control);
     std::vector<Unread> files = std::exchange(unread_, {});
     for (Unread& file : files) {
       const bool wanted = std::any_of(file.numbers.begin(), file.numbers.end(),
@@ -167,7 +171,7 @@ void ProgramLibrary::addPossible(const stdlib::Control& control, Session& sessio
   std::set<std::string> leftOut;
   for (bool found = true; found;) {
     found = false;
-    const Calls called = calls();
+    const Calls called = calls(control);
     const auto isPossible = [&](std::uint64_t number) {
       return called.computed || called.numbers.contains(number) ||
              std::any_of(control.callCodes.begin(), control.callCodes.end(),

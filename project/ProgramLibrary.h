@@ -55,7 +55,7 @@ private:
   bool addFolders(const std::vector<std::string>& folders, const stdlib::Control& control, Session& session);
   bool find(const std::string& folder, Session& session);
   bool read(Unread& file, Session& session);
-  Calls calls() const;
+  Calls calls(const stdlib::Control& control) const;
   bool addCalled(const stdlib::Control& control, Session& session);
   void addPossible(const stdlib::Control& control, Session& session);
   void add(ir::Program program, bool main, Session& session);

@@ -41,6 +41,7 @@ std::string_view Setup::firstFlag() const {
 }
 
 void Setup::override(const Setup& other) {
+  if (other.tool && other.tool != tool) length.reset(); // that of another tool
   if (other.tool) tool = other.tool;
   if (other.length) length = other.length;
   if (other.ballDiameter) ballDiameter = other.ballDiameter;
@@ -70,6 +71,10 @@ Setup readSetup(const TomlDocument& document, const TomlTable& table) {
   for (const TomlTable& one : table.value("tools").tables()) {
     const auto number = one.require("number", "the number of the tool's offset").integer(1, 1, kMostTool);
     const auto length = lengthOf(document, one.require("length", "what the offset says, mm"));
+    if (out.length && out.tool == static_cast<std::uint32_t>(number))
+      document.fail(
+          one.value("number").range(),
+          fmt::format("the length of tool {} is said twice: `length` beside `tool` says it, too", number));
     out.tools.emplace_back(static_cast<std::uint32_t>(number), length.value_or(0));
   }
   for (const TomlEntry& entry : table.value("work_offset").table().entries()) {

@@ -2,6 +2,7 @@
 
 #include "ir/Flow.h"
 #include "ir/Walk.h"
+#include "stdlib/CalledProgram.h"
 #include "support/messages/Fanuc.h"
 
 #include <algorithm>
@@ -48,8 +49,8 @@ Called calledBy(const ir::ProgramStatement& statement, const stdlib::Control& co
       [&](const ir::Call& call) {
         if (call.kind == ir::CallKind::Off) return;
         if (const auto number = wholeOf(call.program)) {
-          const bool repeats = call.kind == ir::CallKind::Subprogram && !call.repeats && *number > 9999;
-          out.programs.push_back(repeats && control.repeatInProgram ? *number % 10000 : *number);
+          const bool counts = call.kind == ir::CallKind::Subprogram && !call.repeats;
+          out.programs.push_back(counts ? stdlib::subprogramCall(*number, control).program : *number);
         } else {
           out.computed = true;
         }

@@ -4,6 +4,7 @@
 #include "ir/Dataflow.h"
 #include "ir/Rewrite.h"
 #include "ir/Walk.h"
+#include "stdlib/CalledProgram.h"
 #include "support/messages/Fanuc.h"
 
 #include <algorithm>
@@ -18,7 +19,6 @@ namespace {
 
 constexpr std::uint32_t kFirstSystem = 1000;
 constexpr std::uint32_t kSkipAxes = 6;
-constexpr std::uint32_t kProgramsOfRepeats = 10000; // M98 P51002: O1002 five times
 
 std::optional<std::uint32_t> wholeOf(const ir::ExpressionPtr& expression) {
   const double* value = expression ? ir::constantValue(expression) : nullptr;
@@ -349,8 +349,8 @@ private:
 std::optional<std::uint32_t> calledProgram(const ir::Call& call, const stdlib::Control& control) {
   const auto number = wholeOf(call.program);
   if (!number || *number == 0) return std::nullopt;
-  const bool repeats = call.kind == ir::CallKind::Subprogram && control.repeatInProgram;
-  return repeats ? *number % kProgramsOfRepeats : *number;
+  const bool counts = call.kind == ir::CallKind::Subprogram && !call.repeats;
+  return counts ? static_cast<std::uint32_t>(stdlib::subprogramCall(*number, control).program) : *number;
 }
 
 void translateResults(ir::Program& program, const ir::ProgramFile& file, const TranslateSettings& settings,

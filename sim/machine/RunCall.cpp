@@ -4,6 +4,7 @@
 #include "sim/machine/Refusals.h"
 #include "sim/machine/Run.h"
 #include "sim/machine/Value.h"
+#include "stdlib/CalledProgram.h"
 
 #include <algorithm>
 #include <cmath>
@@ -33,10 +34,11 @@ bool Run::call(const CallSlots& slots) {
   Request request;
   double number = std::round(program);
   if (slots.repeats != kNoCell && !repeatsOf(cell(slots.repeats), request.repeats)) return false;
-  if (slots.kind == ir::CallKind::Subprogram && number > 9999 && number <= 99'999'999 &&
-      control_.repeatInProgram && slots.repeats == kNoCell) {
-    request.repeats = static_cast<std::uint32_t>(number / 10000);
-    number -= request.repeats * 10000.0;
+  if (slots.kind == ir::CallKind::Subprogram && slots.repeats == kNoCell && number >= 1 &&
+      number <= 99'999'999) {
+    const auto [called, times] = stdlib::subprogramCall(static_cast<std::uint64_t>(number), control_);
+    request.repeats = times;
+    number = static_cast<double>(called);
   }
   if (!(number >= 1 && number <= control_.programLast))
     return machine_.inconclusive(

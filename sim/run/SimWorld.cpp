@@ -124,6 +124,13 @@ bool SimWorld::loadFiles(const Setup& given) {
   setup_.override(given);
   // A macro that is called has its tool in the spindle, and [probe] says which that is.
   if (!setup_.call.empty() && !setup_.tool) setup_.tool = machine_->devices.probeTool;
+  if (setup_.length && !setup_.tool) {
+    session_.diagnostics().report<diag::SetupFlag>({}, "--length",
+                                                   "it is the length of a tool; `--tool N` says of which");
+    return false;
+  }
+  for (const auto& [number, length] : setup_.tools)
+    if (setup_.tool == number && !given.length && !machine_->setup.length) setup_.length = length;
   // The probe is the tool, unless it is said to be longer or shorter in the table.
   if (setup_.tool && !setup_.length) {
     const CuttingTool* const tool = machine_->devices.find(*setup_.tool);

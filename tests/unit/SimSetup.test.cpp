@@ -127,6 +127,33 @@ TEST_CASE("setup: [setup] of a job file goes before that of the machine and afte
   CHECK(has(runIn(scratch, "sim p.SUF --job job.toml"), "--job"));
 }
 
+TEST_CASE("setup: what [setup] says of the offset of the tool in the spindle holds, and is said once") {
+  const TestFolder scratch("dotek-setup-offsets");
+  scratch.write("length.nc", "%\nO71\nG90 G54 G43 H6 Z20.\n#100=#5083\nM30\n%\n");
+  const std::string head = "schema = 1\n[setup]\nwork_offset = { G54 = [-300, -200, -400] }\n";
+  const std::string rest =
+      "[probe]\ntool = 24\nball_diameter = 6\nlength = 165\nlength_to = \"tip\"\non = true\n"
+      "[[tool]]\nnumber = 6\nlength = 110\ndiameter = 12\n";
+  const std::string run = "sim length.nc --machine m.toml --json ";
+  scratch.write("m.toml", head + "tools = [{ number = 6, length = 95 }]\n" + rest);
+  CHECK(has(runIn(scratch, run + "--tool 6"), "\"100\": 95}"));
+  CHECK(has(runIn(scratch, run), "\"100\": 95}"));
+  CHECK(has(runIn(scratch, run + "--tool 6 --length 97"), "\"100\": 97}"));
+  scratch.write("m.toml", head + "tool = 6\n" + rest);
+  CHECK(has(runIn(scratch, run), "\"100\": 110}"));
+  CHECK(has(runIn(scratch, run + "--length 96"), "\"100\": 96}")); // of the tool that the file names
+  scratch.write("m.toml", head + "tool = 24\nlength = 160\n" + rest);
+  CHECK(has(runIn(scratch, run + "--tool 6"), "\"100\": 110}")); // 160 was that of the probe
+  scratch.write("m.toml", head + "tool = 6\nlength = 96\ntools = [{ number = 6, length = 95 }]\n" + rest);
+  const CommandResult twice = runIn(scratch, run);
+  CHECK(twice.status == 1);
+  CHECK(has(twice, "the length of tool 6 is said twice"));
+  scratch.write("m.toml", head + rest);
+  const CommandResult nobody = runIn(scratch, run + "--length 96");
+  CHECK(nobody.status == 1);
+  CHECK(has(nobody, "`--tool N` says of which"));
+}
+
 TEST_CASE("setup: [setup] of a job file is checked by every command that reads the job") {
   const TestFolder scratch("dotek-setup-read");
   scratch.write("down.nc", kDown);
