@@ -168,7 +168,10 @@ private:
   // The variables of --show, as the run has left them: a row of the table.
   void addShown(const sim::Machine& machine) {
     if (shown_.empty()) return;
-    sim::Measurement found{0, "results", {}};
+    // Whether a variable holds a length is not known.
+    const bool inches = machine.mode(sim::kUnits) != 0;
+    sim::Measurement found{
+        0, inches ? "results as the program has them, a length in inches (G20)" : "results", {}};
     for (const project::ShownVariable& one : shown_)
       found.values.push_back({fmt::format("{} (#{})", one.name, one.number), one.nominal,
                               machine.common(one.number), ir::Kind::Number});

@@ -32,11 +32,23 @@ Measurement measurementOf(const stdlib::MacroSignature& signature, std::span<con
     return at == found.end() || isNull(at->second) || isUnknown(at->second) ? std::nullopt
                                                                             : std::optional(at->second);
   };
-  const auto argument = [&](ArgumentRole role, ir::Axis axis) -> std::optional<double> {
-    const stdlib::MacroArgument* const one = signature.find(role, axis);
-    const std::uint32_t local = one == nullptr ? 0 : stdlib::localOf(one->letter);
+  const auto valueOf = [&](const stdlib::MacroArgument& one) -> std::optional<double> {
+    const std::uint32_t local = stdlib::localOf(one.letter);
     if (local == 0 || local >= locals.size() || isNull(locals[local])) return std::nullopt;
     return locals[local];
+  };
+  // Where the call says that the surface is expected, or what coordinate it gets.
+  const auto placeOf = [&](ir::Axis axis) -> std::optional<double> {
+    if (const auto* nominal = signature.find(ArgumentRole::Nominal, axis))
+      if (const auto value = valueOf(*nominal)) return value;
+    const auto* const target = signature.find(ArgumentRole::Target, axis);
+    return target != nullptr && target->frame == ir::Frame::Work ? valueOf(*target) : std::nullopt;
+  };
+  const auto expectedSize = [&]() -> std::optional<double> {
+    for (const stdlib::MacroArgument& one : signature.arguments)
+      if (one.role == ArgumentRole::Diameter || one.role == ArgumentRole::Width)
+        if (const auto value = valueOf(one)) return value;
+    return std::nullopt;
   };
   const auto add = [&](std::string name, Output measured, Output error, std::optional<double> nominal) {
     const std::optional<double> value = get(measured), off = get(error);
@@ -45,10 +57,10 @@ Measurement measurementOf(const stdlib::MacroSignature& signature, std::span<con
     const bool angle = measured == Output::Angle;
     out.values.push_back({std::move(name), nominal, *value, angle ? ir::Kind::Angle : ir::Kind::Length});
   };
-  add("X", Output::PositionX, Output::ErrorX, argument(ArgumentRole::Nominal, ir::Axis::X));
-  add("Y", Output::PositionY, Output::ErrorY, argument(ArgumentRole::Nominal, ir::Axis::Y));
-  add("Z", Output::PositionZ, Output::ErrorZ, argument(ArgumentRole::Nominal, ir::Axis::Z));
-  add(sizeName(signature.intent), Output::Size, Output::SizeError, std::nullopt);
+  add("X", Output::PositionX, Output::ErrorX, placeOf(ir::Axis::X));
+  add("Y", Output::PositionY, Output::ErrorY, placeOf(ir::Axis::Y));
+  add("Z", Output::PositionZ, Output::ErrorZ, placeOf(ir::Axis::Z));
+  add(sizeName(signature.intent), Output::Size, Output::SizeError, expectedSize());
   add("angle", Output::Angle, Output::AngleError, std::nullopt);
   return out;
 }

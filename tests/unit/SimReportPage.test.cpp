@@ -74,6 +74,20 @@ TEST_CASE("sim report: --show names a variable of the program in the table, besi
             "A (#149)                                -       12.500"));
 }
 
+TEST_CASE("sim report: what a call of our own macros expects is its nominal, and G20 is said of --show") {
+  Run run("dotek-report-nominal");
+  const std::string setup = "O9\n#520=3.\n#521=200.\n#522=50.\n#523=1.\nG43 H1\n";
+  const CommandResult own = run(setup + "G0 X-12. Y20.\nZ-8.\nG65 P8811 X0.2\nG0 Z30.\nX50. Y50.\n"
+                                        "G65 P8812 X99.5 Z-8. R5.\nG0 Z30.\nM30\n");
+  CAPTURE(own.err);
+  CHECK(own.status == 0);
+  CHECK(has(own.out, "  X                                   0.200        0.000       -0.200\n"));
+  CHECK(has(own.out, "  width                              99.500      100.000       +0.500\n"));
+  const std::string shown = run("O9\n#131=1.182\nG20\nM30\n", {"--show", "131=DIA=1.1811"}).out;
+  CHECK(has(shown, "a length in inches (G20)"));
+  CHECK_FALSE(has(run("O9\n#131=1.182\nM30\n", {"--show", "131=DIA=1.1811"}).out, "inches"));
+}
+
 TEST_CASE("sim report: --show takes common variables alone") {
   Run run("dotek-report-show-flags");
   const auto refused = [&](const char* flag, std::string_view why) {
