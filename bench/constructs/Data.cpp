@@ -265,12 +265,11 @@ void addData(std::vector<Construct>& out) {
                          fmt::format("%\nO{}\nG65 P{} X1.\nM98 P9000\n#100=#5061\nM99\n%\n", i + 1, i + 2));
                    return made;
                  }});
-  out.push_back({"files: folders one in another, lint", 100, [](long n) {
+  // Each file is reached through all folders above it, by the system as well: n counts folders of all names.
+  out.push_back({"files: folders one in another, lint", 5000, [](long n) {
                    Input made{{}, {"lint", "--select", "all", "."}};
-                   constexpr long kDeepest = 1500; // the system refuses longer names
-                   for (long i = 0; i < n; ++i)
-                     made.files.emplace_back(times(std::min(i, kDeepest), "d/") +
-                                                 fmt::format("O{}.nc", i + 1),
+                   for (long i = 0; i * (i + 1) / 2 <= n; ++i)
+                     made.files.emplace_back(times(i, "d/") + fmt::format("O{}.nc", i + 1),
                                              fmt::format("%\nO{}\n#100=#5061\nM99\n%\n", i + 1));
                    return made;
                  }});
