@@ -23,7 +23,7 @@ statement
   | KW_REPORT text (KW_NOMINAL expression)? KW_MEASURED expression (KW_TOLERANCE expression)? # report
   | moveKind? KW_MOVE (KW_TO KW_START | reach coordinates) (KW_FEED expression)? # move
   | KW_TOUCH KW_ONCE? touchAxis reach expression (KW_OVERTRAVEL expression)? (ARROW name)? KW_ELSE? # touch
-  | KW_SET KW_TOOL expression (KW_LENGTH | KW_RADIUS) expression                # setTool
+  | KW_SET KW_TOOL expression toolPart expression                               # setTool
   | KW_SET KW_STORED name expression                                            # setStored
   | KW_SET expression COLON becomes (COMMA becomes)*                            # setOffset
   | KW_IF expression KW_THEN                                                    # ifLine
@@ -37,6 +37,7 @@ statement
   | NAME EQUALS expression                                                      # assign
   ;
 
+toolPart : KW_LENGTH | KW_RADIUS | KW_LENGTH_WEAR | KW_RADIUS_WEAR ;
 moveKind : KW_RAPID | KW_FEED | KW_PROTECTED ;
 // `to` a coordinate, `by` a distance from here
 reach : KW_TO | KW_BY ;

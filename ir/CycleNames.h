@@ -1,15 +1,34 @@
 // Cycles by name (CallCycle) that the cycle language has beside those of macro sets.
 #pragma once
 
+#include "ir/Expression.h"
+
+#include <optional>
 #include <string_view>
+#include <utility>
 
 namespace dotek::ir {
 
 // Moves nothing. Along each axis of `setting`, system := active system + argument "measured AXIS" - nominal:
 // the place that has the coordinate `measured` in the active system gets `nominal` in the system, at once.
 inline constexpr std::string_view kSetOffset = "set-offset";
-// Moves nothing. Tool offset "tool" gets "length" or "radius", mm.
+// Moves nothing. Tool offset "tool" gets one of its parts (toolPartText), mm: as a whole it has no wear then.
 inline constexpr std::string_view kSetTool = "set-tool";
+// What a tool offset holds, mm: a length and a radius, each with the wear that is part of it.
+enum class ToolPart : std::uint8_t { Length, LengthWear, Radius, RadiusWear };
+inline constexpr ToolPart kToolParts[] = {ToolPart::Length, ToolPart::LengthWear, ToolPart::Radius,
+                                          ToolPart::RadiusWear};
+std::string_view toolPartText(ToolPart part); // "length", "length wear"
+bool isLength(ToolPart part);                 // else of the radius
+bool isWear(ToolPart part);
+// That a cycle reads it: a variable of the machine whose number no control has, #(kToolTable + 1000 * part +
+// tool). Always the whole value of an Assign. What a control has there says its back end.
+inline constexpr double kToolTable = 9'000'000;
+inline constexpr double kToolPartStep = 1000;
+ExpressionPtr toolValue(ToolPart part, const ExpressionPtr& tool, SourceRange range = {});
+// Part and number of the offset; nothing: another value.
+std::optional<std::pair<ToolPart, ExpressionPtr>> readTool(const Expression& value);
+std::optional<std::pair<ToolPart, double>> toolOf(double number); // of a variable
 // Moves nothing. Each argument is kept under its name for a later run.
 inline constexpr std::string_view kKeep = "keep";
 // Moves nothing. A line of the protocol: "measured", and "nominal" and "tolerance" where they are stated. The

@@ -1,6 +1,8 @@
+#include "ir/CycleNames.h"
 #include "ir/Names.h"
 #include "ir/Print.h"
 
+#include <fmt/format.h>
 #include <string_view>
 
 namespace dotek::ir {
@@ -144,8 +146,10 @@ void write(const Expression& expression, const Names& names, std::string& out) {
   } else if (const auto* use = std::get_if<VariableUse>(&expression.node)) {
     out += names.variable(use->variable);
   } else if (const auto* machine = std::get_if<MachineVariable>(&expression.node)) {
-    out += '#';
-    writePrimary(*machine->number, names, out);
+    const auto tool = readTool(expression);
+    out += tool ? "tool " : "#";
+    writePrimary(tool ? *tool->second : *machine->number, names, out);
+    if (tool) out += fmt::format(" {}", toolPartText(tool->first));
   } else if (const auto* measured = std::get_if<MeasuredResult>(&expression.node)) {
     out += "result ";
     out += resultText(measured->name);

@@ -168,7 +168,8 @@ std::vector<Proposal> cycle(const Index& index, std::string_view before, project
        "becomes",     "alarm",      "stop",        "report",         "if",       "then",       "else",
        "end",         "for",        "while",       "at most",        "repeat",   "times",      "call",
        "use",         "given",      "length",      "angle",          "feed",     "count",      "ratio",
-       "flag",        "choice",     "work_offset", "tool_offset",    "optional", "range",      "group"});
+       "flag",        "choice",     "work_offset", "tool_offset",    "optional", "range",      "group",
+       "set tool",    "radius",     "length_wear", "radius_wear"});
   return out;
 }
 

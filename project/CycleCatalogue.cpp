@@ -14,6 +14,11 @@ namespace cycle = frontend::cycle;
 
 namespace {
 
+std::string_view ofTool(cycle::ToolPart part) {
+  constexpr std::string_view kTitles[] = {"length", "wear of the length", "radius", "wear of the radius"};
+  return kTitles[static_cast<std::size_t>(part)];
+}
+
 // What the statements of a cycle do, those of the cycles that it calls included.
 class Walk {
 public:
@@ -29,46 +34,46 @@ private:
   }
   void block(const cycle::Block& block) {
     for (const cycle::Statement& statement : block.statements)
-      std::visit(ir::Overloaded{
-                     [&](const cycle::Alarm& alarm) { add(page_.alarms, alarm.text.text); },
-                     [&](const cycle::Touch& touch) {
-                       if (touch.otherwise == nullptr)
-                         page_.missStops = true;
-                       else
-                         this->block(*touch.otherwise);
-                     },
-                     [&](const cycle::If& choice) {
-                       for (const cycle::If::Part& part : choice.parts)
-                         this->block(part.body);
-                       if (choice.otherwise != nullptr) this->block(*choice.otherwise);
-                     },
-                     [&](const cycle::Repeat& loop) { this->block(loop.body); },
-                     [&](const cycle::For& loop) { this->block(loop.body); },
-                     [&](const cycle::While& loop) { this->block(loop.body); },
-                     [&](const cycle::SetOffset& set) {
-                       std::string axes;
-                       for (const cycle::Becomes& item : set.items)
-                         axes += std::string(axes.empty() ? "" : ", ") + axisLetter(item.axis);
-                       // What a called cycle sets depends on what it is given.
-                       if (depth_ == 0)
-                         add(page_.sets, fmt::format("work offset `{}` in {}", layOut(*set.system), axes));
-                     },
-                     [&](const cycle::SetTool& set) {
-                       if (depth_ == 0)
-                         add(page_.sets, fmt::format("{} of tool offset `{}`",
-                                                     set.radius ? "radius" : "length", layOut(*set.tool)));
-                     },
-                     [&](const cycle::SetStored& set) {
-                       add(page_.sets, fmt::format("stored value `{}`", set.name.text));
-                     },
-                     [&](const cycle::Call& call) {
-                       if (depth_ == 0) add(page_.calls, call.cycle.text);
-                       if (call.called == nullptr) return;
-                       ++depth_;
-                       file(*call.called);
-                       --depth_;
-                     },
-                     [](const auto&) {}},
+      std::visit(ir::Overloaded{[&](const cycle::Alarm& alarm) { add(page_.alarms, alarm.text.text); },
+                                [&](const cycle::Touch& touch) {
+                                  if (touch.otherwise == nullptr)
+                                    page_.missStops = true;
+                                  else
+                                    this->block(*touch.otherwise);
+                                },
+                                [&](const cycle::If& choice) {
+                                  for (const cycle::If::Part& part : choice.parts)
+                                    this->block(part.body);
+                                  if (choice.otherwise != nullptr) this->block(*choice.otherwise);
+                                },
+                                [&](const cycle::Repeat& loop) { this->block(loop.body); },
+                                [&](const cycle::For& loop) { this->block(loop.body); },
+                                [&](const cycle::While& loop) { this->block(loop.body); },
+                                [&](const cycle::SetOffset& set) {
+                                  std::string axes;
+                                  for (const cycle::Becomes& item : set.items)
+                                    axes += std::string(axes.empty() ? "" : ", ") + axisLetter(item.axis);
+                                  // What a called cycle sets depends on what it is given.
+                                  if (depth_ == 0)
+                                    add(page_.sets,
+                                        fmt::format("work offset `{}` in {}", layOut(*set.system), axes));
+                                },
+                                [&](const cycle::SetTool& set) {
+                                  if (depth_ == 0)
+                                    add(page_.sets, fmt::format("{} of tool offset `{}`", ofTool(set.part),
+                                                                layOut(*set.tool)));
+                                },
+                                [&](const cycle::SetStored& set) {
+                                  add(page_.sets, fmt::format("stored value `{}`", set.name.text));
+                                },
+                                [&](const cycle::Call& call) {
+                                  if (depth_ == 0) add(page_.calls, call.cycle.text);
+                                  if (call.called == nullptr) return;
+                                  ++depth_;
+                                  file(*call.called);
+                                  --depth_;
+                                },
+                                [](const auto&) {}},
                  statement.node);
   }
 

@@ -1,6 +1,7 @@
 #include "targets/CycleFileCasesParts.h"
 
 #include "frontend/cycle/Link.h"
+#include "ir/CycleNames.h"
 #include "ir/Rewrite.h"
 #include "project/CycleFiles.h"
 #include "stdlib/HostInputs.h"
@@ -10,6 +11,7 @@
 #include "targets/KeptResults.h"
 #include "targets/Stage.h"
 #include "targets/Target.h"
+#include "targets/ToolEntry.h"
 #include "verify/Random.h"
 #include "verify/Rehearsal.h"
 
@@ -220,8 +222,32 @@ sim::MachineLimits CycleFileRunner::limits() const {
   return {}; // zeros are drawn: no travel holds for them
 }
 
+namespace {
+
+// The tool table of the machine that the cycle runs on. `wears`: that of the target keeps a wear of the
+// length apart.
+void putTools(const std::vector<ToolEntry>& tools, bool wears, verify::Entry& entry) {
+  for (const ToolEntry& tool : tools) {
+    const auto put = [&](ir::ToolPart part, double value) {
+      const double base = ir::kToolTable + ir::kToolPartStep * static_cast<double>(part);
+      entry.variables.emplace_back(static_cast<std::uint32_t>(base) + tool.number, value);
+    };
+    if (wears) put(ir::ToolPart::LengthWear, tool.lengthWear);
+    put(ir::ToolPart::Radius, tool.radius);
+    put(ir::ToolPart::RadiusWear, tool.radiusWear);
+  }
+}
+
+bool keepsWear(const std::optional<stdlib::Control>& control) {
+  return !control || (control->variables.toolGeometry && control->variables.toolWear);
+}
+
+} // namespace
+
 verify::Record CycleFileRunner::runCycle(const verify::Case& drawn, sim::World& world, bool keepMoves) const {
-  return stand_->run(cycle(), inputsOf(drawn), world, entryOf(drawn), stores_, keepMoves);
+  verify::Entry entry = entryOf(drawn);
+  putTools(toolEntries(plan_, drawn), keepsWear(inputs_->control), entry);
+  return stand_->run(cycle(), inputsOf(drawn), world, entry, stores_, keepMoves);
 }
 
 // A rehearsal says which surfaces it expects, the part is made of them, then it runs.
@@ -229,7 +255,8 @@ std::unique_ptr<CycleFileRunner::Played> CycleFileRunner::play(verify::Case draw
   auto out = std::make_unique<Played>();
   out->drawn = std::move(drawn);
   const sim::Probe probe = probeFor(plan_, out->drawn);
-  const verify::Entry entry = entryOf(out->drawn);
+  verify::Entry entry = entryOf(out->drawn);
+  putTools(toolEntries(plan_, out->drawn), keepsWear(inputs_->control), entry);
   const sim::Point3 zero = entry.zeros[out->drawn.system - 54];
   verify::CycleStand::Rehearsal rehearsal = stand_->rehearse(cycle(), inputsOf(out->drawn), probe, entry);
   if (plan_.part) {

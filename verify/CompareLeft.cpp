@@ -1,5 +1,6 @@
 // What two runs leave: work offsets, tool offsets, variables, modes.
 #include "verify/CompareLeft.h"
+#include "verify/RadiusTable.h"
 
 #include "sim/machine/Value.h"
 #include "support/Decimal.h"
@@ -100,7 +101,9 @@ private:
       const std::optional<Entry> one = entry(source_, number), other = entry(target_, number);
       if (!differs(one, other)) continue;
       add(Aspect::Tool,
-          fmt::format("tool offset {}: the source {}, the translation {}", number, tell(one), tell(other)),
+          fmt::format("{}tool offset {}: the source {}, the translation {}",
+                      number > kRadiusTable ? "radius of " : "",
+                      number > kRadiusTable ? number - kRadiusTable : number, tell(one), tell(other)),
           lastMeasure(source_), lastMeasure(target_));
       return;
     }

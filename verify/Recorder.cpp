@@ -3,7 +3,9 @@
 #include "sim/machine/Measurement.h"
 #include "sim/machine/Value.h"
 #include "sim/machine/VendorMacros.h"
+#include "stdlib/RadiusOffsets.h"
 #include "verify/Nominal.h"
+#include "verify/RadiusTable.h"
 
 #include <algorithm>
 #include <cmath>
@@ -95,6 +97,25 @@ void Recorder::begin(const sim::Run& run, bool keepMoves) {
   begin([&run] { return run.place(); }, keepMoves);
 }
 
+namespace {
+
+// Lengths by number; radii, where they are known of the control, from kRadiusTable on.
+std::vector<sim::Machine::ToolOffset> toolTable(sim::Machine& machine) {
+  std::vector<sim::Machine::ToolOffset> out = machine.toolTable();
+  const stdlib::RadiusOffsets radii = stdlib::radiusOffsets(machine.control());
+  if (!radii.geometry && !radii.wear) return out;
+  const auto last = static_cast<std::uint32_t>(machine.control().variables.toolCount);
+  out.resize(kRadiusTable + last + 1);
+  const auto read = [&](const std::optional<int>& base, std::uint32_t tool) {
+    return base ? machine.read(static_cast<std::uint32_t>(*base) + tool).value_or(0) : 0;
+  };
+  for (std::uint32_t tool = 1; tool <= last; ++tool)
+    out[kRadiusTable + tool] = {read(radii.wear, tool), read(radii.geometry, tool)};
+  return out;
+}
+
+} // namespace
+
 void Recorder::begin(std::function<SourceRange()> place, bool keepMoves) {
   place_ = std::move(place);
   keepMoves_ = keepMoves;
@@ -102,7 +123,7 @@ void Recorder::begin(std::function<SourceRange()> place, bool keepMoves) {
   record_.start = lowest(machine_.machinePosition());
   record_.before = surroundings();
   record_.feedBefore = machine_.feed();
-  tools_ = machine_.toolTable();
+  tools_ = toolTable(machine_);
   tool_ = machine_.tool();
   for (std::uint32_t group = 0; group < record_.modalBefore.size(); ++group)
     record_.modalBefore[group] = machine_.modalCode(group);
@@ -481,7 +502,7 @@ Record Recorder::finish(const std::set<std::uint32_t>& stores) {
     record_.zeros[{52, axis}] = machine_.localShift()[axis];
     record_.zeros[{92, axis}] = machine_.positionShift()[axis];
   }
-  const std::vector<sim::Machine::ToolOffset>& tools = machine_.toolTable();
+  const std::vector<sim::Machine::ToolOffset> tools = toolTable(machine_);
   for (std::uint32_t number = 1; number < tools.size(); ++number)
     if (number >= tools_.size() || tools[number] != tools_[number])
       record_.tools.emplace(number, tools[number]);

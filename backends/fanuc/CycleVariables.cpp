@@ -2,6 +2,7 @@
 // profiles.
 #include "backends/fanuc/ProgramVariables.h"
 #include "backends/fanuc/State.h"
+#include "ir/CycleNames.h"
 #include "ir/Rewrite.h"
 #include "ir/Walk.h"
 #include "support/Decimal.h"
@@ -41,7 +42,7 @@ private:
 
   ir::ExpressionPtr used(const ir::ExpressionPtr& expression) {
     const auto* machine = std::get_if<ir::MachineVariable>(&expression->node);
-    if (machine == nullptr) return expression;
+    if (machine == nullptr || ir::readTool(*expression)) return expression;
     const SourceRange range = expression->range.hasPlace() ? expression->range : range_;
     const auto number = wholeOf(machine->number);
     if (!number) {

@@ -1,4 +1,5 @@
 // The statements of a list: assignments, jumps, alarms; blocks are left to Blocks.cpp.
+#include "backends/fanuc/OwnCycles.h"
 #include "backends/fanuc/State.h"
 #include "backends/fanuc/Uses.h"
 #include "ir/Fold.h"
@@ -44,7 +45,10 @@ private:
     return match(
         statement,
         [&](const ir::Assign& node) {
-          assign(state_, state_.local(node.variable), node.value, origin);
+          if (const auto read = ir::readTool(*node.value))
+            writeReadTool(state_, state_.local(node.variable), read->first, read->second, origin);
+          else
+            assign(state_, state_.local(node.variable), node.value, origin);
           return i + 1;
         },
         [&](const ir::Store& node) {
@@ -123,6 +127,7 @@ private:
           return true;
         },
         [&](const ir::Assign& node) {
+          if (ir::readTool(*node.value)) return false;
           return writeGuarded(branch, guarded.origin, node.value,
                               [&] { return std::optional(state_.local(node.variable)); });
         },

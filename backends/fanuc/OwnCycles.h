@@ -2,6 +2,7 @@
 #pragma once
 
 #include "backends/fanuc/State.h"
+#include "ir/CycleNames.h"
 
 namespace dotek::backends::fanuc {
 
@@ -12,9 +13,12 @@ void writeSetOffset(State& state, const ir::CallCycle& set, const ir::Origin& or
 
 // ---- ToolWrite.cpp
 
-// The length of a tool (kSetTool) into its geometry, the wear becomes 0. Refused: a radius, a control whose
-// profile says no table, a move after it.
+// A part of a tool offset (kSetTool): a length or radius as a whole into its geometry, the wear becomes 0.
+// Refused: a control whose profile says no such part, a move after a length.
 void writeSetTool(State& state, const ir::CallCycle& set, const ir::Origin& origin);
+// `left` gets what the table has.
+void writeReadTool(State& state, const std::string& left, ir::ToolPart part, const ir::ExpressionPtr& tool,
+                   const ir::Origin& origin);
 // An alarm where `tool` is no offset of the table.
 void writeToolAlarm(State& state, const ir::ExpressionPtr& tool, const ir::Origin& origin);
 

@@ -1,20 +1,22 @@
 #include "backends/fanuc/TargetEntry.h"
 
-#include <cmath>
+#include "stdlib/RadiusOffsets.h"
+#include "targets/ToolEntry.h"
 
 namespace dotek::targets {
 
-void presetWear(const VerificationSource& from, const verify::Case& drawn, verify::Entry& entry) {
-  constexpr double kWear = 0.125;
+void presetTools(const VerificationSource& from, const verify::Case& drawn, verify::Entry& entry) {
   const stdlib::SystemVariables& v = from.inputs.control->variables;
-  if (!from.plan.cycleFile || !v.toolGeometry || !v.toolWear) return;
-  for (const verify::DrawField& field : from.plan.fields) {
-    const auto value = drawn.values.find(field.name);
-    if (field.kind != ir::Kind::ToolOffset || value == drawn.values.end()) continue;
-    const double tool = value->second;
-    if (tool >= 1 && tool <= v.toolCount && tool == std::floor(tool))
-      entry.variables.emplace_back(static_cast<std::uint32_t>(*v.toolWear) + static_cast<std::uint32_t>(tool),
-                                   kWear);
+  if (!from.plan.cycleFile) return;
+  const stdlib::RadiusOffsets radii = stdlib::radiusOffsets(*from.inputs.control);
+  for (const ToolEntry& tool : toolEntries(from.plan, drawn)) {
+    if (tool.number > static_cast<std::uint32_t>(v.toolCount)) continue;
+    const auto put = [&](const std::optional<int>& base, double value) {
+      if (base) entry.variables.emplace_back(static_cast<std::uint32_t>(*base) + tool.number, value);
+    };
+    if (v.toolGeometry) put(v.toolWear, tool.lengthWear);
+    put(radii.geometry, tool.radius);
+    put(radii.wear, tool.radiusWear);
   }
 }
 

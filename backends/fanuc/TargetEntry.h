@@ -6,8 +6,7 @@
 
 namespace dotek::targets {
 
-// Tools whose offsets the case names have some wear (mm): a program that sets the length and leaves that
-// differs.
-void presetWear(const VerificationSource& from, const verify::Case& drawn, verify::Entry& entry);
+// Tools whose offsets the case names have what toolEntries() says.
+void presetTools(const VerificationSource& from, const verify::Case& drawn, verify::Entry& entry);
 
 } // namespace dotek::targets

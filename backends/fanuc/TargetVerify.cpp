@@ -105,7 +105,7 @@ verify::Entry FanucVerification::entryOf(const TargetCase& now) const {
   verify::Entry entry = now.entry;
   entry.blocks = verify::callerModes(control_, now.stream);
   addArguments(now.drawn, entry);
-  presetWear(from_, now.drawn, entry);
+  presetTools(from_, now.drawn, entry);
   return entry;
 }
 
@@ -221,6 +221,8 @@ verify::CompareRules FanucVerification::rulesFor(const TargetCase& now, const ve
   // Of eight digits the last one is a ten millionth at most; two of them.
   rules.relative = rules.results > from_.options.tolerance ? 2e-7 : 0;
   rules.mayRestoreModes = true;
+  const stdlib::SystemVariables& v = control_.variables;
+  rules.toolParts = from_.plan.cycleFile && v.toolGeometry && v.toolWear;
   rules.switchesProbe = from_.options.switchProbe;
   rules.samePlace = [this, &now](SourceRange one, SourceRange other) {
     return translation_.stemsFrom(now.sourceOf(one), text_.line(other), from_.session.sources());

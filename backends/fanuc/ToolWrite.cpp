@@ -1,9 +1,11 @@
-// Writing the length of a tool into the table of the control.
+// Parts of a tool offset in the table of the control.
 #include "backends/fanuc/OwnCycles.h"
 #include "backends/fanuc/State.h"
 #include "backends/fanuc/Uses.h"
+#include "ir/CycleNames.h"
 #include "ir/Flow.h"
 #include "ir/Match.h"
+#include "stdlib/RadiusOffsets.h"
 #include "support/messages/Cycle.h"
 
 #include <algorithm>
@@ -78,40 +80,111 @@ void writeToolAlarm(State& state, const ir::ExpressionPtr& tool, const ir::Origi
   state.releaseHelpers();
 }
 
-void writeSetTool(State& state, const ir::CallCycle& set, const ir::Origin& given) {
-  const stdlib::SystemVariables& v = state.control.variables;
-  const auto refuse = [&](const char* what, const char* remedy) {
-    state.refuse<diag::CycleStatementCannot>(given.range(), what, state.control.title, state.macros.title,
+namespace {
+
+// Where the table has a length or a radius. `wear` alone: in one memory the whole of it.
+struct Registers {
+  std::optional<int> geometry, wear;
+  bool hasWear() const { return geometry && wear; }
+};
+
+Registers registersOf(const stdlib::Control& control, ir::ToolPart part) {
+  const stdlib::SystemVariables& v = control.variables;
+  if (isLength(part)) return {v.toolGeometry, v.toolWear};
+  const stdlib::RadiusOffsets radii = stdlib::radiusOffsets(control);
+  return {radii.geometry, radii.wear};
+}
+
+// "the wear of the radius of a tool"
+std::string titleOf(ir::ToolPart part) {
+  return fmt::format("the {}{} of a tool", isWear(part) ? "wear of the " : "",
+                     isLength(part) ? "length" : "radius");
+}
+
+// The table has such a part, and what is written can reach it. false: refused.
+bool hasPart(State& state, ir::ToolPart part, const ir::Origin& origin) {
+  const auto refuse = [&](const std::string& what, const std::string& remedy) {
+    state.refuse<diag::CycleStatementCannot>(origin.range(), what, state.control.title, state.macros.title,
                                              remedy);
+    return false;
   };
-  const ir::ExpressionPtr tool = argumentOf(set, "tool"), length = argumentOf(set, "length");
-  const std::optional<int> first = v.toolGeometry ? v.toolGeometry : v.toolWear;
-  if (tool == nullptr || length == nullptr) return refuse("a correction of the radius of a tool", kByHand);
-  if (!first) return refuse("a correction of a tool", kByHand);
+  const Registers at = registersOf(state.control, part);
+  if (!at.geometry && !at.wear)
+    return refuse(titleOf(part), fmt::format("its profile does not say where the table has it; {}", kByHand));
+  if (isWear(part) && !at.hasWear())
+    return refuse(titleOf(part), "its table has one value for each; read and set that as a whole");
   // A dialog does not know how many offsets the table has, and a post looks at nothing.
   if (state.options.branch)
-    return refuse("a correction of a tool by a post",
-                  "write the program with `--to fanuc`, and have it called");
-  if (movesAfter(state))
-    return refuse(
-        "a move after the length of a tool is set",
+    return refuse(titleOf(part) + " in a post", "write the program with `--to fanuc`, and have it called");
+  return true;
+}
+
+ir::ExpressionPtr entryOf(int base, const ir::ExpressionPtr& tool) {
+  return tidy(ir::binary(ir::BinaryOp::Add, ir::constant(base), tool));
+}
+
+// What a table of radii may hold is a parameter of the control.
+void remarkRadius(State& state) {
+  if (state.reported.insert("tool radius").second)
+    state.remarks.push_back("THE TABLE OF TOOL OFFSETS HOLDS RADII, NO DIAMETERS");
+}
+
+} // namespace
+
+void writeSetTool(State& state, const ir::CallCycle& set, const ir::Origin& given) {
+  const ir::ExpressionPtr tool = argumentOf(set, "tool");
+  ir::ToolPart part = ir::ToolPart::Length;
+  ir::ExpressionPtr value;
+  for (const ir::ToolPart one : ir::kToolParts)
+    if (ir::ExpressionPtr found = argumentOf(set, toolPartText(one))) {
+      part = one;
+      value = std::move(found);
+    }
+  if (tool == nullptr || value == nullptr || !hasPart(state, part, given)) return;
+  if (isLength(part) && movesAfter(state)) {
+    state.refuse<diag::CycleStatementCannot>(
+        given.range(), "a move after the length of a tool is set", state.control.title, state.macros.title,
         "set it after the last move: when the control takes a new length is a parameter of its own");
+    return;
+  }
   if (!guardTool(state, tool, given)) return;
   ir::Origin origin = given;
-  origin.reason = "length of the tool";
+  origin.reason = isLength(part) ? "length of the tool" : "radius of the tool";
   writeWait(state, origin);
-  const auto put = [&](int base, const ir::ExpressionPtr& value) {
-    const ir::ExpressionPtr number = tidy(ir::binary(ir::BinaryOp::Add, ir::constant(base), tool));
-    const std::string left = machineText(state, number, origin);
-    assign(state, left, value, origin);
+  const auto put = [&](int base, const ir::ExpressionPtr& to) {
+    const std::string left = machineText(state, entryOf(base, tool), origin);
+    assign(state, left, to, origin);
     state.releaseHelpers();
   };
-  put(*first, length);
-  if (v.toolGeometry && v.toolWear) put(*v.toolWear, ir::constant(0));
-  if (!state.reported.insert("tool length").second) return;
-  state.remarks.push_back(v.toolGeometry && v.toolWear
-                              ? "SETS THE GEOMETRY OF A TOOL LENGTH, AND ITS WEAR TO 0: GIVE G43 ANEW"
-                              : "SETS A TOOL LENGTH: GIVE G43 ANEW");
+  const Registers at = registersOf(state.control, part);
+  if (isWear(part)) {
+    put(*at.wear, value);
+  } else {
+    put(at.geometry ? *at.geometry : *at.wear, value);
+    if (at.hasWear()) put(*at.wear, ir::constant(0));
+  }
+  if (!isLength(part)) remarkRadius(state);
+  if (!state.reported.insert(std::string("set ") + std::string(toolPartText(part))).second) return;
+  const std::string_view name = isLength(part) ? "LENGTH" : "RADIUS";
+  state.remarks.push_back(isWear(part) ? fmt::format("SETS THE WEAR OF A TOOL {}", name)
+                          : at.hasWear()
+                              ? fmt::format("SETS THE GEOMETRY OF A TOOL {}, AND ITS WEAR TO 0", name)
+                              : fmt::format("SETS A TOOL {}", name));
+  if (isLength(part)) state.remarks.back() += ": GIVE G43 ANEW";
+}
+
+void writeReadTool(State& state, const std::string& left, ir::ToolPart part, const ir::ExpressionPtr& given,
+                   const ir::Origin& origin) {
+  const ir::ExpressionPtr tool = tidy(given);
+  if (!hasPart(state, part, origin) || !guardTool(state, tool, origin)) return;
+  const Registers at = registersOf(state.control, part);
+  const auto entry = [&](int base) { return ir::machineVariable(entryOf(base, tool)); };
+  if (isWear(part) || !at.hasWear())
+    assign(state, left, entry(at.wear ? *at.wear : *at.geometry), origin);
+  else
+    assign(state, left, ir::binary(ir::BinaryOp::Add, entry(*at.geometry), entry(*at.wear)), origin);
+  state.releaseHelpers();
+  if (!isLength(part)) remarkRadius(state);
 }
 
 } // namespace dotek::backends::fanuc

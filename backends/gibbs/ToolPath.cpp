@@ -2,6 +2,7 @@
 // operation, Z from the retract plane, where the cycle begins.
 #include "backends/common/CycleTouches.h"
 #include "backends/gibbs/Macro.h"
+#include "ir/CycleNames.h"
 #include "ir/Fold.h"
 #include "ir/Rewrite.h"
 #include "ir/Walk.h"
@@ -331,7 +332,10 @@ private:
       if (const std::optional<std::size_t> axis = number == nullptr ? std::nullopt : placeAlong(*number))
         return tidy(plus(here_[*axis], origin(*axis)));
 
-      refuse(from.range(), "what depends on a variable of the machine", "use a field instead");
+      if (ir::readTool(*node))
+        refuse(from.range(), "what depends on a tool offset of the control", "hand it in as a parameter");
+      else
+        refuse(from.range(), "what depends on a variable of the machine", "use a field instead");
       return node;
     });
   }

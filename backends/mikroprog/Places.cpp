@@ -1,6 +1,7 @@
 // Numbers, words, and where the probe is.
 #include "backends/common/PlainText.h"
 #include "backends/mikroprog/State.h"
+#include "ir/CycleNames.h"
 #include "ir/Fold.h"
 #include "ir/Linear.h"
 #include "ir/Walk.h"
@@ -28,7 +29,9 @@ std::string unknownOf(const State& state, const ir::ExpressionPtr& value) {
     if (std::holds_alternative<ir::MeasuredResult>(node.node)) out = "a measured result";
     if (const auto* machine = std::get_if<ir::MachineVariable>(&node.node)) {
       const double* number = ir::constantValue(machine->number);
-      out = number == nullptr ? "a variable of the machine" : "#" + numberText(*number);
+      out = ir::readTool(node)  ? "a tool offset of the control"
+            : number == nullptr ? "a variable of the machine"
+                                : "#" + numberText(*number);
     }
     if (const auto* use = std::get_if<ir::VariableUse>(&node.node))
       out = "`" + state.cycle.variable(use->variable).name + "`";

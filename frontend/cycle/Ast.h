@@ -251,10 +251,14 @@ struct SetOffset {
   ExpressionPtr system;
   std::vector<Becomes> items;
 };
+// Of a tool offset: what `set tool` sets, and T.length reads.
+enum class ToolPart : std::uint8_t { Length, LengthWear, Radius, RadiusWear };
+std::string_view toolPartText(ToolPart part); // "length_wear"
+std::optional<ToolPart> toolPartOf(std::string_view text);
 // set tool T length E
 struct SetTool {
   ExpressionPtr tool;
-  bool radius = false; // else the length
+  ToolPart part = ToolPart::Length;
   ExpressionPtr value;
 };
 // set stored NAME E: for a later run

@@ -263,8 +263,9 @@ void Builder::statement(Parser::StatementContext& context) {
     return simple(std::move(set));
   }
   if (auto* one = dynamic_cast<Parser::SetToolContext*>(&context))
-    return simple(
-        SetTool{expression(one->expression(0)), one->KW_RADIUS() != nullptr, expression(one->expression(1))});
+    return simple(SetTool{expression(one->expression(0)),
+                          toolPartOf(one->toolPart()->getText()).value_or(ToolPart::Length),
+                          expression(one->expression(1))});
   if (auto* one = dynamic_cast<Parser::SetStoredContext*>(&context))
     return simple(SetStored{name(*one->name()), expression(one->expression())});
   if (auto* one = dynamic_cast<Parser::CallContext*>(&context)) return simple(call(*one));

@@ -199,6 +199,14 @@ Quantity Checker::member(const Expression& expression, const Member& member, con
   }
   Symbol& symbol = found->second;
   symbol.read = true;
+  if (symbol.quantity.base == Base::ToolOffset) {
+    name({member.object.range, NameUse{object}}, {object}, known);
+    if (toolPartOf(part)) return plain(Base::Length);
+    diagnostics_.report<diag::UnknownMember>(
+        member.member.range, object, part,
+        fmt::format("`{0}.length`, `{0}.length_wear`, `{0}.radius`, `{0}.radius_wear`", object));
+    return {};
+  }
   if (symbol.role != Symbol::Role::Touch && symbol.role != Symbol::Role::Call) {
     if (symbol.range.hasPlace() || symbol.role == Symbol::Role::Host)
       diagnostics_.report<diag::NoMembers>(expression.range, object);

@@ -312,7 +312,7 @@ void Checker::statement(const Statement& s, Known& known) {
           },
           [&](const SetTool& set) {
             want(*set.tool, plain(Base::ToolOffset), "`set tool`", known);
-            want(*set.value, plain(Base::Length), set.radius ? "`radius`" : "`length`", known);
+            want(*set.value, plain(Base::Length), fmt::format("`{}`", toolPartText(set.part)), known);
           },
           [&](const SetStored& set) {
             const Quantity found = quantity(*set.value, known);

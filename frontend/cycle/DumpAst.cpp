@@ -152,8 +152,7 @@ private:
               put("set " + dump(set.system) + items);
             },
             [&](const SetTool& set) {
-              put(fmt::format("set tool {} {} {}", dump(set.tool), set.radius ? "radius" : "length",
-                              dump(set.value)));
+              put(fmt::format("set tool {} {} {}", dump(set.tool), toolPartText(set.part), dump(set.value)));
             },
             [&](const SetStored& set) { put("set stored " + set.name.text + " " + dump(set.value)); },
             [&](const Assign& a) { put("assign " + a.name.text + " " + dump(a.value)); },

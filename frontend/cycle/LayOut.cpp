@@ -294,7 +294,7 @@ private:
               simple("set " + print(set.system) + ": " + items);
             },
             [&](const SetTool& set) {
-              simple(fmt::format("set tool {} {} {}", print(set.tool), set.radius ? "radius" : "length",
+              simple(fmt::format("set tool {} {} {}", print(set.tool), toolPartText(set.part),
                                  print(set.value)));
             },
             [&](const SetStored& set) { simple("set stored " + set.name.text + " " + print(set.value)); },

@@ -4,6 +4,7 @@
 #include "support/messages/Cycle.h"
 
 #include <algorithm>
+#include <fmt/format.h>
 
 namespace dotek::frontend::cycle {
 namespace {
@@ -90,6 +91,8 @@ ir::Kind Lowering::kindOf(const Expression& expression) const {
   const Expression& whole = within(expression);
   if (isFlag(whole)) return ir::Kind::Flag;
   if (std::holds_alternative<WorkOffset>(whole.node)) return ir::Kind::WorkOffset;
+  if (const auto* one = std::get_if<Member>(&whole.node); one != nullptr && toolPart(*one))
+    return ir::Kind::Length;
   const Meaning* meaning = meaningOf(whole);
   return meaning == nullptr ? ir::Kind::Number : meaning->kind;
 }
@@ -150,11 +153,27 @@ ir::ExpressionPtr Lowering::member(const Expression& expression, const Member& m
     const auto axis = static_cast<ir::Axis>(member.member.text[0] - 'x');
     return isStart ? start(axis, range) : here(axis, range);
   }
+  if (const auto part = toolPart(member)) {
+    // As it is now, whatever is set before the value is used.
+    const ir::ExpressionPtr tool = scope_.names.at(member.object.text).value;
+    const ir::VariableId id =
+        local(fmt::format("{}_{}", member.object.text, member.member.text), ir::Kind::Length, range);
+    emit(ir::Assign{id, ir::toolValue(partOf(*part), tool, range)}, range);
+    return ir::variable(id, range);
+  }
   const Meaning* meaning = meaningOf(expression);
   if (meaning == nullptr || meaning->value == nullptr) return ir::constant(0, range);
   if (const auto* known = std::get_if<ir::VariableUse>(&meaning->value->node))
     return ir::variable(known->variable, range);
   return meaning->value;
+}
+
+std::optional<ToolPart> Lowering::toolPart(const Member& member) const {
+  const auto object = scope_.names.find(member.object.text);
+  if (object == scope_.names.end() || object->second.kind != ir::Kind::ToolOffset ||
+      object->second.value == nullptr)
+    return std::nullopt;
+  return toolPartOf(member.member.text);
 }
 
 ir::ExpressionPtr Lowering::binary(const Expression& expression, const Binary& both) {
@@ -287,7 +306,7 @@ bool Lowering::isSimple(const Expression& condition) const {
   return std::visit(
       ir::Overloaded{
           [](const ir::OneOf<Missing, Number, NameUse, WorkOffset, Text> auto&) { return true; },
-          [](const Member& member) { return member.object.text != "here"; },
+          [&](const Member& member) { return member.object.text != "here" && !toolPart(member); },
           [](const Given&) { return false; }, [&](const Unary& one) { return isSimple(*one.operand); },
           [&](const Binary& both) {
             // A flag that is compared is computed by statements.

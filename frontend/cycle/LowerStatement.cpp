@@ -21,6 +21,10 @@ std::string trimmed(const std::string& text) {
 
 } // namespace
 
+ir::ToolPart partOf(ToolPart part) {
+  return static_cast<ir::ToolPart>(part);
+}
+
 std::optional<ir::Axis> linear(Axis axis) {
   if (axis > Axis::Z) return std::nullopt;
   return static_cast<ir::Axis>(axis);
@@ -99,12 +103,13 @@ void Lowering::statement(const Statement& s) {
           [&](const Touch& one) { touch(one, range); }, [&](const SetOffset& one) { setOffset(one, range); },
           [&](const SetTool& one) {
             ir::CallCycle set = quiet(ir::kSetTool);
-            set.setsTool = true;
+            const ir::ToolPart part = partOf(one.part);
+            set.setsTool = isLength(part);
             set.arguments.push_back({"tool", value(*one.tool), std::nullopt, ir::Kind::ToolOffset, false});
             set.arguments.push_back(
-                {one.radius ? "radius" : "length", value(*one.value), std::nullopt, ir::Kind::Length, false});
+                {std::string(toolPartText(part)), value(*one.value), std::nullopt, ir::Kind::Length, false});
             emit(std::move(set), range);
-            if (!one.radius) scope_.shifted[2] = true;
+            if (isLength(part)) scope_.shifted[2] = true;
           },
           [&](const SetStored& one) {
             ir::CallCycle keep = quiet(ir::kKeep);

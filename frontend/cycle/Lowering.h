@@ -3,6 +3,7 @@
 
 #include "frontend/cycle/Lower.h"
 
+#include "ir/CycleNames.h"
 #include "ir/Positions.h"
 
 #include <array>
@@ -38,6 +39,7 @@ struct Scope {
   std::array<bool, 3> shifted{}; // a `set` since it began may have moved its coordinates
 };
 
+ir::ToolPart partOf(ToolPart part);
 std::optional<ir::Axis> linear(Axis axis); // nothing: a rotary axis
 
 class Lowering {
@@ -84,6 +86,8 @@ private:
   ir::ExpressionPtr function(const Expression& expression, const Function& function);
   ir::ExpressionPtr name(const Expression& expression, const NameUse& use, const std::vector<Name>* choices);
   ir::ExpressionPtr member(const Expression& expression, const Member& member);
+  // T.radius of a tool offset; nothing: a member of something else.
+  std::optional<ToolPart> toolPart(const Member& member) const;
   ir::ExpressionPtr flag(const Expression& expression);
   ir::ExpressionPtr least(const ir::ExpressionPtr& a, const ir::ExpressionPtr& b, bool greatest,
                           SourceRange range);

@@ -83,11 +83,21 @@ constexpr Keyword kWords[] = {
 
 // Words only after an operand (a name, a number, a text, a bracket), else names.
 constexpr Keyword kWordsAfterOperand[] = {
-    {"nominal", Lexer::KW_NOMINAL}, {"measured", Lexer::KW_MEASURED},     {"tolerance", Lexer::KW_TOLERANCE},
-    {"range", Lexer::KW_RANGE},     {"group", Lexer::KW_GROUP},           {"letter", Lexer::KW_LETTER},
-    {"picture", Lexer::KW_PICTURE}, {"overtravel", Lexer::KW_OVERTRAVEL}, {"becomes", Lexer::KW_BECOMES},
-    {"radius", Lexer::KW_RADIUS},   {"times", Lexer::KW_TIMES},           {"step", Lexer::KW_STEP},
+    {"nominal", Lexer::KW_NOMINAL},
+    {"measured", Lexer::KW_MEASURED},
+    {"tolerance", Lexer::KW_TOLERANCE},
+    {"range", Lexer::KW_RANGE},
+    {"group", Lexer::KW_GROUP},
+    {"letter", Lexer::KW_LETTER},
+    {"picture", Lexer::KW_PICTURE},
+    {"overtravel", Lexer::KW_OVERTRAVEL},
+    {"becomes", Lexer::KW_BECOMES},
+    {"radius", Lexer::KW_RADIUS},
+    {"times", Lexer::KW_TIMES},
+    {"step", Lexer::KW_STEP},
     {"at", Lexer::KW_AT},
+    {"length_wear", Lexer::KW_LENGTH_WEAR},
+    {"radius_wear", Lexer::KW_RADIUS_WEAR},
 };
 
 // Words only after another word.

@@ -14,6 +14,7 @@ using View = std::string_view;
 constexpr std::array<View, 11> kTypes = {"length", "angle", "feed",   "time",        "count",      "ratio",
                                          "flag",   "text",  "choice", "work_offset", "tool_offset"};
 constexpr std::array<View, 7> kUnits = {"", "mm", "in", "deg", "mm/min", "in/min", "s"};
+constexpr std::array<View, 4> kToolParts = {"length", "length_wear", "radius", "radius_wear"};
 constexpr std::array<View, 12> kOperators = {
     " + ", " - ", " * ", " / ", " < ", " <= ", " > ", " >= ", " is ", " is not ", " and ", " or "};
 
@@ -44,7 +45,8 @@ constexpr std::array<std::pair<View, View>, 27> kUsage = {{
     {"feed", "`feed move to x 10 mm feed 500 mm/min`"},
     {"protected", "`protected move by z -5 mm`"},
     {"touch", "`touch x by 10 mm -> right` or `touch z to -5 mm -> top`"},
-    {"set", "`set G54: right.at becomes x 0 mm`, `set tool 3 length 80 mm` or `set stored NAME value`"},
+    {"set", "`set G54: right.at becomes x 0 mm`, `set tool 3 length 80 mm`, `set tool 3 radius_wear 0.02 mm` "
+            "or `set stored NAME value`"},
     {"if", "`if size > 30 mm then`"},
     {"else", "`else` or `else if size > 30 mm then`"},
     {"end", "`end`"},
@@ -60,6 +62,14 @@ template <class Names> bool isIn(View word, const Names& names) {
 
 } // namespace
 
+std::string_view toolPartText(ToolPart part) {
+  return kToolParts[static_cast<std::size_t>(part)];
+}
+std::optional<ToolPart> toolPartOf(std::string_view text) {
+  const auto at = std::find(kToolParts.begin(), kToolParts.end(), text);
+  if (at == kToolParts.end()) return std::nullopt;
+  return static_cast<ToolPart>(at - kToolParts.begin());
+}
 std::string_view unitText(Unit unit) {
   return kUnits[static_cast<std::size_t>(unit)];
 }

@@ -67,16 +67,52 @@ bool CycleRun::setOffset(const ir::CallCycle& node) {
   return set({node.setting->system, node.setting->nominal}, measured);
 }
 
+bool CycleRun::hasTool(std::optional<double> tool) {
+  if (tool && *tool >= 1 && *tool <= kMostTool && *tool == std::floor(*tool)) return true;
+  return machine_.raiseUnnumbered(
+      fmt::format("there is no tool offset {}", tool ? numberText(*tool) : "without a number"));
+}
+
+namespace {
+
+// Of the table of the machine that a cycle runs on (CycleMachine.h).
+std::uint32_t variableOf(std::uint32_t tool, ir::ToolPart part) {
+  return static_cast<std::uint32_t>(ir::kToolTable + ir::kToolPartStep * static_cast<double>(part)) + tool;
+}
+
+ir::ToolPart wearOf(ir::ToolPart part) {
+  return isLength(part) ? ir::ToolPart::LengthWear : ir::ToolPart::RadiusWear;
+}
+
+} // namespace
+
+double CycleRun::toolValue(std::uint32_t tool, ir::ToolPart part) const {
+  const double own = machine_.read(variableOf(tool, part)).value_or(0);
+  return isWear(part) ? own : own + machine_.read(variableOf(tool, wearOf(part))).value_or(0);
+}
+
+bool CycleRun::writeTool(std::uint32_t tool, ir::ToolPart part, double value) {
+  if (isWear(part)) {
+    if (MotionWatcher* const watcher = machine_.watcher(); watcher != nullptr && !isLength(part))
+      watcher->offsetWritten({fmt::format("tool {} radius wear", tool), toolValue(tool, part), value});
+    machine_.remark("tool-offset",
+                    fmt::format("{} {} {}", tool, toolPartText(part), fixedText(value, kDecimals)));
+    return machine_.write(variableOf(tool, part), value);
+  }
+  const bool radius = part == ir::ToolPart::Radius;
+  machine_.writeTool(tool, radius, value);
+  return !radius ||
+         (machine_.write(variableOf(tool, part), value) && machine_.write(variableOf(tool, wearOf(part)), 0));
+}
+
 bool CycleRun::setTool(const ir::CallCycle& node) {
-  std::optional<double> tool, length, radius;
-  if (!read(node, "tool", tool) || !read(node, "length", length) || !read(node, "radius", radius))
-    return false;
-  constexpr double kMostTool = 999;
-  if (!tool || !(*tool >= 1 && *tool <= kMostTool) || *tool != std::floor(*tool))
-    return machine_.raiseUnnumbered(
-        fmt::format("there is no tool offset {}", tool ? numberText(*tool) : "without a number"));
-  if (length) machine_.writeTool(static_cast<std::uint32_t>(*tool), false, *length);
-  if (radius) machine_.writeTool(static_cast<std::uint32_t>(*tool), true, *radius);
+  std::optional<double> tool;
+  if (!read(node, "tool", tool) || !hasTool(tool)) return false;
+  for (const ir::ToolPart part : ir::kToolParts) {
+    std::optional<double> value;
+    if (!read(node, toolPartText(part), value)) return false;
+    if (value && !writeTool(static_cast<std::uint32_t>(*tool), part, *value)) return false;
+  }
   return true;
 }
 

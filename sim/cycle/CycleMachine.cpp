@@ -1,5 +1,10 @@
 #include "sim/cycle/CycleMachine.h"
 
+#include "ir/CycleNames.h"
+#include "stdlib/RadiusOffsets.h"
+
+#include <utility>
+
 namespace dotek::sim {
 
 const stdlib::Control& cycleControl() {
@@ -15,7 +20,24 @@ const stdlib::Control& cycleControl() {
     system.tenths = 540;
     system.function = stdlib::Function::WorkSystem;
     out.codes.push_back(system);
-    out.variables.toolCount = 999;
+    // Its tool table, by the numbers at which a cycle reads it.
+    constexpr int kTools = 999;
+    const auto base = [](ir::ToolPart part) {
+      return static_cast<int>(ir::kToolTable + ir::kToolPartStep * static_cast<double>(part));
+    };
+    out.variables.toolCount = kTools;
+    out.variables.toolGeometry = base(ir::ToolPart::Length);
+    out.variables.toolWear = base(ir::ToolPart::LengthWear);
+    for (const auto& [part, title] : {std::pair(ir::ToolPart::Radius, stdlib::kRadiusGeometryTitle),
+                                      std::pair(ir::ToolPart::RadiusWear, stdlib::kRadiusWearTitle)}) {
+      stdlib::StateRange range;
+      range.first = static_cast<std::uint32_t>(base(part)) + 1;
+      range.last = range.first + kTools - 1;
+      range.access = stdlib::StateRange::Access::Store;
+      range.initial = 0;
+      range.title = title;
+      out.state.push_back(std::move(range));
+    }
     out.variables.extendedCount = 300;
     return out;
   }();

@@ -201,6 +201,10 @@ std::optional<bool> CycleRun::decide(const ir::ConditionPtr& condition) {
 
 // A variable may become null.
 bool CycleRun::assign(const ir::Assign& node) {
+  if (const auto read = ir::readTool(*node.value)) {
+    const std::optional<double> tool = number(read->second);
+    if (!tool || !hasTool(tool)) return false;
+  }
   const ir::Scalar value = ir::evaluate(*node.value, inputs_.values, this);
   if (value.state == ir::Scalar::State::Null) {
     inputs_.values[node.variable] = value;
@@ -240,6 +244,8 @@ ir::Scalar CycleRun::result(ir::ResultName name) const {
 }
 
 ir::Scalar CycleRun::machineVariable(double number) const {
+  if (const auto tool = ir::toolOf(number))
+    return ir::Scalar::of(toolValue(static_cast<std::uint32_t>(tool->second), tool->first));
   if (!(number >= 1 && number < 1e6) || number != std::floor(number)) return {};
   const double value = machine_.common(static_cast<std::uint32_t>(number));
   if (isUnknown(value) || isFresh(value)) return {};

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "ir/Cycle.h"
+#include "ir/CycleNames.h"
 #include "ir/Evaluate.h"
 #include "sim/geometry/Point.h"
 #include "sim/geometry/Probe.h"
@@ -77,6 +78,7 @@ public:
   const std::vector<ExpectedSurface>& expected() const { return expected_; }
 
 private:
+  static constexpr double kMostTool = 999;
   using Direction = std::array<double, 3>; // length 1
 
   // ---- CycleRun.cpp
@@ -112,6 +114,11 @@ private:
   bool callSurfaceAlong(const ir::CallCycle& node);
   bool setOffset(const ir::CallCycle& node);
   bool setTool(const ir::CallCycle& node);
+  double toolValue(std::uint32_t tool, ir::ToolPart part) const;
+  // A length or radius as a whole leaves no wear.
+  bool writeTool(std::uint32_t tool, ir::ToolPart part, double value);
+  // false: there is no such offset, and the run has ended.
+  bool hasTool(std::optional<double> tool);
   bool report(const ir::CallCycle& node);
 
   // ---- CycleTouch.cpp
