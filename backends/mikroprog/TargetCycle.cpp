@@ -2,6 +2,7 @@
 
 #include "ir/CycleNames.h"
 #include "ir/Fold.h"
+#include "ir/Substitute.h"
 #include "ir/Walk.h"
 #include "support/messages/Mikroprog.h"
 
@@ -96,18 +97,49 @@ std::set<ir::VariableId> measuredVariables(const ir::Cycle& cycle) {
   return out;
 }
 
+// The innermost part of it that may have no value, and that comes from what was measured; no place: none.
+template <class Test>
+SourceRange failsWith(const ir::ExpressionPtr& value, const Test& comesFrom, SourceRange whole) {
+  if (!ir::mayFail(value)) return {};
+  std::vector<ir::ExpressionPtr> parts;
+  if (const auto* one = std::get_if<ir::Unary>(&value->node)) parts = {one->operand};
+  if (const auto* both = std::get_if<ir::Binary>(&value->node)) parts = {both->left, both->right};
+  for (const ir::ExpressionPtr& part : parts)
+    if (const SourceRange inner = failsWith(part, comesFrom, whole); inner.hasPlace()) return inner;
+  bool measured = false;
+  ir::eachNode(value, [&](const ir::Expression& node) { measured = measured || comesFrom(node); });
+  if (!measured) return {};
+  return value->range.hasPlace() ? value->range : whole;
+}
+
 // What still reads a value that was measured: a decision, else a place.
 void refuseMeasured(const ir::Cycle& cycle, Diagnostics& diagnostics) {
+  for (const ir::CycleStatement& statement : cycle.body) {
+    const auto* set = std::get_if<ir::Assign>(&statement.node);
+    if (callOf(statement, ir::kSetTool) != nullptr || (set != nullptr && ir::readTool(*set->value)))
+      diagnostics.report<diag::MikroprogCannot>(
+          statement.origin.range(), "a tool offset of the control",
+          "no function for its table is known; hand in what is read as a parameter, and correct by hand");
+  }
   const std::set<ir::VariableId> measured = measuredVariables(cycle);
   if (measured.empty()) return;
   const ir::CycleStatement* place = nullptr;
+  const auto comesFrom = [&](const ir::Expression& node) {
+    const auto* use = std::get_if<ir::VariableUse>(&node.node);
+    return std::holds_alternative<ir::MeasuredResult>(node.node) ||
+           (use != nullptr && measured.contains(use->variable));
+  };
   for (const ir::CycleStatement& statement : cycle.body) {
-    if (std::holds_alternative<ir::Assign>(statement.node)) continue;
+    if (const auto* set = std::get_if<ir::Assign>(&statement.node)) {
+      // Nothing may read it, but a division stays, as it may be an alarm.
+      if (const SourceRange at = failsWith(set->value, comesFrom, statement.origin.range()); at.hasPlace())
+        diagnostics.report<diag::MikroprogCannot>(
+            at, "a value that is computed from what was measured, and may have none, as a division by 0",
+            "the control computes nothing with a contact; have the program that calls it compute that");
+      continue;
+    }
     bool reads = false;
-    ir::eachNode(statement, [&](const ir::Expression& node) {
-      const auto* use = std::get_if<ir::VariableUse>(&node.node);
-      reads = reads || (use != nullptr && measured.contains(use->variable));
-    });
+    ir::eachNode(statement, [&](const ir::Expression& node) { reads = reads || comesFrom(node); });
     if (!reads) continue;
     if (ir::conditionOf(statement) != nullptr) {
       diagnostics.report<diag::FlowRefused>(statement.origin.range(), "what was measured");
