@@ -68,6 +68,8 @@ private:
   Clause clause(Parser::ClauseContext& context);
   Move move(Parser::MoveContext& context);
   Touch touch(Parser::TouchContext& context);
+  static Parser::ComparisonContext* comparisonIn(Parser::ExpressionContext& context);
+  std::optional<Name> nameCompared(Parser::ExpressionContext& last, Parser::TouchContext& touch);
   Coordinate coordinate(Parser::CoordinateContext& context);
   std::vector<Coordinate> coordinates(Parser::CoordinatesContext& context);
   Call call(Parser::CallContext& context);

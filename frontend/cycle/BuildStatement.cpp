@@ -156,6 +156,33 @@ Move Builder::move(Parser::MoveContext& context) {
   return out;
 }
 
+// The comparison that the expression is; nullptr: another one.
+Builder::Parser::ComparisonContext* Builder::comparisonIn(Parser::ExpressionContext& context) {
+  if (context.conjunction().size() != 1 || context.conjunction(0)->negation().size() != 1) return nullptr;
+  Parser::ComparisonContext* const found = context.conjunction(0)->negation(0)->comparison();
+  return found != nullptr && found->comparator() != nullptr ? found : nullptr;
+}
+
+// `touch x by 5 mm = left`, `touch x by 5 mm <- left`: the name that was to be given; reported.
+std::optional<Name> Builder::nameCompared(Parser::ExpressionContext& last, Parser::TouchContext& touch) {
+  Parser::ComparisonContext* const found = comparisonIn(last);
+  if (found == nullptr) return std::nullopt;
+  const SourceRange right = rangeOf(*found->sum(1));
+  std::string_view text = sources_.text(right);
+  const bool arrow = found->comparator()->LESS() != nullptr && text.starts_with('-'); // `<-`
+  if (arrow) text = text.substr(std::min(text.find_first_not_of("- "), text.size()));
+  if (!isName(text)) return std::nullopt;
+  Name out{{right.file, right.end - static_cast<std::uint32_t>(text.size()), right.end}, std::string(text)};
+  const SourceRange sign = rangeOf(*found->comparator());
+  const std::string before =
+      sources_.textUtf8({right.file, rangeOf(touch).begin, rangeOf(*found->sum(0)).end});
+  Diagnostic& said =
+      error<diag::TouchNameSign>(sign, before, isReserved(text) ? proposeName(text) : std::string(text));
+  said.fix =
+      Fix{Fix::Applicability::Display, "write `->`", {{{right.file, sign.begin, out.range.begin}, "-> "}}};
+  return out;
+}
+
 Touch Builder::touch(Parser::TouchContext& context) {
   Touch out;
   out.once = context.KW_ONCE() != nullptr;
@@ -164,9 +191,16 @@ Touch Builder::touch(Parser::TouchContext& context) {
   else
     out.along = coordinates(*context.touchAxis()->coordinates());
   out.reach = context.reach()->KW_BY() != nullptr ? Reach::By : Reach::To;
-  out.value = expression(context.expression(0));
-  if (context.KW_OVERTRAVEL() != nullptr) out.overtravel = expression(context.expression(1));
-  if (context.name() != nullptr) out.name = name(*context.name());
+  const bool named = context.name() != nullptr;
+  Parser::ExpressionContext* const last = context.expression().back();
+  const std::optional<Name> compared = named ? std::nullopt : nameCompared(*last, context);
+  const auto part = [&](Parser::ExpressionContext* given) {
+    return compared && given == last ? sum(*comparisonIn(*given)->sum(0)) : expression(given);
+  };
+  out.value = part(context.expression(0));
+  if (context.KW_OVERTRAVEL() != nullptr) out.overtravel = part(context.expression(1));
+  out.name = compared;
+  if (named) out.name = name(*context.name());
   if (context.KW_ELSE() != nullptr) out.otherwise = std::make_unique<Block>();
   return out;
 }

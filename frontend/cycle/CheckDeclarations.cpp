@@ -1,5 +1,6 @@
 #include "frontend/cycle/Checker.h"
 #include "frontend/cycle/Words.h"
+#include "support/Ascii.h"
 #include "support/messages/Cycle.h"
 
 #include <algorithm>
@@ -156,8 +157,22 @@ Checker::Checker(const File& file, const SourceMap& sources, Diagnostics& diagno
   addHosts(symbols_);
 }
 
+void Checker::wordsOf(std::string_view line) {
+  std::string word;
+  for (const char c : line) {
+    if (isLetter(c) || isDigit(c) || c == '_') {
+      word += c;
+    } else if (!word.empty()) {
+      unreadable_.insert(std::move(word));
+      word.clear();
+    }
+  }
+  if (!word.empty()) unreadable_.insert(std::move(word));
+}
+
 void Checker::collect(const Block& block) {
   for (const Statement& statement : block.statements) {
+    if (std::holds_alternative<ErrorStatement>(statement.node)) wordsOf(sources_.text(statement.range));
     if (const auto* touch = std::get_if<Touch>(&statement.node)) {
       if (touch->name) later_.emplace(touch->name->text, Symbol::Role::Touch);
       if (touch->otherwise != nullptr) collect(*touch->otherwise);

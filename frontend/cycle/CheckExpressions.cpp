@@ -23,6 +23,12 @@ bool comparesOrder(BinaryOp op) {
          op == BinaryOp::GreaterEqual;
 }
 
+bool sameChoices(const std::vector<Name>* a, const std::vector<Name>* b) {
+  return a == b || (a != nullptr && b != nullptr &&
+                    std::equal(a->begin(), a->end(), b->begin(), b->end(),
+                               [](const Name& one, const Name& other) { return one.text == other.text; }));
+}
+
 Quantity plain(Base base) {
   return {base, 1, nullptr};
 }
@@ -51,6 +57,7 @@ void Checker::unknownName(SourceRange range, const std::string& name) {
         .note(below->second, "it is declared here");
     return;
   }
+  if (unreadable_.contains(name)) return;
   // Past the first ones no hint is read, and each costs as much as there are names.
   constexpr int kMostHints = 200;
   const std::string near = name == "true"              ? "yes"
@@ -76,7 +83,7 @@ void Checker::mismatch(const Expression& left, const Quantity& a, const Expressi
 
 void Checker::want(const Expression& expression, Quantity wanted, std::string_view what, const Known& known) {
   if (wanted.base == Base::Choice) {
-    choice(expression, wanted);
+    choice(expression, wanted, known);
     return;
   }
   const Quantity found = quantity(expression, known);
@@ -100,13 +107,19 @@ void Checker::wantAxis(const Expression& expression, Axis axis, std::string_view
   want(expression, plain(axis <= Axis::Z ? Base::Length : Base::Angle), what, known);
 }
 
-Quantity Checker::choice(const Expression& expression, const Quantity& of) {
+Quantity Checker::choice(const Expression& expression, const Quantity& of, const Known& known) {
   const Expression& within = inner(expression);
   const auto* use = std::get_if<NameUse>(&within.node);
   if (use != nullptr && of.choices != nullptr) {
     const auto at = std::find_if(of.choices->begin(), of.choices->end(),
                                  [&](const Name& one) { return one.text == use->name; });
     if (at != of.choices->end()) return of;
+  }
+  if (const auto named = use == nullptr ? symbols_.end() : symbols_.find(use->name);
+      named != symbols_.end() && named->second.quantity.base == Base::Choice &&
+      sameChoices(named->second.quantity.choices, of.choices)) {
+    name(within, *use, known);
+    return of;
   }
   std::string names;
   if (of.choices != nullptr)
@@ -273,27 +286,27 @@ Quantity Checker::function(const Expression& expression, const Function& functio
     return given[0].base == Base::Zero ? given[1] : given[0];
   }
   const Expression& argument = *function.arguments[0];
-  const auto takes = [&](Base base) { want(argument, plain(base), fmt::format("`{}`", called), known); };
+  const auto takes = [&](Base base) {
+    want(argument, plain(base), fmt::format("`{}`", called), known);
+    return given[0].fits(plain(base));
+  };
   if (called == "abs") {
     if (!given[0].isNumeric()) takes(Base::Number);
     return given[0];
   }
   if (called == "square") {
     if (given[0].base == Base::Length) return {Base::Length, given[0].power * 2, nullptr};
-    takes(Base::Number);
-    return plain(Base::Number);
+    return takes(Base::Number) ? plain(Base::Number) : Quantity{};
   }
   if (called == "sqrt") {
     if (given[0].base == Base::Length && given[0].power % 2 == 0)
       return {Base::Length, given[0].power / 2, nullptr};
-    takes(Base::Number);
-    return plain(Base::Number);
+    return takes(Base::Number) ? plain(Base::Number) : Quantity{};
   }
   if (called == "sin" || called == "cos" || called == "tan") {
-    takes(Base::Angle);
-    return plain(Base::Number);
+    return takes(Base::Angle) ? plain(Base::Number) : Quantity{};
   }
-  takes(Base::Number);
+  if (!takes(Base::Number)) return {};
   return plain(called == "asin" || called == "acos" || called == "atan" ? Base::Angle : Base::Number);
 }
 
@@ -311,7 +324,7 @@ Quantity Checker::binary(const Expression& expression, const Binary& binary, con
   const Quantity a = quantity(left, known);
   const bool same = binary.op == BinaryOp::Is || binary.op == BinaryOp::IsNot;
   if (same && a.base == Base::Choice) {
-    choice(right, a);
+    choice(right, a, known);
     return plain(Base::Flag);
   }
   const Quantity b = quantity(right, known);

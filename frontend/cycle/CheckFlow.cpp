@@ -140,7 +140,7 @@ void Checker::assign(const Assign& assign, Known& known) {
   const Quantity found = [&] {
     const auto at = symbols_.find(assign.name.text);
     const bool isChoice = at != symbols_.end() && at->second.quantity.base == Base::Choice;
-    return isChoice ? choice(*assign.value, at->second.quantity) : quantity(*assign.value, known);
+    return isChoice ? choice(*assign.value, at->second.quantity, known) : quantity(*assign.value, known);
   }();
   const auto at = symbols_.find(assign.name.text);
   if (at == symbols_.end() || (!at->second.range.hasPlace() && at->second.role != Symbol::Role::Host)) {
@@ -371,12 +371,11 @@ void Checker::statement(const Statement& s, Known& known) {
 }
 
 void Checker::finish(const Known& known, SourceRange where) {
-  if (known.ended) return;
+  // A line that could not be read may be the one that switches it, or gives a result.
+  if (known.ended || file_.hasErrorNodes) return;
   if (!needsProbe_ && known.probe != ProbeState::Off)
     diagnostics_.report<diag::ProbeLeftOn>(where,
                                            known.probe == ProbeState::On ? "" : ", at least on some paths");
-  // A statement that could not be read may be the one that gives it.
-  if (file_.hasErrorNodes) return;
   for (const auto& [name, symbol] : symbols_)
     if (symbol.role == Symbol::Role::Result && !known.set.contains(name))
       diagnostics_.report<diag::ResultNotSet>(symbol.range, name);

@@ -39,6 +39,7 @@ private:
   void unread();
   // Names of touches, called cycles and values, wherever they get their values.
   void collect(const Block& block);
+  void wordsOf(std::string_view line); // that could not be read
   void collectDeclarations();
 
   // ---- CheckFlow.cpp
@@ -69,7 +70,7 @@ private:
   Quantity name(const Expression& expression, const NameUse& use, const Known& known);
   Quantity member(const Expression& expression, const Member& member, const Known& known);
   Quantity function(const Expression& expression, const Function& function, const Known& known);
-  Quantity choice(const Expression& expression, const Quantity& of);
+  Quantity choice(const Expression& expression, const Quantity& of, const Known& known);
   // Reports a value that is not what is wanted there; `what` is the place: "the distance".
   void want(const Expression& expression, Quantity wanted, std::string_view what, const Known& known);
   void wantFlag(const Expression& expression, std::string_view where, const Known& known);
@@ -91,6 +92,8 @@ private:
   // Parameters and results, wherever they are declared.
   std::map<std::string, SourceRange, std::less<>> below_;
   bool inClause_ = false; // of a parameter
+  std::set<std::string, std::less<>>
+      unreadable_; // words of lines that could not be read: they may give names
   // Where `use` brought the declarations that are being taken; no place: they are the file's own.
   SourceRange used_;
   bool options_ = false; // a file of options

@@ -1,5 +1,6 @@
 #include "frontend/cycle/Tokens.h"
 
+#include "frontend/cycle/Foreign.h"
 #include "frontend/cycle/Parse.h"
 #include "frontend/cycle/Words.h"
 #include "support/Ascii.h"
@@ -144,8 +145,6 @@ std::string misspelt(const std::string& word) {
   if (isForeignElseIf(word)) return "write `else if CONDITION then`";
   if (word == "goto" || word == "jump" || word == "label" || word == "return")
     return "there are no jumps; write what is to happen inside `if CONDITION then` .. `end`";
-  if (word == "let" || word == "var" || word == "int" || word == "float")
-    return "a value needs no declaration; write `name = value`";
   if (word == "print" || word == "log" || word == "write" || word == "echo")
     return "a line of the protocol is `report \"Diameter\" measured size`";
   const std::string near = nearestName(word, statementWords());
@@ -182,6 +181,8 @@ std::string explain(const antlr4::Token& offending, const antlr4::Parser& parser
   const size_t type = offending.getType();
   const std::string_view usage = usageOf(lowerCase(word));
   const std::string write = usage.empty() ? "" : fmt::format("; write {}", usage);
+  if (type != Lexer::OPEN_TEXT)
+    if (std::string meant = foreignForm(Line(offending, input, first)); !meant.empty()) return meant;
   if (type == Lexer::OPEN_TEXT) return "the text has no closing quote; write `\"` at its end";
   if (first + 1 >= input.size()) input.LT(2); // it may not have been read yet
   const size_t next = first + 1 < input.size() ? input.get(first + 1)->getType() : antlr4::Token::EOF;
@@ -199,8 +200,6 @@ std::string explain(const antlr4::Token& offending, const antlr4::Parser& parser
     if (isReserved(word) && next == Lexer::EQUALS)
       return fmt::format("`{0}` is a word of the language, so nothing can be called that; write `{1}`", word,
                          proposeName(word));
-    if (next == Lexer::FOREIGN_EQUAL && head.getType() == Lexer::NAME)
-      return fmt::format("a value is given with `=` alone: `{} = value`", word);
     if (head.getType() == Lexer::NAME) {
       const std::string hint = misspelt(word);
       return fmt::format("{} `{}`; {}", kNoStatement, word,
@@ -237,13 +236,6 @@ std::string explain(const antlr4::Token& offending, const antlr4::Parser& parser
   if (type != Lexer::NAME && isReserved(text) && at + 1 < input.size() && input.get(at + 1)->getText() == ".")
     return fmt::format("`{0}` is a word of the language, so nothing can be called that; write `{1}`", text,
                        proposeName(text));
-  if (text == "touch" && head.getType() == Lexer::NAME)
-    return fmt::format("a touch names what it finds after `->`; write `touch .. -> {}`", word);
-  for (size_t i = first; word == "set" && i <= at; ++i)
-    if (input.get(i)->getText() == "wear")
-      return "a cycle sets the length of a tool and no wear, and a wear is no length; take the present "
-             "length as "
-             "a parameter and write `set tool T length present + found`";
   return fmt::format("`{}` does not fit here{}", text, write);
 }
 
@@ -382,8 +374,11 @@ Language language() {
     return explain(offending, parser);
   };
   result.place = [](const antlr4::Token& offending, const antlr4::Parser& parser) -> const antlr4::Token& {
-    if (!explain(offending, parser).starts_with(kNoStatement)) return offending;
-    return *const_cast<antlr4::Parser&>(parser).getTokenStream()->get(firstOfLine(offending, parser));
+    auto& input = *const_cast<antlr4::Parser&>(parser).getTokenStream();
+    const size_t first = firstOfLine(offending, parser);
+    const bool head =
+        explain(offending, parser).starts_with(kNoStatement) || beginsForeign(Line(offending, input, first));
+    return head ? *input.get(first) : offending;
   };
   return result;
 }

@@ -56,12 +56,28 @@ TEST_CASE(
     const CommandResult result = runDotek(splitArguments(command), folder.path());
     return result.out + result.err;
   };
-  CHECK(said("lint one.cycle", "left = touch x by 5 mm\n").find("write `touch .. -> left`") !=
+  CHECK(said("lint one.cycle", "left = touch x by 5 mm\n").find("write `touch x by 5 mm -> left`") !=
         std::string::npos);
-  CHECK(said("lint one.cycle", "set tool 3 wear 0.03 mm\n").find("no wear") != std::string::npos);
+  CHECK(said("lint one.cycle", "set tool 3 wear 0.03 mm\n").find("length_wear") != std::string::npos);
   const std::string unset =
       said("convert one.cycle --to fanuc --control fanuc-6m --probe-macros inspection-plus",
            "touch x by 5 mm -> side\nplace = side.at\nset G54: place becomes x 0 mm\n");
   CHECK(unset.find("[offset-write-unsafe]") != std::string::npos);
   CHECK(unset.find("macro set of the source") == std::string::npos);
+}
+
+TEST_CASE(
+    "cycle: a division by a measured value is reported where it stands, on a control that computes nothing") {
+  const TestFolder folder("dotek-cycle-division");
+  folder.write("one.cycle", "cycle one \"One\"\nparameter depth : length = 5 mm\nresult slope : ratio\n"
+                            "spindle off\nprobe on\ntouch x by 10 mm -> right\ntouch x by -10 mm -> left\n"
+                            "probe off\ngap = right.at - left.at\nslope = 1 + depth / gap\n");
+  const CommandResult result = runDotek(
+      splitArguments("convert one.cycle --to mikroprog --control mikroprog-mill --host tool_radius=3 "
+                     "--host clearance=50 --host overtravel=5 --host return_feed=500 --host start_x=0 "
+                     "--host start_y=0"),
+      folder.path());
+  CAPTURE(result.err);
+  CHECK(holds(result, "one.cycle:10:13: error: "));
+  CHECK_FALSE(holds(result, "one.cycle:6:"));
 }
