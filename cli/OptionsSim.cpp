@@ -35,7 +35,7 @@ void addSetup(CLI::App& command, Raw& raw) {
                   "be; repeat it for several")
       ->option_text("G54=X,Y,Z")
       ->allow_extra_args(false);
-  command.add_option("--at", raw.at, "where the tool's end is before the program, in G54")
+  command.add_option("--at", raw.at, "where the tool's end is before the program, in the active system")
       ->type_name("X,Y,Z");
   command.add_option("--call", raw.call, "call the program by G65 with these arguments")
       ->type_name("\"D25. S54\"");
@@ -69,6 +69,9 @@ void addSim(CLI::App& app, Raw& raw) {
                   "write a page (Markdown) on what the device did, with a picture beside it (OUT with .svg)")
       ->type_name("OUT");
   addSetup(*sim, raw);
+  sim->add_option("--active-system", raw.activeSystem,
+                  "work system in force as the program begins, 54 to 59 (54)")
+      ->type_name("N");
   sim->add_option("--svg", raw.svgFile, "write a picture of the run, three views")->type_name("OUT");
   sim->add_option("--html", raw.htmlFile, "write a page that shows the run in space")->type_name("OUT");
   sim->add_option("--date", raw.date, "date that the pictures show, as you write it")->type_name("TEXT");
@@ -137,6 +140,7 @@ sim::Setup setupOf(const Raw& raw) {
 driver::SimOptions simOf(const Raw& raw) {
   driver::SimOptions out;
   out.setup = setupOf(raw);
+  out.activeSystem = static_cast<std::uint8_t>(countOf("--active-system", raw.activeSystem, 54, 54, 59) - 54);
   out.svg = !raw.svgFile.empty();
   out.html = !raw.htmlFile.empty();
   if (!raw.part.empty()) out.part = raw.part;

@@ -280,6 +280,7 @@ private:
     if (device_.device) diagnostics().report<diag::OptionOfMacroB>({}, "--device");
     if (device_.report) diagnostics().report<diag::OptionOfMacroB>({}, "--report");
     if (const std::string_view flag = options_.setup.firstFlag(); !flag.empty()) noSetup(std::string(flag));
+    if (options_.activeSystem != 0) noSetup("--active-system");
     if (diagnostics().hasErrors()) return outcomeOf(session_, "");
     const std::optional<SufProgram> suf = loadSuf(options_.program, options_.control, session_);
     if (suf) world_ = sim::SimWorld::load(options_, session_);
@@ -333,9 +334,10 @@ private:
     machine.setTrace(nullptr);
     if (trace) sim::traceVariables(machine, *trace);
     trace.reset();
-    const std::string length = lengthAdvice(machine);
-    sim::reportRun(run, machine, length.empty() ? advice : length, options_.programs, world_->endedOutside(),
-                   session_);
+    std::string lacking = lengthAdvice(machine);
+    if (lacking.empty()) lacking = world_->startAdvice();
+    sim::reportRun(run, machine, lacking.empty() ? advice : lacking, options_.programs,
+                   world_->endedOutside(), session_);
     for (const sim::UnsetRead& one : run.unsetReads())
       world_->unsetRead(one.number, one.range);
     // A datum by G92 is what a program of Mikroprog is for, and a macro that is called leaves what it sets to

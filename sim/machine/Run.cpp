@@ -171,8 +171,8 @@ bool countsNull(const Instruction& instruction) {
 } // namespace
 
 Run::Run(Machine& machine, const Bytecode& code, const Limits& limits, MacroMeaning* meaning)
-    : machine_(machine), code_(code), limits_(limits), meaning_(meaning), control_(machine.control()),
-      fuel_(limits.simSteps) {
+    : machine_(machine), code_(code), limits_(limits), meaning_(meaning), control_(machine.control()) {
+  keepFuel();
   machine_.setCallLimit(limits.callDepth);
   const std::uint32_t added = kTemporaries + static_cast<std::uint32_t>(code.constants.size());
   const std::uint32_t first = machine_.addCells(added);
@@ -197,7 +197,7 @@ void Run::run() {
   const bool decimal = control_.arithmetic == stdlib::Arithmetic::Decimal8;
   for (bool goesOn = true; goesOn;) {
     followsMisses_ = followsMisses_ || (misses_ != nullptr && misses_->hasMisses());
-    if (machine_.hasUnknown() || !unset_.empty() || followsMisses_ || !measured_.empty())
+    if (machine_.hasUnknown() || !unset_.empty() || followsMisses_ || !measured_.empty() || trail_)
       goesOn = decimal ? execute<true, true>() : execute<false, true>();
     else
       goesOn = decimal ? execute<true, false>() : execute<false, false>();
@@ -252,23 +252,6 @@ void Run::takeMeasured() {
 void Run::tellWritten(std::uint32_t number, double value) {
   if (machine_.layout().cellOf(number) == CellLayout::kNone)
     listener_->systemWritten(number, nullAsZero(value));
-}
-
-bool Run::spend(std::uint32_t steps) {
-  if (fuel_ > steps) {
-    fuel_ -= steps;
-    return true;
-  }
-  fuel_ = 0;
-  bool returns = false; // M99 of the main program
-  for (std::uint32_t at = levels_.front().routine->begin; at < levels_.front().routine->end; ++at)
-    returns = returns || code_.instructions[at].op == Op::Exit;
-  return machine_.overLimit(fmt::format(
-      "the program took more than {} steps{}; `--limit sim-steps=N` allows more", limits_.simSteps,
-      returns
-          ? "; `M99` of a main program goes back to its beginning, so that it goes on for ever, as for one "
-            "part after another; a run of one part needs `M30` there"
-          : ""));
 }
 
 bool Run::fail(ArithmeticError error, bool tangent, bool bits) {
@@ -368,6 +351,7 @@ template <bool kDecimal8, bool kWatched> bool Run::execute() {
       }
       if (followsMisses_) followMiss(*at);
       if (!measured_.empty()) followMeasured(*at, operands);
+      if (trail_) followLoop();
     }
     switch (at->op) {
     case Op::Copy: {
@@ -533,6 +517,10 @@ template <bool kDecimal8, bool kWatched> bool Run::execute() {
       leave();
       if (!spend(10) || !print(*code_.prints[at->a])) return false;
       fuel = fuel_;
+      if (trail_ && !kWatched) {
+        ++place_;
+        return true;
+      }
       break;
     case Op::Name: {
       const ir::NameVariables& names = *code_.names[at->a];
@@ -568,6 +556,10 @@ template <bool kDecimal8, bool kWatched> bool Run::execute() {
         machine_.record(code_.texts[at->b], at->a == kNoCell ? std::nullopt : std::optional(cells[at->a]));
       if (!machine_.running() || !spend(10)) return false; // who watches has ended it
       fuel = fuel_;
+      if (trail_ && !kWatched) {
+        ++place_;
+        return true;
+      }
       break;
     case Op::CountBlock: machine_.countBlock(); break;
     case Op::End: leave(); return textEnd();
@@ -578,6 +570,7 @@ template <bool kDecimal8, bool kWatched> bool Run::execute() {
 
 SourceRange Run::place() const {
   if (place_ >= code_.instructions.size()) return {};
+  if (loop_) return loop_->head->origin.range();
   const ir::Program& program = *code_.routineOf(place_).program;
   if (program.body.empty()) return program.range;
   const ir::ProgramStatement& statement = code_.statementOf(place_);

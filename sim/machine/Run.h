@@ -4,15 +4,18 @@
 #include "ir/Arithmetic.h"
 #include "sim/machine/Arguments.h"
 #include "sim/machine/Bytecode.h"
+#include "sim/machine/LoopTrail.h"
 #include "sim/machine/Machine.h"
 #include "sim/machine/MacroMeaning.h"
 #include "sim/machine/MissWatcher.h"
 #include "sim/machine/RunListener.h"
 #include "support/Limits.h"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <utility>
@@ -66,6 +69,9 @@ public:
   const ir::ProgramStatement& statement() const { return code_.statementOf(place_); }
   // The number of the program that holds it; 0: none.
   std::uint64_t program() const { return levels_.empty() ? 0 : levels_.back().routine->number; }
+  // Of a run that met the limit of steps: what is known of the loop in which it went round, which is where it
+  // ended; "": none was found.
+  std::string loopText() const;
   // The calls that were open then, the outermost first.
   std::vector<SourceRange> openCalls() const;
   // Programs that the control has and that could not be read, with their files: a call of one ends the run as
@@ -108,12 +114,41 @@ private:
   void tellWritten(std::uint32_t number, double value);
   void tellBlock(const BlockSlots& slots);
   bool beginAnew(); // M99 of the main program; false: the run has ended
-  bool spend(std::uint32_t steps);
   bool fail(ir::ArithmeticError error, bool tangent, bool bits);
 
+  // ---- RunLoop.cpp
+  struct AskedLoop {
+    std::optional<LoopTrail::Edge> edge;
+    std::vector<std::pair<std::uint32_t, double>> values; // by cell, of what its end depends on
+    bool changes = false;                                 // one of them, or something that is no cell
+    std::uint32_t rounds = 0;
+  };
+  struct EndlessLoop {
+    const ir::ProgramStatement* head = nullptr;
+    std::vector<std::pair<std::uint32_t, double>>
+        constant; // variables by number: all that its end depends on
+  };
+  void keepFuel();
+  bool spend(std::uint32_t steps);
+  const ir::ProgramStatement& headOf(std::uint32_t place) const;
+  void watchLoop(AskedLoop& loop) const;
+  void followLoop();
+  void endInLoop();
+
   // ---- RunMisses.cpp
-  std::uint32_t missOf(std::uint32_t cell) const;
-  std::uint32_t missOfVariable(double number) const;
+  // What a value has of a skip move that met nothing: which one, and by how much it would be another one if
+  // the move had ended at other places of its path.
+  struct FromMiss {
+    std::uint32_t miss = 0;
+    std::array<double, 4> off{};
+  };
+  FromMiss fromMiss(std::uint32_t cell) const;
+  FromMiss fromMissOf(double number) const;
+  FromMiss ofVariable(std::uint32_t number) const;
+  template <class Function> FromMiss computed(const Instruction& at, bool both, Function function) const;
+  template <class Holds> void askMiss(const Instruction& at, bool both, Holds holds);
+  bool leadsToAlarm(std::uint32_t place);
+  std::uint32_t missOf(std::uint32_t cell) const { return fromMiss(cell).miss; }
   void followMiss(const Instruction& at);
   void checkShift();
   void enterMisses();
@@ -167,7 +202,11 @@ private:
   const stdlib::Control& control_;
   double* cells_ = nullptr;
   std::uint32_t place_ = 0; // of the instruction that runs, then of the next
-  std::uint64_t fuel_ = 0;  // steps that are left
+  std::uint64_t fuel_ = 0;  // steps that are left until something happens
+  std::uint64_t followed_ = 0;
+  std::optional<LoopTrail> trail_;
+  std::optional<AskedLoop> asked_;
+  std::optional<EndlessLoop> loop_;
   std::vector<Level> levels_;
   std::vector<ModalCall> modal_;
   std::vector<double> locals_; // of the next call, by number
@@ -180,9 +219,10 @@ private:
   std::set<std::uint32_t> unset_;
   std::vector<UnsetRead> unsetReads_;
   MissWatcher* misses_ = nullptr;
-  bool followsMisses_ = false;                           // there has been one
-  std::vector<std::uint32_t> fromMiss_, argumentMisses_; // by cell; by local of the next call
-  std::vector<std::vector<std::uint32_t>> savedMisses_;  // locals of the callers
+  bool followsMisses_ = false;                         // there has been one
+  std::vector<FromMiss> fromMiss_, argumentMisses_;    // by cell; by local of the next call
+  std::vector<std::vector<FromMiss>> savedMisses_;     // locals of the callers
+  std::map<const ir::ProgramStatement*, bool> alarms_; // of leadsToAlarm()
   std::uint32_t missInHand_ = 0, cellCount_ = 0;
   std::set<std::uint32_t>
       measured_; // cells of common variables that a macro without text left; for a listener

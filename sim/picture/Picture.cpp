@@ -2,6 +2,7 @@
 
 #include "sim/picture/PictureRegion.h"
 
+#include <cmath>
 #include <fmt/format.h>
 
 namespace dotek::sim {
@@ -35,6 +36,23 @@ double reachAt(const Picture& picture, std::size_t move) {
   const std::size_t tool = move < picture.moves.size() ? picture.moves[move].tool : 0;
   if (tool > 0 && tool <= picture.tools.size()) return picture.tools[tool - 1].length;
   return hasProbe(picture) ? picture.probe.centreLength() : 0;
+}
+
+Point3 gaugeAt(const Picture& picture, const Point3& point, std::size_t move) {
+  Point3 out = point;
+  out.z += reachAt(picture, move);
+  const std::size_t frame = move < picture.moves.size() ? picture.moves[move].frame : picture.frames.size();
+  if (frame >= picture.frames.size()) return out;
+  double* const axes[] = {&out.x, &out.y, &out.z};
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    if ((picture.frames[frame].unknown >> axis & 1) != 0) *axes[axis] = std::nan("");
+  return out;
+}
+
+std::optional<Point3> workAt(const Picture& picture, const Point3& point, std::size_t move) {
+  const std::size_t frame = move < picture.moves.size() ? picture.moves[move].frame : picture.frames.size();
+  if (frame >= picture.frames.size()) return std::nullopt;
+  return gaugeAt(picture, point, move) - picture.frames[frame].shift;
 }
 
 } // namespace dotek::sim

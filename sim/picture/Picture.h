@@ -38,6 +38,7 @@ struct PictureMove {
 struct PictureFrame {
   std::string name; // "G54", "G54.1 P3"; UTF-8
   Point3 shift;
+  std::uint8_t unknown = 0; // axes, by bits, of which the place in the machine is not known either
 };
 
 struct PictureContact {
@@ -120,6 +121,10 @@ struct Picture {
   std::string date;                    // as the user gives it, UTF-8; "": none
   int decimals = 3;                    // of coordinates, as the control shows them
 };
+
+// The gauge line at a point of a move, and in the work coordinates of the move; no number: not known.
+Point3 gaugeAt(const Picture& picture, const Point3& point, std::size_t move);
+std::optional<Point3> workAt(const Picture& picture, const Point3& point, std::size_t move);
 
 // From the point of a move up to the gauge line: of the probe's ball, or of the tool that is in the spindle;
 // 0 without either.

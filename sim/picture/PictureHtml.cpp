@@ -176,6 +176,10 @@ private:
                ? fmt::format("\"setter\":{{\"at\":[{}],\"radius\":{}}},\n", numbers(picture_.setter->at),
                              number(size(picture_.setter->diameter / 2)))
                : "\"setter\":null,\n";
+    // The move with which the page opens; null: the last one.
+    const std::optional<std::size_t> miss = lastMissOf(picture_);
+    out +=
+        fmt::format("\"opens\":{},\n", miss ? std::to_string(placeOf(picture_.errors[*miss].move)) : "null");
     way(out);
     frames(out);
     spindle(out);
@@ -230,12 +234,13 @@ private:
     out += "],\n";
   }
 
-  // Work coordinates: each set of them, and of moves in a row the first, their number and the set.
+  // Work coordinates: each set of them, with the axes that are not known in the machine either, and of moves
+  // in a row the first, their number and the set.
   void frames(std::string& out) const {
     out += "\"frames\":[";
     for (std::size_t i = 0; i < picture_.frames.size(); ++i)
-      out += fmt::format("{}[{},{}]", i == 0 ? "" : ",", jsonText(picture_.frames[i].name, 40),
-                         numbers(picture_.frames[i].shift));
+      out += fmt::format("{}[{},{},{}]", i == 0 ? "" : ",", jsonText(picture_.frames[i].name, 40),
+                         numbers(picture_.frames[i].shift), picture_.frames[i].unknown);
     out += "],\n\"framed\":[";
     const auto frameAt = [&](std::size_t i) { return picture_.moves[chosen_[i]].frame; };
     const std::size_t begin = out.size();

@@ -2,6 +2,7 @@
 
 #include "sim/machine/Axes.h"
 #include "sim/machine/EndText.h"
+#include "sim/picture/PictureRegion.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,18 +15,32 @@ bool isSame(double a, double b) {
   return a == b || (std::isnan(a) && std::isnan(b));
 }
 bool isSame(const PictureFrame& a, const PictureFrame& b) {
-  return a.name == b.name && isSame(a.shift.x, b.shift.x) && isSame(a.shift.y, b.shift.y) &&
-         isSame(a.shift.z, b.shift.z);
+  return a.name == b.name && a.unknown == b.unknown && isSame(a.shift.x, b.shift.x) &&
+         isSame(a.shift.y, b.shift.y) && isSame(a.shift.z, b.shift.z);
 }
 
 } // namespace
+
+// An axis of which the place in the machine is not known: where the path goes is not, either.
+void PictureRecorder::forgetLost(PictureMove& move) const {
+  const std::uint8_t lost = move.frame < picture_.frames.size() ? picture_.frames[move.frame].unknown : 7;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if ((lost >> axis & 1) != 0) setCoordinate(move.to, axis, std::nan(""));
+    if (!picture_.moves.empty() && std::isnan(coordinate(picture_.moves.back().to, axis)))
+      setCoordinate(move.from, axis, std::nan(""));
+  }
+}
 
 PictureFrame frameOf(const Machine& machine) {
   const Position gauge = machine.machinePosition(), &work = machine.position();
   const auto shift = [&](std::size_t axis) {
     return (machine.uncertain() >> axis & 1) != 0 ? std::nan("") : snap(gauge[axis] - work[axis]);
   };
-  return {systemName(machine), {shift(0), shift(1), shift(2)}};
+  PictureFrame out{systemName(machine), {shift(0), shift(1), shift(2)}};
+  const Position known = machine.knownMachinePosition();
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    if (std::isnan(known[axis])) out.unknown |= static_cast<std::uint8_t>(1u << axis);
+  return out;
 }
 
 PictureRecorder::PictureRecorder(Picture empty, World* world, CallKind callKind, BlockNow blockNow)
@@ -95,6 +110,17 @@ void PictureRecorder::missUsed(const std::string& text) {
   last->text = text;
 }
 
+void PictureRecorder::missNotSeen(std::size_t move, const Point3& at, const std::string& text) {
+  if (move >= picture_.moves.size()) return;
+  picture_.moves[move].kind = PathKind::Measuring;
+  auto error = std::find_if(picture_.errors.begin(), picture_.errors.end(),
+                            [&](const PictureError& one) { return isMiss(one) && one.move == move; });
+  if (error == picture_.errors.end())
+    error = picture_.errors.insert(error, {at, text, move, std::nullopt, PictureError::Kind::Miss});
+  error->text = text;
+  error->fault = true;
+}
+
 void PictureRecorder::faultHere(const std::string& text) {
   if (full_) return;
   const double nan = std::nan("");
@@ -132,8 +158,10 @@ void PictureRecorder::moved(const MachineMotion& motion) {
     const auto centre = [&](const Position& at) {
       return world_ != nullptr ? world_->centreAt(at) : Point3{at[0], at[1], at[2]};
     };
-    picture_.moves.push_back({kindOf(motion.kind), centre(motion.from), centre(motion.to), on_,
-                              placeOf(block_()), frameNow(), toolNow()});
+    PictureMove move{kindOf(motion.kind), centre(motion.from), centre(motion.to), on_,
+                     placeOf(block_()),   frameNow(),          toolNow()};
+    if (!motion.known) forgetLost(move);
+    picture_.moves.push_back(move);
   }
   if (world_ == nullptr) return;
   const std::size_t before = world_->events().size();
@@ -142,6 +170,16 @@ void PictureRecorder::moved(const MachineMotion& motion) {
 }
 
 void PictureRecorder::finish(const RunFacts& facts, std::vector<PictureMeasured> measured) {
+  // What has become unknown since the last move: the place at the end is not that of the move.
+  if (frame_ && !picture_.moves.empty() && !full_) {
+    const std::size_t last = picture_.moves.back().frame, now = frameNow();
+    const auto lost = [&](std::size_t frame) {
+      const PictureFrame& one = picture_.frames[frame];
+      return (std::isnan(one.shift.x) ? 1 : 0) + (std::isnan(one.shift.y) ? 1 : 0) +
+             (std::isnan(one.shift.z) ? 1 : 0);
+    };
+    if (last < picture_.frames.size() && lost(now) > lost(last)) picture_.moves.back().frame = now;
+  }
   picture_.measured = std::move(measured);
   picture_.result = resultOf(picture_, facts);
   const std::string why = endingText(facts);

@@ -42,6 +42,8 @@ public:
   void setSafeMove(std::function<bool()> safe) { safe_ = std::move(safe); } // the skip move that runs is one
   // The program takes the end of the last miss for the surface; `text` says so.
   void missUsed(const std::string& text);
+  // The program has not seen that this skip move met nothing; `text` says so.
+  void missNotSeen(std::size_t move, const Point3& at, const std::string& text);
   // A finding of the run at the block that runs; where the machine is, or where its last motion ended.
   void faultHere(const std::string& text);
   // The last miss was an approach: it is no error.
@@ -64,6 +66,7 @@ private:
   void addEvents(std::size_t from, std::size_t move, bool isProtected = false);
   std::size_t placeOf(PictureBlock block); // in Picture::blocks
   std::size_t frameNow();
+  void forgetLost(PictureMove& move) const;
   std::size_t toolNow(); // in Picture::tools, from 1; 0: the probe
   PathKind kindOf(MotionKind kind) const;
 

@@ -277,6 +277,16 @@ std::optional<WorkZero> workZeroOf(const Picture& picture) {
   return WorkZero{frame.name, at};
 }
 
+std::optional<std::size_t> lastMissOf(const Picture& picture) {
+  const auto last = std::find_if(picture.moves.rbegin(), picture.moves.rend(),
+                                 [](const PictureMove& move) { return move.kind == PathKind::Measuring; });
+  if (last == picture.moves.rend()) return std::nullopt;
+  const auto move = static_cast<std::size_t>(last.base() - picture.moves.begin()) - 1;
+  for (std::size_t i = picture.errors.size(); i-- > 0;)
+    if (isMiss(picture.errors[i]) && picture.errors[i].move == move) return i;
+  return std::nullopt;
+}
+
 SectionPlanes sectionPlanesOf(const Picture& picture, const Region& region) {
   SectionPlanes out;
   const Point3 middle = (region.least + region.most) * 0.5;
@@ -286,7 +296,19 @@ SectionPlanes sectionPlanesOf(const Picture& picture, const Region& region) {
 
   const double depth = std::max(0.5, 0.01 * longest(region)); // after a face that was touched
   std::optional<Point3> inside;
+  const std::optional<std::size_t> miss = lastMissOf(picture);
   for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (miss && region.contains(picture.errors[*miss].at)) {
+      const Point3& end = picture.errors[*miss].at;
+      const bool cuts = cutsMaterial(*picture.part, region, axis, coordinate(end, axis));
+      const std::optional<double> face =
+          cuts ? std::nullopt : behindFace(*picture.part, picture.part->nearest(end).point, axis, depth);
+      if (cuts) out.miss[axis] = miss;
+      if (cuts || face) {
+        out.at[axis] = face.value_or(coordinate(end, axis));
+        continue;
+      }
+    }
     struct Candidate {
       double at;
       std::size_t contact;

@@ -50,12 +50,18 @@ struct WorkZero {
 };
 std::optional<WorkZero> workZeroOf(const Picture& picture);
 
-// Where the sections lie: X of YZ, Y of XZ, Z of XY. At a contact that the plane cuts from the side, so that
-// the touched surface is seen; else just after a touched face, or between two touched from both sides; else
-// in the middle of the path, or of the part where there is no material.
+// The miss with which the search of a run ended: its last measuring move met nothing. Place in
+// Picture::errors.
+std::optional<std::size_t> lastMissOf(const Picture& picture);
+
+// Where the sections lie: X of YZ, Y of XZ, Z of XY. Where the last search met nothing, through the ball at
+// its end, or just inside the face that is nearest there. Else at a contact that the plane cuts from the
+// side, so that the touched surface is seen; else just after a touched face, or between two touched from both
+// sides; else in the middle of the path, or of the part where there is no material.
 struct SectionPlanes {
   std::array<double, 3> at{};                          // by axis
   std::array<std::optional<std::size_t>, 3> contact{}; // that it goes through, place in Picture::contacts
+  std::array<std::optional<std::size_t>, 3> miss{};    // the same in Picture::errors
 };
 SectionPlanes sectionPlanesOf(const Picture& picture, const Region& region);
 

@@ -74,14 +74,14 @@ std::string placeOf(const PictureBlock& block) {
 
 // Of the ball's centre (without a probe: of the gauge line) after a move.
 std::string positionAt(const Picture& picture, const Point3& centre, std::size_t move) {
-  if (!isDrawn(centre)) return "";
-  Point3 gauge = centre;
-  gauge.z += reachAt(picture, move);
-  const std::string machine = "machine " + pointText(gauge, picture.decimals);
-  const std::size_t frame = move < picture.moves.size() ? picture.moves[move].frame : 0;
-  if (frame >= picture.frames.size()) return machine;
-  const PictureFrame& work = picture.frames[frame];
-  return fmt::format("{} {}; {}", work.name, pointText(gauge - work.shift, picture.decimals), machine);
+  const auto isFar = [](double value) { return std::abs(value) > kDrawn; }; // not: no number
+  const bool isNowhere = std::isnan(centre.x) && std::isnan(centre.y) && std::isnan(centre.z);
+  if (isNowhere || isFar(centre.x) || isFar(centre.y) || isFar(centre.z)) return "";
+  const std::string machine = "machine " + pointText(gaugeAt(picture, centre, move), picture.decimals);
+  const std::optional<Point3> work = workAt(picture, centre, move);
+  if (!work) return machine;
+  return fmt::format("{} {}; {}", picture.frames[picture.moves[move].frame].name,
+                     pointText(*work, picture.decimals), machine);
 }
 
 } // namespace

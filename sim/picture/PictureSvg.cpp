@@ -149,6 +149,7 @@ std::string drawLegend(const Sheet& sheet, double left, double top, double& bott
           fmt::format("{} at {} {}", kNames[axis], kAxes[axis], fixedText(sheet.planes.at[axis], 3));
       if (sheet.planes.contact[axis])
         line += fmt::format(", through contact {}", *sheet.planes.contact[axis] + 1);
+      if (sheet.planes.miss[axis]) line += ", through miss " + errorNames(picture)[*sheet.planes.miss[axis]];
       legend.text(line, 56);
     }
   } else {

@@ -189,6 +189,21 @@ function makeView(canvas, data) {
     return depths[row * image.width + column] > z + 2.5 / camera.zoom;
   }
 
+  // From the first corner from which the part does not hide the place; from none: as it was.
+  function turnTo(point) {
+    const first = camera.turn;
+    for (let k = 0; k < 4; ++k) {
+      change({ turn: first + k * Math.PI / 2 });
+      fit();
+      aim();
+      drawPart();
+      depths = partDepths;
+      if (!isHidden(...project(...point))) return;
+    }
+    change({ turn: first });
+    fit();
+  }
+
   // A line in pieces, dotted where it is hidden.
   function line(p, q) {
     const length = Math.hypot(q[0] - p[0], q[1] - p[1]);
@@ -466,5 +481,5 @@ function makeView(canvas, data) {
     theme = readTheme();
     partIsDrawn = false;
   }
-  return { camera, show, draw, where, resize, fit, change, zoomAt, retheme, redoPart: () => { partIsDrawn = false; } };
+  return { camera, show, draw, where, turnTo, resize, fit, change, zoomAt, retheme, redoPart: () => { partIsDrawn = false; } };
 }

@@ -51,7 +51,12 @@ window.onerror = (message, source, line) => {
   };
   const point = (p) => ["X", "Y", "Z"].map((a, i) => a + number(p[i])).join(" ");
   const reachOf = (move) => moves[move] !== undefined && moves[move].tool !== undefined ? moves[move].tool.length : data.probe === null ? 0 : data.probe.length;
-  const gaugeOf = (p, move) => [p[0], p[1], p[2] === null ? null : p[2] + reachOf(move)];
+  // What is not known of a place during a move is null.
+  const knownOf = (p, move) => {
+    const frame = frames[frameOf[move]], unknown = frame === undefined ? 0 : frame[4];
+    return p.map((v, i) => (unknown >> i & 1) === 1 ? null : v);
+  };
+  const gaugeOf = (p, move) => knownOf([p[0], p[1], p[2] === null ? null : p[2] + reachOf(move)], move);
   // Of a position of the gauge line during a move; nothing: not known.
   const workOf = (gauge, move) => {
     const frame = frames[frameOf[move]];
@@ -123,7 +128,7 @@ window.onerror = (message, source, line) => {
     const move = moves[current];
     if (!move) return { index: -1, count: 0 };
     const gauge = gaugeOf(move.to, current), work = workOf(gauge, current);
-    return { index: current, count: moves.length, position: move.to, text: move.to.map(number), machine: gauge.map(number),
+    return { index: current, count: moves.length, position: move.to, text: knownOf(move.to, current).map(number), machine: gauge.map(number),
       work: work === null ? null : work.map(number), system: nameOf(current), kind: data.kinds[move.kind].name, probeOn: move.on, block: move.block,
       place: (data.blocks[move.block] || ["", ""])[1], drawnAt: move.drawn ? view.where(move.to) : null };
   }
@@ -134,7 +139,7 @@ window.onerror = (message, source, line) => {
     slider.value = current;
     const gauge = gaugeOf(move.to, current), work = workOf(gauge, current);
     ["x", "y", "z"].forEach((name, i) => {
-      byId(name).textContent = number(move.to[i]);
+      byId(name).textContent = number(knownOf(move.to, current)[i]);
       byId("gauge-" + name).textContent = number(gauge[i]);
       byId("work-" + name).textContent = work === null ? "?" : number(work[i]);
     });
@@ -290,9 +295,11 @@ window.onerror = (message, source, line) => {
   view.resize();
   view.fit();
   nameProjection();
-  const wanted = () => { const match = /^#go=(\d+)$/.exec(location.hash); return match ? Number(match[1]) : moves.length - 1; };
+  const opens = data.opens === null ? moves.length - 1 : data.opens;
+  const wanted = () => { const match = /^#go=(\d+)$/.exec(location.hash); return match ? Number(match[1]) : opens; };
   window.addEventListener("hashchange", () => go(wanted()));
   layRows();
+  if (data.opens !== null && moves[opens].drawn) view.turnTo(moves[opens].to);
   go(wanted());
   view.draw(current); // at once: what prints or photographs the page waits for no frame
 })();

@@ -4,6 +4,7 @@
 #include "project/Options.h"
 #include "stdlib/Setup.h"
 
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <string>
@@ -26,6 +27,7 @@ struct SimOptions {
   std::optional<std::string> part, machine; // --part, --machine: paths
   Setup setup;                              // --tool, --length, --diameter, --work-offset, --at, --call
   bool svg = false, html = false;           // pictures of the run as files "svg" and "html"
+  std::uint8_t activeSystem = 0;            // --active-system: 0 to 5 for G54 to G59
   std::string date;                         // that the pictures show; "": none
   bool json = false;                        // the output is the summary as JSON
   // Takes the trace while the program runs, in pieces of whole lines. Empty: no trace is made.

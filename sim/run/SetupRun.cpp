@@ -47,9 +47,22 @@ bool prepare(const Setup& setup, const std::optional<std::array<double, 3>>& par
   return true;
 }
 
+bool activate(std::uint32_t system, Machine& machine, Diagnostics& diagnostics) {
+  const std::uint32_t tenths = 10 * (54 + system);
+  const stdlib::Control& control = machine.control();
+  const stdlib::CodeInfo* const code = control.find('G', tenths);
+  if (code == nullptr && !control.codes.empty()) {
+    diagnostics.report<diag::SetupFlag>({}, "--active-system",
+                                        fmt::format("`{}` has no G{}", control.name, 54 + system));
+    return false;
+  }
+  if (code != nullptr && code->group) machine.presetModal(static_cast<std::uint32_t>(*code->group), tenths);
+  return machine.selectSystem({system, false});
+}
+
 std::optional<Position> startOf(const Setup& setup, const Machine& machine) {
   if (!setup.at) return std::nullopt;
-  Position out = machine.zeroOf(0);
+  Position out = machine.zeroOf(machine.activeSystem().index);
   for (std::size_t i = 0; i < 3; ++i)
     out[i] += (*setup.at)[i];
   if (setup.tool) out[2] += machine.toolLengthOf(*setup.tool);
@@ -60,6 +73,8 @@ bool startsWithinTravel(const Setup& setup, std::string_view saidBy, bool leftOu
                         const MachineLimits& limits, const Machine& machine, Diagnostics& diagnostics) {
   const std::optional<Position> start = startOf(setup, machine);
   if (!start) return true;
+  const std::uint32_t system = machine.activeSystem().index;
+  const std::string name = fmt::format("G{}", 54 + system);
   bool within = true;
   for (std::size_t axis = 0; axis < limits.travel.size(); ++axis) {
     const std::optional<double> end = limits.endBefore(axis, (*start)[axis]);
@@ -67,13 +82,15 @@ bool startsWithinTravel(const Setup& setup, std::string_view saidBy, bool leftOu
     const auto value = [&](double place) { return kAxisLetters[axis] + fixedText(place, 3); };
     diagnostics.report<diag::SetupFlag>(
         {}, saidBy,
-        fmt::format("it puts the spindle to machine {}, and the travel ends at {}; the place counts from the "
-                    "zero of G54{}, and the tool's length is added to it",
-                    value((*start)[axis]), value(*end),
-                    machine.zeroOf(0) == Position{} && !leftOut
-                        ? ", which nothing has set (`--work-offset G54=part` puts it "
-                          "where the part is)"
-                        : ""));
+        fmt::format(
+            "it puts the spindle to machine {}, and the travel ends at {}; the place counts from the "
+            "zero of {}{}, and the tool's length is added to it",
+            value((*start)[axis]), value(*end), name,
+            machine.zeroOf(system) == Position{} && !leftOut
+                ? fmt::format(", which nothing has set (`--work-offset {}=part` puts it where the part "
+                              "is)",
+                              name)
+                : ""));
     within = false;
   }
   return within;
@@ -83,7 +100,8 @@ std::string callingProgram(const Setup& setup, std::uint64_t number, const Machi
                            const Position& start) {
   std::string out = "(MADE BY DOTEK FOR --call)\n";
   if (setup.tool) {
-    const double z = start[2] - machine.zeroOf(0)[2] - machine.toolLengthOf(*setup.tool);
+    const double zero = machine.zeroOf(machine.activeSystem().index)[2];
+    const double z = start[2] - zero - machine.toolLengthOf(*setup.tool);
     out += fmt::format("G90 G0 G43 H{} Z{}\n", *setup.tool, fixedText(z, machine.control().decimals));
   }
   // As it is written in a program, too: `G65 P9103 D25.`

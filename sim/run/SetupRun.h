@@ -21,13 +21,17 @@ using stdlib::Setup;
 bool prepare(const Setup& setup, const std::optional<std::array<double, 3>>& part, Machine& machine,
              Diagnostics& diagnostics);
 
-// Where the machine is before the program, with the tool's end at `setup.at` of G54; nothing: the setup does
-// not say.
+// Puts G54 (0) to G59 (5) in force before the program. false: reported.
+bool activate(std::uint32_t system, Machine& machine, Diagnostics& diagnostics);
+
+// Where the machine is before the program, with the tool's end at `setup.at` of the active system; nothing:
+// the setup does not say.
 std::optional<Position> startOf(const Setup& setup, const Machine& machine);
 
 // Whether X, Y and Z are within the machine's travel where `setup.at` puts the tool; one that says nothing
 // is. false: reported as what `saidBy` says ("--at").
-// `leftOut`: the file of the machine says where the zero of G54 is, and it does not count.
+// `leftOut`: the file of the machine says where the zero of that system is, and it does not
+// count.
 bool startsWithinTravel(const Setup& setup, std::string_view saidBy, bool leftOut,
                         const MachineLimits& limits, const Machine& machine, Diagnostics& diagnostics);
 

@@ -196,7 +196,10 @@ void reportRun(const Run& run, const Machine& machine, const std::string& advice
                                                      searched));
     break;
   }
-  case Ending::Limit: report = &diagnostics.report<diag::RunLimit>(range, end.text); break;
+  case Ending::Limit:
+    report = &diagnostics.report<diag::RunLimit>(range, end.text);
+    if (const std::string loop = run.loopText(); !loop.empty()) report->note({}, loop);
+    break;
   case Ending::Inconclusive:
   case Ending::Call:
   case Ending::Return:

@@ -47,6 +47,7 @@ std::string SimWorld::json(const Kept& kept) const {
   const bool contact = event.outcome == Outcome::Contact;
   std::string out = contact ? "{" : fmt::format("{{\"outcome\": \"{}\", ", outcomeName(event.outcome));
   if (event.used) out += "\"used\": true, ";
+  if (kept.unseen) out += "\"seen\": false, ";
   out += placeJson(kept.place.range) + ", \"calls\": [";
   for (auto call = kept.place.calls.rbegin(); call != kept.place.calls.rend(); ++call)
     out += (call == kept.place.calls.rbegin() ? "{" : ", {") + placeJson(*call) + "}";

@@ -85,6 +85,46 @@ void SimWorld::checkWear(const OffsetWrite& write) {
            Verdict::Doubt, "PASS, WEAR THE WRONG WAY", place_());
 }
 
+std::string SimWorld::startText() const {
+  if (setup_.call.empty() || machineNow_ == nullptr || contactCount_ > 0) return "";
+  const bool isSaid = setup_.at || (machine_ && machine_->start != std::array<double, 3>{});
+  const std::string name = fmt::format("G{}", 54 + startSystem_);
+  const Position zero = machineNow_->zeroOf(startSystem_);
+  std::string out;
+  const auto add = [&](const std::string& text) { out += (out.empty() ? "" : ", ") + text; };
+  if (!isSaid) {
+    Position start = start_;
+    if (setup_.tool) start[2] -= machineNow_->toolLengthOf(*setup_.tool);
+    add(fmt::format("`--at X,Y,Z` where the tool's end is before the call (it was at {} X{} Y{} Z{})", name,
+                    fixedText(start[0] - zero[0], decimals_), fixedText(start[1] - zero[1], decimals_),
+                    fixedText(start[2] - zero[2], decimals_)));
+  }
+  if (zero == Position{} && (!partZero_ || *partZero_ != std::array<double, 3>{}))
+    add(fmt::format("`--work-offset {}={}` where its zero is", name, partZero_ ? "part" : "X,Y,Z"));
+  if (!setup_.tool)
+    add(machine_ && machine_->probe.length > 0 ? "`--tool N` which tool is in the spindle"
+                                               : "`--tool N --length L` which tool is in the spindle");
+  return out.empty() ? "" : "what the macro begins with is not said: " + out;
+}
+
+void SimWorld::noteStart(Diagnostic& finding) {
+  if (startTold_) return;
+  if (const std::string text = startText(); !text.empty()) {
+    finding.note({}, text);
+    startTold_ = true;
+  }
+}
+
+std::string SimWorld::startAdvice() const {
+  if (startTold_ || machineNow_ == nullptr) return "";
+  const RunEnd& end = machineNow_->end();
+  const auto met = [&](Outcome outcome) { return outcomes_[static_cast<std::size_t>(outcome)] > 0; };
+  const bool missed = met(Outcome::Miss) || met(Outcome::SetterMiss);
+  const bool here = (end.ending == Ending::Alarm && missed) ||
+                    (end.ending == Ending::Inconclusive && end.text.starts_with("no part is given"));
+  return here ? startText() : "";
+}
+
 void SimWorld::noteZeroLeftOut(Diagnostic& finding) const {
   if (!zeroLeftOut_) return;
   finding.note({},

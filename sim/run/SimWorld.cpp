@@ -175,7 +175,8 @@ bool SimWorld::prepare(Machine& machine) const {
     const auto most = static_cast<std::uint32_t>(machine.control().variables.toolCount);
     if (tool <= most && machine.toolLengthOf(tool) == 0) machine.setToolLength(tool, machine_->probe.length);
   }
-  return sim::prepare(setup_, partZero_, machine, session_.diagnostics());
+  return sim::prepare(setup_, partZero_, machine, session_.diagnostics()) &&
+         (options_.activeSystem == 0 || activate(options_.activeSystem, machine, session_.diagnostics()));
 }
 
 Position SimWorld::startOf(const Machine& machine) const {
@@ -187,8 +188,8 @@ Position SimWorld::startOf(const Machine& machine) const {
 
 bool SimWorld::startsWithinTravel(const Machine& machine) const {
   if (!machine_ || sim::startsWithinTravel(setup_, options_.setup.at ? "--at" : "at` of `[setup]",
-                                           zeroLeftOut_ == std::uint8_t{0}, machine_->limits, machine,
-                                           session_.diagnostics()))
+                                           zeroLeftOut_ == machine.activeSystem().index, machine_->limits,
+                                           machine, session_.diagnostics()))
     return true;
   noteZeroLeftOut(session_.diagnostics().all().back());
   return false;
@@ -199,7 +200,9 @@ void SimWorld::attach(Machine& machine) {
   if (const stdlib::Control& control = machine.control(); subject_ == "program")
     control_ = control.title.empty() ? control.name : fmt::format("{} ({})", control.title, control.name);
   position_ = [&machine] { return machine.position(); };
-  if (setup_.at || machine_) machine.startAt(startOf(machine));
+  start_ = startOf(machine);
+  startSystem_ = machine.activeSystem().index;
+  if (setup_.at || machine_) machine.startAt(start_);
   if (!isActive()) {
     // Records and stops are of interest without a part, too.
     if (!machine.dialect().firstParameter && !keepsOffsets_) return;
@@ -393,7 +396,9 @@ void SimWorld::take(const ProbeEvent& event, const RunPlace& place) {
                                : std::string(kRotary));
   else if (asks_ && (event.outcome == Outcome::Miss || event.outcome == Outcome::SetterMiss) &&
            !isMeantToMiss(event))
-    keepMiss({event, place}, index);
+    keepMiss({event, place}, index, false);
+  else if (asks_ && event.outcome == Outcome::Miss && !event.meant && !isInProtectedCall())
+    keepMiss({event, place}, index, true);
   else if (!contact && isTold(event) && !isMeantToMiss(event))
     tell(event, place);
   if (event.outcome != Outcome::OutsideTravel || endedOutside_ || !alarm_) return;
@@ -402,7 +407,7 @@ void SimWorld::take(const ProbeEvent& event, const RunPlace& place) {
 }
 
 bool SimWorld::isProtected() const {
-  return (!protected_.empty() && protected_.back()) || (safe_ && safe_());
+  return isInProtectedCall() || (safe_ && safe_());
 }
 
 bool SimWorld::isMeantToMiss(const ProbeEvent& event) const {
@@ -421,6 +426,7 @@ void SimWorld::tell(const ProbeEvent& event, const RunPlace& place) {
   if (atStart && last_.hasPlace()) one.all().front().note(last_, "the move before it");
   noteEmptyOffset(one.all().front());
   if (event.outcome == Outcome::OutsideTravel) noteZeroLeftOut(one.all().front());
+  if (event.outcome != Outcome::Miss && event.outcome != Outcome::SetterMiss) noteStart(one.all().front());
   addTold(std::move(one.all().front()), static_cast<std::size_t>(event.outcome), place);
 }
 
@@ -456,8 +462,10 @@ void SimWorld::addTold(Diagnostic diagnostic, std::size_t kind, const RunPlace& 
 
 void SimWorld::finishPicture() {
   settleMiss();
+  tellUnseen();
   log_.finish();
   if (!recorder_) return;
+  addInputs();
   RunFacts facts;
   facts.end = end_();
   facts.subject = subject_;

@@ -88,6 +88,9 @@ public:
   void keepOffsets() { keepsOffsets_ = true; }
 
   bool hasPicture() const { return picture_; }
+  // Of a macro that is called: what nobody has said of where it begins, where the run has ended because of
+  // that, as far as it shows; "": nothing, or it was said.
+  std::string startAdvice() const;
   // The run has ended where the machine would leave its travel; what reports the over-travel says so.
   bool endedOutside() const { return endedOutside_; }
   // The radius that the calibration of the stylus would have found; nothing: no machine was given.
@@ -136,6 +139,10 @@ public:
   void offsetWritten(const OffsetWrite& write) override;
   bool hasMisses() const override { return !misses_.empty(); }
   std::uint32_t missIn(std::uint32_t variable) const override;
+  double wayIn(std::uint32_t variable) const override;
+  void askedAbout(std::uint32_t miss, bool tells, SourceRange block) override;
+  bool isOpen() const override;
+  void passedAlarm(SourceRange block) override;
   void shiftedBy(std::uint32_t miss) override;
   void placeSet(std::uint32_t axes) override;
 
@@ -147,6 +154,14 @@ private:
   struct Kept {
     ProbeEvent event;
     RunPlace place;
+    bool unseen = false; // of a miss: the program came to its end without having seen it
+  };
+  struct KeptMiss {
+    Kept kept;
+    std::size_t index = 0, move = 0; // in events_; in the moves of the picture
+    bool meant = false;              // an IF looks at its end, and nothing keeps it
+    bool seen = false;               // by a condition that would have come out otherwise elsewhere
+    SourceRange blind, passed;       // a condition that would not; an IF over an alarm that looks elsewhere
   };
   struct Told {
     std::uint32_t number = 0;
@@ -179,7 +194,11 @@ private:
   void take(const ProbeEvent& event, const RunPlace& place);
   // Before a skip move; the last one, where this goes on from there.
   std::optional<Missed> beginSearch(const SkipMove& move);
-  void keepMiss(Kept miss, std::size_t index);
+  void keepMiss(Kept miss, std::size_t index, bool meant);
+  void tellUnseen(); // at the end of the run
+  void addInputs();  // to the picture
+  // The axis of a variable along which the last skip move went; nothing: it holds nothing of its end.
+  std::optional<std::size_t> axisOfMiss(std::uint32_t variable) const;
   void missEnded(const MachineMotion& motion);
   void checkMiss(const OffsetWrite& write);
   void useMiss();
@@ -200,12 +219,15 @@ private:
   void noteHeight();
   void checkHeight(const MachineMotion& motion);
   void noteEmptyOffset(Diagnostic& finding) const; // of the tool in the spindle, which has a length
+  void noteStart(Diagnostic& finding);             // what startText() says, once
+  std::string startText() const;
   void noteZeroLeftOut(Diagnostic& finding) const; // of a machine's file, which counts with a part alone
   // SimTouch.cpp: touches that measure something else than the program takes them for.
   void checkEdge(const ProbeEvent& event, const RunPlace& place);
   void checkWear(const OffsetWrite& write);
   void addTold(Diagnostic diagnostic, std::size_t kind, const RunPlace& place);
-  bool isTold(const ProbeEvent& event) const;        // false: it is one too many
+  bool isTold(const ProbeEvent& event) const; // false: it is one too many
+  bool isInProtectedCall() const { return !protected_.empty() && protected_.back(); }
   bool isProtected() const;                          // of the skip move that runs: it wants no contact
   bool isMeantToMiss(const ProbeEvent& event) const; // within a protected move
   bool isSame(const ProbeEvent& event); // of the block as one before: another chord of an arc, say
@@ -246,7 +268,7 @@ private:
   std::set<std::pair<std::string_view, std::uint32_t>> faultsTold_; // code, where its block begins
   SourceRange last_;                                                // the block of the last motion
   std::optional<Missed> missed_;
-  std::vector<Kept> misses_;            // at most kMostKept
+  std::vector<KeptMiss> misses_;        // at most kMostKept
   std::uint32_t lastMiss_ = 0;          // of misses_, from 1: the last skip move; 0: that was none
   Point3 lastWay_{}, searchWay_{};      // of the last skip move as it ended, as it began
   std::optional<double> heightTouched_; // Z in work coordinates, of a touch along Z alone by the probe
@@ -268,6 +290,9 @@ private:
   std::function<void(std::string)> stop_;  // ends the run as inconclusive
   std::function<void(std::string)> alarm_; // ends it with an alarm of the control
   bool endedOutside_ = false;
+  bool startTold_ = false;
+  Position start_{}; // of the machine
+  std::uint32_t startSystem_ = 0;
   std::function<Position()> position_;
   std::vector<Kept> contacts_, events_;
   struct NotedRecord {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 #include <map>
 #include <numbers>
 
@@ -298,4 +299,58 @@ TEST_CASE("picture sections lie where contacts are seen from the side, or just b
   picture.errors.clear();
   planes = sectionPlanesOf(picture, regionOf(picture));
   CHECK(picture.part->distance({-290, -190, planes.at[2]}) < 0);
+}
+
+namespace {
+
+// A fourth touch of the bore that meets nothing, and the way out of it.
+Picture missPicture(const Point3& begin, const Point3& end) {
+  Picture picture = borePicture();
+  picture.errors.clear();
+  const Point3 before = picture.moves.back().to;
+  picture.blocks.push_back({"G31 X20. F100.", "bore.nc:90"});
+  picture.moves.push_back({PathKind::Rapid, before, begin, true, picture.blocks.size() - 1});
+  picture.moves.push_back({PathKind::Measuring, begin, end, true, picture.blocks.size() - 1});
+  picture.errors.push_back(
+      {end, "the probe has met nothing", picture.moves.size() - 1, std::nullopt, PictureError::Kind::Miss});
+  picture.moves.push_back({PathKind::Rapid, end, {end.x, end.y, -380}, true, picture.blocks.size() - 1});
+  return picture;
+}
+
+} // namespace
+
+TEST_CASE("picture sections go through the miss with which the search ends") {
+  Picture picture = missPicture({-290, -190, -405}, {-280, -190, -405});
+  SectionPlanes planes = sectionPlanesOf(picture, regionOf(picture));
+  CHECK(planes.at == std::array<double, 3>{-280, -190, -405});
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    CHECK(planes.miss[axis] == 0);
+    CHECK_FALSE(planes.contact[axis].has_value());
+  }
+  CHECK(pictureSvg(picture).find("XZ at Y -190.000, through miss M1<") != std::string::npos);
+  CHECK(pictureHtml(picture).find(fmt::format("\"opens\":{},", picture.moves.size() - 2)) !=
+        std::string::npos);
+
+  // The ball goes over the plate: XY shows the face that is nearest.
+  picture = missPicture({-310, -195, -390}, {-295, -195, -390});
+  picture.part = std::nullopt;
+  PartBuilder plate;
+  plate.box({-300, -200, -420}, {-180, -120, -400});
+  picture.part = *finish(plate);
+  planes = sectionPlanesOf(picture, regionOf(picture));
+  CHECK(planes.at[0] == -295);
+  CHECK(planes.at[1] == -195);
+  CHECK(planes.at[2] < -400);
+  CHECK(planes.at[2] > -402);
+  CHECK(planes.miss[0] == 0);
+  CHECK_FALSE(planes.miss[2].has_value());
+
+  // A touch that comes later is what the picture is about.
+  picture = missPicture({-290, -190, -405}, {-280, -190, -405});
+  picture.moves.push_back({PathKind::Measuring, {-245, -150, -382}, {-245, -150, -396.97}, true, 0});
+  picture.contacts.push_back({{-245, -150, -399.97}, picture.moves.size() - 1});
+  planes = sectionPlanesOf(picture, regionOf(picture));
+  CHECK_FALSE(planes.miss[2].has_value());
+  CHECK(planes.contact[2].has_value());
+  CHECK(pictureHtml(picture).find("\"opens\":null,") != std::string::npos);
 }

@@ -250,3 +250,36 @@ TEST_CASE("miss: coordinates that are turned or shifted by one fail the run") {
   CHECK_FALSE(fails(away + "G52 X1.5\nG52 X0\n"));
   CHECK_FALSE(fails(away + "#1=2.\nG68 X0 Y0 R#1\nG69\n"));
 }
+
+TEST_CASE("miss: one that the program's IF cannot see is reported as that") {
+  Bench bench("dotek-miss-unseen");
+  const auto unseen = [&](const std::string& body) {
+    const CommandResult out = bench.run(body);
+    CAPTURE(out.err);
+    CHECK(out.status == 0);
+    const bool told = holds(out.err, "[miss-not-seen]");
+    CHECK(holds(bench.svg, ">PASS, A MISS NOT SEEN<") == told);
+    CHECK(holds(bench.html, "<strong>PASS, A MISS NOT SEEN</strong>") == told);
+    return told;
+  };
+  // Z goes from 15 to -5. A limit that no place of the move meets, of a variable that holds something else.
+  const std::string down = kDown;
+  CHECK(unseen("#2=-9000.\n" + down + "IF[#5063-#5083 LT #2]GOTO91\n"));
+  CHECK(holds(bench.svg, ">miss (1)<")); // a move that only an IF looks at is drawn as one that measures
+  CHECK(unseen("#2=-9000.\n" + down + "#1=#5063\nG0 Z15.\nIF[#1 LE #2]THEN #3000=1(BROKEN)\n"));
+  // The IF over the alarm looks at what was set before.
+  CHECK(unseen("#2=0\n" + down + "G0 Z15.\nIF[#2 GT 1.]THEN #3000=1(BROKEN)\n"));
+  CHECK(unseen("#2=0\n" + down + "G0 Z15.\nIF[#2 GT 1.]GOTO91\n"));
+  // Each of these would come out otherwise elsewhere.
+  CHECK_FALSE(unseen(down + "IF[#5063-#5083 GT #26+.1]GOTO91\n"));
+  CHECK_FALSE(unseen(down + "#1=#5063-#5083\nG0 Z15.\nIF[ABS[#1-#26] LT 0.01]THEN #2=1\n"));
+  CHECK_FALSE(unseen(down + "#1=#5063-#5083\nG0 Z15.\nIF[#1 EQ #26]GOTO92\nGOTO91\nN92\n"));
+  CHECK_FALSE(unseen(down + "#30=0\nIF[#5063-#5083 GT #26+.1]THEN #30=1\nG0 Z15.\nIF[#30 EQ 1]GOTO91\n"));
+  CHECK_FALSE(unseen(down)); // nothing asks: a note, as before
+
+  const CommandResult json =
+      bench.run("#2=-9000.\n" + down + "IF[#5063 LT #2]GOTO91\n", "--json --svg run.svg --html run.html");
+  CHECK(holds(json.out, "\"outcome\": \"miss\", \"seen\": false"));
+  // One that the next move finds was an approach.
+  CHECK_FALSE(unseen("#2=0\nG0 Z-5.\nG31 X-15. F1000\nG31 X5. F50\n#1=#5061\nIF[#2 GT 1.]GOTO91\n"));
+}

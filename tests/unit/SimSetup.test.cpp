@@ -431,3 +431,59 @@ TEST_CASE("setup: --quiet prints nothing of a good run, also where a trace goes 
   CHECK(sim("--quiet").out.empty());
   CHECK(sim("--quiet " + trace).out.empty());
 }
+
+TEST_CASE("setup: --active-system puts another work system in force, and --at counts in it") {
+  const TestFolder scratch("dotek-setup-system");
+  scratch.write("part.toml", kBox);
+  scratch.write("down.nc", "O9001\n#102=#4014\nG31 Z#26 F100\n#100=#5063-#5083\n#103=#5021\nM99\n");
+  const std::string stylus = "sim down.nc --part part.toml --tool 7 --length 80 --diameter 6 --json "
+                             "--work-offset G56=-280,-190,-398 --call \"Z-5.\" ";
+  const CommandResult out = runIn(scratch, stylus + "--at 5,6,7 --active-system 56");
+  CHECK(out.status == 0);
+  CHECK(has(out, "\"100\": -2,"));
+  CHECK(has(out, "\"102\": 56,"));
+  CHECK(has(out, "\"103\": -275"));
+  CHECK(has(out, "\"system\": \"G56\""));
+  CHECK(runIn(scratch, stylus + "--active-system 60").status == 2);
+  CHECK(runIn(scratch, stylus + "--active-system x").status == 2);
+}
+
+TEST_CASE("setup: a macro that meets nothing names what was not said of its start") {
+  const TestFolder scratch("dotek-setup-hint");
+  scratch.write("part.toml", kBox);
+  scratch.write("down.nc", kDown);
+  const std::string stylus = "sim down.nc --part part.toml --tool 7 --length 80 --diameter 6 --quiet ";
+  CommandResult out = runIn(scratch, stylus + "--call \"Z-3.\"");
+  CHECK(out.status == 1);
+  CHECK(has(
+      out, "what the macro begins with is not said: `--at X,Y,Z` where the tool's end is before the call (it "
+           "was at G54 X0.000 Y0.000 Z-80.000), `--work-offset G54=part` where its zero is"));
+  out = runIn(scratch, stylus + "--work-offset G54=part --call \"Z-3.\"");
+  CHECK(has(out, "(it was at G54 X300.000 Y200.000 Z320.000)\n"));
+  // All is said: the miss is the program's.
+  out = runIn(scratch, stylus + "--work-offset G54=part --at 90,20,5 --call \"Z-3.\"");
+  CHECK(out.status == 1);
+  CHECK_FALSE(has(out, "is not said"));
+  // Without a part.
+  out = runIn(scratch, "sim down.nc --quiet --call \"Z-3.\"");
+  CHECK(has(out, "`--tool N --length L` which tool is in the spindle"));
+}
+
+TEST_CASE("setup: the page shows no number where --json has none") {
+  const TestFolder scratch("dotek-setup-unknown");
+  scratch.write("a.nc", "O1\nG90 G21 G54\nG0 X10. Y10.\nG30 Z0\nG0 X30.\nM30\n");
+  const CommandResult out = runIn(scratch, "sim a.nc --json --html a.html");
+  CHECK(has(out, "\"position\": {\"X\": 30.000000, \"Y\": 10.000000, \"Z\": null}"));
+  CHECK(has(out, "\"machine\": {\"X\": 30.000000, \"Y\": 10.000000, \"Z\": null}"));
+  const std::string page = readAll(scratch / "a.html");
+  CAPTURE(page.substr(page.find("\"way\""), 200));
+  CHECK(page.find("30,10,null]") != std::string::npos); // the end of the path
+  CHECK(page.find("[\"G54\",0,0,null,4]") != std::string::npos);
+  CHECK(page.find("moves without a number, or beyond 1 km: 2; they are not drawn") != std::string::npos);
+  // An end that is not known any more: neither in the banner.
+  scratch.write("b.nc", "O1\nG90 G21 G54\nG0 X10. Y10. Z5.\nG43 H1\nG91 G31 Z-5. F100\nM30\n");
+  const CommandResult lost = runIn(scratch, "sim b.nc --json --html b.html --var 2201=100");
+  CHECK(has(lost, "\"position\": {\"X\": 10.000000, \"Y\": 10.000000, \"Z\": null}"));
+  CHECK(readAll(scratch / "b.html").find("G54 X10.000 Y10.000 Z?; machine X10.000 Y10.000 Z?") !=
+        std::string::npos);
+}

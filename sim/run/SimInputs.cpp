@@ -1,0 +1,42 @@
+// What a run was given beside its program, as the pictures list it.
+#include "sim/run/SimReport.h"
+#include "sim/run/SimWorld.h"
+#include "support/Decimal.h"
+
+#include <fmt/format.h>
+
+namespace dotek::sim {
+
+void SimWorld::addInputs() {
+  PictureList list{"inputs", "Inputs", {}};
+  const auto add = [&](std::string_view name, const std::string& value) {
+    list.lines.push_back(toUtf8Text(fmt::format("{:<12}{}", name, value)));
+  };
+  const auto place = [](const std::array<double, 3>& at) {
+    return fmt::format("X{} Y{} Z{}", numberText(at[0]), numberText(at[1]), numberText(at[2]));
+  };
+  const project::CommonOptions& common = options_.common;
+  if (options_.part) add("part", *options_.part);
+  if (options_.machine) add("machine", *options_.machine);
+  if (common.job) add("job", *common.job);
+  for (const std::string& folder : options_.programs)
+    add("programs", folder);
+  if (!setup_.call.empty()) add("called with", setup_.call);
+  for (const auto& [name, value] : common.set)
+    add(name, value);
+  for (const auto& [name, value] : common.host)
+    add(name, value);
+  if (setup_.tool)
+    add("tool", setup_.length ? fmt::format("{}, length {} mm", *setup_.tool, numberText(*setup_.length))
+                              : fmt::format("{}", *setup_.tool));
+  for (const Setup::Zero& zero : setup_.zeros)
+    add(fmt::format("G{}", 54 + zero.system),
+        zero.ofPart ? "where the part is meant to be" : place(zero.place));
+  if (options_.activeSystem != 0) add("active", fmt::format("G{}", 54 + options_.activeSystem));
+  if (setup_.at) add("begins at", place(*setup_.at));
+  for (const auto& [number, value] : options_.variables)
+    add("#" + number, value);
+  addList(std::move(list));
+}
+
+} // namespace dotek::sim
